@@ -1,0 +1,28 @@
+// One instant of a run in the symbols of the paper: what the columns are computed from.
+#pragma once
+
+#include "scenario/scenario.hpp"
+
+namespace bbsim::model {
+
+// The ball in the plane's own frame, SI units. gamma_dot is the spin.
+struct BallMotion {
+  double x = 0, y = 0, x_dot = 0, y_dot = 0, gamma_dot = 0;
+};
+
+// The gimbal's angles and their derivatives, rad, rad/s, rad/s^2.
+struct GimbalMotion {
+  double phi = 0, theta = 0;
+  double phi_dot = 0, theta_dot = 0;
+  double phi_ddot = 0, theta_ddot = 0;
+};
+
+struct Sample {
+  double t = 0;  // s
+  BallMotion ball;
+  double gamma = 0;  // rad, 0 at the start; NaN where the run did not integrate it
+  GimbalMotion gimbal;
+  Pair reference{0, 0};  // m; (0, 0) in open loop
+};
+
+}  // namespace bbsim::model

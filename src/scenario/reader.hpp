@@ -1,0 +1,23 @@
+// YAML text -> Scenario. The door: what passes is complete, finite, in range, and in SI units.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "scenario/scenario.hpp"
+
+namespace bbsim {
+
+// Reads the scenario in `file`, after setting each "key.path=value" of `overrides` in turn.
+//
+// Table files are named relative to the scenario's folder. Throws InputError with every problem
+// found, in the order of the file; "file:line:column: key.path: found ..., allowed ...".
+[[nodiscard]] Scenario read_scenario(const std::string& file,
+                                     const std::vector<std::string>& overrides = {});
+
+// The same, of text already in memory. `name` stands for the file in errors, and its folder is
+// where table files are looked for.
+[[nodiscard]] Scenario parse_scenario(const std::string& text, const std::string& name,
+                                      const std::vector<std::string>& overrides = {});
+
+}  // namespace bbsim

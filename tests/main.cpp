@@ -1,0 +1,3 @@
+// Catch2 3 brings its own main (Catch2::Catch2WithMain); this one is built for Catch2 2 only.
+#define CATCH_CONFIG_MAIN
+#include <catch2/catch.hpp>
