@@ -4,21 +4,25 @@
 #include <span>
 #include <string_view>
 
+#include "model/dynamics.hpp"
 #include "model/sample.hpp"
 
 namespace bbsim::record {
 
-// The constants that forces, torques and energy take beside the motion.
-struct BallConstants {
-  double radius = 0, mass = 1, gravity = 0;  // m, kg, m/s^2
+// One row as the columns see it. `dynamics` is null unless a column of the run needs it.
+struct Row {
+  const model::Sample& sample;
+  const model::Dynamics* dynamics;
 };
+
+enum class Needs { state, gamma, reference, dynamics };
 
 struct Column {
   std::string_view name;
   std::string_view unit;     // "1" if dimensionless
   std::string_view meaning;  // one phrase, without a full stop
-  enum class Needs { state, gamma, reference, dynamics } needs;
-  double (*value)(const model::Sample&, const BallConstants&);
+  Needs needs;
+  double (*value)(const Row&);
 };
 
 // All columns, in the order of `bbsim columns`.

@@ -1,0 +1,179 @@
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+#include "model/model.hpp"
+
+namespace bbsim::model {
+namespace {
+
+bool zero_row(const Controller& controller, std::size_t row) {
+  const auto zero = [row](const Matrix2& gain) { return gain[row] == Pair{0, 0}; };
+  return zero(controller.kv) && zero(controller.kp);
+}
+
+// Whether a gimbal angle is zero throughout: 0 for phi, 1 for theta.
+bool stays_level(const Scenario& scene, const SignalPair& motion, std::size_t axis) {
+  if (!scene.controller) return motion.is_zero(axis);
+  const GimbalStart& start = scene.gimbal.start;
+  const bool at_zero = axis == 0 ? start.phi == 0 && start.phi_rate == 0
+                                 : start.theta == 0 && start.theta_rate == 0;
+  return at_zero && zero_row(*scene.controller, axis);
+}
+
+// The symmetries of docs/model.md, section 3: theta, y and spin stay zero together, or phi, x
+// and spin.
+Shape choose_shape(const Scenario& scene, const SignalPair& motion) {
+  const Ball& ball = scene.ball;
+  const auto at_rest = [&ball](std::size_t axis) {
+    return ball.position[axis] == 0 && ball.velocity[axis] == 0;
+  };
+  if (ball.spin != 0) return Shape::full;
+  if (stays_level(scene, motion, 1) && at_rest(1)) return Shape::along_x;
+  if (stays_level(scene, motion, 0) && at_rest(0)) return Shape::along_y;
+  return Shape::full;
+}
+
+SignalPair reference_path(const Reference& reference) {
+  SignalPair path;
+  if (const auto* point = std::get_if<PointReference>(&reference)) {
+    for (std::size_t i = 0; i < 2; ++i) path.add_constant(i, point->position[i]);
+  } else {
+    const auto& circle = std::get<CircleReference>(reference);
+    const double quarter = std::numbers::pi / 2;
+    path.add_sinusoid(0, circle.radius, circle.rate, circle.phase + quarter);
+    path.add_sinusoid(1, circle.radius, circle.rate, circle.phase);
+  }
+  return path;
+}
+
+template <Drives drives>
+System closed_loop(Shape shape, const Scenario& scene) {
+  const Controller& controller = *scene.controller;
+  const Gains gains{controller.kv, controller.kp};
+  ServoLaw servo;
+  if (scene.gimbal.servo) {
+    servo = {scene.gimbal.servo->natural_frequency, scene.gimbal.servo->damping};
+  }
+  SignalPair path = reference_path(controller.reference);
+  const double r = scene.ball.radius, g = scene.gravity;
+  switch (shape) {
+    case Shape::along_x:
+      return ClosedLoop<Shape::along_x, drives>(r, g, gains, servo, std::move(path));
+    case Shape::along_y:
+      return ClosedLoop<Shape::along_y, drives>(r, g, gains, servo, std::move(path));
+    case Shape::full: break;
+  }
+  return ClosedLoop<Shape::full, drives>(r, g, gains, servo, std::move(path));
+}
+
+System open_loop(Shape shape, const Scenario& scene, SignalPair motion) {
+  const double r = scene.ball.radius, g = scene.gravity;
+  switch (shape) {
+    case Shape::along_x: return OpenLoop<Shape::along_x>(r, g, std::move(motion));
+    case Shape::along_y: return OpenLoop<Shape::along_y>(r, g, std::move(motion));
+    case Shape::full: break;
+  }
+  return OpenLoop<Shape::full>(r, g, std::move(motion));
+}
+
+std::vector<double> initial_state(const Scenario& scene, Shape shape) {
+  const Ball& ball = scene.ball;
+  const GimbalStart& start = scene.gimbal.start;
+  std::vector<double> z;
+  switch (shape) {
+    case Shape::full:
+      z = {ball.position[0], ball.position[1], ball.velocity[0], ball.velocity[1],
+           ball.radius * ball.spin};
+      break;
+    case Shape::along_x: z = {ball.position[0], ball.velocity[0]}; break;
+    case Shape::along_y: z = {ball.position[1], ball.velocity[1]}; break;
+  }
+  if (scene.controller) {
+    if (phi_moves(shape)) z.push_back(start.phi);
+    if (theta_moves(shape)) z.push_back(start.theta);
+    if (phi_moves(shape)) z.push_back(start.phi_rate);
+    if (theta_moves(shape)) z.push_back(start.theta_rate);
+  }
+  return z;
+}
+
+std::vector<Note> explain(const Scenario& scene, Shape shape, bool gamma, std::size_t stops) {
+  std::vector<Note> notes;
+  switch (shape) {
+    case Shape::full: notes.push_back({"ball", "x, y and spin: equation (27)"}); break;
+    case Shape::along_x:
+      notes.push_back({"ball", "x only: theta, y and spin stay zero by symmetry"});
+      break;
+    case Shape::along_y:
+      notes.push_back({"ball", "y only: phi, x and spin stay zero by symmetry"});
+      break;
+  }
+  if (!scene.controller) {
+    notes.push_back({"gimbal", "no gimbal states: the angles are given functions of time"});
+  } else if (scene.controller->drives == Drives::angle) {
+    notes.push_back({"gimbal", "angles and rates are states: second-order servos follow the "
+                               "controller's angles"});
+  } else {
+    notes.push_back({"gimbal", "angles and rates are states: the controller drives their "
+                               "accelerations, equation (31)"});
+  }
+  if (!gamma) {
+    notes.push_back({"gamma", "not integrated: no output column asks for it"});
+  } else if (shape != Shape::full) {
+    notes.push_back({"gamma", "not integrated: it stays zero, as the spin does"});
+  } else {
+    notes.push_back({"gamma", "a quadrature of the spin, beside the states"});
+  }
+  if (stops > 0) {
+    notes.push_back({"stops", std::to_string(stops) + " knots of tables, none stepped over"});
+  }
+  return notes;
+}
+
+}  // namespace
+
+Model assemble(const Scenario& scenario, bool gamma) {
+  SignalPair motion;
+  if (scenario.gimbal.motion) {
+    motion.add(0, scenario.gimbal.motion->phi);
+    motion.add(1, scenario.gimbal.motion->theta);
+  }
+  std::vector<double> stops = motion.knots();
+  std::erase_if(stops, [&](double t) { return t <= 0 || t >= scenario.time.end; });
+  const Shape shape = choose_shape(scenario, motion);
+
+  const auto system = [&]() -> System {
+    if (!scenario.controller) return open_loop(shape, scenario, std::move(motion));
+    if (scenario.controller->drives == Drives::angle) {
+      return closed_loop<Drives::angle>(shape, scenario);
+    }
+    return closed_loop<Drives::acceleration>(shape, scenario);
+  };
+  std::vector<Note> notes = explain(scenario, shape, gamma, stops.size());
+  return {system(), initial_state(scenario, shape),  gamma && shape == Shape::full,
+          scenario.ball.radius, std::move(stops), std::move(notes)};
+}
+
+std::vector<std::string> Model::state_names() const {
+  return std::visit(
+      [](const auto& any) {
+        using Any = std::decay_t<decltype(any)>;
+        std::vector<std::string> names(Any::Layout::names.begin(), Any::Layout::names.end());
+        if constexpr (Any::size > Any::Layout::size) {
+          for (const char* suffix : {"", "_rate"}) {
+            if (phi_moves(Any::moves)) names.push_back(std::string("phi") + suffix);
+            if (theta_moves(Any::moves)) names.push_back(std::string("theta") + suffix);
+          }
+        }
+        return names;
+      },
+      system);
+}
+
+bool Model::closed_loop() const {
+  return std::visit([](const auto& any) { return !std::decay_t<decltype(any)>::linear; }, system);
+}
+
+}  // namespace bbsim::model
