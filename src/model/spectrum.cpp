@@ -1,0 +1,64 @@
+#include "model/spectrum.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <limits>
+#include <type_traits>
+
+#include "model/jacobian.hpp"
+
+namespace bbsim::model {
+namespace {
+
+Eigenvalues eigenvalues_of(const Eigen::MatrixXd& matrix) {
+  if (!matrix.allFinite()) return {};
+  const Eigen::EigenSolver<Eigen::MatrixXd> solver(matrix, false);
+  Eigenvalues values(solver.eigenvalues().begin(), solver.eigenvalues().end());
+  std::sort(values.begin(), values.end(), [](const auto& a, const auto& b) {
+    return a.real() != b.real() ? a.real() > b.real() : a.imag() > b.imag();
+  });
+  return values;
+}
+
+}  // namespace
+
+Eigenvalues eigenvalues(const Model& model, double t, const double* z) {
+  return std::visit(
+      [&](const auto& system) { return eigenvalues_of(jacobian(system, t, z)); },
+      model.system);
+}
+
+Eigenvalues closed_loop_poles(const Model& model) {
+  return std::visit(
+      [](const auto& loop) -> Eigenvalues {
+        using Loop = std::decay_t<decltype(loop)>;
+        if constexpr (Loop::linear) {
+          return {};
+        } else {
+          const double home[Loop::size] = {};
+          const auto full = jacobian(loop, 0.0, home);
+          constexpr int spin = spin_index<Loop>;
+          if constexpr (spin < 0) {
+            return eigenvalues_of(full);
+          } else {
+            // At home the spin neither feels the other states nor acts on them.
+            std::vector<int> rest;
+            for (int i = 0; i < Loop::size; ++i) {
+              if (i != spin) rest.push_back(i);
+            }
+            return eigenvalues_of(full(rest, rest));
+          }
+        }
+      },
+      model.system);
+}
+
+bool stable(const Eigenvalues& poles) {
+  double scale = 0;
+  for (const auto& pole : poles) scale = std::max(scale, std::abs(pole));
+  const double rounding = 100 * std::numeric_limits<double>::epsilon() * scale;
+  return std::all_of(poles.begin(), poles.end(),
+                     [rounding](const auto& pole) { return pole.real() < -rounding; });
+}
+
+}  // namespace bbsim::model

@@ -1,0 +1,23 @@
+// How a scene behaves near a state: eigenvalues of the exact Jacobian.
+#pragma once
+
+#include <complex>
+#include <vector>
+
+#include "model/model.hpp"
+
+namespace bbsim::model {
+
+using Eigenvalues = std::vector<std::complex<double>>;  // 1/s, by falling real part
+
+// Of the whole right-hand side, linearised at (t, z).
+[[nodiscard]] Eigenvalues eigenvalues(const Model& model, double t, const double* z);
+
+// The closed loop's poles: linearised about home (all angles, positions and rates zero), without
+// the spin, which no controller acts on and which adds a pole at exactly zero. Empty in open loop.
+[[nodiscard]] Eigenvalues closed_loop_poles(const Model& model);
+
+// "stable" if all real parts are negative, beyond the rounding of the eigenvalues.
+[[nodiscard]] bool stable(const Eigenvalues& poles);
+
+}  // namespace bbsim::model

@@ -1,0 +1,58 @@
+#include "record/recorder.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "base/error.hpp"
+
+namespace bbsim::record {
+
+std::vector<const Column*> columns_named(const std::vector<std::string>& names) {
+  std::vector<const Column*> columns;
+  for (const std::string& name : names) {
+    columns.push_back(find_column(name));
+    if (columns.back() == nullptr) throw InputError("there is no column " + name);
+  }
+  return columns;
+}
+
+bool any_needs(const std::vector<const Column*>& columns, Needs what) {
+  return std::any_of(columns.begin(), columns.end(),
+                     [what](const Column* column) { return column->needs == what; });
+}
+
+Recorder::Recorder(const model::Model& model, model::BallConstants constants,
+                   const solve::OutputGrid& grid, std::vector<const Column*> columns,
+                   TableWriter& writer)
+    : model_(model),
+      constants_(constants),
+      grid_(grid),
+      columns_(std::move(columns)),
+      writer_(writer),
+      needs_dynamics_(any_needs(columns_, Needs::dynamics)),
+      block_(columns_.size()) {}
+
+void Recorder::accept(std::size_t first, std::size_t count, const double* values) {
+  for (auto& column : block_) column.resize(count);
+  std::visit(
+      [&](const auto& system) {
+        const std::size_t row_size = model_.size() + (model_.gamma ? 1 : 0);
+        for (std::size_t i = 0; i < count; ++i) {
+          const double* row = values + i * row_size;
+          model::Sample sample = system.sample(grid_[first + i], row);
+          if (model_.gamma) sample.gamma = row[model_.size()] / constants_.radius;
+          model::Dynamics dynamics;
+          if (needs_dynamics_) dynamics = model::dynamics(sample, constants_);
+          for (std::size_t c = 0; c < columns_.size(); ++c) {
+            block_[c][i] = columns_[c]->value({sample, &dynamics});
+          }
+        }
+      },
+      model_.system);
+
+  std::vector<const double*> pointers;
+  for (const auto& column : block_) pointers.push_back(column.data());
+  writer_.append(pointers, count);
+}
+
+}  // namespace bbsim::record

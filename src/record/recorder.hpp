@@ -1,0 +1,39 @@
+// Trajectory -> file: turns the rows of a run into the columns that the scenario asks for.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "model/model.hpp"
+#include "record/columns.hpp"
+#include "record/table_writer.hpp"
+#include "solve/outcome.hpp"
+#include "solve/output_grid.hpp"
+
+namespace bbsim::record {
+
+// The columns of these names, in this order. Throws InputError for an unknown one.
+[[nodiscard]] std::vector<const Column*> columns_named(const std::vector<std::string>& names);
+
+[[nodiscard]] bool any_needs(const std::vector<const Column*>& columns, Needs what);
+
+class Recorder : public solve::StateSink {
+ public:
+  Recorder(const model::Model& model, model::BallConstants constants,
+           const solve::OutputGrid& grid, std::vector<const Column*> columns, TableWriter& writer);
+
+  // Throws OutputError.
+  void accept(std::size_t first, std::size_t count, const double* values) override;
+
+ private:
+  const model::Model& model_;
+  model::BallConstants constants_;
+  const solve::OutputGrid& grid_;
+  std::vector<const Column*> columns_;
+  TableWriter& writer_;
+  bool needs_dynamics_;
+  std::vector<std::vector<double>> block_;  // one vector a column
+};
+
+}  // namespace bbsim::record

@@ -1,0 +1,19 @@
+// The adapter to CVODES, SUNDIALS' CVODE with quadratures: variable-order BDF or Adams.
+#pragma once
+
+#include "model/model.hpp"
+#include "solve/outcome.hpp"
+#include "solve/output_grid.hpp"
+
+namespace bbsim::solve {
+
+// BDF (Method::bdf, orders 1 to 5) with Newton iterations, a dense solver and the exact Jacobian;
+// or Adams-Moulton (Method::adams, orders 1 to 12) with fixed-point iterations.
+//
+// Output rows are interpolated by the method's own polynomial. gamma is a quadrature under error
+// control, outside the nonlinear system. The model's stops are reached exactly and restarted from.
+[[nodiscard]] Outcome integrate_cvode(const model::Model& model, Method method,
+                                      Tolerances tolerances, const OutputGrid& grid,
+                                      StateSink& sink, const Watch& watch);
+
+}  // namespace bbsim::solve

@@ -1,0 +1,17 @@
+// Model -> Trajectory, by the integrator asked for or the one that suits.
+#pragma once
+
+#include "model/model.hpp"
+#include "solve/outcome.hpp"
+#include "solve/output_grid.hpp"
+
+namespace bbsim::solve {
+
+// Integrates from t = 0 to the end of the grid and hands each output row to `sink`.
+//
+// `method` may be automatic. A run that cannot go on returns Ending::failed with the rows that it
+// reached; exceptions come from the sink alone.
+[[nodiscard]] Outcome integrate(const model::Model& model, Method method, Tolerances tolerances,
+                                const OutputGrid& grid, StateSink& sink, const Watch& watch = {});
+
+}  // namespace bbsim::solve

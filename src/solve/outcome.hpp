@@ -1,0 +1,74 @@
+// What an integration is asked for, what it hands on, and how it ended.
+#pragma once
+
+#include <atomic>
+#include <cstddef>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "scenario/scenario.hpp"
+
+namespace bbsim::solve {
+
+struct Tolerances {
+  double rtol = 1e-8;
+  double atol = 1e-10;  // in each state's own unit
+};
+
+// Receives the rows of a run in order. A row is the states at one output time, as the system
+// packs them, and after them, if the model asks for gamma, the integral of u = r gamma'.
+class StateSink {
+ public:
+  virtual ~StateSink() = default;
+  // Rows first ... first + count - 1, row-major and without gaps. May throw; the run then ends.
+  virtual void accept(std::size_t first, std::size_t count, const double* values) = 0;
+};
+
+// Lets the caller look in on a long run.
+struct Watch {
+  const std::atomic<bool>* stop = nullptr;      // end the run soon after this becomes true
+  std::function<void(double time)> progress{};  // called every few hundred steps
+};
+
+struct Statistics {
+  std::size_t steps = 0;
+  std::size_t rhs_evaluations = 0;
+  std::size_t jacobian_evaluations = 0;
+  std::size_t nonlinear_iterations = 0;
+  std::size_t error_test_failures = 0;
+};
+
+enum class Ending { done, failed, interrupted };
+
+struct Outcome {
+  Ending ending = Ending::done;
+  Method method = Method::automatic;  // the one that ran
+  double reached = 0;                 // s
+  std::size_t rows = 0;               // handed to the sink
+  Statistics statistics;
+  // Of a failed run: what the integrator says, the state with the largest error estimate, and
+  // all states, at the time reached.
+  std::string reason;
+  std::size_t worst_state = 0;
+  std::vector<double> last_state;
+};
+
+// Collects a whole run in memory.
+class Trajectory : public StateSink {
+ public:
+  explicit Trajectory(std::size_t row_size) : row_size_(row_size) {}
+
+  void accept(std::size_t, std::size_t count, const double* values) override {
+    values_.insert(values_.end(), values, values + count * row_size_);
+  }
+
+  [[nodiscard]] std::size_t rows() const { return values_.size() / row_size_; }
+  [[nodiscard]] const double* row(std::size_t i) const { return values_.data() + i * row_size_; }
+
+ private:
+  std::size_t row_size_;
+  std::vector<double> values_;
+};
+
+}  // namespace bbsim::solve

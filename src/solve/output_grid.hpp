@@ -1,0 +1,35 @@
+// The times at which a run is recorded: i * step, exactly, and the end.
+#pragma once
+
+#include <cmath>
+#include <cstddef>
+
+#include "scenario/scenario.hpp"
+
+namespace bbsim::solve {
+
+class OutputGrid {
+ public:
+  explicit OutputGrid(const OutputTimes& times) : step_(times.step), end_(times.end) {
+    // The last multiple of the step counts as the end if it is within rounding of it.
+    const double intervals = end_ / step_;
+    const double whole = std::floor(intervals);
+    const double slack = 1e-9;
+    before_end_ = static_cast<std::size_t>(intervals - whole > slack ? whole + 1 : whole);
+    if (before_end_ == 0) before_end_ = 1;  // t = 0 comes always
+  }
+
+  [[nodiscard]] std::size_t size() const { return before_end_ + 1; }
+  [[nodiscard]] double end() const { return end_; }
+
+  // The time of row i < size(), s.
+  [[nodiscard]] double operator[](std::size_t i) const {
+    return i < before_end_ ? static_cast<double>(i) * step_ : end_;
+  }
+
+ private:
+  double step_, end_;
+  std::size_t before_end_;
+};
+
+}  // namespace bbsim::solve

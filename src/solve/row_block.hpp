@@ -1,0 +1,39 @@
+// Gathers rows and hands them to a sink in blocks.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <vector>
+
+#include "solve/outcome.hpp"
+
+namespace bbsim::solve {
+
+class RowBlock {
+ public:
+  RowBlock(StateSink& sink, std::size_t row_size)
+      : sink_(sink), row_size_(row_size), values_(row_size * capacity) {}
+
+  // Room for the next row. It counts as handed on once the next call, or flush(), is made.
+  [[nodiscard]] double* next() {
+    if (count_ == capacity) flush();
+    return values_.data() + row_size_ * count_++;
+  }
+
+  void flush() {
+    if (count_ > 0) sink_.accept(first_, count_, values_.data());
+    first_ += count_;
+    count_ = 0;
+  }
+
+  [[nodiscard]] std::size_t rows() const { return first_ + count_; }
+
+ private:
+  static constexpr std::size_t capacity = 256;
+  StateSink& sink_;
+  std::size_t row_size_;
+  std::vector<double> values_;
+  std::size_t first_ = 0, count_ = 0;
+};
+
+}  // namespace bbsim::solve
