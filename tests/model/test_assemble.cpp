@@ -1,0 +1,165 @@
+// What a scene is given, and what it is spared.
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "catch.hpp"
+#include "model/jacobian.hpp"
+#include "model/model.hpp"
+#include "model/spectrum.hpp"
+#include "random_states.hpp"
+#include "scenes.hpp"
+
+using namespace bbsim;
+using namespace bbsim::model;
+using namespace bbsim_test;
+using Names = std::vector<std::string>;
+
+namespace {
+
+Scenario tilt_about_y() {
+  Scenario scene;
+  scene.ball.radius = 0.01;
+  scene.ball.position = {0.05, 0};
+  scene.gimbal.motion = {{Ramp{0, 2}}, {}};
+  scene.time = {5, 0.1};
+  return scene;
+}
+
+}  // namespace
+
+TEST_CASE("an open loop has the ball's five states and none of the gimbal") {
+  const Model model = assemble(fig2a(), true);
+  CHECK(model.state_names() == Names{"x", "y", "vx", "vy", "r*spin"});
+  CHECK_FALSE(model.closed_loop());
+  CHECK(model.gamma);
+  CHECK_FALSE(assemble(fig2a(), false).gamma);
+}
+
+TEST_CASE("a planar scene has two states") {
+  Scenario scene = tilt_about_y();
+  CHECK(assemble(scene, true).state_names() == Names{"x", "vx"});
+  CHECK_FALSE(assemble(scene, true).gamma);  // it stays zero
+
+  SECTION("along y, with the roles of the angles exchanged") {
+    std::swap(scene.gimbal.motion->phi, scene.gimbal.motion->theta);
+    std::swap(scene.ball.position[0], scene.ball.position[1]);
+    CHECK(assemble(scene, false).state_names() == Names{"y", "vy"});
+  }
+  SECTION("spin, a velocity or an offset across makes it full") {
+    scene.ball.spin = 1;
+    CHECK(assemble(scene, false).size() == 5);
+    scene.ball.spin = 0;
+    scene.ball.velocity[1] = 1e-300;
+    CHECK(assemble(scene, false).size() == 5);
+    scene.ball.velocity[1] = 0;
+    scene.gimbal.motion->theta = {Sinusoid{1e-9, 1, 0, 0}};
+    CHECK(assemble(scene, false).size() == 5);
+  }
+  SECTION("a motion of amplitude zero is none") {
+    scene.gimbal.motion->theta = {Sinusoid{0, 1, 0, 0}, Ramp{0, 0}, 0.0};
+    CHECK(assemble(scene, false).size() == 2);
+  }
+}
+
+TEST_CASE("a closed loop adds angles and rates of the axes that move") {
+  CHECK(assemble(fig2b(), true).state_names() ==
+        Names{"x", "y", "vx", "vy", "r*spin", "phi", "theta", "phi_rate", "theta_rate"});
+
+  Scenario beam = fig2b();  // ball and beam: only phi is controlled, only x moves
+  beam.controller->kv[1] = beam.controller->kp[1] = {0, 0};
+  CHECK(assemble(beam, false).state_names() == Names{"x", "vx", "phi", "phi_rate"});
+  beam.gimbal.start.theta = 0.01;
+  CHECK(assemble(beam, false).size() == 9);
+}
+
+TEST_CASE("a planar system gives what the full one gives") {
+  Scenario beam = fig2b();
+  beam.controller->kv[1] = beam.controller->kp[1] = {0, 0};
+  const auto small = std::get<ClosedLoop<Shape::along_x, Drives::angle>>(assemble(beam, false).system);
+  beam.ball.spin = 1;  // forces the full system; the state below has none
+  const auto full = std::get<ClosedLoop<Shape::full, Drives::angle>>(assemble(beam, false).system);
+
+  const double z[4] = {0.03, -0.2, 0.1, -1.5};
+  const double z_full[9] = {z[0], 0, z[1], 0, 0, z[2], 0, z[3], 0};
+  double dz[4], dz_full[9];
+  small.derivative(0.7, z, dz);
+  full.derivative(0.7, z_full, dz_full);
+  CHECK(dz[0] == dz_full[0]);
+  CHECK(dz[1] == dz_full[2]);
+  CHECK(dz[2] == dz_full[5]);
+  CHECK(dz[3] == dz_full[7]);
+}
+
+TEST_CASE("the Jacobian agrees with central differences") {
+  Random random(6);
+  for (const Scenario& scene : {fig2a(), fig2b(), fig2b_literal(), tilt_about_y()}) {
+    const Model model = assemble(scene, false);
+    std::visit(
+        [&](const auto& system) {
+          constexpr int n = std::decay_t<decltype(system)>::size;
+          for (int repeat = 0; repeat < 20; ++repeat) {
+            double z[n];
+            for (double& value : z) value = random.uniform(-0.5, 0.5);
+            const double t = random.uniform(0, 5);
+            const auto exact = jacobian(system, t, z);
+            for (int j = 0; j < n; ++j) {
+              // The step that balances truncation h^2 |f'''| / 6 against rounding eps |f| / h.
+              const double h = 6e-6;
+              double above[n], below[n], up[n], down[n];
+              std::copy_n(z, n, above);
+              std::copy_n(z, n, below);
+              above[j] += h;
+              below[j] -= h;
+              system.derivative(t, above, up);
+              system.derivative(t, below, down);
+              for (int i = 0; i < n; ++i) {
+                const double size = std::abs(up[i]) + std::abs(exact(i, j)) + 1;
+                // 2 eps |f| / h and h^2 |f'''|, both about 1e-10 of the size of f.
+                CHECK(std::abs(exact(i, j) - (up[i] - down[i]) / (2 * h)) < 5e-10 * size);
+              }
+            }
+          }
+        },
+        model.system);
+  }
+}
+
+TEST_CASE("the poles of the closed loop are the roots of its characteristic polynomial") {
+  const auto residual = [](std::complex<double> s, double a3, double a2, double a1, double a0) {
+    return std::abs(a0 + s * (a1 + s * (a2 + s * (a3 + s))));
+  };
+  const double a = 5 * 9.81 / 7, r = 0.01;
+
+  SECTION("driving acceleration: s^4 + (a - r s^2)(k_v s + k_p), unstable") {
+    Scenario scene = fig2b_literal();
+    scene.controller->kv[1][1] = -100;  // the sign of theta corrected
+    scene.controller->kp[1][1] = -0.1;
+    const Eigenvalues poles = closed_loop_poles(assemble(scene, false));
+    REQUIRE(poles.size() == 8);
+    CHECK_FALSE(stable(poles));
+    for (const auto& s : poles) {
+      const double scale = std::pow(std::abs(s) + 1, 4);
+      // A pair of equal axes gives double roots: the square root of rounding is what is left.
+      CHECK(residual(s, -r * 100, -r * 0.1, a * 100, a * 0.1) < 1e-6 * scale);
+    }
+  }
+  SECTION("through a servo: stable") {
+    const Eigenvalues poles = closed_loop_poles(assemble(fig2b(), false));
+    REQUIRE(poles.size() == 8);
+    CHECK(stable(poles));
+    // x'' sees phi'' as -r phi''; the servo's stiffness multiplies the controller's gains.
+    const double k = 100, kv = k * 1, kp = k * 0.001;
+    for (const auto& s : poles) {
+      const double scale = std::pow(std::abs(s) + 1, 4) * 100;
+      CHECK(residual(s, 20 - r * kv, k - r * kp, a * kv, a * kp) < 1e-6 * scale);
+    }
+  }
+}
+
+TEST_CASE("stops are the knots of tables inside the scene") {
+  Scenario scene = tilt_about_y();
+  scene.gimbal.motion->phi = {Table{"m.csv", {0, 1, 2, 3, 5}, {0, 0.1, 0, 0.1, 0}}, 0.2};
+  CHECK(assemble(scene, false).stops == std::vector<double>{1, 2, 3});
+}
