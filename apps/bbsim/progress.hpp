@@ -17,6 +17,9 @@ class Progress {
   // `fraction` in [0, 1]. Cheap: it draws at most ten times a second.
   void update(double fraction);
 
+  // Takes the bar away, so that messages start on a line of their own.
+  void clear();
+
  private:
   using Clock = std::chrono::steady_clock;
   std::string label_;

@@ -30,6 +30,12 @@ double fastest_decay(const model::Model& model, double end) {
 
 }  // namespace
 
+std::string_view method_name(Method method) {
+  const auto* named = std::find_if(named_methods.begin(), named_methods.end(),
+                                   [method](const auto& entry) { return entry.method == method; });
+  return named == named_methods.end() ? "" : named->name;
+}
+
 Choice choose_method(const model::Model& model, Method asked, Tolerances tolerances, double end) {
   if (asked != Method::automatic) return {asked, "asked for"};
   // Adams with fixed-point iterations needs about one step a decay time of the fastest mode; BDF

@@ -2,11 +2,15 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 
 #include "model/model.hpp"
 #include "solve/outcome.hpp"
 
 namespace bbsim::solve {
+
+// As the scenario names it: "bdf".
+[[nodiscard]] std::string_view method_name(Method method);
 
 struct Choice {
   Method method;

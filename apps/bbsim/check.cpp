@@ -1,0 +1,86 @@
+#include <CLI/App.hpp>
+#include <cstdio>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "commands.hpp"
+#include "describe.hpp"
+#include "record/recorder.hpp"
+#include "scenario/reader.hpp"
+#include "solve/choose.hpp"
+#include "solve/output_grid.hpp"
+
+namespace bbsim::app {
+namespace {
+
+struct CheckArguments {
+  std::string scenario;
+  std::vector<std::string> overrides;
+};
+
+void print_line(const std::string& label, const std::string& text) {
+  std::printf("%-12s %s\n", label.c_str(), text.c_str());
+}
+
+void print_closed_loop(const model::Model& model) {
+  const model::Eigenvalues poles = model::closed_loop_poles(model);
+  const std::string warning = instability_warning(model);
+  print_line("closed loop", std::to_string(poles.size()) + " poles about home (1/s): " +
+                                poles_line(poles));
+  if (warning.empty()) {
+    print_line("", "stable");
+  } else {
+    print_line("WARNING", warning);
+  }
+}
+
+ExitCode check(const CheckArguments& arguments) {
+  const Scenario scenario = read_scenario(arguments.scenario, arguments.overrides);
+  const auto columns = record::columns_named(scenario.output.columns);
+  const model::Model model =
+      model::assemble(scenario, record::any_needs(columns, record::Needs::gamma));
+  const solve::OutputGrid grid(scenario.time);
+
+  print_line("scenario", arguments.scenario + " is valid");
+  if (!scenario.title.empty()) print_line("title", scenario.title);
+  print_line("model", states_line(model));
+  for (const model::Note& note : model.notes) print_line("  " + note.part, note.reason);
+
+  std::string names;
+  for (const std::string& name : scenario.output.columns) names += " " + name;
+  print_line("output", std::to_string(grid.size()) + " rows to t = " + short_number(grid.end()) +
+                           " s:" + names);
+  if (!any_needs(columns, record::Needs::dynamics)) {
+    print_line("", "no forces, torques or energy: no output column asks for them");
+  }
+
+  if (model.closed_loop()) print_closed_loop(model);
+
+  const solve::Tolerances tolerances{scenario.solver.rtol, scenario.solver.atol};
+  const solve::Choice choice =
+      solve::choose_method(model, scenario.solver.method, tolerances, grid.end());
+  print_line("solver", std::string(solve::method_name(choice.method)) + ", rtol " +
+                           short_number(tolerances.rtol) + ", atol " +
+                           short_number(tolerances.atol) + ": " + choice.reason);
+  return ExitCode::done;
+}
+
+}  // namespace
+
+void add_check(CLI::App& app, Chosen& chosen) {
+  CLI::App* command = app.add_subcommand(
+      "check", "Validate a scenario; print what is modelled and why, poles, and the solver");
+  command->fallthrough();
+  const auto arguments = std::make_shared<CheckArguments>();
+  command->add_option("SCENARIO", arguments->scenario, "YAML scenario")->required();
+  command->add_option("--set", arguments->overrides,
+                      "key.path=value: set a key of the scenario; may be given again")
+      ->take_all()
+      ->expected(1);
+  command->callback([arguments, &chosen] {
+    chosen = [arguments] { return check(*arguments); };
+  });
+}
+
+}  // namespace bbsim::app

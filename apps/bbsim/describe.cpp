@@ -1,0 +1,73 @@
+#include "describe.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdio>
+#include <vector>
+
+namespace bbsim::app {
+
+std::string short_number(double value) {
+  char text[40];
+  std::snprintf(text, sizeof text, "%.6g", value);
+  return text;
+}
+
+std::string states_line(const model::Model& model) {
+  const std::vector<std::string> names = model.state_names();
+  std::string line = std::to_string(names.size()) + " states: ";
+  for (std::size_t i = 0; i < names.size(); ++i) line += (i > 0 ? ", " : "") + names[i];
+  return line;
+}
+
+std::string poles_line(const model::Eigenvalues& poles) {
+  std::string line;
+  for (std::size_t i = 0; i < poles.size(); ++i) {
+    if (poles[i].imag() < 0) continue;  // its conjugate has been named
+    if (!line.empty()) line += ", ";
+    line += short_number(poles[i].real());
+    if (poles[i].imag() > 0) line += " +- " + short_number(poles[i].imag()) + "i";
+  }
+  return line;
+}
+
+std::string instability_warning(const model::Model& model) {
+  const model::Eigenvalues poles = model::closed_loop_poles(model);
+  if (poles.empty() || model::stable(poles)) return "";
+  const auto growing = std::count_if(poles.begin(), poles.end(),
+                                     [](const auto& pole) { return pole.real() > 0; });
+  if (growing == 0) {
+    return "the closed loop is not asymptotically stable about home: poles (1/s) " +
+           poles_line(poles);
+  }
+  return "the closed loop is unstable about home: " + std::to_string(growing) + " of its " +
+         std::to_string(poles.size()) + " poles have a positive real part (1/s): " +
+         poles_line(poles);
+}
+
+std::string failure_text(const model::Model& model, const solve::Outcome& outcome, double end) {
+  const std::vector<std::string> names = model.state_names();
+  std::string text = "the run ended early, at t = " + short_number(outcome.reached) + " s of " +
+                     short_number(end) + " s: " + outcome.reason + ".\n";
+  const auto& state = outcome.last_state;
+  const auto largest = std::max_element(state.begin(), state.end(), [](double a, double b) {
+    return std::abs(a) < std::abs(b);
+  });
+  if (largest != state.end()) {
+    const auto index = static_cast<std::size_t>(largest - state.begin());
+    const char* verb = std::abs(*largest) > 1e3 ? " grew without bound, to " : " is the largest, at ";
+    text += "  " + names[index] + verb + short_number(*largest) +
+            "; the error estimate was worst for " + names[outcome.worst_state] + ".\n";
+  }
+  const std::string warning = instability_warning(model);
+  if (!warning.empty()) {
+    text += "  That is the scene, not the solver: " + warning + ".\n";
+    text += "  Change the gains or the servo; `bbsim check` shows the poles.";
+  } else {
+    text += "  Try a looser solver.rtol, or another solver.method; `bbsim check` shows the model.";
+  }
+  return text;
+}
+
+}  // namespace bbsim::app

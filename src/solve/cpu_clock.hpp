@@ -1,0 +1,22 @@
+// Processor time of this process since the clock was made.
+#pragma once
+
+#include <ctime>
+
+namespace bbsim::solve {
+
+class CpuClock {
+ public:
+  CpuClock() : start_(now()) {}
+  [[nodiscard]] double seconds() const { return now() - start_; }
+
+ private:
+  static double now() {
+    std::timespec time{};
+    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &time);
+    return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
+  }
+  double start_;
+};
+
+}  // namespace bbsim::solve

@@ -1,0 +1,62 @@
+// Runs a scene and looks at it in the paper's symbols, without files.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "model/model.hpp"
+#include "record/table_writer.hpp"
+#include "scenario/reader.hpp"
+#include "solve/integrate.hpp"
+
+namespace bbsim_test {
+
+struct Run {
+  bbsim::solve::Outcome outcome;
+  std::vector<bbsim::model::Sample> samples;
+};
+
+inline Run run_in_memory(const bbsim::Scenario& scene, bbsim::Method method,
+                         bbsim::solve::Tolerances tolerances, bool gamma = true,
+                         const bbsim::solve::Watch& watch = {}) {
+  const bbsim::model::Model model = bbsim::model::assemble(scene, gamma);
+  const bbsim::solve::OutputGrid grid(scene.time);
+  const std::size_t row_size = model.size() + (model.gamma ? 1 : 0);
+  bbsim::solve::Trajectory trajectory(row_size);
+  Run run;
+  run.outcome = bbsim::solve::integrate(model, method, tolerances, grid, trajectory, watch);
+  for (std::size_t i = 0; i < trajectory.rows(); ++i) {
+    const double* row = trajectory.row(i);
+    run.samples.push_back(
+        std::visit([&](const auto& system) { return system.sample(grid[i], row); }, model.system));
+    if (model.gamma) run.samples.back().gamma = row[model.size()] / scene.ball.radius;
+  }
+  return run;
+}
+
+inline std::string data_file(const std::string& name) {
+  return std::string(BBSIM_SOURCE_DIR) + "/tests/data/" + name;
+}
+
+inline bbsim::Scenario scenario_named(const std::string& name) {
+  return bbsim::read_scenario(data_file("scenarios/" + name + ".yaml"));
+}
+
+// A quad-precision solution: columns t, x, y, vx, vy, spin, gamma, phi, theta, their rates.
+class Reference {
+ public:
+  explicit Reference(const std::string& name)
+      : table_(bbsim::record::read_table(data_file("reference/" + name + ".csv"))) {}
+
+  [[nodiscard]] const std::vector<double>& operator[](const std::string& column) const {
+    for (std::size_t i = 0; i < table_.names.size(); ++i) {
+      if (table_.names[i] == column) return table_.columns[i];
+    }
+    throw std::runtime_error("no reference column " + column);
+  }
+
+ private:
+  bbsim::record::TableData table_;
+};
+
+}  // namespace bbsim_test
