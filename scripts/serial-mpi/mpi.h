@@ -1,0 +1,16 @@
+// Stands in for Open MPI's header, for the SUNDIALS that scripts/setup unpacks: Debian builds
+// SUNDIALS 7 with MPI, so that its headers name the type and the null communicator below. bbsim
+// passes the null communicator only, with which SUNDIALS calls nothing of MPI.
+#pragma once
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+typedef struct ompi_communicator_t* MPI_Comm;
+extern char ompi_mpi_comm_null[];  // SUNDIALS compares with its address
+#define MPI_COMM_NULL ((MPI_Comm)(void*)ompi_mpi_comm_null)
+
+#ifdef __cplusplus
+}
+#endif
