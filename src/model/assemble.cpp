@@ -17,8 +17,8 @@ bool zero_row(const Controller& controller, std::size_t row) {
 bool stays_level(const Scenario& scene, const SignalPair& motion, std::size_t axis) {
   if (!scene.controller) return motion.is_zero(axis);
   const GimbalStart& start = scene.gimbal.start;
-  const bool at_zero = axis == 0 ? start.phi == 0 && start.phi_rate == 0
-                                 : start.theta == 0 && start.theta_rate == 0;
+  const bool at_zero =
+      axis == 0 ? start.phi == 0 && start.phi_rate == 0 : start.theta == 0 && start.theta_rate == 0;
   return at_zero && zero_row(*scene.controller, axis);
 }
 
@@ -51,7 +51,13 @@ SignalPair reference_path(const Reference& reference) {
 template <Drives drives>
 System closed_loop(Shape shape, const Scenario& scene) {
   const Controller& controller = *scene.controller;
-  const Gains gains{controller.kv, controller.kp};
+  Gains gains;
+  for (std::size_t row = 0; row < 2; ++row) {
+    for (std::size_t column = 0; column < 2; ++column) {
+      gains.kv[row][column] = controller.kv[row][column];
+      gains.kp[row][column] = controller.kp[row][column];
+    }
+  }
   ServoLaw servo;
   if (scene.gimbal.servo) {
     servo = {scene.gimbal.servo->natural_frequency, scene.gimbal.servo->damping};
@@ -63,7 +69,8 @@ System closed_loop(Shape shape, const Scenario& scene) {
       return ClosedLoop<Shape::along_x, drives>(r, g, gains, servo, std::move(path));
     case Shape::along_y:
       return ClosedLoop<Shape::along_y, drives>(r, g, gains, servo, std::move(path));
-    case Shape::full: break;
+    case Shape::full:
+      break;
   }
   return ClosedLoop<Shape::full, drives>(r, g, gains, servo, std::move(path));
 }
@@ -71,9 +78,12 @@ System closed_loop(Shape shape, const Scenario& scene) {
 System open_loop(Shape shape, const Scenario& scene, SignalPair motion) {
   const double r = scene.ball.radius, g = scene.gravity;
   switch (shape) {
-    case Shape::along_x: return OpenLoop<Shape::along_x>(r, g, std::move(motion));
-    case Shape::along_y: return OpenLoop<Shape::along_y>(r, g, std::move(motion));
-    case Shape::full: break;
+    case Shape::along_x:
+      return OpenLoop<Shape::along_x>(r, g, std::move(motion));
+    case Shape::along_y:
+      return OpenLoop<Shape::along_y>(r, g, std::move(motion));
+    case Shape::full:
+      break;
   }
   return OpenLoop<Shape::full>(r, g, std::move(motion));
 }
@@ -87,8 +97,12 @@ std::vector<double> initial_state(const Scenario& scene, Shape shape) {
       z = {ball.position[0], ball.position[1], ball.velocity[0], ball.velocity[1],
            ball.radius * ball.spin};
       break;
-    case Shape::along_x: z = {ball.position[0], ball.velocity[0]}; break;
-    case Shape::along_y: z = {ball.position[1], ball.velocity[1]}; break;
+    case Shape::along_x:
+      z = {ball.position[0], ball.velocity[0]};
+      break;
+    case Shape::along_y:
+      z = {ball.position[1], ball.velocity[1]};
+      break;
   }
   if (scene.controller) {
     if (phi_moves(shape)) z.push_back(start.phi);
@@ -102,7 +116,9 @@ std::vector<double> initial_state(const Scenario& scene, Shape shape) {
 std::vector<Note> explain(const Scenario& scene, Shape shape, bool gamma, std::size_t stops) {
   std::vector<Note> notes;
   switch (shape) {
-    case Shape::full: notes.push_back({"ball", "x, y and spin: equation (27)"}); break;
+    case Shape::full:
+      notes.push_back({"ball", "x, y and spin: equation (27)"});
+      break;
     case Shape::along_x:
       notes.push_back({"ball", "x only: theta, y and spin stay zero by symmetry"});
       break;
@@ -113,11 +129,13 @@ std::vector<Note> explain(const Scenario& scene, Shape shape, bool gamma, std::s
   if (!scene.controller) {
     notes.push_back({"gimbal", "no gimbal states: the angles are given functions of time"});
   } else if (scene.controller->drives == Drives::angle) {
-    notes.push_back({"gimbal", "angles and rates are states: second-order servos follow the "
-                               "controller's angles"});
+    notes.push_back({"gimbal",
+                     "angles and rates are states: second-order servos follow the "
+                     "controller's angles"});
   } else {
-    notes.push_back({"gimbal", "angles and rates are states: the controller drives their "
-                               "accelerations, equation (31)"});
+    notes.push_back({"gimbal",
+                     "angles and rates are states: the controller drives their "
+                     "accelerations, equation (31)"});
   }
   if (!gamma) {
     notes.push_back({"gamma", "not integrated: no output column asks for it"});
@@ -152,8 +170,12 @@ Model assemble(const Scenario& scenario, bool gamma) {
     return closed_loop<Drives::acceleration>(shape, scenario);
   };
   std::vector<Note> notes = explain(scenario, shape, gamma, stops.size());
-  return {system(), initial_state(scenario, shape),  gamma && shape == Shape::full,
-          scenario.ball.radius, std::move(stops), std::move(notes)};
+  return {system(),
+          initial_state(scenario, shape),
+          gamma && shape == Shape::full,
+          scenario.ball.radius,
+          std::move(stops),
+          std::move(notes)};
 }
 
 std::vector<std::string> Model::state_names() const {

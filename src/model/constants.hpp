@@ -11,9 +11,7 @@ namespace bbsim::model {
 struct Zero {
   template <class Real>
   // NOLINTNEXTLINE(google-explicit-constructor): a Zero is any number's zero
-  constexpr operator Real() const
-    requires std::is_constructible_v<Real, double>
-  {
+  constexpr operator Real() const requires std::is_constructible_v<Real, double> {
     return Real(0.0);
   }
 };
@@ -26,33 +24,67 @@ concept Known = std::is_same_v<T, Zero> || std::is_same_v<T, One>;
 template <class T>
 concept Number = !Known<T>;
 
-constexpr Zero operator*(Zero, Zero) { return {}; }
-constexpr Zero operator*(Zero, One) { return {}; }
-constexpr Zero operator*(One, Zero) { return {}; }
-constexpr One operator*(One, One) { return {}; }
-constexpr Zero operator+(Zero, Zero) { return {}; }
-constexpr Zero operator-(Zero, Zero) { return {}; }
-constexpr Zero operator-(Zero) { return {}; }
+// Inlined at every level of optimisation: these have no type of a number in their names, so that
+// a copy compiled for one instruction set could otherwise be linked into code for another.
+[[gnu::always_inline]] constexpr Zero operator*(Zero, Zero) {
+  return {};
+}
+[[gnu::always_inline]] constexpr Zero operator*(Zero, One) {
+  return {};
+}
+[[gnu::always_inline]] constexpr Zero operator*(One, Zero) {
+  return {};
+}
+[[gnu::always_inline]] constexpr One operator*(One, One) {
+  return {};
+}
+[[gnu::always_inline]] constexpr Zero operator+(Zero, Zero) {
+  return {};
+}
+[[gnu::always_inline]] constexpr Zero operator-(Zero, Zero) {
+  return {};
+}
+[[gnu::always_inline]] constexpr Zero operator-(Zero) {
+  return {};
+}
 
 template <Number T>
-constexpr Zero operator*(Zero, const T&) { return {}; }
+constexpr Zero operator*(Zero, const T&) {
+  return {};
+}
 template <Number T>
-constexpr Zero operator*(const T&, Zero) { return {}; }
+constexpr Zero operator*(const T&, Zero) {
+  return {};
+}
 template <Number T>
-constexpr Zero operator/(Zero, const T&) { return {}; }
+constexpr Zero operator/(Zero, const T&) {
+  return {};
+}
 
 template <Number T>
-constexpr T operator*(One, const T& a) { return a; }
+constexpr T operator*(One, const T& a) {
+  return a;
+}
 template <Number T>
-constexpr T operator*(const T& a, One) { return a; }
+constexpr T operator*(const T& a, One) {
+  return a;
+}
 
 template <Number T>
-constexpr T operator+(Zero, const T& a) { return a; }
+constexpr T operator+(Zero, const T& a) {
+  return a;
+}
 template <Number T>
-constexpr T operator+(const T& a, Zero) { return a; }
+constexpr T operator+(const T& a, Zero) {
+  return a;
+}
 template <Number T>
-constexpr T operator-(const T& a, Zero) { return a; }
+constexpr T operator-(const T& a, Zero) {
+  return a;
+}
 template <Number T>
-constexpr auto operator-(Zero, const T& a) { return -a; }
+constexpr auto operator-(Zero, const T& a) {
+  return -a;
+}
 
 }  // namespace bbsim::model

@@ -28,7 +28,8 @@ void SignalPair::add_sinusoid(std::size_t component, double amplitude, double fr
 }
 
 void SignalPair::add_table(std::size_t component, Spline spline) {
-  tables_.push_back({component, std::move(spline)});
+  tables_.push_back({component, spline.view()});
+  splines_.push_back(std::move(spline));
 }
 
 void SignalPair::add(std::size_t component, const Profile& profile) {
@@ -68,8 +69,8 @@ bool SignalPair::is_zero(std::size_t component) const {
 
 std::vector<double> SignalPair::knots() const {
   std::vector<double> times;
-  for (const Tabulated& table : tables_) {
-    times.insert(times.end(), table.spline.knots().begin(), table.spline.knots().end());
+  for (const Spline& spline : splines_) {
+    times.insert(times.end(), spline.knots().begin(), spline.knots().end());
   }
   std::sort(times.begin(), times.end());
   times.erase(std::unique(times.begin(), times.end()), times.end());

@@ -11,6 +11,58 @@
 
 namespace bbsim::model {
 
+// A sinusoid of both components: sine[i] sin(frequency t) + cosine[i] cos(frequency t).
+struct Harmonic {
+  double frequency;  // rad/s
+  double sine[2], cosine[2];
+};
+
+// A spline of one component.
+struct Tabulated {
+  std::size_t component;
+  SplineView spline;
+};
+
+// A look at a SignalPair without owning it: what evaluates the signals, for any type of time.
+//
+// Plain arrays and no library calls, so that code for one instruction set stays apart from the
+// rest of the program.
+struct SignalView {
+  double start[2], rate[2];
+  const Harmonic* harmonics;
+  std::size_t harmonic_count;
+  const Tabulated* tables;
+  std::size_t table_count;
+
+  // Both components at time t (s).
+  template <class Time>
+  [[nodiscard]] std::array<Jet<Time>, 2> at(const Time& t) const {
+    std::array<Jet<Time>, 2> jets;
+    for (std::size_t i = 0; i < 2; ++i) {
+      jets[i] = {start[i] + rate[i] * t, Time(rate[i]), Time(0.0)};
+    }
+    for (std::size_t k = 0; k < harmonic_count; ++k) {
+      const Harmonic& harmonic = harmonics[k];
+      const double w = harmonic.frequency;
+      const SinCos<Time> wave = sin_cos(Time(w * t));
+      for (std::size_t i = 0; i < 2; ++i) {
+        const Time value = harmonic.sine[i] * wave.sin + harmonic.cosine[i] * wave.cos;
+        jets[i].value += value;
+        jets[i].rate += w * (harmonic.sine[i] * wave.cos - harmonic.cosine[i] * wave.sin);
+        jets[i].acceleration -= (w * w) * value;
+      }
+    }
+    for (std::size_t k = 0; k < table_count; ++k) {
+      const Jet<Time> jet = tables[k].spline.at(t);
+      Jet<Time>& sum = jets[tables[k].component];
+      sum.value += jet.value;
+      sum.rate += jet.rate;
+      sum.acceleration += jet.acceleration;
+    }
+    return jets;
+  }
+};
+
 // A sum of constants, ramps, sinusoids and tables on each of two components.
 //
 // A sine costs more than the rest of the right-hand side, so sinusoids of one frequency, on
@@ -35,42 +87,20 @@ class SignalPair {
   // Both components at time t (s).
   template <class Time>
   [[nodiscard]] std::array<Jet<Time>, 2> at(const Time& t) const {
-    std::array<Jet<Time>, 2> jets;
-    for (std::size_t i = 0; i < 2; ++i) {
-      jets[i] = {start_[i] + rate_[i] * t, Time(rate_[i]), Time(0.0)};
-    }
-    for (const Harmonic& harmonic : harmonics_) {
-      const double w = harmonic.frequency;
-      const SinCos<Time> wave = sin_cos(Time(w * t));
-      for (std::size_t i = 0; i < 2; ++i) {
-        const Time value = harmonic.sine[i] * wave.sin + harmonic.cosine[i] * wave.cos;
-        jets[i].value += value;
-        jets[i].rate += w * (harmonic.sine[i] * wave.cos - harmonic.cosine[i] * wave.sin);
-        jets[i].acceleration -= (w * w) * value;
-      }
-    }
-    for (const Tabulated& table : tables_) {
-      const Jet<Time> jet = table.spline.at(t);
-      jets[table.component].value += jet.value;
-      jets[table.component].rate += jet.rate;
-      jets[table.component].acceleration += jet.acceleration;
-    }
-    return jets;
+    return view().at(t);
+  }
+
+  // Valid as long as this pair lives and is not changed.
+  [[nodiscard]] SignalView view() const {
+    return {{start_[0], start_[1]}, {rate_[0], rate_[1]}, harmonics_.data(),
+            harmonics_.size(),      tables_.data(),       tables_.size()};
   }
 
  private:
-  struct Harmonic {
-    double frequency;  // rad/s
-    std::array<double, 2> sine{0, 0}, cosine{0, 0};
-  };
-  struct Tabulated {
-    std::size_t component;
-    Spline spline;
-  };
-
-  std::array<double, 2> start_{0, 0}, rate_{0, 0};
+  double start_[2] = {0, 0}, rate_[2] = {0, 0};
   std::vector<Harmonic> harmonics_;
-  std::vector<Tabulated> tables_;
+  std::vector<Spline> splines_;
+  std::vector<Tabulated> tables_;  // the same splines, as views
 };
 
 }  // namespace bbsim::model

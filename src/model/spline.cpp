@@ -5,8 +5,8 @@
 namespace bbsim::model {
 
 Spline::Spline(std::vector<double> times, const std::vector<double>& values)
-    : times_(std::move(times)), pieces_(times_.size() - 1) {
-  const std::size_t last = pieces_.size();  // index of the last knot
+    : times_(std::move(times)) {
+  const std::size_t last = times_.size() - 1;  // index of the last knot
   std::vector<double> h(last), slope(last);
   for (std::size_t i = 0; i < last; ++i) {
     h[i] = times_[i + 1] - times_[i];
@@ -39,10 +39,12 @@ Spline::Spline(std::vector<double> times, const std::vector<double>& values)
   m[0] = (1 + first_ratio) * m[1] - first_ratio * m[2];
   m[last] = (1 + last_ratio) * m[last - 1] - last_ratio * m[last - 2];
 
+  std::vector<Piece> pieces(last);
   for (std::size_t i = 0; i < last; ++i) {
-    pieces_[i] = {times_[i], values[i], slope[i] - h[i] * (2 * m[i] + m[i + 1]) / 6, m[i] / 2,
-                  (m[i + 1] - m[i]) / (6 * h[i])};
+    pieces[i] = {times_[i], values[i], slope[i] - h[i] * (2 * m[i] + m[i + 1]) / 6, m[i] / 2,
+                 (m[i + 1] - m[i]) / (6 * h[i])};
   }
+  pieces_ = std::make_shared<const std::vector<Piece>>(std::move(pieces));
 }
 
 }  // namespace bbsim::model

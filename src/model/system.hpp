@@ -3,7 +3,11 @@
 // A system is a plain value with
 //     size                          the number of states, at compile time
 //     derivative(t, z, dz)          z' = f(t, z), for any number types of time and state
-//     sample(t, z)                  the instant in the paper's symbols
+//     inputs(t)                     all of f that depends on the time alone
+//     derivative_of(inputs, z, dz)  the rest: f(t, z) = derivative_of(inputs(t), z)
+//     motions                       which states are velocities, and of which other states
+//     view()                        the same system in plain memory, for code of one instruction
+//     set sample(t, z)                  the instant in the paper's symbols
 // and no knowledge of who integrates it. Which one a scene gets is assemble()'s choice.
 #pragma once
 
@@ -20,6 +24,19 @@ namespace bbsim::model {
 // the other coordinate, the spin and the other gimbal angle at zero.
 enum class Shape { full, along_x, along_y };
 
+// A state that is a velocity and the state that it is the rate of; -1 where that is no state.
+struct Motion {
+  int position, velocity;
+};
+
+// All velocities of a system, those with a position first. Together with the positions they are
+// the whole state.
+template <int velocities>
+struct Motions {
+  static constexpr int count = velocities;
+  Motion of[velocities];
+};
+
 // Fields, not indices: the packing of the ball into a solver's vector, and back.
 template <Shape shape>
 struct BallLayout;
@@ -28,6 +45,7 @@ template <>
 struct BallLayout<Shape::full> {
   static constexpr int size = 5;
   static constexpr std::array<std::string_view, 5> names{"x", "y", "vx", "vy", "r*spin"};
+  static constexpr Motions<3> motions{{{0, 2}, {1, 3}, {-1, 4}}};
 
   template <class Real>
   static RollingState<Real, Real, Real> unpack(const Real* z) {
@@ -48,6 +66,7 @@ template <>
 struct BallLayout<Shape::along_x> {
   static constexpr int size = 2;
   static constexpr std::array<std::string_view, 2> names{"x", "vx"};
+  static constexpr Motions<1> motions{{{0, 1}}};
 
   template <class Real>
   static RollingState<Real, Zero, Zero> unpack(const Real* z) {
@@ -65,6 +84,7 @@ template <>
 struct BallLayout<Shape::along_y> {
   static constexpr int size = 2;
   static constexpr std::array<std::string_view, 2> names{"y", "vy"};
+  static constexpr Motions<1> motions{{{0, 1}}};
 
   template <class Real>
   static RollingState<Zero, Real, Zero> unpack(const Real* z) {
@@ -78,8 +98,12 @@ struct BallLayout<Shape::along_y> {
   }
 };
 
-inline constexpr bool phi_moves(Shape shape) { return shape != Shape::along_y; }
-inline constexpr bool theta_moves(Shape shape) { return shape != Shape::along_x; }
+inline constexpr bool phi_moves(Shape shape) {
+  return shape != Shape::along_y;
+}
+inline constexpr bool theta_moves(Shape shape) {
+  return shape != Shape::along_x;
+}
 
 template <Shape shape, class Ball>
 [[nodiscard]] BallMotion ball_motion(const Ball& ball, double r) {
@@ -87,35 +111,56 @@ template <Shape shape, class Ball>
 }
 
 // The gimbal follows a given motion: its angles are functions of time, not states.
-template <Shape shape>
+template <Shape shape, class Signals = SignalPair>
 class OpenLoop {
  public:
   using Layout = BallLayout<shape>;
   static constexpr Shape moves = shape;
   static constexpr int size = Layout::size;
   static constexpr bool linear = true;  // z' = A(t) z + b(t)
+  static constexpr auto motions = Layout::motions;
 
-  OpenLoop(double radius, double gravity, SignalPair motion)
+  OpenLoop(double radius, double gravity, Signals motion)
       : r_(radius), g_(gravity), motion_(std::move(motion)) {}
+
+  template <class Time>
+  [[nodiscard]] auto inputs(const Time& t) const {
+    const auto angles = motion_.at(t);
+    return Inputs{axis<phi_moves(shape)>(angles[0]), axis<theta_moves(shape)>(angles[1])};
+  }
+
+  template <class Inputs, class Real>
+  void derivative_of(const Inputs& in, const Real* z, Real* dz) const {
+    Layout::template derivative<Real>(in.phi, in.theta, Layout::unpack(z), r_, g_, dz);
+  }
 
   template <class Time, class Real>
   void derivative(const Time& t, const Real* z, Real* dz) const {
-    const auto angles = motion_.at(t);
-    const auto phi = axis<phi_moves(shape)>(angles[0]);
-    const auto theta = axis<theta_moves(shape)>(angles[1]);
-    Layout::template derivative<Real>(phi, theta, Layout::unpack(z), r_, g_, dz);
+    derivative_of(inputs(t), z, dz);
   }
+
+  [[nodiscard]] OpenLoop<shape, SignalView> view() const { return {r_, g_, motion_.view()}; }
 
   [[nodiscard]] Sample sample(double t, const double* z) const {
     const auto [phi, theta] = motion_.at(t);
-    return {t, ball_motion<shape>(Layout::unpack(z), r_), 0,
+    return {t,
+            ball_motion<shape>(Layout::unpack(z), r_),
+            0,
             {phi.value, theta.value, phi.rate, theta.rate, phi.acceleration, theta.acceleration},
             {0, 0}};
   }
 
-  [[nodiscard]] const SignalPair& motion() const { return motion_; }
+  [[nodiscard]] const Signals& motion() const { return motion_; }
 
  private:
+  template <class Phi, class Theta>
+  struct Inputs {
+    Phi phi;
+    Theta theta;
+  };
+  template <class Phi, class Theta>
+  Inputs(Phi, Theta) -> Inputs<Phi, Theta>;
+
   template <bool moves_at_all, class Time>
   static auto axis(const Jet<Time>& angle) {
     if constexpr (moves_at_all) {
@@ -127,12 +172,12 @@ class OpenLoop {
   }
 
   double r_, g_;
-  SignalPair motion_;
+  Signals motion_;
 };
 
 // Proportional and derivative gains, rows phi, theta; columns x, y: equation (31).
 struct Gains {
-  Matrix2 kv{}, kp{};
+  double kv[2][2] = {}, kp[2][2] = {};
 };
 
 // One axis of the gimbal under control. Its acceleration is
@@ -152,7 +197,7 @@ struct ServoLaw {
 };
 
 // A controller moves the gimbal: angles and rates are states, after those of the ball.
-template <Shape shape, Drives drives>
+template <Shape shape, Drives drives, class Signals = SignalPair>
 class ClosedLoop {
  public:
   using Layout = BallLayout<shape>;
@@ -160,14 +205,40 @@ class ClosedLoop {
   static constexpr int axes = phi_moves(shape) + theta_moves(shape);
   static constexpr int size = Layout::size + 2 * axes;
   static constexpr bool linear = false;
+  static constexpr auto motions = [] {
+    Motions<Layout::motions.count + axes> all{};
+    int next = 0;
+    for (const Motion& m : Layout::motions.of) {
+      if (m.position >= 0) all.of[next++] = m;
+    }
+    for (int i = 0; i < axes; ++i) all.of[next++] = {Layout::size + i, Layout::size + axes + i};
+    for (const Motion& m : Layout::motions.of) {
+      if (m.position < 0) all.of[next++] = m;
+    }
+    return all;
+  }();
 
-  ClosedLoop(double radius, double gravity, Gains gains, ServoLaw servo, SignalPair reference)
+  ClosedLoop(double radius, double gravity, const Gains& gains, ServoLaw servo, Signals reference)
       : r_(radius), g_(gravity), gains_(gains), servo_(servo), reference_(std::move(reference)) {}
+
+  // The reference and its derivatives.
+  template <class Time>
+  [[nodiscard]] std::array<Jet<Time>, 2> inputs(const Time& t) const {
+    return reference_.at(t);
+  }
 
   template <class Time, class Real>
   void derivative(const Time& t, const Real* z, Real* dz) const {
+    derivative_of(inputs(t), z, dz);
+  }
+
+  [[nodiscard]] ClosedLoop<shape, drives, SignalView> view() const {
+    return {r_, g_, gains_, servo_, reference_.view()};
+  }
+
+  template <class Time, class Real>
+  void derivative_of(const std::array<Jet<Time>, 2>& reference, const Real* z, Real* dz) const {
     const auto ball = Layout::unpack(z);
-    const auto reference = reference_.at(t);
     const Real* angles = z + Layout::size;  // [phi, theta,] then their rates
     Real* angles_dot = dz + Layout::size;
     const auto phi = axis<0, Real>(ball, reference, angles);
@@ -196,7 +267,7 @@ class ClosedLoop {
     return {t, ball_motion<shape>(ball, r_), 0, gimbal, {reference[0].value, reference[1].value}};
   }
 
-  [[nodiscard]] const SignalPair& reference() const { return reference_; }
+  [[nodiscard]] const Signals& reference() const { return reference_; }
 
  private:
   // Equation (31) for one row of the gains, and the servo behind it.
@@ -221,7 +292,7 @@ class ClosedLoop {
   double r_, g_;
   Gains gains_;
   ServoLaw servo_;
-  SignalPair reference_;
+  Signals reference_;
 };
 
 }  // namespace bbsim::model

@@ -20,6 +20,16 @@ class RowBlock {
     return values_.data() + row_size_ * count_++;
   }
 
+  // Room for several rows in one piece: `wanted` of them, or as many as there is room for, which
+  // is what `wanted` then says.
+  [[nodiscard]] double* next(std::size_t& wanted) {
+    if (count_ == capacity) flush();
+    wanted = std::min(wanted, capacity - count_);
+    double* const first = values_.data() + row_size_ * count_;
+    count_ += wanted;
+    return first;
+  }
+
   void flush() {
     if (count_ > 0) sink_.accept(first_, count_, values_.data());
     first_ += count_;
