@@ -1,0 +1,47 @@
+// Everything that is wrong with a scenario, collected to be reported in one go.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "scenario/document.hpp"
+
+namespace bbsim::input {
+
+class Problems {
+ public:
+  // `name` stands for the file in messages; `text` is its content, without a byte order
+  // mark, for columns.
+  Problems(std::string name, std::string_view text, std::vector<std::string> overrides)
+      : name_(std::move(name)), text_(text), overrides_(std::move(overrides)) {}
+
+  void add(const Position& position, std::string message);
+
+  // Throws InputError if there are any: in the order of the text, then of the overrides; the
+  // first 50, and how many more there are.
+  void throw_if_any() const;
+
+ private:
+  struct Located {
+    Position position;
+    std::string message;
+  };
+  [[nodiscard]] std::string where(const Position& position) const;
+
+  std::string name_;
+  std::string_view text_;
+  std::vector<std::string> overrides_;
+  std::vector<Located> problems_;
+};
+
+// A piece of the user's text as it may be shown at a terminal: control characters as escapes, and
+// cut off after that many bytes.
+[[nodiscard]] std::string shown(std::string_view text, std::size_t longest = 60);
+
+// A node in a sentence that begins with "found": -0.01, "10 cm", nothing, a list of 3, a mapping.
+[[nodiscard]] std::string shown(const Node& node);
+
+}  // namespace bbsim::input
