@@ -1,0 +1,74 @@
+#include <set>
+
+#include "record/columns.hpp"
+#include "scenario/rules.hpp"
+#include "scenario/sections.hpp"
+
+namespace bbsim::input {
+namespace {
+
+constexpr double most_rows = 1e9;
+
+std::vector<std::string_view> column_names() {
+  std::vector<std::string_view> names;
+  for (const record::Column& column : record::all_columns()) names.push_back(column.name);
+  return names;
+}
+
+struct Columns {
+  [[nodiscard]] static std::string allowed() { return "a list of columns, such as [t, x, y]"; }
+
+  static bool read(const Value& value, std::vector<std::string>& into) {
+    if (value.node->kind != Node::Kind::sequence || value.node->items.empty()) {
+      return value.refuse("", allowed());
+    }
+    into.clear();
+    std::set<std::string_view> seen;
+    for (std::size_t i = 0; i < value.node->items.size(); ++i) {
+      const Value item = value.item(i);
+      const std::string& name = item.node->text;
+      if (record::find_column(name) == nullptr) {
+        refuse_name(item, column_names());
+      } else if (!seen.insert(name).second) {
+        item.refuse(" again", "each column once");
+      } else {
+        into.push_back(name);
+      }
+    }
+    return into.size() == value.node->items.size();
+  }
+};
+
+NameOf<Method> methods() {
+  NameOf<Method> rule;
+  for (const NamedMethod& method : named_methods) {
+    rule.choices.push_back({method.method, method.name});
+  }
+  return rule;
+}
+
+}  // namespace
+
+void read_time(Keys& keys, OutputTimes& time) {
+  const bool end = keys.required("end", Number{Dimension::time, {.above = 0}}, time.end);
+  const bool step = keys.required("step", Number{Dimension::time, {.above = 0}}, time.step);
+  if (end) keys.context().end = time.end;
+  if (end && step && time.end / time.step > most_rows) {
+    keys.find("step")->refuse(", more than 1e9 rows of output",
+                              "a time of at least " + number_text(time.end / most_rows));
+  }
+}
+
+void read_solver(Keys& keys, Solver& solver) {
+  const Number rtol{Dimension::number, {.at_least = 1e-14, .at_most = 0.1}, "1e-8"};
+  const Number atol{Dimension::number, {.above = 0, .at_most = 1}, "1e-10"};
+  keys.optional("method", methods(), solver.method);
+  keys.optional("rtol", rtol, solver.rtol);
+  keys.optional("atol", atol, solver.atol);
+}
+
+void read_output(Keys& keys, Output& output) {
+  keys.optional("columns", Columns{}, output.columns);
+}
+
+}  // namespace bbsim::input

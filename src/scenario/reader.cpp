@@ -1,0 +1,71 @@
+#include "scenario/reader.hpp"
+
+#include <filesystem>
+
+#include "scenario/check_text.hpp"
+#include "scenario/override.hpp"
+#include "scenario/rules.hpp"
+#include "scenario/sections.hpp"
+#include "scenario/text_file.hpp"
+
+namespace bbsim {
+namespace {
+
+using namespace input;
+
+// `time` stands before `gimbal`, whose tables must cover the run.
+void read_sections(Keys& keys, Scenario& scenario) {
+  keys.optional("title", Text{"a text", true}, scenario.title);
+  keys.optional("gravity", Number{Dimension::acceleration, {.at_least = 0}}, scenario.gravity);
+  keys.section("ball", read_ball, scenario.ball);
+  keys.section("time", read_time, scenario.time);
+  keys.section("gimbal", read_gimbal, scenario.gimbal);
+  keys.optional("controller", MappingOf(read_controller), scenario.controller);
+  keys.section("solver", read_solver, scenario.solver);
+  keys.section("output", read_output, scenario.output);
+  check_loop(keys);
+}
+
+// The tree of the file with all overrides applied, or nullptr if the file holds none.
+const Node* build_tree(const Source& source, Problems& problems, Nodes& nodes) {
+  const Node* root = nullptr;
+  try {
+    root = parse_yaml(check_text(source.text, 0), 0, nodes);
+    if (root == nullptr) {
+      throw TextFault({}, "found an empty file; allowed: " + MappingOf(read_sections).allowed());
+    }
+  } catch (const TextFault& fault) {
+    problems.add(fault.position, fault.what());
+    return nullptr;
+  }
+  for (std::size_t i = 0; i < source.overrides.size(); ++i) {
+    try {
+      root = apply_override(source.overrides[i], static_cast<int>(i) + 1, *root, nodes);
+    } catch (const TextFault& fault) {
+      problems.add(fault.position, fault.what());
+    }
+  }
+  return root;
+}
+
+}  // namespace
+
+Scenario parse_scenario(const std::string& text, const std::string& name,
+                        const std::vector<std::string>& overrides) {
+  Scenario scenario;
+  scenario.source = {name, text, overrides};
+  Problems problems(name, without_byte_order_mark(scenario.source.text), overrides);
+  Nodes nodes;
+  if (const Node* root = build_tree(scenario.source, problems, nodes)) {
+    Context context{problems, std::filesystem::path(name).parent_path()};
+    MappingOf(read_sections).read({root, "", {}, &context}, scenario);
+  }
+  problems.throw_if_any();
+  return scenario;
+}
+
+Scenario read_scenario(const std::string& file, const std::vector<std::string>& overrides) {
+  return parse_scenario(read_text(file), file, overrides);
+}
+
+}  // namespace bbsim

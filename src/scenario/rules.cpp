@@ -1,0 +1,100 @@
+#include "scenario/rules.hpp"
+
+namespace bbsim::input {
+
+bool Range::holds(double value) const {
+  return (!above || value > *above) && (!at_least || value >= *at_least) &&
+         (!at_most || value <= *at_most);
+}
+
+std::string Range::text() const {
+  if (above && at_most) {
+    return " greater than " + number_text(*above) + " and at most " + number_text(*at_most);
+  }
+  if (at_least && at_most)
+    return " from " + number_text(*at_least) + " to " + number_text(*at_most);
+  if (above) return " greater than " + number_text(*above);
+  if (at_least) return " of at least " + number_text(*at_least);
+  if (at_most) return " of at most " + number_text(*at_most);
+  return "";
+}
+
+std::string Number::allowed() const {
+  const std::string_view such_as = example.empty() ? input::example(dimension) : example;
+  return std::string(noun(dimension)) + range.text() + ", such as " + std::string(such_as);
+}
+
+bool Number::read(const Value& value, double& into) const {
+  const Node& node = *value.node;
+  if (node.kind != Node::Kind::scalar) return value.refuse("", allowed());
+  const Quantity quantity = read_quantity(node.text, node.quoted, dimension);
+  if (!quantity.value) return value.refuse(quantity.fault, allowed());
+  if (!range.holds(*quantity.value)) return value.refuse("", allowed());
+  into = *quantity.value;
+  return true;
+}
+
+std::string PairOf::allowed() const {
+  return "two " + std::string(plural(dimension)) + " [x, y], such as [0.1, 0]";
+}
+
+bool PairOf::read(const Value& value, Pair& into) const {
+  const Node& node = *value.node;
+  if (node.kind != Node::Kind::sequence || node.items.size() != into.size()) {
+    return value.refuse("", allowed());
+  }
+  bool fine = true;
+  for (std::size_t i = 0; i < into.size(); ++i) {
+    fine = Number{dimension}.read(value.item(i), into[i]) && fine;
+  }
+  return fine;
+}
+
+std::string GainMatrix::allowed() const {
+  return "a number k, for [[k, 0], [0, k]], or a 2x2 matrix [[a, b], [c, d]]";
+}
+
+bool GainMatrix::read(const Value& value, Matrix2& into) const {
+  const Node& node = *value.node;
+  if (node.kind == Node::Kind::scalar) {
+    const Quantity quantity = read_quantity(node.text, node.quoted, Dimension::number);
+    if (!quantity.value) return value.refuse(quantity.fault, allowed());
+    into = {{{*quantity.value, 0}, {0, *quantity.value}}};
+    return true;
+  }
+  if (node.kind != Node::Kind::sequence || node.items.size() != into.size()) {
+    return value.refuse("", allowed());
+  }
+  bool fine = true;
+  for (std::size_t row = 0; row < into.size(); ++row) {
+    const Value numbers = value.item(row);
+    if (numbers.node->kind != Node::Kind::sequence || numbers.node->items.size() != 2) {
+      fine = numbers.refuse("", "a row of two numbers, such as [1, 0]");
+    } else {
+      fine = PairOf{}.read(numbers, into[row]) && fine;
+    }
+  }
+  return fine;
+}
+
+bool Text::read(const Value& value, std::string& into) const {
+  const Node& node = *value.node;
+  if (node.kind != Node::Kind::scalar) return value.refuse("", allowed());
+  if (node.text.empty()) return value.refuse("", allowed());
+  for (const char c : node.text) {
+    const bool line = lines && (c == '\n' || c == '\t');
+    if ((static_cast<unsigned char>(c) < 0x20 && !line) || c == 0x7F) {
+      return value.refuse(", with control characters", allowed());
+    }
+  }
+  into = node.text;
+  return true;
+}
+
+bool refuse_name(const Value& value, const std::vector<std::string_view>& names) {
+  const std::string_view nearest = nearest_name(value.node->text, names);
+  const std::string hint = nearest.empty() ? "" : " (did you mean " + std::string(nearest) + "?)";
+  return value.refuse(hint, "one of " + comma_separated(names));
+}
+
+}  // namespace bbsim::input

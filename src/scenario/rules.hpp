@@ -1,0 +1,89 @@
+// What a value may be, and how it is read: the rules that schema.hpp speaks of.
+#pragma once
+
+#include <algorithm>
+#include <iterator>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "scenario/nearest.hpp"
+#include "scenario/quantity.hpp"
+#include "scenario/scenario.hpp"
+#include "scenario/schema.hpp"
+
+namespace bbsim::input {
+
+// Bounds, in SI units; those that are not there do not bind.
+struct Range {
+  std::optional<double> above{};
+  std::optional<double> at_least{};
+  std::optional<double> at_most{};
+
+  [[nodiscard]] bool holds(double value) const;
+  [[nodiscard]] std::string text() const;  // " greater than 0"; empty without bounds
+};
+
+// A number in SI units, or a quantity.
+struct Number {
+  Dimension dimension = Dimension::number;
+  Range range{};
+  std::string_view example{};  // empty: the dimension's own
+
+  [[nodiscard]] std::string allowed() const;
+  bool read(const Value& value, double& into) const;
+};
+
+// [x, y]
+struct PairOf {
+  Dimension dimension = Dimension::number;
+
+  [[nodiscard]] std::string allowed() const;
+  bool read(const Value& value, Pair& into) const;
+};
+
+// A number k, which stands for [[k, 0], [0, k]], or a matrix [[a, b], [c, d]].
+struct GainMatrix {
+  [[nodiscard]] std::string allowed() const;
+  bool read(const Value& value, Matrix2& into) const;
+};
+
+// A text without control characters; line breaks and tabs only where `lines` are allowed.
+struct Text {
+  std::string_view meaning;  // "the name of a column"
+  bool lines = false;
+
+  [[nodiscard]] std::string allowed() const { return std::string(meaning); }
+  bool read(const Value& value, std::string& into) const;
+};
+
+// Reports a text that is none of the names, with the nearest of them. Returns false.
+bool refuse_name(const Value& value, const std::vector<std::string_view>& names);
+
+// One of the names that stand for the values of an enumeration.
+template <class Enum>
+struct NameOf {
+  struct Named {
+    Enum value;
+    std::string_view name;
+  };
+  std::vector<Named> choices;
+
+  [[nodiscard]] std::vector<std::string_view> names() const {
+    std::vector<std::string_view> list;
+    std::ranges::transform(choices, std::back_inserter(list), &Named::name);
+    return list;
+  }
+  [[nodiscard]] std::string allowed() const { return "one of " + comma_separated(names()); }
+
+  bool read(const Value& value, Enum& into) const {
+    if (value.node->kind != Node::Kind::scalar) return value.refuse("", allowed());
+    const auto choice = std::ranges::find(choices, value.node->text, &Named::name);
+    if (choice == choices.end()) return refuse_name(value, names());
+    into = choice->value;
+    return true;
+  }
+};
+
+}  // namespace bbsim::input

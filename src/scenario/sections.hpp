@@ -1,0 +1,20 @@
+// The sections of a scenario, each read by one function (schema.hpp).
+#pragma once
+
+#include "scenario/scenario.hpp"
+#include "scenario/schema.hpp"
+
+namespace bbsim::input {
+
+void read_ball(Keys& keys, Ball& ball);
+void read_time(Keys& keys, OutputTimes& time);
+void read_gimbal(Keys& keys, Gimbal& gimbal);
+void read_controller(Keys& keys, Controller& controller);
+void read_solver(Keys& keys, Solver& solver);
+void read_output(Keys& keys, Output& output);
+
+// What must hold between the sections: whether a controller or a prescribed motion moves the
+// gimbal, and what may stand beside each.
+void check_loop(Keys& scenario);
+
+}  // namespace bbsim::input
