@@ -1,0 +1,67 @@
+// What the tests of the scenario reader share.
+#pragma once
+
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <vector>
+
+#include "base/error.hpp"
+#include "scenario/reader.hpp"
+
+namespace bbsim::test {
+
+inline Scenario parse(const std::string& text, const std::vector<std::string>& overrides = {}) {
+  return parse_scenario(text, "scenario.yaml", overrides);
+}
+
+// Every problem of the text, one a line; empty if there is none.
+inline std::string errors(const std::string& text, const std::vector<std::string>& overrides = {}) {
+  try {
+    static_cast<void>(parse(text, overrides));
+    return "";
+  } catch (const InputError& e) {
+    return e.what();
+  }
+}
+
+// The shortest open-loop scenario, on lines 1 to 3.
+inline const std::string open_loop =
+    "ball: {radius: 0.01}\n"
+    "time: {end: 10, step: 0.1}\n"
+    "gimbal: {motion: {}}\n";
+
+// The shortest closed-loop scenario, on lines 1 to 3.
+inline const std::string closed_loop =
+    "ball: {radius: 0.01}\n"
+    "time: {end: 10, step: 0.1}\n"
+    "controller: {pd: {kv: 100, kp: 0.1}, reference: {point: [0, 0]}}\n";
+
+// A folder of this process's own, gone when the test ends.
+class TemporaryFolder {
+ public:
+  TemporaryFolder()
+      : path_(std::filesystem::temp_directory_path() /
+              ("bbsim-scenario-" + std::to_string(::getpid()))) {
+    std::filesystem::create_directory(path_);
+  }
+  ~TemporaryFolder() {
+    std::error_code ignored;
+    std::filesystem::remove_all(path_, ignored);
+  }
+  TemporaryFolder(const TemporaryFolder&) = delete;
+  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+
+  [[nodiscard]] std::string file(const std::string& name) const { return path_ / name; }
+  [[nodiscard]] std::string write(const std::string& name, const std::string& text) const {
+    std::ofstream(file(name), std::ios::binary) << text;
+    return file(name);
+  }
+
+ private:
+  std::filesystem::path path_;
+};
+
+}  // namespace bbsim::test

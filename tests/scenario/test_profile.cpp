@@ -1,0 +1,139 @@
+// Profiles of the gimbal angles.
+#include <numbers>
+
+#include "catch.hpp"
+#include "support.hpp"
+
+using namespace bbsim;
+using namespace bbsim::test;
+using Catch::Matchers::Contains;
+
+namespace {
+
+std::string with_phi(const std::string& profile) {
+  return "ball: {radius: 0.01}\ntime: {end: 10, step: 0.1}\ngimbal: {motion: {phi: " + profile +
+         "}}\n";
+}
+
+Profile phi(const std::string& profile) {
+  return parse(with_phi(profile)).gimbal.motion->phi;
+}
+
+std::string five_rows(const std::string& third) {
+  return "t,a,b\n0,1,2\n2.5,2,3\n" + third + "\n7.5,4,5\n10,5,6\n";
+}
+
+}  // namespace
+
+TEST_CASE("a number is a constant") {
+  REQUIRE(phi("0.25").size() == 1);
+  CHECK(std::get<double>(phi("0.25")[0]) == 0.25);
+  CHECK(std::get<double>(phi("180 deg")[0]) == std::numbers::pi);
+}
+
+TEST_CASE("a sinusoid") {
+  const auto all = std::get<Sinusoid>(
+      phi("{sinusoid: {amplitude: 0.1, frequency: 0.5 Hz, phase: 1, offset: -2}}")[0]);
+  CHECK(all.amplitude == 0.1);
+  CHECK(all.frequency == std::numbers::pi);
+  CHECK(all.phase == 1);
+  CHECK(all.offset == -2);
+  const auto least = std::get<Sinusoid>(phi("{sinusoid: {amplitude: 0.1, frequency: 0}}")[0]);
+  CHECK(least.phase == 0);
+  CHECK(least.offset == 0);
+  CHECK_THAT(errors(with_phi("{sinusoid: {}}")),
+             Contains("phi.sinusoid.amplitude: missing; allowed: an angle") &&
+                 Contains("phi.sinusoid.frequency: missing; allowed: an angular rate"));
+}
+
+TEST_CASE("a ramp") {
+  const auto ramp = std::get<Ramp>(phi("{ramp: {start: 1, rate: -2}}")[0]);
+  CHECK(ramp.start == 1);
+  CHECK(ramp.rate == -2);
+  CHECK_THAT(errors(with_phi("{ramp: {start: 1}}")), Contains("phi.ramp.rate: missing"));
+}
+
+TEST_CASE("a list is a sum") {
+  const Profile sum =
+      phi("[1, {ramp: {start: 0, rate: 1}}, {sinusoid: {amplitude: 1, "
+          "frequency: 1}}]");
+  REQUIRE(sum.size() == 3);
+  CHECK(std::get<double>(sum[0]) == 1);
+  CHECK(std::get<Ramp>(sum[1]).rate == 1);
+  CHECK(std::get<Sinusoid>(sum[2]).amplitude == 1);
+  CHECK(errors(with_phi("[1, [2]]")) ==
+        "scenario.yaml:3:28: gimbal.motion.phi.1: found a list of 1; allowed: an angle, such as "
+        "0.1 or \"4 deg\", or one of sinusoid, ramp, table");
+  CHECK_THAT(errors(with_phi("[]")), Contains("found an empty list; allowed: a list of 1 to 1000"));
+}
+
+TEST_CASE("a term is exactly one of the shapes") {
+  CHECK(errors(with_phi("{}")) ==
+        "scenario.yaml:3:19: gimbal.motion.phi: found none; allowed: exactly one of sinusoid, "
+        "ramp, table");
+  CHECK_THAT(errors(with_phi("{ramp: {start: 0, rate: 1}, table: {}}")),
+             Contains("phi: found ramp, table; allowed: exactly one of"));
+  CHECK_THAT(errors(with_phi("[{sinus: {}}]")),
+             Contains("phi.0.sinus: unknown key; did you mean gimbal.motion.phi.0.sinusoid?"));
+  CHECK_THAT(errors(with_phi("")), Contains("phi: found nothing; allowed: an angle") &&
+                                       Contains("or a list of these: their sum"));
+}
+
+TEST_CASE("a table is read from beside the scenario") {
+  const TemporaryFolder folder;
+  static_cast<void>(folder.write("motion.csv", five_rows("5,3,4")));
+  const std::string scenario =
+      folder.write("scenario.yaml", with_phi("{table: {file: motion.csv, time: t, value: b}}"));
+  const Scenario read = read_scenario(scenario);
+  const auto& table = std::get<Table>(read.gimbal.motion->phi[0]);
+  CHECK(table.file == "motion.csv");
+  CHECK(table.times == std::vector<double>{0, 2.5, 5, 7.5, 10});
+  CHECK(table.values == std::vector<double>{2, 3, 4, 5, 6});
+}
+
+TEST_CASE("a table must be usable") {
+  const TemporaryFolder folder;
+  const auto refused = [&](const std::string& rows, const std::string& table) {
+    static_cast<void>(folder.write("motion.csv", rows));
+    const std::string scenario = folder.write("scenario.yaml", with_phi("{table: " + table + "}"));
+    try {
+      static_cast<void>(read_scenario(scenario));
+      return std::string();
+    } catch (const InputError& e) {
+      REQUIRE(e.problems().size() == 1);
+      CHECK(e.problems()[0].where.starts_with(scenario + ":3:"));
+      return e.problems()[0].message;
+    }
+  };
+  const std::string good = "{file: motion.csv, time: t, value: a}";
+  const std::string key = "gimbal.motion.phi.table: motion.csv: ";
+  CHECK(refused(five_rows("5,3,4"), good).empty());
+  CHECK(refused("t,a\n0,1\n5,2\n10,3\n", good) == key + "found 3 rows; allowed: at least 4");
+  CHECK(refused(five_rows("2.5,3,4"), good) ==
+        key +
+            "found the time 2.5 in row 3 below the header, after 2.5; allowed: strictly "
+            "increasing times");
+  CHECK(refused("t,a\n0,1\n1,1\n2,1\n9,1\n", good) ==
+        key + "found times from 0 to 9 s; allowed: a table that covers the run, 0 to 10 s");
+  CHECK(refused("t,a\n1,1\n2,1\n3,1\n11,1\n", good) ==
+        key + "found times from 1 to 11 s; allowed: a table that covers the run, 0 to 10 s");
+  CHECK(refused(five_rows("5,3,4"), "{file: motion.csv, time: time, value: a}") ==
+        "gimbal.motion.phi.table.time: found time; allowed: one of t, a, b");
+  CHECK_THAT(refused(five_rows("5,3,4"), "{file: absent.csv, time: t, value: a}"),
+             Contains("gimbal.motion.phi.table.file: "));
+  CHECK(refused(five_rows("5,3,4"), "{file: ., time: t, value: a}") ==
+        "gimbal.motion.phi.table.file: found ., which is no regular file; allowed: a table file");
+  CHECK_THAT(refused(five_rows("5,3,4"), "{file: motion.csv, time: t}"),
+             Contains("gimbal.motion.phi.table.value: missing"));
+}
+
+TEST_CASE("a table must cover a run that an override makes longer") {
+  const TemporaryFolder folder;
+  static_cast<void>(folder.write("motion.csv", five_rows("5,3,4")));
+  const std::string scenario =
+      folder.write("scenario.yaml", with_phi("{table: {file: motion.csv, time: t, value: b}}"));
+  CHECK(read_scenario(scenario, {"time.end=9"}).time.end == 9);
+  CHECK_THROWS_WITH(read_scenario(scenario, {"time.end=11"}),
+                    Contains("found times from 0 to 10 s; allowed: a table that covers the run, 0 "
+                             "to 11 s"));
+}
