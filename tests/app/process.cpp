@@ -1,0 +1,98 @@
+#include "process.hpp"
+
+#include <fcntl.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <csignal>
+#include <cstdlib>
+#include <fstream>
+#include <sstream>
+#include <stdexcept>
+#include <thread>
+
+namespace bbsim_test {
+namespace fs = std::filesystem;
+
+namespace {
+
+std::string contents(const fs::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  std::ostringstream text;
+  text << stream.rdbuf();
+  return text.str();
+}
+
+void redirect(int target, const std::string& file) {
+  const int descriptor = open(file.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
+  dup2(descriptor, target);
+  close(descriptor);
+}
+
+}  // namespace
+
+Result bbsim(const Launch& launch) {
+  const Folder streams;
+  const std::string out = streams / "out", err = streams / "err";
+  const auto start = std::chrono::steady_clock::now();
+  const pid_t child = fork();
+  if (child < 0) throw std::runtime_error("cannot fork");
+  if (child == 0) {
+    redirect(STDOUT_FILENO, out);
+    redirect(STDERR_FILENO, err);
+    if (!launch.folder.empty() && chdir(launch.folder.c_str()) != 0) _exit(126);
+    std::vector<std::string> words{BBSIM_PROGRAM};
+    words.insert(words.end(), launch.arguments.begin(), launch.arguments.end());
+    std::vector<char*> pointers;
+    for (std::string& word : words) pointers.push_back(word.data());
+    pointers.push_back(nullptr);
+    execv(BBSIM_PROGRAM, pointers.data());
+    _exit(127);
+  }
+  if (launch.signal != 0) {
+    std::this_thread::sleep_for(launch.signal_after);
+    kill(child, launch.signal);
+  }
+  int status = 0;
+  waitpid(child, &status, 0);
+  Result result;
+  result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  result.exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+  result.out = contents(out);
+  result.err = contents(err);
+  return result;
+}
+
+Folder::Folder() {
+  std::string pattern = fs::temp_directory_path() / "bbsim-test-XXXXXX";
+  if (mkdtemp(pattern.data()) == nullptr) throw std::runtime_error("cannot make " + pattern);
+  path_ = pattern;
+}
+
+Folder::~Folder() {
+  std::error_code ignored;
+  fs::remove_all(path_, ignored);
+}
+
+std::string Folder::write(const std::string& name, const std::string& text) const {
+  std::ofstream(path_ / name, std::ios::binary) << text;
+  return path_ / name;
+}
+
+std::string Folder::read(const std::string& name) const {
+  return contents(path_ / name);
+}
+
+std::vector<std::string> Folder::files() const {
+  std::vector<std::string> names;
+  for (const auto& entry : fs::directory_iterator(path_)) names.push_back(entry.path().filename());
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+std::string config(const std::string& name) {
+  return std::string(BBSIM_SOURCE_DIR) + "/configs/" + name;
+}
+
+}  // namespace bbsim_test

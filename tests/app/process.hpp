@@ -1,0 +1,55 @@
+// Runs the program as a user does, and sees what a user sees.
+#pragma once
+
+#include <chrono>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace bbsim_test {
+
+struct Result {
+  int exit_code = -1;  // 128 + n if signal n ended it
+  std::string out, err;
+  double seconds = 0;  // wall clock
+};
+
+struct Launch {
+  std::vector<std::string> arguments;  // after the program's name
+  std::filesystem::path folder{};      // working folder; empty: this one
+  int signal = 0;                      // sent after `signal_after`, 0: none
+  std::chrono::milliseconds signal_after{300};
+};
+
+// Runs bbsim to its end.
+Result bbsim(const Launch& launch);
+inline Result bbsim(std::vector<std::string> arguments, std::filesystem::path folder = {}) {
+  return bbsim(Launch{std::move(arguments), std::move(folder), 0, {}});
+}
+
+// A folder of its own for a test, removed with it.
+class Folder {
+ public:
+  Folder();
+  ~Folder();
+  Folder(const Folder&) = delete;
+  Folder& operator=(const Folder&) = delete;
+
+  [[nodiscard]] const std::filesystem::path& path() const { return path_; }
+  [[nodiscard]] std::string operator/(const std::string& name) const { return path_ / name; }
+
+  // Writes a file into it and returns its path.
+  std::string write(const std::string& name,
+                    const std::string& text) const;  // NOLINT(modernize-use-nodiscard)
+  [[nodiscard]] std::string read(const std::string& name) const;
+  // Names of all files in it, hidden ones too, sorted.
+  [[nodiscard]] std::vector<std::string> files() const;
+
+ private:
+  std::filesystem::path path_;
+};
+
+// A scenario of the repository's configs/.
+std::string config(const std::string& name);
+
+}  // namespace bbsim_test

@@ -1,0 +1,102 @@
+// bbsim check and bbsim columns.
+#include <string>
+
+#include "catch.hpp"
+#include "process.hpp"
+
+using namespace bbsim_test;
+
+namespace {
+
+bool contains(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
+
+}  // namespace
+
+TEST_CASE("check names what an open loop is given") {
+  const Result result = bbsim({"check", config("fig2a.yaml")});
+  CHECK(result.exit_code == 0);
+  CHECK(contains(result.out, "5 states: x, y, vx, vy, r*spin"));
+  CHECK(contains(result.out, "no gimbal states"));
+  CHECK(contains(result.out, "1001 rows"));
+  CHECK(contains(result.out, "solver"));
+  CHECK_FALSE(contains(result.out, "closed loop"));
+}
+
+TEST_CASE("check finds the planar scene in tumble without its y motion and spin") {
+  const std::string tumble = std::string(BBSIM_SOURCE_DIR) + "/tests/data/scenarios/tumble.yaml";
+  CHECK(contains(bbsim({"check", tumble}).out, "5 states"));
+  const Result planar =
+      bbsim({"check", tumble, "--set", "ball.velocity=[0, 0]", "--set", "ball.spin=0"});
+  CHECK(contains(planar.out, "2 states: x, vx"));
+}
+
+TEST_CASE("check prints the poles and warns of an unstable loop") {
+  const Result stable = bbsim({"check", config("fig2b.yaml")});
+  CHECK(stable.exit_code == 0);
+  CHECK(contains(stable.out, "9 states"));
+  CHECK(contains(stable.out, "8 poles about home"));
+  CHECK_FALSE(contains(stable.out, "WARNING"));
+
+  const Result unstable = bbsim({"check", config("fig2b-literal.yaml")});
+  CHECK(unstable.exit_code == 0);
+  CHECK(contains(unstable.out, "WARNING"));
+  CHECK(contains(unstable.out, "unstable"));
+}
+
+TEST_CASE("check reports all problems of a scenario at once, each with its place") {
+  const Folder folder;
+  folder.write("bad.yaml",
+               "ball:\n"
+               "  raduis: 0.01\n"
+               "gimbal: {motion: {phi: 0}}\n"
+               "time: {end: -1, step: 0.1}\n");
+  const Result result = bbsim({"check", "bad.yaml"}, folder.path());
+  CHECK(result.exit_code == 2);
+  CHECK(result.out.empty());
+  CHECK(contains(result.err, "bad.yaml:2:3: ball.raduis: unknown key; did you mean ball.radius?"));
+  CHECK(contains(result.err, "ball.radius: missing"));
+  CHECK(contains(result.err, "bad.yaml:4:13: time.end: found -1; allowed:"));
+}
+
+TEST_CASE("columns lists them all with units") {
+  const Result result = bbsim({"columns"});
+  CHECK(result.exit_code == 0);
+  for (const char* name : {"t",
+                           "x",
+                           "y",
+                           "vx",
+                           "vy",
+                           "spin",
+                           "gamma",
+                           "phi",
+                           "theta",
+                           "phi_rate",
+                           "theta_rate",
+                           "phi_acceleration",
+                           "theta_acceleration",
+                           "x_reference",
+                           "y_reference",
+                           "normal_force",
+                           "friction_force",
+                           "friction_demand",
+                           "torque_phi",
+                           "torque_theta",
+                           "energy",
+                           "power"}) {
+    CHECK(contains("\n" + result.out, "\n" + std::string(name) + " "));
+  }
+}
+
+TEST_CASE("every scenario of configs/ is valid and runs") {
+  for (const char* name : {"fig2a", "fig2b", "incline", "beam", "hold", "recorded"}) {
+    CAPTURE(name);
+    const Folder folder;
+    const std::string file = config(std::string(name) + ".yaml");
+    CHECK(bbsim({"check", file}).exit_code == 0);
+    const Result result = bbsim({"run", file}, folder.path());
+    CAPTURE(result.err);
+    CHECK(result.exit_code == 0);
+  }
+}

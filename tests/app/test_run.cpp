@@ -1,0 +1,180 @@
+// bbsim run: what it writes, what it says, and every way in which it can end.
+#include <csignal>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "catch.hpp"
+#include "process.hpp"
+
+using namespace bbsim_test;
+using Names = std::vector<std::string>;
+using Catch::Matchers::Contains;
+
+namespace {
+
+bool contains(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
+
+std::vector<std::string> lines(const std::string& text) {
+  std::vector<std::string> list;
+  std::istringstream stream(text);
+  for (std::string line; std::getline(stream, line);) list.push_back(line);
+  return list;
+}
+
+// A scene that takes minutes: a million seconds of a fast oscillation.
+const char* const long_scene =
+    "ball: {radius: 0.01}\n"
+    "gimbal: {motion: {phi: {sinusoid: {amplitude: 0.01, frequency: 300}}}}\n"
+    "time: {end: 1e6, step: 1}\n";
+
+}  // namespace
+
+TEST_CASE("run writes SCENARIO's name with .csv into the current folder") {
+  const Folder folder;
+  const Result result = bbsim({"run", config("fig2a.yaml")}, folder.path());
+  CHECK(result.exit_code == 0);
+  CHECK(result.out.empty());
+  CHECK(contains(result.err, "fig2a.csv: 1001 of 1001 rows"));
+  CHECK(folder.files() == Names{"fig2a.csv"});
+  const auto rows = lines(folder.read("fig2a.csv"));
+  REQUIRE(rows.size() == 1002);
+  CHECK(rows[0] == "t,x,y,gamma,phi,theta");
+  CHECK(rows[1] == "0,0,-0.1,0,0.01,0");
+  CHECK(contains(rows[1001], "10,0.1289970"));  // the reference says 0.128997060042
+}
+
+TEST_CASE("option -o - writes the CSV to standard output, and -q silences the rest") {
+  const Folder folder;
+  const Result result = bbsim({"run", config("incline.yaml"), "-o", "-", "-q"}, folder.path());
+  CHECK(result.exit_code == 0);
+  CHECK(result.err.empty());
+  CHECK(lines(result.out).size() == 202);
+  CHECK(folder.files().empty());
+  CHECK(bbsim({"-q", "run", config("incline.yaml"), "-o", "-"}).out == result.out);
+}
+
+TEST_CASE("the same scene gives the same bytes") {
+  const Result first = bbsim({"run", config("hold.yaml"), "-o", "-"});
+  CHECK(first.exit_code == 0);
+  CHECK(bbsim({"run", config("hold.yaml"), "-o", "-"}).out == first.out);
+}
+
+TEST_CASE("option --set changes a key through the same checks") {
+  const Result fewer = bbsim({"run", config("fig2a.yaml"), "--set", "time.step=1", "--set",
+                              "ball.position.1=5 cm", "-o", "-"});
+  CHECK(fewer.exit_code == 0);
+  const auto rows = lines(fewer.out);
+  REQUIRE(rows.size() == 12);
+  CHECK(rows[1] == "0,0,0.05,0,0.01,0");
+
+  const Folder folder;
+  const Result refused =
+      bbsim({"run", config("fig2a.yaml"), "--set", "ball.radius=-1"}, folder.path());
+  CHECK(refused.exit_code == 2);
+  CHECK(contains(refused.err, "--set ball.radius=-1: ball.radius: found -1; allowed:"));
+  CHECK(folder.files().empty());
+}
+
+TEST_CASE("HDF5 is written, and compares equal to the CSV") {
+  const Folder folder;
+  CHECK(bbsim({"run", config("fig2a.yaml"), "-o", "a.h5"}, folder.path()).exit_code == 0);
+  CHECK(bbsim({"run", config("fig2a.yaml"), "-o", "a.csv"}, folder.path()).exit_code == 0);
+  CHECK(folder.files() == Names{"a.csv", "a.h5"});
+  const Result compared =
+      bbsim({"compare", "a.csv", "a.h5", "--rtol", "0", "--atol", "0"}, folder.path());
+  CHECK(compared.exit_code == 0);
+}
+
+TEST_CASE("the summary tells how the run went") {
+  const Folder folder;
+  const Result result =
+      bbsim({"run", config("fig2b.yaml"), "-o", "b.csv", "--summary", "b.json"}, folder.path());
+  CHECK(result.exit_code == 0);
+  const std::string json = folder.read("b.json");
+  CHECK(contains(json, "\"status\": \"done\""));
+  CHECK(contains(json, "\"end_time\": 21"));
+  CHECK(contains(json, "\"rhs_evaluations\""));
+  CHECK(contains(json, "\"theta_rate\""));
+}
+
+TEST_CASE("the printed law blows up: exit 1, rows kept, and the reason with the poles") {
+  const Folder folder;
+  const Result result =
+      bbsim({"run", config("fig2b-literal.yaml"), "--summary", "s.json"}, folder.path());
+  CHECK(result.exit_code == 1);
+  CHECK(result.seconds < 20);  // far under a second in release; sanitizers and a busy machine
+  CHECK(contains(result.err, "the run ended early, at t = 0.74"));
+  CHECK(contains(result.err, "grew without bound"));
+  CHECK(contains(result.err, "the closed loop is unstable about home"));
+  CHECK(contains(result.err, "poles have a positive real part"));
+  CHECK(contains(folder.read("s.json"), "\"status\": \"failed\""));
+  const auto rows = lines(folder.read("fig2b-literal.csv"));
+  REQUIRE(rows.size() >= 76);
+  CHECK(rows.back().substr(0, 5) == "0.74,");
+}
+
+TEST_CASE("Ctrl-C and SIGTERM end a run with 130 and keep what it reached") {
+  const int signal = GENERATE(SIGINT, SIGTERM);
+  const Folder folder;
+  folder.write("long.yaml", long_scene);
+  Launch launch{{"run", "long.yaml", "--summary", "s.json"}, folder.path(), signal, {}};
+  launch.signal_after = std::chrono::milliseconds(1000);
+  const Result result = bbsim(launch);
+  CHECK(result.exit_code == 130);
+  CHECK(contains(result.err, "interrupted at t = "));
+  CHECK(folder.files() == Names{"long.csv", "long.yaml", "s.json"});
+  CHECK(contains(folder.read("s.json"), "\"status\": \"interrupted\""));
+  const auto rows = lines(folder.read("long.csv"));
+  CHECK(rows.size() > 2);
+  CHECK(rows.back().find(',') != std::string::npos);
+}
+
+TEST_CASE("output that cannot be written is exit 3, and leaves nothing behind") {
+  const Folder folder;
+  const Result full = bbsim({"run", config("fig2a.yaml"), "-o", "/dev/full"}, folder.path());
+  CHECK(full.exit_code == 3);
+  CHECK_THAT(full.err, Contains("/dev/full") && Contains("no space left on device"));
+
+  const Result nowhere =
+      bbsim({"run", config("fig2a.yaml"), "-o", "missing/fig2a.csv"}, folder.path());
+  CHECK(nowhere.exit_code == 3);
+  CHECK(contains(nowhere.err, "missing"));
+
+  const Result summary = bbsim(
+      {"run", config("incline.yaml"), "-o", "a.csv", "--summary", "/dev/full"}, folder.path());
+  CHECK(summary.exit_code == 3);
+  CHECK(folder.files() == Names{"a.csv"});
+}
+
+TEST_CASE("a faulty command line is exit 2, with help at hand") {
+  for (const auto& arguments :
+       {Names{}, Names{"fly"}, Names{"run"}, Names{"run", "a", "--wings"}}) {
+    const Result result = bbsim(arguments);
+    CHECK(result.exit_code == 2);
+    CHECK(result.out.empty());
+    CHECK(contains(result.err, "--help"));
+  }
+  const Result ending = bbsim({"run", config("fig2a.yaml"), "-o", "fig2a.txt"});
+  CHECK(ending.exit_code == 2);
+  CHECK(contains(ending.err, ".csv"));
+  const Result missing = bbsim({"run", "missing.yaml"});
+  CHECK(missing.exit_code == 2);
+  CHECK(contains(missing.err, "missing.yaml"));
+}
+
+TEST_CASE("help and version") {
+  const Result help = bbsim({"--help"});
+  CHECK(help.exit_code == 0);
+  for (const char* word : {"run", "check", "compare", "columns", "Exit codes"}) {
+    CHECK(contains(help.out, word));
+  }
+  for (const char* command : {"run", "check", "compare", "columns"}) {
+    CHECK(bbsim({command, "--help"}).exit_code == 0);
+  }
+  const Result version = bbsim({"--version"});
+  CHECK(version.exit_code == 0);
+  CHECK(version.out.substr(0, 6) == "bbsim ");
+}
