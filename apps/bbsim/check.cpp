@@ -26,8 +26,8 @@ void print_line(const std::string& label, const std::string& text) {
 void print_closed_loop(const model::Model& model) {
   const model::Eigenvalues poles = model::closed_loop_poles(model);
   const std::string warning = instability_warning(model);
-  print_line("closed loop", std::to_string(poles.size()) + " poles about home (1/s): " +
-                                poles_line(poles));
+  print_line("closed loop",
+             std::to_string(poles.size()) + " poles about home (1/s): " + poles_line(poles));
   if (warning.empty()) {
     print_line("", "stable");
   } else {
@@ -74,13 +74,12 @@ void add_check(CLI::App& app, Chosen& chosen) {
   command->fallthrough();
   const auto arguments = std::make_shared<CheckArguments>();
   command->add_option("SCENARIO", arguments->scenario, "YAML scenario")->required();
-  command->add_option("--set", arguments->overrides,
-                      "key.path=value: set a key of the scenario; may be given again")
+  command
+      ->add_option("--set", arguments->overrides,
+                   "key.path=value: set a key of the scenario; may be given again")
       ->take_all()
       ->expected(1);
-  command->callback([arguments, &chosen] {
-    chosen = [arguments] { return check(*arguments); };
-  });
+  command->callback([arguments, &chosen] { chosen = [arguments] { return check(*arguments); }; });
 }
 
 }  // namespace bbsim::app

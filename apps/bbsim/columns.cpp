@@ -1,7 +1,8 @@
+#include "record/columns.hpp"
+
 #include <cstdio>
 
 #include "commands.hpp"
-#include "record/columns.hpp"
 
 namespace bbsim::app {
 namespace {

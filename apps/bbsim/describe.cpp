@@ -35,15 +35,15 @@ std::string poles_line(const model::Eigenvalues& poles) {
 std::string instability_warning(const model::Model& model) {
   const model::Eigenvalues poles = model::closed_loop_poles(model);
   if (poles.empty() || model::stable(poles)) return "";
-  const auto growing = std::count_if(poles.begin(), poles.end(),
-                                     [](const auto& pole) { return pole.real() > 0; });
+  const auto growing =
+      std::count_if(poles.begin(), poles.end(), [](const auto& pole) { return pole.real() > 0; });
   if (growing == 0) {
     return "the closed loop is not asymptotically stable about home: poles (1/s) " +
            poles_line(poles);
   }
   return "the closed loop is unstable about home: " + std::to_string(growing) + " of its " +
-         std::to_string(poles.size()) + " poles have a positive real part (1/s): " +
-         poles_line(poles);
+         std::to_string(poles.size()) +
+         " poles have a positive real part (1/s): " + poles_line(poles);
 }
 
 std::string failure_text(const model::Model& model, const solve::Outcome& outcome, double end) {
@@ -51,12 +51,12 @@ std::string failure_text(const model::Model& model, const solve::Outcome& outcom
   std::string text = "the run ended early, at t = " + short_number(outcome.reached) + " s of " +
                      short_number(end) + " s: " + outcome.reason + ".\n";
   const auto& state = outcome.last_state;
-  const auto largest = std::max_element(state.begin(), state.end(), [](double a, double b) {
-    return std::abs(a) < std::abs(b);
-  });
+  const auto largest = std::max_element(
+      state.begin(), state.end(), [](double a, double b) { return std::abs(a) < std::abs(b); });
   if (largest != state.end()) {
     const auto index = static_cast<std::size_t>(largest - state.begin());
-    const char* verb = std::abs(*largest) > 1e3 ? " grew without bound, to " : " is the largest, at ";
+    const char* verb =
+        std::abs(*largest) > 1e3 ? " grew without bound, to " : " is the largest, at ";
     text += "  " + names[index] + verb + short_number(*largest) +
             "; the error estimate was worst for " + names[outcome.worst_state] + ".\n";
   }

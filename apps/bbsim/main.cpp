@@ -14,7 +14,9 @@ namespace {
 
 using bbsim::ExitCode;
 
-int code(ExitCode exit_code) { return static_cast<int>(exit_code); }
+int code(ExitCode exit_code) {
+  return static_cast<int>(exit_code);
+}
 
 ExitCode say(const std::string& message, ExitCode exit_code) {
   std::fprintf(stderr, "%s\n", message.c_str());
@@ -46,7 +48,8 @@ int main(int argc, char** argv) {
   // A reader that goes away is an error like any other, not a sudden end.
   std::signal(SIGPIPE, SIG_IGN);
 
-  CLI::App app("bbsim simulates a ball that rolls on a plane which a two-axis gimbal tips.", "bbsim");
+  CLI::App app("bbsim simulates a ball that rolls on a plane which a two-axis gimbal tips.",
+               "bbsim");
   app.set_version_flag("--version", "bbsim " BBSIM_VERSION);
   app.require_subcommand(1);
   app.footer(

@@ -16,7 +16,9 @@ Progress::Progress(std::string label, bool quiet)
       start_(Clock::now()),
       last_(start_) {}
 
-Progress::~Progress() { clear(); }
+Progress::~Progress() {
+  clear();
+}
 
 void Progress::clear() {
   if (drawn_) std::fputs("\r\033[K", stderr);

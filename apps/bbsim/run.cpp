@@ -31,18 +31,24 @@ std::string default_output(const std::string& scenario) {
 
 const char* status_name(solve::Ending ending) {
   switch (ending) {
-    case solve::Ending::done: return "done";
-    case solve::Ending::failed: return "failed";
-    case solve::Ending::interrupted: return "interrupted";
+    case solve::Ending::done:
+      return "done";
+    case solve::Ending::failed:
+      return "failed";
+    case solve::Ending::interrupted:
+      return "interrupted";
   }
   return "";
 }
 
 ExitCode exit_code(solve::Ending ending) {
   switch (ending) {
-    case solve::Ending::done: return ExitCode::done;
-    case solve::Ending::failed: return ExitCode::ended_early;
-    case solve::Ending::interrupted: return ExitCode::interrupted;
+    case solve::Ending::done:
+      return ExitCode::done;
+    case solve::Ending::failed:
+      return ExitCode::ended_early;
+    case solve::Ending::interrupted:
+      return ExitCode::interrupted;
   }
   return ExitCode::ended_early;
 }
@@ -90,8 +96,8 @@ ExitCode run(const RunArguments& arguments, const Options& options) {
     headers.push_back({column->name, column->unit, column->meaning});
   }
   const auto writer = record::open_table(output, std::move(headers));
-  record::Recorder recorder(
-      model, {scenario.ball.radius, scenario.ball.mass, scenario.gravity}, grid, columns, *writer);
+  record::Recorder recorder(model, {scenario.ball.radius, scenario.ball.mass, scenario.gravity},
+                            grid, columns, *writer);
 
   Progress progress(arguments.scenario, options.quiet);
   const solve::Watch watch{&watch_signals(),
@@ -133,8 +139,9 @@ void add_run(CLI::App& app, const Options& options, Chosen& chosen) {
   command->add_option("-o,--output", arguments->output,
                       "FILE.csv, FILE.h5, or - for CSV on standard output; default: the scenario's "
                       "name with .csv, in the current folder");
-  command->add_option("--set", arguments->overrides,
-                      "key.path=value: set a key of the scenario; may be given again")
+  command
+      ->add_option("--set", arguments->overrides,
+                   "key.path=value: set a key of the scenario; may be given again")
       ->take_all()
       ->expected(1);
   command->add_option("--summary", arguments->summary,

@@ -8,7 +8,9 @@ namespace {
 std::atomic<bool> end_requested{false};
 static_assert(std::atomic<bool>::is_always_lock_free, "a signal handler may set it");
 
-void request_end(int) { end_requested.store(true, std::memory_order_relaxed); }
+void request_end(int) {
+  end_requested.store(true, std::memory_order_relaxed);
+}
 
 }  // namespace
 

@@ -49,41 +49,41 @@ concept Number = !Known<T>;
 }
 
 template <Number T>
-constexpr Zero operator*(Zero, const T&) {
+[[gnu::always_inline]] constexpr Zero operator*(Zero, const T&) {
   return {};
 }
 template <Number T>
-constexpr Zero operator*(const T&, Zero) {
+[[gnu::always_inline]] constexpr Zero operator*(const T&, Zero) {
   return {};
 }
 template <Number T>
-constexpr Zero operator/(Zero, const T&) {
+[[gnu::always_inline]] constexpr Zero operator/(Zero, const T&) {
   return {};
 }
 
 template <Number T>
-constexpr T operator*(One, const T& a) {
+[[gnu::always_inline]] constexpr T operator*(One, const T& a) {
   return a;
 }
 template <Number T>
-constexpr T operator*(const T& a, One) {
+[[gnu::always_inline]] constexpr T operator*(const T& a, One) {
   return a;
 }
 
 template <Number T>
-constexpr T operator+(Zero, const T& a) {
+[[gnu::always_inline]] constexpr T operator+(Zero, const T& a) {
   return a;
 }
 template <Number T>
-constexpr T operator+(const T& a, Zero) {
+[[gnu::always_inline]] constexpr T operator+(const T& a, Zero) {
   return a;
 }
 template <Number T>
-constexpr T operator-(const T& a, Zero) {
+[[gnu::always_inline]] constexpr T operator-(const T& a, Zero) {
   return a;
 }
 template <Number T>
-constexpr auto operator-(Zero, const T& a) {
+[[gnu::always_inline]] constexpr auto operator-(Zero, const T& a) {
   return -a;
 }
 

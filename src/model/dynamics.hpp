@@ -12,10 +12,10 @@ struct BallConstants {
 };
 
 struct Dynamics {
-  Eigen::Vector3d force;        // of the plane on the ball, plane frame, N; z is the normal force
-  double torque_phi = 0;        // motor torque that carries the ball, N m
-  double torque_theta = 0;      // N m
-  double energy = 0;            // kinetic and potential, J; potential zero at the gimbal's centre
+  Eigen::Vector3d force;    // of the plane on the ball, plane frame, N; z is the normal force
+  double torque_phi = 0;    // motor torque that carries the ball, N m
+  double torque_theta = 0;  // N m
+  double energy = 0;        // kinetic and potential, J; potential zero at the gimbal's centre
   [[nodiscard]] double normal_force() const { return force.z(); }
   [[nodiscard]] double friction_force() const { return force.head<2>().norm(); }
 };

@@ -12,14 +12,12 @@
 
 namespace bbsim::model {
 
-using System = std::variant<OpenLoop<Shape::full>, OpenLoop<Shape::along_x>,
-                            OpenLoop<Shape::along_y>,  //
-                            ClosedLoop<Shape::full, Drives::acceleration>,
-                            ClosedLoop<Shape::along_x, Drives::acceleration>,
-                            ClosedLoop<Shape::along_y, Drives::acceleration>,
-                            ClosedLoop<Shape::full, Drives::angle>,
-                            ClosedLoop<Shape::along_x, Drives::angle>,
-                            ClosedLoop<Shape::along_y, Drives::angle>>;
+using System = std::variant<
+    OpenLoop<Shape::full>, OpenLoop<Shape::along_x>,
+    OpenLoop<Shape::along_y>,  //
+    ClosedLoop<Shape::full, Drives::acceleration>, ClosedLoop<Shape::along_x, Drives::acceleration>,
+    ClosedLoop<Shape::along_y, Drives::acceleration>, ClosedLoop<Shape::full, Drives::angle>,
+    ClosedLoop<Shape::along_x, Drives::angle>, ClosedLoop<Shape::along_y, Drives::angle>>;
 
 // A part of the physics that the scene has, or does without, and why.
 struct Note {

@@ -55,10 +55,10 @@ template <class Real>
 template <class Real, class Phi, class Theta, class Ball>
 [[nodiscard]] inline Real x_acceleration(const Phi& phi, const Theta& theta, const Ball& ball,
                                          double r, double g) {
-  return (5 * g * phi.sin                                                                   //
-          - (7 * r * theta.cos + 5 * ball.y * theta.sin) * phi.acceleration                 //
-          + 5 * ball.x * (phi.rate * phi.rate)                                              //
-          - (10 * ball.y * theta.cos - 12 * r * theta.sin) * (phi.rate * theta.rate)        //
+  return (5 * g * phi.sin                                                             //
+          - (7 * r * theta.cos + 5 * ball.y * theta.sin) * phi.acceleration           //
+          + 5 * ball.x * (phi.rate * phi.rate)                                        //
+          - (10 * ball.y * theta.cos - 12 * r * theta.sin) * (phi.rate * theta.rate)  //
           - 12 * theta.sin * phi.rate * ball.y_dot + 2 * theta.rate * ball.u) /
          7;
 }
@@ -66,10 +66,10 @@ template <class Real, class Phi, class Theta, class Ball>
 template <class Real, class Phi, class Theta, class Ball>
 [[nodiscard]] inline Real y_acceleration(const Phi& phi, const Theta& theta, const Ball& ball,
                                          double r, double g) {
-  return (5 * ball.x * theta.sin * phi.acceleration + 7 * r * theta.acceleration            //
-          + 5 * (ball.y * theta.sin + r * theta.cos) * theta.sin * (phi.rate * phi.rate)    //
-          + 5 * ball.y * (theta.rate * theta.rate)                                          //
-          + 12 * theta.sin * phi.rate * ball.x_dot + 2 * theta.cos * phi.rate * ball.u      //
+  return (5 * ball.x * theta.sin * phi.acceleration + 7 * r * theta.acceleration          //
+          + 5 * (ball.y * theta.sin + r * theta.cos) * theta.sin * (phi.rate * phi.rate)  //
+          + 5 * ball.y * (theta.rate * theta.rate)                                        //
+          + 12 * theta.sin * phi.rate * ball.x_dot + 2 * theta.cos * phi.rate * ball.u    //
           - 5 * g * phi.cos * theta.sin) /
          7;
 }

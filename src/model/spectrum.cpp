@@ -23,9 +23,8 @@ Eigenvalues eigenvalues_of(const Eigen::MatrixXd& matrix) {
 }  // namespace
 
 Eigenvalues eigenvalues(const Model& model, double t, const double* z) {
-  return std::visit(
-      [&](const auto& system) { return eigenvalues_of(jacobian(system, t, z)); },
-      model.system);
+  return std::visit([&](const auto& system) { return eigenvalues_of(jacobian(system, t, z)); },
+                    model.system);
 }
 
 Eigenvalues closed_loop_poles(const Model& model) {

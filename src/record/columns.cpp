@@ -38,8 +38,9 @@ constexpr std::array columns = {
            [](R row) { return row.sample.reference[0]; }},
     Column{"y_reference", "m", "where the controller wants y", Needs::reference,
            [](R row) { return row.sample.reference[1]; }},
-    Column{"normal_force", "N", "force of the plane on the ball along the normal; contact needs > 0",
-           Needs::dynamics, [](R row) { return row.dynamics->normal_force(); }},
+    Column{"normal_force", "N",
+           "force of the plane on the ball along the normal; contact needs > 0", Needs::dynamics,
+           [](R row) { return row.dynamics->normal_force(); }},
     Column{"friction_force", "N", "size of the force of the plane on the ball along the plane",
            Needs::dynamics, [](R row) { return row.dynamics->friction_force(); }},
     Column{"friction_demand", "1",
@@ -50,7 +51,8 @@ constexpr std::array columns = {
            Needs::dynamics, [](R row) { return row.dynamics->torque_phi; }},
     Column{"torque_theta", "N m", "motor torque about theta's axis that carries the ball",
            Needs::dynamics, [](R row) { return row.dynamics->torque_theta; }},
-    Column{"energy", "J", "ball's kinetic and potential energy; potential is 0 at the gimbal's centre",
+    Column{"energy", "J",
+           "ball's kinetic and potential energy; potential is 0 at the gimbal's centre",
            Needs::dynamics, [](R row) { return row.dynamics->energy; }},
     Column{"power", "W", "power of the two motor torques; the rate of change of energy",
            Needs::dynamics,
@@ -63,7 +65,9 @@ constexpr std::array columns = {
 
 }  // namespace
 
-std::span<const Column> all_columns() { return columns; }
+std::span<const Column> all_columns() {
+  return columns;
+}
 
 const Column* find_column(std::string_view name) {
   const auto named = [name](const Column& column) { return column.name == name; };

@@ -20,8 +20,8 @@ namespace bbsim::record {
 
 class Recorder : public solve::StateSink {
  public:
-  Recorder(const model::Model& model, model::BallConstants constants,
-           const solve::OutputGrid& grid, std::vector<const Column*> columns, TableWriter& writer);
+  Recorder(const model::Model& model, model::BallConstants constants, const solve::OutputGrid& grid,
+           std::vector<const Column*> columns, TableWriter& writer);
 
   // Throws OutputError.
   void accept(std::size_t first, std::size_t count, const double* values) override;

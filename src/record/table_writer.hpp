@@ -35,7 +35,7 @@ class TableWriter {
 // format (InputError otherwise). A device or pipe (/dev/full, /dev/stdout, a FIFO) is written
 // to directly, as CSV whatever its name. Throws OutputError if the folder cannot be written to.
 [[nodiscard]] std::unique_ptr<TableWriter> open_table(const std::string& target,
-                                                      std::vector<ColumnHeader> headers);
+                                                      const std::vector<ColumnHeader>& headers);
 
 // A table read back, by name, in the file's order. All columns have the same length.
 struct TableData {
@@ -44,7 +44,7 @@ struct TableData {
 };
 
 // Reads a CSV (RFC 4180 without quoting: a header of bare names, then numbers) or, by its
-// ending, an HDF5 file. Throws InputError: where, found, allowed.
+// ending, an HDF5 file; "-" is CSV on standard input. Throws InputError: where, found, allowed.
 [[nodiscard]] TableData read_table(const std::string& file);
 
 }  // namespace bbsim::record

@@ -10,15 +10,15 @@
 
 namespace bbsim {
 
-using Pair = std::array<double, 2>;     // (x, y), or (phi, theta)
-using Matrix2 = std::array<Pair, 2>;    // rows phi, theta; columns x, y
+using Pair = std::array<double, 2>;   // (x, y), or (phi, theta)
+using Matrix2 = std::array<Pair, 2>;  // rows phi, theta; columns x, y
 
 struct Ball {
-  double radius = 0;         // m, > 0, required
-  double mass = 1;           // kg, > 0; forces, torques and energy only
-  Pair position{0, 0};       // contact point in the plane frame, m
-  Pair velocity{0, 0};       // of the contact point in the plane frame, m/s
-  double spin = 0;           // about the plane normal, relative to the plane, rad/s
+  double radius = 0;    // m, > 0, required
+  double mass = 1;      // kg, > 0; forces, torques and energy only
+  Pair position{0, 0};  // contact point in the plane frame, m
+  Pair velocity{0, 0};  // of the contact point in the plane frame, m/s
+  double spin = 0;      // about the plane normal, relative to the plane, rad/s
 };
 
 // offset + amplitude sin(frequency t + phase)
@@ -94,7 +94,7 @@ struct OutputTimes {
   double step = 0;  // s, > 0, required
 };
 
-enum class Method { automatic, bdf, adams };
+enum class Method { automatic, radau, bdf, adams };
 
 struct NamedMethod {
   Method method;
@@ -102,6 +102,7 @@ struct NamedMethod {
 };
 inline constexpr std::array named_methods = {
     NamedMethod{Method::automatic, "auto"},
+    NamedMethod{Method::radau, "radau"},
     NamedMethod{Method::bdf, "bdf"},
     NamedMethod{Method::adams, "adams"},
 };

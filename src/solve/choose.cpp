@@ -44,8 +44,9 @@ Choice choose_method(const model::Model& model, Method asked, Tolerances toleran
   const double decays = fastest_decay(model, end) * end;
   const double worth_it = 100 * std::pow(1e-8 / tolerances.rtol, 0.2);
   char text[120];
-  std::snprintf(text, sizeof text, "the fastest mode decays %.3g times over the scene; BDF pays from %.3g",
-                decays, worth_it);
+  std::snprintf(text, sizeof text,
+                "the fastest mode decays %.3g times over the scene; BDF pays from %.3g", decays,
+                worth_it);
   return {decays > worth_it ? Method::bdf : Method::adams, text};
 }
 

@@ -47,14 +47,19 @@ struct Callbacks {
 
 std::string explain(int flag) {
   switch (flag) {
-    case CV_TOO_MUCH_ACC: return "the tolerance is finer than double precision can follow";
-    case CV_ERR_FAILURE: return "the error test failed again and again at the smallest step";
-    case CV_CONV_FAILURE: return "the nonlinear iteration did not converge at the smallest step";
+    case CV_TOO_MUCH_ACC:
+      return "the tolerance is finer than double precision can follow";
+    case CV_ERR_FAILURE:
+      return "the error test failed again and again at the smallest step";
+    case CV_CONV_FAILURE:
+      return "the nonlinear iteration did not converge at the smallest step";
     case CV_FIRST_RHSFUNC_ERR:
     case CV_REPTD_RHSFUNC_ERR:
-    case CV_UNREC_RHSFUNC_ERR: return "the accelerations are no longer finite";
+    case CV_UNREC_RHSFUNC_ERR:
+      return "the accelerations are no longer finite";
     case CV_LSETUP_FAIL:
-    case CV_LSOLVE_FAIL: return "the linear system is singular";
+    case CV_LSOLVE_FAIL:
+      return "the linear system is singular";
     default: {
       char* name = CVodeGetReturnFlagName(flag);
       std::string text = "CVODE gave up with " + std::string(name);
@@ -69,7 +74,10 @@ class CvodeRun {
  public:
   CvodeRun(const System& system, const model::Model& model, Method method, Tolerances tolerances,
            const OutputGrid& grid, StateSink& sink, const Watch& watch)
-      : model_(model), method_(method), grid_(grid), watch_(watch),
+      : model_(model),
+        method_(method),
+        grid_(grid),
+        watch_(watch),
         rows_(sink, System::size + (model.gamma ? 1 : 0)),
         context_(sundials::make_context()),
         state_(sundials::make_vector(System::size, context_.get())),

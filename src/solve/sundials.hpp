@@ -33,12 +33,24 @@ struct Destroy {
 template <class Handle, void (*destroy)(Handle)>
 using Owner = std::unique_ptr<std::remove_pointer_t<Handle>, Destroy<Handle, destroy>>;
 
-inline void free_context(SUNContext context) { SUNContext_Free(&context); }
-inline void free_vector(N_Vector vector) { N_VDestroy(vector); }
-inline void free_matrix(SUNMatrix matrix) { SUNMatDestroy(matrix); }
-inline void free_linear_solver(SUNLinearSolver solver) { SUNLinSolFree(solver); }
-inline void free_nonlinear_solver(SUNNonlinearSolver solver) { SUNNonlinSolFree(solver); }
-inline void free_cvode(void* memory) { CVodeFree(&memory); }
+inline void free_context(SUNContext context) {
+  SUNContext_Free(&context);
+}
+inline void free_vector(N_Vector vector) {
+  N_VDestroy(vector);
+}
+inline void free_matrix(SUNMatrix matrix) {
+  SUNMatDestroy(matrix);
+}
+inline void free_linear_solver(SUNLinearSolver solver) {
+  SUNLinSolFree(solver);
+}
+inline void free_nonlinear_solver(SUNNonlinearSolver solver) {
+  SUNNonlinSolFree(solver);
+}
+inline void free_cvode(void* memory) {
+  CVodeFree(&memory);
+}
 
 using Context = Owner<SUNContext, free_context>;
 using Vector = Owner<N_Vector, free_vector>;
@@ -79,6 +91,8 @@ inline Vector make_vector(std::size_t size, SUNContext context) {
   return Vector(created(N_VNew_Serial(static_cast<sunindextype>(size), context)));
 }
 
-inline double* data(const Vector& vector) { return N_VGetArrayPointer(vector.get()); }
+inline double* data(const Vector& vector) {
+  return N_VGetArrayPointer(vector.get());
+}
 
 }  // namespace bbsim::solve::sundials

@@ -77,7 +77,8 @@ TEST_CASE("a closed loop adds angles and rates of the axes that move") {
 TEST_CASE("a planar system gives what the full one gives") {
   Scenario beam = fig2b();
   beam.controller->kv[1] = beam.controller->kp[1] = {0, 0};
-  const auto small = std::get<ClosedLoop<Shape::along_x, Drives::angle>>(assemble(beam, false).system);
+  const auto small =
+      std::get<ClosedLoop<Shape::along_x, Drives::angle>>(assemble(beam, false).system);
   beam.ball.spin = 1;  // forces the full system; the state below has none
   const auto full = std::get<ClosedLoop<Shape::full, Drives::angle>>(assemble(beam, false).system);
 

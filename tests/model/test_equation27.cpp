@@ -82,10 +82,17 @@ TEST_CASE("lengths by L and times by sqrt(L) leave equation (27) unchanged") {
   for (int i = 0; i < 200; ++i) {
     const twist_form::State q = random_state(random);
     const double scale = 4, root = 2;  // exact in binary, so the bit is kept
-    const twist_form::State scaled{
-        scale * q.x,        scale * q.y,          root * q.x_dot,       root * q.y_dot,
-        q.gamma_dot / root, q.phi,                q.theta,              q.phi_dot / root,
-        q.theta_dot / root, q.phi_ddot / scale,   q.theta_ddot / scale};
+    const twist_form::State scaled{scale * q.x,
+                                   scale * q.y,
+                                   root * q.x_dot,
+                                   root * q.y_dot,
+                                   q.gamma_dot / root,
+                                   q.phi,
+                                   q.theta,
+                                   q.phi_dot / root,
+                                   q.theta_dot / root,
+                                   q.phi_ddot / scale,
+                                   q.theta_ddot / scale};
     const auto original = compact(q, 0.01, 9.81);
     const auto image = compact(scaled, 0.01 * scale, 9.81);
     CHECK(image[0] == original[0]);  // acceleration: L / T^2 = 1

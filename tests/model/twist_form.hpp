@@ -33,13 +33,13 @@ inline Vector3d accelerations(const State& q, double r, double m, double g) {
   const Vector3d i = Vector3d::UnitX(), j = Vector3d::UnitY(), k = Vector3d::UnitZ();
   const Matrix3d rotate_phi = Eigen::AngleAxisd(q.phi, j).toRotationMatrix();
   const Matrix3d rotate = rotate_phi * Eigen::AngleAxisd(q.theta, i).toRotationMatrix();
-  const Vector3d n = rotate * k;                          // (3)
-  const Vector3d p = rotate * Vector3d(q.x, q.y, 0);      // (5)
-  const Vector3d c = rotate * Vector3d(q.x, q.y, r);      // (6)
+  const Vector3d n = rotate * k;                      // (3)
+  const Vector3d p = rotate * Vector3d(q.x, q.y, 0);  // (5)
+  const Vector3d c = rotate * Vector3d(q.x, q.y, r);  // (6)
   const Vector3d theta_axis = rotate_phi * i;
 
-  const Vector6 s1 = q.phi_dot * stack(j, Vector3d::Zero());              // (7)
-  const Vector6 s2 = q.theta_dot * stack(theta_axis, Vector3d::Zero());   // (8)
+  const Vector6 s1 = q.phi_dot * stack(j, Vector3d::Zero());             // (7)
+  const Vector6 s2 = q.theta_dot * stack(theta_axis, Vector3d::Zero());  // (8)
   const Vector3d plane_omega = (s1 + s2).head<3>();
   const Vector6 s1_dot = q.phi_ddot * stack(j, Vector3d::Zero());
   const Vector6 s2_dot =
@@ -83,7 +83,7 @@ inline Vector3d accelerations(const State& q, double r, double m, double g) {
   const Vector3d angular = momentum.head<3>(), linear = momentum.tail<3>();
   const Vector6 bracket = stack(omega.cross(angular) + v.cross(linear), omega.cross(linear));
 
-  const double lambda = m * g * std::cos(q.theta) * std::cos(q.phi);              // (24)
+  const double lambda = m * g * std::cos(q.theta) * std::cos(q.phi);                     // (24)
   const Vector6 wrench = -m * g * stack(c.cross(k), k) + lambda * stack(c.cross(n), n);  // (25)
 
   const Matrix3d mass = screws.transpose() * inertia * unknown;

@@ -43,9 +43,9 @@ inline bbsim::Scenario scenario_named(const std::string& name) {
 }
 
 // A quad-precision solution: columns t, x, y, vx, vy, spin, gamma, phi, theta, their rates.
-class Reference {
+class QuadReference {
  public:
-  explicit Reference(const std::string& name)
+  explicit QuadReference(const std::string& name)
       : table_(bbsim::record::read_table(data_file("reference/" + name + ".csv"))) {}
 
   [[nodiscard]] const std::vector<double>& operator[](const std::string& column) const {

@@ -18,16 +18,15 @@ struct Errors {
 };
 
 Errors errors_against(const std::string& name, const Run& run) {
-  const Reference reference(name);
+  const QuadReference reference(name);
   REQUIRE(run.samples.size() == reference["t"].size());
   Errors errors;
   double largest_spin = 0, largest_gamma = 0;
   for (std::size_t i = 0; i < run.samples.size(); ++i) {
     const model::Sample& sample = run.samples[i];
     REQUIRE(std::abs(sample.t - reference["t"][i]) < 1e-12);
-    errors.position =
-        std::max({errors.position, std::abs(sample.ball.x - reference["x"][i]),
-                  std::abs(sample.ball.y - reference["y"][i])});
+    errors.position = std::max({errors.position, std::abs(sample.ball.x - reference["x"][i]),
+                                std::abs(sample.ball.y - reference["y"][i])});
     errors.spin = std::max(errors.spin, std::abs(sample.ball.gamma_dot - reference["spin"][i]));
     errors.gamma = std::max(errors.gamma, std::abs(sample.gamma - reference["gamma"][i]));
     largest_spin = std::max(largest_spin, std::abs(reference["spin"][i]));
@@ -47,10 +46,9 @@ TEST_CASE("with rtol 1e-10 every scenario is within its bound, and the error fol
   };
   // A tolerance of 1e-10 leaves about 1e-8 m on scenes that stay within a metre. `fast` and
   // `tumble` grow exponentially, to 1263 m and 2948 m, and their errors with them.
-  const auto [name, position_bound] =
-      GENERATE(Case{"fig2a", 1e-7}, Case{"fig2b", 1e-7}, Case{"small-ball", 1e-7},
-               Case{"spin", 1e-7}, Case{"stiff-servo", 1e-7}, Case{"fast", 1e-4},
-               Case{"tumble", 1e-5});
+  const auto [name, position_bound] = GENERATE(
+      Case{"fig2a", 1e-7}, Case{"fig2b", 1e-7}, Case{"small-ball", 1e-7}, Case{"spin", 1e-7},
+      Case{"stiff-servo", 1e-7}, Case{"fast", 1e-4}, Case{"tumble", 1e-5});
   const Method method = GENERATE(Method::automatic, Method::bdf, Method::adams);
   CAPTURE(name, static_cast<int>(method));
   // Adams takes 500,000 steps for the stiff servo; it is not what anyone would choose.
@@ -74,8 +72,8 @@ TEST_CASE("the printed law follows the exact solution until it blows up") {
   CHECK_FALSE(run.outcome.reason.empty());
   CHECK(run.outcome.reached > 0.744);  // infinity lies near 0.745 s
   CHECK(run.outcome.reached < 0.746);
-  REQUIRE(run.samples.size() >= 75);  // up to t = 0.74 s
-  const Reference reference("fig2b-literal");  // up to t = 0.6 s
+  REQUIRE(run.samples.size() >= 75);           // up to t = 0.74 s
+  const QuadReference reference("fig2b-literal");  // up to t = 0.6 s
   for (std::size_t i = 0; i < reference["t"].size(); ++i) {
     // The deviation grows as the solution does: 1e5 times from the start to 0.6 s.
     CHECK(std::abs(run.samples[i].ball.x - reference["x"][i]) < 1e-5);

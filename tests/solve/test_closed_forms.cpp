@@ -139,8 +139,7 @@ TEST_CASE("a pulse in a table is not stepped over") {
 
 TEST_CASE("a stop request ends the run and keeps its rows") {
   const std::atomic<bool> stop{true};
-  const Run run =
-      run_in_memory(scenario_named("fig2a"), Method::automatic, {}, true, {&stop, {}});
+  const Run run = run_in_memory(scenario_named("fig2a"), Method::automatic, {}, true, {&stop, {}});
   CHECK(run.outcome.ending == solve::Ending::interrupted);
   CHECK(run.samples.size() == run.outcome.rows);
   CHECK(run.outcome.rows >= 1);
