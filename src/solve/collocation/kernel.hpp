@@ -28,12 +28,6 @@ struct Attempt {
   int jacobians;
 };
 
-// Rates of change about the start, 1/s, to guess the first step from.
-struct Rates {
-  double jacobian;  // of the linearised system
-  double motion;    // of the state itself: acceleration against velocity and tolerance
-};
-
 // All functions work on a workspace of `workspace` bytes, aligned to 64, prepared by start().
 // None allocates or throws.
 struct Kernel {
@@ -41,7 +35,9 @@ struct Kernel {
   int states;
   std::size_t workspace;
   void (*start)(void* workspace, const Start& start);
-  Rates (*rates)(void* workspace, double t);
+  // How fast the linearised system moves about the present state, 1/s: the norm of its Jacobian,
+  // positions counted by the root.
+  double (*rate)(void* workspace, double t);
   // From the present state at t over h.
   void (*attempt)(void* workspace, double t, double h, Attempt* result);
   // Makes the end of the last attempt the present state.

@@ -119,15 +119,16 @@ def minimax(f, degree, low, high):
 
 def sine_tables():
     top = (mp.pi / 4) ** 2 * mp.mpf("1.001")
-    tiny = mp.mpf(10) ** -12
 
     def sine(u):  # (sin r - r) / r^3, u = r^2
-        u = max(u, tiny)
+        if u == 0:
+            return -mp.mpf(1) / 6
         r = mp.sqrt(u)
         return (mp.sin(r) - r) / r ** 3
 
     def cosine(u):  # (cos r - 1 + r^2 / 2) / r^4
-        u = max(u, tiny)
+        if u == 0:
+            return mp.mpf(1) / 24
         return (mp.cos(mp.sqrt(u)) - 1 + u / 2) / u ** 2
 
     def head(value, bits):

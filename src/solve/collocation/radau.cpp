@@ -48,7 +48,7 @@ void Integrator::Free::operator()(void* memory) const {
 }
 
 int choose_stages(double rtol) {
-  return rtol > 3e-6 ? 8 : rtol > 1e-8 ? 12 : 16;
+  return rtol > 3e-6 ? 8 : rtol > 3e-9 ? 12 : 16;
 }
 
 Integrator::Integrator(const model::Model& model, const KernelSet& kernels, int stages)
@@ -96,7 +96,7 @@ Integrator::Run Integrator::run(Tolerances tolerances, const OutputGrid& grid, R
   double t = 0;
   std::size_t next_row = 1, next_stop = 0;
   double h = [&] {
-    const double rate = std::max(kernel_->rates(workspace, 0).jacobian, highest_frequency_);
+    const double rate = std::max(kernel_->rate(workspace, 0), highest_frequency_);
     return rate > 0 ? 2 * reach / rate : end;
   }();
   if (!(h > 0)) h = end * 1e-6;
@@ -178,6 +178,7 @@ Outcome integrate_radau(const model::Model& model, Tolerances tolerances, const 
   rows.flush();
   Outcome outcome;
   outcome.ending = run.ending;
+  outcome.method = Method::radau;
   outcome.reached = run.reached;
   outcome.rows = rows.rows();
   outcome.statistics = run.statistics;

@@ -19,17 +19,16 @@ namespace bbsim::solve::collocation {
 template <class T>
 const T& instance();  // for its type only
 
-consteval int padded(int count, int lanes) {
-  return (count + lanes - 1) / lanes * lanes;
-}
+template <int count, int lanes>
+inline constexpr int padded = (count + lanes - 1) / lanes* lanes;
 
 // The tables of RadauTable, aligned and padded to whole packs. Padded stages repeat the last one,
 // padded eigenvalues are zero.
 template <class Isa, int s>
 struct alignas(64) PackedTable {
-  static constexpr int stages = padded(s, Isa::lanes);
+  static constexpr int stages = padded<s, Isa::lanes>;
   static constexpr int eigen_lanes = Isa::lanes == 8 && s == 8 ? 4 : Isa::lanes;
-  static constexpr int pairs = padded(s / 2, eigen_lanes);
+  static constexpr int pairs = padded<s / 2, eigen_lanes>;
   alignas(64) double c[stages]{};
   alignas(64) double lambda_re[pairs]{}, lambda_im[pairs]{};
   alignas(64) double a[s][stages]{}, a_squared[s][stages]{}, legendre[s][stages]{};
@@ -186,7 +185,7 @@ struct Step {
   static void differentiate(Workspace& w, double t, const double* q, const double* v) {
     using D = Dual<P>;
     const auto in = w.system->inputs(P(t));
-    constexpr int directions = padded(n, lanes);
+    constexpr int directions = padded<n, lanes>;
     alignas(64) double slope[nv][directions];
     for (int first = 0; first < directions; first += lanes) {
       D z[n], dz[n];
@@ -367,7 +366,7 @@ struct Step {
     weigh(w);
   }
 
-  static Rates rates(void* workspace, double t) {
+  static double rate(void* workspace, double t) {
     Workspace& w = *static_cast<Workspace*>(workspace);
     differentiate(w, t, w.q, w.v);
     double jv = 0, jq = 0;
@@ -378,7 +377,7 @@ struct Step {
       jv = larger(jv, row_v);
       jq = larger(jq, row_q);
     }
-    return {larger(jv, __builtin_sqrt(jq)), 0};
+    return larger(jv, __builtin_sqrt(jq));
   }
 
   static constexpr int most_iterations = 25;
@@ -471,6 +470,21 @@ struct Step {
     estimate(w, a);
   }
 
+  // Rounding in an acceleration, which a shorter step would not lessen: that of the right-hand
+  // side, or, where a stiff equation ties the acceleration to the position, the position's own
+  // after the polynomial is differentiated twice.
+  static double noise(const Workspace& w, int i) {
+    if (!w.newton || i >= nq) return 0;
+    double from_rates = 0;
+    for (int j = 0; j < nv; ++j) {
+      from_rates += magnitude(w.jv[i][j] * w.v[j]);
+      if (j < nq) from_rates += magnitude(w.jq[i][j] * w.q[j]);
+    }
+    const double twice = (s * s) / w.h;
+    const double from_position = twice * twice * (magnitude(w.q[i]) + magnitude(w.h * w.v[i]));
+    return 2.2e-16 * (from_rates < from_position ? from_rates : from_position);
+  }
+
   // The error from the fall of the last Legendre coefficients of the accelerations: the first one
   // left out, integrated once for a velocity, twice for a position.
   static void estimate(Workspace& w, Attempt& a) {
@@ -479,7 +493,8 @@ struct Step {
       const double* const k = w.series.of[i];
       const double tail = larger(magnitude(k[s - 1]), magnitude(k[s - 2]));
       const double before = larger(magnitude(k[s - 3]), magnitude(k[s - 4]));
-      const double left_out = tail < before ? tail * __builtin_sqrt(tail / before) : tail;
+      double left_out = tail < before ? tail * __builtin_sqrt(tail / before) : tail;
+      left_out = larger(0, left_out - noise(w, i));
       const double v_scale =
           w.rtol * larger(magnitude(w.v[i]), magnitude(w.v_stage.of[i][s - 1])) + w.atol;
       const double v_error = once * left_out / v_scale;
@@ -591,7 +606,7 @@ struct Step {
     }
   }
 
-  static constexpr Kernel kernel{s,        n,       sizeof(Workspace), &start, &rates,
+  static constexpr Kernel kernel{s,        n,       sizeof(Workspace), &start, &rate,
                                  &attempt, &accept, &evaluate,         &state};
 };
 
