@@ -1,0 +1,22 @@
+// The formats behind open_table() and read_table(); nobody else needs them.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "record/table_writer.hpp"
+
+namespace bbsim::record {
+
+// Each throws OutputError.
+[[nodiscard]] std::unique_ptr<TableWriter> open_csv(const std::string& target,
+                                                    const std::vector<ColumnHeader>& headers);
+[[nodiscard]] std::unique_ptr<TableWriter> open_hdf5(const std::string& target,
+                                                     const std::vector<ColumnHeader>& headers);
+
+// Each throws InputError.
+[[nodiscard]] TableData read_csv(const std::string& file);  // "-" is standard input
+[[nodiscard]] TableData read_hdf5(const std::string& file);
+
+}  // namespace bbsim::record
