@@ -1,0 +1,58 @@
+// Owned HDF5 identifiers and checked calls, inside the module.
+#pragma once
+
+#include <hdf5.h>
+
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+namespace bbsim::hdf5 {
+
+// A call of HDF5 failed. Caught before it leaves the module.
+class Failure : public std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+// Throws Failure with the most specific entry of HDF5's own error stack.
+[[noreturn]] void fail(const char* doing);
+
+// Passes a result on; HDF5 marks failure by a negative one.
+template <class Result>
+Result check(Result result, const char* doing) {
+  if (result < 0) fail(doing);
+  return result;
+}
+
+template <herr_t (*close)(hid_t)>
+class Handle {
+ public:
+  Handle() = default;
+  Handle(hid_t id, const char* doing) : id_(check(id, doing)) {}
+  Handle(Handle&& other) noexcept : id_(std::exchange(other.id_, -1)) {}
+  Handle& operator=(Handle&& other) noexcept {
+    std::swap(id_, other.id_);
+    return *this;
+  }
+  ~Handle() {
+    if (id_ >= 0) close(id_);
+  }
+  operator hid_t() const { return id_; }
+
+  // Closes now, for the errors that only closing brings to light.
+  void close_checked(const char* doing) { check(close(std::exchange(id_, -1)), doing); }
+
+ private:
+  hid_t id_ = -1;
+};
+
+using File = Handle<H5Fclose>;
+using Group = Handle<H5Gclose>;
+using Object = Handle<H5Oclose>;
+using Dataset = Handle<H5Dclose>;
+using Dataspace = Handle<H5Sclose>;
+using Datatype = Handle<H5Tclose>;
+using Attribute = Handle<H5Aclose>;
+using Properties = Handle<H5Pclose>;
+
+}  // namespace bbsim::hdf5

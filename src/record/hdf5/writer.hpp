@@ -1,0 +1,32 @@
+// Writes a table as one extendible dataset a column.
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "record/hdf5/handle.hpp"
+#include "record/hdf5/interface.h"
+
+namespace bbsim::hdf5 {
+
+// Every function may throw Failure. A failure of the system, such as a full disk, is noted in
+// system_error() instead and is the one to report.
+class Writer {
+ public:
+  Writer(int descriptor, std::span<const bbsim_hdf5_column> columns);
+
+  void append(const double* const* columns, std::size_t rows);
+  void finish(std::span<const bbsim_hdf5_attribute> attributes);
+
+  [[nodiscard]] int system_error() const { return *system_error_; }  // an errno, 0 if none
+
+ private:
+  std::unique_ptr<int> system_error_ = std::make_unique<int>(0);  // outlives file_
+  File file_;
+  std::vector<Dataset> datasets_;
+  hsize_t rows_ = 0;
+};
+
+}  // namespace bbsim::hdf5

@@ -1,0 +1,27 @@
+// Finds and opens the HDF5 module.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "record/hdf5/interface.h"
+
+namespace bbsim::record {
+
+// The module, or why there is none and what to do about it, as a sentence's end.
+struct Hdf5Module {
+  const bbsim_hdf5_module* functions = nullptr;
+  std::string trouble;
+};
+
+// Looks for the module in these folders, in order, and opens it; it is never closed.
+[[nodiscard]] Hdf5Module open_hdf5_module(const std::vector<std::string>& folders);
+
+// Where to look: the folder BBSIM_MODULE_PATH if the environment has it, otherwise beside the
+// running program: ../lib/bbsim, or what the system calls lib.
+[[nodiscard]] std::vector<std::string> hdf5_module_folders();
+
+// The module, opened at the first call.
+[[nodiscard]] const Hdf5Module& hdf5_module();
+
+}  // namespace bbsim::record
