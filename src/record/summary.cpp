@@ -1,0 +1,82 @@
+#include "record/summary.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include "record/atomic_file.hpp"
+#include "record/number_text.hpp"
+
+namespace bbsim::record {
+namespace {
+
+// The one list of names, for both forms. Calls add(name, value) for each.
+template <class Add>
+void for_each_member(const RunSummary& summary, Add add) {
+  add("version", summary.version);
+  add("scenario", summary.scenario);
+  add("title", summary.title);
+  add("overrides", summary.overrides);
+  add("status", summary.status);
+  add("reason", summary.reason);
+  add("end_time", summary.end_time);
+  add("rows", summary.rows);
+  add("output", summary.output);
+  add("states", summary.states);
+  add("model_notes", summary.model_notes);
+  add("method", summary.method);
+  add("rtol", summary.rtol);
+  add("atol", summary.atol);
+}
+
+template <class Add>
+void for_each_statistic(const RunSummary& summary, Add add) {
+  add("steps", summary.statistics.steps);
+  add("rhs_evaluations", summary.statistics.rhs_evaluations);
+  add("jacobian_evaluations", summary.statistics.jacobian_evaluations);
+  add("nonlinear_iterations", summary.statistics.nonlinear_iterations);
+  add("error_test_failures", summary.statistics.error_test_failures);
+  add("cpu_seconds", summary.statistics.cpu_seconds);
+}
+
+std::string to_text(const std::string& value) {
+  return value;
+}
+std::string to_text(double value) {
+  return number_text(value);
+}
+std::string to_text(std::size_t value) {
+  return std::to_string(value);
+}
+std::string to_text(const std::vector<std::string>& values) {
+  std::string text;
+  for (const std::string& value : values) text += (text.empty() ? "" : "\n") + value;
+  return text;
+}
+
+}  // namespace
+
+std::string to_json(const RunSummary& summary) {
+  nlohmann::ordered_json json = nlohmann::ordered_json::object();
+  for_each_member(summary, [&](const char* name, const auto& value) { json[name] = value; });
+  nlohmann::ordered_json& statistics = json["statistics"] = nlohmann::ordered_json::object();
+  for_each_statistic(summary,
+                     [&](const char* name, const auto& value) { statistics[name] = value; });
+  constexpr int indent = 2;
+  return json.dump(indent, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
+}
+
+void write_summary(const std::string& file, const RunSummary& summary) {
+  write_file(file, to_json(summary));
+}
+
+Attributes to_attributes(const RunSummary& summary, const std::string& scenario_text) {
+  Attributes attributes;
+  const auto add = [&](const char* name, const auto& value) {
+    attributes.emplace_back(name, to_text(value));
+  };
+  for_each_member(summary, add);
+  for_each_statistic(summary, add);
+  add("scenario_text", scenario_text);
+  return attributes;
+}
+
+}  // namespace bbsim::record

@@ -1,0 +1,47 @@
+// What a run was and how it went: as JSON, and as attributes of an HDF5 file.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "record/table_writer.hpp"
+
+namespace bbsim::record {
+
+struct RunSummary {
+  std::string version;
+  std::string scenario;  // its file, as the user named it
+  std::string title;
+  std::vector<std::string> overrides;  // each "key.path=value"
+  std::string status;                  // done, failed or interrupted
+  std::string reason;                  // why the run ended early; empty if it did not
+  double end_time = 0;                 // what the run reached, s
+  std::size_t rows = 0;
+  std::string output;                    // file, "-" for standard output
+  std::vector<std::string> states;       // names of the integrated states
+  std::vector<std::string> model_notes;  // what is modelled and why, one sentence each
+  std::string method;
+  double rtol = 0, atol = 0;
+  // Of a run with solver.error: the bound asked for and the estimate reached, m.
+  std::optional<double> error_bound, error_estimate;
+  struct {
+    std::size_t steps = 0, rhs_evaluations = 0, jacobian_evaluations = 0;
+    std::size_t nonlinear_iterations = 0, error_test_failures = 0;
+    double cpu_seconds = 0;
+  } statistics;
+};
+
+// An object with the members' names as keys, indented, ended by a newline. Doubles read back to
+// the bit, those that are not finite are null. Bytes that are no UTF-8 are replaced by U+FFFD.
+[[nodiscard]] std::string to_json(const RunSummary& summary);
+
+// Writes to_json() whole or not at all; "-" is standard output. Throws OutputError.
+void write_summary(const std::string& file, const RunSummary& summary);
+
+// The same names, those of `statistics` without a prefix, and `scenario_text`. Lists have one
+// entry a line; numbers are in their shortest form that reads back to the same value.
+[[nodiscard]] Attributes to_attributes(const RunSummary& summary, const std::string& scenario_text);
+
+}  // namespace bbsim::record
