@@ -1,0 +1,201 @@
+// What counts as alike, and what is told about what does not.
+#include <limits>
+
+#include "base/error.hpp"
+#include "catch.hpp"
+#include "folder.hpp"
+#include "record/compare.hpp"
+
+using bbsim::InputError;
+using bbsim::record::compare;
+using bbsim::record::Comparison;
+using bbsim::record::TableData;
+using bbsim::record::Tolerances;
+using Catch::Matchers::Contains;
+
+namespace {
+
+constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
+constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double largest = std::numeric_limits<double>::max();
+
+bool alike(double a, double b, const Tolerances& tolerances = {}) {
+  return compare({{"x"}, {{a}}}, {{"x"}, {{b}}}, tolerances).alike();
+}
+
+const TableData three_rows{{"t", "x"}, {{0, 0.5, 1}, {1, 2, 4}}};
+
+}  // namespace
+
+TEST_CASE("values are alike within atol + rtol max(|a|, |b|)") {
+  // Powers of two, so that every sum and product is exact and the border is met exactly.
+  const Tolerances tolerances{0.25, 0.5};
+  CHECK(alike(4, 5.5, tolerances));  // 1.5 <= 0.5 + 0.25 * 5.5 = 1.875
+  CHECK(alike(0, 0.5, {0, 0.5}));
+  CHECK_FALSE(alike(0, std::nextafter(0.5, 1), {0, 0.5}));
+  CHECK(alike(3, 4, {0.25, 0}));
+  CHECK(alike(4, 3, {0.25, 0}));
+  CHECK_FALSE(alike(std::nextafter(3, 0), 4, {0.25, 0}));
+  CHECK(alike(-4, -3, {0.25, 0}));
+  CHECK_FALSE(alike(-4, 4, {0.25, 0}));
+}
+
+TEST_CASE("the default tolerances forgive rounding only") {
+  CHECK(alike(1, 1 + 1e-10));
+  CHECK_FALSE(alike(1, 1 + 1e-8));
+  CHECK(alike(0, 1e-13));
+  CHECK_FALSE(alike(0, 1e-11));
+}
+
+TEST_CASE("without tolerances only equal values are alike") {
+  CHECK(alike(1, 1, {0, 0}));
+  CHECK(alike(0.0, -0.0, {0, 0}));
+  CHECK_FALSE(alike(0, 5e-324, {0, 0}));
+}
+
+TEST_CASE("NaN is like NaN, an infinity like itself, whatever the tolerances") {
+  for (const Tolerances& tolerances : {Tolerances{0, 0}, Tolerances{1e308, 1e308}}) {
+    CHECK(alike(not_a_number, not_a_number, tolerances));
+    CHECK(alike(infinity, infinity, tolerances));
+    CHECK(alike(-infinity, -infinity, tolerances));
+    CHECK_FALSE(alike(infinity, -infinity, tolerances));
+    CHECK_FALSE(alike(not_a_number, 0, tolerances));
+    CHECK_FALSE(alike(0, not_a_number, tolerances));
+    CHECK_FALSE(alike(not_a_number, infinity, tolerances));
+    CHECK_FALSE(alike(infinity, 1, tolerances));
+    CHECK_FALSE(alike(1, infinity, tolerances));
+  }
+  CHECK_FALSE(alike(largest, -largest, {1, 0}));  // the difference overflows
+}
+
+TEST_CASE("columns go by name, whatever their order") {
+  const TableData swapped{{"x", "t"}, {three_rows.columns[1], three_rows.columns[0]}};
+  const Comparison result = compare(three_rows, swapped);
+  CHECK(result.alike());
+  REQUIRE(result.columns.size() == 2);
+  CHECK(result.columns[0].name == "t");
+  CHECK(result.columns[1].different_rows == 0);
+  CHECK(result.columns[1].worst.excess == 0);
+}
+
+TEST_CASE("the worst value is the one furthest beyond what is allowed") {
+  // Allowed is 0.5 of the larger value. y differs most, but small z is further off its allowance.
+  const TableData a{{"t", "y", "z"}, {{0, 0.5, 1}, {100, 100, 100}, {1, 1, 0.125}}};
+  const TableData b{{"t", "y", "z"}, {{0, 0.5, 1}, {100, 400, 100}, {1, 1.5, 0.5}}};
+  const Comparison result = compare(a, b, {0.5, 0});
+  CHECK_FALSE(result.alike());
+  CHECK(result.columns[0].different_rows == 0);
+  const auto& y = result.columns[1];
+  CHECK(y.worst.row == 1);
+  CHECK(y.worst.a == 100);
+  CHECK(y.worst.b == 400);
+  CHECK(y.worst.difference == 300);
+  CHECK(y.worst.allowance == 200);
+  CHECK(y.worst.excess == 1.5);
+  CHECK(y.different_rows == 1);
+  const auto& z = result.columns[2];
+  CHECK(z.largest.row == 1);  // 0.5, within its allowance of 0.75
+  CHECK(z.largest.difference == 0.5);
+  CHECK(z.worst.row == 2);
+  CHECK(z.worst.excess == 0.375 / 0.25);
+  // y and z tie at 1.5: the larger difference counts.
+  REQUIRE(result.worst.has_value());
+  CHECK(*result.worst == 1);
+  REQUIRE(result.worst_time.has_value());
+  CHECK(*result.worst_time == 0.5);
+}
+
+TEST_CASE("what is not finite is worse than any number") {
+  const Comparison result =
+      compare({{"x"}, {{0, not_a_number, 0}}}, {{"x"}, {{1e300, 1, 1e300}}}, {0, 1e-300});
+  CHECK(result.columns[0].worst.row == 1);
+  CHECK(result.columns[0].worst.difference == infinity);
+  CHECK(result.columns[0].different_rows == 3);
+  CHECK_FALSE(result.worst_time.has_value());  // there is no t
+}
+
+TEST_CASE("a column on one side only is a difference") {
+  const TableData more{{"t", "x", "y"}, {{0, 0.5, 1}, {1, 2, 4}, {0, 0, 0}}};
+  const Comparison right = compare(three_rows, more);
+  CHECK_FALSE(right.alike());
+  CHECK(right.only_in_b == std::vector<std::string>{"y"});
+  CHECK(right.only_in_a.empty());
+  const Comparison left = compare(more, three_rows);
+  CHECK_FALSE(left.alike());
+  CHECK(left.only_in_a == std::vector<std::string>{"y"});
+  CHECK(compare(more, three_rows, {}, {"x", "t"}).alike());
+}
+
+TEST_CASE("tables without a common column differ") {
+  const Comparison result = compare({{"x"}, {{1}}}, {{"y"}, {{1}}});
+  CHECK_FALSE(result.alike());
+  CHECK_FALSE(result.worst.has_value());
+}
+
+TEST_CASE("different numbers of rows are a difference; the common ones are compared") {
+  const TableData shorter{{"t", "x"}, {{0, 0.5}, {1, 3}}};
+  const Comparison result = compare(three_rows, shorter);
+  CHECK_FALSE(result.alike());
+  CHECK(result.rows_a == 3);
+  CHECK(result.rows_b == 2);
+  CHECK(result.columns[1].worst.row == 1);
+  const TableData prefix{{"t", "x"}, {{0, 0.5}, {1, 2}}};
+  CHECK_FALSE(compare(prefix, three_rows).alike());
+  const TableData empty{{"t", "x"}, {{}, {}}};
+  CHECK_FALSE(compare(empty, three_rows).alike());
+  CHECK(compare(empty, empty).alike());
+}
+
+TEST_CASE("only the columns asked for are compared") {
+  const TableData other{{"t", "x"}, {{0, 0.5, 1}, {9, 9, 9}}};
+  CHECK(compare(three_rows, other, {}, {"t"}).alike());
+  CHECK_FALSE(compare(three_rows, other, {}, {"t", "x"}).alike());
+}
+
+TEST_CASE("a column that is not there is refused by name") {
+  const TableData other{{"t"}, {{0, 0.5, 1}}};
+  CHECK(message_of<InputError>([&] {
+          (void)compare(three_rows, other, {}, {"t", "vz"});
+        }) == "--columns: the first file has no column \"vz\"; it has t, x");
+  CHECK(message_of<InputError>([&] { (void)compare(three_rows, other, {}, {"x"}); }) ==
+        "--columns: the second file has no column \"x\"; it has t");
+}
+
+TEST_CASE("a tolerance must be finite and not negative") {
+  for (const double bad : {-1e-300, not_a_number, infinity}) {
+    CHECK_THAT(message_of<InputError>([&] {
+                 (void)compare(three_rows, three_rows, {bad, 0});
+               }),
+               Contains("--rtol: found "));
+    CHECK_THAT(message_of<InputError>([&] {
+                 (void)compare(three_rows, three_rows, {0, bad});
+               }),
+               Contains("--atol: found "));
+  }
+}
+
+TEST_CASE("the report names column, row, time and both values") {
+  const TableData other{{"t", "x"}, {{0, 0.5, 1}, {1, 2.5, 4}}};
+  const Tolerances tolerances{0.125, 0};
+  CHECK(to_text(compare(three_rows, other, tolerances), "a.csv", "b.csv", tolerances) ==
+        "column  largest |a - b|  in row  of the allowed  rows differ\n"
+        "t                     0       0               0            0\n"
+        "x                   0.5       1             1.6            1\n"
+        "different: worst in column x, row 1 (t = 0.5): 2 in a.csv, 2.5 in b.csv; "
+        "the difference is 0.5, allowed is 0.312\n");
+}
+
+TEST_CASE("the report of tables that are alike") {
+  CHECK_THAT(to_text(compare(three_rows, three_rows), "a.csv", "b.csv", {}),
+             Contains("\nalike: a.csv and b.csv, 2 columns, 3 rows, within rtol 1e-09 and atol "
+                      "1e-12\n") &&
+                 !Contains("different"));
+}
+
+TEST_CASE("the report names missing columns and rows") {
+  const TableData other{{"t", "y"}, {{0}, {1}}};
+  CHECK_THAT(to_text(compare(three_rows, other), "a.csv", "b.csv", {}),
+             Contains("different: column x is in a.csv but not in b.csv\n") &&
+                 Contains("different: column y is in b.csv but not in a.csv\n") &&
+                 Contains("different: a.csv has 3 rows, b.csv has 1 row\n") && !Contains("alike:"));
+}

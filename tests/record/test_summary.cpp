@@ -1,0 +1,128 @@
+// The summary says the same in JSON and in attributes.
+#include <bit>
+#include <limits>
+#include <nlohmann/json.hpp>
+
+#include "base/error.hpp"
+#include "catch.hpp"
+#include "folder.hpp"
+#include "record/summary.hpp"
+
+using bbsim::OutputError;
+using bbsim::record::RunSummary;
+using bbsim::record::to_attributes;
+using bbsim::record::to_json;
+
+namespace {
+
+RunSummary a_run() {
+  RunSummary run;
+  run.version = "0.1.0";
+  run.scenario = "configs/fig2a.yaml";
+  run.title = "Fig. 2(a), \"open\" loop: φ";
+  run.overrides = {"ball.radius=0.02", "time.end=5"};
+  run.status = "done";
+  run.end_time = 10;
+  run.rows = 101;
+  run.output = "fig2a.csv";
+  run.states = {"x", "y"};
+  run.model_notes = {"the gimbal is prescribed"};
+  run.method = "adams";
+  run.rtol = 1e-8;
+  run.atol = 0.1;
+  run.statistics = {200, 300, 4, 500, 6, 1.0 / 3};
+  return run;
+}
+
+}  // namespace
+
+TEST_CASE("the summary's JSON text") {
+  CHECK(to_json(a_run()) == R"({
+  "version": "0.1.0",
+  "scenario": "configs/fig2a.yaml",
+  "title": "Fig. 2(a), \"open\" loop: φ",
+  "overrides": [
+    "ball.radius=0.02",
+    "time.end=5"
+  ],
+  "status": "done",
+  "reason": "",
+  "end_time": 10.0,
+  "rows": 101,
+  "output": "fig2a.csv",
+  "states": [
+    "x",
+    "y"
+  ],
+  "model_notes": [
+    "the gimbal is prescribed"
+  ],
+  "method": "adams",
+  "rtol": 1e-08,
+  "atol": 0.1,
+  "statistics": {
+    "steps": 200,
+    "rhs_evaluations": 300,
+    "jacobian_evaluations": 4,
+    "nonlinear_iterations": 500,
+    "error_test_failures": 6,
+    "cpu_seconds": 0.3333333333333333
+  }
+}
+)");
+}
+
+TEST_CASE("the summary's numbers read back to the bit, or are null") {
+  RunSummary run = a_run();
+  for (const double value : {1.0 / 3, 5e-324, -0.0, 1.7976931348623157e308, 0.1 + 0.2}) {
+    run.end_time = value;
+    const auto back = nlohmann::json::parse(to_json(run)).at("end_time").get<double>();
+    CHECK(std::bit_cast<std::uint64_t>(back) == std::bit_cast<std::uint64_t>(value));
+  }
+  for (const double value :
+       {std::numeric_limits<double>::infinity(), std::numeric_limits<double>::quiet_NaN()}) {
+    run.end_time = value;
+    CHECK(nlohmann::json::parse(to_json(run)).at("end_time").is_null());
+  }
+}
+
+TEST_CASE("a file name that is no UTF-8 does not spoil the summary") {
+  RunSummary run = a_run();
+  run.output = "fig\xff.csv";
+  CHECK(nlohmann::json::parse(to_json(run)).at("output") == "fig\xEF\xBF\xBD.csv");
+}
+
+TEST_CASE("the attributes have the summary's names and values") {
+  const auto attributes = to_attributes(a_run(), "ball: {radius: 0.01}\n");
+  const auto json = nlohmann::json::parse(to_json(a_run()));
+  const auto value = [&](const std::string& name) {
+    for (const auto& [key, text] : attributes) {
+      if (key == name) return text;
+    }
+    return std::string("absent");
+  };
+  CHECK(attributes.size() == json.size() - 1 + json.at("statistics").size() + 1);
+  for (const auto& [name, member] : json.items()) {
+    CAPTURE(name);
+    if (member.is_string()) CHECK(value(name) == member);
+    if (member.is_number()) CHECK(std::stod(value(name)) == member);
+    if (member.is_object()) {
+      for (const auto& [inner, number] : member.items()) {
+        CAPTURE(inner);
+        CHECK(std::stod(value(inner)) == number);
+      }
+    }
+  }
+  CHECK(value("overrides") == "ball.radius=0.02\ntime.end=5");
+  CHECK(value("states") == "x\ny");
+  CHECK(value("scenario_text") == "ball: {radius: 0.01}\n");
+}
+
+TEST_CASE("the summary is written whole or not at all") {
+  const Folder folder;
+  write_summary(folder / "a.json", a_run());
+  CHECK(content_of(folder / "a.json") == to_json(a_run()));
+  CHECK(folder.entries() == 1);
+  CHECK_THROWS_AS(write_summary("/dev/full", a_run()), OutputError);
+  CHECK_THROWS_AS(write_summary(folder / "none/a.json", a_run()), OutputError);
+}
