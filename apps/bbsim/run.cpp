@@ -2,7 +2,9 @@
 #include <cstdio>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "commands.hpp"
@@ -16,12 +18,13 @@
 #include "solve/choose.hpp"
 #include "solve/cpu_clock.hpp"
 #include "solve/integrate.hpp"
+#include "study/error_control.hpp"
 
 namespace bbsim::app {
 namespace {
 
 struct RunArguments {
-  std::string scenario, output, summary;
+  std::string scenario, output, summary, error;
   std::vector<std::string> overrides;
 };
 
@@ -53,9 +56,61 @@ ExitCode exit_code(solve::Ending ending) {
   return ExitCode::ended_early;
 }
 
+// What was integrated, and how well, as far as the run can tell.
+struct Integration {
+  solve::Outcome outcome;
+  solve::Tolerances tolerances;
+  std::optional<double> error_estimate;  // m, of a run with solver.error
+  bool within_error = true;
+  double cpu_seconds = 0;
+};
+
+Integration integrate(const Scenario& scenario, const model::Model& model,
+                      const solve::OutputGrid& grid, solve::StateSink& sink,
+                      const solve::Watch& watch) {
+  const solve::CpuClock clock;
+  const Solver& solver = scenario.solver;
+  Integration made;
+  if (solver.error) {
+    study::ErrorControlled run =
+        study::integrate_to_error(model, solver.method, *solver.error, grid, sink, watch);
+    made = {std::move(run.outcome), run.tolerances, {}, true, 0};
+    if (made.outcome.ending == solve::Ending::done) {
+      made.error_estimate = run.estimate;
+      made.within_error = run.met;
+    }
+  } else {
+    made.tolerances = {solver.rtol, solver.atol};
+    made.outcome = solve::integrate(model, solver.method, made.tolerances, grid, sink, watch);
+  }
+  made.cpu_seconds = clock.seconds();
+  return made;
+}
+
+// Why the run is not all that was asked for; empty if it is.
+std::string shortfall(const Scenario& scenario, const model::Model& model,
+                      const Integration& made) {
+  const double end = scenario.time.end;
+  switch (made.outcome.ending) {
+    case solve::Ending::failed:
+      return failure_text(model, made.outcome, end);
+    case solve::Ending::interrupted:
+      return "interrupted at t = " + short_number(made.outcome.reached) + " s of " +
+             short_number(end) + " s.";
+    case solve::Ending::done:
+      break;
+  }
+  if (made.within_error) return "";
+  return "an error of " + short_number(*scenario.solver.error) +
+         " m is out of reach: the scene amplifies rounding, and double precision gives about " +
+         short_number(*made.error_estimate) +
+         " m.\n  Ask for that, or end the scene earlier. The rows are those of the best run.";
+}
+
 record::RunSummary summarise(const Scenario& scenario, const model::Model& model,
-                             const solve::Outcome& outcome, const std::string& reason,
-                             const std::string& output, double cpu_seconds) {
+                             const Integration& made, const std::string& reason,
+                             const std::string& output) {
+  const solve::Outcome& outcome = made.outcome;
   record::RunSummary summary;
   summary.version = BBSIM_VERSION;
   summary.scenario = scenario.source.file;
@@ -71,19 +126,23 @@ record::RunSummary summarise(const Scenario& scenario, const model::Model& model
     summary.model_notes.push_back(note.part + ": " + note.reason);
   }
   summary.method = solve::method_name(outcome.method);
-  summary.rtol = scenario.solver.rtol;
-  summary.atol = scenario.solver.atol;
+  summary.rtol = made.tolerances.rtol;
+  summary.atol = made.tolerances.atol;
+  summary.error_bound = scenario.solver.error;
+  summary.error_estimate = made.error_estimate;
   summary.statistics = {outcome.statistics.steps,
                         outcome.statistics.rhs_evaluations,
                         outcome.statistics.jacobian_evaluations,
                         outcome.statistics.nonlinear_iterations,
                         outcome.statistics.error_test_failures,
-                        cpu_seconds};
+                        made.cpu_seconds};
   return summary;
 }
 
 ExitCode run(const RunArguments& arguments, const Options& options) {
-  const Scenario scenario = read_scenario(arguments.scenario, arguments.overrides);
+  std::vector<std::string> overrides = arguments.overrides;
+  if (!arguments.error.empty()) overrides.push_back("solver.error=" + arguments.error);
+  const Scenario scenario = read_scenario(arguments.scenario, overrides);
   const auto columns = record::columns_named(scenario.output.columns);
   const model::Model model =
       model::assemble(scenario, record::any_needs(columns, record::Needs::gamma));
@@ -102,31 +161,23 @@ ExitCode run(const RunArguments& arguments, const Options& options) {
   Progress progress(arguments.scenario, options.quiet);
   const solve::Watch watch{&watch_signals(),
                            [&](double time) { progress.update(time / grid.end()); }};
-  const solve::CpuClock clock;
-  const solve::Outcome outcome =
-      solve::integrate(model, scenario.solver.method, {scenario.solver.rtol, scenario.solver.atol},
-                       grid, recorder, watch);
-  const double cpu_seconds = clock.seconds();
+  const Integration made = integrate(scenario, model, grid, recorder, watch);
   progress.clear();
 
-  std::string reason;
-  if (outcome.ending == solve::Ending::failed) {
-    reason = failure_text(model, outcome, grid.end());
-  } else if (outcome.ending == solve::Ending::interrupted) {
-    reason = "interrupted at t = " + short_number(outcome.reached) + " s of " +
-             short_number(grid.end()) + " s.";
-  }
-  const record::RunSummary summary =
-      summarise(scenario, model, outcome, reason, output, cpu_seconds);
+  const std::string reason = shortfall(scenario, model, made);
+  const record::RunSummary summary = summarise(scenario, model, made, reason, output);
   writer->finish(record::to_attributes(summary, scenario.source.text));
   if (!arguments.summary.empty()) record::write_summary(arguments.summary, summary);
 
   if (!options.quiet) {
     if (!reason.empty()) std::fprintf(stderr, "%s\n", reason.c_str());
-    std::fprintf(stderr, "%s: %zu of %zu rows, %s, %zu steps\n", output.c_str(), outcome.rows,
-                 grid.size(), summary.method.c_str(), outcome.statistics.steps);
+    std::string line = output + ": " + std::to_string(made.outcome.rows) + " of " +
+                       std::to_string(grid.size()) + " rows, " + summary.method + ", " +
+                       std::to_string(made.outcome.statistics.steps) + " steps";
+    if (made.error_estimate) line += ", error about " + short_number(*made.error_estimate) + " m";
+    std::fprintf(stderr, "%s\n", line.c_str());
   }
-  return exit_code(outcome.ending);
+  return made.within_error ? exit_code(made.outcome.ending) : ExitCode::ended_early;
 }
 
 }  // namespace
@@ -144,6 +195,10 @@ void add_run(CLI::App& app, const Options& options, Chosen& chosen) {
                    "key.path=value: set a key of the scenario; may be given again")
       ->take_all()
       ->expected(1);
+  command->add_option(
+      "--error", arguments->error,
+      "bound on the error of x and y at all output times, such as 1e-9 or \"1 um\"; "
+      "instead of solver.rtol and solver.atol");
   command->add_option("--summary", arguments->summary,
                       "FILE.json: how the run went, what was modelled, statistics");
   command->callback([arguments, &options, &chosen] {

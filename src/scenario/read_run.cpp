@@ -65,6 +65,13 @@ void read_solver(Keys& keys, Solver& solver) {
   keys.optional("method", methods(), solver.method);
   keys.optional("rtol", rtol, solver.rtol);
   keys.optional("atol", atol, solver.atol);
+  const Number error{Dimension::length, {.above = 0, .at_most = 1}, "1e-9"};
+  if (!keys.optional("error", error, solver.error) || !solver.error) return;
+  for (const char* tolerance : {"rtol", "atol"}) {
+    if (const auto given = keys.find(tolerance)) {
+      given->report("given together with error, which chooses the tolerances; allowed: one of them");
+    }
+  }
 }
 
 void read_output(Keys& keys, Output& output) {

@@ -111,6 +111,8 @@ struct Solver {
   Method method = Method::automatic;
   double rtol = 1e-8;
   double atol = 1e-10;  // in each state's own unit: m, m/s, rad, rad/s
+  // Instead of tolerances: a bound on the error of x and y at all output times, m.
+  std::optional<double> error;
 };
 
 struct Output {

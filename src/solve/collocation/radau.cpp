@@ -169,10 +169,11 @@ Integrator::Run Integrator::run(Tolerances tolerances, const OutputGrid& grid, R
 
 }  // namespace collocation
 
-Outcome integrate_radau(const model::Model& model, Tolerances tolerances, const OutputGrid& grid,
-                        StateSink& sink, const Watch& watch) {
-  collocation::Integrator integrator(model, collocation::choose_kernels(),
-                                     collocation::choose_stages(tolerances.rtol));
+namespace {
+
+Outcome integrate_with(int stages, const model::Model& model, Tolerances tolerances,
+                       const OutputGrid& grid, StateSink& sink, const Watch& watch) {
+  collocation::Integrator integrator(model, collocation::choose_kernels(), stages);
   RowBlock rows(sink, integrator.row_size());
   const collocation::Integrator::Run run = integrator.run(tolerances, grid, rows, watch);
   rows.flush();
@@ -188,6 +189,20 @@ Outcome integrate_radau(const model::Model& model, Tolerances tolerances, const 
     outcome.last_state = integrator.state();
   }
   return outcome;
+}
+
+}  // namespace
+
+Outcome integrate_radau(const model::Model& model, Tolerances tolerances, const OutputGrid& grid,
+                        StateSink& sink, const Watch& watch) {
+  const int stages = collocation::choose_stages(tolerances.rtol);
+  return integrate_with(stages, model, tolerances, grid, sink, watch);
+}
+
+Outcome integrate_radau_unlike(const model::Model& model, Tolerances tolerances,
+                               const OutputGrid& grid, StateSink& sink, const Watch& watch) {
+  const int stages = collocation::choose_stages(tolerances.rtol) == 16 ? 12 : 16;
+  return integrate_with(stages, model, tolerances, grid, sink, watch);
 }
 
 }  // namespace bbsim::solve

@@ -22,6 +22,12 @@ namespace bbsim::solve {
 [[nodiscard]] Outcome integrate_radau(const model::Model& model, Tolerances tolerances,
                                       const OutputGrid& grid, StateSink& sink, const Watch& watch);
 
+// The same with another number of stages than integrate_radau would take: a run to check that one
+// against, with different steps and different rounding.
+[[nodiscard]] Outcome integrate_radau_unlike(const model::Model& model, Tolerances tolerances,
+                                             const OutputGrid& grid, StateSink& sink,
+                                             const Watch& watch);
+
 namespace collocation {
 
 // The kernels for the best instruction set of this processor, or the one that BBSIM_SIMD names:
