@@ -25,6 +25,8 @@ void for_each_member(const RunSummary& summary, Add add) {
   add("method", summary.method);
   add("rtol", summary.rtol);
   add("atol", summary.atol);
+  if (summary.error_bound) add("error_bound", *summary.error_bound);
+  if (summary.error_estimate) add("error_estimate", *summary.error_estimate);
 }
 
 template <class Add>

@@ -72,7 +72,7 @@ TEST_CASE("the printed law follows the exact solution until it blows up") {
   CHECK_FALSE(run.outcome.reason.empty());
   CHECK(run.outcome.reached > 0.744);  // infinity lies near 0.745 s
   CHECK(run.outcome.reached < 0.746);
-  REQUIRE(run.samples.size() >= 75);           // up to t = 0.74 s
+  REQUIRE(run.samples.size() >= 75);               // up to t = 0.74 s
   const QuadReference reference("fig2b-literal");  // up to t = 0.6 s
   for (std::size_t i = 0; i < reference["t"].size(); ++i) {
     // The deviation grows as the solution does: 1e5 times from the start to 0.6 s.
