@@ -1,0 +1,79 @@
+// One step of Radau IIA collocation in quad precision.
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/LU>
+#include <cstddef>
+#include <vector>
+
+#include "base/quad.hpp"
+#include "study/radau_rule.hpp"
+
+namespace bbsim::study {
+
+// z' = f(t, z), in both precisions, and df/dz.
+class Equation {
+ public:
+  virtual ~Equation() = default;
+  [[nodiscard]] virtual int size() const = 0;
+  virtual void derivative(double t, const double* z, double* dz) const = 0;
+  virtual void derivative(Quad t, const Quad* z, Quad* dz) const = 0;
+  [[nodiscard]] virtual Eigen::MatrixXd jacobian(double t, const double* z) const = 0;
+};
+
+// The stages solve W_i = h sum_j a_ij f(t + c_j h, z + W_j). Newton's iteration with the exact
+// Jacobian solves them in double first. Then the residual is formed in quad and the same factors,
+// in double, correct it, as in the iterative refinement of a linear system: each pass gains about
+// as many digits as the condition of the system leaves a double.
+class CollocationStep {
+ public:
+  // Stages are solved to well below `tolerance`, relative to 1 + |z| in each state's unit.
+  CollocationStep(const Equation& equation, const RadauRule& rule, double tolerance);
+
+  // Takes a step from z at t. Returns the estimated error of the collocation polynomial in the
+  // unit of the tolerance, or infinity where the iteration does not converge. Beyond the
+  // tolerance the estimate may be all there is: the stages need not have been refined.
+  [[nodiscard]] double solve(Quad t, Quad h, const std::vector<Quad>& z);
+
+  // The state at t + fraction h of the step just solved.
+  void state_at(Quad fraction, Quad* z) const;
+
+  // The integral of one state over the step just solved: from t to t + fraction h.
+  class Integral {
+   public:
+    Integral(const CollocationStep& step, int state);
+    [[nodiscard]] Quad to(Quad fraction) const;
+
+   private:
+    Quad h_, start_;
+    std::vector<Quad> legendre_;  // coefficients of the increment
+  };
+
+  [[nodiscard]] std::size_t factorisations() const { return factorisations_; }
+
+ private:
+  [[nodiscard]] bool solve_in_double(double* correction);
+  [[nodiscard]] bool refine();
+  void factorise();
+  void residual_in_double();
+  void residual_in_quad();
+  [[nodiscard]] double norm(const Eigen::VectorXd& correction) const;
+  template <class Real>
+  [[nodiscard]] double tail(const std::vector<Real>& increments) const;
+
+  const Equation& equation_;
+  const RadauRule& rule_;
+  double tolerance_;
+  int n_;
+
+  Quad t_ = 0.0, h_ = 0.0;
+  std::vector<Quad> z_;
+  Eigen::VectorXd scale_;            // 1 + |z|
+  std::vector<double> w_in_double_;  // stage after stage
+  std::vector<Quad> w_, slopes_;
+  Eigen::VectorXd residual_;
+  Eigen::PartialPivLU<Eigen::MatrixXd> factors_;
+  std::size_t factorisations_ = 0;
+};
+
+}  // namespace bbsim::study

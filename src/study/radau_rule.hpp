@@ -1,0 +1,35 @@
+// Radau IIA collocation of s stages, order 2s - 1, in quad precision.
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "base/quad.hpp"
+
+namespace bbsim::study {
+
+// The tables of the method on the unit interval: Hairer and Wanner, Solving Ordinary Differential
+// Equations II, IV.5. The collocation polynomial u has degree s and is known by its values at the
+// points 0, c_1, ..., c_s = 1. Being L-stable, the method forgets a stiff transient within a step;
+// Gauss's would carry what is left of it along, and the steps could not grow.
+struct RadauRule {
+  // `s` of at least 2; beyond 40 the barycentric weights lose digits.
+  explicit RadauRule(int s);
+
+  int stages;
+  std::vector<Quad> nodes;           // c_i, increasing within (0, 1]
+  std::vector<Quad> matrix;          // a_ij = integral of Lagrange's l_j from 0 to c_i, row-major
+  Eigen::MatrixXd matrix_in_double;  // the same, rounded
+  std::vector<Quad> barycentric;     // s + 1 weights of interpolation at 0, c_1, ..., c_s
+  // Legendre coefficients of u from its increments u(c_i) - u(0): sum of row[i] (u(c_i) - u(0)).
+  std::vector<Quad> last_coefficient;  // of degree s
+  std::vector<Quad>
+      previous_coefficient;  // of degree s - 1, of the polynomial through c_1, ..., c_s
+  // Row k takes values at c_1, ..., c_s to the Legendre coefficient of degree k < s.
+  std::vector<Quad> to_legendre;
+};
+
+// P_0(x), ..., P_{count - 1}(x).
+void legendre(Quad x, int count, Quad* values);
+
+}  // namespace bbsim::study

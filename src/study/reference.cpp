@@ -1,0 +1,208 @@
+#include "study/reference.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <cstdio>
+#include <memory>
+#include <optional>
+#include <type_traits>
+#include <utility>
+#include <variant>
+
+#include "model/jacobian.hpp"
+#include "model/quad.hpp"
+#include "model/spectrum.hpp"
+#include "study/collocation.hpp"
+
+namespace bbsim::study {
+namespace {
+
+template <class System>
+class SystemEquation : public Equation {
+ public:
+  explicit SystemEquation(const System& system) : system_(system) {}
+
+  [[nodiscard]] int size() const override { return System::size; }
+  void derivative(double t, const double* z, double* dz) const override {
+    system_.derivative(t, z, dz);
+  }
+  void derivative(Quad t, const Quad* z, Quad* dz) const override { system_.derivative(t, z, dz); }
+  [[nodiscard]] Eigen::MatrixXd jacobian(double t, const double* z) const override {
+    return model::jacobian(system_, t, z);
+  }
+
+ private:
+  const System& system_;
+};
+
+std::unique_ptr<Equation> make_equation(const model::Model& model) {
+  return std::visit(
+      [](const auto& system) -> std::unique_ptr<Equation> {
+        return std::make_unique<SystemEquation<std::decay_t<decltype(system)>>>(system);
+      },
+      model.system);
+}
+
+int spin_state(const model::Model& model) {
+  return std::visit(
+      [](const auto& system) { return model::spin_index<std::decay_t<decltype(system)>>; },
+      model.system);
+}
+
+// The first step to try: a few times that of the fastest mode at the start.
+double first_step(const model::Model& model, double end) {
+  double fastest = 0;
+  for (const auto& value : model::eigenvalues(model, 0, model.initial.data())) {
+    fastest = std::max(fastest, std::abs(value));
+  }
+  return std::min(end, 4 / fastest);
+}
+
+// One solution with steps of its own.
+class Run {
+ public:
+  Run(const Equation& equation, const RadauRule& rule, double tolerance, const model::Model& model,
+      const solve::OutputGrid& grid)
+      : model_(model),
+        grid_(grid),
+        tolerance_(tolerance),
+        step_(equation, rule, tolerance),
+        stages_(rule.stages),
+        state_(model.initial.begin(), model.initial.end()) {
+    solution_.row_size = model.size() + (model.gamma ? 1 : 0);
+  }
+
+  // `progress` is called with the time after every step.
+  template <class Progress>
+  ReferenceSolution solve(const std::atomic<bool>* stop, const Progress& progress) {
+    solution_.values.insert(solution_.values.end(), state_.begin(), state_.end());
+    if (model_.gamma) solution_.values.emplace_back(0.0);
+    double next_length = first_step(model_, grid_.end());
+    std::size_t next_stop = 0;
+    while (time_ < grid_.end()) {
+      if (stop != nullptr && stop->load(std::memory_order_relaxed)) return ended("");
+      const Quad target = next_stop < model_.stops.size() ? model_.stops[next_stop] : grid_.end();
+      const Quad left = target - time_;
+      const bool to_target = left <= Quad(next_length);
+      const Quad length = to_target ? left : Quad(next_length);
+      const double error = step_.solve(time_, length, state_);
+      double proposal = plain(length) * change_of_step(error);
+      if (!(error <= tolerance_)) {
+        next_length = proposal;
+        if (next_length < 1e-14 * grid_.end()) return ended(explain());
+        continue;
+      }
+      if (!to_target) {
+        proposal = std::min(proposal, predicted_length(plain(length), error));
+        last_length_ = plain(length);
+        last_error_ = error;
+      }
+      // A step that ends at a stop says nothing against the longer ones before it.
+      next_length = to_target ? std::max(proposal, next_length) : proposal;
+      accept(length, to_target ? target : time_ + length);
+      if (to_target) ++next_stop;
+      progress(solution_.reached);
+    }
+    solution_.complete = true;
+    return ended("");
+  }
+
+ private:
+  // The polynomial's error goes as a power of the step one above its number of stages.
+  [[nodiscard]] double change_of_step(double error) const {
+    if (!std::isfinite(error)) return 0.3;
+    return std::clamp(0.9 * root(tolerance_ / error), 0.1, 5.0);
+  }
+  [[nodiscard]] double root(double ratio) const { return std::pow(ratio, 1.0 / (stages_ + 1)); }
+
+  // If the error per length goes on to change as it did in the last step (Gustafsson's predictive
+  // control): spares a rejection a step where the solution keeps getting steeper.
+  [[nodiscard]] double predicted_length(double length, double error) const {
+    if (!(last_error_ > 0) || !(error > 0)) return 5 * length;
+    return length * change_of_step(error) * (length / last_length_) * root(last_error_ / error);
+  }
+
+  void accept(Quad length, Quad time_after) {
+    std::optional<CollocationStep::Integral> spin;
+    if (model_.gamma) spin.emplace(step_, spin_state(model_));
+    auto& values = solution_.values;
+    for (std::size_t row = solution_.rows(); row < grid_.size() && Quad(grid_[row]) <= time_after;
+         row = solution_.rows()) {
+      const Quad fraction = (Quad(grid_[row]) - time_) / length;
+      values.resize(values.size() + solution_.row_size);
+      Quad* to = values.data() + values.size() - solution_.row_size;
+      step_.state_at(fraction, to);
+      if (spin) to[state_.size()] = turned_ + spin->to(fraction);
+    }
+    if (spin) turned_ += spin->to(1.0);
+    step_.state_at(1.0, state_.data());
+    time_ = time_after;
+    solution_.reached = plain(time_);
+    ++solution_.steps;
+  }
+
+  // What made ever shorter steps necessary.
+  [[nodiscard]] std::string explain() const {
+    std::size_t largest = 0;
+    for (std::size_t i = 0; i < state_.size(); ++i) {
+      if (abs(state_[i]) > abs(state_[largest])) largest = i;
+    }
+    char text[160];
+    std::snprintf(text, sizeof text,
+                  "no step from t = %.17g s is short enough; the largest state is %s = %.3g",
+                  solution_.reached, model_.state_names()[largest].c_str(), plain(state_[largest]));
+    return text;
+  }
+
+  ReferenceSolution ended(std::string reason) {
+    solution_.reason = std::move(reason);
+    return std::move(solution_);
+  }
+
+  const model::Model& model_;
+  const solve::OutputGrid& grid_;
+  double tolerance_;
+  CollocationStep step_;
+  int stages_;
+  Quad time_ = 0.0, turned_ = 0.0;
+  double last_length_ = 0, last_error_ = 0;  // of the last accepted step that was not cut short
+  std::vector<Quad> state_;
+  ReferenceSolution solution_;
+};
+
+double difference(const ReferenceSolution& a, const ReferenceSolution& b, int coordinates) {
+  double largest = 0;
+  for (std::size_t i = 0; i < std::min(a.rows(), b.rows()); ++i) {
+    for (int c = 0; c < coordinates; ++c) {
+      largest = std::max(largest, plain(abs(a.row(i)[c] - b.row(i)[c])));
+    }
+  }
+  return largest;
+}
+
+}  // namespace
+
+int coordinates(const model::Model& model) {
+  return spin_state(model) < 0 ? 1 : 2;
+}
+
+ReferenceSolution solve_reference(const model::Model& model, const solve::OutputGrid& grid,
+                                  double tolerance, const solve::Watch& watch) {
+  static const RadauRule rule(24), other_rule(20);
+  const std::unique_ptr<Equation> equation = make_equation(model);
+  const double finest = std::max(tolerance, 5e3 * Quad::epsilon());
+  double done = 0;  // of both runs together
+  const auto progress = [&](double time) {
+    if (watch.progress) watch.progress(done + time / 2);
+  };
+  const ReferenceSolution other =
+      Run(*equation, other_rule, 10 * finest, model, grid).solve(watch.stop, progress);
+  done = grid.end() / 2;
+  ReferenceSolution solution =
+      Run(*equation, rule, finest, model, grid).solve(watch.stop, progress);
+  solution.error_estimate = difference(solution, other, coordinates(model));
+  return solution;
+}
+
+}  // namespace bbsim::study
