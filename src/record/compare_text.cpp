@@ -23,7 +23,7 @@ std::string counted(std::size_t count, const std::string& noun) {
 using Line = std::array<std::string, 5>;
 
 std::string table_of(const std::vector<ColumnComparison>& columns) {
-  std::vector<Line> lines{{"column", "largest |a - b|", "in row", "of the allowed", "rows differ"}};
+  std::vector<Line> lines{{"column", "largest |a - b|", "in row", "times allowed", "rows differ"}};
   for (const ColumnComparison& column : columns) {
     lines.push_back({column.name, rounded(column.largest.difference),
                      std::to_string(column.largest.row), rounded(column.worst.excess),

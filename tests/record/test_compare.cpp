@@ -178,9 +178,9 @@ TEST_CASE("the report names column, row, time and both values") {
   const TableData other{{"t", "x"}, {{0, 0.5, 1}, {1, 2.5, 4}}};
   const Tolerances tolerances{0.125, 0};
   CHECK(to_text(compare(three_rows, other, tolerances), "a.csv", "b.csv", tolerances) ==
-        "column  largest |a - b|  in row  of the allowed  rows differ\n"
-        "t                     0       0               0            0\n"
-        "x                   0.5       1             1.6            1\n"
+        "column  largest |a - b|  in row  times allowed  rows differ\n"
+        "t                     0       0              0            0\n"
+        "x                   0.5       1            1.6            1\n"
         "different: worst in column x, row 1 (t = 0.5): 2 in a.csv, 2.5 in b.csv; "
         "the difference is 0.5, allowed is 0.312\n");
 }
