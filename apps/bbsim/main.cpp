@@ -45,8 +45,10 @@ ExitCode run(const std::function<ExitCode()>& command) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  // A reader that goes away is an error like any other, not a sudden end.
+  // A reader that goes away, or a file at its size limit, is an error like any other, not a
+  // sudden end.
   std::signal(SIGPIPE, SIG_IGN);
+  std::signal(SIGXFSZ, SIG_IGN);
 
   CLI::App app("bbsim simulates a ball that rolls on a plane which a two-axis gimbal tips.",
                "bbsim");
