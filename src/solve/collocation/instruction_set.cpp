@@ -17,7 +17,7 @@ extern const KernelSet kernels_avx512;
 namespace {
 
 struct Candidate {
-  const KernelSet* kernels;
+  const KernelSet& kernels;
   bool (*runs_here)();
 };
 
@@ -28,21 +28,21 @@ bool always() {
 // From the best to the one that every processor runs.
 const Candidate candidates[] = {
 #ifdef BBSIM_X86_KERNELS
-    {&kernels_avx512,
+    {kernels_avx512,
      [] {
        return __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") &&
               __builtin_cpu_supports("avx512vl") && __builtin_cpu_supports("avx2") &&
               __builtin_cpu_supports("fma");
      }},
-    {&kernels_avx2, [] { return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma"); }},
+    {kernels_avx2, [] { return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma"); }},
 #endif
-    {&kernels_baseline, always},
+    {kernels_baseline, always},
 };
 
 std::string names() {
   std::string list;
   for (const Candidate& candidate : candidates) {
-    list += (list.empty() ? "" : ", ") + std::string(candidate.kernels->name);
+    list += (list.empty() ? "" : ", ") + std::string(candidate.kernels.name);
     if (!candidate.runs_here()) list += " (not on this processor)";
   }
   return list;
@@ -52,8 +52,8 @@ std::string names() {
 
 const KernelSet* find_kernels(const char* name) {
   for (const Candidate& candidate : candidates) {
-    if (std::strcmp(candidate.kernels->name, name) == 0) {
-      return candidate.runs_here() ? candidate.kernels : nullptr;
+    if (std::strcmp(candidate.kernels.name, name) == 0) {
+      return candidate.runs_here() ? &candidate.kernels : nullptr;
     }
   }
   return nullptr;
@@ -66,7 +66,7 @@ const KernelSet& choose_kernels() {
                      "'; allowed: " + names());
   }
   for (const Candidate& candidate : candidates) {
-    if (candidate.runs_here()) return *candidate.kernels;
+    if (candidate.runs_here()) return candidate.kernels;
   }
   return kernels_baseline;
 }
