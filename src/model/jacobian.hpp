@@ -2,7 +2,8 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <unsupported/Eigen/AutoDiff>
+
+#include "model/dual.hpp"
 
 namespace bbsim::model {
 
@@ -13,14 +14,11 @@ using JacobianOf = Eigen::Matrix<double, System::size, System::size>;
 template <class System>
 [[nodiscard]] JacobianOf<System> jacobian(const System& system, double t, const double* z) {
   constexpr int n = System::size;
-  using Gradient = Eigen::Matrix<double, n, 1>;
-  using Dual = Eigen::AutoDiffScalar<Gradient>;
-  Dual state[n], rate[n];
-  for (int i = 0; i < n; ++i) state[i] = Dual(z[i], n, i);
-  for (int i = 0; i < n; ++i) rate[i].derivatives().setZero();
+  Dual<n> state[n], rate[n];
+  for (int i = 0; i < n; ++i) state[i] = Dual<n>::variable(z[i], i);
   system.derivative(t, state, rate);
   JacobianOf<System> matrix;
-  for (int i = 0; i < n; ++i) matrix.row(i) = rate[i].derivatives().transpose();
+  for (int i = 0; i < n; ++i) matrix.row(i) = rate[i].gradient.transpose();
   return matrix;
 }
 

@@ -50,8 +50,7 @@ template <class Real>
 //
 // r is the ball's radius (m) and g is gravity (m/s^2). Real is the type of the result: double,
 // a dual number, a pack of lanes, a 128-bit float; the arguments may be any types that combine
-// to it, Zero and One among them. Each row is one expression because expression templates of
-// dual numbers must not outlive the statement that makes them.
+// to it, Zero and One among them.
 template <class Real, class Phi, class Theta, class Ball>
 [[nodiscard]] inline Real x_acceleration(const Phi& phi, const Theta& theta, const Ball& ball,
                                          double r, double g) {
