@@ -35,6 +35,21 @@ void print_closed_loop(const model::Model& model) {
   }
 }
 
+void print_solver(const Scenario& scenario, const model::Model& model) {
+  const Solver& solver = scenario.solver;
+  std::string line{solve::method_name(solve::choose_method(solver.method))};
+  line += solver.error
+              ? ", error of x and y at most " + short_number(*solver.error) + " m"
+              : ", rtol " + short_number(solver.rtol) + ", atol " + short_number(solver.atol);
+  line += solver.method == Method::automatic
+              ? "; auto takes it, as the cheapest at any error on every kind of scene measured"
+              : "; asked for";
+  print_line("solver", line);
+  const double decays = solve::decays_over_scene(model, scenario.time.end);
+  print_line("", std::string(decays > 100 ? "a stiff scene" : "not a stiff scene") +
+                     ": its fastest mode decays " + short_number(decays) + " times over it");
+}
+
 ExitCode check(const CheckArguments& arguments) {
   const Scenario scenario = read_scenario(arguments.scenario, arguments.overrides);
   const auto columns = record::columns_named(scenario.output.columns);
@@ -57,12 +72,7 @@ ExitCode check(const CheckArguments& arguments) {
 
   if (model.closed_loop()) print_closed_loop(model);
 
-  const solve::Tolerances tolerances{scenario.solver.rtol, scenario.solver.atol};
-  const solve::Choice choice =
-      solve::choose_method(model, scenario.solver.method, tolerances, grid.end());
-  print_line("solver", std::string(solve::method_name(choice.method)) + ", rtol " +
-                           short_number(tolerances.rtol) + ", atol " +
-                           short_number(tolerances.atol) + ": " + choice.reason);
+  print_solver(scenario, model);
   return ExitCode::done;
 }
 

@@ -12,15 +12,16 @@ namespace bbsim::solve {
 // As the scenario names it: "bdf".
 [[nodiscard]] std::string_view method_name(Method method);
 
-struct Choice {
-  Method method;
-  std::string reason;
-};
+// The integrator that runs when `asked` is: radau for automatic, any other as it is.
+//
+// The cost of each method was measured over all scenes, smooth and stiff, and over all tolerances
+// (docs/accuracy.md): radau is the cheapest at every error, by factors of 2 to 30, since its steps
+// are held down neither by stability nor by order. What depends on the tolerance is its number of
+// stages, which it chooses itself.
+[[nodiscard]] Method choose_method(Method asked);
 
-// Chooses from the spectrum of the Jacobian over the scene: BDF where a mode decays so fast that
-// stability, not accuracy, would hold an explicit-like method's steps down; Adams elsewhere.
-// A method that is not automatic is returned as it is. `end` in s.
-[[nodiscard]] Choice choose_method(const model::Model& model, Method asked, Tolerances tolerances,
-                                   double end);
+// How often the fastest decaying mode decays over the scene, by a factor of e each time: over 100
+// or so, an explicit method's steps are held down by stability. `end` in s.
+[[nodiscard]] double decays_over_scene(const model::Model& model, double end);
 
 }  // namespace bbsim::solve

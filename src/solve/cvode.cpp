@@ -95,7 +95,7 @@ class CvodeRun {
     } else {
       use_fixed_point();
     }
-    if (model.gamma) integrate_spin(tolerances);
+    if (model.gamma) integrate_spin();
   }
 
   Outcome run() {
@@ -142,13 +142,13 @@ class CvodeRun {
     check(CVodeSetNonlinearSolver(memory(), nonlinear_.get()), "CVodeSetNonlinearSolver");
   }
 
-  void integrate_spin(Tolerances tolerances) {
+  void integrate_spin() {
     turned_ = sundials::make_vector(1, context_.get());
     data(turned_)[0] = 0;
     check(CVodeQuadInit(memory(), Callbacks<System>::quadrature, turned_.get()), "CVodeQuadInit");
-    check(CVodeQuadSStolerances(memory(), tolerances.rtol, tolerances.atol),
-          "CVodeQuadSStolerances");
-    check(CVodeSetQuadErrCon(memory(), 1), "CVodeSetQuadErrCon");
+    // No error control of its own: it is the integral of a state that has it. With it, CVODES 6
+    // takes 45,000 steps instead of 600 over a stiff servo.
+    check(CVodeSetQuadErrCon(memory(), 0), "CVodeSetQuadErrCon");
   }
 
   void set_stop(std::size_t next_stop) {

@@ -10,8 +10,8 @@ namespace bbsim::solve {
 // BDF (Method::bdf, orders 1 to 5) with Newton iterations, a dense solver and the exact Jacobian;
 // or Adams-Moulton (Method::adams, orders 1 to 12) with fixed-point iterations.
 //
-// Output rows are interpolated by the method's own polynomial. gamma is a quadrature under error
-// control, outside the nonlinear system. The model's stops are reached exactly and restarted from.
+// Output rows are interpolated by the method's own polynomial. gamma is a quadrature,
+// outside the nonlinear system. The model's stops are reached exactly and restarted from.
 [[nodiscard]] Outcome integrate_cvode(const model::Model& model, Method method,
                                       Tolerances tolerances, const OutputGrid& grid,
                                       StateSink& sink, const Watch& watch);
