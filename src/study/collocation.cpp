@@ -31,7 +31,7 @@ double CollocationStep::solve(Quad t, Quad h, const std::vector<Quad>& z) {
   t_ = t;
   h_ = h;
   z_ = z;
-  for (int i = 0; i < n_; ++i) scale_[i] = 1 + std::abs(plain(z_[i]));
+  for (Eigen::Index i = 0; i < n_; ++i) scale_[i] = 1 + std::abs(plain(z_[i]));
 
   double correction = 0;
   if (!solve_in_double(&correction)) return infinity;
@@ -50,7 +50,7 @@ bool CollocationStep::solve_in_double(double* correction) {
   factorise();
   Eigen::Map<Eigen::VectorXd> w(w_in_double_.data(), residual_.size());
   double last = infinity;
-  for (int pass = 0, growing = 0; pass < 25; ++pass) {
+  for (Eigen::Index pass = 0, growing = 0; pass < 25; ++pass) {
     residual_in_double();
     const Eigen::VectorXd change = factors_.solve(residual_);
     w -= change;
@@ -70,10 +70,10 @@ bool CollocationStep::refine() {
   // Far enough below the tolerance not to be seen in the estimate of the error.
   const double goal = std::max(1e-4 * tolerance_, 16 * Quad::epsilon());
   double last = 0;
-  for (int pass = 0; pass < 40; ++pass) {
+  for (Eigen::Index pass = 0; pass < 40; ++pass) {
     residual_in_quad();
     const Eigen::VectorXd change = factors_.solve(residual_);
-    for (std::size_t i = 0; i < w_.size(); ++i) w_[i] -= change[static_cast<int>(i)];
+    for (std::size_t i = 0; i < w_.size(); ++i) w_[i] -= change[static_cast<Eigen::Index>(i)];
     const double correction = norm(change);
     if (!std::isfinite(correction)) return false;
     const double contraction = pass == 0 ? 1 : correction / last;
@@ -90,15 +90,15 @@ bool CollocationStep::refine() {
 
 // I - h A (x) J, with the Jacobian of each stage.
 void CollocationStep::factorise() {
-  const int s = rule_.stages;
+  const Eigen::Index s = rule_.stages;
   const double t = plain(t_), h = plain(h_);
   Eigen::MatrixXd matrix(n_ * s, n_ * s);
   std::vector<double> z(z_.size());
-  for (int j = 0; j < s; ++j) {
-    for (int p = 0; p < n_; ++p) z[p] = plain(z_[p]) + w_in_double_[j * n_ + p];
+  for (Eigen::Index j = 0; j < s; ++j) {
+    for (Eigen::Index p = 0; p < n_; ++p) z[p] = plain(z_[p]) + w_in_double_[j * n_ + p];
     const Eigen::MatrixXd jacobian =
         h * equation_.jacobian(t + plain(rule_.nodes[j]) * h, z.data());
-    for (int i = 0; i < s; ++i) {
+    for (Eigen::Index i = 0; i < s; ++i) {
       matrix.block(i * n_, j * n_, n_, n_) = -rule_.matrix_in_double(i, j) * jacobian;
     }
   }
@@ -108,12 +108,12 @@ void CollocationStep::factorise() {
 }
 
 void CollocationStep::residual_in_double() {
-  const int s = rule_.stages;
+  const Eigen::Index s = rule_.stages;
   const double t = plain(t_), h = plain(h_);
   Eigen::MatrixXd slopes(n_, s);
   std::vector<double> z(z_.size());
-  for (int j = 0; j < s; ++j) {
-    for (int p = 0; p < n_; ++p) z[p] = plain(z_[p]) + w_in_double_[j * n_ + p];
+  for (Eigen::Index j = 0; j < s; ++j) {
+    for (Eigen::Index p = 0; p < n_; ++p) z[p] = plain(z_[p]) + w_in_double_[j * n_ + p];
     equation_.derivative(t + plain(rule_.nodes[j]) * h, z.data(), slopes.col(j).data());
   }
   const Eigen::Map<const Eigen::MatrixXd> w(w_in_double_.data(), n_, s);
@@ -122,19 +122,19 @@ void CollocationStep::residual_in_double() {
 }
 
 void CollocationStep::residual_in_quad() {
-  const int s = rule_.stages;
+  const Eigen::Index s = rule_.stages;
   std::vector<Quad> z(z_.size());
-  for (int j = 0; j < s; ++j) {
+  for (Eigen::Index j = 0; j < s; ++j) {
     Quad* slope = &slopes_[j * n_];
-    for (int p = 0; p < n_; ++p) z[p] = z_[p] + w_[j * n_ + p];
+    for (Eigen::Index p = 0; p < n_; ++p) z[p] = z_[p] + w_[j * n_ + p];
     equation_.derivative(t_ + rule_.nodes[j] * h_, z.data(), slope);
-    for (int p = 0; p < n_; ++p) slope[p] *= h_;
+    for (Eigen::Index p = 0; p < n_; ++p) slope[p] *= h_;
   }
-  for (int i = 0; i < s; ++i) {
+  for (Eigen::Index i = 0; i < s; ++i) {
     const Quad* a = &rule_.matrix[i * s];
-    for (int p = 0; p < n_; ++p) {
+    for (Eigen::Index p = 0; p < n_; ++p) {
       Quad sum = w_[i * n_ + p];
-      for (int j = 0; j < s; ++j) sum -= a[j] * slopes_[j * n_ + p];
+      for (Eigen::Index j = 0; j < s; ++j) sum -= a[j] * slopes_[j * n_ + p];
       residual_[i * n_ + p] = plain(sum);
     }
   }
@@ -151,9 +151,9 @@ double CollocationStep::norm(const Eigen::VectorXd& correction) const {
 template <class Real>
 double CollocationStep::tail(const std::vector<Real>& increments) const {
   double largest = 0;
-  for (int p = 0; p < n_; ++p) {
+  for (Eigen::Index p = 0; p < n_; ++p) {
     Quad last = 0.0, previous = 0.0;
-    for (int j = 0; j < rule_.stages; ++j) {
+    for (Eigen::Index j = 0; j < rule_.stages; ++j) {
       last += rule_.last_coefficient[j] * increments[j * n_ + p];
       previous += rule_.previous_coefficient[j] * increments[j * n_ + p];
     }
@@ -168,29 +168,29 @@ void CollocationStep::state_at(Quad fraction, Quad* z) const {
   // Barycentric interpolation of W, which is 0 at 0.
   std::vector<Quad> shares(w_.size() / n_);
   Quad sum = 0.0;
-  for (int i = -1; i < rule_.stages; ++i) {
+  for (Eigen::Index i = -1; i < rule_.stages; ++i) {
     const Quad distance = i < 0 ? fraction : fraction - rule_.nodes[i];
     if (distance == Quad(0.0)) {
-      for (int p = 0; p < n_; ++p) z[p] = i < 0 ? z_[p] : z_[p] + w_[i * n_ + p];
+      for (Eigen::Index p = 0; p < n_; ++p) z[p] = i < 0 ? z_[p] : z_[p] + w_[i * n_ + p];
       return;
     }
     const Quad share = rule_.barycentric[i + 1] / distance;
     if (i >= 0) shares[i] = share;
     sum += share;
   }
-  for (int p = 0; p < n_; ++p) {
+  for (Eigen::Index p = 0; p < n_; ++p) {
     Quad weighted = 0.0;
-    for (int i = 0; i < rule_.stages; ++i) weighted += shares[i] * w_[i * n_ + p];
+    for (Eigen::Index i = 0; i < rule_.stages; ++i) weighted += shares[i] * w_[i * n_ + p];
     z[p] = z_[p] + weighted / sum;
   }
 }
 
 CollocationStep::Integral::Integral(const CollocationStep& step, int state)
     : h_(step.h_), start_(step.z_[state]) {
-  const int s = step.rule_.stages;
-  for (int k = 0; k < s; ++k) {
+  const Eigen::Index s = step.rule_.stages;
+  for (Eigen::Index k = 0; k < s; ++k) {
     Quad coefficient = 0.0;
-    for (int j = 0; j < s; ++j) {
+    for (Eigen::Index j = 0; j < s; ++j) {
       coefficient += step.rule_.to_legendre[k * s + j] * step.w_[j * step.n_ + state];
     }
     legendre_.push_back(coefficient);

@@ -64,7 +64,7 @@ class CollocationStep {
   const Equation& equation_;
   const RadauRule& rule_;
   double tolerance_;
-  int n_;
+  Eigen::Index n_;  // states
 
   Quad t_ = 0.0, h_ = 0.0;
   std::vector<Quad> z_;

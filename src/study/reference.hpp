@@ -33,7 +33,7 @@ struct ReferenceSolution {
 [[nodiscard]] int coordinates(const model::Model& model);
 
 // Solves by Radau IIA collocation of order 47 in steps as long as the solution is smooth; it
-// shares nothing with the integrators but the model. Stiff models are no harder than others. The
+// shares no code with the integrators but the model. Stiff models are no harder than others. The
 // model's stops are reached and restarted from.
 //
 // `tolerance` bounds the error of one step, relative to 1 + |z| in each state's unit; steps are

@@ -1,0 +1,180 @@
+#include "study/accuracy.hpp"
+
+#include <CLI/App.hpp>
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "commands.hpp"
+#include "describe.hpp"
+#include "gnuplot.hpp"
+#include "model/model.hpp"
+#include "progress.hpp"
+#include "record/atomic_file.hpp"
+#include "record/recorder.hpp"
+#include "scenario/reader.hpp"
+#include "signals.hpp"
+#include "solve/choose.hpp"
+#include "solve/output_grid.hpp"
+#include "study/accuracy_text.hpp"
+
+namespace bbsim::app {
+namespace {
+
+struct AccuracyArguments {
+  std::string scenario, csv, plot;
+  std::string rtols = "1e-3:1e-13";
+  std::vector<std::string> overrides, methods;
+};
+
+// Every method but `auto`, which is one of the others, if none is named.
+std::vector<Method> methods_named(const std::vector<std::string>& names) {
+  std::vector<Method> methods;
+  if (names.empty()) {
+    for (const NamedMethod& known : named_methods) {
+      if (known.method != Method::automatic) methods.push_back(known.method);
+    }
+    return methods;
+  }
+  for (const std::string& name : names) {
+    const auto known = std::ranges::find(named_methods, name, &NamedMethod::name);
+    if (known == named_methods.end()) {
+      std::string message = "--methods: found " + name + ", allowed are, separated by commas:";
+      for (const NamedMethod& method : named_methods) (message += ' ') += method.name;
+      throw InputError(message);
+    }
+    methods.push_back(known->method);
+  }
+  return methods;
+}
+
+std::optional<double> tolerance(const std::string& text) {
+  char* end = nullptr;
+  const double value = std::strtod(text.c_str(), &end);
+  if (end == text.c_str() || *end != '\0' || !(value >= 1e-14 && value <= 0.1)) return {};
+  return value;
+}
+
+// "1e-3:1e-13": a value a decade from the first to the last; or a single value.
+std::vector<double> tolerance_ladder(const std::string& text) {
+  const std::size_t colon = text.find(':');
+  const auto first = tolerance(text.substr(0, colon));
+  const auto last = colon == std::string::npos ? first : tolerance(text.substr(colon + 1));
+  if (!first || !last || *last > *first) {
+    throw InputError("--rtol: found " + text +
+                     ", allowed is LOOSEST:TIGHTEST such as 1e-3:1e-13, or one value, each from "
+                     "0.1 down to 1e-14");
+  }
+  std::vector<double> ladder;
+  for (int decade = 0;; ++decade) {
+    const double rung = decade == 0 ? *first : study::ten_digits(*first / std::pow(10.0, decade));
+    if (rung < *last) return ladder;
+    ladder.push_back(rung);
+  }
+}
+
+study::Picture picture_of(const std::string& file) {
+  const std::string ending = std::filesystem::path(file).extension().string();
+  if (ending == ".svg") return study::Picture::svg;
+  if (ending == ".png") return study::Picture::png;
+  throw InputError("--plot: found " + file + ", allowed is a name that ends in .svg or .png");
+}
+
+void explain_reference(const study::AccuracyStudy& study, double end) {
+  std::fprintf(stderr, "the reference's own error: about %.1e m\n", study.reference_error);
+  if (!study.reference_complete && !study.interrupted) {
+    std::fprintf(stderr,
+                 "the reference ended at t = %s s of %s s, and errors are those before: %s\n",
+                 short_number(study.reference_reached).c_str(), short_number(end).c_str(),
+                 study.reference_reason.c_str());
+  }
+}
+
+ExitCode accuracy(const AccuracyArguments& arguments, const Options& options) {
+  const Scenario scenario = read_scenario(arguments.scenario, arguments.overrides);
+  const std::vector<Method> methods = methods_named(arguments.methods);
+  const std::vector<double> rtols = tolerance_ladder(arguments.rtols);
+  // What is written is opened, and gnuplot looked for, before the work is done.
+  std::unique_ptr<record::AtomicFile> csv, plot;
+  if (!arguments.csv.empty()) csv = std::make_unique<record::AtomicFile>(arguments.csv);
+  const study::Picture picture =
+      arguments.plot.empty() ? study::Picture::svg : picture_of(arguments.plot);
+  if (!arguments.plot.empty()) {
+    require_gnuplot();
+    plot = std::make_unique<record::AtomicFile>(arguments.plot);
+  }
+
+  const auto columns = record::columns_named(scenario.output.columns);
+  const model::Model model =
+      model::assemble(scenario, record::any_needs(columns, record::Needs::gamma));
+  const solve::OutputGrid grid(scenario.time);
+  Progress progress("accuracy", options.quiet);
+  const study::AccuracyStudy study = study::measure_accuracy(
+      model, grid, methods, rtols, {&watch_signals(), [&](double part) { progress.update(part); }});
+  progress.clear();
+
+  if (!options.quiet) explain_reference(study, grid.end());
+  if (csv) {
+    csv->write(study::accuracy_csv(study));
+    csv->commit();
+  }
+  const std::string title = scenario.title.empty()
+                                ? std::filesystem::path(arguments.scenario).stem().string()
+                                : scenario.title;
+  if (arguments.csv != "-") record::write_file("-", study::accuracy_table(study));
+  const bool any = !study::best_by_decade(study).empty();
+  if (plot && any) {
+    plot->write(run_gnuplot(study::accuracy_plot(study, title, picture)));
+    plot->commit();
+  }
+  if (study.interrupted) return ExitCode::interrupted;
+  if (any) return ExitCode::done;
+  if (!options.quiet) {
+    std::fprintf(stderr, "no method came to the end of the scene; `bbsim run` says why\n");
+  }
+  return ExitCode::ended_early;
+}
+
+}  // namespace
+
+void add_accuracy(CLI::App& app, const Options& options, Chosen& chosen) {
+  CLI::App* command =
+      app.add_subcommand("accuracy", "Error and time of each method over a ladder of tolerances");
+  command->fallthrough();
+  command->footer(
+      "The error is the largest |dx| or |dy| over the output times, against a solution in quad\n"
+      "precision; the time is the median processor time of repeated runs, files not counted. atol\n"
+      "is rtol / 100 throughout. The second table names the fastest choice for each decade of\n"
+      "error. CSV columns: method,rtol,atol,error_m,time_us,steps,rhs_evaluations,\n"
+      "jacobian_evaluations,status.");
+  const auto arguments = std::make_shared<AccuracyArguments>();
+  command->add_option("SCENARIO", arguments->scenario, "YAML scenario")->required();
+  command
+      ->add_option("--set", arguments->overrides,
+                   "key.path=value: set a key of the scenario; may be given again")
+      ->take_all()
+      ->expected(1);
+  command->add_option("--methods", arguments->methods, "methods to compare (default: all but auto)")
+      ->type_name("NAME,...")
+      ->delimiter(',')
+      ->allow_extra_args(false);
+  command->add_option("--rtol", arguments->rtols, "tolerances, a decade apart")
+      ->type_name("LOOSEST:TIGHTEST")
+      ->capture_default_str();
+  command
+      ->add_option("--csv", arguments->csv, "write all points to this file; - is standard output")
+      ->type_name("FILE");
+  command->add_option("--plot", arguments->plot, "draw time over error, with gnuplot")
+      ->type_name("FILE.svg|FILE.png");
+  command->callback([arguments, &options, &chosen] {
+    chosen = [arguments, &options] { return accuracy(*arguments, options); };
+  });
+}
+
+}  // namespace bbsim::app

@@ -1,0 +1,142 @@
+#include "study/accuracy.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <limits>
+
+#include "solve/cpu_clock.hpp"
+#include "solve/integrate.hpp"
+#include "study/reference.hpp"
+
+namespace bbsim::study {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+// Far below the error of any double, in scenes that grow a millionfold as well.
+constexpr double reference_tolerance = 1e-22;
+// The reference's share of the progress shown.
+constexpr double reference_share = 0.05;
+
+constexpr std::size_t least_repeats = 5;
+constexpr double least_seconds = 0.02;
+constexpr double most_seconds = 1;
+
+double largest_error(const solve::Trajectory& rows, const ReferenceSolution& reference,
+                     int coordinates) {
+  double largest = 0;
+  for (std::size_t i = 0; i < std::min(rows.rows(), reference.rows()); ++i) {
+    for (int c = 0; c < coordinates; ++c) {
+      const double error = std::abs(plain(rows.row(i)[c] - reference.row(i)[c]));
+      if (!std::isfinite(error)) return infinity;
+      largest = std::max(largest, error);
+    }
+  }
+  return largest;
+}
+
+double median(std::vector<double> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+AccuracyPoint measure(const model::Model& model, const solve::OutputGrid& grid, Method method,
+                      double rtol, const ReferenceSolution& reference,
+                      const std::atomic<bool>* stop) {
+  AccuracyPoint point;
+  point.method = method;
+  point.tolerances = {rtol, ten_digits(rtol / 100)};
+  const solve::Watch watch{stop, {}};
+  std::vector<double> times;
+  double total = 0;
+  while (times.size() < least_repeats || total < least_seconds) {
+    solve::Trajectory rows(reference.row_size);
+    const solve::CpuClock clock;
+    const solve::Outcome outcome =
+        solve::integrate(model, method, point.tolerances, grid, rows, watch);
+    times.push_back(clock.seconds());
+    total += times.back();
+    point.ending = outcome.ending;
+    if (times.size() == 1) {
+      point.statistics = outcome.statistics;
+      point.error = largest_error(rows, reference, coordinates(model));
+    }
+    if (outcome.ending == solve::Ending::interrupted || total > most_seconds) break;
+  }
+  point.cpu_seconds = median(times);
+  point.repeats = times.size();
+  return point;
+}
+
+}  // namespace
+
+double ten_digits(double value) {
+  char digits[32];
+  std::snprintf(digits, sizeof digits, "%.10g", value);
+  return std::strtod(digits, nullptr);
+}
+
+AccuracyStudy measure_accuracy(const model::Model& model, const solve::OutputGrid& grid,
+                               const std::vector<Method>& methods, const std::vector<double>& rtols,
+                               const AccuracyWatch& watch) {
+  const auto progress = [&](double fraction) {
+    if (watch.progress) watch.progress(fraction);
+  };
+  const ReferenceSolution reference = solve_reference(
+      model, grid, reference_tolerance,
+      {watch.stop, [&](double time) { progress(reference_share * time / grid.end()); }});
+
+  AccuracyStudy study;
+  study.reference_error = reference.error_estimate;
+  study.reference_complete = reference.complete;
+  study.reference_reached = reference.reached;
+  study.reference_reason = reference.reason;
+  const auto all = static_cast<double>(methods.size() * rtols.size());
+  for (const Method method : methods) {
+    for (const double rtol : rtols) {
+      if (watch.stop != nullptr && watch.stop->load(std::memory_order_relaxed)) {
+        study.interrupted = true;
+        return study;
+      }
+      AccuracyPoint point = measure(model, grid, method, rtol, reference, watch.stop);
+      if (point.ending == solve::Ending::interrupted) continue;  // and end at the check above
+      study.points.push_back(point);
+      progress(reference_share +
+               (1 - reference_share) * static_cast<double>(study.points.size()) / all);
+    }
+  }
+  study.interrupted = watch.stop != nullptr && watch.stop->load(std::memory_order_relaxed);
+  return study;
+}
+
+std::vector<BestChoice> best_by_decade(const AccuracyStudy& study) {
+  std::vector<const AccuracyPoint*> done;
+  for (const AccuracyPoint& point : study.points) {
+    if (point.ending == solve::Ending::done && std::isfinite(point.error)) done.push_back(&point);
+  }
+  if (done.empty()) return {};
+  const auto by_error = [](const AccuracyPoint* a, const AccuracyPoint* b) {
+    return a->error < b->error;
+  };
+  const auto [least, most] = std::minmax_element(done.begin(), done.end(), by_error);
+  // An error of zero, of a ball that does not move, needs no finer decade than rounding has.
+  const auto decade = [](double error) {
+    return static_cast<int>(std::ceil(std::log10(std::max(error, 1e-16))));
+  };
+  std::vector<BestChoice> best;
+  for (int exponent = decade((*most)->error); exponent >= decade((*least)->error); --exponent) {
+    const double allowed = std::pow(10.0, exponent);
+    const AccuracyPoint* fastest = nullptr;
+    for (const AccuracyPoint* point : done) {
+      if (point->error > allowed) continue;
+      if (fastest == nullptr || point->cpu_seconds < fastest->cpu_seconds) fastest = point;
+    }
+    if (fastest != nullptr) best.push_back({allowed, fastest});
+  }
+  return best;
+}
+
+}  // namespace bbsim::study

@@ -1,0 +1,63 @@
+// What accuracy costs: integrators and tolerances against the quad-precision reference.
+#pragma once
+
+#include <atomic>
+#include <cstddef>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "model/model.hpp"
+#include "solve/outcome.hpp"
+#include "solve/output_grid.hpp"
+
+namespace bbsim::study {
+
+// One method at one tolerance.
+struct AccuracyPoint {
+  Method method = Method::automatic;  // as asked for
+  solve::Tolerances tolerances;
+  double error = 0;        // max |dx|, |dy| over the output times that both reached, m
+  double cpu_seconds = 0;  // median of repeated runs
+  std::size_t repeats = 0;
+  solve::Statistics statistics;  // of one run
+  solve::Ending ending = solve::Ending::done;
+};
+
+struct AccuracyStudy {
+  std::vector<AccuracyPoint> points;  // methods in the order asked for, each down its ladder
+  double reference_error = 0;         // the reference's estimate of its own error, m
+  bool reference_complete = false;    // if not, errors are those up to where it ended
+  double reference_reached = 0;       // s
+  std::string reference_reason;
+  bool interrupted = false;  // points are those finished before
+};
+
+struct AccuracyWatch {
+  const std::atomic<bool>* stop = nullptr;          // end soon after this becomes true
+  std::function<void(double fraction)> progress{};  // of the whole study, in [0, 1]
+};
+
+// As the double that its first ten digits name: 1e-5, where 1e-3 / 100 is one next to it.
+[[nodiscard]] double ten_digits(double value);
+
+// Runs every method at every rtol, with the rows kept in memory. atol is a hundredth of rtol, as
+// in the scenario's defaults. Each run is repeated until its time is steady: at least 5 times and
+// for 20 ms, but for no more than a second.
+[[nodiscard]] AccuracyStudy measure_accuracy(const model::Model& model,
+                                             const solve::OutputGrid& grid,
+                                             const std::vector<Method>& methods,
+                                             const std::vector<double>& rtols,
+                                             const AccuracyWatch& watch = {});
+
+// The fastest point whose error is within `error`.
+struct BestChoice {
+  double error = 0;  // m, a power of ten
+  const AccuracyPoint* point = nullptr;
+};
+
+// From the coarsest decade that tells points apart to the finest one that any reached. Only runs
+// that came to their end count. The points are those of `study`, which must outlive the result.
+[[nodiscard]] std::vector<BestChoice> best_by_decade(const AccuracyStudy& study);
+
+}  // namespace bbsim::study
