@@ -64,6 +64,10 @@ std::string failure_text(const model::Model& model, const solve::Outcome& outcom
   if (!warning.empty()) {
     text += "  That is the scene, not the solver: " + warning + ".\n";
     text += "  Change the gains or the servo; `bbsim check` shows the poles.";
+  } else if (largest != state.end() && std::abs(*largest) > 1e30) {
+    text +=
+        "  That is the motion, not the solver: end the scene earlier, or change the gimbal's "
+        "motion.";
   } else {
     text += "  Try a looser solver.rtol, or another solver.method; `bbsim check` shows the model.";
   }

@@ -42,6 +42,19 @@ ExitCode run(const std::function<ExitCode()>& command) {
   }
 }
 
+// Help and the version end parsing well; all else is a mistake on the command line.
+int parsing_ended(const CLI::App& app, const CLI::ParseError& error) {
+  const bool names_a_command = app.remaining().empty() || !app.get_subcommands().empty();
+  if (error.get_name() == "RequiredError" && !names_a_command) {
+    std::string known;
+    for (const CLI::App* command : app.get_subcommands({})) known += " " + command->get_name();
+    return code(say("unknown command " + app.remaining().front() + "; known:" + known +
+                        "\nRun with --help for more information.",
+                    ExitCode::input_at_fault));
+  }
+  return app.exit(error) == 0 ? code(ExitCode::done) : code(ExitCode::input_at_fault);
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -69,8 +82,7 @@ int main(int argc, char** argv) {
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
-    const int status = app.exit(error);  // prints help, the version or what is wrong
-    return status == 0 ? code(ExitCode::done) : code(ExitCode::input_at_fault);
+    return parsing_ended(app, error);
   }
   return code(run(chosen));
 }

@@ -27,7 +27,7 @@ std::vector<std::string> lines(const std::string& text) {
 // A scene that takes minutes: a million seconds of a fast oscillation.
 const char* const long_scene =
     "ball: {radius: 0.01}\n"
-    "gimbal: {motion: {phi: {sinusoid: {amplitude: 0.01, frequency: 300}}}}\n"
+    "gimbal: {motion: {phi: {sinusoid: {amplitude: 1e-5, frequency: 300}}}}\n"
     "time: {end: 1e6, step: 1}\n";
 
 }  // namespace
@@ -100,6 +100,26 @@ TEST_CASE("the summary tells how the run went") {
   CHECK(contains(json, "\"theta_rate\""));
 }
 
+TEST_CASE("an error in metres is met, or refused with what can be had") {
+  const Folder folder;
+  const Result met =
+      bbsim({"run", config("fig2a.yaml"), "--error", "1 um", "--summary", "s.json"}, folder.path());
+  CHECK(met.exit_code == 0);
+  CHECK(contains(met.err, "error about "));
+  CHECK(contains(folder.read("s.json"), "\"error_bound\": 1e-06"));
+  CHECK(contains(folder.read("s.json"), "\"error_estimate\""));
+
+  const Result beyond = bbsim({"run", config("fig2a.yaml"), "--error", "1e-20"}, folder.path());
+  CHECK(beyond.exit_code == 1);
+  CHECK(contains(beyond.err, "an error of 1e-20 m is out of reach"));
+  CHECK(lines(folder.read("fig2a.csv")).size() == 1002);
+
+  const Result both = bbsim(
+      {"run", config("fig2a.yaml"), "--error", "1e-6", "--set", "solver.rtol=1e-5"}, folder.path());
+  CHECK(both.exit_code == 2);
+  CHECK(contains(both.err, "solver.rtol: given together with error"));
+}
+
 TEST_CASE("the printed law blows up: exit 1, rows kept, and the reason with the poles") {
   const Folder folder;
   const Result result =
@@ -157,6 +177,7 @@ TEST_CASE("a faulty command line is exit 2, with help at hand") {
     CHECK(result.out.empty());
     CHECK(contains(result.err, "--help"));
   }
+  CHECK(contains(bbsim({"fly"}).err, "unknown command fly; known: run check"));
   const Result ending = bbsim({"run", config("fig2a.yaml"), "-o", "fig2a.txt"});
   CHECK(ending.exit_code == 2);
   CHECK(contains(ending.err, ".csv"));
