@@ -78,6 +78,7 @@ int main(int argc, char** argv) {
   bbsim::app::add_check(app, chosen);
   bbsim::app::add_compare(app, chosen);
   bbsim::app::add_columns(app, chosen);
+  bbsim::app::add_accuracy(app, options, chosen);
 
   try {
     app.parse(argc, argv);
