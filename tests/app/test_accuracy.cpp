@@ -1,0 +1,48 @@
+// bbsim accuracy: its table, its CSV, and its mistakes.
+#include <sstream>
+#include <string>
+
+#include "catch.hpp"
+#include "process.hpp"
+
+using namespace bbsim_test;
+
+namespace {
+
+bool contains(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
+
+}  // namespace
+
+TEST_CASE("accuracy prints a table, and writes it as CSV") {
+  const Folder folder;
+  const std::string scenario = std::string(BBSIM_SOURCE_DIR) + "/tests/data/scenarios/fig2a.yaml";
+  const Result result = bbsim({"accuracy", scenario, "--methods", "radau,adams", "--rtol",
+                               "1e-5:1e-7", "--csv", "a.csv", "-q"},
+                              folder.path());
+  CHECK(result.exit_code == 0);
+  CHECK(contains(result.out, "radau"));
+  CHECK(contains(result.out, "error within"));
+  std::istringstream csv(folder.read("a.csv"));
+  std::string line;
+  std::getline(csv, line);
+  CHECK(line ==
+        "method,rtol,atol,error_m,time_us,steps,rhs_evaluations,jacobian_evaluations,status");
+  int rows = 0;
+  while (std::getline(csv, line)) {
+    ++rows;
+    CHECK(contains(line, ",done"));
+  }
+  CHECK(rows == 6);  // two methods, three tolerances
+}
+
+TEST_CASE("accuracy refuses a method or a range that it does not know") {
+  const Result method = bbsim({"accuracy", config("fig2a.yaml"), "--methods", "euler"});
+  CHECK(method.exit_code == 2);
+  CHECK(contains(method.err, "euler"));
+  CHECK(contains(method.err, "radau"));
+  const Result range = bbsim({"accuracy", config("fig2a.yaml"), "--rtol", "coarse"});
+  CHECK(range.exit_code == 2);
+  CHECK(contains(range.err, "coarse"));
+}
