@@ -1,0 +1,4 @@
+// Starts and ends.
+int main() {
+  return 0;
+}

@@ -1,0 +1,60 @@
+#include "scene.hpp"
+
+#include <cmath>
+#include <limits>
+#include <utility>
+#include <variant>
+
+#include "base/error.hpp"
+#include "record/table_writer.hpp"
+#include "scenario/reader.hpp"
+
+namespace bbsim::bench {
+namespace {
+
+const std::vector<double>& column(const record::TableData& table, const std::string& name,
+                                  const std::string& file) {
+  const auto found = std::find(table.names.begin(), table.names.end(), name);
+  if (found == table.names.end()) throw InputError(file + ": has no column " + name);
+  return table.columns[static_cast<std::size_t>(found - table.names.begin())];
+}
+
+}  // namespace
+
+Scene load_scene(const std::string& folder, const std::string& name) {
+  const std::string file = folder + "/reference/" + name + ".csv";
+  const Scenario scenario = read_scenario(folder + "/scenarios/" + name + ".yaml");
+  const record::TableData table = record::read_table(file);
+  Scene scene{name, model::assemble(scenario, false), solve::OutputGrid(scenario.time),
+              {},   column(table, "x", file),         column(table, "y", file)};
+  for (std::size_t i = 0; i < scene.grid.size(); ++i) scene.times.push_back(scene.grid[i]);
+  const std::vector<double>& times = column(table, "t", file);
+  bool alike = times.size() == scene.times.size();
+  for (std::size_t i = 0; alike && i < times.size(); ++i) {
+    alike =
+        std::abs(times[i] - scene.times[i]) <= 1e-12 * scene.grid.end();  // rounding of i * step
+  }
+  if (!alike) throw InputError(file + ": its times are not the output times of the scenario");
+  return scene;
+}
+
+double largest_error(const Scene& scene, const Rows& rows) {
+  double largest = 0;
+  std::visit(
+      [&](const auto& system) {
+        for (std::size_t i = 0; i < scene.grid.size(); ++i) {
+          const model::BallMotion ball = system.sample(scene.grid[i], rows.row(i)).ball;
+          const double error =
+              std::max(std::abs(ball.x - scene.x[i]), std::abs(ball.y - scene.y[i]));
+          if (!std::isfinite(error)) {
+            largest = std::numeric_limits<double>::infinity();
+            return;
+          }
+          largest = std::max(largest, error);
+        }
+      },
+      scene.model.system);
+  return largest;
+}
+
+}  // namespace bbsim::bench

@@ -1,0 +1,47 @@
+// A scene to measure with: its model, its output times, and its solution.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "model/model.hpp"
+#include "solve/outcome.hpp"
+#include "solve/output_grid.hpp"
+
+namespace bbsim::bench {
+
+// Takes the rows of a run into memory that is there before the clock starts, for every tool alike.
+class Rows : public solve::StateSink {
+ public:
+  Rows(std::size_t rows, std::size_t row_size) : row_size_(row_size), values_(rows * row_size) {}
+
+  void accept(std::size_t first, std::size_t count, const double* values) override {
+    std::copy(values, values + count * row_size_, row(first));
+  }
+
+  [[nodiscard]] double* row(std::size_t i) { return values_.data() + i * row_size_; }
+  [[nodiscard]] const double* row(std::size_t i) const { return values_.data() + i * row_size_; }
+
+ private:
+  std::size_t row_size_;
+  std::vector<double> values_;
+};
+
+struct Scene {
+  std::string name;
+  model::Model model;  // without gamma
+  solve::OutputGrid grid;
+  std::vector<double> times;  // those of the grid, s
+  std::vector<double> x, y;   // of the reference solution at the output times, m
+};
+
+// NAME of FOLDER/scenarios/NAME.yaml, whose solution is FOLDER/reference/NAME.csv. Throws
+// InputError if either is not there or not valid, or if their output times differ.
+[[nodiscard]] Scene load_scene(const std::string& folder, const std::string& name);
+
+// max |dx|, |dy| over the output times, m; infinity if any is not finite.
+[[nodiscard]] double largest_error(const Scene& scene, const Rows& rows);
+
+}  // namespace bbsim::bench
