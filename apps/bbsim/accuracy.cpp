@@ -28,9 +28,10 @@ namespace bbsim::app {
 namespace {
 
 struct AccuracyArguments {
-  std::string scenario, csv, plot;
+  ScenarioArguments scenario;
+  std::string csv, plot;
   std::string rtols = "1e-3:1e-13";
-  std::vector<std::string> overrides, methods;
+  std::vector<std::string> methods;
 };
 
 // Every method but `auto`, which is one of the others, if none is named.
@@ -97,7 +98,7 @@ void explain_reference(const study::AccuracyStudy& study, double end) {
 }
 
 ExitCode accuracy(const AccuracyArguments& arguments, const Options& options) {
-  const Scenario scenario = read_scenario(arguments.scenario, arguments.overrides);
+  const Scenario scenario = read_scenario(arguments.scenario.file, arguments.scenario.overrides);
   const std::vector<Method> methods = methods_named(arguments.methods);
   const std::vector<double> rtols = tolerance_ladder(arguments.rtols);
   // What is written is opened, and gnuplot looked for, before the work is done.
@@ -125,7 +126,7 @@ ExitCode accuracy(const AccuracyArguments& arguments, const Options& options) {
     csv->commit();
   }
   const std::string title = scenario.title.empty()
-                                ? std::filesystem::path(arguments.scenario).stem().string()
+                                ? std::filesystem::path(arguments.scenario.file).stem().string()
                                 : scenario.title;
   if (arguments.csv != "-") record::write_file("-", study::accuracy_table(study));
   const bool any = !study::best_by_decade(study).empty();
@@ -154,12 +155,7 @@ void add_accuracy(CLI::App& app, const Options& options, Chosen& chosen) {
       "error. CSV columns: method,rtol,atol,error_m,time_us,steps,rhs_evaluations,\n"
       "jacobian_evaluations,status.");
   const auto arguments = std::make_shared<AccuracyArguments>();
-  command->add_option("SCENARIO", arguments->scenario, "YAML scenario")->required();
-  command
-      ->add_option("--set", arguments->overrides,
-                   "key.path=value: set a key of the scenario; may be given again")
-      ->take_all()
-      ->expected(1);
+  add_scenario(*command, arguments->scenario);
   command->add_option("--methods", arguments->methods, "methods to compare (default: all but auto)")
       ->type_name("NAME,...")
       ->delimiter(',')

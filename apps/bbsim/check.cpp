@@ -14,11 +14,6 @@
 namespace bbsim::app {
 namespace {
 
-struct CheckArguments {
-  std::string scenario;
-  std::vector<std::string> overrides;
-};
-
 void print_line(const std::string& label, const std::string& text) {
   std::printf("%-12s %s\n", label.c_str(), text.c_str());
 }
@@ -50,14 +45,14 @@ void print_solver(const Scenario& scenario, const model::Model& model) {
                      ": its fastest mode decays " + short_number(decays) + " times over it");
 }
 
-ExitCode check(const CheckArguments& arguments) {
-  const Scenario scenario = read_scenario(arguments.scenario, arguments.overrides);
+ExitCode check(const ScenarioArguments& arguments) {
+  const Scenario scenario = read_scenario(arguments.file, arguments.overrides);
   const auto columns = record::columns_named(scenario.output.columns);
   const model::Model model =
       model::assemble(scenario, record::any_needs(columns, record::Needs::gamma));
   const solve::OutputGrid grid(scenario.time);
 
-  print_line("scenario", arguments.scenario + " is valid");
+  print_line("scenario", arguments.file + " is valid");
   if (!scenario.title.empty()) print_line("title", scenario.title);
   print_line("model", states_line(model));
   for (const model::Note& note : model.notes) print_line("  " + note.part, note.reason);
@@ -82,13 +77,8 @@ void add_check(CLI::App& app, Chosen& chosen) {
   CLI::App* command = app.add_subcommand(
       "check", "Validate a scenario; print what is modelled and why, poles, and the solver");
   command->fallthrough();
-  const auto arguments = std::make_shared<CheckArguments>();
-  command->add_option("SCENARIO", arguments->scenario, "YAML scenario")->required();
-  command
-      ->add_option("--set", arguments->overrides,
-                   "key.path=value: set a key of the scenario; may be given again")
-      ->take_all()
-      ->expected(1);
+  const auto arguments = std::make_shared<ScenarioArguments>();
+  add_scenario(*command, *arguments);
   command->callback([arguments, &chosen] { chosen = [arguments] { return check(*arguments); }; });
 }
 

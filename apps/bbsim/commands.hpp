@@ -4,6 +4,8 @@
 
 #include <CLI/App.hpp>
 #include <functional>
+#include <string>
+#include <vector>
 
 #include "base/error.hpp"
 
@@ -15,6 +17,13 @@ struct Options {
 };
 
 using Chosen = std::function<ExitCode()>;
+
+// The scenario that a command reads, and the keys to set in it: SCENARIO [--set key.path=value]...
+struct ScenarioArguments {
+  std::string file;
+  std::vector<std::string> overrides;
+};
+void add_scenario(CLI::App& command, ScenarioArguments& arguments);
 
 void add_run(CLI::App& app, const Options& options, Chosen& chosen);
 void add_check(CLI::App& app, Chosen& chosen);

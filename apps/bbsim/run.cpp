@@ -24,8 +24,8 @@ namespace bbsim::app {
 namespace {
 
 struct RunArguments {
-  std::string scenario, output, summary, error;
-  std::vector<std::string> overrides;
+  ScenarioArguments scenario;
+  std::string output, summary, error;
 };
 
 std::string default_output(const std::string& scenario) {
@@ -140,16 +140,16 @@ record::RunSummary summarise(const Scenario& scenario, const model::Model& model
 }
 
 ExitCode run(const RunArguments& arguments, const Options& options) {
-  std::vector<std::string> overrides = arguments.overrides;
+  std::vector<std::string> overrides = arguments.scenario.overrides;
   if (!arguments.error.empty()) overrides.push_back("solver.error=" + arguments.error);
-  const Scenario scenario = read_scenario(arguments.scenario, overrides);
+  const Scenario scenario = read_scenario(arguments.scenario.file, overrides);
   const auto columns = record::columns_named(scenario.output.columns);
   const model::Model model =
       model::assemble(scenario, record::any_needs(columns, record::Needs::gamma));
   const solve::OutputGrid grid(scenario.time);
 
   const std::string output =
-      arguments.output.empty() ? default_output(arguments.scenario) : arguments.output;
+      arguments.output.empty() ? default_output(arguments.scenario.file) : arguments.output;
   std::vector<record::ColumnHeader> headers;
   for (const record::Column* column : columns) {
     headers.push_back({column->name, column->unit, column->meaning});
@@ -158,7 +158,7 @@ ExitCode run(const RunArguments& arguments, const Options& options) {
   record::Recorder recorder(model, {scenario.ball.radius, scenario.ball.mass, scenario.gravity},
                             grid, columns, *writer);
 
-  Progress progress(arguments.scenario, options.quiet);
+  Progress progress(arguments.scenario.file, options.quiet);
   const solve::Watch watch{&watch_signals(),
                            [&](double time) { progress.update(time / grid.end()); }};
   const Integration made = integrate(scenario, model, grid, recorder, watch);
@@ -186,15 +186,10 @@ void add_run(CLI::App& app, const Options& options, Chosen& chosen) {
   CLI::App* command = app.add_subcommand("run", "Simulate a scenario");
   command->fallthrough();
   const auto arguments = std::make_shared<RunArguments>();
-  command->add_option("SCENARIO", arguments->scenario, "YAML scenario")->required();
+  add_scenario(*command, arguments->scenario);
   command->add_option("-o,--output", arguments->output,
                       "FILE.csv, FILE.h5, or - for CSV on standard output; default: the scenario's "
                       "name with .csv, in the current folder");
-  command
-      ->add_option("--set", arguments->overrides,
-                   "key.path=value: set a key of the scenario; may be given again")
-      ->take_all()
-      ->expected(1);
   command->add_option(
       "--error", arguments->error,
       "bound on the error of x and y at all output times, such as 1e-9 or \"1 um\"; "

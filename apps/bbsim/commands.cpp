@@ -1,0 +1,14 @@
+#include "commands.hpp"
+
+namespace bbsim::app {
+
+void add_scenario(CLI::App& command, ScenarioArguments& arguments) {
+  command.add_option("SCENARIO", arguments.file, "YAML scenario")->required();
+  command
+      .add_option("--set", arguments.overrides,
+                  "key.path=value: set a key of the scenario; may be given again")
+      ->take_all()
+      ->expected(1);
+}
+
+}  // namespace bbsim::app
