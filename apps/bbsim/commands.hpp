@@ -28,6 +28,7 @@ void add_scenario(CLI::App& command, ScenarioArguments& arguments);
 void add_run(CLI::App& app, const Options& options, Chosen& chosen);
 void add_check(CLI::App& app, Chosen& chosen);
 void add_compare(CLI::App& app, Chosen& chosen);
+void add_verify(CLI::App& app, const Options& options, Chosen& chosen);
 void add_columns(CLI::App& app, Chosen& chosen);
 void add_accuracy(CLI::App& app, const Options& options, Chosen& chosen);
 

@@ -77,6 +77,7 @@ int main(int argc, char** argv) {
   bbsim::app::add_run(app, options, chosen);
   bbsim::app::add_check(app, chosen);
   bbsim::app::add_compare(app, chosen);
+  bbsim::app::add_verify(app, options, chosen);
   bbsim::app::add_columns(app, chosen);
   bbsim::app::add_accuracy(app, options, chosen);
 

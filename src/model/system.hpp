@@ -37,6 +37,23 @@ struct Motions {
   Motion of[velocities];
 };
 
+// The ball's equation of motion, a parameter of the systems below: (27), or a simpler one to be
+// measured against it (model/simpler.hpp).
+struct Equation27 {
+  template <class Real, class Phi, class Theta, class Ball>
+  static Real x(const Phi& phi, const Theta& theta, const Ball& ball, double r, double g) {
+    return x_acceleration<Real>(phi, theta, ball, r, g);
+  }
+  template <class Real, class Phi, class Theta, class Ball>
+  static Real y(const Phi& phi, const Theta& theta, const Ball& ball, double r, double g) {
+    return y_acceleration<Real>(phi, theta, ball, r, g);
+  }
+  template <class Real, class Phi, class Theta, class Ball>
+  static Real u(const Phi& phi, const Theta& theta, const Ball& ball, double r) {
+    return u_acceleration<Real>(phi, theta, ball, r);
+  }
+};
+
 // Fields, not indices: the packing of the ball into a solver's vector, and back.
 template <Shape shape>
 struct BallLayout;
@@ -51,14 +68,14 @@ struct BallLayout<Shape::full> {
   static RollingState<Real, Real, Real> unpack(const Real* z) {
     return {z[0], z[1], z[2], z[3], z[4]};
   }
-  template <class Real, class Phi, class Theta, class Ball>
+  template <class Equation, class Real, class Phi, class Theta, class Ball>
   static void derivative(const Phi& phi, const Theta& theta, const Ball& ball, double r, double g,
                          Real* dz) {
     dz[0] = ball.x_dot;
     dz[1] = ball.y_dot;
-    dz[2] = x_acceleration<Real>(phi, theta, ball, r, g);
-    dz[3] = y_acceleration<Real>(phi, theta, ball, r, g);
-    dz[4] = u_acceleration<Real>(phi, theta, ball, r);
+    dz[2] = Equation::template x<Real>(phi, theta, ball, r, g);
+    dz[3] = Equation::template y<Real>(phi, theta, ball, r, g);
+    dz[4] = Equation::template u<Real>(phi, theta, ball, r);
   }
 };
 
@@ -72,11 +89,11 @@ struct BallLayout<Shape::along_x> {
   static RollingState<Real, Zero, Zero> unpack(const Real* z) {
     return {z[0], {}, z[1], {}, {}};
   }
-  template <class Real, class Phi, class Theta, class Ball>
+  template <class Equation, class Real, class Phi, class Theta, class Ball>
   static void derivative(const Phi& phi, const Theta& theta, const Ball& ball, double r, double g,
                          Real* dz) {
     dz[0] = ball.x_dot;
-    dz[1] = x_acceleration<Real>(phi, theta, ball, r, g);
+    dz[1] = Equation::template x<Real>(phi, theta, ball, r, g);
   }
 };
 
@@ -90,11 +107,11 @@ struct BallLayout<Shape::along_y> {
   static RollingState<Zero, Real, Zero> unpack(const Real* z) {
     return {{}, z[0], {}, z[1], {}};
   }
-  template <class Real, class Phi, class Theta, class Ball>
+  template <class Equation, class Real, class Phi, class Theta, class Ball>
   static void derivative(const Phi& phi, const Theta& theta, const Ball& ball, double r, double g,
                          Real* dz) {
     dz[0] = ball.y_dot;
-    dz[1] = y_acceleration<Real>(phi, theta, ball, r, g);
+    dz[1] = Equation::template y<Real>(phi, theta, ball, r, g);
   }
 };
 
@@ -111,7 +128,7 @@ template <Shape shape, class Ball>
 }
 
 // The gimbal follows a given motion: its angles are functions of time, not states.
-template <Shape shape, class Signals = SignalPair>
+template <Shape shape, class Signals = SignalPair, class Equation = Equation27>
 class OpenLoop {
  public:
   using Layout = BallLayout<shape>;
@@ -131,7 +148,7 @@ class OpenLoop {
 
   template <class Inputs, class Real>
   void derivative_of(const Inputs& in, const Real* z, Real* dz) const {
-    Layout::template derivative<Real>(in.phi, in.theta, Layout::unpack(z), r_, g_, dz);
+    Layout::template derivative<Equation, Real>(in.phi, in.theta, Layout::unpack(z), r_, g_, dz);
   }
 
   template <class Time, class Real>
@@ -139,7 +156,15 @@ class OpenLoop {
     derivative_of(inputs(t), z, dz);
   }
 
-  [[nodiscard]] OpenLoop<shape, SignalView> view() const { return {r_, g_, motion_.view()}; }
+  [[nodiscard]] OpenLoop<shape, SignalView, Equation> view() const {
+    return {r_, g_, motion_.view()};
+  }
+
+  // The same scene with another equation for the ball.
+  template <class Other>
+  [[nodiscard]] OpenLoop<shape, Signals, Other> with_equation() const {
+    return {r_, g_, motion_};
+  }
 
   [[nodiscard]] Sample sample(double t, const double* z) const {
     const auto [phi, theta] = motion_.at(t);
@@ -197,7 +222,7 @@ struct ServoLaw {
 };
 
 // A controller moves the gimbal: angles and rates are states, after those of the ball.
-template <Shape shape, Drives drives, class Signals = SignalPair>
+template <Shape shape, Drives drives, class Signals = SignalPair, class Equation = Equation27>
 class ClosedLoop {
  public:
   using Layout = BallLayout<shape>;
@@ -232,8 +257,14 @@ class ClosedLoop {
     derivative_of(inputs(t), z, dz);
   }
 
-  [[nodiscard]] ClosedLoop<shape, drives, SignalView> view() const {
+  [[nodiscard]] ClosedLoop<shape, drives, SignalView, Equation> view() const {
     return {r_, g_, gains_, servo_, reference_.view()};
+  }
+
+  // The same loop around a ball with another equation.
+  template <class Other>
+  [[nodiscard]] ClosedLoop<shape, drives, Signals, Other> with_equation() const {
+    return {r_, g_, gains_, servo_, reference_};
   }
 
   template <class Time, class Real>
@@ -243,7 +274,7 @@ class ClosedLoop {
     Real* angles_dot = dz + Layout::size;
     const auto phi = axis<0, Real>(ball, reference, angles);
     const auto theta = axis<1, Real>(ball, reference, angles);
-    Layout::template derivative<Real>(phi, theta, ball, r_, g_, dz);
+    Layout::template derivative<Equation, Real>(phi, theta, ball, r_, g_, dz);
     for (int i = 0; i < axes; ++i) angles_dot[i] = angles[axes + i];
     if constexpr (phi_moves(shape)) angles_dot[axes] = phi.acceleration;
     if constexpr (theta_moves(shape)) angles_dot[2 * axes - 1] = theta.acceleration;

@@ -1,0 +1,121 @@
+#include "study/verify.hpp"
+
+#include <CLI/App.hpp>
+#include <algorithm>
+#include <cstddef>
+#include <cstdio>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "commands.hpp"
+#include "describe.hpp"
+#include "progress.hpp"
+#include "scenario/reader.hpp"
+#include "signals.hpp"
+#include "study/simpler.hpp"
+#include "study/verify_references.hpp"
+
+namespace bbsim::app {
+namespace {
+
+struct VerifyArguments {
+  std::string scenario;
+  std::vector<std::string> overrides;
+};
+
+struct NamedScenario {
+  std::string name;
+  Scenario scenario;
+};
+
+std::vector<NamedScenario> scenarios(const VerifyArguments& arguments) {
+  if (!arguments.scenario.empty()) {
+    return {{arguments.scenario, read_scenario(arguments.scenario, arguments.overrides)}};
+  }
+  std::vector<NamedScenario> list;
+  for (const study::ReferenceScene& scene : study::reference_scenes) {
+    const std::string name = scene.name;
+    if (name != "fig2a" && name != "fig2b") continue;
+    list.push_back({name, parse_scenario(scene.scenario, name, arguments.overrides)});
+  }
+  return list;
+}
+
+void print_checks(const study::Verification& verification) {
+  std::size_t width = 5;
+  for (const study::Check& check : verification.checks) {
+    width = std::max(width, check.name.size());
+  }
+  const int columns = static_cast<int>(width);
+  std::printf("%-*s  %9s  %9s     verdict\n", columns, "check", "error", "bound");
+  std::size_t holding = 0;
+  for (const study::Check& check : verification.checks) {
+    std::printf("%-*s  %9.1e  %9.1e %-2s  %s\n", columns, check.name.c_str(), check.error,
+                check.bound, check.unit.c_str(), check.holds() ? "holds" : "FAILS");
+    if (check.holds()) ++holding;
+  }
+  std::printf("%zu of %zu checks hold\n", holding, verification.checks.size());
+}
+
+void print_simpler(const NamedScenario& named, const study::FullModelStudy& study) {
+  std::printf("\nWhat equation (27) buys in %s: the error of simpler models\n", named.name.c_str());
+  std::printf("%-16s  %11s  %9s  %11s  %9s\n", "model", "max |dx| /m", "at t /s", "max |dy| /m",
+              "at t /s");
+  for (const study::SimplerModel& model : study.simpler) {
+    std::printf("%-16s  %11.3g  %9s  %11.3g  %9s\n", model.name.c_str(), model.dx,
+                short_number(model.at_dx).c_str(), model.dy, short_number(model.at_dy).c_str());
+  }
+  const double end = named.scenario.time.end;
+  for (const study::SimplerModel& model : study.simpler) {
+    if (model.reached >= end) continue;
+    std::printf("%s is compared up to t = %s s of %s s, as far as both models go\n",
+                model.name.c_str(), short_number(model.reached).c_str(), short_number(end).c_str());
+  }
+}
+
+ExitCode verify(const VerifyArguments& arguments, const Options& options) {
+  // Before the checks, so that a mistake in it is told at once.
+  const std::vector<NamedScenario> scenes = scenarios(arguments);
+  Progress progress("verify", options.quiet);
+  const solve::Watch watch{&watch_signals(), [&](double fraction) { progress.update(fraction); }};
+  const study::Verification verification = study::verify(watch);
+  progress.clear();
+  print_checks(verification);
+  if (verification.interrupted) return ExitCode::interrupted;
+
+  std::vector<study::SimplerModel> models;
+  for (const NamedScenario& named : scenes) {
+    const study::FullModelStudy study =
+        study::compare_simpler(named.scenario, {&watch_signals(), {}});
+    if (study.interrupted) return ExitCode::interrupted;
+    print_simpler(named, study);
+    models = study.simpler;
+  }
+  std::printf("\n");
+  for (const study::SimplerModel& model : models) {
+    std::printf("%s: %s\n", model.name.c_str(), model.equation.c_str());
+  }
+  return verification.holds() ? ExitCode::done : ExitCode::ended_early;
+}
+
+}  // namespace
+
+void add_verify(CLI::App& app, const Options& options, Chosen& chosen) {
+  CLI::App* command = app.add_subcommand(
+      "verify", "Check this build against known answers; show what the full model buys");
+  command->fallthrough();
+  const auto arguments = std::make_shared<VerifyArguments>();
+  command->add_option("SCENARIO", arguments->scenario,
+                      "YAML scenario to compare simpler models over; default: the paper's Fig. 2");
+  command
+      ->add_option("--set", arguments->overrides,
+                   "key.path=value: set a key of the scenario; may be given again")
+      ->take_all()
+      ->expected(1);
+  command->callback([arguments, &options, &chosen] {
+    chosen = [arguments, &options] { return verify(*arguments, options); };
+  });
+}
+
+}  // namespace bbsim::app

@@ -1,0 +1,35 @@
+#!/usr/bin/env python3
+"""Writes verify_references.hpp: what `bbsim verify` knows by heart.
+
+    python3 src/study/make_verify_references.py > src/study/verify_references.hpp
+
+Takes the scenarios of tests/data/scenarios and, of their quad-precision solutions in
+tests/data/reference, the rows at a fifth, two fifths ... of the scene and at its end, with all
+digits as they stand there. Scenarios are kept as text: the program reads them as it reads a file.
+"""
+import csv
+import pathlib
+
+SCENES = ("fig2a", "fig2b", "fast", "small-ball", "spin", "stiff-servo", "tumble")
+COLUMNS = ("t", "x", "y", "spin", "gamma")
+
+data = pathlib.Path(__file__).resolve().parents[2] / "tests" / "data"
+print("// Written by make_verify_references.py from tests/data; do not edit.")
+print("#pragma once\n\n#include <array>\n")
+print("namespace bbsim::study {\n")
+print("struct ReferenceRow {\n  double t, x, y, spin, gamma;\n};\n")
+print("struct ReferenceScene {\n  const char* name;\n  const char* scenario;  // YAML")
+print("  std::array<ReferenceRow, 5> rows;\n};\n")
+print("// clang-format off")
+print(f"inline constexpr std::array<ReferenceScene, {len(SCENES)}> reference_scenes{{{{")
+for name in SCENES:
+    with open(data / "reference" / f"{name}.csv", newline="") as file:
+        rows = list(csv.DictReader(file))
+    print(f'  {{"{name}", R"yaml({(data / "scenarios" / f"{name}.yaml").read_text()})yaml",')
+    last = len(rows) - 1
+    print("   {{")
+    for part in range(1, 6):
+        row = rows[last * part // 5]
+        print("     {" + ", ".join(row[column] for column in COLUMNS) + "},")
+    print("   }}},")
+print("}};\n// clang-format on\n\n}  // namespace bbsim::study")

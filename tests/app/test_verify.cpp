@@ -1,0 +1,48 @@
+// bbsim verify.
+#include <string>
+
+#include "catch.hpp"
+#include "process.hpp"
+
+using namespace bbsim_test;
+
+namespace {
+
+bool contains(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
+
+}  // namespace
+
+TEST_CASE("verify needs no files, and all of its checks hold") {
+  const Folder folder;
+  const Result result = bbsim({"verify"}, folder.path());
+  CAPTURE(result.out, result.err);
+  CHECK(result.exit_code == 0);
+  CHECK(result.err.empty());
+  CHECK(contains(result.out, "checks hold"));
+  CHECK(contains(result.out, "fixed incline: closed form (M1)"));
+  CHECK(contains(result.out, "tumble: radau against adams"));
+  CHECK_FALSE(contains(result.out, "FAILS"));
+  CHECK(contains(result.out, "buys in fig2a"));
+  CHECK(contains(result.out, "buys in fig2b"));
+  CHECK(folder.files().empty());
+}
+
+TEST_CASE("verify compares simpler models over a scenario, up to where it goes") {
+  const Result result = bbsim({"verify", config("fig2b-literal.yaml"), "--set", "time.end=2"});
+  CHECK(result.exit_code == 0);
+  CHECK(contains(result.out, "buys in " + config("fig2b-literal.yaml")));
+  CHECK(contains(result.out, "s of 2 s"));
+}
+
+TEST_CASE("verify refuses a scenario at fault before it checks anything") {
+  const Result missing = bbsim({"verify", "nowhere.yaml"});
+  CHECK(missing.exit_code == 2);
+  CHECK(missing.out.empty());
+  CHECK(contains(missing.err, "nowhere.yaml"));
+  const Result wrong = bbsim({"verify", "--set", "ball.radius=-1"});
+  CHECK(wrong.exit_code == 2);
+  CHECK(wrong.out.empty());
+  CHECK(contains(wrong.err, "ball.radius"));
+}
