@@ -34,6 +34,7 @@ void run_batch(Candidate& candidate, const Scene& scene, Rows& rows) {
   point.seconds = std::min(point.seconds, each);
   point.runs += candidate.batch;
   candidate.total += all;
+  if (all < least_batch) candidate.batch *= 2;  // the first run, by which it was chosen, was cold
 }
 
 }  // namespace
