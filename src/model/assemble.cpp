@@ -1,9 +1,9 @@
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <utility>
 
 #include "model/model.hpp"
+#include "model/reference_path.hpp"
 
 namespace bbsim::model {
 namespace {
@@ -14,8 +14,8 @@ bool zero_row(const Controller& controller, std::size_t row) {
 }
 
 // Whether a gimbal angle is zero throughout: 0 for phi, 1 for theta.
-bool stays_level(const Scenario& scene, const SignalPair& motion, std::size_t axis) {
-  if (!scene.controller) return motion.is_zero(axis);
+bool stays_level(const Scenario& scene, const SignalPair& input, std::size_t axis) {
+  if (!scene.controller) return input.is_zero(axis);
   const GimbalStart& start = scene.gimbal.start;
   const bool at_zero =
       axis == 0 ? start.phi == 0 && start.phi_rate == 0 : start.theta == 0 && start.theta_rate == 0;
@@ -24,32 +24,19 @@ bool stays_level(const Scenario& scene, const SignalPair& motion, std::size_t ax
 
 // The symmetries of docs/model.md, section 3: theta, y and spin stay zero together, or phi, x
 // and spin.
-Shape choose_shape(const Scenario& scene, const SignalPair& motion) {
+Shape choose_shape(const Scenario& scene, const SignalPair& input) {
   const Ball& ball = scene.ball;
   const auto at_rest = [&ball](std::size_t axis) {
     return ball.position[axis] == 0 && ball.velocity[axis] == 0;
   };
   if (ball.spin != 0) return Shape::full;
-  if (stays_level(scene, motion, 1) && at_rest(1)) return Shape::along_x;
-  if (stays_level(scene, motion, 0) && at_rest(0)) return Shape::along_y;
+  if (stays_level(scene, input, 1) && at_rest(1)) return Shape::along_x;
+  if (stays_level(scene, input, 0) && at_rest(0)) return Shape::along_y;
   return Shape::full;
 }
 
-SignalPair reference_path(const Reference& reference) {
-  SignalPair path;
-  if (const auto* point = std::get_if<PointReference>(&reference)) {
-    for (std::size_t i = 0; i < 2; ++i) path.add_constant(i, point->position[i]);
-  } else {
-    const auto& circle = std::get<CircleReference>(reference);
-    const double quarter = std::numbers::pi / 2;
-    path.add_sinusoid(0, circle.radius, circle.rate, circle.phase + quarter);
-    path.add_sinusoid(1, circle.radius, circle.rate, circle.phase);
-  }
-  return path;
-}
-
 template <Drives drives>
-System closed_loop(Shape shape, const Scenario& scene) {
+System closed_loop(Shape shape, const Scenario& scene, SignalPair path) {
   const Controller& controller = *scene.controller;
   Gains gains;
   for (std::size_t row = 0; row < 2; ++row) {
@@ -62,7 +49,6 @@ System closed_loop(Shape shape, const Scenario& scene) {
   if (scene.gimbal.servo) {
     servo = {scene.gimbal.servo->natural_frequency, scene.gimbal.servo->damping};
   }
-  SignalPair path = reference_path(controller.reference);
   const double r = scene.ball.radius, g = scene.gravity;
   switch (shape) {
     case Shape::along_x:
@@ -145,7 +131,8 @@ std::vector<Note> explain(const Scenario& scene, Shape shape, bool gamma, std::s
     notes.push_back({"gamma", "a quadrature of the spin, beside the states"});
   }
   if (stops > 0) {
-    notes.push_back({"stops", std::to_string(stops) + " knots of tables, none stepped over"});
+    const std::string of = scene.controller ? "the reference path" : "tables";
+    notes.push_back({"stops", std::to_string(stops) + " knots of " + of + ", none stepped over"});
   }
   return notes;
 }
@@ -153,21 +140,24 @@ std::vector<Note> explain(const Scenario& scene, Shape shape, bool gamma, std::s
 }  // namespace
 
 Model assemble(const Scenario& scenario, bool gamma) {
-  SignalPair motion;
-  if (scenario.gimbal.motion) {
-    motion.add(0, scenario.gimbal.motion->phi);
-    motion.add(1, scenario.gimbal.motion->theta);
+  // The gimbal's angles where they are given; otherwise what the controller follows.
+  SignalPair input;
+  if (scenario.controller) {
+    input = reference_path(scenario.controller->reference);
+  } else if (scenario.gimbal.motion) {
+    input.add(0, scenario.gimbal.motion->phi);
+    input.add(1, scenario.gimbal.motion->theta);
   }
-  std::vector<double> stops = motion.knots();
+  std::vector<double> stops = input.knots();
   std::erase_if(stops, [&](double t) { return t <= 0 || t >= scenario.time.end; });
-  const Shape shape = choose_shape(scenario, motion);
+  const Shape shape = choose_shape(scenario, input);
 
   const auto system = [&]() -> System {
-    if (!scenario.controller) return open_loop(shape, scenario, std::move(motion));
+    if (!scenario.controller) return open_loop(shape, scenario, std::move(input));
     if (scenario.controller->drives == Drives::angle) {
-      return closed_loop<Drives::angle>(shape, scenario);
+      return closed_loop<Drives::angle>(shape, scenario, std::move(input));
     }
-    return closed_loop<Drives::acceleration>(shape, scenario);
+    return closed_loop<Drives::acceleration>(shape, scenario, std::move(input));
   };
   std::vector<Note> notes = explain(scenario, shape, gamma, stops.size());
   return {system(),

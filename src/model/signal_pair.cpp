@@ -14,6 +14,7 @@ void SignalPair::add_ramp(std::size_t component, double start, double rate) {
 
 void SignalPair::add_sinusoid(std::size_t component, double amplitude, double frequency,
                               double phase) {
+  if (amplitude == 0) return;
   if (frequency == 0) {
     add_constant(component, amplitude * std::sin(phase));
     return;
@@ -41,9 +42,7 @@ void SignalPair::add(std::size_t component, const Profile& profile) {
             add_constant(component, part);
           } else if constexpr (std::is_same_v<Part, Sinusoid>) {
             add_constant(component, part.offset);
-            if (part.amplitude != 0) {
-              add_sinusoid(component, part.amplitude, part.frequency, part.phase);
-            }
+            add_sinusoid(component, part.amplitude, part.frequency, part.phase);
           } else if constexpr (std::is_same_v<Part, Ramp>) {
             add_ramp(component, part.start, part.rate);
           } else {

@@ -17,7 +17,7 @@ struct Harmonic {
   double sine[2], cosine[2];
 };
 
-// A spline of one component.
+// A spline of one component: a table, or a path past waypoints.
 struct Tabulated {
   std::size_t component;
   SplineView spline;
@@ -63,7 +63,7 @@ struct SignalView {
   }
 };
 
-// A sum of constants, ramps, sinusoids and tables on each of two components.
+// A sum of constants, ramps, sinusoids and splines on each of two components.
 //
 // A sine costs more than the rest of the right-hand side, so sinusoids of one frequency, on
 // either component and of any phase, share one: a sin(wt + p) = a cos p sin wt + a sin p cos wt.
@@ -78,7 +78,7 @@ class SignalPair {
   // Whether a component is zero at all times.
   [[nodiscard]] bool is_zero(std::size_t component) const;
 
-  // Times at which some derivative jumps: the knots of the tables, sorted.
+  // Times at which some derivative jumps: the knots of the splines, sorted.
   [[nodiscard]] std::vector<double> knots() const;
 
   // The largest frequency of a sinusoid, rad/s; 0 if there is none.

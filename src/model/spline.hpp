@@ -1,8 +1,9 @@
-// A C2 cubic interpolant through tabulated values.
+// Piecewise polynomials of time: interpolants through tabulated values, and paths past waypoints.
 #pragma once
 
 #include <cstddef>
 #include <memory>
+#include <utility>
 #include <vector>
 
 namespace bbsim::model {
@@ -21,18 +22,19 @@ struct Jet {
 // A look at a Spline's pieces, without owning them.
 struct SplineView {
   struct Piece {
-    double start, c0, c1, c2, c3;  // of the powers of t - start
+    double start, c0, c1 = 0, c2 = 0, c3 = 0, c4 = 0, c5 = 0;  // of the powers of t - start
   };
   const Piece* pieces;
   std::size_t count;
 
-  // Outside the table the end pieces go on.
+  // Outside the knots the end pieces go on.
   template <class Time>
   [[nodiscard]] Jet<Time> at(const Time& t) const {
     const Piece& p = pieces[interval(t)];
     const Time s = t - p.start;
-    return {p.c0 + s * (p.c1 + s * (p.c2 + s * p.c3)), p.c1 + s * (2 * p.c2 + s * (3 * p.c3)),
-            2 * p.c2 + s * (6 * p.c3)};
+    return {p.c0 + s * (p.c1 + s * (p.c2 + s * (p.c3 + s * (p.c4 + s * p.c5)))),
+            p.c1 + s * (2 * p.c2 + s * (3 * p.c3 + s * (4 * p.c4 + s * (5 * p.c5)))),
+            2 * p.c2 + s * (6 * p.c3 + s * (12 * p.c4 + s * (20 * p.c5)))};
   }
 
  private:
@@ -49,12 +51,25 @@ struct SplineView {
   }
 };
 
-// Cubic spline with not-a-knot ends (de Boor, A Practical Guide to Splines, IV): it reproduces
-// cubics, and its second derivative, the gimbal's acceleration, is continuous.
+// Pieces of degree 3 or 5 between knots, at which some derivative jumps.
 class Spline {
  public:
+  // Cubic spline with not-a-knot ends (de Boor, A Practical Guide to Splines, IV): it reproduces
+  // cubics, and its second derivative, the gimbal's acceleration, is continuous.
   // `times` strictly increasing, as many as `values`, at least four.
   Spline(std::vector<double> times, const std::vector<double>& values);
+
+  // Cubic spline that starts and ends at rest, and holds the end values outside the knots: its
+  // second derivative is continuous but for the first and last knot.
+  // `times` strictly increasing, as many as `values`, at least two.
+  [[nodiscard]] static Spline at_rest_at_ends(std::vector<double> times,
+                                              const std::vector<double>& values);
+
+  // At rest at every knot, and holding the end values outside: quintics of least jerk (Flash and
+  // Hogan, 1985), each without speed and acceleration at both its ends.
+  // `times` and `values` as above.
+  [[nodiscard]] static Spline at_rest_at_knots(std::vector<double> times,
+                                               const std::vector<double>& values);
 
   template <class Time>
   [[nodiscard]] Jet<Time> at(const Time& t) const {
@@ -64,11 +79,15 @@ class Spline {
   // Valid as long as this spline or a copy of it lives.
   [[nodiscard]] SplineView view() const { return {pieces_->data(), pieces_->size()}; }
 
-  // Where the third derivative jumps.
+  // Where the highest derivative jumps.
   [[nodiscard]] const std::vector<double>& knots() const { return times_; }
 
  private:
   using Piece = SplineView::Piece;
+
+  Spline(std::vector<double> times, std::vector<Piece> pieces)
+      : times_(std::move(times)),
+        pieces_(std::make_shared<const std::vector<Piece>>(std::move(pieces))) {}
 
   std::vector<double> times_;
   std::shared_ptr<const std::vector<Piece>> pieces_;  // shared by copies: views stay valid

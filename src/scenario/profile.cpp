@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "scenario/rules.hpp"
+#include "scenario/table_rows.hpp"
 
 namespace bbsim::input {
 namespace {
@@ -25,6 +26,13 @@ void read_ramp(Keys& keys, Ramp& ramp) {
   keys.required("rate", angular_rate, ramp.rate);
 }
 
+void read_table(Keys& keys, Table& table) {
+  TableRows rows;
+  read_table_rows(keys, {"value"}, "angle", rows);
+  if (rows.values.empty()) return;
+  table = {std::move(rows.file), std::move(rows.times), std::move(rows.values[0])};
+}
+
 struct Shapes {
   std::optional<Sinusoid> sinusoid;
   std::optional<Ramp> ramp;
@@ -35,7 +43,7 @@ void read_shapes(Keys& keys, Shapes& shapes) {
   keys.exactly_one({"sinusoid", "ramp", "table"});
   keys.optional("sinusoid", MappingOf(read_sinusoid), shapes.sinusoid);
   keys.optional("ramp", MappingOf(read_ramp), shapes.ramp);
-  keys.optional("table", MappingOf(read_table_term), shapes.table);
+  keys.optional("table", MappingOf(read_table), shapes.table);
 }
 
 constexpr std::string_view term_allowed =

@@ -13,7 +13,4 @@ struct ProfileRule {
   bool read(const Value& value, Profile& into) const;
 };
 
-// {file: motion.csv, time: t, value: phi}; reads the file, once a scenario.
-void read_table_term(Keys& keys, Table& table);
-
 }  // namespace bbsim::input

@@ -43,6 +43,32 @@ struct PairOf {
   bool read(const Value& value, Pair& into) const;
 };
 
+// A list of values that one rule reads.
+template <class Rule, class T>
+struct ListOf {
+  Rule rule;
+  std::size_t fewest, most;
+  std::string_view items;  // "points [x, y]"
+
+  [[nodiscard]] std::string allowed() const {
+    return "a list of " + std::to_string(fewest) + " to " + std::to_string(most) + ' ' +
+           std::string(items);
+  }
+  bool read(const Value& value, std::vector<T>& into) const {
+    const Node& node = *value.node;
+    if (node.kind != Node::Kind::sequence || node.items.size() < fewest ||
+        node.items.size() > most) {
+      return value.refuse("", allowed());
+    }
+    into.resize(node.items.size());
+    bool fine = true;
+    for (std::size_t i = 0; i < into.size(); ++i) {
+      fine = rule.read(value.item(i), into[i]) && fine;
+    }
+    return fine;
+  }
+};
+
 // A number k, which stands for [[k, 0], [0, k]], or a matrix [[a, b], [c, d]].
 struct GainMatrix {
   [[nodiscard]] std::string allowed() const;

@@ -70,14 +70,38 @@ struct PointReference {
   Pair position{0, 0};  // m
 };
 
-// radius (cos(rate t + phase), sin(rate t + phase))
+// centre + radius (cos(rate t + phase), sin(rate t + phase))
 struct CircleReference {
   double radius = 0;  // m, >= 0
   double rate = 0;    // rad/s
   double phase = 0;   // rad
+  Pair centre{0, 0};  // m
 };
 
-using Reference = std::variant<PointReference, CircleReference>;
+// centre + (amplitude_x cos(rate_x t + phase_x), amplitude_y sin(rate_y t + phase_y))
+struct LissajousReference {
+  Pair amplitude{0, 0};  // m
+  Pair rate{0, 0};       // rad/s
+  Pair phase{0, 0};      // rad
+  Pair centre{0, 0};     // m
+};
+
+// Each point at its time, smoothly between; the first point before, the last one afterwards.
+struct WaypointReference {
+  std::vector<Pair> points;   // m, at least two
+  std::vector<double> times;  // s, strictly increasing, one a point
+  bool rest = false;          // at rest at each point; otherwise at the first and last only
+};
+
+// A C2 interpolant through (time, x, y): at least four rows, times strictly increasing.
+struct TableReference {
+  std::string file;
+  std::vector<double> times;  // s
+  std::vector<double> x, y;   // m
+};
+
+using Reference = std::variant<PointReference, CircleReference, LissajousReference,
+                               WaypointReference, TableReference>;
 
 enum class Drives { acceleration, angle };
 

@@ -10,6 +10,7 @@ void read_ball(Keys& keys, Ball& ball);
 void read_time(Keys& keys, OutputTimes& time);
 void read_gimbal(Keys& keys, Gimbal& gimbal);
 void read_controller(Keys& keys, Controller& controller);
+void read_reference(Keys& keys, Reference& reference);
 void read_solver(Keys& keys, Solver& solver);
 void read_output(Keys& keys, Output& output);
 

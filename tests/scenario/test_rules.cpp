@@ -148,25 +148,6 @@ TEST_CASE("gains are a number or a matrix") {
              Contains("controller.pd.kp: missing; allowed: " + allowed));
 }
 
-TEST_CASE("a reference is exactly one of circle and point") {
-  const Scenario point = parse(closed_loop, {"controller.reference={point: [1 cm, -2]}"});
-  CHECK(std::get<PointReference>(point.controller->reference).position == Pair{0.01, -2});
-  const Scenario circle =
-      parse(closed_loop, {"controller.reference={circle: {radius: 0, rate: -0.3, phase: 1}}"});
-  const auto& read = std::get<CircleReference>(circle.controller->reference);
-  CHECK(read.radius == 0);
-  CHECK(read.rate == -0.3);
-  CHECK(read.phase == 1);
-
-  check_refused(closed_loop, "controller.reference={}",
-                "controller.reference: found none; allowed: exactly one of circle, point");
-  check_refused(closed_loop, "controller.reference={circle: {radius: 1, rate: 1}, point: [0, 0]}",
-                "controller.reference: found circle, point; allowed: exactly one of circle, point");
-  CHECK_THAT(errors(closed_loop, {"controller.reference={circle: {radius: -1}}"}),
-             Contains("circle.radius: found -1; allowed: a length of at least 0") &&
-                 Contains("circle.rate: missing"));
-}
-
 TEST_CASE("the solver's method is one of the named ones") {
   for (const NamedMethod& method : named_methods) {
     CHECK(parse(open_loop, {"solver.method=" + std::string(method.name)}).solver.method ==

@@ -1,9 +1,11 @@
+#include "scenario/table_rows.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <utility>
 
 #include "base/error.hpp"
-#include "scenario/profile.hpp"
 #include "scenario/rules.hpp"
 
 namespace bbsim::input {
@@ -45,7 +47,8 @@ const std::vector<double>* find_column(const Value& key, const std::string& name
 }
 
 // What is wrong with the rows, or nothing: "found ...; allowed: ...".
-std::string fault(const Table& table) {
+std::string fault(const TableRows& table, const std::vector<std::string_view>& value_keys,
+                  std::string_view noun) {
   const std::size_t rows = table.times.size();
   if (rows < fewest_rows) {
     return "found " + std::to_string(rows) + (rows == 1 ? " row" : " rows") +
@@ -56,8 +59,11 @@ std::string fault(const Table& table) {
     if (!std::isfinite(table.times[i])) {
       return "found the time " + number_text(table.times[i]) + row + "; allowed: a finite time";
     }
-    if (!std::isfinite(table.values[i])) {
-      return "found the value " + number_text(table.values[i]) + row + "; allowed: a finite angle";
+    for (std::size_t k = 0; k < value_keys.size(); ++k) {
+      const double value = table.values[k][i];
+      if (std::isfinite(value)) continue;
+      return "found the " + std::string(value_keys[k]) + ' ' + number_text(value) + row +
+             "; allowed: a finite " + std::string(noun);
     }
     if (i > 0 && !(table.times[i] > table.times[i - 1])) {
       return "found the time " + number_text(table.times[i]) + row + ", after " +
@@ -67,7 +73,7 @@ std::string fault(const Table& table) {
   return "";
 }
 
-std::string cover_fault(const Table& table, double end) {
+std::string cover_fault(const TableRows& table, double end) {
   const double first = table.times.front();
   const double last = table.times.back();
   if (first <= 0 && last >= end) return "";
@@ -77,25 +83,33 @@ std::string cover_fault(const Table& table, double end) {
 
 }  // namespace
 
-void read_table_term(Keys& keys, Table& table) {
+void read_table_rows(Keys& keys, const std::vector<std::string_view>& value_keys,
+                     std::string_view noun, TableRows& into) {
+  constexpr Text column{"the name of a column of the file"};
   std::string time_name;
-  std::string value_name;
-  bool named = keys.required("file", Text{"the name of a CSV file"}, table.file);
-  named = keys.required("time", Text{"the name of a column of the file"}, time_name) && named;
-  named = keys.required("value", Text{"the name of a column of the file"}, value_name) && named;
+  std::vector<std::string> names(value_keys.size());
+  bool named = keys.required("file", Text{"the name of a CSV file"}, into.file);
+  named = keys.required("time", column, time_name) && named;
+  for (std::size_t k = 0; k < names.size(); ++k) {
+    named = keys.required(value_keys[k], column, names[k]) && named;
+  }
   if (!named) return;
 
-  const record::TableData* data = load(*keys.find("file"), table.file);
+  const record::TableData* data = load(*keys.find("file"), into.file);
   if (data == nullptr) return;
   const std::vector<double>* times = find_column(*keys.find("time"), time_name, *data);
-  const std::vector<double>* values = find_column(*keys.find("value"), value_name, *data);
-  if (times == nullptr || values == nullptr) return;
-  table.times = *times;
-  table.values = *values;
+  std::vector<std::vector<double>> values;
+  for (std::size_t k = 0; k < names.size(); ++k) {
+    const std::vector<double>* found = find_column(*keys.find(value_keys[k]), names[k], *data);
+    if (found != nullptr) values.push_back(*found);
+  }
+  if (times == nullptr || values.size() < names.size()) return;
+  into.times = *times;
+  into.values = std::move(values);
 
-  std::string wrong = fault(table);
-  if (wrong.empty() && keys.context().end) wrong = cover_fault(table, *keys.context().end);
-  if (!wrong.empty()) keys.mapping().report(shown(table.file) + ": " + wrong);
+  std::string wrong = fault(into, value_keys, noun);
+  if (wrong.empty() && keys.context().end) wrong = cover_fault(into, *keys.context().end);
+  if (!wrong.empty()) keys.mapping().report(shown(into.file) + ": " + wrong);
 }
 
 }  // namespace bbsim::input

@@ -1,0 +1,232 @@
+// Reference paths: against formulas, finite differences, and what they promise at their knots.
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+#include "catch.hpp"
+#include "model/model.hpp"
+#include "model/reference_path.hpp"
+#include "random_states.hpp"
+#include "scenes.hpp"
+
+using namespace bbsim;
+using namespace bbsim::model;
+using namespace bbsim_test;
+
+namespace {
+
+constexpr double epsilon = 2.3e-16;
+
+const std::vector<Pair> corners{{0.05, 0}, {0.05, 0.04}, {-0.03, 0.04}, {-0.03, -0.02}};
+const std::vector<double> hours{1, 2, 2.5, 4};
+
+// Central differences: the exact path has a truncation error of h^2/6 times the third derivative of
+// what is differenced, and rounding adds eps (value / h).
+void check_derivatives(const SignalPair& path, double t, double third, double fourth) {
+  const double h = 1e-5, size = 0.2;  // m
+  const auto before = path.at(t - h), here = path.at(t), after = path.at(t + h);
+  for (std::size_t i = 0; i < 2; ++i) {
+    CAPTURE(t, i);
+    const double rate = (after[i].value - before[i].value) / (2 * h);
+    const double acceleration = (after[i].rate - before[i].rate) / (2 * h);
+    CHECK(std::abs(rate - here[i].rate) < h * h * third / 6 + 20 * epsilon * size / h);
+    // Speeds stay below ten sizes a second.
+    CHECK(std::abs(acceleration - here[i].acceleration) <
+          h * h * fourth / 6 + 20 * epsilon * 10 * size / h);
+  }
+}
+
+void check_hold(const SignalPair& path) {
+  for (std::size_t i = 0; i < 2; ++i) {
+    for (const double t : {-3.0, 0.0, 0.999}) {
+      CHECK(path.at(t)[i].value == corners.front()[i]);
+      CHECK(path.at(t)[i].rate == 0);
+      CHECK(path.at(t)[i].acceleration == 0);
+    }
+    for (const double t : {4.0, 4.001, 100.0}) {
+      CHECK(path.at(t)[i].value == corners.back()[i]);
+      CHECK(path.at(t)[i].rate == 0);
+      CHECK(path.at(t)[i].acceleration == 0);
+    }
+  }
+}
+
+}  // namespace
+
+TEST_CASE("a circle turns about its centre") {
+  const double R = 0.05, w = -0.3, p = 0.7;
+  const SignalPair path = reference_path(CircleReference{R, w, p, {0.02, -0.01}});
+  for (const double t : {0.0, 1.3, 17.0}) {
+    const auto [x, y] = path.at(t);
+    // The argument carries the rounding of w t and of the quarter turn.
+    const double bound = 8 * epsilon * (1 + std::abs(w * t));
+    CHECK(std::abs(x.value - (0.02 + R * std::cos(w * t + p))) < bound);
+    CHECK(std::abs(y.value - (-0.01 + R * std::sin(w * t + p))) < bound);
+    CHECK(std::abs(x.rate + R * w * std::sin(w * t + p)) < bound);
+    CHECK(std::abs(y.rate - R * w * std::cos(w * t + p)) < bound);
+  }
+  CHECK(path.knots().empty());
+}
+
+TEST_CASE("a Lissajous figure is a cosine and a sine of their own") {
+  const LissajousReference figure{{0.06, 0.04}, {3, 2}, {0.3, -0.5}, {0.01, 0.02}};
+  const SignalPair path = reference_path(figure);
+  for (const double t : {0.0, 0.9, 12.0}) {
+    const auto [x, y] = path.at(t);
+    const double a = 3 * t + 0.3, b = 2 * t - 0.5;
+    const double bound = 8 * epsilon * (1 + 3 * t);  // as above; lengths and rates below 1
+    CHECK(std::abs(x.value - (0.01 + 0.06 * std::cos(a))) < bound);
+    CHECK(std::abs(x.rate + 0.18 * std::sin(a)) < bound);
+    CHECK(std::abs(x.acceleration + 0.54 * std::cos(a)) < bound);
+    CHECK(std::abs(y.value - (0.02 + 0.04 * std::sin(b))) < bound);
+    CHECK(std::abs(y.rate - 0.08 * std::cos(b)) < bound);
+    CHECK(std::abs(y.acceleration + 0.16 * std::sin(b)) < bound);
+    check_derivatives(path, t, 0.06 * 27, 0.06 * 81);
+  }
+  CHECK(path.highest_frequency() == 3);
+  CHECK(path.knots().empty());
+}
+
+TEST_CASE("a Lissajous figure of one rate and radius is the circle, to the bit") {
+  const SignalPair circle = reference_path(CircleReference{0.05, -0.3, 0.7, {0.02, 0}});
+  const SignalPair figure =
+      reference_path(LissajousReference{{0.05, 0.05}, {-0.3, -0.3}, {0.7, 0.7}, {0.02, 0}});
+  for (const double t : {0.0, 3.7, 20.0}) {
+    for (std::size_t i = 0; i < 2; ++i) {
+      CHECK(circle.at(t)[i].value == figure.at(t)[i].value);
+      CHECK(circle.at(t)[i].rate == figure.at(t)[i].rate);
+    }
+  }
+}
+
+TEST_CASE("what does not move costs no sine") {
+  CHECK(reference_path(CircleReference{0, 5, 0, {0.1, 0}}).highest_frequency() == 0);
+  CHECK(reference_path(LissajousReference{{0.1, 0}, {2, 5}, {}, {}}).highest_frequency() == 2);
+  // A rate of zero leaves a cos(phase).
+  const auto [x, y] = reference_path(LissajousReference{{0.1, 0.1}, {0, 0}, {1, 1}, {}}).at(3.0);
+  CHECK(std::abs(x.value - 0.1 * std::cos(1)) < 4 * epsilon);
+  CHECK(std::abs(y.value - 0.1 * std::sin(1)) < 4 * epsilon);
+  CHECK(x.rate == 0);
+}
+
+TEST_CASE("waypoints: C2 between, at rest at both ends, held outside") {
+  const SignalPair path = reference_path(WaypointReference{corners, hours, false});
+  CHECK(path.knots() == hours);
+  check_hold(path);
+  for (std::size_t k = 0; k < hours.size(); ++k) {
+    const double h = 1e-9;
+    const auto left = path.at(hours[k] - h), here = path.at(hours[k]),
+               right = path.at(hours[k] + h);
+    for (std::size_t i = 0; i < 2; ++i) {
+      CAPTURE(k, i);
+      CHECK(std::abs(here[i].value - corners[k][i]) < 20 * epsilon);
+      // Across 2 h the derivatives change by 2 h times the next one, at most 10 here.
+      CHECK(std::abs(left[i].rate - right[i].rate) < 2 * h * 10);
+      if (k > 0 && k + 1 < hours.size()) {
+        CHECK(std::abs(left[i].acceleration - right[i].acceleration) < 2 * h * 10);
+        CHECK(std::abs(here[i].rate) > 1e-3);  // it passes
+      }
+    }
+  }
+  Random random(3);
+  for (int n = 0; n < 50; ++n) {
+    const double t = random.uniform(1, 4);
+    const bool near = std::any_of(hours.begin(), hours.end(),
+                                  [t](double knot) { return std::abs(t - knot) < 1e-4; });
+    if (!near) check_derivatives(path, t, 10, 0);  // cubic pieces
+  }
+}
+
+TEST_CASE("waypoints between two points: the cubic at rest at both ends") {
+  const SignalPair path = reference_path(WaypointReference{{{0, 1}, {2, -1}}, {0, 4}, false});
+  for (const double t : {0.0, 0.5, 2.0, 3.9}) {
+    const double tau = t / 4, shape = tau * tau * (3 - 2 * tau);
+    CHECK(std::abs(path.at(t)[0].value - 2 * shape) < 20 * epsilon);
+    CHECK(std::abs(path.at(t)[1].value - (1 - 2 * shape)) < 20 * epsilon);
+    CHECK(std::abs(path.at(t)[0].rate - 2 * 6 * tau * (1 - tau) / 4) < 20 * epsilon);
+  }
+}
+
+TEST_CASE("the clamped spline converges with the fourth power of the step") {
+  const auto error = [](int n) {
+    WaypointReference way;
+    for (int i = 0; i <= n; ++i) {  // -cos has no slope at 0 and pi
+      way.times.push_back(std::numbers::pi * i / n);
+      way.points.push_back({-std::cos(way.times.back()), 0});
+    }
+    const SignalPair path = reference_path(way);
+    double worst = 0;
+    for (int i = 0; i < 500; ++i) {
+      const double t = std::numbers::pi * i / 500;
+      worst = std::max(worst, std::abs(path.at(t)[0].value + std::cos(t)));
+    }
+    return worst;
+  };
+  CHECK(std::log2(error(20) / error(40)) > 3.7);  // observed order, one-sided
+}
+
+TEST_CASE("waypoints with rest: minimum-jerk quintics") {
+  const SignalPair path = reference_path(WaypointReference{corners, hours, true});
+  CHECK(path.knots() == hours);
+  check_hold(path);
+  for (std::size_t k = 0; k + 1 < hours.size(); ++k) {
+    const double T = hours[k + 1] - hours[k];
+    for (const double tau : {0.0, 0.1, 0.5, 0.77, 1.0 - 1e-12}) {
+      const double t = hours[k] + tau * T, s = (t - hours[k]) / T;  // as the time rounds it
+      const auto at = path.at(t);
+      for (std::size_t i = 0; i < 2; ++i) {
+        CAPTURE(k, i, tau);
+        const double step = corners[k + 1][i] - corners[k][i];
+        const double value = corners[k][i] + step * s * s * s * (10 + s * (-15 + 6 * s));
+        const double rate = step / T * 30 * s * s * (1 - s) * (1 - s);
+        const double acceleration = step / (T * T) * 60 * s * (1 - s) * (1 - 2 * s);
+        // Coefficients up to 180 (of the acceleration) over T^2, at least 0.25 s^2, and a step of
+        // up to 0.08 m cancel to nothing at the end.
+        const double bound = 4 * epsilon * 180 * 0.08 / 0.25;
+        CHECK(std::abs(at[i].value - value) < bound);
+        CHECK(std::abs(at[i].rate - rate) < bound);
+        CHECK(std::abs(at[i].acceleration - acceleration) < bound);
+      }
+      // 60 and 360 times step / T^3 and T^4: the largest third and fourth derivatives.
+      if (tau > 0.01 && tau < 0.99) check_derivatives(path, t, 60 * 0.08 * 8, 360 * 0.08 * 16);
+    }
+    for (std::size_t i = 0; i < 2; ++i) {
+      CHECK(path.at(hours[k])[i].value == corners[k][i]);
+      CHECK(path.at(hours[k])[i].rate == 0);
+      CHECK(path.at(hours[k])[i].acceleration == 0);
+    }
+  }
+}
+
+TEST_CASE("a table of a path reproduces cubics") {
+  TableReference table{"path.csv", {0, 0.5, 1.2, 2, 3.5, 4}, {}, {}};
+  const auto x = [](double t) { return 0.1 + t * (-0.2 + t * (0.05 + t * 0.01)); };
+  const auto y = [](double t) { return -0.1 + t * (0.1 - t * 0.03); };
+  for (const double t : table.times) {
+    table.x.push_back(x(t));
+    table.y.push_back(y(t));
+  }
+  const SignalPair path = reference_path(table);
+  CHECK(path.knots() == table.times);
+  for (const double t : {0.0, 0.3, 1.9, 3.99}) {
+    // Divided differences over the shortest interval, 0.5 s, on values up to 1.
+    CHECK(std::abs(path.at(t)[0].value - x(t)) < 200 * epsilon);
+    CHECK(std::abs(path.at(t)[1].value - y(t)) < 200 * epsilon);
+    CHECK(std::abs(path.at(t)[0].rate - (-0.2 + t * (0.1 + t * 0.03))) < 400 * epsilon);
+    CHECK(std::abs(path.at(t)[1].rate - (0.1 - t * 0.06)) < 400 * epsilon);
+  }
+}
+
+TEST_CASE("the knots of a reference path inside the scene are stops") {
+  Scenario scene = fig2b();
+  CHECK(assemble(scene, false).stops.empty());
+  scene.time.end = 4;
+  scene.controller->reference = WaypointReference{corners, hours, GENERATE(false, true)};
+  const Model model = assemble(scene, false);
+  CHECK(model.stops == std::vector<double>{1, 2, 2.5});
+  REQUIRE(model.notes.back().part == "stops");
+  CHECK(model.notes.back().reason == "3 knots of the reference path, none stepped over");
+  scene.controller->reference = TableReference{"p.csv", {0, 1, 3, 5}, {0, 1, 0, 1}, {0, 0, 0, 0}};
+  CHECK(assemble(scene, false).stops == std::vector<double>{1, 3});
+}

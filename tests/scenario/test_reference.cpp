@@ -1,0 +1,177 @@
+// Reference paths of a controller.
+#include <numbers>
+
+#include "catch.hpp"
+#include "support.hpp"
+
+using namespace bbsim;
+using namespace bbsim::test;
+using Catch::Matchers::Contains;
+
+namespace {
+
+const std::string key = "controller.reference";
+
+template <class Kind>
+Kind read_as(const std::string& reference) {
+  const Scenario scenario = parse(closed_loop, {key + "=" + reference});
+  return std::get<Kind>(scenario.controller->reference);
+}
+
+// The problems of a reference, without the place, which is the override.
+std::string problem(const std::string& reference) {
+  const std::string place = "--set " + key + "=" + reference + ": ";
+  const std::string text = errors(closed_loop, {key + "=" + reference});
+  return text.starts_with(place) ? text.substr(place.size()) : text;
+}
+
+const std::string lissajous = key + ".lissajous.";
+const std::string waypoints = key + ".waypoints.";
+
+std::string way(const std::string& points, const std::string& times) {
+  return "{waypoints: {points: " + points + ", times: " + times + "}}";
+}
+
+}  // namespace
+
+TEST_CASE("a reference is exactly one of the known paths") {
+  const std::string allowed =
+      "; allowed: exactly one of circle, point, lissajous, waypoints, table";
+  CHECK(problem("{}") == key + ": found none" + allowed);
+  CHECK(problem("{circle: {radius: 1, rate: 1}, point: [0, 0]}") ==
+        key + ": found circle, point" + allowed);
+  CHECK(problem("{point: [0, 0], table: {}}").starts_with(key + ": found point, table" + allowed));
+  CHECK_THAT(problem("{lissajou: {amplitude: [1, 1], rate: [1, 1]}}"),
+             Contains(key + ".lissajou: unknown key; did you mean " + key + ".lissajous?"));
+}
+
+TEST_CASE("a point") {
+  CHECK(read_as<PointReference>("{point: [1 cm, -2]}").position == Pair{0.01, -2});
+  CHECK(problem("{point: 1}") ==
+        key + ".point: found 1; allowed: two lengths [x, y], such as [0.1, 0]");
+}
+
+TEST_CASE("a circle has a centre, by default the origin") {
+  const auto circle = read_as<CircleReference>("{circle: {radius: 0, rate: -0.3, phase: 1}}");
+  CHECK(circle.radius == 0);
+  CHECK(circle.rate == -0.3);
+  CHECK(circle.phase == 1);
+  CHECK(circle.centre == Pair{0, 0});
+  CHECK(read_as<CircleReference>("{circle: {radius: 1, rate: 1, centre: [2 cm, 3]}}").centre ==
+        Pair{0.02, 3});
+  CHECK_THAT(problem("{circle: {radius: -1}}"),
+             Contains("circle.radius: found -1; allowed: a length of at least 0") &&
+                 Contains("circle.rate: missing"));
+  CHECK(problem("{circle: {radius: 1, rate: 1, center: [0, 0]}}") ==
+        key + ".circle.center: unknown key; did you mean " + key + ".circle.centre?");
+  CHECK(problem("{circle: {radius: 1, rate: 1, centre: 2}}") ==
+        key + ".circle.centre: found 2; allowed: two lengths [x, y], such as [0.1, 0]");
+}
+
+TEST_CASE("a Lissajous figure, with units and defaults") {
+  const auto all = read_as<LissajousReference>(
+      "{lissajous: {amplitude: [5 cm, -0.03], rate: [0.5 Hz, 2], phase: [90 deg, 1], "
+      "centre: [1 cm, 2 mm]}}");
+  CHECK(all.amplitude == Pair{0.05, -0.03});
+  CHECK(all.rate == Pair{std::numbers::pi, 2});
+  CHECK(all.phase == Pair{std::numbers::pi / 2, 1});
+  CHECK(all.centre == Pair{0.01, 0.002});
+  const auto least = read_as<LissajousReference>("{lissajous: {amplitude: [1, 1], rate: [1, 0]}}");
+  CHECK(least.phase == Pair{0, 0});
+  CHECK(least.centre == Pair{0, 0});
+
+  CHECK(problem("{lissajous: {amplitude: [1, 1]}}") ==
+        lissajous + "rate: missing; allowed: two angular rates [x, y], such as [0.1, 0]");
+  CHECK(problem("{lissajous: {amplitude: 1, rate: [1, 1]}}") ==
+        lissajous + "amplitude: found 1; allowed: two lengths [x, y], such as [0.1, 0]");
+  CHECK(problem("{lissajous: {amplitude: [1, 1], rate: [1, 2 s]}}") ==
+        lissajous + "rate.1: found 2 s, a time; allowed: an angular rate, such as 3 or \"0.5 Hz\"");
+  CHECK(problem("{lissajous: {amplitude: [1, 1], rate: [1, 2], radius: 3}}") ==
+        lissajous + "radius: unknown key; known keys here: amplitude, rate, phase, centre");
+}
+
+TEST_CASE("waypoints, with units and defaults") {
+  const auto way_through = read_as<WaypointReference>(
+      "{waypoints: {points: [[0, 0], [5 cm, 0.02], [1, 1]], times: [-1, 500 ms, 2]}}");
+  CHECK(way_through.points == std::vector<Pair>{{0, 0}, {0.05, 0.02}, {1, 1}});
+  CHECK(way_through.times == std::vector<double>{-1, 0.5, 2});
+  CHECK_FALSE(way_through.rest);
+  const std::string rest = "{waypoints: {points: [[0, 0], [1, 1]], times: [0, 1], rest: ";
+  CHECK(read_as<WaypointReference>(rest + "true}}").rest);
+  CHECK_FALSE(read_as<WaypointReference>(rest + "false}}").rest);
+  CHECK(problem(rest + "yes}}") == waypoints + "rest: found yes; allowed: one of true, false");
+}
+
+TEST_CASE("waypoints that make no path are refused") {
+  const std::string points = "; allowed: a list of 2 to 10000 points [x, y]";
+  const std::string times = "; allowed: a list of 2 to 10000 times, one for each point";
+  CHECK(problem(way("[[0, 0]]", "[0, 1]")) == waypoints + "points: found a list of 1" + points);
+  CHECK(problem(way("1", "[0, 1]")) == waypoints + "points: found 1" + points);
+  CHECK(problem(way("[[0, 0], [1, 1]]", "3")) == waypoints + "times: found 3" + times);
+  CHECK(problem("{waypoints: {points: [[0, 0], [1, 1]]}}") ==
+        waypoints + "times: missing; allowed: a list of 2 to 10000 times, one for each point");
+  CHECK(problem(way("[[0, 0], 1]", "[0, 1]")) ==
+        waypoints + "points.1: found 1; allowed: two lengths [x, y], such as [0.1, 0]");
+  CHECK(problem(way("[[0, 0], [1, 2 s]]", "[0, 1]")) ==
+        waypoints + "points.1.1: found 2 s, a time; allowed: a length, such as 0.01 or \"1 cm\"");
+  CHECK(problem(way("[[0, 0], [1, 1], [2, 2]]", "[0, 1]")) ==
+        waypoints + "times: found 2 times for 3 points; allowed: one time for each point");
+  CHECK(problem(way("[[0, 0], [1, 1], [2, 2]]", "[0, 2 s, 2000 ms]")) ==
+        waypoints + "times.2: found 2000 ms, after 2 s; allowed: strictly increasing times");
+  CHECK(problem(way("[[0, 0], [1, 1]]", "[0, .inf]")) ==
+        waypoints +
+            "times.1: found .inf, which is not finite; allowed: a time, such as 0.02 or "
+            "\"20 ms\"");
+}
+
+TEST_CASE("a reference table is read from beside the scenario") {
+  const TemporaryFolder folder;
+  const auto scenario = [&](const std::string& table) {
+    return folder.write("scenario.yaml",
+                        "ball: {radius: 0.01}\n"
+                        "time: {end: 10, step: 0.1}\n"
+                        "controller:\n"
+                        "  pd: {kv: 100, kp: 0.1}\n"
+                        "  reference: {table: " +
+                            table + "}\n");
+  };
+  const auto refused = [&](const std::string& rows, const std::string& table) {
+    static_cast<void>(folder.write("path.csv", rows));
+    const std::string file = scenario(table);
+    try {
+      static_cast<void>(read_scenario(file));
+      return std::string();
+    } catch (const InputError& e) {
+      REQUIRE(e.problems().size() == 1);
+      CHECK(e.problems()[0].where.starts_with(file + ":5:"));
+      return e.problems()[0].message;
+    }
+  };
+  const std::string good = "{file: path.csv, time: t, x: a, y: b}";
+  const std::string rows = "t,a,b\n0,1,2\n2.5,2,3\n5,3,4\n10,5,6\n";
+  const std::string place = key + ".table: path.csv: ";
+  REQUIRE(refused(rows, good).empty());
+  const Scenario read = read_scenario(scenario(good));
+  const auto& table = std::get<TableReference>(read.controller->reference);
+  CHECK(table.file == "path.csv");
+  CHECK(table.times == std::vector<double>{0, 2.5, 5, 10});
+  CHECK(table.x == std::vector<double>{1, 2, 3, 5});
+  CHECK(table.y == std::vector<double>{2, 3, 4, 6});
+
+  CHECK(refused("t,a,b\n0,1,1\n5,2,1\n10,3,1\n", good) ==
+        place + "found 3 rows; allowed: at least 4");
+  CHECK(refused("t,a,b\n0,1,1\n2,1,1\n2,1,1\n9,1,1\n", good) ==
+        place +
+            "found the time 2 in row 3 below the header, after 2; allowed: strictly increasing "
+            "times");
+  CHECK(refused("t,a,b\n0,1,1\n1,1,1\n2,1,1\n9,1,1\n", good) ==
+        place + "found times from 0 to 9 s; allowed: a table that covers the run, 0 to 10 s");
+  CHECK(refused("t,a,b\n0,1,1\n1,1,nan\n2,1,1\n10,1,1\n", good) ==
+        place + "found the y nan in row 2 below the header; allowed: a finite length");
+  CHECK(refused(rows, "{file: path.csv, time: t, x: a, y: c}") ==
+        key + ".table.y: found c; allowed: one of t, a, b");
+  CHECK(refused(rows, "{file: path.csv, time: t, x: a}") ==
+        key + ".table.y: missing; allowed: the name of a column of the file");
+  CHECK(refused(rows, "{file: path.csv, time: t, x: a, y: b, value: c}") ==
+        key + ".table.value: unknown key; known keys here: file, time, x, y");
+}
