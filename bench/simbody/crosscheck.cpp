@@ -1,8 +1,8 @@
 // Equation (27) against a multibody engine that does not know it.
 //
-// Simbody (Sherman, Seth and Delp 2011) gets two prescribed pins, a plate, a free ball and its ideal
-// sphere-on-plane constraint with rolling, and integrates its own equations of motion. The paths of
-// the contact point are compared.
+// Simbody (Sherman, Seth and Delp 2011) gets two prescribed pins, a plate, a free ball and its
+// ideal sphere-on-plane constraint with rolling, and integrates its own equations of motion. The
+// paths of the contact point are compared.
 //
 //     crosscheck SCENARIO.yaml...    open-loop scenarios; prints the largest differences
 #include <algorithm>
@@ -32,8 +32,8 @@ Differences compare(const bbsim::Scenario& scene) {
   const bbsim::model::Model model = bbsim::model::assemble(scene, false);
   const bbsim::solve::OutputGrid grid(scene.time);
   bbsim::solve::Trajectory rows(model.size());
-  const auto outcome = bbsim::solve::integrate(model, bbsim::Method::automatic, {1e-13, 1e-15},
-                                               grid, rows);
+  const auto outcome =
+      bbsim::solve::integrate(model, bbsim::Method::automatic, {1e-13, 1e-15}, grid, rows);
   if (outcome.ending != bbsim::solve::Ending::done) throw std::runtime_error(outcome.reason);
 
   std::vector<double> times;

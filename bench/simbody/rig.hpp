@@ -8,9 +8,9 @@
 namespace crosscheck {
 
 struct Rig {
-  double radius = 0, mass = 1, gravity = 0;        // m, kg, m/s^2
-  std::array<double, 2> position{}, velocity{};    // of the contact point in the plane, m, m/s
-  double spin = 0;                                 // rad/s
+  double radius = 0, mass = 1, gravity = 0;      // m, kg, m/s^2
+  std::array<double, 2> position{}, velocity{};  // of the contact point in the plane, m, m/s
+  double spin = 0;                               // rad/s
   // Value (order 0), rate (1) or acceleration (2) of phi (axis 0) or theta (1) at a time.
   std::function<double(double time, int axis, int order)> angle;
 };

@@ -69,7 +69,8 @@ void read_solver(Keys& keys, Solver& solver) {
   if (!keys.optional("error", error, solver.error) || !solver.error) return;
   for (const char* tolerance : {"rtol", "atol"}) {
     if (const auto given = keys.find(tolerance)) {
-      given->report("given together with error, which chooses the tolerances; allowed: one of them");
+      given->report(
+          "given together with error, which chooses the tolerances; allowed: one of them");
     }
   }
 }

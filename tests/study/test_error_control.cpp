@@ -39,8 +39,8 @@ Asked ask(const std::string& name, double bound) {
 }  // namespace
 
 TEST_CASE("an error asked for is met, and its estimate is honest") {
-  const std::string name = GENERATE("fig2a", "fast", "fig2b", "small-ball", "spin", "stiff-servo",
-                                    "tumble");
+  const std::string name =
+      GENERATE("fig2a", "fast", "fig2b", "small-ball", "spin", "stiff-servo", "tumble");
   const double bound = GENERATE(1e-4, 1e-6, 1e-8, 1e-10);
   CAPTURE(name, bound);
   const Asked asked = ask(name, bound);
