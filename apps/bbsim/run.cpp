@@ -151,10 +151,11 @@ ExitCode run(const RunArguments& arguments, const Options& options) {
   const std::string output =
       arguments.output.empty() ? default_output(arguments.scenario.file) : arguments.output;
   std::vector<record::ColumnHeader> headers;
+  headers.reserve(columns.size());
   for (const record::Column* column : columns) {
     headers.push_back({column->name, column->unit, column->meaning});
   }
-  const auto writer = record::open_table(output, std::move(headers));
+  const auto writer = record::open_table(output, headers);
   record::Recorder recorder(model, {scenario.ball.radius, scenario.ball.mass, scenario.gravity},
                             grid, columns, *writer);
 

@@ -93,7 +93,7 @@ std::vector<Piece> held(std::vector<Piece> pieces, const Numbers& times, const N
 
 }  // namespace
 
-Spline::Spline(std::vector<double> times, const std::vector<double>& values)
+Spline::Spline(const std::vector<double>& times, const std::vector<double>& values)
     : Spline(times, not_a_knot(times, values)) {}
 
 Spline Spline::at_rest_at_ends(std::vector<double> times, const std::vector<double>& values) {

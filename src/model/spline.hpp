@@ -57,7 +57,7 @@ class Spline {
   // Cubic spline with not-a-knot ends (de Boor, A Practical Guide to Splines, IV): it reproduces
   // cubics, and its second derivative, the gimbal's acceleration, is continuous.
   // `times` strictly increasing, as many as `values`, at least four.
-  Spline(std::vector<double> times, const std::vector<double>& values);
+  Spline(const std::vector<double>& times, const std::vector<double>& values);
 
   // Cubic spline that starts and ends at rest, and holds the end values outside the knots: its
   // second derivative is continuous but for the first and last knot.
