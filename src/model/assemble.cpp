@@ -4,6 +4,7 @@
 
 #include "model/model.hpp"
 #include "model/reference_path.hpp"
+#include "model/rig/assemble_rig.hpp"
 
 namespace bbsim::model {
 namespace {
@@ -25,6 +26,7 @@ bool stays_level(const Scenario& scene, const SignalPair& input, std::size_t axi
 // The symmetries of docs/model.md, section 3: theta, y and spin stay zero together, or phi, x
 // and spin.
 Shape choose_shape(const Scenario& scene, const SignalPair& input) {
+  if (needs_rig(scene) || !is_the_papers(scene)) return Shape::full;
   const Ball& ball = scene.ball;
   const auto at_rest = [&ball](std::size_t axis) {
     return ball.position[axis] == 0 && ball.velocity[axis] == 0;
@@ -96,6 +98,7 @@ std::vector<double> initial_state(const Scenario& scene, Shape shape) {
     if (phi_moves(shape)) z.push_back(start.phi_rate);
     if (theta_moves(shape)) z.push_back(start.theta_rate);
   }
+  if (needs_rig(scene)) z.insert(z.end(), 2, 0.0);  // the integrals of the error
   return z;
 }
 
@@ -147,45 +150,44 @@ Model assemble(const Scenario& scenario, bool gamma) {
   } else if (scenario.gimbal.motion) {
     input.add(0, scenario.gimbal.motion->phi);
     input.add(1, scenario.gimbal.motion->theta);
+    input.add_constant(0, scenario.gimbal.mounting.phi_offset);
+    input.add_constant(1, scenario.gimbal.mounting.theta_offset);
   }
   std::vector<double> stops = input.knots();
   std::erase_if(stops, [&](double t) { return t <= 0 || t >= scenario.time.end; });
   const Shape shape = choose_shape(scenario, input);
 
+  std::optional<Rig> rig;
   const auto system = [&]() -> System {
-    if (!scenario.controller) return open_loop(shape, scenario, std::move(input));
+    const double r = scenario.ball.radius, g = scenario.gravity;
+    if (needs_rig(scenario)) {
+      AssembledRig built = assemble_rig(scenario, std::move(input));
+      rig = std::move(built.rig);
+      return std::move(built.loop);
+    }
+    if (!scenario.controller) {
+      if (!is_the_papers(scenario)) {
+        return OpenLoop<Shape::full, SignalPair, GeneralRolling>(r, g, std::move(input),
+                                                                 general_rolling(scenario));
+      }
+      return open_loop(shape, scenario, std::move(input));
+    }
     if (scenario.controller->drives == Drives::angle) {
       return closed_loop<Drives::angle>(shape, scenario, std::move(input));
     }
     return closed_loop<Drives::acceleration>(shape, scenario, std::move(input));
   };
   std::vector<Note> notes = explain(scenario, shape, gamma, stops.size());
-  return {system(),
-          initial_state(scenario, shape),
-          gamma && shape == Shape::full,
-          scenario.ball.radius,
-          std::move(stops),
-          std::move(notes)};
-}
-
-std::vector<std::string> Model::state_names() const {
-  return std::visit(
-      [](const auto& any) {
-        using Any = std::decay_t<decltype(any)>;
-        std::vector<std::string> names(Any::Layout::names.begin(), Any::Layout::names.end());
-        if constexpr (Any::size > Any::Layout::size) {
-          for (const char* suffix : {"", "_rate"}) {
-            if (phi_moves(Any::moves)) names.push_back(std::string("phi") + suffix);
-            if (theta_moves(Any::moves)) names.push_back(std::string("theta") + suffix);
-          }
-        }
-        return names;
-      },
-      system);
-}
-
-bool Model::closed_loop() const {
-  return std::visit([](const auto& any) { return !std::decay_t<decltype(any)>::linear; }, system);
+  Model model{system(),
+              initial_state(scenario, shape),
+              gamma && shape == Shape::full,
+              scenario.ball.radius,
+              std::move(stops),
+              std::move(notes),
+              std::move(rig)};
+  Watchlist watched = watchlist(scenario);
+  if (!watched.monitors.empty()) model.watched = std::move(watched);
+  return model;
 }
 
 }  // namespace bbsim::model

@@ -42,6 +42,11 @@ struct Dual {
   friend Dual operator*(double a, const Dual& b) { return b * a; }
   friend Dual operator/(const Dual& a, double b) { return {a.value / b, a.gradient / b}; }
 
+  friend Dual operator/(const Dual& a, const Dual& b) {
+    const double quotient = a.value / b.value;
+    return {quotient, (a.gradient - quotient * b.gradient) / b.value};
+  }
+
   friend Dual sin(const Dual& a) { return {std::sin(a.value), std::cos(a.value) * a.gradient}; }
   friend Dual cos(const Dual& a) { return {std::cos(a.value), -std::sin(a.value) * a.gradient}; }
 };

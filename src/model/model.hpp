@@ -2,11 +2,14 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <variant>
 #include <vector>
 
+#include "model/rig/rig.hpp"
+#include "model/rig_loop.hpp"
 #include "model/system.hpp"
 #include "scenario/scenario.hpp"
 
@@ -17,7 +20,8 @@ using System = std::variant<
     OpenLoop<Shape::along_y>,  //
     ClosedLoop<Shape::full, Drives::acceleration>, ClosedLoop<Shape::along_x, Drives::acceleration>,
     ClosedLoop<Shape::along_y, Drives::acceleration>, ClosedLoop<Shape::full, Drives::angle>,
-    ClosedLoop<Shape::along_x, Drives::angle>, ClosedLoop<Shape::along_y, Drives::angle>>;
+    ClosedLoop<Shape::along_x, Drives::angle>, ClosedLoop<Shape::along_y, Drives::angle>,
+    OpenLoop<Shape::full, SignalPair, GeneralRolling>, RigLoop<>>;
 
 // A part of the physics that the scene has, or does without, and why.
 struct Note {
@@ -31,8 +35,20 @@ struct Model {
   double radius = 0;            // m
   std::vector<double> stops;    // times in (0, end) at which a derivative of the input jumps, s
   std::vector<Note> notes;      // for `bbsim check` and the summary
+  std::optional<Rig> rig{};            // of a RigLoop
+  std::optional<Watchlist> watched{};  // there if something is
 
   [[nodiscard]] std::size_t size() const { return initial.size(); }
+  // Numbers in a row of output beside the states and gamma.
+  [[nodiscard]] std::size_t extras() const;
+  // Length of a row: the states; r gamma, if it is integrated; the extras.
+  [[nodiscard]] std::size_t row_size() const { return size() + (gamma ? 1 : 0) + extras(); }
+  // A row in the paper's symbols.
+  [[nodiscard]] Sample sample(double t, const double* row) const;
+  // Whether anything switches, samples or is watched for: model/rig/hybrid.hpp runs it then.
+  [[nodiscard]] bool hybrid() const {
+    return watched.has_value() || (rig && (rig->switches() || rig->sampled));
+  }
   [[nodiscard]] std::vector<std::string> state_names() const;
   [[nodiscard]] bool closed_loop() const;
 };

@@ -23,6 +23,8 @@ struct Sample {
   double gamma = 0;  // rad, 0 at the start; NaN where the run did not integrate it
   GimbalMotion gimbal;
   Pair reference{0, 0};  // m; (0, 0) in open loop
+  Pair command{0, 0};    // what the gimbal is told, rad or rad/s^2; (0, 0) in open loop
+  Pair measured{0, 0};   // where the controller last saw the ball, m
 };
 
 }  // namespace bbsim::model

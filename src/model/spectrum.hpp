@@ -14,7 +14,8 @@ using Eigenvalues = std::vector<std::complex<double>>;  // 1/s, by falling real 
 [[nodiscard]] Eigenvalues eigenvalues(const Model& model, double t, const double* z);
 
 // The closed loop's poles: linearised about home (all angles, positions and rates zero), without
-// the spin, which no controller acts on and which adds a pole at exactly zero. Empty in open loop.
+// the spin, which no controller acts on and which adds a pole at exactly zero. Empty in open loop,
+// and of a sampled loop, whose poles are sampled_poles().
 [[nodiscard]] Eigenvalues closed_loop_poles(const Model& model);
 
 // "stable" if all real parts are negative, beyond the rounding of the eigenvalues.

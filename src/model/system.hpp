@@ -68,14 +68,21 @@ struct BallLayout<Shape::full> {
   static RollingState<Real, Real, Real> unpack(const Real* z) {
     return {z[0], z[1], z[2], z[3], z[4]};
   }
-  template <class Equation, class Real, class Phi, class Theta, class Ball>
-  static void derivative(const Phi& phi, const Theta& theta, const Ball& ball, double r, double g,
-                         Real* dz) {
+  template <class Real, class Equation, class Phi, class Theta, class Ball>
+  static void derivative(const Equation& equation, const Phi& phi, const Theta& theta,
+                         const Ball& ball, double r, double g, Real* dz) {
     dz[0] = ball.x_dot;
     dz[1] = ball.y_dot;
-    dz[2] = Equation::template x<Real>(phi, theta, ball, r, g);
-    dz[3] = Equation::template y<Real>(phi, theta, ball, r, g);
-    dz[4] = Equation::template u<Real>(phi, theta, ball, r);
+    if constexpr (requires { equation.template rates<Real>(phi, theta, ball, r, g); }) {
+      const auto rates = equation.template rates<Real>(phi, theta, ball, r, g);
+      dz[2] = rates.x;
+      dz[3] = rates.y;
+      dz[4] = rates.u;
+    } else {
+      dz[2] = equation.template x<Real>(phi, theta, ball, r, g);
+      dz[3] = equation.template y<Real>(phi, theta, ball, r, g);
+      dz[4] = equation.template u<Real>(phi, theta, ball, r);
+    }
   }
 };
 
@@ -89,11 +96,11 @@ struct BallLayout<Shape::along_x> {
   static RollingState<Real, Zero, Zero> unpack(const Real* z) {
     return {z[0], {}, z[1], {}, {}};
   }
-  template <class Equation, class Real, class Phi, class Theta, class Ball>
-  static void derivative(const Phi& phi, const Theta& theta, const Ball& ball, double r, double g,
-                         Real* dz) {
+  template <class Real, class Equation, class Phi, class Theta, class Ball>
+  static void derivative(const Equation& equation, const Phi& phi, const Theta& theta,
+                         const Ball& ball, double r, double g, Real* dz) {
     dz[0] = ball.x_dot;
-    dz[1] = Equation::template x<Real>(phi, theta, ball, r, g);
+    dz[1] = equation.template x<Real>(phi, theta, ball, r, g);
   }
 };
 
@@ -107,11 +114,11 @@ struct BallLayout<Shape::along_y> {
   static RollingState<Zero, Real, Zero> unpack(const Real* z) {
     return {{}, z[0], {}, z[1], {}};
   }
-  template <class Equation, class Real, class Phi, class Theta, class Ball>
-  static void derivative(const Phi& phi, const Theta& theta, const Ball& ball, double r, double g,
-                         Real* dz) {
+  template <class Real, class Equation, class Phi, class Theta, class Ball>
+  static void derivative(const Equation& equation, const Phi& phi, const Theta& theta,
+                         const Ball& ball, double r, double g, Real* dz) {
     dz[0] = ball.y_dot;
-    dz[1] = Equation::template y<Real>(phi, theta, ball, r, g);
+    dz[1] = equation.template y<Real>(phi, theta, ball, r, g);
   }
 };
 
@@ -137,8 +144,8 @@ class OpenLoop {
   static constexpr bool linear = true;  // z' = A(t) z + b(t)
   static constexpr auto motions = Layout::motions;
 
-  OpenLoop(double radius, double gravity, Signals motion)
-      : r_(radius), g_(gravity), motion_(std::move(motion)) {}
+  OpenLoop(double radius, double gravity, Signals motion, Equation equation = {})
+      : r_(radius), g_(gravity), motion_(std::move(motion)), equation_(equation) {}
 
   template <class Time>
   [[nodiscard]] auto inputs(const Time& t) const {
@@ -148,7 +155,7 @@ class OpenLoop {
 
   template <class Inputs, class Real>
   void derivative_of(const Inputs& in, const Real* z, Real* dz) const {
-    Layout::template derivative<Equation, Real>(in.phi, in.theta, Layout::unpack(z), r_, g_, dz);
+    Layout::template derivative<Real>(equation_, in.phi, in.theta, Layout::unpack(z), r_, g_, dz);
   }
 
   template <class Time, class Real>
@@ -157,7 +164,7 @@ class OpenLoop {
   }
 
   [[nodiscard]] OpenLoop<shape, SignalView, Equation> view() const {
-    return {r_, g_, motion_.view()};
+    return {r_, g_, motion_.view(), equation_};
   }
 
   // The same scene with another equation for the ball.
@@ -198,6 +205,7 @@ class OpenLoop {
 
   double r_, g_;
   Signals motion_;
+  [[no_unique_address]] Equation equation_;
 };
 
 // Proportional and derivative gains, rows phi, theta; columns x, y: equation (31).
@@ -274,7 +282,7 @@ class ClosedLoop {
     Real* angles_dot = dz + Layout::size;
     const auto phi = axis<0, Real>(ball, reference, angles);
     const auto theta = axis<1, Real>(ball, reference, angles);
-    Layout::template derivative<Equation, Real>(phi, theta, ball, r_, g_, dz);
+    Layout::template derivative<Real>(equation_, phi, theta, ball, r_, g_, dz);
     for (int i = 0; i < axes; ++i) angles_dot[i] = angles[axes + i];
     if constexpr (phi_moves(shape)) angles_dot[axes] = phi.acceleration;
     if constexpr (theta_moves(shape)) angles_dot[2 * axes - 1] = theta.acceleration;
@@ -324,6 +332,7 @@ class ClosedLoop {
   Gains gains_;
   ServoLaw servo_;
   Signals reference_;
+  [[no_unique_address]] Equation equation_{};
 };
 
 }  // namespace bbsim::model

@@ -38,6 +38,21 @@ constexpr std::array columns = {
            [](R row) { return row.sample.reference[0]; }},
     Column{"y_reference", "m", "where the controller wants y", Needs::reference,
            [](R row) { return row.sample.reference[1]; }},
+    Column{"phi_command", "rad", "what the controller asks of phi (rad/s^2 if it drives acceleration)",
+           Needs::reference, [](R row) { return row.sample.command[0]; }},
+    Column{"theta_command", "rad",
+           "what the controller asks of theta (rad/s^2 if it drives acceleration)",
+           Needs::reference, [](R row) { return row.sample.command[1]; }},
+    Column{"x_measured", "m", "x as the sensor last saw it", Needs::samples,
+           [](R row) { return row.sample.measured[0]; }},
+    Column{"y_measured", "m", "y as the sensor last saw it", Needs::samples,
+           [](R row) { return row.sample.measured[1]; }},
+    Column{"tilt", "rad", "angle between the plane's normal and the vertical", Needs::dynamics,
+           [](R row) { return row.dynamics->tilt; }},
+    Column{"singularity_distance", "1",
+           "how far from where no gimbal accelerations give the ball any acceleration wanted: 1 at "
+           "home, 0 there",
+           Needs::dynamics, [](R row) { return row.dynamics->singularity_distance; }},
     Column{"normal_force", "N",
            "force of the plane on the ball along the normal; contact needs > 0", Needs::dynamics,
            [](R row) { return row.dynamics->normal_force(); }},
@@ -51,6 +66,19 @@ constexpr std::array columns = {
            Needs::dynamics, [](R row) { return row.dynamics->torque_phi; }},
     Column{"torque_theta", "N m", "motor torque about theta's axis that carries the ball",
            Needs::dynamics, [](R row) { return row.dynamics->torque_theta; }},
+    Column{"motor_torque_phi", "N m", "motor torque about phi's axis that carries ball and plate",
+           Needs::plate,
+           [](R row) { return row.dynamics->torque_phi + row.dynamics->plate_torque_phi; }},
+    Column{"motor_torque_theta", "N m",
+           "motor torque about theta's axis that carries ball and plate", Needs::plate,
+           [](R row) { return row.dynamics->torque_theta + row.dynamics->plate_torque_theta; }},
+    Column{"motor_power", "W", "power of the two motors with ball and plate", Needs::plate,
+           [](R row) {
+             const model::GimbalMotion& gimbal = row.sample.gimbal;
+             const model::Dynamics& d = *row.dynamics;
+             return (d.torque_phi + d.plate_torque_phi) * gimbal.phi_dot +
+                    (d.torque_theta + d.plate_torque_theta) * gimbal.theta_dot;
+           }},
     Column{"energy", "J",
            "ball's kinetic and potential energy; potential is 0 at the gimbal's centre",
            Needs::dynamics, [](R row) { return row.dynamics->energy; }},

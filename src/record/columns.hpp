@@ -15,7 +15,9 @@ struct Row {
   const model::Dynamics* dynamics;
 };
 
-enum class Needs { state, gamma, reference, dynamics };
+// What a column is computed from: `reference` is there with a controller, `samples` with one in
+// discrete time, `plate` where the plate's inertia is known.
+enum class Needs { state, gamma, reference, samples, dynamics, plate };
 
 struct Column {
   std::string_view name;

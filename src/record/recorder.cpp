@@ -21,7 +21,7 @@ bool any_needs(const std::vector<const Column*>& columns, Needs what) {
                      [what](const Column* column) { return column->needs == what; });
 }
 
-Recorder::Recorder(const model::Model& model, model::BallConstants constants,
+Recorder::Recorder(const model::Model& model, const model::BallConstants& constants,
                    const solve::OutputGrid& grid, std::vector<const Column*> columns,
                    TableWriter& writer)
     : model_(model),
@@ -29,26 +29,20 @@ Recorder::Recorder(const model::Model& model, model::BallConstants constants,
       grid_(grid),
       columns_(std::move(columns)),
       writer_(writer),
-      needs_dynamics_(any_needs(columns_, Needs::dynamics)),
+      needs_dynamics_(any_needs(columns_, Needs::dynamics) || any_needs(columns_, Needs::plate)),
       block_(columns_.size()) {}
 
 void Recorder::accept(std::size_t first, std::size_t count, const double* values) {
   for (auto& column : block_) column.resize(count);
-  std::visit(
-      [&](const auto& system) {
-        const std::size_t row_size = model_.size() + (model_.gamma ? 1 : 0);
-        for (std::size_t i = 0; i < count; ++i) {
-          const double* row = values + i * row_size;
-          model::Sample sample = system.sample(grid_[first + i], row);
-          if (model_.gamma) sample.gamma = row[model_.size()] / constants_.radius;
-          model::Dynamics dynamics;
-          if (needs_dynamics_) dynamics = model::dynamics(sample, constants_);
-          for (std::size_t c = 0; c < columns_.size(); ++c) {
-            block_[c][i] = columns_[c]->value({sample, &dynamics});
-          }
-        }
-      },
-      model_.system);
+  const std::size_t row_size = model_.row_size();
+  for (std::size_t i = 0; i < count; ++i) {
+    const model::Sample sample = model_.sample(grid_[first + i], values + i * row_size);
+    model::Dynamics dynamics;
+    if (needs_dynamics_) dynamics = model::dynamics(sample, constants_);
+    for (std::size_t c = 0; c < columns_.size(); ++c) {
+      block_[c][i] = columns_[c]->value({sample, &dynamics});
+    }
+  }
 
   std::vector<const double*> pointers;
   for (const auto& column : block_) pointers.push_back(column.data());

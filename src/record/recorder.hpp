@@ -20,7 +20,8 @@ namespace bbsim::record {
 
 class Recorder : public solve::StateSink {
  public:
-  Recorder(const model::Model& model, model::BallConstants constants, const solve::OutputGrid& grid,
+  Recorder(const model::Model& model, const model::BallConstants& constants,
+           const solve::OutputGrid& grid,
            std::vector<const Column*> columns, TableWriter& writer);
 
   // Throws OutputError.

@@ -9,6 +9,18 @@ void read_ball(Keys& keys, Ball& ball) {
   keys.optional("position", PairOf{Dimension::length}, ball.position);
   keys.optional("velocity", PairOf{Dimension::velocity}, ball.velocity);
   keys.optional("spin", Number{Dimension::angular_rate}, ball.spin);
+  // A point at the centre has 0, all mass at the surface's equator 1.
+  const Number factor{Dimension::number, {.at_least = 0, .at_most = 1}, "0.4"};
+  keys.optional("inertia_factor", factor, ball.inertia_factor);
+}
+
+void read_plate(Keys& keys, Plate& plate) {
+  keys.optional("size", SidesOf{}, plate.size);
+  const Number diameter{Dimension::length, {.above = 0}};
+  if (keys.optional("diameter", diameter, plate.diameter) && plate.diameter && plate.size) {
+    keys.find("diameter")->report("given together with size; allowed: one of them");
+  }
+  keys.optional("inertia", MomentsOf{}, plate.inertia);
 }
 
 }  // namespace bbsim::input

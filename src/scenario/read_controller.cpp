@@ -1,3 +1,5 @@
+#include <cmath>
+
 #include "scenario/rules.hpp"
 #include "scenario/sections.hpp"
 
@@ -9,14 +11,94 @@ void read_pd(Keys& keys, Controller& controller) {
   keys.required("kp", GainMatrix{}, controller.kp);
 }
 
+void read_pid(Keys& keys, Controller& controller) {
+  read_pd(keys, controller);
+  keys.required("ki", GainMatrix{}, controller.ki);
+}
+
+void read_state_feedback(Keys& keys, Controller& controller) {
+  keys.required("gain", StateGain{}, controller.gain);
+}
+
+void read_lqr(Keys& keys, Controller& controller) {
+  LqrWeights& weights = controller.weights;
+  const Number weight{Dimension::number, {.at_least = 0}, "1"};
+  keys.required("position", Number{Dimension::number, {.above = 0}, "1"}, weights.position);
+  keys.optional("velocity", weight, weights.velocity);
+  keys.optional("angle", weight, weights.angle);
+  keys.optional("rate", weight, weights.rate);
+  keys.required("command", Number{Dimension::number, {.above = 0}, "0.1"}, weights.command);
+}
+
+struct NamedLaw {
+  std::string_view key;
+  Law law;
+  void (*read)(Keys&, Controller&);
+};
+constexpr NamedLaw laws[] = {
+    {"pd", Law::pd, read_pd},
+    {"pid", Law::pid, read_pid},
+    {"state_feedback", Law::state_feedback, read_state_feedback},
+    {"lqr", Law::lqr, read_lqr},
+    {"gravity_compensation", Law::gravity_compensation, read_pd},
+    {"feedback_linearisation", Law::feedback_linearisation, read_pd},
+};
+
+void read_law(Keys& keys, Controller& controller) {
+  std::vector<std::string_view> names;
+  std::vector<const NamedLaw*> given;
+  for (const NamedLaw& law : laws) {
+    names.push_back(law.key);
+    if (keys.find(law.key)) given.push_back(&law);
+  }
+  if (given.empty()) {
+    keys.missing("pd", MappingOf(read_pd).allowed() + "; or another law: " + comma_separated(names));
+    return;
+  }
+  if (given.size() > 1) {
+    keys.find(given[1]->key)
+        ->report("found beside " + std::string(given[0]->key) + "; allowed: one law");
+  }
+  controller.law = given[0]->law;
+  keys.section(given[0]->key, given[0]->read, controller);
+}
+
+void read_sampling(Keys& keys, Sampling& sampling) {
+  const Number time{Dimension::time, {.at_least = 0}};
+  keys.required("period", Number{Dimension::time, {.above = 0}}, sampling.period);
+  keys.optional("delay", time, sampling.delay);
+  keys.optional("resolution", Number{Dimension::angle, {.at_least = 0}}, sampling.resolution);
+  keys.optional("derivative_filter", time, sampling.derivative_filter);
+}
+
+void read_sensor(Keys& keys, Sensor& sensor) {
+  const Number length{Dimension::length, {.at_least = 0}};
+  keys.optional("resolution", length, sensor.resolution);
+  keys.optional("noise", length, sensor.noise);
+  // Doubles hold integers up to 2^53.
+  double seed = static_cast<double>(sensor.seed);
+  const Number whole{Dimension::number, {.at_least = 0, .at_most = 9007199254740992.0}, "1"};
+  if (keys.optional("seed", whole, seed)) {
+    if (seed != std::floor(seed)) keys.find("seed")->refuse("", "a whole number of at least 0");
+    sensor.seed = static_cast<unsigned long>(seed);
+  }
+  keys.optional("delay", Number{Dimension::time, {.at_least = 0}}, sensor.delay);
+  keys.optional("dropout", Number{Dimension::number, {.at_least = 0, .at_most = 1}, "0.05"},
+                sensor.dropout);
+  keys.optional("area", SidesOf{}, sensor.area);
+}
+
 }  // namespace
 
 void read_controller(Keys& keys, Controller& controller) {
-  keys.section("pd", read_pd, controller);
+  read_law(keys, controller);
   keys.optional("drives",
                 NameOf<Drives>{{{Drives::acceleration, "acceleration"}, {Drives::angle, "angle"}}},
                 controller.drives);
   keys.section("reference", read_reference, controller.reference);
+  keys.optional("limit", Number{Dimension::angle, {.above = 0}}, controller.limit);
+  keys.optional("sampling", MappingOf(read_sampling), controller.sampling);
+  keys.optional("sensor", MappingOf(read_sensor), controller.sensor);
 }
 
 }  // namespace bbsim::input

@@ -18,9 +18,36 @@ void read_start(Keys& keys, GimbalStart& start) {
 }
 
 void read_servo(Keys& keys, Servo& servo) {
-  keys.required("natural_frequency", Number{Dimension::angular_rate, {.above = 0}},
-                servo.natural_frequency);
-  keys.required("damping", Number{Dimension::number, {.at_least = 0}}, servo.damping);
+  const Number time{Dimension::time, {.above = 0}};
+  keys.optional("time_constant", time, servo.time_constant);
+  const Number frequency{Dimension::angular_rate, {.above = 0}};
+  const Number damping{Dimension::number, {.at_least = 0}};
+  if (keys.find("time_constant")) {
+    for (const char* other : {"natural_frequency", "damping"}) {
+      if (const auto given = keys.find(other)) {
+        given->report("given together with time_constant, of a servo of first order; allowed: "
+                      "natural_frequency and damping, or time_constant");
+      }
+    }
+  } else {
+    keys.required("natural_frequency", frequency, servo.natural_frequency);
+    keys.required("damping", damping, servo.damping);
+  }
+  keys.optional("angle_limit", Number{Dimension::angle, {.above = 0}}, servo.angle_limit);
+  keys.optional("rate_limit", Number{Dimension::angular_rate, {.above = 0}}, servo.rate_limit);
+  keys.optional("acceleration_limit", Number{Dimension::number, {.above = 0}, "200"},
+                servo.acceleration_limit);
+  keys.optional("dead_band", Number{Dimension::angle, {.at_least = 0}}, servo.dead_band);
+  keys.optional("backlash", Number{Dimension::angle, {.at_least = 0}}, servo.backlash);
+}
+
+void read_mounting(Keys& keys, Mounting& mounting) {
+  keys.optional("height", Number{Dimension::length}, mounting.height);
+  keys.optional("phi_offset", Number{Dimension::angle}, mounting.phi_offset);
+  keys.optional("theta_offset", Number{Dimension::angle}, mounting.theta_offset);
+  keys.optional("skew", Number{Dimension::angle}, mounting.skew);
+  keys.optional("yaw", Number{Dimension::angle}, mounting.yaw);
+  keys.optional("base_tilt", Number{Dimension::angle}, mounting.base_tilt);
 }
 
 }  // namespace
@@ -29,6 +56,7 @@ void read_gimbal(Keys& keys, Gimbal& gimbal) {
   keys.optional("motion", MappingOf(read_motion), gimbal.motion);
   keys.optional("start", MappingOf(read_start), gimbal.start);
   keys.optional("servo", MappingOf(read_servo), gimbal.servo);
+  keys.section("mounting", read_mounting, gimbal.mounting);
 }
 
 }  // namespace bbsim::input

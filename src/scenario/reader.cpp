@@ -18,12 +18,15 @@ void read_sections(Keys& keys, Scenario& scenario) {
   keys.optional("title", Text{"a text", true}, scenario.title);
   keys.optional("gravity", Number{Dimension::acceleration, {.at_least = 0}}, scenario.gravity);
   keys.section("ball", read_ball, scenario.ball);
+  keys.section("plate", read_plate, scenario.plate);
   keys.section("time", read_time, scenario.time);
   keys.section("gimbal", read_gimbal, scenario.gimbal);
   keys.optional("controller", MappingOf(read_controller), scenario.controller);
+  keys.section("events", read_events, scenario.events);
   keys.section("solver", read_solver, scenario.solver);
   keys.section("output", read_output, scenario.output);
   check_loop(keys);
+  check_rig(keys, scenario);
 }
 
 // The tree of the file with all overrides applied, or nullptr if the file holds none.

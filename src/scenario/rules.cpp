@@ -50,6 +50,60 @@ bool PairOf::read(const Value& value, Pair& into) const {
   return fine;
 }
 
+std::string SidesOf::allowed() {
+  return "two lengths greater than 0, such as [0.3, 0.2]";
+}
+
+bool SidesOf::read(const Value& value, Pair& into) {
+  if (value.node->kind != Node::Kind::sequence || value.node->items.size() != into.size()) {
+    return value.refuse("", allowed());
+  }
+  bool fine = true;
+  for (std::size_t i = 0; i < into.size(); ++i) {
+    fine = Number{Dimension::length, {.above = 0}}.read(value.item(i), into[i]) && fine;
+  }
+  return fine;
+}
+
+std::string MomentsOf::allowed() {
+  return "three moments of inertia about x, y and the normal, such as [2e-4, 2e-4, 4e-4]";
+}
+
+bool MomentsOf::read(const Value& value, std::array<double, 3>& into) {
+  if (value.node->kind != Node::Kind::sequence || value.node->items.size() != into.size()) {
+    return value.refuse("", allowed());
+  }
+  bool fine = true;
+  for (std::size_t i = 0; i < into.size(); ++i) {
+    fine = Number{Dimension::number, {.at_least = 0}, "2e-4"}.read(value.item(i), into[i]) && fine;
+  }
+  return fine;
+}
+
+std::string StateGain::allowed() {
+  return "two rows, phi and theta, of four numbers (for x, y, vx, vy) or of eight (for phi, theta, "
+         "phi_rate, theta_rate too)";
+}
+
+bool StateGain::read(const Value& value, std::array<std::array<double, 8>, 2>& into) {
+  if (value.node->kind != Node::Kind::sequence || value.node->items.size() != into.size()) {
+    return value.refuse("", allowed());
+  }
+  bool fine = true;
+  for (std::size_t row = 0; row < into.size(); ++row) {
+    const Value numbers = value.item(row);
+    const std::size_t count = numbers.node->items.size();
+    if (numbers.node->kind != Node::Kind::sequence || (count != 4 && count != 8)) {
+      fine = numbers.refuse("", allowed());
+      continue;
+    }
+    for (std::size_t i = 0; i < count; ++i) {
+      fine = Number{}.read(numbers.item(i), into[row][i]) && fine;
+    }
+  }
+  return fine;
+}
+
 std::string GainMatrix::allowed() const {
   return "a number k, for [[k, 0], [0, k]], or a 2x2 matrix [[a, b], [c, d]]";
 }

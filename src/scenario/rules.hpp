@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <iterator>
 #include <optional>
 #include <string>
@@ -41,6 +42,24 @@ struct PairOf {
 
   [[nodiscard]] std::string allowed() const;
   bool read(const Value& value, Pair& into) const;
+};
+
+// [width, height] of a rectangle, m
+struct SidesOf {
+  [[nodiscard]] static std::string allowed();
+  static bool read(const Value& value, Pair& into);
+};
+
+// [about x, about y, about the normal], kg m^2
+struct MomentsOf {
+  [[nodiscard]] static std::string allowed();
+  static bool read(const Value& value, std::array<double, 3>& into);
+};
+
+// Two rows, phi and theta, of four numbers (x, y, vx, vy) or eight (... and phi, theta, their rates)
+struct StateGain {
+  [[nodiscard]] static std::string allowed();
+  static bool read(const Value& value, std::array<std::array<double, 8>, 2>& into);
 };
 
 // A list of values that one rule reads.

@@ -7,6 +7,8 @@
 namespace bbsim::input {
 
 void read_ball(Keys& keys, Ball& ball);
+void read_plate(Keys& keys, Plate& plate);
+void read_events(Keys& keys, Events& events);
 void read_time(Keys& keys, OutputTimes& time);
 void read_gimbal(Keys& keys, Gimbal& gimbal);
 void read_controller(Keys& keys, Controller& controller);
@@ -17,5 +19,9 @@ void read_output(Keys& keys, Output& output);
 // What must hold between the sections: whether a controller or a prescribed motion moves the
 // gimbal, and what may stand beside each.
 void check_loop(Keys& scenario);
+
+// What parts of the rig ask of each other: a servo limit of a servo, a sensor of samples, an edge of
+// a plate. After check_loop.
+void check_rig(Keys& keys, const Scenario& scenario);
 
 }  // namespace bbsim::input

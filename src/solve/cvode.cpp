@@ -8,7 +8,6 @@
 #include <variant>
 
 #include "model/jacobian.hpp"
-#include "solve/row_block.hpp"
 #include "solve/sundials.hpp"
 
 namespace bbsim::solve {
@@ -45,7 +44,7 @@ struct Callbacks {
   }
 };
 
-std::string explain(int flag) {
+const char* explain(int flag) {
   switch (flag) {
     case CV_TOO_MUCH_ACC:
       return "the tolerance is finer than double precision can follow";
@@ -60,25 +59,18 @@ std::string explain(int flag) {
     case CV_LSETUP_FAIL:
     case CV_LSOLVE_FAIL:
       return "the linear system is singular";
-    default: {
-      char* name = CVodeGetReturnFlagName(flag);
-      std::string text = "CVODE gave up with " + std::string(name);
-      free(name);  // NOLINT: CVODE allocates it with malloc
-      return text;
-    }
+    default:
+      return "CVODE gave up";
   }
 }
 
 template <class System>
-class CvodeRun {
+class CvodeStepper : public Stepper {
  public:
-  CvodeRun(const System& system, const model::Model& model, Method method, Tolerances tolerances,
-           const OutputGrid& grid, StateSink& sink, const Watch& watch)
+  CvodeStepper(const System& system, const model::Model& model, Method method,
+               Tolerances tolerances)
       : model_(model),
         method_(method),
-        grid_(grid),
-        watch_(watch),
-        rows_(sink, System::size + (model.gamma ? 1 : 0)),
         context_(sundials::make_context()),
         state_(sundials::make_vector(System::size, context_.get())),
         at_output_(sundials::make_vector(System::size, context_.get())),
@@ -98,30 +90,72 @@ class CvodeRun {
     if (model.gamma) integrate_spin();
   }
 
-  Outcome run() {
-    write_row(grid_[0]);
-    std::size_t next_row = 1;
-    std::size_t next_stop = 0;
-    set_stop(next_stop);
-    for (std::size_t steps = 1; time_ < grid_.end(); ++steps) {
-      const int flag = CVode(memory(), grid_.end(), state_.get(), &time_, CV_ONE_STEP);
-      if (flag < 0) return ended(Ending::failed, explain(flag));
-      for (; next_row < grid_.size() && grid_[next_row] <= time_; ++next_row) {
-        write_row(grid_[next_row]);
-      }
-      if (step_is_rounding()) {
-        return ended(Ending::failed, "the step shrank to the rounding of the time itself");
-      }
-      if (flag == CV_TSTOP_RETURN && next_stop < model_.stops.size()) {
-        restart();
-        set_stop(++next_stop);
-      }
-      if (watch_.stop != nullptr && watch_.stop->load(std::memory_order_relaxed)) {
-        return ended(Ending::interrupted, "");
-      }
-      if (watch_.progress && steps % 256 == 0) watch_.progress(time_);
+  void start(double t, const double* z) override {
+    std::copy(z, z + System::size, data(state_));
+    if (stepped_) {
+      restart(t);
+    } else if (t != 0 || !std::equal(z, z + System::size, model_.initial.begin())) {
+      check(CVodeReInit(memory(), t, state_.get()), "CVodeReInit");
     }
-    return ended(Ending::done, "");
+    time_ = t;
+  }
+
+  // From a stop, where the inputs' derivatives jump, the method's history is of no use.
+  void jump() override { restart(time_); }
+
+  const char* step(double limit) override {
+    check(CVodeSetStopTime(memory(), limit), "CVodeSetStopTime");
+    const double before = time_;
+    const int flag = CVode(memory(), limit, state_.get(), &time_, CV_ONE_STEP);
+    stepped_ = true;
+    if (flag < 0) return explain(flag);
+    if (step_is_rounding(time_ - before)) {
+      return "the step shrank to the rounding of the time itself";
+    }
+    return nullptr;
+  }
+
+  void evaluate(const double* times, std::size_t count, double* rows) override {
+    const std::size_t row_size = System::size + (model_.gamma ? 1 : 0);
+    for (std::size_t i = 0; i < count; ++i, rows += row_size) {
+      check(CVodeGetDky(memory(), times[i], 0, at_output_.get()), "CVodeGetDky");
+      std::copy_n(data(at_output_), System::size, rows);
+      if (!model_.gamma) continue;
+      check(CVodeGetQuadDky(memory(), times[i], 0, turned_.get()), "CVodeGetQuadDky");
+      rows[System::size] = data(turned_)[0];
+    }
+  }
+
+  [[nodiscard]] double time() const override { return time_; }
+
+  [[nodiscard]] std::vector<double> state() const override {
+    return {data(state_), data(state_) + System::size};
+  }
+
+  [[nodiscard]] Statistics statistics() const override {
+    Statistics all = statistics_;
+    add_statistics(all);
+    return all;
+  }
+
+  [[nodiscard]] std::size_t detail() const override { return 4; }
+
+  // The state with the largest local error estimate in the solver's own weights.
+  [[nodiscard]] std::size_t worst_state() const override {
+    const auto errors = sundials::make_vector(System::size, context_.get());
+    const auto weights = sundials::make_vector(System::size, context_.get());
+    if (CVodeGetEstLocalErrors(memory(), errors.get()) < 0) return 0;
+    if (CVodeGetErrWeights(memory(), weights.get()) < 0) return 0;
+    std::size_t worst = 0;
+    double largest = -1;
+    for (std::size_t i = 0; i < System::size; ++i) {
+      const double weighted = std::abs(data(errors)[i] * data(weights)[i]);
+      if (weighted > largest) {
+        largest = weighted;
+        worst = i;
+      }
+    }
+    return worst;
   }
 
  private:
@@ -151,96 +185,46 @@ class CvodeRun {
     check(CVodeSetQuadErrCon(memory(), 0), "CVodeSetQuadErrCon");
   }
 
-  void set_stop(std::size_t next_stop) {
-    const double stop = next_stop < model_.stops.size() ? model_.stops[next_stop] : grid_.end();
-    check(CVodeSetStopTime(memory(), stop), "CVodeSetStopTime");
-  }
-
-  // From a stop, where the inputs' derivatives jump, the method's history is of no use.
-  void restart() {
-    collect_statistics();
+  void restart(double t) {
+    add_statistics(statistics_);
     if (model_.gamma) {
-      double unused = 0;
-      check(CVodeGetQuad(memory(), &unused, turned_.get()), "CVodeGetQuad");
+      // At t, which is within the last step.
+      check(CVodeGetQuadDky(memory(), t, 0, turned_.get()), "CVodeGetQuadDky");
     }
-    check(CVodeReInit(memory(), time_, state_.get()), "CVodeReInit");
+    check(CVodeReInit(memory(), t, state_.get()), "CVodeReInit");
     if (model_.gamma) check(CVodeQuadReInit(memory(), turned_.get()), "CVodeQuadReInit");
     tiny_steps_ = 0;
-  }
-
-  void write_row(double t) {
-    double* row = rows_.next();
-    const bool start = t == 0;
-    if (start) {
-      std::copy_n(data(state_), System::size, row);
-    } else {
-      check(CVodeGetDky(memory(), t, 0, at_output_.get()), "CVodeGetDky");
-      std::copy_n(data(at_output_), System::size, row);
-    }
-    if (!model_.gamma) return;
-    if (!start) check(CVodeGetQuadDky(memory(), t, 0, turned_.get()), "CVodeGetQuadDky");
-    row[System::size] = data(turned_)[0];
+    stepped_ = false;
   }
 
   // A solution that reaches infinity in finite time drives the step to nothing. A few tiny steps
   // are the method feeling its way; a hundred in a row are not.
-  [[nodiscard]] bool step_is_rounding() {
-    double last = 0;
-    check(CVodeGetLastStep(memory(), &last), "CVodeGetLastStep");
+  [[nodiscard]] bool step_is_rounding(double last) {
     const double rounding = 4 * std::numeric_limits<double>::epsilon() * std::abs(time_);
     tiny_steps_ = std::abs(last) <= rounding ? tiny_steps_ + 1 : 0;
     return tiny_steps_ >= 100;
   }
 
-  void collect_statistics() {
+  // Those since the last restart, which CVODES counts.
+  void add_statistics(Statistics& sum) const {
     long steps = 0, rhs = 0, jacobians = 0, iterations = 0, failures = 0;
     CVodeGetNumSteps(memory(), &steps);
     CVodeGetNumRhsEvals(memory(), &rhs);
     CVodeGetNumNonlinSolvIters(memory(), &iterations);
     CVodeGetNumErrTestFails(memory(), &failures);
     if (method_ == Method::bdf) CVodeGetNumJacEvals(memory(), &jacobians);
-    const auto add = [](std::size_t& sum, long part) { sum += static_cast<std::size_t>(part); };
-    add(statistics_.steps, steps);
-    add(statistics_.rhs_evaluations, rhs);
-    add(statistics_.jacobian_evaluations, jacobians);
-    add(statistics_.nonlinear_iterations, iterations);
-    add(statistics_.error_test_failures, failures);
-  }
-
-  Outcome ended(Ending ending, std::string reason) {
-    rows_.flush();
-    collect_statistics();
-    Outcome outcome{ending, method_, time_, rows_.rows(), statistics_, std::move(reason), 0, {}};
-    if (ending == Ending::failed) {
-      outcome.last_state.assign(data(state_), data(state_) + System::size);
-      outcome.worst_state = worst_state();
-    }
-    return outcome;
-  }
-
-  // The state with the largest local error estimate in the solver's own weights.
-  [[nodiscard]] std::size_t worst_state() const {
-    const auto errors = sundials::make_vector(System::size, context_.get());
-    const auto weights = sundials::make_vector(System::size, context_.get());
-    if (CVodeGetEstLocalErrors(memory(), errors.get()) < 0) return 0;
-    if (CVodeGetErrWeights(memory(), weights.get()) < 0) return 0;
-    std::size_t worst = 0;
-    double largest = -1;
-    for (std::size_t i = 0; i < System::size; ++i) {
-      const double weighted = std::abs(data(errors)[i] * data(weights)[i]);
-      if (weighted > largest) {
-        largest = weighted;
-        worst = i;
-      }
-    }
-    return worst;
+    const auto add = [](std::size_t& total, long part) {
+      total += static_cast<std::size_t>(part);
+    };
+    add(sum.steps, steps);
+    add(sum.rhs_evaluations, rhs);
+    add(sum.jacobian_evaluations, jacobians);
+    add(sum.nonlinear_iterations, iterations);
+    add(sum.error_test_failures, failures);
   }
 
   const model::Model& model_;
   Method method_;
-  const OutputGrid& grid_;
-  const Watch& watch_;
-  RowBlock rows_;
   sundials::Context context_;  // outlives all that is made with it
   sundials::Vector state_, at_output_, turned_;
   sundials::DenseMatrix matrix_;
@@ -248,20 +232,29 @@ class CvodeRun {
   sundials::NonlinearSolver nonlinear_;
   sundials::CvodeMemory cvode_;
   double time_ = 0;
+  bool stepped_ = false;  // since it was made or restarted
   int tiny_steps_ = 0;
-  Statistics statistics_;
+  Statistics statistics_;  // until the last restart
 };
 
 }  // namespace
 
-Outcome integrate_cvode(const model::Model& model, Method method, Tolerances tolerances,
-                        const OutputGrid& grid, StateSink& sink, const Watch& watch) {
+std::unique_ptr<Stepper> make_cvode_stepper(const model::Model& model, Method method,
+                                            Tolerances tolerances) {
   return std::visit(
-      [&](const auto& system) {
+      [&](const auto& system) -> std::unique_ptr<Stepper> {
         using System = std::decay_t<decltype(system)>;
-        return CvodeRun<System>(system, model, method, tolerances, grid, sink, watch).run();
+        return std::make_unique<CvodeStepper<System>>(system, model, method, tolerances);
       },
       model.system);
+}
+
+Outcome integrate_cvode(const model::Model& model, Method method, Tolerances tolerances,
+                        const OutputGrid& grid, StateSink& sink, const Watch& watch) {
+  const auto stepper = make_cvode_stepper(model, method, tolerances);
+  Outcome outcome = run_through(*stepper, model, grid, sink, watch);
+  outcome.method = method;
+  return outcome;
 }
 
 }  // namespace bbsim::solve

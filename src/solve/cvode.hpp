@@ -4,6 +4,7 @@
 #include "model/model.hpp"
 #include "solve/outcome.hpp"
 #include "solve/output_grid.hpp"
+#include "solve/stepper.hpp"
 
 namespace bbsim::solve {
 
@@ -15,5 +16,9 @@ namespace bbsim::solve {
 [[nodiscard]] Outcome integrate_cvode(const model::Model& model, Method method,
                                       Tolerances tolerances, const OutputGrid& grid,
                                       StateSink& sink, const Watch& watch);
+
+// The same, a step at a time. Keeps a reference to the model.
+[[nodiscard]] std::unique_ptr<Stepper> make_cvode_stepper(const model::Model& model, Method method,
+                                                          Tolerances tolerances);
 
 }  // namespace bbsim::solve

@@ -3,12 +3,14 @@
 #include "solve/choose.hpp"
 #include "solve/collocation/radau.hpp"
 #include "solve/cvode.hpp"
+#include "solve/hybrid.hpp"
 
 namespace bbsim::solve {
 
 Outcome integrate(const model::Model& model, Method method, Tolerances tolerances,
                   const OutputGrid& grid, StateSink& sink, const Watch& watch) {
   const Method chosen = choose_method(method);
+  if (model.hybrid()) return integrate_hybrid(model, chosen, tolerances, grid, sink, watch);
   if (chosen == Method::radau) {
     return integrate_radau(model, tolerances, grid, sink, watch);
   }

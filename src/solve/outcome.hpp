@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "model/rig/occurrence.hpp"
 #include "scenario/scenario.hpp"
 
 namespace bbsim::solve {
@@ -39,7 +40,8 @@ struct Statistics {
   std::size_t error_test_failures = 0;
 };
 
-enum class Ending { done, failed, interrupted };
+// stopped: something happened that the scene stops at.
+enum class Ending { done, failed, interrupted, stopped };
 
 struct Outcome {
   Ending ending = Ending::done;
@@ -52,6 +54,8 @@ struct Outcome {
   std::string reason;
   std::size_t worst_state = 0;
   std::vector<double> last_state;
+  // What was watched for and happened, in order; of a stopped run the last one stopped it.
+  std::vector<model::Occurrence> occurrences{};
 };
 
 // Collects a whole run in memory.

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "solve/collocation/radau.hpp"
+#include "solve/hybrid.hpp"
 #include "solve/integrate.hpp"
 #include "study/reference.hpp"
 
@@ -37,6 +38,11 @@ Tolerances tolerances_of(double rtol) {
   return {rtol, 1e-2 * rtol};
 }
 
+// Where the scene ends it, or where something happens that the scene stops at.
+bool came_to_its_end(const Outcome& outcome) {
+  return outcome.ending == Ending::done || outcome.ending == Ending::stopped;
+}
+
 double largest_distance(const model::Model& model, const Trajectory& a, const Trajectory& b) {
   double largest = 0, size = 0;
   const int n = coordinates(model);
@@ -56,7 +62,7 @@ double largest_distance(const model::Model& model, const Trajectory& a, const Tr
 ErrorControlled integrate_to_error(const model::Model& model, Method method, double bound,
                                    const solve::OutputGrid& grid, solve::StateSink& sink,
                                    const solve::Watch& watch) {
-  const std::size_t row_size = model.size() + (model.gamma ? 1 : 0);
+  const std::size_t row_size = model.row_size();
   ErrorControlled result;
   const auto run = [&](double rtol, const auto& integrate) {
     Run made{tolerances_of(rtol), {}, Trajectory(row_size)};
@@ -68,7 +74,9 @@ ErrorControlled integrate_to_error(const model::Model& model, Method method, dou
     return solve::integrate(model, method, tolerances, grid, rows, watch);
   };
   const auto other = [&](Tolerances tolerances, solve::StateSink& rows) {
-    return solve::integrate_radau_unlike(model, tolerances, grid, rows, watch);
+    return model.hybrid()
+               ? solve::integrate_hybrid_unlike(model, tolerances, grid, rows, watch)
+               : solve::integrate_radau_unlike(model, tolerances, grid, rows, watch);
   };
   const auto deliver = [&](Run& chosen) {
     if (chosen.rows.rows() > 0) sink.accept(0, chosen.rows.rows(), chosen.rows.row(0));
@@ -82,7 +90,7 @@ ErrorControlled integrate_to_error(const model::Model& model, Method method, dou
   for (;;) {
     const bool first = result.runs == 1;
     if (candidate.outcome.ending == Ending::failed && !first) break;  // too fine a tolerance
-    if (candidate.outcome.ending != Ending::done) {
+    if (!came_to_its_end(candidate.outcome)) {
       deliver(candidate);
       return result;
     }
@@ -92,7 +100,7 @@ ErrorControlled integrate_to_error(const model::Model& model, Method method, dou
       deliver(candidate);
       return result;
     }
-    const double estimate = check.outcome.ending == Ending::done
+    const double estimate = came_to_its_end(check.outcome)
                                 ? largest_distance(model, candidate.rows, check.rows)
                                 : std::numeric_limits<double>::infinity();
     if (first || estimate < result.estimate) {
@@ -100,7 +108,7 @@ ErrorControlled integrate_to_error(const model::Model& model, Method method, dou
       best = std::move(candidate);
     }
     result.met = result.estimate <= bound;
-    if (result.met || rtol <= finest || check.outcome.ending != Ending::done) break;
+    if (result.met || rtol <= finest || !came_to_its_end(check.outcome)) break;
     // The error is about proportional to the tolerance; a margin of three on the way to the bound.
     rtol = std::max(finest, rtol * std::clamp(bound / (3 * estimate), 1e-5, 0.3));
     candidate = run(rtol, asked);

@@ -31,8 +31,12 @@ template <class Equation>
 Derivative simpler_derivative(const model::Model& model) {
   return std::visit(
       [](const auto& system) -> Derivative {
-        return [simpler = system.template with_equation<Equation>()](
-                   double t, const double* z, double* dz) { simpler.derivative(t, z, dz); };
+        if constexpr (requires { system.template with_equation<Equation>(); }) {
+          return [simpler = system.template with_equation<Equation>()](
+                     double t, const double* z, double* dz) { simpler.derivative(t, z, dz); };
+        } else {
+          throw InputError("verify: simpler models are compared over scenes without switches");
+        }
       },
       model.system);
 }
@@ -97,9 +101,8 @@ struct Position {
 };
 
 Position position(const model::Model& model, double t, const double* row) {
-  const auto sample =
-      std::visit([&](const auto& system) { return system.sample(t, row); }, model.system);
-  return {sample.ball.x, sample.ball.y};
+  const model::BallMotion ball = model.sample(t, row).ball;
+  return {ball.x, ball.y};
 }
 
 SimplerModel compare(std::string name, std::string equation, const Trajectory& full,
@@ -122,6 +125,11 @@ SimplerModel compare(std::string name, std::string equation, const Trajectory& f
 
 FullModelStudy compare_simpler(const Scenario& scenario, const solve::Watch& watch) {
   const model::Model model = model::assemble(scenario, false);
+  if (model.hybrid() || model.rig) {
+    throw InputError(scenario.source.file +
+                     ": simpler models are compared over scenes of prescribed motion or under pd, "
+                     "without events and limits; run `bbsim verify` without a scenario");
+  }
   const solve::OutputGrid grid(scenario.time);
   Trajectory full(model.size());
   const solve::Outcome outcome =

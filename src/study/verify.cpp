@@ -48,17 +48,14 @@ Run run(const Scenario& scene, const solve::Watch& watch, Method method = Method
         solve::Tolerances tolerances = tight) {
   const model::Model model = model::assemble(scene, true);
   const solve::OutputGrid grid(scene.time);
-  const std::size_t row_size = model.size() + (model.gamma ? 1 : 0);
-  solve::Trajectory rows(row_size);
+  solve::Trajectory rows(model.row_size());
   const solve::Outcome outcome =
       solve::integrate(model, method, tolerances, grid, rows, {watch.stop, {}});
   Run result;
   result.done = outcome.ending == solve::Ending::done && rows.rows() == grid.size();
   for (std::size_t i = 0; i < rows.rows(); ++i) {
     const double* row = rows.row(i);
-    Sample sample =
-        std::visit([&](const auto& system) { return system.sample(grid[i], row); }, model.system);
-    sample.gamma = model.gamma ? row[model.size()] / model.radius : 0;
+    const Sample sample = model.sample(grid[i], row);
     const model::BallMotion& ball = sample.ball;
     for (const double value :
          {ball.x, ball.y, ball.x_dot, ball.y_dot, scene.ball.radius * ball.gamma_dot}) {
@@ -204,7 +201,7 @@ struct Instant {
 };
 
 std::vector<Instant> energies(const Run& made, const Scenario& scene) {
-  const model::BallConstants constants{scene.ball.radius, scene.ball.mass, scene.gravity};
+  const model::BallConstants constants = model::constants_of(scene);
   std::vector<Instant> list;
   for (const Sample& sample : made.samples) {
     const model::Dynamics at = model::dynamics(sample, constants);

@@ -56,10 +56,9 @@ inline ExactRun quad_reference(const bbsim::Scenario& scene) {
     for (std::size_t k = 0; k < row.size(); ++k) {
       row[k] = static_cast<double>(solution.row(i)[k]);
     }
-    const auto sample = std::visit(
-        [&](const auto& system) { return system.sample(grid[i], row.data()); }, model.system);
-    reference.x.push_back(sample.ball.x);
-    reference.y.push_back(sample.ball.y);
+    const bbsim::model::BallMotion ball = model.sample(grid[i], row.data()).ball;
+    reference.x.push_back(ball.x);
+    reference.y.push_back(ball.y);
   }
   return reference;
 }

@@ -21,15 +21,11 @@ inline Run run_in_memory(const bbsim::Scenario& scene, bbsim::Method method,
                          const bbsim::solve::Watch& watch = {}) {
   const bbsim::model::Model model = bbsim::model::assemble(scene, gamma);
   const bbsim::solve::OutputGrid grid(scene.time);
-  const std::size_t row_size = model.size() + (model.gamma ? 1 : 0);
-  bbsim::solve::Trajectory trajectory(row_size);
+  bbsim::solve::Trajectory trajectory(model.row_size());
   Run run;
   run.outcome = bbsim::solve::integrate(model, method, tolerances, grid, trajectory, watch);
   for (std::size_t i = 0; i < trajectory.rows(); ++i) {
-    const double* row = trajectory.row(i);
-    run.samples.push_back(
-        std::visit([&](const auto& system) { return system.sample(grid[i], row); }, model.system));
-    if (model.gamma) run.samples.back().gamma = row[model.size()] / scene.ball.radius;
+    run.samples.push_back(model.sample(grid[i], trajectory.row(i)));
   }
   return run;
 }

@@ -1,6 +1,7 @@
 // All kernels of one instruction set.
 #pragma once
 
+#include "model/rig_loop.hpp"
 #include "model/system.hpp"
 #include "solve/collocation/step.hpp"
 
@@ -12,6 +13,13 @@ struct Family {
   using Open = Step<Isa, model::OpenLoop<shape, model::SignalView>, s>;
   template <model::Shape shape, Drives drives>
   using Closed = Step<Isa, model::ClosedLoop<shape, drives, model::SignalView>, s>;
+
+  // Rigs beyond the paper's are cut into short pieces by what switches: orders above 23, which pay
+  // over long steps, are not compiled for them.
+  static constexpr int rig_stages = s < 12 ? s : 12;
+  using GeneralOpen = Step<
+      Isa, model::OpenLoop<model::Shape::full, model::SignalView, model::GeneralRolling>, rig_stages>;
+  using Rig = Step<Isa, model::RigLoop<model::SignalView>, rig_stages>;
 };
 
 // In the order of model::System.
@@ -25,7 +33,8 @@ struct Family {
         Family<Isa, s>::Closed<model::Shape::along_y, Drives::acceleration>::kernel, \
         Family<Isa, s>::Closed<model::Shape::full, Drives::angle>::kernel,           \
         Family<Isa, s>::Closed<model::Shape::along_x, Drives::angle>::kernel,        \
-        Family<Isa, s>::Closed<model::Shape::along_y, Drives::angle>::kernel         \
+        Family<Isa, s>::Closed<model::Shape::along_y, Drives::angle>::kernel,        \
+        Family<Isa, s>::GeneralOpen::kernel, Family<Isa, s>::Rig::kernel             \
   }
 
 }  // namespace bbsim::solve::collocation

@@ -8,7 +8,6 @@
 #include <type_traits>
 #include <variant>
 
-#include "solve/row_block.hpp"
 
 namespace bbsim::solve {
 namespace collocation {
@@ -43,7 +42,7 @@ double growth(double error, int stages) {
 
 }  // namespace
 
-void Integrator::Free::operator()(void* memory) const {
+void RadauStepper::Free::operator()(void* memory) const {
   ::operator delete(memory, alignment);
 }
 
@@ -51,120 +50,119 @@ int choose_stages(double rtol) {
   return rtol > 3e-6 ? 8 : rtol > 3e-9 ? 12 : 16;
 }
 
-Integrator::Integrator(const model::Model& model, const KernelSet& kernels, int stages)
+RadauStepper::RadauStepper(const model::Model& model, const KernelSet& kernels, int stages,
+                           Tolerances tolerances, double end)
     : model_(model),
       kernel_(&kernels.kernels[stages == 8    ? 0
                                : stages == 12 ? 1
                                               : 2][model.system.index()]),
-      row_size_(model.size() + (model.gamma ? 1 : 0)),
+      tolerances_(tolerances),
+      end_(end),
       highest_frequency_(highest_frequency(model)),
-      workspace_(::operator new(kernel_->workspace, alignment)) {
-  view_ = std::visit(
-      [](const auto& system) {
+      reach_(resolved(kernel_->stages, tolerances.rtol)),
+      // A sinusoid shorter than the distance between nodes would be mistaken for a longer one.
+      widest_(highest_frequency_ > 0 ? 1.6 * kernel_->stages / highest_frequency_
+                                     : std::numeric_limits<double>::max()),
+      workspace_(::operator new(kernel_->workspace, alignment)) {}
+
+// The kernel's own view of the system, in its present mode.
+void RadauStepper::look_at_model() {
+  std::visit(
+      [this](const auto& system) {
         using View = decltype(system.view());
         static_assert(std::is_trivially_destructible_v<View>);
-        std::unique_ptr<void, Free> memory(::operator new(sizeof(View), alignment));
-        new (memory.get()) View(system.view());
-        return memory;
+        if (!view_) view_.reset(::operator new(sizeof(View), alignment));
+        new (view_.get()) View(system.view());
       },
-      model.system);
+      model_.system);
 }
 
-std::vector<double> Integrator::state() const {
+std::size_t RadauStepper::detail() const {
+  return 2 * static_cast<std::size_t>(kernel_->stages);
+}
+
+// Makes the end of the last step the present state.
+void RadauStepper::settle() {
+  if (attempted_) kernel_->accept(workspace_.get());
+  attempted_ = false;
+}
+
+std::vector<double> RadauStepper::state() const {
   std::vector<double> z(model_.size());
-  kernel_->state(workspace_.get(), z.data());
+  // At its end, exactly what accept() would make the present state.
+  if (attempted_) {
+    std::vector<double> row(model_.size() + (model_.gamma ? 1 : 0));
+    kernel_->evaluate(workspace_.get(), &time_, 1, row.data());
+    std::copy_n(row.begin(), z.size(), z.begin());
+  } else {
+    kernel_->state(workspace_.get(), z.data());
+  }
   return z;
 }
 
-Integrator::Run Integrator::run(Tolerances tolerances, const OutputGrid& grid, RowBlock& rows,
-                                const Watch& watch) {
+void RadauStepper::start(double t, const double* z) {
+  look_at_model();
   void* const workspace = workspace_.get();
+  if (model_.gamma && t > 0 && attempted_) {
+    std::vector<double> row(model_.size() + 1);
+    evaluate(&t, 1, row.data());
+    turned_ = row.back();
+  }
+  attempted_ = false;
+  kernel_->start(workspace,
+                 {view_.get(), z, tolerances_.rtol, tolerances_.atol, model_.gamma});
+  time_ = t;
+  if (next_step_ > 0) return;
+  const double rate = std::max(kernel_->rate(workspace, t), highest_frequency_);
+  next_step_ = rate > 0 ? 2 * reach_ / rate : end_;
+  if (!(next_step_ > 0)) next_step_ = end_ * 1e-6;
+}
+
+const char* RadauStepper::step(double limit) {
+  settle();
   const int stages = kernel_->stages;
-  kernel_->start(workspace, {view_.get(), model_.initial.data(), tolerances.rtol, tolerances.atol,
-                             model_.gamma});
-  Run result;
-  double* const first = rows.next();
-  std::copy(model_.initial.begin(), model_.initial.end(), first);
-  if (model_.gamma) first[model_.size()] = 0;
-
-  const double end = grid.end();
-  const double reach = resolved(stages, tolerances.rtol);
-  // A sinusoid shorter than the distance between nodes would be mistaken for a longer one.
-  const double widest = highest_frequency_ > 0 ? 1.6 * stages / highest_frequency_
-                                               : std::numeric_limits<double>::max();
-
-  double t = 0;
-  std::size_t next_row = 1, next_stop = 0;
-  double h = [&] {
-    const double rate = std::max(kernel_->rate(workspace, 0), highest_frequency_);
-    return rate > 0 ? 2 * reach / rate : end;
-  }();
-  if (!(h > 0)) h = end * 1e-6;
-
-  std::array<double, 64> times;
+  const double t = time_, left = limit - t;
   bool rejected = false;
   for (;;) {
-    const double target = next_stop < model_.stops.size() ? model_.stops[next_stop] : end;
-    const double left = target - t;
-    h = std::min(h, widest);
-    // The steps to the target are alike.
+    double h = std::min(next_step_, widest_);
+    // The steps to the limit are alike.
     const double pieces = std::ceil(left / h * (1 - 1e-3));
     const bool arrives = pieces <= 1;
     const double step = arrives ? left : pieces < 4 ? left / pieces : h;
     if (!(step > 4 * std::numeric_limits<double>::epsilon() * t) && !arrives) {
-      result.ending = Ending::failed;
-      result.reason = "the step shrank to the rounding of the time itself";
-      break;
+      return "the step shrank to the rounding of the time itself";
     }
-
     Attempt attempt;
-    kernel_->attempt(workspace, t, step, &attempt);
-    result.statistics.rhs_evaluations += static_cast<std::size_t>(attempt.right_hand_sides);
-    result.statistics.jacobian_evaluations += static_cast<std::size_t>(attempt.jacobians);
-    result.statistics.nonlinear_iterations += static_cast<std::size_t>(attempt.iterations);
-    if (attempt.verdict != Verdict::converged) {
-      h = step * (attempt.verdict == Verdict::not_finite ? 0.1 : 0.4);
+    kernel_->attempt(workspace_.get(), t, step, &attempt);
+    statistics_.rhs_evaluations += static_cast<std::size_t>(attempt.right_hand_sides);
+    statistics_.jacobian_evaluations += static_cast<std::size_t>(attempt.jacobians);
+    statistics_.nonlinear_iterations += static_cast<std::size_t>(attempt.iterations);
+    const bool converged = attempt.verdict == Verdict::converged;
+    if (converged) worst_state_ = static_cast<std::size_t>(attempt.worst_state);
+    if (!converged || !(attempt.error <= 1)) {
+      next_step_ = step * (converged ? std::min(0.9, growth(attempt.error, stages))
+                           : attempt.verdict == Verdict::not_finite ? 0.1
+                                                                    : 0.4);
       rejected = true;
-      ++result.statistics.error_test_failures;
+      ++statistics_.error_test_failures;
       continue;
     }
-    result.worst_state = attempt.worst_state;
-    if (!(attempt.error <= 1)) {
-      h = step * std::min(0.9, growth(attempt.error, stages));
-      rejected = true;
-      ++result.statistics.error_test_failures;
-      continue;
-    }
-
-    const double reached = arrives ? target : t + step;
-    while (next_row < grid.size() && grid[next_row] <= reached) {
-      std::size_t count = 0;
-      while (count < times.size() && next_row + count < grid.size() &&
-             grid[next_row + count] <= reached) {
-        times[count] = grid[next_row + count];
-        ++count;
-      }
-      double* const out = rows.next(count);
-      kernel_->evaluate(workspace, times.data(), count, out);
-      next_row += count;
-    }
-    kernel_->accept(workspace);
-    t = reached;
-    ++result.statistics.steps;
+    attempted_ = true;
+    time_ = arrives ? limit : t + step;
+    ++statistics_.steps;
     const double factor = growth(attempt.error, stages);
     h = step * (rejected ? std::min(factor, 1.0) : factor);
-    rejected = false;
-
-    if (arrives && t == end) break;
-    if (arrives) ++next_stop;
-    if (watch.stop != nullptr && watch.stop->load(std::memory_order_relaxed)) {
-      result.ending = Ending::interrupted;
-      break;
-    }
-    if (watch.progress && result.statistics.steps % 256 == 0) watch.progress(t);
+    // A step that the limit cut short says little of how long the next may be.
+    next_step_ = arrives && !rejected ? std::max(h, next_step_) : h;
+    return nullptr;
   }
-  result.reached = t;
-  return result;
+}
+
+void RadauStepper::evaluate(const double* times, std::size_t count, double* rows) {
+  kernel_->evaluate(workspace_.get(), times, count, rows);
+  if (turned_ == 0) return;
+  const std::size_t row = model_.size() + 1;
+  for (std::size_t i = 0; i < count; ++i) rows[i * row + row - 1] += turned_;
 }
 
 }  // namespace collocation
@@ -173,21 +171,10 @@ namespace {
 
 Outcome integrate_with(int stages, const model::Model& model, Tolerances tolerances,
                        const OutputGrid& grid, StateSink& sink, const Watch& watch) {
-  collocation::Integrator integrator(model, collocation::choose_kernels(), stages);
-  RowBlock rows(sink, integrator.row_size());
-  const collocation::Integrator::Run run = integrator.run(tolerances, grid, rows, watch);
-  rows.flush();
-  Outcome outcome;
-  outcome.ending = run.ending;
+  collocation::RadauStepper stepper(model, collocation::choose_kernels(), stages, tolerances,
+                                    grid.end());
+  Outcome outcome = run_through(stepper, model, grid, sink, watch);
   outcome.method = Method::radau;
-  outcome.reached = run.reached;
-  outcome.rows = rows.rows();
-  outcome.statistics = run.statistics;
-  if (run.ending == Ending::failed) {
-    outcome.reason = run.reason;
-    outcome.worst_state = static_cast<std::size_t>(run.worst_state);
-    outcome.last_state = integrator.state();
-  }
   return outcome;
 }
 

@@ -9,7 +9,7 @@
 #include "solve/collocation/kernel.hpp"
 #include "solve/outcome.hpp"
 #include "solve/output_grid.hpp"
-#include "solve/row_block.hpp"
+#include "solve/stepper.hpp"
 
 namespace bbsim::solve {
 
@@ -40,39 +40,45 @@ namespace collocation {
 // How many stages suit a relative tolerance: 8, 12 or 16.
 [[nodiscard]] int choose_stages(double rtol);
 
-// Integrates one model again and again without allocating. Keeps a reference to the model.
-class Integrator {
+// A step never goes over a time of the model's stops, if the driver makes them its limits, nor over
+// a time at which a sinusoid of the input would pass between two nodes unseen. Allocates nothing
+// once it is made. Keeps a reference to the model.
+class RadauStepper : public Stepper {
  public:
-  Integrator(const model::Model& model, const KernelSet& kernels, int stages);
+  // `end` (s) scales the first step where nothing moves.
+  RadauStepper(const model::Model& model, const KernelSet& kernels, int stages,
+               Tolerances tolerances, double end);
 
-  struct Run {
-    Ending ending = Ending::done;
-    const char* reason = "";
-    double reached = 0;  // s
-    int worst_state = 0;
-    Statistics statistics{};
-  };
-
-  // From t = 0 to the end of the grid, whose rows go to `rows`, not flushed.
-  Run run(Tolerances tolerances, const OutputGrid& grid, RowBlock& rows, const Watch& watch = {});
-
-  // The states at the time reached.
-
-  [[nodiscard]] std::vector<double> state() const;
-
-  [[nodiscard]] std::size_t row_size() const { return row_size_; }
+  void start(double t, const double* z) override;
+  const char* step(double limit) override;
+  void evaluate(const double* times, std::size_t count, double* rows) override;
+  void jump() override {}
+  [[nodiscard]] double time() const override { return time_; }
+  [[nodiscard]] std::vector<double> state() const override;
+  [[nodiscard]] std::size_t worst_state() const override { return worst_state_; }
+  [[nodiscard]] Statistics statistics() const override { return statistics_; }
+  [[nodiscard]] std::size_t detail() const override;
 
  private:
   struct Free {
     void operator()(void* memory) const;
   };
 
+  void look_at_model();
+  void settle();
+
   const model::Model& model_;
   const Kernel* kernel_;
-  std::size_t row_size_;
-  double highest_frequency_;
+  Tolerances tolerances_;
+  double end_, highest_frequency_, reach_, widest_;
   std::unique_ptr<void, Free> view_;
   std::unique_ptr<void, Free> workspace_;
+  double time_ = 0;
+  double next_step_ = 0;   // s; 0: not known yet
+  bool attempted_ = false;  // a step was made, and is not yet the present state
+  double turned_ = 0;      // integral of u until start(), m
+  std::size_t worst_state_ = 0;
+  Statistics statistics_;
 };
 
 }  // namespace collocation

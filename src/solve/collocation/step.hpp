@@ -470,6 +470,11 @@ struct Step {
     estimate(w, a);
   }
 
+  // Whether gamma is wanted, and velocity i the spin: the first of those without a position.
+  BBSIM_INLINE static bool turns(const Workspace& w, int i) {
+    return i == nq && w.gamma;
+  }
+
   // Rounding in an acceleration, which a shorter step would not lessen: that of the right-hand
   // side, or, where a stiff equation ties the acceleration to the position, the position's own
   // after the polynomial is differentiated twice.
@@ -502,7 +507,7 @@ struct Step {
         a.error = v_error;
         a.worst_state = motions.of[i].velocity;
       }
-      if (i < nq || w.gamma) {
+      if (i < nq || turns(w, i)) {
         const double reached = i < nq ? w.q_stage.of[i][s - 1] : 0.0;
         const double q_scale = w.rtol * larger(magnitude(w.q[i]), magnitude(reached)) + w.atol;
         const double q_error = once * once * left_out / q_scale;
@@ -530,7 +535,7 @@ struct Step {
     for (int i = 0; i < nv; ++i) {
       if (i < nq) {
         w.q[i] = w.q_stage.of[i][s - 1];
-      } else if (w.gamma) {
+      } else if (turns(w, i)) {
         // The integral of an integral: q + h v + (h/2)^2 times that of the series.
         const double* const k = w.series.of[i];
         w.q[i] += w.h * (w.v[i] + w.h / 2 * (k[0] - k[1] / 3));
@@ -547,7 +552,7 @@ struct Step {
     const int row = n + (w.gamma ? 1 : 0);
     for (int i = 0; i < nv; ++i) {
       integrate_series<s>(w.series.of[i], half, w.v[i], w.v_series[i]);
-      if (i < nq || w.gamma) integrate_series<s + 1>(w.v_series[i], half, w.q[i], w.q_series[i]);
+      if (i < nq || turns(w, i)) integrate_series<s + 1>(w.v_series[i], half, w.q[i], w.q_series[i]);
     }
     for (std::size_t first = 0; first < count; first += lanes) {
       const int used = count - first < lanes ? static_cast<int>(count - first) : lanes;
@@ -578,7 +583,7 @@ struct Step {
           target[motions.of[i].velocity] = v[i][l];
           if (i < nq) {
             target[motions.of[i].position] = q[i][l];
-          } else if (w.gamma) {
+          } else if (turns(w, i)) {
             target[n] = q[i][l];
           }
         }

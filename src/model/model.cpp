@@ -1,0 +1,47 @@
+#include "model/model.hpp"
+
+namespace bbsim::model {
+
+std::size_t Model::extras() const {
+  return rig && hybrid() ? std::size_t{RigLoop<>::extras} : 0;
+}
+
+Sample Model::sample(double t, const double* row) const {
+  Sample sample = std::visit(
+      [&](const auto& any) {
+        if constexpr (std::is_same_v<std::decay_t<decltype(any)>, RigLoop<>>) {
+          return extras() > 0 ? any.sample(t, row, row + size() + (gamma ? 1 : 0))
+                              : any.sample(t, row);
+        } else {
+          return any.sample(t, row);
+        }
+      },
+      system);
+  if (gamma) sample.gamma = row[size()] / radius;
+  return sample;
+}
+
+std::vector<std::string> Model::state_names() const {
+  return std::visit(
+      [](const auto& any) {
+        using Any = std::decay_t<decltype(any)>;
+        std::vector<std::string> names(Any::Layout::names.begin(), Any::Layout::names.end());
+        if constexpr (Any::size > Any::Layout::size) {
+          for (const char* suffix : {"", "_rate"}) {
+            if (phi_moves(Any::moves)) names.push_back(std::string("phi") + suffix);
+            if (theta_moves(Any::moves)) names.push_back(std::string("theta") + suffix);
+          }
+        }
+        if constexpr (std::is_same_v<Any, RigLoop<>>) {
+          names.insert(names.end(), {"x_integral", "y_integral"});
+        }
+        return names;
+      },
+      system);
+}
+
+bool Model::closed_loop() const {
+  return std::visit([](const auto& any) { return !std::decay_t<decltype(any)>::linear; }, system);
+}
+
+}  // namespace bbsim::model

@@ -1,0 +1,207 @@
+#include "model/rig/hybrid.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace bbsim::model {
+namespace {
+
+// Instants of different clocks that are nearer than this, relative to the period, are one.
+constexpr double one_instant = 1e-9;
+
+}  // namespace
+
+HybridRun::HybridRun(const Model& model) : model_(model) {
+  if (model_.rig) {
+    const Rig& rig = *model_.rig;
+    for (int i = 0; i < 2; ++i) {
+      servos_.emplace_back(rig, loop()->servo(), rig.offset[static_cast<std::size_t>(i)]);
+    }
+    if (rig.switches()) {
+      for (int i = 0; i < 2; ++i) {
+        double scales[axis_guards];
+        servos_[static_cast<std::size_t>(i)].scales(scales);
+        scales[axis_guards - 2] = scales[axis_guards - 1] =
+            rig.command_limit < unlimited ? rig.command_limit : 1.0;
+        guard_scales_.insert(guard_scales_.end(), scales, scales + axis_guards);
+      }
+    }
+    if (rig.sampled) {
+      const Sampling& of = rig.sampled->sampling;
+      const Sensor& sensor = rig.sampled->sensor;
+      sampled_.emplace(Sampled{BallSensor(sensor),
+                               SampledController(*rig.sampled),
+                               {of.period, -sensor.delay},
+                               {of.period, 0},
+                               {of.period, of.delay},
+                               {},
+                               {}});
+    }
+  }
+  const std::size_t monitors = model_.watched ? model_.watched->monitors.size() : 0;
+  guard_scales_.insert(guard_scales_.end(), monitors, 1.0);
+  happening_.assign(monitors, 0);
+}
+
+double HybridRun::next_time() const {
+  double next = next_stop_ < model_.stops.size() ? model_.stops[next_stop_] : unlimited;
+  if (sampled_) {
+    next = std::min({next, sampled_->expose.next(), sampled_->sample.next(),
+                     sampled_->apply.next()});
+  }
+  return next;
+}
+
+void HybridRun::act(double t, double* z) {
+  while (next_stop_ < model_.stops.size() && model_.stops[next_stop_] <= t) ++next_stop_;
+  if (sampled_) {
+    const double now = t + one_instant * sampled_->sample.period;
+    while (sampled_->expose.next() <= now) expose(t, z);
+    while (sampled_->sample.next() <= now) take_sample(t, z);
+    while (sampled_->apply.next() <= now) apply_command();
+  }
+  if (loop() != nullptr) settle(t, z);
+}
+
+void HybridRun::expose(double, const double* z) {
+  ++sampled_->expose.number;
+  sampled_->seen.push_back(sampled_->sensor.read({z[0], z[1]}));
+}
+
+void HybridRun::take_sample(double t, const double* z) {
+  ++sampled_->sample.number;
+  const std::optional<Pair> seen = sampled_->seen.front();
+  sampled_->seen.erase(sampled_->seen.begin());
+  const double servo[4] = {z[5], z[6], z[7], z[8]};
+  sampled_->commands.push_back(
+      sampled_->controller.command(seen, servo, loop()->reference().at(t)));
+  sampled_->measured = sampled_->controller.last_seen();
+}
+
+void HybridRun::apply_command() {
+  ++sampled_->apply.number;
+  const Pair command = sampled_->commands.front();
+  sampled_->commands.erase(sampled_->commands.begin());
+  for (std::size_t i = 0; i < 2; ++i) {
+    if (std::abs(command[i] - sampled_->target[i]) > model_.rig->dead_band) {
+      sampled_->target[i] = command[i];
+    }
+    loop()->mode.command[i] = sampled_->target[i];
+  }
+}
+
+// Whether a continuous law's command is at its limit.
+void HybridRun::settle_commands(double t, const double* z) {
+  const double limit = model_.rig->command_limit;
+  RigMode& mode = loop()->mode;
+  for (int i = 0; i < 2; ++i) {
+    const double raw = loop()->axes(loop()->reference().at(t), z).raw[i];
+    AxisMode& axis = mode.axis[i];
+    const bool within = std::abs(raw) <= limit;
+    axis.command_gate = within ? 1 : 0;
+    axis.command_bias = within ? 0 : std::copysign(limit, raw);
+  }
+  // The integral of the error in each coordinate waits while a command that it acts on is at its
+  // limit.
+  const RigLaw& law = loop()->law();
+  for (int j = 0; j < 2; ++j) {
+    bool waits = false;
+    for (int i = 0; i < 2; ++i) {
+      waits = waits || (law.integral[i][j] != 0 && mode.axis[i].command_gate == 0);
+    }
+    mode.axis[j].integrate = waits ? 0 : 1;
+  }
+}
+
+AxisState HybridRun::axis_state(int i, const RigAxes<double>& axes, const double* z) const {
+  return {z[5 + i], z[7 + i], axes.demand[i], axes.command[i]};
+}
+
+void HybridRun::settle(double t, double* z) {
+  if (model_.rig->command_limit < unlimited) settle_commands(t, z);
+  const RigAxes<double> axes = loop()->axes(loop()->reference().at(t), z);
+  double rate_before[2], jump[2];
+  bool jumps = false;
+  for (int i = 0; i < 2; ++i) rate_before[i] = loop()->mode.axis[i].couple * z[7 + i];
+  for (int i = 0; i < 2; ++i) {
+    AxisState state = axis_state(i, axes, z);
+    AxisMode& mode = loop()->mode.axis[i];
+    servos_[static_cast<std::size_t>(i)].settle(state, mode);
+    z[5 + i] = state.angle;
+    z[7 + i] = state.rate;
+    jump[i] = mode.couple * z[7 + i] - rate_before[i];
+    jumps = jumps || jump[i] != 0;
+  }
+  if (!jumps) return;
+  const auto kick = loop()->impulse(z, jump[0], jump[1]);
+  for (int i = 0; i < 3; ++i) z[2 + i] += kick[static_cast<std::size_t>(i)];
+}
+
+Sample HybridRun::sample(double t, const double* z) const {
+  if (loop() != nullptr) return loop()->sample(t, z);
+  return std::visit([&](const auto& system) { return system.sample(t, z); }, model_.system);
+}
+
+void HybridRun::evaluate_guards(double t, const double* z, double* values) const {
+  if (model_.rig && model_.rig->switches()) {
+    const RigAxes<double> axes = loop()->axes(loop()->reference().at(t), z);
+    const double limit = model_.rig->command_limit;
+    for (int i = 0; i < 2; ++i, values += axis_guards) {
+      servos_[static_cast<std::size_t>(i)].evaluate(axis_state(i, axes, z), values);
+      double* const command = values + ServoAxis::guards;
+      const AxisMode& mode = loop()->mode.axis[i];
+      const double raw = axes.raw[i];
+      const bool free = mode.command_gate != 0;
+      command[0] = limit == unlimited ? unlimited : free ? limit - raw : unlimited;
+      command[1] = limit == unlimited ? unlimited : free ? limit + raw : unlimited;
+      if (!free) (mode.command_bias > 0 ? command[0] : command[1]) = std::abs(raw) - limit;
+    }
+  }
+  if (happening_.empty()) return;
+  const Sample now = sample(t, z);
+  for (std::size_t m = 0; m < happening_.size(); ++m) {
+    const double margin = model_.watched->margin(model_.watched->monitors[m], now);
+    values[m] = happening_[m] != 0 ? -margin : margin;
+  }
+}
+
+HybridRun::Effect HybridRun::occur(std::size_t monitor, double t, const double* z) {
+  happening_[monitor] = 1;
+  const Monitor& what = model_.watched->monitors[monitor];
+  const bool stops = what.action == OnEvent::stop;
+  occurrences_.push_back({t, what.name(), stops, sample(t, z)});
+  return stops ? Effect::stop : Effect::none;
+}
+
+HybridRun::Effect HybridRun::fire(std::size_t i, double t, double* z) {
+  const std::size_t first_monitor = guards() - happening_.size();
+  if (i < first_monitor) {
+    settle(t, z);
+    return Effect::restart;
+  }
+  const std::size_t monitor = i - first_monitor;
+  if (happening_[monitor] == 0) return occur(monitor, t, z);
+  happening_[monitor] = 0;
+  return Effect::none;
+}
+
+HybridRun::Effect HybridRun::look(double t, const double* z) {
+  if (happening_.empty()) return Effect::none;
+  const Sample now = sample(t, z);
+  for (std::size_t m = 0; m < happening_.size(); ++m) {
+    const bool beyond = model_.watched->margin(model_.watched->monitors[m], now) < 0;
+    if (beyond && happening_[m] == 0 && occur(m, t, z) == Effect::stop) return Effect::stop;
+    if (!beyond) happening_[m] = 0;
+  }
+  return Effect::none;
+}
+
+void HybridRun::write_extras(double t, const double* z, double* out) const {
+  if (loop() == nullptr) return;
+  loop()->write_extras(t, z, out);
+  const Pair measured = sampled_ ? sampled_->measured : Pair{z[0], z[1]};
+  out[Loop::extras - 2] = measured[0];
+  out[Loop::extras - 1] = measured[1];
+}
+
+}  // namespace bbsim::model

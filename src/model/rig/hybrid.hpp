@@ -1,0 +1,89 @@
+// A run of a scene in which things switch: the model in its present mode, what comes next, and what
+// happens then. Whoever integrates knows no more of a rig than this class says.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "model/model.hpp"
+#include "model/rig/occurrence.hpp"
+#include "model/rig/sampled_controller.hpp"
+#include "model/rig/servo_axis.hpp"
+
+namespace bbsim::model {
+
+class HybridRun {
+ public:
+  explicit HybridRun(const Model& model);
+
+  // In the present mode. Its system's right-hand side changes with act() and fire() alone.
+  [[nodiscard]] const Model& model() const { return model_; }
+
+  // The next time (s) at which something happens that does not depend on the state; infinite if
+  // nothing does any more.
+  [[nodiscard]] double next_time() const;
+
+  // Does what is due at t, the time of the start or next_time(). May change the states z.
+  void act(double t, double* z);
+
+  // What is looked out for between: each guard is positive until something happens.
+  [[nodiscard]] std::size_t guards() const { return guard_scales_.size(); }
+  [[nodiscard]] const std::vector<double>& guard_scales() const { return guard_scales_; }
+  void evaluate_guards(double t, const double* z, double* values) const;
+
+  enum class Effect { none, restart, stop };
+
+  // Guard i has fallen to zero at t. May change z; restart says that the integrator has to.
+  Effect fire(std::size_t i, double t, double* z);
+
+  // After a jump, at the start too: what is watched for may have been jumped into.
+  Effect look(double t, const double* z);
+
+  // What a row of output has beside the states, at the present mode: Model::extras() numbers.
+  void write_extras(double t, const double* z, double* out) const;
+
+  [[nodiscard]] const std::vector<Occurrence>& occurrences() const { return occurrences_; }
+
+ private:
+  using Loop = RigLoop<>;
+  static constexpr int axis_guards = ServoAxis::guards + 2;  // and two of the command's limit
+
+  [[nodiscard]] Loop* loop() { return std::get_if<Loop>(&model_.system); }
+  [[nodiscard]] const Loop* loop() const { return std::get_if<Loop>(&model_.system); }
+  [[nodiscard]] Sample sample(double t, const double* z) const;
+  [[nodiscard]] AxisState axis_state(int i, const RigAxes<double>& axes, const double* z) const;
+  void settle(double t, double* z);
+  void settle_commands(double t, const double* z);
+  void expose(double t, const double* z);
+  void take_sample(double t, const double* z);
+  void apply_command();
+  Effect occur(std::size_t monitor, double t, const double* z);
+
+  // An instant that recurs: number * period + shift.
+  struct Clock {
+    double period, shift;
+    double number = 0;
+    [[nodiscard]] double next() const { return number * period + shift; }
+  };
+
+  Model model_;
+  std::size_t next_stop_ = 0;
+  std::vector<ServoAxis> servos_;
+  std::vector<double> guard_scales_;
+  std::vector<char> happening_;  // for each monitor
+
+  struct Sampled {
+    BallSensor sensor;
+    SampledController controller;
+    Clock expose, sample, apply;
+    std::vector<std::optional<Pair>> seen;  // exposed, not yet sampled: a queue
+    std::vector<Pair> commands;             // computed, not yet applied: a queue
+    Pair target{0, 0};                      // that the servos follow
+    Pair measured{0, 0};
+  };
+  std::optional<Sampled> sampled_;
+  std::vector<Occurrence> occurrences_;
+};
+
+}  // namespace bbsim::model

@@ -1,0 +1,70 @@
+#include <algorithm>
+#include <cmath>
+
+#include "model/rig/rig.hpp"
+
+namespace bbsim::model {
+
+const char* Monitor::name() const {
+  switch (kind) {
+    case Kind::edge:
+      return "edge";
+    case Kind::slip:
+      return "slip";
+    case Kind::lift_off:
+      return "lift_off";
+    case Kind::tilt:
+      return "tilt";
+    case Kind::singularity:
+      return "singularity";
+  }
+  return "";
+}
+
+double Watchlist::margin(const Monitor& monitor, const Sample& sample) const {
+  if (monitor.kind == Monitor::Kind::edge) {
+    double left = unlimited;
+    if (plate.size) {
+      left = std::min((*plate.size)[0] / 2 - std::abs(sample.ball.x),
+                      (*plate.size)[1] / 2 - std::abs(sample.ball.y));
+    }
+    if (plate.diameter) {
+      left = std::min(left, *plate.diameter / 2 - std::hypot(sample.ball.x, sample.ball.y));
+    }
+    return left;
+  }
+  const Dynamics now = dynamics(sample, constants);
+  switch (monitor.kind) {
+    case Monitor::Kind::slip:
+      return monitor.limit * now.normal_force() - now.friction_force();
+    case Monitor::Kind::lift_off:
+      return now.normal_force();
+    case Monitor::Kind::tilt:
+      return monitor.limit - now.tilt;
+    case Monitor::Kind::singularity:
+      return now.singularity_distance - monitor.limit;
+    case Monitor::Kind::edge:
+      break;
+  }
+  return unlimited;
+}
+
+Watchlist watchlist(const Scenario& scene) {
+  Watchlist list{{}, scene.plate, constants_of(scene)};
+  const Events& events = scene.events;
+  using Kind = Monitor::Kind;
+  if (events.edge) list.monitors.push_back({Kind::edge, *events.edge});
+  if (events.slip) {
+    list.monitors.push_back({Kind::slip, events.slip->action, events.slip->friction});
+  }
+  if (events.lift_off) list.monitors.push_back({Kind::lift_off, *events.lift_off});
+  if (events.tilt) list.monitors.push_back({Kind::tilt, events.tilt->action, events.tilt->limit});
+  const bool inverts = scene.controller && scene.controller->law == Law::feedback_linearisation;
+  if (events.singularity || inverts) {
+    const SingularityEvent guard = events.singularity.value_or(SingularityEvent{});
+    list.monitors.push_back({Kind::singularity, guard.action, guard.distance});
+  }
+  return list;
+}
+
+}  // namespace bbsim::model

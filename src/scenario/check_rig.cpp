@@ -1,0 +1,177 @@
+#include <cmath>
+#include <string>
+
+#include "record/columns.hpp"
+#include "scenario/sections.hpp"
+
+namespace bbsim::input {
+namespace {
+
+// The value at a path of keys, if it is there.
+std::optional<Value> find_at(Keys& keys, std::initializer_list<std::string_view> path) {
+  std::optional<Value> value = keys.mapping();
+  for (const std::string_view key : path) {
+    if (!value) return {};
+    value = Keys(*value).find(key);
+  }
+  return value;
+}
+
+class Checks {
+ public:
+  Checks(Keys& keys, const Scenario& scene) : keys_(keys), scene_(scene) {}
+
+  void all() {
+    controller();
+    servo();
+    events();
+    columns();
+  }
+
+ private:
+  using Path = std::initializer_list<std::string_view>;
+
+  // Reports `why` at the key if it is there.
+  void refuse(Path path, const std::string& why) {
+    const auto value = find_at(keys_, path);
+    if (value) value->context->problems.add(value->position, value->path + ": " + why);
+  }
+
+  void controller() {
+    if (!scene_.controller) return;
+    const Controller& controller = *scene_.controller;
+    if (!controller.sampling) {
+      refuse({"controller", "sensor"},
+             "found, but no controller.sampling; allowed: only with it, since a sensor is read at "
+             "the controller's samples, and the continuous law knows the ball exactly");
+    }
+    if (controller.law == Law::feedback_linearisation) {
+      if (controller.sampling) {
+        refuse({"controller", "sampling"},
+               "found beside feedback_linearisation, which needs the exact state at all times; "
+               "allowed: any other law");
+      }
+      if (controller.drives == Drives::angle) {
+        refuse({"controller", "drives"},
+               "found angle, but feedback_linearisation gives the gimbal's accelerations; allowed: "
+               "acceleration");
+      }
+    }
+    if (controller.law == Law::gravity_compensation) {
+      if (controller.drives != Drives::angle) {
+        refuse({"controller", "gravity_compensation"},
+               "found, but controller.drives is acceleration; allowed: only with drives: angle, "
+               "since it gives angles");
+      }
+      if (!(scene_.gravity > 0)) {
+        refuse({"controller", "gravity_compensation"},
+               "found, but gravity is 0; allowed: only where there is gravity");
+      }
+      if (controller.limit && *controller.limit > 1.4) {
+        refuse({"controller", "limit"},
+               "found more than 1.4 rad (80 deg), next to which the sine of gravity_compensation "
+               "cannot be inverted; allowed: at most that");
+      }
+    }
+    if (controller.drives == Drives::acceleration && controller.sampling &&
+        controller.sampling->resolution > 0) {
+      refuse({"controller", "sampling", "resolution"},
+             "found, but controller.drives is acceleration; allowed: only with drives: angle");
+    }
+    if (controller.sampling && scene_.time.end > 0 &&
+        scene_.time.end / controller.sampling->period > 1e8) {
+      refuse({"controller", "sampling", "period"},
+             "found more than 1e8 samples until time.end; allowed: a longer period");
+    }
+    if (controller.sampling && controller.sampling->delay > 1e4 * controller.sampling->period) {
+      refuse({"controller", "sampling", "delay"},
+             "found more than 10000 periods; allowed: a shorter delay");
+    }
+    if (controller.sensor && controller.sampling &&
+        controller.sensor->delay > 1e4 * controller.sampling->period) {
+      refuse({"controller", "sensor", "delay"},
+             "found more than 10000 sampling periods; allowed: a shorter delay");
+    }
+  }
+
+  void servo() {
+    if (!scene_.controller || !scene_.gimbal.servo) return;
+    const Servo& servo = *scene_.gimbal.servo;
+    if (servo.time_constant) {
+      if (!scene_.controller->sampling) {
+        refuse({"gimbal", "servo", "time_constant"},
+               "found without controller.sampling; allowed: only with it. A servo of first order "
+               "turns at a rate that follows its command at once, so a command without steps would "
+               "have to be differentiated");
+      }
+      if (servo.acceleration_limit) {
+        refuse({"gimbal", "servo", "acceleration_limit"},
+               "found with time_constant: a servo of first order changes its rate at once; "
+               "allowed: only with natural_frequency and damping");
+      }
+      const GimbalStart& start = scene_.gimbal.start;
+      if (start.phi_rate != 0 || start.theta_rate != 0) {
+        refuse({"gimbal", "start"},
+               "found a rate, but a servo of first order (time_constant) has none of its own; "
+               "allowed: phi and theta");
+      }
+    }
+    if (servo.dead_band > 0 && !scene_.controller->sampling) {
+      refuse({"gimbal", "servo", "dead_band"},
+             "found without controller.sampling; allowed: only with it, since a dead band tells "
+             "commands apart, one after another");
+    }
+    const auto within = [&](const std::optional<double>& limit, double phi, double theta,
+                            const char* what) {
+      if (limit && (std::abs(phi) > *limit || std::abs(theta) > *limit)) {
+        refuse({"gimbal", "start"}, std::string("found beyond gimbal.servo.") + what +
+                                        "; allowed: a start within the servo's limits");
+      }
+    };
+    const GimbalStart& start = scene_.gimbal.start;
+    within(servo.angle_limit, start.phi, start.theta, "angle_limit");
+    within(servo.rate_limit, start.phi_rate, start.theta_rate, "rate_limit");
+  }
+
+  void events() {
+    if (scene_.events.edge && !scene_.plate.size && !scene_.plate.diameter) {
+      refuse({"events", "edge"},
+             "found, but the plate has no edge; allowed: only with plate.size or plate.diameter");
+    }
+    if (scene_.events.singularity &&
+        !(scene_.controller && scene_.controller->law == Law::feedback_linearisation)) {
+      refuse({"events", "singularity"},
+             "found without controller.feedback_linearisation; allowed: only with it");
+    }
+  }
+
+  void columns() {
+    const auto columns = find_at(keys_, {"output", "columns"});
+    if (!columns || columns->node->kind != Node::Kind::sequence) return;
+    for (std::size_t i = 0; i < columns->node->items.size(); ++i) {
+      const Value item = columns->item(i);
+      const record::Column* column = record::find_column(item.node->text);
+      if (column == nullptr) continue;
+      if (column->needs == record::Needs::plate && !scene_.plate.inertia) {
+        item.refuse(", but the plate's inertia is not known",
+                    "columns of the ball, such as torque_phi; or give plate.inertia");
+      }
+      if (column->needs == record::Needs::samples &&
+          !(scene_.controller && scene_.controller->sampling)) {
+        item.refuse(", but the controller takes no samples",
+                    "other columns; or give controller.sampling");
+      }
+    }
+  }
+
+  Keys& keys_;
+  const Scenario& scene_;
+};
+
+}  // namespace
+
+void check_rig(Keys& keys, const Scenario& scenario) {
+  Checks(keys, scenario).all();
+}
+
+}  // namespace bbsim::input

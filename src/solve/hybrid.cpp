@@ -1,0 +1,309 @@
+#include "solve/hybrid.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "model/rig/hybrid.hpp"
+#include "solve/collocation/radau.hpp"
+#include "solve/cvode.hpp"
+#include "solve/row_block.hpp"
+
+namespace bbsim::solve {
+namespace {
+
+using Effect = model::HybridRun::Effect;
+
+std::unique_ptr<Stepper> make_stepper(const model::Model& model, Method method,
+                                      Tolerances tolerances, double end, int stages) {
+  if (method != Method::radau) return make_cvode_stepper(model, method, tolerances);
+  return std::make_unique<collocation::RadauStepper>(model, collocation::choose_kernels(), stages,
+                                                     tolerances, end);
+}
+
+class HybridIntegration {
+ public:
+  HybridIntegration(const model::Model& model, Method method, Tolerances tolerances,
+                    const OutputGrid& grid, StateSink& sink, const Watch& watch, int stages)
+      : run_(model),
+        method_(method),
+        grid_(grid),
+        watch_(watch),
+        size_(model.size()),
+        plain_size_(model.size() + (model.gamma ? 1 : 0)),
+        row_size_(model.row_size()),
+        rows_(sink, row_size_),
+        stepper_(make_stepper(run_.model(), method, tolerances, grid.end(), stages)),
+        guards_(run_.guards()),
+        values_(run_.guards()) {}
+
+  Outcome run() {
+    std::vector<double> z = run_.model().initial;
+    run_.act(0, z.data());
+    double* const first = rows_.next();
+    std::copy(z.begin(), z.end(), first);
+    if (plain_size_ > size_) first[size_] = 0;
+    finish_row(0, first);
+    if (run_.look(0, z.data()) == Effect::stop) return ended(Ending::stopped, 0);
+    stepper_->start(0, z.data());
+    if (!guards_.empty()) arm(0, z.data());
+    for (std::size_t steps = 1;; ++steps) {
+      const double from = stepper_->time(), due = run_.next_time();
+      if (const char* reason = stepper_->step(std::min(due, grid_.end()))) {
+        Outcome outcome = ended(Ending::failed, from);
+        outcome.reason = reason;
+        outcome.last_state = stepper_->state();
+        outcome.worst_state = stepper_->worst_state();
+        return outcome;
+      }
+      const double to = stepper_->time();
+      double at = to;
+      const Effect effect = scan(from, to, at, z);
+      const bool ends = effect == Effect::none && to >= grid_.end();
+      const bool switches = effect == Effect::restart || (effect == Effect::none && to >= due);
+      write_rows(at, ends || !switches);
+      if (effect == Effect::stop) return ended(Ending::stopped, at);
+      if (ends) return ended(Ending::done, at);
+      if (switches) {
+        if (effect == Effect::none) state_at(at, z);
+        const double turned = row_.back();
+        if (at >= due) run_.act(at, z.data());
+        if (!progressed(at)) {
+          Outcome outcome = ended(Ending::failed, at);
+          outcome.reason = "the rig switches without end at one instant";
+          outcome.last_state = z;
+          return outcome;
+        }
+        stepper_->start(at, z.data());
+        write_row_at(at, z, turned);
+        if (run_.look(at, z.data()) == Effect::stop) return ended(Ending::stopped, at);
+        if (!guards_.empty()) arm(at, z.data());
+      }
+      if (watch_.stop != nullptr && watch_.stop->load(std::memory_order_relaxed)) {
+        return ended(Ending::interrupted, at);
+      }
+      if (watch_.progress && steps % 256 == 0) watch_.progress(at);
+    }
+  }
+
+ private:
+  struct Guard {
+    double before = 0, value = 0;  // at the last two points looked at
+    double threshold = 0;          // fires below; 0 once it was positive
+  };
+
+  // A hundred switches in a row that take no time are not a motion.
+  bool progressed(double t) {
+    const bool still = t - last_switch_ <= 1e-13 * std::max(1.0, t);
+    still_ = still ? still_ + 1 : 0;
+    last_switch_ = t;
+    return still_ < 100;
+  }
+
+  // A guard that begins at zero, where the last one fell, fires once it is clearly below.
+  void arm(double t, const double* z) {
+    run_.evaluate_guards(t, z, values_.data());
+    for (std::size_t i = 0; i < guards_.size(); ++i) {
+      guards_[i].value = values_[i];
+      const double slack = 1e-12 * run_.guard_scales()[i];
+      guards_[i].threshold = values_[i] > slack ? 0 : std::min(0.0, values_[i]) - slack;
+      guards_[i].before = values_[i];
+    }
+    time_before_ = t;
+  }
+
+  void state_at(double t, std::vector<double>& z) {
+    row_.resize(plain_size_);
+    stepper_->evaluate(&t, 1, row_.data());
+    z.assign(row_.begin(), row_.begin() + static_cast<std::ptrdiff_t>(size_));
+  }
+
+  // How far guard i is above its threshold at t.
+  double above(std::size_t i, double t) {
+    state_at(t, look_);
+    run_.evaluate_guards(t, look_.data(), values_.data());
+    return values_[i] - guards_[i].threshold;
+  }
+
+  // The first time in (from, to] at which guard i is not above its threshold; it is at `from`, and
+  // is not at `to`. Bisection, quickened by regula falsi (Illinois).
+  double root(std::size_t i, double from, double to) {
+    double f_from = above(i, from), f_to = above(i, to);
+    bool halve = false;
+    for (int k = 0; k < 200; ++k) {
+      const double width = to - from;
+      if (width <= 2 * std::numeric_limits<double>::epsilon() * std::abs(to)) break;
+      double middle = from + width * (f_from / (f_from - f_to));
+      if (halve || !(middle > from && middle < to)) middle = from + width / 2;
+      if (middle <= from || middle >= to) break;
+      const double f = above(i, middle);
+      if (f > 0) {
+        from = middle;
+        f_from = f;
+      } else {
+        to = middle;
+        f_to = f;
+      }
+      halve = to - from > width / 2;
+    }
+    return to;
+  }
+
+  // A guard that is positive at three points, least at the middle one, may be negative between.
+  // Returns a time at which it is not positive, or `from`.
+  double dip(std::size_t i, double from, double to) {
+    constexpr double golden = 0.6180339887498949;
+    double a = from, b = to;
+    double c = b - golden * (b - a), d = a + golden * (b - a);
+    double fc = above(i, c), fd = above(i, d);
+    for (int k = 0; k < 60 && b - a > 1e-12 * std::max(1.0, b); ++k) {
+      if (fc <= 0) return c;
+      if (fd <= 0) return d;
+      if (fc < fd) {
+        b = d;
+        d = c;
+        fd = fc;
+        c = b - golden * (b - a);
+        fc = above(i, c);
+      } else {
+        a = c;
+        c = d;
+        fc = fd;
+        d = a + golden * (b - a);
+        fd = above(i, d);
+      }
+    }
+    return from;
+  }
+
+  // Whether a parabola through the last two points and `now` comes near zero between.
+  static bool may_dip(const Guard& guard, double now) {
+    if (guard.threshold != 0 || !(guard.value < guard.before) || !(guard.value < now)) return false;
+    const double curvature = guard.before - 2 * guard.value + now;
+    const double slope = (now - guard.before) / 2;
+    const double least = guard.value - slope * slope / (2 * curvature);
+    return least < 0.1 * std::max(guard.before, now);
+  }
+
+  // Looks along the step for guards that fall. Occurrences that change nothing are noted on the
+  // way; at the first that does, `at` and z are set.
+  Effect scan(double from, double to, double& at, std::vector<double>& z) {
+    if (guards_.empty()) return Effect::none;
+    const std::size_t points = stepper_->detail();
+    double last = from;  // looked at
+    for (std::size_t p = 1; p <= points;) {
+      const double here =
+          p == points ? to
+                      : from + (to - from) * static_cast<double>(p) / static_cast<double>(points);
+      if (!(here > last)) {
+        ++p;
+        continue;
+      }
+      state_at(here, look_);
+      run_.evaluate_guards(here, look_.data(), values_.data());
+      now_ = values_;
+      std::size_t first = guards_.size();
+      double first_time = here;
+      for (std::size_t i = 0; i < guards_.size(); ++i) {
+        double low = here, high = last;
+        if (now_[i] > guards_[i].threshold) {
+          if (!may_dip(guards_[i], now_[i])) continue;
+          high = std::max(time_before_, from);
+          low = dip(i, high, here);
+          if (low == high) continue;
+        }
+        const double t = root(i, high, low);
+        if (first == guards_.size() || t < first_time) {
+          first = i;
+          first_time = t;
+        }
+      }
+      if (first == guards_.size()) {
+        for (std::size_t i = 0; i < guards_.size(); ++i) {
+          guards_[i].before = guards_[i].value;
+          guards_[i].value = now_[i];
+          if (now_[i] > 1e-12 * run_.guard_scales()[i]) guards_[i].threshold = 0;
+        }
+        time_before_ = last;
+        last = here;
+        ++p;
+        continue;
+      }
+      state_at(first_time, z);
+      const Effect effect = run_.fire(first, first_time, z.data());
+      if (effect != Effect::none) {
+        at = first_time;
+        return effect;
+      }
+      arm(first_time, z.data());
+      last = first_time;
+    }
+    return Effect::none;
+  }
+
+  void finish_row(double t, double* row) {
+    if (row_size_ > plain_size_) run_.write_extras(t, row, row + plain_size_);
+  }
+
+  // Rows before `to`, and at it if `with_it`.
+  void write_rows(double to, bool with_it) {
+    for (; next_row_ < grid_.size(); ++next_row_) {
+      const double t = grid_[next_row_];
+      if (t > to || (t == to && !with_it)) break;
+      double* const row = rows_.next();
+      stepper_->evaluate(&t, 1, row);
+      finish_row(t, row);
+    }
+  }
+
+  // The row at the very instant of a switch, after it; the integral of u does not jump.
+  void write_row_at(double t, const std::vector<double>& z, double turned) {
+    if (next_row_ >= grid_.size() || grid_[next_row_] != t) return;
+    double* const row = rows_.next();
+    std::copy(z.begin(), z.end(), row);
+    if (plain_size_ > size_) row[size_] = turned;
+    finish_row(t, row);
+    ++next_row_;
+  }
+
+  Outcome ended(Ending ending, double reached) {
+    rows_.flush();
+    Outcome outcome;
+    outcome.ending = ending;
+    outcome.method = method_;
+    outcome.reached = reached;
+    outcome.rows = rows_.rows();
+    outcome.statistics = stepper_->statistics();
+    outcome.occurrences = run_.occurrences();
+    return outcome;
+  }
+
+  model::HybridRun run_;
+  Method method_;
+  const OutputGrid& grid_;
+  const Watch& watch_;
+  std::size_t size_, plain_size_, row_size_;
+  RowBlock rows_;
+  std::unique_ptr<Stepper> stepper_;
+  std::vector<Guard> guards_;
+  std::vector<double> values_, now_, look_, row_;
+  std::size_t next_row_ = 1;
+  double last_switch_ = -1, time_before_ = 0;
+  int still_ = 0;
+};
+
+}  // namespace
+
+Outcome integrate_hybrid(const model::Model& model, Method method, Tolerances tolerances,
+                         const OutputGrid& grid, StateSink& sink, const Watch& watch) {
+  const int stages = collocation::choose_stages(tolerances.rtol);
+  return HybridIntegration(model, method, tolerances, grid, sink, watch, stages).run();
+}
+
+Outcome integrate_hybrid_unlike(const model::Model& model, Tolerances tolerances,
+                                const OutputGrid& grid, StateSink& sink, const Watch& watch) {
+  const int stages = collocation::choose_stages(tolerances.rtol) == 8 ? 12 : 8;
+  return HybridIntegration(model, Method::radau, tolerances, grid, sink, watch, stages).run();
+}
+
+}  // namespace bbsim::solve

@@ -1,0 +1,23 @@
+// Runs a scene in which things switch, sample, or are watched for, with any integrator.
+#pragma once
+
+#include "model/model.hpp"
+#include "solve/stepper.hpp"
+
+namespace bbsim::solve {
+
+// From one switch to the next. What does not depend on the state is a stop of the integrator; what
+// does is the root of a guard on the step's own polynomial, to the rounding of the time.
+//
+// Rows are as long as Model::row_size() says. A row at the very time of a switch is of the instant
+// after it. Ends with Ending::stopped where something happened that the scene stops at.
+[[nodiscard]] Outcome integrate_hybrid(const model::Model& model, Method method,
+                                       Tolerances tolerances, const OutputGrid& grid,
+                                       StateSink& sink, const Watch& watch);
+
+// The same by radau with another number of stages.
+[[nodiscard]] Outcome integrate_hybrid_unlike(const model::Model& model, Tolerances tolerances,
+                                              const OutputGrid& grid, StateSink& sink,
+                                              const Watch& watch);
+
+}  // namespace bbsim::solve

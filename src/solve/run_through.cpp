@@ -1,0 +1,60 @@
+#include <algorithm>
+#include <array>
+
+#include "solve/row_block.hpp"
+#include "solve/stepper.hpp"
+
+namespace bbsim::solve {
+
+Outcome run_through(Stepper& stepper, const model::Model& model, const OutputGrid& grid,
+                    StateSink& sink, const Watch& watch) {
+  const std::size_t row_size = model.size() + (model.gamma ? 1 : 0);
+  RowBlock rows(sink, row_size);
+  double* const first = rows.next();
+  std::copy(model.initial.begin(), model.initial.end(), first);
+  if (model.gamma) first[model.size()] = 0;
+
+  Outcome outcome;
+  stepper.start(0, model.initial.data());
+  std::array<double, 64> times;
+  std::size_t next_row = 1, next_stop = 0;
+  for (std::size_t steps = 1;; ++steps) {
+    const double limit = next_stop < model.stops.size() ? model.stops[next_stop] : grid.end();
+    if (const char* reason = stepper.step(limit)) {
+      outcome.ending = Ending::failed;
+      outcome.reason = reason;
+      outcome.last_state = stepper.state();
+      outcome.worst_state = stepper.worst_state();
+      break;
+    }
+    const double reached = stepper.time();
+    while (next_row < grid.size() && grid[next_row] <= reached) {
+      std::size_t count = 0;
+      while (count < times.size() && next_row + count < grid.size() &&
+             grid[next_row + count] <= reached) {
+        times[count] = grid[next_row + count];
+        ++count;
+      }
+      double* const out = rows.next(count);
+      stepper.evaluate(times.data(), count, out);
+      next_row += count;
+    }
+    if (reached >= grid.end()) break;
+    if (reached >= limit) {
+      ++next_stop;
+      stepper.jump();
+    }
+    if (watch.stop != nullptr && watch.stop->load(std::memory_order_relaxed)) {
+      outcome.ending = Ending::interrupted;
+      break;
+    }
+    if (watch.progress && steps % 256 == 0) watch.progress(reached);
+  }
+  rows.flush();
+  outcome.reached = stepper.time();
+  outcome.rows = rows.rows();
+  outcome.statistics = stepper.statistics();
+  return outcome;
+}
+
+}  // namespace bbsim::solve

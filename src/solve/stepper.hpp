@@ -1,0 +1,47 @@
+// One integrator, a step at a time: what all of them do for whoever drives them.
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <vector>
+
+#include "model/model.hpp"
+#include "solve/outcome.hpp"
+#include "solve/output_grid.hpp"
+
+namespace bbsim::solve {
+
+// States are packed as the system does it; with Model::gamma the integral of u = r gamma' follows.
+class Stepper {
+ public:
+  virtual ~Stepper() = default;
+
+  // Begins anew from states at t, without memory: the model's right-hand side may have changed.
+  virtual void start(double t, const double* z) = 0;
+
+  // One step that passes its error test, not beyond `limit`; the last one before it reaches it
+  // exactly. Returns why there is none, or null.
+  virtual const char* step(double limit) = 0;
+
+  // Within the last step, ends included, by its own polynomial; `count` rows without gaps. To be
+  // called before the next step.
+  virtual void evaluate(const double* times, std::size_t count, double* rows) = 0;
+
+  // A derivative of the input jumps here, at the end of the last step.
+  virtual void jump() = 0;
+
+  // The end of the last step: its time, s, and the states there.
+  [[nodiscard]] virtual double time() const = 0;
+  [[nodiscard]] virtual std::vector<double> state() const = 0;
+  [[nodiscard]] virtual std::size_t worst_state() const = 0;
+  [[nodiscard]] virtual Statistics statistics() const = 0;
+  // How many points of a step show all that its polynomial can do.
+  [[nodiscard]] virtual std::size_t detail() const = 0;
+};
+
+// Drives a stepper from the model's initial state to the end of the grid, and hands on the rows.
+// For models that are not hybrid().
+[[nodiscard]] Outcome run_through(Stepper& stepper, const model::Model& model,
+                                  const OutputGrid& grid, StateSink& sink, const Watch& watch);
+
+}  // namespace bbsim::solve
