@@ -1,4 +1,5 @@
 #include <CLI/App.hpp>
+#include <cmath>
 #include <cstdio>
 #include <memory>
 #include <string>
@@ -18,7 +19,26 @@ void print_line(const std::string& label, const std::string& text) {
   std::printf("%-12s %s\n", label.c_str(), text.c_str());
 }
 
+void print_sampled_loop(const model::Model& model) {
+  const auto& loop = std::get<model::RigLoop<>>(model.system);
+  const model::Eigenvalues poles = model::sampled_poles(loop, *model.rig);
+  const std::string warning = instability_warning(model);
+  print_line("closed loop", std::to_string(poles.size()) +
+                                " poles of a sample period about home: " +
+                                sampled_poles_line(poles));
+  if (warning.empty()) {
+    const double size = std::abs(poles.front());
+    const double period = model.rig->sampled->sampling.period;
+    print_line("", "stable: the slowest mode decays by " + short_number(size) +
+                       " a period, with a time constant of " +
+                       short_number(-period / std::log(size)) + " s");
+  } else {
+    print_line("WARNING", warning);
+  }
+}
+
 void print_closed_loop(const model::Model& model) {
+  if (model.rig && model.rig->sampled) return print_sampled_loop(model);
   const model::Eigenvalues poles = model::closed_loop_poles(model);
   const std::string warning = instability_warning(model);
   print_line("closed loop",

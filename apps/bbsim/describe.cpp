@@ -33,6 +33,16 @@ std::string poles_line(const model::Eigenvalues& poles) {
 }
 
 std::string instability_warning(const model::Model& model) {
+  if (model.rig && model.rig->sampled) {
+    const model::Eigenvalues sampled =
+        model::sampled_poles(std::get<model::RigLoop<>>(model.system), *model.rig);
+    const auto outside = std::count_if(sampled.begin(), sampled.end(),
+                                       [](const auto& pole) { return std::abs(pole) >= 1; });
+    if (outside == 0) return "";
+    return "the sampled loop is unstable about home: " + std::to_string(outside) + " of its " +
+           std::to_string(sampled.size()) +
+           " poles are not within the unit circle: " + sampled_poles_line(sampled);
+  }
   const model::Eigenvalues poles = model::closed_loop_poles(model);
   if (poles.empty() || model::stable(poles)) return "";
   const auto growing =
@@ -72,6 +82,57 @@ std::string failure_text(const model::Model& model, const solve::Outcome& outcom
     text += "  Try a looser solver.rtol, or another solver.method; `bbsim check` shows the model.";
   }
   return text;
+}
+
+std::string occurrence_text(const model::Occurrence& occurrence) {
+  struct Words {
+    const char* name;
+    const char* text;
+  };
+  constexpr Words words[] = {
+      {"edge", "the contact point left the plate"},
+      {"slip", "rolling needs more friction than there is"},
+      {"lift_off", "the ball leaves the plane: the normal force is no longer positive"},
+      {"tilt", "the plane tilts to its limit"},
+      {"singularity", "no accelerations of the gimbal give the ball the one wanted any more"},
+  };
+  std::string text = occurrence.name;
+  for (const Words& word : words) {
+    if (occurrence.name == word.name) text = word.text;
+  }
+  const model::BallMotion& ball = occurrence.sample.ball;
+  return text + ", at x = " + short_number(ball.x) + " m, y = " + short_number(ball.y) + " m";
+}
+
+std::string noted_text(const std::vector<model::Occurrence>& occurrences) {
+  std::vector<std::string> names;
+  std::string text;
+  for (const model::Occurrence& first : occurrences) {
+    if (first.stopped || std::find(names.begin(), names.end(), first.name) != names.end()) continue;
+    names.push_back(first.name);
+    const auto same = [&](const model::Occurrence& other) {
+      return other.name == first.name && !other.stopped;
+    };
+    const auto count = std::count_if(occurrences.begin(), occurrences.end(), same);
+    if (!text.empty()) text += "\n";
+    text += "noted: " + first.name + ", " + (count == 1 ? "once" : std::to_string(count) + " times, first") +
+            " at t = " + short_number(first.t) + " s: " + occurrence_text(first);
+  }
+  return text;
+}
+
+std::string sampled_poles_line(const model::Eigenvalues& poles) {
+  std::string line;
+  std::size_t named = 0;
+  for (const auto& pole : poles) {
+    if (pole.imag() < 0) continue;  // its conjugate has been named
+    if (std::abs(pole) < 1e-3 || named == 6) return line + ", smaller ones";
+    if (!line.empty()) line += ", ";
+    line += short_number(pole.real());
+    if (pole.imag() > 0) line += " +- " + short_number(pole.imag()) + "i";
+    ++named;
+  }
+  return line;
 }
 
 }  // namespace bbsim::app

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "model/model.hpp"
+#include "model/rig/linear_rig.hpp"
 #include "model/spectrum.hpp"
 #include "solve/outcome.hpp"
 
@@ -24,5 +25,14 @@ namespace bbsim::app {
 // Why a run failed: when, what the integrator said, what grew, and what to do.
 [[nodiscard]] std::string failure_text(const model::Model& model, const solve::Outcome& outcome,
                                        double end);
+
+// "the contact point left the plate, at x = 0.15 m, y = 0.02 m".
+[[nodiscard]] std::string occurrence_text(const model::Occurrence& occurrence);
+
+// How often each thing was noted, and when first; a line each, empty if nothing was.
+[[nodiscard]] std::string noted_text(const std::vector<model::Occurrence>& occurrences);
+
+// The poles of a sampled loop, as sizes in the unit circle.
+[[nodiscard]] std::string sampled_poles_line(const model::Eigenvalues& poles);
 
 }  // namespace bbsim::app

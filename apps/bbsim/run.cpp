@@ -40,6 +40,8 @@ const char* status_name(solve::Ending ending) {
       return "failed";
     case solve::Ending::interrupted:
       return "interrupted";
+    case solve::Ending::stopped:
+      return "stopped";
   }
   return "";
 }
@@ -49,6 +51,7 @@ ExitCode exit_code(solve::Ending ending) {
     case solve::Ending::done:
       return ExitCode::done;
     case solve::Ending::failed:
+    case solve::Ending::stopped:
       return ExitCode::ended_early;
     case solve::Ending::interrupted:
       return ExitCode::interrupted;
@@ -75,7 +78,8 @@ Integration integrate(const Scenario& scenario, const model::Model& model,
     study::ErrorControlled run =
         study::integrate_to_error(model, solver.method, *solver.error, grid, sink, watch);
     made = {std::move(run.outcome), run.tolerances, {}, true, 0};
-    if (made.outcome.ending == solve::Ending::done) {
+    if (made.outcome.ending == solve::Ending::done ||
+        made.outcome.ending == solve::Ending::stopped) {
       made.error_estimate = run.estimate;
       made.within_error = run.met;
     }
@@ -97,6 +101,11 @@ std::string shortfall(const Scenario& scenario, const model::Model& model,
     case solve::Ending::interrupted:
       return "interrupted at t = " + short_number(made.outcome.reached) + " s of " +
              short_number(end) + " s.";
+    case solve::Ending::stopped:
+      return "the run stopped at t = " + short_number(made.outcome.reached) + " s of " +
+             short_number(end) + " s: " + occurrence_text(made.outcome.occurrences.back()) +
+             ".\n  That is what the scene asks for: events." +
+             made.outcome.occurrences.back().name + " is stop; note would let it run on.";
     case solve::Ending::done:
       break;
   }
@@ -109,7 +118,7 @@ std::string shortfall(const Scenario& scenario, const model::Model& model,
 
 record::RunSummary summarise(const Scenario& scenario, const model::Model& model,
                              const Integration& made, const std::string& reason,
-                             const std::string& output) {
+                             const std::string& output, const std::optional<record::MotorPeaks>& peaks) {
   const solve::Outcome& outcome = made.outcome;
   record::RunSummary summary;
   summary.version = BBSIM_VERSION;
@@ -130,6 +139,10 @@ record::RunSummary summarise(const Scenario& scenario, const model::Model& model
   summary.atol = made.tolerances.atol;
   summary.error_bound = scenario.solver.error;
   summary.error_estimate = made.error_estimate;
+  for (const model::Occurrence& event : outcome.occurrences) {
+    summary.events.push_back(record::event_record(event));
+  }
+  summary.peaks = peaks;
   summary.statistics = {outcome.statistics.steps,
                         outcome.statistics.rhs_evaluations,
                         outcome.statistics.jacobian_evaluations,
@@ -156,8 +169,7 @@ ExitCode run(const RunArguments& arguments, const Options& options) {
     headers.push_back({column->name, column->unit, column->meaning});
   }
   const auto writer = record::open_table(output, headers);
-  record::Recorder recorder(model, {scenario.ball.radius, scenario.ball.mass, scenario.gravity},
-                            grid, columns, *writer);
+  record::Recorder recorder(model, model::constants_of(scenario), grid, columns, *writer);
 
   Progress progress(arguments.scenario.file, options.quiet);
   const solve::Watch watch{&watch_signals(),
@@ -166,12 +178,14 @@ ExitCode run(const RunArguments& arguments, const Options& options) {
   progress.clear();
 
   const std::string reason = shortfall(scenario, model, made);
-  const record::RunSummary summary = summarise(scenario, model, made, reason, output);
+  const record::RunSummary summary = summarise(scenario, model, made, reason, output, recorder.peaks());
   writer->finish(record::to_attributes(summary, scenario.source.text));
   if (!arguments.summary.empty()) record::write_summary(arguments.summary, summary);
 
   if (!options.quiet) {
     if (!reason.empty()) std::fprintf(stderr, "%s\n", reason.c_str());
+    const std::string noted = noted_text(made.outcome.occurrences);
+    if (!noted.empty()) std::fprintf(stderr, "%s\n", noted.c_str());
     std::string line = output + ": " + std::to_string(made.outcome.rows) + " of " +
                        std::to_string(grid.size()) + " rows, " + summary.method + ", " +
                        std::to_string(made.outcome.statistics.steps) + " steps";

@@ -1,6 +1,7 @@
 #include "record/recorder.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "base/error.hpp"
@@ -29,7 +30,8 @@ Recorder::Recorder(const model::Model& model, const model::BallConstants& consta
       grid_(grid),
       columns_(std::move(columns)),
       writer_(writer),
-      needs_dynamics_(any_needs(columns_, Needs::dynamics) || any_needs(columns_, Needs::plate)),
+      needs_dynamics_(any_needs(columns_, Needs::dynamics) || any_needs(columns_, Needs::plate) ||
+                      constants.plate_inertia != std::array<double, 3>{0, 0, 0}),
       block_(columns_.size()) {}
 
 void Recorder::accept(std::size_t first, std::size_t count, const double* values) {
@@ -38,7 +40,10 @@ void Recorder::accept(std::size_t first, std::size_t count, const double* values
   for (std::size_t i = 0; i < count; ++i) {
     const model::Sample sample = model_.sample(grid_[first + i], values + i * row_size);
     model::Dynamics dynamics;
-    if (needs_dynamics_) dynamics = model::dynamics(sample, constants_);
+    if (needs_dynamics_) {
+      dynamics = model::dynamics(sample, constants_);
+      note_peaks(sample, dynamics);
+    }
     for (std::size_t c = 0; c < columns_.size(); ++c) {
       block_[c][i] = columns_[c]->value({sample, &dynamics});
     }
@@ -47,6 +52,21 @@ void Recorder::accept(std::size_t first, std::size_t count, const double* values
   std::vector<const double*> pointers;
   for (const auto& column : block_) pointers.push_back(column.data());
   writer_.append(pointers, count);
+}
+
+void Recorder::note_peaks(const model::Sample& sample, const model::Dynamics& now) {
+  if (!peaks_) {
+    peaks_.emplace();
+    const auto moves = [](double moment) { return moment > 0; };
+    peaks_->with_plate =
+        std::any_of(constants_.plate_inertia.begin(), constants_.plate_inertia.end(), moves);
+  }
+  const double phi = now.torque_phi + now.plate_torque_phi;
+  const double theta = now.torque_theta + now.plate_torque_theta;
+  const double power = phi * sample.gimbal.phi_dot + theta * sample.gimbal.theta_dot;
+  peaks_->torque_phi = std::max(peaks_->torque_phi, std::abs(phi));
+  peaks_->torque_theta = std::max(peaks_->torque_theta, std::abs(theta));
+  peaks_->power = std::max(peaks_->power, std::abs(power));
 }
 
 }  // namespace bbsim::record

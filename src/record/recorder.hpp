@@ -7,6 +7,7 @@
 
 #include "model/model.hpp"
 #include "record/columns.hpp"
+#include "record/summary.hpp"
 #include "record/table_writer.hpp"
 #include "solve/outcome.hpp"
 #include "solve/output_grid.hpp"
@@ -24,16 +25,22 @@ class Recorder : public solve::StateSink {
            const solve::OutputGrid& grid,
            std::vector<const Column*> columns, TableWriter& writer);
 
+  // Of the rows so far; nothing unless a column needs the forces.
+  [[nodiscard]] std::optional<MotorPeaks> peaks() const { return peaks_; }
+
   // Throws OutputError.
   void accept(std::size_t first, std::size_t count, const double* values) override;
 
  private:
+  void note_peaks(const model::Sample& sample, const model::Dynamics& now);
+
   const model::Model& model_;
   model::BallConstants constants_;
   const solve::OutputGrid& grid_;
   std::vector<const Column*> columns_;
   TableWriter& writer_;
   bool needs_dynamics_;
+  std::optional<MotorPeaks> peaks_;
   std::vector<std::vector<double>> block_;  // one vector a column
 };
 

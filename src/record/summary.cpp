@@ -54,11 +54,55 @@ std::string to_text(const std::vector<std::string>& values) {
   return text;
 }
 
+// The one list of an event's names, for both forms.
+template <class Add>
+void for_each_member(const EventRecord& event, Add add) {
+  add("t", event.t);
+  add("event", event.name);
+  add("action", event.action);
+  add("x", event.x);
+  add("y", event.y);
+  add("vx", event.vx);
+  add("vy", event.vy);
+  add("spin", event.spin);
+  add("phi", event.phi);
+  add("theta", event.theta);
+  add("phi_rate", event.phi_rate);
+  add("theta_rate", event.theta_rate);
+}
+
+template <class Add>
+void for_each_member(const MotorPeaks& peaks, Add add) {
+  add("peak_torque_phi", peaks.torque_phi);
+  add("peak_torque_theta", peaks.torque_theta);
+  add("peak_power", peaks.power);
+}
+
 }  // namespace
+
+EventRecord event_record(const model::Occurrence& occurrence) {
+  const model::BallMotion& ball = occurrence.sample.ball;
+  const model::GimbalMotion& gimbal = occurrence.sample.gimbal;
+  return {occurrence.t, occurrence.name, occurrence.stopped ? "stop" : "note",
+          ball.x,       ball.y,          ball.x_dot,
+          ball.y_dot,   ball.gamma_dot,  gimbal.phi,
+          gimbal.theta, gimbal.phi_dot,  gimbal.theta_dot};
+}
 
 std::string to_json(const RunSummary& summary) {
   nlohmann::ordered_json json = nlohmann::ordered_json::object();
   for_each_member(summary, [&](const char* name, const auto& value) { json[name] = value; });
+  if (summary.peaks) {
+    nlohmann::ordered_json& motors = json["motors"] = nlohmann::ordered_json::object();
+    for_each_member(*summary.peaks,
+                    [&](const char* name, const auto& value) { motors[name] = value; });
+    motors["carries"] = summary.peaks->with_plate ? "ball and plate" : "ball";
+  }
+  nlohmann::ordered_json& events = json["events"] = nlohmann::ordered_json::array();
+  for (const EventRecord& event : summary.events) {
+    nlohmann::ordered_json& entry = events.emplace_back(nlohmann::ordered_json::object());
+    for_each_member(event, [&](const char* name, const auto& value) { entry[name] = value; });
+  }
   nlohmann::ordered_json& statistics = json["statistics"] = nlohmann::ordered_json::object();
   for_each_statistic(summary,
                      [&](const char* name, const auto& value) { statistics[name] = value; });
@@ -77,6 +121,19 @@ Attributes to_attributes(const RunSummary& summary, const std::string& scenario_
   };
   for_each_member(summary, add);
   for_each_statistic(summary, add);
+  if (summary.peaks) for_each_member(*summary.peaks, add);
+  std::vector<std::string> events;
+  for (const EventRecord& event : summary.events) {
+    std::string line;
+    for_each_member(event, [&](const char* name, const auto& value) {
+      if (!line.empty()) line += ' ';
+      line += name;
+      line += '=';
+      line += to_text(value);
+    });
+    events.push_back(line);
+  }
+  if (!events.empty()) add("events", events);
   add("scenario_text", scenario_text);
   return attributes;
 }

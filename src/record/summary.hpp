@@ -6,9 +6,28 @@
 #include <string>
 #include <vector>
 
+#include "model/rig/occurrence.hpp"
 #include "record/table_writer.hpp"
 
 namespace bbsim::record {
+
+// Something that was watched for and happened: where the ball was, and the gimbal.
+struct EventRecord {
+  double t = 0;  // s
+  std::string name, action;
+  double x = 0, y = 0, vx = 0, vy = 0, spin = 0;  // m, m/s, rad/s
+  double phi = 0, theta = 0, phi_rate = 0, theta_rate = 0;  // rad, rad/s
+};
+
+[[nodiscard]] EventRecord event_record(const model::Occurrence& occurrence);
+
+// The largest sizes over the rows of what the two motors give to carry the ball, and the plate if
+// its inertia is known.
+struct MotorPeaks {
+  double torque_phi = 0, torque_theta = 0;  // N m
+  double power = 0;                         // W
+  bool with_plate = false;
+};
 
 struct RunSummary {
   std::string version;
@@ -24,6 +43,8 @@ struct RunSummary {
   std::vector<std::string> model_notes;  // what is modelled and why, one sentence each
   std::string method;
   double rtol = 0, atol = 0;
+  std::vector<EventRecord> events;
+  std::optional<MotorPeaks> peaks;  // where a column needs the forces
   // Of a run with solver.error: the bound asked for and the estimate reached, m.
   std::optional<double> error_bound, error_estimate;
   struct {

@@ -7,6 +7,7 @@
 #include <utility>
 #include <variant>
 
+#include "base/error.hpp"
 #include "model/model.hpp"
 #include "model/simpler.hpp"
 #include "solve/integrate.hpp"
