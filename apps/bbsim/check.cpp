@@ -23,9 +23,9 @@ void print_sampled_loop(const model::Model& model) {
   const auto& loop = std::get<model::RigLoop<>>(model.system);
   const model::Eigenvalues poles = model::sampled_poles(loop, *model.rig);
   const std::string warning = instability_warning(model);
-  print_line("closed loop", std::to_string(poles.size()) +
-                                " poles of a sample period about home: " +
-                                sampled_poles_line(poles));
+  print_line("closed loop",
+             std::to_string(poles.size()) +
+                 " poles of a sample period about home: " + sampled_poles_line(poles));
   if (warning.empty()) {
     const double size = std::abs(poles.front());
     const double period = model.rig->sampled->sampling.period;

@@ -115,7 +115,8 @@ std::string noted_text(const std::vector<model::Occurrence>& occurrences) {
     };
     const auto count = std::count_if(occurrences.begin(), occurrences.end(), same);
     if (!text.empty()) text += "\n";
-    text += "noted: " + first.name + ", " + (count == 1 ? "once" : std::to_string(count) + " times, first") +
+    text += "noted: " + first.name + ", " +
+            (count == 1 ? "once" : std::to_string(count) + " times, first") +
             " at t = " + short_number(first.t) + " s: " + occurrence_text(first);
   }
   return text;

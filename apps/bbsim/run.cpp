@@ -118,7 +118,8 @@ std::string shortfall(const Scenario& scenario, const model::Model& model,
 
 record::RunSummary summarise(const Scenario& scenario, const model::Model& model,
                              const Integration& made, const std::string& reason,
-                             const std::string& output, const std::optional<record::MotorPeaks>& peaks) {
+                             const std::string& output,
+                             const std::optional<record::MotorPeaks>& peaks) {
   const solve::Outcome& outcome = made.outcome;
   record::RunSummary summary;
   summary.version = BBSIM_VERSION;
@@ -178,7 +179,8 @@ ExitCode run(const RunArguments& arguments, const Options& options) {
   progress.clear();
 
   const std::string reason = shortfall(scenario, model, made);
-  const record::RunSummary summary = summarise(scenario, model, made, reason, output, recorder.peaks());
+  const record::RunSummary summary =
+      summarise(scenario, model, made, reason, output, recorder.peaks());
   writer->finish(record::to_attributes(summary, scenario.source.text));
   if (!arguments.summary.empty()) record::write_summary(arguments.summary, summary);
 

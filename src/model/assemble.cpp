@@ -2,6 +2,7 @@
 #include <cmath>
 #include <utility>
 
+#include "model/explain.hpp"
 #include "model/model.hpp"
 #include "model/reference_path.hpp"
 #include "model/rig/assemble_rig.hpp"
@@ -98,46 +99,8 @@ std::vector<double> initial_state(const Scenario& scene, Shape shape) {
     if (phi_moves(shape)) z.push_back(start.phi_rate);
     if (theta_moves(shape)) z.push_back(start.theta_rate);
   }
-  if (needs_rig(scene)) z.insert(z.end(), 2, 0.0);  // the integrals of the error
+  if (integrates_error(scene)) z.insert(z.end(), 2, 0.0);
   return z;
-}
-
-std::vector<Note> explain(const Scenario& scene, Shape shape, bool gamma, std::size_t stops) {
-  std::vector<Note> notes;
-  switch (shape) {
-    case Shape::full:
-      notes.push_back({"ball", "x, y and spin: equation (27)"});
-      break;
-    case Shape::along_x:
-      notes.push_back({"ball", "x only: theta, y and spin stay zero by symmetry"});
-      break;
-    case Shape::along_y:
-      notes.push_back({"ball", "y only: phi, x and spin stay zero by symmetry"});
-      break;
-  }
-  if (!scene.controller) {
-    notes.push_back({"gimbal", "no gimbal states: the angles are given functions of time"});
-  } else if (scene.controller->drives == Drives::angle) {
-    notes.push_back({"gimbal",
-                     "angles and rates are states: second-order servos follow the "
-                     "controller's angles"});
-  } else {
-    notes.push_back({"gimbal",
-                     "angles and rates are states: the controller drives their "
-                     "accelerations, equation (31)"});
-  }
-  if (!gamma) {
-    notes.push_back({"gamma", "not integrated: no output column asks for it"});
-  } else if (shape != Shape::full) {
-    notes.push_back({"gamma", "not integrated: it stays zero, as the spin does"});
-  } else {
-    notes.push_back({"gamma", "a quadrature of the spin, beside the states"});
-  }
-  if (stops > 0) {
-    const std::string of = scene.controller ? "the reference path" : "tables";
-    notes.push_back({"stops", std::to_string(stops) + " knots of " + of + ", none stepped over"});
-  }
-  return notes;
 }
 
 }  // namespace
@@ -161,9 +124,12 @@ Model assemble(const Scenario& scenario, bool gamma) {
   const auto system = [&]() -> System {
     const double r = scenario.ball.radius, g = scenario.gravity;
     if (needs_rig(scenario)) {
-      AssembledRig built = assemble_rig(scenario, std::move(input));
-      rig = std::move(built.rig);
-      return std::move(built.loop);
+      const auto keep = [&rig](auto built) -> System {
+        rig = std::move(built.rig);
+        return std::move(built.loop);
+      };
+      return integrates_error(scenario) ? keep(assemble_rig<true>(scenario, std::move(input)))
+                                        : keep(assemble_rig<false>(scenario, std::move(input)));
     }
     if (!scenario.controller) {
       if (!is_the_papers(scenario)) {

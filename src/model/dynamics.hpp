@@ -18,15 +18,15 @@ struct BallConstants {
 [[nodiscard]] BallConstants constants_of(const Scenario& scene);
 
 struct Dynamics {
-  Eigen::Vector3d force;    // of the plane on the ball, plane frame, N; z is the normal force
-  double torque_phi = 0;    // motor torque that carries the ball, N m
-  double torque_theta = 0;  // N m
-  double energy = 0;        // kinetic and potential, J; potential zero at the gimbal's centre
+  Eigen::Vector3d force;          // of the plane on the ball, plane frame, N; z is the normal force
+  double torque_phi = 0;          // motor torque that carries the ball, N m
+  double torque_theta = 0;        // N m
+  double energy = 0;              // kinetic and potential, J; potential zero at the gimbal's centre
   double plate_torque_phi = 0;    // motor torque that turns the plate itself, N m
   double plate_torque_theta = 0;  // N m
   double tilt = 0;                // between the plane's normal and the vertical, rad
-  // Of the coefficients of (phi'', theta'') in (x'', y''), the determinant over r^2, its size: 0 where
-  // they cannot be solved for. |7 r cos theta + 5 y sin theta| / (7 r): (28), (29).
+  // Of the coefficients of (phi'', theta'') in (x'', y''), the determinant over r^2, its size: 0
+  // where they cannot be solved for. |7 r cos theta + 5 y sin theta| / (7 r): (28), (29).
   double singularity_distance = 0;
   [[nodiscard]] double normal_force() const { return force.z(); }
   [[nodiscard]] double friction_force() const { return force.head<2>().norm(); }

@@ -20,8 +20,8 @@ struct PlaneKinematics {
 // In place of Equation27 in a system. With the paper's rig it is equation (27) in exact
 // arithmetic, and differs from it by rounding.
 struct GeneralRolling {
-  double k = 0.4;         // the ball's moment of inertia over m r^2
-  double height = 0;      // of the plane of contact above the gimbal's centre, m
+  double k = 0.4;     // the ball's moment of inertia over m r^2
+  double height = 0;  // of the plane of contact above the gimbal's centre, m
   double cos_skew = 1, sin_skew = 0;
   double cos_turn = 1, sin_turn = 0;  // of yaw - skew
   double cos_base = 1, sin_base = 0;
@@ -78,13 +78,12 @@ struct GeneralRolling {
     const Real x_rest = -(2 * (omega[2] * ball.y_dot)) + above * omega_dot[1] -
                         omega_dot[2] * ball.y + omega[0] * along - squared * ball.x +
                         g * plane.up[0];
-    const Real y_rest = 2 * (omega[2] * ball.x_dot) + omega_dot[2] * ball.x -
-                        above * omega_dot[0] + omega[1] * along - squared * ball.y +
-                        g * plane.up[1];
+    const Real y_rest = 2 * (omega[2] * ball.x_dot) + omega_dot[2] * ball.x - above * omega_dot[0] +
+                        omega[1] * along - squared * ball.y + g * plane.up[1];
     const double share = 1 / (1 + k);
     Rates<Real> rates;
-    rates.x = -(share * (k * (r * omega_dot[1] - omega[2] * ball.y_dot - omega[0] * ball.u) +
-                         x_rest));
+    rates.x =
+        -(share * (k * (r * omega_dot[1] - omega[2] * ball.y_dot - omega[0] * ball.u) + x_rest));
     rates.y = share * (k * (r * omega_dot[0] + omega[1] * ball.u - omega[2] * ball.x_dot) - y_rest);
     rates.u = -(r * omega_dot[2] + omega[0] * ball.x_dot + omega[1] * ball.y_dot);
     return rates;

@@ -9,7 +9,7 @@ std::size_t Model::extras() const {
 Sample Model::sample(double t, const double* row) const {
   Sample sample = std::visit(
       [&](const auto& any) {
-        if constexpr (std::is_same_v<std::decay_t<decltype(any)>, RigLoop<>>) {
+        if constexpr (is_rig<std::decay_t<decltype(any)>>) {
           return extras() > 0 ? any.sample(t, row, row + size() + (gamma ? 1 : 0))
                               : any.sample(t, row);
         } else {
@@ -32,7 +32,7 @@ std::vector<std::string> Model::state_names() const {
             if (theta_moves(Any::moves)) names.push_back(std::string("theta") + suffix);
           }
         }
-        if constexpr (std::is_same_v<Any, RigLoop<>>) {
+        if constexpr (Any::size == RigLoop<true>::size) {
           names.insert(names.end(), {"x_integral", "y_integral"});
         }
         return names;

@@ -21,7 +21,7 @@ using System = std::variant<
     ClosedLoop<Shape::full, Drives::acceleration>, ClosedLoop<Shape::along_x, Drives::acceleration>,
     ClosedLoop<Shape::along_y, Drives::acceleration>, ClosedLoop<Shape::full, Drives::angle>,
     ClosedLoop<Shape::along_x, Drives::angle>, ClosedLoop<Shape::along_y, Drives::angle>,
-    OpenLoop<Shape::full, SignalPair, GeneralRolling>, RigLoop<>>;
+    OpenLoop<Shape::full, SignalPair, GeneralRolling>, RigLoop<false>, RigLoop<true>>;
 
 // A part of the physics that the scene has, or does without, and why.
 struct Note {
@@ -35,7 +35,7 @@ struct Model {
   double radius = 0;            // m
   std::vector<double> stops;    // times in (0, end) at which a derivative of the input jumps, s
   std::vector<Note> notes;      // for `bbsim check` and the summary
-  std::optional<Rig> rig{};            // of a RigLoop
+  std::optional<Rig> rig{};     // of a RigLoop
   std::optional<Watchlist> watched{};  // there if something is
 
   [[nodiscard]] std::size_t size() const { return initial.size(); }

@@ -61,16 +61,22 @@ struct RigAxes {
   Real demand[2];   // acceleration that the servo would have in free motion, rad/s^2
 };
 
-// States: the ball's five, the servos' angles and rates, the integrals of the error.
-template <class Signals = SignalPair>
+// States: the ball's five, the servos' angles and rates; and the integrals of the error, of a law
+// in continuous time that has them.
+template <bool integrates = false, class Signals = SignalPair>
 class RigLoop {
  public:
   using Layout = BallLayout<Shape::full>;
   static constexpr Shape moves = Shape::full;
-  static constexpr int size = 11;
+  static constexpr int size = integrates ? 11 : 9;
   static constexpr bool linear = false;
-  static constexpr Motions<7> motions{
-      {{0, 2}, {1, 3}, {5, 7}, {6, 8}, {-1, 4}, {-1, 9}, {-1, 10}}};
+  static constexpr auto motions = [] {
+    if constexpr (integrates) {
+      return Motions<7>{{{0, 2}, {1, 3}, {5, 7}, {6, 8}, {-1, 4}, {-1, 9}, {-1, 10}}};
+    } else {
+      return Motions<5>{{{0, 2}, {1, 3}, {5, 7}, {6, 8}, {-1, 4}}};
+    }
+  }();
   // What a row of output needs beside the states, since it changes with the mode: the plane's
   // angles, rates and accelerations; the command; and, of a sampled loop, what was measured last.
   static constexpr int extras = 10;
@@ -97,7 +103,7 @@ class RigLoop {
     derivative_of(inputs(t), z, dz);
   }
 
-  [[nodiscard]] RigLoop<SignalView> view() const {
+  [[nodiscard]] RigLoop<integrates, SignalView> view() const {
     return {r_, g_, rolling_, law_, servo_, reference_.view(), mode};
   }
 
@@ -111,15 +117,16 @@ class RigLoop {
       plane[i] = plane_axis(i, z, of.couple * acceleration);
       dz[5 + i] = z[7 + i];
       dz[7 + i] = acceleration;
-      dz[9 + i] = of.integrate * (reference[static_cast<std::size_t>(i)].value - z[i]);
+      if constexpr (integrates) {
+        dz[9 + i] = of.integrate * (reference[static_cast<std::size_t>(i)].value - z[i]);
+      }
     }
     Layout::derivative(rolling_, plane[0], plane[1], Layout::unpack(z), r_, g_, dz);
   }
 
   // What law and servo ask for at a state.
   template <class Time, class Real>
-  [[nodiscard]] RigAxes<Real> axes(const std::array<Jet<Time>, 2>& reference,
-                                   const Real* z) const {
+  [[nodiscard]] RigAxes<Real> axes(const std::array<Jet<Time>, 2>& reference, const Real* z) const {
     RigAxes<Real> loop;
     if (law_.kind == LawKind::held) {
       for (int i = 0; i < 2; ++i) loop.raw[i] = loop.command[i] = Real(mode.command[i]);
@@ -130,7 +137,8 @@ class RigLoop {
           const Jet<Time>& wanted = reference[static_cast<std::size_t>(j)];
           u = u + law_.gain[i][j] * (wanted.value - z[j]) +
               law_.gain[i][2 + j] * (wanted.rate - z[2 + j]) - law_.gain[i][4 + j] * z[5 + j] -
-              law_.gain[i][6 + j] * z[7 + j] + law_.integral[i][j] * z[9 + j];
+              law_.gain[i][6 + j] * z[7 + j];
+          if constexpr (integrates) u = u + law_.integral[i][j] * z[9 + j];
         }
         loop.raw[i] = u;
         loop.command[i] = limited(i, u);
@@ -192,7 +200,9 @@ class RigLoop {
 
   [[nodiscard]] Sample sample(double t, const double* z, const double* extra) const {
     const auto reference = reference_.at(t);
-    Sample sample{t, ball_motion<Shape::full>(Layout::unpack(z), r_), 0,
+    Sample sample{t,
+                  ball_motion<Shape::full>(Layout::unpack(z), r_),
+                  0,
                   {extra[0], extra[1], extra[2], extra[3], extra[4], extra[5]},
                   {reference[0].value, reference[1].value}};
     sample.command = {extra[6], extra[7]};
@@ -236,7 +246,8 @@ class RigLoop {
 
   template <class Real>
   [[nodiscard]] Inertial<Real> coefficients(const Real* z) const {
-    const auto none = rates_under(z, 0, 0), phi = rates_under(z, 1, 0), theta = rates_under(z, 0, 1);
+    const auto none = rates_under(z, 0, 0), phi = rates_under(z, 1, 0),
+               theta = rates_under(z, 0, 1);
     return {{{phi.x - none.x, theta.x - none.x},
              {phi.y - none.y, theta.y - none.y},
              {phi.u - none.u, theta.u - none.u}}};
@@ -276,5 +287,10 @@ class RigLoop {
   ServoResponse servo_;
   Signals reference_;
 };
+
+template <class Any>
+inline constexpr bool is_rig = false;
+template <bool integrates, class Signals>
+inline constexpr bool is_rig<RigLoop<integrates, Signals>> = true;
 
 }  // namespace bbsim::model

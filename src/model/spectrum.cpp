@@ -37,13 +37,14 @@ Eigenvalues closed_loop_poles(const Model& model) {
           const double home[Loop::size] = {};
           const auto full = jacobian(loop, 0.0, home);
           constexpr int spin = spin_index<Loop>;
-          if constexpr (std::is_same_v<Loop, RigLoop<>>) {
+          if constexpr (is_rig<Loop>) {
             if (loop.law().kind == LawKind::held) return {};
-            // Without the spin, as below, and without integrals that nothing feels.
+            // Without the spin, as below, and without an integral that nothing feels.
             std::vector<int> rest{0, 1, 2, 3, 5, 6, 7, 8};
-            for (const int j : {0, 1}) {
+            for (int i = 9; i < Loop::size; ++i) {
+              const int j = i - 9;
               if (loop.law().integral[0][j] != 0 || loop.law().integral[1][j] != 0) {
-                rest.push_back(9 + j);
+                rest.push_back(i);
               }
             }
             return eigenvalues_of(full(rest, rest));

@@ -22,8 +22,7 @@ namespace bbsim::record {
 class Recorder : public solve::StateSink {
  public:
   Recorder(const model::Model& model, const model::BallConstants& constants,
-           const solve::OutputGrid& grid,
-           std::vector<const Column*> columns, TableWriter& writer);
+           const solve::OutputGrid& grid, std::vector<const Column*> columns, TableWriter& writer);
 
   // Of the rows so far; nothing unless a column needs the forces.
   [[nodiscard]] std::optional<MotorPeaks> peaks() const { return peaks_; }

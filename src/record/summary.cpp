@@ -133,7 +133,7 @@ Attributes to_attributes(const RunSummary& summary, const std::string& scenario_
     });
     events.push_back(line);
   }
-  if (!events.empty()) add("events", events);
+  add("events", events);
   add("scenario_text", scenario_text);
   return attributes;
 }

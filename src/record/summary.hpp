@@ -15,7 +15,7 @@ namespace bbsim::record {
 struct EventRecord {
   double t = 0;  // s
   std::string name, action;
-  double x = 0, y = 0, vx = 0, vy = 0, spin = 0;  // m, m/s, rad/s
+  double x = 0, y = 0, vx = 0, vy = 0, spin = 0;            // m, m/s, rad/s
   double phi = 0, theta = 0, phi_rate = 0, theta_rate = 0;  // rad, rad/s
 };
 

@@ -52,7 +52,8 @@ void read_law(Keys& keys, Controller& controller) {
     if (keys.find(law.key)) given.push_back(&law);
   }
   if (given.empty()) {
-    keys.missing("pd", MappingOf(read_pd).allowed() + "; or another law: " + comma_separated(names));
+    keys.missing("pd",
+                 MappingOf(read_pd).allowed() + "; or another law: " + comma_separated(names));
     return;
   }
   if (given.size() > 1) {

@@ -25,8 +25,9 @@ void read_servo(Keys& keys, Servo& servo) {
   if (keys.find("time_constant")) {
     for (const char* other : {"natural_frequency", "damping"}) {
       if (const auto given = keys.find(other)) {
-        given->report("given together with time_constant, of a servo of first order; allowed: "
-                      "natural_frequency and damping, or time_constant");
+        given->report(
+            "given together with time_constant, of a servo of first order; allowed: "
+            "natural_frequency and damping, or time_constant");
       }
     }
   } else {

@@ -56,7 +56,8 @@ struct MomentsOf {
   static bool read(const Value& value, std::array<double, 3>& into);
 };
 
-// Two rows, phi and theta, of four numbers (x, y, vx, vy) or eight (... and phi, theta, their rates)
+// Two rows, phi and theta, of four numbers (x, y, vx, vy) or eight (... and phi, theta, their
+// rates)
 struct StateGain {
   [[nodiscard]] static std::string allowed();
   static bool read(const Value& value, std::array<std::array<double, 8>, 2>& into);

@@ -14,21 +14,21 @@ using Pair = std::array<double, 2>;   // (x, y), or (phi, theta)
 using Matrix2 = std::array<Pair, 2>;  // rows phi, theta; columns x, y
 
 struct Ball {
-  double radius = 0;    // m, > 0, required
-  double mass = 1;      // kg, > 0; forces, torques and energy only
-  Pair position{0, 0};  // contact point in the plane frame, m
-  Pair velocity{0, 0};  // of the contact point in the plane frame, m/s
-  double spin = 0;      // about the plane normal, relative to the plane, rad/s
+  double radius = 0;            // m, > 0, required
+  double mass = 1;              // kg, > 0; forces, torques and energy only
+  Pair position{0, 0};          // contact point in the plane frame, m
+  Pair velocity{0, 0};          // of the contact point in the plane frame, m/s
+  double spin = 0;              // about the plane normal, relative to the plane, rad/s
   double inertia_factor = 0.4;  // moment of inertia over m r^2: 2/5 solid, 2/3 a thin shell
 };
 
 // The plate that the ball rolls on, where a scene needs to know: a rectangle or a disc about the
 // plane's origin.
 struct Plate {
-  std::optional<Pair> size;        // along x and y, m
-  std::optional<double> diameter;  // m
+  std::optional<Pair> size{};        // along x and y, m
+  std::optional<double> diameter{};  // m
   // Moments of inertia about the gimbal's centre along the plane's axes x, y, normal, kg m^2.
-  std::optional<std::array<double, 3>> inertia;
+  std::optional<std::array<double, 3>> inertia{};
 };
 
 // offset + amplitude sin(frequency t + phase)
@@ -67,24 +67,24 @@ struct GimbalStart {
 // phi'' = omega_n^2 (u_phi - phi) - 2 zeta omega_n phi'; theta alike. Or, of first order,
 // phi' = (u_phi - phi) / time_constant.
 struct Servo {
-  double natural_frequency = 0;         // omega_n, rad/s, > 0
-  double damping = 0;                   // zeta, >= 0
-  std::optional<double> time_constant;  // s, > 0; instead of the two above
-  std::optional<double> angle_limit;    // hard stops at +-this, rad
-  std::optional<double> rate_limit;     // rad/s
-  std::optional<double> acceleration_limit;  // rad/s^2
+  double natural_frequency = 0;                // omega_n, rad/s, > 0
+  double damping = 0;                          // zeta, >= 0
+  std::optional<double> time_constant{};       // s, > 0; instead of the two above
+  std::optional<double> angle_limit{};         // hard stops at +-this, rad
+  std::optional<double> rate_limit{};          // rad/s
+  std::optional<double> acceleration_limit{};  // rad/s^2
   double dead_band = 0;  // commands nearer than this to the last are not followed, rad
   double backlash = 0;   // by which servo and plane turn freely against each other, rad
 
   [[nodiscard]] bool plain() const {
-    return !time_constant && !angle_limit && !rate_limit && !acceleration_limit &&
-           dead_band == 0 && backlash == 0;
+    return !time_constant && !angle_limit && !rate_limit && !acceleration_limit && dead_band == 0 &&
+           backlash == 0;
   }
 };
 
 // How the plane sits on the gimbal, where not as in the paper.
 struct Mounting {
-  double height = 0;                       // of the plane of contact above the gimbal's centre, m
+  double height = 0;                        // of the plane of contact above the gimbal's centre, m
   double phi_offset = 0, theta_offset = 0;  // angle of the plane where the servo's is zero, rad
   double skew = 0;       // of theta's axis from square to phi's, about the normal, rad
   double yaw = 0;        // of the plane's x axis from theta's unskewed axis, about the normal, rad
@@ -94,9 +94,9 @@ struct Mounting {
 };
 
 struct Gimbal {
-  std::optional<GimbalMotion> motion;  // prescribed; otherwise a controller moves it
+  std::optional<GimbalMotion> motion{};  // prescribed; otherwise a controller moves it
   GimbalStart start;
-  std::optional<Servo> servo;  // there exactly when the controller drives angle
+  std::optional<Servo> servo{};  // there exactly when the controller drives angle
   Mounting mounting;
 };
 
@@ -164,25 +164,25 @@ struct Sampling {
 
 // What the controller sees of the ball, at its samples.
 struct Sensor {
-  double resolution = 0;     // m; 0: none
-  double noise = 0;          // standard deviation of each coordinate, m
-  unsigned long seed = 1;    // of noise and dropouts
-  double delay = 0;          // from what is seen to the sample, s
-  double dropout = 0;        // probability that a sample sees nothing
-  std::optional<Pair> area;  // sides of the rectangle in which it sees the ball, m
+  double resolution = 0;       // m; 0: none
+  double noise = 0;            // standard deviation of each coordinate, m
+  unsigned long seed = 1;      // of noise and dropouts
+  double delay = 0;            // from what is seen to the sample, s
+  double dropout = 0;          // probability that a sample sees nothing
+  std::optional<Pair> area{};  // sides of the rectangle in which it sees the ball, m
 };
 
 // e = reference - (x, y).
 struct Controller {
   Law law = Law::pd;
-  Matrix2 kv{}, kp{}, ki{};                        // pd, pid and the last two laws
-  std::array<std::array<double, 8>, 2> gain{};     // state_feedback
-  LqrWeights weights;                              // lqr
+  Matrix2 kv{}, kp{}, ki{};                     // pd, pid and the last two laws
+  std::array<std::array<double, 8>, 2> gain{};  // state_feedback
+  LqrWeights weights;                           // lqr
   Drives drives = Drives::acceleration;
   Reference reference;
-  std::optional<double> limit;  // of the command, rad or rad/s^2
-  std::optional<Sampling> sampling;
-  std::optional<Sensor> sensor;  // only with sampling
+  std::optional<double> limit{};  // of the command, rad or rad/s^2
+  std::optional<Sampling> sampling{};
+  std::optional<Sensor> sensor{};  // only with sampling
 };
 
 enum class OnEvent { stop, note };
@@ -202,11 +202,11 @@ struct SingularityEvent {
 
 // What is watched while the scene runs, and what happens when it occurs.
 struct Events {
-  std::optional<OnEvent> edge;  // the contact point leaves the plate
-  std::optional<SlipEvent> slip;
-  std::optional<OnEvent> lift_off;  // the normal force is no longer positive
-  std::optional<TiltEvent> tilt;
-  std::optional<SingularityEvent> singularity;  // of feedback linearisation
+  std::optional<OnEvent> edge{};  // the contact point leaves the plate
+  std::optional<SlipEvent> slip{};
+  std::optional<OnEvent> lift_off{};  // the normal force is no longer positive
+  std::optional<TiltEvent> tilt{};
+  std::optional<SingularityEvent> singularity{};  // of feedback linearisation
 };
 
 // Output at i * step, exactly, and at end.
@@ -233,7 +233,7 @@ struct Solver {
   double rtol = 1e-8;
   double atol = 1e-10;  // in each state's own unit: m, m/s, rad, rad/s
   // Instead of tolerances: a bound on the error of x and y at all output times, m.
-  std::optional<double> error;
+  std::optional<double> error{};
 };
 
 struct Output {
@@ -253,7 +253,7 @@ struct Scenario {
   Ball ball;
   Plate plate;
   Gimbal gimbal;
-  std::optional<Controller> controller;  // there exactly when gimbal.motion is not
+  std::optional<Controller> controller{};  // there exactly when gimbal.motion is not
   Events events;
   OutputTimes time;
   Solver solver;

@@ -20,8 +20,8 @@ void read_output(Keys& keys, Output& output);
 // gimbal, and what may stand beside each.
 void check_loop(Keys& scenario);
 
-// What parts of the rig ask of each other: a servo limit of a servo, a sensor of samples, an edge of
-// a plate. After check_loop.
+// What parts of the rig ask of each other: a servo limit of a servo, a sensor of samples, an edge
+// of a plate. After check_loop.
 void check_rig(Keys& keys, const Scenario& scenario);
 
 }  // namespace bbsim::input

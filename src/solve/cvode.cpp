@@ -213,9 +213,7 @@ class CvodeStepper : public Stepper {
     CVodeGetNumNonlinSolvIters(memory(), &iterations);
     CVodeGetNumErrTestFails(memory(), &failures);
     if (method_ == Method::bdf) CVodeGetNumJacEvals(memory(), &jacobians);
-    const auto add = [](std::size_t& total, long part) {
-      total += static_cast<std::size_t>(part);
-    };
+    const auto add = [](std::size_t& total, long part) { total += static_cast<std::size_t>(part); };
     add(sum.steps, steps);
     add(sum.rhs_evaluations, rhs);
     add(sum.jacobian_evaluations, jacobians);

@@ -229,6 +229,7 @@ class HybridIntegration {
         ++p;
         continue;
       }
+      write_rows(first_time, false);  // in the mode that they belong to
       state_at(first_time, z);
       const Effect effect = run_.fire(first, first_time, z.data());
       if (effect != Effect::none) {

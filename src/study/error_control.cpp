@@ -74,9 +74,8 @@ ErrorControlled integrate_to_error(const model::Model& model, Method method, dou
     return solve::integrate(model, method, tolerances, grid, rows, watch);
   };
   const auto other = [&](Tolerances tolerances, solve::StateSink& rows) {
-    return model.hybrid()
-               ? solve::integrate_hybrid_unlike(model, tolerances, grid, rows, watch)
-               : solve::integrate_radau_unlike(model, tolerances, grid, rows, watch);
+    return model.hybrid() ? solve::integrate_hybrid_unlike(model, tolerances, grid, rows, watch)
+                          : solve::integrate_radau_unlike(model, tolerances, grid, rows, watch);
   };
   const auto deliver = [&](Run& chosen) {
     if (chosen.rows.rows() > 0) sink.accept(0, chosen.rows.rows(), chosen.rows.row(0));

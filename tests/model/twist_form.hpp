@@ -16,6 +16,12 @@ struct State {
   double phi, theta, phi_dot, theta_dot, phi_ddot, theta_ddot;
 };
 
+// A rig that need not be the paper's: the ball's moment of inertia over m r^2, the plane's height
+// above the gimbal's centre, and errors of the axes (docs/model.md, section 6).
+struct Rig {
+  double k = 0.4, height = 0, skew = 0, yaw = 0, base_tilt = 0;
+};
+
 inline Matrix3d ad(const Vector3d& v) {
   Matrix3d m;
   m << 0, -v.z(), v.y(), v.z(), 0, -v.x(), -v.y(), v.x(), 0;
@@ -29,13 +35,18 @@ inline Vector6 stack(const Vector3d& top, const Vector3d& bottom) {
 }
 
 // (x'', y'', gamma'') from N s' + {s, N s} = G - R, equation (21), paired with s3, s4 and s5.
-inline Vector3d accelerations(const State& q, double r, double m, double g) {
-  const Vector3d i = Vector3d::UnitX(), j = Vector3d::UnitY(), k = Vector3d::UnitZ();
-  const Matrix3d rotate_phi = Eigen::AngleAxisd(q.phi, j).toRotationMatrix();
-  const Matrix3d rotate = rotate_phi * Eigen::AngleAxisd(q.theta, i).toRotationMatrix();
-  const Vector3d n = rotate * k;                      // (3)
-  const Vector3d p = rotate * Vector3d(q.x, q.y, 0);  // (5)
-  const Vector3d c = rotate * Vector3d(q.x, q.y, r);  // (6)
+inline Vector3d accelerations(const State& q, double r, double m, double g, const Rig& rig = {}) {
+  const Vector3d i = Vector3d::UnitX(), k = Vector3d::UnitZ();
+  const auto about_z = [&](double angle) { return Eigen::AngleAxisd(angle, k).toRotationMatrix(); };
+  const Matrix3d base = Eigen::AngleAxisd(rig.base_tilt, i).toRotationMatrix();
+  const Vector3d j = base * Vector3d::UnitY();
+  const Matrix3d rotate_phi =
+      base * Eigen::AngleAxisd(q.phi, Vector3d::UnitY()).toRotationMatrix() * about_z(rig.skew);
+  const Matrix3d rotate =
+      rotate_phi * Eigen::AngleAxisd(q.theta, i).toRotationMatrix() * about_z(rig.yaw - rig.skew);
+  const Vector3d n = rotate * k;                                   // (3)
+  const Vector3d p = rotate * Vector3d(q.x, q.y, rig.height);      // (5)
+  const Vector3d c = rotate * Vector3d(q.x, q.y, rig.height + r);  // (6)
   const Vector3d theta_axis = rotate_phi * i;
 
   const Vector6 s1 = q.phi_dot * stack(j, Vector3d::Zero());             // (7)
@@ -53,7 +64,7 @@ inline Vector3d accelerations(const State& q, double r, double m, double g) {
     const Vector3d axis_dot = plane_omega.cross(axis);
     return stack(axis_dot, p_dot.cross(axis) + p.cross(axis_dot));
   };
-  const Vector3d axes[3] = {rotate * j, rotate * i, n};
+  const Vector3d axes[3] = {rotate * Vector3d::UnitY(), rotate * i, n};
   const double signs_over_r[3] = {1 / r, -1 / r, 1};  // (10)
   const double rates[3] = {q.x_dot, q.y_dot, q.gamma_dot};
 
@@ -68,7 +79,7 @@ inline Vector3d accelerations(const State& q, double r, double m, double g) {
 
   Matrix6 home = Matrix6::Zero();  // (17)
   home.topLeftCorner<3, 3>() =
-      m * r * r * Vector3d(7.0 / 5, 7.0 / 5, 2.0 / 5).asDiagonal().toDenseMatrix();
+      m * r * r * Vector3d(1 + rig.k, 1 + rig.k, rig.k).asDiagonal().toDenseMatrix();
   home.topRightCorner<3, 3>() = m * r * ad(k);
   home.bottomLeftCorner<3, 3>() = m * r * ad(k).transpose();
   home.bottomRightCorner<3, 3>() = m * Matrix3d::Identity();

@@ -60,6 +60,7 @@ TEST_CASE("the summary's JSON text") {
   "method": "adams",
   "rtol": 1e-08,
   "atol": 0.1,
+  "events": [],
   "statistics": {
     "steps": 200,
     "rhs_evaluations": 300,

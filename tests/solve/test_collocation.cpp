@@ -15,13 +15,13 @@
 
 using namespace bbsim;
 using namespace bbsim_test;
-using solve::collocation::Integrator;
 using solve::collocation::KernelSet;
+using solve::collocation::RadauStepper;
 
 namespace {
 
 struct Rows {
-  Integrator::Run run;
+  solve::Outcome run;
   solve::Trajectory rows;
 };
 
@@ -29,12 +29,10 @@ Rows integrate(const model::Model& model, const Scenario& scene, double rtol,
                const KernelSet& kernels = solve::collocation::choose_kernels(), int stages = 0,
                const solve::Watch& watch = {}) {
   if (stages == 0) stages = solve::collocation::choose_stages(rtol);
-  Integrator integrator(model, kernels, stages);
-  solve::Trajectory rows(integrator.row_size());
-  solve::RowBlock block(rows, integrator.row_size());
-  const Integrator::Run run =
-      integrator.run({rtol, rtol / 100}, solve::OutputGrid(scene.time), block, watch);
-  block.flush();
+  RadauStepper stepper(model, kernels, stages, {rtol, rtol / 100}, scene.time.end);
+  solve::Trajectory rows(model.row_size());
+  const solve::Outcome run =
+      run_through(stepper, model, solve::OutputGrid(scene.time), rows, watch);
   return {run, std::move(rows)};
 }
 
@@ -92,8 +90,7 @@ TEST_CASE("collocation follows the quad-precision solutions at every tolerance")
   for (double angle : gamma) turned = std::max(turned, std::abs(angle) * scene.ball.radius);
   for (std::size_t i = 0; i < x.size(); ++i) {
     const double* row = result.rows.row(i);
-    const model::Sample sample =
-        std::visit([&](const auto& system) { return system.sample(grid[i], row); }, model.system);
+    const model::Sample sample = model.sample(grid[i], row);
     CHECK(std::abs(sample.ball.x - x[i]) < amplification * rtol);
     CHECK(std::abs(sample.ball.y - y[i]) < amplification * rtol);
     if (model.gamma) {

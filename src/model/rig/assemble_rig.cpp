@@ -39,7 +39,8 @@ RigLaw rig_law(const Scenario& scene, const ServoResponse& servo) {
       }
       break;
     case Law::lqr: {
-      const RigLoop<> plant(scene.ball.radius, scene.gravity, general_rolling(scene), {}, servo, {});
+      const RigLoop<> plant(scene.ball.radius, scene.gravity, general_rolling(scene), {}, servo,
+                            {});
       const double period = controller.sampling ? controller.sampling->period : 0;
       const auto gain = lqr_gain(linear_plant(plant), controller.weights, period);
       for (int i = 0; i < 2; ++i) {
@@ -91,16 +92,24 @@ bool needs_rig(const Scenario& scene) {
          (scene.gimbal.servo && !scene.gimbal.servo->plain()) || !is_the_papers(scene);
 }
 
-AssembledRig assemble_rig(const Scenario& scene, SignalPair reference) {
+bool integrates_error(const Scenario& scene) {
+  return scene.controller && scene.controller->law == Law::pid && !scene.controller->sampling;
+}
+
+template <bool integrates>
+AssembledRig<integrates> assemble_rig(const Scenario& scene, SignalPair reference) {
   const ServoResponse servo = servo_response(scene);
   const RigLaw law = rig_law(scene, servo);
   Rig rig = build_rig(scene, law);
   const RigLaw continuous = rig.sampled ? RigLaw{} : law;
   RigMode mode;
   for (std::size_t i = 0; i < 2; ++i) mode.axis[i].held = rig.offset[i];
-  return {RigLoop<>(scene.ball.radius, scene.gravity, general_rolling(scene), continuous, servo,
-                    std::move(reference), mode),
+  return {RigLoop<integrates>(scene.ball.radius, scene.gravity, general_rolling(scene), continuous,
+                              servo, std::move(reference), mode),
           std::move(rig)};
 }
+
+template AssembledRig<false> assemble_rig<false>(const Scenario&, SignalPair);
+template AssembledRig<true> assemble_rig<true>(const Scenario&, SignalPair);
 
 }  // namespace bbsim::model

@@ -8,12 +8,17 @@ namespace bbsim::model {
 // Whether the loop is more than equation (31) with an ideal servo on the paper's gimbal.
 [[nodiscard]] bool needs_rig(const Scenario& scene);
 
+// Whether the loop integrates the error as a state: a law in continuous time with an integral.
+[[nodiscard]] bool integrates_error(const Scenario& scene);
+
+template <bool integrates>
 struct AssembledRig {
-  RigLoop<> loop;
+  RigLoop<integrates> loop;
   Rig rig;
 };
 
 // Of a scene that needs_rig(). Throws InputError where no LQR gain stabilises it.
-[[nodiscard]] AssembledRig assemble_rig(const Scenario& scene, SignalPair reference);
+template <bool integrates>
+[[nodiscard]] AssembledRig<integrates> assemble_rig(const Scenario& scene, SignalPair reference);
 
 }  // namespace bbsim::model

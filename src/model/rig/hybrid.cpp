@@ -11,12 +11,26 @@ constexpr double one_instant = 1e-9;
 
 }  // namespace
 
+template <class Use>
+auto HybridRun::with_loop(Use use) const {
+  if (const auto* plain = std::get_if<RigLoop<false>>(&model_.system)) return use(*plain);
+  return use(std::get<RigLoop<true>>(model_.system));
+}
+
+RigMode& HybridRun::mode() {
+  if (auto* plain = std::get_if<RigLoop<false>>(&model_.system)) return plain->mode;
+  return std::get<RigLoop<true>>(model_.system).mode;
+}
+
+RigAxes<double> HybridRun::axes(double t, const double* z) const {
+  return with_loop([&](const auto& loop) { return loop.axes(loop.reference().at(t), z); });
+}
+
 HybridRun::HybridRun(const Model& model) : model_(model) {
   if (model_.rig) {
     const Rig& rig = *model_.rig;
-    for (int i = 0; i < 2; ++i) {
-      servos_.emplace_back(rig, loop()->servo(), rig.offset[static_cast<std::size_t>(i)]);
-    }
+    const ServoResponse servo = with_loop([](const auto& loop) { return loop.servo(); });
+    for (const double offset : rig.offset) servos_.emplace_back(rig, servo, offset);
     if (rig.switches()) {
       for (int i = 0; i < 2; ++i) {
         double scales[axis_guards];
@@ -46,8 +60,8 @@ HybridRun::HybridRun(const Model& model) : model_(model) {
 double HybridRun::next_time() const {
   double next = next_stop_ < model_.stops.size() ? model_.stops[next_stop_] : unlimited;
   if (sampled_) {
-    next = std::min({next, sampled_->expose.next(), sampled_->sample.next(),
-                     sampled_->apply.next()});
+    next =
+        std::min({next, sampled_->expose.next(), sampled_->sample.next(), sampled_->apply.next()});
   }
   return next;
 }
@@ -60,7 +74,7 @@ void HybridRun::act(double t, double* z) {
     while (sampled_->sample.next() <= now) take_sample(t, z);
     while (sampled_->apply.next() <= now) apply_command();
   }
-  if (loop() != nullptr) settle(t, z);
+  if (model_.rig) settle(t, z);
 }
 
 void HybridRun::expose(double, const double* z) {
@@ -73,8 +87,8 @@ void HybridRun::take_sample(double t, const double* z) {
   const std::optional<Pair> seen = sampled_->seen.front();
   sampled_->seen.erase(sampled_->seen.begin());
   const double servo[4] = {z[5], z[6], z[7], z[8]};
-  sampled_->commands.push_back(
-      sampled_->controller.command(seen, servo, loop()->reference().at(t)));
+  const auto reference = with_loop([t](const auto& loop) { return loop.reference().at(t); });
+  sampled_->commands.push_back(sampled_->controller.command(seen, servo, reference));
   sampled_->measured = sampled_->controller.last_seen();
 }
 
@@ -86,75 +100,75 @@ void HybridRun::apply_command() {
     if (std::abs(command[i] - sampled_->target[i]) > model_.rig->dead_band) {
       sampled_->target[i] = command[i];
     }
-    loop()->mode.command[i] = sampled_->target[i];
+    mode().command[i] = sampled_->target[i];
   }
 }
 
 // Whether a continuous law's command is at its limit.
 void HybridRun::settle_commands(double t, const double* z) {
   const double limit = model_.rig->command_limit;
-  RigMode& mode = loop()->mode;
+  RigMode& present = mode();
   for (int i = 0; i < 2; ++i) {
-    const double raw = loop()->axes(loop()->reference().at(t), z).raw[i];
-    AxisMode& axis = mode.axis[i];
+    const double raw = axes(t, z).raw[i];
+    AxisMode& axis = present.axis[i];
     const bool within = std::abs(raw) <= limit;
     axis.command_gate = within ? 1 : 0;
     axis.command_bias = within ? 0 : std::copysign(limit, raw);
   }
   // The integral of the error in each coordinate waits while a command that it acts on is at its
   // limit.
-  const RigLaw& law = loop()->law();
+  const RigLaw law = with_loop([](const auto& loop) { return loop.law(); });
   for (int j = 0; j < 2; ++j) {
     bool waits = false;
     for (int i = 0; i < 2; ++i) {
-      waits = waits || (law.integral[i][j] != 0 && mode.axis[i].command_gate == 0);
+      waits = waits || (law.integral[i][j] != 0 && present.axis[i].command_gate == 0);
     }
-    mode.axis[j].integrate = waits ? 0 : 1;
+    present.axis[j].integrate = waits ? 0 : 1;
   }
 }
 
-AxisState HybridRun::axis_state(int i, const RigAxes<double>& axes, const double* z) const {
-  return {z[5 + i], z[7 + i], axes.demand[i], axes.command[i]};
+AxisState HybridRun::axis_state(int i, const RigAxes<double>& wanted, const double* z) const {
+  return {z[5 + i], z[7 + i], wanted.demand[i], wanted.command[i]};
 }
 
 void HybridRun::settle(double t, double* z) {
   if (model_.rig->command_limit < unlimited) settle_commands(t, z);
-  const RigAxes<double> axes = loop()->axes(loop()->reference().at(t), z);
+  const RigAxes<double> wanted = axes(t, z);
   double rate_before[2], jump[2];
   bool jumps = false;
-  for (int i = 0; i < 2; ++i) rate_before[i] = loop()->mode.axis[i].couple * z[7 + i];
+  for (int i = 0; i < 2; ++i) rate_before[i] = mode().axis[i].couple * z[7 + i];
   for (int i = 0; i < 2; ++i) {
-    AxisState state = axis_state(i, axes, z);
-    AxisMode& mode = loop()->mode.axis[i];
-    servos_[static_cast<std::size_t>(i)].settle(state, mode);
+    AxisState state = axis_state(i, wanted, z);
+    AxisMode& axis = mode().axis[i];
+    servos_[static_cast<std::size_t>(i)].settle(state, axis);
     z[5 + i] = state.angle;
     z[7 + i] = state.rate;
-    jump[i] = mode.couple * z[7 + i] - rate_before[i];
+    jump[i] = axis.couple * z[7 + i] - rate_before[i];
     jumps = jumps || jump[i] != 0;
   }
   if (!jumps) return;
-  const auto kick = loop()->impulse(z, jump[0], jump[1]);
+  const auto kick = with_loop([&](const auto& loop) { return loop.impulse(z, jump[0], jump[1]); });
   for (int i = 0; i < 3; ++i) z[2 + i] += kick[static_cast<std::size_t>(i)];
 }
 
 Sample HybridRun::sample(double t, const double* z) const {
-  if (loop() != nullptr) return loop()->sample(t, z);
   return std::visit([&](const auto& system) { return system.sample(t, z); }, model_.system);
 }
 
 void HybridRun::evaluate_guards(double t, const double* z, double* values) const {
   if (model_.rig && model_.rig->switches()) {
-    const RigAxes<double> axes = loop()->axes(loop()->reference().at(t), z);
+    const RigAxes<double> wanted = axes(t, z);
+    const RigMode present = with_loop([](const auto& loop) { return loop.mode; });
     const double limit = model_.rig->command_limit;
     for (int i = 0; i < 2; ++i, values += axis_guards) {
-      servos_[static_cast<std::size_t>(i)].evaluate(axis_state(i, axes, z), values);
+      servos_[static_cast<std::size_t>(i)].evaluate(axis_state(i, wanted, z), values);
       double* const command = values + ServoAxis::guards;
-      const AxisMode& mode = loop()->mode.axis[i];
-      const double raw = axes.raw[i];
-      const bool free = mode.command_gate != 0;
+      const AxisMode& axis = present.axis[i];
+      const double raw = wanted.raw[i];
+      const bool free = axis.command_gate != 0;
       command[0] = limit == unlimited ? unlimited : free ? limit - raw : unlimited;
       command[1] = limit == unlimited ? unlimited : free ? limit + raw : unlimited;
-      if (!free) (mode.command_bias > 0 ? command[0] : command[1]) = std::abs(raw) - limit;
+      if (!free) (axis.command_bias > 0 ? command[0] : command[1]) = std::abs(raw) - limit;
     }
   }
   if (happening_.empty()) return;
@@ -197,11 +211,11 @@ HybridRun::Effect HybridRun::look(double t, const double* z) {
 }
 
 void HybridRun::write_extras(double t, const double* z, double* out) const {
-  if (loop() == nullptr) return;
-  loop()->write_extras(t, z, out);
+  if (!model_.rig) return;
+  with_loop([&](const auto& loop) { loop.write_extras(t, z, out); });
   const Pair measured = sampled_ ? sampled_->measured : Pair{z[0], z[1]};
-  out[Loop::extras - 2] = measured[0];
-  out[Loop::extras - 1] = measured[1];
+  out[RigLoop<>::extras - 2] = measured[0];
+  out[RigLoop<>::extras - 1] = measured[1];
 }
 
 }  // namespace bbsim::model

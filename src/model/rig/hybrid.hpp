@@ -46,13 +46,15 @@ class HybridRun {
   [[nodiscard]] const std::vector<Occurrence>& occurrences() const { return occurrences_; }
 
  private:
-  using Loop = RigLoop<>;
   static constexpr int axis_guards = ServoAxis::guards + 2;  // and two of the command's limit
 
-  [[nodiscard]] Loop* loop() { return std::get_if<Loop>(&model_.system); }
-  [[nodiscard]] const Loop* loop() const { return std::get_if<Loop>(&model_.system); }
+  // Calls `use` with the RigLoop, of a model that has one.
+  template <class Use>
+  auto with_loop(Use use) const;
+  [[nodiscard]] RigMode& mode();
+  [[nodiscard]] RigAxes<double> axes(double t, const double* z) const;
   [[nodiscard]] Sample sample(double t, const double* z) const;
-  [[nodiscard]] AxisState axis_state(int i, const RigAxes<double>& axes, const double* z) const;
+  [[nodiscard]] AxisState axis_state(int i, const RigAxes<double>& wanted, const double* z) const;
   void settle(double t, double* z);
   void settle_commands(double t, const double* z);
   void expose(double t, const double* z);

@@ -8,8 +8,8 @@
 namespace bbsim::model {
 
 struct Occurrence {
-  double t = 0;      // s
-  std::string name;  // as the scenario's key under events
+  double t = 0;          // s
+  std::string name;      // as the scenario's key under events
   bool stopped = false;  // the run
   Sample sample;
 };

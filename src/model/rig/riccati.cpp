@@ -41,9 +41,8 @@ RiccatiSolution solve_discrete_riccati(const MatrixXd& a, const MatrixXd& b, con
                                        const MatrixXd& r) {
   RiccatiSolution solution;
   solution.cost = doubled(a, b * r.inverse() * b.transpose(), q);
-  solution.gain = (r + b.transpose() * solution.cost * b)
-                      .ldlt()
-                      .solve(b.transpose() * solution.cost * a);
+  solution.gain =
+      (r + b.transpose() * solution.cost * b).ldlt().solve(b.transpose() * solution.cost * a);
   return solution;
 }
 
@@ -57,8 +56,9 @@ RiccatiSolution solve_continuous_riccati(const MatrixXd& a, const MatrixXd& b, c
   const MatrixXd inverse = shifted.inverse();
   const MatrixXd w = (shifted.transpose() + q * inverse * g).inverse();
   RiccatiSolution solution;
-  solution.cost = doubled(identity + 2 * shift * (shifted + g * shifted.transpose().inverse() * q).inverse(),
-                          2 * shift * inverse * g * w, 2 * shift * w * q * inverse);
+  solution.cost =
+      doubled(identity + 2 * shift * (shifted + g * shifted.transpose().inverse() * q).inverse(),
+              2 * shift * inverse * g * w, 2 * shift * w * q * inverse);
   solution.gain = r.inverse() * b.transpose() * solution.cost;
   return solution;
 }

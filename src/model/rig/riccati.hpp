@@ -5,8 +5,8 @@
 
 namespace bbsim::model {
 
-// The stabilising solution X of A^T X A - X - A^T X B (R + B^T X B)^-1 B^T X A + Q = 0, and the gain
-// K = (R + B^T X B)^-1 B^T X A of u = -K z that minimises the sum of z^T Q z + u^T R u under
+// The stabilising solution X of A^T X A - X - A^T X B (R + B^T X B)^-1 B^T X A + Q = 0, and the
+// gain K = (R + B^T X B)^-1 B^T X A of u = -K z that minimises the sum of z^T Q z + u^T R u under
 // z+ = A z + B u. R is positive definite, Q positive semidefinite.
 struct RiccatiSolution {
   Eigen::MatrixXd cost, gain;
@@ -19,8 +19,8 @@ struct RiccatiSolution {
                                                      const Eigen::MatrixXd& q,
                                                      const Eigen::MatrixXd& r);
 
-// The same for z' = A z + B u and the integral: A^T X + X A - X B R^-1 B^T X + Q = 0, K = R^-1 B^T X.
-// By a Cayley transform to the discrete one: Chu, Fan and Lin, Linear Algebra Appl. 396 (2005).
+// The same for z' = A z + B u and the integral: A^T X + X A - X B R^-1 B^T X + Q = 0, K = R^-1 B^T
+// X. By a Cayley transform to the discrete one: Chu, Fan and Lin, Linear Algebra Appl. 396 (2005).
 [[nodiscard]] RiccatiSolution solve_continuous_riccati(const Eigen::MatrixXd& a,
                                                        const Eigen::MatrixXd& b,
                                                        const Eigen::MatrixXd& q,

@@ -18,8 +18,8 @@ inline constexpr double unlimited = std::numeric_limits<double>::infinity();
 struct SampledLoop {
   Sampling sampling;
   Sensor sensor;
-  RigLaw law;            // what is computed at each sample
-  double scale = 0;      // (1 + k) / g, s^2/m, for gravity compensation
+  RigLaw law;        // what is computed at each sample
+  double scale = 0;  // (1 + k) / g, s^2/m, for gravity compensation
   double limit = unlimited;
 };
 

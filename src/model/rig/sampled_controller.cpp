@@ -91,8 +91,8 @@ Pair SampledController::command(const std::optional<Pair>& seen, const double (&
   }
   const Pair after = integrates ? unlimited_command(servo, reference) : before;
   for (std::size_t i = 0; i < 2; ++i) {
-    command_[i] = rounded_to(std::clamp(after[i], -loop_.limit, loop_.limit),
-                             loop_.sampling.resolution);
+    command_[i] =
+        rounded_to(std::clamp(after[i], -loop_.limit, loop_.limit), loop_.sampling.resolution);
   }
   return command_;
 }

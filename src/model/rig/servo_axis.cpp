@@ -19,15 +19,15 @@ double ServoAxis::push(const AxisState& state) const {
 ServoAxis::Motion ServoAxis::choose(AxisState& state) const {
   const double stop = rig_->angle_limit, fastest = rig_->rate_limit;
   if (rig_->time_constant) {
-    state.rate = std::clamp((state.command - state.angle) / *rig_->time_constant, -fastest, fastest);
+    state.rate =
+        std::clamp((state.command - state.angle) / *rig_->time_constant, -fastest, fastest);
   }
   for (const int sign : {1, -1}) {
     if (sign * state.angle < stop * at_limit || sign * state.rate < 0) continue;
     AxisState halted = state;
     halted.rate = 0;
     halted.demand += response_.from_rate * state.rate;
-    const double pushing =
-        rig_->time_constant ? halted.command - halted.angle : halted.demand;
+    const double pushing = rig_->time_constant ? halted.command - halted.angle : halted.demand;
     if (sign * pushing < 0 && state.rate == 0) continue;
     halted.angle = sign * stop;
     state = halted;

@@ -31,7 +31,15 @@ class ServoAxis {
   void scales(double* values) const;
 
  private:
-  enum class Motion { free, accelerating_up, accelerating_down, rate_up, rate_down, stop_up, stop_down };
+  enum class Motion {
+    free,
+    accelerating_up,
+    accelerating_down,
+    rate_up,
+    rate_down,
+    stop_up,
+    stop_down
+  };
   enum class Play { none, up, down, gap };
 
   [[nodiscard]] Motion choose(AxisState& state) const;

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "model/rig/rig.hpp"
 
@@ -58,8 +59,13 @@ Watchlist watchlist(const Scenario& scene) {
     list.monitors.push_back({Kind::slip, events.slip->action, events.slip->friction});
   }
   if (events.lift_off) list.monitors.push_back({Kind::lift_off, *events.lift_off});
-  if (events.tilt) list.monitors.push_back({Kind::tilt, events.tilt->action, events.tilt->limit});
+  // Feedback linearisation leaves the tilt unstable: it ends in the plane turning over and over,
+  // ever faster.
   const bool inverts = scene.controller && scene.controller->law == Law::feedback_linearisation;
+  if (events.tilt || inverts) {
+    const TiltEvent limit = events.tilt.value_or(TiltEvent{std::numbers::pi / 2, OnEvent::stop});
+    list.monitors.push_back({Kind::tilt, limit.action, limit.limit});
+  }
   if (events.singularity || inverts) {
     const SingularityEvent guard = events.singularity.value_or(SingularityEvent{});
     list.monitors.push_back({Kind::singularity, guard.action, guard.distance});

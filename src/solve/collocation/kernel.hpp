@@ -49,7 +49,7 @@ struct Kernel {
 };
 
 // One for each alternative of model::System, in its order.
-inline constexpr int system_count = 11;
+inline constexpr int system_count = 12;
 
 struct KernelSet {
   const char* name;

@@ -8,7 +8,6 @@
 #include <type_traits>
 #include <variant>
 
-
 namespace bbsim::solve {
 namespace collocation {
 namespace {
@@ -109,8 +108,7 @@ void RadauStepper::start(double t, const double* z) {
     turned_ = row.back();
   }
   attempted_ = false;
-  kernel_->start(workspace,
-                 {view_.get(), z, tolerances_.rtol, tolerances_.atol, model_.gamma});
+  kernel_->start(workspace, {view_.get(), z, tolerances_.rtol, tolerances_.atol, model_.gamma});
   time_ = t;
   if (next_step_ > 0) return;
   const double rate = std::max(kernel_->rate(workspace, t), highest_frequency_);

@@ -74,9 +74,9 @@ class RadauStepper : public Stepper {
   std::unique_ptr<void, Free> view_;
   std::unique_ptr<void, Free> workspace_;
   double time_ = 0;
-  double next_step_ = 0;   // s; 0: not known yet
+  double next_step_ = 0;    // s; 0: not known yet
   bool attempted_ = false;  // a step was made, and is not yet the present state
-  double turned_ = 0;      // integral of u until start(), m
+  double turned_ = 0;       // integral of u until start(), m
   std::size_t worst_state_ = 0;
   Statistics statistics_;
 };

@@ -552,7 +552,8 @@ struct Step {
     const int row = n + (w.gamma ? 1 : 0);
     for (int i = 0; i < nv; ++i) {
       integrate_series<s>(w.series.of[i], half, w.v[i], w.v_series[i]);
-      if (i < nq || turns(w, i)) integrate_series<s + 1>(w.v_series[i], half, w.q[i], w.q_series[i]);
+      if (i < nq || turns(w, i))
+        integrate_series<s + 1>(w.v_series[i], half, w.q[i], w.q_series[i]);
     }
     for (std::size_t first = 0; first < count; first += lanes) {
       const int used = count - first < lanes ? static_cast<int>(count - first) : lanes;

@@ -1,0 +1,210 @@
+#include "model/explain.hpp"
+
+#include <cstdio>
+#include <numbers>
+#include <string>
+
+#include "model/rig/assemble_rig.hpp"
+
+namespace bbsim::model {
+namespace {
+
+std::string number(double value) {
+  char text[40];
+  std::snprintf(text, sizeof text, "%.6g", value);
+  return text;
+}
+
+std::string degrees(double angle) {
+  return number(angle * 180 / std::numbers::pi) + " deg";
+}
+
+std::string milliseconds(double time) {
+  return number(1e3 * time) + " ms";
+}
+
+// A sentence part by part.
+class List {
+ public:
+  void add(const std::string& part) { text_ += (text_.empty() ? "" : ", ") + part; }
+  void add_if(bool holds, const std::string& part) {
+    if (holds) add(part);
+  }
+  [[nodiscard]] const std::string& text() const { return text_; }
+
+ private:
+  std::string text_;
+};
+
+std::string ball_note(const Scenario& scene, Shape shape) {
+  if (!is_the_papers(scene)) {
+    return "x, y and spin: equation (27) for any inertia factor and mounting, (M18) to (M20)";
+  }
+  switch (shape) {
+    case Shape::along_x:
+      return "x only: theta, y and spin stay zero by symmetry";
+    case Shape::along_y:
+      return "y only: phi, x and spin stay zero by symmetry";
+    case Shape::full:
+      break;
+  }
+  return needs_rig(scene) ? "x, y and spin: equation (27), in the general form (M18) to (M20)"
+                          : "x, y and spin: equation (27)";
+}
+
+std::string gimbal_note(const Scenario& scene) {
+  if (!scene.controller) return "no gimbal states: the angles are given functions of time";
+  if (scene.controller->drives == Drives::acceleration) {
+    return needs_rig(scene)
+               ? "angles and rates are states: the controller drives their accelerations"
+               : "angles and rates are states: the controller drives their "
+                 "accelerations, equation (31)";
+  }
+  const Servo& servo = *scene.gimbal.servo;
+  return std::string("angles and rates are states: ") + (servo.time_constant ? "first" : "second") +
+         "-order servos follow the controller's angles";
+}
+
+std::string limits_note(const Servo& servo) {
+  List list;
+  if (servo.angle_limit) list.add("stops at " + degrees(*servo.angle_limit));
+  if (servo.rate_limit) list.add("at most " + degrees(*servo.rate_limit) + "/s");
+  if (servo.acceleration_limit)
+    list.add("at most " + number(*servo.acceleration_limit) + " rad/s^2");
+  list.add_if(servo.dead_band > 0, "dead band " + degrees(servo.dead_band));
+  list.add_if(servo.backlash > 0, "backlash " + degrees(servo.backlash));
+  return list.text();
+}
+
+std::string law_note(const Controller& controller) {
+  std::string text;
+  switch (controller.law) {
+    case Law::pd:
+      text = "PD, equation (31)";
+      break;
+    case Law::pid:
+      text = "PID; the integral waits while the command is at its limit";
+      break;
+    case Law::state_feedback:
+      text = "state feedback";
+      break;
+    case Law::lqr:
+      text = controller.sampling ? "LQR of the sampled plant, without its delays"
+                                 : "LQR of the plant about home";
+      break;
+    case Law::gravity_compensation:
+      text = "gravity compensation: angles under which gravity gives the acceleration wanted";
+      break;
+    case Law::feedback_linearisation:
+      text =
+          "feedback linearisation of (27): the ball follows, the tilt is an unstable internal "
+          "state (docs/rig.md)";
+      break;
+  }
+  if (controller.limit) {
+    text += "; command within " + (controller.drives == Drives::angle
+                                       ? degrees(*controller.limit)
+                                       : number(*controller.limit) + " rad/s^2");
+  }
+  return text;
+}
+
+std::string sampling_note(const Sampling& sampling) {
+  List list;
+  list.add("a command every " + milliseconds(sampling.period) + ", held between");
+  list.add_if(sampling.delay > 0, milliseconds(sampling.delay) + " late");
+  list.add_if(sampling.resolution > 0, "in steps of " + degrees(sampling.resolution));
+  list.add(sampling.derivative_filter > 0 ? "velocity from differences, filtered over " +
+                                                milliseconds(sampling.derivative_filter)
+                                          : "velocity from differences, unfiltered");
+  return list.text();
+}
+
+std::string sensor_note(const Sensor& sensor) {
+  List list;
+  list.add_if(sensor.resolution > 0, "resolution " + number(1e3 * sensor.resolution) + " mm");
+  list.add_if(sensor.noise > 0, "noise " + number(1e3 * sensor.noise) + " mm (seed " +
+                                    std::to_string(sensor.seed) + ")");
+  list.add_if(sensor.delay > 0, milliseconds(sensor.delay) + " late");
+  list.add_if(sensor.dropout > 0, "misses " + number(100 * sensor.dropout) + " %");
+  if (sensor.area) {
+    list.add("sees " + number((*sensor.area)[0]) + " m by " + number((*sensor.area)[1]) + " m");
+  }
+  return list.text().empty() ? "exact" : list.text();
+}
+
+std::string mounting_note(const Scenario& scene) {
+  const Mounting& mounting = scene.gimbal.mounting;
+  List list;
+  list.add_if(scene.ball.inertia_factor != 0.4,
+              "inertia factor " + number(scene.ball.inertia_factor));
+  list.add_if(mounting.height != 0,
+              "plane " + number(mounting.height) + " m above the gimbal's centre");
+  list.add_if(mounting.phi_offset != 0, "phi off by " + degrees(mounting.phi_offset));
+  list.add_if(mounting.theta_offset != 0, "theta off by " + degrees(mounting.theta_offset));
+  list.add_if(mounting.skew != 0, "axes askew by " + degrees(mounting.skew));
+  list.add_if(mounting.yaw != 0, "plane turned by " + degrees(mounting.yaw));
+  list.add_if(mounting.base_tilt != 0, "base tilted by " + degrees(mounting.base_tilt));
+  return list.text();
+}
+
+std::string events_note(const Scenario& scene) {
+  List list;
+  for (const Monitor& monitor : watchlist(scene).monitors) {
+    list.add(std::string(monitor.name()) +
+             (monitor.action == OnEvent::stop ? " (stops the run)" : " (is noted)"));
+  }
+  return list.text();
+}
+
+// Parts that a scene may have and this one has not.
+std::string without(const Scenario& scene) {
+  List list;
+  const Servo* servo = scene.gimbal.servo ? &*scene.gimbal.servo : nullptr;
+  const Controller* controller = scene.controller ? &*scene.controller : nullptr;
+  if (controller != nullptr) {
+    list.add_if(servo == nullptr || limits_note(*servo).empty(),
+                "servo limits, dead band and backlash");
+    list.add_if(!controller->sampling, "sampling");
+    list.add_if(!controller->sensor, "sensor errors");
+  }
+  list.add_if(mounting_note(scene).empty(), "mounting errors");
+  list.add_if(!scene.plate.inertia, "the plate's inertia");
+  list.add_if(watchlist(scene).monitors.empty(), "events");
+  return list.text();
+}
+
+}  // namespace
+
+std::vector<Note> explain(const Scenario& scene, Shape shape, bool gamma, std::size_t stops) {
+  std::vector<Note> notes;
+  const auto note = [&notes](const char* part, std::string reason) {
+    if (!reason.empty()) notes.push_back({part, std::move(reason)});
+  };
+  note("ball", ball_note(scene, shape));
+  note("gimbal", gimbal_note(scene));
+  if (!gamma) {
+    note("gamma", "not integrated: no output column asks for it");
+  } else if (shape != Shape::full) {
+    note("gamma", "not integrated: it stays zero, as the spin does");
+  } else {
+    note("gamma", "a quadrature of the spin, beside the states");
+  }
+  if (scene.gimbal.servo) note("servo", limits_note(*scene.gimbal.servo));
+  if (scene.controller) {
+    note("law", law_note(*scene.controller));
+    if (scene.controller->sampling) note("sampling", sampling_note(*scene.controller->sampling));
+    if (scene.controller->sensor) note("sensor", sensor_note(*scene.controller->sensor));
+  }
+  note("mounting", mounting_note(scene));
+  if (scene.plate.inertia) note("plate", "its inertia is in the motors' torques and power");
+  note("events", events_note(scene));
+  note("without", without(scene));
+  if (stops > 0) {
+    const std::string of = scene.controller ? "the reference path" : "tables";
+    note("stops", std::to_string(stops) + " knots of " + of + ", none stepped over");
+  }
+  return notes;
+}
+
+}  // namespace bbsim::model
