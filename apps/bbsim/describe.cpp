@@ -130,7 +130,8 @@ std::string sampled_poles_line(const model::Eigenvalues& poles) {
     if (std::abs(pole) < 1e-3 || named == 6) return line + ", smaller ones";
     if (!line.empty()) line += ", ";
     line += short_number(pole.real());
-    if (pole.imag() > 0) line += " +- " + short_number(pole.imag()) + "i";
+    // Of a double pole, the rounding of its root.
+    if (pole.imag() > 1e-7 * std::abs(pole)) line += " +- " + short_number(pole.imag()) + "i";
     ++named;
   }
   return line;

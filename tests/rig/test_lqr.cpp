@@ -137,8 +137,10 @@ TEST_CASE("from sample to sample a small motion obeys the polynomial of the samp
       sum += term;
       sizes += std::abs(term);
     }
-    // What is not linear is smaller by the angles, some 1e-6, or their squares.
-    CHECK(std::abs(sum) < 1e-5 * sizes);
+    // A loop that its delays make unstable grows out of what is small.
+    if (std::abs(run.samples[from + n].gimbal.phi) > 1e-4) break;
+    // The tolerance, times a hundred; what is not linear is smaller by the squares of the angles.
+    CHECK(std::abs(sum) < 1e-9 * sizes);
   }
 }
 

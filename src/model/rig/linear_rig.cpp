@@ -33,8 +33,7 @@ class Cycle {
     const SampledLoop& sampled = *rig.sampled;
     const double period = sampled.sampling.period;
     const auto split = [period](double delay, double* whole) {
-      const double periods = delay / period;
-      *whole = std::floor(periods + 1e-9);
+      *whole = std::floor(delay / period + 1e-9);
       return std::max(0.0, delay - *whole * period);
     };
     double whole = 0;
@@ -43,7 +42,7 @@ class Cycle {
     exposures_ = static_cast<int>(whole) + (exposure_ > 0 ? 1 : 0);
     application_ = split(sampled.sampling.delay, &whole);
     if (application_ <= 1e-9 * period) application_ = 0;
-    commands_ = static_cast<int>(whole) + (application_ > 0 ? 1 : 0);
+    commands_ = static_cast<int>(whole);
     for (const auto& row : sampled.law.integral) {
       integrates_ = integrates_ || row[0] != 0 || row[1] != 0;
     }

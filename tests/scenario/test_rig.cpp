@@ -1,0 +1,141 @@
+// Keys of built rigs: what they read as, and which combinations are refused, with why.
+#include "catch.hpp"
+#include "support.hpp"
+
+using namespace bbsim;
+using namespace bbsim::test;
+
+namespace {
+
+const std::string base =
+    "ball: {radius: 0.02}\n"
+    "gimbal: {servo: {natural_frequency: \"5 Hz\", damping: 0.8}}\n"
+    "controller:\n"
+    "  pd: {kv: 1, kp: 1}\n"
+    "  drives: angle\n"
+    "  reference: {point: [0, 0]}\n"
+    "time: {end: 1, step: 0.1}\n";
+
+const std::string prescribed =
+    "ball: {radius: 0.02}\n"
+    "gimbal: {motion: {phi: 0.1}}\n"
+    "time: {end: 1, step: 0.1}\n";
+
+}  // namespace
+
+TEST_CASE("the parts of a rig are read in SI units") {
+  const Scenario scene =
+      parse(base, {"gimbal.servo.rate_limit=\"300 deg/s\"", "gimbal.servo.angle_limit=\"25 deg\"",
+                   "gimbal.servo.dead_band=0.001", "gimbal.servo.backlash=0.002",
+                   "gimbal.servo.acceleration_limit=200", "gimbal.mounting.height=\"5 cm\"",
+                   "controller.limit=\"12 deg\"", "controller.sampling.period=\"20 ms\"",
+                   "controller.sampling.delay=\"5 ms\"", "controller.sensor.noise=\"0.2 mm\"",
+                   "controller.sensor.seed=7", "controller.sensor.area=[\"20 cm\", 0.15]",
+                   "plate.size=[0.3, 0.2]", "plate.inertia=[1e-3, 2e-3, 3e-3]", "events.edge=stop",
+                   "events.slip={friction: 0.3}", "ball.inertia_factor=0.5"});
+  const Servo& servo = *scene.gimbal.servo;
+  CHECK(*servo.rate_limit == Approx(5.235987755982989).epsilon(1e-15));
+  CHECK(*servo.angle_limit == Approx(0.4363323129985824).epsilon(1e-15));
+  CHECK(servo.dead_band == 0.001);
+  CHECK(servo.backlash == 0.002);
+  CHECK(*servo.acceleration_limit == 200);
+  CHECK(scene.gimbal.mounting.height == 0.05);
+  CHECK(*scene.controller->limit == Approx(0.20943951023931956).epsilon(1e-15));
+  CHECK(scene.controller->sampling->period == 0.02);
+  CHECK(scene.controller->sampling->delay == 0.005);
+  CHECK(scene.controller->sensor->noise == 2e-4);
+  CHECK(scene.controller->sensor->seed == 7);
+  CHECK(*scene.controller->sensor->area == Pair{0.2, 0.15});
+  CHECK(*scene.plate.size == Pair{0.3, 0.2});
+  CHECK(scene.plate.inertia->at(2) == 3e-3);
+  CHECK(*scene.events.edge == OnEvent::stop);
+  CHECK(scene.events.slip->friction == 0.3);
+  CHECK(scene.events.slip->action == OnEvent::note);
+  CHECK(scene.ball.inertia_factor == 0.5);
+}
+
+TEST_CASE("each law reads its own gains") {
+  const auto law = [](const std::string& text) {
+    return *parse(
+                "ball: {radius: 0.02}\n"
+                "gimbal: {servo: {natural_frequency: 30, damping: 1}}\n"
+                "controller: {" +
+                    text +
+                    ", drives: angle, reference: {point: [0, 0]}}\n"
+                    "time: {end: 1, step: 0.1}\n",
+                {})
+                .controller;
+  };
+  CHECK(law("pid: {kp: 1, kv: 2, ki: 3}").ki == Matrix2{{{3, 0}, {0, 3}}});
+  const Controller feedback = law("state_feedback: {gain: [[1, 2, 3, 4], [5, 6, 7, 8]]}");
+  CHECK(feedback.law == Law::state_feedback);
+  CHECK(feedback.gain[1][3] == 8);
+  CHECK(feedback.gain[1][4] == 0);
+  CHECK(law("lqr: {position: 10, command: 0.5}").weights.command == 0.5);
+  CHECK(law("gravity_compensation: {kp: 4, kv: 4}").law == Law::gravity_compensation);
+}
+
+TEST_CASE("combinations that mean nothing are refused, with why") {
+  struct Case {
+    std::string text;
+    std::vector<std::string> overrides;
+    std::string says;
+  };
+  for (const Case& refused : {
+           Case{prescribed,
+                {"gimbal.servo={rate_limit: 1, natural_frequency: 1, damping: 1}"},
+                "gimbal.servo: found beside gimbal.motion, which no servo follows"},
+           Case{base,
+                {"controller.sensor.noise=0.001"},
+                "controller.sensor: found, but no controller.sampling"},
+           Case{base,
+                {"gimbal.servo.dead_band=0.01"},
+                "gimbal.servo.dead_band: found without controller.sampling"},
+           Case{base,
+                {"gimbal.servo={time_constant: 0.1}"},
+                "gimbal.servo.time_constant: found without controller.sampling"},
+           Case{base,
+                {"gimbal.servo.time_constant=0.1"},
+                "gimbal.servo.natural_frequency: given together with time_constant"},
+           Case{base,
+                {"controller.sampling.period=0.01",
+                 "gimbal.servo={time_constant: 0.1, acceleration_limit: 10}"},
+                "gimbal.servo.acceleration_limit: found with time_constant"},
+           Case{base, {"events.edge=stop"}, "events.edge: found, but the plate has no edge"},
+           Case{base,
+                {"events.singularity.distance=0.2"},
+                "events.singularity: found without controller.feedback_linearisation"},
+           Case{base,
+                {"controller.pid={kp: 1, ki: 1, kv: 1}"},
+                "controller.pid: found beside pd; allowed: one law"},
+           Case{base,
+                {"gimbal.servo.angle_limit=0.1", "gimbal.start.phi=0.2"},
+                "gimbal.start: found beyond gimbal.servo.angle_limit"},
+           Case{base, {"output.columns=[t, motor_torque_phi]"}, "the plate's inertia is not known"},
+           Case{base, {"output.columns=[t, x_measured]"}, "the controller takes no samples"},
+           Case{
+               base, {"events.slip={friction: 0.3, action: ignore}"}, "allowed: one of stop, note"},
+           Case{base,
+                {"plate={size: [0.1, 0.1], diameter: 0.2}"},
+                "plate.diameter: given together with size"},
+       }) {
+    CAPTURE(refused.says);
+    CHECK_THAT(errors(refused.text, refused.overrides), Catch::Matchers::Contains(refused.says));
+  }
+}
+
+TEST_CASE("feedback linearisation and gravity compensation drive what they give") {
+  const auto error_with = [](const std::string& law, const std::string& rest) {
+    return errors(
+        "ball: {radius: 0.02}\n"
+        "gimbal: {servo: {natural_frequency: 30, damping: 1}}\n"
+        "controller: {" +
+            law + ": {kp: 4, kv: 4}, reference: {point: [0, 0]}" + rest +
+            "}\ntime: {end: 1, step: 0.1}\n",
+        {});
+  };
+  CHECK_THAT(error_with("feedback_linearisation", ", drives: angle"),
+             Catch::Matchers::Contains("controller.drives: found angle"));
+  CHECK_THAT(error_with("gravity_compensation", ", drives: acceleration"),
+             Catch::Matchers::Contains("controller.gravity_compensation: found, but"));
+}
