@@ -114,6 +114,13 @@ ExitCode accuracy(const AccuracyArguments& arguments, const Options& options) {
   const auto columns = record::columns_named(scenario.output.columns);
   const model::Model model =
       model::assemble(scenario, record::any_needs(columns, record::Needs::gamma));
+  if (model.hybrid()) {
+    throw InputError(
+        arguments.scenario.file +
+        ": accuracy compares smooth runs; found a part that switches or is watched for: "
+        "controller.sampling, a limit, gimbal.servo.backlash or events; allowed: a scene "
+        "without them (`bbsim run --error` estimates the error of this one)");
+  }
   const solve::OutputGrid grid(scenario.time);
   Progress progress("accuracy", options.quiet);
   const study::AccuracyStudy study = study::measure_accuracy(

@@ -91,7 +91,7 @@ TEST_CASE("columns lists them all with units") {
 
 TEST_CASE("every scenario of configs/ is valid and runs") {
   for (const char* name : {"fig2a", "fig2b", "incline", "beam", "hold", "recorded", "lissajous",
-                           "waypoints", "traced"}) {
+                           "waypoints", "traced", "rig", "step", "catch"}) {
     CAPTURE(name);
     const Folder folder;
     const std::string file = config(std::string(name) + ".yaml");

@@ -1,0 +1,127 @@
+// Scenarios of built rigs, as a user runs them.
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "catch.hpp"
+#include "process.hpp"
+
+using namespace bbsim_test;
+
+namespace {
+
+bool contains(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
+
+std::map<std::string, std::vector<double>> csv(const std::string& text) {
+  std::map<std::string, std::vector<double>> columns;
+  std::vector<std::string> names;
+  std::istringstream lines(text);
+  for (std::string line, cell; std::getline(lines, line);) {
+    std::istringstream cells(line);
+    for (std::size_t i = 0; std::getline(cells, cell, ','); ++i) {
+      if (names.size() <= i) {
+        names.push_back(cell);
+      } else {
+        columns[names[i]].push_back(std::stod(cell));
+      }
+    }
+  }
+  return columns;
+}
+
+// Root mean square of the distance from the reference after 5 s, m.
+double tracking_error(const std::string& text) {
+  auto columns = csv(text);
+  double sum = 0;
+  std::size_t rows = 0;
+  for (std::size_t i = 0; i < columns["t"].size(); ++i) {
+    if (columns["t"][i] <= 5) continue;
+    sum += std::pow(columns["x"][i] - columns["x_reference"][i], 2) +
+           std::pow(columns["y"][i] - columns["y_reference"][i], 2);
+    ++rows;
+  }
+  return std::sqrt(sum / static_cast<double>(rows));
+}
+
+}  // namespace
+
+TEST_CASE("the rig tracks its circle, and three times its delay is unstable, as check says") {
+  const Folder folder;
+  const std::string rig = config("rig.yaml");
+  REQUIRE(bbsim({"run", rig, "-o", folder / "rig.csv"}).exit_code == 0);
+  CHECK(tracking_error(folder.read("rig.csv")) < 5e-3);
+  CHECK_FALSE(contains(bbsim({"check", rig}).out, "WARNING"));
+
+  const std::vector<std::string> late = {"--set", "controller.sampling.delay=\"30 ms\"", "--set",
+                                         "controller.sensor.delay=\"30 ms\""};
+  std::vector<std::string> run = {"run", rig, "-o", folder / "late.csv"};
+  run.insert(run.end(), late.begin(), late.end());
+  REQUIRE(bbsim(run).exit_code == 0);
+  CHECK(tracking_error(folder.read("late.csv")) > 10 * tracking_error(folder.read("rig.csv")));
+  std::vector<std::string> check = {"check", rig};
+  check.insert(check.end(), late.begin(), late.end());
+  CHECK(contains(bbsim(check).out, "the sampled loop is unstable about home"));
+}
+
+TEST_CASE("check lists each part that a scene uses, and each that it does not") {
+  const std::string rig = bbsim({"check", config("rig.yaml")}).out;
+  for (const char* part : {"  servo ", "  law ", "  sampling ", "  sensor ", "  plate ",
+                           "  events ", "  without    mounting errors\n"}) {
+    CAPTURE(part);
+    CHECK(contains(rig, part));
+  }
+  const std::string plain = bbsim({"check", config("fig2b.yaml")}).out;
+  CHECK(contains(
+      plain,
+      "  without    servo limits, dead band and backlash, sampling, sensor errors, mounting "
+      "errors, the plate's inertia, events\n"));
+}
+
+TEST_CASE("an event that stops a run is told in the message, the summary and the file") {
+  const Folder folder;
+  const Result result = bbsim({"run", config("falls.yaml"), "-o", folder / "falls.csv", "--summary",
+                               folder / "falls.json"});
+  CHECK(result.exit_code == 1);
+  CHECK(contains(result.err, "the contact point left the plate, at x = 0.16 m"));
+  const auto summary = nlohmann::json::parse(folder.read("falls.json"));
+  CHECK(summary.at("status") == "stopped");
+  REQUIRE(summary.at("events").size() == 1);
+  const auto& event = summary.at("events").front();
+  CHECK(event.at("event") == "edge");
+  CHECK(event.at("action") == "stop");
+  CHECK(event.at("t") == summary.at("end_time"));
+  CHECK(event.at("x").get<double>() == Approx(0.16).epsilon(1e-9));
+  // The rows up to it.
+  const auto columns = csv(folder.read("falls.csv"));
+  CHECK(columns.at("t").size() == summary.at("rows").get<std::size_t>());
+  CHECK(columns.at("t").back() <= event.at("t").get<double>());
+  CHECK(bbsim({"run", config("falls.yaml"), "-o", folder / "falls.h5"}).exit_code == 1);
+  CHECK(bbsim({"compare", folder / "falls.csv", folder / "falls.h5"}).exit_code == 0);
+}
+
+TEST_CASE("the motors' peaks are in the summary where the plate's inertia is known") {
+  const Folder folder;
+  REQUIRE(
+      bbsim({"run", config("rig.yaml"), "-o", folder / "rig.csv", "--summary", folder / "rig.json"})
+          .exit_code == 0);
+  const auto motors = nlohmann::json::parse(folder.read("rig.json")).at("motors");
+  double peak = 0;
+  const auto columns = csv(folder.read("rig.csv"));
+  for (const double torque : columns.at("motor_torque_phi")) {
+    peak = std::max(peak, std::abs(torque));
+  }
+  CHECK(motors.at("peak_torque_phi") == peak);
+  CHECK(motors.at("carries") == "ball and plate");
+}
+
+TEST_CASE("accuracy says that it measures smooth scenes") {
+  const Result result = bbsim({"accuracy", config("rig.yaml")});
+  CHECK(result.exit_code == 2);
+  CHECK(contains(result.err, "controller.sampling"));
+}
