@@ -19,6 +19,25 @@ void print_line(const std::string& label, const std::string& text) {
   std::printf("%-12s %s\n", label.c_str(), text.c_str());
 }
 
+// The rows of an LQR's gain K, of u = K (reference - z): what the weights came to.
+void print_gain(const Scenario& scenario, const model::Model& model) {
+  if (!scenario.controller || scenario.controller->law != Law::lqr) return;
+  const model::RigLaw law = model.rig->sampled
+                                ? model.rig->sampled->law
+                                : std::get<model::RigLoop<false>>(model.system).law();
+  const auto row = [](const double (&gain)[8]) {
+    std::string text;
+    for (const double value : gain) {
+      // What symmetry makes zero is zero but for rounding.
+      text += (text.empty() ? "" : ", ") + short_number(std::abs(value) < 1e-12 ? 0 : value);
+    }
+    return text;
+  };
+  print_line("gain phi", row(law.gain[0]));
+  print_line("gain theta", row(law.gain[1]));
+  print_line("", "on x, y, vx, vy, phi, theta, phi_rate, theta_rate");
+}
+
 void print_sampled_loop(const model::Model& model) {
   const auto& loop = std::get<model::RigLoop<>>(model.system);
   const model::Eigenvalues poles = model::sampled_poles(loop, *model.rig);
@@ -85,6 +104,7 @@ ExitCode check(const ScenarioArguments& arguments) {
     print_line("", "no forces, torques or energy: no output column asks for them");
   }
 
+  print_gain(scenario, model);
   if (model.closed_loop()) print_closed_loop(model);
 
   print_solver(scenario, model);
