@@ -25,7 +25,7 @@ void print_gain(const Scenario& scenario, const model::Model& model) {
   const model::RigLaw law = model.rig->sampled
                                 ? model.rig->sampled->law
                                 : std::get<model::RigLoop<false>>(model.system).law();
-  const auto row = [](const double (&gain)[8]) {
+  const auto row = [](const double(&gain)[8]) {
     std::string text;
     for (const double value : gain) {
       // What symmetry makes zero is zero but for rounding.
@@ -51,6 +51,7 @@ void print_sampled_loop(const model::Model& model) {
     print_line("", "stable: the slowest mode decays by " + short_number(size) +
                        " a period, with a time constant of " +
                        short_number(-period / std::log(size)) + " s");
+    print_line("", "without noise, dropouts, rounding, limits, dead band and backlash");
   } else {
     print_line("WARNING", warning);
   }

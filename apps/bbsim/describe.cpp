@@ -37,8 +37,12 @@ std::string instability_warning(const model::Model& model) {
     const model::Eigenvalues sampled =
         model::sampled_poles(std::get<model::RigLoop<>>(model.system), *model.rig);
     const auto outside = std::count_if(sampled.begin(), sampled.end(),
-                                       [](const auto& pole) { return std::abs(pole) >= 1; });
-    if (outside == 0) return "";
+                                       [](const auto& pole) { return std::abs(pole) > 1 + 1e-9; });
+    if (sampled.empty() || std::abs(sampled.front()) < 1 - 1e-9) return "";
+    if (outside == 0) {
+      return "the sampled loop is not asymptotically stable about home: poles " +
+             sampled_poles_line(sampled);
+    }
     return "the sampled loop is unstable about home: " + std::to_string(outside) + " of its " +
            std::to_string(sampled.size()) +
            " poles are not within the unit circle: " + sampled_poles_line(sampled);

@@ -39,14 +39,21 @@ void read_servo(Keys& keys, Servo& servo) {
   keys.optional("acceleration_limit", Number{Dimension::number, {.above = 0}, "200"},
                 servo.acceleration_limit);
   keys.optional("dead_band", Number{Dimension::angle, {.at_least = 0}}, servo.dead_band);
-  keys.optional("backlash", Number{Dimension::angle, {.at_least = 0}}, servo.backlash);
+  // Below that, rounding would decide when the servo touches the plane.
+  constexpr double least_backlash = 1e-6;
+  if (keys.optional("backlash", Number{Dimension::angle, {.at_least = 0}}, servo.backlash) &&
+      servo.backlash > 0 && servo.backlash < least_backlash) {
+    keys.find("backlash")->refuse("", "0, or an angle of at least 1e-6 rad");
+  }
 }
 
 void read_mounting(Keys& keys, Mounting& mounting) {
   keys.optional("height", Number{Dimension::length}, mounting.height);
   keys.optional("phi_offset", Number{Dimension::angle}, mounting.phi_offset);
   keys.optional("theta_offset", Number{Dimension::angle}, mounting.theta_offset);
-  keys.optional("skew", Number{Dimension::angle}, mounting.skew);
+  // At 90 degrees the axes would be one.
+  keys.optional("skew", Number{Dimension::angle, {.at_least = -1.4, .at_most = 1.4}},
+                mounting.skew);
   keys.optional("yaw", Number{Dimension::angle}, mounting.yaw);
   keys.optional("base_tilt", Number{Dimension::angle}, mounting.base_tilt);
 }

@@ -59,6 +59,8 @@ const char* explain(int flag) {
     case CV_LSETUP_FAIL:
     case CV_LSOLVE_FAIL:
       return "the linear system is singular";
+    case CV_TOO_CLOSE:
+      return "what is left to integrate is shorter than the rounding of the time";
     default:
       return "CVODE gave up";
   }
@@ -138,7 +140,7 @@ class CvodeStepper : public Stepper {
     return all;
   }
 
-  [[nodiscard]] std::size_t detail() const override { return 4; }
+  [[nodiscard]] std::size_t detail() const override { return 3; }
 
   // The state with the largest local error estimate in the solver's own weights.
   [[nodiscard]] std::size_t worst_state() const override {

@@ -35,7 +35,9 @@ class HybridIntegration {
         rows_(sink, row_size_),
         stepper_(make_stepper(run_.model(), method, tolerances, grid.end(), stages)),
         guards_(run_.guards()),
-        values_(run_.guards()) {}
+        values_(run_.guards()),
+        now_(run_.guards()),
+        near_(run_.guards()) {}
 
   Outcome run() {
     std::vector<double> z = run_.model().initial;
@@ -67,7 +69,7 @@ class HybridIntegration {
       if (switches) {
         if (effect == Effect::none) state_at(at, z);
         const double turned = row_.back();
-        if (at >= due) run_.act(at, z.data());
+        if (run_.is_due(at)) run_.act(at, z.data());
         if (!progressed(at)) {
           Outcome outcome = ended(Ending::failed, at);
           outcome.reason = "the rig switches without end at one instant";
@@ -76,6 +78,10 @@ class HybridIntegration {
         }
         stepper_->start(at, z.data());
         write_row_at(at, z, turned);
+        if (grid_.end() - at <= 1e-14 * std::max(1.0, at)) {  // nothing is left to integrate
+          write_row_at(grid_.end(), z, turned);
+          return ended(Ending::done, grid_.end());
+        }
         if (run_.look(at, z.data()) == Effect::stop) return ended(Ending::stopped, at);
         if (!guards_.empty()) arm(at, z.data());
       }
@@ -88,8 +94,9 @@ class HybridIntegration {
 
  private:
   struct Guard {
-    double before = 0, value = 0;  // at the last two points looked at
-    double threshold = 0;          // fires below; 0 once it was positive
+    double value = 0;      // at the last point looked at
+    double slope = 0;      // from there on, 1/s
+    double threshold = 0;  // fires below; 0 once it was positive
   };
 
   // A hundred switches in a row that take no time are not a motion.
@@ -107,9 +114,7 @@ class HybridIntegration {
       guards_[i].value = values_[i];
       const double slack = 1e-12 * run_.guard_scales()[i];
       guards_[i].threshold = values_[i] > slack ? 0 : std::min(0.0, values_[i]) - slack;
-      guards_[i].before = values_[i];
     }
-    time_before_ = t;
   }
 
   void state_at(double t, std::vector<double>& z) {
@@ -149,8 +154,8 @@ class HybridIntegration {
     return to;
   }
 
-  // A guard that is positive at three points, least at the middle one, may be negative between.
-  // Returns a time at which it is not positive, or `from`.
+  // The least value of guard i within [from, to] is looked for by golden sections; returns a time
+  // at which it is not positive, or `from`.
   double dip(std::size_t i, double from, double to) {
     constexpr double golden = 0.6180339887498949;
     double a = from, b = to;
@@ -176,13 +181,18 @@ class HybridIntegration {
     return from;
   }
 
-  // Whether a parabola through the last two points and `now` comes near zero between.
-  static bool may_dip(const Guard& guard, double now) {
-    if (guard.threshold != 0 || !(guard.value < guard.before) || !(guard.value < now)) return false;
-    const double curvature = guard.before - 2 * guard.value + now;
-    const double slope = (now - guard.before) / 2;
-    const double least = guard.value - slope * slope / (2 * curvature);
-    return least < 0.1 * std::max(guard.before, now);
+  // Values of all guards at t.
+  void look_at(double t, std::vector<double>& values) {
+    state_at(t, look_);
+    run_.evaluate_guards(t, look_.data(), values.data());
+  }
+
+  // Whether a guard that is positive at both ends of an interval falls at its start, rises at its
+  // end, and its tangents there meet below zero: it may be negative between.
+  static bool may_dip(const Guard& guard, double end_value, double end_slope, double width) {
+    if (guard.threshold != 0 || !(guard.slope < 0) || !(end_slope > 0)) return false;
+    const double meet = (end_value - guard.value - end_slope * width) / (guard.slope - end_slope);
+    return guard.value + guard.slope * meet <= 0;
   }
 
   // Looks along the step for guards that fall. Occurrences that change nothing are noted on the
@@ -195,24 +205,29 @@ class HybridIntegration {
       const double here =
           p == points ? to
                       : from + (to - from) * static_cast<double>(p) / static_cast<double>(points);
-      if (!(here > last)) {
+      const double width = here - last, nudge = width * 1e-4;
+      if (!(width > 0)) {
         ++p;
         continue;
       }
-      state_at(here, look_);
-      run_.evaluate_guards(here, look_.data(), values_.data());
-      now_ = values_;
+      // Slopes at both ends by differences, good to some parts in 1e4.
+      look_at(last + nudge, near_);
+      for (std::size_t i = 0; i < guards_.size(); ++i) {
+        guards_[i].slope = (near_[i] - guards_[i].value) / nudge;
+      }
+      look_at(here - nudge, near_);
+      look_at(here, now_);
       std::size_t first = guards_.size();
       double first_time = here;
       for (std::size_t i = 0; i < guards_.size(); ++i) {
-        double low = here, high = last;
+        if (now_[i] == std::numeric_limits<double>::infinity()) continue;  // not looked out for
+        double low = here;
         if (now_[i] > guards_[i].threshold) {
-          if (!may_dip(guards_[i], now_[i])) continue;
-          high = std::max(time_before_, from);
-          low = dip(i, high, here);
-          if (low == high) continue;
+          if (!may_dip(guards_[i], now_[i], (now_[i] - near_[i]) / nudge, width)) continue;
+          low = dip(i, last, here);
+          if (low == last) continue;
         }
-        const double t = root(i, high, low);
+        const double t = root(i, last, low);
         if (first == guards_.size() || t < first_time) {
           first = i;
           first_time = t;
@@ -220,11 +235,9 @@ class HybridIntegration {
       }
       if (first == guards_.size()) {
         for (std::size_t i = 0; i < guards_.size(); ++i) {
-          guards_[i].before = guards_[i].value;
           guards_[i].value = now_[i];
           if (now_[i] > 1e-12 * run_.guard_scales()[i]) guards_[i].threshold = 0;
         }
-        time_before_ = last;
         last = here;
         ++p;
         continue;
@@ -287,9 +300,9 @@ class HybridIntegration {
   RowBlock rows_;
   std::unique_ptr<Stepper> stepper_;
   std::vector<Guard> guards_;
-  std::vector<double> values_, now_, look_, row_;
+  std::vector<double> values_, now_, near_, look_, row_;
   std::size_t next_row_ = 1;
-  double last_switch_ = -1, time_before_ = 0;
+  double last_switch_ = -1;
   int still_ = 0;
 };
 

@@ -66,10 +66,20 @@ double HybridRun::next_time() const {
   return next;
 }
 
+// Until when instants are one with t: a run of no length between them is none.
+double HybridRun::instant_end(double t) const {
+  const double rounding = 1e-14 * std::max(1.0, t);
+  return t + (sampled_ ? std::max(rounding, one_instant * sampled_->sample.period) : rounding);
+}
+
+bool HybridRun::is_due(double t) const {
+  return next_time() <= instant_end(t);
+}
+
 void HybridRun::act(double t, double* z) {
-  while (next_stop_ < model_.stops.size() && model_.stops[next_stop_] <= t) ++next_stop_;
+  const double now = instant_end(t);
+  while (next_stop_ < model_.stops.size() && model_.stops[next_stop_] <= now) ++next_stop_;
   if (sampled_) {
-    const double now = t + one_instant * sampled_->sample.period;
     while (sampled_->expose.next() <= now) expose(t, z);
     while (sampled_->sample.next() <= now) take_sample(t, z);
     while (sampled_->apply.next() <= now) apply_command();
@@ -132,7 +142,16 @@ AxisState HybridRun::axis_state(int i, const RigAxes<double>& wanted, const doub
 }
 
 void HybridRun::settle(double t, double* z) {
-  if (model_.rig->command_limit < unlimited) settle_commands(t, z);
+  // A stop's kick may take the command to its limit, and that the servo from where it was: a few
+  // rounds, of which the second mostly finds nothing to do.
+  for (int round = 0; round < 4; ++round) {
+    if (model_.rig->command_limit < unlimited) settle_commands(t, z);
+    if (!settle_servos(t, z)) return;
+  }
+}
+
+// Whether a rate jumped.
+bool HybridRun::settle_servos(double t, double* z) {
   const RigAxes<double> wanted = axes(t, z);
   double rate_before[2], jump[2];
   bool jumps = false;
@@ -146,9 +165,10 @@ void HybridRun::settle(double t, double* z) {
     jump[i] = axis.couple * z[7 + i] - rate_before[i];
     jumps = jumps || jump[i] != 0;
   }
-  if (!jumps) return;
+  if (!jumps) return false;
   const auto kick = with_loop([&](const auto& loop) { return loop.impulse(z, jump[0], jump[1]); });
   for (int i = 0; i < 3; ++i) z[2 + i] += kick[static_cast<std::size_t>(i)];
+  return true;
 }
 
 Sample HybridRun::sample(double t, const double* z) const {
@@ -168,7 +188,9 @@ void HybridRun::evaluate_guards(double t, const double* z, double* values) const
       const bool free = axis.command_gate != 0;
       command[0] = limit == unlimited ? unlimited : free ? limit - raw : unlimited;
       command[1] = limit == unlimited ? unlimited : free ? limit + raw : unlimited;
-      if (!free) (axis.command_bias > 0 ? command[0] : command[1]) = std::abs(raw) - limit;
+      // Of the one limit that it is at: a command can pass to the other in no time.
+      if (!free && axis.command_bias > 0) command[0] = raw - limit;
+      if (!free && axis.command_bias < 0) command[1] = -raw - limit;
     }
   }
   if (happening_.empty()) return;

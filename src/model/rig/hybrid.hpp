@@ -24,6 +24,9 @@ class HybridRun {
   // nothing does any more.
   [[nodiscard]] double next_time() const;
 
+  // Whether t is as good as next_time().
+  [[nodiscard]] bool is_due(double t) const;
+
   // Does what is due at t, the time of the start or next_time(). May change the states z.
   void act(double t, double* z);
 
@@ -56,6 +59,8 @@ class HybridRun {
   [[nodiscard]] Sample sample(double t, const double* z) const;
   [[nodiscard]] AxisState axis_state(int i, const RigAxes<double>& wanted, const double* z) const;
   void settle(double t, double* z);
+  bool settle_servos(double t, double* z);
+  [[nodiscard]] double instant_end(double t) const;
   void settle_commands(double t, const double* z);
   void expose(double t, const double* z);
   void take_sample(double t, const double* z);

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "model/rig/rig.hpp"
@@ -39,7 +40,8 @@ double Watchlist::margin(const Monitor& monitor, const Sample& sample) const {
     case Monitor::Kind::slip:
       return monitor.limit * now.normal_force() - now.friction_force();
     case Monitor::Kind::lift_off:
-      return now.normal_force();
+      // No force at all is none that holds it.
+      return now.normal_force() != 0 ? now.normal_force() : -std::numeric_limits<double>::min();
     case Monitor::Kind::tilt:
       return monitor.limit - now.tilt;
     case Monitor::Kind::singularity:

@@ -77,7 +77,7 @@ void RadauStepper::look_at_model() {
 }
 
 std::size_t RadauStepper::detail() const {
-  return 2 * static_cast<std::size_t>(kernel_->stages);
+  return static_cast<std::size_t>(kernel_->stages);
 }
 
 // Makes the end of the last step the present state.
