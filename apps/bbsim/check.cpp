@@ -48,7 +48,7 @@ void print_sampled_loop(const model::Model& model) {
   if (warning.empty()) {
     const double size = std::abs(poles.front());
     const double period = model.rig->sampled->sampling.period;
-    print_line("", "stable: the slowest mode decays by " + short_number(size) +
+    print_line("", "stable: the slowest mode decays by a factor of " + short_number(size) +
                        " a period, with a time constant of " +
                        short_number(-period / std::log(size)) + " s");
     print_line("", "without noise, dropouts, rounding, limits, dead band and backlash");
@@ -60,6 +60,10 @@ void print_sampled_loop(const model::Model& model) {
 void print_closed_loop(const model::Model& model) {
   if (model.rig && model.rig->sampled) return print_sampled_loop(model);
   const model::Eigenvalues poles = model::closed_loop_poles(model);
+  if (poles.empty()) {
+    print_line("WARNING", "the closed loop has no linearisation about home: the law is singular there");
+    return;
+  }
   const std::string warning = instability_warning(model);
   print_line("closed loop",
              std::to_string(poles.size()) + " poles about home (1/s): " + poles_line(poles));
@@ -101,7 +105,7 @@ ExitCode check(const ScenarioArguments& arguments) {
   for (const std::string& name : scenario.output.columns) names += " " + name;
   print_line("output", std::to_string(grid.size()) + " rows to t = " + short_number(grid.end()) +
                            " s:" + names);
-  if (!any_needs(columns, record::Needs::dynamics)) {
+  if (!any_needs(columns, record::Needs::dynamics) && !scenario.plate.inertia) {
     print_line("", "no forces, torques or energy: no output column asks for them");
   }
 

@@ -27,7 +27,8 @@ std::string poles_line(const model::Eigenvalues& poles) {
     if (poles[i].imag() < 0) continue;  // its conjugate has been named
     if (!line.empty()) line += ", ";
     line += short_number(poles[i].real());
-    if (poles[i].imag() > 0) line += " +- " + short_number(poles[i].imag()) + "i";
+    // Of a double pole, the rounding of its root.
+    if (poles[i].imag() > 1e-7 * std::abs(poles[i])) line += " +- " + short_number(poles[i].imag()) + "i";
   }
   return line;
 }

@@ -101,10 +101,11 @@ std::string law_note(const Controller& controller) {
           "state (docs/rig.md)";
       break;
   }
-  if (controller.limit) {
+  const std::optional<double> limit = command_limit(controller);
+  if (limit) {
     text += "; command within " + (controller.drives == Drives::angle
-                                       ? degrees(*controller.limit)
-                                       : number(*controller.limit) + " rad/s^2");
+                                       ? degrees(*limit)
+                                       : number(*limit) + " rad/s^2");
   }
   return text;
 }

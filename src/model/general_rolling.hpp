@@ -1,5 +1,5 @@
 // The ball's equation of motion for rigs that are not the paper's: a plane above the gimbal's
-// centre, axes that are not square or not level, a ball of any inertia (docs/model.md, section 6).
+// centre, axes that are not square or not level, a ball of any inertia (docs/model.md, section 8).
 #pragma once
 
 #include "model/rolling.hpp"

@@ -7,7 +7,7 @@
 //     derivative_of(inputs, z, dz)  the rest: f(t, z) = derivative_of(inputs(t), z)
 //     motions                       which states are velocities, and of which other states
 //     view()                        the same system in plain memory, for code of one instruction
-//     set sample(t, z)                  the instant in the paper's symbols
+//     sample(t, z)                  the instant in the paper's symbols
 // and no knowledge of who integrates it. Which one a scene gets is assemble()'s choice.
 #pragma once
 
@@ -303,23 +303,33 @@ class ClosedLoop {
       gimbal.theta_dot = angles[2 * axes - 1];
       gimbal.theta_ddot = axis<1, double>(ball, reference, angles).acceleration;
     }
-    return {t, ball_motion<shape>(ball, r_), 0, gimbal, {reference[0].value, reference[1].value}};
+    Sample sample{t, ball_motion<shape>(ball, r_), 0, gimbal,
+                  {reference[0].value, reference[1].value}};
+    if constexpr (phi_moves(shape)) sample.command[0] = command<0, double>(ball, reference);
+    if constexpr (theta_moves(shape)) sample.command[1] = command<1, double>(ball, reference);
+    return sample;
   }
 
   [[nodiscard]] const Signals& reference() const { return reference_; }
 
  private:
-  // Equation (31) for one row of the gains, and the servo behind it.
+  // Equation (31) for one row of the gains.
+  template <std::size_t row, class Real, class Ball, class Time>
+  [[nodiscard]] Real command(const Ball& ball, const std::array<Jet<Time>, 2>& reference) const {
+    return gains_.kv[row][0] * (reference[0].rate - ball.x_dot) +
+           gains_.kv[row][1] * (reference[1].rate - ball.y_dot) +
+           gains_.kp[row][0] * (reference[0].value - ball.x) +
+           gains_.kp[row][1] * (reference[1].value - ball.y);
+  }
+
+  // One axis of the gimbal: its command, and the servo behind it.
   template <std::size_t row, class Real, class Ball, class Time>
   [[nodiscard]] auto axis(const Ball& ball, const std::array<Jet<Time>, 2>& reference,
                           const Real* angles) const {
     if constexpr (row == 0 ? phi_moves(shape) : theta_moves(shape)) {
       const Real& angle = angles[row == 0 ? 0 : axes - 1];
       const Real& rate = angles[row == 0 ? axes : 2 * axes - 1];
-      const Real u = gains_.kv[row][0] * (reference[0].rate - ball.x_dot) +
-                     gains_.kv[row][1] * (reference[1].rate - ball.y_dot) +
-                     gains_.kp[row][0] * (reference[0].value - ball.x) +
-                     gains_.kp[row][1] * (reference[1].value - ball.y);
+      const Real u = command<row, Real>(ball, reference);
       const SinCos<Real> direction = sin_cos(angle);
       return Axis<Real>{direction.sin, direction.cos, rate,
                         servo_.template acceleration<drives, Real>(u, angle, rate)};

@@ -51,8 +51,8 @@ constexpr std::array columns = {
     Column{"tilt", "rad", "angle between the plane's normal and the vertical", Needs::dynamics,
            [](R row) { return row.dynamics->tilt; }},
     Column{"singularity_distance", "1",
-           "how far from where no gimbal accelerations give the ball any acceleration wanted: 1 at "
-           "home, 0 there",
+           "how far from where no gimbal accelerations give the ball any acceleration wanted: 0 "
+           "there, 1 at home on the paper's gimbal",
            Needs::dynamics, [](R row) { return row.dynamics->singularity_distance; }},
     Column{"normal_force", "N",
            "force of the plane on the ball along the normal; contact needs > 0", Needs::dynamics,

@@ -34,7 +34,7 @@ struct RunSummary {
   std::string scenario;  // its file, as the user named it
   std::string title;
   std::vector<std::string> overrides;  // each "key.path=value"
-  std::string status;                  // done, failed or interrupted
+  std::string status;                  // done, failed, interrupted or stopped
   std::string reason;                  // why the run ended early; empty if it did not
   double end_time = 0;                 // what the run reached, s
   std::size_t rows = 0;

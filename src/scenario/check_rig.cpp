@@ -57,6 +57,18 @@ class Checks {
                "acceleration");
       }
     }
+    if (controller.law == Law::lqr) {
+      if (!(scene_.gravity > 0)) {
+        refuse({"controller", "lqr"},
+               "found, but gravity is 0, without which a tilted plane does not move the ball; "
+               "allowed: only where there is gravity");
+      }
+      if (scene_.gimbal.servo && scene_.gimbal.servo->time_constant) {
+        refuse({"controller", "lqr"},
+               "found with a servo of first order (time_constant); allowed: one with "
+               "natural_frequency and damping, whose state the regulator feeds back");
+      }
+    }
     if (controller.law == Law::gravity_compensation) {
       if (controller.drives != Drives::angle) {
         refuse({"controller", "gravity_compensation"},

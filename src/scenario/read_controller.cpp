@@ -97,7 +97,9 @@ void read_controller(Keys& keys, Controller& controller) {
                 NameOf<Drives>{{{Drives::acceleration, "acceleration"}, {Drives::angle, "angle"}}},
                 controller.drives);
   keys.section("reference", read_reference, controller.reference);
-  keys.optional("limit", Number{Dimension::angle, {.above = 0}}, controller.limit);
+  const bool angle = controller.drives == Drives::angle;
+  const Number limit{angle ? Dimension::angle : Dimension::number, {.above = 0}, angle ? "" : "5"};
+  keys.optional("limit", limit, controller.limit);
   keys.optional("sampling", MappingOf(read_sampling), controller.sampling);
   keys.optional("sensor", MappingOf(read_sensor), controller.sensor);
 }

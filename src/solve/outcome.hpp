@@ -18,7 +18,8 @@ struct Tolerances {
 };
 
 // Receives the rows of a run in order. A row is the states at one output time, as the system
-// packs them, and after them, if the model asks for gamma, the integral of u = r gamma'.
+// packs them; after them, if the model asks for gamma, the integral of u = r gamma'; and, of a rig
+// that switches, what Model::extras() counts.
 class StateSink {
  public:
   virtual ~StateSink() = default;

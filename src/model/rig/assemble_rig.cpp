@@ -72,8 +72,7 @@ Rig build_rig(const Scenario& scene, const RigLaw& law) {
     rig.time_constant = servo.time_constant;
   }
   const bool compensates = law.kind == LawKind::gravity_compensation;
-  // Beyond 45 degrees a plate does not balance a ball any more.
-  const double limit = controller.limit.value_or(compensates ? std::numbers::pi / 4 : unlimited);
+  const double limit = command_limit(controller).value_or(unlimited);
   if (controller.sampling) {
     rig.sampled = SampledLoop{*controller.sampling, controller.sensor.value_or(Sensor{}), law,
                               (1 + scene.ball.inertia_factor) / scene.gravity, limit};
@@ -90,6 +89,11 @@ bool needs_rig(const Scenario& scene) {
   const Controller& controller = *scene.controller;
   return controller.law != Law::pd || controller.limit || controller.sampling ||
          (scene.gimbal.servo && !scene.gimbal.servo->plain()) || !is_the_papers(scene);
+}
+
+std::optional<double> command_limit(const Controller& controller) {
+  if (controller.limit || controller.law != Law::gravity_compensation) return controller.limit;
+  return std::numbers::pi / 4;  // beyond it the sine that is inverted soon has nothing left to give
 }
 
 bool integrates_error(const Scenario& scene) {

@@ -8,6 +8,9 @@ namespace bbsim::model {
 // Whether the loop is more than equation (31) with an ideal servo on the paper's gimbal.
 [[nodiscard]] bool needs_rig(const Scenario& scene);
 
+// Of the controller's command, rad or rad/s^2; gravity compensation has one of its own.
+[[nodiscard]] std::optional<double> command_limit(const Controller& controller);
+
 // Whether the loop integrates the error as a state: a law in continuous time with an integral.
 [[nodiscard]] bool integrates_error(const Scenario& scene);
 
