@@ -61,7 +61,8 @@ void print_closed_loop(const model::Model& model) {
   if (model.rig && model.rig->sampled) return print_sampled_loop(model);
   const model::Eigenvalues poles = model::closed_loop_poles(model);
   if (poles.empty()) {
-    print_line("WARNING", "the closed loop has no linearisation about home: the law is singular there");
+    print_line("WARNING",
+               "the closed loop has no linearisation about home: the law is singular there");
     return;
   }
   const std::string warning = instability_warning(model);

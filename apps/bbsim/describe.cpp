@@ -28,7 +28,8 @@ std::string poles_line(const model::Eigenvalues& poles) {
     if (!line.empty()) line += ", ";
     line += short_number(poles[i].real());
     // Of a double pole, the rounding of its root.
-    if (poles[i].imag() > 1e-7 * std::abs(poles[i])) line += " +- " + short_number(poles[i].imag()) + "i";
+    if (poles[i].imag() > 1e-7 * std::abs(poles[i]))
+      line += " +- " + short_number(poles[i].imag()) + "i";
   }
   return line;
 }

@@ -103,9 +103,8 @@ std::string law_note(const Controller& controller) {
   }
   const std::optional<double> limit = command_limit(controller);
   if (limit) {
-    text += "; command within " + (controller.drives == Drives::angle
-                                       ? degrees(*limit)
-                                       : number(*limit) + " rad/s^2");
+    text += "; command within " +
+            (controller.drives == Drives::angle ? degrees(*limit) : number(*limit) + " rad/s^2");
   }
   return text;
 }

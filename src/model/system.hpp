@@ -303,8 +303,8 @@ class ClosedLoop {
       gimbal.theta_dot = angles[2 * axes - 1];
       gimbal.theta_ddot = axis<1, double>(ball, reference, angles).acceleration;
     }
-    Sample sample{t, ball_motion<shape>(ball, r_), 0, gimbal,
-                  {reference[0].value, reference[1].value}};
+    Sample sample{
+        t, ball_motion<shape>(ball, r_), 0, gimbal, {reference[0].value, reference[1].value}};
     if constexpr (phi_moves(shape)) sample.command[0] = command<0, double>(ball, reference);
     if constexpr (theta_moves(shape)) sample.command[1] = command<1, double>(ball, reference);
     return sample;
