@@ -41,6 +41,11 @@ void print_gain(const Scenario& scenario, const model::Model& model) {
 void print_sampled_loop(const model::Model& model) {
   const auto& loop = std::get<model::RigLoop<>>(model.system);
   const model::Eigenvalues poles = model::sampled_poles(loop, *model.rig);
+  if (poles.empty()) {
+    print_line("WARNING",
+               "the sampled loop has no poles that numbers can hold: its gains are too large");
+    return;
+  }
   const std::string warning = instability_warning(model);
   print_line("closed loop",
              std::to_string(poles.size()) +

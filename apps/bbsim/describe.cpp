@@ -110,6 +110,23 @@ std::string occurrence_text(const model::Occurrence& occurrence) {
   return text + ", at x = " + short_number(ball.x) + " m, y = " + short_number(ball.y) + " m";
 }
 
+std::string stopping_text(const Scenario& scenario, const std::string& event) {
+  const Events& events = scenario.events;
+  if (event == "tilt" && !events.tilt) {
+    return "So it is by default under feedback_linearisation; events.tilt with action: note would "
+           "let "
+           "it run on.";
+  }
+  if (event == "singularity" && !events.singularity) {
+    return "So it is by default under feedback_linearisation; events.singularity.action: note "
+           "would "
+           "let it run on.";
+  }
+  const bool plain = event == "edge" || event == "lift_off";
+  return "That is what the scene asks for: events." + event + (plain ? "" : ".action") +
+         " is stop; note would let it run on.";
+}
+
 std::string noted_text(const std::vector<model::Occurrence>& occurrences) {
   std::vector<std::string> names;
   std::string text;

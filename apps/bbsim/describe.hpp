@@ -29,6 +29,9 @@ namespace bbsim::app {
 // "the contact point left the plate, at x = 0.15 m, y = 0.02 m".
 [[nodiscard]] std::string occurrence_text(const model::Occurrence& occurrence);
 
+// Which key makes the scene stop there, and how it would run on.
+[[nodiscard]] std::string stopping_text(const Scenario& scenario, const std::string& event);
+
 // How often each thing was noted, and when first; a line each, empty if nothing was.
 [[nodiscard]] std::string noted_text(const std::vector<model::Occurrence>& occurrences);
 

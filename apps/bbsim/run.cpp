@@ -104,8 +104,7 @@ std::string shortfall(const Scenario& scenario, const model::Model& model,
     case solve::Ending::stopped:
       return "the run stopped at t = " + short_number(made.outcome.reached) + " s of " +
              short_number(end) + " s: " + occurrence_text(made.outcome.occurrences.back()) +
-             ".\n  That is what the scene asks for: events." +
-             made.outcome.occurrences.back().name + " is stop; note would let it run on.";
+             ".\n  " + stopping_text(scenario, made.outcome.occurrences.back().name);
     case solve::Ending::done:
       break;
   }

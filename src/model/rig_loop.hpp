@@ -42,12 +42,13 @@ struct RigLaw {
   double kv[2][2] = {}, kp[2][2] = {};
 };
 
-// asin(s) for |s| well below 1, of any number type, with its derivatives: Newton's iteration.
+// asin(s) for |s| below 0.99, of any number type, with its derivatives: Newton's iteration.
 template <class Real>
 [[nodiscard]] Real arcsine(const Real& s) {
   const Real s2 = s * s;
   Real angle = s * (Real(1.0) + s2 * (Real(1.0 / 6) + s2 * (Real(3.0 / 40) + (15.0 / 336) * s2)));
-  for (int i = 0; i < 4; ++i) {
+  // Six suffice up to |s| = 0.99.
+  for (int i = 0; i < 6; ++i) {
     const SinCos<Real> at = sin_cos(angle);
     angle = angle - (at.sin - s) / at.cos;
   }
@@ -164,15 +165,6 @@ class RigLoop {
                        servo_.from_rate * z[7 + i];
     }
     return loop;
-  }
-
-  // The determinant of the coefficients of (phi'', theta'') in (x'', y''), over r^2: zero where
-  // they cannot be solved for. Of the paper's rig, -(7 r c + 5 y s) / (7 r): (28) and (29).
-  template <class Real>
-  [[nodiscard]] Real determinant(const Real* z) const {
-    const Inertial<Real> inertial = coefficients(z);
-    return (inertial.of[0][0] * inertial.of[1][1] - inertial.of[0][1] * inertial.of[1][0]) /
-           Real(r_ * r_);
   }
 
   // The jump of (x', y', u) when the rates of phi and theta jump by (phi, theta), rad/s: what

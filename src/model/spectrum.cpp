@@ -20,6 +20,13 @@ Eigenvalues eigenvalues_of(const Eigen::MatrixXd& matrix) {
   return values;
 }
 
+// With the plane level at home, whatever its offsets.
+template <class Loop>
+Loop level(Loop loop) {
+  if constexpr (is_rig<Loop>) loop.mode = {};
+  return loop;
+}
+
 }  // namespace
 
 Eigenvalues eigenvalues(const Model& model, double t, const double* z) {
@@ -35,7 +42,7 @@ Eigenvalues closed_loop_poles(const Model& model) {
           return {};
         } else {
           const double home[Loop::size] = {};
-          const auto full = jacobian(loop, 0.0, home);
+          const auto full = jacobian(level(loop), 0.0, home);
           constexpr int spin = spin_index<Loop>;
           if constexpr (is_rig<Loop>) {
             if (loop.law().kind == LawKind::held) return {};

@@ -24,7 +24,7 @@ class Recorder : public solve::StateSink {
   Recorder(const model::Model& model, const model::BallConstants& constants,
            const solve::OutputGrid& grid, std::vector<const Column*> columns, TableWriter& writer);
 
-  // Of the rows so far; nothing unless a column needs the forces.
+  // Of the rows so far; nothing unless a column needs the forces, or the plate's inertia is known.
   [[nodiscard]] std::optional<MotorPeaks> peaks() const { return peaks_; }
 
   // Throws OutputError.

@@ -44,7 +44,7 @@ struct RunSummary {
   std::string method;
   double rtol = 0, atol = 0;
   std::vector<EventRecord> events;
-  std::optional<MotorPeaks> peaks;  // where a column needs the forces
+  std::optional<MotorPeaks> peaks;  // where a column needs the forces, or with plate.inertia
   // Of a run with solver.error: the bound asked for and the estimate reached, m.
   std::optional<double> error_bound, error_estimate;
   struct {

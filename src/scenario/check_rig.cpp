@@ -7,6 +7,10 @@
 namespace bbsim::input {
 namespace {
 
+// What is on its way through a delay is part of the loop's state, and of the matrix that has its
+// poles.
+constexpr double most_periods = 100;
+
 // The value at a path of keys, if it is there.
 std::optional<Value> find_at(Keys& keys, std::initializer_list<std::string_view> path) {
   std::optional<Value> value = keys.mapping();
@@ -95,14 +99,17 @@ class Checks {
       refuse({"controller", "sampling", "period"},
              "found more than 1e8 samples until time.end; allowed: a longer period");
     }
-    if (controller.sampling && controller.sampling->delay > 1e4 * controller.sampling->period) {
+    if (controller.sampling &&
+        controller.sampling->delay > most_periods * controller.sampling->period) {
       refuse({"controller", "sampling", "delay"},
-             "found more than 10000 periods; allowed: a shorter delay");
+             "found more than 100 periods of controller.sampling; allowed: a shorter delay, or a "
+             "longer period");
     }
     if (controller.sensor && controller.sampling &&
-        controller.sensor->delay > 1e4 * controller.sampling->period) {
+        controller.sensor->delay > most_periods * controller.sampling->period) {
       refuse({"controller", "sensor", "delay"},
-             "found more than 10000 sampling periods; allowed: a shorter delay");
+             "found more than 100 periods of controller.sampling; allowed: a shorter delay, or a "
+             "longer period");
     }
   }
 

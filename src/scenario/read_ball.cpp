@@ -9,8 +9,8 @@ void read_ball(Keys& keys, Ball& ball) {
   keys.optional("position", PairOf{Dimension::length}, ball.position);
   keys.optional("velocity", PairOf{Dimension::velocity}, ball.velocity);
   keys.optional("spin", Number{Dimension::angular_rate}, ball.spin);
-  // A point at the centre has 0, all mass at the surface's equator 1.
-  const Number factor{Dimension::number, {.at_least = 0, .at_most = 1}, "0.4"};
+  // All mass at the centre has 0, all of it at the surface 2/3.
+  const Number factor{Dimension::number, {.at_least = 0, .at_most = 0.67}, "0.4"};
   keys.optional("inertia_factor", factor, ball.inertia_factor);
 }
 

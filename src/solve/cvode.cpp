@@ -210,11 +210,13 @@ class CvodeStepper : public Stepper {
   // Those since the last restart, which CVODES counts.
   void add_statistics(Statistics& sum) const {
     long steps = 0, rhs = 0, jacobians = 0, iterations = 0, failures = 0;
-    CVodeGetNumSteps(memory(), &steps);
-    CVodeGetNumRhsEvals(memory(), &rhs);
-    CVodeGetNumNonlinSolvIters(memory(), &iterations);
-    CVodeGetNumErrTestFails(memory(), &failures);
-    if (method_ == Method::bdf) CVodeGetNumJacEvals(memory(), &jacobians);
+    check(CVodeGetNumSteps(memory(), &steps), "CVodeGetNumSteps");
+    check(CVodeGetNumRhsEvals(memory(), &rhs), "CVodeGetNumRhsEvals");
+    check(CVodeGetNumNonlinSolvIters(memory(), &iterations), "CVodeGetNumNonlinSolvIters");
+    check(CVodeGetNumErrTestFails(memory(), &failures), "CVodeGetNumErrTestFails");
+    if (method_ == Method::bdf) {
+      check(CVodeGetNumJacEvals(memory(), &jacobians), "CVodeGetNumJacEvals");
+    }
     const auto add = [](std::size_t& total, long part) { total += static_cast<std::size_t>(part); };
     add(sum.steps, steps);
     add(sum.rhs_evaluations, rhs);

@@ -61,9 +61,9 @@ class HybridIntegration {
       const double to = stepper_->time();
       double at = to;
       const Effect effect = scan(from, to, at, z);
-      const bool ends = effect == Effect::none && to >= grid_.end();
       const bool switches = effect == Effect::restart || (effect == Effect::none && to >= due);
-      write_rows(at, ends || !switches);
+      const bool ends = effect == Effect::none && !switches && to >= grid_.end();
+      write_rows(at, !switches);
       if (effect == Effect::stop) return ended(Ending::stopped, at);
       if (ends) return ended(Ending::done, at);
       if (switches) {
@@ -73,16 +73,16 @@ class HybridIntegration {
         if (!progressed(at)) {
           Outcome outcome = ended(Ending::failed, at);
           outcome.reason = "the rig switches without end at one instant";
-          outcome.last_state = z;
           return outcome;
         }
-        stepper_->start(at, z.data());
-        write_row_at(at, z, turned);
-        if (grid_.end() - at <= 1e-14 * std::max(1.0, at)) {  // nothing is left to integrate
-          write_row_at(grid_.end(), z, turned);
-          return ended(Ending::done, grid_.end());
+        if (run_.model().rig) {
+          stepper_->start(at, z.data());
+        } else {
+          stepper_->jump();  // of the input alone: a run that is watched is one that is not
         }
+        write_row_at(at, z, turned);
         if (run_.look(at, z.data()) == Effect::stop) return ended(Ending::stopped, at);
+        if (grid_.end() - at <= slack(at)) return ended(Ending::done, grid_.end());
         if (!guards_.empty()) arm(at, z.data());
       }
       if (watch_.stop != nullptr && watch_.stop->load(std::memory_order_relaxed)) {
@@ -98,6 +98,9 @@ class HybridIntegration {
     double slope = 0;      // from there on, 1/s
     double threshold = 0;  // fires below; 0 once it was positive
   };
+
+  // Times nearer than this are one: i * step and n * period are rounded each their own way.
+  static double slack(double t) { return 1e-14 * std::max(1.0, t); }
 
   // A hundred switches in a row that take no time are not a motion.
   bool progressed(double t) {
@@ -131,7 +134,7 @@ class HybridIntegration {
   }
 
   // The first time in (from, to] at which guard i is not above its threshold; it is at `from`, and
-  // is not at `to`. Bisection, quickened by regula falsi (Illinois).
+  // is not at `to`. Regula falsi, and a bisection after each of its steps that does not halve.
   double root(std::size_t i, double from, double to) {
     double f_from = above(i, from), f_to = above(i, to);
     bool halve = false;
@@ -263,16 +266,17 @@ class HybridIntegration {
   void write_rows(double to, bool with_it) {
     for (; next_row_ < grid_.size(); ++next_row_) {
       const double t = grid_[next_row_];
-      if (t > to || (t == to && !with_it)) break;
+      if (t > to || (!with_it && to - t <= slack(to))) break;
       double* const row = rows_.next();
       stepper_->evaluate(&t, 1, row);
       finish_row(t, row);
     }
   }
 
-  // The row at the very instant of a switch, after it; the integral of u does not jump.
-  void write_row_at(double t, const std::vector<double>& z, double turned) {
-    if (next_row_ >= grid_.size() || grid_[next_row_] != t) return;
+  // The row at the instant of a switch, after it; the integral of u does not jump.
+  void write_row_at(double at, const std::vector<double>& z, double turned) {
+    if (next_row_ >= grid_.size() || std::abs(grid_[next_row_] - at) > slack(at)) return;
+    const double t = grid_[next_row_];
     double* const row = rows_.next();
     std::copy(z.begin(), z.end(), row);
     if (plain_size_ > size_) row[size_] = turned;

@@ -30,8 +30,9 @@ class Stepper {
   // A derivative of the input jumps here, at the end of the last step.
   virtual void jump() = 0;
 
-  // The end of the last step: its time, s, and the states there.
+  // The end of the last step, s.
   [[nodiscard]] virtual double time() const = 0;
+  // After a step() that failed: the states that it started from, and which one failed it.
   [[nodiscard]] virtual std::vector<double> state() const = 0;
   [[nodiscard]] virtual std::size_t worst_state() const = 0;
   [[nodiscard]] virtual Statistics statistics() const = 0;

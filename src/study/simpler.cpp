@@ -126,10 +126,11 @@ SimplerModel compare(std::string name, std::string equation, const Trajectory& f
 
 FullModelStudy compare_simpler(const Scenario& scenario, const solve::Watch& watch) {
   const model::Model model = model::assemble(scenario, false);
-  if (model.hybrid() || model.rig) {
+  if (model.hybrid() || model.rig || !model::is_the_papers(scenario)) {
     throw InputError(scenario.source.file +
-                     ": simpler models are compared over scenes of prescribed motion or under pd, "
-                     "without events and limits; run `bbsim verify` without a scenario");
+                     ": simpler models are compared over scenes of the paper's gimbal and ball, of "
+                     "prescribed motion or under pd, without events and limits; run `bbsim verify` "
+                     "without a scenario");
   }
   const solve::OutputGrid grid(scenario.time);
   Trajectory full(model.size());

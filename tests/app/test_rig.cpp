@@ -120,6 +120,13 @@ TEST_CASE("the motors' peaks are in the summary where the plate's inertia is kno
   CHECK(motors.at("carries") == "ball and plate");
 }
 
+TEST_CASE("check says so where there are no poles") {
+  const Result result =
+      bbsim({"check", config("rig.yaml"), "--set", "controller.gravity_compensation.kv=1e308"});
+  CHECK(result.exit_code == 0);
+  CHECK(contains(result.out, "its gains are too large"));
+}
+
 TEST_CASE("accuracy says that it measures smooth scenes") {
   const Result result = bbsim({"accuracy", config("rig.yaml")});
   CHECK(result.exit_code == 2);

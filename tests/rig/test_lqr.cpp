@@ -56,6 +56,13 @@ TEST_CASE("Riccati equations with known solutions") {
   CHECK(continuous.gain(0, 0) == Approx(1).epsilon(1e-13));
   CHECK(continuous.gain(0, 1) == Approx(std::sqrt(2.0)).epsilon(1e-13));
 
+  // What nothing sees and grows has a gain, but none that stabilises.
+  MatrixXd modes(2, 2), first(2, 1), seen(2, 2);
+  modes << 0.5, 0, 0, 2;
+  first << 1, 0;
+  seen << 1, 0, 0, 0;
+  CHECK_THROWS_AS(model::solve_discrete_riccati(modes, first, seen, one(1)), InputError);
+
   // What nothing moves and does not decay has no solution.
   CHECK_THROWS_AS(model::solve_continuous_riccati(a, MatrixXd::Zero(2, 1), q, one(1)), InputError);
 }

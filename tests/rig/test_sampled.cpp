@@ -95,6 +95,17 @@ TEST_CASE("the command is held between samples, and comes its delay after them")
   CHECK(run.samples[5].command == Pair{0, 0});
 }
 
+TEST_CASE("a limit that is no multiple of the command's resolution is kept") {
+  Scenario scene = rig();
+  scene.controller->limit = 0.005;
+  scene.controller->sampling->resolution = 0.002;
+  double most = 0;
+  for (const model::Sample& sample : run_of(scene).samples) {
+    most = std::max(most, std::abs(sample.command[0]));
+  }
+  CHECK(most == 0.004);
+}
+
 TEST_CASE("a fast sampled PD tends to the continuous one") {
   // The derivative from differences is half a period late, the hold another half: the distance
   // shrinks with the period, to first order.

@@ -29,6 +29,10 @@ RigAxes<double> HybridRun::axes(double t, const double* z) const {
 HybridRun::HybridRun(const Model& model) : model_(model) {
   if (model_.rig) {
     const Rig& rig = *model_.rig;
+    // With backlash the plane rests in mid-gap, whatever the servo's rate.
+    if (rig.backlash > 0) {
+      for (AxisMode& axis : mode().axis) axis.couple = 0;
+    }
     const ServoResponse servo = with_loop([](const auto& loop) { return loop.servo(); });
     for (const double offset : rig.offset) servos_.emplace_back(rig, servo, offset);
     if (rig.switches()) {
@@ -80,14 +84,14 @@ void HybridRun::act(double t, double* z) {
   const double now = instant_end(t);
   while (next_stop_ < model_.stops.size() && model_.stops[next_stop_] <= now) ++next_stop_;
   if (sampled_) {
-    while (sampled_->expose.next() <= now) expose(t, z);
+    while (sampled_->expose.next() <= now) expose(z);
     while (sampled_->sample.next() <= now) take_sample(t, z);
     while (sampled_->apply.next() <= now) apply_command();
   }
   if (model_.rig) settle(t, z);
 }
 
-void HybridRun::expose(double, const double* z) {
+void HybridRun::expose(const double* z) {
   ++sampled_->expose.number;
   sampled_->seen.push_back(sampled_->sensor.read({z[0], z[1]}));
 }
@@ -150,22 +154,23 @@ void HybridRun::settle(double t, double* z) {
   }
 }
 
-// Whether a rate jumped.
+// Whether a servo was taken from where it was, or a rate of the plane jumped.
 bool HybridRun::settle_servos(double t, double* z) {
   const RigAxes<double> wanted = axes(t, z);
   double rate_before[2], jump[2];
-  bool jumps = false;
+  bool jumps = false, moved = false;
   for (int i = 0; i < 2; ++i) rate_before[i] = mode().axis[i].couple * z[7 + i];
   for (int i = 0; i < 2; ++i) {
     AxisState state = axis_state(i, wanted, z);
     AxisMode& axis = mode().axis[i];
     servos_[static_cast<std::size_t>(i)].settle(state, axis);
+    moved = moved || state.angle != z[5 + i] || state.rate != z[7 + i];
     z[5 + i] = state.angle;
     z[7 + i] = state.rate;
     jump[i] = axis.couple * z[7 + i] - rate_before[i];
     jumps = jumps || jump[i] != 0;
   }
-  if (!jumps) return false;
+  if (!jumps) return moved;
   const auto kick = with_loop([&](const auto& loop) { return loop.impulse(z, jump[0], jump[1]); });
   for (int i = 0; i < 3; ++i) z[2 + i] += kick[static_cast<std::size_t>(i)];
   return true;

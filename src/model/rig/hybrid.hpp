@@ -16,6 +16,8 @@ namespace bbsim::model {
 class HybridRun {
  public:
   explicit HybridRun(const Model& model);
+  HybridRun(const HybridRun&) = delete;  // servos look at this one's rig
+  HybridRun& operator=(const HybridRun&) = delete;
 
   // In the present mode. Its system's right-hand side changes with act() and fire() alone.
   [[nodiscard]] const Model& model() const { return model_; }
@@ -62,7 +64,7 @@ class HybridRun {
   bool settle_servos(double t, double* z);
   [[nodiscard]] double instant_end(double t) const;
   void settle_commands(double t, const double* z);
-  void expose(double t, const double* z);
+  void expose(const double* z);
   void take_sample(double t, const double* z);
   void apply_command();
   Effect occur(std::size_t monitor, double t, const double* z);

@@ -202,6 +202,7 @@ Eigenvalues sampled_poles(const RigLoop<>& loop, const Rig& rig) {
   }
   if (!map.allFinite()) return {};
   const Eigen::EigenSolver<MatrixXd> solver(map, false);
+  if (solver.info() != Eigen::Success) return {};
   Eigenvalues poles(solver.eigenvalues().begin(), solver.eigenvalues().end());
   std::sort(poles.begin(), poles.end(), [](const auto& a, const auto& b) {
     const double p = std::abs(a), q = std::abs(b);

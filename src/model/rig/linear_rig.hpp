@@ -27,7 +27,7 @@ struct LinearPlant {
 
 // The poles of a sampled loop about home: eigenvalues of what a period does to the plant, to what
 // is on its way through the delays, and to what the controller remembers. The loop is stable if all
-// lie within the unit circle. By falling size.
+// lie within the unit circle. By falling size; empty if the gains are too large for numbers.
 [[nodiscard]] Eigenvalues sampled_poles(const RigLoop<>& loop, const Rig& rig);
 
 }  // namespace bbsim::model

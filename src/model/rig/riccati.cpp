@@ -1,6 +1,7 @@
 #include "model/rig/riccati.hpp"
 
 #include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
@@ -30,7 +31,8 @@ MatrixXd doubled(MatrixXd a, MatrixXd g, MatrixXd h) {
     h += change;
     a = a * wa;
     if (!h.allFinite() || !g.allFinite()) break;
-    if (change.norm() <= 1e-15 * h.norm()) return (h + h.transpose()) / 2;
+    // By now a is the closed loop over 2^pass steps: it has to have died away.
+    if (change.norm() <= 1e-15 * h.norm() && a.norm() <= 1e-6) return (h + h.transpose()) / 2;
   }
   throw_no_solution();
 }
@@ -51,7 +53,7 @@ RiccatiSolution solve_continuous_riccati(const MatrixXd& a, const MatrixXd& b, c
   const MatrixXd identity = MatrixXd::Identity(a.rows(), a.cols());
   const MatrixXd g = b * r.inverse() * b.transpose();
   // Any shift beyond the eigenvalues' sizes does.
-  const double shift = 1.5 * std::max(1.0, a.lpNorm<1>() > 0 ? std::sqrt(a.norm()) : 1.0);
+  const double shift = 1.5 * std::max(1.0, a.eigenvalues().cwiseAbs().maxCoeff());
   const MatrixXd shifted = a - shift * identity;
   const MatrixXd inverse = shifted.inverse();
   const MatrixXd w = (shifted.transpose() + q * inverse * g).inverse();

@@ -30,10 +30,9 @@ std::optional<Pair> BallSensor::read(Pair position) {
   return seen;
 }
 
-void SampledController::estimate_velocity(Pair seen) {
-  const Sampling& sampling = loop_.sampling;
-  const double elapsed = (1 + unseen_) * sampling.period;
-  const double keep = sampling.derivative_filter / (sampling.derivative_filter + elapsed);
+void SampledController::estimate_velocity(Pair seen, double elapsed) {
+  const double filter = loop_.sampling.derivative_filter;
+  const double keep = filter / (filter + elapsed);
   for (std::size_t i = 0; i < 2; ++i) {
     const double difference = seen_any_ ? (seen[i] - position_[i]) / elapsed : 0;
     velocity_[i] = keep * velocity_[i] + (1 - keep) * difference;
@@ -43,8 +42,8 @@ void SampledController::estimate_velocity(Pair seen) {
   unseen_ = 0;
 }
 
-Pair SampledController::unlimited_command(const double (&servo)[4],
-                                          const std::array<Jet<double>, 2>& reference) const {
+Pair SampledController::law_output(const double (&servo)[4],
+                                   const std::array<Jet<double>, 2>& reference) const {
   const RigLaw& law = loop_.law;
   Pair u{0, 0};
   for (std::size_t i = 0; i < 2; ++i) {
@@ -75,9 +74,10 @@ Pair SampledController::command(const std::optional<Pair>& seen, const double (&
     ++unseen_;
     return command_;
   }
-  const double elapsed = (1 + unseen_) * loop_.sampling.period;
-  estimate_velocity(*seen);
-  const Pair before = unlimited_command(servo, reference);
+  // Since it last saw the ball; nothing was seen before the first time.
+  const double elapsed = (seen_any_ ? 1 + unseen_ : 1) * loop_.sampling.period;
+  estimate_velocity(*seen, elapsed);
+  const Pair before = law_output(servo, reference);
   bool integrates = false;
   for (std::size_t j = 0; j < 2; ++j) {
     const double e = reference[j].value - position_[j];
@@ -89,10 +89,14 @@ Pair SampledController::command(const std::optional<Pair>& seen, const double (&
     }
     if (!grows_beyond) integral_[j] += e * elapsed;
   }
-  const Pair after = integrates ? unlimited_command(servo, reference) : before;
+  // The largest step of the command that the limit lets through.
+  const double step = loop_.sampling.resolution;
+  const double most = step > 0 && loop_.limit < unlimited
+                          ? std::floor(loop_.limit / step * (1 + 1e-12)) * step
+                          : loop_.limit;
+  const Pair after = integrates ? law_output(servo, reference) : before;
   for (std::size_t i = 0; i < 2; ++i) {
-    command_[i] =
-        rounded_to(std::clamp(after[i], -loop_.limit, loop_.limit), loop_.sampling.resolution);
+    command_[i] = rounded_to(std::clamp(after[i], -most, most), step);
   }
   return command_;
 }

@@ -39,9 +39,9 @@ class SampledController {
   [[nodiscard]] Pair last_seen() const { return position_; }
 
  private:
-  void estimate_velocity(Pair seen);
-  [[nodiscard]] Pair unlimited_command(const double (&servo)[4],
-                                       const std::array<Jet<double>, 2>& reference) const;
+  void estimate_velocity(Pair seen, double elapsed);
+  [[nodiscard]] Pair law_output(const double (&servo)[4],
+                                const std::array<Jet<double>, 2>& reference) const;
 
   SampledLoop loop_;
   bool seen_any_ = false;
