@@ -204,6 +204,7 @@ class HybridIntegration {
     if (guards_.empty()) return Effect::none;
     const std::size_t points = stepper_->detail();
     double last = from;  // looked at
+    int stuck = 0;
     for (std::size_t p = 1; p <= points;) {
       const double here =
           p == points ? to
@@ -241,6 +242,15 @@ class HybridIntegration {
           guards_[i].value = now_[i];
           if (now_[i] > 1e-12 * run_.guard_scales()[i]) guards_[i].threshold = 0;
         }
+        last = here;
+        ++p;
+        continue;
+      }
+      // The rounding of a late time can make a guard fall again and again at one instant.
+      stuck = first_time - last <= 10 * slack(last) ? stuck + 1 : 0;
+      if (stuck > 8) {
+        state_at(here, z);
+        arm(here, z.data());
         last = here;
         ++p;
         continue;

@@ -204,3 +204,17 @@ TEST_CASE("a one-axis tilt at a constant rate from rest: the closed form, at any
     CHECK(sample.ball.y == 0);
   }
 }
+
+TEST_CASE("a watched motion that leaves the range of doubles ends with a reason") {
+  // Rocking throws the ball out; its margins reach 1e300 before its position does.
+  Scenario scene = fig2a();
+  scene.ball.radius = 0.02;
+  scene.ball.position = {0, 0};
+  scene.gimbal.motion = {{Sinusoid{0.1, 200, 0, 0}}, {}};
+  scene.events.slip = SlipEvent{0.02, OnEvent::note};
+  scene.time = {100, 1};
+  const Run run = run_in_memory(scene, Method::automatic, {1e-8, 1e-10});
+  CHECK(run.outcome.ending == solve::Ending::failed);
+  CHECK(run.outcome.reached > 50);
+  CHECK_FALSE(run.outcome.reason.empty());
+}
