@@ -125,7 +125,7 @@ Model assemble(const Scenario& scenario, bool gamma) {
     const double r = scenario.ball.radius, g = scenario.gravity;
     if (needs_rig(scenario)) {
       const auto keep = [&rig](auto built) -> System {
-        rig = std::move(built.rig);
+        rig = built.rig;
         return std::move(built.loop);
       };
       return integrates_error(scenario) ? keep(assemble_rig<true>(scenario, std::move(input)))

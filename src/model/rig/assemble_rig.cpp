@@ -110,7 +110,7 @@ AssembledRig<integrates> assemble_rig(const Scenario& scene, SignalPair referenc
   for (std::size_t i = 0; i < 2; ++i) mode.axis[i].held = rig.offset[i];
   return {RigLoop<integrates>(scene.ball.radius, scene.gravity, general_rolling(scene), continuous,
                               servo, std::move(reference), mode),
-          std::move(rig)};
+          rig};
 }
 
 template AssembledRig<false> assemble_rig<false>(const Scenario&, SignalPair);
