@@ -115,8 +115,8 @@ class HybridIntegration {
     run_.evaluate_guards(t, z, values_.data());
     for (std::size_t i = 0; i < guards_.size(); ++i) {
       guards_[i].value = values_[i];
-      const double slack = 1e-12 * run_.guard_scales()[i];
-      guards_[i].threshold = values_[i] > slack ? 0 : std::min(0.0, values_[i]) - slack;
+      const double clearly = 1e-12 * run_.guard_scales()[i];
+      guards_[i].threshold = values_[i] > clearly ? 0 : std::min(0.0, values_[i]) - clearly;
     }
   }
 
@@ -204,7 +204,6 @@ class HybridIntegration {
     if (guards_.empty()) return Effect::none;
     const std::size_t points = stepper_->detail();
     double last = from;  // looked at
-    int stuck = 0;
     for (std::size_t p = 1; p <= points;) {
       const double here =
           p == points ? to
@@ -224,7 +223,8 @@ class HybridIntegration {
       std::size_t first = guards_.size();
       double first_time = here;
       for (std::size_t i = 0; i < guards_.size(); ++i) {
-        if (now_[i] == std::numeric_limits<double>::infinity()) continue;  // not looked out for
+        // Infinite: not looked out for. No number: the motion overflows, which is for the stepper to say.
+        if (!std::isfinite(now_[i])) continue;
         double low = here;
         if (now_[i] > guards_[i].threshold) {
           if (!may_dip(guards_[i], now_[i], (now_[i] - near_[i]) / nudge, width)) continue;
@@ -242,15 +242,6 @@ class HybridIntegration {
           guards_[i].value = now_[i];
           if (now_[i] > 1e-12 * run_.guard_scales()[i]) guards_[i].threshold = 0;
         }
-        last = here;
-        ++p;
-        continue;
-      }
-      // The rounding of a late time can make a guard fall again and again at one instant.
-      stuck = first_time - last <= 10 * slack(last) ? stuck + 1 : 0;
-      if (stuck > 8) {
-        state_at(here, z);
-        arm(here, z.data());
         last = here;
         ++p;
         continue;
