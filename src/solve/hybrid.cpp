@@ -223,7 +223,8 @@ class HybridIntegration {
       std::size_t first = guards_.size();
       double first_time = here;
       for (std::size_t i = 0; i < guards_.size(); ++i) {
-        // Infinite: not looked out for. No number: the motion overflows, which is for the stepper to say.
+        // Infinite: not looked out for. No number: the motion overflows, which is for the stepper
+        // to say.
         if (!std::isfinite(now_[i])) continue;
         double low = here;
         if (now_[i] > guards_[i].threshold) {
