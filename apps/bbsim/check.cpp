@@ -7,6 +7,7 @@
 
 #include "commands.hpp"
 #include "describe.hpp"
+#include "model/explain.hpp"
 #include "record/recorder.hpp"
 #include "scenario/reader.hpp"
 #include "solve/choose.hpp"
@@ -105,7 +106,9 @@ ExitCode check(const ScenarioArguments& arguments) {
   print_line("scenario", arguments.file + " is valid");
   if (!scenario.title.empty()) print_line("title", scenario.title);
   print_line("model", states_line(model));
-  for (const model::Note& note : model.notes) print_line("  " + note.part, note.reason);
+  for (const model::Note& note : model::explain(scenario, model)) {
+    print_line("  " + note.part, note.reason);
+  }
 
   std::string names;
   for (const std::string& name : scenario.output.columns) names += " " + name;

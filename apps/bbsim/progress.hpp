@@ -1,4 +1,5 @@
-// A progress bar on a terminal, for anything that takes over a second.
+// A progress bar on a terminal, for anything that takes over a second; elsewhere, where asked for,
+// a line a minute.
 #pragma once
 
 #include <chrono>
@@ -8,14 +9,15 @@ namespace bbsim::app {
 
 class Progress {
  public:
-  // Draws on standard error if that is a terminal and `quiet` is not set.
-  Progress(std::string label, bool quiet);
+  // Draws on standard error if that is a terminal and `quiet` is not set; a line a minute where it
+  // is none, if `lines` is set.
+  Progress(std::string label, bool quiet, bool lines = false);
   ~Progress();
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
 
-  // `fraction` in [0, 1]. Cheap: it draws at most ten times a second.
-  void update(double fraction);
+  // `fraction` in [0, 1]; `detail` follows it. Cheap: it draws at most ten times a second.
+  void update(double fraction, const std::string& detail = "");
 
   // Takes the bar away, so that messages start on a line of their own.
   void clear();
@@ -23,7 +25,7 @@ class Progress {
  private:
   using Clock = std::chrono::steady_clock;
   std::string label_;
-  bool on_;
+  bool bar_, lines_;
   bool drawn_ = false;
   Clock::time_point start_, last_;
 };

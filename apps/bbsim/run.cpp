@@ -9,6 +9,7 @@
 
 #include "commands.hpp"
 #include "describe.hpp"
+#include "model/explain.hpp"
 #include "model/model.hpp"
 #include "progress.hpp"
 #include "record/recorder.hpp"
@@ -131,7 +132,7 @@ record::RunSummary summarise(const Scenario& scenario, const model::Model& model
   summary.rows = outcome.rows;
   summary.output = output;
   summary.states = model.state_names();
-  for (const model::Note& note : model.notes) {
+  for (const model::Note& note : model::explain(scenario, model)) {
     summary.model_notes.push_back(note.part + ": " + note.reason);
   }
   summary.method = solve::method_name(outcome.method);

@@ -2,7 +2,6 @@
 #include <cmath>
 #include <utility>
 
-#include "model/explain.hpp"
 #include "model/model.hpp"
 #include "model/reference_path.hpp"
 #include "model/rig/assemble_rig.hpp"
@@ -41,14 +40,14 @@ Shape choose_shape(const Scenario& scene, const SignalPair& input) {
 template <Drives drives>
 System closed_loop(Shape shape, const Scenario& scene, SignalPair path) {
   const Controller& controller = *scene.controller;
-  Gains gains;
+  Gains gains{};
   for (std::size_t row = 0; row < 2; ++row) {
     for (std::size_t column = 0; column < 2; ++column) {
       gains.kv[row][column] = controller.kv[row][column];
       gains.kp[row][column] = controller.kp[row][column];
     }
   }
-  ServoLaw servo;
+  ServoLaw servo{};
   if (scene.gimbal.servo) {
     servo = {scene.gimbal.servo->natural_frequency, scene.gimbal.servo->damping};
   }
@@ -143,13 +142,11 @@ Model assemble(const Scenario& scenario, bool gamma) {
     }
     return closed_loop<Drives::acceleration>(shape, scenario, std::move(input));
   };
-  std::vector<Note> notes = explain(scenario, shape, gamma, stops.size());
   Model model{system(),
               initial_state(scenario, shape),
               gamma && shape == Shape::full,
               scenario.ball.radius,
               std::move(stops),
-              std::move(notes),
               std::move(rig)};
   Watchlist watched = watchlist(scenario);
   if (!watched.monitors.empty()) model.watched = std::move(watched);

@@ -69,6 +69,7 @@ Dynamics dynamics(const Sample& sample, const BallConstants& constants) {
   result.plate_torque_theta = theta_axis.dot(plate_moment);
 
   result.tilt = std::atan2(std::hypot(up.x(), up.y()), up.z());
+  result.tilt_rate = omega.norm();
   const Axis<double> still_phi{sin_phi, cos_phi, 0, 0}, still_theta{s, c, 0, 0};
   const Vector3d rest = relative(still_phi, still_theta);
   const Vector3d by_phi = relative({sin_phi, cos_phi, 0, 1}, still_theta) - rest;

@@ -25,6 +25,7 @@ struct Dynamics {
   double plate_torque_phi = 0;    // motor torque that turns the plate itself, N m
   double plate_torque_theta = 0;  // N m
   double tilt = 0;                // between the plane's normal and the vertical, rad
+  double tilt_rate = 0;           // size of the plane's angular velocity, rad/s
   // Of the coefficients of (phi'', theta'') in (x'', y''), the determinant over r^2, its size: 0
   // where they cannot be solved for. |7 r cos theta + 5 y sin theta| / (7 r): (28), (29).
   double singularity_distance = 0;

@@ -1,8 +1,11 @@
 #include "model/explain.hpp"
 
+#include <algorithm>
 #include <cstdio>
 #include <numbers>
 #include <string>
+#include <type_traits>
+#include <variant>
 
 #include "model/rig/assemble_rig.hpp"
 
@@ -176,7 +179,12 @@ std::string without(const Scenario& scene) {
 
 }  // namespace
 
-std::vector<Note> explain(const Scenario& scene, Shape shape, bool gamma, std::size_t stops) {
+std::vector<Note> explain(const Scenario& scene, const Model& model) {
+  const Shape shape = std::visit(
+      [](const auto& system) { return std::decay_t<decltype(system)>::moves; }, model.system);
+  const auto& columns = scene.output.columns;
+  const bool gamma = std::find(columns.begin(), columns.end(), "gamma") != columns.end();
+  const std::size_t stops = model.stops.size();
   std::vector<Note> notes;
   const auto note = [&notes](const char* part, std::string reason) {
     if (!reason.empty()) notes.push_back({part, std::move(reason)});

@@ -1,14 +1,19 @@
 // What is modelled of a scene and what is not, and why: for `bbsim check` and the summary.
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "model/model.hpp"
 
 namespace bbsim::model {
 
-// `stops` is the number of times within the run that no step goes over.
-[[nodiscard]] std::vector<Note> explain(const Scenario& scene, Shape shape, bool gamma,
-                                        std::size_t stops);
+// A part of the physics that the scene has, or does without, and why.
+struct Note {
+  std::string part, reason;
+};
+
+// `model` is what assemble() made of the scene.
+[[nodiscard]] std::vector<Note> explain(const Scenario& scene, const Model& model);
 
 }  // namespace bbsim::model

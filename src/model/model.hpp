@@ -23,18 +23,12 @@ using System = std::variant<
     ClosedLoop<Shape::along_x, Drives::angle>, ClosedLoop<Shape::along_y, Drives::angle>,
     OpenLoop<Shape::full, SignalPair, GeneralRolling>, RigLoop<false>, RigLoop<true>>;
 
-// A part of the physics that the scene has, or does without, and why.
-struct Note {
-  std::string part, reason;
-};
-
 struct Model {
   System system;
   std::vector<double> initial;  // states at t = 0, as the system packs them
   bool gamma = false;           // integrate gamma' beside the states
   double radius = 0;            // m
   std::vector<double> stops;    // times in (0, end) at which a derivative of the input jumps, s
-  std::vector<Note> notes;      // for `bbsim check` and the summary
   std::optional<Rig> rig{};     // of a RigLoop
   std::optional<Watchlist> watched{};  // there if something is
 

@@ -48,12 +48,13 @@ template <class Real>
 
 // The three rows of equation (27), solved for x'' (m/s^2), y'' (m/s^2) and u' = r gamma'' (m/s^2).
 //
-// r is the ball's radius (m) and g is gravity (m/s^2). Real is the type of the result: double,
-// a dual number, a pack of lanes, a 128-bit float; the arguments may be any types that combine
-// to it, Zero and One among them.
-template <class Real, class Phi, class Theta, class Ball>
+// r is the ball's radius (m) and g is gravity (m/s^2), of type Scalar: a double, or a pack of them
+// with another ball in each lane. Real is the type of the result: double, a dual number, a pack of
+// lanes, a 128-bit float; the arguments may be any types that combine to it, Zero and One among
+// them.
+template <class Real, class Phi, class Theta, class Ball, class Scalar>
 [[nodiscard]] inline Real x_acceleration(const Phi& phi, const Theta& theta, const Ball& ball,
-                                         double r, double g) {
+                                         const Scalar& r, const Scalar& g) {
   return (5 * g * phi.sin                                                             //
           - (7 * r * theta.cos + 5 * ball.y * theta.sin) * phi.acceleration           //
           + 5 * ball.x * (phi.rate * phi.rate)                                        //
@@ -62,9 +63,9 @@ template <class Real, class Phi, class Theta, class Ball>
          7;
 }
 
-template <class Real, class Phi, class Theta, class Ball>
+template <class Real, class Phi, class Theta, class Ball, class Scalar>
 [[nodiscard]] inline Real y_acceleration(const Phi& phi, const Theta& theta, const Ball& ball,
-                                         double r, double g) {
+                                         const Scalar& r, const Scalar& g) {
   return (5 * ball.x * theta.sin * phi.acceleration + 7 * r * theta.acceleration          //
           + 5 * (ball.y * theta.sin + r * theta.cos) * theta.sin * (phi.rate * phi.rate)  //
           + 5 * ball.y * (theta.rate * theta.rate)                                        //
@@ -73,9 +74,9 @@ template <class Real, class Phi, class Theta, class Ball>
          7;
 }
 
-template <class Real, class Phi, class Theta, class Ball>
+template <class Real, class Phi, class Theta, class Ball, class Scalar>
 [[nodiscard]] inline Real u_acceleration(const Phi& phi, const Theta& theta, const Ball& ball,
-                                         double r) {
+                                         const Scalar& r) {
   return r * (theta.sin * phi.acceleration + theta.cos * (phi.rate * theta.rate))  //
          - (theta.rate * ball.x_dot + theta.cos * phi.rate * ball.y_dot);
 }

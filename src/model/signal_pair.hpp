@@ -11,11 +11,14 @@
 
 namespace bbsim::model {
 
-// A sinusoid of both components: sine[i] sin(frequency t) + cosine[i] cos(frequency t).
-struct Harmonic {
-  double frequency;  // rad/s
-  double sine[2], cosine[2];
+// A sinusoid of both components: sine[i] sin(frequency t) + cosine[i] cos(frequency t). Scalar,
+// here and below, is a double, or a pack of them with other signals in each lane.
+template <class Scalar>
+struct BasicHarmonic {
+  Scalar frequency;  // rad/s
+  Scalar sine[2], cosine[2];
 };
+using Harmonic = BasicHarmonic<double>;
 
 // A spline of one component: a table, or a path past waypoints.
 struct Tabulated {
@@ -27,9 +30,10 @@ struct Tabulated {
 //
 // Plain arrays and no library calls, so that code for one instruction set stays apart from the
 // rest of the program.
-struct SignalView {
-  double start[2], rate[2];
-  const Harmonic* harmonics;
+template <class Scalar>
+struct BasicSignalView {
+  Scalar start[2], rate[2];
+  const BasicHarmonic<Scalar>* harmonics;
   std::size_t harmonic_count;
   const Tabulated* tables;
   std::size_t table_count;
@@ -42,8 +46,8 @@ struct SignalView {
       jets[i] = {start[i] + rate[i] * t, Time(rate[i]), Time(0.0)};
     }
     for (std::size_t k = 0; k < harmonic_count; ++k) {
-      const Harmonic& harmonic = harmonics[k];
-      const double w = harmonic.frequency;
+      const BasicHarmonic<Scalar>& harmonic = harmonics[k];
+      const Scalar w = harmonic.frequency;
       const SinCos<Time> wave = sin_cos(Time(w * t));
       for (std::size_t i = 0; i < 2; ++i) {
         const Time value = harmonic.sine[i] * wave.sin + harmonic.cosine[i] * wave.cos;
@@ -62,6 +66,8 @@ struct SignalView {
     return jets;
   }
 };
+
+using SignalView = BasicSignalView<double>;
 
 // A sum of constants, ramps, sinusoids and splines on each of two components.
 //

@@ -40,16 +40,18 @@ struct Motions {
 // The ball's equation of motion, a parameter of the systems below: (27), or a simpler one to be
 // measured against it (model/simpler.hpp).
 struct Equation27 {
-  template <class Real, class Phi, class Theta, class Ball>
-  static Real x(const Phi& phi, const Theta& theta, const Ball& ball, double r, double g) {
+  template <class Real, class Phi, class Theta, class Ball, class Scalar>
+  static Real x(const Phi& phi, const Theta& theta, const Ball& ball, const Scalar& r,
+                const Scalar& g) {
     return x_acceleration<Real>(phi, theta, ball, r, g);
   }
-  template <class Real, class Phi, class Theta, class Ball>
-  static Real y(const Phi& phi, const Theta& theta, const Ball& ball, double r, double g) {
+  template <class Real, class Phi, class Theta, class Ball, class Scalar>
+  static Real y(const Phi& phi, const Theta& theta, const Ball& ball, const Scalar& r,
+                const Scalar& g) {
     return y_acceleration<Real>(phi, theta, ball, r, g);
   }
-  template <class Real, class Phi, class Theta, class Ball>
-  static Real u(const Phi& phi, const Theta& theta, const Ball& ball, double r) {
+  template <class Real, class Phi, class Theta, class Ball, class Scalar>
+  static Real u(const Phi& phi, const Theta& theta, const Ball& ball, const Scalar& r) {
     return u_acceleration<Real>(phi, theta, ball, r);
   }
 };
@@ -68,9 +70,9 @@ struct BallLayout<Shape::full> {
   static RollingState<Real, Real, Real> unpack(const Real* z) {
     return {z[0], z[1], z[2], z[3], z[4]};
   }
-  template <class Real, class Equation, class Phi, class Theta, class Ball>
+  template <class Real, class Equation, class Phi, class Theta, class Ball, class Scalar>
   static void derivative(const Equation& equation, const Phi& phi, const Theta& theta,
-                         const Ball& ball, double r, double g, Real* dz) {
+                         const Ball& ball, const Scalar& r, const Scalar& g, Real* dz) {
     dz[0] = ball.x_dot;
     dz[1] = ball.y_dot;
     if constexpr (requires { equation.template rates<Real>(phi, theta, ball, r, g); }) {
@@ -96,9 +98,9 @@ struct BallLayout<Shape::along_x> {
   static RollingState<Real, Zero, Zero> unpack(const Real* z) {
     return {z[0], {}, z[1], {}, {}};
   }
-  template <class Real, class Equation, class Phi, class Theta, class Ball>
+  template <class Real, class Equation, class Phi, class Theta, class Ball, class Scalar>
   static void derivative(const Equation& equation, const Phi& phi, const Theta& theta,
-                         const Ball& ball, double r, double g, Real* dz) {
+                         const Ball& ball, const Scalar& r, const Scalar& g, Real* dz) {
     dz[0] = ball.x_dot;
     dz[1] = equation.template x<Real>(phi, theta, ball, r, g);
   }
@@ -114,9 +116,9 @@ struct BallLayout<Shape::along_y> {
   static RollingState<Zero, Real, Zero> unpack(const Real* z) {
     return {{}, z[0], {}, z[1], {}};
   }
-  template <class Real, class Equation, class Phi, class Theta, class Ball>
+  template <class Real, class Equation, class Phi, class Theta, class Ball, class Scalar>
   static void derivative(const Equation& equation, const Phi& phi, const Theta& theta,
-                         const Ball& ball, double r, double g, Real* dz) {
+                         const Ball& ball, const Scalar& r, const Scalar& g, Real* dz) {
     dz[0] = ball.y_dot;
     dz[1] = equation.template y<Real>(phi, theta, ball, r, g);
   }
@@ -208,16 +210,20 @@ class OpenLoop {
   [[no_unique_address]] Equation equation_;
 };
 
-// Proportional and derivative gains, rows phi, theta; columns x, y: equation (31).
-struct Gains {
-  double kv[2][2] = {}, kp[2][2] = {};
+// Proportional and derivative gains, rows phi, theta; columns x, y: equation (31). Scalar, here and
+// below, is that of rolling.hpp: a pack of doubles holds another loop in each lane.
+template <class Scalar>
+struct BasicGains {
+  Scalar kv[2][2], kp[2][2];
 };
+using Gains = BasicGains<double>;
 
 // One axis of the gimbal under control. Its acceleration is
 //     acceleration drive:  u                                         equation (31)
 //     angle drive:         omega_n^2 (u - angle) - 2 zeta omega_n angle'   a position servo
-struct ServoLaw {
-  double omega_n = 0, zeta = 0;
+template <class Scalar>
+struct BasicServoLaw {
+  Scalar omega_n, zeta;
 
   template <Drives drives, class Real>
   [[nodiscard]] Real acceleration(const Real& u, const Real& angle, const Real& rate) const {
@@ -228,9 +234,11 @@ struct ServoLaw {
     }
   }
 };
+using ServoLaw = BasicServoLaw<double>;
 
 // A controller moves the gimbal: angles and rates are states, after those of the ball.
-template <Shape shape, Drives drives, class Signals = SignalPair, class Equation = Equation27>
+template <Shape shape, Drives drives, class Signals = SignalPair, class Equation = Equation27,
+          class Scalar = double>
 class ClosedLoop {
  public:
   using Layout = BallLayout<shape>;
@@ -251,7 +259,8 @@ class ClosedLoop {
     return all;
   }();
 
-  ClosedLoop(double radius, double gravity, const Gains& gains, ServoLaw servo, Signals reference)
+  ClosedLoop(Scalar radius, Scalar gravity, const BasicGains<Scalar>& gains,
+             BasicServoLaw<Scalar> servo, Signals reference)
       : r_(radius), g_(gravity), gains_(gains), servo_(servo), reference_(std::move(reference)) {}
 
   // The reference and its derivatives.
@@ -338,9 +347,9 @@ class ClosedLoop {
     }
   }
 
-  double r_, g_;
-  Gains gains_;
-  ServoLaw servo_;
+  Scalar r_, g_;
+  BasicGains<Scalar> gains_;
+  BasicServoLaw<Scalar> servo_;
   Signals reference_;
   [[no_unique_address]] Equation equation_{};
 };

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 namespace bbsim::record {
 namespace {
@@ -14,6 +15,8 @@ constexpr std::array columns = {
            [](R row) { return row.sample.ball.x; }},
     Column{"y", "m", "contact point along the plane's y axis", Needs::state,
            [](R row) { return row.sample.ball.y; }},
+    Column{"distance", "m", "distance of the contact point from the plane's origin", Needs::state,
+           [](R row) { return std::hypot(row.sample.ball.x, row.sample.ball.y); }},
     Column{"vx", "m/s", "velocity of the contact point in the plane, x'", Needs::state,
            [](R row) { return row.sample.ball.x_dot; }},
     Column{"vy", "m/s", "velocity of the contact point in the plane, y'", Needs::state,
@@ -38,6 +41,12 @@ constexpr std::array columns = {
            [](R row) { return row.sample.reference[0]; }},
     Column{"y_reference", "m", "where the controller wants y", Needs::reference,
            [](R row) { return row.sample.reference[1]; }},
+    Column{"tracking_error", "m", "distance of the contact point from where the controller wants it",
+           Needs::reference,
+           [](R row) {
+             const model::Sample& now = row.sample;
+             return std::hypot(now.ball.x - now.reference[0], now.ball.y - now.reference[1]);
+           }},
     Column{"phi_command", "rad",
            "command that the servo of phi follows (rad/s^2 if accelerations are driven)",
            Needs::reference, [](R row) { return row.sample.command[0]; }},
@@ -50,6 +59,8 @@ constexpr std::array columns = {
            [](R row) { return row.sample.measured[1]; }},
     Column{"tilt", "rad", "angle between the plane's normal and the vertical", Needs::dynamics,
            [](R row) { return row.dynamics->tilt; }},
+    Column{"tilt_rate", "rad/s", "size of the plane's angular velocity", Needs::dynamics,
+           [](R row) { return row.dynamics->tilt_rate; }},
     Column{"singularity_distance", "1",
            "how far from where no gimbal accelerations give the ball any acceleration wanted: 0 "
            "there, 1 at home on the paper's gimbal",

@@ -15,4 +15,8 @@ namespace bbsim::input {
 [[nodiscard]] const Node* apply_override(std::string_view assignment, int source, const Node& root,
                                          Nodes& nodes);
 
+// The same, of a key's path and its value apart.
+[[nodiscard]] const Node* apply_override(std::string_view path, std::string_view value, int source,
+                                         const Node& root, Nodes& nodes);
+
 }  // namespace bbsim::input

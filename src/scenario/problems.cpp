@@ -54,8 +54,10 @@ void Problems::add(const Position& position, std::string message) {
 
 std::string Problems::where(const Position& position) const {
   if (position.source > 0) {
-    return "--set " +
-           shown(overrides_[static_cast<std::size_t>(position.source - 1)], longest_override);
+    const auto i = static_cast<std::size_t>(position.source - 1);
+    return i < overrides_.size()
+               ? "--set " + shown(overrides_[i], longest_override)
+               : "with " + shown(settings_[i - overrides_.size()], longest_override);
   }
   return name_ + ':' + std::to_string(position.line) + ':' +
          std::to_string(character_column(text_, position));

@@ -14,9 +14,13 @@ namespace bbsim::input {
 class Problems {
  public:
   // `name` stands for the file in messages; `text` is its content, without a byte order
-  // mark, for columns.
-  Problems(std::string name, std::string_view text, std::vector<std::string> overrides)
-      : name_(std::move(name)), text_(text), overrides_(std::move(overrides)) {}
+  // mark, for columns. After the overrides come the `settings` of one case of a sweep.
+  Problems(std::string name, std::string_view text, std::vector<std::string> overrides,
+           std::vector<std::string> settings = {})
+      : name_(std::move(name)),
+        text_(text),
+        overrides_(std::move(overrides)),
+        settings_(std::move(settings)) {}
 
   void add(const Position& position, std::string message);
 
@@ -33,7 +37,7 @@ class Problems {
 
   std::string name_;
   std::string_view text_;
-  std::vector<std::string> overrides_;
+  std::vector<std::string> overrides_, settings_;
   std::vector<Located> problems_;
 };
 

@@ -9,9 +9,7 @@
 #include "scenario/text_file.hpp"
 
 namespace bbsim {
-namespace {
-
-using namespace input;
+namespace input {
 
 // `time` stands before `gimbal`, whose tables must cover the run.
 void read_sections(Keys& keys, Scenario& scenario) {
@@ -25,11 +23,11 @@ void read_sections(Keys& keys, Scenario& scenario) {
   keys.section("events", read_events, scenario.events);
   keys.section("solver", read_solver, scenario.solver);
   keys.section("output", read_output, scenario.output);
+  keys.section("sweep", read_sweep, scenario.sweep);
   check_loop(keys);
   check_rig(keys, scenario);
 }
 
-// The tree of the file with all overrides applied, or nullptr if the file holds none.
 const Node* build_tree(const Source& source, Problems& problems, Nodes& nodes) {
   const Node* root = nullptr;
   try {
@@ -51,7 +49,9 @@ const Node* build_tree(const Source& source, Problems& problems, Nodes& nodes) {
   return root;
 }
 
-}  // namespace
+}  // namespace input
+
+using namespace input;
 
 Scenario parse_scenario(const std::string& text, const std::string& name,
                         const std::vector<std::string>& overrides) {

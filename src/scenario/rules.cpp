@@ -31,6 +31,7 @@ bool Number::read(const Value& value, double& into) const {
   if (!quantity.value) return value.refuse(quantity.fault, allowed());
   if (!range.holds(*quantity.value)) return value.refuse("", allowed());
   into = *quantity.value;
+  value.note(into);
   return true;
 }
 
@@ -114,6 +115,7 @@ bool GainMatrix::read(const Value& value, Matrix2& into) const {
     const Quantity quantity = read_quantity(node.text, node.quoted, Dimension::number);
     if (!quantity.value) return value.refuse(quantity.fault, allowed());
     into = {{{*quantity.value, 0}, {0, *quantity.value}}};
+    value.note(*quantity.value);
     return true;
   }
   if (node.kind != Node::Kind::sequence || node.items.size() != into.size()) {

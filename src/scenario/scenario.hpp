@@ -240,6 +240,22 @@ struct Output {
   std::vector<std::string> columns{"t", "x", "y", "gamma", "phi", "theta"};
 };
 
+// How one key of the scenario varies over a sweep, as the user wrote it: "linear:0.01:0.05:9".
+struct Variation {
+  std::string key, spec;
+};
+
+enum class Combine { grid, zip };
+
+// Many runs of the scene (`bbsim sweep`); a single run takes no notice.
+struct Sweep {
+  std::vector<Variation> vary;
+  Combine combine = Combine::grid;     // of the keys whose values are listed, not drawn
+  std::optional<double> samples{};     // cases drawn, where a key's values are; whole
+  double seed = 1;                     // of what is drawn; whole
+  std::vector<std::string> measure{};  // empty: those of bbsim sweep --help
+};
+
 // Where a scenario came from, kept for the metadata of its results.
 struct Source {
   std::string file;                    // as the user named it
@@ -258,6 +274,7 @@ struct Scenario {
   OutputTimes time;
   Solver solver;
   Output output;
+  Sweep sweep;
   Source source;
 };
 

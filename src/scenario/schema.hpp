@@ -12,6 +12,8 @@
 
 #include <filesystem>
 #include <map>
+#include <memory>
+#include <mutex>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -23,12 +25,20 @@
 
 namespace bbsim::input {
 
+// The table files read so far, by path; scenarios of one family share them, over threads.
+struct Tables {
+  std::mutex mutex;
+  std::map<std::string, record::TableData> by_file;  // under the mutex; a table once read stays
+};
+
 // What reading a scenario shares.
 struct Context {
   Problems& problems;
-  std::filesystem::path folder;                       // where table files are
-  std::optional<double> end{};                        // time.end, s, once it is read
-  std::map<std::string, record::TableData> tables{};  // read so far, by file
+  std::filesystem::path folder;  // where table files are
+  std::optional<double> end{};   // time.end, s, once it is read
+  std::shared_ptr<Tables> tables = std::make_shared<Tables>();
+  // Where each single number goes that is read, if somebody asks: its key's path, and its value.
+  std::map<std::string, double>* numbers = nullptr;
 };
 
 // A node on its way into the scenario.
@@ -45,6 +55,11 @@ struct Value {
   bool refuse(std::string_view remark, std::string_view allowed) const;
   // Reports "path: <message>" at the node. Returns false.
   bool report(std::string_view message) const;
+
+  // Says that a single number was read here, in SI units.
+  void note(double number) const {
+    if (context->numbers != nullptr) (*context->numbers)[path] = number;
+  }
 };
 
 class Keys {

@@ -15,6 +15,14 @@ void read_controller(Keys& keys, Controller& controller);
 void read_reference(Keys& keys, Reference& reference);
 void read_solver(Keys& keys, Solver& solver);
 void read_output(Keys& keys, Output& output);
+void read_sweep(Keys& keys, Sweep& sweep);
+
+// All of them.
+void read_sections(Keys& keys, Scenario& scenario);
+
+// The tree of a scenario's text with all overrides applied; nullptr, with the problems reported, if
+// the text holds none.
+[[nodiscard]] const Node* build_tree(const Source& source, Problems& problems, Nodes& nodes);
 
 // What must hold between the sections: whether a controller or a prescribed motion moves the
 // gimbal, and what may stand beside each.

@@ -17,8 +17,10 @@ constexpr std::size_t fewest_rows = 4;  // of a C2 interpolant without end condi
 const record::TableData* load(const Value& file, const std::string& name) {
   Context& context = *file.context;
   const std::filesystem::path path = context.folder / name;
-  const auto known = context.tables.find(path.string());
-  if (known != context.tables.end()) return &known->second;
+  const std::lock_guard lock(context.tables->mutex);
+  auto& tables = context.tables->by_file;
+  const auto known = tables.find(path.string());
+  if (known != tables.end()) return &known->second;
 
   std::error_code error;
   if (std::filesystem::exists(path, error) && !std::filesystem::is_regular_file(path, error)) {
@@ -26,7 +28,7 @@ const record::TableData* load(const Value& file, const std::string& name) {
     return nullptr;
   }
   try {
-    return &context.tables.emplace(path.string(), record::read_table(path.string())).first->second;
+    return &tables.emplace(path.string(), record::read_table(path.string())).first->second;
   } catch (const InputError& e) {
     for (const Problem& problem : e.problems()) {
       const std::string where = problem.where.empty() ? "" : problem.where + ": ";

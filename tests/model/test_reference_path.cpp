@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "catch.hpp"
+#include "model/explain.hpp"
 #include "model/model.hpp"
 #include "model/reference_path.hpp"
 #include "random_states.hpp"
@@ -225,8 +226,9 @@ TEST_CASE("the knots of a reference path inside the scene are stops") {
   scene.controller->reference = WaypointReference{corners, hours, GENERATE(false, true)};
   const Model model = assemble(scene, false);
   CHECK(model.stops == std::vector<double>{1, 2, 2.5});
-  REQUIRE(model.notes.back().part == "stops");
-  CHECK(model.notes.back().reason == "3 knots of the reference path, none stepped over");
+  const std::vector<Note> notes = explain(scene, model);
+  REQUIRE(notes.back().part == "stops");
+  CHECK(notes.back().reason == "3 knots of the reference path, none stepped over");
   scene.controller->reference = TableReference{"p.csv", {0, 1, 3, 5}, {0, 1, 0, 1}, {0, 0, 0, 0}};
   CHECK(assemble(scene, false).stops == std::vector<double>{1, 3});
 }

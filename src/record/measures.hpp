@@ -1,0 +1,67 @@
+// What a sweep keeps of a run: one number of a column over the run's rows.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "model/model.hpp"
+#include "record/columns.hpp"
+#include "solve/outcome.hpp"
+#include "solve/output_grid.hpp"
+
+namespace bbsim::record {
+
+struct Measure {
+  // least, greatest: over the rows; rms: the root of the mean square over them; end: at the last
+  // instant reached, the row at time.end or where the scene stopped.
+  enum class Kind { least, greatest, rms, end } kind = Kind::end;
+  const Column* column = nullptr;
+  std::string name;  // max_tilt, end_phi, x_end
+
+  [[nodiscard]] std::string meaning() const;
+};
+
+// min_, max_, rms_ or end_ and the name of a column; x_end and y_end are end_x and end_y.
+[[nodiscard]] std::optional<Measure> find_measure(std::string_view name);
+
+// For the message about a name that is none.
+[[nodiscard]] std::string allowed_measures();
+
+// x_end, y_end, max_tilt, max_tilt_rate, max_distance, and with a controller rms_tracking_error and
+// max_tracking_error.
+[[nodiscard]] std::vector<std::string> default_measures(bool closed_loop);
+
+// What the columns of these measures are computed from.
+[[nodiscard]] bool any_needs(const std::vector<Measure>& measures, Needs what);
+
+// Takes the measures of one run after another. Rows whose value is no number are left out of all
+// but `end`; a measure without a row is no number.
+class Meter : public solve::StateSink {
+ public:
+  explicit Meter(std::vector<Measure> measures);
+
+  // Begins a run; the three outlive it.
+  void begin(const model::Model& model, const model::BallConstants& constants,
+             const solve::OutputGrid& grid);
+  void accept(std::size_t first, std::size_t count, const double* values) override;
+  // Writes the run's measures, one after the other.
+  void finish(const solve::Outcome& outcome, double* results);
+
+ private:
+  [[nodiscard]] model::Dynamics dynamics_at(const model::Sample& sample) const;
+
+  std::vector<Measure> measures_;
+  bool needs_dynamics_;
+  const model::Model* model_ = nullptr;
+  const model::BallConstants* constants_ = nullptr;
+  const solve::OutputGrid* grid_ = nullptr;
+  struct Sum {
+    double value = 0;
+    std::size_t rows = 0;
+  };
+  std::vector<Sum> sums_;
+};
+
+}  // namespace bbsim::record

@@ -1,0 +1,88 @@
+#include "scenario/family.hpp"
+
+#include <filesystem>
+#include <map>
+#include <utility>
+
+#include "scenario/check_text.hpp"
+#include "scenario/override.hpp"
+#include "scenario/rules.hpp"
+#include "scenario/sections.hpp"
+#include "scenario/text_file.hpp"
+
+namespace bbsim {
+
+using namespace input;
+
+struct ScenarioFamily::State {
+  Source source;
+  Nodes nodes;
+  const Node* root = nullptr;
+  std::shared_ptr<Tables> tables = std::make_shared<Tables>();
+
+  Scenario read(const std::vector<Setting>& settings, std::map<std::string, double>* numbers) const;
+};
+
+ScenarioFamily::ScenarioFamily(const std::string& file, const std::vector<std::string>& overrides)
+    : state_(std::make_unique<State>()) {
+  state_->source = {file, read_text(file), overrides};
+  Problems problems(file, without_byte_order_mark(state_->source.text), overrides);
+  state_->root = build_tree(state_->source, problems, state_->nodes);
+  problems.throw_if_any();
+}
+
+ScenarioFamily::~ScenarioFamily() = default;
+ScenarioFamily::ScenarioFamily(ScenarioFamily&&) noexcept = default;
+
+Scenario ScenarioFamily::State::read(const std::vector<Setting>& settings,
+                                     std::map<std::string, double>* numbers) const {
+  std::vector<std::string> labels;
+  for (const Setting& setting : settings) labels.push_back(setting.key + '=' + setting.value);
+  Problems problems(source.file, without_byte_order_mark(source.text), source.overrides, labels);
+  Nodes own;
+  const Node* tree = root;
+  int number = static_cast<int>(source.overrides.size());
+  for (const Setting& setting : settings) {
+    try {
+      tree = apply_override(setting.key, setting.value, ++number, *tree, own);
+    } catch (const TextFault& fault) {
+      problems.add(fault.position, fault.what());
+    }
+  }
+  Scenario scenario;
+  Context context{problems, std::filesystem::path(source.file).parent_path(), {}, tables, numbers};
+  MappingOf(read_sections).read({tree, "", {}, &context}, scenario);
+  problems.throw_if_any();
+  return scenario;
+}
+
+Scenario ScenarioFamily::read(const std::vector<Setting>& settings) const {
+  return state_->read(settings, nullptr);
+}
+
+std::optional<double> ScenarioFamily::read_number(const std::vector<Setting>& settings) const {
+  std::map<std::string, double> numbers;
+  [[maybe_unused]] const Scenario scenario = state_->read(settings, &numbers);
+  const auto found = numbers.find(settings.back().key);
+  if (found == numbers.end()) return {};
+  return found->second;
+}
+
+Sweep ScenarioFamily::read_sweep() const {
+  Problems problems(state_->source.file, without_byte_order_mark(state_->source.text),
+                    state_->source.overrides);
+  Sweep sweep;
+  if (state_->root->kind == Node::Kind::mapping) {
+    Context context{problems, {}};
+    Keys keys({state_->root, "", {}, &context});
+    keys.section("sweep", input::read_sweep, sweep);
+  }
+  problems.throw_if_any();
+  return sweep;
+}
+
+const Source& ScenarioFamily::source() const {
+  return state_->source;
+}
+
+}  // namespace bbsim

@@ -1,0 +1,93 @@
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "base/error.hpp"
+#include "record/measures.hpp"
+#include "scenario/rules.hpp"
+#include "scenario/sections.hpp"
+#include "scenario/variation.hpp"
+
+namespace bbsim::input {
+namespace {
+
+// A mapping from keys of the scenario to what they vary over.
+struct Variations {
+  [[nodiscard]] static std::string allowed() {
+    return "a mapping from keys to values, such as ball.radius: linear:0.005:0.02:16";
+  }
+
+  static bool read(const Value& value, std::vector<Variation>& into) {
+    if (value.node->kind != Node::Kind::mapping || value.node->entries.empty()) {
+      return value.refuse("", allowed());
+    }
+    bool fine = true;
+    for (const Entry& entry : value.node->entries) {
+      const Value spec{entry.value, value.path + '.' + entry.key, entry.position, value.context};
+      const auto same = [&](const Variation& other) { return other.key == entry.key; };
+      if (spec.node->kind != Node::Kind::scalar) {
+        fine = spec.refuse("", "a text such as linear:0.005:0.02:16");
+      } else if (std::ranges::any_of(into, same)) {
+        fine = spec.report("found again; allowed: each key once");
+      } else {
+        into.push_back({entry.key, spec.node->text});
+        fine = understood(spec, into.back()) && fine;
+      }
+    }
+    return fine;
+  }
+
+ private:
+  static bool understood(const Value& spec, const Variation& variation) {
+    try {
+      static_cast<void>(parse_variation(variation));
+      return true;
+    } catch (const InputError& error) {
+      const std::string text = error.what();
+      return spec.report(text.substr(text.find(": ") + 2));
+    }
+  }
+};
+
+struct MeasureNames {
+  [[nodiscard]] static std::string allowed() {
+    return "a list of measures, such as [max_tilt, end_x]";
+  }
+
+  static bool read(const Value& value, std::vector<std::string>& into) {
+    if (value.node->kind != Node::Kind::sequence || value.node->items.empty()) {
+      return value.refuse("", allowed());
+    }
+    bool fine = true;
+    for (std::size_t i = 0; i < value.node->items.size(); ++i) {
+      const Value item = value.item(i);
+      if (!record::find_measure(item.node->text)) {
+        fine = item.refuse("", record::allowed_measures());
+      } else {
+        into.push_back(item.node->text);
+      }
+    }
+    return fine;
+  }
+};
+
+void read_whole(Keys& keys, std::string_view key, double least, double& into) {
+  // Doubles hold integers up to 2^53.
+  const Number whole{Dimension::number, {.at_least = least, .at_most = 9007199254740992.0}, "1000"};
+  if (keys.optional(key, whole, into) && into != std::floor(into)) {
+    keys.find(key)->refuse("", "a whole number of at least " + number_text(least));
+  }
+}
+
+}  // namespace
+
+void read_sweep(Keys& keys, Sweep& sweep) {
+  keys.optional("vary", Variations{}, sweep.vary);
+  keys.optional("combine", NameOf<Combine>{{{Combine::grid, "grid"}, {Combine::zip, "zip"}}},
+                sweep.combine);
+  if (keys.find("samples")) read_whole(keys, "samples", 1, sweep.samples.emplace());
+  read_whole(keys, "seed", 0, sweep.seed);
+  keys.optional("measure", MeasureNames{}, sweep.measure);
+}
+
+}  // namespace bbsim::input

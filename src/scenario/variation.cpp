@@ -1,0 +1,114 @@
+#include "scenario/variation.hpp"
+
+#include <charconv>
+#include <string_view>
+
+#include "base/error.hpp"
+#include "scenario/problems.hpp"
+
+namespace bbsim::input {
+namespace {
+
+constexpr std::size_t most_values = 1'000'000'000;
+
+constexpr std::string_view allowed =
+    "linear:FROM:TO:COUNT, log:FROM:TO:COUNT, list:A,B,C, uniform:FROM:TO or normal:MEAN:SD";
+
+using Kind = VariationSpec::Kind;
+
+struct Form {
+  std::string_view name;
+  Kind kind;
+  std::size_t parts;  // after the name
+};
+constexpr Form forms[] = {{"linear", Kind::linear, 3},
+                          {"log", Kind::log, 3},
+                          {"list", Kind::list, 1},
+                          {"uniform", Kind::uniform, 2},
+                          {"normal", Kind::normal, 2}};
+
+std::string trimmed(std::string_view text) {
+  const std::size_t first = text.find_first_not_of(" \t");
+  if (first == std::string_view::npos) return "";
+  return std::string(text.substr(first, text.find_last_not_of(" \t") - first + 1));
+}
+
+// Parts between separators that stand in no brackets and no quotes.
+std::vector<std::string> parted(std::string_view text, char separator) {
+  std::vector<std::string> parts;
+  int depth = 0;
+  char quote = 0;
+  std::size_t start = 0;
+  for (std::size_t i = 0; i <= text.size(); ++i) {
+    if (i == text.size() || (text[i] == separator && depth == 0 && quote == 0)) {
+      parts.push_back(trimmed(text.substr(start, i - start)));
+      start = i + 1;
+    } else if (quote != 0) {
+      if (text[i] == quote) quote = 0;
+    } else if (text[i] == '"' || text[i] == '\'') {
+      quote = text[i];
+    } else {
+      depth += (text[i] == '[' || text[i] == '{') - (text[i] == ']' || text[i] == '}');
+    }
+  }
+  return parts;
+}
+
+[[noreturn]] void fail(const Variation& variation, const std::string& found,
+                       std::string_view wanted) {
+  throw InputError(shown(variation.key) + ": found " + found + "; allowed: " + std::string(wanted));
+}
+
+std::size_t read_count(const Variation& variation, const std::string& text) {
+  std::size_t count = 0;
+  const auto result = std::from_chars(text.data(), text.data() + text.size(), count);
+  if (result.ec != std::errc{} || result.ptr != text.data() + text.size() || count == 0 ||
+      count > most_values) {
+    fail(variation, "the count " + shown(text), "a whole number from 1 to 1e9");
+  }
+  return count;
+}
+
+}  // namespace
+
+VariationSpec parse_variation(const Variation& variation) {
+  const std::string_view text = variation.spec;
+  const std::size_t colon = text.find(':');
+  const std::string name = trimmed(text.substr(0, colon));
+  const Form* form = nullptr;
+  for (const Form& one : forms) {
+    if (one.name == name) form = &one;
+  }
+  if (form == nullptr || colon == std::string_view::npos) {
+    fail(variation, shown(text.empty() ? "nothing" : text), allowed);
+  }
+  const std::string_view rest = text.substr(colon + 1);
+  VariationSpec spec;
+  spec.kind = form->kind;
+  if (spec.kind == Kind::list) {
+    spec.values = parted(rest, ',');
+    spec.count = spec.values.size();
+  } else {
+    spec.values = parted(rest, ':');
+    if (spec.values.size() != form->parts) fail(variation, shown(text), allowed);
+    if (form->parts == 3) {
+      spec.count = read_count(variation, spec.values.back());
+      spec.values.pop_back();
+    }
+  }
+  for (const std::string& value : spec.values) {
+    if (value.empty()) fail(variation, "an empty value in " + shown(text), allowed);
+  }
+  return spec;
+}
+
+Variation split_variation(const std::string& assignment) {
+  const std::size_t equals = assignment.find('=');
+  if (equals == std::string::npos || equals == 0) {
+    throw InputError("--vary: found " + shown(assignment) +
+                     "; allowed: KEY=SPEC, such as ball.position.0=linear:-0.1:0.1:21");
+  }
+  return {assignment.substr(0, equals), assignment.substr(equals + 1)};
+}
+
+}  // namespace bbsim::input

@@ -1,0 +1,238 @@
+#include "study/sweep/plan.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "base/error.hpp"
+#include "model/rig/noise.hpp"
+#include "scenario/independent.hpp"
+#include "scenario/problems.hpp"
+#include "scenario/quantity.hpp"
+
+namespace bbsim::study {
+namespace {
+
+using Kind = input::VariationSpec::Kind;
+using Setting = ScenarioFamily::Setting;
+
+constexpr double most_cases = 1e12;
+
+// SplitMix64 (Steele, Lea and Flood, OOPSLA 2014): a bijection that leaves no pattern of its
+// argument, so that counting through arguments is as good as a generator with a state.
+std::uint64_t mixed(std::uint64_t x) {
+  x += 0x9E3779B97F4A7C15U;
+  x = (x ^ (x >> 30U)) * 0xBF58476D1CE4E5B9U;
+  x = (x ^ (x >> 27U)) * 0x94D049BB133111EBU;
+  return x ^ (x >> 31U);
+}
+
+// FNV-1a
+std::uint64_t hash(const std::string& text) {
+  std::uint64_t value = 0xCBF29CE484222325U;
+  for (const char c : text) value = (value ^ static_cast<unsigned char>(c)) * 0x100000001B3U;
+  return value;
+}
+
+// Value i of `count`; the first and the last are exact.
+double spaced(const Axis& axis, std::size_t i) {
+  if (i == 0) return axis.from;
+  if (i + 1 == axis.count) return axis.to;
+  const double before = static_cast<double>(i), after = static_cast<double>(axis.count - 1 - i);
+  const double all = static_cast<double>(axis.count - 1);
+  if (axis.kind == Kind::log) return axis.from * std::pow(axis.to / axis.from, before / all);
+  return (axis.from * after + axis.to * before) / all;  // nearer to round numbers than from + ...
+}
+
+double listed(const Axis& axis, std::size_t i) {
+  if (axis.kind != Kind::list) return spaced(axis, i);
+  return axis.numeric ? axis.numbers[i] : static_cast<double>(i);
+}
+
+std::string value_text(const Axis& axis, double value) {
+  return axis.numeric ? input::number_text(value) : axis.texts[static_cast<std::size_t>(value)];
+}
+
+[[noreturn]] void fail(const std::string& key, const std::string& message) {
+  throw InputError(input::shown(key) + ": " + message);
+}
+
+}  // namespace
+
+Axis SweepPlan::read_axis(const ScenarioFamily& family, const Variation& variation,
+                          std::vector<Setting>& others) const {
+  const input::VariationSpec spec = input::parse_variation(variation);
+  Axis axis;
+  axis.key = variation.key;
+  axis.kind = spec.kind;
+  axis.count = spec.random() ? 1 : spec.count;
+  std::vector<double> numbers;
+  for (const std::string& value : spec.values) {
+    others.push_back({variation.key, value});
+    const std::optional<double> number = family.read_number(others);
+    others.pop_back();
+    if (number) numbers.push_back(*number);
+  }
+  axis.numeric = numbers.size() == spec.values.size();
+  if (spec.kind == Kind::list) {
+    axis.numeric ? void(axis.numbers = std::move(numbers)) : void(axis.texts = spec.values);
+    return axis;
+  }
+  if (!axis.numeric) {
+    fail(variation.key, "found " + input::shown(variation.spec) +
+                            ", but the key holds no single number; allowed: list:A,B,C");
+  }
+  axis.from = numbers[0];
+  axis.to = numbers[1];
+  if (spec.kind == Kind::log && !(axis.from * axis.to > 0)) {
+    fail(variation.key, "found " + input::shown(variation.spec) +
+                            "; allowed: log from and to numbers of one sign, neither 0");
+  }
+  if (spec.kind == Kind::normal && !(axis.to >= 0)) {
+    fail(variation.key, "found " + input::shown(variation.spec) +
+                            "; allowed: normal with a standard deviation of at least 0");
+  }
+  return axis;
+}
+
+SweepPlan::SweepPlan(const ScenarioFamily& family, const Sweep& sweep)
+    : combine_(sweep.combine), seed_(static_cast<std::uint64_t>(sweep.seed)) {
+  if (sweep.vary.empty()) {
+    throw InputError(
+        "found no key to vary; allowed: --vary KEY=SPEC, or a sweep block in the scenario");
+  }
+  // Each key is read with the others at their first values, since the scenario need not be complete
+  // without.
+  std::vector<Setting> firsts;
+  for (const Variation& variation : sweep.vary) {
+    for (const Setting& other : firsts) {
+      if (other.key == variation.key) fail(variation.key, "found twice; allowed: each key once");
+    }
+    firsts.push_back({variation.key, input::parse_variation(variation).values[0]});
+  }
+  for (std::size_t i = 0; i < sweep.vary.size(); ++i) {
+    std::vector<Setting> others = firsts;
+    others.erase(others.begin() + static_cast<std::ptrdiff_t>(i));
+    axes_.push_back(read_axis(family, sweep.vary[i], others));
+  }
+
+  double cases = 1;
+  bool random = false;
+  std::size_t longest = 1;
+  for (const Axis& axis : axes_) {
+    random = random || axis.random();
+    longest = std::max(longest, axis.count);
+    cases *= static_cast<double>(axis.count);
+  }
+  if (combine_ == Combine::zip) {
+    for (const Axis& axis : axes_) {
+      if (axis.random() || axis.count == longest) continue;
+      fail(axis.key, "found " + std::to_string(axis.count) + " values, and " +
+                         std::to_string(longest) +
+                         " of another key; allowed with zip: as many of each");
+    }
+    cases = static_cast<double>(longest);
+  }
+  if (random && !sweep.samples) {
+    throw InputError(
+        "samples: missing, but values are drawn; allowed: --samples N, the number of cases to "
+        "draw");
+  }
+  if (!random && sweep.samples) {
+    throw InputError("samples: found, but no value is drawn; allowed: only with uniform or normal");
+  }
+  if (sweep.samples) cases *= *sweep.samples;
+  if (cases > most_cases) throw InputError("found more than 1e12 cases; allowed: at most that");
+  samples_ = static_cast<std::size_t>(sweep.samples.value_or(1));
+  cases_ = static_cast<std::size_t>(cases);
+
+  Scenario first = family.read(settings(0));
+  for (Axis& axis : axes_) {
+    axis.independent = axis.numeric && !independent_number(first, axis.key).empty();
+  }
+}
+
+double SweepPlan::drawn(const Axis& axis, std::size_t number) const {
+  const std::uint64_t bits = mixed(mixed(mixed(seed_) ^ hash(axis.key)) + number);
+  const double p = (static_cast<double>(bits >> 12U) + 0.5) * 0x1p-52;
+  if (axis.kind == Kind::uniform) return axis.from + p * (axis.to - axis.from);
+  return axis.from + axis.to * model::normal_quantile(p);
+}
+
+void SweepPlan::values(std::size_t number, double* values) const {
+  std::size_t rest = number / samples_;
+  for (std::size_t a = axes_.size(); a-- > 0;) {
+    const Axis& axis = axes_[a];
+    if (axis.random()) {
+      values[a] = drawn(axis, number);
+    } else if (combine_ == Combine::zip) {
+      values[a] = listed(axis, rest);
+    } else {
+      values[a] = listed(axis, rest % axis.count);
+      rest /= axis.count;
+    }
+  }
+}
+
+std::vector<Setting> SweepPlan::settings(std::size_t number) const {
+  std::vector<double> at(axes_.size());
+  values(number, at.data());
+  std::vector<Setting> settings;
+  settings.reserve(axes_.size());
+  for (std::size_t a = 0; a < axes_.size(); ++a) {
+    settings.push_back({axes_[a].key, value_text(axes_[a], at[a])});
+  }
+  return settings;
+}
+
+// The cases with the least and the greatest number of each independent axis that is drawn from an
+// unbounded distribution; ranges have no holes.
+std::vector<std::size_t> SweepPlan::extremes() const {
+  std::vector<std::size_t> found;
+  for (const Axis& axis : axes_) {
+    if (!axis.independent || axis.kind != Kind::normal) continue;
+    std::size_t least = 0, greatest = 0;
+    double low = std::numeric_limits<double>::infinity(), high = -low;
+    for (std::size_t i = 0; i < cases_; ++i) {
+      const double value = drawn(axis, i);
+      if (value < low) low = value, least = i;
+      if (value > high) high = value, greatest = i;
+    }
+    found.insert(found.end(), {least, greatest});
+  }
+  return found;
+}
+
+bool SweepPlan::check(const ScenarioFamily& family,
+                      const std::function<bool(double)>& goes_on) const {
+  for (const std::size_t number : extremes()) {
+    static_cast<void>(family.read(settings(number)));
+  }
+  const auto dependent = [](const Axis& axis) { return !axis.independent; };
+  if (std::none_of(axes_.begin(), axes_.end(), dependent)) return true;
+
+  // One case of each combination of what depends on each other: that with the first values of all
+  // else.
+  const bool draws = std::any_of(axes_.begin(), axes_.end(), [](const Axis& axis) {
+    return !axis.independent && axis.random();
+  });
+  const auto stands_for_others = [&](std::size_t number) {
+    if (draws) return false;
+    if (number % samples_ != 0) return true;
+    if (combine_ == Combine::zip) return false;
+    std::size_t rest = number / samples_;
+    for (std::size_t a = axes_.size(); a-- > 0;) {
+      if (axes_[a].independent && rest % axes_[a].count != 0) return true;
+      rest /= axes_[a].count;
+    }
+    return false;
+  };
+  for (std::size_t i = 0; i < cases_; ++i) {
+    if (stands_for_others(i)) continue;
+    if (!goes_on(static_cast<double>(i) / static_cast<double>(cases_))) return false;
+    static_cast<void>(family.read(settings(i)));
+  }
+  return true;
+}
+
+}  // namespace bbsim::study

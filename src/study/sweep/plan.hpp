@@ -1,0 +1,68 @@
+// Which cases a sweep has: what its keys vary over, combined and numbered.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "scenario/family.hpp"
+#include "scenario/variation.hpp"
+
+namespace bbsim::study {
+
+// One key that varies.
+struct Axis {
+  std::string key;
+  input::VariationSpec::Kind kind = input::VariationSpec::Kind::list;
+  bool numeric = true;      // single numbers, in SI units; otherwise texts in YAML
+  std::size_t count = 1;    // of values; 1 of what is drawn
+  double from = 0, to = 0;  // of linear, log and uniform; mean and standard deviation of normal
+  std::vector<double> numbers{};     // of a list
+  std::vector<std::string> texts{};  // of a list that is not numeric
+  bool independent = false;          // no rule relates the key's number to another key
+
+  [[nodiscard]] bool random() const {
+    return kind == input::VariationSpec::Kind::uniform ||
+           kind == input::VariationSpec::Kind::normal;
+  }
+};
+
+// Cases are numbered from 0. In a grid the first key varies slowest; zipped, all keys go on
+// together from case to case; either way each combination comes `samples` times in a row, with
+// other draws.
+class SweepPlan {
+ public:
+  // Reads all values that are listed, and so checks them. Throws InputError.
+  SweepPlan(const ScenarioFamily& family, const Sweep& sweep);
+
+  [[nodiscard]] std::size_t cases() const { return cases_; }
+  [[nodiscard]] const std::vector<Axis>& axes() const { return axes_; }
+
+  // The number of each axis in a case, or the position of its text in the list.
+  void values(std::size_t number, double* values) const;
+
+  // The same as settings of a scenario.
+  [[nodiscard]] std::vector<ScenarioFamily::Setting> settings(std::size_t number) const;
+
+  // Puts every case to the scenario's checks: one by one where keys depend on each other, by the
+  // extremes where they do not. `goes_on` is told how far it is, from 0 to 1, and may end it by
+  // returning false; check() then returns false. Throws InputError.
+  [[nodiscard]] bool check(const ScenarioFamily& family,
+                           const std::function<bool(double)>& goes_on) const;
+
+ private:
+  [[nodiscard]] Axis read_axis(const ScenarioFamily& family, const Variation& variation,
+                               std::vector<ScenarioFamily::Setting>& others) const;
+  [[nodiscard]] std::vector<std::size_t> extremes() const;
+  [[nodiscard]] double drawn(const Axis& axis, std::size_t number) const;
+
+  std::vector<Axis> axes_;
+  Combine combine_;
+  std::size_t samples_ = 1, cases_ = 1;
+  std::uint64_t seed_;
+};
+
+}  // namespace bbsim::study

@@ -1,0 +1,178 @@
+#include "study/sweep/single.hpp"
+
+#include <algorithm>
+#include <cstdio>
+#include <limits>
+#include <memory>
+#include <optional>
+#include <utility>
+
+#include "base/error.hpp"
+#include "model/model.hpp"
+#include "solve/integrate.hpp"
+#include "study/error_control.hpp"
+#include "study/sweep/case_scenario.hpp"
+
+namespace bbsim::study {
+namespace {
+
+constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
+
+std::string seconds(double t) {
+  char text[40];
+  std::snprintf(text, sizeof text, "%.6g s", t);
+  return text;
+}
+
+// Of a row of results, and of the status column: without commas.
+std::string status_of(const solve::Outcome& outcome) {
+  switch (outcome.ending) {
+    case solve::Ending::failed:
+      return "failed at " + seconds(outcome.reached) + ": " + outcome.reason;
+    case solve::Ending::stopped:
+      return "stopped at " + seconds(outcome.reached) + ": " + outcome.occurrences.back().name;
+    case solve::Ending::done:
+    case solve::Ending::interrupted:
+      break;
+  }
+  return "done";
+}
+
+// Passes rows on to two sinks.
+class Both : public solve::StateSink {
+ public:
+  Both(solve::StateSink& one, solve::StateSink& other) : one_(one), other_(other) {}
+  void accept(std::size_t first, std::size_t count, const double* values) override {
+    one_.accept(first, count, values);
+    other_.accept(first, count, values);
+  }
+
+ private:
+  solve::StateSink &one_, &other_;
+};
+
+// Columns of one case's rows into its place among the results.
+class SeriesSink : public solve::StateSink {
+ public:
+  SeriesSink(const SweepTask& task, const model::Model& model,
+             const model::BallConstants& constants, const solve::OutputGrid& grid,
+             CaseResults& into, std::size_t place)
+      : task_(task),
+        model_(model),
+        constants_(constants),
+        grid_(grid),
+        into_(into),
+        start_(place * task.series_rows),
+        dynamics_(
+            std::any_of(task.series.begin(), task.series.end(), [](const record::Column* column) {
+              return column->needs == record::Needs::dynamics ||
+                     column->needs == record::Needs::plate;
+            })) {}
+
+  void accept(std::size_t first, std::size_t count, const double* values) override {
+    for (std::size_t i = 0; i < count; ++i) {
+      const model::Sample sample = model_.sample(grid_[first + i], values + i * model_.row_size());
+      const model::Dynamics dynamics =
+          dynamics_ ? model::dynamics(sample, constants_) : model::Dynamics{};
+      for (std::size_t c = 0; c < task_.series.size(); ++c) {
+        into_.series[c][start_ + first + i] = task_.series[c]->value({sample, &dynamics});
+      }
+    }
+  }
+
+ private:
+  const SweepTask& task_;
+  const model::Model& model_;
+  const model::BallConstants& constants_;
+  const solve::OutputGrid& grid_;
+  CaseResults& into_;
+  std::size_t start_;
+  bool dynamics_;
+};
+
+class SingleRunner : public CaseRunner {
+ public:
+  explicit SingleRunner(const SweepTask& task)
+      : task_(task), scenario_(task), meter_(task.measures) {
+    const auto needs = [](const record::Column* column) {
+      return column->needs == record::Needs::gamma;
+    };
+    gamma_ = record::any_needs(task.measures, record::Needs::gamma) ||
+             std::any_of(task.series.begin(), task.series.end(), needs);
+  }
+
+  bool run(std::size_t first, std::size_t count, CaseResults& into,
+           const std::atomic<bool>& stop) override {
+    into.first = first;
+    into.resize(count, task_);
+    for (std::size_t i = 0; i < count; ++i) {
+      task_.plan.values(first + i, &into.values[i * task_.plan.axes().size()]);
+      if (!run_case(first + i, i, into, stop)) return false;
+    }
+    return true;
+  }
+
+ private:
+  bool run_case(std::size_t number, std::size_t place, CaseResults& into,
+                const std::atomic<bool>& stop) {
+    double* const numbers = &into.numbers[place * (1 + task_.measures.size())];
+    std::string& status = into.status[place];
+    const Scenario& scenario = scenario_.at(number, &into.values[place * task_.plan.axes().size()]);
+    try {
+      const model::Model model = model::assemble(scenario, gamma_);
+      const model::BallConstants constants = model::constants_of(scenario);
+      const solve::OutputGrid grid(scenario.time);
+      meter_.begin(model, constants, grid);
+      SeriesSink series(task_, model, constants, grid, into, place);
+      Both both(meter_, series);
+      solve::StateSink& sink = task_.series.empty() ? static_cast<solve::StateSink&>(meter_) : both;
+      const solve::Watch watch{&stop, {}};
+      solve::Outcome outcome;
+      if (scenario.solver.error) {
+        const ErrorControlled run = integrate_to_error(model, scenario.solver.method,
+                                                       *scenario.solver.error, grid, sink, watch);
+        status = status_of(run.outcome);
+        if (status == "done" && !run.met) {
+          char text[80];
+          std::snprintf(text, sizeof text, "error about %.2g m: out of reach of double precision",
+                        run.estimate);
+          status = text;
+        }
+        outcome = run.outcome;
+      } else {
+        outcome = solve::integrate(model, scenario.solver.method,
+                                   {scenario.solver.rtol, scenario.solver.atol}, grid, sink, watch);
+        status = status_of(outcome);
+      }
+      if (outcome.ending == solve::Ending::interrupted) return false;
+      numbers[0] = outcome.reached;
+      meter_.finish(outcome, numbers + 1);
+    } catch (const InputError& error) {  // no gain of an LQR, say
+      std::fill_n(numbers, 1 + task_.measures.size(), nothing);
+      status = std::string("refused: ") + error.what();
+    }
+    return true;
+  }
+
+  const SweepTask& task_;
+  CaseScenario scenario_;
+  record::Meter meter_;
+  bool gamma_ = false;
+};
+
+}  // namespace
+
+void CaseResults::resize(std::size_t cases, const SweepTask& task) {
+  count = cases;
+  values.resize(cases * task.plan.axes().size());
+  numbers.resize(cases * (1 + task.measures.size()));
+  status.resize(cases);
+  series.resize(task.series.size());
+  for (auto& column : series) column.assign(cases * task.series_rows, nothing);
+}
+
+std::unique_ptr<CaseRunner> single_runner(const SweepTask& task) {
+  return std::make_unique<SingleRunner>(task);
+}
+
+}  // namespace bbsim::study

@@ -1,0 +1,185 @@
+#include "study/sweep/sweep.hpp"
+
+#include <algorithm>
+#include <condition_variable>
+#include <exception>
+#include <map>
+#include <mutex>
+#include <thread>
+#include <utility>
+
+#include "study/sweep/single.hpp"
+
+namespace bbsim::study {
+namespace {
+
+constexpr std::size_t most_in_block = 1024;
+// So many blocks a thread are done before their turn, at most: what slow cases hold up.
+constexpr std::size_t most_ahead = 8;
+
+// Small enough that threads end together, large enough that handing them out costs nothing.
+std::size_t block_size(std::size_t cases, std::size_t group, std::size_t threads) {
+  const std::size_t even = cases / (threads * 64);
+  return std::clamp<std::size_t>(even / group, 1, most_in_block / group) * group;
+}
+
+std::unique_ptr<CaseRunner> make_runner(const SweepTask& task, Engine) {
+  return single_runner(task);
+}
+
+// Blocks of cases on their way from the threads to whoever wants them in order.
+class Queue {
+ public:
+  Queue(CaseRange range, std::size_t block, std::size_t ahead, const std::atomic<bool>& stop,
+        const std::function<void(const CaseResults&)>& deliver)
+      : range_(range),
+        block_(block),
+        ahead_(ahead),
+        next_(range.first),
+        delivered_(range.first),
+        stop_(stop),
+        deliver_(deliver) {}
+
+  // The next block to be computed; empty if there is none.
+  CaseRange take() {
+    std::unique_lock lock(mutex_);
+    changed_.wait(lock, [this] {
+      return ended() || next_ >= range_.last || next_ - delivered_ < ahead_ * block_;
+    });
+    if (ended() || next_ >= range_.last) return {};
+    const std::size_t first = next_;
+    next_ = std::min(range_.last, first + block_);
+    return {first, next_};
+  }
+
+  // Hands a block in, and delivers what now is in order. What is in `results` afterwards is of
+  // no meaning.
+  void put(CaseResults& results) {
+    std::unique_lock lock(mutex_);
+    waiting_.emplace(results.first, std::move(results));
+    results = {};
+    if (delivering_) return;
+    delivering_ = true;
+    while (!waiting_.empty() && waiting_.begin()->first == delivered_ && !failure_) {
+      auto ready = waiting_.extract(waiting_.begin());
+      lock.unlock();
+      std::exception_ptr failure;
+      try {
+        deliver_(ready.mapped());
+      } catch (...) {
+        failure = std::current_exception();
+      }
+      lock.lock();
+      delivered_ += ready.mapped().count;
+      if (failure) failure_ = failure;
+      changed_.notify_all();
+    }
+    delivering_ = false;
+  }
+
+  void fail(std::exception_ptr failure) {
+    const std::lock_guard lock(mutex_);
+    if (!failure_) failure_ = std::move(failure);
+    changed_.notify_all();
+  }
+
+  // Wakes threads that wait for blocks to be delivered that will not come.
+  void give_up() {
+    const std::lock_guard lock(mutex_);
+    given_up_ = true;
+    changed_.notify_all();
+  }
+
+  // Once all threads have ended: whether all was delivered.
+  [[nodiscard]] bool finished() const {
+    if (failure_) std::rethrow_exception(failure_);
+    return delivered_ >= range_.last;
+  }
+
+ private:
+  [[nodiscard]] bool ended() const {
+    return failure_ || given_up_ || stop_.load(std::memory_order_relaxed);
+  }
+
+  const CaseRange range_;
+  const std::size_t block_, ahead_;
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  std::size_t next_, delivered_;
+  std::map<std::size_t, CaseResults> waiting_;
+  bool delivering_ = false, given_up_ = false;
+  std::exception_ptr failure_;
+  const std::atomic<bool>& stop_;
+  const std::function<void(const CaseResults&)>& deliver_;
+};
+
+void work(const SweepTask& task, Engine engine, Queue& queue, const std::atomic<bool>& stop,
+          const std::function<void(CaseResults&)>& prepare) {
+  try {
+    const std::unique_ptr<CaseRunner> runner = make_runner(task, engine);
+    CaseResults results;
+    for (;;) {
+      const CaseRange block = queue.take();
+      if (block.first == block.last) return;
+      if (!runner->run(block.first, block.last - block.first, results, stop)) {
+        queue.give_up();
+        return;
+      }
+      prepare(results);
+      queue.put(results);
+    }
+  } catch (...) {
+    queue.fail(std::current_exception());
+  }
+}
+
+}  // namespace
+
+std::string_view engine_name(Engine engine) {
+  switch (engine) {
+    case Engine::superposition:
+      return "superposition";
+    case Engine::lanes:
+      return "lanes";
+    case Engine::single:
+      break;
+  }
+  return "single runs";
+}
+
+Engine choose_engine(const SweepTask&) {
+  return Engine::single;
+}
+
+std::size_t group_size(Engine engine) {
+  return engine == Engine::lanes ? 8 : 1;
+}
+
+CaseRange shard_range(std::size_t cases, std::size_t group, std::size_t shard, std::size_t shards) {
+  const std::size_t groups = (cases + group - 1) / group;
+  // groups * shard would overflow beyond 1e12 cases on 1e7 shards.
+  const auto start = [&](std::size_t k) {
+    const std::size_t whole = groups / shards * k + groups % shards * k / shards;
+    return std::min(cases, whole * group);
+  };
+  return {start(shard - 1), start(shard)};
+}
+
+bool run_sweep(const SweepTask& task, Engine engine, CaseRange range, std::size_t threads,
+               const std::atomic<bool>& stop, const std::function<void(CaseResults&)>& prepare,
+               const std::function<void(const CaseResults&)>& deliver) {
+  const std::size_t cases = range.last - range.first;
+  const std::size_t block = block_size(cases, group_size(engine), threads);
+  Queue queue(range, block, most_ahead * threads, stop, deliver);
+  {
+    std::vector<std::jthread> others;
+    const std::size_t useful = std::min(threads, (cases + block - 1) / block);
+    for (std::size_t i = 1; i < useful; ++i) {
+      others.emplace_back([&] { work(task, engine, queue, stop, prepare); });
+    }
+    work(task, engine, queue, stop, prepare);
+  }
+  return queue.finished();
+}
+
+}  // namespace bbsim::study

@@ -1,0 +1,48 @@
+// A sweep, ready to be run, and what comes of its cases.
+#pragma once
+
+#include <atomic>
+#include <cstddef>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "record/measures.hpp"
+#include "scenario/family.hpp"
+#include "study/sweep/plan.hpp"
+
+namespace bbsim::study {
+
+struct SweepTask {
+  const ScenarioFamily& family;
+  const SweepPlan& plan;
+  std::vector<record::Measure> measures;
+  // Columns of the output rows that are kept of each case too; all cases must have as many rows.
+  std::vector<const record::Column*> series{};
+  std::size_t series_rows = 0;
+};
+
+// Some cases, one after the other.
+struct CaseResults {
+  std::size_t first = 0, count = 0;
+  std::vector<double> values;   // of the axes: count x axes
+  std::vector<double> numbers;  // the time reached (s), then the measures: count x (1 + measures)
+  std::vector<std::string> status;  // "done", or why a case ended early
+  // For each column of the series, count x rows; what a case did not reach is no number.
+  std::vector<std::vector<double>> series;
+  std::string text;  // the rows as whoever takes them wants them
+
+  void resize(std::size_t cases, const SweepTask& task);
+};
+
+// Runs cases on one thread.
+class CaseRunner {
+ public:
+  virtual ~CaseRunner() = default;
+  // Cases first ... first + count - 1, all of them in whole groups but for the sweep's last ones.
+  // False if `stop` became true meanwhile; the results then mean nothing.
+  virtual bool run(std::size_t first, std::size_t count, CaseResults& into,
+                   const std::atomic<bool>& stop) = 0;
+};
+
+}  // namespace bbsim::study
