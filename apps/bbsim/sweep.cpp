@@ -244,7 +244,7 @@ ExitCode sweep(const SweepArguments& arguments, const Options& options) {
   }
 
   const study::Engine engine = study::choose_engine(task);
-  const std::size_t group = study::group_size(engine);
+  const std::size_t group = engine.group;
   const study::CaseRange range = study::shard_range(plan.cases(), group, shard.number, shard.of);
   const std::string output =
       arguments.output.empty() ? default_output(arguments.scenario.file, shard) : arguments.output;
@@ -261,7 +261,7 @@ ExitCode sweep(const SweepArguments& arguments, const Options& options) {
   };
   const auto rate = [&] { return static_cast<double>(done - kept) / seconds(); };
   const bool finished = study::run_sweep(
-      task, engine, {range.first + kept, range.last}, threads, stop,
+      engine, {range.first + kept, range.last}, threads, stop,
       [&task](study::CaseResults& results) { write_text(task, results); },
       [&](const study::CaseResults& results) {
         file->append(results.text, results.series);
@@ -288,7 +288,7 @@ ExitCode sweep(const SweepArguments& arguments, const Options& options) {
     std::string line = output + ": " + counts;
     if (kept > 0) line += ", " + std::to_string(kept) + " of them from before";
     if (early > 0) line += ", " + std::to_string(early) + " ended early (see status)";
-    line += ", by " + std::string(study::engine_name(engine));
+    line += ", by " + engine.name;
     std::fprintf(stderr, "%s, %s s\n", line.c_str(), short_number(seconds()).c_str());
   }
   return ExitCode::done;

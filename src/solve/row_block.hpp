@@ -3,7 +3,7 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <vector>
+#include <memory>
 
 #include "solve/outcome.hpp"
 
@@ -12,12 +12,14 @@ namespace bbsim::solve {
 class RowBlock {
  public:
   RowBlock(StateSink& sink, std::size_t row_size)
-      : sink_(sink), row_size_(row_size), values_(row_size * capacity) {}
+      : sink_(sink),
+        row_size_(row_size),
+        values_(std::make_unique_for_overwrite<double[]>(row_size * capacity)) {}
 
   // Room for the next row. It counts as handed on once the next call, or flush(), is made.
   [[nodiscard]] double* next() {
     if (count_ == capacity) flush();
-    return values_.data() + row_size_ * count_++;
+    return values_.get() + row_size_ * count_++;
   }
 
   // Room for several rows in one piece: `wanted` of them, or as many as there is room for, which
@@ -25,13 +27,13 @@ class RowBlock {
   [[nodiscard]] double* next(std::size_t& wanted) {
     if (count_ == capacity) flush();
     wanted = std::min(wanted, capacity - count_);
-    double* const first = values_.data() + row_size_ * count_;
+    double* const first = values_.get() + row_size_ * count_;
     count_ += wanted;
     return first;
   }
 
   void flush() {
-    if (count_ > 0) sink_.accept(first_, count_, values_.data());
+    if (count_ > 0) sink_.accept(first_, count_, values_.get());
     first_ += count_;
     count_ = 0;
   }
@@ -42,7 +44,7 @@ class RowBlock {
   static constexpr std::size_t capacity = 256;
   StateSink& sink_;
   std::size_t row_size_;
-  std::vector<double> values_;
+  std::unique_ptr<double[]> values_;
   std::size_t first_ = 0, count_ = 0;
 };
 

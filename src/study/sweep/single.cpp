@@ -9,9 +9,12 @@
 
 #include "base/error.hpp"
 #include "model/model.hpp"
+#include "solve/choose.hpp"
+#include "solve/collocation/radau.hpp"
 #include "solve/integrate.hpp"
 #include "study/error_control.hpp"
 #include "study/sweep/case_scenario.hpp"
+#include "study/sweep/track_meter.hpp"
 
 namespace bbsim::study {
 namespace {
@@ -93,12 +96,22 @@ class SeriesSink : public solve::StateSink {
 class SingleRunner : public CaseRunner {
  public:
   explicit SingleRunner(const SweepTask& task)
-      : task_(task), scenario_(task), meter_(task.measures) {
+      : task_(task),
+        scenario_(task),
+        meter_(task.measures),
+        track_(task.measures),
+        kernels_(solve::collocation::choose_kernels()),
+        quick_(task.series.empty() && are_track_measures(task.measures)) {
     const auto needs = [](const record::Column* column) {
       return column->needs == record::Needs::gamma;
     };
     gamma_ = record::any_needs(task.measures, record::Needs::gamma) ||
              std::any_of(task.series.begin(), task.series.end(), needs);
+    for (const Axis& axis : task.plan.axes()) {
+      for (const char* const part : {"gimbal.motion", "controller.reference", "time"}) {
+        if (axis.key.starts_with(part)) same_signals_ = false;
+      }
+    }
   }
 
   bool run(std::size_t first, std::size_t count, CaseResults& into,
@@ -122,6 +135,11 @@ class SingleRunner : public CaseRunner {
       const model::Model model = model::assemble(scenario, gamma_);
       const model::BallConstants constants = model::constants_of(scenario);
       const solve::OutputGrid grid(scenario.time);
+      const Solver& solver = scenario.solver;
+      if (quick_ && !solver.error && solve::choose_method(solver.method) == Method::radau &&
+          has_track(model)) {
+        return run_quickly(scenario, model, constants, grid, stop, numbers, status);
+      }
       meter_.begin(model, constants, grid);
       SeriesSink series(task_, model, constants, grid, into, place);
       Both both(meter_, series);
@@ -140,8 +158,8 @@ class SingleRunner : public CaseRunner {
         }
         outcome = run.outcome;
       } else {
-        outcome = solve::integrate(model, scenario.solver.method,
-                                   {scenario.solver.rtol, scenario.solver.atol}, grid, sink, watch);
+        outcome =
+            solve::integrate(model, solver.method, {solver.rtol, solver.atol}, grid, sink, watch);
         status = status_of(outcome);
       }
       if (outcome.ending == solve::Ending::interrupted) return false;
@@ -154,9 +172,29 @@ class SingleRunner : public CaseRunner {
     return true;
   }
 
+  // What solve::integrate does with a smooth model, without looking at each row by itself.
+  bool run_quickly(const Scenario& scenario, const model::Model& model,
+                   const model::BallConstants& constants, const solve::OutputGrid& grid,
+                   const std::atomic<bool>& stop, double* numbers, std::string& status) {
+    const solve::Tolerances tolerances{scenario.solver.rtol, scenario.solver.atol};
+    track_.begin(model, constants, grid, same_signals_);
+    solve::collocation::RadauStepper stepper(model, kernels_,
+                                             solve::collocation::choose_stages(tolerances.rtol),
+                                             tolerances, grid.end());
+    const solve::Outcome outcome = solve::run_through(stepper, model, grid, track_, {&stop, {}});
+    if (outcome.ending == solve::Ending::interrupted) return false;
+    numbers[0] = outcome.reached;
+    track_.finish(outcome, numbers + 1);
+    status = status_of(outcome);
+    return true;
+  }
+
   const SweepTask& task_;
   CaseScenario scenario_;
   record::Meter meter_;
+  TrackMeter track_;
+  const solve::collocation::KernelSet& kernels_;
+  bool quick_, same_signals_ = true;
   bool gamma_ = false;
 };
 

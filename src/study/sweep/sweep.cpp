@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "study/sweep/single.hpp"
+#include "study/sweep/superposition.hpp"
 
 namespace bbsim::study {
 namespace {
@@ -21,10 +22,6 @@ constexpr std::size_t most_ahead = 8;
 std::size_t block_size(std::size_t cases, std::size_t group, std::size_t threads) {
   const std::size_t even = cases / (threads * 64);
   return std::clamp<std::size_t>(even / group, 1, most_in_block / group) * group;
-}
-
-std::unique_ptr<CaseRunner> make_runner(const SweepTask& task, Engine) {
-  return single_runner(task);
 }
 
 // Blocks of cases on their way from the threads to whoever wants them in order.
@@ -113,10 +110,10 @@ class Queue {
   const std::function<void(const CaseResults&)>& deliver_;
 };
 
-void work(const SweepTask& task, Engine engine, Queue& queue, const std::atomic<bool>& stop,
+void work(const Engine& engine, Queue& queue, const std::atomic<bool>& stop,
           const std::function<void(CaseResults&)>& prepare) {
   try {
-    const std::unique_ptr<CaseRunner> runner = make_runner(task, engine);
+    const std::unique_ptr<CaseRunner> runner = engine.runner();
     CaseResults results;
     for (;;) {
       const CaseRange block = queue.take();
@@ -135,24 +132,15 @@ void work(const SweepTask& task, Engine engine, Queue& queue, const std::atomic<
 
 }  // namespace
 
-std::string_view engine_name(Engine engine) {
-  switch (engine) {
-    case Engine::superposition:
-      return "superposition";
-    case Engine::lanes:
-      return "lanes";
-    case Engine::single:
-      break;
+Engine choose_engine(const SweepTask& task) {
+  if (can_superpose(task)) {
+    if (auto solutions = solve_superposed(task)) {
+      return {"superposition", 1, [&task, solutions = std::move(solutions)] {
+                return superposition_runner(task, solutions);
+              }};
+    }
   }
-  return "single runs";
-}
-
-Engine choose_engine(const SweepTask&) {
-  return Engine::single;
-}
-
-std::size_t group_size(Engine engine) {
-  return engine == Engine::lanes ? 8 : 1;
+  return {"single runs", 1, [&task] { return single_runner(task); }};
 }
 
 CaseRange shard_range(std::size_t cases, std::size_t group, std::size_t shard, std::size_t shards) {
@@ -165,19 +153,19 @@ CaseRange shard_range(std::size_t cases, std::size_t group, std::size_t shard, s
   return {start(shard - 1), start(shard)};
 }
 
-bool run_sweep(const SweepTask& task, Engine engine, CaseRange range, std::size_t threads,
+bool run_sweep(const Engine& engine, CaseRange range, std::size_t threads,
                const std::atomic<bool>& stop, const std::function<void(CaseResults&)>& prepare,
                const std::function<void(const CaseResults&)>& deliver) {
   const std::size_t cases = range.last - range.first;
-  const std::size_t block = block_size(cases, group_size(engine), threads);
+  const std::size_t block = block_size(cases, engine.group, threads);
   Queue queue(range, block, most_ahead * threads, stop, deliver);
   {
     std::vector<std::jthread> others;
     const std::size_t useful = std::min(threads, (cases + block - 1) / block);
     for (std::size_t i = 1; i < useful; ++i) {
-      others.emplace_back([&] { work(task, engine, queue, stop, prepare); });
+      others.emplace_back([&] { work(engine, queue, stop, prepare); });
     }
-    work(task, engine, queue, stop, prepare);
+    work(engine, queue, stop, prepare);
   }
   return queue.finished();
 }

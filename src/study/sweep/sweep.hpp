@@ -4,24 +4,26 @@
 #include <atomic>
 #include <cstddef>
 #include <functional>
-#include <string_view>
+#include <memory>
+#include <string>
 
 #include "study/sweep/task.hpp"
 
 namespace bbsim::study {
 
 // How cases are computed, chosen for the sweep as a whole.
-enum class Engine {
-  superposition,  // one prescribed motion: sums of a few solutions
-  lanes,          // loops of one kind in step, a case a SIMD lane
-  single,         // each case as by `bbsim run`
+struct Engine {
+  std::string name;
+  // Cases are computed in groups, which begin at multiples of this number.
+  std::size_t group = 1;
+  // Makes a runner; called once on each thread.
+  std::function<std::unique_ptr<CaseRunner>()> runner;
 };
 
-[[nodiscard]] std::string_view engine_name(Engine engine);
+// The fastest that serves the task, which outlives it: superposition where start, radius and
+// gravity vary under one prescribed motion; SIMD lanes for loops at tolerances where they are
+// ahead; and single runs for all else.
 [[nodiscard]] Engine choose_engine(const SweepTask& task);
-
-// Cases that are computed together, and begin at a multiple of this number.
-[[nodiscard]] std::size_t group_size(Engine engine);
 
 // Cases first ... last - 1.
 struct CaseRange {
@@ -37,8 +39,8 @@ struct CaseRange {
 // than threads compute at once. Ends soon after `stop` becomes true, with all that came before
 // delivered; returns whether the range was finished. Throws what the two throw. `range.first` is a
 // multiple of the group's size.
-[[nodiscard]] bool run_sweep(const SweepTask& task, Engine engine, CaseRange range,
-                             std::size_t threads, const std::atomic<bool>& stop,
+[[nodiscard]] bool run_sweep(const Engine& engine, CaseRange range, std::size_t threads,
+                             const std::atomic<bool>& stop,
                              const std::function<void(CaseResults&)>& prepare,
                              const std::function<void(const CaseResults&)>& deliver);
 

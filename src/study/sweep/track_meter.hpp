@@ -1,0 +1,74 @@
+// The measures that most sweeps ask for, many rows at a time.
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <new>
+#include <vector>
+
+#include "model/model.hpp"
+#include "record/measures.hpp"
+#include "solve/outcome.hpp"
+#include "solve/output_grid.hpp"
+#include "study/sweep/kernels/sweep_kernels.hpp"
+
+namespace bbsim::study {
+
+// Doubles aligned and padded as the kernels want them.
+class PaddedRows {
+ public:
+  void resize(std::size_t rows);
+  // Repeats the last of `rows` values in the padding.
+  void pad(std::size_t rows);
+  [[nodiscard]] double* data() { return data_.get(); }
+  [[nodiscard]] const double* data() const { return data_.get(); }
+
+ private:
+  struct Free {
+    void operator()(double* memory) const { ::operator delete (memory, std::align_val_t{64}); }
+  };
+  std::unique_ptr<double, Free> data_;
+  std::size_t room_ = 0;
+};
+
+// Whether all of them can be taken by a TrackMeter: of any column at the end; the greatest tilt,
+// tilt_rate and distance; the greatest and the root mean square of tracking_error.
+[[nodiscard]] bool are_track_measures(const std::vector<record::Measure>& measures);
+
+// Whether a TrackMeter understands the model's rows: a ball anywhere on the plane under equation
+// (27), with a given motion or equation (31).
+[[nodiscard]] bool has_track(const model::Model& model);
+
+// Takes the measures of one run after another, as record::Meter does.
+class TrackMeter : public solve::StateSink {
+ public:
+  explicit TrackMeter(std::vector<record::Measure> measures);
+
+  // Begins a run; the three outlive it. `same_signals`: the motion or reference, and the grid, are
+  // those of the run before.
+  void begin(const model::Model& model, const model::BallConstants& constants,
+             const solve::OutputGrid& grid, bool same_signals);
+  void accept(std::size_t first, std::size_t count, const double* values) override;
+  void finish(const solve::Outcome& outcome, double* results);
+
+ private:
+  void evaluate_signals(const model::SignalPair& signals);
+  void cut_signals();
+  [[nodiscard]] double tilt_at(std::size_t row) const;
+  [[nodiscard]] double greatest_distance(bool from_reference) const;
+
+  std::vector<record::Measure> measures_;
+  const SweepKernels& kernels_;
+  const model::Model* model_ = nullptr;
+  const model::BallConstants* constants_ = nullptr;
+  const solve::OutputGrid* grid_ = nullptr;
+  bool closed_ = false, wants_gimbal_ = false, wants_error_ = false, has_signals_ = false;
+  std::size_t rows_ = 0;
+  PaddedRows times_, x_, y_, phi_, theta_, phi_rate_, theta_rate_;
+  PaddedRows signal_[2], signal_rate_[2];  // the gimbal's motion, or the reference
+  PaddedRows cut_[4];                      // the same, as far as a run came that ended early
+  std::vector<double> last_;               // row
+  Track track_;
+};
+
+}  // namespace bbsim::study
