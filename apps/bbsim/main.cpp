@@ -76,6 +76,7 @@ int main(int argc, char** argv) {
   std::function<ExitCode()> chosen;
   bbsim::app::add_run(app, options, chosen);
   bbsim::app::add_sweep(app, options, chosen);
+  bbsim::app::add_merge(app, options, chosen);
   bbsim::app::add_check(app, chosen);
   bbsim::app::add_compare(app, chosen);
   bbsim::app::add_verify(app, options, chosen);

@@ -163,7 +163,8 @@ std::string plan_text(const ScenarioFamily& family, const Sweep& sweep,
   return plan.dump(1) + '\n';
 }
 
-record::Attributes attributes_of(const ScenarioFamily& family, const Sweep& sweep) {
+record::Attributes attributes_of(const ScenarioFamily& family, const Sweep& sweep,
+                                 std::size_t cases) {
   const Source& source = family.source();
   record::Attributes attributes{
       {"version", BBSIM_VERSION}, {"scenario", source.file}, {"scenario_text", source.text}};
@@ -175,6 +176,7 @@ record::Attributes attributes_of(const ScenarioFamily& family, const Sweep& swee
   attributes.emplace_back("overrides", lines(source.overrides, [](const auto& o) { return o; }));
   attributes.emplace_back(
       "vary", lines(sweep.vary, [](const Variation& one) { return one.key + '=' + one.spec; }));
+  attributes.emplace_back("cases", std::to_string(cases));
   attributes.emplace_back("combine", sweep.combine == Combine::zip ? "zip" : "grid");
   if (sweep.samples) {
     attributes.emplace_back("samples", short_number(*sweep.samples));
@@ -283,7 +285,7 @@ ExitCode sweep(const SweepArguments& arguments, const Options& options) {
     }
     return ExitCode::interrupted;
   }
-  file->finish(attributes_of(family, sweep));
+  file->finish(attributes_of(family, sweep, plan.cases()));
   if (!options.quiet) {
     std::string line = output + ": " + counts;
     if (kept > 0) line += ", " + std::to_string(kept) + " of them from before";

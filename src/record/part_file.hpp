@@ -26,6 +26,8 @@ class PartFile {
   // Lines below the header that were kept.
   [[nodiscard]] std::size_t kept() const { return kept_; }
   [[nodiscard]] const std::string& name() const { return part_; }
+  // Whether there is anything below the header.
+  [[nodiscard]] bool has_lines() const { return has_lines_; }
 
   // Keeps only so many of the lines that were kept.
   void drop_lines_after(std::size_t lines);
