@@ -10,6 +10,9 @@
 struct bbsim_hdf5_writer {
   bbsim::hdf5::Writer writer;
 };
+struct bbsim_hdf5_reader {
+  bbsim::hdf5::Reader reader;
+};
 
 namespace bbsim::hdf5 {
 
@@ -58,13 +61,22 @@ int with_system_error(int result, const Writer& writer, bbsim_hdf5_error* error)
 
 bbsim_hdf5_writer* create(int descriptor, const bbsim_hdf5_column* columns, std::size_t count,
                           bbsim_hdf5_error* error) {
-  bbsim_hdf5_writer* writer = nullptr;
-  guarded(error,
-          [&] { writer = new bbsim_hdf5_writer{Writer(descriptor, std::span(columns, count))}; });
-  return writer;
+  std::unique_ptr<bbsim_hdf5_writer> writer;
+  int result = guarded(error, [&] {
+    writer = std::make_unique<bbsim_hdf5_writer>();
+    writer->writer.start(descriptor, std::span(columns, count));
+  });
+  if (writer != nullptr) result = with_system_error(result, writer->writer, error);
+  return result == 0 ? writer.release() : nullptr;
 }
 
-int append(bbsim_hdf5_writer* writer, const double* const* columns, std::size_t rows,
+int write_axis(bbsim_hdf5_writer* writer, const bbsim_hdf5_column* axis, const double* values,
+               bbsim_hdf5_error* error) {
+  const int result = guarded(error, [&] { writer->writer.write_axis(*axis, values); });
+  return with_system_error(result, writer->writer, error);
+}
+
+int append(bbsim_hdf5_writer* writer, const bbsim_hdf5_values* columns, std::size_t rows,
            bbsim_hdf5_error* error) {
   const int result = guarded(error, [&] { writer->writer.append(columns, rows); });
   return with_system_error(result, writer->writer, error);
@@ -81,8 +93,26 @@ void destroy(bbsim_hdf5_writer* writer) {
   guarded(&ignored, [&] { delete writer; });
 }
 
-int read_file(const char* path, const bbsim_hdf5_sink* sink, bbsim_hdf5_error* error) {
-  return guarded(error, [&] { read(path, *sink); });
+bbsim_hdf5_reader* open(const char* path, const bbsim_hdf5_contents* contents,
+                        bbsim_hdf5_error* error) {
+  bbsim_hdf5_reader* reader = nullptr;
+  guarded(error, [&] { reader = new bbsim_hdf5_reader{Reader(path, *contents)}; });
+  return reader;
+}
+
+int read_numbers(bbsim_hdf5_reader* reader, std::size_t dataset, std::size_t first,
+                 std::size_t rows, double* to, bbsim_hdf5_error* error) {
+  return guarded(error, [&] { reader->reader.read_numbers(dataset, first, rows, to); });
+}
+
+int read_texts(bbsim_hdf5_reader* reader, std::size_t dataset, std::size_t first, std::size_t rows,
+               const bbsim_hdf5_texts* to, bbsim_hdf5_error* error) {
+  return guarded(error, [&] { reader->reader.read_texts(dataset, first, rows, *to); });
+}
+
+void close(bbsim_hdf5_reader* reader) {
+  bbsim_hdf5_error ignored{};
+  guarded(&ignored, [&] { delete reader; });
 }
 
 }  // namespace
@@ -91,6 +121,7 @@ int read_file(const char* path, const bbsim_hdf5_sink* sink, bbsim_hdf5_error* e
 extern "C" __attribute__((visibility("default"))) const bbsim_hdf5_module* bbsim_hdf5_entry() {
   using namespace bbsim::hdf5;
   static const bbsim_hdf5_module module{
-      BBSIM_HDF5_INTERFACE, create, append, finish, destroy, read_file};
+      BBSIM_HDF5_INTERFACE, create,     write_axis, append, finish, destroy, open,
+      read_numbers,         read_texts, close};
   return &module;
 }

@@ -2,15 +2,23 @@
 
 #include <hdf5_hl.h>
 
+#include <algorithm>
+#include <array>
 #include <string_view>
 
 #include "record/hdf5/descriptor_driver.hpp"
+#include "record/hdf5/strings.hpp"
 
 namespace bbsim::hdf5 {
 namespace {
 
-// 8 KiB: small enough for the common run of a thousand rows, large enough for long ones.
+// 8 KiB of numbers: small enough for the common run of a thousand rows, large enough for long ones.
 constexpr hsize_t rows_a_chunk = 1024;
+// Of a series, a chunk is as many rows, a power of two, as fit; at least one.
+constexpr hsize_t bytes_a_series_chunk = 128 * 1024;
+// Chunks are written once and front to back: a dataset needs to keep no more than the last one,
+// and none that is larger than this, as it is written whole.
+constexpr std::size_t largest_cache = 1024 * 1024;
 
 constexpr unsigned in_order = H5P_CRT_ORDER_TRACKED | H5P_CRT_ORDER_INDEXED;
 
@@ -26,28 +34,34 @@ File create_file(int descriptor, int* system_error) {
   return {H5Fcreate("bbsim", H5F_ACC_TRUNC, creation, access), "creating the file"};
 }
 
-// A string of any length in UTF-8, as h5py writes it.
-void set_attribute(hid_t object, const char* name, const char* value) {
-  const Datatype type(H5Tcopy(H5T_C_S1), "writing an attribute");
-  check(H5Tset_size(type, H5T_VARIABLE), "writing an attribute");
-  check(H5Tset_cset(type, H5T_CSET_UTF8), "writing an attribute");
-  const Dataspace space(H5Screate(H5S_SCALAR), "writing an attribute");
-  Attribute attribute(H5Acreate2(object, name, type, space, H5P_DEFAULT, H5P_DEFAULT),
-                      "writing an attribute");
-  check(H5Awrite(attribute, type, &value), "writing an attribute");
-  attribute.close_checked("writing an attribute");
+hsize_t rows_of_a_chunk(const bbsim_hdf5_column& column) {
+  if (column.kind != BBSIM_HDF5_SERIES) return rows_a_chunk;
+  const hsize_t most = bytes_a_series_chunk / sizeof(double) / column.width;
+  hsize_t rows = 1;
+  while (2 * rows <= most) rows *= 2;
+  return rows;
 }
 
 Dataset create_dataset(hid_t file, const bbsim_hdf5_column& column) {
-  const hsize_t size = 0;
-  const hsize_t most = H5S_UNLIMITED;
-  const Dataspace space(H5Screate_simple(1, &size, &most), "creating a dataset");
-  const Properties creation(H5Pcreate(H5P_DATASET_CREATE), "creating a dataset");
-  check(H5Pset_chunk(creation, 1, &rows_a_chunk), "creating a dataset");
-  check(H5Pset_obj_track_times(creation, false), "creating a dataset");
-  Dataset dataset(
-      H5Dcreate2(file, column.name, H5T_IEEE_F64LE, space, H5P_DEFAULT, creation, H5P_DEFAULT),
-      "creating a dataset");
+  constexpr const char* doing = "creating a dataset";
+  const bool is_text = column.kind == BBSIM_HDF5_TEXT;
+  const int rank = column.kind == BBSIM_HDF5_SERIES ? 2 : 1;
+  const std::array<hsize_t, 2> size = {0, column.width};
+  const std::array<hsize_t, 2> most = {H5S_UNLIMITED, column.width};
+  const std::array<hsize_t, 2> chunk = {rows_of_a_chunk(column), column.width};
+  const Dataspace space(H5Screate_simple(rank, size.data(), most.data()), doing);
+  const Properties creation(H5Pcreate(H5P_DATASET_CREATE), doing);
+  check(H5Pset_chunk(creation, rank, chunk.data()), doing);
+  check(H5Pset_obj_track_times(creation, false), doing);
+
+  constexpr std::size_t bytes_of_a_text = 16;  // as it refers to its string
+  const std::size_t bytes = is_text ? bytes_of_a_text : sizeof(double) * column.width;
+  const Properties access(H5Pcreate(H5P_DATASET_ACCESS), doing);
+  check(H5Pset_chunk_cache(access, 1, std::min<std::size_t>(chunk[0] * bytes, largest_cache), 1.0),
+        doing);
+
+  const Datatype type = is_text ? string_type() : Datatype(H5Tcopy(H5T_IEEE_F64LE), doing);
+  Dataset dataset(H5Dcreate2(file, column.name, type, space, H5P_DEFAULT, creation, access), doing);
   set_attribute(dataset, "unit", column.unit);
   set_attribute(dataset, "description", column.description);
   return dataset;
@@ -55,41 +69,73 @@ Dataset create_dataset(hid_t file, const bbsim_hdf5_column& column) {
 
 }  // namespace
 
-Writer::Writer(int descriptor, std::span<const bbsim_hdf5_column> columns)
-    : file_(create_file(descriptor, system_error_.get())) {
-  hid_t time = -1;
+void Writer::start(int descriptor, std::span<const bbsim_hdf5_column> columns) {
+  file_ = create_file(descriptor, system_error_.get());
+  hid_t scale = -1;
+  const char* scale_name = "";
   for (const bbsim_hdf5_column& column : columns) {
-    datasets_.push_back(create_dataset(file_, column));
-    if (std::string_view(column.name) == "t") time = datasets_.back();
+    columns_.push_back({create_dataset(file_, column), column.kind, column.width});
+    if (column.kind != BBSIM_HDF5_SCALE) continue;
+    scale = columns_.back().dataset;
+    scale_name = column.name;
   }
-  if (time < 0) return;
-  check(H5DSset_scale(time, "t"), "making t the dimension scale");
-  for (const Dataset& dataset : datasets_) {
-    if (dataset != time) check(H5DSattach_scale(dataset, time, 0), "attaching the scale t");
+  if (scale < 0) return;
+  check(H5DSset_scale(scale, scale_name), "making a dimension scale");
+  for (const Column& column : columns_) {
+    if (column.dataset == scale) continue;
+    check(H5DSattach_scale(column.dataset, scale, 0), "attaching the dimension scale");
   }
 }
 
-void Writer::append(const double* const* columns, std::size_t rows) {
-  if (rows == 0) return;
-  const hsize_t count = rows;
-  const hsize_t size = rows_ + count;
-  const Dataspace memory(H5Screate_simple(1, &count, nullptr), "writing rows");
-  for (std::size_t c = 0; c < datasets_.size(); ++c) {
-    check(H5Dset_extent(datasets_[c], &size), "writing rows");
-    const Dataspace space(H5Dget_space(datasets_[c]), "writing rows");
-    check(H5Sselect_hyperslab(space, H5S_SELECT_SET, &rows_, nullptr, &count, nullptr),
-          "writing rows");
-    check(H5Dwrite(datasets_[c], H5T_NATIVE_DOUBLE, memory, space, H5P_DEFAULT, columns[c]),
-          "writing rows");
+void Writer::write_axis(const bbsim_hdf5_column& axis, const double* values) {
+  constexpr const char* doing = "writing an axis";
+  const hsize_t size = axis.width;
+  const Dataspace space(H5Screate_simple(1, &size, nullptr), doing);
+  const Properties creation(H5Pcreate(H5P_DATASET_CREATE), doing);
+  check(H5Pset_obj_track_times(creation, false), doing);
+  Dataset dataset(
+      H5Dcreate2(file_, axis.name, H5T_IEEE_F64LE, space, H5P_DEFAULT, creation, H5P_DEFAULT),
+      doing);
+  set_attribute(dataset, "unit", axis.unit);
+  set_attribute(dataset, "description", axis.description);
+  set_attribute(dataset, "axis", "series");  // what tells it from a column
+  if (size > 0) {
+    check(H5Dwrite(dataset, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values), doing);
   }
-  rows_ = size;
+  dataset.close_checked(doing);
+}
+
+void Writer::append(const bbsim_hdf5_values* columns, std::size_t rows) {
+  if (rows == 0) return;
+  const Datatype string = string_type();
+  for (std::size_t c = 0; c < columns_.size(); ++c) {
+    const auto& [dataset, kind, width] = columns_[c];
+    const int rank = kind == BBSIM_HDF5_SERIES ? 2 : 1;
+    const std::array<hsize_t, 2> size = {rows_ + rows, width};
+    const std::array<hsize_t, 2> first = {rows_, 0};
+    const std::array<hsize_t, 2> count = {rows, width};
+    check(H5Dset_extent(dataset, size.data()), "writing rows");
+    const Dataspace memory(H5Screate_simple(rank, count.data(), nullptr), "writing rows");
+    const Dataspace space(H5Dget_space(dataset), "writing rows");
+    check(H5Sselect_hyperslab(space, H5S_SELECT_SET, first.data(), nullptr, count.data(), nullptr),
+          "writing rows");
+    if (kind == BBSIM_HDF5_TEXT) {
+      check(H5Dwrite(dataset, string, memory, space, H5P_DEFAULT,
+                     static_cast<const void*>(columns[c].texts)),
+            "writing rows");
+    } else {
+      check(H5Dwrite(dataset, H5T_NATIVE_DOUBLE, memory, space, H5P_DEFAULT, columns[c].numbers),
+            "writing rows");
+    }
+  }
+  rows_ += rows;
 }
 
 void Writer::finish(std::span<const bbsim_hdf5_attribute> attributes) {
   for (const bbsim_hdf5_attribute& attribute : attributes) {
     set_attribute(file_, attribute.name, attribute.value);
   }
-  for (Dataset& dataset : datasets_) dataset.close_checked("closing a dataset");
+  for (Column& column : columns_) column.dataset.close_checked("closing a dataset");
   file_.close_checked("closing the file");
 }
 

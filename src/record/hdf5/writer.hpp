@@ -15,17 +15,23 @@ namespace bbsim::hdf5 {
 // system_error() instead and is the one to report.
 class Writer {
  public:
-  Writer(int descriptor, std::span<const bbsim_hdf5_column> columns);
-
-  void append(const double* const* columns, std::size_t rows);
+  void start(int descriptor, std::span<const bbsim_hdf5_column> columns);  // first of all
+  void write_axis(const bbsim_hdf5_column& axis, const double* values);
+  void append(const bbsim_hdf5_values* columns, std::size_t rows);
   void finish(std::span<const bbsim_hdf5_attribute> attributes);
 
   [[nodiscard]] int system_error() const { return *system_error_; }  // an errno, 0 if none
 
  private:
+  struct Column {
+    Dataset dataset;
+    bbsim_hdf5_kind kind;
+    hsize_t width;
+  };
+
   std::unique_ptr<int> system_error_ = std::make_unique<int>(0);  // outlives file_
   File file_;
-  std::vector<Dataset> datasets_;
+  std::vector<Column> columns_;
   hsize_t rows_ = 0;
 };
 
