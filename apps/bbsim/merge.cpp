@@ -1,3 +1,5 @@
+#include "record/merge.hpp"
+
 #include <CLI/App.hpp>
 #include <cstdio>
 #include <memory>
@@ -5,7 +7,6 @@
 #include <vector>
 
 #include "commands.hpp"
-#include "record/merge.hpp"
 
 namespace bbsim::app {
 namespace {

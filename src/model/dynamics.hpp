@@ -18,7 +18,8 @@ struct BallConstants {
 [[nodiscard]] BallConstants constants_of(const Scenario& scene);
 
 struct Dynamics {
-  Eigen::Vector3d force;          // of the plane on the ball, plane frame, N; z is the normal force
+  Eigen::Vector3d force{0, 0,
+                        0};       // of the plane on the ball, plane frame, N; z is the normal force
   double torque_phi = 0;          // motor torque that carries the ball, N m
   double torque_theta = 0;        // N m
   double energy = 0;              // kinetic and potential, J; potential zero at the gimbal's centre
@@ -32,6 +33,9 @@ struct Dynamics {
   [[nodiscard]] double normal_force() const { return force.z(); }
   [[nodiscard]] double friction_force() const { return force.head<2>().norm(); }
 };
+
+// Of the plane on the ball, plane frame, N; z is the normal force.
+[[nodiscard]] Eigen::Vector3d contact_force(const Sample& sample, const BallConstants& constants);
 
 // All of it, from the state and the gimbal's motion alone.
 [[nodiscard]] Dynamics dynamics(const Sample& sample, const BallConstants& constants);

@@ -63,8 +63,9 @@ std::size_t case_of(const std::string& file, std::string_view line) {
   std::size_t number = 0;
   const auto result = std::from_chars(line.data(), line.data() + line.size(), number);
   if (result.ec != std::errc{} || result.ptr == line.data() + line.size() || *result.ptr != ',') {
-    throw InputError(file + ": found a row that does not begin with the number of a case; allowed: "
-                            "what bbsim sweep writes");
+    throw InputError(file +
+                     ": found a row that does not begin with the number of a case; allowed: "
+                     "what bbsim sweep writes");
   }
   return number;
 }
@@ -108,8 +109,9 @@ std::size_t merge_csv(const std::vector<std::string>& files, const std::string& 
     std::getline(stream, line);
     while (std::getline(stream, line)) {
       if (stream.eof()) {
-        throw InputError(part.file + ": found a last row that is not whole; allowed: a part that "
-                                     "came to its end");
+        throw InputError(part.file +
+                         ": found a last row that is not whole; allowed: a part that "
+                         "came to its end");
       }
       const std::size_t number = case_of(part.file, line);
       if (number != next) {

@@ -7,8 +7,8 @@
 
 namespace bbsim::record {
 
-// Puts the parts, CSV or HDF5 alike, in the order of their cases and writes them to `target`, to the
-// byte what a sweep without shards writes. Returns the number of cases.
+// Puts the parts, CSV or HDF5 alike, in the order of their cases and writes them to `target`, to
+// the byte what a sweep without shards writes. Returns the number of cases.
 //
 // Throws InputError unless they have the same columns and together every case from 0 on once; parts
 // that are named as of so many (-2of3) must be all there. Throws OutputError.

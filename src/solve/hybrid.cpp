@@ -184,8 +184,38 @@ class HybridIntegration {
     return from;
   }
 
+  // Point p of the `points` at which a step from `from` to `to` is looked at.
+  static double point(std::size_t p, std::size_t points, double from, double to) {
+    if (p == points) return to;
+    return from + (to - from) * static_cast<double>(p) / static_cast<double>(points);
+  }
+
+  // Slopes are differences over this part of the way from point to point.
+  static constexpr double nudged = 1e-4;
+
+  // States at all times that scan() looks at if nothing happens: one call costs little more than
+  // one for each pack of lanes.
+  void look_ahead(std::size_t points, double from, double to) {
+    planned_times_.clear();
+    double last = from;
+    for (std::size_t p = 1; p <= points; ++p) {
+      const double here = point(p, points, from, to), nudge = (here - last) * nudged;
+      planned_times_.insert(planned_times_.end(), {last + nudge, here - nudge, here});
+      last = here;
+    }
+    planned_rows_.resize(planned_times_.size() * plain_size_);
+    stepper_->evaluate(planned_times_.data(), planned_times_.size(), planned_rows_.data());
+    next_planned_ = 0;
+  }
+
   // Values of all guards at t.
   void look_at(double t, std::vector<double>& values) {
+    if (next_planned_ < planned_times_.size() && planned_times_[next_planned_] == t) {
+      run_.evaluate_guards(t, &planned_rows_[next_planned_ * plain_size_], values.data());
+      ++next_planned_;
+      return;
+    }
+    next_planned_ = planned_times_.size();  // another way than planned
     state_at(t, look_);
     run_.evaluate_guards(t, look_.data(), values.data());
   }
@@ -203,12 +233,11 @@ class HybridIntegration {
   Effect scan(double from, double to, double& at, std::vector<double>& z) {
     if (guards_.empty()) return Effect::none;
     const std::size_t points = stepper_->detail();
+    look_ahead(points, from, to);
     double last = from;  // looked at
     for (std::size_t p = 1; p <= points;) {
-      const double here =
-          p == points ? to
-                      : from + (to - from) * static_cast<double>(p) / static_cast<double>(points);
-      const double width = here - last, nudge = width * 1e-4;
+      const double here = point(p, points, from, to);
+      const double width = here - last, nudge = width * nudged;
       if (!(width > 0)) {
         ++p;
         continue;
@@ -306,7 +335,8 @@ class HybridIntegration {
   RowBlock rows_;
   std::unique_ptr<Stepper> stepper_;
   std::vector<Guard> guards_;
-  std::vector<double> values_, now_, near_, look_, row_;
+  std::vector<double> values_, now_, near_, look_, row_, planned_times_, planned_rows_;
+  std::size_t next_planned_ = 0;
   std::size_t next_row_ = 1;
   double last_switch_ = -1;
   int still_ = 0;

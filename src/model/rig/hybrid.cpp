@@ -199,10 +199,9 @@ void HybridRun::evaluate_guards(double t, const double* z, double* values) const
     }
   }
   if (happening_.empty()) return;
-  const Sample now = sample(t, z);
+  model_.watched->margins(sample(t, z), values);
   for (std::size_t m = 0; m < happening_.size(); ++m) {
-    const double margin = model_.watched->margin(model_.watched->monitors[m], now);
-    values[m] = happening_[m] != 0 ? -margin : margin;
+    if (happening_[m] != 0) values[m] = -values[m];
   }
 }
 

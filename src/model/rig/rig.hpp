@@ -57,7 +57,12 @@ struct Watchlist {
   Plate plate;
   BallConstants constants;
 
+  // Of each monitor, how far it is from happening: negative once it does.
+  void margins(const Sample& sample, double* values) const;
   [[nodiscard]] double margin(const Monitor& monitor, const Sample& sample) const;
+
+ private:
+  [[nodiscard]] double edge_margin(const Sample& sample) const;
 };
 
 [[nodiscard]] Watchlist watchlist(const Scenario& scene);

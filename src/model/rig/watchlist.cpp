@@ -23,33 +23,59 @@ const char* Monitor::name() const {
   return "";
 }
 
+double Watchlist::edge_margin(const Sample& sample) const {
+  double left = unlimited;
+  if (plate.size) {
+    left = std::min((*plate.size)[0] / 2 - std::abs(sample.ball.x),
+                    (*plate.size)[1] / 2 - std::abs(sample.ball.y));
+  }
+  if (plate.diameter) {
+    left = std::min(left, *plate.diameter / 2 - std::hypot(sample.ball.x, sample.ball.y));
+  }
+  return left;
+}
+
 double Watchlist::margin(const Monitor& monitor, const Sample& sample) const {
-  if (monitor.kind == Monitor::Kind::edge) {
-    double left = unlimited;
-    if (plate.size) {
-      left = std::min((*plate.size)[0] / 2 - std::abs(sample.ball.x),
-                      (*plate.size)[1] / 2 - std::abs(sample.ball.y));
-    }
-    if (plate.diameter) {
-      left = std::min(left, *plate.diameter / 2 - std::hypot(sample.ball.x, sample.ball.y));
-    }
-    return left;
+  const Watchlist alone{{monitor}, plate, constants};
+  double value = unlimited;
+  alone.margins(sample, &value);
+  return value;
+}
+
+void Watchlist::margins(const Sample& sample, double* values) const {
+  using Kind = Monitor::Kind;
+  Dynamics now;
+  const auto asks_for = [this](Kind one, Kind other) {
+    return std::any_of(monitors.begin(), monitors.end(), [=](const Monitor& monitor) {
+      return monitor.kind == one || monitor.kind == other;
+    });
+  };
+  if (asks_for(Kind::tilt, Kind::singularity)) {
+    now = dynamics(sample, constants);
+  } else if (asks_for(Kind::slip, Kind::lift_off)) {
+    now.force = contact_force(sample, constants);
   }
-  const Dynamics now = dynamics(sample, constants);
-  switch (monitor.kind) {
-    case Monitor::Kind::slip:
-      return monitor.limit * now.normal_force() - now.friction_force();
-    case Monitor::Kind::lift_off:
-      // No force at all is none that holds it.
-      return now.normal_force() != 0 ? now.normal_force() : -std::numeric_limits<double>::min();
-    case Monitor::Kind::tilt:
-      return monitor.limit - now.tilt;
-    case Monitor::Kind::singularity:
-      return now.singularity_distance - monitor.limit;
-    case Monitor::Kind::edge:
-      break;
+  for (const Monitor& monitor : monitors) {
+    double& value = *values++;
+    switch (monitor.kind) {
+      case Kind::edge:
+        value = edge_margin(sample);
+        break;
+      case Kind::slip:
+        value = monitor.limit * now.normal_force() - now.friction_force();
+        break;
+      case Kind::lift_off:
+        // No force at all is none that holds it.
+        value = now.normal_force() != 0 ? now.normal_force() : -std::numeric_limits<double>::min();
+        break;
+      case Kind::tilt:
+        value = monitor.limit - now.tilt;
+        break;
+      case Kind::singularity:
+        value = now.singularity_distance - monitor.limit;
+        break;
+    }
   }
-  return unlimited;
 }
 
 Watchlist watchlist(const Scenario& scene) {
