@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <string>
 #include <vector>
 
 #include "record/hdf5/handle.hpp"
@@ -21,8 +22,13 @@ class Reader {
  private:
   void tell_datasets(hid_t root, const bbsim_hdf5_contents& contents);
 
+  struct Named {
+    std::string name;
+    Dataset dataset;
+  };
+
   File file_;
-  std::vector<Dataset> datasets_;
+  std::vector<Named> datasets_;
 };
 
 }  // namespace bbsim::hdf5
