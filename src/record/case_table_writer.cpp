@@ -13,7 +13,7 @@ namespace {
 // Rows are handed to HDF5 so many at a time, fewer if they are wide, always a power of two: that
 // makes the file's bytes independent of the caller's blocks.
 constexpr std::size_t most_rows_at_once = 1024;
-constexpr std::size_t most_bytes_at_once = 8 * 1024 * 1024;
+constexpr std::size_t most_bytes_at_once = std::size_t{8} * 1024 * 1024;
 
 std::size_t rows_at_once(const std::vector<CaseColumn>& columns) {
   std::size_t bytes = 0;  // of a row, strings not counted

@@ -9,7 +9,7 @@ namespace bbsim::hdf5 {
 namespace {
 
 constexpr std::size_t cache_slots = 31;
-constexpr std::size_t cache_bytes = 256 * 1024;
+constexpr std::size_t cache_bytes = std::size_t{256} * 1024;
 
 File open_file(const char* path) {
   if (H5Fis_hdf5(path) == 0) throw Failure("it is no HDF5 file");
