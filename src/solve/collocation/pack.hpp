@@ -40,6 +40,9 @@ struct Pack {
   Vector v;
 
   BBSIM_INLINE Pack() {}  // NOLINT(modernize-use-equals-default): uninitialised on purpose
+  // As one vector: copied as plain memory, numbers made of packs would go by halves.
+  BBSIM_INLINE Pack(const Pack& other) : v(other.v) {}
+  BBSIM_INLINE Pack& operator=(const Pack& other) { return v = other.v, *this; }
   BBSIM_INLINE Pack(double value) : v(value - Vector{}) {}  // NOLINT(google-explicit-constructor)
   BBSIM_INLINE static Pack of(Vector v) {
     Pack p;
@@ -72,10 +75,10 @@ struct Pack {
   BBSIM_INLINE friend double plain(Pack a) { return a.v[0]; }
 };
 
-// Within 1 ulp or so of the true value: reduction by multiples of pi/2 after Cody and Waite, then
-// minimax polynomials. Beyond 10^5, where that reduction would lose digits, the C library's.
+// Within 1 ulp or so of the true value up to 10^5: reduction by multiples of pi/2 after Cody and
+// Waite, then minimax polynomials. Beyond, that reduction loses digits.
 template <class Isa, int lanes>
-BBSIM_INLINE model::SinCos<Pack<Isa, lanes>> sin_cos(Pack<Isa, lanes> angle) {
+BBSIM_INLINE model::SinCos<Pack<Isa, lanes>> sin_cos_of_moderate(Pack<Isa, lanes> angle) {
   using P = Pack<Isa, lanes>;
   using Vector = typename P::Vector;
   using Mask = typename P::Mask;
@@ -103,7 +106,15 @@ BBSIM_INLINE model::SinCos<Pack<Isa, lanes>> sin_cos(Pack<Isa, lanes> angle) {
   model::SinCos<P> result;
   result.sin = P::of((Vector)((((Mask)c & odd) | ((Mask)s & ~odd)) ^ sine_sign));
   result.cos = P::of((Vector)((((Mask)s & odd) | ((Mask)c & ~odd)) ^ cosine_sign));
-  const Mask small = (angle.v < 1e5) & (angle.v > -1e5);
+  return result;
+}
+
+// The same; beyond 10^5 the C library's.
+template <class Isa, int lanes>
+BBSIM_INLINE model::SinCos<Pack<Isa, lanes>> sin_cos(Pack<Isa, lanes> angle) {
+  using P = Pack<Isa, lanes>;
+  model::SinCos<P> result = sin_cos_of_moderate(angle);
+  const typename P::Mask small = (angle.v < 1e5) & (angle.v > -1e5);
   long long all = small[0];
   for (int i = 1; i < lanes; ++i) all &= small[i];
   if (__builtin_expect(all == 0, 0)) {

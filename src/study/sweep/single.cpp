@@ -101,17 +101,13 @@ class SingleRunner : public CaseRunner {
         meter_(task.measures),
         track_(task.measures),
         kernels_(solve::collocation::choose_kernels()),
-        quick_(task.series.empty() && are_track_measures(task.measures)) {
+        quick_(task.series.empty() && are_track_measures(task.measures)),
+        same_signals_(shares_signals(task.plan)) {
     const auto needs = [](const record::Column* column) {
       return column->needs == record::Needs::gamma;
     };
     gamma_ = record::any_needs(task.measures, record::Needs::gamma) ||
              std::any_of(task.series.begin(), task.series.end(), needs);
-    for (const Axis& axis : task.plan.axes()) {
-      for (const char* const part : {"gimbal.motion", "controller.reference", "time"}) {
-        if (axis.key.starts_with(part)) same_signals_ = false;
-      }
-    }
   }
 
   bool run(std::size_t first, std::size_t count, CaseResults& into,
@@ -184,7 +180,7 @@ class SingleRunner : public CaseRunner {
     const solve::Outcome outcome = solve::run_through(stepper, model, grid, track_, {&stop, {}});
     if (outcome.ending == solve::Ending::interrupted) return false;
     numbers[0] = outcome.reached;
-    track_.finish(outcome, numbers + 1);
+    track_.finish(numbers + 1);
     status = status_of(outcome);
     return true;
   }
@@ -194,7 +190,7 @@ class SingleRunner : public CaseRunner {
   record::Meter meter_;
   TrackMeter track_;
   const solve::collocation::KernelSet& kernels_;
-  bool quick_, same_signals_ = true;
+  bool quick_, same_signals_;
   bool gamma_ = false;
 };
 

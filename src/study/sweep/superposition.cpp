@@ -153,7 +153,7 @@ std::shared_ptr<const Superposed> solve_superposed(const SweepTask& task) {
   std::array<double, 2> tilt{};
   gimbal.begin(model, constants, grid, false);
   gimbal.accept(0, grid.size(), still.data());
-  gimbal.finish({}, tilt.data());
+  gimbal.finish(tilt.data());
   solutions->max_tilt = tilt[0];
   solutions->max_tilt_rate = tilt[1];
   return solutions;

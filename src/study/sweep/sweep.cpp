@@ -8,6 +8,7 @@
 #include <thread>
 #include <utility>
 
+#include "study/sweep/lanes.hpp"
 #include "study/sweep/single.hpp"
 #include "study/sweep/superposition.hpp"
 
@@ -139,6 +140,9 @@ Engine choose_engine(const SweepTask& task) {
                 return superposition_runner(task, solutions);
               }};
     }
+  }
+  if (can_use_lanes(task)) {
+    return {"lanes", lane_group(), [&task] { return lane_runner(task); }};
   }
   return {"single runs", 1, [&task] { return single_runner(task); }};
 }

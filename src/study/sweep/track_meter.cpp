@@ -63,6 +63,21 @@ bool has_track(const model::Model& model) {
   return has;
 }
 
+bool shares_signals(const SweepPlan& plan) {
+  for (const Axis& axis : plan.axes()) {
+    for (const char* const part : {"gimbal.motion", "controller.reference", "time"}) {
+      if (axis.key.starts_with(part)) return false;
+    }
+  }
+  return true;
+}
+
+const model::SignalPair& signals_of(const model::Model& model) {
+  const model::SignalPair* found = nullptr;
+  with_track(model, [&](const model::SignalPair& signals, bool) { found = &signals; });
+  return *found;
+}
+
 TrackMeter::TrackMeter(std::vector<record::Measure> measures)
     : measures_(std::move(measures)), kernels_(choose_sweep_kernels()) {
   for (const record::Measure& measure : measures_) {
@@ -132,29 +147,32 @@ void TrackMeter::begin(const model::Model& model, const model::BallConstants& co
             closed_ ? signal_[1].data() : nullptr};
 }
 
+void TrackMeter::accept(std::size_t first, std::size_t count, const double* values) {
+  take(first, count, values, model_->row_size(), 1);
+}
+
 // States of a ball anywhere on the plane: x, y, x', y', u; then, of a loop, the gimbal's phi,
 // theta, phi', theta'.
-void TrackMeter::accept(std::size_t first, std::size_t count, const double* values) {
-  const std::size_t size = model_->row_size();
-  double *const x = x_.data() + first, *const y = y_.data() + first;
-  for (std::size_t i = 0; i < count; ++i) {
-    x[i] = values[i * size];
-    y[i] = values[i * size + 1];
-  }
+void TrackMeter::take(std::size_t first, std::size_t count, const double* values,
+                      std::size_t row_stride, std::size_t stride) {
+  const auto copy = [&](std::size_t state, PaddedRows& to) {
+    double* const column = to.data() + first;
+    const double* const from = values + state * stride;
+    for (std::size_t i = 0; i < count; ++i) column[i] = from[i * row_stride];
+  };
+  copy(0, x_);
+  copy(1, y_);
   if (closed_ && wants_gimbal_) {
-    double *const phi = phi_.data() + first, *const theta = theta_.data() + first;
-    double *const phi_rate = phi_rate_.data() + first, *const theta_rate =
-                                                           theta_rate_.data() + first;
-    for (std::size_t i = 0; i < count; ++i) {
-      const double* const gimbal = values + i * size + 5;
-      phi[i] = gimbal[0];
-      theta[i] = gimbal[1];
-      phi_rate[i] = gimbal[2];
-      theta_rate[i] = gimbal[3];
-    }
+    copy(5, phi_);
+    copy(6, theta_);
+    copy(7, phi_rate_);
+    copy(8, theta_rate_);
   }
   rows_ = first + count;
-  last_.assign(values + (count - 1) * size, values + count * size);
+  last_.resize(model_->row_size());
+  for (std::size_t s = 0; s < last_.size(); ++s) {
+    last_[s] = values[(count - 1) * row_stride + s * stride];
+  }
 }
 
 // Of a run that ended early: what pads its last rows must not be what would have come later.
@@ -188,7 +206,7 @@ double TrackMeter::greatest_distance(bool from_reference) const {
   return greatest;
 }
 
-void TrackMeter::finish(const solve::Outcome&, double* results) {
+void TrackMeter::finish(double* results) {
   x_.pad(rows_);
   y_.pad(rows_);
   if (closed_ && wants_gimbal_) {

@@ -11,6 +11,7 @@
 #include "solve/outcome.hpp"
 #include "solve/output_grid.hpp"
 #include "study/sweep/kernels/sweep_kernels.hpp"
+#include "study/sweep/plan.hpp"
 
 namespace bbsim::study {
 
@@ -39,6 +40,12 @@ class PaddedRows {
 // (27), with a given motion or equation (31).
 [[nodiscard]] bool has_track(const model::Model& model);
 
+// Whether all cases of a plan have one motion or reference, at the same times.
+[[nodiscard]] bool shares_signals(const SweepPlan& plan);
+
+// The motion of the model's gimbal, or the reference of its loop. The model has a track.
+[[nodiscard]] const model::SignalPair& signals_of(const model::Model& model);
+
 // Takes the measures of one run after another, as record::Meter does.
 class TrackMeter : public solve::StateSink {
  public:
@@ -49,7 +56,11 @@ class TrackMeter : public solve::StateSink {
   void begin(const model::Model& model, const model::BallConstants& constants,
              const solve::OutputGrid& grid, bool same_signals);
   void accept(std::size_t first, std::size_t count, const double* values) override;
-  void finish(const solve::Outcome& outcome, double* results);
+  // The same, of rows that lie apart: state s of the i-th is values[i * row_stride + s * stride].
+  void take(std::size_t first, std::size_t count, const double* values, std::size_t row_stride,
+            std::size_t stride);
+  // Writes the run's measures, one after the other. It has at least one row.
+  void finish(double* results);
 
  private:
   void evaluate_signals(const model::SignalPair& signals);

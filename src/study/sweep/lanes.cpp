@@ -1,0 +1,169 @@
+#include "study/sweep/lanes.hpp"
+
+#include <algorithm>
+#include <array>
+#include <optional>
+#include <utility>
+#include <variant>
+
+#include "model/model.hpp"
+#include "solve/choose.hpp"
+#include "solve/lanes/loop_lanes.hpp"
+#include "study/sweep/case_scenario.hpp"
+#include "study/sweep/single.hpp"
+#include "study/sweep/track_meter.hpp"
+
+namespace bbsim::study {
+namespace {
+
+using solve::lanes::LoopCase;
+constexpr std::size_t group = solve::lanes::group;
+
+// From here up the Rosenbrock method in lanes takes less time than radau case by case
+// (docs/sweeps.md).
+constexpr double least_rtol = 1e-7;
+
+bool has_single_harmonic(const Reference& reference) {
+  return std::holds_alternative<PointReference>(reference) ||
+         std::holds_alternative<CircleReference>(reference);
+}
+
+// A loop of the paper's, in the numbers that a lane has.
+LoopCase loop_case(const Scenario& scenario, const model::Model& model,
+                   const model::SignalView& reference) {
+  LoopCase loop{};
+  loop.radius = scenario.ball.radius;
+  loop.gravity = scenario.gravity;
+  for (std::size_t i = 0; i < 2; ++i) {
+    for (std::size_t j = 0; j < 2; ++j) {
+      loop.kv[i][j] = scenario.controller->kv[i][j];
+      loop.kp[i][j] = scenario.controller->kp[i][j];
+    }
+    loop.start[i] = reference.start[i];
+    loop.rate[i] = reference.rate[i];
+    if (reference.harmonic_count == 0) continue;
+    loop.sine[i] = reference.harmonics[0].sine[i];
+    loop.cosine[i] = reference.harmonics[0].cosine[i];
+  }
+  if (reference.harmonic_count > 0) loop.frequency = reference.harmonics[0].frequency;
+  if (scenario.gimbal.servo) {
+    loop.omega_n = scenario.gimbal.servo->natural_frequency;
+    loop.zeta = scenario.gimbal.servo->damping;
+  }
+  std::copy(model.initial.begin(), model.initial.end(), loop.initial);
+  return loop;
+}
+
+class LaneRunner : public CaseRunner {
+ public:
+  explicit LaneRunner(const SweepTask& task)
+      : task_(task),
+        scenario_(task),
+        track_(task.measures),
+        single_(single_runner(task)),
+        same_signals_(shares_signals(task.plan)) {
+    const Scenario first = task.family.read(task.plan.settings(0));
+    grid_.emplace(first.time);
+    lanes_.emplace(first.controller->drives,
+                   solve::Tolerances{first.solver.rtol, first.solver.atol}, *grid_);
+  }
+
+  bool run(std::size_t first, std::size_t count, CaseResults& into,
+           const std::atomic<bool>& stop) override {
+    into.first = first;
+    into.resize(count, task_);
+    for (std::size_t i = 0; i < count; i += group) {
+      if (stop.load(std::memory_order_relaxed)) return false;
+      if (!run_group(first, i, std::min(group, count - i), into, stop)) return false;
+    }
+    return true;
+  }
+
+ private:
+  // A case on its way through a lane.
+  struct Passenger {
+    std::size_t place;  // among the results
+    model::Model model;
+    model::BallConstants constants;
+  };
+
+  bool run_group(std::size_t first, std::size_t place, std::size_t count, CaseResults& into,
+                 const std::atomic<bool>& stop) {
+    const std::size_t axes = task_.plan.axes().size(), numbers = 1 + task_.measures.size();
+    std::array<LoopCase, group> loops;
+    std::vector<Passenger>& passengers = passengers_;
+    passengers.clear();
+    alone_.clear();
+    for (std::size_t i = place; i < place + count; ++i) {
+      double* const values = &into.values[i * axes];
+      task_.plan.values(first + i, values);
+      const Scenario& scenario = scenario_.at(first + i, values);
+      model::Model model = model::assemble(scenario, false);
+      if (!has_track(model)) {  // a planar case has fewer states
+        alone_.push_back(i);
+        continue;
+      }
+      loops[passengers.size()] = loop_case(scenario, model, signals_of(model).view());
+      passengers.push_back({i, std::move(model), model::constants_of(scenario)});
+    }
+    if (!passengers.empty()) {
+      const auto carried = lanes_->integrate(loops.data(), static_cast<int>(passengers.size()));
+      for (std::size_t lane = 0; lane < passengers.size(); ++lane) {
+        const Passenger& one = passengers[lane];
+        if (!carried[lane]) {
+          alone_.push_back(one.place);
+          continue;
+        }
+        track_.begin(one.model, one.constants, *grid_, same_signals_);
+        track_.take(0, grid_->size(), lanes_->rows() + lane, solve::lanes::states * group, group);
+        double* const results = &into.numbers[one.place * numbers];
+        results[0] = grid_->end();
+        track_.finish(results + 1);
+        into.status[one.place] = "done";
+      }
+    }
+    for (const std::size_t i : alone_) {
+      if (!single_->run(first + i, 1, one_, stop)) return false;
+      std::copy(one_.numbers.begin(), one_.numbers.end(), &into.numbers[i * numbers]);
+      into.status[i] = one_.status[0];
+    }
+    return true;
+  }
+
+  const SweepTask& task_;
+  CaseScenario scenario_;
+  TrackMeter track_;
+  std::unique_ptr<CaseRunner> single_;
+  bool same_signals_;
+  std::optional<solve::OutputGrid> grid_;
+  std::optional<solve::lanes::LoopLanes> lanes_;
+  std::vector<Passenger> passengers_;
+  std::vector<std::size_t> alone_;
+  CaseResults one_;
+};
+
+}  // namespace
+
+bool can_use_lanes(const SweepTask& task) {
+  if (!task.series.empty() || !are_track_measures(task.measures)) return false;
+  for (const Axis& axis : task.plan.axes()) {
+    if (!axis.independent) return false;
+  }
+  const Scenario scenario = task.family.read(task.plan.settings(0));
+  if (!scenario.controller || scenario.solver.error || scenario.solver.rtol < least_rtol ||
+      solve::choose_method(scenario.solver.method) != Method::radau ||
+      !has_single_harmonic(scenario.controller->reference)) {
+    return false;
+  }
+  return has_track(model::assemble(scenario, false));
+}
+
+std::size_t lane_group() {
+  return group;
+}
+
+std::unique_ptr<CaseRunner> lane_runner(const SweepTask& task) {
+  return std::make_unique<LaneRunner>(task);
+}
+
+}  // namespace bbsim::study

@@ -1,0 +1,267 @@
+// Sweeps as a user runs them.
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "catch.hpp"
+#include "process.hpp"
+
+using namespace bbsim_test;
+
+namespace {
+
+bool contains(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
+
+std::vector<std::vector<std::string>> rows(const std::string& csv) {
+  std::vector<std::vector<std::string>> table;
+  std::istringstream lines(csv);
+  for (std::string line, cell; std::getline(lines, line);) {
+    std::istringstream cells(line);
+    table.emplace_back();
+    while (std::getline(cells, cell, ',')) table.back().push_back(cell);
+  }
+  return table;
+}
+
+std::vector<std::string> sweep(const std::string& scenario, std::vector<std::string> more) {
+  std::vector<std::string> arguments{"sweep", scenario, "-q"};
+  arguments.insert(arguments.end(), more.begin(), more.end());
+  return arguments;
+}
+
+// Slow enough to be interrupted, with rows that differ.
+const std::vector<std::string> long_sweep{
+    "--vary",    "gimbal.motion.phi.sinusoid.phase=uniform:0:3",
+    "--samples", "60000",
+    "--vary",    "ball.position.0=list:0,0.1"};
+
+std::vector<std::string> with(std::vector<std::string> one, const std::vector<std::string>& more) {
+  one.insert(one.end(), more.begin(), more.end());
+  return one;
+}
+
+}  // namespace
+
+TEST_CASE("a sweep writes a row for each case, in order, whatever the threads") {
+  const Folder folder;
+  const std::vector<std::string> keys{"--vary", "ball.position.0=linear:-10 cm:10 cm:7", "--vary",
+                                      "gimbal.motion.phi.sinusoid.amplitude=list:0.5 deg,0.02"};
+  const Result one =
+      bbsim(sweep(config("fig2a"), with(keys, {"-j", "1", "-o", "-"})), folder.path());
+  REQUIRE(one.exit_code == 0);
+  const auto table = rows(one.out);
+  REQUIRE(table.size() == 15);
+  CHECK(table[0] == std::vector<std::string>{
+                        "case", "ball.position.0", "gimbal.motion.phi.sinusoid.amplitude", "status",
+                        "end_time", "x_end", "y_end", "max_tilt", "max_tilt_rate", "max_distance"});
+  for (std::size_t i = 1; i < table.size(); ++i) {
+    CHECK(table[i][0] == std::to_string(i - 1));
+    CHECK(table[i][3] == "done");
+    CHECK(table[i][4] == "10");
+  }
+  const Result two =
+      bbsim(sweep(config("fig2a"), with(keys, {"-j", "3", "-o", "-"})), folder.path());
+  CHECK(two.out == one.out);
+
+  // To the bit what a run of the same values gives.
+  const Result run =
+      bbsim({"run", config("fig2a"), "-q", "-o", "-", "--set", "ball.position.0=" + table[6][1],
+             "--set", "gimbal.motion.phi.sinusoid.amplitude=" + table[6][2]},
+            folder.path());
+  const auto last = rows(run.out).back();
+  CHECK(table[6][5] == last[1]);
+  CHECK(table[6][6] == last[2]);
+}
+
+TEST_CASE("shards merged are the sweep in one process, to the byte") {
+  const Folder folder;
+  const std::string ending = GENERATE(std::string(".csv"), std::string(".h5"));
+  std::vector<std::string> keys{"--vary", "ball.radius=uniform:0.005:0.02", "--samples", "100"};
+  if (ending == ".h5") keys.push_back("--keep-trajectories");
+  REQUIRE(
+      bbsim(sweep(config("fig2b"), with(keys, {"-o", "all" + ending})), folder.path()).exit_code ==
+      0);
+  std::vector<std::string> parts;
+  for (const char* shard : {"3", "1", "2"}) {
+    parts.push_back(std::string("part-") + shard + "of3" + ending);
+    REQUIRE(bbsim(sweep(config("fig2b"),
+                        with(keys, {"--shard", std::string(shard) + "/3", "-o", parts.back()})),
+                  folder.path())
+                .exit_code == 0);
+  }
+  const Result merged = bbsim(with({"merge", "-o", "merged" + ending}, parts), folder.path());
+  CHECK(merged.exit_code == 0);
+  CHECK(contains(merged.err, "100 cases from 3 parts"));
+  CHECK(folder.read("merged" + ending) == folder.read("all" + ending));
+
+  SECTION("a part that is missing is missed") {
+    const Result less = bbsim({"merge", "-o", "less" + ending, parts[0], parts[1]}, folder.path());
+    CHECK(less.exit_code == 2);
+    CHECK(contains(less.err, "not part 2"));
+  }
+  SECTION("a part of another sweep is refused") {
+    REQUIRE(
+        bbsim(sweep(config("fig2b"), {"--vary", "ball.mass=linear:1:2:5", "-o", "other" + ending}),
+              folder.path())
+            .exit_code == 0);
+    const Result mixed =
+        bbsim({"merge", "-o", "mixed" + ending, parts[0], parts[1], parts[2], "other" + ending},
+              folder.path());
+    CHECK(mixed.exit_code == 2);
+    CHECK(contains(mixed.err, "parts of one sweep"));
+  }
+}
+
+TEST_CASE("an interrupted sweep keeps its cases and goes on to the same bytes") {
+  const Folder folder;
+  const auto arguments = with({"sweep", config("fig2a")}, with(long_sweep, {"-o", "s.csv"}));
+  const int signal = GENERATE(2, 9);
+  const Result cut =
+      bbsim(Launch{arguments, folder.path(), signal, std::chrono::milliseconds(400)});
+  REQUIRE(cut.exit_code != 0);
+  if (signal == 2) {
+    CHECK(cut.exit_code == 130);
+    CHECK(contains(cut.err, "--resume goes on"));
+  }
+  REQUIRE(folder.files() == std::vector<std::string>{"s.csv.part", "s.csv.plan"});
+
+  const Result again = bbsim(arguments, folder.path());
+  CHECK(again.exit_code == 2);
+  CHECK(contains(again.err, "add --resume"));
+  const Result other = bbsim(with(arguments, {"--resume", "--seed", "9"}), folder.path());
+  CHECK(other.exit_code == 2);
+  CHECK(contains(other.err, "of another sweep"));
+
+  const Result rest = bbsim(with(arguments, {"--resume", "-j", "1"}), folder.path());
+  CHECK(rest.exit_code == 0);
+  CHECK(folder.files() == std::vector<std::string>{"s.csv"});
+  REQUIRE(bbsim(with({"sweep", config("fig2a"), "-q"}, with(long_sweep, {"-o", "t.csv"})),
+                folder.path())
+              .exit_code == 0);
+  CHECK(folder.read("s.csv") == folder.read("t.csv"));
+}
+
+TEST_CASE("a case that fails or stops is a row with its reason") {
+  const Folder folder;
+  // The loop of Fig. 2(b) as printed reaches infinity; with small gains it does not in a second.
+  const Result blows =
+      bbsim(sweep(config("fig2b-literal"),
+                  {"--vary", "controller.pd.kv=list:0.001,100", "--set", "time.end=1", "-o", "-"}),
+            folder.path());
+  REQUIRE(blows.exit_code == 0);
+  const auto table = rows(blows.out);
+  REQUIRE(table.size() == 3);
+  CHECK(table[1][2] == "done");
+  CHECK(table[2][2].rfind("failed at 0.74", 0) == 0);
+  CHECK(std::stod(table[2][3]) < 0.75);
+
+  const Result falls =
+      bbsim(sweep(config("falls"), {"--vary", "ball.mass=list:0.1,0.2", "-o", "-"}), folder.path());
+  REQUIRE(falls.exit_code == 0);
+  for (const auto& row : {rows(falls.out)[1], rows(falls.out)[2]}) {
+    CHECK(contains(row[2], "stopped at "));
+    CHECK(contains(row[2], ": edge"));
+  }
+}
+
+TEST_CASE("a sweep may stand in the scenario, and choose its measures") {
+  const Folder folder;
+  const std::string file = folder.write("scene.yaml",
+                                        "ball: {radius: 0.01}\n"
+                                        "time: {end: 1, step: 0.1}\n"
+                                        "gimbal: {motion: {phi: 0.1}}\n"
+                                        "sweep:\n"
+                                        "  vary: {gravity: 'list:1,2'}\n"
+                                        "  measure: [max_vx, end_normal_force, min_x, rms_x]\n");
+  const Result result = bbsim(sweep(file, {}), folder.path());
+  REQUIRE(result.exit_code == 0);
+  const auto table = rows(folder.read("scene-sweep.csv"));
+  REQUIRE(table.size() == 3);
+  CHECK(table[0] == std::vector<std::string>{"case", "gravity", "status", "end_time", "max_vx",
+                                             "end_normal_force", "min_x", "rms_x"});
+  for (std::size_t i = 1; i <= 2; ++i) {
+    const double g = static_cast<double>(i), a = 5.0 / 7 * g * std::sin(0.1);
+    CHECK(std::stod(table[i][4]) == Approx(a));
+    CHECK(std::stod(table[i][5]) == Approx(g * std::cos(0.1)));
+    CHECK(std::stod(table[i][6]) == 0);
+    double sum = 0;
+    for (int row = 0; row <= 10; ++row) sum += std::pow(a / 2 * row * row / 100.0, 2);
+    CHECK(std::stod(table[i][7]) == Approx(std::sqrt(sum / 11)));
+  }
+  CHECK(bbsim({"run", file, "-q"}, folder.path()).exit_code == 0);
+  CHECK(bbsim({"check", file}, folder.path()).exit_code == 0);
+
+  const Result wrong = bbsim(sweep(file, {"--measure", "max_speed"}), folder.path());
+  CHECK(wrong.exit_code == 2);
+  CHECK(contains(wrong.err, "max_speed"));
+  CHECK(contains(wrong.err, "such as max_tilt"));
+  const Result none = bbsim(sweep(file, {"--measure", "max_tracking_error"}), folder.path());
+  CHECK(none.exit_code == 2);
+  CHECK(contains(none.err, "no controller"));
+}
+
+TEST_CASE("a rig's cases are its runs, to the bit") {
+  const Folder folder;
+  const std::vector<std::string> short_run{"--set", "time.end=4"};
+  const Result result =
+      bbsim(sweep(config("rig"),
+                  with(short_run, {"--vary", "controller.gravity_compensation.kp=list:8,12",
+                                   "--vary", "controller.sensor.seed=linear:1:3:3", "--measure",
+                                   "end_x,end_y,end_theta", "-o", "-"})),
+            folder.path());
+  REQUIRE(result.exit_code == 0);
+  const auto table = rows(result.out);
+  REQUIRE(table.size() == 7);
+  for (std::size_t i = 1; i < table.size(); ++i) {
+    const Result run = bbsim(
+        with({"run", config("rig"), "-q", "-o", "-", "--set",
+              "controller.gravity_compensation.kp=" + table[i][1], "--set",
+              "controller.sensor.seed=" + table[i][2], "--set", "output.columns=[x, y, theta]"},
+             short_run),
+        folder.path());
+    const auto last = rows(run.out).back();
+    CHECK(std::vector<std::string>(table[i].begin() + 5, table[i].end()) == last);
+  }
+}
+
+TEST_CASE("a bound on the error holds for each case") {
+  const Folder folder;
+  const Result result = bbsim(sweep(config("fig2a"), {"--vary", "ball.position.0=list:0,0.05",
+                                                      "--error", "1e-7", "-o", "-"}),
+                              folder.path());
+  REQUIRE(result.exit_code == 0);
+  const Result exact = bbsim(sweep(config("fig2a"), {"--vary", "ball.position.0=list:0,0.05",
+                                                     "--set", "solver.rtol=1e-12", "-o", "-"}),
+                             folder.path());
+  for (std::size_t i = 1; i <= 2; ++i) {
+    for (std::size_t c = 4; c <= 5; ++c) {
+      CHECK(std::abs(std::stod(rows(result.out)[i][c]) - std::stod(rows(exact.out)[i][c])) < 1e-7);
+    }
+  }
+}
+
+TEST_CASE("what a sweep cannot do is said in one line, before it begins") {
+  const Folder folder;
+  const auto fault = [&](std::vector<std::string> more) {
+    const Result result = bbsim(sweep(config("fig2a"), std::move(more)), folder.path());
+    CHECK(result.exit_code == 2);
+    return result.err;
+  };
+  const std::vector<std::string> key{"--vary", "gravity=list:1,2"};
+  CHECK(contains(fault({}), "no key to vary"));
+  CHECK(contains(fault(with(key, {"--shard", "4/3"})), "K from 1 to N"));
+  CHECK(contains(fault(with(key, {"--shard", "x"})), "K/N"));
+  CHECK(contains(fault(with(key, {"-o", "a.txt"})), ".csv, .h5, .hdf5"));
+  CHECK(contains(fault(with(key, {"-o", "-", "--resume"})), "cannot resume"));
+  CHECK(contains(fault(with(key, {"--keep-trajectories"})), ".h5"));
+  CHECK(contains(fault({"--vary", "time.end=list:1,2", "--keep-trajectories", "-o", "a.h5"}),
+                 "time.end varies"));
+  CHECK(folder.files().empty());
+  const Result full = bbsim(sweep(config("fig2a"), with(key, {"-o", "/dev/full"})), folder.path());
+  CHECK(full.exit_code == 3);
+}

@@ -1,0 +1,99 @@
+// SPEC of a sweep, as a user writes it.
+#include <string>
+
+#include "base/error.hpp"
+#include "catch.hpp"
+#include "scenario/variation.hpp"
+#include "support.hpp"
+
+using namespace bbsim;
+using namespace bbsim::input;
+using Kind = VariationSpec::Kind;
+
+namespace {
+
+VariationSpec read(const std::string& spec) {
+  return parse_variation({"ball.radius", spec});
+}
+
+std::string fault(const std::string& spec) {
+  try {
+    static_cast<void>(read(spec));
+    return "";
+  } catch (const InputError& error) {
+    return error.what();
+  }
+}
+
+}  // namespace
+
+TEST_CASE("specs are read") {
+  const VariationSpec linear = read("linear:-10 cm: 0.1 :21");
+  CHECK(linear.kind == Kind::linear);
+  CHECK(linear.values == std::vector<std::string>{"-10 cm", "0.1"});
+  CHECK(linear.count == 21);
+  CHECK_FALSE(linear.random());
+  CHECK(read("log:1e-3:10:5").kind == Kind::log);
+  CHECK(read("uniform:0:1").random());
+  CHECK(read("normal:1 cm:1 mm").values == std::vector<std::string>{"1 cm", "1 mm"});
+}
+
+TEST_CASE("the commas of a value part no list") {
+  const VariationSpec list = read("list:[[1, 0], [0, -1]], 2, \"a, b\", {c: [3, 4]}");
+  CHECK(list.values ==
+        std::vector<std::string>{"[[1, 0], [0, -1]]", "2", "\"a, b\"", "{c: [3, 4]}"});
+  CHECK(list.count == 4);
+  CHECK(read("list:5").values == std::vector<std::string>{"5"});
+}
+
+TEST_CASE("a spec that is none says what is allowed") {
+  for (const char* wrong :
+       {"", "1:2:3", "linear:1:2", "linear:1:2:3:4", "linear", "uniform:1", "normal:1:2:3",
+        "list:", "list:1,,2", "linear::2:3", "quadratic:1:2:3"}) {
+    INFO(wrong);
+    const std::string text = fault(wrong);
+    CHECK(text.find("ball.radius: found ") == 0);
+    CHECK(text.find("linear:FROM:TO:COUNT") != std::string::npos);
+  }
+  for (const char* wrong : {"linear:0:1:0", "linear:0:1:-3", "linear:0:1:2.5", "linear:0:1:1e99"}) {
+    INFO(wrong);
+    CHECK(fault(wrong).find("a whole number from 1 to 1e9") != std::string::npos);
+  }
+}
+
+TEST_CASE("KEY=SPEC is parted at its first equals sign") {
+  const Variation variation = split_variation("a.b=list:x=1");
+  CHECK(variation.key == "a.b");
+  CHECK(variation.spec == "list:x=1");
+  CHECK_THROWS_AS(split_variation("a.b"), InputError);
+  CHECK_THROWS_AS(split_variation("=list:1"), InputError);
+}
+
+TEST_CASE("a scenario's sweep block is read and checked") {
+  const Scenario scene =
+      test::parse(test::open_loop +
+                  "sweep:\n"
+                  "  vary: {ball.radius: 'linear:0.01:0.02:3', gravity: 'list:1,2'}\n"
+                  "  combine: zip\n"
+                  "  samples: 5\n"
+                  "  seed: 7\n"
+                  "  measure: [max_x, end_phi]\n");
+  REQUIRE(scene.sweep.vary.size() == 2);
+  CHECK(scene.sweep.vary[1].key == "gravity");
+  CHECK(scene.sweep.vary[1].spec == "list:1,2");
+  CHECK(scene.sweep.combine == Combine::zip);
+  CHECK(scene.sweep.samples == 5);
+  CHECK(scene.sweep.seed == 7);
+  CHECK(scene.sweep.measure == std::vector<std::string>{"max_x", "end_phi"});
+
+  const auto error = [](const std::string& block) {
+    return test::errors(test::open_loop + "sweep: " + block + '\n');
+  };
+  CHECK(error("{vary: {ball.radius: lin}}").find("4:") != std::string::npos);
+  CHECK(error("{vary: {ball.radius: lin}}").find("sweep.vary.ball.radius: found lin") !=
+        std::string::npos);
+  CHECK(error("{vary: [1]}").find("a mapping from keys to values") != std::string::npos);
+  CHECK(error("{samples: 1.5, vary: {gravity: 'uniform:1:2'}}").find("whole") != std::string::npos);
+  CHECK(error("{measure: [max_speed]}").find("max_tilt") != std::string::npos);
+  CHECK(error("{vari: {}}").find("did you mean sweep.vary?") != std::string::npos);
+}

@@ -1,0 +1,237 @@
+// The ways in which a sweep computes its cases, held against single runs.
+#include <unistd.h>
+
+#include <atomic>
+#include <cmath>
+#include <fstream>
+#include <limits>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "catch.hpp"
+#include "solve/integrate.hpp"
+#include "study/sweep/single.hpp"
+#include "study/sweep/superposition.hpp"
+#include "study/sweep/sweep.hpp"
+
+using namespace bbsim;
+using namespace bbsim::study;
+
+namespace {
+
+const std::atomic<bool> goes_on{false};
+
+std::vector<record::Measure> measures(const std::vector<std::string>& names) {
+  std::vector<record::Measure> found;
+  for (const std::string& name : names) found.push_back(*record::find_measure(name));
+  return found;
+}
+
+// A sweep with all that it refers to.
+struct Setup {
+  Setup(const std::string& scene, std::vector<Variation> vary, const std::vector<std::string>& set,
+        const std::vector<std::string>& names, double samples = 0)
+      : family(BBSIM_SOURCE_DIR "/" + scene, set),
+        plan(family, sweep(std::move(vary), samples)),
+        task{family, plan, measures(names)} {}
+
+  static Sweep sweep(std::vector<Variation> vary, double samples) {
+    Sweep made;
+    made.vary = std::move(vary);
+    if (samples > 0) made.samples = samples;
+    return made;
+  }
+
+  ScenarioFamily family;
+  SweepPlan plan;
+  SweepTask task;
+};
+
+CaseResults run_all(CaseRunner& runner, std::size_t cases) {
+  CaseResults results;
+  REQUIRE(runner.run(0, cases, results, goes_on));
+  return results;
+}
+
+const std::vector<std::string> open_measures{"x_end", "y_end", "max_distance", "max_tilt",
+                                             "max_tilt_rate"};
+const std::vector<std::string> loop_measures{"x_end",
+                                             "y_end",
+                                             "max_tilt",
+                                             "max_tilt_rate",
+                                             "max_distance",
+                                             "rms_tracking_error",
+                                             "max_tracking_error"};
+
+// The largest difference of two sweeps' numbers.
+double largest_difference(const CaseResults& a, const CaseResults& b) {
+  REQUIRE(a.numbers.size() == b.numbers.size());
+  double largest = 0;
+  for (std::size_t i = 0; i < a.numbers.size(); ++i) {
+    largest = std::max(largest, std::abs(a.numbers[i] - b.numbers[i]));
+  }
+  return largest;
+}
+
+// By record::Meter, which looks at every row by itself, from the rows of solve::integrate.
+CaseResults one_by_one(const SweepTask& task) {
+  CaseResults results;
+  results.resize(task.plan.cases(), task);
+  const std::size_t numbers = 1 + task.measures.size();
+  for (std::size_t i = 0; i < task.plan.cases(); ++i) {
+    const Scenario scenario = task.family.read(task.plan.settings(i));
+    const model::Model model = model::assemble(scenario, false);
+    const model::BallConstants constants = model::constants_of(scenario);
+    const solve::OutputGrid grid(scenario.time);
+    record::Meter meter(task.measures);
+    meter.begin(model, constants, grid);
+    const solve::Outcome outcome = solve::integrate(
+        model, scenario.solver.method, {scenario.solver.rtol, scenario.solver.atol}, grid, meter);
+    results.numbers[i * numbers] = outcome.reached;
+    meter.finish(outcome, &results.numbers[i * numbers + 1]);
+  }
+  return results;
+}
+
+}  // namespace
+
+TEST_CASE("many rows at a time give the measures of each row by itself") {
+  SECTION("under a given motion") {
+    const Setup setup("configs/fig2a.yaml",
+                      {{"gimbal.motion.phi.sinusoid.amplitude", "uniform:-2:2"},
+                       {"gimbal.motion.theta.sinusoid.frequency", "uniform:0.5:3"}},
+                      {"time.step=0.07"}, open_measures, 40);
+    const auto runner = single_runner(setup.task);
+    // Sums and products of the same numbers in another order; angles beyond a right one too.
+    CHECK(largest_difference(run_all(*runner, 40), one_by_one(setup.task)) < 1e-12);
+  }
+  SECTION("under one motion, which is evaluated once") {
+    const Setup setup("configs/fig2a.yaml", {{"ball.spin", "uniform:-5:5"}}, {"time.step=0.3"},
+                      open_measures, 10);
+    const auto runner = single_runner(setup.task);
+    CHECK(largest_difference(run_all(*runner, 10), one_by_one(setup.task)) < 1e-12);
+  }
+  SECTION("in a loop") {
+    const Setup setup("configs/fig2b.yaml",
+                      {{"controller.pd.kv.0.0", "uniform:0.8:1.2"},
+                       {"controller.reference.circle.radius", "uniform:0.01:0.08"}},
+                      {"time.step=0.13"}, loop_measures, 20);
+    const auto runner = single_runner(setup.task);
+    CHECK(largest_difference(run_all(*runner, 20), one_by_one(setup.task)) < 1e-12);
+  }
+  SECTION("of runs that end early") {
+    const Setup setup("configs/fig2b-literal.yaml", {{"controller.pd.kv", "linear:60:100:5"}}, {},
+                      loop_measures);
+    const auto runner = single_runner(setup.task);
+    const CaseResults results = run_all(*runner, 5), expected = one_by_one(setup.task);
+    for (std::size_t i = 0; i < results.numbers.size(); ++i) {
+      CHECK(results.numbers[i] == Approx(expected.numbers[i]).epsilon(1e-12));
+    }
+    CHECK(results.status[0].rfind("failed at ", 0) == 0);
+  }
+}
+
+TEST_CASE("superposition agrees with single runs") {
+  const Setup setup("configs/fig2a.yaml",
+                    {{"ball.position.0", "uniform:-0.2:0.2"},
+                     {"ball.velocity.1", "uniform:-0.2:0.2"},
+                     {"ball.radius", "uniform:0.005:0.05"},
+                     {"ball.spin", "uniform:-20:20"},
+                     {"gravity", "uniform:1:20"}},
+                    {"solver.rtol=1e-12", "solver.atol=1e-14"}, open_measures, 100);
+  REQUIRE(can_superpose(setup.task));
+  const auto runner = superposition_runner(setup.task, solve_superposed(setup.task));
+  const auto single = single_runner(setup.task);
+  // Distances up to some metres, single runs at 1e-12.
+  CHECK(largest_difference(run_all(*runner, 100), run_all(*single, 100)) < 1e-11);
+}
+
+TEST_CASE("superposition follows tables and planar scenes") {
+  const auto [scene, key] = GENERATE(std::pair("configs/recorded.yaml", "ball.position.0"),
+                                     std::pair("configs/incline.yaml", "ball.velocity.0"),
+                                     std::pair("configs/beam.yaml", "ball.radius"));
+  const Setup setup(scene, {{key, "uniform:0.01:0.02"}}, {"solver.rtol=1e-12", "solver.atol=1e-14"},
+                    open_measures, 40);
+  REQUIRE(can_superpose(setup.task));
+  const auto runner = superposition_runner(setup.task, solve_superposed(setup.task));
+  const auto single = single_runner(setup.task);
+  CHECK(largest_difference(run_all(*runner, 40), run_all(*single, 40)) < 1e-11);
+}
+
+TEST_CASE("what is not linear is not superposed") {
+  const auto superposes = [](const std::string& scene, Variation vary,
+                             const std::vector<std::string>& set,
+                             const std::vector<std::string>& names) {
+    return can_superpose(Setup(scene, {std::move(vary)}, set, names, 100).task);
+  };
+  const std::string open = "configs/fig2a.yaml";
+  CHECK(superposes(open, {"gravity", "uniform:1:2"}, {}, open_measures));
+  CHECK_FALSE(
+      superposes(open, {"gimbal.motion.phi.sinusoid.phase", "uniform:1:2"}, {}, open_measures));
+  CHECK_FALSE(superposes(open, {"gravity", "uniform:1:2"}, {}, {"max_normal_force"}));
+  CHECK_FALSE(
+      superposes(open, {"gravity", "uniform:1:2"}, {"ball.inertia_factor=0.5"}, open_measures));
+  CHECK_FALSE(
+      superposes(open, {"gravity", "uniform:1:2"}, {"events.lift_off=note"}, open_measures));
+  CHECK_FALSE(superposes(open, {"gravity", "uniform:1:2"}, {"solver.method=bdf"}, open_measures));
+  CHECK_FALSE(superposes(open, {"gravity", "uniform:1:2"}, {"solver.error=1e-6"}, open_measures));
+  CHECK_FALSE(superposes("configs/fig2b.yaml", {"gravity", "uniform:1:2"}, {}, loop_measures));
+}
+
+TEST_CASE("cases come in order, once each, from any number of threads") {
+  const Setup setup("configs/fig2a.yaml", {{"gimbal.motion.phi.sinusoid.phase", "linear:0:3:301"}},
+                    {}, {"x_end"});
+  const Engine engine = choose_engine(setup.task);
+  for (const std::size_t threads : {1, 2, 7, 400}) {
+    std::size_t next = 5;
+    const bool finished = run_sweep(
+        engine, {5, 300}, threads, goes_on, [](CaseResults&) {},
+        [&](const CaseResults& results) {
+          CHECK(results.first == next);
+          next += results.count;
+        });
+    CHECK(finished);
+    CHECK(next == 300);
+  }
+}
+
+TEST_CASE("a sweep ends where it is told to, and where its results cannot be kept") {
+  const Setup setup("configs/fig2a.yaml", {{"gimbal.motion.phi.sinusoid.phase", "linear:0:3:5000"}},
+                    {}, {"x_end"});
+  const Engine engine = choose_engine(setup.task);
+  std::atomic<bool> stop{false};
+  std::size_t delivered = 0;
+  CHECK_FALSE(run_sweep(
+      engine, {0, 5000}, 2, stop, [](CaseResults&) {},
+      [&](const CaseResults& results) {
+        delivered += results.count;
+        stop = true;
+      }));
+  CHECK(delivered > 0);
+  CHECK(delivered < 5000);
+  CHECK_THROWS_AS(run_sweep(
+                      engine, {0, 5000}, 2, goes_on, [](CaseResults&) {},
+                      [](const CaseResults&) { throw std::runtime_error("full"); }),
+                  std::runtime_error);
+}
+
+TEST_CASE("shards are whole groups, as even as can be, and make up the sweep") {
+  for (const std::size_t cases : {0, 1, 7, 8, 9, 100, 1000003}) {
+    for (const std::size_t group : {1, 8}) {
+      for (const std::size_t shards : {1, 2, 3, 10}) {
+        std::size_t next = 0, least = cases, most = 0;
+        for (std::size_t k = 1; k <= shards; ++k) {
+          const CaseRange range = shard_range(cases, group, k, shards);
+          CHECK(range.first == next);
+          CHECK((range.first % group == 0 || range.first == cases));
+          least = std::min(least, range.last - range.first);
+          most = std::max(most, range.last - range.first);
+          next = range.last;
+        }
+        CHECK(next == cases);
+        CHECK(most - least < 2 * group);
+      }
+    }
+  }
+}
