@@ -39,8 +39,35 @@ std::string PairOf::allowed() const {
   return "two " + std::string(plural(dimension)) + " [x, y], such as [0.1, 0]";
 }
 
+namespace {
+
+// "0" or "1", as a path of --set or --vary names one of two.
+std::optional<std::size_t> position_in_pair(std::string_view key) {
+  if (key == "0") return 0;
+  if (key == "1") return 1;
+  return {};
+}
+
+// Whether the node is what such paths make where there was no list: --set ball.velocity.0=1.
+bool holds_positions(const Node& node) {
+  return node.kind == Node::Kind::mapping && node.position.source > 0 &&
+         std::ranges::all_of(node.entries, [](const Entry& entry) {
+           return position_in_pair(entry.key).has_value();
+         });
+}
+
+}  // namespace
+
 bool PairOf::read(const Value& value, Pair& into) const {
   const Node& node = *value.node;
+  if (holds_positions(node)) {  // the other one keeps its default
+    bool fine = true;
+    for (const Entry& entry : node.entries) {
+      const Value item{entry.value, value.path_of(entry.key), entry.position, value.context};
+      fine = Number{dimension}.read(item, into[*position_in_pair(entry.key)]) && fine;
+    }
+    return fine;
+  }
   if (node.kind != Node::Kind::sequence || node.items.size() != into.size()) {
     return value.refuse("", allowed());
   }

@@ -52,7 +52,7 @@ TEST_CASE("a sweep writes a row for each case, in order, whatever the threads") 
   const std::vector<std::string> keys{"--vary", "ball.position.0=linear:-10 cm:10 cm:7", "--vary",
                                       "gimbal.motion.phi.sinusoid.amplitude=list:0.5 deg,0.02"};
   const Result one =
-      bbsim(sweep(config("fig2a"), with(keys, {"-j", "1", "-o", "-"})), folder.path());
+      bbsim(sweep(config("fig2a.yaml"), with(keys, {"-j", "1", "-o", "-"})), folder.path());
   REQUIRE(one.exit_code == 0);
   const auto table = rows(one.out);
   REQUIRE(table.size() == 15);
@@ -65,14 +65,14 @@ TEST_CASE("a sweep writes a row for each case, in order, whatever the threads") 
     CHECK(table[i][4] == "10");
   }
   const Result two =
-      bbsim(sweep(config("fig2a"), with(keys, {"-j", "3", "-o", "-"})), folder.path());
+      bbsim(sweep(config("fig2a.yaml"), with(keys, {"-j", "3", "-o", "-"})), folder.path());
   CHECK(two.out == one.out);
 
   // To the bit what a run of the same values gives.
-  const Result run =
-      bbsim({"run", config("fig2a"), "-q", "-o", "-", "--set", "ball.position.0=" + table[6][1],
-             "--set", "gimbal.motion.phi.sinusoid.amplitude=" + table[6][2]},
-            folder.path());
+  const Result run = bbsim(
+      {"run", config("fig2a.yaml"), "-q", "-o", "-", "--set", "ball.position.0=" + table[6][1],
+       "--set", "gimbal.motion.phi.sinusoid.amplitude=" + table[6][2]},
+      folder.path());
   const auto last = rows(run.out).back();
   CHECK(table[6][5] == last[1]);
   CHECK(table[6][6] == last[2]);
@@ -83,13 +83,12 @@ TEST_CASE("shards merged are the sweep in one process, to the byte") {
   const std::string ending = GENERATE(std::string(".csv"), std::string(".h5"));
   std::vector<std::string> keys{"--vary", "ball.radius=uniform:0.005:0.02", "--samples", "100"};
   if (ending == ".h5") keys.push_back("--keep-trajectories");
-  REQUIRE(
-      bbsim(sweep(config("fig2b"), with(keys, {"-o", "all" + ending})), folder.path()).exit_code ==
-      0);
+  REQUIRE(bbsim(sweep(config("fig2b.yaml"), with(keys, {"-o", "all" + ending})), folder.path())
+              .exit_code == 0);
   std::vector<std::string> parts;
   for (const char* shard : {"3", "1", "2"}) {
     parts.push_back(std::string("part-") + shard + "of3" + ending);
-    REQUIRE(bbsim(sweep(config("fig2b"),
+    REQUIRE(bbsim(sweep(config("fig2b.yaml"),
                         with(keys, {"--shard", std::string(shard) + "/3", "-o", parts.back()})),
                   folder.path())
                 .exit_code == 0);
@@ -105,10 +104,10 @@ TEST_CASE("shards merged are the sweep in one process, to the byte") {
     CHECK(contains(less.err, "not part 2"));
   }
   SECTION("a part of another sweep is refused") {
-    REQUIRE(
-        bbsim(sweep(config("fig2b"), {"--vary", "ball.mass=linear:1:2:5", "-o", "other" + ending}),
-              folder.path())
-            .exit_code == 0);
+    REQUIRE(bbsim(sweep(config("fig2b.yaml"),
+                        {"--vary", "ball.mass=linear:1:2:5", "-o", "other" + ending}),
+                  folder.path())
+                .exit_code == 0);
     const Result mixed =
         bbsim({"merge", "-o", "mixed" + ending, parts[0], parts[1], parts[2], "other" + ending},
               folder.path());
@@ -119,7 +118,7 @@ TEST_CASE("shards merged are the sweep in one process, to the byte") {
 
 TEST_CASE("an interrupted sweep keeps its cases and goes on to the same bytes") {
   const Folder folder;
-  const auto arguments = with({"sweep", config("fig2a")}, with(long_sweep, {"-o", "s.csv"}));
+  const auto arguments = with({"sweep", config("fig2a.yaml")}, with(long_sweep, {"-o", "s.csv"}));
   const int signal = GENERATE(2, 9);
   const Result cut =
       bbsim(Launch{arguments, folder.path(), signal, std::chrono::milliseconds(400)});
@@ -140,7 +139,7 @@ TEST_CASE("an interrupted sweep keeps its cases and goes on to the same bytes") 
   const Result rest = bbsim(with(arguments, {"--resume", "-j", "1"}), folder.path());
   CHECK(rest.exit_code == 0);
   CHECK(folder.files() == std::vector<std::string>{"s.csv"});
-  REQUIRE(bbsim(with({"sweep", config("fig2a"), "-q"}, with(long_sweep, {"-o", "t.csv"})),
+  REQUIRE(bbsim(with({"sweep", config("fig2a.yaml"), "-q"}, with(long_sweep, {"-o", "t.csv"})),
                 folder.path())
               .exit_code == 0);
   CHECK(folder.read("s.csv") == folder.read("t.csv"));
@@ -150,7 +149,7 @@ TEST_CASE("a case that fails or stops is a row with its reason") {
   const Folder folder;
   // The loop of Fig. 2(b) as printed reaches infinity; with small gains it does not in a second.
   const Result blows =
-      bbsim(sweep(config("fig2b-literal"),
+      bbsim(sweep(config("fig2b-literal.yaml"),
                   {"--vary", "controller.pd.kv=list:0.001,100", "--set", "time.end=1", "-o", "-"}),
             folder.path());
   REQUIRE(blows.exit_code == 0);
@@ -160,8 +159,8 @@ TEST_CASE("a case that fails or stops is a row with its reason") {
   CHECK(table[2][2].rfind("failed at 0.74", 0) == 0);
   CHECK(std::stod(table[2][3]) < 0.75);
 
-  const Result falls =
-      bbsim(sweep(config("falls"), {"--vary", "ball.mass=list:0.1,0.2", "-o", "-"}), folder.path());
+  const Result falls = bbsim(
+      sweep(config("falls.yaml"), {"--vary", "ball.mass=list:0.1,0.2", "-o", "-"}), folder.path());
   REQUIRE(falls.exit_code == 0);
   for (const auto& row : {rows(falls.out)[1], rows(falls.out)[2]}) {
     CHECK(contains(row[2], "stopped at "));
@@ -209,7 +208,7 @@ TEST_CASE("a rig's cases are its runs, to the bit") {
   const Folder folder;
   const std::vector<std::string> short_run{"--set", "time.end=4"};
   const Result result =
-      bbsim(sweep(config("rig"),
+      bbsim(sweep(config("rig.yaml"),
                   with(short_run, {"--vary", "controller.gravity_compensation.kp=list:8,12",
                                    "--vary", "controller.sensor.seed=linear:1:3:3", "--measure",
                                    "end_x,end_y,end_theta", "-o", "-"})),
@@ -219,7 +218,7 @@ TEST_CASE("a rig's cases are its runs, to the bit") {
   REQUIRE(table.size() == 7);
   for (std::size_t i = 1; i < table.size(); ++i) {
     const Result run = bbsim(
-        with({"run", config("rig"), "-q", "-o", "-", "--set",
+        with({"run", config("rig.yaml"), "-q", "-o", "-", "--set",
               "controller.gravity_compensation.kp=" + table[i][1], "--set",
               "controller.sensor.seed=" + table[i][2], "--set", "output.columns=[x, y, theta]"},
              short_run),
@@ -231,12 +230,12 @@ TEST_CASE("a rig's cases are its runs, to the bit") {
 
 TEST_CASE("a bound on the error holds for each case") {
   const Folder folder;
-  const Result result = bbsim(sweep(config("fig2a"), {"--vary", "ball.position.0=list:0,0.05",
-                                                      "--error", "1e-7", "-o", "-"}),
+  const Result result = bbsim(sweep(config("fig2a.yaml"), {"--vary", "ball.position.0=list:0,0.05",
+                                                           "--error", "1e-7", "-o", "-"}),
                               folder.path());
   REQUIRE(result.exit_code == 0);
-  const Result exact = bbsim(sweep(config("fig2a"), {"--vary", "ball.position.0=list:0,0.05",
-                                                     "--set", "solver.rtol=1e-12", "-o", "-"}),
+  const Result exact = bbsim(sweep(config("fig2a.yaml"), {"--vary", "ball.position.0=list:0,0.05",
+                                                          "--set", "solver.rtol=1e-12", "-o", "-"}),
                              folder.path());
   for (std::size_t i = 1; i <= 2; ++i) {
     for (std::size_t c = 4; c <= 5; ++c) {
@@ -248,7 +247,7 @@ TEST_CASE("a bound on the error holds for each case") {
 TEST_CASE("what a sweep cannot do is said in one line, before it begins") {
   const Folder folder;
   const auto fault = [&](std::vector<std::string> more) {
-    const Result result = bbsim(sweep(config("fig2a"), std::move(more)), folder.path());
+    const Result result = bbsim(sweep(config("fig2a.yaml"), std::move(more)), folder.path());
     CHECK(result.exit_code == 2);
     return result.err;
   };
@@ -262,6 +261,7 @@ TEST_CASE("what a sweep cannot do is said in one line, before it begins") {
   CHECK(contains(fault({"--vary", "time.end=list:1,2", "--keep-trajectories", "-o", "a.h5"}),
                  "time.end varies"));
   CHECK(folder.files().empty());
-  const Result full = bbsim(sweep(config("fig2a"), with(key, {"-o", "/dev/full"})), folder.path());
+  const Result full =
+      bbsim(sweep(config("fig2a.yaml"), with(key, {"-o", "/dev/full"})), folder.path());
   CHECK(full.exit_code == 3);
 }

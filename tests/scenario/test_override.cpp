@@ -85,3 +85,22 @@ TEST_CASE("a malformed override is reported beside the file's own errors") {
         "9.81 or \"9.81 m/s^2\"\n"
         "--set x: found no =; allowed: key.path=value, such as ball.radius=0.02");
 }
+
+TEST_CASE("one of a pair is set where the scenario has no list") {
+  const Scenario scene =
+      test::parse(test::open_loop, {"ball.velocity.1=0.2", "ball.position.0=1 cm"});
+  CHECK(scene.ball.velocity == Pair{0, 0.2});
+  CHECK(scene.ball.position == Pair{0.01, 0});
+  CHECK(test::parse(test::open_loop, {"ball.velocity.1=2", "ball.velocity.0=1"}).ball.velocity ==
+        Pair{1, 2});
+  CHECK(test::errors(test::open_loop, {"ball.velocity.1=x"}).find("ball.velocity.1: found x") !=
+        std::string::npos);
+  CHECK(
+      test::errors(test::open_loop, {"ball.velocity.2=1"}).find("ball.velocity: found a mapping") !=
+      std::string::npos);
+  // In a file it is a list.
+  CHECK(test::errors("ball: {radius: 0.01, velocity: {0: 1}}\n"
+                     "time: {end: 10, step: 0.1}\n"
+                     "gimbal: {motion: {}}\n")
+            .find("ball.velocity: found a mapping") != std::string::npos);
+}

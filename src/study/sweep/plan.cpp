@@ -34,6 +34,13 @@ std::uint64_t hash(const std::string& text) {
   return value;
 }
 
+// a b + c d, rounded once or twice: round numbers stay round.
+double sum_of_products(double a, double b, double c, double d) {
+  const double ab = a * b, cd = c * d, sum = ab + cd;
+  const double lost_in_sum = std::abs(ab) > std::abs(cd) ? (ab - sum) + cd : (cd - sum) + ab;
+  return sum + (lost_in_sum + std::fma(a, b, -ab) + std::fma(c, d, -cd));
+}
+
 // Value i of `count`; the first and the last are exact.
 double spaced(const Axis& axis, std::size_t i) {
   if (i == 0) return axis.from;
@@ -41,7 +48,7 @@ double spaced(const Axis& axis, std::size_t i) {
   const double before = static_cast<double>(i), after = static_cast<double>(axis.count - 1 - i);
   const double all = static_cast<double>(axis.count - 1);
   if (axis.kind == Kind::log) return axis.from * std::pow(axis.to / axis.from, before / all);
-  return (axis.from * after + axis.to * before) / all;  // nearer to round numbers than from + ...
+  return sum_of_products(axis.from, after, axis.to, before) / all;
 }
 
 double listed(const Axis& axis, std::size_t i) {

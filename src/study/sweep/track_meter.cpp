@@ -110,6 +110,9 @@ void TrackMeter::evaluate_signals(const model::SignalPair& signals) {
       rates[c][i] = jets[c].rate;
     }
   }
+  for (PaddedRows* const column : {&signal_[0], &signal_[1], &signal_rate_[0], &signal_rate_[1]}) {
+    column->pad(rows);
+  }
 }
 
 void TrackMeter::begin(const model::Model& model, const model::BallConstants& constants,
