@@ -75,9 +75,9 @@ int main(int argc, char** argv) {
   app.add_flag("-q,--quiet", options.quiet, "Print no messages and no progress, only results");
   std::function<ExitCode()> chosen;
   bbsim::app::add_run(app, options, chosen);
+  bbsim::app::add_check(app, chosen);
   bbsim::app::add_sweep(app, options, chosen);
   bbsim::app::add_merge(app, options, chosen);
-  bbsim::app::add_check(app, chosen);
   bbsim::app::add_compare(app, chosen);
   bbsim::app::add_verify(app, options, chosen);
   bbsim::app::add_columns(app, chosen);

@@ -37,7 +37,7 @@ std::vector<std::string> sweep(const std::string& scenario, std::vector<std::str
 // Slow enough to be interrupted, with rows that differ.
 const std::vector<std::string> long_sweep{
     "--vary",    "gimbal.motion.phi.sinusoid.phase=uniform:0:3",
-    "--samples", "60000",
+    "--samples", "20000",
     "--vary",    "ball.position.0=list:0,0.1"};
 
 std::vector<std::string> with(std::vector<std::string> one, const std::vector<std::string>& more) {
@@ -118,10 +118,11 @@ TEST_CASE("shards merged are the sweep in one process, to the byte") {
 
 TEST_CASE("an interrupted sweep keeps its cases and goes on to the same bytes") {
   const Folder folder;
-  const auto arguments = with({"sweep", config("fig2a.yaml")}, with(long_sweep, {"-o", "s.csv"}));
+  const auto arguments =
+      with({"sweep", config("fig2a.yaml")}, with(long_sweep, {"-j", "1", "-o", "s.csv"}));
   const int signal = GENERATE(2, 9);
   const Result cut =
-      bbsim(Launch{arguments, folder.path(), signal, std::chrono::milliseconds(400)});
+      bbsim(Launch{arguments, folder.path(), signal, std::chrono::milliseconds(200)});
   REQUIRE(cut.exit_code != 0);
   if (signal == 2) {
     CHECK(cut.exit_code == 130);
@@ -136,7 +137,7 @@ TEST_CASE("an interrupted sweep keeps its cases and goes on to the same bytes") 
   CHECK(other.exit_code == 2);
   CHECK(contains(other.err, "of another sweep"));
 
-  const Result rest = bbsim(with(arguments, {"--resume", "-j", "1"}), folder.path());
+  const Result rest = bbsim(with(arguments, {"--resume"}), folder.path());
   CHECK(rest.exit_code == 0);
   CHECK(folder.files() == std::vector<std::string>{"s.csv"});
   REQUIRE(bbsim(with({"sweep", config("fig2a.yaml"), "-q"}, with(long_sweep, {"-o", "t.csv"})),
