@@ -1,0 +1,309 @@
+// Sweeps beside the same cases one by one with odeint's Dormand-Prince 5(4) and CVODE's BDF:
+// processor time a case at equal error.
+#include <CLI/App.hpp>
+#include <CLI/Config.hpp>
+#include <CLI/Formatter.hpp>
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <exception>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "equal_error.hpp"
+#include "solve/cpu_clock.hpp"
+#include "study/sweep/single.hpp"
+#include "study/sweep/sweep.hpp"
+#include "study/sweep/track_meter.hpp"
+#include "tools.hpp"
+
+namespace {
+
+using namespace bbsim;
+using bench::Point;
+
+const std::atomic<bool> goes_on{false};
+
+struct Job {
+  std::string name;
+  std::string scene;  // of tests/data/scenarios
+  std::vector<Variation> vary;
+  double error;       // m, at which the tools are compared
+  std::string other;  // the tool to be compared with
+  double ratio;       // the least wanted of its time over the sweep's
+};
+
+const std::vector<Job> jobs{
+    {"fig2a: amplitude and phase",
+     "fig2a",
+     {{"gimbal.motion.phi.sinusoid.amplitude", "uniform:0.005:0.015"},
+      {"gimbal.motion.theta.sinusoid.phase", "uniform:0:3"}},
+     1e-9,
+     "dopri5",
+     8},
+    {"fig2b: gains",
+     "fig2b",
+     {{"controller.pd.kv.0.0", "uniform:0.7:1.3"}, {"controller.pd.kv.1.1", "uniform:-1.3:-0.7"}},
+     1e-9,
+     "dopri5",
+     6},
+    {"stiff-servo: gains",
+     "stiff-servo",
+     {{"controller.pd.kv.0.0", "uniform:0.035:0.065"},
+      {"controller.pd.kp.1.1", "uniform:-0.065:-0.035"}},
+     1e-6,
+     "bdf",
+     40},
+    {"fig2a: start and radius",
+     "fig2a",
+     {{"ball.position.0", "uniform:-0.1:0.1"},
+      {"ball.position.1", "uniform:-0.1:0.1"},
+      {"ball.radius", "uniform:0.005:0.02"}},
+     1e-9,
+     "dopri5",
+     150},
+};
+
+std::vector<record::Measure> default_measures(bool loop) {
+  std::vector<record::Measure> measures;
+  for (const std::string& name : record::default_measures(loop)) {
+    measures.push_back(*record::find_measure(name));
+  }
+  return measures;
+}
+
+bool is_length(const record::Measure& measure) {
+  return measure.column->unit == "m";
+}
+
+// A sweep with all that it refers to.
+class Cases {
+ public:
+  Cases(const std::string& file, const Job& job, double samples, solve::Tolerances tolerances)
+      : family_(file, {"solver.rtol=" + record_text(tolerances.rtol),
+                       "solver.atol=" + record_text(tolerances.atol)}),
+        plan_(family_, sweep(job, samples)),
+        task_{family_, plan_,
+              default_measures(family_.read(plan_.settings(0)).controller.has_value())},
+        engine_(study::choose_engine(task_)) {}
+  Cases(const Cases&) = delete;
+  Cases& operator=(const Cases&) = delete;
+
+  [[nodiscard]] const study::SweepTask& task() const { return task_; }
+  [[nodiscard]] const study::Engine& engine() const { return engine_; }
+  [[nodiscard]] std::size_t count() const { return plan_.cases(); }
+
+  // All cases on this thread, with what `make` makes.
+  template <class Make>
+  [[nodiscard]] study::CaseResults run(Make make) const {
+    study::CaseResults results;
+    static_cast<void>(make(task_)->run(0, count(), results, goes_on));
+    return results;
+  }
+
+ private:
+  static std::string record_text(double value) {
+    char text[40];
+    std::snprintf(text, sizeof text, "%.17g", value);
+    return text;
+  }
+  static Sweep sweep(const Job& job, double samples) {
+    Sweep made;
+    made.vary = job.vary;
+    made.samples = samples;
+    return made;
+  }
+
+  ScenarioFamily family_;
+  study::SweepPlan plan_;
+  study::SweepTask task_;
+  study::Engine engine_;
+};
+
+// The largest difference of the measures that are lengths, m.
+double largest_error(const study::SweepTask& task, const std::vector<double>& numbers,
+                     const std::vector<double>& exact) {
+  double largest = 0;
+  const std::size_t width = 1 + task.measures.size();
+  for (std::size_t i = 0; i < numbers.size(); ++i) {
+    if (i % width == 0 || !is_length(task.measures[i % width - 1])) continue;
+    const double error = std::abs(numbers[i] - exact[i]);
+    largest =
+        std::isfinite(error) ? std::max(largest, error) : std::numeric_limits<double>::infinity();
+  }
+  return largest;
+}
+
+// The least time of `work` that stood for a while, s.
+template <class Work>
+double least_seconds(double budget, Work work) {
+  double least = std::numeric_limits<double>::infinity(), total = 0;
+  for (int since = 0, runs = 0; since < 10 && (runs < 2 || total < budget); ++runs, ++since) {
+    const solve::CpuClock clock;
+    work();
+    const double seconds = clock.seconds();
+    if (seconds < 0.995 * least) since = 0;
+    least = std::min(least, seconds);
+    total += seconds;
+  }
+  return least;
+}
+
+Point measure_sweep(const Cases& cases, const study::CaseResults& exact,
+                    solve::Tolerances tolerances, double budget) {
+  const auto runner = cases.engine().runner();
+  study::CaseResults results;
+  const auto work = [&] { static_cast<void>(runner->run(0, cases.count(), results, goes_on)); };
+  work();
+  const double error = largest_error(cases.task(), results.numbers, exact.numbers);
+  return {"sweep", tolerances, error,
+          least_seconds(budget, work) / static_cast<double>(cases.count()), 1};
+}
+
+// The tool over the same cases, its models made and its memory there before the clock starts.
+Point measure_tool(const bench::Tool& tool, const Cases& cases, const study::CaseResults& exact,
+                   solve::Tolerances tolerances, double budget) {
+  const study::SweepTask& task = cases.task();
+  std::vector<bench::Scene> scenes;
+  std::vector<double> numbers;
+  study::TrackMeter meter(task.measures);
+  bool fine = true;
+  for (std::size_t i = 0; i < cases.count(); ++i) {
+    const Scenario scenario = task.family.read(task.plan.settings(i));
+    bench::Scene& scene = scenes.emplace_back(bench::Scene{
+        "", model::assemble(scenario, false), solve::OutputGrid(scenario.time), {}, {}, {}});
+    for (std::size_t k = 0; k < scene.grid.size(); ++k) scene.times.push_back(scene.grid[k]);
+    bench::Rows rows(scene.grid.size(), scene.model.size());
+    fine = fine && tool.run(scene, tolerances, rows);
+    const model::BallConstants constants = model::constants_of(scenario);
+    meter.begin(scene.model, constants, scene.grid, false);
+    meter.accept(0, scene.grid.size(), rows.row(0));
+    numbers.resize((i + 1) * (1 + task.measures.size()));
+    meter.finish(&numbers[i * (1 + task.measures.size()) + 1]);
+  }
+  const double error =
+      fine ? largest_error(task, numbers, exact.numbers) : std::numeric_limits<double>::infinity();
+  bench::Rows rows(scenes[0].grid.size(), scenes[0].model.size());
+  const double seconds = least_seconds(budget, [&] {
+    for (const bench::Scene& scene : scenes) tool.run(scene, tolerances, rows);
+  });
+  return {tool.name, tolerances, error, seconds / static_cast<double>(scenes.size()), 1};
+}
+
+void measure(const Job& job, const std::string& folder, double budget) {
+  const std::string file = folder + "/scenarios/" + job.scene + ".yaml";
+  constexpr double few = 64, many = 4096;
+  const auto make_single = [](const study::SweepTask& task) { return study::single_runner(task); };
+  const Cases finest(file, job, few, {1e-13, 1e-15});
+  const study::CaseResults exact = finest.run(make_single);
+
+  std::vector<Point> points;
+  std::string engine;
+  for (int i = 4; i <= 24; ++i) {
+    const double rtol = std::pow(10.0, -i / 2.0);
+    const solve::Tolerances tolerances{rtol, rtol / 100};
+    const Cases cases(file, job, few, tolerances);
+    // Of more cases than the few whose error is known: what is done once a sweep is not to count.
+    const Cases most(file, job, many, tolerances);
+    Point point = measure_sweep(cases, exact, tolerances, 0);
+    if (!std::isfinite(point.error)) continue;
+    if (point.error > 100 * job.error || point.error < job.error / 1e4) continue;
+    study::CaseResults results;
+    const auto runner = most.engine().runner();
+    point.seconds =
+        least_seconds(budget,
+                      [&] { static_cast<void>(runner->run(0, most.count(), results, goes_on)); }) /
+        static_cast<double>(most.count());
+    points.push_back(point);
+    engine = most.engine().name;
+  }
+  for (const bench::Tool& tool : bench::all_tools()) {
+    if (job.other != tool.name) continue;
+    for (int i = 4; i <= 24; ++i) {
+      const double rtol = std::pow(10.0, -i / 2.0);
+      const Point point = measure_tool(tool, finest, exact, {rtol, rtol / 100}, budget);
+      if (std::isfinite(point.error) && point.error < 100 * job.error) points.push_back(point);
+      if (point.error < job.error / 100) break;
+    }
+  }
+  const auto own = bench::seconds_at(points, "sweep", job.error);
+  const auto other = bench::seconds_at(points, job.other, job.error);
+  const double ratio = own && other ? *other / *own : 0;
+  std::printf("%-28s %-14s %7.0e %10.3f  %-7s %9.2f %8.1f  >= %.0f %s\n", job.name.c_str(),
+              engine.c_str(), job.error, own ? 1e6 * *own : 0.0, job.other.c_str(),
+              other ? 1e6 * *other : 0.0, ratio, job.ratio, ratio >= job.ratio ? "holds" : "FAILS");
+  std::fflush(stdout);
+}
+
+// Wall time of a sweep on one thread over that on two.
+void measure_threads(const std::string& folder) {
+  const Cases cases(folder + "/scenarios/fig2b.yaml", jobs[1], 20000, {1e-8, 1e-10});
+  double least[2] = {1e99, 1e99};
+  for (int turn = 0; turn < 5; ++turn) {
+    for (std::size_t threads = 1; threads <= 2; ++threads) {
+      const auto start = std::chrono::steady_clock::now();
+      static_cast<void>(study::run_sweep(
+          cases.engine(), {0, cases.count()}, threads, goes_on, [](study::CaseResults&) {},
+          [](const study::CaseResults&) {}));
+      const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - start;
+      least[threads - 1] = std::min(least[threads - 1], wall.count());
+    }
+  }
+  const double ratio = least[0] / least[1];
+  std::printf("\nwall time on one thread over two: %.2f  >= 1.85 %s\n", ratio,
+              ratio >= 1.85 ? "holds" : "FAILS");
+}
+
+// A sweep of which a third blows up, beside one of which none does.
+void measure_blow_ups(const std::string& folder) {
+  const std::string file = folder + "/scenarios/fig2b.yaml";
+  const auto seconds = [&](const char* gains) {
+    // A sign turned over makes the loop unstable: its motion overflows before the end.
+    const Job job{"", "fig2b", {{"controller.pd.kv.0.0", gains}, {"ball.mass", "uniform:1:2"}},
+                  0,  "",      0};
+    const Cases cases(file, job, 1000, {1e-8, 1e-10});
+    const auto runner = cases.engine().runner();
+    study::CaseResults results;
+    const double time = least_seconds(
+        0.5, [&] { static_cast<void>(runner->run(0, cases.count(), results, goes_on)); });
+    const auto failed = std::count_if(results.status.begin(), results.status.end(),
+                                      [](const std::string& status) { return status != "done"; });
+    std::printf("%-28s %6.1f us a case, %td of %zu end early\n", gains,
+                1e6 * time / static_cast<double>(cases.count()), failed, cases.count());
+    return time / static_cast<double>(cases.count());
+  };
+  std::printf("\n");
+  const double none = seconds("list:0.9,1,1.1"), third = seconds("list:0.9,1,-10");
+  std::printf("time where a third blows up over where none does: %.2f  <= 2 %s\n", third / none,
+              third <= 2 * none ? "holds" : "FAILS");
+}
+
+}  // namespace
+
+int main(int count, char** words) {
+  std::string data = BBSIM_SOURCE_DIR "/tests/data";
+  double budget = 0.3;
+  CLI::App app("Times sweeps against the same cases one by one, at equal error.");
+  app.add_option("--data", data, "folder with scenarios/")->capture_default_str();
+  app.add_option("--budget", budget, "most seconds to spend on a point")->capture_default_str();
+  CLI11_PARSE(app, count, words);
+  try {
+    std::printf(
+        "processor time a case of a sweep, its scenario set and its default measures taken, and "
+        "of\n"
+        "the other tool's integration alone, rows included; error: the largest of x_end, y_end,\n"
+        "max_distance and the tracking errors over 64 cases\n\n"
+        "%-28s %-14s %7s %10s  %-7s %9s %8s\n",
+        "sweep", "engine", "error m", "sweep us", "other", "other us", "ratio");
+    for (const Job& job : jobs) measure(job, data, budget);
+    measure_threads(data);
+    measure_blow_ups(data);
+    return 0;
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "%s\n", error.what());
+    return 2;
+  }
+}
