@@ -19,6 +19,8 @@ class OutputGrid {
     if (before_end_ == 0) before_end_ = 1;  // t = 0 comes always
   }
 
+  bool operator==(const OutputGrid&) const = default;
+
   [[nodiscard]] std::size_t size() const { return before_end_ + 1; }
   [[nodiscard]] double end() const { return end_; }
 

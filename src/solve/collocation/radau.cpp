@@ -66,16 +66,29 @@ int unlike_stages(const model::Model& model, double rtol) {
 
 RadauStepper::RadauStepper(const model::Model& model, const KernelSet& kernels, int stages,
                            Tolerances tolerances, double end)
-    : model_(model),
-      kernel_(&find_kernel(kernels, stages, model)),
-      tolerances_(tolerances),
-      end_(end),
-      highest_frequency_(highest_frequency(model)),
-      reach_(resolved(kernel_->stages, tolerances.rtol)),
-      // A sinusoid shorter than the distance between nodes would be mistaken for a longer one.
-      widest_(highest_frequency_ > 0 ? 1.6 * kernel_->stages / highest_frequency_
-                                     : std::numeric_limits<double>::max()),
-      workspace_(::operator new(kernel_->workspace, alignment)) {}
+    : model_(&model), kernels_(kernels), stages_(stages), tolerances_(tolerances) {
+  renew(model, end);
+}
+
+void RadauStepper::renew(const model::Model& model, double end) {
+  model_ = &model;
+  end_ = end;
+  const Kernel* const kernel = &find_kernel(kernels_, stages_, model);
+  if (kernel != kernel_) {
+    kernel_ = kernel;
+    reach_ = resolved(kernel_->stages, tolerances_.rtol);
+    workspace_.reset(::operator new(kernel_->workspace, alignment));
+  }
+  highest_frequency_ = highest_frequency(model);
+  // A sinusoid shorter than the distance between nodes would be mistaken for a longer one.
+  widest_ = highest_frequency_ > 0 ? 1.6 * kernel_->stages / highest_frequency_
+                                   : std::numeric_limits<double>::max();
+  time_ = next_step_ = turned_ = last_step_ = 0;
+  attempted_ = rejected_before_ = false;
+  shrinking_ = 0;
+  worst_state_ = 0;
+  statistics_ = {};
+}
 
 // The kernel's own view of the system, in its present mode.
 void RadauStepper::look_at_model() {
@@ -83,10 +96,13 @@ void RadauStepper::look_at_model() {
       [this](const auto& system) {
         using View = decltype(system.view());
         static_assert(std::is_trivially_destructible_v<View>);
-        if (!view_) view_.reset(::operator new(sizeof(View), alignment));
+        if (viewed_ != model_->system.index()) {
+          view_.reset(::operator new(sizeof(View), alignment));
+          viewed_ = model_->system.index();
+        }
         new (view_.get()) View(system.view());
       },
-      model_.system);
+      model_->system);
 }
 
 std::size_t RadauStepper::detail() const {
@@ -100,7 +116,7 @@ void RadauStepper::settle() {
 }
 
 std::vector<double> RadauStepper::state() const {
-  std::vector<double> z(model_.size());
+  std::vector<double> z(model_->size());
   kernel_->state(workspace_.get(), z.data());
   return z;
 }
@@ -108,18 +124,35 @@ std::vector<double> RadauStepper::state() const {
 void RadauStepper::start(double t, const double* z) {
   look_at_model();
   void* const workspace = workspace_.get();
-  if (model_.gamma && t > 0 && attempted_) {
-    std::vector<double> row(model_.size() + 1);
+  if (model_->gamma && t > 0 && attempted_) {
+    std::vector<double> row(model_->size() + 1);
     evaluate(&t, 1, row.data());
     turned_ = row.back();
   }
   attempted_ = false;
-  kernel_->start(workspace, {view_.get(), z, tolerances_.rtol, tolerances_.atol, model_.gamma});
+  kernel_->start(workspace, {view_.get(), z, tolerances_.rtol, tolerances_.atol, model_->gamma,
+                             positions_only_});
   time_ = t;
+  last_step_ = 0;
   if (next_step_ > 0) return;
   const double rate = std::max(kernel_->rate(workspace, t), highest_frequency_);
   next_step_ = rate > 0 ? 2 * reach_ / rate : end_;
   if (!(next_step_ > 0)) next_step_ = end_ * 1e-6;
+}
+
+// Whether the steps shrink as they do on the way to infinity in finite time, each to a part of what
+// is left: for long, and by far. Nothing that passes makes so many steps in a row ever shorter.
+bool RadauStepper::diverges(double step, double t) {
+  constexpr int long_since = 12;
+  constexpr double by_far = 1e-5;
+  if (!(step < 0.9 * last_step_)) {
+    shrinking_ = 0;
+    shrinks_from_ = step;
+  } else {
+    ++shrinking_;
+  }
+  last_step_ = step;
+  return shrinking_ >= long_since && step < by_far * std::min(shrinks_from_, t);
 }
 
 const char* RadauStepper::step(double limit) {
@@ -127,6 +160,7 @@ const char* RadauStepper::step(double limit) {
   const int stages = kernel_->stages;
   const double t = time_, left = limit - t;
   bool rejected = false;
+  double tried = 0;  // first, s
   for (;;) {
     double h = std::min(next_step_, widest_);
     // The steps to the limit are alike.
@@ -136,6 +170,7 @@ const char* RadauStepper::step(double limit) {
     if (!(step > 4 * std::numeric_limits<double>::epsilon() * t) && !arrives) {
       return "the step shrank to the rounding of the time itself";
     }
+    if (tried == 0) tried = step;
     Attempt attempt;
     kernel_->attempt(workspace_.get(), t, step, &attempt);
     statistics_.rhs_evaluations += static_cast<std::size_t>(attempt.right_hand_sides);
@@ -151,11 +186,15 @@ const char* RadauStepper::step(double limit) {
       ++statistics_.error_test_failures;
       continue;
     }
+    if (!arrives && diverges(step, t)) return "the motion grows without bound";
     attempted_ = true;
     time_ = arrives ? limit : t + step;
     ++statistics_.steps;
     const double factor = growth(attempt.error, stages);
     h = step * (rejected ? std::min(factor, 1.0) : factor);
+    // Rejected twice in a row: what shrank the last step will shrink the next one too.
+    if (rejected && rejected_before_) h *= std::clamp(step / tried, 0.1, 1.0);
+    rejected_before_ = rejected;
     // A step that the limit cut short says little of how long the next may be.
     next_step_ = arrives && !rejected ? std::max(h, next_step_) : h;
     return nullptr;
@@ -165,7 +204,7 @@ const char* RadauStepper::step(double limit) {
 void RadauStepper::evaluate(const double* times, std::size_t count, double* rows) {
   kernel_->evaluate(workspace_.get(), times, count, rows);
   if (turned_ == 0) return;
-  const std::size_t row = model_.size() + 1;
+  const std::size_t row = model_->size() + 1;
   for (std::size_t i = 0; i < count; ++i) rows[i * row + row - 1] += turned_;
 }
 

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <memory>
+#include <variant>
 #include <vector>
 
 #include "model/model.hpp"
@@ -53,6 +54,12 @@ class RadauStepper : public Stepper {
   RadauStepper(const model::Model& model, const KernelSet& kernels, int stages,
                Tolerances tolerances, double end);
 
+  // As if made anew for another model, with the memory of the last one.
+  void renew(const model::Model& model, double end);
+
+  // Rows then have the positions alone; what else is in them is left as it is. Before start().
+  void leave_out_velocities(bool yes) { positions_only_ = yes; }
+
   void start(double t, const double* z) override;
   const char* step(double limit) override;
   void evaluate(const double* times, std::size_t count, double* rows) override;
@@ -70,17 +77,26 @@ class RadauStepper : public Stepper {
 
   void look_at_model();
   void settle();
+  [[nodiscard]] bool diverges(double step, double t);
 
-  const model::Model& model_;
-  const Kernel* kernel_;
+  const model::Model* model_;
+  const KernelSet& kernels_;
+  int stages_;  // asked for
+  const Kernel* kernel_ = nullptr;
   Tolerances tolerances_;
-  double end_, highest_frequency_, reach_, widest_;
+  double end_ = 0, highest_frequency_ = 0, reach_ = 0, widest_ = 0;
+  bool positions_only_ = false;
+  std::size_t viewed_ = std::variant_npos;  // the alternative that view_ has room for
   std::unique_ptr<void, Free> view_;
   std::unique_ptr<void, Free> workspace_;
   double time_ = 0;
-  double next_step_ = 0;    // s; 0: not known yet
-  bool attempted_ = false;  // a step was made, and is not yet the present state
-  double turned_ = 0;       // integral of u until start(), m
+  double next_step_ = 0;          // s; 0: not known yet
+  bool attempted_ = false;        // a step was made, and is not yet the present state
+  double turned_ = 0;             // integral of u until start(), m
+  bool rejected_before_ = false;  // the last step was made after a rejection
+  // Steps in a row that were shorter than the one before, and the step before the first of them.
+  int shrinking_ = 0;
+  double last_step_ = 0, shrinks_from_ = 0;
   std::size_t worst_state_ = 0;
   Statistics statistics_;
 };

@@ -86,6 +86,7 @@ struct Step {
     const System* system;
     double rtol, atol;
     bool gamma;
+    bool positions_only;  // in rows
     bool newton;          // iterate by Newton; otherwise by substitution
     bool has_guess;       // k holds the last attempt's values, over [guess_t, guess_t + guess_h]
     bool accepted;        // whether that attempt was accepted
@@ -351,6 +352,7 @@ struct Step {
     w.rtol = from.rtol;
     w.atol = from.atol;
     w.gamma = from.gamma;
+    w.positions_only = from.positions_only;
     w.newton = !System::linear;
     w.has_guess = false;
     w.accepted = false;
@@ -548,6 +550,16 @@ struct Step {
 
   static void evaluate(void* workspace, const double* times, std::size_t count, double* rows) {
     Workspace& w = *static_cast<Workspace*>(workspace);
+    if (w.positions_only) {
+      evaluate_rows<false>(w, times, count, rows);
+    } else {
+      evaluate_rows<true>(w, times, count, rows);
+    }
+  }
+
+  template <bool velocities>
+  BBSIM_INLINE static void evaluate_rows(Workspace& w, const double* times, std::size_t count,
+                                         double* rows) {
     const double half = w.h / 2;
     const int row = n + (w.gamma ? 1 : 0);
     for (int i = 0; i < nv; ++i) {
@@ -555,37 +567,48 @@ struct Step {
       if (i < nq || turns(w, i))
         integrate_series<s + 1>(w.v_series[i], half, w.q[i], w.q_series[i]);
     }
-    for (std::size_t first = 0; first < count; first += lanes) {
-      const int used = count - first < lanes ? static_cast<int>(count - first) : lanes;
-      alignas(64) double at[lanes];
-      for (int l = 0; l < lanes; ++l) at[l] = times[first + (l < used ? l : 0)];
-      const P x = (P::load(at) - P(w.t + half)) * P(1 / half);
-      P q[nv], v[nv];
-#pragma GCC unroll 8
-      for (int i = 0; i < nv; ++i) {
-        v[i] = w.v_series[i][0] + w.v_series[i][1] * x;
-        q[i] = w.q_series[i][0] + w.q_series[i][1] * x;
-      }
-      P before = P(1.0), now = x;
-      for (int m = 1; m <= s; ++m) {
-        const P next = recurrence.first[m] * x * now - recurrence.second[m] * before;
-        before = now;
-        now = next;
+    // Two packs of times at once: the recurrence waits for itself.
+    constexpr int together = 2;
+    for (std::size_t first = 0; first < count; first += together * lanes) {
+      const std::size_t left = count - first;
+      const int used = left < together * lanes ? static_cast<int>(left) : together * lanes;
+      alignas(64) double at[together * lanes];
+      for (int l = 0; l < together * lanes; ++l) at[l] = times[first + (l < used ? l : 0)];
+      P x[together], before[together], now[together], q[nv][together], v[nv][together];
+#pragma GCC unroll 2
+      for (int p = 0; p < together; ++p) {
+        x[p] = (P::load(at + p * lanes) - P(w.t + half)) * P(1 / half);
+        before[p] = P(1.0);
+        now[p] = x[p];
 #pragma GCC unroll 8
         for (int i = 0; i < nv; ++i) {
-          if (m < s) v[i] += P(w.v_series[i][m + 1]) * now;
-          q[i] += P(w.q_series[i][m + 1]) * now;
+          if (velocities) v[i][p] = w.v_series[i][0] + w.v_series[i][1] * x[p];
+          q[i][p] = w.q_series[i][0] + w.q_series[i][1] * x[p];
+        }
+      }
+      for (int m = 1; m <= s; ++m) {
+#pragma GCC unroll 2
+        for (int p = 0; p < together; ++p) {
+          const P next = recurrence.first[m] * x[p] * now[p] - recurrence.second[m] * before[p];
+          before[p] = now[p];
+          now[p] = next;
+#pragma GCC unroll 8
+          for (int i = 0; i < nv; ++i) {
+            if (velocities && m < s) v[i][p] += P(w.v_series[i][m + 1]) * next;
+            q[i][p] += P(w.q_series[i][m + 1]) * next;
+          }
         }
       }
       for (int l = 0; l < used; ++l) {
+        const int p = l / lanes, lane = l % lanes;
         double* const target = rows + (first + static_cast<std::size_t>(l)) * row;
 #pragma GCC unroll 8
         for (int i = 0; i < nv; ++i) {
-          target[motions.of[i].velocity] = v[i][l];
+          if (velocities) target[motions.of[i].velocity] = v[i][p][lane];
           if (i < nq) {
-            target[motions.of[i].position] = q[i][l];
+            target[motions.of[i].position] = q[i][p][lane];
           } else if (turns(w, i)) {
-            target[n] = q[i][l];
+            target[n] = q[i][p][lane];
           }
         }
       }

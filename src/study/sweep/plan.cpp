@@ -73,6 +73,7 @@ Axis SweepPlan::read_axis(const ScenarioFamily& family, const Variation& variati
   axis.key = variation.key;
   axis.kind = spec.kind;
   axis.count = spec.random() ? 1 : spec.count;
+  axis.stream = mixed(mixed(seed_) ^ hash(axis.key));
   std::vector<double> numbers;
   for (const std::string& value : spec.values) {
     others.push_back({variation.key, value});
@@ -159,8 +160,8 @@ SweepPlan::SweepPlan(const ScenarioFamily& family, const Sweep& sweep)
   }
 }
 
-double SweepPlan::drawn(const Axis& axis, std::size_t number) const {
-  const std::uint64_t bits = mixed(mixed(mixed(seed_) ^ hash(axis.key)) + number);
+double SweepPlan::drawn(const Axis& axis, std::size_t number) {
+  const std::uint64_t bits = mixed(axis.stream + number);
   const double p = (static_cast<double>(bits >> 12U) + 0.5) * 0x1p-52;
   if (axis.kind == Kind::uniform) return axis.from + p * (axis.to - axis.from);
   return axis.from + axis.to * model::normal_quantile(p);

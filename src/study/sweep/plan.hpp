@@ -22,6 +22,7 @@ struct Axis {
   double from = 0, to = 0;  // of linear, log and uniform; mean and standard deviation of normal
   std::vector<double> numbers{};     // of a list
   std::vector<std::string> texts{};  // of a list that is not numeric
+  std::uint64_t stream = 0;          // tells its draws from those of other keys
   bool independent = false;          // no rule relates the key's number to another key
 
   [[nodiscard]] bool random() const {
@@ -57,7 +58,7 @@ class SweepPlan {
   [[nodiscard]] Axis read_axis(const ScenarioFamily& family, const Variation& variation,
                                std::vector<ScenarioFamily::Setting>& others) const;
   [[nodiscard]] std::vector<std::size_t> extremes() const;
-  [[nodiscard]] double drawn(const Axis& axis, std::size_t number) const;
+  [[nodiscard]] static double drawn(const Axis& axis, std::size_t number);
 
   std::vector<Axis> axes_;
   Combine combine_;

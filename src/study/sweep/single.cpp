@@ -106,6 +106,9 @@ class SingleRunner : public CaseRunner {
     const auto needs = [](const record::Column* column) {
       return column->needs == record::Needs::gamma;
     };
+    for (const Axis& axis : task.plan.axes()) {
+      if (axis.key.starts_with("solver")) same_tolerances_ = false;
+    }
     gamma_ = record::any_needs(task.measures, record::Needs::gamma) ||
              std::any_of(task.series.begin(), task.series.end(), needs);
   }
@@ -174,10 +177,14 @@ class SingleRunner : public CaseRunner {
                    const std::atomic<bool>& stop, double* numbers, std::string& status) {
     const solve::Tolerances tolerances{scenario.solver.rtol, scenario.solver.atol};
     track_.begin(model, constants, grid, same_signals_);
-    solve::collocation::RadauStepper stepper(model, kernels_,
-                                             solve::collocation::choose_stages(tolerances.rtol),
-                                             tolerances, grid.end());
-    const solve::Outcome outcome = solve::run_through(stepper, model, grid, track_, {&stop, {}});
+    if (stepper_ && same_tolerances_) {
+      stepper_->renew(model, grid.end());
+    } else {
+      stepper_.emplace(model, kernels_, solve::collocation::choose_stages(tolerances.rtol),
+                       tolerances, grid.end());
+    }
+    stepper_->leave_out_velocities(track_.wants_positions_only(model));
+    const solve::Outcome outcome = solve::run_through(*stepper_, model, grid, track_, {&stop, {}});
     if (outcome.ending == solve::Ending::interrupted) return false;
     numbers[0] = outcome.reached;
     track_.finish(numbers + 1);
@@ -190,7 +197,8 @@ class SingleRunner : public CaseRunner {
   record::Meter meter_;
   TrackMeter track_;
   const solve::collocation::KernelSet& kernels_;
-  bool quick_, same_signals_;
+  std::optional<solve::collocation::RadauStepper> stepper_;  // its memory, from case to case
+  bool quick_, same_signals_, same_tolerances_ = true;
   bool gamma_ = false;
 };
 

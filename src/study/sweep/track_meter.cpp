@@ -90,9 +90,13 @@ TrackMeter::TrackMeter(std::vector<record::Measure> measures)
 
 void TrackMeter::evaluate_signals(const model::SignalPair& signals) {
   const std::size_t rows = grid_->size();
-  times_.resize(rows);
-  for (std::size_t i = 0; i < rows; ++i) times_.data()[i] = (*grid_)[i];
-  times_.pad(rows);
+  if (timed_ != *grid_) {
+    timed_ = *grid_;
+    sampled_.clear();
+    times_.resize(rows);
+    for (std::size_t i = 0; i < rows; ++i) times_.data()[i] = (*grid_)[i];
+    times_.pad(rows);
+  }
   for (PaddedRows* const column : {&signal_[0], &signal_[1], &signal_rate_[0], &signal_rate_[1]}) {
     column->resize(rows);
   }
@@ -100,7 +104,20 @@ void TrackMeter::evaluate_signals(const model::SignalPair& signals) {
   double* const rates[2] = {signal_rate_[0].data(), signal_rate_[1].data()};
   const model::SignalView view = signals.view();
   if (view.table_count == 0) {
-    kernels_.signals(view, times_.data(), rows, values, rates);
+    sampled_.resize(view.harmonic_count);
+    waves_.clear();
+    for (std::size_t k = 0; k < view.harmonic_count; ++k) {
+      Sampled& sampled = sampled_[k];
+      const double frequency = view.harmonics[k].frequency;
+      if (sampled.sines.data() == nullptr || sampled.frequency != frequency) {
+        sampled.frequency = frequency;
+        sampled.sines.resize(rows);
+        sampled.cosines.resize(rows);
+        kernels_.wave(frequency, times_.data(), rows, sampled.sines.data(), sampled.cosines.data());
+      }
+      waves_.push_back({sampled.sines.data(), sampled.cosines.data()});
+    }
+    kernels_.signals(view, waves_.data(), times_.data(), rows, values, rates);
     return;
   }
   for (std::size_t i = 0; i < rows; ++i) {
@@ -113,6 +130,13 @@ void TrackMeter::evaluate_signals(const model::SignalPair& signals) {
   for (PaddedRows* const column : {&signal_[0], &signal_[1], &signal_rate_[0], &signal_rate_[1]}) {
     column->pad(rows);
   }
+}
+
+bool TrackMeter::wants_positions_only(const model::Model& model) const {
+  if (model.closed_loop()) return false;
+  return std::all_of(measures_.begin(), measures_.end(), [](const record::Measure& measure) {
+    return measure.kind != Kind::end || measure.column->name == "x" || measure.column->name == "y";
+  });
 }
 
 void TrackMeter::begin(const model::Model& model, const model::BallConstants& constants,

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <memory>
 #include <new>
+#include <optional>
 #include <vector>
 
 #include "model/model.hpp"
@@ -51,6 +52,9 @@ class TrackMeter : public solve::StateSink {
  public:
   explicit TrackMeter(std::vector<record::Measure> measures);
 
+  // Whether it looks at positions alone.
+  [[nodiscard]] bool wants_positions_only(const model::Model& model) const;
+
   // Begins a run; the three outlive it. `same_signals`: the motion or reference, and the grid, are
   // those of the run before.
   void begin(const model::Model& model, const model::BallConstants& constants,
@@ -75,6 +79,13 @@ class TrackMeter : public solve::StateSink {
   const solve::OutputGrid* grid_ = nullptr;
   bool closed_ = false, wants_gimbal_ = false, wants_error_ = false, has_signals_ = false;
   std::size_t rows_ = 0;
+  std::optional<solve::OutputGrid> timed_;  // whose times times_ are, and the waves'
+  struct Sampled {
+    double frequency;
+    PaddedRows sines, cosines;
+  };
+  std::vector<Sampled> sampled_;
+  std::vector<Wave> waves_;
   PaddedRows times_, x_, y_, phi_, theta_, phi_rate_, theta_rate_;
   PaddedRows signal_[2], signal_rate_[2];  // the gimbal's motion, or the reference
   PaddedRows cut_[4];                      // the same, as far as a run came that ended early

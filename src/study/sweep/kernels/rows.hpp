@@ -102,14 +102,32 @@ struct RowKernels {
     }
   }
 
-  static void signals(const model::SignalView& view, const double* times, std::size_t rows,
-                      double* const values[2], double* const rates[2]) {
+  static void wave(double frequency, const double* times, std::size_t rows, double* sines,
+                   double* cosines) {
     const std::size_t end = padded(rows);
     for (std::size_t i = 0; i < end; i += lanes) {
-      const auto jets = view.at(P::load(times + i));
-      for (int c = 0; c < 2; ++c) {
-        jets[c].value.store(values[c] + i);
-        jets[c].rate.store(rates[c] + i);
+      const auto both = sin_cos(P(frequency) * P::load(times + i));
+      both.sin.store(sines + i);
+      both.cos.store(cosines + i);
+    }
+  }
+
+  // What SignalView::at() computes, with the waves at hand.
+  static void signals(const model::SignalView& view, const Wave* waves, const double* times,
+                      std::size_t rows, double* const values[2], double* const rates[2]) {
+    const std::size_t end = padded(rows);
+    for (int c = 0; c < 2; ++c) {
+      const P start = P(view.start[c]), rate = P(view.rate[c]);
+      for (std::size_t i = 0; i < end; i += lanes) {
+        P value = start + rate * P::load(times + i), slope = rate;
+        for (std::size_t k = 0; k < view.harmonic_count; ++k) {
+          const P sine = P::load(waves[k].sines + i), cosine = P::load(waves[k].cosines + i);
+          const P a = P(view.harmonics[k].sine[c]), b = P(view.harmonics[k].cosine[c]);
+          value += a * sine + b * cosine;
+          slope += P(view.harmonics[k].frequency) * (a * cosine - b * sine);
+        }
+        value.store(values[c] + i);
+        slope.store(rates[c] + i);
       }
     }
   }
@@ -137,7 +155,7 @@ struct RowKernels {
   }
 
   static constexpr SweepKernels named(const char* name) {
-    return {name, &extremes, &signals, &farthest};
+    return {name, &extremes, &wave, &signals, &farthest};
   }
 };
 

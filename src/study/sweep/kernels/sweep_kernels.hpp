@@ -39,13 +39,20 @@ struct Superposition {
   const double *const *x_terms = nullptr, *const *y_terms = nullptr;
 };
 
+// sin(frequency t) and cos(frequency t) at the times of the rows.
+struct Wave {
+  const double *sines = nullptr, *cosines = nullptr;
+};
+
 struct SweepKernels {
   const char* name;  // as of the integrator's kernels
   // `gimbal` and `reference` say whether the track has those.
   void (*extremes)(const Track& track, bool gimbal, bool reference, Extremes* extremes);
-  // Both components and their rates at the times (s); without splines.
-  void (*signals)(const model::SignalView& signals, const double* times, std::size_t rows,
-                  double* const values[2], double* const rates[2]);
+  void (*wave)(double frequency, const double* times, std::size_t rows, double* sines,
+               double* cosines);
+  // Both components and their rates at the times (s); without splines. A wave for each harmonic.
+  void (*signals)(const model::SignalView& signals, const Wave* waves, const double* times,
+                  std::size_t rows, double* const values[2], double* const rates[2]);
   // The greatest x^2 + y^2 over the rows.
   double (*farthest)(const Superposition& motion, const double* factors);
 };
