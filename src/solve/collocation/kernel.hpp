@@ -13,7 +13,7 @@ struct Start {
   const double* state;
   double rtol, atol;
   bool gamma;  // the integral of u is under the tolerance too, and follows the states in a row
-  bool positions_only = false;  // evaluate() leaves the velocities in its rows as they are
+  bool positions_only = false;  // without gamma: evaluate() leaves velocities as they are
 };
 
 enum class Verdict { converged, diverged, not_finite };

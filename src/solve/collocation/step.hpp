@@ -521,14 +521,24 @@ struct Step {
     }
   }
 
+  // 1, 1/3, 1/5, ...: products are cheaper than quotients.
+  struct OddParts {
+    double of[s + 3]{};
+    consteval OddParts() {
+      for (int m = 0; m < s + 3; ++m) of[m] = 1.0 / (2 * m + 1);
+    }
+  };
+  static constexpr OddParts odd_parts{};
+
   // (h/2) times the integral from -1 of a Legendre series, plus its value there.
   template <int length>
   BBSIM_INLINE static void integrate_series(const double* k, double half, double from,
                                             double* out) {
     const auto at = [&](int m) { return m < length ? k[m] : 0.0; };
     out[0] = from + half * (at(0) - at(1) / 3);
+#pragma GCC unroll 2
     for (int m = 1; m <= length; ++m) {
-      out[m] = half * (k[m - 1] / (2 * m - 1) - at(m + 1) / (2 * m + 3));
+      out[m] = half * (k[m - 1] * odd_parts.of[m - 1] - at(m + 1) * odd_parts.of[m + 1]);
     }
   }
 
@@ -550,7 +560,7 @@ struct Step {
 
   static void evaluate(void* workspace, const double* times, std::size_t count, double* rows) {
     Workspace& w = *static_cast<Workspace*>(workspace);
-    if (w.positions_only) {
+    if (w.positions_only && !w.gamma) {
       evaluate_rows<false>(w, times, count, rows);
     } else {
       evaluate_rows<true>(w, times, count, rows);
@@ -583,7 +593,7 @@ struct Step {
 #pragma GCC unroll 8
         for (int i = 0; i < nv; ++i) {
           if (velocities) v[i][p] = w.v_series[i][0] + w.v_series[i][1] * x[p];
-          q[i][p] = w.q_series[i][0] + w.q_series[i][1] * x[p];
+          if (velocities || i < nq) q[i][p] = w.q_series[i][0] + w.q_series[i][1] * x[p];
         }
       }
       for (int m = 1; m <= s; ++m) {
@@ -595,7 +605,7 @@ struct Step {
 #pragma GCC unroll 8
           for (int i = 0; i < nv; ++i) {
             if (velocities && m < s) v[i][p] += P(w.v_series[i][m + 1]) * next;
-            q[i][p] += P(w.q_series[i][m + 1]) * next;
+            if (velocities || i < nq) q[i][p] += P(w.q_series[i][m + 1]) * next;
           }
         }
       }
@@ -607,7 +617,7 @@ struct Step {
           if (velocities) target[motions.of[i].velocity] = v[i][p][lane];
           if (i < nq) {
             target[motions.of[i].position] = q[i][p][lane];
-          } else if (turns(w, i)) {
+          } else if (velocities && turns(w, i)) {
             target[n] = q[i][p][lane];
           }
         }
