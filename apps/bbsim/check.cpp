@@ -9,9 +9,11 @@
 #include "describe.hpp"
 #include "model/explain.hpp"
 #include "record/recorder.hpp"
+#include "scenario/family.hpp"
 #include "scenario/reader.hpp"
 #include "solve/choose.hpp"
 #include "solve/output_grid.hpp"
+#include "study/sweep/plan.hpp"
 
 namespace bbsim::app {
 namespace {
@@ -96,6 +98,17 @@ void print_solver(const Scenario& scenario, const model::Model& model) {
                      ": its fastest mode decays " + short_number(decays) + " times over it");
 }
 
+// Of a scenario with a sweep block; its values are checked too.
+void print_sweep(const ScenarioArguments& arguments, const Scenario& scenario) {
+  if (scenario.sweep.vary.empty()) return;
+  const ScenarioFamily family(arguments.file, arguments.overrides);
+  const study::SweepPlan plan(family, scenario.sweep);
+  static_cast<void>(plan.check(family, [](double) { return true; }));
+  std::string keys;
+  for (const study::Axis& axis : plan.axes()) keys += (keys.empty() ? "" : ", ") + axis.key;
+  print_line("sweep", std::to_string(plan.cases()) + " cases of bbsim sweep, over " + keys);
+}
+
 ExitCode check(const ScenarioArguments& arguments) {
   const Scenario scenario = read_scenario(arguments.file, arguments.overrides);
   const auto columns = record::columns_named(scenario.output.columns);
@@ -122,6 +135,7 @@ ExitCode check(const ScenarioArguments& arguments) {
   if (model.closed_loop()) print_closed_loop(model);
 
   print_solver(scenario, model);
+  print_sweep(arguments, scenario);
   return ExitCode::done;
 }
 

@@ -194,7 +194,8 @@ TEST_CASE("a sweep may stand in the scenario, and choose its measures") {
     CHECK(std::stod(table[i][7]) == Approx(std::sqrt(sum / 11)));
   }
   CHECK(bbsim({"run", file, "-q"}, folder.path()).exit_code == 0);
-  CHECK(bbsim({"check", file}, folder.path()).exit_code == 0);
+  CHECK(
+      contains(bbsim({"check", file}, folder.path()).out, "2 cases of bbsim sweep, over gravity"));
 
   const Result wrong = bbsim(sweep(file, {"--measure", "max_speed"}), folder.path());
   CHECK(wrong.exit_code == 2);
