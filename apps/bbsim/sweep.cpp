@@ -4,6 +4,7 @@
 #include <CLI/Validators.hpp>
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
@@ -53,6 +54,12 @@ Shard read_shard(const std::string& text) {
   return shard;
 }
 
+double whole(const char* option, double number) {
+  if (number == std::floor(number)) return number;
+  throw InputError(std::string(option) + ": found " + record::number_text(number) +
+                   "; allowed: a whole number");
+}
+
 // What the scenario says of the sweep, and the command line instead of it.
 Sweep sweep_of(const SweepArguments& arguments, const Sweep& in_scenario) {
   Sweep sweep = in_scenario;
@@ -65,8 +72,8 @@ Sweep sweep_of(const SweepArguments& arguments, const Sweep& in_scenario) {
   if (!arguments.combine.empty()) {
     sweep.combine = arguments.combine == "zip" ? Combine::zip : Combine::grid;
   }
-  if (arguments.samples) sweep.samples = arguments.samples;
-  if (arguments.seed) sweep.seed = *arguments.seed;
+  if (arguments.samples) sweep.samples = whole("--samples", *arguments.samples);
+  if (arguments.seed) sweep.seed = whole("--seed", *arguments.seed);
   if (!arguments.measure.empty()) {
     sweep.measure.clear();
     for (const std::string& names : arguments.measure) {
@@ -97,6 +104,9 @@ std::vector<record::Measure> measures_of(const Sweep& sweep, const Scenario& sce
         : needs == record::Needs::plate && !scenario.plate.inertia ? "plate.inertia is not known"
                                                                    : nullptr;
     if (why != nullptr) throw InputError("measure: found " + name + ", but " + why);
+    for (const record::Measure& other : measures) {
+      if (other.name == name) throw InputError("measure: found " + name + " twice");
+    }
     measures.push_back(*measure);
   }
   return measures;

@@ -256,6 +256,8 @@ TEST_CASE("what a sweep cannot do is said in one line, before it begins") {
   const std::vector<std::string> key{"--vary", "gravity=list:1,2"};
   CHECK(contains(fault({}), "no key to vary"));
   CHECK(contains(fault(with(key, {"--shard", "4/3"})), "K from 1 to N"));
+  CHECK(contains(fault({"--vary", "gravity=uniform:1:2", "--samples", "1.5"}), "a whole number"));
+  CHECK(contains(fault(with(key, {"--measure", "max_x,max_x"})), "twice"));
   CHECK(contains(fault(with(key, {"--shard", "x"})), "K/N"));
   CHECK(contains(fault(with(key, {"-o", "a.txt"})), ".csv, .h5, .hdf5"));
   CHECK(contains(fault(with(key, {"-o", "-", "--resume"})), "cannot resume"));
