@@ -330,10 +330,12 @@ void add_sweep(CLI::App& app, const Options& options, Chosen& chosen) {
       ->check(whole);
   command->add_option("--seed", arguments->seed, "of what is drawn; default: 1")
       ->check(CLI::Range(0.0, 9007199254740992.0));
-  command->add_option(
-      "--measure", arguments->measure,
-      "NAME[,NAME...] instead of the default measures: min_, max_, rms_ or end_ and "
-      "one of bbsim columns");
+  command
+      ->add_option("--measure", arguments->measure,
+                   "NAME[,NAME...] instead of the default measures: min_, max_, rms_ or end_ and "
+                   "one of bbsim columns")
+      ->take_all()
+      ->expected(1);
   command->add_option("-o,--output", arguments->output,
                       "FILE.csv, FILE.h5, or - for CSV on standard output; default: the scenario's "
                       "name with -sweep.csv, in the current folder");
