@@ -8,7 +8,8 @@ void add_scenario(CLI::App& command, ScenarioArguments& arguments) {
       .add_option("--set", arguments.overrides,
                   "key.path=value: set a key of the scenario; may be given again")
       ->take_all()
-      ->expected(1);
+      ->expected(1)
+      ->allow_extra_args(false);  // what follows may be the scenario
 }
 
 }  // namespace bbsim::app

@@ -320,7 +320,8 @@ void add_sweep(CLI::App& app, const Options& options, Chosen& chosen) {
                    "uniform:FROM:TO or normal:MEAN:SD; values may have units. Default: the "
                    "scenario's sweep.vary")
       ->take_all()
-      ->expected(1);
+      ->expected(1)
+      ->allow_extra_args(false);  // what follows may be the scenario
   command
       ->add_option("--combine", arguments->combine,
                    "grid: each value with each (default); zip: the first with the first")
@@ -335,7 +336,8 @@ void add_sweep(CLI::App& app, const Options& options, Chosen& chosen) {
                    "NAME[,NAME...] instead of the default measures: min_, max_, rms_ or end_ and "
                    "one of bbsim columns")
       ->take_all()
-      ->expected(1);
+      ->expected(1)
+      ->allow_extra_args(false);  // what follows may be the scenario
   command->add_option("-o,--output", arguments->output,
                       "FILE.csv, FILE.h5, or - for CSV on standard output; default: the scenario's "
                       "name with -sweep.csv, in the current folder");

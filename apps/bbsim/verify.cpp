@@ -112,7 +112,8 @@ void add_verify(CLI::App& app, const Options& options, Chosen& chosen) {
       ->add_option("--set", arguments->overrides,
                    "key.path=value: set a key of the scenario; may be given again")
       ->take_all()
-      ->expected(1);
+      ->expected(1)
+      ->allow_extra_args(false);  // what follows may be the scenario
   command->callback([arguments, &options, &chosen] {
     chosen = [arguments, &options] { return verify(*arguments, options); };
   });

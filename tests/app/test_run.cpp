@@ -169,6 +169,15 @@ TEST_CASE("output that cannot be written is exit 3, and leaves nothing behind") 
   CHECK(folder.files() == Names{"a.csv"});
 }
 
+TEST_CASE("the scenario may stand before, between and after the options") {
+  const std::string scenario = config("fig2a.yaml");
+  const Result before = bbsim({"run", scenario, "-q", "--set", "gravity=2", "-o", "-"});
+  REQUIRE(before.exit_code == 0);
+  CHECK(bbsim({"run", "--set", "gravity=2", scenario, "-q", "-o", "-"}).out == before.out);
+  CHECK(bbsim({"run", "-q", "-o", "-", "--set", "gravity=3", "--set", "gravity=2", scenario}).out ==
+        before.out);
+}
+
 TEST_CASE("a faulty command line is exit 2, with help at hand") {
   for (const auto& arguments :
        {Names{}, Names{"fly"}, Names{"run"}, Names{"run", "a", "--wings"}}) {
