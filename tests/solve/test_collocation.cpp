@@ -180,9 +180,10 @@ TEST_CASE("collocation ends where the solution reaches infinity") {
   const solve::Outcome outcome = solve::integrate_radau(model, {1e-9, 1e-11}, grid, rows, {});
   CHECK(outcome.ending == solve::Ending::failed);
   CHECK_FALSE(outcome.reason.empty());
-  // Where BDF at an rtol of 1e-12 ends too. Close to infinity a local error moves the time by as
-  // much, relative to the run.
-  CHECK(std::abs(outcome.reached - 0.7487576252) < 1e-8);
+  // Where BDF at an rtol of 1e-12 ends. The steps are parts of what is left to there, and end the
+  // run when they are less than 1e-5 of the time.
+  CHECK(outcome.reached < 0.7487576252);
+  CHECK(outcome.reached > 0.7487576252 * (1 - 1e-5));
   CHECK(outcome.rows == 75);  // 0 to 0.74 s
   CHECK(rows.rows() == 75);
   REQUIRE(outcome.last_state.size() == model.size());

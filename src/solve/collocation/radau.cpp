@@ -84,7 +84,8 @@ void RadauStepper::renew(const model::Model& model, double end) {
   widest_ = highest_frequency_ > 0 ? 1.6 * kernel_->stages / highest_frequency_
                                    : std::numeric_limits<double>::max();
   time_ = next_step_ = turned_ = last_step_ = 0;
-  attempted_ = rejected_before_ = false;
+  last_error_ = 1;
+  attempted_ = false;
   shrinking_ = 0;
   worst_state_ = 0;
   statistics_ = {};
@@ -141,7 +142,8 @@ void RadauStepper::start(double t, const double* z) {
 }
 
 // Whether the steps shrink as they do on the way to infinity in finite time, each to a part of what
-// is left: for long, and by far. Nothing that passes makes so many steps in a row ever shorter.
+// is left: for long, and by far. A smooth motion that passes something makes no dozen of steps in a
+// row ever shorter, to a hundred thousandth; a rig may be stopped by an event on the way.
 bool RadauStepper::diverges(double step, double t) {
   constexpr int long_since = 12;
   constexpr double by_far = 1e-5;
@@ -151,8 +153,10 @@ bool RadauStepper::diverges(double step, double t) {
   } else {
     ++shrinking_;
   }
+  shrank_by_ = step / last_step_;
   last_step_ = step;
-  return shrinking_ >= long_since && step < by_far * std::min(shrinks_from_, t);
+  return !model_->hybrid() && shrinking_ >= long_since &&
+         step < by_far * std::min(shrinks_from_, t);
 }
 
 const char* RadauStepper::step(double limit) {
@@ -160,7 +164,6 @@ const char* RadauStepper::step(double limit) {
   const int stages = kernel_->stages;
   const double t = time_, left = limit - t;
   bool rejected = false;
-  double tried = 0;  // first, s
   for (;;) {
     double h = std::min(next_step_, widest_);
     // The steps to the limit are alike.
@@ -170,7 +173,6 @@ const char* RadauStepper::step(double limit) {
     if (!(step > 4 * std::numeric_limits<double>::epsilon() * t) && !arrives) {
       return "the step shrank to the rounding of the time itself";
     }
-    if (tried == 0) tried = step;
     Attempt attempt;
     kernel_->attempt(workspace_.get(), t, step, &attempt);
     statistics_.rhs_evaluations += static_cast<std::size_t>(attempt.right_hand_sides);
@@ -192,9 +194,13 @@ const char* RadauStepper::step(double limit) {
     ++statistics_.steps;
     const double factor = growth(attempt.error, stages);
     h = step * (rejected ? std::min(factor, 1.0) : factor);
-    // Rejected twice in a row: what shrank the last step will shrink the next one too.
-    if (rejected && rejected_before_) h *= std::clamp(step / tried, 0.1, 1.0);
-    rejected_before_ = rejected;
+    // Where steps shrink, the error has grown from step to step by more than their sizes say, and
+    // will again (Gustafsson's predictive control; Hairer and Wanner, IV.8): rejections fewer.
+    if (shrinking_ >= 2 && attempt.error > 0) {
+      const double trend = growth(attempt.error / last_error_, stages) / growth(1, stages);
+      h = std::min(h, step * factor * shrank_by_ * trend);
+    }
+    last_error_ = std::max(attempt.error, 1e-3);
     // A step that the limit cut short says little of how long the next may be.
     next_step_ = arrives && !rejected ? std::max(h, next_step_) : h;
     return nullptr;

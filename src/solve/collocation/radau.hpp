@@ -90,13 +90,14 @@ class RadauStepper : public Stepper {
   std::unique_ptr<void, Free> view_;
   std::unique_ptr<void, Free> workspace_;
   double time_ = 0;
-  double next_step_ = 0;          // s; 0: not known yet
-  bool attempted_ = false;        // a step was made, and is not yet the present state
-  double turned_ = 0;             // integral of u until start(), m
-  bool rejected_before_ = false;  // the last step was made after a rejection
-  // Steps in a row that were shorter than the one before, and the step before the first of them.
+  double next_step_ = 0;    // s; 0: not known yet
+  bool attempted_ = false;  // a step was made, and is not yet the present state
+  double turned_ = 0;       // integral of u until start(), m
+  // Steps in a row that were shorter than the one before; the step before the first of them, the
+  // last one, and its part of the one before.
   int shrinking_ = 0;
-  double last_step_ = 0, shrinks_from_ = 0;
+  double shrinks_from_ = 0, last_step_ = 0, shrank_by_ = 1;
+  double last_error_ = 1;  // of the last step, in the tolerances' weights
   std::size_t worst_state_ = 0;
   Statistics statistics_;
 };

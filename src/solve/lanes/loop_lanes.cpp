@@ -25,10 +25,10 @@ constexpr int order = 5;
 constexpr std::size_t most_attempts = 100'000;
 // From one second to the rounding of its time takes 16 tenfold reductions of the step.
 constexpr int most_rejections = 40;
-// A step ten times shorter than the group's median is one error 10^order times larger; a servo's
-// start may need some dozen of them.
+// A step ten times shorter than the group's median is one error 10^order times larger; what is
+// lost without need is run again alone, and only costs time.
 constexpr double holding_back = 1e5;
-constexpr int most_held = 60;
+constexpr int most_held = 16;
 
 // The instruction set of the collocation kernels serves here too.
 const KernelSet& choose() {
