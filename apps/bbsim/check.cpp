@@ -103,7 +103,7 @@ void print_sweep(const ScenarioArguments& arguments, const Scenario& scenario) {
   if (scenario.sweep.vary.empty()) return;
   const ScenarioFamily family(arguments.file, arguments.overrides);
   const study::SweepPlan plan(family, scenario.sweep);
-  static_cast<void>(plan.check(family, [](double) { return true; }));
+  static_cast<void>(plan.check(family, 0, plan.cases(), [](double) { return true; }));
   std::string keys;
   for (const study::Axis& axis : plan.axes()) keys += (keys.empty() ? "" : ", ") + axis.key;
   print_line("sweep", std::to_string(plan.cases()) + " cases of bbsim sweep, over " + keys);

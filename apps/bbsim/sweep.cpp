@@ -72,6 +72,10 @@ Sweep sweep_of(const SweepArguments& arguments, const Sweep& in_scenario) {
   if (!arguments.combine.empty()) {
     sweep.combine = arguments.combine == "zip" ? Combine::zip : Combine::grid;
   }
+  const auto random = [](const Variation& one) { return input::parse_variation(one).random(); };
+  if (!arguments.vary.empty() && std::none_of(sweep.vary.begin(), sweep.vary.end(), random)) {
+    sweep.samples.reset();  // of what the scenario would draw
+  }
   if (arguments.samples) sweep.samples = whole("--samples", *arguments.samples);
   if (arguments.seed) sweep.seed = whole("--seed", *arguments.seed);
   if (!arguments.measure.empty()) {
@@ -96,13 +100,7 @@ std::vector<record::Measure> measures_of(const Sweep& sweep, const Scenario& sce
     if (!measure) {
       throw InputError("measure: found " + name + "; allowed: " + record::allowed_measures());
     }
-    const record::Needs needs = measure->column->needs;
-    const bool sampled = loop && scenario.controller->sampling;
-    const char* const why =
-        needs == record::Needs::reference && !loop    ? "there is no controller"
-        : needs == record::Needs::samples && !sampled ? "the controller takes no samples"
-        : needs == record::Needs::plate && !scenario.plate.inertia ? "plate.inertia is not known"
-                                                                   : nullptr;
+    const char* const why = record::why_missing(*measure->column, scenario);
     if (why != nullptr) throw InputError("measure: found " + name + ", but " + why);
     for (const record::Measure& other : measures) {
       if (other.name == name) throw InputError("measure: found " + name + " twice");
@@ -159,6 +157,7 @@ std::string plan_text(const ScenarioFamily& family, const Sweep& sweep,
   plan["instruction_set"] = solve::collocation::choose_kernels().name;
   plan["scenario"] = source.text;
   plan["overrides"] = source.overrides;
+  for (const auto& [name, hash] : family.table_hashes()) plan["tables"][name] = hash;
   for (const Variation& variation : sweep.vary) {
     plan["vary"].push_back(variation.key + '=' + variation.spec);
   }
@@ -176,8 +175,9 @@ std::string plan_text(const ScenarioFamily& family, const Sweep& sweep,
 record::Attributes attributes_of(const ScenarioFamily& family, const Sweep& sweep,
                                  std::size_t cases) {
   const Source& source = family.source();
-  record::Attributes attributes{
-      {"version", BBSIM_VERSION}, {"scenario", source.file}, {"scenario_text", source.text}};
+  record::Attributes attributes{{"version", BBSIM_VERSION},
+                                {"scenario", std::filesystem::path(source.file).filename()},
+                                {"scenario_text", source.text}};
   const auto lines = [](const auto& items, const auto& text) {
     std::string all;
     for (const auto& item : items) all += (all.empty() ? "" : "\n") + text(item);
@@ -208,7 +208,7 @@ void write_text(const study::SweepTask& task, study::CaseResults& results) {
   std::string& text = results.text;
   text.clear();
   for (std::size_t i = 0; i < results.count; ++i) {
-    record::append_number(text, static_cast<double>(results.first + i));
+    text += std::to_string(results.first + i);
     for (std::size_t a = 0; a < axes.size(); ++a) {
       text += ',';
       const double value = results.values[i * axes.size() + a];
@@ -243,9 +243,13 @@ ExitCode sweep(const SweepArguments& arguments, const Options& options) {
   study::SweepTask task{family, plan, measures_of(sweep, first)};
   if (arguments.keep_trajectories) keep_trajectories(task, first);
 
+  const study::Engine engine = study::choose_engine(task);
+  const std::size_t group = engine.group;
+  const study::CaseRange range = study::shard_range(plan.cases(), group, shard.number, shard.of);
+
   const std::atomic<bool>& stop = watch_signals();
   Progress progress(arguments.scenario.file, options.quiet, true);
-  const bool checked = plan.check(family, [&](double part) {
+  const bool checked = plan.check(family, range.first, range.last, [&](double part) {
     progress.update(part, "checking the cases");
     return !stop.load(std::memory_order_relaxed);
   });
@@ -255,9 +259,6 @@ ExitCode sweep(const SweepArguments& arguments, const Options& options) {
     return ExitCode::interrupted;
   }
 
-  const study::Engine engine = study::choose_engine(task);
-  const std::size_t group = engine.group;
-  const study::CaseRange range = study::shard_range(plan.cases(), group, shard.number, shard.of);
   const std::string output =
       arguments.output.empty() ? default_output(arguments.scenario.file, shard) : arguments.output;
   const auto file = record::open_case_file(output, layout_of(task, first),

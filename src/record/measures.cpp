@@ -56,6 +56,21 @@ bool any_needs(const std::vector<Measure>& measures, Needs what) {
                      [what](const Measure& measure) { return measure.column->needs == what; });
 }
 
+const char* why_missing(const Column& column, const Scenario& scenario) {
+  switch (column.needs) {
+    case Needs::reference:
+      return scenario.controller ? nullptr : "there is no controller";
+    case Needs::samples:
+      return scenario.controller && scenario.controller->sampling
+                 ? nullptr
+                 : "the controller takes no samples";
+    case Needs::plate:
+      return scenario.plate.inertia ? nullptr : "plate.inertia is not known";
+    default:
+      return nullptr;
+  }
+}
+
 Meter::Meter(std::vector<Measure> measures)
     : measures_(std::move(measures)),
       needs_dynamics_(any_needs(measures_, Needs::dynamics) || any_needs(measures_, Needs::plate)),

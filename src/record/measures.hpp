@@ -36,6 +36,9 @@ struct Measure {
 // What the columns of these measures are computed from.
 [[nodiscard]] bool any_needs(const std::vector<Measure>& measures, Needs what);
 
+// Why the scene has no such column, or null if it has.
+[[nodiscard]] const char* why_missing(const Column& column, const Scenario& scenario);
+
 // Takes the measures of one run after another. Rows whose value is no number are left out of all
 // but `end`; a measure without a row is no number.
 class Meter : public solve::StateSink {

@@ -21,6 +21,15 @@ std::string content_of(const std::string& file) {
   return {std::istreambuf_iterator<char>(stream), {}};
 }
 
+// Where the file is that a link stands for, be it there or not.
+std::string behind_links(std::filesystem::path path) {
+  constexpr int most_links = 40;
+  for (int i = 0; i < most_links && std::filesystem::is_symlink(path); ++i) {
+    path = path.parent_path() / std::filesystem::read_symlink(path);
+  }
+  return path;
+}
+
 // Reads a file in pieces; `use` gets each piece and its place, and ends it by returning false.
 template <class Use>
 void read_pieces(int descriptor, Use use) {
@@ -54,37 +63,52 @@ off_t end_of_line(int descriptor, std::size_t number) {
 
 PartFile::PartFile(const std::string& target, const std::string& plan, const std::string& header,
                    bool resume)
-    : target_(target), part_(target + ".part"), plan_(target + ".plan") {
-  std::error_code error;
-  const bool exists = std::filesystem::exists(part_, error);
-  if (exists && !resume) {
-    throw InputError(part_ +
-                     ": found, of a sweep that did not end; add --resume to go on with it, or "
-                     "remove it to begin anew");
-  }
-  if (exists && content_of(plan_) != plan) {
-    throw InputError(part_ + ": of another sweep than this one, says " + plan_ +
-                     "; allowed with --resume: the same scenario, keys, seed, measures and shard, "
-                     "by the same version of bbsim");
-  }
-  if (!exists) {
-    AtomicFile file(plan_);
-    file.write(plan);
-    file.commit();
+    : target_(behind_links(target)), part_(target_ + ".part"), plan_(target_ + ".plan") {
+  if (std::filesystem::is_directory(target_)) {
+    throw OutputError("cannot write " + target_ + ": is a directory; choose another name");
   }
   constexpr mode_t any_permissions = 0666;  // the umask takes away what it should
   descriptor_ = ::open(part_.c_str(), O_RDWR | O_CREAT | O_APPEND | O_CLOEXEC, any_permissions);
-  if (descriptor_ < 0) fail("open", errno);
+  if (descriptor_ < 0) {
+    throw OutputError("cannot write " + part_ + ": " + error_text(errno) +
+                      "; write to a folder that is there, and where you may");
+  }
   try {
+    // Before anything else: the plan of a part belongs to whoever writes to the part.
     if (flock(descriptor_, LOCK_EX | LOCK_NB) != 0) {
       throw InputError(part_ +
                        ": another bbsim is writing to it; wait for its end, or choose "
                        "another name with -o");
     }
+    if (std::filesystem::file_size(part_) > 0) {
+      check_plan(plan, resume);
+    } else {
+      AtomicFile file(plan_);
+      file.write(plan);
+      file.commit();
+    }
     take_up(header);
   } catch (...) {
     close(descriptor_);
     throw;
+  }
+}
+
+// Of a part that was there before.
+void PartFile::check_plan(const std::string& plan, bool resume) const {
+  if (!resume) {
+    throw InputError(part_ +
+                     ": found, of a sweep that did not end; add --resume to go on with it, or "
+                     "remove it to begin anew");
+  }
+  if (!std::filesystem::exists(plan_)) {
+    throw InputError(part_ + ": found without " + plan_ +
+                     ", which would say what it is of; remove it to begin anew");
+  }
+  if (content_of(plan_) != plan) {
+    throw InputError(part_ + ": of another sweep than this one, says " + plan_ +
+                     "; allowed with --resume: the same scenario, tables, keys, seed, measures and "
+                     "shard, by the same version of bbsim");
   }
 }
 
@@ -141,15 +165,13 @@ void PartFile::append(std::string_view lines) {
 }
 
 void PartFile::commit() {
-  const int closed = close(descriptor_);
-  descriptor_ = -1;
-  if (closed != 0) fail("write", errno);
   std::error_code error;
-  // A link stays, and what it points to is replaced.
-  const auto final_name = std::filesystem::weakly_canonical(target_, error);
-  std::filesystem::rename(part_, error ? std::filesystem::path(target_) : final_name, error);
+  std::filesystem::rename(part_, target_, error);
   if (error) fail("rename", error.value());
   std::filesystem::remove(plan_, error);
+  const int closed = close(descriptor_);  // and unlocked, once the part is gone
+  descriptor_ = -1;
+  if (closed != 0) fail("write", errno);
 }
 
 void PartFile::discard() {

@@ -7,9 +7,10 @@
 
 namespace bbsim::record {
 
-// Lines go to TARGET.part; beside it TARGET.plan says what is being done, so that nothing else is
-// taken up in its place. commit() gives the part its final name and removes the plan. Destroyed
-// without it, both stay, but for a part without a line beside its header.
+// Lines go to TARGET.part, beside the file itself if the target is a link; beside it TARGET.plan
+// says what is being done, so that nothing else is taken up in its place. commit() gives the part
+// its final name and removes the plan. Destroyed without it, both stay, but for a part without a
+// line beside its header.
 //
 // Every function throws OutputError where the system refuses something.
 class PartFile {
@@ -40,6 +41,7 @@ class PartFile {
   void discard();
 
  private:
+  void check_plan(const std::string& plan, bool resume) const;
   void take_up(const std::string& header);
   [[noreturn]] void fail(const std::string& doing, int error) const;
 

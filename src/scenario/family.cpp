@@ -1,5 +1,6 @@
 #include "scenario/family.hpp"
 
+#include <bit>
 #include <filesystem>
 #include <map>
 #include <utility>
@@ -79,6 +80,21 @@ Sweep ScenarioFamily::read_sweep() const {
   }
   problems.throw_if_any();
   return sweep;
+}
+
+std::vector<std::pair<std::string, std::uint64_t>> ScenarioFamily::table_hashes() const {
+  const std::lock_guard lock(state_->tables->mutex);
+  std::vector<std::pair<std::string, std::uint64_t>> hashes;
+  for (const auto& [file, table] : state_->tables->by_file) {
+    std::uint64_t hash = 0xCBF29CE484222325U;  // FNV-1a, a word at a time
+    for (const auto& column : table.columns) {
+      for (const double value : column) {
+        hash = (hash ^ std::bit_cast<std::uint64_t>(value)) * 0x100000001B3U;
+      }
+    }
+    hashes.emplace_back(file, hash);
+  }
+  return hashes;
 }
 
 const Source& ScenarioFamily::source() const {

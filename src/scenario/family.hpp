@@ -1,9 +1,11 @@
 // One scenario with other values at some of its keys, again and again: what a sweep reads.
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "scenario/scenario.hpp"
@@ -36,6 +38,9 @@ class ScenarioFamily {
 
   // The `sweep` block of the file. Throws InputError if something is wrong with it.
   [[nodiscard]] Sweep read_sweep() const;
+
+  // Of each table file that was read so far, a number that tells its content.
+  [[nodiscard]] std::vector<std::pair<std::string, std::uint64_t>> table_hashes() const;
 
   [[nodiscard]] const Source& source() const;
 

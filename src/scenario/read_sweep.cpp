@@ -63,6 +63,8 @@ struct MeasureNames {
       const Value item = value.item(i);
       if (!record::find_measure(item.node->text)) {
         fine = item.refuse("", record::allowed_measures());
+      } else if (std::ranges::find(into, item.node->text) != into.end()) {
+        fine = item.refuse(" again", "each measure once");
       } else {
         into.push_back(item.node->text);
       }

@@ -1,6 +1,7 @@
 // Sweeps as a user runs them.
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <map>
 #include <sstream>
 #include <string>
@@ -144,6 +145,42 @@ TEST_CASE("an interrupted sweep keeps its cases and goes on to the same bytes") 
                 folder.path())
               .exit_code == 0);
   CHECK(folder.read("s.csv") == folder.read("t.csv"));
+}
+
+TEST_CASE("parts with many cases are merged, and links and folders understood") {
+  const Folder folder;
+  const std::vector<std::string> keys{"--vary", "ball.position.0=linear:0:1:100002"};
+  REQUIRE(bbsim(sweep(config("fig2a.yaml"), with(keys, {"-o", "part-1of1.csv"})), folder.path())
+              .exit_code == 0);
+  CHECK(bbsim({"merge", "-q", "part-1of1.csv", "-o", "all.csv"}, folder.path()).exit_code == 0);
+  CHECK(folder.read("all.csv") == folder.read("part-1of1.csv"));
+
+  std::filesystem::create_directory(folder / "sub");
+  std::filesystem::create_symlink("sub/real.csv", folder / "link.csv");
+  const std::vector<std::string> few{"--vary", "gravity=list:1,2"};
+  CHECK(
+      bbsim(sweep(config("fig2a.yaml"), with(few, {"-o", "link.csv"})), folder.path()).exit_code ==
+      0);
+  CHECK(std::filesystem::is_symlink(folder / "link.csv"));
+  CHECK(std::filesystem::exists(folder / "sub/real.csv"));
+  std::filesystem::create_directory(folder / "dir.csv");
+  const Result directory =
+      bbsim(sweep(config("fig2a.yaml"), with(few, {"-o", "dir.csv"})), folder.path());
+  CHECK(directory.exit_code == 3);
+  CHECK(contains(directory.err, "is a directory"));
+}
+
+TEST_CASE("a slow sweep that is interrupted keeps each case") {
+  const Folder folder;
+  const Result cut =
+      bbsim(Launch{{"sweep", config("rig.yaml"), "--vary",
+                    "controller.sensor.seed=linear:1:2000:2000", "-j", "1", "-o", "s.csv"},
+                   folder.path(),
+                   2,
+                   std::chrono::milliseconds(3000)});
+  CHECK(cut.exit_code == 130);
+  REQUIRE(folder.files() == std::vector<std::string>{"s.csv.part", "s.csv.plan"});
+  CHECK(rows(folder.read("s.csv.part")).size() > 2);
 }
 
 TEST_CASE("a case that fails or stops is a row with its reason") {

@@ -3,6 +3,7 @@
 
 #include <atomic>
 #include <cmath>
+#include <cstdio>
 #include <fstream>
 #include <limits>
 #include <stdexcept>
@@ -130,6 +131,33 @@ TEST_CASE("many rows at a time give the measures of each row by itself") {
       CHECK(results.numbers[i] == Approx(expected.numbers[i]).epsilon(1e-12));
     }
     CHECK(results.status[0].rfind("failed at ", 0) == 0);
+  }
+}
+
+TEST_CASE("a key above the motion or the reference changes it from case to case") {
+  const Setup setup(
+      "configs/fig2a.yaml",
+      {{"gimbal",
+        "list:{motion: {phi: 0.01}}, {motion: {phi: 0.3, theta: {ramp: {start: 0, rate: "
+        "0.01}}}}"}},
+      {}, open_measures);
+  const auto runner = single_runner(setup.task);
+  CHECK(largest_difference(run_all(*runner, 2), one_by_one(setup.task)) < 1e-12);
+}
+
+TEST_CASE("distances neither overflow nor vanish on the way") {
+  const double size = GENERATE(1e160, 1e-180);
+  char far[80];
+  std::snprintf(far, sizeof far, "linear:%g:%g:40", size, 2 * size);
+  const Setup setup("configs/fig2a.yaml", {{"ball.position.0", far}},
+                    {"ball.position.1=0", "gravity=0", "ball.radius=1e-200"}, {"max_distance"});
+  REQUIRE(can_superpose(setup.task));
+  const auto runner = superposition_runner(setup.task, solve_superposed(setup.task));
+  const auto single = single_runner(setup.task);
+  const CaseResults sums = run_all(*runner, 40), runs = run_all(*single, 40);
+  for (std::size_t i = 0; i < 40; ++i) {
+    CHECK(sums.numbers[2 * i + 1] >= size);
+    CHECK(sums.numbers[2 * i + 1] == Approx(runs.numbers[2 * i + 1]).epsilon(1e-6));
   }
 }
 

@@ -34,7 +34,7 @@ std::string fault(const Sweep& sweep, const std::string& file = scene) {
   try {
     const ScenarioFamily family(file, {});
     const SweepPlan plan(family, sweep);
-    static_cast<void>(plan.check(family, [](double) { return true; }));
+    static_cast<void>(plan.check(family, 0, plan.cases(), [](double) { return true; }));
     return "";
   } catch (const InputError& error) {
     return error.what();
@@ -70,6 +70,9 @@ TEST_CASE("log goes by equal factors and ends exactly") {
   CHECK(values(plan, 3)[0] == Approx(1));
   CHECK(values(plan, 1)[1] == Approx(-2));
   CHECK(values(plan, 11) == std::array{100.0, -4.0});
+  const SweepPlan wide =
+      plan_of(vary({{"gravity", "log:1e-200:1e160:3"}, {"ball.spin", "list:1"}}));
+  CHECK(values(wide, 1)[0] == Approx(1e-20));
 }
 
 TEST_CASE("zip goes along all lists together") {
@@ -149,6 +152,9 @@ TEST_CASE("all that is wrong with a sweep is said before it runs") {
   CHECK(contains(fault(vary({{"ball.radius", "list:1 s"}})), "with ball.radius=1 s: "));
   CHECK(contains(fault(vary({{"ball.radius", "list:1"}, {"ball.radius", "list:2"}})), "twice"));
   CHECK(contains(fault(vary({{"ball.radius", "log:-1:1:3"}})), "found -1"));
+  CHECK(contains(fault(vary({{"ball.position", "list:[1, 2]"}, {"ball.position.0", "list:1"}})),
+                 "apart from each other"));
+  CHECK(contains(fault(vary({{"sweep.seed", "list:1"}})), "does not vary itself"));
   CHECK(contains(fault(vary({{"ball.spin", "log:-1:1:3"}})), "neither 0"));
   CHECK(contains(fault(vary({{"solver.method", "linear:1:2:3"}})), "solver.method: found 1"));
   CHECK(contains(fault(vary({{"title", "linear:1:2:3"}})), "no single number"));

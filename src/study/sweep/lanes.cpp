@@ -69,15 +69,15 @@ class LaneRunner : public CaseRunner {
                    solve::Tolerances{first.solver.rtol, first.solver.atol}, *grid_);
   }
 
-  bool run(std::size_t first, std::size_t count, CaseResults& into,
-           const std::atomic<bool>& stop) override {
+  std::size_t run(std::size_t first, std::size_t count, CaseResults& into,
+                  const std::atomic<bool>& stop) override {
     into.first = first;
     into.resize(count, task_);
     for (std::size_t i = 0; i < count; i += group) {
-      if (stop.load(std::memory_order_relaxed)) return false;
-      if (!run_group(first, i, std::min(group, count - i), into, stop)) return false;
+      if (stop.load(std::memory_order_relaxed)) return i;
+      if (!run_group(first, i, std::min(group, count - i), into, stop)) return i;
     }
-    return true;
+    return count;
   }
 
  private:
@@ -124,7 +124,7 @@ class LaneRunner : public CaseRunner {
       }
     }
     for (const std::size_t i : alone_) {
-      if (!single_->run(first + i, 1, one_, stop)) return false;
+      if (single_->run(first + i, 1, one_, stop) == 0) return false;
       std::copy(one_.numbers.begin(), one_.numbers.end(), &into.numbers[i * numbers]);
       into.status[i] = one_.status[0];
     }

@@ -47,7 +47,10 @@ double spaced(const Axis& axis, std::size_t i) {
   if (i + 1 == axis.count) return axis.to;
   const double before = static_cast<double>(i), after = static_cast<double>(axis.count - 1 - i);
   const double all = static_cast<double>(axis.count - 1);
-  if (axis.kind == Kind::log) return axis.from * std::pow(axis.to / axis.from, before / all);
+  if (axis.kind == Kind::log) {
+    const double first = std::log(std::abs(axis.from)), last = std::log(std::abs(axis.to));
+    return std::copysign(std::exp((first * after + last * before) / all), axis.from);
+  }
   return sum_of_products(axis.from, after, axis.to, before) / all;
 }
 
@@ -58,6 +61,11 @@ double listed(const Axis& axis, std::size_t i) {
 
 std::string value_text(const Axis& axis, double value) {
   return axis.numeric ? input::number_text(value) : axis.texts[static_cast<std::size_t>(value)];
+}
+
+// Whether the path goes on from another one.
+bool within(const std::string& path, const std::string& other) {
+  return path.starts_with(other + '.');
 }
 
 [[noreturn]] void fail(const std::string& key, const std::string& message) {
@@ -92,7 +100,8 @@ Axis SweepPlan::read_axis(const ScenarioFamily& family, const Variation& variati
   }
   axis.from = numbers[0];
   axis.to = numbers[1];
-  if (spec.kind == Kind::log && !(axis.from * axis.to > 0)) {
+  if (spec.kind == Kind::log &&
+      (axis.from == 0 || axis.to == 0 || (axis.from < 0) != (axis.to < 0))) {
     fail(variation.key, "found " + input::shown(variation.spec) +
                             "; allowed: log from and to numbers of one sign, neither 0");
   }
@@ -115,6 +124,12 @@ SweepPlan::SweepPlan(const ScenarioFamily& family, const Sweep& sweep)
   for (const Variation& variation : sweep.vary) {
     for (const Setting& other : firsts) {
       if (other.key == variation.key) fail(variation.key, "found twice; allowed: each key once");
+      if (within(other.key, variation.key) || within(variation.key, other.key)) {
+        fail(variation.key, "found beside " + other.key + "; allowed: keys apart from each other");
+      }
+    }
+    if (variation.key == "sweep" || within(variation.key, "sweep")) {
+      fail(variation.key, "found, but a sweep does not vary itself; allowed: any other key");
     }
     firsts.push_back({variation.key, input::parse_variation(variation).values[0]});
   }
@@ -155,9 +170,11 @@ SweepPlan::SweepPlan(const ScenarioFamily& family, const Sweep& sweep)
   cases_ = static_cast<std::size_t>(cases);
 
   Scenario first = family.read(settings(0));
-  for (Axis& axis : axes_) {
-    axis.independent = axis.numeric && !independent_number(first, axis.key).empty();
-  }
+  // All of them or none: a key of another sort may change what the others mean.
+  const bool independent = std::all_of(axes_.begin(), axes_.end(), [&](const Axis& axis) {
+    return axis.numeric && !independent_number(first, axis.key).empty();
+  });
+  for (Axis& axis : axes_) axis.independent = independent;
 }
 
 double SweepPlan::drawn(const Axis& axis, std::size_t number) {
@@ -193,52 +210,33 @@ std::vector<Setting> SweepPlan::settings(std::size_t number) const {
   return settings;
 }
 
-// The cases with the least and the greatest number of each independent axis that is drawn from an
-// unbounded distribution; ranges have no holes.
-std::vector<std::size_t> SweepPlan::extremes() const {
-  std::vector<std::size_t> found;
+bool SweepPlan::check(const ScenarioFamily& family, std::size_t first, std::size_t last,
+                      const std::function<bool(double)>& goes_on) const {
+  const auto told = [&](std::size_t number, std::size_t every) {
+    return (number - first) % every != 0 ||
+           goes_on(static_cast<double>(number - first) / static_cast<double>(last - first));
+  };
+  if (!axes_.front().independent) {
+    for (std::size_t i = first; i < last; ++i) {
+      if (!told(i, 64)) return false;
+      static_cast<void>(family.read(settings(i)));
+    }
+    return true;
+  }
+  // Ranges have no holes, and the ends of what is listed or drawn between bounds have been read.
   for (const Axis& axis : axes_) {
-    if (!axis.independent || axis.kind != Kind::normal) continue;
-    std::size_t least = 0, greatest = 0;
+    if (axis.kind != Kind::normal) continue;
+    std::size_t least = first, greatest = first;
     double low = std::numeric_limits<double>::infinity(), high = -low;
-    for (std::size_t i = 0; i < cases_; ++i) {
+    for (std::size_t i = first; i < last; ++i) {
+      if (!told(i, 65536)) return false;
       const double value = drawn(axis, i);
       if (value < low) low = value, least = i;
       if (value > high) high = value, greatest = i;
     }
-    found.insert(found.end(), {least, greatest});
-  }
-  return found;
-}
-
-bool SweepPlan::check(const ScenarioFamily& family,
-                      const std::function<bool(double)>& goes_on) const {
-  for (const std::size_t number : extremes()) {
-    static_cast<void>(family.read(settings(number)));
-  }
-  const auto dependent = [](const Axis& axis) { return !axis.independent; };
-  if (std::none_of(axes_.begin(), axes_.end(), dependent)) return true;
-
-  // One case of each combination of what depends on each other: that with the first values of all
-  // else.
-  const bool draws = std::any_of(axes_.begin(), axes_.end(), [](const Axis& axis) {
-    return !axis.independent && axis.random();
-  });
-  const auto stands_for_others = [&](std::size_t number) {
-    if (draws) return false;
-    if (number % samples_ != 0) return true;
-    if (combine_ == Combine::zip) return false;
-    std::size_t rest = number / samples_;
-    for (std::size_t a = axes_.size(); a-- > 0;) {
-      if (axes_[a].independent && rest % axes_[a].count != 0) return true;
-      rest /= axes_[a].count;
-    }
-    return false;
-  };
-  for (std::size_t i = 0; i < cases_; ++i) {
-    if (stands_for_others(i)) continue;
-    if (!goes_on(static_cast<double>(i) / static_cast<double>(cases_))) return false;
-    static_cast<void>(family.read(settings(i)));
+    if (first == last) continue;
+    static_cast<void>(family.read(settings(least)));
+    static_cast<void>(family.read(settings(greatest)));
   }
   return true;
 }

@@ -23,7 +23,8 @@ struct Axis {
   std::vector<double> numbers{};     // of a list
   std::vector<std::string> texts{};  // of a list that is not numeric
   std::uint64_t stream = 0;          // tells its draws from those of other keys
-  bool independent = false;          // no rule relates the key's number to another key
+  // No rule relates the number at any of the varied keys to another key: for all axes or none.
+  bool independent = false;
 
   [[nodiscard]] bool random() const {
     return kind == input::VariationSpec::Kind::uniform ||
@@ -48,16 +49,15 @@ class SweepPlan {
   // The same as settings of a scenario.
   [[nodiscard]] std::vector<ScenarioFamily::Setting> settings(std::size_t number) const;
 
-  // Puts every case to the scenario's checks: one by one where keys depend on each other, by the
-  // extremes where they do not. `goes_on` is told how far it is, from 0 to 1, and may end it by
-  // returning false; check() then returns false. Throws InputError.
-  [[nodiscard]] bool check(const ScenarioFamily& family,
+  // Puts cases first ... last - 1 to the scenario's checks: one by one where keys depend on each
+  // other, by the extremes where they do not. `goes_on` is told how far it is, from 0 to 1, and may
+  // end it by returning false; check() then returns false. Throws InputError.
+  [[nodiscard]] bool check(const ScenarioFamily& family, std::size_t first, std::size_t last,
                            const std::function<bool(double)>& goes_on) const;
 
  private:
   [[nodiscard]] Axis read_axis(const ScenarioFamily& family, const Variation& variation,
                                std::vector<ScenarioFamily::Setting>& others) const;
-  [[nodiscard]] std::vector<std::size_t> extremes() const;
   [[nodiscard]] static double drawn(const Axis& axis, std::size_t number);
 
   std::vector<Axis> axes_;

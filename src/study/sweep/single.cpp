@@ -113,15 +113,15 @@ class SingleRunner : public CaseRunner {
              std::any_of(task.series.begin(), task.series.end(), needs);
   }
 
-  bool run(std::size_t first, std::size_t count, CaseResults& into,
-           const std::atomic<bool>& stop) override {
+  std::size_t run(std::size_t first, std::size_t count, CaseResults& into,
+                  const std::atomic<bool>& stop) override {
     into.first = first;
     into.resize(count, task_);
     for (std::size_t i = 0; i < count; ++i) {
       task_.plan.values(first + i, &into.values[i * task_.plan.axes().size()]);
-      if (!run_case(first + i, i, into, stop)) return false;
+      if (!run_case(first + i, i, into, stop)) return i;
     }
-    return true;
+    return count;
   }
 
  private:
@@ -129,8 +129,9 @@ class SingleRunner : public CaseRunner {
                 const std::atomic<bool>& stop) {
     double* const numbers = &into.numbers[place * (1 + task_.measures.size())];
     std::string& status = into.status[place];
-    const Scenario& scenario = scenario_.at(number, &into.values[place * task_.plan.axes().size()]);
     try {
+      const Scenario& scenario =
+          scenario_.at(number, &into.values[place * task_.plan.axes().size()]);
       const model::Model model = model::assemble(scenario, gamma_);
       const model::BallConstants constants = model::constants_of(scenario);
       const solve::OutputGrid grid(scenario.time);
@@ -164,7 +165,12 @@ class SingleRunner : public CaseRunner {
       if (outcome.ending == solve::Ending::interrupted) return false;
       numbers[0] = outcome.reached;
       meter_.finish(outcome, numbers + 1);
-    } catch (const InputError& error) {  // no gain of an LQR, say
+      for (std::size_t m = 0; m < task_.measures.size(); ++m) {
+        if (record::why_missing(*task_.measures[m].column, scenario) != nullptr) {
+          numbers[1 + m] = nothing;
+        }
+      }
+    } catch (const InputError& error) {  // there is no gain of an LQR, say
       std::fill_n(numbers, 1 + task_.measures.size(), nothing);
       status = std::string("refused: ") + error.what();
     }
@@ -211,6 +217,14 @@ void CaseResults::resize(std::size_t cases, const SweepTask& task) {
   status.resize(cases);
   series.resize(task.series.size());
   for (auto& column : series) column.assign(cases * task.series_rows, nothing);
+}
+
+void CaseResults::cut(std::size_t cases, const SweepTask& task) {
+  count = cases;
+  values.resize(cases * task.plan.axes().size());
+  numbers.resize(cases * (1 + task.measures.size()));
+  status.resize(cases);
+  for (auto& column : series) column.resize(cases * task.series_rows);
 }
 
 std::unique_ptr<CaseRunner> single_runner(const SweepTask& task) {

@@ -178,9 +178,9 @@ class SuperpositionRunner : public CaseRunner {
     }
   }
 
-  bool run(std::size_t first, std::size_t count, CaseResults& into,
-           const std::atomic<bool>& stop) override {
-    if (stop.load(std::memory_order_relaxed)) return false;
+  std::size_t run(std::size_t first, std::size_t count, CaseResults& into,
+                  const std::atomic<bool>& stop) override {
+    if (stop.load(std::memory_order_relaxed)) return 0;
     into.first = first;
     into.resize(count, task_);
     const std::size_t axes = task_.plan.axes().size(), numbers = 1 + task_.measures.size();
@@ -188,7 +188,7 @@ class SuperpositionRunner : public CaseRunner {
       task_.plan.values(first + i, &into.values[i * axes]);
       run_case(first + i, &into.values[i * axes], &into.numbers[i * numbers], into.status[i]);
     }
-    return true;
+    return count;
   }
 
  private:
@@ -199,7 +199,7 @@ class SuperpositionRunner : public CaseRunner {
       factors_[k] = solutions_->terms[k].part->factor(scenario);
     }
     const Superposition motion{solutions_->rows, factors_.size(), x_.data(), y_.data()};
-    const double distance = far_ ? std::sqrt(kernels_.farthest(motion, factors_.data())) : 0;
+    const double distance = far_ ? farthest(motion) : 0;
     status = "done";
     numbers[0] = solutions_->end;
     for (std::size_t m = 0; m < task_.measures.size(); ++m) {
@@ -212,11 +212,23 @@ class SuperpositionRunner : public CaseRunner {
     }
   }
 
-  [[nodiscard]] double last(const std::vector<const double*>& terms) const {
-    double sum = 0;
-    for (std::size_t k = 0; k < terms.size(); ++k) {
-      sum += factors_[k] * terms[k][solutions_->rows - 1];
+  [[nodiscard]] double farthest(const Superposition& motion) const {
+    const double squared = kernels_.farthest(motion, factors_.data());
+    if (is_square(squared)) return std::sqrt(squared);
+    double greatest = 0;  // one by one, without an overflow on the way
+    for (std::size_t i = 0; i < motion.rows; ++i) {
+      greatest = std::max(greatest, std::hypot(at(x_, i), at(y_, i)));
     }
+    return greatest;
+  }
+
+  [[nodiscard]] double last(const std::vector<const double*>& terms) const {
+    return at(terms, solutions_->rows - 1);
+  }
+
+  [[nodiscard]] double at(const std::vector<const double*>& terms, std::size_t row) const {
+    double sum = 0;
+    for (std::size_t k = 0; k < terms.size(); ++k) sum += factors_[k] * terms[k][row];
     return sum;
   }
 

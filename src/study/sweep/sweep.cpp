@@ -1,6 +1,7 @@
 #include "study/sweep/sweep.hpp"
 
 #include <algorithm>
+#include <chrono>
 #include <condition_variable>
 #include <exception>
 #include <map>
@@ -15,38 +16,38 @@
 namespace bbsim::study {
 namespace {
 
-constexpr std::size_t most_in_block = 1024;
+// What is lost of a thread's work when a sweep is killed, about, and how seldom threads meet.
+constexpr double least_seconds = 0.02, most_seconds = 0.1;
+constexpr std::size_t most_in_block = 4096;
+constexpr std::size_t most_series_numbers = std::size_t{1} << 18U;  // in a block
 // So many blocks a thread are done before their turn, at most: what slow cases hold up.
 constexpr std::size_t most_ahead = 8;
 
-// Small enough that threads end together, large enough that handing them out costs nothing.
-std::size_t block_size(std::size_t cases, std::size_t group, std::size_t threads) {
-  const std::size_t even = cases / (threads * 64);
-  return std::clamp<std::size_t>(even / group, 1, most_in_block / group) * group;
+std::size_t most_cases(const SweepTask& task, std::size_t group) {
+  const std::size_t numbers = std::max<std::size_t>(1, task.series.size() * task.series_rows);
+  return std::max(group, std::min(most_in_block, most_series_numbers / numbers) / group * group);
 }
 
 // Blocks of cases on their way from the threads to whoever wants them in order.
 class Queue {
  public:
-  Queue(CaseRange range, std::size_t block, std::size_t ahead, const std::atomic<bool>& stop,
+  Queue(CaseRange range, std::size_t ahead, const std::atomic<bool>& stop,
         const std::function<void(const CaseResults&)>& deliver)
       : range_(range),
-        block_(block),
         ahead_(ahead),
         next_(range.first),
         delivered_(range.first),
         stop_(stop),
         deliver_(deliver) {}
 
-  // The next block to be computed; empty if there is none.
-  CaseRange take() {
+  // The next cases to be computed, so many at most; none if there are none.
+  CaseRange take(std::size_t cases) {
     std::unique_lock lock(mutex_);
-    changed_.wait(lock, [this] {
-      return ended() || next_ >= range_.last || next_ - delivered_ < ahead_ * block_;
-    });
+    changed_.wait(lock,
+                  [this] { return ended() || next_ >= range_.last || waiting_.size() < ahead_; });
     if (ended() || next_ >= range_.last) return {};
     const std::size_t first = next_;
-    next_ = std::min(range_.last, first + block_);
+    next_ = std::min(range_.last, first + cases);
     return {first, next_};
   }
 
@@ -100,7 +101,7 @@ class Queue {
   }
 
   const CaseRange range_;
-  const std::size_t block_, ahead_;
+  const std::size_t ahead_;
   std::mutex mutex_;
   std::condition_variable changed_;
   std::size_t next_, delivered_;
@@ -113,18 +114,30 @@ class Queue {
 
 void work(const Engine& engine, Queue& queue, const std::atomic<bool>& stop,
           const std::function<void(CaseResults&)>& prepare) {
+  using Clock = std::chrono::steady_clock;
   try {
     const std::unique_ptr<CaseRunner> runner = engine.runner();
     CaseResults results;
+    std::size_t size = engine.group;
     for (;;) {
-      const CaseRange block = queue.take();
+      const CaseRange block = queue.take(size);
       if (block.first == block.last) return;
-      if (!runner->run(block.first, block.last - block.first, results, stop)) {
+      const Clock::time_point start = Clock::now();
+      const std::size_t count = block.last - block.first;
+      const std::size_t done = runner->run(block.first, count, results, stop);
+      if (done < count) results.cut(done, engine.task);
+      if (done > 0) {
+        prepare(results);
+        queue.put(results);
+      }
+      if (done < count) {
         queue.give_up();
         return;
       }
-      prepare(results);
-      queue.put(results);
+      const double seconds = std::chrono::duration<double>(Clock::now() - start).count();
+      if (seconds < least_seconds) size = std::min(2 * size, most_cases(engine.task, engine.group));
+      if (seconds > most_seconds)
+        size = std::max(engine.group, size / 2 / engine.group * engine.group);
     }
   } catch (...) {
     queue.fail(std::current_exception());
@@ -136,15 +149,15 @@ void work(const Engine& engine, Queue& queue, const std::atomic<bool>& stop,
 Engine choose_engine(const SweepTask& task) {
   if (can_superpose(task)) {
     if (auto solutions = solve_superposed(task)) {
-      return {"superposition", 1, [&task, solutions = std::move(solutions)] {
+      return {"superposition", task, 1, [&task, solutions = std::move(solutions)] {
                 return superposition_runner(task, solutions);
               }};
     }
   }
   if (can_use_lanes(task)) {
-    return {"lanes", lane_group(), [&task] { return lane_runner(task); }};
+    return {"lanes", task, lane_group(), [&task] { return lane_runner(task); }};
   }
-  return {"single runs", 1, [&task] { return single_runner(task); }};
+  return {"single runs", task, 1, [&task] { return single_runner(task); }};
 }
 
 CaseRange shard_range(std::size_t cases, std::size_t group, std::size_t shard, std::size_t shards) {
@@ -160,13 +173,11 @@ CaseRange shard_range(std::size_t cases, std::size_t group, std::size_t shard, s
 bool run_sweep(const Engine& engine, CaseRange range, std::size_t threads,
                const std::atomic<bool>& stop, const std::function<void(CaseResults&)>& prepare,
                const std::function<void(const CaseResults&)>& deliver) {
-  const std::size_t cases = range.last - range.first;
-  const std::size_t block = block_size(cases, engine.group, threads);
-  Queue queue(range, block, most_ahead * threads, stop, deliver);
+  const std::size_t groups = (range.last - range.first + engine.group - 1) / engine.group;
+  Queue queue(range, most_ahead * threads, stop, deliver);
   {
     std::vector<std::jthread> others;
-    const std::size_t useful = std::min(threads, (cases + block - 1) / block);
-    for (std::size_t i = 1; i < useful; ++i) {
+    for (std::size_t i = 1; i < std::min(threads, groups); ++i) {
       others.emplace_back([&] { work(engine, queue, stop, prepare); });
     }
     work(engine, queue, stop, prepare);

@@ -14,6 +14,7 @@ namespace bbsim::study {
 // How cases are computed, chosen for the sweep as a whole.
 struct Engine {
   std::string name;
+  const SweepTask& task;
   // Cases are computed in groups, which begin at multiples of this number.
   std::size_t group = 1;
   // Makes a runner; called once on each thread.

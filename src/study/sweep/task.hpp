@@ -33,6 +33,8 @@ struct CaseResults {
   std::string text;  // the rows as whoever takes them wants them
 
   void resize(std::size_t cases, const SweepTask& task);
+  // Keeps the first of them.
+  void cut(std::size_t cases, const SweepTask& task);
 };
 
 // Runs cases on one thread.
@@ -40,9 +42,9 @@ class CaseRunner {
  public:
   virtual ~CaseRunner() = default;
   // Cases first ... first + count - 1, all of them in whole groups but for the sweep's last ones.
-  // False if `stop` became true meanwhile; the results then mean nothing.
-  virtual bool run(std::size_t first, std::size_t count, CaseResults& into,
-                   const std::atomic<bool>& stop) = 0;
+  // Returns how many were run, less than `count` only if `stop` became true: whole groups too.
+  virtual std::size_t run(std::size_t first, std::size_t count, CaseResults& into,
+                          const std::atomic<bool>& stop) = 0;
 };
 
 }  // namespace bbsim::study

@@ -41,6 +41,10 @@ bool is_track_measure(const record::Measure& measure) {
 
 }  // namespace
 
+bool is_square(double squared) {
+  return squared > 1e-280 && squared < 1e300;
+}
+
 void PaddedRows::resize(std::size_t rows) {
   const std::size_t room = (rows + row_padding - 1) / row_padding * row_padding;
   if (room <= room_) return;
@@ -64,12 +68,10 @@ bool has_track(const model::Model& model) {
 }
 
 bool shares_signals(const SweepPlan& plan) {
-  for (const Axis& axis : plan.axes()) {
-    for (const char* const part : {"gimbal.motion", "controller.reference", "time"}) {
-      if (axis.key.starts_with(part)) return false;
-    }
-  }
-  return true;
+  return std::all_of(plan.axes().begin(), plan.axes().end(), [](const Axis& axis) {
+    return axis.independent && !axis.key.starts_with("gimbal.motion") &&
+           !axis.key.starts_with("controller.reference");
+  });
 }
 
 const model::SignalPair& signals_of(const model::Model& model) {
@@ -245,7 +247,7 @@ void TrackMeter::finish(double* results) {
   kernels_.extremes(track_, wants_gimbal_, wants_error_, &extremes);
 
   const auto root = [&](double squared, bool from_reference) {
-    return std::isfinite(squared) ? std::sqrt(squared) : greatest_distance(from_reference);
+    return is_square(squared) ? std::sqrt(squared) : greatest_distance(from_reference);
   };
   model::Sample last;
   bool has_last = false;

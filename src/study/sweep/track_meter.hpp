@@ -33,6 +33,9 @@ class PaddedRows {
   std::size_t room_ = 0;
 };
 
+// Whether a sum of squares has lost nothing to overflow and underflow.
+[[nodiscard]] bool is_square(double squared);
+
 // Whether all of them can be taken by a TrackMeter: of any column at the end; the greatest tilt,
 // tilt_rate and distance; the greatest and the root mean square of tracking_error.
 [[nodiscard]] bool are_track_measures(const std::vector<record::Measure>& measures);
