@@ -25,6 +25,9 @@ struct ScenarioArguments {
 };
 void add_scenario(CLI::App& command, ScenarioArguments& arguments);
 
+// An option that may be given again, each time with one value: what follows may be the scenario.
+void may_be_repeated(CLI::Option& option);
+
 void add_run(CLI::App& app, const Options& options, Chosen& chosen);
 void add_check(CLI::App& app, Chosen& chosen);
 void add_compare(CLI::App& app, Chosen& chosen);

@@ -314,31 +314,24 @@ void add_sweep(CLI::App& app, const Options& options, Chosen& chosen) {
   command->fallthrough();
   const auto arguments = std::make_shared<SweepArguments>();
   add_scenario(*command, arguments->scenario);
-  command
-      ->add_option("--vary", arguments->vary,
-                   "KEY=SPEC: values for a key, such as ball.position.0=linear:-0.1:0.1:21; may be "
-                   "given again. SPEC is linear:FROM:TO:COUNT, log:FROM:TO:COUNT, list:A,B,C, "
-                   "uniform:FROM:TO or normal:MEAN:SD; values may have units. Default: the "
-                   "scenario's sweep.vary")
-      ->take_all()
-      ->expected(1)
-      ->allow_extra_args(false);  // what follows may be the scenario
+  may_be_repeated(*command->add_option(
+      "--vary", arguments->vary,
+      "KEY=SPEC: values for a key, such as ball.position.0=linear:-0.1:0.1:21; may be "
+      "given again. SPEC is linear:FROM:TO:COUNT, log:FROM:TO:COUNT, list:A,B,C, "
+      "uniform:FROM:TO or normal:MEAN:SD; values may have units. Default: the "
+      "scenario's sweep.vary"));
   command
       ->add_option("--combine", arguments->combine,
                    "grid: each value with each (default); zip: the first with the first")
       ->check(CLI::IsMember({"grid", "zip"}));
-  const CLI::Range whole(1.0, 9007199254740992.0);
   command->add_option("--samples", arguments->samples, "cases to draw for uniform and normal")
-      ->check(whole);
+      ->check(CLI::Range(1.0, 9007199254740992.0));
   command->add_option("--seed", arguments->seed, "of what is drawn; default: 1")
       ->check(CLI::Range(0.0, 9007199254740992.0));
-  command
-      ->add_option("--measure", arguments->measure,
-                   "NAME[,NAME...] instead of the default measures: min_, max_, rms_ or end_ and "
-                   "one of bbsim columns")
-      ->take_all()
-      ->expected(1)
-      ->allow_extra_args(false);  // what follows may be the scenario
+  may_be_repeated(*command->add_option(
+      "--measure", arguments->measure,
+      "NAME[,NAME...] instead of the default measures: min_, max_, rms_ or end_ and "
+      "one of bbsim columns"));
   command->add_option("-o,--output", arguments->output,
                       "FILE.csv, FILE.h5, or - for CSV on standard output; default: the scenario's "
                       "name with -sweep.csv, in the current folder");

@@ -108,12 +108,9 @@ void add_verify(CLI::App& app, const Options& options, Chosen& chosen) {
   const auto arguments = std::make_shared<VerifyArguments>();
   command->add_option("SCENARIO", arguments->scenario,
                       "YAML scenario to compare simpler models over; default: the paper's Fig. 2");
-  command
-      ->add_option("--set", arguments->overrides,
-                   "key.path=value: set a key of the scenario; may be given again")
-      ->take_all()
-      ->expected(1)
-      ->allow_extra_args(false);  // what follows may be the scenario
+  may_be_repeated(
+      *command->add_option("--set", arguments->overrides,
+                           "key.path=value: set a key of the scenario; may be given again"));
   command->callback([arguments, &options, &chosen] {
     chosen = [arguments, &options] { return verify(*arguments, options); };
   });

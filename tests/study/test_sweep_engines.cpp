@@ -207,6 +207,35 @@ TEST_CASE("what is not linear is not superposed") {
   CHECK_FALSE(superposes("configs/fig2b.yaml", {"gravity", "uniform:1:2"}, {}, loop_measures));
 }
 
+TEST_CASE("trajectories are the rows of each case, and no number beyond its end") {
+  Setup setup("configs/fig2b-literal.yaml", {{"controller.pd.kv", "list:0.001,100"}},
+              {"time.end=1"}, {"x_end"});
+  const solve::OutputGrid grid(setup.family.read(setup.plan.settings(0)).time);
+  setup.task.series = {record::find_column("x"), record::find_column("normal_force")};
+  setup.task.series_rows = grid.size();
+  const CaseResults results = run_all(*single_runner(setup.task), 2);
+  REQUIRE(results.series[0].size() == 2 * grid.size());
+  for (std::size_t i = 0; i < 2; ++i) {
+    const Scenario scenario = setup.family.read(setup.plan.settings(i));
+    const model::Model model = model::assemble(scenario, false);
+    solve::Trajectory rows(model.row_size());
+    static_cast<void>(solve::integrate(model, scenario.solver.method,
+                                       {scenario.solver.rtol, scenario.solver.atol}, grid, rows));
+    CHECK(rows.rows() == (i == 0 ? grid.size() : 75));
+    for (std::size_t row = 0; row < grid.size(); ++row) {
+      const double x = results.series[0][i * grid.size() + row];
+      const double force = results.series[1][i * grid.size() + row];
+      if (row >= rows.rows()) {
+        CHECK((std::isnan(x) && std::isnan(force)));
+        continue;
+      }
+      const model::Sample sample = model.sample(grid[row], rows.row(row));
+      CHECK(x == sample.ball.x);
+      CHECK(force == model::dynamics(sample, model::constants_of(scenario)).normal_force());
+    }
+  }
+}
+
 TEST_CASE("cases come in order, once each, from any number of threads") {
   const Setup setup("configs/fig2a.yaml", {{"gimbal.motion.phi.sinusoid.phase", "linear:0:3:301"}},
                     {}, {"x_end"});

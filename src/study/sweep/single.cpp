@@ -5,10 +5,12 @@
 #include <limits>
 #include <memory>
 #include <optional>
+#include <span>
 #include <utility>
 
 #include "base/error.hpp"
 #include "model/model.hpp"
+#include "record/recorder.hpp"
 #include "solve/choose.hpp"
 #include "solve/collocation/radau.hpp"
 #include "solve/integrate.hpp"
@@ -51,46 +53,27 @@ class Both : public solve::StateSink {
   }
 
  private:
-  solve::StateSink &one_, &other_;
+  solve::StateSink& one_;
+  solve::StateSink& other_;
 };
 
-// Columns of one case's rows into its place among the results.
-class SeriesSink : public solve::StateSink {
+// Where a Recorder puts the columns of one case: its place among the results.
+class SeriesWriter : public record::TableWriter {
  public:
-  SeriesSink(const SweepTask& task, const model::Model& model,
-             const model::BallConstants& constants, const solve::OutputGrid& grid,
-             CaseResults& into, std::size_t place)
-      : task_(task),
-        model_(model),
-        constants_(constants),
-        grid_(grid),
-        into_(into),
-        start_(place * task.series_rows),
-        dynamics_(
-            std::any_of(task.series.begin(), task.series.end(), [](const record::Column* column) {
-              return column->needs == record::Needs::dynamics ||
-                     column->needs == record::Needs::plate;
-            })) {}
+  SeriesWriter(std::vector<std::vector<double>>& series, std::size_t first_row)
+      : series_(series), row_(first_row) {}
 
-  void accept(std::size_t first, std::size_t count, const double* values) override {
-    for (std::size_t i = 0; i < count; ++i) {
-      const model::Sample sample = model_.sample(grid_[first + i], values + i * model_.row_size());
-      const model::Dynamics dynamics =
-          dynamics_ ? model::dynamics(sample, constants_) : model::Dynamics{};
-      for (std::size_t c = 0; c < task_.series.size(); ++c) {
-        into_.series[c][start_ + first + i] = task_.series[c]->value({sample, &dynamics});
-      }
+  void append(std::span<const double* const> columns, std::size_t rows) override {
+    for (std::size_t c = 0; c < columns.size(); ++c) {
+      std::copy_n(columns[c], rows, series_[c].begin() + static_cast<std::ptrdiff_t>(row_));
     }
+    row_ += rows;
   }
+  void finish(const record::Attributes&) override {}
 
  private:
-  const SweepTask& task_;
-  const model::Model& model_;
-  const model::BallConstants& constants_;
-  const solve::OutputGrid& grid_;
-  CaseResults& into_;
-  std::size_t start_;
-  bool dynamics_;
+  std::vector<std::vector<double>>& series_;
+  std::size_t row_;
 };
 
 class SingleRunner : public CaseRunner {
@@ -103,14 +86,11 @@ class SingleRunner : public CaseRunner {
         kernels_(solve::collocation::choose_kernels()),
         quick_(task.series.empty() && are_track_measures(task.measures)),
         same_signals_(shares_signals(task.plan)) {
-    const auto needs = [](const record::Column* column) {
-      return column->needs == record::Needs::gamma;
-    };
     for (const Axis& axis : task.plan.axes()) {
       if (axis.key.starts_with("solver")) same_tolerances_ = false;
     }
     gamma_ = record::any_needs(task.measures, record::Needs::gamma) ||
-             std::any_of(task.series.begin(), task.series.end(), needs);
+             record::any_needs(task.series, record::Needs::gamma);
   }
 
   std::size_t run(std::size_t first, std::size_t count, CaseResults& into,
@@ -141,14 +121,15 @@ class SingleRunner : public CaseRunner {
         return run_quickly(scenario, model, constants, grid, stop, numbers, status);
       }
       meter_.begin(model, constants, grid);
-      SeriesSink series(task_, model, constants, grid, into, place);
-      Both both(meter_, series);
+      SeriesWriter series(into.series, place * task_.series_rows);
+      record::Recorder recorder(model, constants, grid, task_.series, series);
+      Both both(meter_, recorder);
       solve::StateSink& sink = task_.series.empty() ? static_cast<solve::StateSink&>(meter_) : both;
       const solve::Watch watch{&stop, {}};
       solve::Outcome outcome;
-      if (scenario.solver.error) {
-        const ErrorControlled run = integrate_to_error(model, scenario.solver.method,
-                                                       *scenario.solver.error, grid, sink, watch);
+      if (solver.error) {
+        const ErrorControlled run =
+            integrate_to_error(model, solver.method, *solver.error, grid, sink, watch);
         status = status_of(run.outcome);
         if (status == "done" && !run.met) {
           char text[80];
