@@ -11,22 +11,23 @@ function(bbsim_add_kernels target chooser)
   target_link_libraries(${target} PRIVATE bbsim::options)
   set_target_properties(${target} PROPERTIES POSITION_INDEPENDENT_CODE ON)
 
-  # Kernels agree between instruction sets to the tolerance, not to the bit: products may be fused.
-  # Packs never pass a function's boundary, so how compilers would pass them (-Wpsabi) is no matter.
-  target_compile_options(${target} PRIVATE -ffp-contract=fast -Wno-psabi)
-
-  # Instrumented, the unrolled loops take compilers many minutes; all memory is in fixed arrays.
-  if(BBSIM_SANITIZE)
-    target_compile_options(${target} PRIVATE -fno-sanitize=all)
-  endif()
-
   target_sources(bbsim_core PRIVATE ${chooser} $<TARGET_OBJECTS:${target}>)
+
+  # Options of a source come last on the command line, after those of bbsim::options, which they are
+  # to override. Kernels agree between instruction sets to the tolerance, not to the bit: products may
+  # be fused. Packs never pass a function's boundary, so how compilers would pass them (-Wpsabi) is no
+  # matter. Instrumented, the unrolled loops take compilers many minutes; all memory is in fixed arrays.
+  set(options -ffp-contract=fast -Wno-psabi)
+  if(BBSIM_SANITIZE)
+    list(APPEND options -fno-sanitize=all)
+  endif()
+  set_source_files_properties(kernels_baseline.cpp PROPERTIES COMPILE_OPTIONS "${options}")
 
   if(NOT BBSIM_BASELINE_ONLY AND CMAKE_SYSTEM_PROCESSOR MATCHES "^(x86_64|AMD64)$" AND CMAKE_SIZEOF_VOID_P EQUAL 8)
     target_sources(${target} PRIVATE kernels_avx2.cpp kernels_avx512.cpp)
-    set_source_files_properties(kernels_avx2.cpp PROPERTIES COMPILE_OPTIONS "-mavx2;-mfma")
+    set_source_files_properties(kernels_avx2.cpp PROPERTIES COMPILE_OPTIONS "${options};-mavx2;-mfma")
     set_source_files_properties(kernels_avx512.cpp PROPERTIES COMPILE_OPTIONS
-      "-mavx512f;-mavx512dq;-mavx512vl;-mavx2;-mfma;-mprefer-vector-width=512")
+      "${options};-mavx512f;-mavx512dq;-mavx512vl;-mavx2;-mfma;-mprefer-vector-width=512")
     set_source_files_properties(${chooser} TARGET_DIRECTORY bbsim_core PROPERTIES
       COMPILE_DEFINITIONS BBSIM_X86_KERNELS)
   endif()
