@@ -290,8 +290,9 @@ void measure_blow_ups(const std::string& folder) {
     study::CaseResults results;
     const double time = least_seconds(
         0.5, [&] { static_cast<void>(runner->run(0, cases.count(), results, goes_on)); });
-    const auto failed = std::count_if(results.status.begin(), results.status.end(),
-                                      [](const std::string& status) { return status != "done"; });
+    const auto failed =
+        std::count_if(results.status.begin(), results.status.end(),
+                      [](const study::CaseStatus& status) { return status.word != "done"; });
     std::printf("%-28s %6.1f us a case, %td of %zu end early\n", gains,
                 1e6 * time / static_cast<double>(cases.count()), failed, cases.count());
     return time / static_cast<double>(cases.count());

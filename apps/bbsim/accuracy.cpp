@@ -17,6 +17,8 @@
 #include "model/model.hpp"
 #include "progress.hpp"
 #include "record/atomic_file.hpp"
+#include "record/format.hpp"
+#include "record/outputs.hpp"
 #include "record/recorder.hpp"
 #include "scenario/reader.hpp"
 #include "signals.hpp"
@@ -81,7 +83,7 @@ std::vector<double> tolerance_ladder(const std::string& text) {
 }
 
 study::Picture picture_of(const std::string& file) {
-  const std::string ending = std::filesystem::path(file).extension().string();
+  const std::string ending = record::lower_ending(file);
   if (ending == ".svg") return study::Picture::svg;
   if (ending == ".png") return study::Picture::png;
   throw InputError("--plot: found " + file + ", allowed is a name that ends in .svg or .png");
@@ -101,6 +103,11 @@ ExitCode accuracy(const AccuracyArguments& arguments, const Options& options) {
   const Scenario scenario = read_scenario(arguments.scenario.file, arguments.scenario.overrides);
   const std::vector<Method> methods = methods_named(arguments.methods);
   const std::vector<double> rtols = tolerance_ladder(arguments.rtols);
+  record::Outputs outputs;
+  reads_scenario(outputs, arguments.scenario.file, table_files(scenario));
+  if (arguments.csv != "-") prints(outputs);
+  if (!arguments.csv.empty()) outputs.writes(arguments.csv, "--csv");
+  if (!arguments.plot.empty()) outputs.writes(arguments.plot, "--plot");
   // What is written is opened, and gnuplot looked for, before the work is done.
   std::unique_ptr<record::AtomicFile> csv, plot;
   if (!arguments.csv.empty()) csv = std::make_unique<record::AtomicFile>(arguments.csv);

@@ -111,6 +111,9 @@ void print_sweep(const ScenarioArguments& arguments, const Scenario& scenario) {
 
 ExitCode check(const ScenarioArguments& arguments) {
   const Scenario scenario = read_scenario(arguments.file, arguments.overrides);
+  record::Outputs outputs;
+  reads_scenario(outputs, arguments.file, table_files(scenario));
+  prints(outputs);
   const auto columns = record::columns_named(scenario.output.columns);
   const model::Model model =
       model::assemble(scenario, record::any_needs(columns, record::Needs::gamma));

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "base/error.hpp"
+#include "record/outputs.hpp"
 
 namespace bbsim::app {
 
@@ -24,6 +25,13 @@ struct ScenarioArguments {
   std::vector<std::string> overrides;
 };
 void add_scenario(CLI::App& command, ScenarioArguments& arguments);
+
+// Says that a command reads a scenario, and these tables with it.
+void reads_scenario(record::Outputs& outputs, const std::string& file,
+                    const std::vector<std::string>& tables);
+
+// Says that it prints: nothing it reads may be what its standard output goes to.
+void prints(record::Outputs& outputs);
 
 // An option that may be given again, each time with one value: what follows may be the scenario.
 void may_be_repeated(CLI::Option& option);

@@ -19,6 +19,10 @@ struct CompareOptions {
 };
 
 ExitCode run_compare(const CompareOptions& options) {
+  record::Outputs outputs;
+  outputs.reads(options.a, "A");
+  outputs.reads(options.b, "B");
+  prints(outputs);
   const record::TableData a = record::read_table(options.a);
   const record::TableData b = record::read_table(options.b);
   const record::Comparison comparison = record::compare(a, b, options.tolerances, options.columns);

@@ -7,6 +7,8 @@
 #include <vector>
 
 #include "commands.hpp"
+#include "record/outputs.hpp"
+#include "signals.hpp"
 
 namespace bbsim::app {
 namespace {
@@ -17,9 +19,23 @@ struct MergeArguments {
 };
 
 ExitCode merge(const MergeArguments& arguments, const Options& options) {
-  const std::size_t cases = record::merge_cases(arguments.parts, arguments.output);
+  record::Outputs outputs;
+  for (const std::string& part : arguments.parts) {
+    outputs.reads(part, "a part");
+    if (const std::string plan = record::plan_of_part(part); !plan.empty()) {
+      outputs.reads(plan, "the plan of " + part);
+    }
+  }
+  outputs.writes(arguments.output, "-o");
+  const record::Merged merged =
+      record::merge_cases(arguments.parts, arguments.output, watch_signals());
+  if (!merged.note.empty()) std::fprintf(stderr, "%s\n", merged.note.c_str());
+  if (merged.interrupted) {
+    if (!options.quiet) std::fprintf(stderr, "interrupted; nothing was written.\n");
+    return ExitCode::interrupted;
+  }
   if (!options.quiet) {
-    std::fprintf(stderr, "%s: %zu cases from %zu parts\n", arguments.output.c_str(), cases,
+    std::fprintf(stderr, "%s: %zu cases from %zu parts\n", arguments.output.c_str(), merged.cases,
                  arguments.parts.size());
   }
   return ExitCode::done;

@@ -12,11 +12,14 @@
 #include "model/explain.hpp"
 #include "model/model.hpp"
 #include "progress.hpp"
+#include "record/atomic_file.hpp"
+#include "record/outputs.hpp"
 #include "record/recorder.hpp"
 #include "record/summary.hpp"
 #include "scenario/reader.hpp"
 #include "signals.hpp"
 #include "solve/choose.hpp"
+#include "solve/collocation/radau.hpp"
 #include "solve/cpu_clock.hpp"
 #include "solve/integrate.hpp"
 #include "study/error_control.hpp"
@@ -123,6 +126,7 @@ record::RunSummary summarise(const Scenario& scenario, const model::Model& model
   const solve::Outcome& outcome = made.outcome;
   record::RunSummary summary;
   summary.version = BBSIM_VERSION;
+  summary.instruction_set = solve::collocation::choose_kernels().name;
   summary.scenario = scenario.source.file;
   summary.title = scenario.title;
   summary.overrides = scenario.source.overrides;
@@ -153,6 +157,15 @@ record::RunSummary summarise(const Scenario& scenario, const model::Model& model
   return summary;
 }
 
+// Before any of them is opened.
+void declare_files(const RunArguments& arguments, const Scenario& scenario,
+                   const std::string& output) {
+  record::Outputs outputs;
+  reads_scenario(outputs, arguments.scenario.file, table_files(scenario));
+  outputs.writes(output, arguments.output.empty() ? "its name by default, without -o" : "-o");
+  if (!arguments.summary.empty()) outputs.writes(arguments.summary, "--summary");
+}
+
 ExitCode run(const RunArguments& arguments, const Options& options) {
   std::vector<std::string> overrides = arguments.scenario.overrides;
   if (!arguments.error.empty()) overrides.push_back("solver.error=" + arguments.error);
@@ -169,7 +182,10 @@ ExitCode run(const RunArguments& arguments, const Options& options) {
   for (const record::Column* column : columns) {
     headers.push_back({column->name, column->unit, column->meaning});
   }
+  declare_files(arguments, scenario, output);
   const auto writer = record::open_table(output, headers);
+  const auto summary_file =
+      arguments.summary.empty() ? nullptr : std::make_unique<record::AtomicFile>(arguments.summary);
   record::Recorder recorder(model, model::constants_of(scenario), grid, columns, *writer);
 
   Progress progress(arguments.scenario.file, options.quiet);
@@ -182,7 +198,10 @@ ExitCode run(const RunArguments& arguments, const Options& options) {
   const record::RunSummary summary =
       summarise(scenario, model, made, reason, output, recorder.peaks());
   writer->finish(record::to_attributes(summary, scenario.source.text));
-  if (!arguments.summary.empty()) record::write_summary(arguments.summary, summary);
+  if (summary_file) {
+    summary_file->write(record::to_json(summary));
+    summary_file->commit();
+  }
 
   if (!options.quiet) {
     if (!reason.empty()) std::fprintf(stderr, "%s\n", reason.c_str());

@@ -1,26 +1,40 @@
 #include "signals.hpp"
 
+#include <unistd.h>
+
 #include <csignal>
+
+#include "base/error.hpp"
+#include "record/temporaries.hpp"
 
 namespace bbsim::app {
 namespace {
 
-std::atomic<bool> end_requested{false};
+std::atomic<bool> watched{false}, end_requested{false};
 static_assert(std::atomic<bool>::is_always_lock_free, "a signal handler may set it");
 
-void request_end(int) {
-  end_requested.store(true, std::memory_order_relaxed);
+void end(int) {
+  if (watched.load(std::memory_order_relaxed) && !end_requested.exchange(true)) return;
+  record::remove_temporaries();
+  _exit(static_cast<int>(ExitCode::interrupted));
 }
 
 }  // namespace
 
-const std::atomic<bool>& watch_signals() {
+void end_at_signals() {
   struct sigaction action {};
-  action.sa_handler = request_end;
+  action.sa_handler = end;
   sigemptyset(&action.sa_mask);
-  action.sa_flags = static_cast<int>(SA_RESETHAND);  // no SA_RESTART: a blocked write must return
-  sigaction(SIGINT, &action, nullptr);
-  sigaction(SIGTERM, &action, nullptr);
+  action.sa_flags = 0;  // no SA_RESTART: a blocked write must return
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
+    struct sigaction before {};
+    sigaction(signal, &action, &before);
+    if (signal == SIGHUP && before.sa_handler == SIG_IGN) sigaction(signal, &before, nullptr);
+  }
+}
+
+const std::atomic<bool>& watch_signals() {
+  watched.store(true, std::memory_order_relaxed);
   return end_requested;
 }
 

@@ -8,7 +8,6 @@
 #include <cstdio>
 #include <filesystem>
 #include <memory>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <thread>
@@ -18,13 +17,15 @@
 #include "commands.hpp"
 #include "describe.hpp"
 #include "progress.hpp"
+#include "record/atomic_file.hpp"
 #include "record/case_file.hpp"
-#include "record/case_text.hpp"
 #include "record/measures.hpp"
+#include "record/number_text.hpp"
+#include "record/outputs.hpp"
 #include "scenario/variation.hpp"
 #include "signals.hpp"
-#include "solve/collocation/radau.hpp"
 #include "solve/output_grid.hpp"
+#include "sweep_text.hpp"
 
 namespace bbsim::app {
 namespace {
@@ -32,14 +33,10 @@ namespace {
 struct SweepArguments {
   ScenarioArguments scenario;
   std::vector<std::string> vary, measure;
-  std::string combine, output, shard, error;
+  std::string combine, output, summary, shard, error;
   std::optional<double> samples, seed;
   std::size_t threads = 0;
   bool resume = false, keep_trajectories = false;
-};
-
-struct Shard {
-  std::size_t number = 1, of = 1;
 };
 
 Shard read_shard(const std::string& text) {
@@ -110,30 +107,6 @@ std::vector<record::Measure> measures_of(const Sweep& sweep, const Scenario& sce
   return measures;
 }
 
-record::CaseFileLayout layout_of(const study::SweepTask& task, const Scenario& scenario) {
-  record::CaseFileLayout layout;
-  using record::CaseKind;
-  layout.columns.push_back({"case", "1", "number of the case, from 0"});
-  for (const study::Axis& axis : task.plan.axes()) {
-    layout.columns.push_back({axis.key, "SI", "varied key of the scenario, in SI units and radians",
-                              axis.numeric ? CaseKind::number : CaseKind::text});
-  }
-  layout.columns.push_back({"status", "", "done, or why the case ended early", CaseKind::text});
-  layout.columns.push_back({"end_time", "s", "time reached"});
-  for (const record::Measure& measure : task.measures) {
-    layout.columns.push_back({measure.name, std::string(measure.column->unit), measure.meaning()});
-  }
-  if (task.series.empty()) return layout;
-  const solve::OutputGrid grid(scenario.time);
-  layout.axis = {"t", "s", "time"};
-  for (std::size_t i = 0; i < grid.size(); ++i) layout.axis_values.push_back(grid[i]);
-  for (const record::Column* column : task.series) {
-    layout.columns.push_back({std::string(column->name), std::string(column->unit),
-                              std::string(column->meaning), CaseKind::series, grid.size()});
-  }
-  return layout;
-}
-
 // Columns of the output rows to be kept of each case.
 void keep_trajectories(study::SweepTask& task, const Scenario& scenario) {
   for (const study::Axis& axis : task.plan.axes()) {
@@ -148,88 +121,39 @@ void keep_trajectories(study::SweepTask& task, const Scenario& scenario) {
   task.series_rows = solve::OutputGrid(scenario.time).size();
 }
 
-// All that the results depend on.
-std::string plan_text(const ScenarioFamily& family, const Sweep& sweep,
-                      const study::SweepTask& task, const Shard& shard) {
-  const Source& source = family.source();
-  nlohmann::ordered_json plan;
-  plan["version"] = BBSIM_VERSION;
-  plan["instruction_set"] = solve::collocation::choose_kernels().name;
-  plan["scenario"] = source.text;
-  plan["overrides"] = source.overrides;
-  for (const auto& [name, hash] : family.table_hashes()) plan["tables"][name] = hash;
-  for (const Variation& variation : sweep.vary) {
-    plan["vary"].push_back(variation.key + '=' + variation.spec);
-  }
-  plan["combine"] = sweep.combine == Combine::zip ? "zip" : "grid";
-  if (sweep.samples) {
-    plan["samples"] = *sweep.samples;
-    plan["seed"] = sweep.seed;
-  }
-  for (const record::Measure& measure : task.measures) plan["measure"].push_back(measure.name);
-  plan["trajectories"] = !task.series.empty();
-  if (shard.of > 1) plan["shard"] = std::to_string(shard.number) + '/' + std::to_string(shard.of);
-  return plan.dump(1) + '\n';
-}
-
-record::Attributes attributes_of(const ScenarioFamily& family, const Sweep& sweep,
-                                 std::size_t cases) {
-  const Source& source = family.source();
-  record::Attributes attributes{{"version", BBSIM_VERSION},
-                                {"scenario", std::filesystem::path(source.file).filename()},
-                                {"scenario_text", source.text}};
-  const auto lines = [](const auto& items, const auto& text) {
-    std::string all;
-    for (const auto& item : items) all += (all.empty() ? "" : "\n") + text(item);
-    return all;
-  };
-  attributes.emplace_back("overrides", lines(source.overrides, [](const auto& o) { return o; }));
-  attributes.emplace_back(
-      "vary", lines(sweep.vary, [](const Variation& one) { return one.key + '=' + one.spec; }));
-  attributes.emplace_back("cases", std::to_string(cases));
-  attributes.emplace_back("combine", sweep.combine == Combine::zip ? "zip" : "grid");
-  if (sweep.samples) {
-    attributes.emplace_back("samples", short_number(*sweep.samples));
-    attributes.emplace_back("seed", record::number_text(sweep.seed));
-  }
-  return attributes;
-}
-
 std::string default_output(const std::string& scenario, const Shard& shard) {
   std::string name = std::filesystem::path(scenario).stem().string() + "-sweep";
   if (shard.of > 1) name += '-' + std::to_string(shard.number) + "of" + std::to_string(shard.of);
   return name + ".csv";
 }
 
-// The rows of some cases as CSV, on the thread that computed them.
-void write_text(const study::SweepTask& task, study::CaseResults& results) {
-  const auto& axes = task.plan.axes();
-  const std::size_t numbers = 1 + task.measures.size();
-  std::string& text = results.text;
-  text.clear();
-  for (std::size_t i = 0; i < results.count; ++i) {
-    text += std::to_string(results.first + i);
-    for (std::size_t a = 0; a < axes.size(); ++a) {
-      text += ',';
-      const double value = results.values[i * axes.size() + a];
-      if (axes[a].numeric) {
-        record::append_number(text, value);
-      } else {
-        record::append_text(text, axes[a].texts[static_cast<std::size_t>(value)]);
-      }
-    }
-    text += ',';
-    record::append_text(text, results.status[i]);
-    for (std::size_t n = 0; n < numbers; ++n) {
-      text += ',';
-      record::append_number(text, results.numbers[i * numbers + n]);
-    }
-    text += '\n';
-  }
-}
-
 std::size_t available_threads() {
   return std::max(1U, std::thread::hardware_concurrency());
+}
+
+// Before any of them is opened.
+void declare_files(const SweepArguments& arguments, const ScenarioFamily& family,
+                   const std::string& output) {
+  record::Outputs outputs;
+  std::vector<std::string> tables;
+  for (const auto& [name, hash] : family.table_hashes()) tables.push_back(name);
+  reads_scenario(outputs, arguments.scenario.file, tables);
+  const std::string option = arguments.output.empty() ? "its name by default, without -o" : "-o";
+  outputs.writes(output, option);
+  for (const std::string& file : record::case_files_beside(output)) {
+    outputs.writes(file, "kept beside " + output + " until the sweep is done");
+  }
+  if (!arguments.summary.empty()) outputs.writes(arguments.summary, "--summary");
+}
+
+void say(const std::string& sentence) {
+  std::fprintf(stderr, "%s\n", sentence.c_str());
+}
+
+std::size_t early_ones(const record::StatusCounts& statuses) {
+  std::size_t early = 0;
+  for (const auto& [word, count] : statuses) early += word == "done" ? 0 : count;
+  return early;
 }
 
 ExitCode sweep(const SweepArguments& arguments, const Options& options) {
@@ -244,8 +168,8 @@ ExitCode sweep(const SweepArguments& arguments, const Options& options) {
   if (arguments.keep_trajectories) keep_trajectories(task, first);
 
   const study::Engine engine = study::choose_engine(task);
-  const std::size_t group = engine.group;
-  const study::CaseRange range = study::shard_range(plan.cases(), group, shard.number, shard.of);
+  const study::CaseRange range =
+      study::shard_range(plan.cases(), engine.group, shard.number, shard.of);
 
   const std::atomic<bool>& stop = watch_signals();
   Progress progress(arguments.scenario.file, options.quiet, true);
@@ -255,55 +179,70 @@ ExitCode sweep(const SweepArguments& arguments, const Options& options) {
   });
   if (!checked) {
     progress.clear();
-    if (!options.quiet) std::fprintf(stderr, "interrupted before the first case.\n");
+    if (!options.quiet) say("interrupted before the first case.");
     return ExitCode::interrupted;
   }
 
+  const SweepFacts facts{family, sweep, task, first, shard};
   const std::string output =
       arguments.output.empty() ? default_output(arguments.scenario.file, shard) : arguments.output;
-  const auto file = record::open_case_file(output, layout_of(task, first),
-                                           plan_text(family, sweep, task, shard), arguments.resume);
-  file->keep_only(file->kept() - file->kept() % group);
-  const std::size_t kept = file->kept(), all = range.last - range.first;
+  declare_files(arguments, family, output);
+  const auto summary =
+      arguments.summary.empty() ? nullptr : std::make_unique<record::AtomicFile>(arguments.summary);
+  const auto file = record::open_case_file(output, layout_of(facts, engine, range),
+                                           plan_text(facts), arguments.resume);
+  if (!file->kept().trouble.empty()) say(file->kept().trouble);
+  const std::size_t kept = file->kept().rows, all = range.last - range.first;
+  SweepEnd end{true, kept, file->kept().statuses, engine.name, output};
 
   const std::size_t threads = arguments.threads > 0 ? arguments.threads : available_threads();
-  std::size_t done = kept, early = 0;
   const auto started = std::chrono::steady_clock::now();
   const auto seconds = [&started] {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
   };
-  const auto rate = [&] { return static_cast<double>(done - kept) / seconds(); };
-  const bool finished = study::run_sweep(
+  const auto rate = [&] { return static_cast<double>(end.rows - kept) / seconds(); };
+  end.finished = study::run_sweep(
       engine, {range.first + kept, range.last}, threads, stop,
       [&task](study::CaseResults& results) { write_text(task, results); },
       [&](const study::CaseResults& results) {
-        file->append(results.text, results.series);
-        done += results.count;
-        for (const std::string& status : results.status) early += status != "done" ? 1 : 0;
-        progress.update(static_cast<double>(done) / static_cast<double>(all),
+        file->append(results.text, results.count, results.series);
+        end.rows += results.count;
+        for (const study::CaseStatus& status : results.status) ++end.statuses[status.word];
+        progress.update(static_cast<double>(end.rows) / static_cast<double>(all),
                         short_number(rate()) + " cases/s");
+      },
+      [&](std::size_t had) {
+        if (options.quiet) return;
+        say("no more than " + std::to_string(had) + " of " + std::to_string(threads) +
+            " threads were to be had; going on with these");
       });
   progress.clear();
 
-  const std::string counts = std::to_string(done) + " of " + std::to_string(all) + " cases";
-  if (!finished) {
-    if (!options.quiet) {
-      std::fprintf(stderr, "interrupted after %s.\n", counts.c_str());
-      if (!file->part().empty() && done > 0) {
-        std::fprintf(stderr, "  %s keeps them; the same command with --resume goes on.\n",
-                     file->part().c_str());
-      }
+  if (end.finished) {
+    file->finish(attributes_of(facts, engine));
+  } else {
+    file->interrupt();
+  }
+  if (summary) {
+    summary->write(summary_text(facts, end));
+    summary->commit();
+  }
+  if (options.quiet) return end.finished ? ExitCode::done : ExitCode::interrupted;
+
+  const std::string counts = std::to_string(end.rows) + " of " + std::to_string(all) + " cases";
+  if (!end.finished) {
+    say("interrupted after " + counts + '.');
+    if (!file->part().empty() && end.rows > 0) {
+      say("  " + file->part() + " keeps them; the same command with --resume goes on.");
     }
     return ExitCode::interrupted;
   }
-  file->finish(attributes_of(family, sweep, plan.cases()));
-  if (!options.quiet) {
-    std::string line = output + ": " + counts;
-    if (kept > 0) line += ", " + std::to_string(kept) + " of them from before";
-    if (early > 0) line += ", " + std::to_string(early) + " ended early (see status)";
-    line += ", by " + engine.name;
-    std::fprintf(stderr, "%s, %s s\n", line.c_str(), short_number(seconds()).c_str());
+  std::string line = output + ": " + counts;
+  if (kept > 0) line += ", " + std::to_string(kept) + " of them from before";
+  if (const std::size_t early = early_ones(end.statuses); early > 0) {
+    line += ", " + std::to_string(early) + " ended early (see status)";
   }
+  say(line + ", by " + engine.name + ", " + short_number(seconds()) + " s");
   return ExitCode::done;
 }
 
@@ -335,6 +274,8 @@ void add_sweep(CLI::App& app, const Options& options, Chosen& chosen) {
   command->add_option("-o,--output", arguments->output,
                       "FILE.csv, FILE.h5, or - for CSV on standard output; default: the scenario's "
                       "name with -sweep.csv, in the current folder");
+  command->add_option("--summary", arguments->summary,
+                      "FILE.json: what the sweep was, how its cases ended, the engine");
   command
       ->add_option("-j,--threads", arguments->threads,
                    "threads; default: as many as there are processors")

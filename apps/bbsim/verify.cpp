@@ -77,6 +77,11 @@ void print_simpler(const NamedScenario& named, const study::FullModelStudy& stud
 ExitCode verify(const VerifyArguments& arguments, const Options& options) {
   // Before the checks, so that a mistake in it is told at once.
   const std::vector<NamedScenario> scenes = scenarios(arguments);
+  record::Outputs outputs;
+  if (!arguments.scenario.empty()) {
+    reads_scenario(outputs, arguments.scenario, table_files(scenes.front().scenario));
+  }
+  prints(outputs);
   Progress progress("verify", options.quiet);
   const solve::Watch watch{&watch_signals(), [&](double fraction) { progress.update(fraction); }};
   const study::Verification verification = study::verify(watch);

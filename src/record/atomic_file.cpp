@@ -1,67 +1,21 @@
 #include "record/atomic_file.hpp"
 
 #include <fcntl.h>
-#include <poll.h>
-#include <sys/stat.h>
 #include <unistd.h>
 
 #include <cerrno>
-#include <charconv>
 #include <chrono>
-#include <cstdint>
 #include <cstdio>
 #include <filesystem>
-#include <optional>
-#include <system_error>
 
 #include "base/error.hpp"
+#include "record/temporaries.hpp"
 
 namespace bbsim::record {
 namespace {
 
-// N of "-" (1), /proc/self/fd/N and /dev/fd/N: a descriptor of this process. Opening such a name
-// again would lose the position of what the shell has redirected to a file.
-std::optional<int> own_descriptor(std::string_view path) {
-  if (path == "-") return STDOUT_FILENO;
-  for (std::string_view folder : {"/proc/self/fd/", "/dev/fd/"}) {
-    if (!path.starts_with(folder)) continue;
-    int number = 0;
-    const char* end = path.data() + path.size();
-    const auto [stop, error] = std::from_chars(path.data() + folder.size(), end, number);
-    if (error == std::errc() && stop == end && number >= 0) return number;
-  }
-  return std::nullopt;
-}
-
-// The name behind the symbolic links, which may not exist yet; stops at a descriptor's name
-// (/dev/stdout is a link to one). Sets errno and returns nothing if it cannot be told.
-std::optional<std::string> follow_links(const std::string& name) {
-  std::filesystem::path path = name;
-  constexpr int most_links = 40;  // as many as Linux follows
-  for (int links = 0; links <= most_links; ++links) {
-    struct stat status {};
-    if (own_descriptor(path.native())) return path;
-    if (lstat(path.c_str(), &status) != 0) {
-      if (errno == ENOENT) return path;
-      return std::nullopt;
-    }
-    if (!S_ISLNK(status.st_mode)) return path;
-    std::error_code error;
-    const std::filesystem::path link = std::filesystem::read_symlink(path, error);
-    if (error) {
-      errno = error.value();
-      return std::nullopt;
-    }
-    path = path.parent_path() / link;  // an absolute link replaces what stands before it
-  }
-  errno = ELOOP;
-  return std::nullopt;
-}
-
-std::string folder_of(const std::string& path) {
-  const std::string folder = std::filesystem::path(path).parent_path();
-  return folder.empty() ? "." : folder;
-}
+constexpr mode_t any_permissions = 0666;  // the umask takes away what it should
+constexpr unsigned most_attempts = 100;   // at a name that nobody has
 
 // Short, whatever the target is called, so that it cannot exceed the longest name allowed.
 std::string temporary_name(unsigned attempt) {
@@ -73,144 +27,105 @@ std::string temporary_name(unsigned attempt) {
   return {text, static_cast<std::size_t>(size)};
 }
 
-// 0 to 2 are where messages go: a file that got one of them, because the program was started
-// with it closed, would be written into by accident.
-int above_standard_streams(int descriptor) {
-  if (descriptor < 0 || descriptor > STDERR_FILENO) return descriptor;
-  const int higher = fcntl(descriptor, F_DUPFD_CLOEXEC, STDERR_FILENO + 1);
-  const int error = errno;
-  close(descriptor);
-  errno = error;
-  return higher;
+// Gives a file without a name one; false and errno if it does not.
+bool name_file(int descriptor, const char* name) {
+  // Linux 6.10 lets whoever opened the file do so, older ones only the privileged: ENOENT. The way
+  // over /proc is open to all, but takes longer: entries there are made for the process.
+  if (linkat(descriptor, "", AT_FDCWD, name, AT_EMPTY_PATH) == 0) return true;
+  if (errno != ENOENT) return false;
+  char self[40];
+  std::snprintf(self, sizeof self, "/proc/self/fd/%d", descriptor);
+  return linkat(AT_FDCWD, self, AT_FDCWD, name, AT_SYMLINK_FOLLOW) == 0;
+}
+
+// By a name that is taken.
+bool can_be_named(int descriptor) {
+  return !name_file(descriptor, "/") && errno == EEXIST;
 }
 
 // Lets two files change their names in one step, which is as good as a rename: ext4, asked to
 // rename over a file, starts to write to the disk there and then, which takes longer than a
 // common run of the whole program. False if `path` is no file or the system cannot do it.
-bool exchange(const std::string& temporary, const std::string& path) {
+bool exchange_names(const std::string& temporary, const std::string& path) {
   struct stat status {};
   return lstat(path.c_str(), &status) == 0 && S_ISREG(status.st_mode) &&
          renameat2(AT_FDCWD, temporary.c_str(), AT_FDCWD, path.c_str(), RENAME_EXCHANGE) == 0;
 }
 
-std::string advice(int error_number, const std::string& path) {
-  switch (error_number) {
-    case ENOSPC:
-    case EDQUOT:
-      return "; free some, or write to another place";
-    case EFBIG:
-      return "; the limit is the file system's, or that of ulimit -f";
-    case EACCES:
-    case EPERM:
-    case EROFS:
-      return "; write to a place where you may, or change the permissions of " + path;
-    case ENAMETOOLONG:
-      return "; choose a shorter one";
-    default:
-      return "";
-  }
-}
-
 }  // namespace
 
-std::string error_text(int error_number) {
-  std::string text = std::generic_category().message(error_number);
-  if (!text.empty() && text[0] >= 'A' && text[0] <= 'Z') {
-    text[0] = static_cast<char>(text[0] - 'A' + 'a');
-  }
-  return text;
-}
-
-bool is_written_directly(const std::string& target) {
-  if (own_descriptor(target)) return true;
-  if (const auto path = follow_links(target); path && own_descriptor(*path)) return true;
-  struct stat status {};
-  return stat(target.c_str(), &status) == 0 && !S_ISREG(status.st_mode) && !S_ISDIR(status.st_mode);
-}
-
-AtomicFile::AtomicFile(const std::string& target)
-    : name_(target == "-" ? "standard output" : target),
+AtomicFile::AtomicFile(const std::string& target, Durable durable)
+    : target_(find_target(target)),
+      durable_(durable),
       // Left uninitialised on purpose: its pages cost nothing before they are written to.
       buffer_(new char[buffer_size]),
       end_(buffer_.get()) {
-  if (target.empty()) throw OutputError("cannot write: the file's name is empty");
-  if (const auto number = own_descriptor(target)) {
-    open_duplicate(*number);
-    return;
-  }
-
-  // Following the links is left to the system first, so that its own rules about them hold.
-  struct stat status {};
-  const bool exists = stat(target.c_str(), &status) == 0;
-  if (!exists && errno != ENOENT) fail(errno);
-  if (exists && S_ISDIR(status.st_mode)) fail(EISDIR);
-
-  const std::optional<std::string> path = follow_links(target);
-  if (!path) fail(errno);
-  if (const auto number = own_descriptor(*path)) {
-    open_duplicate(*number);
-    return;
-  }
-  if (exists && !S_ISREG(status.st_mode)) {
-    open_direct(target.c_str());
-    return;
-  }
-
-  path_ = *path;
-  if (std::filesystem::path(path_).filename().empty()) fail(EISDIR);
-  // A rename would replace a write-protected file; whoever protected it did not mean that.
-  if (exists && faccessat(AT_FDCWD, path_.c_str(), W_OK, AT_EACCESS) != 0) fail(errno);
-  open_temporary(path_);
-  if (!exists) return;
-  // Another's file stays theirs where the system allows it. Mode last: chown clears parts of it.
-  constexpr mode_t all_permissions = 07777;
-  if (status.st_uid != geteuid() || status.st_gid != getegid()) {
-    [[maybe_unused]] const int ignored = fchown(descriptor_, status.st_uid, status.st_gid);
-  }
-  if (fchmod(descriptor_, status.st_mode & all_permissions) != 0) {
-    const int error = errno;  // no destructor runs for a constructor that throws
-    close(descriptor_);
-    unlink(temporary_.c_str());
-    fail(error);
+  if (target_.descriptor) {
+    // A duplicate can be closed, and so tell of errors that only closing brings to light.
+    descriptor_ = Descriptor(fcntl(*target_.descriptor, F_DUPFD_CLOEXEC, STDERR_FILENO + 1));
+    if (!descriptor_.is_open()) fail(errno);
+  } else if (target_.written_directly()) {
+    descriptor_ = above_standard_streams(open(target.c_str(), O_WRONLY | O_CLOEXEC | O_NOCTTY));
+    if (!descriptor_.is_open()) fail(errno);
+  } else {
+    open_temporary();
   }
 }
 
 AtomicFile::~AtomicFile() {
-  if (descriptor_ >= 0) close(descriptor_);
-  if (!temporary_.empty()) unlink(temporary_.c_str());
+  forget_name();
 }
 
-void AtomicFile::open_direct(const char* path) {
-  descriptor_ = above_standard_streams(open(path, O_WRONLY | O_CLOEXEC | O_NOCTTY));
-  if (descriptor_ < 0) fail(errno);
+void AtomicFile::open_temporary() {
+  if (!open_unnamed()) open_named();
+  if (!target_.found) return;
+  if (const int error = take_after(descriptor_.get(), *target_.found)) {
+    forget_name();  // no destructor runs for a constructor that throws
+    fail(error);
+  }
 }
 
-void AtomicFile::open_duplicate(int descriptor) {
-  // A duplicate can be closed, and so tell of errors that only closing brings to light.
-  descriptor_ = fcntl(descriptor, F_DUPFD_CLOEXEC, STDERR_FILENO + 1);
-  if (descriptor_ < 0) fail(errno);
+bool AtomicFile::open_unnamed() {
+  descriptor_ = above_standard_streams(
+      open(target_.folder().c_str(), O_TMPFILE | O_RDWR | O_CLOEXEC, any_permissions));
+  if (descriptor_.is_open() && can_be_named(descriptor_.get())) return true;
+  descriptor_.close();
+  return false;
 }
 
-void AtomicFile::open_temporary(const std::string& path) {
-  const std::string folder = folder_of(path);
-  constexpr unsigned most_attempts = 100;
-  for (unsigned attempt = 0; attempt < most_attempts; ++attempt) {
-    temporary_ = std::filesystem::path(folder) / temporary_name(attempt);
-    constexpr mode_t any_permissions = 0666;  // the umask takes away what it should
+// Remembered before it is there, so that no signal comes between.
+bool AtomicFile::choose_temporary_name(unsigned attempt) {
+  if (attempt >= most_attempts) return false;
+  temporary_ = std::filesystem::path(target_.folder()) / temporary_name(attempt);
+  remember_temporary(temporary_.c_str());
+  return true;
+}
+
+void AtomicFile::forget_name() {
+  if (temporary_.empty()) return;
+  unlink(temporary_.c_str());
+  forget_temporary(temporary_.c_str());
+  temporary_.clear();
+}
+
+void AtomicFile::open_named() {
+  int error = EEXIST;
+  for (unsigned attempt = 0; error == EEXIST && choose_temporary_name(attempt); ++attempt) {
     descriptor_ = above_standard_streams(
         open(temporary_.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, any_permissions));
-    if (descriptor_ >= 0) return;
-    if (errno != EEXIST) break;
+    if (descriptor_.is_open()) return;
+    error = errno;
+    forget_temporary(temporary_.c_str());
+    temporary_.clear();
   }
-  const int error = errno;
-  temporary_.clear();
   if (error == ENOENT) {
-    throw OutputError("cannot write " + name_ + ": there is no folder " + folder +
+    throw OutputError("cannot write " + target_.name + ": there is no folder " + target_.folder() +
                       "; create it, or write to another place");
   }
   if (error == EACCES || error == EPERM || error == EROFS) {
-    throw OutputError("cannot write " + name_ + ": " + error_text(error) + " in folder " + folder +
-                      advice(error, "the folder"));
+    throw OutputError("cannot write " + target_.name + ": " + error_text(error) + " in folder " +
+                      target_.folder() +
+                      "; write to a place where you may, or change the permissions of the folder");
   }
   fail(error);
 }
@@ -231,36 +146,46 @@ void AtomicFile::flush() {
 }
 
 void AtomicFile::write_through(std::string_view bytes) {
-  while (!bytes.empty()) {
-    const ssize_t written = ::write(descriptor_, bytes.data(), bytes.size());
-    if (written > 0) {
-      bytes.remove_prefix(static_cast<std::size_t>(written));
-    } else if (written < 0 && errno == EAGAIN) {  // a pipe that someone made non-blocking
-      pollfd wait{descriptor_, POLLOUT, 0};
-      poll(&wait, 1, -1);
-    } else if (written < 0 && errno != EINTR) {
-      fail(errno);
-    }
-  }
+  if (const int error = write_all(descriptor_.get(), bytes)) fail(error);
 }
 
 void AtomicFile::commit() {
   flush();
-  const int closed = close(descriptor_);
-  descriptor_ = -1;
-  if (closed != 0 && errno != EINTR) fail(errno);  // Linux has closed it all the same on EINTR
-  if (temporary_.empty()) return;
-  if (exchange(temporary_, path_)) {
-    unlink(temporary_.c_str());
-  } else if (std::rename(temporary_.c_str(), path_.c_str()) != 0) {
-    fail(errno);
+  if (target_.written_directly()) {
+    if (const int error = descriptor_.close()) fail(error);
+    return;
   }
-  temporary_.clear();
+  if (durable_ == Durable::yes) {
+    if (const int error = sync_content(descriptor_.get())) fail(error);
+  }
+  // What only closing brings to light must be known before the file gets its name, and a file
+  // without one is gone once it is closed: so it is a second descriptor that is closed.
+  Descriptor second(fcntl(descriptor_.get(), F_DUPFD_CLOEXEC, STDERR_FILENO + 1));
+  if (const int error = second.is_open() ? second.close() : errno) fail(error);
+  replace_target();
+  descriptor_.close();
+  if (durable_ == Durable::yes) {
+    if (const int error = sync_folder(target_.folder())) fail(error);
+  }
 }
 
-void AtomicFile::fail(int error_number) const {
-  throw OutputError("cannot write " + name_ + ": " + error_text(error_number) +
-                    advice(error_number, name_));
+void AtomicFile::replace_target() {
+  if (temporary_.empty()) {
+    if (name_file(descriptor_.get(), target_.path.c_str())) return;
+    // A file that is there can only be replaced by one that has a name.
+    int error = errno;
+    for (unsigned attempt = 0; error == EEXIST && choose_temporary_name(attempt); ++attempt) {
+      if (name_file(descriptor_.get(), temporary_.c_str())) break;
+      error = errno;
+      forget_temporary(temporary_.c_str());
+      temporary_.clear();
+    }
+    if (temporary_.empty()) fail(error);
+  }
+  if (!exchange_names(temporary_, target_.path)) {
+    if (std::rename(temporary_.c_str(), target_.path.c_str()) != 0) fail(errno);
+  }
+  forget_name();  // after an exchange it is the old file's
 }
 
 void write_file(const std::string& target, std::string_view content) {

@@ -1,67 +1,70 @@
 #include "record/case_file.hpp"
 
-#include <filesystem>
+#include <limits>
 #include <utility>
 
 #include "base/error.hpp"
 #include "record/atomic_file.hpp"
 #include "record/case_file_hdf5.hpp"
-#include "record/part_file.hpp"
+#include "record/case_part.hpp"
+#include "record/format.hpp"
 
 namespace bbsim::record {
 namespace {
 
-std::string header_of(const std::vector<CaseColumn>& columns) {
-  std::string line;
-  for (const CaseColumn& column : columns) {
-    if (column.kind == CaseKind::series) continue;
-    if (!line.empty()) line += ',';
-    line += column.name;
-  }
-  return line;
-}
-
-// A pipe, a device, standard output: rows as they come.
+// A pipe, a device, standard output: rows as they come, so that an end before the last one takes
+// none of them.
 class Stream : public CaseFile {
  public:
-  Stream(const std::string& target, const std::string& header) : file_(target) {
-    file_.write(header + '\n');
+  Stream(const std::string& target, const CaseFileLayout& layout) : file_(target) {
+    file_.write(header_of(layout.columns) + '\n');
   }
 
-  [[nodiscard]] std::size_t kept() const override { return 0; }
-  void keep_only(std::size_t) override {}
+  [[nodiscard]] const KeptRows& kept() const override { return kept_; }
   [[nodiscard]] std::string part() const override { return ""; }
-  void append(std::string_view lines, const std::vector<std::vector<double>>&) override {
+  void append(std::string_view lines, std::size_t /*rows*/,
+              const std::vector<std::vector<double>>& /*there are none*/) override {
     file_.write(lines);
+    file_.flush();
   }
+  void interrupt() override { file_.commit(); }
   void finish(const Attributes&) override { file_.commit(); }
 
  private:
   AtomicFile file_;
+  KeptRows kept_;
 };
 
 class Csv : public CaseFile {
  public:
-  Csv(const std::string& target, const std::string& header, const std::string& plan, bool resume)
-      : file_(target, plan, header, resume) {}
-
-  [[nodiscard]] std::size_t kept() const override { return file_.kept(); }
-  void keep_only(std::size_t rows) override { file_.drop_lines_after(rows); }
-  [[nodiscard]] std::string part() const override { return file_.name(); }
-  void append(std::string_view lines, const std::vector<std::vector<double>>&) override {
-    file_.append(lines);
+  Csv(const std::string& target, CaseFileLayout layout, const std::string& plan, bool resume)
+      : layout_(std::move(layout)), part_(target, layout_, plan, resume) {
+    part_.take_up(std::numeric_limits<std::size_t>::max());
   }
-  void finish(const Attributes& /*CSV has no place for them*/) override { file_.commit(); }
+
+  [[nodiscard]] const KeptRows& kept() const override { return part_.kept(); }
+  [[nodiscard]] std::string part() const override {
+    return part_.file().in_place() ? part_.file().name() : "";
+  }
+  void append(std::string_view lines, std::size_t rows,
+              const std::vector<std::vector<double>>& /*there are none*/) override {
+    part_.append(lines, rows);
+  }
+  void interrupt() override { part_.file().sync(); }
+  void finish(const Attributes& /*CSV has no place for them*/) override {
+    part_.check_complete();
+    part_.file().commit(layout_.is_shard);
+  }
 
  private:
-  PartFile file_;
+  CaseFileLayout layout_;
+  CasePart part_;
 };
 
 }  // namespace
 
 std::unique_ptr<CaseFile> open_case_file(const std::string& target, CaseFileLayout layout,
                                          const std::string& plan, bool resume) {
-  const std::string header = header_of(layout.columns);
   const bool series = !layout.axis_values.empty();
   const auto refuse_series = [&] {
     if (series) {
@@ -75,18 +78,24 @@ std::unique_ptr<CaseFile> open_case_file(const std::string& target, CaseFileLayo
       throw InputError("cannot resume on " + target +
                        ": only a file in a folder keeps what was done");
     }
-    return std::make_unique<Stream>(target, header);
+    return std::make_unique<Stream>(target, layout);
   }
-  const std::string ending = std::filesystem::path(target).extension();
-  if (ending == ".h5" || ending == ".hdf5") {
-    return open_case_file_hdf5(target, std::move(layout), header, plan, resume);
+  switch (format_of(target)) {
+    case Format::hdf5:
+      return open_case_file_hdf5(target, std::move(layout), plan, resume);
+    case Format::csv:
+      refuse_series();
+      return std::make_unique<Csv>(target, std::move(layout), plan, resume);
+    case Format::other:
+      break;
   }
-  if (ending != ".csv") {
-    throw InputError("cannot tell the format of " + target +
-                     " by its name; allowed endings: .csv, .h5, .hdf5");
-  }
-  refuse_series();
-  return std::make_unique<Csv>(target, header, plan, resume);
+  throw InputError("cannot tell the format of " + target +
+                   " by its name; allowed endings: .csv, .h5, .hdf5");
+}
+
+std::vector<std::string> case_files_beside(const std::string& target) {
+  if (is_written_directly(target)) return {};
+  return PartFile::names_beside(target);
 }
 
 }  // namespace bbsim::record

@@ -8,15 +8,26 @@
 #include <string_view>
 #include <vector>
 
+#include "record/case_rows.hpp"
 #include "record/case_table.hpp"
 #include "record/table_writer.hpp"
 
 namespace bbsim::record {
 
 struct CaseFileLayout {
-  std::vector<CaseColumn> columns;  // numbers and texts, then series
+  std::vector<CaseColumn> columns;  // the case, then numbers and texts, then series
   CaseColumn axis{};                // of the series, if there are any
   std::vector<double> axis_values{};
+  // Which cases come, and in groups of how many they are computed, the last one less perhaps.
+  std::size_t first_case = 0, cases = 0, group = 1;
+  bool is_shard = false;  // a part of a sweep, to be merged: CSV keeps its plan beside it
+};
+
+// Rows that an earlier, unfinished run left.
+struct KeptRows {
+  std::size_t rows = 0;   // of the first cases, in whole groups
+  StatusCounts statuses;  // of these
+  std::string trouble;    // why not all that is there is kept, a sentence; empty if it is
 };
 
 // What a row of all columns but the series is: fields parted by commas (record/case_text.hpp) and
@@ -25,15 +36,15 @@ class CaseFile {
  public:
   virtual ~CaseFile() = default;
 
-  // Rows that an earlier, unfinished run left: those of the first cases.
-  [[nodiscard]] virtual std::size_t kept() const = 0;
-  // Keeps only so many of them.
-  virtual void keep_only(std::size_t rows) = 0;
-  // The part's name, empty if nothing stays of an unfinished run.
+  [[nodiscard]] virtual const KeptRows& kept() const = 0;
+  // The name of the part, empty if nothing stays of an unfinished run.
   [[nodiscard]] virtual std::string part() const = 0;
 
   // Some rows; of each series, rows * width numbers.
-  virtual void append(std::string_view lines, const std::vector<std::vector<double>>& series) = 0;
+  virtual void append(std::string_view lines, std::size_t rows,
+                      const std::vector<std::vector<double>>& series) = 0;
+  // For an end before all cases are there: what is there stays, whatever happens then.
+  virtual void interrupt() = 0;
   virtual void finish(const Attributes& attributes) = 0;
 };
 
@@ -44,5 +55,8 @@ class CaseFile {
 [[nodiscard]] std::unique_ptr<CaseFile> open_case_file(const std::string& target,
                                                        CaseFileLayout layout,
                                                        const std::string& plan, bool resume);
+
+// What is written beside the target until then; nothing where rows go as they come.
+[[nodiscard]] std::vector<std::string> case_files_beside(const std::string& target);
 
 }  // namespace bbsim::record

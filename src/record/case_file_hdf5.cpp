@@ -1,20 +1,13 @@
 #include "record/case_file_hdf5.hpp"
 
-#include <fcntl.h>
-#include <unistd.h>
-
 #include <algorithm>
-#include <cerrno>
-#include <charconv>
-#include <cstdlib>
-#include <filesystem>
-#include <fstream>
+#include <limits>
 #include <utility>
 
 #include "base/error.hpp"
-#include "record/atomic_file.hpp"
-#include "record/case_text.hpp"
-#include "record/part_file.hpp"
+#include "record/case_part.hpp"
+#include "record/hdf5_file.hpp"
+#include "record/series_part.hpp"
 
 namespace bbsim::record {
 namespace {
@@ -23,128 +16,64 @@ namespace {
 constexpr std::size_t most_bytes = std::size_t{1} << 22U;
 constexpr std::size_t most_rows = 1024;
 
-// The series of all cases so far, as plain numbers: of each case one series after the other.
-class SeriesPart {
- public:
-  SeriesPart(std::string name, std::size_t numbers_a_case, std::size_t cases_to_keep)
-      : name_(std::move(name)), numbers_(numbers_a_case) {
-    constexpr mode_t any_permissions = 0666;
-    descriptor_ = open(name_.c_str(), O_RDWR | O_CREAT | O_APPEND | O_CLOEXEC, any_permissions);
-    if (descriptor_ < 0) fail(errno);
-    const off_t size = lseek(descriptor_, 0, SEEK_END);
-    kept_ = std::min(cases_to_keep, static_cast<std::size_t>(size) / bytes());
-    keep_only(kept_);
-  }
-  ~SeriesPart() { close(descriptor_); }
-  SeriesPart(const SeriesPart&) = delete;
-  SeriesPart& operator=(const SeriesPart&) = delete;
-
-  [[nodiscard]] std::size_t kept() const { return kept_; }
-
-  void keep_only(std::size_t cases) {
-    if (ftruncate(descriptor_, static_cast<off_t>(cases * bytes())) != 0) fail(errno);
-  }
-
-  void append(const std::vector<double>& numbers) {
-    const char* from = reinterpret_cast<const char*>(numbers.data());
-    for (std::size_t left = numbers.size() * sizeof(double); left > 0;) {
-      const ssize_t written = write(descriptor_, from, left);
-      if (written < 0 && errno != EINTR) fail(errno);
-      if (written < 0) continue;
-      from += written;
-      left -= static_cast<std::size_t>(written);
-    }
-  }
-
-  // Cases first ... first + count - 1, as they were appended.
-  void read(std::size_t first, std::size_t count, std::vector<double>& numbers) const {
-    numbers.resize(count * numbers_);
-    char* to = reinterpret_cast<char*>(numbers.data());
-    auto place = static_cast<off_t>(first * bytes());
-    for (std::size_t left = count * bytes(); left > 0;) {
-      const ssize_t size = pread(descriptor_, to, left, place);
-      if (size < 0 && errno == EINTR) continue;
-      if (size <= 0) fail(size < 0 ? errno : EIO);
-      to += size;
-      place += size;
-      left -= static_cast<std::size_t>(size);
-    }
-  }
-
-  void remove() const { unlink(name_.c_str()); }
-
- private:
-  [[nodiscard]] std::size_t bytes() const { return numbers_ * sizeof(double); }
-  [[noreturn]] void fail(int error) const {
-    throw OutputError("cannot use " + name_ + ": " + error_text(error));
-  }
-
-  std::string name_;
-  std::size_t numbers_, kept_ = 0;
-  int descriptor_ = -1;
-};
-
 class Hdf5Cases : public CaseFile {
  public:
-  Hdf5Cases(const std::string& target, CaseFileLayout layout, const std::string& header,
-            const std::string& plan, bool resume)
-      : target_(target), layout_(std::move(layout)), part_(target, plan, header, resume) {
+  Hdf5Cases(const std::string& target, CaseFileLayout layout, const std::string& plan, bool resume)
+      : target_(target), layout_(std::move(layout)), part_(target, layout_, plan, resume) {
     for (const CaseColumn& column : layout_.columns) {
       if (column.kind == CaseKind::series) series_numbers_ += column.width;
     }
-    if (series_numbers_ == 0) return;
-    series_ = std::make_unique<SeriesPart>(part_.name() + ".series", series_numbers_, part_.kept());
-    part_.drop_lines_after(series_->kept());
+    std::size_t most = std::numeric_limits<std::size_t>::max();
+    if (series_numbers_ > 0) {
+      series_ = std::make_unique<SeriesPart>(part_.file().name() + ".series", series_numbers_,
+                                             part_.file().descriptor());
+      most = series_->count_kept();
+    }
+    part_.take_up(most);
+    if (series_) series_->keep_only(part_.kept().rows);
   }
   ~Hdf5Cases() override {
-    if (series_ && !part_.has_lines()) series_->remove();
+    if (series_ && !done_ && !part_.file().is_worth_keeping()) series_->remove();
   }
 
-  [[nodiscard]] std::size_t kept() const override { return part_.kept(); }
-  void keep_only(std::size_t rows) override {
-    part_.drop_lines_after(rows);
-    if (series_) series_->keep_only(part_.kept());
+  [[nodiscard]] const KeptRows& kept() const override { return part_.kept(); }
+  [[nodiscard]] std::string part() const override {
+    return part_.file().in_place() ? part_.file().name() : "";
   }
-  [[nodiscard]] std::string part() const override { return part_.name(); }
 
-  void append(std::string_view lines, const std::vector<std::vector<double>>& series) override {
-    if (series_) {
-      const std::size_t cases = series[0].size() / layout_.axis_values.size();
-      std::vector<double> numbers;
-      numbers.reserve(cases * series_numbers_);
-      for (std::size_t i = 0; i < cases; ++i) {
-        for (const auto& column : series) {
-          const std::size_t width = column.size() / cases;
-          const auto from = column.begin() + static_cast<std::ptrdiff_t>(i * width);
-          numbers.insert(numbers.end(), from, from + static_cast<std::ptrdiff_t>(width));
-        }
-      }
-      series_->append(numbers);  // before the lines, which say how many cases there are
-    }
-    part_.append(lines);
+  void append(std::string_view lines, std::size_t rows,
+              const std::vector<std::vector<double>>& series) override {
+    if (series_) series_->append(series, rows);  // before the lines, which say how many there are
+    part_.append(lines, rows);
+  }
+
+  void interrupt() override {
+    if (series_) series_->sync();
+    part_.file().sync();
   }
 
   void finish(const Attributes& attributes) override {
     std::vector<CaseAxis> axes;
     if (series_) axes.emplace_back(layout_.axis, layout_.axis_values);
     CaseTableWriter writer(target_, layout_.columns, axes);
-    std::ifstream lines(part_.name(), std::ios::binary);
-    std::string line;
-    std::getline(lines, line);  // the header
-    const std::size_t rows =
-        series_ ? std::clamp<std::size_t>(most_bytes / (8 * series_numbers_), 1, most_rows)
-                : most_rows;
+    const std::size_t at_once =
+        series_
+            ? std::clamp<std::size_t>(most_bytes / (sizeof(double) * series_numbers_), 1, most_rows)
+            : most_rows;
     CaseBlock block;
     clear(block);
-    std::size_t first = 0;
-    while (std::getline(lines, line)) {
-      add_line(line, block);
-      if (++block.rows == rows) hand_on(writer, block, first);
-    }
-    if (block.rows > 0) hand_on(writer, block, first);
+    std::size_t written = 0;
+    const std::size_t read = part_.read([&](const RowReader& row) {
+      add_row(row, block);
+      if (++block.rows == at_once) written += hand_on(writer, block, written);
+    });
+    if (block.rows > 0) written += hand_on(writer, block, written);
+    part_.check_complete(read);
+    part_.check_complete(written);
     writer.finish(attributes);
+    done_ = true;
     if (series_) series_->remove();
-    part_.discard();
+    part_.file().discard();
   }
 
  private:
@@ -154,34 +83,20 @@ class Hdf5Cases : public CaseFile {
     block.texts.assign(layout_.columns.size(), {});
   }
 
-  void add_line(const std::string& line, CaseBlock& block) {
-    const bool whole = split_fields(line, fields_);
-    std::size_t next = 0;
+  void add_row(const RowReader& row, CaseBlock& block) const {
+    std::size_t field = 0;
     for (std::size_t c = 0; c < layout_.columns.size(); ++c) {
       if (layout_.columns[c].kind == CaseKind::series) continue;
-      if (!whole || next == fields_.size()) {
-        throw OutputError(part_.name() + ": a row is not as it was written");
-      }
-      const std::string& field = fields_[next++];
       if (layout_.columns[c].kind == CaseKind::text) {
-        block.texts[c].push_back(field);
+        block.texts[c].push_back(row.text(field++));
       } else {
-        block.values[c].push_back(number_of(field));
+        block.values[c].push_back(row.number(field++));
       }
     }
   }
 
-  // nan and inf are among what std::to_chars writes and from_chars reads.
-  [[nodiscard]] double number_of(const std::string& field) const {
-    double value = 0;
-    const auto result = std::from_chars(field.data(), field.data() + field.size(), value);
-    if (result.ec != std::errc{} || result.ptr != field.data() + field.size()) {
-      throw OutputError(part_.name() + ": found " + field + " for a number");
-    }
-    return value;
-  }
-
-  void hand_on(CaseTableWriter& writer, CaseBlock& block, std::size_t& first) {
+  // Returns the number of rows, of which `first` is the first one.
+  std::size_t hand_on(CaseTableWriter& writer, CaseBlock& block, std::size_t first) {
     if (series_) {
       series_->read(first, block.rows, numbers_);
       std::size_t offset = 0;
@@ -197,26 +112,27 @@ class Hdf5Cases : public CaseFile {
         offset += width;
       }
     }
+    const std::size_t rows = block.rows;
     writer.append(block);
-    first += block.rows;
     clear(block);
+    return rows;
   }
 
   std::string target_;
   CaseFileLayout layout_;
-  PartFile part_;
+  CasePart part_;
   std::size_t series_numbers_ = 0;  // a case
   std::unique_ptr<SeriesPart> series_;
-  std::vector<std::string> fields_;
   std::vector<double> numbers_;
+  bool done_ = false;
 };
 
 }  // namespace
 
 std::unique_ptr<CaseFile> open_case_file_hdf5(const std::string& target, CaseFileLayout layout,
-                                              const std::string& header, const std::string& plan,
-                                              bool resume) {
-  return std::make_unique<Hdf5Cases>(target, std::move(layout), header, plan, resume);
+                                              const std::string& plan, bool resume) {
+  require_hdf5(target);  // before any case is run
+  return std::make_unique<Hdf5Cases>(target, std::move(layout), plan, resume);
 }
 
 }  // namespace bbsim::record

@@ -12,7 +12,6 @@ namespace bbsim::record {
 // plain numbers; finish() makes the HDF5 file of them.
 [[nodiscard]] std::unique_ptr<CaseFile> open_case_file_hdf5(const std::string& target,
                                                             CaseFileLayout layout,
-                                                            const std::string& header,
                                                             const std::string& plan, bool resume);
 
 }  // namespace bbsim::record

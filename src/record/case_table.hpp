@@ -55,8 +55,8 @@ class CaseTableWriter {
   // another shape than the columns' is an error.
   void append(const CaseBlock& block);
 
-  // Completes the file, with attributes of its root, and puts it under its final name. Without
-  // this call nothing stays.
+  // Completes the file, with attributes of its root, and puts it under its final name, where it
+  // survives a power cut. Without this call nothing stays.
   void finish(const Attributes& attributes);
 
  private:

@@ -79,7 +79,7 @@ Hdf5Output open_output(const std::string& target, const std::vector<CaseColumn>&
     described_columns.push_back(described(column, kind_of(column.kind),
                                           column.kind == CaseKind::series ? column.width : 1));
   }
-  return {target, described_columns};
+  return {target, described_columns, Durable::yes};
 }
 
 }  // namespace

@@ -22,10 +22,11 @@ const bbsim_hdf5_module& module_to_write(const std::string& target) {
 
 }  // namespace
 
-Hdf5Output::Hdf5Output(const std::string& target, std::span<const bbsim_hdf5_column> columns)
+Hdf5Output::Hdf5Output(const std::string& target, std::span<const bbsim_hdf5_column> columns,
+                       Durable durable)
     : target_(target),
       module_(module_to_write(target)),
-      file_(target),
+      file_(target, durable),
       writer_(nullptr, module_.destroy) {
   bbsim_hdf5_error error{};
   writer_.reset(module_.create(file_.descriptor(), columns.data(), columns.size(), &error));
@@ -53,6 +54,10 @@ void Hdf5Output::finish(const Attributes& attributes) {
   if (module_.finish(writer_.get(), pairs.data(), pairs.size(), &error) != 0) fail(error);
   writer_.reset();
   file_.commit();
+}
+
+void require_hdf5(const std::string& target) {
+  static_cast<void>(module_to_write(target));
 }
 
 void Hdf5Output::check_open() const {

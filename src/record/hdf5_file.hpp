@@ -18,7 +18,8 @@ namespace bbsim::record {
 class Hdf5Output {
  public:
   // Throws here, before any work is done, if the target cannot be written to.
-  Hdf5Output(const std::string& target, std::span<const bbsim_hdf5_column> columns);
+  Hdf5Output(const std::string& target, std::span<const bbsim_hdf5_column> columns,
+             Durable durable = Durable::no);
 
   void write_axis(const bbsim_hdf5_column& axis, const double* values);
   void append(const bbsim_hdf5_values* columns, std::size_t rows);
@@ -34,6 +35,9 @@ class Hdf5Output {
   AtomicFile file_;  // outlives writer_, which writes to its descriptor
   std::unique_ptr<bbsim_hdf5_writer, void (*)(bbsim_hdf5_writer*)> writer_;
 };
+
+// Throws OutputError if this program cannot write HDF5.
+void require_hdf5(const std::string& target);
 
 // A file that is read. Every function throws InputError.
 class Hdf5Input {

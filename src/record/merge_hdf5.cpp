@@ -1,9 +1,11 @@
 #include "record/merge_hdf5.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "base/error.hpp"
 #include "record/case_table.hpp"
+#include "record/merge_text.hpp"
 
 namespace bbsim::record {
 namespace {
@@ -11,6 +13,8 @@ namespace {
 // Numbers of series in memory at a time, about.
 constexpr std::size_t most_numbers = std::size_t{1} << 19U;
 constexpr std::size_t most_rows = 1024;
+
+constexpr const char* instruction_set = "instruction_set";
 
 struct Part {
   std::string file;
@@ -24,19 +28,48 @@ std::size_t rows_at_a_time(const std::vector<CaseColumn>& columns) {
   return std::clamp<std::size_t>(most_numbers / widest, 1, most_rows);
 }
 
+std::size_t case_in(const std::string& file, double number) {
+  constexpr double most = 9007199254740992;  // up to where doubles tell whole numbers apart
+  if (number >= 0 && number <= most && number == std::floor(number)) {
+    return static_cast<std::size_t>(number);
+  }
+  throw InputError(file +
+                   ": found a case that is no whole number; allowed: what bbsim sweep writes");
+}
+
+Attributes without_instruction_set(const Attributes& all) {
+  Attributes rest;
+  for (const auto& attribute : all) {
+    if (attribute.first != instruction_set) rest.push_back(attribute);
+  }
+  return rest;
+}
+
+InstructionSets instruction_sets_of(const std::vector<Part>& parts) {
+  InstructionSets all;
+  for (const Part& part : parts) {
+    for (const auto& [name, value] : part.table.attributes()) {
+      if (name == instruction_set) all.add(value);
+    }
+  }
+  return all;
+}
+
 }  // namespace
 
-std::size_t merge_hdf5(const std::vector<std::string>& files, const std::string& target) {
+Merged merge_hdf5(const std::vector<std::string>& files, const std::string& target,
+                  const std::atomic<bool>& stop) {
   std::vector<Part> parts;
   CaseBlock block;
   for (const std::string& file : files) {
     Part part{file, CaseTableReader(file), 0};
-    if (part.table.columns().empty() || part.table.columns()[0].name != "case") {
+    if (part.table.columns().empty() || part.table.columns()[0].name != "case" ||
+        part.table.columns()[0].kind != CaseKind::number) {
       throw InputError(file + ": found no column case first; allowed: what bbsim sweep writes");
     }
     if (part.table.rows() > 0) {
       part.table.read(0, 1, block);
-      part.first = static_cast<std::size_t>(block.values[0][0]);
+      part.first = case_in(file, block.values[0][0]);
     }
     parts.push_back(std::move(part));
   }
@@ -44,34 +77,46 @@ std::size_t merge_hdf5(const std::vector<std::string>& files, const std::string&
                    [](const Part& a, const Part& b) { return a.first < b.first; });
 
   const CaseTableReader& model = parts.front().table;
-  CaseTableWriter out(target, model.columns(), model.axes());
-  std::size_t next = 0;
+  const InstructionSets instruction_sets = instruction_sets_of(parts);
+  const Attributes common = without_instruction_set(model.attributes());
   for (const Part& part : parts) {
-    if (part.table.columns() != model.columns() || part.table.axes() != model.axes() ||
-        part.table.attributes() != model.attributes()) {
-      throw InputError(part.file + ": found other columns or another scenario than in " +
-                       parts.front().file + "; allowed: parts of one sweep");
+    if (part.table.columns() == model.columns() && part.table.axes() == model.axes() &&
+        without_instruction_set(part.table.attributes()) == common) {
+      continue;
     }
-    const std::size_t rows = rows_at_a_time(model.columns());
+    throw InputError(part.file + ": found other columns or another scenario than in " +
+                     parts.front().file + "; allowed: parts of one sweep");
+  }
+
+  CaseTableWriter out(target, model.columns(), model.axes());
+  Merged merged{0, false, instruction_sets.note()};
+  const std::size_t rows = rows_at_a_time(model.columns());
+  for (const Part& part : parts) {
     for (std::size_t first = 0; first < part.table.rows(); first += rows) {
+      if (stop.load(std::memory_order_relaxed)) {
+        merged.interrupted = true;
+        return merged;
+      }
       part.table.read(first, rows, block);
-      for (std::size_t i = 0; i < block.rows; ++i, ++next) {
-        if (block.values[0][i] == static_cast<double>(next)) continue;
-        throw InputError(part.file + ": found case " +
-                         std::to_string(static_cast<std::size_t>(block.values[0][i])) +
-                         " where case " + std::to_string(next) +
-                         " should come; allowed: every case of the sweep once");
+      if (block.rows != std::min(rows, part.table.rows() - first)) {
+        throw InputError("cannot read " + part.file + ": fewer rows came than it has");
+      }
+      for (std::size_t i = 0; i < block.rows; ++i, ++merged.cases) {
+        check_case(part.file, case_in(part.file, block.values[0][i]), merged.cases);
       }
       out.append(block);
     }
   }
-  for (const auto& [name, value] : model.attributes()) {
-    if (name != "cases" || value == std::to_string(next)) continue;
-    throw InputError("found " + std::to_string(next) + " cases of " + value +
-                     "; allowed: all parts of the sweep");
+  Attributes attributes = model.attributes();
+  for (auto& [name, value] : attributes) {
+    if (name == "cases" && value != std::to_string(merged.cases)) {
+      throw InputError("found " + std::to_string(merged.cases) + " cases of " + value +
+                       "; allowed: all parts of the sweep");
+    }
+    if (name == instruction_set) value = instruction_sets.names();
   }
-  out.finish(model.attributes());
-  return next;
+  out.finish(attributes);
+  return merged;
 }
 
 }  // namespace bbsim::record

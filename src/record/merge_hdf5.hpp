@@ -1,13 +1,11 @@
 // The HDF5 side of merge.hpp.
 #pragma once
 
-#include <cstddef>
-#include <string>
-#include <vector>
+#include "record/merge.hpp"
 
 namespace bbsim::record {
 
-[[nodiscard]] std::size_t merge_hdf5(const std::vector<std::string>& parts,
-                                     const std::string& target);
+[[nodiscard]] Merged merge_hdf5(const std::vector<std::string>& parts, const std::string& target,
+                                const std::atomic<bool>& stop);
 
 }  // namespace bbsim::record

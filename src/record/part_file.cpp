@@ -2,189 +2,207 @@
 
 #include <fcntl.h>
 #include <sys/file.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
-#include <filesystem>
-#include <fstream>
-#include <iterator>
+#include <cstdio>
+#include <utility>
 
 #include "base/error.hpp"
 #include "record/atomic_file.hpp"
+#include "record/own_file.hpp"
+#include "record/plan_text.hpp"
 
 namespace bbsim::record {
-namespace {
 
-std::string content_of(const std::string& file) {
-  std::ifstream stream(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(stream), {}};
-}
-
-// Where the file is that a link stands for, be it there or not.
-std::string behind_links(std::filesystem::path path) {
-  constexpr int most_links = 40;
-  for (int i = 0; i < most_links && std::filesystem::is_symlink(path); ++i) {
-    path = path.parent_path() / std::filesystem::read_symlink(path);
-  }
-  return path;
-}
-
-// Reads a file in pieces; `use` gets each piece and its place, and ends it by returning false.
-template <class Use>
-void read_pieces(int descriptor, Use use) {
-  std::array<char, 65536> buffer;
-  off_t place = 0;
-  for (;;) {
-    const ssize_t size = pread(descriptor, buffer.data(), buffer.size(), place);
-    if (size < 0 && errno == EINTR) continue;
-    if (size <= 0) return;
-    if (!use(std::string_view(buffer.data(), static_cast<std::size_t>(size)), place)) return;
-    place += size;
-  }
-}
-
-// Where the line of that number ends, counted from 0; -1 where there are fewer.
-off_t end_of_line(int descriptor, std::size_t number) {
-  off_t end = -1;
-  std::size_t lines = 0;
-  read_pieces(descriptor, [&](std::string_view piece, off_t place) {
-    for (std::size_t i = 0; i < piece.size(); ++i) {
-      if (piece[i] != '\n' || lines++ < number) continue;
-      end = place + static_cast<off_t>(i) + 1;
-      return false;
-    }
-    return true;
-  });
-  return end;
-}
-
-}  // namespace
-
-PartFile::PartFile(const std::string& target, const std::string& plan, const std::string& header,
-                   bool resume)
-    : target_(behind_links(target)), part_(target_ + ".part"), plan_(target_ + ".plan") {
-  if (std::filesystem::is_directory(target_)) {
-    throw OutputError("cannot write " + target_ + ": is a directory; choose another name");
-  }
-  constexpr mode_t any_permissions = 0666;  // the umask takes away what it should
-  descriptor_ = ::open(part_.c_str(), O_RDWR | O_CREAT | O_APPEND | O_CLOEXEC, any_permissions);
-  if (descriptor_ < 0) {
-    throw OutputError("cannot write " + part_ + ": " + error_text(errno) +
-                      "; write to a folder that is there, and where you may");
-  }
+PartFile::PartFile(const std::string& target, std::string plan, bool resume)
+    : target_(find_target(target)),
+      part_(target_.path + ".part"),
+      plan_(target_.path + ".plan"),
+      plan_text_(std::move(plan)) {
+  open_and_lock();
   try {
-    // Before anything else: the plan of a part belongs to whoever writes to the part.
-    if (flock(descriptor_, LOCK_EX | LOCK_NB) != 0) {
-      throw InputError(part_ +
-                       ": another bbsim is writing to it; wait for its end, or choose "
-                       "another name with -o");
-    }
-    if (std::filesystem::file_size(part_) > 0) {
-      check_plan(plan, resume);
+    if (size_ > 0) {
+      worth_keeping_ = true;
+      check_plan(resume);
+      plan_descriptor_ = std::move(open_own_file(plan_).descriptor);
     } else {
-      AtomicFile file(plan_);
-      file.write(plan);
-      file.commit();
+      write_plan();
     }
-    take_up(header);
+    if (target_.found) {
+      if (const int error = take_after(descriptor_.get(), *target_.found)) fail("write", error);
+    }
   } catch (...) {
-    close(descriptor_);
+    if (!worth_keeping_) discard();  // no destructor runs for a constructor that throws
     throw;
   }
+  flusher_ = Flusher(size_);
+}
+
+PartFile::~PartFile() {
+  if (descriptor_.is_open() && !worth_keeping_) discard();
+}
+
+std::vector<std::string> PartFile::names_beside(const std::string& target) {
+  const std::string path = follow_links(target).value_or(target);
+  return {path + ".part", path + ".plan", path + ".part.series"};
+}
+
+// Before anything else: the plan of a part belongs to whoever writes to the part.
+void PartFile::open_and_lock() {
+  constexpr int most_attempts = 100;  // while other processes begin and end
+  for (int attempt = 0; attempt < most_attempts; ++attempt) {
+    descriptor_ = std::move(open_own_file(part_).descriptor);
+    int locked = 0;
+    do {
+      locked = flock(descriptor_.get(), LOCK_EX | LOCK_NB);
+    } while (locked != 0 && errno == EINTR);
+    if (locked != 0 && errno == EWOULDBLOCK) {
+      throw InputError(part_ +
+                       ": another bbsim is writing to it; wait for its end, or choose another name "
+                       "with -o");
+    }
+    // Some file systems of clusters know no locks; what they are for is seldom.
+    if (locked != 0 && errno != ENOSYS && errno != ENOLCK && errno != EOPNOTSUPP) {
+      fail("lock", errno);
+    }
+    if (!is_name_of(part_, descriptor_.get())) continue;  // another process just finished with it
+    struct stat status {};
+    if (fstat(descriptor_.get(), &status) != 0) fail("look at", errno);
+    size_ = status.st_size;
+    return;
+  }
+  fail("lock", EBUSY);
 }
 
 // Of a part that was there before.
-void PartFile::check_plan(const std::string& plan, bool resume) const {
+void PartFile::check_plan(bool resume) const {
   if (!resume) {
     throw InputError(part_ +
                      ": found, of a sweep that did not end; add --resume to go on with it, or "
                      "remove it to begin anew");
   }
-  if (!std::filesystem::exists(plan_)) {
+  const OwnText found = read_own_file(plan_);
+  if (!found.there) {
     throw InputError(part_ + ": found without " + plan_ +
                      ", which would say what it is of; remove it to begin anew");
   }
-  if (content_of(plan_) != plan) {
-    throw InputError(part_ + ": of another sweep than this one, says " + plan_ +
+  if (found.text == plan_text_) return;
+  const PlanDifference difference = compare_plans(found.text, plan_text_);
+  if (!difference.other.empty()) {
+    throw InputError(part_ + ": of another sweep than this one, says " + plan_ + ", by its " +
+                     difference.other +
                      "; allowed with --resume: the same scenario, tables, keys, seed, measures and "
                      "shard, by the same version of bbsim");
   }
+  throw InputError(part_ + ": begun with the instruction set " + difference.instruction_sets[0] +
+                   ", and this is " + difference.instruction_sets[1] +
+                   ", whose results differ in the last digits; go on where the first is to be had "
+                   "(BBSIM_SIMD=" +
+                   difference.instruction_sets[0] + "), or remove it to begin anew");
 }
 
-void PartFile::take_up(const std::string& header) {
-  std::size_t lines = 0;
-  off_t end = 0;
-  std::string first;
-  read_pieces(descriptor_, [&](std::string_view piece, off_t place) {
-    for (std::size_t i = 0; i < piece.size(); ++i) {
-      if (lines == 0 && piece[i] != '\n') first += piece[i];
-      if (piece[i] != '\n') continue;
-      ++lines;
-      end = place + static_cast<off_t>(i) + 1;
+void PartFile::write_plan() {
+  plan_descriptor_ = std::move(open_own_file(plan_).descriptor);
+  int error = ftruncate(plan_descriptor_.get(), 0) == 0 ? 0 : errno;
+  if (error == 0 && target_.found) error = take_after(plan_descriptor_.get(), *target_.found);
+  if (error == 0) error = write_all(plan_descriptor_.get(), plan_text_);
+  if (error != 0) fail_to_write(plan_, error);
+}
+
+bool PartFile::in_place() const {
+  return is_name_of(part_, descriptor_.get());
+}
+
+void PartFile::keep_only(off_t size) {
+  if (size == size_) return;
+  if (ftruncate(descriptor_.get(), size) != 0) fail("shorten", errno);
+  size_ = size;
+  flusher_ = Flusher(size_);
+}
+
+void PartFile::append(std::string_view bytes) {
+  if (const int error = write_all(descriptor_.get(), bytes)) fail("write", error);
+  size_ += static_cast<off_t>(bytes.size());
+  const Flusher::Due due = flusher_.due(size_);
+  if (due == Flusher::Due::nothing) return;
+  sync_names();
+  if (const int error = flusher_.perform(due, descriptor_.get(), size_)) fail("sync", error);
+}
+
+// Before any row is on the disk, so that no row is without its plan.
+void PartFile::sync_names() {
+  if (names_synced_) return;
+  int error = sync_content(plan_descriptor_.get());
+  if (error == 0) error = sync_folder(target_.folder());
+  if (error != 0) fail("sync", error);
+  names_synced_ = true;
+}
+
+void PartFile::sync() {
+  sync_names();
+  if (const int error = flusher_.perform(Flusher::Due::sync, descriptor_.get(), size_)) {
+    fail("sync", error);
+  }
+}
+
+void PartFile::check_size() const {
+  struct stat status {};
+  if (fstat(descriptor_.get(), &status) != 0) fail("look at", errno);
+  if (status.st_size == size_) return;
+  throw OutputError(
+      "cannot complete " + part_ + ": found " + std::to_string(status.st_size) + " bytes where " +
+      std::to_string(size_) +
+      " were written: something else has changed it; remove it, and run the sweep again");
+}
+
+void PartFile::commit(bool keep_plan) {
+  check_size();
+  if (const int error = sync_content(descriptor_.get())) fail("sync", error);
+  const bool in_its_place = in_place();
+  if (in_its_place) {
+    struct stat status {};
+    if (lstat(target_.path.c_str(), &status) == 0 && S_ISREG(status.st_mode)) {
+      if (const int error = take_after(descriptor_.get(), status)) fail("write", error);
     }
-    return true;
-  });
-  if (lines > 0 && first == header) {
-    kept_ = lines - 1;
+    if (std::rename(part_.c_str(), target_.path.c_str()) != 0) fail("rename", errno);
+    if (!keep_plan) remove_own_file(plan_, plan_descriptor_.get());
+    if (const int error = sync_folder(target_.folder())) fail("sync the folder of", error);
   } else {
-    end = 0;
+    copy_to_target();  // the names beside it are another sweep's now, if they are there
   }
-  if (ftruncate(descriptor_, end) != 0) fail("shorten", errno);
-  has_lines_ = kept_ > 0;
-  if (end == 0) {
-    append(header + '\n');
-    has_lines_ = false;
+  if (const int error = descriptor_.close()) fail("write", error);  // and unlocked, at last
+}
+
+void PartFile::copy_to_target() const {
+  AtomicFile copy(target_.path, Durable::yes);
+  std::array<char, 65536> buffer;
+  for (off_t place = 0; place < size_;) {
+    const auto left = static_cast<std::size_t>(size_ - place);
+    const ssize_t size =
+        read_at(descriptor_.get(), buffer.data(), std::min(buffer.size(), left), place);
+    if (size <= 0) fail("read", size < 0 ? errno : EIO);
+    copy.write({buffer.data(), static_cast<std::size_t>(size)});
+    place += size;
   }
-}
-
-void PartFile::drop_lines_after(std::size_t lines) {
-  if (lines >= kept_) return;
-  const off_t end = end_of_line(descriptor_, lines);
-  if (end < 0 || ftruncate(descriptor_, end) != 0) fail("shorten", errno);
-  kept_ = lines;
-  has_lines_ = lines > 0;
-}
-
-PartFile::~PartFile() {
-  if (descriptor_ < 0) return;
-  close(descriptor_);
-  if (!has_lines_) discard();
-}
-
-void PartFile::append(std::string_view lines) {
-  has_lines_ = true;
-  while (!lines.empty()) {
-    const ssize_t written = ::write(descriptor_, lines.data(), lines.size());
-    if (written >= 0) {
-      lines.remove_prefix(static_cast<std::size_t>(written));
-    } else if (errno != EINTR) {
-      fail("write", errno);
-    }
-  }
-}
-
-void PartFile::commit() {
-  std::error_code error;
-  std::filesystem::rename(part_, target_, error);
-  if (error) fail("rename", error.value());
-  std::filesystem::remove(plan_, error);
-  const int closed = close(descriptor_);  // and unlocked, once the part is gone
-  descriptor_ = -1;
-  if (closed != 0) fail("write", errno);
+  copy.commit();
 }
 
 void PartFile::discard() {
-  if (descriptor_ >= 0) close(descriptor_);
-  descriptor_ = -1;
-  std::error_code ignored;
-  std::filesystem::remove(part_, ignored);
-  std::filesystem::remove(plan_, ignored);
+  if (!descriptor_.is_open()) return;
+  if (in_place()) {  // otherwise the plan is another sweep's
+    remove_own_file(part_, descriptor_.get());
+    if (plan_descriptor_.is_open()) remove_own_file(plan_, plan_descriptor_.get());
+  }
+  descriptor_.close();
 }
 
 void PartFile::fail(const std::string& doing, int error) const {
   throw OutputError("cannot " + doing + ' ' + part_ + ": " + error_text(error) +
-                    "; what it holds can be gone on with by --resume");
+                    (size_ > 0 ? "; what it holds can be gone on with by --resume" : ""));
 }
 
 }  // namespace bbsim::record

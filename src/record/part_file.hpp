@@ -1,54 +1,77 @@
 // A file that grows over a long run, stays when the run ends early, and can be taken up again.
 #pragma once
 
-#include <cstddef>
+#include <sys/types.h>
+
 #include <string>
 #include <string_view>
+#include <vector>
+
+#include "record/descriptor.hpp"
+#include "record/flusher.hpp"
+#include "record/target.hpp"
 
 namespace bbsim::record {
 
-// Lines go to TARGET.part, beside the file itself if the target is a link; beside it TARGET.plan
+// Bytes go to TARGET.part, beside the file itself if the target is a link; beside it TARGET.plan
 // says what is being done, so that nothing else is taken up in its place. commit() gives the part
-// its final name and removes the plan. Destroyed without it, both stay, but for a part without a
-// line beside its header.
+// its final name. Destroyed without it, both stay, unless there is nothing in the part that was
+// worth keeping. The part is locked, and read through the same descriptor: what happens to its name
+// meanwhile cannot change what becomes of it.
 //
 // Every function throws OutputError where the system refuses something.
 class PartFile {
  public:
-  // A part that is there already is an InputError, unless `resume` is set and its plan is the same:
-  // then its complete lines are kept. A part that another process writes to is an InputError too.
-  // `header` is the first line, without its line break.
-  PartFile(const std::string& target, const std::string& plan, const std::string& header,
-           bool resume);
+  // A part that is there already is an InputError, unless `resume` is set and its plan is the same.
+  // A part that another process writes to is an InputError too.
+  PartFile(const std::string& target, std::string plan, bool resume);
   ~PartFile();
   PartFile(const PartFile&) = delete;
   PartFile& operator=(const PartFile&) = delete;
 
-  // Lines below the header that were kept.
-  [[nodiscard]] std::size_t kept() const { return kept_; }
+  // All names that a sweep to this target writes to, but for the target's own.
+  [[nodiscard]] static std::vector<std::string> names_beside(const std::string& target);
+
   [[nodiscard]] const std::string& name() const { return part_; }
-  // Whether there is anything below the header.
-  [[nodiscard]] bool has_lines() const { return has_lines_; }
+  [[nodiscard]] int descriptor() const { return descriptor_.get(); }
+  // Bytes that were kept and appended.
+  [[nodiscard]] off_t size() const { return size_; }
+  // Whether the part still has its name.
+  [[nodiscard]] bool in_place() const;
 
-  // Keeps only so many of the lines that were kept.
-  void drop_lines_after(std::size_t lines);
+  void keep_only(off_t size);
+  // Handed to the system at once, and to the disk within seconds.
+  void append(std::string_view bytes);
+  // Says whether the part is to stay should the run end early.
+  void set_worth_keeping(bool worth) { worth_keeping_ = worth; }
+  [[nodiscard]] bool is_worth_keeping() const { return worth_keeping_; }
+  // What is there now survives a power cut.
+  void sync();
 
-  // Some whole lines; handed to the system at once.
-  void append(std::string_view lines);
-
-  void commit();
+  // Puts the part under the target's name, with the permissions of what it replaces; should the
+  // part have lost its own name, a copy of it. The plan goes, unless it is to stay beside the
+  // result.
+  void commit(bool keep_plan);
   // Removes part and plan: what they hold is elsewhere now.
   void discard();
 
- private:
-  void check_plan(const std::string& plan, bool resume) const;
-  void take_up(const std::string& header);
+  // Throws OutputError for an errno that something met.
   [[noreturn]] void fail(const std::string& doing, int error) const;
 
-  std::string target_, part_, plan_;
-  int descriptor_ = -1;
-  std::size_t kept_ = 0;
-  bool has_lines_ = false;
+ private:
+  void open_and_lock();
+  void check_plan(bool resume) const;
+  void write_plan();
+  void sync_names();
+  void copy_to_target() const;
+  void check_size() const;
+
+  Target target_;
+  std::string part_, plan_, plan_text_;
+  Descriptor descriptor_, plan_descriptor_;
+  off_t size_ = 0;
+  Flusher flusher_;
+  bool worth_keeping_ = false, names_synced_ = false;
 };
 
 }  // namespace bbsim::record

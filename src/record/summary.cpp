@@ -12,6 +12,7 @@ namespace {
 template <class Add>
 void for_each_member(const RunSummary& summary, Add add) {
   add("version", summary.version);
+  add("instruction_set", summary.instruction_set);
   add("scenario", summary.scenario);
   add("title", summary.title);
   add("overrides", summary.overrides);

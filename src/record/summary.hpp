@@ -31,7 +31,8 @@ struct MotorPeaks {
 
 struct RunSummary {
   std::string version;
-  std::string scenario;  // its file, as the user named it
+  std::string instruction_set;  // that the kernels are for, such as avx2
+  std::string scenario;         // its file, as the user named it
   std::string title;
   std::vector<std::string> overrides;  // each "key.path=value"
   std::string status;                  // done, failed, interrupted or stopped

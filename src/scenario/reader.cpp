@@ -67,6 +67,23 @@ Scenario parse_scenario(const std::string& text, const std::string& name,
   return scenario;
 }
 
+std::vector<std::string> table_files(const Scenario& scenario) {
+  const auto folder = std::filesystem::path(scenario.source.file).parent_path();
+  std::vector<std::string> files;
+  if (scenario.gimbal.motion) {
+    for (const Profile* profile : {&scenario.gimbal.motion->phi, &scenario.gimbal.motion->theta}) {
+      for (const ProfileTerm& term : *profile) {
+        if (const Table* table = std::get_if<Table>(&term)) files.push_back(folder / table->file);
+      }
+    }
+  }
+  if (scenario.controller) {
+    const auto* table = std::get_if<TableReference>(&scenario.controller->reference);
+    if (table != nullptr) files.push_back(folder / table->file);
+  }
+  return files;
+}
+
 Scenario read_scenario(const std::string& file, const std::vector<std::string>& overrides) {
   return parse_scenario(read_text(file), file, overrides);
 }

@@ -20,4 +20,7 @@ namespace bbsim {
 [[nodiscard]] Scenario parse_scenario(const std::string& text, const std::string& name,
                                       const std::vector<std::string>& overrides = {});
 
+// The table files that a scenario names, as they are opened.
+[[nodiscard]] std::vector<std::string> table_files(const Scenario& scenario);
+
 }  // namespace bbsim

@@ -30,18 +30,32 @@ void redirect(int target, const std::string& file) {
   close(descriptor);
 }
 
+bool is_running(pid_t child) {
+  siginfo_t ended{};
+  return waitid(P_PID, static_cast<id_t>(child), &ended, WEXITED | WNOHANG | WNOWAIT) == 0 &&
+         ended.si_pid == 0;
+}
+
 }  // namespace
 
 Result bbsim(const Launch& launch) {
   const Folder streams;
   const std::string out = streams / "out", err = streams / "err";
   const auto start = std::chrono::steady_clock::now();
+  // A signal that comes early waits for the program, and does not meet what handles it here.
+  sigset_t all, before;
+  sigfillset(&all);
+  sigprocmask(SIG_BLOCK, &all, &before);
   const pid_t child = fork();
+  if (child != 0) sigprocmask(SIG_SETMASK, &before, nullptr);
   if (child < 0) throw std::runtime_error("cannot fork");
   if (child == 0) {
+    for (const int signal : {SIGINT, SIGTERM, SIGHUP}) (void)std::signal(signal, SIG_DFL);
+    sigprocmask(SIG_SETMASK, &before, nullptr);
     redirect(STDOUT_FILENO, out);
     redirect(STDERR_FILENO, err);
     if (!launch.folder.empty() && chdir(launch.folder.c_str()) != 0) _exit(126);
+    if (launch.prepare) launch.prepare();
     std::vector<std::string> words{BBSIM_PROGRAM};
     words.insert(words.end(), launch.arguments.begin(), launch.arguments.end());
     std::vector<char*> pointers;
@@ -51,7 +65,13 @@ Result bbsim(const Launch& launch) {
     _exit(127);
   }
   if (launch.signal != 0) {
-    std::this_thread::sleep_for(launch.signal_after);
+    if (launch.signal_when) {
+      while (!launch.signal_when() && is_running(child)) {
+        std::this_thread::sleep_for(std::chrono::milliseconds(2));
+      }
+    } else {
+      std::this_thread::sleep_for(launch.signal_after);
+    }
     kill(child, launch.signal);
   }
   int status = 0;

@@ -3,6 +3,7 @@
 
 #include <chrono>
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -19,12 +20,14 @@ struct Launch {
   std::filesystem::path folder{};      // working folder; empty: this one
   int signal = 0;                      // sent after `signal_after`, 0: none
   std::chrono::milliseconds signal_after{300};
+  std::function<bool()> signal_when{};  // instead: sent once this is true
+  std::function<void()> prepare{};      // in the new process, before the program: its limits, say
 };
 
 // Runs bbsim to its end.
 Result bbsim(const Launch& launch);
 inline Result bbsim(std::vector<std::string> arguments, std::filesystem::path folder = {}) {
-  return bbsim(Launch{std::move(arguments), std::move(folder), 0, {}});
+  return bbsim(Launch{std::move(arguments), std::move(folder), 0, {}, {}, {}});
 }
 
 // A folder of its own for a test, removed with it.

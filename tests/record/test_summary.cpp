@@ -18,6 +18,7 @@ namespace {
 RunSummary a_run() {
   RunSummary run;
   run.version = "0.1.0";
+  run.instruction_set = "avx2";
   run.scenario = "configs/fig2a.yaml";
   run.title = "Fig. 2(a), \"open\" loop: φ";
   run.overrides = {"ball.radius=0.02", "time.end=5"};
@@ -39,6 +40,7 @@ RunSummary a_run() {
 TEST_CASE("the summary's JSON text") {
   CHECK(to_json(a_run()) == R"({
   "version": "0.1.0",
+  "instruction_set": "avx2",
   "scenario": "configs/fig2a.yaml",
   "title": "Fig. 2(a), \"open\" loop: φ",
   "overrides": [

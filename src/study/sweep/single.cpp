@@ -23,24 +23,18 @@ namespace {
 
 constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
 
-std::string seconds(double t) {
-  char text[40];
-  std::snprintf(text, sizeof text, "%.6g s", t);
-  return text;
-}
-
-// Of a row of results, and of the status column: without commas.
-std::string status_of(const solve::Outcome& outcome) {
+// When it ended is a column of its own.
+CaseStatus status_of(const solve::Outcome& outcome) {
   switch (outcome.ending) {
     case solve::Ending::failed:
-      return "failed at " + seconds(outcome.reached) + ": " + outcome.reason;
+      return {"failed", outcome.reason};
     case solve::Ending::stopped:
-      return "stopped at " + seconds(outcome.reached) + ": " + outcome.occurrences.back().name;
+      return {"stopped", outcome.occurrences.back().name};
     case solve::Ending::done:
     case solve::Ending::interrupted:
       break;
   }
-  return "done";
+  return {};
 }
 
 // Passes rows on to two sinks.
@@ -108,7 +102,7 @@ class SingleRunner : public CaseRunner {
   bool run_case(std::size_t number, std::size_t place, CaseResults& into,
                 const std::atomic<bool>& stop) {
     double* const numbers = &into.numbers[place * (1 + task_.measures.size())];
-    std::string& status = into.status[place];
+    CaseStatus& status = into.status[place];
     try {
       const Scenario& scenario =
           scenario_.at(number, &into.values[place * task_.plan.axes().size()]);
@@ -131,11 +125,11 @@ class SingleRunner : public CaseRunner {
         const ErrorControlled run =
             integrate_to_error(model, solver.method, *solver.error, grid, sink, watch);
         status = status_of(run.outcome);
-        if (status == "done" && !run.met) {
+        if (run.outcome.ending == solve::Ending::done && !run.met) {
           char text[80];
           std::snprintf(text, sizeof text, "error about %.2g m: out of reach of double precision",
                         run.estimate);
-          status = text;
+          status = {"inaccurate", text};
         }
         outcome = run.outcome;
       } else {
@@ -153,7 +147,7 @@ class SingleRunner : public CaseRunner {
       }
     } catch (const InputError& error) {  // there is no gain of an LQR, say
       std::fill_n(numbers, 1 + task_.measures.size(), nothing);
-      status = std::string("refused: ") + error.what();
+      status = {"refused", error.what()};
     }
     return true;
   }
@@ -161,7 +155,7 @@ class SingleRunner : public CaseRunner {
   // What solve::integrate does with a smooth model, without looking at each row by itself.
   bool run_quickly(const Scenario& scenario, const model::Model& model,
                    const model::BallConstants& constants, const solve::OutputGrid& grid,
-                   const std::atomic<bool>& stop, double* numbers, std::string& status) {
+                   const std::atomic<bool>& stop, double* numbers, CaseStatus& status) {
     const solve::Tolerances tolerances{scenario.solver.rtol, scenario.solver.atol};
     track_.begin(model, constants, grid, same_signals_);
     if (stepper_ && same_tolerances_) {

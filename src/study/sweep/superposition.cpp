@@ -192,7 +192,7 @@ class SuperpositionRunner : public CaseRunner {
   }
 
  private:
-  void run_case(std::size_t number, const double* values, double* numbers, std::string& status) {
+  void run_case(std::size_t number, const double* values, double* numbers, CaseStatus& status) {
     const Scenario& scenario = scenario_.at(number, values);
     factors_[0] = 1;
     for (std::size_t k = 1; k < factors_.size(); ++k) {
@@ -200,7 +200,7 @@ class SuperpositionRunner : public CaseRunner {
     }
     const Superposition motion{solutions_->rows, factors_.size(), x_.data(), y_.data()};
     const double distance = far_ ? farthest(motion) : 0;
-    status = "done";
+    status = {};
     numbers[0] = solutions_->end;
     for (std::size_t m = 0; m < task_.measures.size(); ++m) {
       const record::Measure& measure = task_.measures[m];

@@ -6,6 +6,8 @@
 #include <exception>
 #include <map>
 #include <mutex>
+#include <new>
+#include <system_error>
 #include <thread>
 #include <utility>
 
@@ -172,13 +174,29 @@ CaseRange shard_range(std::size_t cases, std::size_t group, std::size_t shard, s
 
 bool run_sweep(const Engine& engine, CaseRange range, std::size_t threads,
                const std::atomic<bool>& stop, const std::function<void(CaseResults&)>& prepare,
-               const std::function<void(const CaseResults&)>& deliver) {
+               const std::function<void(const CaseResults&)>& deliver,
+               const std::function<void(std::size_t)>& fewer) {
   const std::size_t groups = (range.last - range.first + engine.group - 1) / engine.group;
   Queue queue(range, most_ahead * threads, stop, deliver);
+  const std::size_t wanted = std::max<std::size_t>(1, std::min(threads, groups));
   {
     std::vector<std::jthread> others;
-    for (std::size_t i = 1; i < std::min(threads, groups); ++i) {
-      others.emplace_back([&] { work(engine, queue, stop, prepare); });
+    others.reserve(wanted);
+    while (others.size() + 1 < wanted) {
+      try {
+        others.emplace_back([&] { work(engine, queue, stop, prepare); });
+      } catch (const std::system_error&) {  // a limit on processes, or no memory for a stack
+        break;
+      } catch (const std::bad_alloc&) {
+        break;
+      }
+    }
+    if (others.size() + 1 < wanted && fewer) {
+      try {
+        fewer(others.size() + 1);
+      } catch (...) {
+        queue.fail(std::current_exception());  // so that the others end
+      }
     }
     work(engine, queue, stop, prepare);
   }

@@ -39,10 +39,12 @@ struct CaseRange {
 // in their order, whatever the number of threads, and one call at a time. Not many more are held
 // than threads compute at once. Ends soon after `stop` becomes true, with all that came before
 // delivered; returns whether the range was finished. Throws what the two throw. `range.first` is a
-// multiple of the group's size.
+// multiple of the group's size. Where the system has fewer threads, `fewer` is told how many there
+// are, once, perhaps while cases are being delivered.
 [[nodiscard]] bool run_sweep(const Engine& engine, CaseRange range, std::size_t threads,
                              const std::atomic<bool>& stop,
                              const std::function<void(CaseResults&)>& prepare,
-                             const std::function<void(const CaseResults&)>& deliver);
+                             const std::function<void(const CaseResults&)>& deliver,
+                             const std::function<void(std::size_t)>& fewer = {});
 
 }  // namespace bbsim::study

@@ -22,12 +22,18 @@ struct SweepTask {
   std::size_t series_rows = 0;
 };
 
+// How a case ended.
+struct CaseStatus {
+  std::string word = "done";  // or failed, stopped, inaccurate, refused
+  std::string reason{};       // of the latter, a text of any characters
+};
+
 // Some cases, one after the other.
 struct CaseResults {
   std::size_t first = 0, count = 0;
   std::vector<double> values;   // of the axes: count x axes
   std::vector<double> numbers;  // the time reached (s), then the measures: count x (1 + measures)
-  std::vector<std::string> status;  // "done", or why a case ended early
+  std::vector<CaseStatus> status;
   // For each column of the series, count x rows; what a case did not reach is no number.
   std::vector<std::vector<double>> series;
   std::string text;  // the rows as whoever takes them wants them

@@ -1,0 +1,177 @@
+#include "sweep_text.hpp"
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <vector>
+
+#include "describe.hpp"
+#include "record/case_text.hpp"
+#include "solve/collocation/radau.hpp"
+#include "solve/output_grid.hpp"
+
+namespace bbsim::app {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+// A name in the file system need not be UTF-8, which is all that JSON holds.
+std::string text_of(const Json& json) {
+  constexpr int indent = 1;
+  return json.dump(indent, ' ', false, Json::error_handler_t::replace) + '\n';
+}
+
+const char* instruction_set() {
+  return solve::collocation::choose_kernels().name;
+}
+
+const char* combine_of(const Sweep& sweep) {
+  return sweep.combine == Combine::zip ? "zip" : "grid";
+}
+
+// How well cases are computed, where that is the same for all: for comparisons.
+struct Accuracy {
+  const char* name;
+  double value;
+};
+std::vector<Accuracy> accuracy_of(const SweepFacts& facts) {
+  const Solver& solver = facts.first.solver;
+  for (const study::Axis& axis : facts.task.plan.axes()) {
+    if (axis.key.starts_with("solver")) return {};
+  }
+  if (solver.error) return {{"error_bound", *solver.error}};
+  return {{"rtol", solver.rtol}, {"atol", solver.atol}};
+}
+
+Json plan_of(const SweepFacts& facts) {
+  const auto& [family, sweep, task, first, shard] = facts;
+  const Source& source = family.source();
+  Json plan;
+  plan["version"] = BBSIM_VERSION;
+  plan["instruction_set"] = instruction_set();
+  plan["scenario_text"] = source.text;
+  plan["overrides"] = source.overrides;
+  for (const auto& [name, hash] : family.table_hashes()) plan["tables"][name] = hash;
+  for (const Variation& variation : sweep.vary) {
+    plan["vary"].push_back(variation.key + '=' + variation.spec);
+  }
+  plan["combine"] = combine_of(sweep);
+  if (sweep.samples) {
+    plan["samples"] = *sweep.samples;
+    plan["seed"] = sweep.seed;
+  }
+  for (const record::Measure& measure : task.measures) plan["measure"].push_back(measure.name);
+  plan["trajectories"] = !task.series.empty();
+  plan["cases"] = task.plan.cases();
+  if (shard.of > 1) plan["shard"] = std::to_string(shard.number) + '/' + std::to_string(shard.of);
+  return plan;
+}
+
+}  // namespace
+
+record::CaseFileLayout layout_of(const SweepFacts& facts, const study::Engine& engine,
+                                 study::CaseRange range) {
+  const study::SweepTask& task = facts.task;
+  record::CaseFileLayout layout;
+  using record::CaseKind;
+  layout.first_case = range.first;
+  layout.cases = range.last - range.first;
+  layout.group = engine.group;
+  layout.is_shard = facts.shard.of > 1;
+  layout.columns.push_back({"case", "1", "number of the case, from 0"});
+  for (const study::Axis& axis : task.plan.axes()) {
+    layout.columns.push_back({axis.key, "SI", "varied key of the scenario, in SI units and radians",
+                              axis.numeric ? CaseKind::number : CaseKind::text});
+  }
+  layout.columns.push_back({"status", "", "how the case ended, in one word", CaseKind::text});
+  layout.columns.push_back({"reason", "", "why it ended early, or empty", CaseKind::text});
+  layout.columns.push_back({"end_time", "s", "time reached"});
+  for (const record::Measure& measure : task.measures) {
+    layout.columns.push_back({measure.name, std::string(measure.column->unit), measure.meaning()});
+  }
+  if (task.series.empty()) return layout;
+  const solve::OutputGrid grid(facts.first.time);
+  layout.axis = {"t", "s", "time"};
+  for (std::size_t i = 0; i < grid.size(); ++i) layout.axis_values.push_back(grid[i]);
+  for (const record::Column* column : task.series) {
+    layout.columns.push_back({std::string(column->name), std::string(column->unit),
+                              std::string(column->meaning), CaseKind::series, grid.size()});
+  }
+  return layout;
+}
+
+std::string plan_text(const SweepFacts& facts) {
+  return text_of(plan_of(facts));
+}
+
+record::Attributes attributes_of(const SweepFacts& facts, const study::Engine& engine) {
+  const Source& source = facts.family.source();
+  const Sweep& sweep = facts.sweep;
+  record::Attributes attributes{{"version", BBSIM_VERSION},
+                                {"instruction_set", instruction_set()},
+                                {"engine", engine.name},
+                                {"scenario", std::filesystem::path(source.file).filename()},
+                                {"scenario_text", source.text}};
+  const auto lines = [](const auto& items, const auto& text) {
+    std::string all;
+    for (const auto& item : items) all += (all.empty() ? "" : "\n") + text(item);
+    return all;
+  };
+  attributes.emplace_back("overrides", lines(source.overrides, [](const auto& o) { return o; }));
+  attributes.emplace_back(
+      "vary", lines(sweep.vary, [](const Variation& one) { return one.key + '=' + one.spec; }));
+  for (const auto& [name, value] : accuracy_of(facts)) {
+    attributes.emplace_back(name, record::number_text(value));
+  }
+  attributes.emplace_back("cases", std::to_string(facts.task.plan.cases()));
+  attributes.emplace_back("combine", combine_of(sweep));
+  if (sweep.samples) {
+    attributes.emplace_back("samples", short_number(*sweep.samples));
+    attributes.emplace_back("seed", record::number_text(sweep.seed));
+  }
+  return attributes;
+}
+
+std::string summary_text(const SweepFacts& facts, const SweepEnd& end) {
+  Json summary;
+  summary["status"] = end.finished ? "done" : "interrupted";
+  summary["scenario"] = facts.family.source().file;
+  summary["output"] = end.output;
+  summary["engine"] = end.engine;
+  for (const auto& [name, value] : accuracy_of(facts)) summary[name] = value;
+  summary["rows"] = end.rows;
+  Json& statuses = summary["statuses"] = Json::object();
+  for (const auto& [word, count] : end.statuses) statuses[word] = count;
+  const Json plan = plan_of(facts);
+  for (const auto& [name, value] : plan.items()) summary[name] = value;
+  return text_of(summary);
+}
+
+void write_text(const study::SweepTask& task, study::CaseResults& results) {
+  const auto& axes = task.plan.axes();
+  const std::size_t numbers = 1 + task.measures.size();
+  std::string& text = results.text;
+  text.clear();
+  for (std::size_t i = 0; i < results.count; ++i) {
+    text += std::to_string(results.first + i);
+    for (std::size_t a = 0; a < axes.size(); ++a) {
+      text += ',';
+      const double value = results.values[i * axes.size() + a];
+      if (axes[a].numeric) {
+        record::append_number(text, value);
+      } else {
+        record::append_text(text, axes[a].texts[static_cast<std::size_t>(value)]);
+      }
+    }
+    text += ',';
+    record::append_text(text, results.status[i].word);
+    text += ',';
+    record::append_text(text, results.status[i].reason);
+    for (std::size_t n = 0; n < numbers; ++n) {
+      text += ',';
+      record::append_number(text, results.numbers[i * numbers + n]);
+    }
+    text += '\n';
+  }
+}
+
+}  // namespace bbsim::app

@@ -1,0 +1,49 @@
+// What a sweep's files say: of the sweep, and of each case.
+#pragma once
+
+#include <cstddef>
+#include <string>
+
+#include "record/case_file.hpp"
+#include "scenario/family.hpp"
+#include "study/sweep/sweep.hpp"
+
+namespace bbsim::app {
+
+struct Shard {
+  std::size_t number = 1, of = 1;
+};
+
+// A sweep that is about to be run. `first` is its first case's scenario.
+struct SweepFacts {
+  const ScenarioFamily& family;
+  const Sweep& sweep;
+  const study::SweepTask& task;
+  const Scenario& first;
+  Shard shard;
+};
+
+[[nodiscard]] record::CaseFileLayout layout_of(const SweepFacts& facts, const study::Engine& engine,
+                                               study::CaseRange range);
+
+// All that the results depend on, as JSON (record/plan_text.hpp).
+[[nodiscard]] std::string plan_text(const SweepFacts& facts);
+
+[[nodiscard]] record::Attributes attributes_of(const SweepFacts& facts,
+                                               const study::Engine& engine);
+
+// How a sweep went.
+struct SweepEnd {
+  bool finished = true;
+  std::size_t rows = 0;
+  record::StatusCounts statuses;  // of these
+  std::string engine, output;
+};
+
+// The plan, and how it went, as JSON.
+[[nodiscard]] std::string summary_text(const SweepFacts& facts, const SweepEnd& end);
+
+// The rows of some cases as CSV, into the results' text, on the thread that computed them.
+void write_text(const study::SweepTask& task, study::CaseResults& results);
+
+}  // namespace bbsim::app
