@@ -1,19 +1,17 @@
 #include "model/spectrum.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <limits>
 #include <type_traits>
 
+#include "model/eigenvalues.hpp"
 #include "model/jacobian.hpp"
 
 namespace bbsim::model {
 namespace {
 
-Eigenvalues eigenvalues_of(const Eigen::MatrixXd& matrix) {
-  if (!matrix.allFinite()) return {};
-  const Eigen::EigenSolver<Eigen::MatrixXd> solver(matrix, false);
-  Eigenvalues values(solver.eigenvalues().begin(), solver.eigenvalues().end());
+Eigenvalues sorted_eigenvalues(const Eigen::MatrixXd& matrix) {
+  Eigenvalues values = eigenvalues_of(matrix);
   std::sort(values.begin(), values.end(), [](const auto& a, const auto& b) {
     return a.real() != b.real() ? a.real() > b.real() : a.imag() > b.imag();
   });
@@ -30,7 +28,7 @@ Loop level(Loop loop) {
 }  // namespace
 
 Eigenvalues eigenvalues(const Model& model, double t, const double* z) {
-  return std::visit([&](const auto& system) { return eigenvalues_of(jacobian(system, t, z)); },
+  return std::visit([&](const auto& system) { return sorted_eigenvalues(jacobian(system, t, z)); },
                     model.system);
 }
 
@@ -54,16 +52,16 @@ Eigenvalues closed_loop_poles(const Model& model) {
                 rest.push_back(i);
               }
             }
-            return eigenvalues_of(full(rest, rest));
+            return sorted_eigenvalues(full(rest, rest));
           } else if constexpr (spin < 0) {
-            return eigenvalues_of(full);
+            return sorted_eigenvalues(full);
           } else {
             // At home the spin neither feels the other states nor acts on them.
             std::vector<int> rest;
             for (int i = 0; i < Loop::size; ++i) {
               if (i != spin) rest.push_back(i);
             }
-            return eigenvalues_of(full(rest, rest));
+            return sorted_eigenvalues(full(rest, rest));
           }
         }
       },

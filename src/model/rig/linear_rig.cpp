@@ -1,10 +1,10 @@
 #include "model/rig/linear_rig.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <unsupported/Eigen/MatrixFunctions>
 
+#include "model/eigenvalues.hpp"
 #include "model/jacobian.hpp"
 #include "model/rig/riccati.hpp"
 
@@ -200,10 +200,7 @@ Eigenvalues sampled_poles(const RigLoop<>& loop, const Rig& rig) {
     cycle.run(s);
     map.col(j) = s;
   }
-  if (!map.allFinite()) return {};
-  const Eigen::EigenSolver<MatrixXd> solver(map, false);
-  if (solver.info() != Eigen::Success) return {};
-  Eigenvalues poles(solver.eigenvalues().begin(), solver.eigenvalues().end());
+  Eigenvalues poles = eigenvalues_of(map);
   std::sort(poles.begin(), poles.end(), [](const auto& a, const auto& b) {
     const double p = std::abs(a), q = std::abs(b);
     return p != q ? p > q : a.imag() > b.imag();

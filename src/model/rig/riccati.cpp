@@ -1,12 +1,12 @@
 #include "model/rig/riccati.hpp"
 
 #include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 
 #include "base/error.hpp"
+#include "model/eigenvalues.hpp"
 
 namespace bbsim::model {
 namespace {
@@ -53,7 +53,11 @@ RiccatiSolution solve_continuous_riccati(const MatrixXd& a, const MatrixXd& b, c
   const MatrixXd identity = MatrixXd::Identity(a.rows(), a.cols());
   const MatrixXd g = b * r.inverse() * b.transpose();
   // Any shift beyond the eigenvalues' sizes does.
-  const double shift = 1.5 * std::max(1.0, a.eigenvalues().cwiseAbs().maxCoeff());
+  double largest = 1;
+  for (const std::complex<double>& value : eigenvalues_of(a)) {
+    largest = std::max(largest, std::abs(value));
+  }
+  const double shift = 1.5 * largest;
   const MatrixXd shifted = a - shift * identity;
   const MatrixXd inverse = shifted.inverse();
   const MatrixXd w = (shifted.transpose() + q * inverse * g).inverse();
