@@ -1,0 +1,174 @@
+// The command line, in process: main() with words and files of an input, in a folder of its own.
+//
+// An input has a word a line, up to a line "== NAME", after which comes the content of a file of
+// that name, and so on. Slashes that could lead out of the folder become underscores. What takes
+// longer than a quarter of a second of the processor is interrupted, as by Ctrl-C.
+#include <fcntl.h>
+#include <sanitizer/common_interface_defs.h>
+#include <sys/mman.h>
+#include <sys/time.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <cctype>
+#include <csignal>
+#include <cstdio>
+#include <string>
+#include <vector>
+
+#include "folder.hpp"
+#include "fuzz.hpp"
+#include "signals.hpp"
+
+int bbsim_main(int argc, char** argv);  // apps/bbsim/main.cpp, by this name
+
+namespace {
+
+using namespace bbsim_fuzz;
+
+bool is_plain(char c) {
+  return std::isalnum(static_cast<unsigned char>(c)) != 0;
+}
+
+// The program runs as whoever fuzzes, and writes where it is told to: only into its own folder,
+// then.
+std::string kept_in(std::string_view word) {
+  std::string result(word.substr(0, word.find('\0')));
+  const bool option = result.starts_with('-');
+  for (std::size_t i = 0; i < result.size(); ++i) {
+    if (result[i] != '/') continue;
+    const bool within =
+        i > 0 && i + 1 < result.size() && is_plain(result[i - 1]) && is_plain(result[i + 1]);
+    if (!within || option) result[i] = '_';
+  }
+  return result;
+}
+
+struct Input {
+  std::vector<std::string> words;
+  std::vector<std::pair<std::string, std::string>> files;
+};
+
+Input read_input(std::string_view text) {
+  constexpr std::string_view file_mark = "== ";
+  Input input;
+  while (!text.empty()) {
+    const std::string_view line = take_line(text);
+    if (line.starts_with(file_mark)) {
+      std::string name = kept_in(line.substr(file_mark.size()));
+      for (char& c : name) c = c == '/' ? '_' : c;
+      input.files.emplace_back(name, "");
+    } else if (input.files.empty()) {
+      input.words.push_back(kept_in(line));
+    } else {
+      input.files.back().second.append(line) += '\n';
+    }
+  }
+  return input;
+}
+
+std::atomic<bool> time_is_up{false};
+
+void on_time_used(int) {
+  time_is_up.store(true, std::memory_order_relaxed);
+}
+
+void use_at_most(suseconds_t microseconds) {
+  const timeval time{0, microseconds};
+  const itimerval timer{time, time};
+  setitimer(ITIMER_VIRTUAL, &timer, nullptr);
+}
+
+// Where the program's words go instead of a terminal.
+class Messages {
+ public:
+  Messages()
+      : standard_error_(dup(STDERR_FILENO)), messages_(memfd_create("messages", MFD_CLOEXEC)) {
+    must(standard_error_ >= 0 && messages_ >= 0);
+    __sanitizer_set_report_fd(reinterpret_cast<void*>(static_cast<std::intptr_t>(standard_error_)));
+  }
+
+  void begin() const {
+    must(ftruncate(messages_, 0) == 0 && lseek(messages_, 0, SEEK_SET) == 0);
+    dup2(messages_, STDERR_FILENO);
+  }
+
+  [[nodiscard]] std::string end() const {
+    std::fflush(stderr);
+    dup2(standard_error_, STDERR_FILENO);
+    std::string text(static_cast<std::size_t>(lseek(messages_, 0, SEEK_END)), '\0');
+    must(pread(messages_, text.data(), text.size(), 0) == static_cast<ssize_t>(text.size()));
+    return text;
+  }
+
+ private:
+  int standard_error_, messages_;
+};
+
+struct Surroundings {
+  Surroundings() : before(open(".", O_PATH | O_DIRECTORY | O_CLOEXEC)) {
+    const int nothing = open("/dev/null", O_RDWR | O_CLOEXEC);
+    must(nothing >= 0 && dup2(nothing, STDIN_FILENO) >= 0 && dup2(nothing, STDOUT_FILENO) >= 0);
+    struct sigaction action {};
+    action.sa_handler = on_time_used;
+    action.sa_flags = SA_RESTART;
+    sigaction(SIGVTALRM, &action, nullptr);
+  }
+
+  // The program's working folder is its own; libFuzzer's, with the inputs, is where it was started.
+  void enter() const {
+    must(chdir(folder.path().c_str()) == 0);
+    messages.begin();
+  }
+  [[nodiscard]] std::string leave() const {
+    must(fchdir(before) == 0);
+    return messages.end();
+  }
+
+  int before;
+  Folder folder;
+  Messages messages;
+};
+
+const Surroundings& surroundings() {
+  static const Surroundings it;
+  return it;
+}
+
+}  // namespace
+
+// Instead of apps/bbsim/signals.cpp: the time is what ends a run.
+const std::atomic<bool>& bbsim::app::watch_signals() {
+  return time_is_up;
+}
+
+extern "C" int LLVMFuzzerInitialize(int*, char***) {
+  setenv("BBSIM_MODULE_PATH", BBSIM_MODULE_FOLDER, 1);
+  setenv("PATH", "/nowhere", 1);  // no gnuplot
+  return 0;
+}
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  const Input input = read_input(text_of(data, size));
+  const Surroundings& here = surroundings();
+  here.folder.clear();
+  for (const auto& [name, content] : input.files) here.folder.put(name, content);
+
+  std::vector<std::string> words{"bbsim"};
+  words.insert(words.end(), input.words.begin(), input.words.end());
+  std::vector<char*> arguments;
+  for (std::string& word : words) arguments.push_back(word.data());
+  arguments.push_back(nullptr);
+
+  here.enter();
+  time_is_up.store(false);
+  use_at_most(250'000);
+  const int code = bbsim_main(static_cast<int>(words.size()), arguments.data());
+  use_at_most(0);
+  const std::string messages = here.leave();
+
+  must(code == 0 || code == 1 || code == 2 || code == 3 || code == 130);
+  must(messages.find("internal error") == std::string::npos);
+  must(code != 2 || !messages.empty());  // a refusal says why
+  return 0;
+}

@@ -1,0 +1,87 @@
+// CSV: a table read back and compared with itself, and the quoting of a sweep's rows.
+#include <sys/mman.h>
+#include <unistd.h>
+
+#include <bit>
+#include <charconv>
+#include <string>
+#include <vector>
+
+#include "fuzz.hpp"
+#include "record/case_text.hpp"
+#include "record/compare.hpp"
+#include "record/number_text.hpp"
+#include "record/table_writer.hpp"
+
+namespace {
+
+using namespace bbsim_fuzz;
+namespace record = bbsim::record;
+
+// A file in memory with a name, so that the disk sets no pace.
+class NamedMemory {
+ public:
+  explicit NamedMemory(std::string_view content)
+      : descriptor_(memfd_create("fuzz.csv", MFD_CLOEXEC)) {
+    must(descriptor_ >= 0);
+    must(write(descriptor_, content.data(), content.size()) ==
+         static_cast<ssize_t>(content.size()));
+  }
+  ~NamedMemory() { close(descriptor_); }
+  NamedMemory(const NamedMemory&) = delete;
+  NamedMemory& operator=(const NamedMemory&) = delete;
+
+  [[nodiscard]] std::string name() const { return "/proc/self/fd/" + std::to_string(descriptor_); }
+
+ private:
+  int descriptor_;
+};
+
+// What is written of a number reads back to the same bits.
+void must_round_trip(double number) {
+  const std::string text = record::number_text(number);
+  double back = 0;
+  const auto result = std::from_chars(text.data(), text.data() + text.size(), back);
+  must(result.ec == std::errc{} && result.ptr == text.data() + text.size());
+  must(number != number
+           ? back != back
+           : std::bit_cast<std::uint64_t>(back) == std::bit_cast<std::uint64_t>(number));
+}
+
+void must_be_a_table(const record::TableData& table) {
+  must(!table.names.empty() && table.columns.size() == table.names.size());
+  for (const std::vector<double>& column : table.columns) {
+    must(column.size() == table.columns.front().size());
+    for (const double number : column) must_round_trip(number);
+  }
+  const record::Comparison comparison = record::compare(table, table);
+  must(comparison.alike());
+  must(!record::to_text(comparison, "a", "b", {}).empty());
+}
+
+// The fields of a line are the same again once they are written as a row has them.
+void must_split_again(std::string_view line) {
+  std::vector<std::string> fields, again;
+  if (!record::split_fields(line, fields)) return;
+  std::string written;
+  for (const std::string& field : fields) {
+    if (&field != fields.data()) written += ',';
+    record::append_text(written, field);
+  }
+  must(record::split_fields(written, again));
+  for (std::string& field : fields) {  // a row is a line: breaks become spaces
+    for (char& c : field) {
+      if (c == '\n' || c == '\r') c = ' ';
+    }
+  }
+  must(again == fields);
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  const std::string_view text = text_of(data, size);
+  may_refuse([&] { must_be_a_table(record::read_table(NamedMemory(text).name())); });
+  for (std::string_view rest = text; !rest.empty();) must_split_again(take_line(rest));
+  return 0;
+}

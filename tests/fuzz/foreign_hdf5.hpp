@@ -1,0 +1,15 @@
+// HDF5 files as other programs might write them: sound, but seldom tables.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "fuzz.hpp"
+
+namespace bbsim_fuzz {
+
+// Writes a file of groups, links, datasets and attributes of all kinds, sizes and types, picked by
+// the bytes. What HDF5 refuses to write is left out.
+void write_foreign_hdf5(const std::string& file, const std::uint8_t* data, std::size_t size);
+
+}  // namespace bbsim_fuzz

@@ -1,0 +1,28 @@
+// HDF5 files byte by byte, as the program reads them: damaged ones most of all, on which HDF5
+// itself may fail, but not the program.
+#include <cstdlib>
+#include <string>
+
+#include "folder.hpp"
+#include "fuzz.hpp"
+#include "record/case_table.hpp"
+#include "record/table_writer.hpp"
+
+extern "C" int LLVMFuzzerInitialize(int*, char***) {
+  setenv("BBSIM_MODULE_PATH", BBSIM_MODULE_FOLDER, 1);
+  return 0;
+}
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  using namespace bbsim_fuzz;
+  static const Folder folder;
+  static const std::string file = folder.path() / "damaged.h5";
+  folder.put("damaged.h5", text_of(data, size));
+  may_refuse([&] { (void)bbsim::record::read_table(file); });
+  may_refuse([&] {
+    const bbsim::record::CaseTableReader reader(file);
+    bbsim::record::CaseBlock block;
+    reader.read(0, 8, block);
+  });
+  return 0;
+}
