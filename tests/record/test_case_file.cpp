@@ -131,7 +131,7 @@ TEST_CASE("a part is cut at the first row that is not as it was written, and it 
     leave_unfinished(folder / "a.csv", 101);
     folder.put("a.csv.part", content);
     const auto file = open_case_file(folder / "a.csv", layout(), plan, true);
-    const KeptRows kept = file->kept();
+    KeptRows kept = file->kept();
     append(*file, 100 + kept.rows, 110);
     file->finish({});
     CHECK(content_of(folder / "a.csv") == header + rows(100, 110));
@@ -189,7 +189,7 @@ TEST_CASE("trajectories that are not as they were written are computed again") {
     leave_unfinished(folder / "a.h5", 108, true);
     std::ofstream(series_file, std::ios::binary) << content;
     const auto file = open_case_file(folder / "a.h5", layout(true), plan, true);
-    const KeptRows kept = file->kept();
+    KeptRows kept = file->kept();
     append(*file, 100 + kept.rows, 110, true);
     file->finish({});
     const CaseTableReader reader(folder / "a.h5");
