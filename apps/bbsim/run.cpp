@@ -194,7 +194,12 @@ ExitCode run(const RunArguments& arguments, const Options& options) {
   const Integration made = integrate(scenario, model, grid, recorder, watch);
   progress.clear();
 
-  const std::string reason = shortfall(scenario, model, made);
+  std::string reason = shortfall(scenario, model, made);
+  const bool finite = recorder.why_not_finite().empty();
+  if (reason.empty() && !finite) {
+    reason = "the motion was found to its end, but " + recorder.why_not_finite() +
+             ".\n  There it is beyond the range of doubles, or not defined.";
+  }
   const record::RunSummary summary =
       summarise(scenario, model, made, reason, output, recorder.peaks());
   writer->finish(record::to_attributes(summary, scenario.source.text));
@@ -213,7 +218,9 @@ ExitCode run(const RunArguments& arguments, const Options& options) {
     if (made.error_estimate) line += ", error about " + short_number(*made.error_estimate) + " m";
     std::fprintf(stderr, "%s\n", line.c_str());
   }
-  return made.within_error ? exit_code(made.outcome.ending) : ExitCode::ended_early;
+  const ExitCode code = exit_code(made.outcome.ending);
+  const bool whole = made.within_error && finite;
+  return code == ExitCode::done && !whole ? ExitCode::ended_early : code;
 }
 
 }  // namespace

@@ -150,12 +150,6 @@ void say(const std::string& sentence) {
   std::fprintf(stderr, "%s\n", sentence.c_str());
 }
 
-std::size_t early_ones(const record::StatusCounts& statuses) {
-  std::size_t early = 0;
-  for (const auto& [word, count] : statuses) early += word == "done" ? 0 : count;
-  return early;
-}
-
 ExitCode sweep(const SweepArguments& arguments, const Options& options) {
   std::vector<std::string> overrides = arguments.scenario.overrides;
   if (!arguments.error.empty()) overrides.push_back("solver.error=" + arguments.error);
@@ -207,7 +201,9 @@ ExitCode sweep(const SweepArguments& arguments, const Options& options) {
       [&](const study::CaseResults& results) {
         file->append(results.text, results.count, results.series);
         end.rows += results.count;
-        for (const study::CaseStatus& status : results.status) ++end.statuses[status.word];
+        for (const study::CaseStatus& status : results.status) {
+          end.statuses.add(status.word, status.reason);
+        }
         progress.update(static_cast<double>(end.rows) / static_cast<double>(all),
                         short_number(rate()) + " cases/s");
       },
@@ -239,8 +235,11 @@ ExitCode sweep(const SweepArguments& arguments, const Options& options) {
   }
   std::string line = output + ": " + counts;
   if (kept > 0) line += ", " + std::to_string(kept) + " of them from before";
-  if (const std::size_t early = early_ones(end.statuses); early > 0) {
+  if (const std::size_t early = end.statuses.early(); early > 0) {
     line += ", " + std::to_string(early) + " ended early (see status)";
+  }
+  if (end.statuses.not_finite > 0) {
+    line += ", " + std::to_string(end.statuses.not_finite) + " with no finite number (see reason)";
   }
   say(line + ", by " + engine.name + ", " + short_number(seconds()) + " s");
   return ExitCode::done;
@@ -256,7 +255,8 @@ void add_sweep(CLI::App& app, const Options& options, Chosen& chosen) {
   may_be_repeated(*command->add_option(
       "--vary", arguments->vary,
       "KEY=SPEC: values for a key, such as ball.position.0=linear:-0.1:0.1:21; may be "
-      "given again. SPEC is linear:FROM:TO:COUNT, log:FROM:TO:COUNT, list:A,B,C, "
+      "given again. KEY may be several that are tied, each with a factor: KEY,-KEY,2*KEY. SPEC is "
+      "linear:FROM:TO:COUNT, log:FROM:TO:COUNT, list:A,B,C, "
       "uniform:FROM:TO or normal:MEAN:SD; values may have units. Default: the "
       "scenario's sweep.vary"));
   command

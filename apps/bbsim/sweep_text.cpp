@@ -140,7 +140,7 @@ std::string summary_text(const SweepFacts& facts, const SweepEnd& end) {
   for (const auto& [name, value] : accuracy_of(facts)) summary[name] = value;
   summary["rows"] = end.rows;
   Json& statuses = summary["statuses"] = Json::object();
-  for (const auto& [word, count] : end.statuses) statuses[word] = count;
+  for (const auto& [word, count] : end.statuses.words) statuses[word] = count;
   const Json plan = plan_of(facts);
   for (const auto& [name, value] : plan.items()) summary[name] = value;
   return text_of(summary);

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <utility>
 
+#include "base/instant.hpp"
 #include "model/model.hpp"
 #include "model/reference_path.hpp"
 #include "model/rig/assemble_rig.hpp"
@@ -102,9 +103,23 @@ std::vector<double> initial_state(const Scenario& scene, Shape shape) {
   return z;
 }
 
+// Of knots in their order those within the run, and of those that are one but for their rounding
+// the first: between them there would be nothing to integrate.
+std::vector<double> stops_at(const std::vector<double>& knots, double end) {
+  std::vector<double> stops;
+  double last = 0;
+  for (const double t : knots) {
+    if (t - last <= rounding_of(t)) continue;
+    if (end - t <= rounding_of(end)) break;
+    stops.push_back(t);
+    last = t;
+  }
+  return stops;
+}
+
 }  // namespace
 
-Model assemble(const Scenario& scenario, bool gamma) {
+Model assemble(const Scenario& scenario, bool gamma, Symmetry symmetry) {
   // The gimbal's angles where they are given; otherwise what the controller follows.
   SignalPair input;
   if (scenario.controller) {
@@ -115,9 +130,8 @@ Model assemble(const Scenario& scenario, bool gamma) {
     input.add_constant(0, scenario.gimbal.mounting.phi_offset);
     input.add_constant(1, scenario.gimbal.mounting.theta_offset);
   }
-  std::vector<double> stops = input.knots();
-  std::erase_if(stops, [&](double t) { return t <= 0 || t >= scenario.time.end; });
-  const Shape shape = choose_shape(scenario, input);
+  std::vector<double> stops = stops_at(input.knots(), scenario.time.end);
+  const Shape shape = symmetry == Symmetry::used ? choose_shape(scenario, input) : Shape::full;
 
   std::optional<Rig> rig;
   const auto system = [&]() -> System {

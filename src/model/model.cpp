@@ -1,5 +1,7 @@
 #include "model/model.hpp"
 
+#include <limits>
+
 namespace bbsim::model {
 
 std::size_t Model::extras() const {
@@ -17,8 +19,14 @@ Sample Model::sample(double t, const double* row) const {
         }
       },
       system);
-  if (gamma) sample.gamma = row[size()] / radius;
+  sample.gamma = gamma ? row[size()] / radius : gamma_not_integrated();
   return sample;
+}
+
+double Model::gamma_not_integrated() const {
+  const bool turns = std::visit(
+      [](const auto& any) { return spin_index<std::decay_t<decltype(any)>> >= 0; }, system);
+  return turns ? std::numeric_limits<double>::quiet_NaN() : 0;
 }
 
 std::vector<std::string> Model::state_names() const {

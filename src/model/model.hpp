@@ -37,6 +37,9 @@ struct Model {
   [[nodiscard]] std::size_t extras() const;
   // Length of a row: the states; r gamma, if it is integrated; the extras.
   [[nodiscard]] std::size_t row_size() const { return size() + (gamma ? 1 : 0) + extras(); }
+  // Sample::gamma of a row that does not have it: 0 where symmetry keeps it so, otherwise no
+  // number.
+  [[nodiscard]] double gamma_not_integrated() const;
   // A row in the paper's symbols.
   [[nodiscard]] Sample sample(double t, const double* row) const;
   // Whether anything switches, samples or is watched for: model/rig/hybrid.hpp runs it then.
@@ -47,8 +50,14 @@ struct Model {
   [[nodiscard]] bool closed_loop() const;
 };
 
+// Whether a ball that symmetry keeps on an axis of the plane is modelled along that axis alone, or
+// as one that may go anywhere: the answers are the same, and one of many scenes may be like the
+// others.
+enum class Symmetry { used, ignored };
+
 // Builds what the scene needs. `gamma` says whether an output column asks for that angle.
-[[nodiscard]] Model assemble(const Scenario& scenario, bool gamma);
+[[nodiscard]] Model assemble(const Scenario& scenario, bool gamma,
+                             Symmetry symmetry = Symmetry::used);
 
 // Index of u = r gamma' among the states, or -1 where symmetry keeps it zero.
 template <class AnySystem>

@@ -20,7 +20,7 @@ struct GimbalMotion {
 struct Sample {
   double t = 0;  // s
   BallMotion ball;
-  double gamma = 0;  // rad, 0 at the start; NaN where the run did not integrate it
+  double gamma = 0;  // rad, 0 at the start and by symmetry; no number if not integrated
   GimbalMotion gimbal;
   Pair reference{0, 0};  // m; (0, 0) in open loop
   Pair command{0, 0};    // what the gimbal is told, rad or rad/s^2; (0, 0) in open loop

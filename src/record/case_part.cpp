@@ -64,11 +64,11 @@ void CasePart::take_up(std::size_t most) {
     if (!fault.empty() && !lines.whole() && line.find('\0') == std::string_view::npos)
       fault.clear();
     if (!fault.empty() || !lines.whole()) break;
-    if (status < layout_.columns.size()) ++of_group[reader.text(status)];
+    if (status < layout_.columns.size()) of_group.add(reader.text(status), reader.text(status + 1));
     if (++in_group < layout_.group && kept_.rows + in_group < layout_.cases) continue;
-    for (const auto& [word, count] : of_group) kept_.statuses[word] += count;
+    kept_.statuses.add(of_group);
     kept_.rows += std::exchange(in_group, 0);
-    of_group.clear();
+    of_group = {};
     end = lines.end();
   }
   if (end > 0 && fault.empty() && kept_.rows + in_group == most && lines.next(line)) {

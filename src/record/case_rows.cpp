@@ -156,4 +156,20 @@ std::string RowReader::text(std::size_t field) const {
   return text;
 }
 
+void StatusCounts::add(const std::string& status, std::string_view reason) {
+  ++words[status];
+  not_finite += status == "done" && !reason.empty() ? 1 : 0;
+}
+
+void StatusCounts::add(const StatusCounts& others) {
+  for (const auto& [word, count] : others.words) words[word] += count;
+  not_finite += others.not_finite;
+}
+
+std::size_t StatusCounts::early() const {
+  std::size_t early = 0;
+  for (const auto& [word, count] : words) early += word == "done" ? 0 : count;
+  return early;
+}
+
 }  // namespace bbsim::record

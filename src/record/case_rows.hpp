@@ -72,6 +72,13 @@ class RowReader {
 };
 
 // How many cases ended in which way.
-using StatusCounts = std::map<std::string, std::size_t, std::less<>>;
+struct StatusCounts {
+  std::map<std::string, std::size_t, std::less<>> words;  // by status
+  std::size_t not_finite = 0;  // done, with a reason: a measure is no finite number
+
+  void add(const std::string& status, std::string_view reason);
+  void add(const StatusCounts& others);
+  [[nodiscard]] std::size_t early() const;  // that did not come to their end
+};
 
 }  // namespace bbsim::record

@@ -71,6 +71,19 @@ const char* why_missing(const Column& column, const Scenario& scenario) {
   }
 }
 
+std::string why_not_finite(const std::vector<Measure>& measures, const double* results,
+                           const Scenario& scenario) {
+  std::string text;
+  for (std::size_t m = 0; m < measures.size(); ++m) {
+    if (std::isfinite(results[m])) continue;
+    const char* const missing = why_missing(*measures[m].column, scenario);
+    text += (text.empty() ? "" : "; ") + measures[m].name +
+            (std::isnan(results[m]) ? " is no number" : " is infinite");
+    if (missing != nullptr) text += std::string(": ") + missing;
+  }
+  return text;
+}
+
 Meter::Meter(std::vector<Measure> measures)
     : measures_(std::move(measures)),
       needs_dynamics_(any_needs(measures_, Needs::dynamics) || any_needs(measures_, Needs::plate)),
@@ -110,7 +123,7 @@ void Meter::accept(std::size_t first, std::size_t count, const double* values) {
           sum.value = fresh ? value : std::max(sum.value, value);
           break;
         default:
-          sum.value += value * value;
+          sum.squares.add(value);
       }
     }
   }
@@ -127,7 +140,7 @@ void Meter::finish(const solve::Outcome& outcome, double* results) {
     } else if (sum.rows == 0) {
       results[m] = std::numeric_limits<double>::quiet_NaN();
     } else if (measures_[m].kind == Kind::rms) {
-      results[m] = std::sqrt(sum.value / static_cast<double>(sum.rows));
+      results[m] = sum.squares.root_mean(sum.rows);
     } else {
       results[m] = sum.value;
     }

@@ -8,6 +8,7 @@
 
 #include "model/model.hpp"
 #include "record/columns.hpp"
+#include "record/square_sum.hpp"
 #include "solve/outcome.hpp"
 #include "solve/output_grid.hpp"
 
@@ -39,6 +40,10 @@ struct Measure {
 // Why the scene has no such column, or null if it has.
 [[nodiscard]] const char* why_missing(const Column& column, const Scenario& scenario);
 
+// Why some of the measures of a run that came to its end are no finite numbers; empty if all are.
+[[nodiscard]] std::string why_not_finite(const std::vector<Measure>& measures,
+                                         const double* results, const Scenario& scenario);
+
 // Takes the measures of one run after another. Rows whose value is no number are left out of all
 // but `end`; a measure without a row is no number.
 class Meter : public solve::StateSink {
@@ -63,6 +68,7 @@ class Meter : public solve::StateSink {
   struct Sum {
     double value = 0;
     std::size_t rows = 0;
+    SquareSum squares{};
   };
   std::vector<Sum> sums_;
 };

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <utility>
 
 #include "base/error.hpp"
@@ -32,6 +33,7 @@ Recorder::Recorder(const model::Model& model, const model::BallConstants& consta
       writer_(writer),
       needs_dynamics_(any_needs(columns_, Needs::dynamics) || any_needs(columns_, Needs::plate) ||
                       constants.plate_inertia != std::array<double, 3>{0, 0, 0}),
+      gaps_(columns_.size()),
       block_(columns_.size()) {}
 
 void Recorder::accept(std::size_t first, std::size_t count, const double* values) {
@@ -49,9 +51,32 @@ void Recorder::accept(std::size_t first, std::size_t count, const double* values
     }
   }
 
+  look_for_gaps(first, count);
+
   std::vector<const double*> pointers;
   for (const auto& column : block_) pointers.push_back(column.data());
   writer_.append(pointers, count);
+}
+
+void Recorder::look_for_gaps(std::size_t first, std::size_t count) {
+  for (std::size_t c = 0; c < columns_.size(); ++c) {
+    for (std::size_t i = 0; i < count; ++i) {
+      if (std::isfinite(block_[c][i])) continue;
+      if (gaps_[c].rows++ == 0) gaps_[c].from = grid_[first + i];
+    }
+  }
+}
+
+std::string Recorder::why_not_finite() const {
+  std::string text;
+  for (std::size_t c = 0; c < columns_.size(); ++c) {
+    if (gaps_[c].rows == 0) continue;
+    char line[120];
+    std::snprintf(line, sizeof line, " is no finite number in %zu rows, the first at t = %.6g s",
+                  gaps_[c].rows, gaps_[c].from);
+    text += (text.empty() ? "" : "; ") + std::string(columns_[c]->name) + line;
+  }
+  return text;
 }
 
 void Recorder::note_peaks(const model::Sample& sample, const model::Dynamics& now) {

@@ -27,11 +27,15 @@ class Recorder : public solve::StateSink {
   // Of the rows so far; nothing unless a column needs the forces, or the plate's inertia is known.
   [[nodiscard]] std::optional<MotorPeaks> peaks() const { return peaks_; }
 
+  // Why some of the rows so far hold a number that is not finite; empty if all are.
+  [[nodiscard]] std::string why_not_finite() const;
+
   // Throws OutputError.
   void accept(std::size_t first, std::size_t count, const double* values) override;
 
  private:
   void note_peaks(const model::Sample& sample, const model::Dynamics& now);
+  void look_for_gaps(std::size_t first, std::size_t count);
 
   const model::Model& model_;
   model::BallConstants constants_;
@@ -40,6 +44,11 @@ class Recorder : public solve::StateSink {
   TableWriter& writer_;
   bool needs_dynamics_;
   std::optional<MotorPeaks> peaks_;
+  struct Gaps {
+    std::size_t rows = 0;  // that are no finite number
+    double from = 0;       // the time of the first, s
+  };
+  std::vector<Gaps> gaps_;                  // of each column
   std::vector<std::vector<double>> block_;  // one vector a column
 };
 

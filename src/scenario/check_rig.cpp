@@ -49,6 +49,14 @@ class Checks {
              "found, but no controller.sampling; allowed: only with it, since a sensor is read at "
              "the controller's samples, and the continuous law knows the ball exactly");
     }
+    // The keys, not their values: a rig may be tried with its noise at 0.
+    if (!find_at(keys_, {"controller", "sensor", "noise"}) &&
+        !find_at(keys_, {"controller", "sensor", "dropout"})) {
+      refuse(
+          {"controller", "sensor", "seed"},
+          "found, but neither noise nor dropout, which are all that is drawn; allowed: only with "
+          "one of them");
+    }
     if (controller.law == Law::feedback_linearisation) {
       if (controller.sampling) {
         refuse({"controller", "sampling"},

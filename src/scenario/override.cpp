@@ -72,7 +72,9 @@ class Setter {
     const std::string_view name = path_[level];
     std::size_t index = 0;
     const auto result = std::from_chars(name.data(), name.data() + name.size(), index);
-    const bool number = result.ec == std::errc{} && result.ptr == name.data() + name.size();
+    // One spelling for each position: a sweep would take .00 and .0 for two keys.
+    const bool number = result.ec == std::errc{} && result.ptr == name.data() + name.size() &&
+                        (name.size() == 1 || name.front() != '0');
     if (!number || index > list.items.size()) {
       fail(joined(path_.first(level)) + ": found the position " + shown(name) +
            " in a list; allowed: 0 to " + std::to_string(list.items.size()) +

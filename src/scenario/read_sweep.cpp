@@ -41,6 +41,7 @@ struct Variations {
   static bool understood(const Value& spec, const Variation& variation) {
     try {
       static_cast<void>(parse_variation(variation));
+      static_cast<void>(tied_keys(variation));
       return true;
     } catch (const InputError& error) {
       const std::string text = error.what();

@@ -240,7 +240,7 @@ struct Output {
   std::vector<std::string> columns{"t", "x", "y", "gamma", "phi", "theta"};
 };
 
-// How one key of the scenario varies over a sweep, as the user wrote it: "linear:0.01:0.05:9".
+// How a key varies over a sweep, or several that are tied, as the user wrote it: "linear:1:2:9".
 struct Variation {
   std::string key, spec;
 };

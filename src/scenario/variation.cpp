@@ -4,7 +4,9 @@
 #include <string_view>
 
 #include "base/error.hpp"
+#include "scenario/decimal.hpp"
 #include "scenario/problems.hpp"
+#include "scenario/quantity.hpp"
 
 namespace bbsim::input {
 namespace {
@@ -100,6 +102,36 @@ VariationSpec parse_variation(const Variation& variation) {
     if (value.empty()) fail(variation, "an empty value in " + shown(text), allowed);
   }
   return spec;
+}
+
+std::vector<TiedKey> tied_keys(const Variation& variation) {
+  std::vector<TiedKey> keys;
+  for (const std::string& part : parted(variation.key, ',')) {
+    TiedKey key{part};
+    if (const std::size_t star = part.find('*'); star != std::string::npos) {
+      const Quantity number =
+          read_quantity(std::string_view(part).substr(0, star), false, Dimension::number);
+      key = {trimmed(std::string_view(part).substr(star + 1)), number.value.value_or(0)};
+    } else if (part.starts_with('-')) {
+      key = {trimmed(std::string_view(part).substr(1)), -1};
+    }
+    if (key.path.empty() || key.factor == 0) {
+      fail(variation, part.empty() ? "no key beside a comma" : shown(part),
+           "KEY, -KEY or NUMBER*KEY with a number that is not 0, parted by commas");
+    }
+    keys.push_back(std::move(key));
+  }
+  return keys;
+}
+
+std::string scaled(const std::string& value, double factor) {
+  if (factor == 1) return value;
+  const Decimal decimal = leading_decimal(value);
+  if (decimal.length == 0) return "";
+  const DecimalValue number = to_double(decimal, 0);
+  if (number.magnitude != Magnitude::fine) return "";
+  // Adding 0 takes the sign off a zero.
+  return number_text(factor * number.value + 0.0) + value.substr(decimal.length);
 }
 
 Variation split_variation(const std::string& assignment) {

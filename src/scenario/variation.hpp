@@ -23,7 +23,20 @@ struct VariationSpec {
 // Commas within brackets do not part the items of a list. Throws InputError: "KEY: found ...".
 [[nodiscard]] VariationSpec parse_variation(const Variation& variation);
 
-// KEY=SPEC as on a command line. Throws InputError.
+// One of the keys that vary together.
+struct TiedKey {
+  std::string path;
+  double factor = 1;  // by which it takes the values
+};
+
+// The keys of a variation: KEY, -KEY or NUMBER*KEY, parted by commas. Throws InputError.
+[[nodiscard]] std::vector<TiedKey> tied_keys(const Variation& variation);
+
+// A value as written, times a factor: -2 times "5 cm" is "-10 cm". Empty if it is no number and the
+// factor is not 1.
+[[nodiscard]] std::string scaled(const std::string& value, double factor);
+
+// KEYS=SPEC as on a command line. Throws InputError.
 [[nodiscard]] Variation split_variation(const std::string& assignment);
 
 }  // namespace bbsim::input

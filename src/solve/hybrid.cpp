@@ -3,10 +3,13 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <string>
+#include <utility>
 
 #include "model/rig/hybrid.hpp"
 #include "solve/collocation/radau.hpp"
 #include "solve/cvode.hpp"
+#include "solve/pace.hpp"
 #include "solve/row_block.hpp"
 
 namespace bbsim::solve {
@@ -14,26 +17,19 @@ namespace {
 
 using Effect = model::HybridRun::Effect;
 
-std::unique_ptr<Stepper> make_stepper(const model::Model& model, Method method,
-                                      Tolerances tolerances, double end, int stages) {
-  if (method != Method::radau) return make_cvode_stepper(model, method, tolerances);
-  return std::make_unique<collocation::RadauStepper>(model, collocation::choose_kernels(), stages,
-                                                     tolerances, end);
-}
-
 class HybridIntegration {
  public:
-  HybridIntegration(const model::Model& model, Method method, Tolerances tolerances,
-                    const OutputGrid& grid, StateSink& sink, const Watch& watch, int stages)
+  HybridIntegration(const model::Model& model, const MakeStepper& make_stepper,
+                    const OutputGrid& grid, StateSink& sink, const Watch& watch)
       : run_(model),
-        method_(method),
         grid_(grid),
         watch_(watch),
         size_(model.size()),
         plain_size_(model.size() + (model.gamma ? 1 : 0)),
         row_size_(model.row_size()),
         rows_(sink, row_size_),
-        stepper_(make_stepper(run_.model(), method, tolerances, grid.end(), stages)),
+        pace_(grid.end()),
+        stepper_(make_stepper(run_.model())),
         guards_(run_.guards()),
         values_(run_.guards()),
         now_(run_.guards()),
@@ -46,18 +42,13 @@ class HybridIntegration {
     std::copy(z.begin(), z.end(), first);
     if (plain_size_ > size_) first[size_] = 0;
     finish_row(0, first);
-    if (run_.look(0, z.data()) == Effect::stop) return ended(Ending::stopped, 0);
+    if (look(0, z, 0) == Effect::stop) return ended(Ending::stopped, 0);
     stepper_->start(0, z.data());
     if (!guards_.empty()) arm(0, z.data());
     for (std::size_t steps = 1;; ++steps) {
       const double from = stepper_->time(), due = run_.next_time();
-      if (const char* reason = stepper_->step(std::min(due, grid_.end()))) {
-        Outcome outcome = ended(Ending::failed, from);
-        outcome.reason = reason;
-        outcome.last_state = stepper_->state();
-        outcome.worst_state = stepper_->worst_state();
-        return outcome;
-      }
+      const double limit = std::min(due, grid_.end());
+      if (const char* reason = stepper_->step(limit)) return failed(from, reason);
       const double to = stepper_->time();
       double at = to;
       const Effect effect = scan(from, to, at, z);
@@ -73,7 +64,7 @@ class HybridIntegration {
         if (!progressed(at)) {
           Outcome outcome = ended(Ending::failed, at);
           outcome.reason = "the rig switches without end at one instant";
-          return outcome;
+          return outcome;  // with no states: they are those of the switch, not of the stepper
         }
         if (run_.model().rig) {
           stepper_->start(at, z.data());
@@ -81,12 +72,15 @@ class HybridIntegration {
           stepper_->jump();  // of the input alone: a run that is watched is one that is not
         }
         write_row_at(at, z, turned);
-        if (run_.look(at, z.data()) == Effect::stop) return ended(Ending::stopped, at);
+        if (look(at, z, turned) == Effect::stop) return ended(Ending::stopped, at);
         if (grid_.end() - at <= slack(at)) return ended(Ending::done, grid_.end());
         if (!guards_.empty()) arm(at, z.data());
       }
       if (watch_.stop != nullptr && watch_.stop->load(std::memory_order_relaxed)) {
         return ended(Ending::interrupted, at);
+      }
+      if (at < limit && pace_.creeps(at, [&] { return stopped_at(at); })) {
+        return failed(at, pace_.reason());
       }
       if (watch_.progress && steps % 256 == 0) watch_.progress(at);
     }
@@ -100,11 +94,11 @@ class HybridIntegration {
   };
 
   // Times nearer than this are one: i * step and n * period are rounded each their own way.
-  static double slack(double t) { return 1e-14 * std::max(1.0, t); }
+  [[nodiscard]] double slack(double t) const { return run_.rounding(t); }
 
   // A hundred switches in a row that take no time are not a motion.
   bool progressed(double t) {
-    const bool still = t - last_switch_ <= 1e-13 * std::max(1.0, t);
+    const bool still = t - last_switch_ <= 1e-13 * t;
     still_ = still ? still_ + 1 : 0;
     last_switch_ = t;
     return still_ < 100;
@@ -124,6 +118,28 @@ class HybridIntegration {
     row_.resize(plain_size_);
     stepper_->evaluate(&t, 1, row_.data());
     z.assign(row_.begin(), row_.begin() + static_cast<std::ptrdiff_t>(size_));
+  }
+
+  // After a switch; `turned` is the integral of u.
+  Effect look(double t, const std::vector<double>& z, double turned) {
+    const Effect effect = run_.look(t, z.data());
+    run_.note_turned(turned);
+    return effect;
+  }
+
+  // When an event will stop the run if its guard falls on as it has since this was last asked, s.
+  double stopped_at(double t) {
+    double soonest = std::numeric_limits<double>::infinity();
+    asked_.resize(guards_.size());
+    for (std::size_t i = 0; i < guards_.size(); ++i) {
+      const double value = guards_[i].value, fallen = asked_[i] - value;
+      if (run_.stops(i) && fallen > 0) {
+        soonest = std::min(soonest, t + value * (t - asked_time_) / fallen);
+      }
+      asked_[i] = value;
+    }
+    asked_time_ = t;
+    return soonest;
   }
 
   // How far guard i is above its threshold at t.
@@ -164,7 +180,7 @@ class HybridIntegration {
     double a = from, b = to;
     double c = b - golden * (b - a), d = a + golden * (b - a);
     double fc = above(i, c), fd = above(i, d);
-    for (int k = 0; k < 60 && b - a > 1e-12 * std::max(1.0, b); ++k) {
+    for (int k = 0; k < 60 && b - a > 1e-12 * b; ++k) {
       if (fc <= 0) return c;
       if (fd <= 0) return d;
       if (fc < fd) {
@@ -279,6 +295,7 @@ class HybridIntegration {
       write_rows(first_time, false);  // in the mode that they belong to
       state_at(first_time, z);
       const Effect effect = run_.fire(first, first_time, z.data());
+      run_.note_turned(row_.back());
       if (effect != Effect::none) {
         at = first_time;
         return effect;
@@ -304,38 +321,47 @@ class HybridIntegration {
     }
   }
 
-  // The row at the instant of a switch, after it; the integral of u does not jump.
+  // The row at the instant of a switch, after it; the integral of u does not jump. There are more
+  // than one where rows are nearer to each other than rounding.
   void write_row_at(double at, const std::vector<double>& z, double turned) {
-    if (next_row_ >= grid_.size() || std::abs(grid_[next_row_] - at) > slack(at)) return;
-    const double t = grid_[next_row_];
-    double* const row = rows_.next();
-    std::copy(z.begin(), z.end(), row);
-    if (plain_size_ > size_) row[size_] = turned;
-    finish_row(t, row);
-    ++next_row_;
+    for (; next_row_ < grid_.size() && grid_[next_row_] - at <= slack(at); ++next_row_) {
+      double* const row = rows_.next();
+      std::copy(z.begin(), z.end(), row);
+      if (plain_size_ > size_) row[size_] = turned;
+      finish_row(grid_[next_row_], row);
+    }
   }
 
   Outcome ended(Ending ending, double reached) {
     rows_.flush();
     Outcome outcome;
     outcome.ending = ending;
-    outcome.method = method_;
     outcome.reached = reached;
     outcome.rows = rows_.rows();
     outcome.statistics = stepper_->statistics();
     outcome.occurrences = run_.occurrences();
+    return with_all_rows(std::move(outcome), grid_.size());
+  }
+
+  Outcome failed(double reached, std::string reason) {
+    Outcome outcome = ended(Ending::failed, reached);
+    outcome.reason = std::move(reason);
+    outcome.last_state = stepper_->state();
+    outcome.worst_state = stepper_->worst_state();
     return outcome;
   }
 
   model::HybridRun run_;
-  Method method_;
   const OutputGrid& grid_;
   const Watch& watch_;
   std::size_t size_, plain_size_, row_size_;
   RowBlock rows_;
+  Pace pace_;
   std::unique_ptr<Stepper> stepper_;
   std::vector<Guard> guards_;
   std::vector<double> values_, now_, near_, look_, row_, planned_times_, planned_rows_;
+  std::vector<double> asked_;  // values of the guards when stopped_at() was last asked
+  double asked_time_ = 0;
   std::size_t next_planned_ = 0;
   std::size_t next_row_ = 1;
   double last_switch_ = -1;
@@ -344,16 +370,22 @@ class HybridIntegration {
 
 }  // namespace
 
-Outcome integrate_hybrid(const model::Model& model, Method method, Tolerances tolerances,
+Outcome integrate_hybrid(const model::Model& model, const MakeStepper& make_stepper,
                          const OutputGrid& grid, StateSink& sink, const Watch& watch) {
-  const int stages = collocation::choose_stages(tolerances.rtol);
-  return HybridIntegration(model, method, tolerances, grid, sink, watch, stages).run();
+  return HybridIntegration(model, make_stepper, grid, sink, watch).run();
 }
 
-Outcome integrate_hybrid_unlike(const model::Model& model, Tolerances tolerances,
-                                const OutputGrid& grid, StateSink& sink, const Watch& watch) {
-  const int stages = collocation::choose_stages(tolerances.rtol) == 8 ? 12 : 8;
-  return HybridIntegration(model, Method::radau, tolerances, grid, sink, watch, stages).run();
+Outcome integrate_hybrid(const model::Model& model, Method method, Tolerances tolerances,
+                         const OutputGrid& grid, StateSink& sink, const Watch& watch) {
+  const auto make_stepper = [&](const model::Model& of) -> std::unique_ptr<Stepper> {
+    if (method != Method::radau) return make_cvode_stepper(of, method, tolerances);
+    return std::make_unique<collocation::RadauStepper>(of, collocation::choose_kernels(),
+                                                       collocation::choose_stages(tolerances.rtol),
+                                                       tolerances, grid.end());
+  };
+  Outcome outcome = integrate_hybrid(model, make_stepper, grid, sink, watch);
+  outcome.method = method;
+  return outcome;
 }
 
 }  // namespace bbsim::solve

@@ -1,6 +1,9 @@
 // Runs a scene in which things switch, sample, or are watched for, with any integrator.
 #pragma once
 
+#include <functional>
+#include <memory>
+
 #include "model/model.hpp"
 #include "solve/stepper.hpp"
 
@@ -15,9 +18,10 @@ namespace bbsim::solve {
                                        Tolerances tolerances, const OutputGrid& grid,
                                        StateSink& sink, const Watch& watch);
 
-// The same by radau with another number of stages.
-[[nodiscard]] Outcome integrate_hybrid_unlike(const model::Model& model, Tolerances tolerances,
-                                              const OutputGrid& grid, StateSink& sink,
-                                              const Watch& watch);
+// The same by a stepper of the caller's own, which is made for the model that the run changes from
+// mode to mode.
+using MakeStepper = std::function<std::unique_ptr<Stepper>(const model::Model& model)>;
+[[nodiscard]] Outcome integrate_hybrid(const model::Model& model, const MakeStepper& make_stepper,
+                                       const OutputGrid& grid, StateSink& sink, const Watch& watch);
 
 }  // namespace bbsim::solve

@@ -51,13 +51,17 @@ struct Outcome {
   std::size_t rows = 0;               // handed to the sink
   Statistics statistics;
   // Of a failed run: what the integrator says, the state with the largest error estimate, and
-  // all states, at the time reached.
+  // all states, at the time reached; no states if it failed for another reason than the motion.
   std::string reason;
   std::size_t worst_state = 0;
   std::vector<double> last_state;
   // What was watched for and happened, in order; of a stopped run the last one stopped it.
   std::vector<model::Occurrence> occurrences{};
 };
+
+// The same, but failed with its reason if it says that it is done and has not handed on every one
+// of the `rows` of its grid: whatever lost them, no file without them may pass for whole.
+[[nodiscard]] Outcome with_all_rows(Outcome outcome, std::size_t rows);
 
 // Collects a whole run in memory.
 class Trajectory : public StateSink {

@@ -1,9 +1,11 @@
 // The times at which a run is recorded: i * step, exactly, and the end.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 
+#include "base/instant.hpp"
 #include "scenario/scenario.hpp"
 
 namespace bbsim::solve {
@@ -14,7 +16,7 @@ class OutputGrid {
     // The last multiple of the step counts as the end if it is within rounding of it.
     const double intervals = end_ / step_;
     const double whole = std::floor(intervals);
-    const double slack = 1e-9;
+    const double slack = std::max(1e-9, rounding_of(intervals));
     before_end_ = static_cast<std::size_t>(intervals - whole > slack ? whole + 1 : whole);
     if (before_end_ == 0) before_end_ = 1;  // t = 0 comes always
   }

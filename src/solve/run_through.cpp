@@ -1,6 +1,8 @@
 #include <algorithm>
 #include <array>
+#include <utility>
 
+#include "solve/pace.hpp"
 #include "solve/row_block.hpp"
 #include "solve/stepper.hpp"
 
@@ -15,16 +17,20 @@ Outcome run_through(Stepper& stepper, const model::Model& model, const OutputGri
   if (model.gamma) first[model.size()] = 0;
 
   Outcome outcome;
+  Pace pace(grid.end());
+  const auto fail = [&](std::string reason) {
+    outcome.ending = Ending::failed;
+    outcome.reason = std::move(reason);
+    outcome.last_state = stepper.state();
+    outcome.worst_state = stepper.worst_state();
+  };
   stepper.start(0, model.initial.data());
   std::array<double, 64> times;
   std::size_t next_row = 1, next_stop = 0;
   for (std::size_t steps = 1;; ++steps) {
     const double limit = next_stop < model.stops.size() ? model.stops[next_stop] : grid.end();
     if (const char* reason = stepper.step(limit)) {
-      outcome.ending = Ending::failed;
-      outcome.reason = reason;
-      outcome.last_state = stepper.state();
-      outcome.worst_state = stepper.worst_state();
+      fail(reason);
       break;
     }
     const double reached = stepper.time();
@@ -43,6 +49,9 @@ Outcome run_through(Stepper& stepper, const model::Model& model, const OutputGri
     if (reached >= limit) {
       ++next_stop;
       stepper.jump();
+    } else if (pace.creeps(reached)) {
+      fail(pace.reason());
+      break;
     }
     if (watch.stop != nullptr && watch.stop->load(std::memory_order_relaxed)) {
       outcome.ending = Ending::interrupted;
@@ -54,7 +63,7 @@ Outcome run_through(Stepper& stepper, const model::Model& model, const OutputGri
   outcome.reached = stepper.time();
   outcome.rows = rows.rows();
   outcome.statistics = stepper.statistics();
-  return outcome;
+  return with_all_rows(std::move(outcome), grid.size());
 }
 
 }  // namespace bbsim::solve

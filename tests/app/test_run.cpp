@@ -208,3 +208,15 @@ TEST_CASE("help and version") {
   CHECK(version.exit_code == 0);
   CHECK(version.out.substr(0, 6) == "bbsim ");
 }
+
+TEST_CASE("a column that is no finite number has its reason, and the exit code says so") {
+  const Folder folder;
+  const Result result = bbsim({"run", config("incline.yaml"), "--set", "ball.mass=1e308", "-o",
+                               "a.csv", "--summary", "a.json"},
+                              folder.path());
+  CHECK(result.exit_code == 1);
+  CHECK(contains(result.err, "normal_force is no finite number in 201 rows, the first at t = 0 s"));
+  CHECK(lines(folder.read("a.csv")).size() == 202);
+  CHECK(contains(folder.read("a.json"), "\"status\": \"done\""));
+  CHECK(contains(folder.read("a.json"), "normal_force is no finite number"));
+}

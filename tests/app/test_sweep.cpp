@@ -310,3 +310,97 @@ TEST_CASE("what a sweep cannot do is said in one line, before it begins") {
       bbsim(sweep(config("fig2a.yaml"), with(key, {"-o", "/dev/full"})), folder.path());
   CHECK(full.exit_code == 3);
 }
+
+TEST_CASE("tied keys: one axis, a column for each, on the command line and in the scenario") {
+  const Folder folder;
+  const std::string tied = "controller.pd.kp.0.0,-controller.pd.kp.1.1";
+  const std::vector<std::string> vary{"--vary", tied + "=linear:0.001:0.003:3"};
+  const Result result =
+      bbsim(sweep(config("fig2b.yaml"), with(vary, {"-o", "a.csv"})), folder.path());
+  REQUIRE(result.exit_code == 0);
+  const auto table = rows(folder.read("a.csv"));
+  REQUIRE(table.size() == 4);
+  CHECK(std::vector<std::string>(table[0].begin(), table[0].begin() + 4) ==
+        std::vector<std::string>{"case", "controller.pd.kp.0.0", "controller.pd.kp.1.1", "status"});
+  CHECK(table[2][1] == "0.002");
+  CHECK(table[2][2] == "-0.002");
+
+  // To the bit what a run with the same values gives.
+  const Result run = bbsim({"run", config("fig2b.yaml"), "-q", "-o", "-", "--set",
+                            "controller.pd.kp=[[0.002, 0], [0, -0.002]]"},
+                           folder.path());
+  const auto last = rows(run.out).back();
+  CHECK(table[2][6] == last[1]);
+  CHECK(table[2][7] == last[2]);
+
+  std::string text;
+  std::istringstream lines(folder.read(config("fig2b.yaml")));
+  for (std::string line; std::getline(lines, line);) text += line + '\n';
+  const std::string scene = folder.write(
+      "scene.yaml", text + "sweep:\n  vary:\n    " + tied + ": linear:0.001:0.003:3\n");
+  REQUIRE(bbsim(sweep(scene, {"-o", "b.csv"}), folder.path()).exit_code == 0);
+  CHECK(folder.read("b.csv") == folder.read("a.csv"));
+  CHECK(contains(bbsim({"check", scene}, folder.path()).out,
+                 "3 cases of bbsim sweep, over controller.pd.kp.0.0, controller.pd.kp.1.1"));
+
+  // Shards and HDF5 have the same columns.
+  for (const char* shard : {"1", "2"}) {
+    REQUIRE(
+        bbsim(sweep(config("fig2b.yaml"), with(vary, {"--shard", std::string(shard) + "/2", "-o",
+                                                      std::string("p-") + shard + "of2.csv"})),
+              folder.path())
+            .exit_code == 0);
+  }
+  REQUIRE(
+      bbsim({"merge", "-q", "p-1of2.csv", "p-2of2.csv", "-o", "m.csv"}, folder.path()).exit_code ==
+      0);
+  CHECK(folder.read("m.csv") == folder.read("a.csv"));
+  CHECK(bbsim(sweep(config("fig2b.yaml"), with(vary, {"-o", "a.h5"})), folder.path()).exit_code ==
+        0);
+
+  const Result wrong =
+      bbsim(sweep(config("fig2b.yaml"), {"--vary", "gravity,=list:1"}), folder.path());
+  CHECK(wrong.exit_code == 2);
+  CHECK(contains(wrong.err, "-KEY or NUMBER*KEY"));
+}
+
+TEST_CASE("a sweep of tied keys that was interrupted goes on to the same bytes") {
+  const Folder folder;
+  const std::vector<std::string> arguments{
+      "sweep",
+      config("fig2a.yaml"),
+      "--vary",
+      "gimbal.motion.phi.sinusoid.phase,-gimbal.motion.theta.sinusoid.phase=uniform:0:3",
+      "--samples",
+      "40000",
+      "-j",
+      "1"};
+  const Result cut = bbsim(
+      Launch{with(arguments, {"-o", "s.csv"}), folder.path(), 2, std::chrono::milliseconds(200)});
+  REQUIRE(cut.exit_code == 130);
+  CHECK(bbsim(with(arguments, {"-o", "s.csv", "--resume"}), folder.path()).exit_code == 0);
+  CHECK(bbsim(with(arguments, {"-o", "t.csv"}), folder.path()).exit_code == 0);
+  CHECK(folder.read("s.csv") == folder.read("t.csv"));
+}
+
+TEST_CASE("--set of a key that varies is refused") {
+  const Folder folder;
+  const Result result =
+      bbsim(sweep(config("fig2a.yaml"), {"--vary", "gravity=list:1,2", "--set", "gravity=3"}),
+            folder.path());
+  CHECK(result.exit_code == 2);
+  CHECK(contains(result.err, "--set gravity=3: found, but the sweep varies gravity"));
+  CHECK(folder.files().empty());
+}
+
+TEST_CASE(
+    "a measure that is no finite number is said at the end, and is no case that ended early") {
+  const Folder folder;
+  const Result result = bbsim({"sweep", config("fig2a.yaml"), "--vary", "ball.mass=list:1,1e308",
+                               "--measure", "max_normal_force", "-o", "a.csv"},
+                              folder.path());
+  CHECK(result.exit_code == 0);
+  CHECK(contains(result.err, "2 of 2 cases, 1 with no finite number (see reason)"));
+  CHECK_FALSE(contains(result.err, "ended early"));
+  CHECK(rows(folder.read("a.csv"))[2][3] == "max_normal_force is infinite");
+}

@@ -37,6 +37,24 @@ TEST_CASE("an open loop has the ball's five states and none of the gimbal") {
   CHECK_FALSE(assemble(fig2a(), false).gamma);
 }
 
+TEST_CASE("gamma is no number where it was not integrated, and 0 where symmetry keeps it") {
+  const Model with = assemble(fig2a(), true), without = assemble(fig2a(), false);
+  std::vector<double> row = with.initial;
+  row.push_back(0.02);
+  CHECK(with.sample(0, row.data()).gamma == 2);  // over a radius of 1 cm
+  CHECK(std::isnan(without.sample(0, row.data()).gamma));
+  for (const bool asked : {true, false}) {
+    const Model planar = assemble(tilt_about_y(), asked);
+    CHECK(planar.sample(0, planar.initial.data()).gamma == 0);
+  }
+}
+
+TEST_CASE("a planar scene may be carried as any other") {
+  const Model model = assemble(tilt_about_y(), false, Symmetry::ignored);
+  CHECK(model.state_names() == Names{"x", "y", "vx", "vy", "r*spin"});
+  CHECK(model.initial[0] == tilt_about_y().ball.position[0]);
+}
+
 TEST_CASE("a planar scene has two states") {
   Scenario scene = tilt_about_y();
   CHECK(assemble(scene, true).state_names() == Names{"x", "vx"});

@@ -218,3 +218,30 @@ TEST_CASE("a watched motion that leaves the range of doubles ends with a reason"
   CHECK(run.outcome.reached > 50);
   CHECK_FALSE(run.outcome.reason.empty());
 }
+
+TEST_CASE("what stopped a run has the ball's turn, and what the controller saw") {
+  SECTION("gamma") {
+    Scenario scene = edge().scene;
+    scene.ball.spin = 3;
+    const Run run = run_in_memory(scene, Method::automatic, {1e-11, 1e-13});
+    REQUIRE(run.outcome.ending == solve::Ending::stopped);
+    const model::Occurrence& stop = run.outcome.occurrences.back();
+    Scenario until = scene;
+    until.events = {};
+    until.time = {stop.t, stop.t};
+    const Run whole = run_in_memory(until, Method::automatic, {1e-11, 1e-13});
+    CHECK(std::abs(stop.sample.gamma - whole.samples.back().gamma) < 1e-8);
+    // Not asked for, it is not known.
+    const Run without = run_in_memory(scene, Method::automatic, {1e-11, 1e-13}, false);
+    CHECK(std::isnan(without.outcome.occurrences.back().sample.gamma));
+  }
+  SECTION("the last sample") {
+    const Scenario scene = read_scenario(BBSIM_SOURCE_DIR "/configs/falls.yaml");
+    const Run run = run_in_memory(scene, Method::automatic, {1e-8, 1e-10});
+    REQUIRE(run.outcome.ending == solve::Ending::stopped);
+    const model::Sample& at = run.outcome.occurrences.back().sample;
+    // Less than a period and a delay of the sensor before, 0.14 s at some 0.5 m/s.
+    CHECK(at.measured[0] != 0);
+    CHECK(std::abs(at.measured[0] - at.ball.x) < 0.1);
+  }
+}

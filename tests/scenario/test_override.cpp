@@ -37,6 +37,9 @@ TEST_CASE("an override sets and appends list items by position") {
   CHECK(errors(text, {"output.columns.-1=y"}) ==
         "--set output.columns.-1=y: output.columns: found the position -1 in a list; allowed: 0 "
         "to 2, where the last appends");
+  CHECK(errors(text, {"output.columns.01=y"}) ==
+        "--set output.columns.01=y: output.columns: found the position 01 in a list; allowed: 0 to "
+        "2, where the last appends");
   CHECK(errors(text, {"output.columns.99999999999999999999=y"}).find("found the position 9999") !=
         std::string::npos);
 }

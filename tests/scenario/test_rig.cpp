@@ -89,6 +89,9 @@ TEST_CASE("combinations that mean nothing are refused, with why") {
                 {"controller.sensor.noise=0.001"},
                 "controller.sensor: found, but no controller.sampling"},
            Case{base,
+                {"controller.sampling.period=0.01", "controller.sensor.seed=3"},
+                "controller.sensor.seed: found, but neither noise nor dropout"},
+           Case{base,
                 {"gimbal.servo.dead_band=0.01"},
                 "gimbal.servo.dead_band: found without controller.sampling"},
            Case{base,
@@ -121,6 +124,14 @@ TEST_CASE("combinations that mean nothing are refused, with why") {
        }) {
     CAPTURE(refused.says);
     CHECK_THAT(errors(refused.text, refused.overrides), Catch::Matchers::Contains(refused.says));
+  }
+}
+
+TEST_CASE("a seed goes with what is drawn, be it switched off") {
+  for (const char* drawn : {"noise=0.001", "noise=0", "dropout=0.1"}) {
+    CHECK(errors(base, {"controller.sampling.period=0.01", "controller.sensor.seed=3",
+                        std::string("controller.sensor.") + drawn})
+              .empty());
   }
 }
 

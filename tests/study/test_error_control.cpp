@@ -5,7 +5,9 @@
 
 #include "../solve/run_in_memory.hpp"
 #include "catch.hpp"
+#include "solve/unlike.hpp"
 #include "study/error_control.hpp"
+#include "study/reference.hpp"
 
 using namespace bbsim;
 using namespace bbsim_test;
@@ -36,7 +38,104 @@ Asked ask(const std::string& name, double bound) {
   return asked;
 }
 
+// Positions at the output times: the states x and y, or one of them.
+using Positions = std::vector<std::vector<double>>;
+
+// In quad precision; of what switches, by many more steps than any run takes, of 8 or 12 stages.
+Positions exact(const model::Model& model, const solve::OutputGrid& grid) {
+  const auto n = static_cast<std::size_t>(study::coordinates(model));
+  Positions rows;
+  if (model.hybrid()) {
+    solve::Trajectory fine(model.row_size());
+    const auto outcome = solve::integrate_unlike(model, {12, 7}, {1e-14, 1e-16}, grid, fine, {});
+    REQUIRE(outcome.ending != solve::Ending::failed);
+    for (std::size_t i = 0; i < fine.rows(); ++i) rows.emplace_back(fine.row(i), fine.row(i) + n);
+    return rows;
+  }
+  const study::ReferenceSolution quad = study::solve_reference(model, grid);
+  REQUIRE(quad.complete);
+  for (std::size_t i = 0; i < quad.rows(); ++i) {
+    rows.emplace_back();
+    for (std::size_t k = 0; k < n; ++k) rows.back().push_back(plain(quad.row(i)[k]));
+  }
+  return rows;
+}
+
+// What is asked of a scene of configs/.
+Asked ask(const model::Model& model, const solve::OutputGrid& grid, const Positions& truth,
+          double bound, Method method = Method::automatic) {
+  solve::Trajectory rows(model.row_size());
+  Asked asked;
+  asked.result = study::integrate_to_error(model, method, bound, grid, rows);
+  for (std::size_t i = 0; i < std::min(rows.rows(), truth.size()); ++i) {
+    for (std::size_t k = 0; k < truth[i].size(); ++k) {
+      asked.error = std::max(asked.error, std::abs(rows.row(i)[k] - truth[i][k]));
+      asked.extent = std::max(asked.extent, std::abs(truth[i][k]));
+    }
+  }
+  return asked;
+}
+
 }  // namespace
+
+TEST_CASE("where stops dictate the steps the estimate is honest too") {
+  // Tables, samples, a path past points, and what is watched for. Steps are as long as the pieces
+  // at any tolerance, and so is what a check at a finer one would take.
+  const auto [name, end] =
+      GENERATE(std::pair("recorded", "4"), std::pair("traced", "12"), std::pair("waypoints", "18"),
+               std::pair("step", "2"), std::pair("catch", "1.5"), std::pair("falls", "8"));
+  CAPTURE(name);
+  const Scenario scene = read_scenario(std::string(BBSIM_SOURCE_DIR "/configs/") + name + ".yaml",
+                                       {std::string("time.end=") + end});
+  const model::Model model = model::assemble(scene, false);
+  const solve::OutputGrid grid(scene.time);
+  const Positions truth = exact(model, grid);
+  for (const double bound : {1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10}) {
+    const Asked asked = ask(model, grid, truth, bound);
+    CAPTURE(bound, asked.result.estimate, asked.error, asked.result.tolerances.rtol,
+            asked.result.runs);
+    CHECK(asked.result.outcome.ending != solve::Ending::failed);
+    CHECK(asked.result.met);
+    CHECK(asked.error <= bound);
+    // The truth of what switches is itself known to some roundings, amplified by the loop.
+    const double known_to = (model.hybrid() ? 1e-13 : 4e-16) * asked.extent;
+    CHECK(asked.result.estimate >= (asked.error - known_to) / 3);
+    CHECK(asked.result.estimate <= 30 * asked.error + 100 * known_to);
+  }
+}
+
+TEST_CASE("estimates are honest at every number of stages, and of other methods") {
+  // Tolerances in the ranges of 8, 12 and 16 stages, at both ends of each.
+  const std::string name = GENERATE("fig2a", "fig2b", "spin");
+  const Scenario scene = scenario_named(name);
+  const model::Model model = model::assemble(scene, false);
+  const solve::OutputGrid grid(scene.time);
+  const Positions truth = exact(model, grid);
+  for (const Method method : {Method::radau, Method::bdf, Method::adams}) {
+    for (const double bound : {5e-4, 3e-5, 4e-6, 2e-6, 3e-7, 3e-8, 4e-9, 2e-9}) {
+      if (method != Method::radau && bound < 1e-7) continue;
+      CAPTURE(name, int(method), bound);
+      const Asked asked = ask(model, grid, truth, bound, method);
+      CHECK(asked.result.met);
+      CHECK(asked.error <= bound);
+      CHECK(asked.result.estimate >= (asked.error - 4e-16 * asked.extent) / 3);
+    }
+  }
+}
+
+TEST_CASE("runs that do not end alike are far apart") {
+  // A ball that comes to rest on the very edge, or a tolerance beyond it.
+  const Scenario scene = read_scenario(BBSIM_SOURCE_DIR "/configs/falls.yaml");
+  const model::Model model = model::assemble(scene, false);
+  const solve::OutputGrid grid(scene.time);
+  const Asked asked = ask(model, grid, exact(model, grid), 1e-9);
+  REQUIRE(asked.result.outcome.ending == solve::Ending::stopped);
+  // Where the ball leaves the plate is known as well as where it is.
+  const auto fine = run_in_memory(scene, Method::radau, {1e-13, 1e-15});
+  const double speed = std::hypot(asked.result.outcome.occurrences.back().sample.ball.x_dot,
+                                  asked.result.outcome.occurrences.back().sample.ball.y_dot);
+  CHECK(std::abs(asked.result.outcome.reached - fine.outcome.reached) * speed <= 1e-9);
+}
 
 TEST_CASE("an error asked for is met, and its estimate is honest") {
   const std::string name =

@@ -292,3 +292,127 @@ TEST_CASE("shards are whole groups, as even as can be, and make up the sweep") {
     }
   }
 }
+
+namespace {
+
+// Within the tolerance of 1e-6 of both, over a loop that amplifies it little.
+void check_lanes(const Setup& setup) {
+  const Engine engine = choose_engine(setup.task);
+  REQUIRE(engine.name == "lanes");
+  const std::size_t cases = setup.plan.cases();
+  const CaseResults lanes = run_all(*engine.runner(), cases);
+  CHECK(largest_difference(lanes, run_all(*single_runner(setup.task), cases)) < 1e-4);
+  for (const CaseStatus& status : lanes.status) {
+    CHECK(status.word == "done");
+    CHECK(status.reason.empty());
+  }
+}
+
+const std::vector<std::string> coarse{"solver.rtol=1e-6", "solver.atol=1e-8"};
+
+}  // namespace
+
+TEST_CASE("planar cases do not decide how the others are computed") {
+  // Along x alone where the ball starts on that axis.
+  const char* const spec =
+      GENERATE("linear:0:5 cm:11", "linear:5 cm:0:11", "list:0,0,0,0,0,0,0,0,1 cm");
+  CAPTURE(spec);
+  check_lanes(Setup("configs/beam.yaml", {{"ball.position.1", spec}}, coarse, loop_measures));
+}
+
+TEST_CASE("a sweep of planar cases alone is run one by one") {
+  const Setup setup("configs/beam.yaml", {{"ball.position.0", "linear:0:5 cm:11"}}, coarse,
+                    loop_measures);
+  CHECK(choose_engine(setup.task).name == "single runs");
+  const Setup zeros("configs/beam.yaml", {{"ball.position.1,ball.velocity.1", "list:0,0,0"}},
+                    coarse, loop_measures);
+  CHECK(choose_engine(zeros.task).name == "single runs");
+}
+
+TEST_CASE("what most cases are like decides the engine, whichever comes first") {
+  const auto engine = [](const std::string& spec) {
+    const Setup setup(
+        "tests/data/scenarios/stiff-servo.yaml",
+        {{"gimbal.servo.natural_frequency", spec}, {"ball.position.0", "linear:0:0.05:16"}},
+        {"solver.rtol=1e-8"}, loop_measures);
+    return choose_engine(setup.task).name;
+  };
+  // What a servo of 2000 rad/s does decays 2e4 times over the 21 s, of one of 10 rad/s 200 times.
+  CHECK(engine("list:10,2000,2000,2000") == "lanes");
+  CHECK(engine("list:2000,2000,2000,10") == "lanes");
+  CHECK(engine("list:2000,10,10,10") == "single runs");
+  CHECK(engine("list:10,10,10,2000") == "single runs");
+}
+
+TEST_CASE("tied keys are computed by every engine") {
+  SECTION("lanes") {
+    check_lanes(Setup("configs/fig2b.yaml",
+                      {{"controller.pd.kv.0.0,-controller.pd.kv.1.1", "linear:0.8:1.2:9"},
+                       {"ball.position.0,-0.5*ball.position.1", "list:1 cm,4 cm"}},
+                      coarse, loop_measures));
+  }
+  SECTION("superposition") {
+    const Setup setup("configs/fig2a.yaml",
+                      {{"ball.position.0,-2*ball.position.1", "uniform:-0.2:0.2"}},
+                      {"solver.rtol=1e-12", "solver.atol=1e-14"}, open_measures, 50);
+    REQUIRE(can_superpose(setup.task));
+    const auto runner = superposition_runner(setup.task, solve_superposed(setup.task));
+    const CaseResults sums = run_all(*runner, 50), runs = run_all(*single_runner(setup.task), 50);
+    CHECK(largest_difference(sums, runs) < 1e-11);
+    for (std::size_t i = 0; i < 50; ++i) CHECK(sums.values[2 * i + 1] == -2 * sums.values[2 * i]);
+  }
+  SECTION("single runs, by numbers put in place and by scenarios read anew") {
+    for (const char* set : {"ball.spin=0", "events.lift_off=note"}) {
+      const Setup tied("configs/fig2b.yaml",
+                       {{"controller.pd.kv.0.0,-controller.pd.kv.1.1", "list:0.8,1.2"}}, {set},
+                       loop_measures);
+      const CaseResults results = run_all(*single_runner(tied.task), 2);
+      for (std::size_t i = 0; i < 2; ++i) {
+        const std::string kv = i == 0 ? "0.8" : "1.2";
+        const Setup one("configs/fig2b.yaml", {{"controller.pd.kv.1.1", "list:-" + kv}},
+                        {set, "controller.pd.kv.0.0=" + kv}, loop_measures);
+        const CaseResults alone = run_all(*single_runner(one.task), 1);
+        for (std::size_t n = 0; n < alone.numbers.size(); ++n) {
+          CHECK(results.numbers[i * alone.numbers.size() + n] == alone.numbers[n]);
+        }
+      }
+    }
+  }
+}
+
+TEST_CASE("a case without what a measure needs has no number for it, and says why") {
+  const std::string second = GENERATE("{size: [0.3, 0.3]}", "{diameter: 0.3}");
+  const Setup setup("configs/fig2a.yaml",
+                    {{"plate", "list:{inertia: [1e-4, 1e-4, 2e-4]}," + second}}, {},
+                    {"end_motor_torque_phi", "x_end"});
+  const CaseResults results = run_all(*single_runner(setup.task), 2);
+  CHECK(results.status[0].word == "done");
+  CHECK(results.status[0].reason.empty());
+  CHECK(std::isfinite(results.numbers[1]));
+  CHECK(std::isnan(results.numbers[4]));
+  CHECK(std::isfinite(results.numbers[5]));
+  CHECK(results.status[1].reason ==
+        "end_motor_torque_phi is no number: plate.inertia is not known");
+}
+
+TEST_CASE("a measure beyond the range of doubles has its reason, whatever the engine") {
+  SECTION("single runs, row by row and many rows at a time") {
+    for (const char* measure : {"max_normal_force", "end_normal_force"}) {
+      const Setup setup("configs/fig2a.yaml", {{"ball.mass", "list:1,1e308"}}, {}, {measure});
+      const CaseResults results = run_all(*single_runner(setup.task), 2);
+      CHECK(results.status[0].word == "done");
+      CHECK(results.status[0].reason.empty());
+      CHECK(results.status[1].reason == measure + std::string(" is infinite"));
+    }
+  }
+  SECTION("lanes") {
+    const Setup setup("configs/fig2b.yaml", {{"ball.mass", "list:1,1e308"}}, coarse,
+                      {"end_normal_force"});
+    const Engine engine = choose_engine(setup.task);
+    REQUIRE(engine.name == "lanes");
+    const CaseResults results = run_all(*engine.runner(), 2);
+    CHECK(results.status[0].word == "done");
+    CHECK(results.status[0].reason.empty());
+    CHECK(results.status[1].reason == "end_normal_force is infinite");
+  }
+}

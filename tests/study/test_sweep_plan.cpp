@@ -30,9 +30,10 @@ SweepPlan plan_of(const Sweep& sweep, const std::string& file = scene) {
   return {ScenarioFamily(file, {}), sweep};
 }
 
-std::string fault(const Sweep& sweep, const std::string& file = scene) {
+std::string fault(const Sweep& sweep, const std::string& file = scene,
+                  const std::vector<std::string>& set = {}) {
   try {
-    const ScenarioFamily family(file, {});
+    const ScenarioFamily family(file, set);
     const SweepPlan plan(family, sweep);
     static_cast<void>(plan.check(family, 0, plan.cases(), [](double) { return true; }));
     return "";
@@ -186,4 +187,98 @@ TEST_CASE("rules between keys are checked for each of their combinations") {
   CHECK(contains(text,
                  "with controller.sampling.delay=0.2: controller.sampling.delay: found more "
                  "than 100 periods"));
+}
+
+TEST_CASE("tied keys go together, each by its factor") {
+  const SweepPlan plan =
+      plan_of(vary({{"ball.position.0,-ball.position.1", "linear:-10 cm:10 cm:5"}}));
+  REQUIRE(plan.cases() == 5);
+  REQUIRE(plan.axes().size() == 2);
+  CHECK(plan.axes()[0].key == "ball.position.0");
+  CHECK(plan.axes()[1].key == "ball.position.1");
+  CHECK(values(plan, 0) == std::array{-0.1, 0.1});
+  CHECK(values(plan, 1) == std::array{-0.05, 0.05});
+  CHECK(values(plan, 2) == std::array{0.0, 0.0});
+  CHECK_FALSE(std::signbit(values(plan, 2)[1]));
+  CHECK(plan.settings(4)[1].key == "ball.position.1");
+  CHECK(plan.settings(4)[1].value == "-0.1");
+
+  // A factor before the first key too; the values are those of no factor.
+  const SweepPlan scaled =
+      plan_of(vary({{" -2 * ball.position.0 , 0.5*ball.position.1", "list:1 cm,4"}}));
+  CHECK(values(scaled, 0) == std::array{-0.02, 0.005});
+  CHECK(values(scaled, 1) == std::array{-8.0, 2.0});
+
+  SECTION("beside others they are one axis of a grid") {
+    const SweepPlan grid =
+        plan_of(vary({{"ball.position.0,ball.position.1", "list:1,2"}, {"gravity", "list:5,6,7"}}));
+    REQUIRE(grid.cases() == 6);
+    std::array<double, 3> at{};
+    grid.values(4, at.data());
+    CHECK(at == std::array{2.0, 2.0, 6.0});
+  }
+  SECTION("and of a zip") {
+    Sweep sweep = vary({{"ball.position.0,ball.position.1", "list:1,2"}, {"gravity", "list:5,6"}});
+    sweep.combine = Combine::zip;
+    const SweepPlan zip = plan_of(sweep);
+    REQUIRE(zip.cases() == 2);
+    std::array<double, 3> at{};
+    zip.values(1, at.data());
+    CHECK(at == std::array{2.0, 2.0, 6.0});
+  }
+  SECTION("what is drawn is drawn once") {
+    Sweep sweep = vary({{"ball.position.0,-3*ball.position.1", "normal:0.1:0.02"}});
+    sweep.samples = 50;
+    const SweepPlan drawn = plan_of(sweep);
+    sweep.vary[0].key = "ball.position.0";
+    const SweepPlan alone = plan_of(sweep);
+    for (const std::size_t i : {0, 1, 49}) {
+      CHECK(values(drawn, i)[0] == values(alone, i)[0]);
+      CHECK(values(drawn, i)[1] == -3 * values(drawn, i)[0]);
+    }
+  }
+  SECTION("texts too, as they are") {
+    const SweepPlan texts =
+        plan_of(vary({{"controller.pd.kv,controller.pd.kp", "list:1,[[2, 0], [0, -2]]"}}), loop);
+    REQUIRE(texts.cases() == 2);
+    CHECK(texts.settings(1)[0].value == "[[2, 0], [0, -2]]");
+    CHECK(texts.settings(1)[1].value == "[[2, 0], [0, -2]]");
+    CHECK(texts.axes()[1].texts[1] == "[[2, 0], [0, -2]]");
+  }
+}
+
+TEST_CASE("what cannot be tied is said before it runs") {
+  CHECK(contains(fault(vary({{"gravity,gravity", "list:1"}})), "gravity: found twice"));
+  CHECK(
+      contains(fault(vary({{"ball.radius,ball.raduis", "list:1"}})), "did you mean ball.radius?"));
+  CHECK(contains(fault(vary({{"ball.position,ball.position.0", "list:[1, 2]"}})), "apart from"));
+  CHECK(contains(fault(vary({{"ball.spin,-ball.radius", "linear:1:2:3"}})),
+                 "with ball.radius=-1: ball.radius: found -1"));
+  CHECK(contains(fault(vary({{"ball.mass,gravity,", "list:1"}})), "no key beside a comma"));
+  CHECK(contains(fault(vary({{"ball.mass,0*gravity", "list:1"}})), "a number that is not 0"));
+  CHECK(contains(fault(vary({{"ball.mass,x*gravity", "list:1"}})), "NUMBER*KEY"));
+  CHECK(contains(
+      fault(vary({{"controller.pd.kv,-controller.pd.kp", "list:1,[[2, 0], [0, -2]]"}}), loop),
+      "no number that a factor could be applied to"));
+  CHECK(contains(fault(vary({{"title,-gravity", "list:-5,-6"}})), "a single number"));
+}
+
+TEST_CASE("a position has one spelling") {
+  const std::string text =
+      fault(vary({{"ball.position.0", "list:1,2"}, {"ball.position.00", "list:3,4"}}));
+  CHECK(contains(text, "ball.position.00=3: ball.position: found the position 00 in a list"));
+}
+
+TEST_CASE("a value from --set for a key that varies is refused") {
+  const Sweep sweep = vary({{"ball.position.0", "list:1,2"}});
+  CHECK(contains(fault(sweep, scene, {"ball.position.0=5"}),
+                 "--set ball.position.0=5: found, but the sweep varies ball.position.0"));
+  CHECK(fault(sweep, scene, {"ball.position.1=5"}).empty());
+  // Of a value above it something stays.
+  CHECK(fault(sweep, scene, {"ball.position=[7, 8]"}).empty());
+  CHECK(contains(fault(vary({{"ball.position", "list:[1, 2]"}}), scene, {"ball.position.1=5"}),
+                 "the sweep varies ball.position"));
+  CHECK(
+      contains(fault(vary({{"gravity,ball.position.0", "list:1,2"}}), scene, {"ball.position.0=5"}),
+               "the sweep varies ball.position.0"));
 }

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/instant.hpp"
+
 namespace bbsim::model {
 namespace {
 
@@ -70,10 +72,15 @@ double HybridRun::next_time() const {
   return next;
 }
 
+double HybridRun::rounding(double t) const {
+  // What the sensor sees at t is of the sample at t + delay.
+  return rounding_of(sampled_ ? t - sampled_->expose.shift : t);
+}
+
 // Until when instants are one with t: a run of no length between them is none.
 double HybridRun::instant_end(double t) const {
-  const double rounding = 1e-14 * std::max(1.0, t);
-  return t + (sampled_ ? std::max(rounding, one_instant * sampled_->sample.period) : rounding);
+  return t +
+         (sampled_ ? std::max(rounding(t), one_instant * sampled_->sample.period) : rounding(t));
 }
 
 bool HybridRun::is_due(double t) const {
@@ -209,8 +216,17 @@ HybridRun::Effect HybridRun::occur(std::size_t monitor, double t, const double* 
   happening_[monitor] = 1;
   const Monitor& what = model_.watched->monitors[monitor];
   const bool stops = what.action == OnEvent::stop;
-  occurrences_.push_back({t, what.name(), stops, sample(t, z)});
+  Sample now = sample(t, z);
+  now.gamma = model_.gamma_not_integrated();
+  if (sampled_) now.measured = sampled_->measured;
+  occurrences_.push_back({t, what.name(), stops, now});
   return stops ? Effect::stop : Effect::none;
+}
+
+void HybridRun::note_turned(double integral) {
+  for (; with_gamma_ < occurrences_.size(); ++with_gamma_) {
+    if (model_.gamma) occurrences_[with_gamma_].sample.gamma = integral / model_.radius;
+  }
 }
 
 HybridRun::Effect HybridRun::fire(std::size_t i, double t, double* z) {
@@ -223,6 +239,12 @@ HybridRun::Effect HybridRun::fire(std::size_t i, double t, double* z) {
   if (happening_[monitor] == 0) return occur(monitor, t, z);
   happening_[monitor] = 0;
   return Effect::none;
+}
+
+bool HybridRun::stops(std::size_t i) const {
+  const std::size_t first_monitor = guards() - happening_.size();
+  return i >= first_monitor && happening_[i - first_monitor] == 0 &&
+         model_.watched->monitors[i - first_monitor].action == OnEvent::stop;
 }
 
 HybridRun::Effect HybridRun::look(double t, const double* z) {

@@ -29,6 +29,9 @@ class HybridRun {
   // Whether t is as good as next_time().
   [[nodiscard]] bool is_due(double t) const;
 
+  // Times nearer to t than this (s) are one with it but for their rounding.
+  [[nodiscard]] double rounding(double t) const;
+
   // Does what is due at t, the time of the start or next_time(). May change the states z.
   void act(double t, double* z);
 
@@ -36,6 +39,9 @@ class HybridRun {
   [[nodiscard]] std::size_t guards() const { return guard_scales_.size(); }
   [[nodiscard]] const std::vector<double>& guard_scales() const { return guard_scales_; }
   void evaluate_guards(double t, const double* z, double* values) const;
+
+  // Whether guard i stops the run once it has fallen to zero.
+  [[nodiscard]] bool stops(std::size_t i) const;
 
   enum class Effect { none, restart, stop };
 
@@ -47,6 +53,10 @@ class HybridRun {
 
   // What a row of output has beside the states, at the present mode: Model::extras() numbers.
   void write_extras(double t, const double* z, double* out) const;
+
+  // The integral of u = r gamma' where something has just occurred, m: of what fire() and look()
+  // added to the occurrences since the last call.
+  void note_turned(double integral);
 
   [[nodiscard]] const std::vector<Occurrence>& occurrences() const { return occurrences_; }
 
@@ -93,6 +103,7 @@ class HybridRun {
   };
   std::optional<Sampled> sampled_;
   std::vector<Occurrence> occurrences_;
+  std::size_t with_gamma_ = 0;  // so many of them
 };
 
 }  // namespace bbsim::model

@@ -29,7 +29,8 @@ double highest_frequency(const model::Model& model) {
 // z such that (z/2)^s / s! = tolerance: half a step of a sinusoid, in radians, whose s-th
 // Legendre coefficient has just fallen to the tolerance.
 double resolved(int stages, double tolerance) {
-  return 2 * std::exp((std::log(tolerance) + std::lgamma(stages + 1.0)) / stages);
+  int sign = 0;  // std::lgamma would leave it in a variable that all threads share
+  return 2 * std::exp((std::log(tolerance) + ::lgamma_r(stages + 1.0, &sign)) / stages);
 }
 
 // For rigs beyond the paper's, 16 stages find the kernel of 12 (kernels.hpp).
@@ -55,13 +56,8 @@ int choose_stages(double rtol) {
   return rtol > 3e-6 ? 8 : rtol > 3e-9 ? 12 : 16;
 }
 
-int unlike_stages(const model::Model& model, double rtol) {
-  const KernelSet& kernels = choose_kernels();
-  const int usual = find_kernel(kernels, choose_stages(rtol), model).stages;
-  for (const int other : {16, 12, 8}) {
-    if (find_kernel(kernels, other, model).stages != usual) return other;
-  }
-  return usual;
+int stages_of(const model::Model& model, int stages) {
+  return find_kernel(choose_kernels(), stages, model).stages;
 }
 
 RadauStepper::RadauStepper(const model::Model& model, const KernelSet& kernels, int stages,
@@ -216,29 +212,14 @@ void RadauStepper::evaluate(const double* times, std::size_t count, double* rows
 
 }  // namespace collocation
 
-namespace {
-
-Outcome integrate_with(int stages, const model::Model& model, Tolerances tolerances,
-                       const OutputGrid& grid, StateSink& sink, const Watch& watch) {
-  collocation::RadauStepper stepper(model, collocation::choose_kernels(), stages, tolerances,
+Outcome integrate_radau(const model::Model& model, Tolerances tolerances, const OutputGrid& grid,
+                        StateSink& sink, const Watch& watch) {
+  collocation::RadauStepper stepper(model, collocation::choose_kernels(),
+                                    collocation::choose_stages(tolerances.rtol), tolerances,
                                     grid.end());
   Outcome outcome = run_through(stepper, model, grid, sink, watch);
   outcome.method = Method::radau;
   return outcome;
-}
-
-}  // namespace
-
-Outcome integrate_radau(const model::Model& model, Tolerances tolerances, const OutputGrid& grid,
-                        StateSink& sink, const Watch& watch) {
-  const int stages = collocation::choose_stages(tolerances.rtol);
-  return integrate_with(stages, model, tolerances, grid, sink, watch);
-}
-
-Outcome integrate_radau_unlike(const model::Model& model, Tolerances tolerances,
-                               const OutputGrid& grid, StateSink& sink, const Watch& watch) {
-  const int stages = collocation::unlike_stages(model, tolerances.rtol);
-  return integrate_with(stages, model, tolerances, grid, sink, watch);
 }
 
 }  // namespace bbsim::solve

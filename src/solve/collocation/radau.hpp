@@ -23,12 +23,6 @@ namespace bbsim::solve {
 [[nodiscard]] Outcome integrate_radau(const model::Model& model, Tolerances tolerances,
                                       const OutputGrid& grid, StateSink& sink, const Watch& watch);
 
-// The same with another number of stages than integrate_radau would take: a run to check that one
-// against, with different steps and different rounding.
-[[nodiscard]] Outcome integrate_radau_unlike(const model::Model& model, Tolerances tolerances,
-                                             const OutputGrid& grid, StateSink& sink,
-                                             const Watch& watch);
-
 namespace collocation {
 
 // The kernels for the best instruction set of this processor, or the one that BBSIM_SIMD names:
@@ -42,8 +36,8 @@ namespace collocation {
 // and 12, and take 12 for 16.
 [[nodiscard]] int choose_stages(double rtol);
 
-// Stages for a run to check the usual one against.
-[[nodiscard]] int unlike_stages(const model::Model& model, double rtol);
+// How many stages a model gets that is asked to take so many.
+[[nodiscard]] int stages_of(const model::Model& model, int stages);
 
 // A step never goes over a time of the model's stops, if the driver makes them its limits, nor over
 // a time at which a sinusoid of the input would pass between two nodes unseen. Allocates nothing

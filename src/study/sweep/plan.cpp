@@ -59,6 +59,18 @@ double listed(const Axis& axis, std::size_t i) {
   return axis.numeric ? axis.numbers[i] : static_cast<double>(i);
 }
 
+// A number of the axis that is not 0, if there is one: of those that are equally far apart it is
+// among the first two, and of a distribution it may be any that stands in its place.
+double not_zero(const Axis& axis) {
+  if (axis.random()) return axis.from != 0 ? axis.from : axis.to;
+  const std::size_t look_at =
+      axis.kind == Kind::list ? axis.count : std::min<std::size_t>(axis.count, 2);
+  for (std::size_t i = 0; i < look_at; ++i) {
+    if (listed(axis, i) != 0) return listed(axis, i);
+  }
+  return 0;
+}
+
 std::string value_text(const Axis& axis, double value) {
   return axis.numeric ? input::number_text(value) : axis.texts[static_cast<std::size_t>(value)];
 }
@@ -72,27 +84,96 @@ bool within(const std::string& path, const std::string& other) {
   throw InputError(input::shown(key) + ": " + message);
 }
 
+// A key that varies must not be another one's, nor a part of it.
+void check_apart(const std::string& key, const std::vector<Setting>& others) {
+  for (const Setting& other : others) {
+    if (other.key == key) fail(key, "found twice; allowed: each key once");
+    if (within(other.key, key) || within(key, other.key)) {
+      fail(key, "found beside " + other.key + "; allowed: keys apart from each other");
+    }
+  }
+  if (key == "sweep" || within(key, "sweep")) {
+    fail(key, "found, but a sweep does not vary itself; allowed: any other key");
+  }
+}
+
+// What --set gives to a key that varies would not be in any case.
+void check_overrides(const std::string& key, const Source& source) {
+  for (const std::string& set : source.overrides) {
+    const std::string set_key = set.substr(0, set.find('='));
+    if (set_key != key && !within(set_key, key)) continue;
+    throw InputError("--set " + input::shown(set) + ": found, but the sweep varies " +
+                     input::shown(key) +
+                     ", and its values would replace this one; allowed: one of the two");
+  }
+}
+
+// Each key that varies, with the first of its values.
+std::vector<Setting> first_settings(const Sweep& sweep, const Source& source) {
+  std::vector<Setting> firsts;
+  for (const Variation& variation : sweep.vary) {
+    const input::VariationSpec spec = input::parse_variation(variation);
+    for (const input::TiedKey& key : input::tied_keys(variation)) {
+      check_apart(key.path, firsts);
+      check_overrides(key.path, source);
+      for (const std::string& value : spec.values) {
+        if (!input::scaled(value, key.factor).empty()) continue;
+        fail(variation.key, "found the value " + input::shown(value) +
+                                ", which is no number that a factor could be applied to; allowed: "
+                                "numbers, or keys without factors");
+      }
+      firsts.push_back({key.path, input::scaled(spec.values[0], key.factor)});
+    }
+  }
+  return firsts;
+}
+
 }  // namespace
 
-Axis SweepPlan::read_axis(const ScenarioFamily& family, const Variation& variation,
-                          std::vector<Setting>& others) const {
+// Reads the values of the keys of one variation, which are the next ones of `settings`; these have
+// the first values of all keys, since the scenario need not be complete without.
+void SweepPlan::add_axes(const ScenarioFamily& family, const Variation& variation,
+                         std::vector<Setting> settings) {
   const input::VariationSpec spec = input::parse_variation(variation);
+  const std::vector<input::TiedKey> keys = input::tied_keys(variation);
+  const std::size_t lead = axes_.size();
   Axis axis;
-  axis.key = variation.key;
   axis.kind = spec.kind;
   axis.count = spec.random() ? 1 : spec.count;
-  axis.stream = mixed(mixed(seed_) ^ hash(axis.key));
-  std::vector<double> numbers;
+  axis.lead = lead;
+  axis.stream = mixed(mixed(seed_) ^ hash(keys[0].path));
+  std::vector<double> numbers;  // of the first key
   for (const std::string& value : spec.values) {
-    others.push_back({variation.key, value});
-    const std::optional<double> number = family.read_number(others);
-    others.pop_back();
-    if (number) numbers.push_back(*number);
+    const bool deviation = spec.kind == Kind::normal && &value == &spec.values.back();
+    for (std::size_t k = 0; k < keys.size(); ++k) {
+      const double factor = deviation ? std::abs(keys[k].factor) : keys[k].factor;
+      settings[lead + k].value = input::scaled(value, factor);
+    }
+    for (std::size_t k = 0; k < (deviation ? 1 : keys.size()); ++k) {
+      std::vector<Setting> read = settings;
+      std::rotate(read.begin() + static_cast<std::ptrdiff_t>(lead + k),
+                  read.begin() + static_cast<std::ptrdiff_t>(lead + k + 1), read.end());
+      const std::optional<double> number = family.read_number(read);
+      axis.numeric = axis.numeric && number;
+      if (k == 0 && number) numbers.push_back(*number);
+    }
   }
-  axis.numeric = numbers.size() == spec.values.size();
+  const auto plain = [](const input::TiedKey& key) { return key.factor == 1; };
+  if (!axis.numeric && !std::all_of(keys.begin(), keys.end(), plain)) {
+    fail(variation.key, "found " + input::shown(variation.spec) +
+                            ", but not all of the keys hold a single number; allowed: numbers, or "
+                            "keys without factors");
+  }
+  const auto tie = [&] {
+    for (std::size_t k = 0; k < keys.size(); ++k) {
+      axes_.push_back(axis);
+      axes_.back().key = keys[k].path;
+      axes_.back().factor = keys[k].factor / keys[0].factor;
+    }
+  };
   if (spec.kind == Kind::list) {
     axis.numeric ? void(axis.numbers = std::move(numbers)) : void(axis.texts = spec.values);
-    return axis;
+    return tie();
   }
   if (!axis.numeric) {
     fail(variation.key, "found " + input::shown(variation.spec) +
@@ -109,7 +190,7 @@ Axis SweepPlan::read_axis(const ScenarioFamily& family, const Variation& variati
     fail(variation.key, "found " + input::shown(variation.spec) +
                             "; allowed: normal with a standard deviation of at least 0");
   }
-  return axis;
+  tie();
 }
 
 SweepPlan::SweepPlan(const ScenarioFamily& family, const Sweep& sweep)
@@ -118,31 +199,15 @@ SweepPlan::SweepPlan(const ScenarioFamily& family, const Sweep& sweep)
     throw InputError(
         "found no key to vary; allowed: --vary KEY=SPEC, or a sweep block in the scenario");
   }
-  // Each key is read with the others at their first values, since the scenario need not be complete
-  // without.
-  std::vector<Setting> firsts;
-  for (const Variation& variation : sweep.vary) {
-    for (const Setting& other : firsts) {
-      if (other.key == variation.key) fail(variation.key, "found twice; allowed: each key once");
-      if (within(other.key, variation.key) || within(variation.key, other.key)) {
-        fail(variation.key, "found beside " + other.key + "; allowed: keys apart from each other");
-      }
-    }
-    if (variation.key == "sweep" || within(variation.key, "sweep")) {
-      fail(variation.key, "found, but a sweep does not vary itself; allowed: any other key");
-    }
-    firsts.push_back({variation.key, input::parse_variation(variation).values[0]});
-  }
-  for (std::size_t i = 0; i < sweep.vary.size(); ++i) {
-    std::vector<Setting> others = firsts;
-    others.erase(others.begin() + static_cast<std::ptrdiff_t>(i));
-    axes_.push_back(read_axis(family, sweep.vary[i], others));
-  }
+  const std::vector<Setting> firsts = first_settings(sweep, family.source());
+  for (const Variation& variation : sweep.vary) add_axes(family, variation, firsts);
 
   double cases = 1;
   bool random = false;
   std::size_t longest = 1;
-  for (const Axis& axis : axes_) {
+  for (std::size_t a = 0; a < axes_.size(); ++a) {
+    if (!is_lead(a)) continue;
+    const Axis& axis = axes_[a];
     random = random || axis.random();
     longest = std::max(longest, axis.count);
     cases *= static_cast<double>(axis.count);
@@ -188,6 +253,7 @@ void SweepPlan::values(std::size_t number, double* values) const {
   std::size_t rest = number / samples_;
   for (std::size_t a = axes_.size(); a-- > 0;) {
     const Axis& axis = axes_[a];
+    if (!is_lead(a)) continue;
     if (axis.random()) {
       values[a] = drawn(axis, number);
     } else if (combine_ == Combine::zip) {
@@ -197,17 +263,31 @@ void SweepPlan::values(std::size_t number, double* values) const {
       rest /= axis.count;
     }
   }
+  for (std::size_t a = 0; a < axes_.size(); ++a) {
+    // Adding 0 takes the sign off a zero.
+    if (!is_lead(a)) values[a] = axes_[a].factor * values[axes_[a].lead] + 0.0;
+  }
 }
 
 std::vector<Setting> SweepPlan::settings(std::size_t number) const {
   std::vector<double> at(axes_.size());
   values(number, at.data());
+  return settings_of(at);
+}
+
+std::vector<Setting> SweepPlan::settings_of(const std::vector<double>& values) const {
   std::vector<Setting> settings;
   settings.reserve(axes_.size());
   for (std::size_t a = 0; a < axes_.size(); ++a) {
-    settings.push_back({axes_[a].key, value_text(axes_[a], at[a])});
+    settings.push_back({axes_[a].key, value_text(axes_[a], values[a])});
   }
   return settings;
+}
+
+std::vector<Setting> SweepPlan::general_settings() const {
+  std::vector<double> at;
+  for (const Axis& axis : axes_) at.push_back(axis.factor * not_zero(axes_[axis.lead]));
+  return settings_of(at);
 }
 
 bool SweepPlan::check(const ScenarioFamily& family, std::size_t first, std::size_t last,
@@ -216,7 +296,7 @@ bool SweepPlan::check(const ScenarioFamily& family, std::size_t first, std::size
     return (number - first) % every != 0 ||
            goes_on(static_cast<double>(number - first) / static_cast<double>(last - first));
   };
-  if (!axes_.front().independent) {
+  if (!independent()) {
     for (std::size_t i = first; i < last; ++i) {
       if (!told(i, 64)) return false;
       static_cast<void>(family.read(settings(i)));
@@ -224,8 +304,9 @@ bool SweepPlan::check(const ScenarioFamily& family, std::size_t first, std::size
     return true;
   }
   // Ranges have no holes, and the ends of what is listed or drawn between bounds have been read.
-  for (const Axis& axis : axes_) {
-    if (axis.kind != Kind::normal) continue;
+  for (std::size_t a = 0; a < axes_.size(); ++a) {
+    const Axis& axis = axes_[a];
+    if (axis.kind != Kind::normal || !is_lead(a)) continue;
     std::size_t least = first, greatest = first;
     double low = std::numeric_limits<double>::infinity(), high = -low;
     for (std::size_t i = first; i < last; ++i) {

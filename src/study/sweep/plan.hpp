@@ -13,9 +13,12 @@
 
 namespace bbsim::study {
 
-// One key that varies.
+// One key that varies. Keys may be tied: all but the first then take its values times a factor, and
+// add no cases of their own.
 struct Axis {
   std::string key;
+  std::size_t lead = 0;  // the axis whose values it takes; its own number if it is tied to none
+  double factor = 1;     // by which it takes them
   input::VariationSpec::Kind kind = input::VariationSpec::Kind::list;
   bool numeric = true;      // single numbers, in SI units; otherwise texts in YAML
   std::size_t count = 1;    // of values; 1 of what is drawn
@@ -26,7 +29,7 @@ struct Axis {
   // No rule relates the number at any of the varied keys to another key: for all axes or none.
   bool independent = false;
 
-  [[nodiscard]] bool random() const {
+  [[nodiscard]] bool random() const {  // of a lead
     return kind == input::VariationSpec::Kind::uniform ||
            kind == input::VariationSpec::Kind::normal;
   }
@@ -43,11 +46,18 @@ class SweepPlan {
   [[nodiscard]] std::size_t cases() const { return cases_; }
   [[nodiscard]] const std::vector<Axis>& axes() const { return axes_; }
 
+  // Whether no rule relates the number at any of the varied keys to another key.
+  [[nodiscard]] bool independent() const { return axes_.front().independent; }
+
   // The number of each axis in a case, or the position of its text in the list.
   void values(std::size_t number, double* values) const;
 
   // The same as settings of a scenario.
   [[nodiscard]] std::vector<ScenarioFamily::Setting> settings(std::size_t number) const;
+
+  // Settings of which no number is 0 if its key takes any that is not: of a scene that is symmetric
+  // only if every case is. Of keys that are independent(); no case need have them.
+  [[nodiscard]] std::vector<ScenarioFamily::Setting> general_settings() const;
 
   // Puts cases first ... last - 1 to the scenario's checks: one by one where keys depend on each
   // other, by the extremes where they do not. `goes_on` is told how far it is, from 0 to 1, and may
@@ -56,8 +66,11 @@ class SweepPlan {
                            const std::function<bool(double)>& goes_on) const;
 
  private:
-  [[nodiscard]] Axis read_axis(const ScenarioFamily& family, const Variation& variation,
-                               std::vector<ScenarioFamily::Setting>& others) const;
+  void add_axes(const ScenarioFamily& family, const Variation& variation,
+                std::vector<ScenarioFamily::Setting> settings);
+  [[nodiscard]] std::vector<ScenarioFamily::Setting> settings_of(
+      const std::vector<double>& values) const;
+  [[nodiscard]] bool is_lead(std::size_t axis) const { return axes_[axis].lead == axis; }
   [[nodiscard]] static double drawn(const Axis& axis, std::size_t number);
 
   std::vector<Axis> axes_;

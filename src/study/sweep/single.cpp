@@ -17,6 +17,7 @@
 #include "study/error_control.hpp"
 #include "study/sweep/case_scenario.hpp"
 #include "study/sweep/track_meter.hpp"
+#include "study/sweep/verdict.hpp"
 
 namespace bbsim::study {
 namespace {
@@ -140,11 +141,7 @@ class SingleRunner : public CaseRunner {
       if (outcome.ending == solve::Ending::interrupted) return false;
       numbers[0] = outcome.reached;
       meter_.finish(outcome, numbers + 1);
-      for (std::size_t m = 0; m < task_.measures.size(); ++m) {
-        if (record::why_missing(*task_.measures[m].column, scenario) != nullptr) {
-          numbers[1 + m] = nothing;
-        }
-      }
+      judge(task_, scenario, numbers + 1, status);
     } catch (const InputError& error) {  // there is no gain of an LQR, say
       std::fill_n(numbers, 1 + task_.measures.size(), nothing);
       status = {"refused", error.what()};
@@ -170,6 +167,7 @@ class SingleRunner : public CaseRunner {
     numbers[0] = outcome.reached;
     track_.finish(numbers + 1);
     status = status_of(outcome);
+    judge(task_, scenario, numbers + 1, status);
     return true;
   }
 

@@ -13,6 +13,7 @@
 #include "solve/collocation/radau.hpp"
 #include "study/sweep/case_scenario.hpp"
 #include "study/sweep/track_meter.hpp"
+#include "study/sweep/verdict.hpp"
 
 namespace bbsim::study {
 namespace {
@@ -210,6 +211,7 @@ class SuperpositionRunner : public CaseRunner {
                        : name == "tilt_rate" ? solutions_->max_tilt_rate
                                              : last(name == "x" ? x_ : y_);
     }
+    judge(task_, scenario, numbers + 1, status);
   }
 
   [[nodiscard]] double farthest(const Superposition& motion) const {

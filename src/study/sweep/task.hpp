@@ -25,7 +25,9 @@ struct SweepTask {
 // How a case ended.
 struct CaseStatus {
   std::string word = "done";  // or failed, stopped, inaccurate, refused
-  std::string reason{};       // of the latter, a text of any characters
+  // Why it ended early, or why a measure of a case that is done is no finite number: a text of any
+  // characters.
+  std::string reason{};
 };
 
 // Some cases, one after the other.

@@ -7,6 +7,8 @@
 #include <utility>
 #include <variant>
 
+#include "record/square_sum.hpp"
+
 namespace bbsim::study {
 namespace {
 
@@ -235,6 +237,15 @@ double TrackMeter::greatest_distance(bool from_reference) const {
   return greatest;
 }
 
+double TrackMeter::rms_tracking_error() const {
+  record::SquareSum squares;
+  for (std::size_t i = 0; i < rows_; ++i) {
+    squares.add(
+        std::hypot(track_.x[i] - track_.x_reference[i], track_.y[i] - track_.y_reference[i]));
+  }
+  return squares.root_mean(rows_);
+}
+
 void TrackMeter::finish(double* results) {
   x_.pad(rows_);
   y_.pad(rows_);
@@ -264,7 +275,9 @@ void TrackMeter::finish(double* results) {
       const model::Dynamics dynamics = model::dynamics(last, *constants_);
       results[m] = measure.column->value({last, &dynamics});
     } else if (measure.kind == Kind::rms) {
-      results[m] = std::sqrt(extremes.error_squared_sum / static_cast<double>(rows_));
+      results[m] = is_square(extremes.error_squared_sum)
+                       ? std::sqrt(extremes.error_squared_sum / static_cast<double>(rows_))
+                       : rms_tracking_error();
     } else if (name == "tilt") {
       results[m] = tilt_at(extremes.steepest);
     } else if (name == "tilt_rate") {

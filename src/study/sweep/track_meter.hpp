@@ -74,6 +74,7 @@ class TrackMeter : public solve::StateSink {
   void cut_signals();
   [[nodiscard]] double tilt_at(std::size_t row) const;
   [[nodiscard]] double greatest_distance(bool from_reference) const;
+  [[nodiscard]] double rms_tracking_error() const;
 
   std::vector<record::Measure> measures_;
   const SweepKernels& kernels_;

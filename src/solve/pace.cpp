@@ -1,0 +1,32 @@
+#include "solve/pace.hpp"
+
+#include <cstdio>
+
+namespace bbsim::solve {
+
+bool Pace::look(double time, double event) {
+  const double before = advance_;
+  advance_ = time - from_;
+  from_ = time;
+  const double taken = static_cast<double>(steps_), of_window = static_cast<double>(window);
+  // Not finite where the steps are so short that the time stands still.
+  const double needed = taken + (end_ - time) / advance_ * of_window;
+  const bool out_of_reach = !(needed <= most_steps);
+  shrinking_ = out_of_reach && advance_ < 0.9 * before ? shrinking_ + 1 : 0;
+  slow_ = out_of_reach ? slow_ + 1 : 0;
+  if (taken > most_steps) return true;
+  if (shrinking_ < most_shrinking && slow_ < most_slow) return false;
+  return !(event - time <= soon * advance_) || ++awaited_ > most_awaited;
+}
+
+std::string Pace::reason() const {
+  char text[120];
+  std::snprintf(
+      text, sizeof text,
+      "the steps became so short that it would never end: the last %zu of them took it on "
+      "by %.2g s",
+      window, advance_);
+  return text;
+}
+
+}  // namespace bbsim::solve

@@ -1,0 +1,54 @@
+// Tells a run that will not come to its end from one that takes long.
+//
+// Near a singular point, or where rounding is all that an error test sees, steps become so short
+// that a run goes on for days without getting anywhere. Steps as such say little: they are short
+// for a while where a transient passes, or where an event soon ends the run. So the question is how
+// many more it would take at the pace of the last ones, and it is asked again and again.
+#pragma once
+
+#include <cstddef>
+#include <limits>
+#include <string>
+
+namespace bbsim::solve {
+
+class Pace {
+ public:
+  // Of a run to `end`, s.
+  explicit Pace(double end) : end_(end) {}
+
+  // After each step that was not as long as it might be: one that ended at a stop, a sample or the
+  // end says nothing. Whether to give up: `time` is where the run is, s. `event` tells when
+  // something will end the run, if it comes on as it has since `event` was last called, s; that is
+  // now and then.
+  template <class Event>
+  [[nodiscard]] bool creeps(double time, Event event) {
+    return ++steps_ % window == 0 && look(time, event());
+  }
+  [[nodiscard]] bool creeps(double time) {
+    return creeps(time, [] { return std::numeric_limits<double>::infinity(); });
+  }
+
+  // Why, as Outcome::reason.
+  [[nodiscard]] std::string reason() const;
+
+ private:
+  static constexpr std::size_t window = 16384;
+  // Hours of the fastest integrator: more steps than this are not waited for.
+  static constexpr double most_steps = 1e10;
+  // Windows in a row in which the end stays out of reach while the steps become shorter, and
+  // windows whatever they do: a transient passes in half a million steps.
+  static constexpr int most_shrinking = 4, most_slow = 32;
+  // An event is waited for that is so many windows away, and for so many.
+  static constexpr int soon = 16, most_awaited = 32;
+
+  bool look(double time, double event);
+
+  double end_;
+  std::size_t steps_ = 0;
+  double from_ = 0;     // where the last window began, s
+  double advance_ = 0;  // how far it came, s
+  int shrinking_ = 0, slow_ = 0, awaited_ = 0;
+};
+
+}  // namespace bbsim::solve

@@ -1,0 +1,141 @@
+#include "study/checks.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+
+#include "solve/collocation/radau.hpp"
+#include "study/reference.hpp"
+
+namespace bbsim::study {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+// Of checks, unless the run's tolerance is nearly as fine; then that times check_factor.
+constexpr double usual_rtol = 1e-13, check_factor = 1e-2;
+// An estimate is the distance of runs, which can be near each other by luck.
+constexpr double safety = 1.5;
+// Checks that are apart by more than this part of the estimate blur it; the estimate is then
+// widened.
+constexpr double noise = 0.1, safety_in_noise = 3;
+
+// How far two runs are apart, m: at the worst output time that both have, and, of runs that an
+// event stopped, by the way that the ball goes between their ends.
+double distance(const Track& a, const Track& b) {
+  if (a.outcome.ending != b.outcome.ending) return infinity;
+  double largest = 0;
+  if (a.outcome.ending == solve::Ending::stopped) {
+    const model::Occurrence& stop = a.outcome.occurrences.back();
+    if (stop.name != b.outcome.occurrences.back().name) return infinity;
+    largest = std::abs(a.outcome.reached - b.outcome.reached) *
+              std::hypot(stop.sample.ball.x_dot, stop.sample.ball.y_dot);
+  }
+  const std::size_t common = std::min(a.positions.size(), b.positions.size());
+  for (std::size_t i = 0; i < common; ++i) {
+    const double apart = std::abs(a.positions[i] - b.positions[i]);
+    if (!(apart <= largest)) largest = apart;
+  }
+  return std::isnan(largest) ? infinity : largest;
+}
+
+// Below a few roundings of the position itself no two runs can tell.
+double rounding(const Track& run) {
+  double size = 0;
+  for (const double position : run.positions) size = std::max(size, std::abs(position));
+  return 4 * std::numeric_limits<double>::epsilon() * size;
+}
+
+}  // namespace
+
+solve::Tolerances tolerances_of(double rtol) {
+  return {rtol, 1e-2 * rtol};
+}
+
+bool came_to_its_end(const solve::Outcome& outcome) {
+  return outcome.ending == solve::Ending::done || outcome.ending == solve::Ending::stopped;
+}
+
+Tracker::Tracker(const model::Model& model, std::vector<double>& positions, solve::StateSink* rows)
+    : row_size_(model.row_size()),
+      coordinates_(static_cast<std::size_t>(coordinates(model))),
+      positions_(positions),
+      rows_(rows) {}
+
+void Tracker::accept(std::size_t first, std::size_t count, const double* values) {
+  for (std::size_t i = 0; i < count; ++i) {
+    const double* const row = values + i * row_size_;
+    positions_.insert(positions_.end(), row, row + coordinates_);
+  }
+  if (rows_ != nullptr) rows_->accept(first, count, values);
+}
+
+// The checks for a run, of which the first has other stages than it, and neighbours have other ones
+// than each other. A rig beyond the paper's has kernels of 8 and 12 stages only.
+std::array<solve::Unlike, 4> Checks::kinds(const Track& run, double rtol) const {
+  using solve::collocation::choose_stages, solve::collocation::stages_of;
+  const int most = stages_of(model_, 16), fewer = most == 16 ? 12 : 8;
+  std::array<solve::Unlike, 4> kinds{{{most, 2}, {fewer, 3}, {most, 4}, {fewer, 5}}};
+  const bool alike = run.outcome.method == Method::radau &&
+                     stages_of(model_, choose_stages(rtol)) == kinds[0].stages;
+  if (alike) std::swap(kinds[0], kinds[1]);
+  return kinds;
+}
+
+void Checks::use(double rtol) {
+  if (rtol != rtol_) made_.clear();
+  rtol_ = rtol;
+}
+
+const Track* Checks::check(solve::Unlike how) {
+  for (const Made& made : made_) {
+    if (made.how.stages == how.stages && made.how.parts == how.parts) return made.track.get();
+  }
+  auto track = std::make_unique<Track>();
+  Tracker tracker(model_, track->positions);
+  track->outcome =
+      solve::integrate_unlike(model_, how, tolerances_of(rtol_), grid_, tracker, watch_);
+  ++runs_;
+  interrupted_ = interrupted_ || track->outcome.ending == solve::Ending::interrupted;
+  if (!came_to_its_end(track->outcome)) track.reset();
+  made_.push_back({how, std::move(track)});
+  return made_.back().track.get();
+}
+
+// Nothing if a check does not come to its end.
+std::optional<double> Checks::distance_from(const Track& run,
+                                            const std::array<solve::Unlike, 4>& kinds,
+                                            bool confirm) {
+  const Track* const first = check(kinds[0]);
+  if (first == nullptr) return {};
+  double apart = distance(run, *first);
+  if (!confirm || apart == infinity) return safety * apart;
+  const Track* const second = check(kinds[1]);
+  if (second == nullptr) return {};
+  apart = std::max(apart, distance(run, *second));
+  double between = distance(*first, *second);
+  const auto in_noise = [&] { return safety_in_noise * std::max(apart, between); };
+  if (between <= noise * apart || in_noise() <= rounding(run)) return safety * apart;
+  for (const std::size_t more : {2, 3}) {
+    const Track* const third = check(kinds[more]);
+    if (third == nullptr) return {};
+    apart = std::max(apart, distance(run, *third));
+    between = std::max({between, distance(*first, *third), distance(*second, *third)});
+  }
+  return in_noise();
+}
+
+double Checks::estimate(const Track& run, double rtol, bool confirm) {
+  const double wanted = std::max(finest_rtol, std::min(usual_rtol, rtol * check_factor));
+  for (double tried = std::max(wanted, least_); tried <= rtol; tried *= 10) {
+    use(tried);
+    const auto apart = distance_from(run, kinds(run, rtol), confirm);
+    if (apart) return std::max(*apart, rounding(run));
+    if (interrupted_) break;
+    least_ = 10 * tried;
+  }
+  return infinity;
+}
+
+}  // namespace bbsim::study

@@ -1,0 +1,15 @@
+// What threads share, they do not change.
+#include <cmath>
+
+#include "catch.hpp"
+#include "solve/run_in_memory.hpp"
+
+using namespace bbsim;
+using namespace bbsim_test;
+
+TEST_CASE("a run leaves the C library's shared sign of the gamma function alone") {
+  // std::lgamma writes it: cases of a sweep would race on it.
+  signgam = 7;
+  CHECK(run_in_memory(scenario_named("fig2a"), Method::radau, {1e-8, 1e-10}).samples.size() == 101);
+  CHECK(signgam == 7);
+}
