@@ -59,6 +59,12 @@ struct Instant {
     return constants.mass * (centre_acceleration + constants.gravity * up);
   }
 
+  // What turns the plate itself, about the gimbal's centre.
+  [[nodiscard]] Vector3d plate_moment() const {
+    const Vector3d inertia(constants.plate_inertia.data());
+    return inertia.cwiseProduct(omega_dot) + omega.cross(inertia.cwiseProduct(omega));
+  }
+
   const BallConstants& constants;
   const GimbalMotion& gimbal;
   const BallMotion& ball;
@@ -72,6 +78,17 @@ struct Instant {
 
 Vector3d contact_force(const Sample& sample, const BallConstants& constants) {
   return Instant(sample, constants).force();
+}
+
+MotorLoad motor_load(const Sample& sample, const BallConstants& constants) {
+  const Instant now(sample, constants);
+  const Vector3d moment = now.contact.cross(now.force()), plate_moment = now.plate_moment();
+  MotorLoad load;
+  load.torque_phi = now.phi_axis.dot(moment) + now.phi_axis.dot(plate_moment);
+  load.torque_theta = now.theta_axis.dot(moment) + now.theta_axis.dot(plate_moment);
+  load.power =
+      load.torque_phi * sample.gimbal.phi_dot + load.torque_theta * sample.gimbal.theta_dot;
+  return load;
 }
 
 Dynamics dynamics(const Sample& sample, const BallConstants& constants) {
@@ -91,9 +108,7 @@ Dynamics dynamics(const Sample& sample, const BallConstants& constants) {
                   constants.rolling.k / 2 * m * r * r * ball_omega.squaredNorm() +
                   m * g * now.centre.dot(now.up);
 
-  const Vector3d inertia(constants.plate_inertia.data());
-  const Vector3d plate_moment =
-      inertia.cwiseProduct(now.omega_dot) + omega.cross(inertia.cwiseProduct(omega));
+  const Vector3d plate_moment = now.plate_moment();
   result.plate_torque_phi = now.phi_axis.dot(plate_moment);
   result.plate_torque_theta = now.theta_axis.dot(plate_moment);
 

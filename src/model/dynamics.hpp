@@ -34,6 +34,14 @@ struct Dynamics {
   [[nodiscard]] double friction_force() const { return force.head<2>().norm(); }
 };
 
+// What the two motors give to carry the ball and the plate.
+struct MotorLoad {
+  double torque_phi = 0, torque_theta = 0;  // N m
+  double power = 0;                         // W
+};
+
+[[nodiscard]] MotorLoad motor_load(const Sample& sample, const BallConstants& constants);
+
 // Of the plane on the ball, plane frame, N; z is the normal force.
 [[nodiscard]] Eigen::Vector3d contact_force(const Sample& sample, const BallConstants& constants);
 

@@ -15,8 +15,8 @@ struct Prefix {
   Kind kind;
   std::string_view meaning;
 };
-constexpr Prefix prefixes[] = {{"min_", Kind::least, "least over the rows of: "},
-                               {"max_", Kind::greatest, "greatest over the rows of: "},
+constexpr Prefix prefixes[] = {{"min_", Kind::least, "least over the continuous motion of: "},
+                               {"max_", Kind::greatest, "greatest over the continuous motion of: "},
                                {"rms_", Kind::rms, "root mean square over the rows of: "},
                                {"end_", Kind::end, "at the end of the run: "}};
 
@@ -85,9 +85,31 @@ std::string why_not_finite(const std::vector<Measure>& measures, const double* r
 }
 
 Meter::Meter(std::vector<Measure> measures)
-    : measures_(std::move(measures)),
-      needs_dynamics_(any_needs(measures_, Needs::dynamics) || any_needs(measures_, Needs::plate)),
-      sums_(measures_.size()) {}
+    : measures_(std::move(measures)), sums_(measures_.size()) {
+  for (std::size_t m = 0; m < measures_.size(); ++m) {
+    const Needs needs = measures_[m].column->needs;
+    const bool dynamics = needs == Needs::dynamics || needs == Needs::plate;
+    switch (measures_[m].kind) {
+      case Kind::end:
+        end_needs_dynamics_ = end_needs_dynamics_ || dynamics;
+        break;
+      case Kind::rms:
+        of_rows_.push_back(m);
+        rows_need_dynamics_ = rows_need_dynamics_ || dynamics;
+        break;
+      default:
+        of_motion_.push_back(m);
+        motion_needs_dynamics_ = motion_needs_dynamics_ || dynamics;
+    }
+  }
+  extremes_.emplace(of_motion_.size(), [this](const model::Sample& sample, double* numbers) {
+    const model::Dynamics dynamics = dynamics_at(sample, motion_needs_dynamics_);
+    for (const std::size_t m : of_motion_) {
+      const double value = measures_[m].column->value({sample, &dynamics});
+      *numbers++ = measures_[m].kind == Kind::least ? -value : value;
+    }
+  });
+}
 
 void Meter::begin(const model::Model& model, const model::BallConstants& constants,
                   const solve::OutputGrid& grid) {
@@ -95,55 +117,52 @@ void Meter::begin(const model::Model& model, const model::BallConstants& constan
   constants_ = &constants;
   grid_ = &grid;
   std::fill(sums_.begin(), sums_.end(), Sum{});
+  extremes_->begin(model);
 }
 
-model::Dynamics Meter::dynamics_at(const model::Sample& sample) const {
-  return needs_dynamics_ ? model::dynamics(sample, *constants_) : model::Dynamics{};
+solve::PieceSink* Meter::pieces() {
+  return of_motion_.empty() ? nullptr : &*extremes_;
+}
+
+model::Dynamics Meter::dynamics_at(const model::Sample& sample, bool needed) const {
+  return needed ? model::dynamics(sample, *constants_) : model::Dynamics{};
 }
 
 void Meter::accept(std::size_t first, std::size_t count, const double* values) {
-  const std::size_t row_size = model_->row_size();
+  const auto sample = [&](std::size_t i) {
+    return model_->sample((*grid_)[first + i], values + i * model_->row_size());
+  };
+  // A run may end before its first step.
+  if (first == 0 && !of_motion_.empty()) extremes_->note(sample(0));
+  if (count > 0) last_ = sample(count - 1);
+  if (of_rows_.empty()) return;
   for (std::size_t i = 0; i < count; ++i) {
-    const model::Sample sample = model_->sample((*grid_)[first + i], values + i * row_size);
-    const model::Dynamics dynamics = dynamics_at(sample);
-    for (std::size_t m = 0; m < measures_.size(); ++m) {
-      const double value = measures_[m].column->value({sample, &dynamics});
-      Sum& sum = sums_[m];
-      if (measures_[m].kind == Kind::end) {
-        sum = {value, 1};
-        continue;
-      }
+    const model::Sample row = sample(i);
+    const model::Dynamics dynamics = dynamics_at(row, rows_need_dynamics_);
+    for (const std::size_t m : of_rows_) {
+      const double value = measures_[m].column->value({row, &dynamics});
       if (std::isnan(value)) continue;
-      const bool fresh = sum.rows++ == 0;
-      switch (measures_[m].kind) {
-        case Kind::least:
-          sum.value = fresh ? value : std::min(sum.value, value);
-          break;
-        case Kind::greatest:
-          sum.value = fresh ? value : std::max(sum.value, value);
-          break;
-        default:
-          sum.squares.add(value);
-      }
+      sums_[m].squares.add(value);
+      ++sums_[m].rows;
     }
   }
 }
 
 void Meter::finish(const solve::Outcome& outcome, double* results) {
   const bool stopped = outcome.ending == solve::Ending::stopped;
-  model::Dynamics dynamics;
-  if (stopped) dynamics = dynamics_at(outcome.occurrences.back().sample);
+  const model::Sample& last = stopped ? outcome.occurrences.back().sample : last_;
+  const model::Dynamics dynamics = dynamics_at(last, end_needs_dynamics_);
   for (std::size_t m = 0; m < measures_.size(); ++m) {
-    const Sum& sum = sums_[m];
-    if (stopped && measures_[m].kind == Kind::end) {
-      results[m] = measures_[m].column->value({outcome.occurrences.back().sample, &dynamics});
-    } else if (sum.rows == 0) {
-      results[m] = std::numeric_limits<double>::quiet_NaN();
-    } else if (measures_[m].kind == Kind::rms) {
-      results[m] = sum.squares.root_mean(sum.rows);
-    } else {
-      results[m] = sum.value;
-    }
+    if (measures_[m].kind == Kind::end) results[m] = measures_[m].column->value({last, &dynamics});
+  }
+  for (const std::size_t m : of_rows_) {
+    results[m] = sums_[m].rows == 0 ? std::numeric_limits<double>::quiet_NaN()
+                                    : sums_[m].squares.root_mean(sums_[m].rows);
+  }
+  for (std::size_t i = 0; i < of_motion_.size(); ++i) {
+    const std::size_t m = of_motion_[i];
+    const double greatest = (*extremes_)[i].value;
+    results[m] = measures_[m].kind == Kind::least ? -greatest : greatest;
   }
 }
 

@@ -1,4 +1,4 @@
-// What a sweep keeps of a run: one number of a column over the run's rows.
+// What a sweep keeps of a run: one number of a column over the run.
 #pragma once
 
 #include <optional>
@@ -8,6 +8,7 @@
 
 #include "model/model.hpp"
 #include "record/columns.hpp"
+#include "record/extremes.hpp"
 #include "record/square_sum.hpp"
 #include "solve/outcome.hpp"
 #include "solve/output_grid.hpp"
@@ -15,8 +16,9 @@
 namespace bbsim::record {
 
 struct Measure {
-  // least, greatest: over the rows; rms: the root of the mean square over them; end: at the last
-  // instant reached, the row at time.end or where the scene stopped.
+  // least, greatest: over the continuous motion, both sides of every switch included; rms: the root
+  // of the mean square over the rows; end: at the last instant reached, the row at time.end or
+  // where the scene stopped.
   enum class Kind { least, greatest, rms, end } kind = Kind::end;
   const Column* column = nullptr;
   std::string name;  // max_tilt, end_phi, x_end
@@ -44,33 +46,38 @@ struct Measure {
 [[nodiscard]] std::string why_not_finite(const std::vector<Measure>& measures,
                                          const double* results, const Scenario& scenario);
 
-// Takes the measures of one run after another. Rows whose value is no number are left out of all
-// but `end`; a measure without a row is no number.
+// Takes the measures of one run after another. Where a value is no number it is left out of all but
+// `end`; a measure without a value is no number.
 class Meter : public solve::StateSink {
  public:
   explicit Meter(std::vector<Measure> measures);
+  Meter(const Meter&) = delete;  // extremes_ look through this one
+  Meter& operator=(const Meter&) = delete;
 
   // Begins a run; the three outlive it.
   void begin(const model::Model& model, const model::BallConstants& constants,
              const solve::OutputGrid& grid);
   void accept(std::size_t first, std::size_t count, const double* values) override;
+  [[nodiscard]] solve::PieceSink* pieces() override;
   // Writes the run's measures, one after the other.
   void finish(const solve::Outcome& outcome, double* results);
 
  private:
-  [[nodiscard]] model::Dynamics dynamics_at(const model::Sample& sample) const;
+  [[nodiscard]] model::Dynamics dynamics_at(const model::Sample& sample, bool needed) const;
 
   std::vector<Measure> measures_;
-  bool needs_dynamics_;
+  std::vector<std::size_t> of_motion_, of_rows_;  // the extremes, and the means
+  bool motion_needs_dynamics_ = false, rows_need_dynamics_ = false, end_needs_dynamics_ = false;
   const model::Model* model_ = nullptr;
   const model::BallConstants* constants_ = nullptr;
   const solve::OutputGrid* grid_ = nullptr;
   struct Sum {
-    double value = 0;
     std::size_t rows = 0;
     SquareSum squares{};
   };
   std::vector<Sum> sums_;
+  model::Sample last_;                // row
+  std::optional<Extremes> extremes_;  // in the order of of_motion_; of the least, turned over
 };
 
 }  // namespace bbsim::record

@@ -31,21 +31,35 @@ Recorder::Recorder(const model::Model& model, const model::BallConstants& consta
       grid_(grid),
       columns_(std::move(columns)),
       writer_(writer),
-      needs_dynamics_(any_needs(columns_, Needs::dynamics) || any_needs(columns_, Needs::plate) ||
-                      constants.plate_inertia != std::array<double, 3>{0, 0, 0}),
+      needs_dynamics_(any_needs(columns_, Needs::dynamics) || any_needs(columns_, Needs::plate)),
+      with_plate_(std::any_of(constants.plate_inertia.begin(), constants.plate_inertia.end(),
+                              [](double moment) { return moment > 0; })),
       gaps_(columns_.size()),
-      block_(columns_.size()) {}
+      block_(columns_.size()) {
+  if (!needs_dynamics_ && !with_plate_) return;
+  loads_.emplace(6, [this](const model::Sample& sample, double* numbers) {
+    const model::MotorLoad load = model::motor_load(sample, constants_);
+    for (const double one : {load.torque_phi, load.torque_theta, load.power}) {
+      *numbers++ = one;
+      *numbers++ = -one;
+    }
+  });
+  loads_->begin(model_);
+}
+
+solve::PieceSink* Recorder::pieces() {
+  return loads_ ? &*loads_ : nullptr;
+}
 
 void Recorder::accept(std::size_t first, std::size_t count, const double* values) {
   for (auto& column : block_) column.resize(count);
   const std::size_t row_size = model_.row_size();
+  // A run may end before its first step.
+  if (first == 0 && count > 0 && loads_) loads_->note(model_.sample(grid_[0], values));
   for (std::size_t i = 0; i < count; ++i) {
     const model::Sample sample = model_.sample(grid_[first + i], values + i * row_size);
     model::Dynamics dynamics;
-    if (needs_dynamics_) {
-      dynamics = model::dynamics(sample, constants_);
-      note_peaks(sample, dynamics);
-    }
+    if (needs_dynamics_) dynamics = model::dynamics(sample, constants_);
     for (std::size_t c = 0; c < columns_.size(); ++c) {
       block_[c][i] = columns_[c]->value({sample, &dynamics});
     }
@@ -79,19 +93,14 @@ std::string Recorder::why_not_finite() const {
   return text;
 }
 
-void Recorder::note_peaks(const model::Sample& sample, const model::Dynamics& now) {
-  if (!peaks_) {
-    peaks_.emplace();
-    const auto moves = [](double moment) { return moment > 0; };
-    peaks_->with_plate =
-        std::any_of(constants_.plate_inertia.begin(), constants_.plate_inertia.end(), moves);
-  }
-  const double phi = now.torque_phi + now.plate_torque_phi;
-  const double theta = now.torque_theta + now.plate_torque_theta;
-  const double power = phi * sample.gimbal.phi_dot + theta * sample.gimbal.theta_dot;
-  peaks_->torque_phi = std::max(peaks_->torque_phi, std::abs(phi));
-  peaks_->torque_theta = std::max(peaks_->torque_theta, std::abs(theta));
-  peaks_->power = std::max(peaks_->power, std::abs(power));
+std::optional<MotorPeaks> Recorder::peaks() const {
+  if (!loads_) return {};
+  const auto peak = [this](std::size_t load) {
+    const Extremes::Greatest up = (*loads_)[2 * load], down = (*loads_)[2 * load + 1];
+    const Extremes::Greatest& more = down.value > up.value ? down : up;
+    return Peak{more.t, more.value};
+  };
+  return MotorPeaks{peak(0), peak(1), peak(2), with_plate_};
 }
 
 }  // namespace bbsim::record

@@ -7,6 +7,7 @@
 
 #include "model/model.hpp"
 #include "record/columns.hpp"
+#include "record/extremes.hpp"
 #include "record/summary.hpp"
 #include "record/table_writer.hpp"
 #include "solve/outcome.hpp"
@@ -23,18 +24,20 @@ class Recorder : public solve::StateSink {
  public:
   Recorder(const model::Model& model, const model::BallConstants& constants,
            const solve::OutputGrid& grid, std::vector<const Column*> columns, TableWriter& writer);
+  Recorder(const Recorder&) = delete;  // loads_ look through this one
+  Recorder& operator=(const Recorder&) = delete;
 
-  // Of the rows so far; nothing unless a column needs the forces, or the plate's inertia is known.
-  [[nodiscard]] std::optional<MotorPeaks> peaks() const { return peaks_; }
+  // Of the run so far; nothing unless a column needs the forces, or the plate's inertia is known.
+  [[nodiscard]] std::optional<MotorPeaks> peaks() const;
 
   // Why some of the rows so far hold a number that is not finite; empty if all are.
   [[nodiscard]] std::string why_not_finite() const;
 
   // Throws OutputError.
   void accept(std::size_t first, std::size_t count, const double* values) override;
+  [[nodiscard]] solve::PieceSink* pieces() override;
 
  private:
-  void note_peaks(const model::Sample& sample, const model::Dynamics& now);
   void look_for_gaps(std::size_t first, std::size_t count);
 
   const model::Model& model_;
@@ -42,8 +45,8 @@ class Recorder : public solve::StateSink {
   const solve::OutputGrid& grid_;
   std::vector<const Column*> columns_;
   TableWriter& writer_;
-  bool needs_dynamics_;
-  std::optional<MotorPeaks> peaks_;
+  bool needs_dynamics_, with_plate_;
+  std::optional<Extremes> loads_;  // of the motors, each as it is and turned over
   struct Gaps {
     std::size_t rows = 0;  // that are no finite number
     double from = 0;       // the time of the first, s

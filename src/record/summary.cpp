@@ -74,9 +74,12 @@ void for_each_member(const EventRecord& event, Add add) {
 
 template <class Add>
 void for_each_member(const MotorPeaks& peaks, Add add) {
-  add("peak_torque_phi", peaks.torque_phi);
-  add("peak_torque_theta", peaks.torque_theta);
-  add("peak_power", peaks.power);
+  add("peak_torque_phi", peaks.torque_phi.value);
+  add("peak_torque_phi_at", peaks.torque_phi.at);
+  add("peak_torque_theta", peaks.torque_theta.value);
+  add("peak_torque_theta_at", peaks.torque_theta.at);
+  add("peak_power", peaks.power.value);
+  add("peak_power_at", peaks.power.at);
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "base/greatest.hpp"
 #include "model/rig/occurrence.hpp"
 #include "record/table_writer.hpp"
 
@@ -21,11 +22,11 @@ struct EventRecord {
 
 [[nodiscard]] EventRecord event_record(const model::Occurrence& occurrence);
 
-// The largest sizes over the rows of what the two motors give to carry the ball, and the plate if
-// its inertia is known.
+// The largest sizes over the run of what the two motors give to carry the ball, and the plate if
+// its inertia is known, and when (s).
 struct MotorPeaks {
-  double torque_phi = 0, torque_theta = 0;  // N m
-  double power = 0;                         // W
+  Peak torque_phi, torque_theta;  // N m
+  Peak power;                     // W
   bool with_plate = false;
 };
 

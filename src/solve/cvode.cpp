@@ -141,6 +141,8 @@ class CvodeStepper : public Stepper {
   }
 
   [[nodiscard]] std::size_t detail() const override { return 3; }
+  // Orders are up to 5, of Adams 12, and many steps go to a turn of the motion.
+  [[nodiscard]] std::size_t parts() const override { return 5; }
 
   // The state with the largest local error estimate in the solver's own weights.
   [[nodiscard]] std::size_t worst_state() const override {

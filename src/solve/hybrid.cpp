@@ -10,6 +10,7 @@
 #include "solve/collocation/radau.hpp"
 #include "solve/cvode.hpp"
 #include "solve/pace.hpp"
+#include "solve/piece.hpp"
 #include "solve/row_block.hpp"
 
 namespace bbsim::solve {
@@ -29,6 +30,7 @@ class HybridIntegration {
         row_size_(model.row_size()),
         rows_(sink, row_size_),
         pace_(grid.end()),
+        pieces_(sink.pieces()),
         stepper_(make_stepper(run_.model())),
         guards_(run_.guards()),
         values_(run_.guards()),
@@ -42,6 +44,7 @@ class HybridIntegration {
     std::copy(z.begin(), z.end(), first);
     if (plain_size_ > size_) first[size_] = 0;
     finish_row(0, first);
+    if (pieces_ != nullptr) pieces_->begin_run();
     if (look(0, z, 0) == Effect::stop) return ended(Ending::stopped, 0);
     stepper_->start(0, z.data());
     if (!guards_.empty()) arm(0, z.data());
@@ -51,9 +54,11 @@ class HybridIntegration {
       if (const char* reason = stepper_->step(limit)) return failed(from, reason);
       const double to = stepper_->time();
       double at = to;
+      told_ = from;
       const Effect effect = scan(from, to, at, z);
       const bool switches = effect == Effect::restart || (effect == Effect::none && to >= due);
       const bool ends = effect == Effect::none && !switches && to >= grid_.end();
+      if (effect == Effect::none) tell(to, switches);
       write_rows(at, !switches);
       if (effect == Effect::stop) return ended(Ending::stopped, at);
       if (ends) return ended(Ending::done, at);
@@ -293,6 +298,7 @@ class HybridIntegration {
         continue;
       }
       write_rows(first_time, false);  // in the mode that they belong to
+      tell(first_time, true);
       state_at(first_time, z);
       const Effect effect = run_.fire(first, first_time, z.data());
       run_.note_turned(row_.back());
@@ -332,6 +338,36 @@ class HybridIntegration {
     }
   }
 
+  // A part of the last step, in the present mode.
+  class Part : public Piece {
+   public:
+    Part(HybridIntegration& of, double from, double to)
+        : Piece(from, to, of.stepper_->parts()), of_(of) {}
+    void evaluate(const double* times, std::size_t count, double* rows) const override {
+      of_.evaluate_rows(times, count, rows);
+    }
+
+   private:
+    HybridIntegration& of_;
+  };
+
+  void evaluate_rows(const double* times, std::size_t count, double* rows) {
+    plain_rows_.resize(count * plain_size_);
+    stepper_->evaluate(times, count, plain_rows_.data());
+    for (std::size_t i = 0; i < count; ++i, rows += row_size_) {
+      std::copy_n(&plain_rows_[i * plain_size_], plain_size_, rows);
+      finish_row(times[i], rows);
+    }
+  }
+
+  // Tells what became of the motion up to `to`, before the mode changes.
+  void tell(double to, bool switches) {
+    if (pieces_ == nullptr) return;
+    const double last = switches ? std::nextafter(to, told_) : to;
+    if (last > told_) pieces_->accept(Part(*this, told_, last));
+    told_ = to;
+  }
+
   Outcome ended(Ending ending, double reached) {
     rows_.flush();
     Outcome outcome;
@@ -357,13 +393,15 @@ class HybridIntegration {
   std::size_t size_, plain_size_, row_size_;
   RowBlock rows_;
   Pace pace_;
+  PieceSink* pieces_;
   std::unique_ptr<Stepper> stepper_;
   std::vector<Guard> guards_;
-  std::vector<double> values_, now_, near_, look_, row_, planned_times_, planned_rows_;
+  std::vector<double> values_, now_, near_, look_, row_, planned_times_, planned_rows_, plain_rows_;
   std::vector<double> asked_;  // values of the guards when stopped_at() was last asked
   double asked_time_ = 0;
   std::size_t next_planned_ = 0;
   std::size_t next_row_ = 1;
+  double told_ = 0;  // the pieces up to here, s
   double last_switch_ = -1;
   int still_ = 0;
 };

@@ -17,6 +17,8 @@ struct Tolerances {
   double atol = 1e-10;  // in each state's own unit
 };
 
+class PieceSink;
+
 // Receives the rows of a run in order. A row is the states at one output time, as the system
 // packs them; after them, if the model asks for gamma, the integral of u = r gamma'; and, of a rig
 // that switches, what Model::extras() counts.
@@ -25,6 +27,10 @@ class StateSink {
   virtual ~StateSink() = default;
   // Rows first ... first + count - 1, row-major and without gaps. May throw; the run then ends.
   virtual void accept(std::size_t first, std::size_t count, const double* values) = 0;
+  // Who is told of the motion between rows (solve/piece.hpp); null if nobody asks.
+  [[nodiscard]] virtual PieceSink* pieces() { return nullptr; }
+  // Whether rows are of use. If not, a run may do without them, and only counts them.
+  [[nodiscard]] virtual bool wants_rows() const { return true; }
 };
 
 // Lets the caller look in on a long run.
@@ -66,17 +72,22 @@ struct Outcome {
 // Collects a whole run in memory.
 class Trajectory : public StateSink {
  public:
-  explicit Trajectory(std::size_t row_size) : row_size_(row_size) {}
+  // `pieces`, which may be null, is told of the motion between rows.
+  explicit Trajectory(std::size_t row_size, PieceSink* pieces = nullptr)
+      : row_size_(row_size), pieces_(pieces) {}
 
   void accept(std::size_t, std::size_t count, const double* values) override {
     values_.insert(values_.end(), values, values + count * row_size_);
   }
+
+  [[nodiscard]] PieceSink* pieces() override { return pieces_; }
 
   [[nodiscard]] std::size_t rows() const { return values_.size() / row_size_; }
   [[nodiscard]] const double* row(std::size_t i) const { return values_.data() + i * row_size_; }
 
  private:
   std::size_t row_size_;
+  PieceSink* pieces_;
   std::vector<double> values_;
 };
 

@@ -1,12 +1,29 @@
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <utility>
 
 #include "solve/pace.hpp"
+#include "solve/piece.hpp"
 #include "solve/row_block.hpp"
 #include "solve/stepper.hpp"
 
 namespace bbsim::solve {
+namespace {
+
+class Step : public Piece {
+ public:
+  Step(Stepper& stepper, double from, double to)
+      : Piece(from, to, stepper.parts()), stepper_(stepper) {}
+  void evaluate(const double* times, std::size_t count, double* rows) const override {
+    stepper_.evaluate(times, count, rows);
+  }
+
+ private:
+  Stepper& stepper_;
+};
+
+}  // namespace
 
 Outcome run_through(Stepper& stepper, const model::Model& model, const OutputGrid& grid,
                     StateSink& sink, const Watch& watch) {
@@ -15,6 +32,10 @@ Outcome run_through(Stepper& stepper, const model::Model& model, const OutputGri
   double* const first = rows.next();
   std::copy(model.initial.begin(), model.initial.end(), first);
   if (model.gamma) first[model.size()] = 0;
+
+  PieceSink* const pieces = sink.pieces();
+  if (pieces != nullptr) pieces->begin_run();
+  const bool with_rows = sink.wants_rows();
 
   Outcome outcome;
   Pace pace(grid.end());
@@ -29,11 +50,19 @@ Outcome run_through(Stepper& stepper, const model::Model& model, const OutputGri
   std::size_t next_row = 1, next_stop = 0;
   for (std::size_t steps = 1;; ++steps) {
     const double limit = next_stop < model.stops.size() ? model.stops[next_stop] : grid.end();
+    const double before = stepper.time();
     if (const char* reason = stepper.step(limit)) {
       fail(reason);
       break;
     }
     const double reached = stepper.time();
+    if (pieces != nullptr) {
+      const bool at_stop = reached >= limit && reached < grid.end();
+      pieces->accept(Step(stepper, before, at_stop ? std::nextafter(reached, before) : reached));
+    }
+    if (!with_rows) {
+      while (next_row < grid.size() && grid[next_row] <= reached) ++next_row;
+    }
     while (next_row < grid.size() && grid[next_row] <= reached) {
       std::size_t count = 0;
       while (count < times.size() && next_row + count < grid.size() &&
@@ -61,7 +90,7 @@ Outcome run_through(Stepper& stepper, const model::Model& model, const OutputGri
   }
   rows.flush();
   outcome.reached = stepper.time();
-  outcome.rows = rows.rows();
+  outcome.rows = next_row;
   outcome.statistics = stepper.statistics();
   return with_all_rows(std::move(outcome), grid.size());
 }

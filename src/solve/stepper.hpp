@@ -38,6 +38,9 @@ class Stepper {
   [[nodiscard]] virtual Statistics statistics() const = 0;
   // How many points of a step show all that its polynomial can do.
   [[nodiscard]] virtual std::size_t detail() const = 0;
+  // Of the last step: Chebyshev points of so many intervals show what a smooth function of the
+  // states, and of the time, does over it. Fewer than of a step as long as the tolerance allows.
+  [[nodiscard]] virtual std::size_t parts() const = 0;
 };
 
 // Drives a stepper from the model's initial state to the end of the grid, and hands on the rows.

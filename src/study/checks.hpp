@@ -84,6 +84,9 @@ class Tracker : public solve::StateSink {
   Tracker(const model::Model& model, std::vector<double>& positions,
           solve::StateSink* rows = nullptr);
   void accept(std::size_t first, std::size_t count, const double* values) override;
+  [[nodiscard]] solve::PieceSink* pieces() override {
+    return rows_ != nullptr ? rows_->pieces() : nullptr;
+  }
 
  private:
   std::size_t row_size_, coordinates_;

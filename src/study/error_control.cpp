@@ -25,14 +25,22 @@ ErrorControlled integrate_to_error(const model::Model& model, Method method, dou
                                    const solve::OutputGrid& grid, solve::StateSink& sink,
                                    const solve::Watch& watch) {
   ErrorControlled result;
+  // Whoever looks between the rows is told of each run that may be chosen, and again of the one
+  // that is, if another came after it.
+  solve::PieceSink* const pieces = sink.pieces();
+  double told = 0;  // the relative tolerance of whichever was told last
   const auto run = [&](double rtol) {
-    Candidate made{rtol, {}, Trajectory(model.row_size())};
+    Candidate made{rtol, {}, Trajectory(model.row_size(), pieces)};
     Tracker tracker(model, made.track.positions, &made.rows);
+    told = rtol;
     made.track.outcome = solve::integrate(model, method, tolerances_of(rtol), grid, tracker, watch);
     ++result.runs;
     return made;
   };
   const auto deliver = [&](Candidate& chosen) {
+    if (pieces != nullptr && told != chosen.rtol) {
+      chosen.track.outcome.ending = run(chosen.rtol).track.outcome.ending;
+    }
     if (chosen.rows.rows() > 0) sink.accept(0, chosen.rows.rows(), chosen.rows.row(0));
     result.outcome = std::move(chosen.track.outcome);
     result.tolerances = tolerances_of(chosen.rtol);

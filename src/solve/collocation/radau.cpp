@@ -26,6 +26,20 @@ double highest_frequency(const model::Model& model) {
       model.system);
 }
 
+// How fast the gimbal's angles turn in their sines, or a reference about its centre, rad/s.
+double tempo(const model::Model& model) {
+  return std::visit(
+      [&](const auto& system) {
+        double fastest = highest_frequency(model);
+        if constexpr (std::decay_t<decltype(system)>::linear) {
+          const model::SignalView motion = system.motion().view();
+          fastest += std::max(std::abs(motion.rate[0]), std::abs(motion.rate[1]));
+        }
+        return fastest;
+      },
+      model.system);
+}
+
 // z such that (z/2)^s / s! = tolerance: half a step of a sinusoid, in radians, whose s-th
 // Legendre coefficient has just fallen to the tolerance.
 double resolved(int stages, double tolerance) {
@@ -39,9 +53,11 @@ const Kernel& find_kernel(const KernelSet& kernels, int stages, const model::Mod
   return kernels.kernels[order][model.system.index()];
 }
 
+constexpr double safety = 0.9;
+
 // The size of the next step relative to one whose error was `error`.
 double growth(double error, int stages) {
-  constexpr double safety = 0.9, least = 0.1, most = 8;
+  constexpr double least = 0.1, most = 8;
   if (!(error > 0)) return error == 0 ? most : least;
   return std::clamp(safety * std::pow(error, -1.0 / (stages + 1)), least, most);
 }
@@ -79,6 +95,7 @@ void RadauStepper::renew(const model::Model& model, double end) {
   // A sinusoid shorter than the distance between nodes would be mistaken for a longer one.
   widest_ = highest_frequency_ > 0 ? 1.6 * kernel_->stages / highest_frequency_
                                    : std::numeric_limits<double>::max();
+  tempo_ = tempo(model);
   time_ = next_step_ = turned_ = last_step_ = 0;
   last_error_ = 1;
   attempted_ = false;
@@ -104,6 +121,16 @@ void RadauStepper::look_at_model() {
 
 std::size_t RadauStepper::detail() const {
   return static_cast<std::size_t>(kernel_->stages);
+}
+
+// Coefficients of the accelerations fall as the powers of the step's length up to the tolerance at
+// the last one, and those of products of two states half as fast. What depends on the time alone
+// need not show in the error: its coefficients fall from as many as there are radians on.
+std::size_t RadauStepper::parts() const {
+  constexpr double least = 4, of_products = 1.5, a_radian = 2.5, most = 128;
+  const double parts = std::max(of_products * kernel_->stages * fill_,
+                                least + a_radian * std::abs(tempo_ * accepted_step_));
+  return static_cast<std::size_t>(std::clamp(std::ceil(parts), least, most));
 }
 
 // Makes the end of the last step the present state.
@@ -197,6 +224,8 @@ const char* RadauStepper::step(double limit) {
       h = std::min(h, step * factor * shrank_by_ * trend);
     }
     last_error_ = std::max(attempt.error, 1e-3);
+    accepted_step_ = step;
+    fill_ = std::min(1.0, safety / factor);
     // A step that the limit cut short says little of how long the next may be.
     next_step_ = arrives && !rejected ? std::max(h, next_step_) : h;
     return nullptr;

@@ -63,6 +63,7 @@ class RadauStepper : public Stepper {
   [[nodiscard]] std::size_t worst_state() const override { return worst_state_; }
   [[nodiscard]] Statistics statistics() const override { return statistics_; }
   [[nodiscard]] std::size_t detail() const override;
+  [[nodiscard]] std::size_t parts() const override;
 
  private:
   struct Free {
@@ -79,6 +80,7 @@ class RadauStepper : public Stepper {
   const Kernel* kernel_ = nullptr;
   Tolerances tolerances_;
   double end_ = 0, highest_frequency_ = 0, reach_ = 0, widest_ = 0;
+  double tempo_ = 0;  // of what depends on the time alone, rad/s
   bool positions_only_ = false;
   std::size_t viewed_ = std::variant_npos;  // the alternative that view_ has room for
   std::unique_ptr<void, Free> view_;
@@ -91,7 +93,8 @@ class RadauStepper : public Stepper {
   // last one, and its part of the one before.
   int shrinking_ = 0;
   double shrinks_from_ = 0, last_step_ = 0, shrank_by_ = 1;
-  double last_error_ = 1;  // of the last step, in the tolerances' weights
+  double last_error_ = 1;                // of the last step, in the tolerances' weights
+  double accepted_step_ = 0, fill_ = 1;  // its length (s), and part of what would have passed
   std::size_t worst_state_ = 0;
   Statistics statistics_;
 };

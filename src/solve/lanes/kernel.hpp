@@ -25,6 +25,16 @@ struct alignas(64) Loops {
   double frequency[group], sine[2][group], cosine[2][group];
 };
 
+// What is looked at of a step, each in every lane: 1 - cos(tilt) of the plane, the square of its
+// angular velocity, and those of the contact point's distances from the plane's origin and from the
+// reference.
+enum Look : int { versine, rate_squared, distance_squared, error_squared, looks };
+
+struct alignas(64) Looks {
+  double greatest[looks][group];  // at the ends of the steps so far
+  double promise[looks][group];   // what it may be within the last step
+};
+
 // All functions work on a workspace of `workspace` bytes, aligned to 64, prepared by start(). None
 // allocates or throws.
 struct Kernel {
@@ -40,6 +50,9 @@ struct Kernel {
   // The states at times within the last attempt, by its polynomial: [time][state][lane], aligned
   // to 64. To be called before accept().
   void (*evaluate)(void* workspace, const double* times, std::size_t count, double* rows);
+  // Looks at the last attempt; to be called before accept(), of each one that is accepted.
+  // `greatest` is raised, `promise` set. Returns whether any lane promises something greater.
+  bool (*look)(void* workspace, Looks* looks);
   // Makes the end of the last attempt the present state.
   void (*accept)(void* workspace);
   // Makes one lane a twin of another: its loop and its present state.

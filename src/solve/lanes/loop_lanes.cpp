@@ -163,7 +163,7 @@ double LoopLanes::fastest(const LoopCase* cases, int count) {
   return rate;
 }
 
-std::array<bool, group> LoopLanes::integrate(const LoopCase* cases, int count) {
+std::array<bool, group> LoopLanes::integrate(const LoopCase* cases, int count, StepSink* steps) {
   load(cases, count);
   held_.fill(0);
   statistics_ = {};
@@ -190,8 +190,10 @@ std::array<bool, group> LoopLanes::integrate(const LoopCase* cases, int count) {
     if (++statistics_.jacobian_evaluations > most_attempts) lost_.fill(true);
     const double worst = judge(errors.data(), at_limit);
     if (worst <= 1) {
+      const double from = t;
       t = arrives ? end : t + h;
       record(t);
+      if (steps != nullptr) steps->accept({*kernel_, workspace_.get(), from, t});
       kernel_->accept(workspace_.get());
       ++statistics_.steps;
       const double factor = growth(worst);

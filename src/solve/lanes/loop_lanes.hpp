@@ -28,6 +28,35 @@ struct LoopCase {
 // BBSIM_SIMD names no instruction set of this processor.
 [[nodiscard]] int width();
 
+// A step of a group, to be looked at before the next one.
+class GroupStep {
+ public:
+  GroupStep(const Kernel& kernel, void* workspace, double from, double to)
+      : kernel_(kernel), workspace_(workspace), from_(from), to_(to) {}
+
+  [[nodiscard]] double from() const { return from_; }  // s
+  [[nodiscard]] double to() const { return to_; }
+  // Once, of each step: as Kernel::look().
+  [[nodiscard]] bool look(Looks& looks) const { return kernel_.look(workspace_, &looks); }
+  // States at times within the step, [time][state][lane], aligned to 64. They are polynomials of
+  // degree 4 over it.
+  void evaluate(const double* times, std::size_t count, double* rows) const {
+    kernel_.evaluate(workspace_, times, count, rows);
+  }
+
+ private:
+  const Kernel& kernel_;
+  void* workspace_;
+  double from_, to_;
+};
+
+// Is told of each step of a group. What it is told of a lane that is given up later means nothing.
+class StepSink {
+ public:
+  virtual ~StepSink() = default;
+  virtual void accept(const GroupStep& step) = 0;
+};
+
 // Integrates groups of loops from t = 0 over an output grid, in lock step: a group takes one step
 // for all its lanes, short enough for each, by a Rosenbrock method of order 5 (rodas5p.hpp) with
 // the exact Jacobian. Stiff servos cost no more steps than the motion does.
@@ -46,8 +75,9 @@ class LoopLanes {
 
   // The first `count` cases, 1 <= count <= group. Whether each was carried to the end; one that was
   // not, for values that are not finite, for a step that shrank to nothing, for too many steps, or
-  // because it would hold the others back, is for another integrator.
-  std::array<bool, group> integrate(const LoopCase* cases, int count);
+  // because it would hold the others back, is for another integrator. `steps`, which may be null,
+  // is told of the motion between rows.
+  std::array<bool, group> integrate(const LoopCase* cases, int count, StepSink* steps = nullptr);
 
   // The last group's states, [row][state][lane], a row for each time of the grid; aligned to 64.
   // Rows of a case that was given up, and of lanes beyond `count`, mean nothing.

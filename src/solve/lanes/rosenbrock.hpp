@@ -44,14 +44,21 @@ struct Rosenbrock {
   static constexpr int x_velocity = motions.of[0].velocity, y_velocity = motions.of[1].velocity;
   static constexpr int phi_rate = motions.of[2].velocity, theta_rate = motions.of[3].velocity;
 
+  // What is looked at, and how fast it changes.
+  struct Sizes {
+    P size[looks], rate[looks];
+  };
+
   struct Stepped {
     P z[n], next[n], u[stages][n + 2];
+    Sizes sizes;  // at the end of the last step that was looked at
   };
 
   struct alignas(64) Workspace {
     Loops loops;
     double rtol, atol;
     double t, h;  // of the last attempt
+    bool looked;  // at any step
     Stepped of[packs];
   };
 
@@ -306,6 +313,7 @@ struct Rosenbrock {
     w.rtol = rtol;
     w.atol = atol;
     w.t = w.h = 0;
+    w.looked = false;
     for (int p = 0; p < packs; ++p) {
       for (int i = 0; i < n; ++i) w.of[p].z[i] = P::load(&initial[i][p * lanes]);
     }
@@ -370,6 +378,91 @@ struct Rosenbrock {
     }
   }
 
+  // All looks at a time, and their rates; the angles' accelerations are given.
+  BBSIM_INLINE static void look_at(const Loop& loop, double t, const P* z, const P (&turning)[2],
+                                   Sizes& at) {
+    constexpr int phi = motions.of[2].position, theta = motions.of[3].position;
+    // Beyond 10^5 rad, in which nobody is interested, without the last digits.
+    const model::SinCos<P> half_phi = sin_cos_of_moderate(P(0.5) * z[phi]);
+    const model::SinCos<P> half_theta = sin_cos_of_moderate(P(0.5) * z[theta]);
+    const P a = half_phi.sin * half_phi.sin, b = half_theta.sin * half_theta.sin;
+    const P cos_phi = P(1.0) - P(2.0) * a, cos_theta = P(1.0) - P(2.0) * b;
+    at.size[versine] = P(2.0) * (a + b) - P(4.0) * (a * b);
+    at.rate[versine] = P(2.0) * (z[phi_rate] * (half_phi.sin * half_phi.cos) * cos_theta +
+                                 z[theta_rate] * (half_theta.sin * half_theta.cos) * cos_phi);
+    at.size[rate_squared] = z[phi_rate] * z[phi_rate] + z[theta_rate] * z[theta_rate];
+    at.rate[rate_squared] = P(2.0) * (z[phi_rate] * turning[0] + z[theta_rate] * turning[1]);
+    at.size[distance_squared] = z[0] * z[0] + z[1] * z[1];
+    at.rate[distance_squared] = P(2.0) * (z[0] * z[x_velocity] + z[1] * z[y_velocity]);
+    const model::SinCos<P> wave = sin_cos(loop.frequency * P(t));
+    const auto reference = loop.reference(P(t), wave.sin, wave.cos);
+    const P dx = z[0] - reference[0].value, dy = z[1] - reference[1].value;
+    at.size[error_squared] = dx * dx + dy * dy;
+    at.rate[error_squared] = P(2.0) * (dx * (z[x_velocity] - reference[0].rate) +
+                                       dy * (z[y_velocity] - reference[1].rate));
+  }
+
+  // Whether any lane is set.
+  BBSIM_INLINE static bool any(Mask mask) {
+    long long all = mask[0];
+    for (int i = 1; i < lanes; ++i) all |= mask[i];
+    return all != 0;
+  }
+
+  // By the cubic through values and rates at both ends. Where both rates go the way that the values
+  // do, and neither is more than three times as steep, it goes one way (Fritsch and Carlson, SIAM
+  // Journal on Numerical Analysis 17:238, 1980). Otherwise it is above the ends by no more than
+  // 4/27 of the change that its rates there would give; what is of a higher degree is allowed for.
+  [[gnu::flatten]] static bool look(void* workspace, Looks* result) {
+    Workspace& w = *static_cast<Workspace*>(workspace);
+    constexpr double beyond = 0.25, worth = 1 + 1e-9;
+    bool promising = false;
+    for (int p = 0; p < packs; ++p) {
+      const Loop loop(w.loops, p);
+      Stepped& s = w.of[p];
+      // Slopes of the polynomial of evaluate() at its ends.
+      P starting[2], ending[2];
+#pragma GCC unroll 2
+      for (int axis = 0; axis < 2; ++axis) {
+        const int v = axis == 0 ? phi_rate : theta_rate;
+        P at_start(0.0), at_end(0.0);
+#pragma GCC unroll 8
+        for (int j = 0; j < stages; ++j) {
+          at_start += P(Table::dense[0][j]) * s.u[j][v];
+          at_end += P(Table::dense[0][j] + Table::dense[1][j] + Table::dense[2][j]) * s.u[j][v];
+        }
+        const P change = s.next[v] - s.z[v];
+        starting[axis] = (change + at_start) * P(1 / w.h);
+        ending[axis] = (change - at_end) * P(1 / w.h);
+      }
+      Sizes now;
+      if (!w.looked) look_at(loop, w.t, s.z, starting, s.sizes);
+      look_at(loop, w.t + w.h, s.next, ending, now);
+      s.sizes.rate[rate_squared] =
+          P(2.0) * (s.z[phi_rate] * starting[0] + s.z[theta_rate] * starting[1]);
+#pragma GCC unroll 4
+      for (int l = 0; l < looks; ++l) {
+        const P v0 = s.sizes.size[l], v1 = now.size[l];
+        const P change = v1 - v0, s0 = w.h * s.sizes.rate[l], s1 = w.h * now.rate[l];
+        const P up = larger(s0, P(0.0)), down = larger(-s1, P(0.0));
+        const P steepest = P(3.0) * magnitude(change);
+        const Mask one_way = (Mask)(s0.v * change.v >= 0) & (Mask)(s1.v * change.v >= 0) &
+                             (Mask)(magnitude(s0).v <= steepest.v) &
+                             (Mask)(magnitude(s1).v <= steepest.v);
+        const P more = P::of((Vector)((Mask)(beyond * (up + down)).v & ~one_way));
+        const P ends = larger(v0, v1), promise = ends + more;
+        double* const greatest = &result->greatest[l][p * lanes];
+        const P most = larger(P::load(greatest), ends);
+        most.store(greatest);
+        promise.store(&result->promise[l][p * lanes]);
+        promising = promising || any((Mask)(promise.v > worth * most.v));
+      }
+      s.sizes = now;
+    }
+    w.looked = true;
+    return promising;
+  }
+
   static void accept(void* workspace) {
     Workspace& w = *static_cast<Workspace*>(workspace);
     for (int p = 0; p < packs; ++p) {
@@ -387,7 +480,8 @@ struct Rosenbrock {
     }
   }
 
-  static constexpr Kernel kernel{sizeof(Workspace), start, rate, attempt, evaluate, accept, twin};
+  static constexpr Kernel kernel{sizeof(Workspace), start, rate,   attempt,
+                                 evaluate,          look,  accept, twin};
 };
 
 }  // namespace bbsim::solve::lanes

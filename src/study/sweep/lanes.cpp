@@ -12,6 +12,7 @@
 #include "solve/choose.hpp"
 #include "solve/lanes/loop_lanes.hpp"
 #include "study/sweep/case_scenario.hpp"
+#include "study/sweep/lane_extremes.hpp"
 #include "study/sweep/single.hpp"
 #include "study/sweep/track_meter.hpp"
 #include "study/sweep/verdict.hpp"
@@ -121,15 +122,21 @@ class LaneRunner : public CaseRunner {
       loops[passengers.size()] = loop_case(scenario, model, signals_of(model).view());
       passengers.push_back({i, std::move(model), model::constants_of(scenario)});
     }
-    const auto carried = lanes_->integrate(loops.data(), static_cast<int>(passengers.size()));
+    std::vector<const model::SignalPair*> references;
+    for (const Passenger& one : passengers) references.push_back(&signals_of(one.model));
+    extremes_.begin(references);
+    const auto carried =
+        lanes_->integrate(loops.data(), static_cast<int>(passengers.size()), &extremes_);
     for (std::size_t lane = 0; lane < passengers.size(); ++lane) {
       const Passenger& one = passengers[lane];
-      if (!carried[lane]) {
+      const auto greatest = extremes_.of(lane);
+      if (!carried[lane] || !greatest) {
         alone_.push_back(one.place);
         continue;
       }
       track_.begin(one.model, one.constants, *grid_, same_signals_);
-      track_.take(0, grid_->size(), lanes_->rows() + lane, solve::lanes::states * group, group);
+      track_.take(grid_->size(), lanes_->rows() + lane, solve::lanes::states * group, group,
+                  *greatest);
       double* const results = &into.numbers[one.place * numbers];
       results[0] = grid_->end();
       track_.finish(results + 1);
@@ -148,6 +155,7 @@ class LaneRunner : public CaseRunner {
   const Scenario first_;  // like which all are, but for their numbers
   CaseScenario scenario_;
   TrackMeter track_;
+  LaneExtremes extremes_;
   std::unique_ptr<CaseRunner> single_;
   bool same_signals_;
   std::optional<solve::OutputGrid> grid_;

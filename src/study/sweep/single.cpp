@@ -38,7 +38,7 @@ CaseStatus status_of(const solve::Outcome& outcome) {
   return {};
 }
 
-// Passes rows on to two sinks.
+// Passes rows on to two sinks, and to the first of them the motion between.
 class Both : public solve::StateSink {
  public:
   Both(solve::StateSink& one, solve::StateSink& other) : one_(one), other_(other) {}
@@ -46,6 +46,7 @@ class Both : public solve::StateSink {
     one_.accept(first, count, values);
     other_.accept(first, count, values);
   }
+  [[nodiscard]] solve::PieceSink* pieces() override { return one_.pieces(); }
 
  private:
   solve::StateSink& one_;

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <iterator>
+#include <optional>
 #include <string_view>
 #include <type_traits>
 #include <utility>
@@ -12,7 +13,11 @@
 #include "solve/choose.hpp"
 #include "solve/collocation/radau.hpp"
 #include "study/sweep/case_scenario.hpp"
-#include "study/sweep/track_meter.hpp"
+#include "study/sweep/gimbal_extremes.hpp"
+#include "study/sweep/kernels/sweep_kernels.hpp"
+#include "study/sweep/padded_rows.hpp"
+#include "study/sweep/recorded_motion.hpp"
+#include "study/sweep/spans.hpp"
 #include "study/sweep/verdict.hpp"
 
 namespace bbsim::study {
@@ -50,38 +55,111 @@ bool is_superposed(const record::Measure& measure) {
          (name == "distance" || name == "tilt" || name == "tilt_rate");
 }
 
-// Keeps x and y of a run.
-class Positions : public solve::StateSink {
- public:
-  Positions(std::size_t rows, std::size_t row_size, PaddedRows& x, PaddedRows& y)
-      : row_size_(row_size), x_(x), y_(y) {
-    x_.resize(rows);
-    y_.resize(rows);
-  }
-  void accept(std::size_t first, std::size_t count, const double* values) override {
-    for (std::size_t i = 0; i < count; ++i) {
-      x_.data()[first + i] = values[i * row_size_];
-      y_.data()[first + i] = values[i * row_size_ + 1];
-    }
-  }
-
- private:
-  std::size_t row_size_;
-  PaddedRows &x_, &y_;
-};
+// What is left out of x and y between points, relative to them: squares are then right to 1e-10.
+constexpr double shown = 1e-12;
+constexpr int most_halvings = 12;
 
 }  // namespace
 
-// Of each term x and y at all output times, for a factor of 1.
+// Of each term x and y at the same times, for a factor of 1: at Chebyshev points of stretches so
+// short that polynomials through them are all that there is to know, whatever the output times are.
 struct Superposed {
   struct Term {
     const Part* part;  // null: what does not vary
     PaddedRows x, y;
   };
   std::vector<Term> terms;
-  std::size_t rows = 0;
-  double end = 0, max_tilt = 0, max_tilt_rate = 0;
+  std::vector<Span> stretches;
+  std::size_t points = 0;
+  double end = 0;
+  GimbalExtremes::Greatest gimbal;
 };
+
+namespace {
+
+// Cuts the time into stretches on which polynomials through so many points show all motions.
+class Stretches {
+ public:
+  Stretches(const std::vector<RecordedMotion>& motions, std::size_t intervals)
+      : motions_(&motions), points_(intervals) {}
+
+  // To be called with one stretch of time after another, in none of which an input has a corner.
+  void add(double from, double to, int halvings = 0) {
+    if (halvings < most_halvings && !are_shown(from, to)) {
+      const double middle = from + (to - from) / 2;
+      add(from, middle, halvings + 1);
+      add(middle, to, halvings + 1);
+      return;
+    }
+    for (std::size_t i = 0; i < points_.size(); ++i) {
+      times_.push_back(i + 1 < points_.size() ? from + (to - from) * points_[i] : to);
+    }
+  }
+
+  [[nodiscard]] std::size_t intervals() const { return points_.size() - 1; }
+  [[nodiscard]] const std::vector<double>& times() const { return times_; }
+
+ private:
+  // Relative to how far each motion goes in the integrator's steps there: it is no more exact
+  // itself.
+  [[nodiscard]] bool are_shown(double from, double to) const {
+    std::vector<double> x(points_.size()), y(points_.size());
+    return std::all_of(motions_->begin(), motions_->end(), [&](const RecordedMotion& motion) {
+      for (std::size_t i = 0; i < points_.size(); ++i) {
+        const auto position = motion.at(from + (to - from) * points_[i]);
+        x[i] = position[0];
+        y[i] = position[1];
+      }
+      return points_.tail(x.data()) + points_.tail(y.data()) <= shown * motion.size(from, to);
+    });
+  }
+
+  const std::vector<RecordedMotion>* motions_;
+  ChebyshevPoints points_;
+  std::vector<double> times_;
+};
+
+// The fewest points that show all motions. High degrees need fewer of them, unless the inputs have
+// many corners.
+Stretches fewest_points(const std::vector<RecordedMotion>& motions, const model::Model& model,
+                        double end) {
+  std::optional<Stretches> fewest;
+  for (const std::size_t intervals : {15, 7}) {
+    Stretches tried(motions, intervals);
+    double from = 0;
+    for (const double stop : model.stops) {
+      tried.add(from, stop);
+      from = stop;
+    }
+    tried.add(from, end);
+    if (!fewest || tried.times().size() < fewest->times().size()) fewest = std::move(tried);
+  }
+  return *fewest;
+}
+
+// x and y of all terms at those points.
+void fill(Superposed& solutions, const std::vector<RecordedMotion>& motions,
+          const Stretches& stretches) {
+  const std::vector<double>& times = stretches.times();
+  solutions.points = times.size();
+  for (std::size_t first = 0; first < times.size(); first += stretches.intervals() + 1) {
+    solutions.stretches.push_back({first, stretches.intervals()});
+  }
+  for (std::size_t k = 0; k < motions.size(); ++k) {
+    Superposed::Term& term = solutions.terms[k];
+    term.x.resize(times.size());
+    term.y.resize(times.size());
+    for (std::size_t i = 0; i < times.size(); ++i) {
+      const auto position = motions[k].at(times[i]);
+      term.x.data()[i] = position[0];
+      term.y.data()[i] = position[1];
+    }
+    term.x.pad(times.size());
+    term.y.pad(times.size());
+  }
+}
+
+}  // namespace
 
 bool can_superpose(const SweepTask& task) {
   if (!task.series.empty()) return false;
@@ -128,11 +206,9 @@ std::shared_ptr<const Superposed> solve_superposed(const SweepTask& task) {
     }
   }
 
-  solutions->rows = grid.size();
   solutions->end = grid.end();
-  TrackMeter gimbal({*record::find_measure("max_tilt"), *record::find_measure("max_tilt_rate")});
-  const model::BallConstants constants = model::constants_of(scenario);
-  for (Superposed::Term& term : solutions->terms) {
+  std::vector<RecordedMotion> motions;
+  for (const Superposed::Term& term : solutions->terms) {
     std::array<double, part_count> factors = fixed;
     if (term.part != nullptr) {
       factors = {};
@@ -140,23 +216,18 @@ std::shared_ptr<const Superposed> solve_superposed(const SweepTask& task) {
     }
     model.system = model::OpenLoop<model::Shape::full>(factors[5], factors[6], motion);
     model.initial.assign(factors.begin(), factors.begin() + states);
-    solve::collocation::RadauStepper stepper(model, solve::collocation::choose_kernels(),
-                                             solve::collocation::choose_stages(finest.rtol), finest,
-                                             grid.end());
-    Positions positions(grid.size(), model.row_size(), term.x, term.y);
-    const solve::Outcome outcome = solve::run_through(stepper, model, grid, positions, {});
+    const int stages = solve::collocation::choose_stages(finest.rtol);
+    solve::collocation::RadauStepper stepper(model, solve::collocation::choose_kernels(), stages,
+                                             finest, grid.end());
+    // Accelerations are polynomials through the stages.
+    RecordedMotion& recorded =
+        motions.emplace_back(static_cast<std::size_t>(stages) + 1, model.row_size());
+    const solve::Outcome outcome = solve::run_through(stepper, model, grid, recorded, {});
     if (outcome.ending != solve::Ending::done) return nullptr;
-    term.x.pad(grid.size());
-    term.y.pad(grid.size());
   }
+  fill(*solutions, motions, fewest_points(motions, model, grid.end()));
   // The tilt is that of the motion, whatever the ball does.
-  std::vector<double> still(model.row_size() * grid.size(), 0.0);
-  std::array<double, 2> tilt{};
-  gimbal.begin(model, constants, grid, false);
-  gimbal.accept(0, grid.size(), still.data());
-  gimbal.finish(tilt.data());
-  solutions->max_tilt = tilt[0];
-  solutions->max_tilt_rate = tilt[1];
+  solutions->gimbal = GimbalExtremes().of(motion, grid.end());
   return solutions;
 }
 
@@ -170,6 +241,7 @@ class SuperpositionRunner : public CaseRunner {
         solutions_(std::move(solutions)),
         kernels_(choose_sweep_kernels()),
         factors_(solutions_->terms.size()) {
+    squares_.resize(solutions_->points);
     for (const Superposed::Term& term : solutions_->terms) {
       x_.push_back(term.x.data());
       y_.push_back(term.y.data());
@@ -199,33 +271,43 @@ class SuperpositionRunner : public CaseRunner {
     for (std::size_t k = 1; k < factors_.size(); ++k) {
       factors_[k] = solutions_->terms[k].part->factor(scenario);
     }
-    const Superposition motion{solutions_->rows, factors_.size(), x_.data(), y_.data()};
-    const double distance = far_ ? farthest(motion) : 0;
+    const double distance = far_ ? farthest() : 0;
     status = {};
     numbers[0] = solutions_->end;
     for (std::size_t m = 0; m < task_.measures.size(); ++m) {
       const record::Measure& measure = task_.measures[m];
       const std::string_view name = measure.column->name;
       numbers[1 + m] = name == "distance"    ? distance
-                       : name == "tilt"      ? solutions_->max_tilt
-                       : name == "tilt_rate" ? solutions_->max_tilt_rate
+                       : name == "tilt"      ? solutions_->gimbal.tilt
+                       : name == "tilt_rate" ? solutions_->gimbal.rate
                                              : last(name == "x" ? x_ : y_);
     }
     judge(task_, scenario, numbers + 1, status);
   }
 
-  [[nodiscard]] double farthest(const Superposition& motion) const {
-    const double squared = kernels_.farthest(motion, factors_.data());
-    if (is_square(squared)) return std::sqrt(squared);
-    double greatest = 0;  // one by one, without an overflow on the way
-    for (std::size_t i = 0; i < motion.rows; ++i) {
-      greatest = std::max(greatest, std::hypot(at(x_, i), at(y_, i)));
+  [[nodiscard]] double farthest() {
+    const Superposition motion{solutions_->points, factors_.size(), x_.data(), y_.data()};
+    double squared = kernels_.superpose(motion, factors_.data(), squares_.data());
+    int exponent = 0;
+    if (!is_square(squared)) {
+      // All of it smaller, or larger, by a power of two.
+      double size = 0;
+      for (std::size_t i = 0; i < motion.rows; ++i) {
+        size = std::max({size, std::abs(at(x_, i)), std::abs(at(y_, i))});
+      }
+      if (size == 0 || !std::isfinite(size)) return size;
+      std::frexp(size, &exponent);
+      for (double& factor : factors_) factor = std::scalbn(factor, -exponent);
+      squared = kernels_.superpose(motion, factors_.data(), squares_.data());
+      for (double& factor : factors_) factor = std::scalbn(factor, exponent);
     }
-    return greatest;
+    squared =
+        search_.greatest_between(solutions_->stretches, squares_.data(), Spacing::close, squared);
+    return std::scalbn(std::sqrt(squared), exponent);
   }
 
   [[nodiscard]] double last(const std::vector<const double*>& terms) const {
-    return at(terms, solutions_->rows - 1);
+    return at(terms, solutions_->points - 1);
   }
 
   [[nodiscard]] double at(const std::vector<const double*>& terms, std::size_t row) const {
@@ -240,6 +322,8 @@ class SuperpositionRunner : public CaseRunner {
   const SweepKernels& kernels_;
   std::vector<const double*> x_, y_;  // of each term
   std::vector<double> factors_;
+  PaddedRows squares_;
+  SpanSearch search_;
   bool far_ = false;
 };
 

@@ -41,23 +41,17 @@ bool is_track_measure(const record::Measure& measure) {
          (name == "tilt" || name == "tilt_rate" || name == "distance");
 }
 
+// Points of pieces that are looked at in one go; a piece has fewer.
+constexpr std::size_t together = 1024;
+
+void subtract(const SignalRows& signals, std::size_t count, PaddedRows& x, PaddedRows& y) {
+  for (std::size_t i = 0; i < count; ++i) {
+    x.data()[i] -= signals.value(0)[i];
+    y.data()[i] -= signals.value(1)[i];
+  }
+}
+
 }  // namespace
-
-bool is_square(double squared) {
-  return squared > 1e-280 && squared < 1e300;
-}
-
-void PaddedRows::resize(std::size_t rows) {
-  const std::size_t room = (rows + row_padding - 1) / row_padding * row_padding;
-  if (room <= room_) return;
-  data_.reset(static_cast<double*>(::operator new (room * sizeof(double), std::align_val_t{64})));
-  room_ = room;
-}
-
-void PaddedRows::pad(std::size_t rows) {
-  double* const values = data_.get();
-  for (std::size_t i = rows; i % row_padding != 0; ++i) values[i] = values[rows - 1];
-}
 
 bool are_track_measures(const std::vector<record::Measure>& measures) {
   return std::all_of(measures.begin(), measures.end(), is_track_measure);
@@ -87,52 +81,10 @@ TrackMeter::TrackMeter(std::vector<record::Measure> measures)
   for (const record::Measure& measure : measures_) {
     if (measure.kind == Kind::end) continue;
     const std::string_view name = measure.column->name;
+    wants_distance_ = wants_distance_ || name == "distance";
     wants_gimbal_ = wants_gimbal_ || name == "tilt" || name == "tilt_rate";
-    wants_error_ = wants_error_ || name == "tracking_error";
-  }
-}
-
-void TrackMeter::evaluate_signals(const model::SignalPair& signals) {
-  const std::size_t rows = grid_->size();
-  if (timed_ != *grid_) {
-    timed_ = *grid_;
-    sampled_.clear();
-    times_.resize(rows);
-    for (std::size_t i = 0; i < rows; ++i) times_.data()[i] = (*grid_)[i];
-    times_.pad(rows);
-  }
-  for (PaddedRows* const column : {&signal_[0], &signal_[1], &signal_rate_[0], &signal_rate_[1]}) {
-    column->resize(rows);
-  }
-  double* const values[2] = {signal_[0].data(), signal_[1].data()};
-  double* const rates[2] = {signal_rate_[0].data(), signal_rate_[1].data()};
-  const model::SignalView view = signals.view();
-  if (view.table_count == 0) {
-    sampled_.resize(view.harmonic_count);
-    waves_.clear();
-    for (std::size_t k = 0; k < view.harmonic_count; ++k) {
-      Sampled& sampled = sampled_[k];
-      const double frequency = view.harmonics[k].frequency;
-      if (sampled.sines.data() == nullptr || sampled.frequency != frequency) {
-        sampled.frequency = frequency;
-        sampled.sines.resize(rows);
-        sampled.cosines.resize(rows);
-        kernels_.wave(frequency, times_.data(), rows, sampled.sines.data(), sampled.cosines.data());
-      }
-      waves_.push_back({sampled.sines.data(), sampled.cosines.data()});
-    }
-    kernels_.signals(view, waves_.data(), times_.data(), rows, values, rates);
-    return;
-  }
-  for (std::size_t i = 0; i < rows; ++i) {
-    const auto jets = signals.at(times_.data()[i]);
-    for (std::size_t c = 0; c < 2; ++c) {
-      values[c][i] = jets[c].value;
-      rates[c][i] = jets[c].rate;
-    }
-  }
-  for (PaddedRows* const column : {&signal_[0], &signal_[1], &signal_rate_[0], &signal_rate_[1]}) {
-    column->pad(rows);
+    if (name != "tracking_error") continue;
+    (measure.kind == Kind::rms ? wants_rms_ : wants_error_) = true;
   }
 }
 
@@ -148,48 +100,73 @@ void TrackMeter::begin(const model::Model& model, const model::BallConstants& co
   model_ = &model;
   constants_ = &constants;
   grid_ = &grid;
-  rows_ = 0;
-  x_.resize(grid.size());
-  y_.resize(grid.size());
   with_track(model, [&](const model::SignalPair& signals, bool closed) {
+    signals_ = &signals;
     closed_ = closed;
-    if (closed) {
-      for (PaddedRows* const column : {&phi_, &theta_, &phi_rate_, &theta_rate_}) {
-        column->resize(grid.size());
-      }
-    }
-    if ((closed ? wants_error_ : wants_gimbal_) && !(same_signals && has_signals_)) {
-      evaluate_signals(signals);
-      has_signals_ = true;
-    }
   });
-  PaddedRows& phi = closed_ ? phi_ : signal_[0];
-  PaddedRows& theta = closed_ ? theta_ : signal_[1];
-  PaddedRows& phi_rate = closed_ ? phi_rate_ : signal_rate_[0];
-  PaddedRows& theta_rate = closed_ ? theta_rate_ : signal_rate_[1];
-  track_ = {0,
-            x_.data(),
-            y_.data(),
-            phi.data(),
-            theta.data(),
-            phi_rate.data(),
-            theta_rate.data(),
-            closed_ ? signal_[0].data() : nullptr,
-            closed_ ? signal_[1].data() : nullptr};
+  if (!same_signals) {
+    has_row_reference_ = false;
+    motion_.reset();
+  }
+  for (PaddedRows* const column : {&x_, &y_, &sizes_}) column->resize(together);
+  if (closed_ && wants_gimbal_) {
+    for (PaddedRows* const column : {&phi_, &theta_, &phi_rate_, &theta_rate_, &more_sizes_}) {
+      column->resize(together);
+    }
+  }
+  begin_run();
 }
 
-void TrackMeter::accept(std::size_t first, std::size_t count, const double* values) {
-  take(first, count, values, model_->row_size(), 1);
+// The start is a point of no piece: a run may end there.
+void TrackMeter::begin_run() {
+  greatest_ = {};
+  reached_ = 0;
+  rows_ = 1;
+  spans_.clear();
+  points_ = 0;
+  reference_.times(together)[0] = 0;
+  last_ = model_->initial;
+  copy_points(last_.data(), 1);
+}
+
+void TrackMeter::accept(const solve::Piece& piece) {
+  const bool looks = wants_distance_ || (closed_ && (wants_gimbal_ || wants_error_));
+  const std::size_t parts = piece.parts(), count = looks ? parts + 1 : 0;
+  if (points_ + count > together) look();
+  times_.resize(count);
+  if (looks) {
+    const ChebyshevPoints& points = search_.points(parts);
+    for (std::size_t i = 0; i < count; ++i) {
+      times_[i] = piece.from() + (piece.to() - piece.from()) * points[i];
+    }
+    times_.back() = piece.to();
+    spans_.push_back({points_, parts});
+    if (closed_ && wants_error_) {
+      std::copy(times_.begin(), times_.end(), reference_.times(together) + points_);
+    }
+  }
+  // Of rows that are not wanted each, the last is the end of the run.
+  bool has_row = false;
+  if (!wants_rms_) {
+    for (; rows_ < grid_->size() && (*grid_)[rows_] <= piece.to(); ++rows_) has_row = true;
+    if (has_row) times_.push_back((*grid_)[rows_ - 1]);
+  }
+  reached_ = piece.to();
+  if (times_.empty()) return;
+  const std::size_t row = model_->row_size();
+  piece_rows_.resize(times_.size() * row);
+  piece.evaluate(times_.data(), times_.size(), piece_rows_.data());
+  if (has_row) std::copy_n(&piece_rows_[count * row], row, last_.begin());
+  if (looks) copy_points(piece_rows_.data(), count);
 }
 
 // States of a ball anywhere on the plane: x, y, x', y', u; then, of a loop, the gimbal's phi,
 // theta, phi', theta'.
-void TrackMeter::take(std::size_t first, std::size_t count, const double* values,
-                      std::size_t row_stride, std::size_t stride) {
+void TrackMeter::copy_points(const double* rows, std::size_t count) {
+  const std::size_t row = model_->row_size();
   const auto copy = [&](std::size_t state, PaddedRows& to) {
-    double* const column = to.data() + first;
-    const double* const from = values + state * stride;
-    for (std::size_t i = 0; i < count; ++i) column[i] = from[i * row_stride];
+    double* const column = to.data() + points_;
+    for (std::size_t i = 0; i < count; ++i) column[i] = rows[i * row + state];
   };
   copy(0, x_);
   copy(1, y_);
@@ -199,67 +176,123 @@ void TrackMeter::take(std::size_t first, std::size_t count, const double* values
     copy(7, phi_rate_);
     copy(8, theta_rate_);
   }
+  points_ += count;
+}
+
+void TrackMeter::accept(std::size_t first, std::size_t count, const double* values) {
+  if (wants_rms_) copy_rows(first, count, values, model_->row_size(), 1);
+}
+
+void TrackMeter::take(std::size_t count, const double* values, std::size_t row_stride,
+                      std::size_t stride, const TrackExtremes& greatest) {
+  copy_rows(0, count, values, row_stride, stride);
+  points_ = 0;
+  greatest_ = greatest;
+}
+
+void TrackMeter::copy_rows(std::size_t first, std::size_t count, const double* values,
+                           std::size_t row_stride, std::size_t stride) {
+  if (wants_rms_) {
+    row_x_.resize(grid_->size());
+    row_y_.resize(grid_->size());
+    for (std::size_t i = 0; i < count; ++i) {
+      row_x_.data()[first + i] = values[i * row_stride];
+      row_y_.data()[first + i] = values[i * row_stride + stride];
+    }
+  }
   rows_ = first + count;
-  last_.resize(model_->row_size());
-  for (std::size_t s = 0; s < last_.size(); ++s) {
-    last_[s] = values[(count - 1) * row_stride + s * stride];
+  const double* const last = values + (count - 1) * row_stride;
+  for (std::size_t s = 0; s < last_.size(); ++s) last_[s] = last[s * stride];
+}
+
+// Takes what is greatest from the pieces so far.
+void TrackMeter::look() {
+  if (points_ == 0) return;
+  if (closed_ && wants_gimbal_) {
+    for (PaddedRows* const column : {&phi_, &theta_, &phi_rate_, &theta_rate_}) {
+      column->pad(points_);
+    }
+    double versine, rate_squared;
+    kernels_.gimbal({phi_.data(), theta_.data(), phi_rate_.data(), theta_rate_.data()}, points_,
+                    {sizes_.data(), more_sizes_.data()}, &versine, &rate_squared);
+    greatest_.versine = search_.greatest_between(spans_, sizes_.data(), Spacing::wide,
+                                                 std::max(versine, greatest_.versine));
+    greatest_.rate_squared = search_.greatest_between(
+        spans_, more_sizes_.data(), Spacing::wide, std::max(rate_squared, greatest_.rate_squared));
+  }
+  if (wants_distance_) look_at_distances(greatest_.distance);
+  if (closed_ && wants_error_) {
+    reference_.evaluate(*signals_, points_);
+    subtract(reference_, points_, x_, y_);
+    look_at_distances(greatest_.error);
+  }
+  spans_.clear();
+  points_ = 0;
+}
+
+// Of x_ and y_, which are left as they are but for what underflows.
+void TrackMeter::look_at_distances(double& greatest) {
+  x_.pad(points_);
+  y_.pad(points_);
+  double squared = kernels_.distances(x_.data(), y_.data(), points_, sizes_.data());
+  int exponent = 0;
+  if (!is_square(squared)) {
+    double size = 0;
+    for (std::size_t i = 0; i < points_; ++i) {
+      size = std::max({size, std::abs(x_.data()[i]), std::abs(y_.data()[i])});
+    }
+    if (size == 0) return;
+    if (!std::isfinite(size)) {
+      greatest = size;
+      return;
+    }
+    std::frexp(size, &exponent);
+    rescale(-exponent);
+    squared = kernels_.distances(x_.data(), y_.data(), points_, sizes_.data());
+  }
+  const double before = std::scalbn(greatest, -exponent);
+  squared = search_.greatest_between(spans_, sizes_.data(), Spacing::wide,
+                                     std::max(squared, before * before));
+  greatest = std::max(greatest, std::scalbn(std::sqrt(squared), exponent));
+  if (exponent != 0) rescale(exponent);
+}
+
+void TrackMeter::rescale(int exponent) {
+  for (PaddedRows* const column : {&x_, &y_}) {
+    for (std::size_t i = 0; i < points_; ++i) {
+      column->data()[i] = std::scalbn(column->data()[i], exponent);
+    }
+    column->pad(points_);
   }
 }
 
-// Of a run that ended early: what pads its last rows must not be what would have come later.
-void TrackMeter::cut_signals() {
-  const double** const used[] = {
-      closed_ ? &track_.x_reference : &track_.phi, closed_ ? &track_.y_reference : &track_.theta,
-      closed_ ? nullptr : &track_.phi_rate, closed_ ? nullptr : &track_.theta_rate};
-  if (!has_signals_) return;
-  for (std::size_t i = 0; i < 4; ++i) {
-    if (used[i] == nullptr) continue;
-    cut_[i].resize(rows_);
-    std::copy_n(*used[i], rows_, cut_[i].data());
-    cut_[i].pad(rows_);
-    *used[i] = cut_[i].data();
+double TrackMeter::rms_error() {
+  if (timed_ != *grid_) {
+    timed_ = *grid_;
+    has_row_reference_ = false;
+    double* const times = row_reference_.times(grid_->size());
+    for (std::size_t i = 0; i < grid_->size(); ++i) times[i] = (*grid_)[i];
   }
-}
-
-double TrackMeter::tilt_at(std::size_t row) const {
-  const auto phi = model::sin_cos(track_.phi[row]), theta = model::sin_cos(track_.theta[row]);
-  return std::atan2(std::hypot(phi.sin, phi.cos * theta.sin), phi.cos * theta.cos);
-}
-
-// One by one, without an overflow on the way.
-double TrackMeter::greatest_distance(bool from_reference) const {
-  double greatest = 0;
-  for (std::size_t i = 0; i < rows_; ++i) {
-    const double x = from_reference ? track_.x[i] - track_.x_reference[i] : track_.x[i];
-    const double y = from_reference ? track_.y[i] - track_.y_reference[i] : track_.y[i];
-    greatest = std::max(greatest, std::hypot(x, y));
-  }
-  return greatest;
-}
-
-double TrackMeter::rms_tracking_error() const {
+  if (!has_row_reference_) row_reference_.evaluate(*signals_, grid_->size());
+  has_row_reference_ = true;
+  subtract(row_reference_, rows_, row_x_, row_y_);
+  row_x_.pad(rows_);
+  row_y_.pad(rows_);
+  row_squares_.resize(rows_);
+  static_cast<void>(kernels_.distances(row_x_.data(), row_y_.data(), rows_, row_squares_.data()));
+  const double sum = kernels_.sum(row_squares_.data(), rows_);
+  if (is_square(sum)) return std::sqrt(sum / static_cast<double>(rows_));
   record::SquareSum squares;
   for (std::size_t i = 0; i < rows_; ++i) {
-    squares.add(
-        std::hypot(track_.x[i] - track_.x_reference[i], track_.y[i] - track_.y_reference[i]));
+    squares.add(std::hypot(row_x_.data()[i], row_y_.data()[i]));
   }
   return squares.root_mean(rows_);
 }
 
 void TrackMeter::finish(double* results) {
-  x_.pad(rows_);
-  y_.pad(rows_);
-  if (closed_ && wants_gimbal_) {
-    for (PaddedRows* const column : {&phi_, &theta_, &phi_rate_, &theta_rate_}) column->pad(rows_);
-  }
-  track_.rows = rows_;
-  if (rows_ < grid_->size()) cut_signals();
-  Extremes extremes;
-  kernels_.extremes(track_, wants_gimbal_, wants_error_, &extremes);
-
-  const auto root = [&](double squared, bool from_reference) {
-    return is_square(squared) ? std::sqrt(squared) : greatest_distance(from_reference);
-  };
+  look();
+  GimbalExtremes::Greatest gimbal{tilt_of(greatest_.versine), std::sqrt(greatest_.rate_squared)};
+  if (!closed_ && wants_gimbal_) gimbal = motion_extremes();
   model::Sample last;
   bool has_last = false;
   for (std::size_t m = 0; m < measures_.size(); ++m) {
@@ -275,19 +308,23 @@ void TrackMeter::finish(double* results) {
       const model::Dynamics dynamics = model::dynamics(last, *constants_);
       results[m] = measure.column->value({last, &dynamics});
     } else if (measure.kind == Kind::rms) {
-      results[m] = is_square(extremes.error_squared_sum)
-                       ? std::sqrt(extremes.error_squared_sum / static_cast<double>(rows_))
-                       : rms_tracking_error();
-    } else if (name == "tilt") {
-      results[m] = tilt_at(extremes.steepest);
-    } else if (name == "tilt_rate") {
-      results[m] = std::isfinite(extremes.rate_squared) ? std::sqrt(extremes.rate_squared)
-                                                        : std::numeric_limits<double>::infinity();
+      results[m] = rms_error();
     } else {
-      results[m] = name == "distance" ? root(extremes.distance_squared, false)
-                                      : root(extremes.error_squared, true);
+      results[m] = name == "tilt"        ? gimbal.tilt
+                   : name == "tilt_rate" ? gimbal.rate
+                   : name == "distance"  ? greatest_.distance
+                                         : greatest_.error;
     }
   }
+}
+
+// Of a given motion, which may be that of the run before.
+GimbalExtremes::Greatest TrackMeter::motion_extremes() {
+  if (!motion_ || motion_until_ != reached_) {
+    motion_ = gimbal_.of(*signals_, reached_);
+    motion_until_ = reached_;
+  }
+  return *motion_;
 }
 
 }  // namespace bbsim::study

@@ -1,9 +1,7 @@
-// The measures that most sweeps ask for, many rows at a time.
+// The measures that most sweeps ask for, many instants at a time.
 #pragma once
 
 #include <cstddef>
-#include <memory>
-#include <new>
 #include <optional>
 #include <vector>
 
@@ -11,30 +9,15 @@
 #include "record/measures.hpp"
 #include "solve/outcome.hpp"
 #include "solve/output_grid.hpp"
+#include "solve/piece.hpp"
+#include "study/sweep/gimbal_extremes.hpp"
 #include "study/sweep/kernels/sweep_kernels.hpp"
+#include "study/sweep/padded_rows.hpp"
 #include "study/sweep/plan.hpp"
+#include "study/sweep/signal_rows.hpp"
+#include "study/sweep/spans.hpp"
 
 namespace bbsim::study {
-
-// Doubles aligned and padded as the kernels want them.
-class PaddedRows {
- public:
-  void resize(std::size_t rows);
-  // Repeats the last of `rows` values in the padding.
-  void pad(std::size_t rows);
-  [[nodiscard]] double* data() { return data_.get(); }
-  [[nodiscard]] const double* data() const { return data_.get(); }
-
- private:
-  struct Free {
-    void operator()(double* memory) const { ::operator delete (memory, std::align_val_t{64}); }
-  };
-  std::unique_ptr<double, Free> data_;
-  std::size_t room_ = 0;
-};
-
-// Whether a sum of squares has lost nothing to overflow and underflow.
-[[nodiscard]] bool is_square(double squared);
 
 // Whether all of them can be taken by a TrackMeter: of any column at the end; the greatest tilt,
 // tilt_rate and distance; the greatest and the root mean square of tracking_error.
@@ -50,10 +33,22 @@ class PaddedRows {
 // The motion of the model's gimbal, or the reference of its loop. The model has a track.
 [[nodiscard]] const model::SignalPair& signals_of(const model::Model& model);
 
-// Takes the measures of one run after another, as record::Meter does.
-class TrackMeter : public solve::StateSink {
+// What a run was greatest at.
+struct TrackExtremes {
+  double versine = 0;       // 1 - cos(tilt)
+  double rate_squared = 0;  // of the plane's angular velocity, rad^2/s^2
+  double distance = 0;      // from the plane's origin, m
+  double error = 0;         // distance from the reference, m
+};
+
+// Takes the measures of one run after another, as record::Meter does. Squares of the states are
+// polynomials over each step of the integrator, and what else it looks at is as smooth: their
+// extremes are those of polynomials through values at as many points as they need.
+class TrackMeter : public solve::StateSink, public solve::PieceSink {
  public:
   explicit TrackMeter(std::vector<record::Measure> measures);
+  TrackMeter(const TrackMeter&) = delete;
+  TrackMeter& operator=(const TrackMeter&) = delete;
 
   // Whether it looks at positions alone.
   [[nodiscard]] bool wants_positions_only(const model::Model& model) const;
@@ -62,39 +57,62 @@ class TrackMeter : public solve::StateSink {
   // those of the run before.
   void begin(const model::Model& model, const model::BallConstants& constants,
              const solve::OutputGrid& grid, bool same_signals);
+
   void accept(std::size_t first, std::size_t count, const double* values) override;
-  // The same, of rows that lie apart: state s of the i-th is values[i * row_stride + s * stride].
-  void take(std::size_t first, std::size_t count, const double* values, std::size_t row_stride,
-            std::size_t stride);
-  // Writes the run's measures, one after the other. It has at least one row.
+  [[nodiscard]] solve::PieceSink* pieces() override { return this; }
+  [[nodiscard]] bool wants_rows() const override { return wants_rms_; }
+  void begin_run() override;
+  void accept(const solve::Piece& piece) override;
+
+  // In place of the two, a loop's rows, which may lie apart, and what it was greatest at: state s
+  // of row i is values[i * row_stride + s * stride].
+  void take(std::size_t count, const double* values, std::size_t row_stride, std::size_t stride,
+            const TrackExtremes& greatest);
+
+  // Writes the run's measures, one after the other.
   void finish(double* results);
 
  private:
-  void evaluate_signals(const model::SignalPair& signals);
-  void cut_signals();
-  [[nodiscard]] double tilt_at(std::size_t row) const;
-  [[nodiscard]] double greatest_distance(bool from_reference) const;
-  [[nodiscard]] double rms_tracking_error() const;
+  void copy_points(const double* rows, std::size_t count);
+  void copy_rows(std::size_t first, std::size_t count, const double* values, std::size_t row_stride,
+                 std::size_t stride);
+  void look();
+  void look_at_distances(double& greatest);
+  void rescale(int exponent);
+  [[nodiscard]] GimbalExtremes::Greatest motion_extremes();
+  [[nodiscard]] double rms_error();
 
   std::vector<record::Measure> measures_;
   const SweepKernels& kernels_;
   const model::Model* model_ = nullptr;
   const model::BallConstants* constants_ = nullptr;
   const solve::OutputGrid* grid_ = nullptr;
-  bool closed_ = false, wants_gimbal_ = false, wants_error_ = false, has_signals_ = false;
-  std::size_t rows_ = 0;
-  std::optional<solve::OutputGrid> timed_;  // whose times times_ are, and the waves'
-  struct Sampled {
-    double frequency;
-    PaddedRows sines, cosines;
-  };
-  std::vector<Sampled> sampled_;
-  std::vector<Wave> waves_;
-  PaddedRows times_, x_, y_, phi_, theta_, phi_rate_, theta_rate_;
-  PaddedRows signal_[2], signal_rate_[2];  // the gimbal's motion, or the reference
-  PaddedRows cut_[4];                      // the same, as far as a run came that ended early
-  std::vector<double> last_;               // row
-  Track track_;
+  const model::SignalPair* signals_ = nullptr;
+  bool wants_distance_ = false, wants_gimbal_ = false, wants_error_ = false, wants_rms_ = false;
+  bool closed_ = false;
+
+  // The points of the pieces that have not been looked at yet.
+  SpanSearch search_;
+  std::vector<Span> spans_;
+  std::size_t points_ = 0;
+  PaddedRows x_, y_, phi_, theta_, phi_rate_, theta_rate_;
+  SignalRows reference_;  // at them
+  PaddedRows sizes_, more_sizes_;
+  std::vector<double> times_, piece_rows_;
+
+  TrackExtremes greatest_;  // so far; of a given motion without its own
+  double reached_ = 0;      // s
+
+  GimbalExtremes gimbal_;                           // of a given motion
+  std::optional<GimbalExtremes::Greatest> motion_;  // up to motion_until_
+  double motion_until_ = 0;                         // s
+
+  std::size_t rows_ = 0;  // that came or, where they are not wanted, would have come
+  PaddedRows row_x_, row_y_, row_squares_;
+  SignalRows row_reference_;
+  std::optional<solve::OutputGrid> timed_;  // whose times those are
+  bool has_row_reference_ = false;
+  std::vector<double> last_;  // row
 };
 
 }  // namespace bbsim::study

@@ -1,6 +1,8 @@
 // The sweep's kernels, for one instruction set.
 #pragma once
 
+#include <type_traits>
+
 #include "solve/collocation/pack.hpp"
 #include "study/sweep/kernels/sweep_kernels.hpp"
 
@@ -33,72 +35,84 @@ struct RowKernels {
     return P::of(angle.v + (angle.v * u) * p);
   }
 
-  // Grows with the tilt: its sine squared, up to a right angle; then 2 less that.
-  BBSIM_INLINE static P steepness(P phi, P theta, bool small) {
-    if (small) {
-      const P s = sine(phi), t = sine(theta);
-      return s * s + (P(1.0) - s * s) * (t * t);
-    }
-    const auto p = sin_cos(phi), t = sin_cos(theta);
-    const P squared = p.sin * p.sin + p.cos * p.cos * (t.sin * t.sin);
-    const P up = p.cos * t.cos;
-    return P::of(up.v > 0 ? squared.v : 2.0 - squared.v);
+  // 1 - cos(phi) cos(theta), without what is lost by such differences.
+  BBSIM_INLINE static P versine(P sin_half_phi, P sin_half_theta) {
+    const P a = sin_half_phi * sin_half_phi, b = sin_half_theta * sin_half_theta;
+    return P(2.0) * (a + b) - P(4.0) * (a * b);
   }
 
-  static std::size_t steepest(const Track& track, bool small) {
-    P most = P(-1.0), where = P(0.0);
-    alignas(64) double first[lanes];
-    for (int l = 0; l < lanes; ++l) first[l] = l;
-    P row = P::load(first);
-    const std::size_t end = padded(track.rows);
+  BBSIM_INLINE static double largest_angle(const GimbalTrack& track, std::size_t end) {
+    P most = P(0.0);
     for (std::size_t i = 0; i < end; i += lanes) {
-      const P now = steepness(P::load(track.phi + i), P::load(track.theta + i), small);
-      const auto more = now.v > most.v;
-      most = P::of(more ? now.v : most.v);
-      where = P::of(more ? row.v : where.v);
-      row += P(double(lanes));
+      const P phi = magnitude(P::load(track.phi + i)), theta = magnitude(P::load(track.theta + i));
+      most = larger(larger(phi, theta), most);
     }
-    int best = 0;
-    for (int l = 1; l < lanes; ++l) {
-      if (most[l] > most[best] || (most[l] == most[best] && where[l] < where[best])) best = l;
-    }
-    const auto found = static_cast<std::size_t>(where[best]);
-    return found < track.rows ? found : track.rows - 1;
+    return largest(most);
   }
 
-  static void extremes(const Track& track, bool gimbal, bool reference, Extremes* result) {
-    P distance = P(0.0), rate = P(0.0), angle = P(0.0), error = P(0.0), sum_of = P(0.0);
-    const std::size_t end = padded(track.rows), whole = track.rows / lanes * lanes;
+  static void gimbal(const GimbalTrack& track, std::size_t rows, const GimbalSizes& sizes,
+                     double* versine_most, double* rate_squared_most) {
+    const std::size_t end = padded(rows);
+    const bool small = largest_angle(track, end) < 1.57;
+    P versines = P(0.0), rates = P(0.0);
     for (std::size_t i = 0; i < end; i += lanes) {
-      const P x = P::load(track.x + i), y = P::load(track.y + i);
-      distance = larger(x * x + y * y, distance);
-      if (gimbal) {
-        const P phi_rate = P::load(track.phi_rate + i), theta_rate = P::load(track.theta_rate + i);
-        rate = larger(phi_rate * phi_rate + theta_rate * theta_rate, rate);
-        angle = larger(
-            larger(magnitude(P::load(track.phi + i)), magnitude(P::load(track.theta + i))), angle);
-      }
-      if (reference) {
-        const P dx = x - P::load(track.x_reference + i), dy = y - P::load(track.y_reference + i);
-        const P squared = dx * dx + dy * dy;
-        error = larger(squared, error);
-        if (i < whole) sum_of += squared;
-      }
+      const P phi = P(0.5) * P::load(track.phi + i), theta = P(0.5) * P::load(track.theta + i);
+      const P tilted =
+          small ? versine(sine(phi), sine(theta)) : versine(sin_cos(phi).sin, sin_cos(theta).sin);
+      tilted.store(sizes.versine + i);
+      versines = larger(tilted, versines);
+      const P phi_rate = P::load(track.phi_rate + i), theta_rate = P::load(track.theta_rate + i);
+      const P squared = phi_rate * phi_rate + theta_rate * theta_rate;
+      squared.store(sizes.rate_squared + i);
+      rates = larger(squared, rates);
     }
-    result->distance_squared = largest(distance);
-    if (gimbal) {
-      result->rate_squared = largest(rate);
-      result->steepest = steepest(track, largest(angle) < 0.78);
+    *versine_most = largest(versines);
+    *rate_squared_most = largest(rates);
+  }
+
+  static double distances(const double* x, const double* y, std::size_t rows, double* squares) {
+    P most = P(0.0);
+    const std::size_t end = padded(rows);
+    for (std::size_t i = 0; i < end; i += lanes) {
+      const P dx = P::load(x + i), dy = P::load(y + i);
+      const P squared = dx * dx + dy * dy;
+      squared.store(squares + i);
+      most = larger(squared, most);
     }
-    if (reference) {
-      result->error_squared = largest(error);
-      double total = sum(sum_of);
-      for (std::size_t i = whole; i < track.rows; ++i) {
-        const double dx = track.x[i] - track.x_reference[i];
-        const double dy = track.y[i] - track.y_reference[i];
-        total += dx * dx + dy * dy;
+    return largest(most);
+  }
+
+  static double sum_of(const double* values, std::size_t rows) {
+    P total = P(0.0);
+    const std::size_t whole = rows / lanes * lanes;
+    for (std::size_t i = 0; i < whole; i += lanes) total += P::load(values + i);
+    double all = sum(total);
+    for (std::size_t i = whole; i < rows; ++i) all += values[i];
+    return all;
+  }
+
+  // Whether any lane is set. Narrow lanes are fewer to ask.
+  BBSIM_INLINE static bool any(typename P::Mask mask) {
+    if constexpr (lanes == 2) {
+      return (mask[0] | mask[1]) != 0;
+    } else {
+      typedef std::conditional_t<lanes == 4, int, short> Narrow
+          __attribute__((vector_size(16), aligned(16)));
+      const auto halves =
+          (typename solve::collocation::Vectors<2>::Mask) __builtin_convertvector(mask, Narrow);
+      return (halves[0] | halves[1]) != 0;
+    }
+  }
+
+  static void above(const double* values, std::size_t rows, double limit, unsigned char* marks) {
+    static_assert(row_padding % lanes == 0);
+    const std::size_t end = padded(rows);
+    for (std::size_t i = 0; i < end; i += row_padding) {
+      typename P::Mask more = P::load(values + i).v > limit;
+      for (std::size_t k = lanes; k < row_padding; k += lanes) {
+        more |= P::load(values + i + k).v > limit;
       }
-      result->error_squared_sum = total;
+      marks[i / row_padding] = any(more) ? 1 : 0;
     }
   }
 
@@ -132,7 +146,7 @@ struct RowKernels {
     }
   }
 
-  static double farthest(const Superposition& motion, const double* factors) {
+  static double superpose(const Superposition& motion, const double* factors, double* squares) {
     P most = P(0.0);
     const std::size_t end = padded(motion.rows);
     constexpr std::size_t together = 4;  // packs of rows, to fill the pipeline
@@ -149,13 +163,18 @@ struct RowKernels {
         }
       }
 #pragma GCC unroll 4
-      for (std::size_t p = 0; p < together; ++p) most = larger(x[p] * x[p] + y[p] * y[p], most);
+      for (std::size_t p = 0; p < together; ++p) {
+        if (i + p * lanes >= end) break;
+        const P squared = x[p] * x[p] + y[p] * y[p];
+        squared.store(squares + i + p * lanes);
+        most = larger(squared, most);
+      }
     }
     return largest(most);
   }
 
   static constexpr SweepKernels named(const char* name) {
-    return {name, &extremes, &wave, &signals, &farthest};
+    return {name, &gimbal, &distances, &sum_of, &above, &wave, &signals, &superpose};
   }
 };
 

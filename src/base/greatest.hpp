@@ -1,0 +1,165 @@
+// The greatest values of a smooth function, from values at some points of it.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <vector>
+
+#include "base/chebyshev.hpp"
+
+namespace bbsim {
+
+struct Peak {
+  double at = 0, value = 0;
+};
+
+// Where a maximum may lie, by the values at Chebyshev points: between two of them, about a third
+// which is above both, or is the higher of the two. It is looked for at the guess first.
+struct Bracket {
+  Peak from, best, to;
+  double guess = 0;
+};
+
+// What a function may do between points. Smooth: a little more than the parabola through three of
+// them does. With kinks, as a distance has at 0: it may go on as it comes, up to a corner.
+enum class Between { smooth, kinks };
+
+// Values at the points of twice as many intervals, for points that are so few to a wave that a
+// maximum may hide between them: those of the polynomial, where it may be greater than `best`; the
+// lower one of the two beside, where it may not.
+inline void refine(const ChebyshevPoints& points, const double* values, double best,
+                   std::vector<double>& finer) {
+  const std::size_t last = points.size() - 1;
+  finer.resize(2 * last + 1);
+  finer[2 * last] = values[last];
+  for (std::size_t i = 0; i < last; ++i) {
+    const double here = values[i], next = values[i + 1];
+    const double before = values[i == 0 ? i : i - 1], after = values[i + 1 == last ? last : i + 2];
+    const double most = std::max({before, here, next, after});
+    const double least = std::min({before, here, next, after});
+    finer[2 * i] = here;
+    finer[2 * i + 1] =
+        most + (most - least) > best ? points.between(values, i) : std::min(here, next);
+  }
+}
+
+// Calls use(bracket) for each place where the function may be greater than `best`, which `use` may
+// raise. What is no number is passed over.
+template <class Use>
+void for_each_bracket(const ChebyshevPoints& points, const double* values, const double& best,
+                      Between between, Use use) {
+  // A difference as small as that may be of rounding alone.
+  constexpr double rounding = 1e-14;
+  const auto promises = [&](double promise) { return promise > best + rounding * std::abs(best); };
+  const std::size_t last = points.size() - 1;
+  for (std::size_t i = 0; i <= last; ++i) {
+    const double here = values[i];
+    if ((i > 0 && !(here >= values[i - 1])) || (i < last && !(here >= values[i + 1]))) continue;
+    if (i > 0 && i < last) {
+      const double before = points[i] - points[i - 1], after = points[i + 1] - points[i];
+      const double rise = (here - values[i - 1]) / before, fall = (here - values[i + 1]) / after;
+      if (!(rise + fall > 0)) continue;  // level
+      const double slope = (rise * after - fall * before) / (before + after);
+      const double bend = (rise + fall) / (before + after);  // minus half the second derivative
+      const double more = between == Between::kinks ? std::max(rise * after, fall * before)
+                                                    : slope * slope / (2 * bend);
+      if (!promises(here + more)) continue;
+      use(Bracket{{points[i - 1], values[i - 1]},
+                  {points[i], here},
+                  {points[i + 1], values[i + 1]},
+                  points[i] + slope / (2 * bend)});
+      continue;
+    }
+    // At an end, and beyond.
+    const std::size_t inner = i == 0 ? 1 : last - 1, next = i == 0 ? 2 : last - 2;
+    const double width = std::abs(points[inner] - points[i]);
+    const double change = here - values[inner];
+    const Peak end{points[i], here}, other{points[inner], values[inner]};
+    const auto look_within = [&](double way) {
+      use(Bracket{i == 0 ? end : other, end, i == 0 ? other : end,
+                  points[i] + (i == 0 ? way : -way)});
+    };
+    if (between == Between::kinks) {
+      // Back the way that it goes on, up to a corner.
+      const double chord = (values[inner] - values[next]) / std::abs(points[inner] - points[next]);
+      if (promises(values[inner] + chord * width)) look_within(width / 2);
+      continue;
+    }
+    // If the slope there leads inwards. It takes all values to tell, and no more than the next two
+    // to see that it would lead nowhere.
+    if (!promises(here + 4 * (change + std::abs(values[inner] - values[next])))) continue;
+    const double slope = i == 0 ? points.slope_at_start(values) : -points.slope_at_end(values);
+    if (!(slope > 0)) continue;
+    const double way = slope / (2 * (slope + change / width)) * width;
+    if (promises(here + slope * way)) look_within(way);
+  }
+}
+
+// The maximum of the function within the bracket: by parabolas, and golden sections where they lead
+// nowhere (Brent, Algorithms for Minimization without Derivatives, 1973, chapter 5). To `precision`
+// of the place, or where a smooth function would gain no more than rounding. Of several it finds
+// one.
+template <class Function>
+[[nodiscard]] Peak climb(const Bracket& bracket, double precision, Function function) {
+  constexpr double golden = 0.3819660112501051;  // the smaller section
+  constexpr double rounding = 1e-16;
+  constexpr int most = 80;
+  double low = bracket.from.at, high = bracket.to.at;
+  const double width = high - low;
+  const bool rises = bracket.to.value > bracket.from.value;
+  Peak best = bracket.best;
+  Peak second = rises ? bracket.to : bracket.from, third = rises ? bracket.from : bracket.to;
+  double step = bracket.guess - best.at, before = width;
+  for (int i = 0; i < most; ++i) {
+    const double middle = (low + high) / 2;
+    if (std::abs(best.at - middle) <= 2 * precision - (high - low) / 2) break;
+    if (i > 0) {
+      // To the top of the parabola through the three, if that is within, and the steps shrink.
+      const double r = (best.at - second.at) * (best.value - third.value);
+      double q = (best.at - third.at) * (best.value - second.value);
+      double p = (best.at - third.at) * q - (best.at - second.at) * r;
+      q = 2 * (q - r);
+      if (q > 0) p = -p;
+      q = std::abs(q);
+      const bool parabola = std::abs(before) > precision &&
+                            std::abs(p) < std::abs(q * before / 2) && p > q * (low - best.at) &&
+                            p < q * (high - best.at);
+      before = step;
+      if (parabola) {
+        step = p / q;
+        const double bend = ((second.value - best.value) / (second.at - best.at) -
+                             (third.value - best.value) / (third.at - best.at)) /
+                            (second.at - third.at);
+        const bool near = std::max(std::abs(before), std::abs(step)) < 0.05 * width;
+        if (near && -bend * step * step <= rounding * std::abs(best.value)) break;
+        const double reached = best.at + step;
+        if (reached - low < 2 * precision || high - reached < 2 * precision) {
+          step = std::copysign(precision, middle - best.at);
+        }
+      } else {
+        before = (best.at >= middle ? low : high) - best.at;
+        step = golden * before;
+      }
+      if (std::abs(step) < precision) step = std::copysign(precision, step);
+    }
+    const Peak now{best.at + step, function(best.at + step)};
+    if (now.value >= best.value) {
+      (now.at >= best.at ? low : high) = best.at;
+      third = second;
+      second = best;
+      best = now;
+    } else {
+      (now.at < best.at ? low : high) = now.at;
+      if (now.value >= second.value || second.at == best.at) {
+        third = second;
+        second = now;
+      } else if (now.value >= third.value || third.at == best.at || third.at == second.at) {
+        third = now;
+      }
+    }
+  }
+  return best;
+}
+
+}  // namespace bbsim

@@ -1,0 +1,125 @@
+#include "record/extremes.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+namespace bbsim::record {
+namespace {
+
+// Points are doubled up to so many intervals where they do not show the number.
+constexpr std::size_t most_parts = 64;
+// They show it, if what they leave out is so small a part of its changes that no maximum is missed.
+constexpr double shown = 1e-4;
+// A maximum's value needs its place to the square root of what it is to be good to.
+constexpr double place = 1e-7;
+// What is nearer than this is no greater, but rounded differently.
+constexpr double rounding = 1e-14;
+
+}  // namespace
+
+Extremes::Extremes(std::size_t count, Look look)
+    : look_(std::move(look)), greatest_(count), one_(count) {
+  begin_run();
+}
+
+void Extremes::begin(const model::Model& model) {
+  model_ = &model;
+  begin_run();
+}
+
+void Extremes::begin_run() {
+  constexpr double none = std::numeric_limits<double>::quiet_NaN();
+  std::fill(greatest_.begin(), greatest_.end(), Greatest{none, none});
+}
+
+void Extremes::take(std::size_t i, double value, double t) {
+  Greatest& greatest = greatest_[i];
+  if (value > greatest.value || (std::isnan(greatest.value) && !std::isnan(value))) {
+    greatest = {value, t};
+  }
+}
+
+void Extremes::note(const model::Sample& sample) {
+  look_(sample, one_.data());
+  for (std::size_t i = 0; i < size(); ++i) take(i, one_[i], sample.t);
+}
+
+void Extremes::sample(const solve::Piece& piece, const ChebyshevPoints& points) {
+  const std::size_t count = points.size(), row_size = model_->row_size();
+  times_.resize(count);
+  rows_.resize(count * row_size);
+  values_.resize(count * size());
+  for (std::size_t p = 0; p < count; ++p) {
+    times_[p] = piece.from() + (piece.to() - piece.from()) * points[p];
+  }
+  times_.back() = piece.to();
+  piece.evaluate(times_.data(), count, rows_.data());
+  for (std::size_t p = 0; p < count; ++p) {
+    look_(model_->sample(times_[p], &rows_[p * row_size]), one_.data());
+    for (std::size_t i = 0; i < size(); ++i) values_[i * count + p] = one_[i];
+  }
+}
+
+// A polynomial is nowhere further above the values at its Chebyshev points than a part of their
+// range: (L - 1) / 2, of the Lebesgue constant L <= 1 + 2 / pi log(129) up to degree 128.
+bool Extremes::may_matter(std::size_t i, std::size_t count) const {
+  constexpr double beyond = 1.55;
+  const double* const values = &values_[i * count];
+  double least = values[0], most = values[0];
+  for (std::size_t p = 1; p < count; ++p) {
+    least = std::min(least, values[p]);
+    most = std::max(most, values[p]);
+  }
+  // Where there is no number too.
+  return !(most + beyond * (most - least) <= greatest_[i].value);
+}
+
+// Overflows, and what is no number, more points would not show either.
+bool Extremes::is_shown(std::size_t i, const ChebyshevPoints& points) const {
+  const double* const values = &values_[i * points.size()];
+  const auto [least, most] = std::minmax_element(values, values + points.size());
+  return !(points.tail(values) > shown * (*most - *least) + rounding * std::abs(*most));
+}
+
+void Extremes::climb_within(std::size_t i, const solve::Piece& piece,
+                            const ChebyshevPoints& points) {
+  const double* const values = &values_[i * points.size()];
+  const double length = piece.to() - piece.from();
+  for (std::size_t p = 0; p < points.size(); ++p) take(i, values[p], times_[p]);
+  const auto climb_there = [&](const Bracket& bracket) {
+    const Peak peak = climb(bracket, place * (bracket.to.at - bracket.from.at), [&](double s) {
+      const double t = std::min(piece.from() + length * s, piece.to());
+      piece.evaluate(&t, 1, rows_.data());
+      look_(model_->sample(t, rows_.data()), one_.data());
+      return one_[i];
+    });
+    take(i, peak.value, piece.from() + length * peak.at);
+  };
+  const double& greatest = greatest_[i].value;
+  if (is_shown(i, points)) {
+    refine(points, values, greatest, finer_);
+    for_each_bracket(tables_.points(2 * (points.size() - 1)), finer_.data(), greatest,
+                     Between::smooth, climb_there);
+  } else {
+    for_each_bracket(points, values, greatest, Between::kinks, climb_there);
+  }
+}
+
+void Extremes::accept(const solve::Piece& piece) {
+  std::size_t parts = piece.parts();
+  for (;; parts *= 2) {
+    const ChebyshevPoints& points = tables_.points(parts);
+    sample(piece, points);
+    matter_.clear();
+    for (std::size_t i = 0; i < size(); ++i) {
+      if (may_matter(i, points.size())) matter_.push_back(i);
+    }
+    const auto shows = [&](std::size_t i) { return is_shown(i, points); };
+    if (2 * parts > most_parts || std::all_of(matter_.begin(), matter_.end(), shows)) break;
+  }
+  for (const std::size_t i : matter_) climb_within(i, piece, tables_.points(parts));
+}
+
+}  // namespace bbsim::record

@@ -1,0 +1,303 @@
+// What a run was greatest at between its rows, against closed forms.
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "catch.hpp"
+#include "model/scenes.hpp"
+#include "record/measures.hpp"
+#include "record/recorder.hpp"
+#include "scenario/reader.hpp"
+#include "solve/integrate.hpp"
+#include "study/error_control.hpp"
+
+using namespace bbsim;
+using namespace bbsim_test;
+
+namespace {
+
+struct Measured {
+  solve::Outcome outcome;
+  std::map<std::string, double> of;
+};
+
+// `integrate` runs a model over a grid into a sink.
+template <class Integrate>
+Measured measure(const Scenario& scene, const std::vector<std::string>& names,
+                 Integrate integrate) {
+  std::vector<record::Measure> measures;
+  for (const std::string& name : names) measures.push_back(*record::find_measure(name));
+  const model::Model model = model::assemble(scene, false);
+  const model::BallConstants constants = model::constants_of(scene);
+  const solve::OutputGrid grid(scene.time);
+  record::Meter meter(measures);
+  meter.begin(model, constants, grid);
+  Measured measured;
+  measured.outcome = integrate(model, grid, meter);
+  std::vector<double> results(names.size());
+  meter.finish(measured.outcome, results.data());
+  for (std::size_t i = 0; i < names.size(); ++i) measured.of[names[i]] = results[i];
+  return measured;
+}
+
+Measured measure(const Scenario& scene, const std::vector<std::string>& names,
+                 Method method = Method::automatic, solve::Tolerances tolerances = {1e-10, 1e-12}) {
+  return measure(scene, names, [&](const auto& model, const auto& grid, auto& meter) {
+    return solve::integrate(model, method, tolerances, grid, meter);
+  });
+}
+
+// Rows at the start and at the end alone.
+Scenario plane_at(double phi, double theta, double end) {
+  Scenario scene;
+  scene.ball.radius = 0.01;
+  scene.gimbal.motion = {{phi}, {theta}};
+  scene.time = {end, end};
+  return scene;
+}
+
+const auto every_method = [] { return GENERATE(Method::radau, Method::bdf, Method::adams); };
+
+// The motors' loads as they are, at many points of each piece of a run and at both its ends.
+class Loads : public solve::StateSink, public solve::PieceSink {
+ public:
+  Loads(const model::Model& model, const model::BallConstants& constants)
+      : model_(model), constants_(constants) {}
+
+  void accept(std::size_t, std::size_t, const double*) override {}
+  [[nodiscard]] solve::PieceSink* pieces() override { return this; }
+  void begin_run() override {}
+  void accept(const solve::Piece& piece) override {
+    CHECK(piece.from() >= until);
+    CHECK(piece.from() - until < 1e-12);
+    until = piece.to();
+    constexpr int points = 50;
+    std::vector<double> row(model_.row_size());
+    for (int i = 0; i <= points; ++i) {
+      const double t =
+          i == points ? piece.to() : piece.from() + (piece.to() - piece.from()) * i / points;
+      piece.evaluate(&t, 1, row.data());
+      const model::MotorLoad load = model::motor_load(model_.sample(t, row.data()), constants_);
+      const double sizes[3] = {std::abs(load.torque_phi), std::abs(load.torque_theta),
+                               std::abs(load.power)};
+      for (int k = 0; k < 3; ++k) {
+        most[k] = std::max(most[k], sizes[k]);
+        if (i == 0) after_switches[k] = std::max(after_switches[k], sizes[k]);
+        if (i == points) before_switches[k] = std::max(before_switches[k], sizes[k]);
+      }
+    }
+    ++count;
+  }
+
+  double most[3]{}, after_switches[3]{}, before_switches[3]{};
+  double until = 0;
+  int count = 0;
+
+ private:
+  const model::Model& model_;
+  const model::BallConstants& constants_;
+};
+
+class NoFile : public record::TableWriter {
+ public:
+  void append(std::span<const double* const>, std::size_t) override {}
+  void finish(const record::Attributes&) override {}
+};
+
+record::MotorPeaks peaks_of(const Scenario& scene, solve::Tolerances tolerances) {
+  const model::Model model = model::assemble(scene, false);
+  const solve::OutputGrid grid(scene.time);
+  NoFile file;
+  record::Recorder recorder(model, model::constants_of(scene), grid, {}, file);
+  const solve::Outcome outcome =
+      solve::integrate(model, Method::automatic, tolerances, grid, recorder);
+  CHECK(outcome.ending == solve::Ending::done);
+  return *recorder.peaks();
+}
+
+}  // namespace
+
+TEST_CASE("the top of a throw lies between two rows") {
+  const Method method = every_method();
+  const bool planar = GENERATE(true, false);
+  Scenario scene = plane_at(-0.2, 0, 2);
+  scene.ball.velocity = {0.8, 0};
+  if (!planar) scene.ball.position = {0, 0.3};
+  const double slowing = 5.0 / 7 * scene.gravity * std::sin(0.2);
+  const double top = 0.8 * 0.8 / (2 * slowing), end = 0.8 * 2 - slowing * 2;
+  const Measured measured =
+      measure(scene, {"max_x", "min_x", "max_vx", "min_vx", "max_t", "end_x"}, method);
+  CHECK(measured.of.at("max_x") == Approx(top).epsilon(1e-8));
+  CHECK(measured.of.at("min_x") == Approx(end).epsilon(1e-8));
+  CHECK(measured.of.at("end_x") == Approx(end).epsilon(1e-8));
+  CHECK(measured.of.at("max_vx") == Approx(0.8).epsilon(1e-12));
+  CHECK(measured.of.at("min_vx") == Approx(0.8 - 2 * slowing).epsilon(1e-8));
+  CHECK(measured.of.at("max_t") == 2);
+}
+
+TEST_CASE("the extremes of a given motion are its own, whatever the integrator's steps") {
+  const Method method = every_method();
+  Scenario scene = plane_at(0, 0, 10);
+  scene.gimbal.motion->phi = {Sinusoid{0.3, 2, 0.4, 0}};
+  const Measured measured = measure(
+      scene, {"max_tilt", "max_tilt_rate", "min_phi", "max_phi_rate", "max_phi_acceleration"},
+      method);
+  CHECK(measured.of.at("max_tilt") == Approx(0.3).epsilon(1e-12));
+  CHECK(measured.of.at("min_phi") == Approx(-0.3).epsilon(1e-12));
+  CHECK(measured.of.at("max_tilt_rate") == Approx(0.6).epsilon(1e-12));
+  CHECK(measured.of.at("max_phi_rate") == Approx(0.6).epsilon(1e-12));
+  CHECK(measured.of.at("max_phi_acceleration") == Approx(1.2).epsilon(1e-12));
+}
+
+TEST_CASE("a small motion that is fast is followed, though the ball hardly feels it") {
+  // At a tolerance at which the integrator need not see it.
+  Scenario scene = plane_at(0, 0, 3);
+  scene.gimbal.motion->phi = {Sinusoid{1e-7, 400, 1, 0}};
+  const Measured measured =
+      measure(scene, {"max_phi", "max_phi_rate", "min_phi"}, Method::radau, {1e-3, 1e-5});
+  CHECK(measured.of.at("max_phi") == Approx(1e-7).epsilon(1e-10));
+  CHECK(measured.of.at("min_phi") == Approx(-1e-7).epsilon(1e-10));
+  CHECK(measured.of.at("max_phi_rate") == Approx(4e-5).epsilon(1e-10));
+}
+
+TEST_CASE("a corner of a column is found as well") {
+  const Method method = every_method();
+  const double aside = GENERATE(0.25, 1e-3, 0.0);
+  Scenario scene = plane_at(0, 0, 3);
+  scene.ball.position = {-1, aside};
+  scene.ball.velocity = {1, 0};
+  const Measured measured = measure(scene, {"min_distance", "max_distance"}, method);
+  // The place of a corner is found to 1e-7 of the distance of the points looked at.
+  CHECK(measured.of.at("min_distance") == Approx(aside).margin(1e-8));
+  CHECK(measured.of.at("max_distance") == Approx(std::hypot(2, aside)).epsilon(1e-8));
+}
+
+TEST_CASE("what is no number is left out") {
+  Scenario scene = plane_at(0, 0, 1);
+  scene.gravity = 0;
+  scene.ball.position = {0.1, 0};
+  // 0 N over 0 N, all the time.
+  const Measured measured = measure(scene, {"max_friction_demand", "min_friction_demand", "max_x"});
+  CHECK(std::isnan(measured.of.at("max_friction_demand")));
+  CHECK(std::isnan(measured.of.at("min_friction_demand")));
+  CHECK(measured.of.at("max_x") == 0.1);
+}
+
+TEST_CASE("extremes of a run that an event stops are those until then") {
+  Scenario scene = plane_at(0, 0, 10);
+  scene.plate.size = {{0.3, 0.2}};
+  scene.events.edge = OnEvent::stop;
+  scene.ball.velocity = {0.1, 0.02};
+  const Measured measured = measure(scene, {"max_x", "max_y", "max_t", "end_x"});
+  REQUIRE(measured.outcome.ending == solve::Ending::stopped);
+  CHECK(measured.of.at("max_x") == Approx(0.15).epsilon(1e-12));
+  CHECK(measured.of.at("max_y") == Approx(0.03).epsilon(1e-12));
+  CHECK(measured.of.at("max_t") == Approx(1.5).epsilon(1e-12));
+  CHECK(measured.of.at("end_x") == Approx(0.15).epsilon(1e-12));
+  // Nothing but the start is left of one that is stopped at once.
+  scene.ball.position = {0.2, 0.01};
+  const Measured none = measure(scene, {"max_x", "max_y", "min_t"});
+  REQUIRE(none.outcome.ending == solve::Ending::stopped);
+  CHECK(none.of.at("max_x") == 0.2);
+  CHECK(none.of.at("max_y") == 0.01);
+  CHECK(none.of.at("min_t") == 0);
+}
+
+TEST_CASE("extremes of a run that fails are those of the motion that it came to") {
+  Scenario scene = fig2b_literal();
+  scene.time.step = 21;
+  const Measured measured = measure(scene, {"max_vy", "max_t", "max_phi_rate"});
+  REQUIRE(measured.outcome.ending == solve::Ending::failed);
+  REQUIRE(measured.outcome.rows == 1);
+  CHECK(measured.of.at("max_t") == measured.outcome.reached);
+  CHECK(measured.of.at("max_vy") == Approx(measured.outcome.last_state[3]).epsilon(1e-12));
+  CHECK(measured.of.at("max_vy") > 1e6);
+}
+
+TEST_CASE("a command that jumps counts on both its sides") {
+  Scenario scene = read_scenario(BBSIM_SOURCE_DIR "/configs/rig.yaml");
+  scene.time.end = 6;
+  scene.time.step = GENERATE(0.02, 6.0);
+  const solve::Tolerances tolerances{1e-8, 1e-10};
+  const model::Model model = model::assemble(scene, false);
+  const model::BallConstants constants = model::constants_of(scene);
+  Loads loads(model, constants);
+  const solve::OutputGrid grid(scene.time);
+  REQUIRE(solve::integrate(model, Method::automatic, tolerances, grid, loads).ending ==
+          solve::Ending::done);
+  CHECK(loads.until == 6);
+  CHECK(loads.count > 590);  // a sample's exposure and its command, 10 ms apart
+  const record::MotorPeaks peaks = peaks_of(scene, tolerances);
+  CHECK(peaks.with_plate);
+  const double found[3] = {peaks.torque_phi.value, peaks.torque_theta.value, peaks.power.value};
+  for (int k = 0; k < 3; ++k) {
+    CAPTURE(k);
+    // Right after a command has come, where no row before it looks.
+    CHECK(found[k] == loads.after_switches[k]);
+    CHECK(found[k] == loads.most[k]);
+    CHECK(found[k] > 1.3 * loads.before_switches[k]);
+  }
+  // When a command comes: 10 ms after a sample.
+  const double since = std::fmod(peaks.torque_phi.at, 0.02);
+  CHECK(since == Approx(0.01).margin(1e-9));
+}
+
+TEST_CASE("peaks between switches are those of many points") {
+  // A servo that is limited, and nothing that is sampled.
+  Scenario scene = fig2b();
+  scene.gimbal.servo->rate_limit = 0.05;
+  scene.plate.inertia = {{4e-3, 6e-3, 1e-2}};
+  scene.time = {3, 3};
+  const solve::Tolerances tolerances{1e-10, 1e-12};
+  const model::Model model = model::assemble(scene, false);
+  const model::BallConstants constants = model::constants_of(scene);
+  Loads loads(model, constants);
+  const solve::OutputGrid grid(scene.time);
+  REQUIRE(solve::integrate(model, Method::automatic, tolerances, grid, loads).ending ==
+          solve::Ending::done);
+  const record::MotorPeaks peaks = peaks_of(scene, tolerances);
+  const double found[3] = {peaks.torque_phi.value, peaks.torque_theta.value, peaks.power.value};
+  for (int k = 0; k < 3; ++k) {
+    CAPTURE(k);
+    CHECK(found[k] >= loads.most[k] * (1 - 1e-14));
+    // Fifty points a piece miss a parabola's top by a part in 1e4 of its height over a piece.
+    CHECK(found[k] == Approx(loads.most[k]).epsilon(1e-3));
+  }
+}
+
+TEST_CASE("under a bound on the error extremes are those of the run that is given") {
+  const double bound = GENERATE(1e-5, 1e-9);
+  const Scenario scene = [] {
+    Scenario one = fig2b();
+    one.time.step = 1;
+    return one;
+  }();
+  const std::vector<std::string> names{"max_tilt_rate", "max_distance", "min_y", "end_x"};
+  study::ErrorControlled controlled;
+  const Measured measured =
+      measure(scene, names, [&](const auto& model, const auto& grid, auto& meter) {
+        controlled = study::integrate_to_error(model, Method::automatic, bound, grid, meter);
+        return controlled.outcome;
+      });
+  REQUIRE(controlled.outcome.ending == solve::Ending::done);
+  const Measured same = measure(scene, names, Method::automatic, controlled.tolerances);
+  for (const std::string& name : names) CHECK(measured.of.at(name) == same.of.at(name));
+}
+
+TEST_CASE("a bound that is out of reach gives the extremes of the best run too") {
+  // The last run is not the best one.
+  Scenario scene = read_scenario(BBSIM_SOURCE_DIR "/tests/data/scenarios/fast.yaml");
+  const std::vector<std::string> names{"max_x", "min_y", "end_x"};
+  study::ErrorControlled controlled;
+  const Measured measured =
+      measure(scene, names, [&](const auto& model, const auto& grid, auto& meter) {
+        controlled = study::integrate_to_error(model, Method::automatic, 1e-14, grid, meter);
+        return controlled.outcome;
+      });
+  CHECK_FALSE(controlled.met);
+  const Measured same = measure(scene, names, Method::automatic, controlled.tolerances);
+  for (const std::string& name : names) CHECK(measured.of.at(name) == same.of.at(name));
+}
