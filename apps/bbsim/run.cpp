@@ -68,6 +68,7 @@ struct Integration {
   solve::Outcome outcome;
   solve::Tolerances tolerances;
   std::optional<double> error_estimate;  // m, of a run with solver.error
+  std::vector<double> row_estimates;     // the same of each row
   bool within_error = true;
   double cpu_seconds = 0;
 };
@@ -81,10 +82,11 @@ Integration integrate(const Scenario& scenario, const model::Model& model,
   if (solver.error) {
     study::ErrorControlled run =
         study::integrate_to_error(model, solver.method, *solver.error, grid, sink, watch);
-    made = {std::move(run.outcome), run.tolerances, {}, true, 0};
+    made = {std::move(run.outcome), run.tolerances, {}, {}, true, 0};
     if (made.outcome.ending == solve::Ending::done ||
         made.outcome.ending == solve::Ending::stopped) {
       made.error_estimate = run.estimate;
+      made.row_estimates = std::move(run.row_estimates);
       made.within_error = run.met;
     }
   } else {
@@ -94,6 +96,9 @@ Integration integrate(const Scenario& scenario, const model::Model& model,
   made.cpu_seconds = clock.seconds();
   return made;
 }
+
+constexpr record::ColumnHeader position_error{
+    "position_error", "m", "estimate of the error of x and y: the larger one in this row"};
 
 // Why the run is not all that was asked for; empty if it is.
 std::string shortfall(const Scenario& scenario, const model::Model& model,
@@ -169,7 +174,8 @@ void declare_files(const RunArguments& arguments, const Scenario& scenario,
 ExitCode run(const RunArguments& arguments, const Options& options) {
   std::vector<std::string> overrides = arguments.scenario.overrides;
   if (!arguments.error.empty()) overrides.push_back("solver.error=" + arguments.error);
-  const Scenario scenario = read_scenario(arguments.scenario.file, overrides);
+  std::vector<record::InputTable> inputs;
+  const Scenario scenario = read_scenario(arguments.scenario.file, overrides, &inputs);
   const auto columns = record::columns_named(scenario.output.columns);
   const model::Model model =
       model::assemble(scenario, record::any_needs(columns, record::Needs::gamma));
@@ -186,6 +192,7 @@ ExitCode run(const RunArguments& arguments, const Options& options) {
   const auto writer = record::open_table(output, headers);
   const auto summary_file =
       arguments.summary.empty() ? nullptr : std::make_unique<record::AtomicFile>(arguments.summary);
+  writer->keep(inputs);
   record::Recorder recorder(model, model::constants_of(scenario), grid, columns, *writer);
 
   Progress progress(arguments.scenario.file, options.quiet);
@@ -202,6 +209,7 @@ ExitCode run(const RunArguments& arguments, const Options& options) {
   }
   const record::RunSummary summary =
       summarise(scenario, model, made, reason, output, recorder.peaks());
+  if (made.error_estimate) writer->add_column(position_error, made.row_estimates);
   writer->finish(record::to_attributes(summary, scenario.source.text));
   if (summary_file) {
     summary_file->write(record::to_json(summary));

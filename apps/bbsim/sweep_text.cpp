@@ -73,13 +73,16 @@ record::CaseFileLayout layout_of(const SweepFacts& facts, const study::Engine& e
   const study::SweepTask& task = facts.task;
   record::CaseFileLayout layout;
   using record::CaseKind;
+  layout.inputs = facts.family.inputs();
   layout.first_case = range.first;
   layout.cases = range.last - range.first;
   layout.group = engine.group;
   layout.is_shard = facts.shard.of > 1;
   layout.columns.push_back({"case", "1", "number of the case, from 0"});
   for (const study::Axis& axis : task.plan.axes()) {
-    layout.columns.push_back({axis.key, "SI", "varied key of the scenario, in SI units and radians",
+    layout.columns.push_back({axis.key,
+                              std::string(facts.family.unit_of(axis.key, task.plan.settings(0))),
+                              "varied key of the scenario, in SI units and radians",
                               axis.numeric ? CaseKind::number : CaseKind::text});
   }
   layout.columns.push_back({"status", "", "how the case ended, in one word", CaseKind::text});
@@ -106,11 +109,12 @@ std::string plan_text(const SweepFacts& facts) {
 record::Attributes attributes_of(const SweepFacts& facts, const study::Engine& engine) {
   const Source& source = facts.family.source();
   const Sweep& sweep = facts.sweep;
-  record::Attributes attributes{{"version", BBSIM_VERSION},
-                                {"instruction_set", instruction_set()},
-                                {"engine", engine.name},
-                                {"scenario", std::filesystem::path(source.file).filename()},
-                                {"scenario_text", source.text}};
+  record::Attributes attributes{
+      {"version", BBSIM_VERSION},
+      {"instruction_set", instruction_set()},
+      {"engine", engine.name},
+      {"scenario", std::filesystem::path(source.file).filename().string()},
+      {"scenario_text", source.text}};
   const auto lines = [](const auto& items, const auto& text) {
     std::string all;
     for (const auto& item : items) all += (all.empty() ? "" : "\n") + text(item);
@@ -120,13 +124,13 @@ record::Attributes attributes_of(const SweepFacts& facts, const study::Engine& e
   attributes.emplace_back(
       "vary", lines(sweep.vary, [](const Variation& one) { return one.key + '=' + one.spec; }));
   for (const auto& [name, value] : accuracy_of(facts)) {
-    attributes.emplace_back(name, record::number_text(value));
+    attributes.emplace_back(name, value);
   }
-  attributes.emplace_back("cases", std::to_string(facts.task.plan.cases()));
+  attributes.emplace_back("cases", facts.task.plan.cases());
   attributes.emplace_back("combine", combine_of(sweep));
   if (sweep.samples) {
-    attributes.emplace_back("samples", short_number(*sweep.samples));
-    attributes.emplace_back("seed", record::number_text(sweep.seed));
+    attributes.emplace_back("samples", static_cast<std::int64_t>(*sweep.samples));
+    attributes.emplace_back("seed", static_cast<std::int64_t>(sweep.seed));
   }
   return attributes;
 }

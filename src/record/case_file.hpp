@@ -18,6 +18,7 @@ struct CaseFileLayout {
   std::vector<CaseColumn> columns;  // the case, then numbers and texts, then series
   CaseColumn axis{};                // of the series, if there are any
   std::vector<double> axis_values{};
+  std::vector<InputTable> inputs{};  // what the scenario read, for HDF5
   // Which cases come, and in groups of how many they are computed, the last one less perhaps.
   std::size_t first_case = 0, cases = 0, group = 1;
   bool is_shard = false;  // a part of a sweep, to be merged: CSV keeps its plan beside it

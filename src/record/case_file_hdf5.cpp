@@ -55,7 +55,7 @@ class Hdf5Cases : public CaseFile {
   void finish(const Attributes& attributes) override {
     std::vector<CaseAxis> axes;
     if (series_) axes.emplace_back(layout_.axis, layout_.axis_values);
-    CaseTableWriter writer(target_, layout_.columns, axes);
+    CaseTableWriter writer(target_, layout_.columns, axes, layout_.inputs);
     const std::size_t at_once =
         series_
             ? std::clamp<std::size_t>(most_bytes / (sizeof(double) * series_numbers_), 1, most_rows)

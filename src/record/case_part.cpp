@@ -49,7 +49,7 @@ std::string CasePart::fault_of(std::string_view line, bool whole, std::size_t ro
 
 void CasePart::take_up(std::size_t most) {
   const std::size_t status = status_field(layout_.columns);
-  LineReader lines(file_.descriptor(), file_.name(), Blame::output);
+  PartLines lines(file_.descriptor(), file_.name(), Blame::output);
   RowReader reader(layout_.columns);
   std::string_view line;
   std::string fault;

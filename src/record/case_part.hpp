@@ -37,7 +37,7 @@ class CasePart {
   // there are.
   template <class Use>
   std::size_t read(Use use) const {
-    LineReader lines(file_.descriptor(), file_.name(), Blame::output);
+    PartLines lines(file_.descriptor(), file_.name(), Blame::output);
     RowReader reader(layout_.columns);
     std::string_view line;
     std::size_t rows = 0;

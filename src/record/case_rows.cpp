@@ -52,11 +52,11 @@ void blame(Blame whose, const std::string& message) {
   throw OutputError(message);
 }
 
-LineReader::LineReader(int descriptor, std::string name, Blame whose)
+PartLines::PartLines(int descriptor, std::string name, Blame whose)
     : descriptor_(descriptor), name_(std::move(name)), whose_(whose), buffer_(at_once) {}
 
 // More bytes behind those that wait; false if there are none.
-bool LineReader::fill() {
+bool PartLines::fill() {
   if (begin_ > 0) std::memmove(buffer_.data(), buffer_.data() + begin_, size_);
   begin_ = 0;
   if (size_ == buffer_.size()) {
@@ -70,7 +70,7 @@ bool LineReader::fill() {
   return got > 0;
 }
 
-bool LineReader::next(std::string_view& line) {
+bool PartLines::next(std::string_view& line) {
   std::size_t looked_at = 0;
   for (;;) {
     const char* const from = buffer_.data() + begin_;

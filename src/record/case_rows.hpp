@@ -20,9 +20,9 @@ enum class Blame { input, output };
 [[noreturn]] void blame(Blame whose, const std::string& message);
 
 // A file's lines, from its beginning, through a descriptor that stays the caller's.
-class LineReader {
+class PartLines {
  public:
-  LineReader(int descriptor, std::string name, Blame whose);
+  PartLines(int descriptor, std::string name, Blame whose);
 
   // The next line, without its break, valid until the next call; false at the file's end. Throws
   // where the system cannot read.

@@ -44,9 +44,12 @@ class CaseTableWriter {
  public:
   // `target` is a regular file or none yet, whatever its name ends in. Of a column, unit and
   // meaning become attributes of its dataset; so they do of an axis, whose kind and width do not
-  // count. No two may have the same name.
+  // count. No two may have the same name. A number called `case` is kept as a whole one, and is the
+  // dimension scale of all rows; an axis is that of the series of its length. `inputs` are what the
+  // scenario read.
   CaseTableWriter(const std::string& target, const std::vector<CaseColumn>& columns,
-                  const std::vector<CaseAxis>& axes = {});
+                  const std::vector<CaseAxis>& axes = {},
+                  const std::vector<InputTable>& inputs = {});
   ~CaseTableWriter();
   CaseTableWriter(CaseTableWriter&&) noexcept;
   CaseTableWriter& operator=(CaseTableWriter&&) noexcept;
@@ -76,8 +79,11 @@ class CaseTableReader {
   // In the file's order.
   [[nodiscard]] const std::vector<CaseColumn>& columns() const;
   [[nodiscard]] const std::vector<CaseAxis>& axes() const;  // kind number, width 1
-  [[nodiscard]] const Attributes& attributes() const;       // the root's, those that are strings
-  [[nodiscard]] std::size_t rows() const;                   // cases
+  // The root's, those that are a text or a number.
+  [[nodiscard]] const Attributes& attributes() const;
+  [[nodiscard]] std::size_t rows() const;  // cases
+  // What the scenario had read.
+  [[nodiscard]] std::vector<InputTable> read_inputs() const;
 
   // Rows [first, first + count), or as many of them as there are: into.rows tells.
   void read(std::size_t first, std::size_t count, CaseBlock& into) const;

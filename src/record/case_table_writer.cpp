@@ -28,19 +28,25 @@ std::size_t rows_at_once(const std::vector<CaseColumn>& columns) {
   return rows;
 }
 
-bbsim_hdf5_kind kind_of(CaseKind kind) {
-  switch (kind) {
+// The number of a case: a whole one, and what the rows of all other columns are called by.
+bool is_case(const CaseColumn& column) {
+  return column.name == "case" && column.kind == CaseKind::number;
+}
+
+bbsim_hdf5_kind kind_of(const CaseColumn& column) {
+  switch (column.kind) {
     case CaseKind::text:
       return BBSIM_HDF5_TEXT;
     case CaseKind::series:
       return BBSIM_HDF5_SERIES;
     default:
-      return BBSIM_HDF5_NUMBER;
+      return is_case(column) ? BBSIM_HDF5_INTEGER : BBSIM_HDF5_NUMBER;
   }
 }
 
 bbsim_hdf5_column described(const CaseColumn& column, bbsim_hdf5_kind kind, std::size_t width) {
-  return {column.name.c_str(), column.unit.c_str(), column.meaning.c_str(), kind, width};
+  return {column.name.c_str(), column.unit.c_str(), column.meaning.c_str(), kind, width,
+          is_case(column)};
 }
 
 [[noreturn]] void refuse(const std::string& target, const std::string& reason) {
@@ -76,8 +82,8 @@ Hdf5Output open_output(const std::string& target, const std::vector<CaseColumn>&
   }
   std::vector<bbsim_hdf5_column> described_columns;
   for (const CaseColumn& column : columns) {
-    described_columns.push_back(described(column, kind_of(column.kind),
-                                          column.kind == CaseKind::series ? column.width : 1));
+    described_columns.push_back(
+        described(column, kind_of(column), column.kind == CaseKind::series ? column.width : 1));
   }
   return {target, described_columns, Durable::yes};
 }
@@ -87,7 +93,7 @@ Hdf5Output open_output(const std::string& target, const std::vector<CaseColumn>&
 class CaseTableWriter::State {
  public:
   State(const std::string& target, const std::vector<CaseColumn>& columns,
-        const std::vector<CaseAxis>& axes)
+        const std::vector<CaseAxis>& axes, const std::vector<InputTable>& inputs)
       : target_(target),
         columns_(columns),
         rows_at_once_(rows_at_once(columns)),
@@ -97,6 +103,7 @@ class CaseTableWriter::State {
     for (const auto& [axis, values] : axes) {
       output_.write_axis(described(axis, BBSIM_HDF5_AXIS, values.size()), values.data());
     }
+    output_.write_inputs(inputs);
   }
 
   void append(const CaseBlock& block) {
@@ -165,8 +172,9 @@ class CaseTableWriter::State {
 };
 
 CaseTableWriter::CaseTableWriter(const std::string& target, const std::vector<CaseColumn>& columns,
-                                 const std::vector<CaseAxis>& axes)
-    : state_(std::make_unique<State>(target, columns, axes)) {}
+                                 const std::vector<CaseAxis>& axes,
+                                 const std::vector<InputTable>& inputs)
+    : state_(std::make_unique<State>(target, columns, axes, inputs)) {}
 CaseTableWriter::~CaseTableWriter() = default;
 CaseTableWriter::CaseTableWriter(CaseTableWriter&&) noexcept = default;
 CaseTableWriter& CaseTableWriter::operator=(CaseTableWriter&&) noexcept = default;

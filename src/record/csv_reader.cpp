@@ -1,44 +1,27 @@
 // A strict reader of CSV: a header of bare names, then as many numbers a row.
-#include <fcntl.h>
-#include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
-#include <cerrno>
 #include <charconv>
 #include <cmath>
 #include <cstdlib>
+#include <limits>
+#include <optional>
 #include <string_view>
 
 #include "base/error.hpp"
-#include "record/atomic_file.hpp"
+#include "base/shown.hpp"
 #include "record/formats.hpp"
+#include "record/line_reader.hpp"
 
 namespace bbsim::record {
 namespace {
 
-std::string read_whole(const std::string& file) {
-  const bool standard_input = file == "-";
-  const int descriptor = standard_input ? STDIN_FILENO : open(file.c_str(), O_RDONLY | O_CLOEXEC);
-  int error = descriptor < 0 ? errno : 0;
-  std::string text;
-  std::size_t size = 0;
-  struct stat status {};
-  if (error == 0 && fstat(descriptor, &status) == 0 && S_ISREG(status.st_mode)) {
-    text.resize(static_cast<std::size_t>(status.st_size) + 1);  // room to find the end in
-  }
-  while (error == 0) {
-    constexpr std::size_t at_least = 65536;
-    if (text.size() == size) text.resize(std::max(2 * size, at_least));
-    const ssize_t got = read(descriptor, text.data() + size, text.size() - size);
-    if (got == 0) break;
-    if (got > 0) size += static_cast<std::size_t>(got);
-    if (got < 0 && errno != EINTR) error = errno;
-  }
-  if (descriptor >= 0 && !standard_input) close(descriptor);
-  if (error != 0) throw InputError("cannot read " + file + ": " + error_text(error));
-  text.resize(size);
-  return text;
+// Of what may go on for ever, so many bytes of numbers at most: a half of what this machine has.
+std::size_t most_bytes() {
+  const long pages = sysconf(_SC_PHYS_PAGES), page = sysconf(_SC_PAGESIZE);
+  if (pages <= 0 || page <= 0) return std::numeric_limits<std::size_t>::max();
+  return static_cast<std::size_t>(pages) / 2 * static_cast<std::size_t>(page);
 }
 
 bool is_blank(char c) {
@@ -54,14 +37,10 @@ std::string_view trimmed(std::string_view text) {
   return text;
 }
 
-// What was found, fit for a terminal: quoted, cut short, control characters replaced.
-std::string shown(std::string_view text) {
-  if (text.empty()) return "nothing";
-  constexpr std::size_t longest = 40;
-  std::string quoted(text.substr(0, longest));
-  std::replace_if(quoted.begin(), quoted.end(), is_control, '?');
-  quoted.insert(quoted.begin(), '"');
-  return quoted.append(text.size() > longest ? "...\"" : "\"");
+constexpr std::size_t longest_name = 40;  // in a message
+
+std::string what_was_found(std::string_view text) {
+  return "found " + quoted(text, longest_name);
 }
 
 // Reads the number that `text` is, as a whole, to the nearest double.
@@ -81,32 +60,36 @@ Reading read_number(std::string_view text, double& value) {
 
 class Parser {
  public:
-  Parser(const std::string& file, std::string_view text) : file_(file), rest_(text) {
-    constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
-    if (rest_.starts_with(byte_order_mark)) rest_.remove_prefix(byte_order_mark.size());
-  }
+  explicit Parser(const std::string& file) : lines_(file) {}
 
   TableData parse() {
     next_line();
+    constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
+    if (text_.starts_with(byte_order_mark)) text_.remove_prefix(byte_order_mark.size());
     if (trimmed(text_).empty()) fail(text_, "found no header; the first row names the columns");
     read_header();
+    const std::size_t columns = table_.names.size();
     // Enough for equally long rows, so that few vectors grow.
-    const std::size_t rows = rest_.size() / (2 * table_.names.size()) + 1;
+    const std::size_t rows = lines_.size().value_or(0) / (2 * columns) + 1;
     constexpr std::size_t most = 4096;
     for (auto& column : table_.columns) column.reserve(std::min(rows, most));
-    while (next_line()) read_row();
+    const std::size_t most_rows = lines_.size() ? std::numeric_limits<std::size_t>::max()
+                                                : most_bytes() / (sizeof(double) * columns);
+    while (next_line()) {
+      if (table_.columns[0].size() == most_rows) {
+        fail(text_, "found more than " + std::to_string(most_rows) +
+                        " rows; that is more than this machine has room for");
+      }
+      read_row();
+    }
     return std::move(table_);
   }
 
  private:
   bool next_line() {
-    if (rest_.empty()) return false;
-    const std::size_t end = rest_.find('\n');
-    text_ = rest_.substr(0, end);
-    rest_.remove_prefix(end == std::string_view::npos ? rest_.size() : end + 1);
-    if (text_.ends_with('\r')) text_.remove_suffix(1);
-    ++line_;
-    return true;
+    const std::optional<std::string_view> line = lines_.next();
+    text_ = line.value_or(std::string_view());
+    return line.has_value();
   }
 
   // Calls use(field, its number) for each field of the line; returns how many there are.
@@ -126,19 +109,20 @@ class Parser {
       double number = 0;
       if (name.empty()) fail(name, "a column's name is empty");
       if (name.find(';') != std::string_view::npos || name.find('\t') != std::string_view::npos) {
-        fail(name, "found " + shown(name) + "; commas separate columns");
+        fail(name, what_was_found(name) + "; commas separate columns");
       }
       if (std::any_of(name.begin(), name.end(), is_control)) {
         fail(name, "found a control character in the header; a CSV file is plain text");
       }
       if (name.find('"') != std::string_view::npos) {
-        fail(name, "found " + shown(name) + "; names stand without quotation marks");
+        fail(name, what_was_found(name) + "; names stand without quotation marks");
       }
       if (read_number(name, number) != Reading::no_number) {
-        fail(name, "found the number " + shown(name) + "; the first row names the columns");
+        fail(name, "found the number " + quoted(name, longest_name) +
+                       "; the first row names the columns");
       }
       if (std::find(table_.names.begin(), table_.names.end(), name) != table_.names.end()) {
-        fail(name, "column " + shown(name) + " is there twice");
+        fail(name, "column " + quoted(name, longest_name) + " is there twice");
       }
       table_.names.emplace_back(name);
     });
@@ -156,7 +140,7 @@ class Parser {
         return;
       }
       if (trimmed(text_).empty()) fail(field, "found a blank line; each line is a row of numbers");
-      fail(field, "column " + table_.names[c] + ": found " + shown(field) +
+      fail(field, "column " + shown(table_.names[c]) + ": " + what_was_found(field) +
                       (reading == Reading::too_large ? ", too large for a double (at most 1.8e308)"
                                                      : ", a number is expected"));
     });
@@ -170,23 +154,20 @@ class Parser {
   // `at` is a part of the line, for the column of the message.
   [[noreturn]] void fail(std::string_view at, const std::string& message) const {
     const auto column = at.data() == nullptr ? 0 : at.data() - text_.data();
-    throw InputError({Problem{file_ + ":" + std::to_string(std::max<std::size_t>(line_, 1)) + ":" +
-                                  std::to_string(column + 1),
-                              message}});
+    const std::size_t line = std::max<std::size_t>(lines_.number(), 1);
+    throw InputError({Problem{
+        lines_.name() + ":" + std::to_string(line) + ":" + std::to_string(column + 1), message}});
   }
 
-  const std::string& file_;
-  std::string_view rest_;  // after the current line
+  LineReader lines_;
   std::string_view text_;  // the current line, without its end
-  std::size_t line_ = 0;   // its number, from 1
   TableData table_;
 };
 
 }  // namespace
 
 TableData read_csv(const std::string& file) {
-  const std::string text = read_whole(file);
-  return Parser(file == "-" ? "standard input" : file, text).parse();
+  return Parser(file).parse();
 }
 
 }  // namespace bbsim::record

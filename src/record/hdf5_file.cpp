@@ -1,10 +1,8 @@
 #include "record/hdf5_file.hpp"
 
-#include <sys/stat.h>
-#include <unistd.h>
-
-#include <cerrno>
-#include <vector>
+#include <algorithm>
+#include <set>
+#include <string_view>
 
 #include "base/error.hpp"
 #include "record/hdf5_module.hpp"
@@ -18,6 +16,34 @@ const bbsim_hdf5_module& module_to_write(const std::string& target) {
     throw OutputError("cannot write " + target + ": " + module.trouble);
   }
   return *module.functions;
+}
+
+bbsim_hdf5_attribute described(const std::string& name, const AttributeValue& value) {
+  bbsim_hdf5_attribute attribute{name.c_str(), BBSIM_HDF5_TEXT_VALUE, "", 0, 0};
+  if (const auto* real = std::get_if<double>(&value.value())) {
+    attribute.kind = BBSIM_HDF5_REAL_VALUE;
+    attribute.real = *real;
+  } else if (const auto* whole = std::get_if<std::int64_t>(&value.value())) {
+    attribute.kind = BBSIM_HDF5_INTEGER_VALUE;
+    attribute.integer = *whole;
+  } else {
+    attribute.text = std::get<std::string>(value.value()).c_str();
+  }
+  return attribute;
+}
+
+// A name like `wanted` that HDF5 can give to something, which none of `taken` has.
+std::string free_name(std::string wanted, std::set<std::string>& taken) {
+  std::replace(wanted.begin(), wanted.end(), '/', '_');
+  if (wanted.empty() || wanted == ".") wanted += '_';
+  std::string name = wanted;
+  for (int i = 2; !taken.insert(name).second; ++i) name = wanted + " (" + std::to_string(i) + ")";
+  return name;
+}
+
+// "motion.csv" of "../tables/motion.csv".
+std::string last_part(const std::string& file) {
+  return file.substr(file.rfind('/') + 1);  // npos + 1: all of it
 }
 
 }  // namespace
@@ -45,11 +71,38 @@ void Hdf5Output::append(const bbsim_hdf5_values* columns, std::size_t rows) {
   if (module_.append(writer_.get(), columns, rows, &error) != 0) fail(error);
 }
 
+void Hdf5Output::write_column(const bbsim_hdf5_column& column, const double* values) {
+  check_open();
+  bbsim_hdf5_error error{};
+  if (module_.write_column(writer_.get(), &column, values, &error) != 0) fail(error);
+}
+
+void Hdf5Output::write_inputs(const std::vector<InputTable>& inputs) {
+  check_open();
+  std::set<std::string> files;
+  for (const auto& [file, data] : inputs) {
+    std::set<std::string> taken;
+    std::vector<std::string> names;
+    for (const std::string& title : data->names) names.push_back(free_name(title, taken));
+    std::vector<bbsim_hdf5_input_column> columns;
+    for (std::size_t c = 0; c < names.size(); ++c) {
+      columns.push_back({data->names[c].c_str(), names[c].c_str(), data->columns[c].data()});
+    }
+    const std::string name = free_name(last_part(file), files);
+    const std::size_t rows = data->columns.empty() ? 0 : data->columns[0].size();
+    bbsim_hdf5_error error{};
+    if (module_.write_input(writer_.get(), name.c_str(), file.c_str(), columns.data(),
+                            columns.size(), rows, &error) != 0) {
+      fail(error);
+    }
+  }
+}
+
 void Hdf5Output::finish(const Attributes& attributes) {
   check_open();
   std::vector<bbsim_hdf5_attribute> pairs;
   pairs.reserve(attributes.size());
-  for (const auto& [name, value] : attributes) pairs.push_back({name.c_str(), value.c_str()});
+  for (const auto& [name, value] : attributes) pairs.push_back(described(name, value));
   bbsim_hdf5_error error{};
   if (module_.finish(writer_.get(), pairs.data(), pairs.size(), &error) != 0) fail(error);
   writer_.reset();
@@ -69,35 +122,6 @@ void Hdf5Output::fail(const bbsim_hdf5_error& error) {
   writer_.reset();  // with rows missing, the file must not get its name
   if (error.system_error != 0) file_.fail(error.system_error);
   throw OutputError("cannot write " + target_ + ": " + error.text);
-}
-
-Hdf5Input::Hdf5Input(const std::string& file, const bbsim_hdf5_contents& contents)
-    : file_(file), reader_(nullptr, nullptr) {
-  struct stat status {};
-  if (stat(file.c_str(), &status) != 0 || access(file.c_str(), R_OK) != 0) fail(error_text(errno));
-  if (!S_ISREG(status.st_mode)) fail("it is no regular file");
-  const Hdf5Module& module = hdf5_module();
-  if (module.functions == nullptr) fail(module.trouble);
-  module_ = module.functions;
-  bbsim_hdf5_error error{};
-  reader_ = {module_->open(file.c_str(), &contents, &error), module_->close};
-  if (reader_ == nullptr) fail(error.text);
-}
-
-void Hdf5Input::read_numbers(std::size_t dataset, std::size_t first, std::size_t rows,
-                             double* to) const {
-  bbsim_hdf5_error error{};
-  if (module_->read_numbers(reader_.get(), dataset, first, rows, to, &error) != 0) fail(error.text);
-}
-
-void Hdf5Input::read_texts(std::size_t dataset, std::size_t first, std::size_t rows,
-                           const bbsim_hdf5_texts& to) const {
-  bbsim_hdf5_error error{};
-  if (module_->read_texts(reader_.get(), dataset, first, rows, &to, &error) != 0) fail(error.text);
-}
-
-void Hdf5Input::fail(std::string_view reason) const {
-  throw InputError("cannot read " + file_ + ": " + std::string(reason));
 }
 
 }  // namespace bbsim::record

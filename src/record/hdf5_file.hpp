@@ -1,11 +1,11 @@
-// HDF5 files as the program sees them: the module behind them, its errors as ours.
+// HDF5 files that the program writes: the module behind them, its errors as ours.
 #pragma once
 
 #include <cstddef>
 #include <memory>
 #include <span>
 #include <string>
-#include <string_view>
+#include <vector>
 
 #include "record/atomic_file.hpp"
 #include "record/hdf5/interface.h"
@@ -23,6 +23,9 @@ class Hdf5Output {
 
   void write_axis(const bbsim_hdf5_column& axis, const double* values);
   void append(const bbsim_hdf5_values* columns, std::size_t rows);
+  // Of as many rows as there are by now.
+  void write_column(const bbsim_hdf5_column& column, const double* values);
+  void write_inputs(const std::vector<InputTable>& inputs);
   // Completes the file and puts it under its final name. Without this call nothing stays.
   void finish(const Attributes& attributes);
 
@@ -38,22 +41,5 @@ class Hdf5Output {
 
 // Throws OutputError if this program cannot write HDF5.
 void require_hdf5(const std::string& target);
-
-// A file that is read. Every function throws InputError.
-class Hdf5Input {
- public:
-  Hdf5Input(const std::string& file, const bbsim_hdf5_contents& contents);
-
-  void read_numbers(std::size_t dataset, std::size_t first, std::size_t rows, double* to) const;
-  void read_texts(std::size_t dataset, std::size_t first, std::size_t rows,
-                  const bbsim_hdf5_texts& to) const;
-
-  [[noreturn]] void fail(std::string_view reason) const;
-
- private:
-  std::string file_;
-  std::unique_ptr<bbsim_hdf5_reader, void (*)(bbsim_hdf5_reader*)> reader_;
-  const bbsim_hdf5_module* module_ = nullptr;
-};
 
 }  // namespace bbsim::record

@@ -6,41 +6,51 @@
 #include <cstdlib>
 #include <filesystem>
 #include <system_error>
+#include <utility>
 #include <vector>
 
 namespace bbsim::record {
 namespace {
 
-constexpr const char* file_name = "libbbsim_hdf5.so";
+constexpr const char* module_name = "libbbsim_hdf5.so";
+constexpr const char* reader_name = "bbsim-hdf5-reader";
+constexpr const char* advice = "; write or read .csv instead, ";
+
+// The file of that name in the first of these folders that has it.
+ModuleFile find(const std::string& what, const char* name,
+                const std::vector<std::string>& folders) {
+  std::string looked_in;
+  for (const std::string& folder : folders) {
+    std::string file = folder + "/" + name;
+    if (access(file.c_str(), F_OK) == 0) return {std::move(file), ""};
+    looked_in.append(looked_in.empty() ? "" : " and ").append(folder);
+  }
+  return {"", what + " " + name + " is not in " + looked_in + advice +
+                  "or install bbsim whole, or set BBSIM_MODULE_PATH to the module's folder"};
+}
 
 }  // namespace
 
+ModuleFile find_hdf5_reader(const std::vector<std::string>& folders) {
+  return find("the HDF5 reader", reader_name, folders);
+}
+
 Hdf5Module open_hdf5_module(const std::vector<std::string>& folders) {
-  const std::string advice = "; write or read .csv instead, ";
-  std::string looked_in;
-  for (const std::string& folder : folders) {
-    const std::string file = folder + "/" + file_name;
-    looked_in.append(looked_in.empty() ? "" : " and ").append(folder);
-    if (access(file.c_str(), F_OK) != 0) continue;
-    // Never closed: HDF5 cleans up when the process ends.
-    void* library = dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL);
-    if (library == nullptr) {
-      return {nullptr, std::string("the HDF5 module does not open: ") + dlerror() + advice +
-                           "or install the HDF5 library that it was built with"};
-    }
-    const auto entry =
-        reinterpret_cast<bbsim_hdf5_entry_function>(dlsym(library, BBSIM_HDF5_ENTRY));
-    const bbsim_hdf5_module* functions = entry == nullptr ? nullptr : entry();
-    if (functions == nullptr || functions->interface_version != BBSIM_HDF5_INTERFACE) {
-      std::string trouble = "the HDF5 module ";
-      trouble.append(file).append(" belongs to another version of bbsim").append(advice);
-      return {nullptr, trouble.append("or install the two together")};
-    }
-    return {functions, ""};
+  const ModuleFile file = find("the HDF5 module", module_name, folders);
+  if (file.path.empty()) return {nullptr, file.trouble};
+  // Never closed: HDF5 cleans up when the process ends.
+  void* library = dlopen(file.path.c_str(), RTLD_NOW | RTLD_LOCAL);
+  if (library == nullptr) {
+    return {nullptr, std::string("the HDF5 module does not open: ") + dlerror() + advice +
+                         "or install the HDF5 library that it was built with"};
   }
-  return {nullptr, std::string("the HDF5 module ") + file_name + " is not in " + looked_in +
-                       advice +
-                       "or install bbsim whole, or set BBSIM_MODULE_PATH to the module's folder"};
+  const auto entry = reinterpret_cast<bbsim_hdf5_entry_function>(dlsym(library, BBSIM_HDF5_ENTRY));
+  const bbsim_hdf5_module* functions = entry == nullptr ? nullptr : entry();
+  if (functions == nullptr || functions->interface_version != BBSIM_HDF5_INTERFACE) {
+    return {nullptr, "the HDF5 module " + file.path + " belongs to another version of bbsim" +
+                         advice + "or install the two together"};
+  }
+  return {functions, ""};
 }
 
 std::vector<std::string> hdf5_module_folders() {

@@ -1,4 +1,4 @@
-// Finds and opens the HDF5 module.
+// Finds the HDF5 module, which writes, and the reader's program, and opens the module.
 #pragma once
 
 #include <string>
@@ -14,11 +14,19 @@ struct Hdf5Module {
   std::string trouble;
 };
 
+// A program beside the module; without a path, why there is none.
+struct ModuleFile {
+  std::string path, trouble;
+};
+
+// Looks for the program that reads HDF5 files in these folders, in order.
+[[nodiscard]] ModuleFile find_hdf5_reader(const std::vector<std::string>& folders);
+
 // Looks for the module in these folders, in order, and opens it; it is never closed.
 [[nodiscard]] Hdf5Module open_hdf5_module(const std::vector<std::string>& folders);
 
-// Where to look: the folder BBSIM_MODULE_PATH if the environment has it, otherwise beside the
-// running program: ../lib/bbsim, or what the system calls lib.
+// Where to look for both: the folder BBSIM_MODULE_PATH if the environment has it, otherwise beside
+// the running program: ../lib/bbsim, or what the system calls lib.
 [[nodiscard]] std::vector<std::string> hdf5_module_folders();
 
 // The module, opened at the first call.

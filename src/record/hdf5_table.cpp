@@ -1,10 +1,9 @@
 // HDF5 tables of numbers, as runs write them.
-#include <new>
-#include <stdexcept>
-
 #include "base/error.hpp"
+#include "base/shown.hpp"
 #include "record/formats.hpp"
 #include "record/hdf5_file.hpp"
+#include "record/hdf5_input.hpp"
 
 namespace bbsim::record {
 namespace {
@@ -12,18 +11,19 @@ namespace {
 // The texts of a ColumnHeader as C strings, which string_views need not be.
 struct Header {
   std::string name, unit, description;
+
+  explicit Header(const ColumnHeader& header)
+      : name(header.name), unit(header.unit), description(header.meaning) {}
+
+  [[nodiscard]] bbsim_hdf5_column column() const {
+    return {name.c_str(), unit.c_str(), description.c_str(), BBSIM_HDF5_NUMBER, 1, name == "t"};
+  }
 };
 
 Hdf5Output open_output(const std::string& target, const std::vector<ColumnHeader>& headers) {
-  std::vector<Header> texts;
-  texts.reserve(headers.size());
+  const std::vector<Header> texts(headers.begin(), headers.end());
   std::vector<bbsim_hdf5_column> columns;
-  for (const ColumnHeader& header : headers) {
-    const Header& text = texts.emplace_back(
-        Header{std::string(header.name), std::string(header.unit), std::string(header.meaning)});
-    columns.push_back({text.name.c_str(), text.unit.c_str(), text.description.c_str(),
-                       text.name == "t" ? BBSIM_HDF5_SCALE : BBSIM_HDF5_NUMBER, 1});
-  }
+  for (const Header& text : texts) columns.push_back(text.column());
   return {target, columns};
 }
 
@@ -33,36 +33,25 @@ class Hdf5Writer final : public TableWriter {
       : output_(open_output(target, headers)) {}
 
   void append(std::span<const double* const> columns, std::size_t rows) override {
+    rows_ += rows;
     values_.clear();
     for (const double* column : columns) values_.push_back({column, nullptr});
     output_.append(values_.data(), rows);
   }
+
+  void add_column(const ColumnHeader& header, const std::vector<double>& values) override {
+    if (values.size() != rows_) throw OutputError("a column has not as many rows as the others");
+    output_.write_column(Header(header).column(), values.data());
+  }
+
+  void keep(const std::vector<InputTable>& inputs) override { output_.write_inputs(inputs); }
 
   void finish(const Attributes& attributes) override { output_.finish(attributes); }
 
  private:
   Hdf5Output output_;
   std::vector<bbsim_hdf5_values> values_;  // of the block that is written
-};
-
-// What a file tells of itself. Its functions are the module's: no exception may go through them.
-struct Contents {
-  struct Dataset {
-    std::string name;
-    bbsim_hdf5_kind kind;
-    std::size_t rows;
-  };
-  std::vector<Dataset> datasets;
-
-  static int add(void* context, const bbsim_hdf5_column* column, std::size_t rows) noexcept {
-    try {
-      static_cast<Contents*>(context)->datasets.push_back({column->name, column->kind, rows});
-      return 0;
-    } catch (const std::exception&) {
-      return 1;
-    }
-  }
-  static int skip(void* /*context*/, const bbsim_hdf5_attribute* /*attribute*/) { return 0; }
+  std::size_t rows_ = 0;
 };
 
 const char* why_no_column(bbsim_hdf5_kind kind) {
@@ -86,30 +75,26 @@ std::unique_ptr<TableWriter> open_hdf5(const std::string& target,
 }
 
 TableData read_hdf5(const std::string& file) {
-  Contents contents;
-  const Hdf5Input input(file, {&contents, Contents::add, Contents::skip});
-  TableData table;
-  const auto& datasets = contents.datasets;
+  const Hdf5Input input(file);
+  const std::span<const Hdf5Dataset> datasets(input.datasets().data(), input.root_datasets());
   if (datasets.empty()) input.fail("it holds no datasets at its root");
-  for (const auto& [name, kind, rows] : datasets) {
-    if (const char* held = why_no_column(kind)) {
-      input.fail("dataset " + name + " is no column of numbers: it holds " + held);
+  const Hdf5Dataset& first = datasets.front();
+  TableData table;
+  for (const Hdf5Dataset& dataset : datasets) {
+    if (const char* held = why_no_column(dataset.kind)) {
+      input.fail("dataset " + shown(dataset.name) + " is no column of numbers: it holds " + held);
     }
-    if (rows != datasets[0].rows) {
-      input.fail("dataset " + name + " has " + std::to_string(rows) + " rows, " + datasets[0].name +
-                 " has " + std::to_string(datasets[0].rows) + "; all must have the same number");
+    if (dataset.rows != first.rows) {
+      input.fail("dataset " + shown(dataset.name) + " has " + std::to_string(dataset.rows) +
+                 " rows, " + shown(first.name) + " has " + std::to_string(first.rows) +
+                 "; all must have the same number");
     }
+    table.names.push_back(dataset.name);
   }
-  for (std::size_t d = 0; d < datasets.size(); ++d) {
-    const auto& [name, kind, rows] = datasets[d];
-    try {
-      table.columns.emplace_back(rows);
-    } catch (const std::exception&) {  // bad_alloc or length_error
-      input.fail("no memory for the " + std::to_string(rows) + " rows of dataset " + name);
-    }
-    input.read_numbers(d, 0, rows, table.columns.back().data());
-    table.names.push_back(name);
-  }
+  table.columns.resize(datasets.size());
+  std::vector<Hdf5Wanted> wanted;
+  for (std::size_t d = 0; d < datasets.size(); ++d) wanted.push_back({d, &table.columns[d]});
+  input.read(0, first.rows, wanted);
   return table;
 }
 

@@ -48,7 +48,7 @@ Descriptor open_part(const std::string& file, struct stat& status) {
 Part look_at(const std::string& file) {
   struct stat status {};
   const Descriptor opened = open_part(file, status);
-  LineReader lines(opened.get(), file, Blame::input);
+  PartLines lines(opened.get(), file, Blame::input);
   std::string_view line;
   if (!lines.next(line) || !lines.whole()) cannot_read(file, "it is no file with rows of cases");
   if (!line.starts_with("case,")) {
@@ -121,7 +121,7 @@ bool copy_rows(const Part& part, AtomicFile& out, std::size_t& next,
   if (status.st_dev != part.device || status.st_ino != part.inode) {
     cannot_read(part.file, "another file took its place meanwhile");
   }
-  LineReader lines(opened.get(), part.file, Blame::input);
+  PartLines lines(opened.get(), part.file, Blame::input);
   RowReader reader(part.header);
   std::string_view line;
   if (!lines.next(line) || line != part.header) {

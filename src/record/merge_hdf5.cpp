@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 
 #include "base/error.hpp"
 #include "record/case_table.hpp"
@@ -49,10 +50,29 @@ InstructionSets instruction_sets_of(const std::vector<Part>& parts) {
   InstructionSets all;
   for (const Part& part : parts) {
     for (const auto& [name, value] : part.table.attributes()) {
-      if (name == instruction_set) all.add(value);
+      if (name == instruction_set) all.add(value.text());
     }
   }
   return all;
+}
+
+// To the bit: of numbers that are none, too.
+bool same_data(const TableData& a, const TableData& b) {
+  return a.names == b.names &&
+         std::equal(a.columns.begin(), a.columns.end(), b.columns.begin(), b.columns.end(),
+                    [](const std::vector<double>& one, const std::vector<double>& other) {
+                      return one.size() == other.size() &&
+                             std::memcmp(one.data(), other.data(), one.size() * sizeof(double)) ==
+                                 0;
+                    });
+}
+
+// Whether the scenarios read the same.
+bool same_inputs(const std::vector<InputTable>& a, const std::vector<InputTable>& b) {
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(),
+                    [](const InputTable& one, const InputTable& other) {
+                      return one.file == other.file && same_data(*one.data, *other.data);
+                    });
 }
 
 }  // namespace
@@ -79,16 +99,18 @@ Merged merge_hdf5(const std::vector<std::string>& files, const std::string& targ
   const CaseTableReader& model = parts.front().table;
   const InstructionSets instruction_sets = instruction_sets_of(parts);
   const Attributes common = without_instruction_set(model.attributes());
+  const std::vector<InputTable> inputs = model.read_inputs();
   for (const Part& part : parts) {
     if (part.table.columns() == model.columns() && part.table.axes() == model.axes() &&
-        without_instruction_set(part.table.attributes()) == common) {
+        without_instruction_set(part.table.attributes()) == common &&
+        same_inputs(part.table.read_inputs(), inputs)) {
       continue;
     }
     throw InputError(part.file + ": found other columns or another scenario than in " +
                      parts.front().file + "; allowed: parts of one sweep");
   }
 
-  CaseTableWriter out(target, model.columns(), model.axes());
+  CaseTableWriter out(target, model.columns(), model.axes(), inputs);
   Merged merged{0, false, instruction_sets.note()};
   const std::size_t rows = rows_at_a_time(model.columns());
   for (const Part& part : parts) {
@@ -109,8 +131,8 @@ Merged merge_hdf5(const std::vector<std::string>& files, const std::string& targ
   }
   Attributes attributes = model.attributes();
   for (auto& [name, value] : attributes) {
-    if (name == "cases" && value != std::to_string(merged.cases)) {
-      throw InputError("found " + std::to_string(merged.cases) + " cases of " + value +
+    if (name == "cases" && value.text() != std::to_string(merged.cases)) {
+      throw InputError("found " + std::to_string(merged.cases) + " cases of " + value.text() +
                        "; allowed: all parts of the sweep");
     }
     if (name == instruction_set) value = instruction_sets.names();

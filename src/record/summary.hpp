@@ -63,8 +63,9 @@ struct RunSummary {
 // Writes to_json() whole or not at all; "-" is standard output. Throws OutputError.
 void write_summary(const std::string& file, const RunSummary& summary);
 
-// The same names, those of `statistics` without a prefix, and `scenario_text`. Lists have one
-// entry a line; numbers are in their shortest form that reads back to the same value.
+// The same names, those of `statistics` without a prefix, and `scenario_text`; numbers as numbers,
+// lists with one entry a line. Left out are what differs between runs that are alike: `output` and
+// `cpu_seconds`.
 [[nodiscard]] Attributes to_attributes(const RunSummary& summary, const std::string& scenario_text);
 
 }  // namespace bbsim::record

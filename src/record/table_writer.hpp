@@ -6,8 +6,9 @@
 #include <span>
 #include <string>
 #include <string_view>
-#include <utility>
 #include <vector>
+
+#include "record/attributes.hpp"
 
 namespace bbsim::record {
 
@@ -15,8 +16,17 @@ struct ColumnHeader {
   std::string_view name, unit, meaning;
 };
 
-// Root attributes of an HDF5 file, in order; CSV has no place for them.
-using Attributes = std::vector<std::pair<std::string, std::string>>;
+// A table, by name, in its file's order. All columns have the same length.
+struct TableData {
+  std::vector<std::string> names;
+  std::vector<std::vector<double>> columns;
+};
+
+// A table that a scenario read, by the name that it has there.
+struct InputTable {
+  std::string file;
+  std::shared_ptr<const TableData> data;
+};
 
 class TableWriter {
  public:
@@ -25,6 +35,11 @@ class TableWriter {
   // Appends `rows` rows given as columns: columns[c][row], one pointer a header.
   // Throws OutputError.
   virtual void append(std::span<const double* const> columns, std::size_t rows) = 0;
+
+  // What only HDF5 has a place for: the tables that the scenario read, and a column that is known
+  // only once all rows are there, with a number for each. Throws OutputError.
+  virtual void keep(const std::vector<InputTable>& /*inputs*/) {}
+  virtual void add_column(const ColumnHeader& /*header*/, const std::vector<double>& /*values*/) {}
 
   // Completes the file and puts it under its final name. Without this call nothing stays.
   // Throws OutputError.
@@ -36,12 +51,6 @@ class TableWriter {
 // to directly, as CSV whatever its name. Throws OutputError if the folder cannot be written to.
 [[nodiscard]] std::unique_ptr<TableWriter> open_table(const std::string& target,
                                                       const std::vector<ColumnHeader>& headers);
-
-// A table read back, by name, in the file's order. All columns have the same length.
-struct TableData {
-  std::vector<std::string> names;
-  std::vector<std::vector<double>> columns;
-};
 
 // Reads a CSV (RFC 4180 without quoting: a header of bare names, then numbers) or, by its
 // ending, an HDF5 file; "-" is CSV on standard input. Throws InputError: where, found, allowed.

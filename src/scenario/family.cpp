@@ -21,7 +21,8 @@ struct ScenarioFamily::State {
   const Node* root = nullptr;
   std::shared_ptr<Tables> tables = std::make_shared<Tables>();
 
-  Scenario read(const std::vector<Setting>& settings, std::map<std::string, double>* numbers) const;
+  Scenario read(const std::vector<Setting>& settings,
+                std::map<std::string, NotedNumber>* numbers) const;
 };
 
 ScenarioFamily::ScenarioFamily(const std::string& file, const std::vector<std::string>& overrides)
@@ -36,7 +37,7 @@ ScenarioFamily::~ScenarioFamily() = default;
 ScenarioFamily::ScenarioFamily(ScenarioFamily&&) noexcept = default;
 
 Scenario ScenarioFamily::State::read(const std::vector<Setting>& settings,
-                                     std::map<std::string, double>* numbers) const {
+                                     std::map<std::string, NotedNumber>* numbers) const {
   std::vector<std::string> labels;
   for (const Setting& setting : settings) labels.push_back(setting.key + '=' + setting.value);
   Problems problems(source.file, without_byte_order_mark(source.text), source.overrides, labels);
@@ -62,11 +63,19 @@ Scenario ScenarioFamily::read(const std::vector<Setting>& settings) const {
 }
 
 std::optional<double> ScenarioFamily::read_number(const std::vector<Setting>& settings) const {
-  std::map<std::string, double> numbers;
+  std::map<std::string, NotedNumber> numbers;
   [[maybe_unused]] const Scenario scenario = state_->read(settings, &numbers);
   const auto found = numbers.find(settings.back().key);
   if (found == numbers.end()) return {};
-  return found->second;
+  return found->second.value;
+}
+
+std::string_view ScenarioFamily::unit_of(const std::string& key,
+                                         const std::vector<Setting>& settings) const {
+  std::map<std::string, NotedNumber> numbers;
+  [[maybe_unused]] const Scenario scenario = state_->read(settings, &numbers);
+  const auto found = numbers.find(key);
+  return found == numbers.end() ? "" : si_unit(found->second.dimension);
 }
 
 Sweep ScenarioFamily::read_sweep() const {
@@ -87,7 +96,7 @@ std::vector<std::pair<std::string, std::uint64_t>> ScenarioFamily::table_hashes(
   std::vector<std::pair<std::string, std::uint64_t>> hashes;
   for (const auto& [file, table] : state_->tables->by_file) {
     std::uint64_t hash = 0xCBF29CE484222325U;  // FNV-1a, a word at a time
-    for (const auto& column : table.columns) {
+    for (const auto& column : table.data->columns) {
       for (const double value : column) {
         hash = (hash ^ std::bit_cast<std::uint64_t>(value)) * 0x100000001B3U;
       }
@@ -95,6 +104,10 @@ std::vector<std::pair<std::string, std::uint64_t>> ScenarioFamily::table_hashes(
     hashes.emplace_back(file, hash);
   }
   return hashes;
+}
+
+std::vector<record::InputTable> ScenarioFamily::inputs() const {
+  return state_->tables->all();
 }
 
 const Source& ScenarioFamily::source() const {

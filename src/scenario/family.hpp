@@ -5,9 +5,11 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
+#include "record/table_writer.hpp"
 #include "scenario/scenario.hpp"
 
 namespace bbsim {
@@ -36,11 +38,19 @@ class ScenarioFamily {
   // what stands there is no single number.
   [[nodiscard]] std::optional<double> read_number(const std::vector<Setting>& settings) const;
 
+  // The unit of the single number at that key, with these settings: "m"; empty of one whose unit
+  // depends on more than the key, such as a gain, and of what is no single number.
+  [[nodiscard]] std::string_view unit_of(const std::string& key,
+                                         const std::vector<Setting>& settings) const;
+
   // The `sweep` block of the file. Throws InputError if something is wrong with it.
   [[nodiscard]] Sweep read_sweep() const;
 
   // Of each table file that was read so far, a number that tells its content.
   [[nodiscard]] std::vector<std::pair<std::string, std::uint64_t>> table_hashes() const;
+
+  // These tables, as the scenario names them.
+  [[nodiscard]] std::vector<record::InputTable> inputs() const;
 
   [[nodiscard]] const Source& source() const;
 

@@ -28,24 +28,6 @@ int character_column(std::string_view text, const Position& position) {
   return position.column - static_cast<int>(std::ranges::count_if(before, continues_character));
 }
 
-void append_escaped(std::string& result, std::string_view text, std::size_t i) {
-  constexpr std::string_view digits = "0123456789abcdef";
-  const auto byte = static_cast<unsigned char>(text[i]);
-  // U+0080 to U+009F, the second set of control characters, is 0xC2 and 0x80 to 0x9F.
-  const bool second_set =
-      byte == 0xC2 && i + 1 < text.size() && static_cast<unsigned char>(text[i + 1]) < 0xA0;
-  const bool inside_second_set = i > 0 && text[i - 1] == '\xC2' && byte < 0xA0 && byte >= 0x80;
-  if (byte == '\n') {
-    result += "\\n";
-  } else if (byte == '\t') {
-    result += "\\t";
-  } else if (byte < 0x20 || byte == 0x7F || second_set || inside_second_set) {
-    result += {'\\', 'x', digits[byte >> 4U], digits[byte & 15U]};
-  } else {
-    result += text[i];
-  }
-}
-
 }  // namespace
 
 void Problems::add(const Position& position, std::string message) {
@@ -82,17 +64,6 @@ void Problems::throw_if_any() const {
     first.push_back({"", "and " + std::to_string(sorted.size() - most_shown) + " more problems"});
   }
   throw InputError(std::move(first));
-}
-
-std::string shown(std::string_view text, std::size_t longest) {
-  std::size_t end = text.size();
-  if (end > longest) {
-    end = longest;
-    while (end > 0 && continues_character(text[end])) --end;
-  }
-  std::string result;
-  for (std::size_t i = 0; i < end; ++i) append_escaped(result, text, i);
-  return end < text.size() ? result + "..." : result;
 }
 
 std::string shown(const Node& node) {

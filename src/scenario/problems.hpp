@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/shown.hpp"
 #include "scenario/document.hpp"
 
 namespace bbsim::input {
@@ -41,9 +42,8 @@ class Problems {
   std::vector<Located> problems_;
 };
 
-// A piece of the user's text as it may be shown at a terminal: control characters as escapes, and
-// cut off after that many bytes.
-[[nodiscard]] std::string shown(std::string_view text, std::size_t longest = 60);
+// Of a piece of text, as anywhere.
+using bbsim::shown;
 
 // A node in a sentence that begins with "found": -0.01, "10 cm", nothing, a list of 3, a mapping.
 [[nodiscard]] std::string shown(const Node& node);

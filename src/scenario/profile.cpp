@@ -54,7 +54,7 @@ bool read_term(const Value& value, Profile& into) {
     const Quantity quantity = read_quantity(value.node->text, value.node->quoted, Dimension::angle);
     if (!quantity.value) return value.refuse(quantity.fault, term_allowed);
     into.emplace_back(*quantity.value);
-    value.note(*quantity.value);
+    value.note(*quantity.value, Dimension::angle);
     return true;
   }
   if (value.node->kind != Node::Kind::mapping) return value.refuse("", term_allowed);

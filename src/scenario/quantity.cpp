@@ -163,6 +163,11 @@ std::string_view noun(Dimension dimension) {
 std::string_view plural(Dimension dimension) {
   return description(dimension).plural;
 }
+std::string_view si_unit(Dimension dimension) {
+  const std::span<const Unit> units = description(dimension).units;
+  return units.empty() ? "" : units.front().name;  // the others are told by it
+}
+
 std::string_view example(Dimension dimension) {
   return description(dimension).example;
 }

@@ -16,6 +16,9 @@ enum class Dimension { number, length, mass, time, angle, angular_rate, velocity
 // In the plural: "lengths".
 [[nodiscard]] std::string_view plural(Dimension dimension);
 
+// The SI unit, in which values are: "rad/s"; empty of a number.
+[[nodiscard]] std::string_view si_unit(Dimension dimension);
+
 // As one may write it: 0.01 or "1 cm".
 [[nodiscard]] std::string_view example(Dimension dimension);
 

@@ -54,7 +54,8 @@ const Node* build_tree(const Source& source, Problems& problems, Nodes& nodes) {
 using namespace input;
 
 Scenario parse_scenario(const std::string& text, const std::string& name,
-                        const std::vector<std::string>& overrides) {
+                        const std::vector<std::string>& overrides,
+                        std::vector<record::InputTable>* inputs) {
   Scenario scenario;
   scenario.source = {name, text, overrides};
   Problems problems(name, without_byte_order_mark(scenario.source.text), overrides);
@@ -62,6 +63,7 @@ Scenario parse_scenario(const std::string& text, const std::string& name,
   if (const Node* root = build_tree(scenario.source, problems, nodes)) {
     Context context{problems, std::filesystem::path(name).parent_path()};
     MappingOf(read_sections).read({root, "", {}, &context}, scenario);
+    if (inputs != nullptr) *inputs = context.tables->all();
   }
   problems.throw_if_any();
   return scenario;
@@ -84,8 +86,9 @@ std::vector<std::string> table_files(const Scenario& scenario) {
   return files;
 }
 
-Scenario read_scenario(const std::string& file, const std::vector<std::string>& overrides) {
-  return parse_scenario(read_text(file), file, overrides);
+Scenario read_scenario(const std::string& file, const std::vector<std::string>& overrides,
+                       std::vector<record::InputTable>* inputs) {
+  return parse_scenario(read_text(file), file, overrides, inputs);
 }
 
 }  // namespace bbsim

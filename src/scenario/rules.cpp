@@ -31,7 +31,7 @@ bool Number::read(const Value& value, double& into) const {
   if (!quantity.value) return value.refuse(quantity.fault, allowed());
   if (!range.holds(*quantity.value)) return value.refuse("", allowed());
   into = *quantity.value;
-  value.note(into);
+  value.note(into, dimension);
   return true;
 }
 
@@ -142,7 +142,7 @@ bool GainMatrix::read(const Value& value, Matrix2& into) const {
     const Quantity quantity = read_quantity(node.text, node.quoted, Dimension::number);
     if (!quantity.value) return value.refuse(quantity.fault, allowed());
     into = {{{*quantity.value, 0}, {0, *quantity.value}}};
-    value.note(*quantity.value);
+    value.note(*quantity.value, Dimension::number);
     return true;
   }
   if (node.kind != Node::Kind::sequence || node.items.size() != into.size()) {

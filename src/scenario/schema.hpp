@@ -22,13 +22,27 @@
 #include "record/table_writer.hpp"
 #include "scenario/document.hpp"
 #include "scenario/problems.hpp"
+#include "scenario/quantity.hpp"
 
 namespace bbsim::input {
 
 // The table files read so far, by path; scenarios of one family share them, over threads.
 struct Tables {
   std::mutex mutex;
-  std::map<std::string, record::TableData> by_file;  // under the mutex; a table once read stays
+  std::map<std::string, record::InputTable> by_file;  // under the mutex; a table once read stays
+
+  [[nodiscard]] std::vector<record::InputTable> all() {
+    const std::lock_guard lock(mutex);
+    std::vector<record::InputTable> tables;
+    for (const auto& [path, table] : by_file) tables.push_back(table);
+    return tables;
+  }
+};
+
+// A single number, in SI units.
+struct NotedNumber {
+  double value = 0;
+  Dimension dimension = Dimension::number;
 };
 
 // What reading a scenario shares.
@@ -37,8 +51,8 @@ struct Context {
   std::filesystem::path folder;  // where table files are
   std::optional<double> end{};   // time.end, s, once it is read
   std::shared_ptr<Tables> tables = std::make_shared<Tables>();
-  // Where each single number goes that is read, if somebody asks: its key's path, and its value.
-  std::map<std::string, double>* numbers = nullptr;
+  // Where each single number goes that is read, if somebody asks, by its key's path.
+  std::map<std::string, NotedNumber>* numbers = nullptr;
 };
 
 // A node on its way into the scenario.
@@ -57,8 +71,8 @@ struct Value {
   bool report(std::string_view message) const;
 
   // Says that a single number was read here, in SI units.
-  void note(double number) const {
-    if (context->numbers != nullptr) (*context->numbers)[path] = number;
+  void note(double number, Dimension dimension) const {
+    if (context->numbers != nullptr) (*context->numbers)[path] = {number, dimension};
   }
 };
 

@@ -20,7 +20,7 @@ const record::TableData* load(const Value& file, const std::string& name) {
   const std::lock_guard lock(context.tables->mutex);
   auto& tables = context.tables->by_file;
   const auto known = tables.find(path.string());
-  if (known != tables.end()) return &known->second;
+  if (known != tables.end()) return known->second.data.get();
 
   std::error_code error;
   if (std::filesystem::exists(path, error) && !std::filesystem::is_regular_file(path, error)) {
@@ -28,7 +28,9 @@ const record::TableData* load(const Value& file, const std::string& name) {
     return nullptr;
   }
   try {
-    return &tables.emplace(path.string(), record::read_table(path.string())).first->second;
+    auto data = std::make_shared<const record::TableData>(record::read_table(path.string()));
+    return tables.emplace(path.string(), record::InputTable{name, std::move(data)})
+        .first->second.data.get();
   } catch (const InputError& e) {
     for (const Problem& problem : e.problems()) {
       const std::string where = problem.where.empty() ? "" : problem.where + ": ";
@@ -42,7 +44,9 @@ const std::vector<double>* find_column(const Value& key, const std::string& name
                                        const record::TableData& data) {
   const auto found = std::ranges::find(data.names, name);
   if (found == data.names.end()) {
-    refuse_name(key, {data.names.begin(), data.names.end()});
+    std::vector<std::string> names;  // the file's own, fit for a terminal
+    for (const std::string& one : data.names) names.push_back(shown(one));
+    refuse_name(key, {names.begin(), names.end()});
     return nullptr;
   }
   return &data.columns[static_cast<std::size_t>(found - data.names.begin())];

@@ -138,4 +138,26 @@ double Checks::estimate(const Track& run, double rtol, bool confirm) {
   return infinity;
 }
 
+std::vector<double> Checks::row_estimates(const Track& run, double estimate) const {
+  const auto n = static_cast<std::size_t>(coordinates(model_));
+  std::vector<double> rows(run.positions.size() / n, std::numeric_limits<double>::quiet_NaN());
+  for (const Made& made : made_) {
+    if (made.track == nullptr) continue;
+    const std::size_t common = std::min(run.positions.size(), made.track->positions.size());
+    for (std::size_t i = 0; i < common; ++i) {
+      rows[i / n] = std::fmax(rows[i / n], std::abs(run.positions[i] - made.track->positions[i]));
+    }
+  }
+  double largest = 0;
+  for (const double one : rows) largest = std::fmax(largest, one);
+  // Never more than what is said of the whole run, nor less than rounding.
+  const double factor =
+      largest > 0 ? std::clamp(estimate / largest, safety, safety_in_noise) : safety;
+  const double least = rounding(run);
+  for (double& one : rows) {
+    if (!std::isnan(one)) one = std::max(factor * one, least);
+  }
+  return rows;
+}
+
 }  // namespace bbsim::study

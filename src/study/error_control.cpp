@@ -83,6 +83,7 @@ ErrorControlled integrate_to_error(const model::Model& model, Method method, dou
     if (checks.interrupted()) best.track.outcome.ending = Ending::interrupted;
   }
   result.runs += checks.runs();
+  result.row_estimates = checks.row_estimates(best.track, result.estimate);
   deliver(best);
   return result;
 }

@@ -1,6 +1,8 @@
 // From metres of error to a method and its tolerances.
 #pragma once
 
+#include <vector>
+
 #include "model/model.hpp"
 #include "solve/outcome.hpp"
 #include "solve/output_grid.hpp"
@@ -11,8 +13,11 @@ struct ErrorControlled {
   solve::Outcome outcome;          // of the run whose rows the sink was given
   solve::Tolerances tolerances{};  // of that run
   double estimate = 0;             // of its error: max |dx|, |dy| over the rows, m
-  bool met = false;                // whether the estimate is within the bound
-  int runs = 0;                    // integrations that it took
+  // The same of each of these rows; of one that the second run did not reach it is no number. None
+  // if there is no estimate.
+  std::vector<double> row_estimates;
+  bool met = false;  // whether the estimate is within the bound
+  int runs = 0;      // integrations that it took
 };
 
 // Integrates so that x and y are within `bound` (m) at all output times.

@@ -17,7 +17,7 @@ namespace {
 
 std::vector<std::string> lines_of(const std::string& file, bool& whole, off_t& end) {
   const Descriptor descriptor(open(file.c_str(), O_RDONLY | O_CLOEXEC));
-  LineReader reader(descriptor.get(), file, Blame::input);
+  PartLines reader(descriptor.get(), file, Blame::input);
   std::vector<std::string> lines;
   std::string_view line;
   while (reader.next(line)) {
@@ -53,7 +53,7 @@ TEST_CASE("what cannot be read is an error, never an end") {
   std::string_view line;
   for (const int descriptor : {-1, open(folder.name().c_str(), O_RDONLY | O_CLOEXEC)}) {
     const Descriptor owned(descriptor);
-    LineReader input(descriptor, "a.csv", Blame::input), output(descriptor, "a.csv", Blame::output);
+    PartLines input(descriptor, "a.csv", Blame::input), output(descriptor, "a.csv", Blame::output);
     CHECK_THAT(message_of<InputError>([&] { static_cast<void>(input.next(line)); }),
                Contains("cannot read a.csv: "));
     CHECK_THAT(message_of<OutputError>([&] { static_cast<void>(output.next(line)); }),

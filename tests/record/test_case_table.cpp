@@ -1,9 +1,13 @@
 // Tables of cases: numbers, text and series, read back to the bit and block by block; the same
 // rows give the same bytes however they came, and so do parts that are merged.
 #include <hdf5.h>
+#include <hdf5_hl.h>
 #include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
+
+#include <array>
+#include <cstdint>
 
 #include "base/error.hpp"
 #include "catch.hpp"
@@ -60,7 +64,8 @@ bool same(const CaseBlock& a, const CaseBlock& b) {
   return result;
 }
 
-const Attributes some_attributes = {{"title", "über"}, {"empty", ""}, {"a", "after z"}};
+const Attributes some_attributes = {
+    {"title", "über"}, {"empty", ""}, {"a", "after z"}, {"rtol", 1e-8}, {"cases", 3000}};
 const std::vector<CaseAxis> some_axes = {{{"t", "s", "output times"}, {0, 0.5, 1}}};
 
 // Writes `rows` cases in blocks of `at_once`.
@@ -164,6 +169,49 @@ TEST_CASE("a table of cases as HDF5 sees it") {
   H5Tclose(type);
   H5Dclose(dataset);
   H5Fclose(file);
+}
+
+TEST_CASE("cases are whole numbers and the scale of all rows, times that of trajectories") {
+  const Folder folder;
+  Columns columns = three_kinds(3);
+  columns.insert(columns.begin(), {"case", "1", "number of the case, from 0"});
+  CaseBlock block = cases(0, 5, 3);
+  block.values.insert(block.values.begin(), {7, 8, 9, 10, 0x1p53});
+  block.texts.insert(block.texts.begin(), std::vector<std::string>());
+  {
+    CaseTableWriter writer(folder / "a.h5", columns, some_axes);
+    writer.append(block);
+    writer.finish({});
+  }
+  const hid_t file = H5Fopen((folder / "a.h5").c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
+  REQUIRE(file >= 0);
+  const hid_t number = H5Dopen2(file, "case", H5P_DEFAULT);
+  const hid_t type = H5Dget_type(number);
+  CHECK(H5Tequal(type, H5T_STD_I64LE) > 0);
+  std::vector<std::int64_t> numbers(5);
+  H5Dread(number, H5T_NATIVE_INT64, H5S_ALL, H5S_ALL, H5P_DEFAULT, numbers.data());
+  CHECK(numbers == std::vector<std::int64_t>{7, 8, 9, 10, 9007199254740992});
+  H5Tclose(type);
+
+  const hid_t t = H5Dopen2(file, "t", H5P_DEFAULT);
+  CHECK(H5DSis_scale(number) > 0);
+  CHECK(H5DSis_scale(t) > 0);
+  for (const char* name : {"gain", "ending", "x"}) {
+    const hid_t dataset = H5Dopen2(file, name, H5P_DEFAULT);
+    CHECK(H5DSis_scale(dataset) == 0);
+    CHECK(H5DSis_attached(dataset, number, 0) > 0);
+    if (std::string(name) == "x") CHECK(H5DSis_attached(dataset, t, 1) > 0);
+    H5Dclose(dataset);
+  }
+  H5Dclose(t);
+  H5Dclose(number);
+  H5Fclose(file);
+
+  const CaseTableReader reader(folder / "a.h5");
+  CHECK(reader.columns() == columns);
+  CaseBlock back;
+  reader.read(0, 5, back);
+  CHECK(same(back, block));
 }
 
 TEST_CASE("chunks of series are whole rows of some 100 KiB") {
@@ -502,6 +550,70 @@ TEST_CASE("attributes of other kinds and of fixed length") {
   H5Sclose(scalar);
   H5Fclose(file);
   Attributes expected = some_attributes;
+  expected.emplace_back("number", 1.5);
   expected.emplace_back("fixed", "abc");
   CHECK(CaseTableReader(folder / "a.h5").attributes() == expected);
+}
+
+TEST_CASE("files of earlier versions are read: texts of any length, numbers as texts") {
+  const Folder folder;
+  const std::string file = folder / "old.h5";
+  const hid_t id = H5Fcreate(file.c_str(), H5F_ACC_EXCL, H5P_DEFAULT, H5P_DEFAULT);
+  const hid_t text = H5Tcopy(H5T_C_S1);
+  H5Tset_size(text, H5T_VARIABLE);
+  H5Tset_cset(text, H5T_CSET_UTF8);
+  const hid_t scalar = H5Screate(H5S_SCALAR);
+  const auto put = [&](hid_t object, const char* name, const char* value) {
+    const hid_t attribute = H5Acreate2(object, name, text, scalar, H5P_DEFAULT, H5P_DEFAULT);
+    H5Awrite(attribute, text, &value);
+    H5Aclose(attribute);
+  };
+  const hsize_t rows = 2;
+  const hid_t space = H5Screate_simple(1, &rows, nullptr);
+  const hid_t number =
+      H5Dcreate2(id, "case", H5T_IEEE_F64LE, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
+  const std::array<double, 2> numbers{0, 1};
+  H5Dwrite(number, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, numbers.data());
+  put(number, "unit", "1");
+  put(number, "description", "number of the case");
+  H5Dclose(number);
+  const hid_t status = H5Dcreate2(id, "status", text, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
+  const std::array<const char*, 2> texts{"done", "failed at 1 s"};
+  H5Dwrite(status, text, H5S_ALL, H5S_ALL, H5P_DEFAULT, texts.data());
+  H5Dclose(status);
+  put(id, "cases", "2");
+  H5Sclose(space);
+  H5Sclose(scalar);
+  H5Tclose(text);
+  H5Fclose(id);
+
+  const CaseTableReader reader(file);
+  CHECK(reader.columns() ==
+        Columns{{"case", "1", "number of the case"}, {"status", "", "", CaseKind::text}});
+  CHECK(reader.attributes() == Attributes{{"cases", "2"}});
+  CHECK(reader.read_inputs().empty());
+  CaseBlock block;
+  reader.read(0, 2, block);
+  CHECK(block.values[0] == std::vector<double>{0, 1});
+  CHECK(block.texts[1] == std::vector<std::string>{"done", "failed at 1 s"});
+}
+
+TEST_CASE("texts of one length are texts") {
+  const Folder folder;
+  const hid_t id = H5Fcreate((folder / "a.h5").c_str(), H5F_ACC_EXCL, H5P_DEFAULT, H5P_DEFAULT);
+  const hid_t text = H5Tcopy(H5T_C_S1);
+  H5Tset_size(text, 4);
+  const hsize_t rows = 3;
+  const hid_t space = H5Screate_simple(1, &rows, nullptr);
+  const hid_t dataset = H5Dcreate2(id, "s", text, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
+  H5Dwrite(dataset, text, H5S_ALL, H5S_ALL, H5P_DEFAULT, "done\0\0\0\0ab\0\0");
+  H5Dclose(dataset);
+  H5Sclose(space);
+  H5Tclose(text);
+  H5Fclose(id);
+  CaseBlock block;
+  const CaseTableReader reader(folder / "a.h5");
+  REQUIRE(reader.columns()[0].kind == CaseKind::text);
+  reader.read(0, 3, block);
+  CHECK(block.texts[0] == std::vector<std::string>{"done", "", "ab"});
 }

@@ -1,9 +1,14 @@
 // CSV: written and read back to the bit; what is no table of numbers is refused, with its place.
+#include <sys/stat.h>
+
 #include <bit>
+#include <chrono>
 #include <cmath>
 #include <cstdint>
+#include <fstream>
 #include <limits>
 #include <random>
+#include <thread>
 
 #include "base/error.hpp"
 #include "catch.hpp"
@@ -178,7 +183,10 @@ TEST_CASE("what is no number is refused") {
 }
 
 TEST_CASE("what is found is shown fit for a terminal") {
-  CHECK_THAT(refusal("t\n\x1b[31mred\n"), Contains("found \"?[31mred\""));
+  CHECK_THAT(refusal("t\n\x1b[31mred\n"), Contains("found \"\\x1b[31mred\""));
+  // A header may not hold control characters, but all else that turns a terminal's head.
+  CHECK(refusal("t,\u009b31mx\n1,y\n") ==
+        "a.csv:2:3: column \\u009b31mx: found \"y\", a number is expected");
   CHECK_THAT(refusal("t\n" + std::string(100000, 'z') + "\n"),
              Contains("found \"" + std::string(40, 'z') + "...\""));
 }
@@ -209,4 +217,57 @@ TEST_CASE("a file that cannot be read is an InputError") {
         "cannot read " + (folder / "none.csv") + ": no such file or directory");
   CHECK_THAT(message_of<InputError>([&] { (void)read_table(folder.name()); }),
              Contains("is a directory"));
+}
+
+TEST_CASE("a line that does not end is refused, of devices and of files") {
+  const std::string limit = ":1:1: found a line of more than 1048576 bytes";
+  CHECK_THAT(message_of<InputError>([] { (void)read_table("/dev/zero"); }),
+             Contains("/dev/zero" + limit));
+  CHECK_THAT(refusal(std::string(3000000, 'x')), Contains("a.csv" + limit));
+  CHECK_THAT(refusal("t\n" + std::string(1048577, '1') + "\n"),
+             Contains("a.csv:2:1: found a line of more than"));
+  // One byte less is a number, if too large a one.
+  CHECK_THAT(refusal("t\n" + std::string(1048576, '1') + "\n"), Contains("too large for a double"));
+  // What begins well is read as far as it is well.
+  CHECK_FALSE(message_of<InputError>([] { (void)read_table("/dev/urandom"); }).empty());
+  CHECK_THAT(message_of<InputError>([] { (void)read_table("/dev/null"); }),
+             Contains("/dev/null:1:1: found no header"));
+}
+
+TEST_CASE("a long row is read, and rows across what is read at a time") {
+  std::string header = "c0", row = "0";
+  for (int c = 1; c < 50000; ++c) {
+    header.append(",c").append(std::to_string(c));
+    row.append(",").append(std::to_string(c));
+  }
+  const TableData wide = parsed(header + "\n" + row + "\r\n" + row + "\n");
+  REQUIRE(wide.columns.size() == 50000);
+  CHECK(wide.columns[49999] == std::vector<double>{49999, 49999});
+
+  std::string content = "t,x\n";
+  for (int i = 0; i < 100000; ++i)
+    content.append(std::to_string(i)).append(",").append(std::to_string(2 * i)).append("\n");
+  const TableData rows = parsed(content);
+  REQUIRE(rows.columns[1].size() == 100000);
+  bool right = true;
+  for (std::size_t i = 0; i < 100000; ++i) {
+    right = right && rows.columns[1][i] == 2 * static_cast<double>(i);
+  }
+  CHECK(right);
+}
+
+TEST_CASE("a pipe is read as it comes") {
+  const Folder folder;
+  const std::string pipe = folder / "pipe.csv";
+  REQUIRE(mkfifo(pipe.c_str(), 0600) == 0);
+  std::thread writer([&pipe] {
+    std::ofstream stream(pipe);
+    for (const char* part : {"t,", "x\n1", ",2\n", "3,4\r", "\n5,6"}) {
+      stream << part << std::flush;
+      std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    }
+  });
+  const TableData table = read_table(pipe);
+  writer.join();
+  CHECK(table.columns == std::vector<std::vector<double>>{{1, 3, 5}, {2, 4, 6}});
 }

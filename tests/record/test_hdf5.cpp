@@ -6,17 +6,24 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <array>
+#include <memory>
+
 #include "base/error.hpp"
 #include "catch.hpp"
 #include "folder.hpp"
 #include "limits.hpp"
+#include "record/case_table.hpp"
 #include "record/hdf5_module.hpp"
 #include "record/table_writer.hpp"
 #include "tables.hpp"
 
 using bbsim::InputError;
 using bbsim::OutputError;
+using bbsim::record::CaseTableReader;
+using bbsim::record::find_hdf5_reader;
 using bbsim::record::hdf5_module_folders;
+using bbsim::record::InputTable;
 using bbsim::record::open_hdf5_module;
 using bbsim::record::open_table;
 using bbsim::record::read_table;
@@ -25,20 +32,46 @@ using Catch::Matchers::Contains;
 
 namespace {
 
-// A string attribute of an object, read with HDF5 itself; "" if it is no UTF-8 string.
+// A string attribute of an object, read with HDF5 itself; "" if it is no UTF-8 string of its own,
+// fixed length.
 std::string attribute_of(hid_t file, const char* object, const char* name) {
   const hid_t attribute = H5Aopen_by_name(file, object, name, H5P_DEFAULT, H5P_DEFAULT);
   const hid_t type = H5Aget_type(attribute);
   std::string text;
-  char* value = nullptr;
-  if (H5Tis_variable_str(type) > 0 && H5Tget_cset(type) == H5T_CSET_UTF8 &&
-      H5Aread(attribute, type, static_cast<void*>(&value)) >= 0) {
-    text = value;
-    H5free_memory(value);
+  if (H5Tget_class(type) == H5T_STRING && H5Tis_variable_str(type) == 0 &&
+      H5Tget_cset(type) == H5T_CSET_UTF8) {
+    text.resize(H5Tget_size(type));
+    H5Aread(attribute, type, text.data());
+    text.resize(text.size() - 1);  // its end
   }
   H5Tclose(type);
   H5Aclose(attribute);
   return text;
+}
+
+// What an attribute of the root is of; the value, as a double.
+struct Number {
+  H5T_class_t kind;
+  std::size_t bytes;
+  double value;
+};
+Number number_of(hid_t file, const char* name) {
+  const hid_t attribute = H5Aopen(file, name, H5P_DEFAULT);
+  const hid_t type = H5Aget_type(attribute);
+  Number number{H5Tget_class(type), H5Tget_size(type), 0};
+  H5Aread(attribute, H5T_NATIVE_DOUBLE, &number.value);
+  H5Tclose(type);
+  H5Aclose(attribute);
+  return number;
+}
+
+bool is_attached(hid_t file, const char* dataset, const char* scale, unsigned dimension) {
+  const hid_t one = H5Dopen2(file, dataset, H5P_DEFAULT);
+  const hid_t other = H5Dopen2(file, scale, H5P_DEFAULT);
+  const bool attached = H5DSis_attached(one, other, dimension) > 0;
+  H5Dclose(other);
+  H5Dclose(one);
+  return attached;
 }
 
 // Writes a file of doubles or strings as another program might.
@@ -92,6 +125,7 @@ TEST_CASE("HDF5 carries units, descriptions, the scale t and the run's attribute
   const hid_t id = H5Fopen(file.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
   REQUIRE(id >= 0);
   CHECK(attribute_of(id, "x", "unit") == "m");
+  CHECK(attribute_of(id, "x", "units") == "m");
   CHECK(attribute_of(id, "x", "description") == "one value a row");
   CHECK(attribute_of(id, "t", "unit") == "m");
   CHECK(attribute_of(id, "/", "title") == "ψ, über");
@@ -119,10 +153,115 @@ TEST_CASE("HDF5 carries units, descriptions, the scale t and the run's attribute
   H5Fclose(id);
 }
 
+TEST_CASE("numbers among the attributes are numbers") {
+  const Folder folder;
+  const std::string file = folder / "a.h5";
+  write_table(file, {{"t"}, {{0}}},
+              {{"rtol", 1e-8}, {"rows", std::size_t{1} << 40U}, {"below", -1}, {"text", "1e-8"}});
+  const hid_t id = H5Fopen(file.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
+  REQUIRE(id >= 0);
+  const Number rtol = number_of(id, "rtol"), rows = number_of(id, "rows");
+  CHECK((rtol.kind == H5T_FLOAT && rtol.bytes == 8 && rtol.value == 1e-8));
+  CHECK((rows.kind == H5T_INTEGER && rows.bytes == 8 && rows.value == 0x1p40));
+  CHECK(number_of(id, "below").value == -1);
+  CHECK(attribute_of(id, "/", "text") == "1e-8");
+  H5Fclose(id);
+}
+
+TEST_CASE("a unit that is not known is none of UDUNITS") {
+  const Folder folder;
+  const auto writer = open_table(folder / "a.h5", {{"x", "", "a gain"}, {"n", "1", "a count"}});
+  writer->finish({});
+  const hid_t id = H5Fopen((folder / "a.h5").c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
+  CHECK(H5Aexists_by_name(id, "x", "unit", H5P_DEFAULT) > 0);
+  CHECK(H5Aexists_by_name(id, "x", "units", H5P_DEFAULT) == 0);
+  CHECK(attribute_of(id, "n", "units") == "1");
+  H5Fclose(id);
+}
+
+TEST_CASE("a column that is known only at the end stands beside the others") {
+  const Folder folder;
+  const std::string file = folder / "a.h5";
+  const std::vector<double> values{1, 2, 3};
+  const double* column = values.data();
+  {
+    const auto writer = open_table(file, {{"t", "s", "time"}});
+    writer->append({&column, 1}, 3);
+    writer->add_column({"position_error", "m", "estimate"}, {1e-9, 2e-9, 3e-9});
+    writer->finish({});
+  }
+  const TableData back = read_table(file);
+  CHECK(back.names == std::vector<std::string>{"t", "position_error"});
+  CHECK(back.columns[1] == std::vector<double>{1e-9, 2e-9, 3e-9});
+  const hid_t id = H5Fopen(file.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
+  CHECK(attribute_of(id, "position_error", "units") == "m");
+  CHECK(attribute_of(id, "position_error", "description") == "estimate");
+  CHECK(is_attached(id, "position_error", "t", 0));
+  H5Fclose(id);
+
+  const auto writer = open_table(file, {{"t", "s", "time"}});
+  writer->append({&column, 1}, 3);
+  CHECK_THROWS_AS(writer->add_column({"e", "m", ""}, {1}), OutputError);
+}
+
+TEST_CASE("the tables that a scenario read go with its results, under any name") {
+  const Folder folder;
+  const std::string file = folder / "a.h5";
+  const TableData motion = random_table(3, 5000);
+  TableData odd;
+  odd.names = {"x (m/s)", "x (m_s)", ".", "a/b/c"};
+  odd.columns.assign(4, {1, 2});
+  const auto shared = [](const TableData& table) {
+    return std::make_shared<const TableData>(table);
+  };
+  const std::vector<InputTable> inputs{{"motion.csv", shared(motion)},
+                                       {"../b/odd.csv", shared(odd)},
+                                       {"c/odd.csv", shared(odd)},
+                                       {"none.csv", shared({{"t"}, {{}}})}};
+  {
+    const auto writer = open_table(file, {{"t", "s", "time"}});
+    writer->keep(inputs);
+    writer->finish({});
+  }
+  CHECK(read_table(file).names == std::vector<std::string>{"t"});  // they are no columns
+
+  const hid_t id = H5Fopen(file.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
+  CHECK(attribute_of(id, "inputs/motion.csv", "file") == "motion.csv");
+  CHECK(attribute_of(id, "inputs/odd.csv", "file") == "../b/odd.csv");
+  CHECK(attribute_of(id, "inputs/odd.csv (2)", "file") == "c/odd.csv");
+  CHECK(attribute_of(id, "inputs/odd.csv/x (m_s)", "column") == "x (m/s)");
+  CHECK(attribute_of(id, "inputs/odd.csv/x (m_s) (2)", "column") == "x (m_s)");
+  CHECK(attribute_of(id, "inputs/odd.csv/._", "column") == ".");
+  std::vector<double> numbers(5000);
+  const hid_t column = H5Dopen2(id, "inputs/motion.csv/c2", H5P_DEFAULT);
+  REQUIRE(column >= 0);
+  H5Dread(column, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, numbers.data());
+  CHECK(same_bits(numbers, motion.columns[2]));
+  H5Dclose(column);
+  H5Fclose(id);
+
+  const std::vector<InputTable> back = CaseTableReader(file).read_inputs();
+  REQUIRE(back.size() == 4);
+  for (std::size_t i = 0; i < back.size(); ++i) {
+    CHECK(back[i].file == inputs[i].file);
+    CHECK(back[i].data->names == inputs[i].data->names);
+    REQUIRE(back[i].data->columns.size() == inputs[i].data->columns.size());
+    for (std::size_t c = 0; c < back[i].data->columns.size(); ++c) {
+      CHECK(same_bits(back[i].data->columns[c], inputs[i].data->columns[c]));
+    }
+  }
+}
+
 TEST_CASE("the same table gives the same bytes") {
   const Folder folder;
   for (const std::string name : {"a.h5", "b.h5"}) {
-    write_table(folder / name, {{"t", "x"}, {{0, 1}, {2, 3}}}, {{"status", "done"}});
+    const auto writer = open_table(folder / name, {{"t", "s", ""}, {"x", "m", ""}});
+    writer->keep({{"in.csv", std::make_shared<const TableData>(random_table(2, 50))}});
+    const std::vector<double> t{0, 1}, x{2, 3};
+    const std::array<const double*, 2> columns{t.data(), x.data()};
+    writer->append(columns, 2);
+    writer->add_column({"e", "m", ""}, {5, 6});
+    writer->finish({{"status", "done"}, {"rtol", 1e-8}, {"rows", 2}});
     sleep(name == "a.h5" ? 1 : 0);  // HDF5 stamps objects with whole seconds
   }
   CHECK_FALSE(content_of(folder / "a.h5").empty());
@@ -257,6 +396,11 @@ TEST_CASE("a missing module is told, and what to do") {
                             (folder / "b") +
                             "; write or read .csv instead, or install bbsim whole, or set "
                             "BBSIM_MODULE_PATH to the module's folder");
+  const auto reader = find_hdf5_reader({folder / "a"});
+  CHECK(reader.path.empty());
+  CHECK(reader.trouble == "the HDF5 reader bbsim-hdf5-reader is not in " + (folder / "a") +
+                              "; write or read .csv instead, or install bbsim whole, or set "
+                              "BBSIM_MODULE_PATH to the module's folder");
 
   folder.put("libbbsim_hdf5.so", "no library");
   const auto broken = open_hdf5_module({folder.name()});

@@ -137,3 +137,39 @@ TEST_CASE("a table must cover a run that an override makes longer") {
                     Contains("found times from 0 to 10 s; allowed: a table that covers the run, 0 "
                              "to 11 s"));
 }
+
+TEST_CASE("the tables that were read are told, as the scenario names them") {
+  const TemporaryFolder folder;
+  const std::string table = "t,angle,other\n0,0,1\n1,0.1,2\n2,0,3\n3,0.1,4\n";
+  static_cast<void>(folder.write("a.csv", table));
+  static_cast<void>(folder.write("b.csv", table));
+  const std::string text =
+      "ball: {radius: 0.01}\n"
+      "time: {end: 3, step: 1}\n"
+      "gimbal: {motion: {phi: {table: {file: a.csv, time: t, value: angle}},\n"
+      "                  theta: [{table: {file: ./b.csv, time: t, value: angle}},\n"
+      "                          {table: {file: a.csv, time: t, value: other}}]}}\n";
+  std::vector<record::InputTable> inputs;
+  static_cast<void>(parse_scenario(text, folder.file("scene.yaml"), {}, &inputs));
+  REQUIRE(inputs.size() == 2);
+  CHECK(inputs[0].file == "./b.csv");
+  CHECK(inputs[1].file == "a.csv");
+  CHECK(inputs[1].data->names == std::vector<std::string>{"t", "angle", "other"});
+  CHECK(inputs[1].data->columns[2] == std::vector<double>{1, 2, 3, 4});
+}
+
+TEST_CASE("what a table calls its columns is shown fit for a terminal") {
+  const TemporaryFolder folder;
+  static_cast<void>(folder.write("a.csv", "t,x\u009b2J\n0,0\n1,1\n2,2\n3,3\n"));
+  const std::string text =
+      "ball: {radius: 0.01}\n"
+      "time: {end: 3, step: 1}\n"
+      "gimbal: {motion: {phi: {table: {file: a.csv, time: t, value: y}}}}\n";
+  std::string message;
+  try {
+    static_cast<void>(parse_scenario(text, folder.file("scene.yaml")));
+  } catch (const InputError& error) {
+    message = error.what();
+  }
+  CHECK_THAT(message, Contains("one of t, x\\u009b2J"));
+}

@@ -125,3 +125,15 @@ TEST_CASE("numbers do not depend on the locale") {
   }
   std::setlocale(LC_ALL, before.c_str());
 }
+
+TEST_CASE("the SI unit of a dimension reads as one of it") {
+  for (const Dimension dimension :
+       {Dimension::length, Dimension::mass, Dimension::time, Dimension::angle,
+        Dimension::angular_rate, Dimension::velocity, Dimension::acceleration}) {
+    const std::string unit(si_unit(dimension));
+    CAPTURE(unit);
+    CHECK(read_quantity("3 " + unit, true, dimension).value == 3);
+  }
+  CHECK(si_unit(Dimension::number).empty());
+  CHECK(si_unit(Dimension::angular_rate) == "rad/s");
+}

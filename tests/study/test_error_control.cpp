@@ -175,3 +175,21 @@ TEST_CASE("a scene that ends early ends early whatever error is asked for") {
   CHECK_FALSE(result.met);
   CHECK(rows.rows() >= 75);
 }
+
+TEST_CASE("each row has an estimate, of which the greatest is that of the run") {
+  const Scenario scene = scenario_named("fig2b");
+  const model::Model model = model::assemble(scene, false);
+  const solve::OutputGrid grid(scene.time);
+  solve::Trajectory rows(model.size());
+  const auto result = study::integrate_to_error(model, Method::automatic, 1e-6, grid, rows);
+  REQUIRE(result.met);
+  REQUIRE(result.row_estimates.size() == rows.rows());
+  double greatest = 0;
+  for (const double estimate : result.row_estimates) {
+    CHECK(estimate > 0);
+    greatest = std::max(greatest, estimate);
+  }
+  CHECK(greatest == result.estimate);
+  // Nothing is wrong at the start, where both runs begin, but for rounding.
+  CHECK(result.row_estimates.front() < 1e-3 * result.estimate);
+}

@@ -1,25 +1,29 @@
-// Owned HDF5 identifiers and checked calls, inside the module.
+// Owned HDF5 identifiers and checked calls, for the module and the reader.
 #pragma once
 
 #include <hdf5.h>
 
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <utility>
 
 namespace bbsim::hdf5 {
 
-// A call of HDF5 failed. Caught before it leaves the module.
+// A call of HDF5 failed. Caught before it leaves the module or the reader.
 class Failure : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
 // Throws Failure with the most specific entry of HDF5's own error stack.
-[[noreturn]] void fail(const char* doing);
+[[noreturn]] void fail(std::string_view doing);
+
+// Of what fails HDF5 is to write nothing to standard error.
+void keep_errors_to_ourselves();
 
 // Passes a result on; HDF5 marks failure by a negative one.
 template <class Result>
-Result check(Result result, const char* doing) {
+Result check(Result result, std::string_view doing) {
   if (result < 0) fail(doing);
   return result;
 }
@@ -28,7 +32,7 @@ template <herr_t (*close)(hid_t)>
 class Handle {
  public:
   Handle() = default;
-  Handle(hid_t id, const char* doing) : id_(check(id, doing)) {}
+  Handle(hid_t id, std::string_view doing) : id_(check(id, doing)) {}
   Handle(Handle&& other) noexcept : id_(std::exchange(other.id_, -1)) {}
   Handle& operator=(Handle&& other) noexcept {
     std::swap(id_, other.id_);
@@ -40,7 +44,7 @@ class Handle {
   operator hid_t() const { return id_; }
 
   // Closes now, for the errors that only closing brings to light.
-  void close_checked(const char* doing) { check(close(std::exchange(id_, -1)), doing); }
+  void close_checked(std::string_view doing) { check(close(std::exchange(id_, -1)), doing); }
 
  private:
   hid_t id_ = -1;

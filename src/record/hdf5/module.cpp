@@ -2,32 +2,16 @@
 // bbsim_hdf5_error at the border.
 #include <exception>
 #include <memory>
+#include <string_view>
 
 #include "record/hdf5/interface.h"
-#include "record/hdf5/reader.hpp"
 #include "record/hdf5/writer.hpp"
 
 struct bbsim_hdf5_writer {
   bbsim::hdf5::Writer writer;
 };
-struct bbsim_hdf5_reader {
-  bbsim::hdf5::Reader reader;
-};
 
 namespace bbsim::hdf5 {
-
-void fail(const char* doing) {
-  std::string reason;
-  // Upward begins with the most specific entry.
-  H5Ewalk2(
-      H5E_DEFAULT, H5E_WALK_UPWARD,
-      [](unsigned, const H5E_error2_t* entry, void* text) -> herr_t {
-        *static_cast<std::string*>(text) = entry->desc != nullptr ? entry->desc : "";
-        return 1;  // enough
-      },
-      &reason);
-  throw Failure(std::string(doing) + " failed" + (reason.empty() ? "" : ": " + reason));
-}
 
 namespace {
 
@@ -41,7 +25,7 @@ void set_error(bbsim_hdf5_error& error, int system_error, std::string_view text)
 template <class Action>
 int guarded(bbsim_hdf5_error* error, Action action) noexcept {
   try {
-    H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);  // nothing on standard error: we report
+    keep_errors_to_ourselves();
     action();
     return 0;
   } catch (const std::exception& exception) {
@@ -76,9 +60,23 @@ int write_axis(bbsim_hdf5_writer* writer, const bbsim_hdf5_column* axis, const d
   return with_system_error(result, writer->writer, error);
 }
 
+int write_column(bbsim_hdf5_writer* writer, const bbsim_hdf5_column* column, const double* values,
+                 bbsim_hdf5_error* error) {
+  const int result = guarded(error, [&] { writer->writer.write_column(*column, values); });
+  return with_system_error(result, writer->writer, error);
+}
+
 int append(bbsim_hdf5_writer* writer, const bbsim_hdf5_values* columns, std::size_t rows,
            bbsim_hdf5_error* error) {
   const int result = guarded(error, [&] { writer->writer.append(columns, rows); });
+  return with_system_error(result, writer->writer, error);
+}
+
+int write_input(bbsim_hdf5_writer* writer, const char* name, const char* file,
+                const bbsim_hdf5_input_column* columns, std::size_t count, std::size_t rows,
+                bbsim_hdf5_error* error) {
+  const int result = guarded(
+      error, [&] { writer->writer.write_input(name, file, std::span(columns, count), rows); });
   return with_system_error(result, writer->writer, error);
 }
 
@@ -93,35 +91,12 @@ void destroy(bbsim_hdf5_writer* writer) {
   guarded(&ignored, [&] { delete writer; });
 }
 
-bbsim_hdf5_reader* open(const char* path, const bbsim_hdf5_contents* contents,
-                        bbsim_hdf5_error* error) {
-  bbsim_hdf5_reader* reader = nullptr;
-  guarded(error, [&] { reader = new bbsim_hdf5_reader{Reader(path, *contents)}; });
-  return reader;
-}
-
-int read_numbers(bbsim_hdf5_reader* reader, std::size_t dataset, std::size_t first,
-                 std::size_t rows, double* to, bbsim_hdf5_error* error) {
-  return guarded(error, [&] { reader->reader.read_numbers(dataset, first, rows, to); });
-}
-
-int read_texts(bbsim_hdf5_reader* reader, std::size_t dataset, std::size_t first, std::size_t rows,
-               const bbsim_hdf5_texts* to, bbsim_hdf5_error* error) {
-  return guarded(error, [&] { reader->reader.read_texts(dataset, first, rows, *to); });
-}
-
-void close(bbsim_hdf5_reader* reader) {
-  bbsim_hdf5_error ignored{};
-  guarded(&ignored, [&] { delete reader; });
-}
-
 }  // namespace
 }  // namespace bbsim::hdf5
 
 extern "C" __attribute__((visibility("default"))) const bbsim_hdf5_module* bbsim_hdf5_entry() {
   using namespace bbsim::hdf5;
-  static const bbsim_hdf5_module module{
-      BBSIM_HDF5_INTERFACE, create,     write_axis, append, finish, destroy, open,
-      read_numbers,         read_texts, close};
+  static const bbsim_hdf5_module module{BBSIM_HDF5_INTERFACE, create,      write_axis, append,
+                                        write_column,         write_input, finish,     destroy};
   return &module;
 }

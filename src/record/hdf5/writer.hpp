@@ -18,6 +18,9 @@ class Writer {
   void start(int descriptor, std::span<const bbsim_hdf5_column> columns);  // first of all
   void write_axis(const bbsim_hdf5_column& axis, const double* values);
   void append(const bbsim_hdf5_values* columns, std::size_t rows);
+  void write_column(const bbsim_hdf5_column& column, const double* values);
+  void write_input(const char* name, const char* file,
+                   std::span<const bbsim_hdf5_input_column> columns, std::size_t rows);
   void finish(std::span<const bbsim_hdf5_attribute> attributes);
 
   [[nodiscard]] int system_error() const { return *system_error_; }  // an errno, 0 if none
@@ -29,9 +32,13 @@ class Writer {
     hsize_t width;
   };
 
+  void attach_scale(std::span<const bbsim_hdf5_column> columns);
+
   std::unique_ptr<int> system_error_ = std::make_unique<int>(0);  // outlives file_
   File file_;
+  Group inputs_;  // once there is one
   std::vector<Column> columns_;
+  hid_t scale_ = -1;  // of the rows: the dataset of one of the columns
   hsize_t rows_ = 0;
 };
 

@@ -1,0 +1,19 @@
+// A piece of text that others wrote, within a sentence of ours.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+
+namespace bbsim {
+
+// On one line, fit for a terminal (printable.hpp), and cut off after that many bytes of the text.
+[[nodiscard]] std::string shown(std::string_view text, std::size_t longest = 60);
+
+// The same in quotation marks; "nothing" for an empty text.
+[[nodiscard]] std::string quoted(std::string_view text, std::size_t longest = 60);
+
+// For what is never cut off, such as the name of a file.
+inline constexpr std::size_t uncut = static_cast<std::size_t>(-1);
+
+}  // namespace bbsim

@@ -1,0 +1,187 @@
+// HDF5 files as results: alike runs alike to the byte, with all that is needed to run them again;
+// and files that do the program harm.
+#include <sys/stat.h>
+
+#include <algorithm>
+#include <chrono>
+#include <csignal>
+#include <cstdlib>
+#include <fstream>
+#include <string>
+#include <vector>
+
+#include "catch.hpp"
+#include "process.hpp"
+#include "record/case_table.hpp"
+#include "record/number_text.hpp"
+
+// Within it `bbsim` is what runs the program, and `bbsim::` still the program's own namespace.
+namespace bbsim_test {
+
+using bbsim::record::AttributeValue;
+using bbsim::record::CaseTableReader;
+using bbsim::record::InputTable;
+using Catch::Matchers::Contains;
+
+namespace {
+
+AttributeValue attribute_of(const CaseTableReader& file, const std::string& name) {
+  for (const auto& [known, value] : file.attributes()) {
+    if (known == name) return value;
+  }
+  return "absent";
+}
+
+std::string as_csv(const bbsim::record::TableData& table) {
+  std::string text;
+  for (const std::string& name : table.names) text += (text.empty() ? "" : ",") + name;
+  for (std::size_t row = 0; row < table.columns[0].size(); ++row) {
+    for (std::size_t c = 0; c < table.columns.size(); ++c) {
+      text += c == 0 ? '\n' : ',';
+      text += bbsim::record::number_text(table.columns[c][row]);
+    }
+  }
+  return text + '\n';
+}
+
+void run(const std::vector<std::string>& arguments, const Folder& folder) {
+  const Result result = bbsim(arguments, folder.path());
+  CAPTURE(arguments, result.err);
+  REQUIRE(result.exit_code == 0);
+}
+
+}  // namespace
+
+TEST_CASE("runs that are alike give the same HDF5 file to the byte, whatever it is called") {
+  const Folder folder;
+  for (const std::string name : {"a.h5", "b.h5"}) {
+    run({"run", config("rig.yaml"), "-q", "--set", "time.end=1", "-o", name}, folder);
+    run({"run", config("hold.yaml"), "-q", "--error", "1e-6", "-o", "error-" + name}, folder);
+    run({"sweep", config("fig2a.yaml"), "-q", "--vary", "ball.radius=linear:0.01:0.02:40", "-j",
+         name == "a.h5" ? "1" : "2", "-o", "sweep-" + name},
+        folder);
+  }
+  for (const std::string kind : {"", "error-", "sweep-"}) {
+    CAPTURE(kind);
+    const std::string a = folder.read(kind + "a.h5");
+    CHECK_FALSE(a.empty());
+    const bool same = a == folder.read(kind + "b.h5");
+    CHECK(same);
+  }
+}
+
+TEST_CASE("a run can be run again from its HDF5 file alone, to the byte") {
+  const Folder folder, other;
+  run({"run", config("recorded.yaml"), "-q", "--set", "time.step=0.05", "-o", folder / "a.h5"},
+      folder);
+  const CaseTableReader file(folder / "a.h5");
+  other.write("recorded.yaml", attribute_of(file, "scenario_text").text());
+  const std::vector<InputTable> inputs = file.read_inputs();
+  REQUIRE(inputs.size() == 1);
+  for (const auto& [name, data] : inputs) other.write(name, as_csv(*data));
+  CHECK(attribute_of(file, "overrides") == AttributeValue("time.step=0.05"));
+  run({"run", "recorded.yaml", "-q", "--set", "time.step=0.05", "-o", "a.h5"}, other);
+
+  run({"run", config("recorded.yaml"), "-q", "--set", "time.step=0.05", "-o", "a.csv"}, folder);
+  run({"run", "recorded.yaml", "-q", "--set", "time.step=0.05", "-o", "a.csv"}, other);
+  CHECK(folder.read("a.csv") == other.read("a.csv"));
+  const CaseTableReader again(other / "a.h5");
+  CHECK(again.rows() == file.rows());
+  CHECK(again.columns() == file.columns());
+}
+
+TEST_CASE("with a bound on the error, each row has its estimate") {
+  const Folder folder;
+  run({"run", config("fig2b.yaml"), "-q", "--error", "1 um", "-o", "a.h5"}, folder);
+  run({"run", config("fig2b.yaml"), "-q", "-o", "b.h5"}, folder);
+  const CaseTableReader file(folder / "a.h5");
+  const auto column = std::find_if(file.columns().begin(), file.columns().end(),
+                                   [](const auto& one) { return one.name == "position_error"; });
+  REQUIRE(column != file.columns().end());
+  CHECK(column->unit == "m");
+  bbsim::record::CaseBlock block;
+  file.read(0, file.rows(), block);
+  const auto& errors = block.values[static_cast<std::size_t>(column - file.columns().begin())];
+  REQUIRE(errors.size() == file.rows());
+  const double greatest = *std::max_element(errors.begin(), errors.end());
+  CHECK(attribute_of(file, "error_estimate") == AttributeValue(greatest));
+  CHECK(greatest < 1e-6);
+  CHECK(attribute_of(file, "error_bound") == AttributeValue(1e-6));
+  const CaseTableReader without(folder / "b.h5");
+  CHECK(without.columns().size() == file.columns().size() - 1);
+}
+
+TEST_CASE("a sweep's HDF5 file has numbers as numbers, units of the keys, and its tables") {
+  const Folder folder;
+  run({"sweep", config("recorded.yaml"), "-q", "--vary", "ball.position.0=linear:0:0.1:5", "--vary",
+       "ball.spin=normal:0:1", "--vary", "ball.inertia_factor=list:0.4,0.5", "--samples", "2",
+       "--seed", "9", "-o", "a.h5"},
+      folder);
+  const CaseTableReader file(folder / "a.h5");
+  CHECK(attribute_of(file, "cases") == AttributeValue(20));
+  CHECK(attribute_of(file, "samples") == AttributeValue(2));
+  CHECK(attribute_of(file, "seed") == AttributeValue(9));
+  CHECK(file.columns()[1].unit == "m");
+  CHECK(file.columns()[2].unit == "rad/s");
+  CHECK(file.columns()[3].unit.empty());
+  CHECK(file.read_inputs().size() == 1);
+}
+
+TEST_CASE("parts of a sweep are merged with their tables, and not where these differ") {
+  const Folder folder;
+  const std::string rows = "\n0,0\n1,0.01\n2,0\n3,0.01\n";
+  folder.write("table.csv", "t,phi" + rows);
+  folder.write("scene.yaml",
+               "ball: {radius: 0.01}\n"
+               "gimbal: {motion: {phi: {table: {file: table.csv, time: t, value: phi}}}}\n"
+               "time: {end: 3, step: 1}\n");
+  const auto sweep = [&](const std::vector<std::string>& more) {
+    std::vector<std::string> arguments{"sweep",
+                                       "scene.yaml",
+                                       "-q",
+                                       "--vary",
+                                       "ball.position.0=linear:0:0.1:8",
+                                       "--keep-trajectories"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    run(arguments, folder);
+  };
+  sweep({"-o", "whole.h5"});
+  sweep({"--shard", "1/2", "-o", "part-1of2.h5"});
+  sweep({"--shard", "2/2", "-o", "part-2of2.h5"});
+  run({"merge", "part-1of2.h5", "part-2of2.h5", "-q", "-o", "merged.h5"}, folder);
+  const bool same = folder.read("merged.h5") == folder.read("whole.h5");
+  CHECK(same);
+
+  folder.write("table.csv", "t,phi" + rows + "4,0\n");
+  sweep({"--shard", "2/2", "-o", "part-2of2.h5"});
+  const Result result =
+      bbsim({"merge", "part-1of2.h5", "part-2of2.h5", "-o", "other.h5"}, folder.path());
+  CHECK(result.exit_code == 2);
+  CHECK_THAT(result.err, Contains("part-2of2.h5: found other columns or another scenario"));
+}
+
+TEST_CASE("a device that never ends is refused before the memory is full") {
+  const Result result = bbsim({"compare", "/dev/zero", "/dev/zero"});
+  CHECK(result.exit_code == 2);
+  CHECK(result.err ==
+        "/dev/zero:1:1: found a line of more than 1048576 bytes; allowed: rows of a table, one a "
+        "line\n");
+}
+
+TEST_CASE("Ctrl-C ends the program while HDF5 goes in circles") {
+  const Folder folder;
+  run({"run", config("incline.yaml"), "-q", "-o", "a.h5"}, folder);
+  const std::string reader = folder.write("bbsim-hdf5-reader", "#!/bin/sh\nexec sleep 20\n");
+  chmod(reader.c_str(), 0755);
+  const char* before = std::getenv("BBSIM_MODULE_PATH");
+  const std::string kept = before == nullptr ? "" : before;
+  setenv("BBSIM_MODULE_PATH", folder.path().c_str(), 1);
+  const Result result = bbsim(Launch{
+      {"compare", folder / "a.h5", folder / "a.h5"}, {}, SIGINT, std::chrono::milliseconds(500)});
+  if (before != nullptr) setenv("BBSIM_MODULE_PATH", kept.c_str(), 1);
+  if (before == nullptr) unsetenv("BBSIM_MODULE_PATH");
+  CHECK(result.exit_code == 130);
+  CHECK(result.seconds < 10);
+}
+
+}  // namespace bbsim_test
