@@ -3,7 +3,6 @@
 #include <CLI/App.hpp>
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <cstdlib>
 #include <filesystem>
 #include <memory>
@@ -11,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "assemble.hpp"
 #include "commands.hpp"
 #include "describe.hpp"
 #include "gnuplot.hpp"
@@ -25,6 +25,7 @@
 #include "solve/choose.hpp"
 #include "solve/output_grid.hpp"
 #include "study/accuracy_text.hpp"
+#include "terminal.hpp"
 
 namespace bbsim::app {
 namespace {
@@ -90,12 +91,10 @@ study::Picture picture_of(const std::string& file) {
 }
 
 void explain_reference(const study::AccuracyStudy& study, double end) {
-  std::fprintf(stderr, "the reference's own error: about %.1e m\n", study.reference_error);
+  say("the reference's own error: about " + rounded(study.reference_error, 2) + " m");
   if (!study.reference_complete && !study.interrupted) {
-    std::fprintf(stderr,
-                 "the reference ended at t = %s s of %s s, and errors are those before: %s\n",
-                 short_number(study.reference_reached).c_str(), short_number(end).c_str(),
-                 study.reference_reason.c_str());
+    say("the reference ended at t = " + short_number(study.reference_reached) + " s of " +
+        short_number(end) + " s, and errors are those before: " + study.reference_reason);
   }
 }
 
@@ -119,11 +118,10 @@ ExitCode accuracy(const AccuracyArguments& arguments, const Options& options) {
   }
 
   const auto columns = record::columns_named(scenario.output.columns);
-  const model::Model model =
-      model::assemble(scenario, record::any_needs(columns, record::Needs::gamma));
+  const model::Model model = assemble(scenario, columns);
   if (model.hybrid()) {
     throw InputError(
-        arguments.scenario.file +
+        scenario.source.file +
         ": accuracy compares smooth runs; found a part that switches or is watched for: "
         "controller.sampling, a limit, gimbal.servo.backlash or events; allowed: a scene "
         "without them (`bbsim run --error` estimates the error of this one)");
@@ -140,19 +138,20 @@ ExitCode accuracy(const AccuracyArguments& arguments, const Options& options) {
     csv->commit();
   }
   const std::string title = scenario.title.empty()
-                                ? std::filesystem::path(arguments.scenario.file).stem().string()
+                                ? std::filesystem::path(scenario.source.file).stem().string()
                                 : scenario.title;
-  if (arguments.csv != "-") record::write_file("-", study::accuracy_table(study));
+  if (arguments.csv != "-") print(study::accuracy_table(study));
   const bool any = !study::best_by_decade(study).empty();
   if (plot && any) {
     plot->write(run_gnuplot(study::accuracy_plot(study, title, picture)));
     plot->commit();
   }
-  if (study.interrupted) return ExitCode::interrupted;
-  if (any) return ExitCode::done;
-  if (!options.quiet) {
-    std::fprintf(stderr, "no method came to the end of the scene; `bbsim run` says why\n");
+  if (study.interrupted) {
+    say("interrupted.");
+    return ExitCode::interrupted;
   }
+  if (any) return ExitCode::done;
+  say("no method came to the end of the scene; `bbsim run` says why");
   return ExitCode::ended_early;
 }
 
@@ -161,13 +160,13 @@ ExitCode accuracy(const AccuracyArguments& arguments, const Options& options) {
 void add_accuracy(CLI::App& app, const Options& options, Chosen& chosen) {
   CLI::App* command =
       app.add_subcommand("accuracy", "Error and time of each method over a ladder of tolerances");
-  command->fallthrough();
   command->footer(
-      "The error is the largest |dx| or |dy| over the output times, against a solution in quad\n"
-      "precision; the time is the median processor time of repeated runs, files not counted. atol\n"
-      "is rtol / 100 throughout. The second table names the fastest choice for each decade of\n"
-      "error. CSV columns: method,rtol,atol,error_m,time_us,steps,rhs_evaluations,\n"
-      "jacobian_evaluations,status.");
+      "The error is the largest |dx| or |dy| over the output times, against a solution in quad "
+      "precision; the time is the median processor time of repeated runs, files not counted. atol "
+      "is rtol / 100 throughout. The second table names the fastest choice for each decade of "
+      "error.\n"
+      "CSV columns: method, rtol, atol, error_m, time_us, steps, rhs_evaluations, "
+      "jacobian_evaluations, status.");
   const auto arguments = std::make_shared<AccuracyArguments>();
   add_scenario(*command, arguments->scenario);
   command->add_option("--methods", arguments->methods, "methods to compare (default: all but auto)")

@@ -1,10 +1,11 @@
 #include <CLI/App.hpp>
 #include <cmath>
-#include <cstdio>
+#include <cstddef>
 #include <memory>
 #include <string>
 #include <vector>
 
+#include "assemble.hpp"
 #include "commands.hpp"
 #include "describe.hpp"
 #include "model/explain.hpp"
@@ -14,16 +15,27 @@
 #include "solve/choose.hpp"
 #include "solve/output_grid.hpp"
 #include "study/sweep/plan.hpp"
+#include "terminal.hpp"
 
 namespace bbsim::app {
 namespace {
 
-void print_line(const std::string& label, const std::string& text) {
-  std::printf("%-12s %s\n", label.c_str(), text.c_str());
-}
+// Lines of a label and what belongs to it.
+class Report {
+ public:
+  void line(const std::string& label, const std::string& text) {
+    constexpr std::size_t width = 12;
+    text_ += label + std::string(label.size() < width ? width - label.size() : 0, ' ') + ' ' +
+             text + '\n';
+  }
+  [[nodiscard]] const std::string& text() const { return text_; }
+
+ private:
+  std::string text_;
+};
 
 // The rows of an LQR's gain K, of u = K (reference - z): what the weights came to.
-void print_gain(const Scenario& scenario, const model::Model& model) {
+void tell_gain(Report& report, const Scenario& scenario, const model::Model& model) {
   if (!scenario.controller || scenario.controller->law != Law::lqr) return;
   const model::RigLaw law = model.rig->sampled
                                 ? model.rig->sampled->law
@@ -36,54 +48,54 @@ void print_gain(const Scenario& scenario, const model::Model& model) {
     }
     return text;
   };
-  print_line("gain phi", row(law.gain[0]));
-  print_line("gain theta", row(law.gain[1]));
-  print_line("", "on x, y, vx, vy, phi, theta, phi_rate, theta_rate");
+  report.line("gain phi", row(law.gain[0]));
+  report.line("gain theta", row(law.gain[1]));
+  report.line("", "on x, y, vx, vy, phi, theta, phi_rate, theta_rate");
 }
 
-void print_sampled_loop(const model::Model& model) {
+void tell_sampled_loop(Report& report, const Scenario& scenario, const model::Model& model) {
   const auto& loop = std::get<model::RigLoop<>>(model.system);
   const model::Eigenvalues poles = model::sampled_poles(loop, *model.rig);
   if (poles.empty()) {
-    print_line("WARNING",
-               "the sampled loop has no poles that numbers can hold: its gains are too large");
+    report.line("WARNING",
+                "the sampled loop has no poles that numbers can hold: its gains are too large");
     return;
   }
-  const std::string warning = instability_warning(model);
-  print_line("closed loop",
-             std::to_string(poles.size()) +
-                 " poles of a sample period about home: " + sampled_poles_line(poles));
+  const std::string warning = instability_warning(scenario, model);
+  report.line("closed loop",
+              std::to_string(poles.size()) +
+                  " poles of a sample period about home: " + sampled_poles_line(poles));
   if (warning.empty()) {
     const double size = std::abs(poles.front());
     const double period = model.rig->sampled->sampling.period;
-    print_line("", "stable: the slowest mode decays by a factor of " + short_number(size) +
-                       " a period, with a time constant of " +
-                       short_number(-period / std::log(size)) + " s");
-    print_line("", "without noise, dropouts, rounding, limits, dead band and backlash");
+    report.line("", "stable: the slowest mode decays by a factor of " + short_number(size) +
+                        " a period, with a time constant of " +
+                        short_number(-period / std::log(size)) + " s");
+    report.line("", "without noise, dropouts, rounding, limits, dead band and backlash");
   } else {
-    print_line("WARNING", warning);
+    report.line("WARNING", warning);
   }
 }
 
-void print_closed_loop(const model::Model& model) {
-  if (model.rig && model.rig->sampled) return print_sampled_loop(model);
+void tell_closed_loop(Report& report, const Scenario& scenario, const model::Model& model) {
+  if (model.rig && model.rig->sampled) return tell_sampled_loop(report, scenario, model);
   const model::Eigenvalues poles = model::closed_loop_poles(model);
   if (poles.empty()) {
-    print_line("WARNING",
-               "the closed loop has no linearisation about home: the law is singular there");
+    report.line("WARNING",
+                "the closed loop has no linearisation about home: the law is singular there");
     return;
   }
-  const std::string warning = instability_warning(model);
-  print_line("closed loop",
-             std::to_string(poles.size()) + " poles about home (1/s): " + poles_line(poles));
+  const std::string warning = instability_warning(scenario, model);
+  report.line("closed loop",
+              std::to_string(poles.size()) + " poles about home (1/s): " + poles_line(poles));
   if (warning.empty()) {
-    print_line("", "stable");
+    report.line("", "stable");
   } else {
-    print_line("WARNING", warning);
+    report.line("WARNING", warning);
   }
 }
 
-void print_solver(const Scenario& scenario, const model::Model& model) {
+void tell_solver(Report& report, const Scenario& scenario, const model::Model& model) {
   const Solver& solver = scenario.solver;
   std::string line{solve::method_name(solve::choose_method(solver.method))};
   line += solver.error
@@ -92,21 +104,21 @@ void print_solver(const Scenario& scenario, const model::Model& model) {
   line += solver.method == Method::automatic
               ? "; auto takes it, as the cheapest at any error on every kind of scene measured"
               : "; asked for";
-  print_line("solver", line);
+  report.line("solver", line);
   const double decays = solve::decays_over_scene(model, scenario.time.end);
-  print_line("", std::string(decays > 100 ? "a stiff scene" : "not a stiff scene") +
-                     ": its fastest mode decays " + short_number(decays) + " times over it");
+  report.line("", std::string(decays > 100 ? "a stiff scene" : "not a stiff scene") +
+                      ": its fastest mode decays " + short_number(decays) + " times over it");
 }
 
 // Of a scenario with a sweep block; its values are checked too.
-void print_sweep(const ScenarioArguments& arguments, const Scenario& scenario) {
+void tell_sweep(Report& report, const Scenario& scenario) {
   if (scenario.sweep.vary.empty()) return;
-  const ScenarioFamily family(arguments.file, arguments.overrides);
+  const ScenarioFamily family(scenario.source);
   const study::SweepPlan plan(family, scenario.sweep);
   static_cast<void>(plan.check(family, 0, plan.cases(), [](double) { return true; }));
   std::string keys;
   for (const study::Axis& axis : plan.axes()) keys += (keys.empty() ? "" : ", ") + axis.key;
-  print_line("sweep", std::to_string(plan.cases()) + " cases of bbsim sweep, over " + keys);
+  report.line("sweep", std::to_string(plan.cases()) + " cases of bbsim sweep, over " + keys);
 }
 
 ExitCode check(const ScenarioArguments& arguments) {
@@ -115,30 +127,32 @@ ExitCode check(const ScenarioArguments& arguments) {
   reads_scenario(outputs, arguments.file, table_files(scenario));
   prints(outputs);
   const auto columns = record::columns_named(scenario.output.columns);
-  const model::Model model =
-      model::assemble(scenario, record::any_needs(columns, record::Needs::gamma));
+  const model::Model model = assemble(scenario, columns);
   const solve::OutputGrid grid(scenario.time);
 
-  print_line("scenario", arguments.file + " is valid");
-  if (!scenario.title.empty()) print_line("title", scenario.title);
-  print_line("model", states_line(model));
+  Report report;
+  report.line("scenario", scenario.source.file + " is valid");
+  if (!scenario.title.empty()) report.line("title", scenario.title);
+  report.line("model", states_line(model));
   for (const model::Note& note : model::explain(scenario, model)) {
-    print_line("  " + note.part, note.reason);
+    report.line("  " + note.part, note.reason);
   }
 
   std::string names;
   for (const std::string& name : scenario.output.columns) names += " " + name;
-  print_line("output", std::to_string(grid.size()) + " rows to t = " + short_number(grid.end()) +
-                           " s:" + names);
+  report.line("output", std::to_string(grid.size()) + " rows to t = " + short_number(grid.end()) +
+                            " s:" + names);
   if (!any_needs(columns, record::Needs::dynamics) && !scenario.plate.inertia) {
-    print_line("", "no forces, torques or energy: no output column asks for them");
+    report.line("", "no forces, torques or energy: no output column asks for them");
   }
 
-  print_gain(scenario, model);
-  if (model.closed_loop()) print_closed_loop(model);
+  tell_gain(report, scenario, model);
+  if (model.closed_loop()) tell_closed_loop(report, scenario, model);
 
-  print_solver(scenario, model);
-  print_sweep(arguments, scenario);
+  tell_solver(report, scenario, model);
+  tell_sweep(report, scenario);
+  for (const std::string& remark : scenario.remarks) report.line("remark", remark);
+  print(report.text());
   return ExitCode::done;
 }
 
@@ -147,7 +161,6 @@ ExitCode check(const ScenarioArguments& arguments) {
 void add_check(CLI::App& app, Chosen& chosen) {
   CLI::App* command = app.add_subcommand(
       "check", "Validate a scenario; print what is modelled and why, poles, and the solver");
-  command->fallthrough();
   const auto arguments = std::make_shared<ScenarioArguments>();
   add_scenario(*command, *arguments);
   command->callback([arguments, &chosen] { chosen = [arguments] { return check(*arguments); }; });

@@ -1,19 +1,33 @@
 #include "record/columns.hpp"
 
-#include <cstdio>
+#include <algorithm>
+#include <cstddef>
+#include <string>
+#include <string_view>
 
 #include "commands.hpp"
+#include "terminal.hpp"
 
 namespace bbsim::app {
 namespace {
 
 ExitCode print_columns() {
-  std::printf("%-20s %-8s %s\n", "column", "unit", "meaning");
+  std::string report;
+  const auto add = [&report](std::string_view name, std::string_view unit,
+                             std::string_view meaning) {
+    const auto padded = [](std::string_view text, std::size_t width) {
+      std::string field(text);
+      field.resize(std::max(width, field.size()), ' ');
+      return field + ' ';
+    };
+    report += padded(name, 20) + padded(unit, 8);
+    (report += meaning) += '\n';
+  };
+  add("column", "unit", "meaning");
   for (const record::Column& column : record::all_columns()) {
-    std::printf("%-20.*s %-8.*s %.*s\n", static_cast<int>(column.name.size()), column.name.data(),
-                static_cast<int>(column.unit.size()), column.unit.data(),
-                static_cast<int>(column.meaning.size()), column.meaning.data());
+    add(column.name, column.unit, column.meaning);
   }
+  print(report);
   return ExitCode::done;
 }
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <CLI/App.hpp>
+#include <CLI/Validators.hpp>
 #include <functional>
 #include <string>
 #include <vector>
@@ -25,6 +26,22 @@ struct ScenarioArguments {
   std::vector<std::string> overrides;
 };
 void add_scenario(CLI::App& command, ScenarioArguments& arguments);
+// --error E: a bound in metres, in place of tolerances; as a further override it comes last.
+void add_error(CLI::App& command, std::string& error);
+void add_overrides(CLI::App& command, std::vector<std::string>& overrides);
+
+// Where the result goes if nothing else is said: the scenario's name with the suffix, in the
+// current folder; what came from standard input goes to standard output.
+[[nodiscard]] std::string default_output(const std::string& scenario, const std::string& suffix);
+
+// What an output is called in messages.
+[[nodiscard]] std::string name_of_output(const std::string& output);
+
+// Doubles hold whole numbers up to 2^53.
+inline constexpr double largest_whole = 9007199254740992.0;
+
+// What an option may be that takes a whole number; 1e6 is one.
+[[nodiscard]] CLI::Validator whole_number(double least, double most = largest_whole);
 
 // Says that a command reads a scenario, and these tables with it.
 void reads_scenario(record::Outputs& outputs, const std::string& file,

@@ -2,56 +2,73 @@
 
 #include <CLI/App.hpp>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "commands.hpp"
-#include "record/atomic_file.hpp"
-#include "record/table_writer.hpp"
+#include "record/cell_table.hpp"
+#include "record/solver_allowance.hpp"
+#include "terminal.hpp"
 
 namespace bbsim::app {
 namespace {
 
 struct CompareOptions {
   std::string a, b;
-  record::Tolerances tolerances;
+  std::optional<double> rtol, atol;
   std::vector<std::string> columns;
 };
+
+record::Allowances allowances_of(const CompareOptions& options, const record::CellTable& a,
+                                 const record::CellTable& b) {
+  const record::Tolerances standard;
+  if (options.rtol || options.atol) {
+    return {options.rtol.value_or(standard.rtol), options.atol.value_or(standard.atol)};
+  }
+  return record::solver_allowances(a, b).value_or(standard);
+}
 
 ExitCode run_compare(const CompareOptions& options) {
   record::Outputs outputs;
   outputs.reads(options.a, "A");
   outputs.reads(options.b, "B");
   prints(outputs);
-  const record::TableData a = record::read_table(options.a);
-  const record::TableData b = record::read_table(options.b);
-  const record::Comparison comparison = record::compare(a, b, options.tolerances, options.columns);
-  record::write_file("-", to_text(comparison, options.a, options.b, options.tolerances));
+  const record::CellTable a = record::read_cells(options.a, options.columns);
+  const record::CellTable b = record::read_cells(options.b, options.columns);
+  const record::Allowances allowances = allowances_of(options, a, b);
+  const record::Comparison comparison = record::compare(a, b, allowances, options.columns);
+  print(to_text(comparison, options.a, options.b, allowances));
   return comparison.alike() ? ExitCode::done : ExitCode::ended_early;
 }
 
 }  // namespace
 
 void add_compare(CLI::App& app, Chosen& chosen) {
-  CLI::App* command = app.add_subcommand("compare", "Compare two CSV or HDF5 files");
+  CLI::App* command =
+      app.add_subcommand("compare", "Compare two results, of runs or of sweeps: CSV or HDF5");
   command->footer(
-      "Columns are compared by name, whatever their order, rows by position. Values a and b are\n"
-      "alike if |a - b| <= atol + rtol max(|a|, |b|); NaN is like NaN, an infinity like the same\n"
-      "infinity. The exit code is 0 if the files are alike, 1 if they differ, 2 if one cannot be\n"
-      "read or lacks a named column.");
+      "Columns are compared by name, whatever their order, rows by position. Values a and b are "
+      "alike if |a - b| <= atol + rtol max(|a|, |b|); NaN is like NaN, an infinity like the same "
+      "infinity; texts, such as a sweep's status, are alike if they are equal. Without --rtol and "
+      "--atol, HDF5 files are compared by what their solver was asked for, and all else by 1e-9 "
+      "and 1e-12.\n"
+      "The exit code is 0 if the files are alike, 1 if they differ, 2 if one cannot be read or "
+      "lacks a named column.");
   auto options = std::make_shared<CompareOptions>();
   command
       ->add_option("A", options->a,
                    "a CSV file, an HDF5 file (.h5, .hdf5), or - for CSV on standard input")
       ->required();
   command->add_option("B", options->b, "what to compare it with")->required();
-  command->add_option("--rtol", options->tolerances.rtol, "relative tolerance, of the larger value")
-      ->type_name("R")
-      ->capture_default_str();
   command
-      ->add_option("--atol", options->tolerances.atol, "absolute tolerance, in the column's unit")
-      ->type_name("A")
-      ->capture_default_str();
+      ->add_option("--rtol", options->rtol,
+                   "relative tolerance, of the larger value; default: see below")
+      ->type_name("R");
+  command
+      ->add_option("--atol", options->atol,
+                   "absolute tolerance, in the column's unit; default: see below")
+      ->type_name("A");
   command
       ->add_option("--columns", options->columns,
                    "compare these only (default: all; one that a file lacks is a difference)")

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdio>
+#include <cstdlib>
+#include <optional>
 #include <vector>
 
 namespace bbsim::app {
@@ -11,6 +13,16 @@ namespace bbsim::app {
 std::string short_number(double value) {
   char text[40];
   std::snprintf(text, sizeof text, "%.6g", value);
+  return text;
+}
+
+std::string rounded(double value, int digits) {
+  char text[40];
+  std::snprintf(text, sizeof text, "%.*g", digits, value);
+  if (!(std::abs(value) >= 1 && std::abs(value) < 1e15)) return text;
+  const double kept = std::strtod(text, nullptr);
+  const int before_point = static_cast<int>(std::log10(std::abs(kept))) + 1;
+  std::snprintf(text, sizeof text, "%.*f", std::max(0, digits - before_point), kept);
   return text;
 }
 
@@ -34,21 +46,28 @@ std::string poles_line(const model::Eigenvalues& poles) {
   return line;
 }
 
-std::string instability_warning(const model::Model& model) {
-  if (model.rig && model.rig->sampled) {
-    const model::Eigenvalues sampled =
-        model::sampled_poles(std::get<model::RigLoop<>>(model.system), *model.rig);
-    const auto outside = std::count_if(sampled.begin(), sampled.end(),
-                                       [](const auto& pole) { return std::abs(pole) > 1 + 1e-9; });
-    if (sampled.empty() || std::abs(sampled.front()) < 1 - 1e-9) return "";
-    if (outside == 0) {
-      return "the sampled loop is not asymptotically stable about home: poles " +
-             sampled_poles_line(sampled);
-    }
-    return "the sampled loop is unstable about home: " + std::to_string(outside) + " of its " +
-           std::to_string(sampled.size()) +
-           " poles are not within the unit circle: " + sampled_poles_line(sampled);
+namespace {
+
+model::Eigenvalues poles_of_samples(const model::Model& model) {
+  return model::sampled_poles(std::get<model::RigLoop<>>(model.system), *model.rig);
+}
+
+std::string instability_of_samples(const model::Model& model) {
+  const model::Eigenvalues poles = poles_of_samples(model);
+  const auto outside = std::count_if(poles.begin(), poles.end(),
+                                     [](const auto& pole) { return std::abs(pole) > 1 + 1e-9; });
+  if (poles.empty() || std::abs(poles.front()) < 1 - 1e-9) return "";
+  if (outside == 0) {
+    return "the sampled loop is not asymptotically stable about home: poles " +
+           sampled_poles_line(poles);
   }
+  return "the sampled loop is unstable about home: " + std::to_string(outside) + " of its " +
+         std::to_string(poles.size()) + (outside == 1 ? " poles is" : " poles are") +
+         " not within the unit circle: " + sampled_poles_line(poles);
+}
+
+std::string instability(const model::Model& model) {
+  if (model.rig && model.rig->sampled) return instability_of_samples(model);
   const model::Eigenvalues poles = model::closed_loop_poles(model);
   if (poles.empty() || model::stable(poles)) return "";
   const auto growing =
@@ -58,14 +77,45 @@ std::string instability_warning(const model::Model& model) {
            poles_line(poles);
   }
   return "the closed loop is unstable about home: " + std::to_string(growing) + " of its " +
-         std::to_string(poles.size()) +
-         " poles have a positive real part (1/s): " + poles_line(poles);
+         std::to_string(poles.size()) + (growing == 1 ? " poles has" : " poles have") +
+         " a positive real part (1/s): " + poles_line(poles);
 }
 
-std::string failure_text(const model::Model& model, const solve::Outcome& outcome, double end) {
+// The scene with all gains of theta's row turned round; nothing under a law that knows the signs.
+std::optional<Scenario> with_theta_turned(const Scenario& scenario) {
+  const auto has_rows = [](Law law) {
+    return law == Law::pd || law == Law::pid || law == Law::state_feedback;
+  };
+  if (!scenario.controller || !has_rows(scenario.controller->law)) return {};
+  Scenario turned = scenario;
+  Controller& controller = *turned.controller;
+  for (Matrix2* gain : {&controller.kv, &controller.kp, &controller.ki}) {
+    for (double& number : (*gain)[1]) number = -number;
+  }
+  // Not those on the servo's own angle and rate.
+  for (std::size_t i = 0; i < 4; ++i) controller.gain[1][i] = -controller.gain[1][i];
+  return turned;
+}
+
+}  // namespace
+
+std::string instability_warning(const Scenario& scenario, const model::Model& model) {
+  std::string warning = instability(model);
+  if (warning.empty()) return warning;
+  const std::optional<Scenario> turned = with_theta_turned(scenario);
+  if (turned && instability(model::assemble(*turned, model.gamma)).empty()) {
+    warning +=
+        "; theta's gains have the wrong sign: positive theta drives the ball towards -y, so a gain "
+        "k for both is [[k, 0], [0, -k]]";
+  }
+  return warning;
+}
+
+std::string failure_text(const Scenario& scenario, const model::Model& model,
+                         const solve::Outcome& outcome) {
   const std::vector<std::string> names = model.state_names();
   std::string text = "the run ended early, at t = " + short_number(outcome.reached) + " s of " +
-                     short_number(end) + " s: " + outcome.reason + ".\n";
+                     short_number(scenario.time.end) + " s: " + outcome.reason + ".\n";
   const auto& state = outcome.last_state;
   const auto largest = std::max_element(
       state.begin(), state.end(), [](double a, double b) { return std::abs(a) < std::abs(b); });
@@ -76,7 +126,7 @@ std::string failure_text(const model::Model& model, const solve::Outcome& outcom
     text += "  " + names[index] + verb + short_number(*largest) +
             "; the error estimate was worst for " + names[outcome.worst_state] + ".\n";
   }
-  const std::string warning = instability_warning(model);
+  const std::string warning = instability_warning(scenario, model);
   if (!warning.empty()) {
     text += "  That is the scene, not the solver: " + warning + ".\n";
     text += "  Change the gains or the servo; `bbsim check` shows the poles.";

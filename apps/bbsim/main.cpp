@@ -6,12 +6,16 @@
 #include <cstdlib>
 #include <exception>
 #include <functional>
+#include <memory>
 #include <new>
 
 #include "base/error.hpp"
+#include "command_line.hpp"
 #include "commands.hpp"
+#include "help.hpp"
 #include "signals.hpp"
 #include "solve/collocation/radau.hpp"
+#include "terminal.hpp"
 
 namespace {
 
@@ -21,25 +25,20 @@ int code(ExitCode exit_code) {
   return static_cast<int>(exit_code);
 }
 
-// Of text that is there: where memory has run out there is none for another.
+// Without memory of its own: there may be none where this is called.
 ExitCode say(const char* message, ExitCode exit_code) {
-  std::fprintf(stderr, "%s\n", message);
+  bbsim::app::say(message);
   return exit_code;
-}
-ExitCode say(const std::string& message, ExitCode exit_code) {
-  return say(message.c_str(), exit_code);
 }
 
 template <class Command>
 ExitCode run(const Command& command) {
   try {
-    const ExitCode result = command();
-    if (std::fflush(stdout) != 0) {
-      return say("cannot write to standard output", ExitCode::output_failed);
-    }
-    return result;
+    return command();
   } catch (const bbsim::InputError& error) {
     return say(error.what(), ExitCode::input_at_fault);
+  } catch (const bbsim::ReaderGone&) {
+    return ExitCode::output_failed;  // quietly: whoever reads has seen enough, as of `| head`
   } catch (const bbsim::OutputError& error) {
     return say(error.what(), ExitCode::output_failed);
   } catch (const std::bad_alloc&) {
@@ -61,19 +60,6 @@ ExitCode run(const Command& command) {
   });
 }
 
-// Help and the version end parsing well; all else is a mistake on the command line.
-ExitCode parsing_ended(const CLI::App& app, const CLI::ParseError& error) {
-  const bool names_a_command = app.remaining().empty() || !app.get_subcommands().empty();
-  if (error.get_name() == "RequiredError" && !names_a_command) {
-    std::string known;
-    for (const CLI::App* command : app.get_subcommands({})) known += " " + command->get_name();
-    return say("unknown command " + app.remaining().front() + "; known:" + known +
-                   "\nRun with --help for more information.",
-               ExitCode::input_at_fault);
-  }
-  return app.exit(error) == 0 ? ExitCode::done : ExitCode::input_at_fault;
-}
-
 std::string version() {
   return std::string("bbsim " BBSIM_VERSION "\ninstruction set: ") +
          bbsim::solve::collocation::choose_kernels().name;
@@ -82,14 +68,17 @@ std::string version() {
 ExitCode command_line(int argc, char** argv) {
   CLI::App app("bbsim simulates a ball that rolls on a plane which a two-axis gimbal tips.",
                "bbsim");
-  app.set_version_flag("--version", version);
+  app.formatter(std::make_shared<bbsim::app::HelpFormatter>());
+  app.set_help_flag("-h,--help", "print this help and exit");
+  app.set_version_flag("--version", version, "print the version and exit");
   app.require_subcommand(1);
   app.footer(
-      "Exit codes: 0 done; 1 the run ended early or files differ; 2 the command line or the\n"
+      "A SCENARIO of - is read from standard input.\n"
+      "Exit codes: 0 done; 1 the run ended early or files differ; 2 the command line or the "
       "scenario is at fault; 3 the output could not be written; 130 interrupted.");
 
   bbsim::app::Options options;
-  app.add_flag("-q,--quiet", options.quiet, "Print no messages and no progress, only results");
+  bbsim::app::add_quiet(app, options);
   std::function<ExitCode()> chosen;
   bbsim::app::add_run(app, options, chosen);
   bbsim::app::add_check(app, chosen);
@@ -99,11 +88,12 @@ ExitCode command_line(int argc, char** argv) {
   bbsim::app::add_verify(app, options, chosen);
   bbsim::app::add_columns(app, chosen);
   bbsim::app::add_accuracy(app, options, chosen);
+  bbsim::app::add_help(app, chosen);
 
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
-    return parsing_ended(app, error);
+    return bbsim::app::parsing_ended(app, error);
   }
   return chosen();
 }

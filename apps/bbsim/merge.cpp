@@ -1,7 +1,6 @@
 #include "record/merge.hpp"
 
 #include <CLI/App.hpp>
-#include <cstdio>
 #include <memory>
 #include <string>
 #include <vector>
@@ -9,6 +8,7 @@
 #include "commands.hpp"
 #include "record/outputs.hpp"
 #include "signals.hpp"
+#include "terminal.hpp"
 
 namespace bbsim::app {
 namespace {
@@ -29,14 +29,14 @@ ExitCode merge(const MergeArguments& arguments, const Options& options) {
   outputs.writes(arguments.output, "-o");
   const record::Merged merged =
       record::merge_cases(arguments.parts, arguments.output, watch_signals());
-  if (!merged.note.empty()) std::fprintf(stderr, "%s\n", merged.note.c_str());
+  if (!merged.note.empty() && !options.quiet) say(merged.note);
   if (merged.interrupted) {
-    if (!options.quiet) std::fprintf(stderr, "interrupted; nothing was written.\n");
+    say("interrupted; nothing was written.");
     return ExitCode::interrupted;
   }
   if (!options.quiet) {
-    std::fprintf(stderr, "%s: %zu cases from %zu parts\n", arguments.output.c_str(), merged.cases,
-                 arguments.parts.size());
+    say(name_of_output(arguments.output) + ": " + std::to_string(merged.cases) + " cases from " +
+        std::to_string(arguments.parts.size()) + " parts");
   }
   return ExitCode::done;
 }
@@ -46,12 +46,12 @@ ExitCode merge(const MergeArguments& arguments, const Options& options) {
 void add_merge(CLI::App& app, const Options& options, Chosen& chosen) {
   CLI::App* command =
       app.add_subcommand("merge", "Put the parts of a sweep (bbsim sweep --shard) together");
-  command->fallthrough();
   const auto arguments = std::make_shared<MergeArguments>();
   command->add_option("PARTS", arguments->parts, "files of all shards, in any order")->required();
   command
       ->add_option("-o,--output", arguments->output,
                    "FILE.csv or FILE.h5, as the parts; - for CSV on standard output")
+      ->type_name("FILE")
       ->required();
   command->callback([arguments, &options, &chosen] {
     chosen = [arguments, &options] { return merge(*arguments, options); };

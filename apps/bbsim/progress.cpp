@@ -1,10 +1,15 @@
 #include "progress.hpp"
 
+#include <sys/ioctl.h>
 #include <unistd.h>
 
 #include <algorithm>
+#include <cstddef>
 #include <cstdio>
-#include <utility>
+
+#include "base/printable.hpp"
+#include "progress_line.hpp"
+#include "terminal.hpp"
 
 namespace bbsim::app {
 
@@ -12,22 +17,18 @@ using namespace std::chrono_literals;
 
 namespace {
 
-std::string time_text(double seconds) {
-  const bool minutes = seconds > 120, hours = seconds > 7200;
-  const char* const unit = hours ? "h" : minutes ? "min" : "s";
-  char text[40];
-  std::snprintf(text, sizeof text, "%.*f %s", hours ? 1 : 0,
-                seconds / (hours     ? 3600
-                           : minutes ? 60
-                                     : 1),
-                unit);
-  return text;
+// As the terminal says now: it may have been resized. The last column stays free, for there some
+// terminals break the line.
+std::size_t columns_of_terminal() {
+  winsize size{};
+  const bool told = ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0;
+  return told ? std::size_t{size.ws_col} - 1 : 79;
 }
 
 }  // namespace
 
-Progress::Progress(std::string label, bool quiet, bool lines)
-    : label_(std::move(label)),
+Progress::Progress(const std::string& label, bool quiet, bool lines)
+    : label_(printable(label)),
       bar_(!quiet && isatty(STDERR_FILENO) == 1),
       lines_(lines && !quiet && !bar_),
       start_(Clock::now()),
@@ -42,25 +43,28 @@ void Progress::clear() {
   drawn_ = false;
 }
 
+void Progress::start(double fraction) {
+  first_ = fraction;
+  start_ = Clock::now();
+}
+
 void Progress::update(double fraction, const std::string& detail) {
   if (!bar_ && !lines_) return;
   const Clock::time_point now = Clock::now();
   if (now - start_ < 1s || now - last_ < (bar_ ? 100ms : 60s)) return;
   last_ = now;
-  const double done = std::clamp(fraction, 0.0, 1.0);
-  const double elapsed = std::chrono::duration<double>(now - start_).count();
-  std::string more = detail.empty() ? "" : ", " + detail;
-  if (done > 0.01) more += ", " + time_text(elapsed * (1 - done) / done) + " left";
+  ProgressState state{label_, printable(detail), std::clamp(fraction, 0.0, 1.0)};
+  if (state.done - first_ > 0.01 * (1 - first_)) {
+    const double elapsed = std::chrono::duration<double>(now - start_).count();
+    state.seconds_left = elapsed * (1 - state.done) / (state.done - first_);
+  }
   if (lines_) {
-    std::fprintf(stderr, "%s: %.1f%%%s\n", label_.c_str(), 100 * done, more.c_str());
+    say(log_line(state));
     return;
   }
   drawn_ = true;
-  constexpr int width = 30;
-  const int filled = static_cast<int>(done * width);
-  std::fprintf(stderr, "\r\033[K%s [%.*s%.*s] %3.0f%%%s", label_.c_str(), filled,
-               "##############################", width - filled, "..............................",
-               100 * done, more.c_str());
+  const std::string line = "\r\033[K" + progress_line(state, columns_of_terminal());
+  std::fputs(line.c_str(), stderr);
   std::fflush(stderr);
 }
 

@@ -11,10 +11,14 @@ class Progress {
  public:
   // Draws on standard error if that is a terminal and `quiet` is not set; a line a minute where it
   // is none, if `lines` is set.
-  Progress(std::string label, bool quiet, bool lines = false);
+  Progress(const std::string& label, bool quiet, bool lines = false);
   ~Progress();
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
+
+  // The work begins now, at `fraction`, such as what an earlier process has done of it: the time
+  // left is told from what is done from here on.
+  void start(double fraction);
 
   // `fraction` in [0, 1]; `detail` follows it. Cheap: it draws at most ten times a second.
   void update(double fraction, const std::string& detail = "");
@@ -27,6 +31,7 @@ class Progress {
   std::string label_;
   bool bar_, lines_;
   bool drawn_ = false;
+  double first_ = 0;
   Clock::time_point start_, last_;
 };
 

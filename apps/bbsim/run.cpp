@@ -1,18 +1,18 @@
 #include <CLI/App.hpp>
-#include <cstdio>
-#include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "assemble.hpp"
 #include "commands.hpp"
 #include "describe.hpp"
 #include "model/explain.hpp"
 #include "model/model.hpp"
 #include "progress.hpp"
 #include "record/atomic_file.hpp"
+#include "record/edge_note.hpp"
 #include "record/outputs.hpp"
 #include "record/recorder.hpp"
 #include "record/summary.hpp"
@@ -23,6 +23,8 @@
 #include "solve/cpu_clock.hpp"
 #include "solve/integrate.hpp"
 #include "study/error_control.hpp"
+#include "terminal.hpp"
+#include "warnings.hpp"
 
 namespace bbsim::app {
 namespace {
@@ -31,10 +33,6 @@ struct RunArguments {
   ScenarioArguments scenario;
   std::string output, summary, error;
 };
-
-std::string default_output(const std::string& scenario) {
-  return std::filesystem::path(scenario).stem().string() + ".csv";
-}
 
 const char* status_name(solve::Ending ending) {
   switch (ending) {
@@ -106,7 +104,7 @@ std::string shortfall(const Scenario& scenario, const model::Model& model,
   const double end = scenario.time.end;
   switch (made.outcome.ending) {
     case solve::Ending::failed:
-      return failure_text(model, made.outcome, end);
+      return failure_text(scenario, model, made.outcome);
     case solve::Ending::interrupted:
       return "interrupted at t = " + short_number(made.outcome.reached) + " s of " +
              short_number(end) + " s.";
@@ -126,7 +124,7 @@ std::string shortfall(const Scenario& scenario, const model::Model& model,
 
 record::RunSummary summarise(const Scenario& scenario, const model::Model& model,
                              const Integration& made, const std::string& reason,
-                             const std::string& output,
+                             const std::vector<std::string>& warnings, const std::string& output,
                              const std::optional<record::MotorPeaks>& peaks) {
   const solve::Outcome& outcome = made.outcome;
   record::RunSummary summary;
@@ -137,6 +135,7 @@ record::RunSummary summarise(const Scenario& scenario, const model::Model& model
   summary.overrides = scenario.source.overrides;
   summary.status = status_name(outcome.ending);
   summary.reason = reason;
+  summary.warnings = warnings;
   summary.end_time = outcome.reached;
   summary.rows = outcome.rows;
   summary.output = output;
@@ -177,12 +176,11 @@ ExitCode run(const RunArguments& arguments, const Options& options) {
   std::vector<record::InputTable> inputs;
   const Scenario scenario = read_scenario(arguments.scenario.file, overrides, &inputs);
   const auto columns = record::columns_named(scenario.output.columns);
-  const model::Model model =
-      model::assemble(scenario, record::any_needs(columns, record::Needs::gamma));
+  const model::Model model = assemble(scenario, columns);
   const solve::OutputGrid grid(scenario.time);
 
   const std::string output =
-      arguments.output.empty() ? default_output(arguments.scenario.file) : arguments.output;
+      arguments.output.empty() ? default_output(arguments.scenario.file, ".csv") : arguments.output;
   std::vector<record::ColumnHeader> headers;
   headers.reserve(columns.size());
   for (const record::Column* column : columns) {
@@ -194,11 +192,14 @@ ExitCode run(const RunArguments& arguments, const Options& options) {
       arguments.summary.empty() ? nullptr : std::make_unique<record::AtomicFile>(arguments.summary);
   writer->keep(inputs);
   record::Recorder recorder(model, model::constants_of(scenario), grid, columns, *writer);
+  std::optional<record::EdgeNote> edge;
+  if (record::EdgeNote::wanted(scenario)) edge.emplace(model, scenario.plate, grid, recorder);
+  solve::StateSink& sink = edge ? static_cast<solve::StateSink&>(*edge) : recorder;
 
-  Progress progress(arguments.scenario.file, options.quiet);
+  Progress progress(scenario.source.file, options.quiet);
   const solve::Watch watch{&watch_signals(),
                            [&](double time) { progress.update(time / grid.end()); }};
-  const Integration made = integrate(scenario, model, grid, recorder, watch);
+  const Integration made = integrate(scenario, model, grid, sink, watch);
   progress.clear();
 
   std::string reason = shortfall(scenario, model, made);
@@ -207,8 +208,11 @@ ExitCode run(const RunArguments& arguments, const Options& options) {
     reason = "the motion was found to its end, but " + recorder.why_not_finite() +
              ".\n  There it is beyond the range of doubles, or not defined.";
   }
+  const std::vector<std::string> warnings =
+      warnings_of(scenario, model, made.outcome.ending == solve::Ending::failed,
+                  edge ? edge->left() : std::nullopt);
   const record::RunSummary summary =
-      summarise(scenario, model, made, reason, output, recorder.peaks());
+      summarise(scenario, model, made, reason, warnings, output, recorder.peaks());
   if (made.error_estimate) writer->add_column(position_error, made.row_estimates);
   writer->finish(record::to_attributes(summary, scenario.source.text));
   if (summary_file) {
@@ -216,15 +220,16 @@ ExitCode run(const RunArguments& arguments, const Options& options) {
     summary_file->commit();
   }
 
+  if (!reason.empty()) say(reason);
   if (!options.quiet) {
-    if (!reason.empty()) std::fprintf(stderr, "%s\n", reason.c_str());
+    for (const std::string& warning : warnings) say(warning);
     const std::string noted = noted_text(made.outcome.occurrences);
-    if (!noted.empty()) std::fprintf(stderr, "%s\n", noted.c_str());
-    std::string line = output + ": " + std::to_string(made.outcome.rows) + " of " +
+    if (!noted.empty()) say(noted);
+    std::string line = name_of_output(output) + ": " + std::to_string(made.outcome.rows) + " of " +
                        std::to_string(grid.size()) + " rows, " + summary.method + ", " +
                        std::to_string(made.outcome.statistics.steps) + " steps";
     if (made.error_estimate) line += ", error about " + short_number(*made.error_estimate) + " m";
-    std::fprintf(stderr, "%s\n", line.c_str());
+    say(line);
   }
   const ExitCode code = exit_code(made.outcome.ending);
   const bool whole = made.within_error && finite;
@@ -235,18 +240,26 @@ ExitCode run(const RunArguments& arguments, const Options& options) {
 
 void add_run(CLI::App& app, const Options& options, Chosen& chosen) {
   CLI::App* command = app.add_subcommand("run", "Simulate a scenario");
-  command->fallthrough();
+  command->footer(
+      "Examples:\n"
+      "  bbsim run configs/fig2a.yaml\n"
+      "  bbsim run configs/fig2a.yaml --set ball.radius=\"2 cm\" -o big.h5\n"
+      "  bbsim run configs/fig2b.yaml --error \"1 um\" --summary run.json\n"
+      "  bbsim run configs/rig.yaml -o - -q | head -3\n"
+      "  sed 's/-10 cm/-5 cm/' configs/fig2a.yaml | bbsim run - -o near.csv");
   const auto arguments = std::make_shared<RunArguments>();
   add_scenario(*command, arguments->scenario);
-  command->add_option("-o,--output", arguments->output,
-                      "FILE.csv, FILE.h5, or - for CSV on standard output; default: the scenario's "
-                      "name with .csv, in the current folder");
-  command->add_option(
-      "--error", arguments->error,
-      "bound on the error of x and y at all output times, such as 1e-9 or \"1 um\"; "
-      "instead of solver.rtol and solver.atol");
-  command->add_option("--summary", arguments->summary,
-                      "FILE.json: how the run went, what was modelled, statistics");
+  command
+      ->add_option("-o,--output", arguments->output,
+                   "FILE.csv, FILE.h5, or - for CSV on standard output; default: the scenario's "
+                   "name with .csv, in the current folder (of standard input: -)")
+      ->type_name("FILE");
+  add_error(*command, arguments->error);
+  command
+      ->add_option("--summary", arguments->summary,
+                   "FILE.json, or - for standard output: how the run went, what was modelled, "
+                   "statistics")
+      ->type_name("FILE");
   command->callback([arguments, &options, &chosen] {
     chosen = [arguments, &options] { return run(*arguments, options); };
   });

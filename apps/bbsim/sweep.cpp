@@ -6,7 +6,6 @@
 #include <chrono>
 #include <cmath>
 #include <cstdint>
-#include <cstdio>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -27,6 +26,7 @@
 #include "signals.hpp"
 #include "solve/output_grid.hpp"
 #include "sweep_text.hpp"
+#include "terminal.hpp"
 
 namespace bbsim::app {
 namespace {
@@ -52,12 +52,6 @@ Shard read_shard(const std::string& text) {
   return shard;
 }
 
-double whole(const char* option, double number) {
-  if (number == std::floor(number)) return number;
-  throw InputError(std::string(option) + ": found " + record::number_text(number) +
-                   "; allowed: a whole number");
-}
-
 // What the scenario says of the sweep, and the command line instead of it.
 Sweep sweep_of(const SweepArguments& arguments, const Sweep& in_scenario) {
   Sweep sweep = in_scenario;
@@ -74,8 +68,8 @@ Sweep sweep_of(const SweepArguments& arguments, const Sweep& in_scenario) {
   if (!arguments.vary.empty() && std::none_of(sweep.vary.begin(), sweep.vary.end(), random)) {
     sweep.samples.reset();  // of what the scenario would draw
   }
-  if (arguments.samples) sweep.samples = whole("--samples", *arguments.samples);
-  if (arguments.seed) sweep.seed = whole("--seed", *arguments.seed);
+  if (arguments.samples) sweep.samples = *arguments.samples;
+  if (arguments.seed) sweep.seed = *arguments.seed;
   if (!arguments.measure.empty()) {
     sweep.measure.clear();
     for (const std::string& names : arguments.measure) {
@@ -122,10 +116,11 @@ void keep_trajectories(study::SweepTask& task, const Scenario& scenario) {
   task.series_rows = solve::OutputGrid(scenario.time).size();
 }
 
-std::string default_output(const std::string& scenario, const Shard& shard) {
-  std::string name = std::filesystem::path(scenario).stem().string() + "-sweep";
-  if (shard.of > 1) name += '-' + std::to_string(shard.number) + "of" + std::to_string(shard.of);
-  return name + ".csv";
+// "-sweep.csv", "-sweep-2of8.csv"
+std::string suffix(const Shard& shard) {
+  std::string text = "-sweep";
+  if (shard.of > 1) text += '-' + std::to_string(shard.number) + "of" + std::to_string(shard.of);
+  return text + ".csv";
 }
 
 std::size_t available_threads() {
@@ -147,10 +142,6 @@ void declare_files(const SweepArguments& arguments, const ScenarioFamily& family
   if (!arguments.summary.empty()) outputs.writes(arguments.summary, "--summary");
 }
 
-void say(const std::string& sentence) {
-  std::fprintf(stderr, "%s\n", sentence.c_str());
-}
-
 ExitCode sweep(const SweepArguments& arguments, const Options& options) {
   std::vector<std::string> overrides = arguments.scenario.overrides;
   if (!arguments.error.empty()) overrides.push_back("solver.error=" + arguments.error);
@@ -167,20 +158,24 @@ ExitCode sweep(const SweepArguments& arguments, const Options& options) {
       study::shard_range(plan.cases(), engine.group, shard.number, shard.of);
 
   const std::atomic<bool>& stop = watch_signals();
-  Progress progress(arguments.scenario.file, options.quiet, true);
+  if (!options.quiet) {
+    for (const std::string& remark : first.remarks) say(remark);
+  }
+  Progress progress(family.source().file, options.quiet, true);
   const bool checked = plan.check(family, range.first, range.last, [&](double part) {
     progress.update(part, "checking the cases");
     return !stop.load(std::memory_order_relaxed);
   });
   if (!checked) {
     progress.clear();
-    if (!options.quiet) say("interrupted before the first case.");
+    say("interrupted before the first case.");
     return ExitCode::interrupted;
   }
 
   const SweepFacts facts{family, sweep, task, first, shard};
-  const std::string output =
-      arguments.output.empty() ? default_output(arguments.scenario.file, shard) : arguments.output;
+  const std::string output = arguments.output.empty()
+                                 ? default_output(arguments.scenario.file, suffix(shard))
+                                 : arguments.output;
   declare_files(arguments, family, output);
   const auto summary =
       arguments.summary.empty() ? nullptr : std::make_unique<record::AtomicFile>(arguments.summary);
@@ -196,6 +191,7 @@ ExitCode sweep(const SweepArguments& arguments, const Options& options) {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
   };
   const auto rate = [&] { return static_cast<double>(end.rows - kept) / seconds(); };
+  progress.start(static_cast<double>(kept) / static_cast<double>(all));
   end.finished = study::run_sweep(
       engine, {range.first + kept, range.last}, threads, stop,
       [&task](study::CaseResults& results) { write_text(task, results); },
@@ -206,7 +202,7 @@ ExitCode sweep(const SweepArguments& arguments, const Options& options) {
           end.statuses.add(status.word, status.reason);
         }
         progress.update(static_cast<double>(end.rows) / static_cast<double>(all),
-                        short_number(rate()) + " cases/s");
+                        rounded(rate(), 3) + " cases/s");
       },
       [&](std::size_t had) {
         if (options.quiet) return;
@@ -224,17 +220,18 @@ ExitCode sweep(const SweepArguments& arguments, const Options& options) {
     summary->write(summary_text(facts, end));
     summary->commit();
   }
-  if (options.quiet) return end.finished ? ExitCode::done : ExitCode::interrupted;
 
   const std::string counts = std::to_string(end.rows) + " of " + std::to_string(all) + " cases";
   if (!end.finished) {
-    say("interrupted after " + counts + '.');
+    std::string reason = "interrupted after " + counts + '.';
     if (!file->part().empty() && end.rows > 0) {
-      say("  " + file->part() + " keeps them; the same command with --resume goes on.");
+      reason += "\n  " + file->part() + " keeps them; the same command with --resume goes on.";
     }
+    say(reason);
     return ExitCode::interrupted;
   }
-  std::string line = output + ": " + counts;
+  if (options.quiet) return ExitCode::done;
+  std::string line = name_of_output(output) + ": " + counts;
   if (kept > 0) line += ", " + std::to_string(kept) + " of them from before";
   if (const std::size_t early = end.statuses.early(); early > 0) {
     line += ", " + std::to_string(early) + " ended early (see status)";
@@ -242,7 +239,7 @@ ExitCode sweep(const SweepArguments& arguments, const Options& options) {
   if (end.statuses.not_finite > 0) {
     line += ", " + std::to_string(end.statuses.not_finite) + " with no finite number (see reason)";
   }
-  say(line + ", by " + engine.name + ", " + short_number(seconds()) + " s");
+  say(line + ", by " + engine.name + ", " + rounded(seconds(), 3) + " s");
   return ExitCode::done;
 }
 
@@ -250,44 +247,63 @@ ExitCode sweep(const SweepArguments& arguments, const Options& options) {
 
 void add_sweep(CLI::App& app, const Options& options, Chosen& chosen) {
   CLI::App* command = app.add_subcommand("sweep", "Simulate a scenario at many values of its keys");
-  command->fallthrough();
+  command->footer(
+      "SPEC is linear:FROM:TO:COUNT, log:FROM:TO:COUNT, list:A,B,C, uniform:FROM:TO or "
+      "normal:MEAN:SD; values may have units. KEY may be several keys that are tied, each with a "
+      "factor: KEY,-KEY,2*KEY.\n"
+      "\n"
+      "Examples:\n"
+      "  bbsim sweep configs/fig2a.yaml --vary ball.position.0=linear:-0.1:0.1:41\n"
+      "  bbsim sweep configs/fig2b.yaml --vary \"ball.position.0=normal:5 cm:2 mm\" \\\n"
+      "      --samples 1000 --measure max_tilt,end_x -o spread.h5\n"
+      "  bbsim sweep configs/fig2b.yaml --vary controller.pd.kv.0.0=log:0.1:10:1000 \\\n"
+      "      --shard 2/8 --resume -o part-2of8.csv");
   const auto arguments = std::make_shared<SweepArguments>();
   add_scenario(*command, arguments->scenario);
-  may_be_repeated(*command->add_option(
-      "--vary", arguments->vary,
-      "KEY=SPEC: values for a key, such as ball.position.0=linear:-0.1:0.1:21; may be "
-      "given again. KEY may be several that are tied, each with a factor: KEY,-KEY,2*KEY. SPEC is "
-      "linear:FROM:TO:COUNT, log:FROM:TO:COUNT, list:A,B,C, "
-      "uniform:FROM:TO or normal:MEAN:SD; values may have units. Default: the "
-      "scenario's sweep.vary"));
+  may_be_repeated(*command
+                       ->add_option("--vary", arguments->vary,
+                                    "values for a key, or for several that are tied, see below; "
+                                    "may be given again; default: the scenario's sweep.vary")
+                       ->type_name("KEY=SPEC"));
   command
       ->add_option("--combine", arguments->combine,
                    "grid: each value with each (default); zip: the first with the first")
-      ->check(CLI::IsMember({"grid", "zip"}));
+      ->type_name("HOW")
+      ->check(CLI::IsMember({"grid", "zip"}).description(""));
   command->add_option("--samples", arguments->samples, "cases to draw for uniform and normal")
-      ->check(CLI::Range(1.0, 9007199254740992.0));
+      ->type_name("N")
+      ->check(whole_number(1));
   command->add_option("--seed", arguments->seed, "of what is drawn; default: 1")
-      ->check(CLI::Range(0.0, 9007199254740992.0));
-  may_be_repeated(*command->add_option(
-      "--measure", arguments->measure,
-      "NAME[,NAME...] instead of the default measures: min_, max_, rms_ or end_ and "
-      "one of bbsim columns"));
-  command->add_option("-o,--output", arguments->output,
-                      "FILE.csv, FILE.h5, or - for CSV on standard output; default: the scenario's "
-                      "name with -sweep.csv, in the current folder");
-  command->add_option("--summary", arguments->summary,
-                      "FILE.json: what the sweep was, how its cases ended, the engine");
+      ->type_name("N")
+      ->check(whole_number(0));
+  may_be_repeated(*command
+                       ->add_option("--measure", arguments->measure,
+                                    "instead of the default measures: min_, max_, rms_ or end_ "
+                                    "and one of bbsim columns; may be given again")
+                       ->type_name("NAME,..."));
+  command
+      ->add_option("-o,--output", arguments->output,
+                   "FILE.csv, FILE.h5, or - for CSV on standard output; default: the scenario's "
+                   "name with -sweep.csv, in the current folder (of standard input: -)")
+      ->type_name("FILE");
+  command
+      ->add_option(
+          "--summary", arguments->summary,
+          "what the sweep was, how its cases ended, the engine: JSON; - is standard output")
+      ->type_name("FILE");
   command
       ->add_option("-j,--threads", arguments->threads,
                    "threads; default: as many as there are processors")
-      ->check(CLI::Range(std::size_t{1}, std::size_t{1024}));
-  command->add_option("--shard", arguments->shard,
-                      "K/N: only part K of N, from 1; `bbsim merge` puts the parts together");
+      ->type_name("N")
+      ->check(whole_number(1, 1024));
+  command
+      ->add_option("--shard", arguments->shard,
+                   "only part K of N, from 1; `bbsim merge` puts the parts together")
+      ->type_name("K/N");
   command->add_flag("--resume", arguments->resume, "go on with a sweep that did not end");
   command->add_flag("--keep-trajectories", arguments->keep_trajectories,
                     "keep the output rows of each case too (HDF5)");
-  command->add_option("--error", arguments->error,
-                      "bound on the error of x and y at all output times of each case");
+  add_error(*command, arguments->error);
   command->callback([arguments, &options, &chosen] {
     chosen = [arguments, &options] { return sweep(*arguments, options); };
   });

@@ -15,6 +15,7 @@
 #include "signals.hpp"
 #include "study/simpler.hpp"
 #include "study/verify_references.hpp"
+#include "terminal.hpp"
 
 namespace bbsim::app {
 namespace {
@@ -31,7 +32,8 @@ struct NamedScenario {
 
 std::vector<NamedScenario> scenarios(const VerifyArguments& arguments) {
   if (!arguments.scenario.empty()) {
-    return {{arguments.scenario, read_scenario(arguments.scenario, arguments.overrides)}};
+    const Scenario scenario = read_scenario(arguments.scenario, arguments.overrides);
+    return {{scenario.source.file, scenario}};
   }
   std::vector<NamedScenario> list;
   for (const study::ReferenceScene& scene : study::reference_scenes) {
@@ -42,36 +44,48 @@ std::vector<NamedScenario> scenarios(const VerifyArguments& arguments) {
   return list;
 }
 
-void print_checks(const study::Verification& verification) {
+// As printf does.
+template <class... Values>
+std::string formatted(const char* format, const Values&... values) {
+  const int size = std::snprintf(nullptr, 0, format, values...);
+  std::string text(static_cast<std::size_t>(size), '\0');
+  std::snprintf(text.data(), text.size() + 1, format, values...);
+  return text;
+}
+
+std::string table_of(const study::Verification& verification) {
   std::size_t width = 5;
   for (const study::Check& check : verification.checks) {
     width = std::max(width, check.name.size());
   }
   const int columns = static_cast<int>(width);
-  std::printf("%-*s  %9s  %9s     verdict\n", columns, "check", "error", "bound");
+  std::string text = formatted("%-*s  %9s  %9s     verdict\n", columns, "check", "error", "bound");
   std::size_t holding = 0;
   for (const study::Check& check : verification.checks) {
-    std::printf("%-*s  %9.1e  %9.1e %-2s  %s\n", columns, check.name.c_str(), check.error,
-                check.bound, check.unit.c_str(), check.holds() ? "holds" : "FAILS");
+    text += formatted("%-*s  %9.1e  %9.1e %-2s  %s\n", columns, check.name.c_str(), check.error,
+                      check.bound, check.unit.c_str(), check.holds() ? "holds" : "FAILS");
     if (check.holds()) ++holding;
   }
-  std::printf("%zu of %zu checks hold\n", holding, verification.checks.size());
+  return text + formatted("%zu of %zu checks hold\n", holding, verification.checks.size());
 }
 
-void print_simpler(const NamedScenario& named, const study::FullModelStudy& study) {
-  std::printf("\nWhat equation (27) buys in %s: the error of simpler models\n", named.name.c_str());
-  std::printf("%-16s  %11s  %9s  %11s  %9s\n", "model", "max |dx| /m", "at t /s", "max |dy| /m",
-              "at t /s");
+std::string table_of(const NamedScenario& named, const study::FullModelStudy& study) {
+  std::string text =
+      "\nWhat equation (27) buys in " + named.name + ": the error of simpler models\n";
+  text += formatted("%-16s  %11s  %9s  %11s  %9s\n", "model", "max |dx| /m", "at t /s",
+                    "max |dy| /m", "at t /s");
   for (const study::SimplerModel& model : study.simpler) {
-    std::printf("%-16s  %11.3g  %9s  %11.3g  %9s\n", model.name.c_str(), model.dx,
-                short_number(model.at_dx).c_str(), model.dy, short_number(model.at_dy).c_str());
+    text +=
+        formatted("%-16s  %11.3g  %9s  %11.3g  %9s\n", model.name.c_str(), model.dx,
+                  short_number(model.at_dx).c_str(), model.dy, short_number(model.at_dy).c_str());
   }
   const double end = named.scenario.time.end;
   for (const study::SimplerModel& model : study.simpler) {
     if (model.reached >= end) continue;
-    std::printf("%s is compared up to t = %s s of %s s, as far as both models go\n",
-                model.name.c_str(), short_number(model.reached).c_str(), short_number(end).c_str());
+    text += model.name + " is compared up to t = " + short_number(model.reached) + " s of " +
+            short_number(end) + " s, as far as both models go\n";
   }
+  return text;
 }
 
 ExitCode verify(const VerifyArguments& arguments, const Options& options) {
@@ -86,21 +100,25 @@ ExitCode verify(const VerifyArguments& arguments, const Options& options) {
   const solve::Watch watch{&watch_signals(), [&](double fraction) { progress.update(fraction); }};
   const study::Verification verification = study::verify(watch);
   progress.clear();
-  print_checks(verification);
-  if (verification.interrupted) return ExitCode::interrupted;
+  print(table_of(verification));
+  if (verification.interrupted) {
+    say("interrupted.");
+    return ExitCode::interrupted;
+  }
 
   std::vector<study::SimplerModel> models;
   for (const NamedScenario& named : scenes) {
     const study::FullModelStudy study =
         study::compare_simpler(named.scenario, {&watch_signals(), {}});
     if (study.interrupted) return ExitCode::interrupted;
-    print_simpler(named, study);
+    print(table_of(named, study));
     models = study.simpler;
   }
-  std::printf("\n");
+  std::string equations = "\n";
   for (const study::SimplerModel& model : models) {
-    std::printf("%s: %s\n", model.name.c_str(), model.equation.c_str());
+    equations += model.name + ": " + model.equation + '\n';
   }
+  print(equations);
   return verification.holds() ? ExitCode::done : ExitCode::ended_early;
 }
 
@@ -109,13 +127,11 @@ ExitCode verify(const VerifyArguments& arguments, const Options& options) {
 void add_verify(CLI::App& app, const Options& options, Chosen& chosen) {
   CLI::App* command = app.add_subcommand(
       "verify", "Check this build against known answers; show what the full model buys");
-  command->fallthrough();
   const auto arguments = std::make_shared<VerifyArguments>();
   command->add_option("SCENARIO", arguments->scenario,
-                      "YAML scenario to compare simpler models over; default: the paper's Fig. 2");
-  may_be_repeated(
-      *command->add_option("--set", arguments->overrides,
-                           "key.path=value: set a key of the scenario; may be given again"));
+                      "a YAML file to compare simpler models over, - is standard input; default: "
+                      "the paper's Fig. 2");
+  add_overrides(*command, arguments->overrides);
   command->callback([arguments, &options, &chosen] {
     chosen = [arguments, &options] { return verify(*arguments, options); };
   });

@@ -34,9 +34,27 @@ class InputError : public std::runtime_error {
   std::vector<Problem> problems_;
 };
 
+// A key of the scenario is at fault, as only its model can tell, which does not know where the key
+// stands. what() begins with the key.
+class KeyError : public InputError {
+ public:
+  KeyError(const std::string& key, const std::string& message)
+      : InputError(key + ": " + message), key_(key) {}
+
+  [[nodiscard]] const std::string& key() const { return key_; }
+
+ private:
+  std::string key_;
+};
+
 // The output could not be written: a full disk, a folder without permission.
 class OutputError : public std::runtime_error {
   using std::runtime_error::runtime_error;
+};
+
+// Nobody reads the pipe any more that the output goes to: `bbsim ... | head` has seen enough.
+class ReaderGone : public OutputError {
+  using OutputError::OutputError;
 };
 
 }  // namespace bbsim

@@ -13,8 +13,8 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-ValuePair compare_values(std::size_t row, double a, double b, const Tolerances& tolerances) {
-  ValuePair pair{row, a, b};
+ValuePair compare_numbers(double a, double b, const Tolerances& tolerances) {
+  ValuePair pair{.a = a, .b = b};
   if (std::isfinite(a) && std::isfinite(b)) {
     pair.allowance = tolerances.atol + tolerances.rtol * std::max(std::abs(a), std::abs(b));
   }
@@ -28,6 +28,15 @@ ValuePair compare_values(std::size_t row, double a, double b, const Tolerances& 
   return pair;
 }
 
+// A number and a text differ, even if the text looks like it.
+ValuePair compare_texts(const CellColumn& a, const CellColumn& b, std::size_t i) {
+  ValuePair pair{.of_text = true};
+  if (a.has_text(i) && b.has_text(i) && a.texts[i] == b.texts[i]) return pair;
+  pair.difference = infinity;
+  pair.excess = infinity;
+  return pair;
+}
+
 bool is_worse(const ValuePair& one, const ValuePair& other) {
   // A quotient may round to 1 on either side of it.
   const bool one_differs = !one.alike();
@@ -36,27 +45,45 @@ bool is_worse(const ValuePair& one, const ValuePair& other) {
          std::tie(other_differs, other.excess, other.difference);
 }
 
-ColumnComparison compare_column(const std::string& name, const std::vector<double>& a,
-                                const std::vector<double>& b, const Tolerances& tolerances) {
-  ColumnComparison result{name, {}, {}, 0};
-  const std::size_t rows = std::min(a.size(), b.size());
-  for (std::size_t row = 0; row < rows; ++row) {
-    const ValuePair pair = compare_values(row, a[row], b[row], tolerances);
-    if (row == 0 || pair.difference > result.largest.difference) result.largest = pair;
-    if (row == 0 || is_worse(pair, result.worst)) result.worst = pair;
-    if (!pair.alike()) ++result.different_rows;
+std::string as_text(const CellColumn& column, std::size_t i) {
+  return column.has_text(i) ? '"' + column.texts[i] + '"' : number_text(column.numbers[i]);
+}
+
+// Of equal width.
+ColumnComparison compare_column(const std::string& name, const CellColumn& a, const CellColumn& b,
+                                const Tolerances& tolerances) {
+  ColumnComparison result;
+  result.name = name;
+  const std::size_t size = std::min(a.size(), b.size());
+  std::size_t worst = 0;
+  for (std::size_t row = 0, i = 0; i < size; ++row) {
+    bool alike = true;
+    for (std::size_t position = 0; position < a.width && i < size; ++position, ++i) {
+      ValuePair pair = a.has_text(i) || b.has_text(i)
+                           ? compare_texts(a, b, i)
+                           : compare_numbers(a.numbers[i], b.numbers[i], tolerances);
+      pair.row = row;
+      pair.position = position;
+      alike = alike && pair.alike();
+      if (i == 0 || pair.difference > result.largest.difference) result.largest = pair;
+      if (i == 0 || is_worse(pair, result.worst)) {
+        result.worst = pair;
+        worst = i;
+      }
+    }
+    if (!alike) ++result.different_rows;
+  }
+  if (result.worst.of_text) {
+    result.text_a = as_text(a, worst);
+    result.text_b = as_text(b, worst);
   }
   return result;
 }
 
-const std::vector<double>* find(const TableData& table, const std::string& name) {
+const CellColumn* find(const CellTable& table, const std::string& name) {
   const auto at = std::find(table.names.begin(), table.names.end(), name);
   if (at == table.names.end()) return nullptr;
   return &table.columns[static_cast<std::size_t>(at - table.names.begin())];
-}
-
-std::size_t row_count(const TableData& table) {
-  return table.columns.empty() ? 0 : table.columns.front().size();
 }
 
 std::string joined(const std::vector<std::string>& names) {
@@ -65,7 +92,7 @@ std::string joined(const std::vector<std::string>& names) {
   return text;
 }
 
-void require_column(const TableData& table, const char* which, const std::string& name) {
+void require_column(const CellTable& table, const char* which, const std::string& name) {
   if (find(table, name) != nullptr) return;
   throw InputError("--columns: the " + std::string(which) + " file has no column \"" + name +
                    "\"; it has " + joined(table.names));
@@ -77,21 +104,35 @@ void require_tolerance(const char* name, double value) {
                    "; a tolerance is finite and not negative");
 }
 
+// t of a row; or, of a column whose rows are as t is, of a number in it.
+std::optional<double> time_of(const CellTable& table, const ColumnComparison& column) {
+  const CellColumn* const time = find(table, "t");
+  if (time == nullptr || time->width != find(table, column.name)->width) return {};
+  const std::size_t i = time->width > 1 ? column.worst.position : column.worst.row;
+  if (i >= time->size() || time->has_text(i)) return {};
+  return time->numbers[i];
+}
+
 }  // namespace
 
+const Tolerances& Allowances::of(const std::string& column) const {
+  const auto own = by_column.find(column);
+  return own == by_column.end() ? standard : own->second;
+}
+
 bool Comparison::alike() const {
-  return rows_a == rows_b && only_in_a.empty() && only_in_b.empty() &&
+  return rows_a == rows_b && only_in_a.empty() && only_in_b.empty() && widths.empty() &&
          std::all_of(columns.begin(), columns.end(),
                      [](const ColumnComparison& column) { return column.different_rows == 0; });
 }
 
-Comparison compare(const TableData& a, const TableData& b, const Tolerances& tolerances,
+Comparison compare(const CellTable& a, const CellTable& b, const Allowances& allowances,
                    const std::vector<std::string>& columns) {
-  require_tolerance("rtol", tolerances.rtol);
-  require_tolerance("atol", tolerances.atol);
+  require_tolerance("rtol", allowances.standard.rtol);
+  require_tolerance("atol", allowances.standard.atol);
   Comparison result;
-  result.rows_a = row_count(a);
-  result.rows_b = row_count(b);
+  result.rows_a = a.rows;
+  result.rows_b = b.rows;
   for (const std::string& name : columns) {
     require_column(a, "first", name);
     require_column(b, "second", name);
@@ -102,12 +143,17 @@ Comparison compare(const TableData& a, const TableData& b, const Tolerances& tol
     }
   }
   for (const std::string& name : columns.empty() ? a.names : columns) {
-    const std::vector<double>* in_b = find(b, name);
+    const CellColumn& in_a = *find(a, name);
+    const CellColumn* in_b = find(b, name);
     if (in_b == nullptr) {
       result.only_in_a.push_back(name);
       continue;
     }
-    result.columns.push_back(compare_column(name, *find(a, name), *in_b, tolerances));
+    if (in_a.width != in_b->width) {
+      result.widths.push_back({name, in_a.width, in_b->width});
+      continue;
+    }
+    result.columns.push_back(compare_column(name, in_a, *in_b, allowances.of(name)));
     const std::size_t last = result.columns.size() - 1;
     if (!result.worst ||
         is_worse(result.columns[last].worst, result.columns[*result.worst].worst)) {
@@ -115,9 +161,7 @@ Comparison compare(const TableData& a, const TableData& b, const Tolerances& tol
     }
   }
   if (std::min(result.rows_a, result.rows_b) == 0) result.worst.reset();
-  if (const std::vector<double>* time = find(a, "t"); time != nullptr && result.worst) {
-    result.worst_time = (*time)[result.columns[*result.worst].worst.row];
-  }
+  if (result.worst) result.worst_time = time_of(a, result.columns[*result.worst]);
   return result;
 }
 

@@ -2,28 +2,44 @@
 #pragma once
 
 #include <cstddef>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "record/table_writer.hpp"
+#include "record/cell_table.hpp"
 
 namespace bbsim::record {
 
 // Values a and b are alike if |a - b| <= atol + rtol max(|a|, |b|), if both are the same infinity,
-// or if both are NaN. The defaults forgive rounding, and little more.
+// or if both are NaN; texts if they are equal. The defaults forgive rounding, and little more.
 struct Tolerances {
   double rtol = 1e-9;
   double atol = 1e-12;  // in each column's own unit
 };
 
+// What is forgiven in each column.
+struct Allowances {
+  Allowances() = default;
+  Allowances(const Tolerances& tolerances) : standard(tolerances) {}
+  Allowances(double rtol, double atol) : standard{rtol, atol} {}
+
+  Tolerances standard{};
+  std::map<std::string, Tolerances> by_column{};  // instead of the standard
+  std::string reason{};  // why these, after "within": empty of the standard ones
+
+  [[nodiscard]] const Tolerances& of(const std::string& column) const;
+};
+
 // The values of one row of a column in the two tables.
 struct ValuePair {
-  std::size_t row = 0;  // of the data, from 0
+  std::size_t row = 0;       // of the data, from 0
+  std::size_t position = 0;  // in the row, where a row has several numbers
   double a = 0, b = 0;
   double difference = 0;  // |a - b|; infinite where that is not finite and they are not alike
   double allowance = 0;   // atol + rtol max(|a|, |b|); 0 where nothing is forgiven
   double excess = 0;      // difference / allowance
+  bool of_text = false;   // at least one of the two is a text
 
   [[nodiscard]] bool alike() const { return difference <= allowance; }
 };
@@ -33,14 +49,22 @@ struct ColumnComparison {
   ValuePair largest;  // where the difference is largest
   ValuePair worst;    // where the excess is largest
   std::size_t different_rows = 0;
+  std::string text_a{}, text_b{};  // what is worst, if it is of text
+};
+
+// A column whose rows have other numbers of values in the two tables.
+struct WidthDifference {
+  std::string name;
+  std::size_t a = 0, b = 0;
 };
 
 struct Comparison {
   std::vector<ColumnComparison> columns;  // compared ones, in the order of A or as asked for
   std::vector<std::string> only_in_a, only_in_b;
+  std::vector<WidthDifference> widths;
   std::size_t rows_a = 0, rows_b = 0;  // the common ones are compared
   std::optional<std::size_t> worst;    // index into columns; nothing if there are no rows
-  std::optional<double> worst_time;    // t of A in the worst column's worst row
+  std::optional<double> worst_time;    // t of A where the worst column is worst
 
   [[nodiscard]] bool alike() const;
 };
@@ -48,12 +72,12 @@ struct Comparison {
 // Compares columns by name, whatever their order. `columns` picks some of them; if it is empty,
 // all are compared and one that is missing on either side is a difference. Throws InputError for
 // a name of `columns` that a table lacks, and for a tolerance that is negative or not finite.
-[[nodiscard]] Comparison compare(const TableData& a, const TableData& b,
-                                 const Tolerances& tolerances = {},
+[[nodiscard]] Comparison compare(const CellTable& a, const CellTable& b,
+                                 const Allowances& allowances = {},
                                  const std::vector<std::string>& columns = {});
 
 // What `bbsim compare` prints: a table of the columns, then the verdict.
 [[nodiscard]] std::string to_text(const Comparison& comparison, const std::string& name_a,
-                                  const std::string& name_b, const Tolerances& tolerances);
+                                  const std::string& name_b, const Allowances& allowances);
 
 }  // namespace bbsim::record

@@ -1,4 +1,5 @@
-// A strict reader of CSV: a header of bare names, then as many numbers a row.
+// A strict reader of CSV: a header of bare names, then as many numbers a row, or, where texts are
+// wanted, as many fields.
 #include <unistd.h>
 
 #include <algorithm>
@@ -11,6 +12,7 @@
 
 #include "base/error.hpp"
 #include "base/shown.hpp"
+#include "record/case_text.hpp"
 #include "record/formats.hpp"
 #include "record/line_reader.hpp"
 
@@ -63,29 +65,52 @@ class Parser {
   explicit Parser(const std::string& file) : lines_(file) {}
 
   TableData parse() {
-    next_line();
-    constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
-    if (text_.starts_with(byte_order_mark)) text_.remove_prefix(byte_order_mark.size());
-    if (trimmed(text_).empty()) fail(text_, "found no header; the first row names the columns");
     read_header();
     const std::size_t columns = table_.names.size();
+    table_.columns.resize(columns);
     // Enough for equally long rows, so that few vectors grow.
     const std::size_t rows = lines_.size().value_or(0) / (2 * columns) + 1;
     constexpr std::size_t most = 4096;
     for (auto& column : table_.columns) column.reserve(std::min(rows, most));
-    const std::size_t most_rows = lines_.size() ? std::numeric_limits<std::size_t>::max()
-                                                : most_bytes() / (sizeof(double) * columns);
+    const std::size_t most_rows = room_for_rows();
     while (next_line()) {
-      if (table_.columns[0].size() == most_rows) {
-        fail(text_, "found more than " + std::to_string(most_rows) +
-                        " rows; that is more than this machine has room for");
-      }
+      require_room(table_.columns[0].size(), most_rows);
       read_row();
     }
     return std::move(table_);
   }
 
+  CellTable parse_cells(const std::vector<std::string>& wanted) {
+    read_header();
+    CellTable cells;
+    cells.names = table_.names;
+    cells.columns.resize(cells.names.size());
+    std::vector<bool> reads;
+    for (const std::string& name : cells.names) {
+      reads.push_back(wanted.empty() || name == "t" ||
+                      std::find(wanted.begin(), wanted.end(), name) != wanted.end());
+    }
+    const std::size_t most_rows = room_for_rows();
+    for (; next_line(); ++cells.rows) {
+      require_room(cells.rows, most_rows);
+      read_cells(reads, cells);
+    }
+    return cells;
+  }
+
  private:
+  // Of a file, all that it has; what may go on for ever is bounded by this machine's memory.
+  [[nodiscard]] std::size_t room_for_rows() const {
+    return lines_.size() ? std::numeric_limits<std::size_t>::max()
+                         : most_bytes() / (sizeof(double) * table_.names.size());
+  }
+
+  void require_room(std::size_t rows, std::size_t most) const {
+    if (rows < most) return;
+    fail(text_, "found more than " + std::to_string(most) +
+                    " rows; that is more than this machine has room for");
+  }
+
   bool next_line() {
     const std::optional<std::string_view> line = lines_.next();
     text_ = line.value_or(std::string_view());
@@ -105,6 +130,10 @@ class Parser {
   }
 
   void read_header() {
+    next_line();
+    constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
+    if (text_.starts_with(byte_order_mark)) text_.remove_prefix(byte_order_mark.size());
+    if (trimmed(text_).empty()) fail(text_, "found no header; the first row names the columns");
     for_each_field([this](std::string_view name, std::size_t) {
       double number = 0;
       if (name.empty()) fail(name, "a column's name is empty");
@@ -126,7 +155,39 @@ class Parser {
       }
       table_.names.emplace_back(name);
     });
-    table_.columns.resize(table_.names.size());
+  }
+
+  // A row of numbers and texts, of the columns that `reads` says.
+  void read_cells(const std::vector<bool>& reads, CellTable& cells) {
+    if (trimmed(text_).empty()) fail(text_, "found a blank line; each line is a row");
+    const auto read = [&](std::string_view field, std::size_t c) {
+      if (c >= reads.size() || !reads[c]) return;
+      double value = 0;
+      switch (read_number(field, value)) {
+        case Reading::number:
+          return cells.columns[c].add_number(value);
+        case Reading::no_number:
+          return cells.columns[c].add_text(std::string(field));
+        case Reading::too_large:
+          fail(text_, "column " + table_.names[c] + ": " + what_was_found(field) +
+                          ", too large for a double (at most 1.8e308)");
+      }
+    };
+    std::size_t found = 0;
+    if (text_.find('"') == std::string_view::npos) {
+      found = for_each_field(read);
+    } else {
+      if (!split_fields(text_, fields_)) fail(text_, "found a quotation mark that nothing closes");
+      for (const std::string& field : fields_) read(trimmed(field), found++);
+    }
+    require_fields(found, found == 1 ? " field" : " fields");
+  }
+
+  void require_fields(std::size_t found, const char* what) const {
+    const std::size_t expected = table_.names.size();
+    if (found == expected) return;
+    fail(text_, "found " + std::to_string(found) + what + "; the header names " +
+                    std::to_string(expected) + (expected == 1 ? " column" : " columns"));
   }
 
   void read_row() {
@@ -144,11 +205,7 @@ class Parser {
                       (reading == Reading::too_large ? ", too large for a double (at most 1.8e308)"
                                                      : ", a number is expected"));
     });
-    if (found != expected) {
-      fail(text_, "found " + std::to_string(found) + (found == 1 ? " number" : " numbers") +
-                      "; the header names " + std::to_string(expected) +
-                      (expected == 1 ? " column" : " columns"));
-    }
+    require_fields(found, found == 1 ? " number" : " numbers");
   }
 
   // `at` is a part of the line, for the column of the message.
@@ -162,12 +219,17 @@ class Parser {
   LineReader lines_;
   std::string_view text_;  // the current line, without its end
   TableData table_;
+  std::vector<std::string> fields_;  // of a line with quotation marks
 };
 
 }  // namespace
 
 TableData read_csv(const std::string& file) {
   return Parser(file).parse();
+}
+
+CellTable read_csv_cells(const std::string& file, const std::vector<std::string>& wanted) {
+  return Parser(file).parse_cells(wanted);
 }
 
 }  // namespace bbsim::record

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "record/cell_table.hpp"
 #include "record/table_writer.hpp"
 
 namespace bbsim::record {
@@ -18,5 +19,8 @@ namespace bbsim::record {
 // Each throws InputError.
 [[nodiscard]] TableData read_csv(const std::string& file);  // "-" is standard input
 [[nodiscard]] TableData read_hdf5(const std::string& file);
+[[nodiscard]] CellTable read_csv_cells(const std::string& file,
+                                       const std::vector<std::string>& wanted);
+[[nodiscard]] CellTable read_hdf5_cells(const std::string& file);
 
 }  // namespace bbsim::record

@@ -123,8 +123,10 @@ int take_after(int descriptor, const struct stat& replaced) {
 }
 
 void fail_to_write(const std::string& name, int error_number) {
-  throw OutputError("cannot write " + name + ": " + error_text(error_number) +
-                    advice(error_number, name));
+  const std::string message =
+      "cannot write " + name + ": " + error_text(error_number) + advice(error_number, name);
+  if (error_number == EPIPE) throw ReaderGone(message);
+  throw OutputError(message);
 }
 
 }  // namespace bbsim::record

@@ -26,9 +26,11 @@ struct ScenarioFamily::State {
 };
 
 ScenarioFamily::ScenarioFamily(const std::string& file, const std::vector<std::string>& overrides)
-    : state_(std::make_unique<State>()) {
-  state_->source = {file, read_text(file), overrides};
-  Problems problems(file, without_byte_order_mark(state_->source.text), overrides);
+    : ScenarioFamily(Source{name_in_messages(file), read_text(file), overrides}) {}
+
+ScenarioFamily::ScenarioFamily(const Source& source) : state_(std::make_unique<State>()) {
+  state_->source = source;
+  Problems problems(source.file, without_byte_order_mark(state_->source.text), source.overrides);
   state_->root = build_tree(state_->source, problems, state_->nodes);
   problems.throw_if_any();
 }
@@ -55,6 +57,7 @@ Scenario ScenarioFamily::State::read(const std::vector<Setting>& settings,
   Context context{problems, std::filesystem::path(source.file).parent_path(), {}, tables, numbers};
   MappingOf(read_sections).read({tree, "", {}, &context}, scenario);
   problems.throw_if_any();
+  scenario.remarks = problems.remarks();
   return scenario;
 }
 

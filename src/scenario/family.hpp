@@ -18,9 +18,11 @@ namespace bbsim {
 // by several threads at a time.
 class ScenarioFamily {
  public:
-  // Reads `file` and sets each "key.path=value" of `overrides`. Throws InputError where that is no
-  // tree of keys; what the keys hold is checked by read().
+  // Reads `file`, or standard input for "-", and sets each "key.path=value" of `overrides`. Throws
+  // InputError where that is no tree of keys; what the keys hold is checked by read().
   ScenarioFamily(const std::string& file, const std::vector<std::string>& overrides);
+  // The same of a text that has been read.
+  explicit ScenarioFamily(const Source& source);
   ~ScenarioFamily();
   ScenarioFamily(ScenarioFamily&&) noexcept;
   ScenarioFamily& operator=(ScenarioFamily&&) = delete;

@@ -34,6 +34,10 @@ void Problems::add(const Position& position, std::string message) {
   problems_.push_back({position, std::move(message)});
 }
 
+void Problems::remark(const Position& position, std::string message) {
+  remarks_.push_back(where(position) + ": " + std::move(message));
+}
+
 std::string Problems::where(const Position& position) const {
   if (position.source > 0) {
     const auto i = static_cast<std::size_t>(position.source - 1);

@@ -25,21 +25,30 @@ class Problems {
 
   void add(const Position& position, std::string message);
 
+  // What is allowed, but may not be what the user meant: "note: ..." or "warning: ...".
+  void remark(const Position& position, std::string message);
+
   // Throws InputError if there are any: in the order of the text, then of the overrides; the
   // first 50, and how many more there are.
   void throw_if_any() const;
+
+  // Each with its place, in the order in which they were made.
+  [[nodiscard]] const std::vector<std::string>& remarks() const { return remarks_; }
+
+  // "file:line:column", or which override.
+  [[nodiscard]] std::string where(const Position& position) const;
 
  private:
   struct Located {
     Position position;
     std::string message;
   };
-  [[nodiscard]] std::string where(const Position& position) const;
 
   std::string name_;
   std::string_view text_;
   std::vector<std::string> overrides_, settings_;
   std::vector<Located> problems_;
+  std::vector<std::string> remarks_;
 };
 
 // Of a piece of text, as anywhere.

@@ -68,7 +68,7 @@ void read_sampling(Keys& keys, Sampling& sampling) {
   const Number time{Dimension::time, {.at_least = 0}};
   keys.required("period", Number{Dimension::time, {.above = 0}}, sampling.period);
   keys.optional("delay", time, sampling.delay);
-  keys.optional("resolution", Number{Dimension::angle, {.at_least = 0}}, sampling.resolution);
+  keys.optional("resolution", AngleLimit{{.at_least = 0}}, sampling.resolution);
   keys.optional("derivative_filter", time, sampling.derivative_filter);
 }
 
@@ -97,9 +97,11 @@ void read_controller(Keys& keys, Controller& controller) {
                 NameOf<Drives>{{{Drives::acceleration, "acceleration"}, {Drives::angle, "angle"}}},
                 controller.drives);
   keys.section("reference", read_reference, controller.reference);
-  const bool angle = controller.drives == Drives::angle;
-  const Number limit{angle ? Dimension::angle : Dimension::number, {.above = 0}, angle ? "" : "5"};
-  keys.optional("limit", limit, controller.limit);
+  if (controller.drives == Drives::angle) {
+    keys.optional("limit", AngleLimit{{.above = 0}}, controller.limit);
+  } else {
+    keys.optional("limit", Number{Dimension::number, {.above = 0}, "5"}, controller.limit);
+  }
   keys.optional("sampling", MappingOf(read_sampling), controller.sampling);
   keys.optional("sensor", MappingOf(read_sensor), controller.sensor);
 }

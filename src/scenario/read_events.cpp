@@ -14,7 +14,7 @@ void read_slip(Keys& keys, SlipEvent& slip) {
 }
 
 void read_tilt(Keys& keys, TiltEvent& tilt) {
-  keys.required("limit", Number{Dimension::angle, {.above = 0}}, tilt.limit);
+  keys.required("limit", AngleLimit{{.above = 0}}, tilt.limit);
   keys.optional("action", action(), tilt.action);
 }
 

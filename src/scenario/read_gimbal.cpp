@@ -34,14 +34,14 @@ void read_servo(Keys& keys, Servo& servo) {
     keys.required("natural_frequency", frequency, servo.natural_frequency);
     keys.required("damping", damping, servo.damping);
   }
-  keys.optional("angle_limit", Number{Dimension::angle, {.above = 0}}, servo.angle_limit);
+  keys.optional("angle_limit", AngleLimit{{.above = 0}}, servo.angle_limit);
   keys.optional("rate_limit", Number{Dimension::angular_rate, {.above = 0}}, servo.rate_limit);
   keys.optional("acceleration_limit", Number{Dimension::number, {.above = 0}, "200"},
                 servo.acceleration_limit);
-  keys.optional("dead_band", Number{Dimension::angle, {.at_least = 0}}, servo.dead_band);
+  keys.optional("dead_band", AngleLimit{{.at_least = 0}}, servo.dead_band);
   // Below that, rounding would decide when the servo touches the plane.
   constexpr double least_backlash = 1e-6;
-  if (keys.optional("backlash", Number{Dimension::angle, {.at_least = 0}}, servo.backlash) &&
+  if (keys.optional("backlash", AngleLimit{{.at_least = 0}}, servo.backlash) &&
       servo.backlash > 0 && servo.backlash < least_backlash) {
     keys.find("backlash")->refuse("", "0, or an angle of at least 1e-6 rad");
   }

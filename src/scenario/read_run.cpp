@@ -47,6 +47,27 @@ NameOf<Method> methods() {
   return rule;
 }
 
+// Of a bound on the error and tolerances, which exclude each other, the command line's count.
+void check_bound(Keys& keys, Solver& solver) {
+  const auto on_command_line = [](const Value& value) { return value.position.source > 0; };
+  const Value error = *keys.find("error");
+  for (const char* name : {"rtol", "atol"}) {
+    const std::optional<Value> tolerance = keys.find(name);
+    if (!tolerance) continue;
+    if (on_command_line(*tolerance) == on_command_line(error)) {
+      tolerance->report(
+          "given together with error, which chooses the tolerances; allowed: one of them");
+    } else if (on_command_line(error)) {
+      tolerance->mention("not used: the command line's bound on the error chooses the tolerances");
+      solver.rtol = Solver{}.rtol;
+      solver.atol = Solver{}.atol;
+    } else {
+      error.mention("not used: the command line gives tolerances instead");
+      solver.error.reset();
+    }
+  }
+}
+
 }  // namespace
 
 void read_time(Keys& keys, OutputTimes& time) {
@@ -66,13 +87,7 @@ void read_solver(Keys& keys, Solver& solver) {
   keys.optional("rtol", rtol, solver.rtol);
   keys.optional("atol", atol, solver.atol);
   const Number error{Dimension::length, {.above = 0, .at_most = 1}, "1e-9"};
-  if (!keys.optional("error", error, solver.error) || !solver.error) return;
-  for (const char* tolerance : {"rtol", "atol"}) {
-    if (const auto given = keys.find(tolerance)) {
-      given->report(
-          "given together with error, which chooses the tolerances; allowed: one of them");
-    }
-  }
+  if (keys.optional("error", error, solver.error) && solver.error) check_bound(keys, solver);
 }
 
 void read_output(Keys& keys, Output& output) {

@@ -66,6 +66,7 @@ Scenario parse_scenario(const std::string& text, const std::string& name,
     if (inputs != nullptr) *inputs = context.tables->all();
   }
   problems.throw_if_any();
+  scenario.remarks = problems.remarks();
   return scenario;
 }
 
@@ -88,7 +89,7 @@ std::vector<std::string> table_files(const Scenario& scenario) {
 
 Scenario read_scenario(const std::string& file, const std::vector<std::string>& overrides,
                        std::vector<record::InputTable>* inputs) {
-  return parse_scenario(read_text(file), file, overrides, inputs);
+  return parse_scenario(read_text(file), name_in_messages(file), overrides, inputs);
 }
 
 }  // namespace bbsim

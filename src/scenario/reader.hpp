@@ -9,9 +9,11 @@
 
 namespace bbsim {
 
-// Reads the scenario in `file`, after setting each "key.path=value" of `overrides` in turn.
+// Reads the scenario in `file`, after setting each "key.path=value" of `overrides` in turn; "-" is
+// standard input, which the source then names so.
 //
-// Table files are named relative to the scenario's folder. Throws InputError with every problem
+// Table files are named relative to the scenario's folder, those of standard input relative to the
+// current one. Throws InputError with every problem
 // found, in the order of the file; "file:line:column: key.path: found ..., allowed ...".
 //
 // `inputs`, if it is given, gets the tables that were read, as the scenario names them.

@@ -1,5 +1,8 @@
 #include "scenario/rules.hpp"
 
+#include <cmath>
+#include <numbers>
+
 namespace bbsim::input {
 
 bool Range::holds(double value) const {
@@ -32,6 +35,18 @@ bool Number::read(const Value& value, double& into) const {
   if (!range.holds(*quantity.value)) return value.refuse("", allowed());
   into = *quantity.value;
   value.note(into, dimension);
+  return true;
+}
+
+bool AngleLimit::read(const Value& value, double& into) const {
+  if (!Number{Dimension::angle, range}.read(value, into)) return false;
+  const Node& node = *value.node;
+  const bool without_unit =
+      read_quantity(node.text, node.quoted, Dimension::number).value.has_value();
+  if (without_unit && std::abs(into) > 2 * std::numbers::pi) {
+    value.warn("found " + shown(node) + ", which is in radians, more than a turn; for degrees: \"" +
+               shown(node) + " deg\"");
+  }
   return true;
 }
 

@@ -36,6 +36,15 @@ struct Number {
   bool read(const Value& value, double& into) const;
 };
 
+// An angle that something must not exceed. One of more than a turn, without a unit, is read, and
+// remarked upon: whoever wrote it may have meant degrees.
+struct AngleLimit {
+  Range range{};
+
+  [[nodiscard]] std::string allowed() const { return Number{Dimension::angle, range}.allowed(); }
+  bool read(const Value& value, double& into) const;
+};
+
 // [x, y]
 struct PairOf {
   Dimension dimension = Dimension::number;

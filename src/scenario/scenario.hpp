@@ -276,6 +276,8 @@ struct Scenario {
   Output output;
   Sweep sweep;
   Source source;
+  // What is allowed, but may not be what the user meant: a line each, with its place.
+  std::vector<std::string> remarks{};
 };
 
 }  // namespace bbsim

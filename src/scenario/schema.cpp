@@ -27,6 +27,14 @@ bool Value::report(std::string_view message) const {
   return false;
 }
 
+void Value::warn(std::string_view message) const {
+  context->problems.remark(node->position, "warning: " + path + ": " + std::string(message));
+}
+
+void Value::mention(std::string_view message) const {
+  context->problems.remark(node->position, "note: " + path + ": " + std::string(message));
+}
+
 void Keys::know(std::string_view key) {
   if (std::ranges::find(known_, key) == known_.end()) known_.push_back(key);
 }

@@ -70,6 +70,11 @@ struct Value {
   // Reports "path: <message>" at the node. Returns false.
   bool report(std::string_view message) const;
 
+  // Remarks at the node, with the key's path: "warning: path: <message>".
+  void warn(std::string_view message) const;
+  // The same of what is as it should be: "note: path: <message>".
+  void mention(std::string_view message) const;
+
   // Says that a single number was read here, in SI units.
   void note(double number, Dimension dimension) const {
     if (context->numbers != nullptr) (*context->numbers)[path] = {number, dimension};

@@ -20,9 +20,10 @@ class File {
  public:
   // Non-blocking, for a pipe without a writer must not hold us up.
   explicit File(const std::string& name)
-      : descriptor_(::open(name.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK)) {}
+      : descriptor_(name == "-" ? STDIN_FILENO
+                                : ::open(name.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK)) {}
   ~File() {
-    if (descriptor_ >= 0) ::close(descriptor_);
+    if (descriptor_ > STDIN_FILENO) ::close(descriptor_);
   }
   File(const File&) = delete;
   File& operator=(const File&) = delete;
@@ -33,7 +34,7 @@ class File {
 };
 
 [[noreturn]] void refuse(const std::string& file, const std::string& message) {
-  throw InputError({Problem{file, message}});
+  throw InputError({Problem{name_in_messages(file), message}});
 }
 
 [[noreturn]] void refuse_unreadable(const std::string& file, int error) {
@@ -47,12 +48,16 @@ class File {
 
 void wait_for_data(const File& input, const std::string& file) {
   pollfd event{input.get(), POLLIN, 0};
-  const int ready = ::poll(&event, 1, patience);
+  const int ready = ::poll(&event, 1, file == "-" ? -1 : patience);
   if (ready == 0) refuse(file, "found nothing within 5 s; allowed: a file, or a pipe in use");
   if (ready < 0 && errno != EINTR) refuse_unreadable(file, errno);
 }
 
 }  // namespace
+
+std::string name_in_messages(const std::string& file) {
+  return file == "-" ? "standard input" : file;
+}
 
 std::string read_text(const std::string& file) {
   const File input(file);

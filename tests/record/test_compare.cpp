@@ -1,5 +1,8 @@
 // What counts as alike, and what is told about what does not.
+#include <cmath>
 #include <limits>
+#include <string>
+#include <vector>
 
 #include "base/error.hpp"
 #include "catch.hpp"
@@ -7,9 +10,11 @@
 #include "record/compare.hpp"
 
 using bbsim::InputError;
+using bbsim::record::CellColumn;
+using bbsim::record::CellTable;
 using bbsim::record::compare;
 using bbsim::record::Comparison;
-using bbsim::record::TableData;
+using bbsim::record::read_cells;
 using bbsim::record::Tolerances;
 using Catch::Matchers::Contains;
 
@@ -23,7 +28,13 @@ bool alike(double a, double b, const Tolerances& tolerances = {}) {
   return compare({{"x"}, {{a}}}, {{"x"}, {{b}}}, tolerances).alike();
 }
 
-const TableData three_rows{{"t", "x"}, {{0, 0.5, 1}, {1, 2, 4}}};
+// Of a CSV's text.
+CellTable cells(const std::string& text, const std::vector<std::string>& wanted = {}) {
+  const Folder folder;
+  return read_cells(folder.put("a.csv", text), wanted);
+}
+
+const CellTable three_rows{{"t", "x"}, {{0, 0.5, 1}, {1, 2, 4}}};
 
 }  // namespace
 
@@ -69,7 +80,7 @@ TEST_CASE("NaN is like NaN, an infinity like itself, whatever the tolerances") {
 }
 
 TEST_CASE("columns go by name, whatever their order") {
-  const TableData swapped{{"x", "t"}, {three_rows.columns[1], three_rows.columns[0]}};
+  const CellTable swapped{{"x", "t"}, {three_rows.columns[1], three_rows.columns[0]}};
   const Comparison result = compare(three_rows, swapped);
   CHECK(result.alike());
   REQUIRE(result.columns.size() == 2);
@@ -80,8 +91,8 @@ TEST_CASE("columns go by name, whatever their order") {
 
 TEST_CASE("the worst value is the one furthest beyond what is allowed") {
   // Allowed is 0.5 of the larger value. y differs most, but small z is further off its allowance.
-  const TableData a{{"t", "y", "z"}, {{0, 0.5, 1}, {100, 100, 100}, {1, 1, 0.125}}};
-  const TableData b{{"t", "y", "z"}, {{0, 0.5, 1}, {100, 400, 100}, {1, 1.5, 0.5}}};
+  const CellTable a{{"t", "y", "z"}, {{0, 0.5, 1}, {100, 100, 100}, {1, 1, 0.125}}};
+  const CellTable b{{"t", "y", "z"}, {{0, 0.5, 1}, {100, 400, 100}, {1, 1.5, 0.5}}};
   const Comparison result = compare(a, b, {0.5, 0});
   CHECK_FALSE(result.alike());
   CHECK(result.columns[0].different_rows == 0);
@@ -115,7 +126,7 @@ TEST_CASE("what is not finite is worse than any number") {
 }
 
 TEST_CASE("a column on one side only is a difference") {
-  const TableData more{{"t", "x", "y"}, {{0, 0.5, 1}, {1, 2, 4}, {0, 0, 0}}};
+  const CellTable more{{"t", "x", "y"}, {{0, 0.5, 1}, {1, 2, 4}, {0, 0, 0}}};
   const Comparison right = compare(three_rows, more);
   CHECK_FALSE(right.alike());
   CHECK(right.only_in_b == std::vector<std::string>{"y"});
@@ -133,27 +144,27 @@ TEST_CASE("tables without a common column differ") {
 }
 
 TEST_CASE("different numbers of rows are a difference; the common ones are compared") {
-  const TableData shorter{{"t", "x"}, {{0, 0.5}, {1, 3}}};
+  const CellTable shorter{{"t", "x"}, {{0, 0.5}, {1, 3}}};
   const Comparison result = compare(three_rows, shorter);
   CHECK_FALSE(result.alike());
   CHECK(result.rows_a == 3);
   CHECK(result.rows_b == 2);
   CHECK(result.columns[1].worst.row == 1);
-  const TableData prefix{{"t", "x"}, {{0, 0.5}, {1, 2}}};
+  const CellTable prefix{{"t", "x"}, {{0, 0.5}, {1, 2}}};
   CHECK_FALSE(compare(prefix, three_rows).alike());
-  const TableData empty{{"t", "x"}, {{}, {}}};
+  const CellTable empty{{"t", "x"}, {{}, {}}};
   CHECK_FALSE(compare(empty, three_rows).alike());
   CHECK(compare(empty, empty).alike());
 }
 
 TEST_CASE("only the columns asked for are compared") {
-  const TableData other{{"t", "x"}, {{0, 0.5, 1}, {9, 9, 9}}};
+  const CellTable other{{"t", "x"}, {{0, 0.5, 1}, {9, 9, 9}}};
   CHECK(compare(three_rows, other, {}, {"t"}).alike());
   CHECK_FALSE(compare(three_rows, other, {}, {"t", "x"}).alike());
 }
 
 TEST_CASE("a column that is not there is refused by name") {
-  const TableData other{{"t"}, {{0, 0.5, 1}}};
+  const CellTable other{{"t"}, {{0, 0.5, 1}}};
   CHECK(message_of<InputError>([&] {
           (void)compare(three_rows, other, {}, {"t", "vz"});
         }) == "--columns: the first file has no column \"vz\"; it has t, x");
@@ -175,7 +186,7 @@ TEST_CASE("a tolerance must be finite and not negative") {
 }
 
 TEST_CASE("the report names column, row, time and both values") {
-  const TableData other{{"t", "x"}, {{0, 0.5, 1}, {1, 2.5, 4}}};
+  const CellTable other{{"t", "x"}, {{0, 0.5, 1}, {1, 2.5, 4}}};
   const Tolerances tolerances{0.125, 0};
   CHECK(to_text(compare(three_rows, other, tolerances), "a.csv", "b.csv", tolerances) ==
         "column  largest |a - b|  in row  times allowed  rows differ\n"
@@ -193,9 +204,72 @@ TEST_CASE("the report of tables that are alike") {
 }
 
 TEST_CASE("the report names missing columns and rows") {
-  const TableData other{{"t", "y"}, {{0}, {1}}};
+  const CellTable other{{"t", "y"}, {{0}, {1}}};
   CHECK_THAT(to_text(compare(three_rows, other), "a.csv", "b.csv", {}),
              Contains("different: column x is in a.csv but not in b.csv\n") &&
                  Contains("different: column y is in b.csv but not in a.csv\n") &&
                  Contains("different: a.csv has 3 rows, b.csv has 1 row\n") && !Contains("alike:"));
+}
+
+TEST_CASE("texts are compared for equality, numbers within the tolerance") {
+  const CellTable a = cells("case,status,x\n0,done,1\n1,\"failed at 1 s: no, \"\"never\"\"\",2\n");
+  CHECK(a.columns[1].texts == std::vector<std::string>{"done", "failed at 1 s: no, \"never\""});
+  CHECK(compare(a, a).alike());
+  const CellTable b = cells("case,status,x\n0,done,1.0000000001\n1,failed,2\n");
+  const Comparison result = compare(a, b);
+  CHECK_FALSE(result.alike());
+  CHECK(result.columns[1].different_rows == 1);
+  CHECK(result.columns[2].different_rows == 0);
+  CHECK_THAT(to_text(result, "a.csv", "b.csv", {}),
+             Contains("\nstatus             text       1            inf            1\n") &&
+                 Contains("different: worst in column status, row 1: \"failed at 1 s: no, "
+                          "\"never\"\" in a.csv, \"failed\" in b.csv\n"));
+  CHECK(compare(a, b, {}, {"case", "x"}).alike());
+}
+
+TEST_CASE("a number in the place of a text is a difference") {
+  const CellTable a = cells("kp,x\n2,0\nnone,0\n,0\n"), b = cells("kp,x\n2,0\n3,0\n,0\n");
+  CHECK(compare(a, a).alike());
+  const Comparison result = compare(a, b);
+  CHECK(result.columns[0].different_rows == 1);
+  CHECK_THAT(to_text(result, "a", "b", {}), Contains("\"none\" in a, 3 in b\n"));
+}
+
+TEST_CASE("only the columns that are named are parsed") {
+  const std::string huge = "when,x,y\nMonday,1,1e999\nTuesday,2,1e999\n";
+  CHECK_THAT(message_of<InputError>([&] { (void)cells(huge); }), Contains("too large"));
+  const CellTable a = cells(huge, {"x"});
+  CHECK(a.names == std::vector<std::string>{"when", "x", "y"});
+  CHECK(a.rows == 2);
+  CHECK(a.columns[0].size() == 0);
+  CHECK(a.columns[1].numbers == std::vector<double>{1, 2});
+  CHECK(compare(a, a, {}, {"x"}).alike());
+}
+
+TEST_CASE("a file that is no table of cells is refused with its place") {
+  CHECK_THAT(message_of<InputError>([&] { (void)cells("a,b\n1,x,3\n"); }),
+             Contains("a.csv:2:1: found 3 fields; the header names 2 columns"));
+  CHECK_THAT(message_of<InputError>([&] { (void)cells("a,b\n1,\"x\n"); }),
+             Contains("a.csv:2:1: found a quotation mark that nothing closes"));
+  CHECK_THAT(message_of<InputError>([&] { (void)cells("a\n1\n\n2\n"); }),
+             Contains("a.csv:3:1: found a blank line"));
+}
+
+TEST_CASE("several numbers a row are compared one by one, with the time that goes along them") {
+  CellTable a{{"case", "x", "t"},
+              {{0, 1}, CellColumn({1, 2, 3, 4, 5, 6}, 3), CellColumn({0, 0.5, 1}, 3)}};
+  CellTable b = a;
+  CHECK(compare(a, b).alike());
+  b.columns[1].numbers[4] = 7;
+  b.columns[1].numbers[5] = 6.5;
+  const Comparison result = compare(a, b);
+  CHECK(result.columns[1].different_rows == 1);
+  CHECK(result.columns[1].worst.row == 1);
+  CHECK(result.columns[1].worst.position == 1);
+  CHECK(result.worst_time == 0.5);
+  const CellTable narrow{{"case", "x", "t"},
+                         {{0, 1}, CellColumn({1, 2, 4, 5}, 2), CellColumn({0, 0.5}, 2)}};
+  CHECK_FALSE(compare(a, narrow).alike());
+  CHECK_THAT(to_text(compare(a, narrow), "a", "b", {}),
+             Contains("different: column x has 3 numbers a row in a, 2 in b\n"));
 }

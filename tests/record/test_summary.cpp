@@ -24,6 +24,7 @@ RunSummary a_run() {
   run.title = "Fig. 2(a), \"open\" loop: φ";
   run.overrides = {"ball.radius=0.02", "time.end=5"};
   run.status = "done";
+  run.warnings = {"the ball is off the plate"};
   run.end_time = 10;
   run.rows = 101;
   run.output = "fig2a.csv";
@@ -50,6 +51,9 @@ TEST_CASE("the summary's JSON text") {
   ],
   "status": "done",
   "reason": "",
+  "warnings": [
+    "the ball is off the plate"
+  ],
   "end_time": 10.0,
   "rows": 101,
   "output": "fig2a.csv",

@@ -1,0 +1,129 @@
+#include "command_line.hpp"
+
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "scenario/nearest.hpp"
+#include "terminal.hpp"
+
+namespace bbsim::app {
+namespace {
+
+std::vector<std::string> names_of_commands(const CLI::App& app) {
+  std::vector<std::string> names;
+  for (const CLI::App* command : app.get_subcommands({})) names.push_back(command->get_name());
+  return names;
+}
+
+std::vector<std::string> names_of_options(const CLI::App& command) {
+  std::vector<std::string> names;
+  for (const CLI::App* app = &command; app != nullptr; app = app->get_parent()) {
+    for (const CLI::Option* option : app->get_options()) {
+      names.insert(names.end(), option->get_lnames().begin(), option->get_lnames().end());
+    }
+  }
+  return names;
+}
+
+std::string nearest(std::string_view word, const std::vector<std::string>& names) {
+  const std::vector<std::string_view> views(names.begin(), names.end());
+  return std::string(input::nearest_name(word, views));
+}
+
+constexpr const char* more = "\nRun bbsim --help for more information.";
+
+std::string known_commands(const CLI::App& app) {
+  std::string text = "known:";
+  for (const std::string& name : names_of_commands(app)) text += ' ' + name;
+  return text;
+}
+
+[[noreturn]] void refuse_command(const CLI::App& app, const std::string& word) {
+  const std::string near = nearest(word, names_of_commands(app));
+  throw InputError("unknown command " + word + "; " +
+                   (near.empty() ? known_commands(app) : "did you mean " + near + "?") + more);
+}
+
+bool is_option(std::string_view word) {
+  return word.size() > 1 && word.front() == '-';
+}
+
+// `command` is the one that was given, or the whole program if none was.
+[[noreturn]] void refuse_word(const CLI::App& app, const CLI::App& command,
+                              const std::string& word) {
+  const bool whole = &app == &command;
+  const std::string name = whole ? "bbsim" : "bbsim " + command.get_name();
+  const std::string help = "\nRun " + name + " --help for more information.";
+  if (!is_option(word)) {
+    throw InputError("found " + word + ", which " + name + " does not ask for." + help);
+  }
+  const std::string option = word.substr(0, word.find('='));
+  if (!whole && command.get_option_no_throw(option) != nullptr) {
+    throw InputError(option + ": found before " + command.get_name() +
+                     "; allowed: the options of a command after it." + help);
+  }
+  std::string message = "unknown option " + option + " of " + name;
+  const std::size_t letters = option.find_first_not_of('-');
+  const std::string near = letters == std::string::npos
+                               ? ""
+                               : nearest(option.substr(letters), names_of_options(command));
+  if (!near.empty()) message += "; did you mean --" + near + "?";
+  throw InputError(message + help);
+}
+
+}  // namespace
+
+void add_quiet(CLI::App& app, Options& options) {
+  app.fallthrough();  // which the commands take over, so that the flag may stand after them
+  app.add_flag("-q,--quiet", options.quiet,
+               "print no messages and no progress, only results and why a run ended");
+}
+
+ExitCode parsing_ended(const CLI::App& app, const CLI::ParseError& error) {
+  if (dynamic_cast<const CLI::CallForHelp*>(&error) != nullptr) {
+    print(app.help());
+    return ExitCode::done;
+  }
+  if (dynamic_cast<const CLI::CallForVersion*>(&error) != nullptr) {
+    print(std::string(error.what()) + '\n');
+    return ExitCode::done;
+  }
+  const std::vector<CLI::App*> given = app.get_subcommands();
+  const CLI::App& command = given.empty() ? app : *given.front();
+  // What is not known comes first: for want of it something else may be missing.
+  const std::vector<std::string> unknown = app.remaining(true);
+  for (const std::string& word : unknown) {
+    if (is_option(word)) refuse_word(app, command, word);
+  }
+  if (!unknown.empty() && given.empty()) refuse_command(app, unknown.front());
+  if (dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr && !unknown.empty()) {
+    refuse_word(app, command, unknown.front());
+  }
+  if (given.empty()) throw InputError("found no command; " + known_commands(app) + more);
+  throw InputError(std::string(error.what()) + "\nRun bbsim " + command.get_name() +
+                   " --help for more information.");
+}
+
+void add_help(CLI::App& app, Chosen& chosen) {
+  CLI::App* command = app.add_subcommand("help", "Print help, of a command if it is named");
+  const auto name = std::make_shared<std::string>();
+  command->add_option("COMMAND", *name, "the command; default: what all of them do");
+  command->callback([&app, name, &chosen] {
+    chosen = [&app, name] {
+      if (name->empty()) {
+        print(app.get_formatter()->make_help(&app, "bbsim", CLI::AppFormatMode::Normal));
+        return ExitCode::done;
+      }
+      for (const CLI::App* known : app.get_subcommands({})) {
+        if (known->get_name() != *name) continue;
+        print(known->help("bbsim"));
+        return ExitCode::done;
+      }
+      refuse_command(app, *name);
+    };
+  });
+}
+
+}  // namespace bbsim::app

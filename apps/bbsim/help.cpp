@@ -1,0 +1,86 @@
+#include "help.hpp"
+
+#include <cstddef>
+#include <string_view>
+
+// After App.hpp, on which it depends.
+#include <CLI/Formatter.hpp>
+
+namespace bbsim::app {
+namespace {
+
+constexpr std::size_t widest = 80;
+constexpr std::size_t margin = 24;  // where descriptions begin
+
+// The words of a text, in lines that begin at column `indent`; the first one is at `column`
+// already.
+std::string wrapped(std::string_view text, std::size_t indent, std::size_t column) {
+  std::string result;
+  bool first = true;
+  while (!text.empty()) {
+    const std::size_t end = text.find(' ');
+    const std::string_view word = text.substr(0, end);
+    if (!first && column + 1 + word.size() > widest) {
+      result += '\n' + std::string(indent, ' ');
+      column = indent;
+    } else if (!first) {
+      result += ' ';
+      ++column;
+    }
+    result += word;
+    column += word.size();
+    first = false;
+    text.remove_prefix(end == std::string_view::npos ? text.size() : end + 1);
+  }
+  return result;
+}
+
+std::string entry(const std::string& name, const std::string& description) {
+  std::string text = "  " + name;
+  if (description.empty()) return text + '\n';
+  text += text.size() + 2 > margin ? '\n' + std::string(margin, ' ')
+                                   : std::string(margin - text.size(), ' ');
+  return text + wrapped(description, margin, margin) + '\n';
+}
+
+}  // namespace
+
+std::string HelpFormatter::make_option(const CLI::Option* option, bool is_positional) const {
+  return entry(make_option_name(option, is_positional) + make_option_opts(option),
+               make_option_desc(option));
+}
+
+// What the option takes, and what it is without it.
+std::string HelpFormatter::make_option_opts(const CLI::Option* option) const {
+  if (option->get_type_size() == 0 || option->get_positional()) return "";
+  const std::string standard = option->get_default_str();
+  return ' ' + option->get_type_name() + (standard.empty() ? "" : '=' + standard);
+}
+
+std::string HelpFormatter::make_subcommand(const CLI::App* command) const {
+  return entry(command->get_name(), command->get_description());
+}
+
+// What it shares with the other commands; then the footer, a paragraph a line, of which one that
+// begins with a space stands as it is.
+std::string HelpFormatter::make_footer(const CLI::App* command) const {
+  std::string text;
+  if (const CLI::App* all = command->get_parent()) {
+    const CLI::Option* const quiet = all->get_option_no_throw("--quiet");
+    if (quiet != nullptr) text = "Options of all commands:\n" + make_option(quiet, false) + '\n';
+  }
+  const std::string footer = command->get_footer();
+  for (std::string_view rest = footer; !rest.empty();) {
+    const std::size_t end = rest.find('\n');
+    const std::string_view line = rest.substr(0, end);
+    text += (line.starts_with(' ') ? std::string(line) : wrapped(line, 0, 0)) + '\n';
+    rest.remove_prefix(end == std::string_view::npos ? rest.size() : end + 1);
+  }
+  return text;
+}
+
+std::string HelpFormatter::make_description(const CLI::App* command) const {
+  return wrapped(command->get_description(), 0, 0) + '\n';
+}
+
+}  // namespace bbsim::app

@@ -1,0 +1,17 @@
+// What the program says to people. Every message and every report goes through here, and so through
+// printable(): names of files, columns and keys come from others, and a terminal obeys what it is
+// sent. Results that programs read (CSV, JSON, HDF5) do not: they are written as they are.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+namespace bbsim::app {
+
+// A message, to standard error; a line break is added.
+void say(std::string_view message);
+
+// A report that was asked for, to standard output. Throws OutputError.
+void print(const std::string& report);
+
+}  // namespace bbsim::app

@@ -1,0 +1,45 @@
+// Where a ball left a plate of known size, in scenes that do not watch for it: seen on the rows as
+// they pass, at the price of two comparisons a row.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+
+#include "model/model.hpp"
+#include "solve/outcome.hpp"
+#include "solve/output_grid.hpp"
+
+namespace bbsim::record {
+
+// The first row whose contact point is beyond the edge.
+struct OffPlate {
+  double t = 0;         // s
+  double x = 0, y = 0;  // m
+};
+
+class EdgeNote : public solve::StateSink {
+ public:
+  // Whether the scene has a plate that ends, and no event at its edge.
+  [[nodiscard]] static bool wanted(const Scenario& scenario);
+
+  // Hands all rows on to `next`.
+  EdgeNote(const model::Model& model, const Plate& plate, const solve::OutputGrid& grid,
+           solve::StateSink& next);
+
+  void accept(std::size_t first, std::size_t count, const double* values) override;
+  [[nodiscard]] solve::PieceSink* pieces() override { return next_.pieces(); }
+
+  [[nodiscard]] const std::optional<OffPlate>& left() const { return left_; }
+
+ private:
+  [[nodiscard]] bool is_beyond(double x, double y) const;
+
+  const Plate plate_;
+  const solve::OutputGrid& grid_;
+  solve::StateSink& next_;
+  std::size_t row_size_;
+  std::optional<std::size_t> x_, y_;  // among the states; what symmetry keeps at zero is none
+  std::optional<OffPlate> left_;
+};
+
+}  // namespace bbsim::record

@@ -1,0 +1,181 @@
+#include "record/solver_allowance.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <string_view>
+
+#include "record/columns.hpp"
+#include "record/measures.hpp"
+#include "record/number_text.hpp"
+#include "scenario/look_up.hpp"
+
+namespace bbsim::record {
+namespace {
+
+using input::Dimension;
+
+constexpr double growth = 100;  // of the errors of steps
+
+std::optional<std::string> attribute(const CellTable& table, std::string_view name) {
+  for (const auto& [key, value] : table.attributes) {
+    if (key == name) return value.text();
+  }
+  return {};
+}
+
+// A number above zero.
+std::optional<double> number(const CellTable& table, std::string_view name) {
+  const std::optional<std::string> text = attribute(table, name);
+  double value = 0;
+  if (!text) return {};
+  const char* const end = text->data() + text->size();
+  const auto [stop, error] = std::from_chars(text->data(), end, value);
+  if (error != std::errc() || stop != end || !std::isfinite(value) || !(value > 0)) return {};
+  return value;
+}
+
+Source source_of(const CellTable& table) {
+  Source source{"", attribute(table, "scenario_text").value_or(""), {}};
+  std::string_view rest;
+  const std::string overrides = attribute(table, "overrides").value_or("");
+  for (rest = overrides; !rest.empty();) {
+    const std::size_t end = rest.find('\n');
+    source.overrides.emplace_back(rest.substr(0, end));
+    rest.remove_prefix(end == std::string_view::npos ? rest.size() : end + 1);
+  }
+  return source;
+}
+
+const CellColumn* find(const CellTable& table, std::string_view name) {
+  const auto at = std::ranges::find(table.names, name);
+  if (at == table.names.end()) return nullptr;
+  return &table.columns[static_cast<std::size_t>(at - table.names.begin())];
+}
+
+// The largest finite size.
+double largest(const CellColumn& column) {
+  double size = 0;
+  for (const double value : column.numbers) {
+    if (std::isfinite(value)) size = std::max(size, std::abs(value));
+  }
+  return size;
+}
+
+// What a file says of how well it was computed.
+struct Claim {
+  double rtol = 0, atol = 0;            // both 0 if there is none
+  std::optional<double> error_bound{};  // m
+  double spin_unit = 1, gamma_unit = 1, acceleration_unit = 1;
+};
+
+Claim claim_of(const CellTable& table) {
+  Claim claim;
+  const std::optional<double> rtol = number(table, "rtol"), atol = number(table, "atol");
+  if (rtol && atol) claim = {*rtol, *atol};
+  if (const auto bound = number(table, "error_bound")) {
+    // A run that could not keep to it says what it kept to.
+    claim.error_bound = std::max(*bound, number(table, "error_estimate").value_or(0));
+  }
+  const Source source = source_of(table);
+  if (source.text.empty()) return claim;
+
+  double radius = number_at(source, "ball.radius", Dimension::length).value_or(1);
+  if (const CellColumn* varied = find(table, "ball.radius")) {
+    for (const double value : varied->numbers) {
+      if (value > 0) radius = std::min(radius, value);
+    }
+  }
+  claim.spin_unit = 1 / radius;
+  claim.gamma_unit = number_at(source, "time.end", Dimension::time).value_or(1) / radius;
+
+  double frequency =
+      number_at(source, "gimbal.servo.natural_frequency", Dimension::angular_rate).value_or(0);
+  double damping = number_at(source, "gimbal.servo.damping", Dimension::number).value_or(0);
+  if (const CellColumn* varied = find(table, "gimbal.servo.natural_frequency")) {
+    frequency = std::max(frequency, largest(*varied));
+  }
+  if (const CellColumn* varied = find(table, "gimbal.servo.damping")) {
+    damping = std::max(damping, largest(*varied));
+  }
+  claim.acceleration_unit = std::max(1.0, frequency * (frequency + 2 * damping));
+  return claim;
+}
+
+// The column that a table's column holds, or is a measure of; null if states do not make it.
+const Column* computed(const std::string& name) {
+  const Column* column = find_column(name);
+  if (column == nullptr) {
+    if (const auto measure = find_measure(name)) column = measure->column;
+  }
+  if (column == nullptr || column->name == "t" || column->name.ends_with("_reference")) {
+    return nullptr;
+  }
+  return column;
+}
+
+// Columns of one kind share the size of their errors.
+std::string_view kind_of(const Column& column) {
+  return column.name == "spin" || column.name == "gamma" ? column.name : column.unit;
+}
+
+double unit_of(const Column& column, const Claim& claim) {
+  if (column.name == "spin") return claim.spin_unit;
+  if (column.name == "gamma") return claim.gamma_unit;
+  if (column.unit == "rad/s^2") return claim.acceleration_unit;
+  return 1;
+}
+
+std::string claims_text(const Claim& claim) {
+  std::string text;
+  if (claim.rtol > 0) {
+    text = "rtol " + number_text(claim.rtol) + ", atol " + number_text(claim.atol);
+  }
+  if (!claim.error_bound) return text;
+  return text + (text.empty() ? "" : "; ") + "positions to " + number_text(*claim.error_bound) +
+         " m";
+}
+
+}  // namespace
+
+std::optional<Allowances> solver_allowances(const CellTable& a, const CellTable& b) {
+  const Claim claims[] = {claim_of(a), claim_of(b)};
+  std::vector<std::string> texts;
+  for (const Claim& claim : claims) {
+    const std::string text = claims_text(claim);
+    if (!text.empty() && (texts.empty() || texts.back() != text)) texts.push_back(text);
+  }
+  if (texts.empty()) return {};
+
+  std::map<std::string_view, double> sizes;  // by kind
+  for (const CellTable* table : {&a, &b}) {
+    for (std::size_t c = 0; c < table->names.size(); ++c) {
+      const Column* const column = computed(table->names[c]);
+      if (column == nullptr) continue;
+      double& size = sizes[kind_of(*column)];
+      size = std::max(size, largest(table->columns[c]));
+    }
+  }
+
+  Allowances allowances;
+  allowances.reason = "100 (rtol size + atol) for each file, by its solver's ";
+  for (const std::string& text : texts) {
+    allowances.reason += (text == texts.front() ? "" : " and ") + text;
+  }
+  for (const std::string& name : a.names) {
+    const Column* const column = computed(name);
+    if (column == nullptr) continue;
+    Tolerances& own = allowances.by_column[name];
+    for (const Claim& claim : claims) {
+      if (claim.error_bound && column->unit == "m") {
+        own.atol += *claim.error_bound;
+      } else {
+        own.atol +=
+            growth * (claim.rtol * sizes[kind_of(*column)] + claim.atol * unit_of(*column, claim));
+      }
+    }
+  }
+  return allowances;
+}
+
+}  // namespace bbsim::record

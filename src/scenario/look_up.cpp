@@ -1,0 +1,55 @@
+#include "scenario/look_up.hpp"
+
+#include <algorithm>
+
+#include "scenario/check_text.hpp"
+#include "scenario/sections.hpp"
+
+namespace bbsim {
+
+using namespace input;
+
+namespace {
+
+// As far down a path as there are keys.
+struct Found {
+  Position position;           // of the last key that is there
+  const Node* node = nullptr;  // its value
+  bool whole = false;          // the path
+};
+
+Found find(const Node* root, std::string_view path) {
+  Found found{{}, root, false};
+  while (found.node != nullptr && !path.empty()) {
+    const std::size_t dot = path.find('.');
+    const auto& entries = found.node->entries;
+    const auto entry = std::ranges::find(entries, path.substr(0, dot), &Entry::key);
+    if (entry == entries.end()) return found;
+    found = {entry->position, entry->value, false};
+    path.remove_prefix(dot == std::string_view::npos ? path.size() : dot + 1);
+  }
+  found.whole = found.node != nullptr;
+  return found;
+}
+
+Problems problems_of(const Source& source) {
+  return {source.file, without_byte_order_mark(source.text), source.overrides};
+}
+
+}  // namespace
+
+std::string place_of(const Source& source, std::string_view key) {
+  Problems problems = problems_of(source);
+  Nodes nodes;
+  return problems.where(find(build_tree(source, problems, nodes), key).position);
+}
+
+std::optional<double> number_at(const Source& source, std::string_view key, Dimension dimension) {
+  Problems unheard = problems_of(source);
+  Nodes nodes;
+  const Found found = find(build_tree(source, unheard, nodes), key);
+  if (!found.whole || found.node->kind != Node::Kind::scalar) return {};
+  return read_quantity(found.node->text, found.node->quoted, dimension).value;
+}
+
+}  // namespace bbsim

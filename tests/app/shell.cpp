@@ -1,0 +1,77 @@
+#include "shell.hpp"
+
+#include <pty.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <array>
+#include <chrono>
+#include <csignal>
+#include <cstdlib>
+#include <stdexcept>
+
+namespace bbsim_test {
+namespace {
+
+[[noreturn]] void execute(std::vector<std::string> words) {
+  std::vector<char*> pointers;
+  for (std::string& word : words) pointers.push_back(word.data());
+  pointers.push_back(nullptr);
+  execvp(pointers[0], pointers.data());
+  _exit(127);
+}
+
+}  // namespace
+
+Result shell(const std::string& line, const std::filesystem::path& folder) {
+  const Folder streams;
+  const std::string out = streams / "out", err = streams / "err";
+  const pid_t child = fork();
+  if (child < 0) throw std::runtime_error("cannot fork");
+  if (child == 0) {
+    setenv("BBSIM", BBSIM_PROGRAM, 1);
+    if (chdir(folder.c_str()) != 0) _exit(126);
+    execute({"bash", "-o", "pipefail", "-c", "{ " + line + "\n} > '" + out + "' 2> '" + err + "'"});
+  }
+  int status = 0;
+  waitpid(child, &status, 0);
+  Result result;
+  result.exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+  result.out = streams.read("out");
+  result.err = streams.read("err");
+  return result;
+}
+
+std::string on_terminal(const std::vector<std::string>& arguments, unsigned short columns,
+                        const std::filesystem::path& folder, double seconds) {
+  const winsize size{24, columns, 0, 0};
+  int terminal = -1;
+  const pid_t child = forkpty(&terminal, nullptr, nullptr, &size);
+  if (child < 0) throw std::runtime_error("cannot open a terminal");
+  if (child == 0) {
+    if (chdir(folder.c_str()) != 0) _exit(126);
+    std::vector<std::string> words{BBSIM_PROGRAM};
+    words.insert(words.end(), arguments.begin(), arguments.end());
+    execute(words);
+  }
+  using Clock = std::chrono::steady_clock;
+  const Clock::time_point start = Clock::now();
+  bool ended = false;
+  std::string text;
+  std::array<char, 4096> part{};
+  for (;;) {  // what is drawn comes ten times a second; at the end the terminal is gone
+    const ssize_t got = read(terminal, part.data(), part.size());
+    if (got <= 0) break;
+    text.append(part.data(), static_cast<std::size_t>(got));
+    const double elapsed = std::chrono::duration<double>(Clock::now() - start).count();
+    if (!ended && elapsed > seconds) {
+      kill(child, SIGINT);
+      ended = true;
+    }
+  }
+  close(terminal);
+  waitpid(child, nullptr, 0);
+  return text;
+}
+
+}  // namespace bbsim_test

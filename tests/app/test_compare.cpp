@@ -1,0 +1,155 @@
+// bbsim compare over what the program writes: runs and sweeps, CSV and HDF5.
+#include <cstdlib>
+#include <string>
+#include <vector>
+
+#include "catch.hpp"
+#include "shell.hpp"
+
+using namespace bbsim_test;
+
+namespace {
+
+bool contains(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
+
+const std::vector<std::string> sweep_words{"sweep",
+                                           config("fig2b.yaml"),
+                                           "-q",
+                                           "--vary",
+                                           "solver.method=list:radau,bdf",
+                                           "--vary",
+                                           "controller.pd.kv.0.0=list:0.6,-9",
+                                           "--set",
+                                           "time.step=0.1"};
+
+std::vector<std::string> with(std::vector<std::string> words,
+                              const std::vector<std::string>& more) {
+  words.insert(words.end(), more.begin(), more.end());
+  return words;
+}
+
+}  // namespace
+
+TEST_CASE("sweeps are compared, their texts for equality") {
+  const Folder folder;
+  REQUIRE(bbsim(with(sweep_words, {"-o", "a.csv"}), folder.path()).exit_code == 0);
+  REQUIRE(bbsim(with(sweep_words, {"-o", "a.h5"}), folder.path()).exit_code == 0);
+  const Result same = bbsim({"compare", "a.csv", "a.h5"}, folder.path());
+  CAPTURE(same.out, same.err);
+  CHECK(same.exit_code == 0);
+  CHECK(contains(same.out, "alike: a.csv and a.h5"));
+  CHECK(contains(same.out, "\nsolver.method"));
+
+  std::string changed = folder.read("a.csv");
+  changed.replace(changed.find(",bdf,"), 5, ",BDF,");
+  folder.write("b.csv", changed);
+  const Result different = bbsim({"compare", "a.csv", "b.csv"}, folder.path());
+  CHECK(different.exit_code == 1);
+  CHECK(contains(different.out,
+                 "different: worst in column solver.method, row 2: \"bdf\" in a.csv, \"BDF\" in "
+                 "b.csv"));
+  CHECK(bbsim({"compare", "a.csv", "b.csv", "--columns", "case,x_end,status"}, folder.path())
+            .exit_code == 0);
+}
+
+TEST_CASE("trajectories of a sweep are compared number by number") {
+  const Folder folder;
+  const std::vector<std::string> words{
+      "sweep", config("fig2a.yaml"), "-q",     "--keep-trajectories",
+      "--set", "time.step=1",        "--vary", "ball.radius=list:0.01,0.02"};
+  REQUIRE(bbsim(with(words, {"-o", "a.h5"}), folder.path()).exit_code == 0);
+  REQUIRE(bbsim(with(words, {"-o", "b.h5", "--set", "ball.position.0=1e-3"}), folder.path())
+              .exit_code == 0);
+  CHECK(bbsim({"compare", "a.h5", "a.h5"}, folder.path()).exit_code == 0);
+  const Result different = bbsim({"compare", "a.h5", "b.h5", "--columns", "x"}, folder.path());
+  CHECK(different.exit_code == 1);
+  CHECK(contains(different.out, "different: worst in column x, row 0 (t = 10): 0.12899"));
+  const Result all = bbsim({"compare", "a.h5", "b.h5"}, folder.path());
+  CHECK(contains(all.out, "different: worst in column x_end, row 0: 0.12899"));  // no t of its own
+  REQUIRE(bbsim(with(words, {"-o", "c.h5", "--set", "time.step=2"}), folder.path()).exit_code == 0);
+  const Result wider = bbsim({"compare", "a.h5", "c.h5"}, folder.path());
+  CHECK(wider.exit_code == 1);
+  CHECK(contains(wider.out, "different: column x has 11 numbers a row in a.h5, 6 in c.h5"));
+}
+
+TEST_CASE("files that carry their solver's tolerances are compared by them") {
+  const Folder folder;
+  const auto run = [&](const std::string& output, const std::string& more) {
+    return shell("\"$BBSIM\" run '" + config("fig2b.yaml") + "' -q -o " + output + " " + more,
+                 folder.path())
+        .exit_code;
+  };
+  // The same to the solver, not to the bit.
+  REQUIRE(run("a.h5", "") == 0);
+  REQUIRE(run("b.h5", "--set solver.rtol=1.01e-8") == 0);
+  REQUIRE(run("b.csv", "--set solver.rtol=1.01e-8") == 0);
+  const Result alike = bbsim({"compare", "a.h5", "b.h5"}, folder.path());
+  CAPTURE(alike.out, alike.err);
+  CHECK(alike.exit_code == 0);
+  CHECK(contains(alike.out,
+                 "allowed: 100 (rtol size + atol) for each file, by its solver's rtol 1e-08, atol "
+                 "1e-10 and rtol 1.01e-08, atol 1e-10\n"));
+  CHECK(contains(alike.out, "within what the solver was asked for"));
+  CHECK(bbsim({"compare", "a.h5", "b.csv"}, folder.path()).exit_code == 0);  // one of them says
+  // What is given counts, and so does what CSV cannot say.
+  CHECK(bbsim({"compare", "a.h5", "b.h5", "--rtol", "1e-15"}, folder.path()).exit_code == 1);
+  REQUIRE(run("a.csv", "") == 0);
+  CHECK(bbsim({"compare", "a.csv", "b.csv"}, folder.path()).exit_code == 1);
+
+  // Another scene is not forgiven.
+  REQUIRE(run("c.h5", "--set ball.position.0=0.0500025") == 0);
+  const Result other = bbsim({"compare", "a.h5", "c.h5"}, folder.path());
+  CHECK(other.exit_code == 1);
+  CHECK(contains(other.out, "different: worst in column "));
+
+  // Under --error, positions are compared by the bound.
+  REQUIRE(run("d.h5", "--error 1e-7") == 0);
+  REQUIRE(run("e.h5", "--error 1e-9") == 0);
+  const Result bound = bbsim({"compare", "d.h5", "e.h5", "--columns", "t,x,y"}, folder.path());
+  CAPTURE(bound.out);
+  CHECK(bound.exit_code == 0);
+  CHECK(contains(bound.out, "positions to 1e-07 m"));
+  CHECK(contains(bound.out, "positions to 1e-09 m"));
+}
+
+TEST_CASE("instruction sets agree within what their files allow") {
+  const Folder folder;
+  for (const std::string scene : {"fig2b", "hold", "recorded", "hard/stiff-servo"}) {
+    std::vector<std::string> files;
+    for (const std::string set : {"avx512", "avx2", "sse2"}) {
+      const Result run = shell("BBSIM_SIMD=" + set + " \"$BBSIM\" run '" + config(scene + ".yaml") +
+                                   "' -q -o " + set +
+                                   ".h5 --set 'output.columns=[t, x, y, vx, vy, spin, gamma, phi, "
+                                   "phi_rate, phi_acceleration, normal_force, torque_phi]'",
+                               folder.path());
+      if (run.exit_code == 0) files.push_back(set + ".h5");  // as far as this machine knows them
+    }
+    REQUIRE(!files.empty());
+    for (const std::string& file : files) {
+      const Result compared = bbsim({"compare", files.back(), file}, folder.path());
+      CAPTURE(scene, file, compared.out);
+      CHECK(compared.exit_code == 0);
+    }
+  }
+}
+
+TEST_CASE("a sweep says what its solver was asked for, unless that varies") {
+  const Folder folder;
+  const std::string fig2b = config("fig2b.yaml");
+  const std::vector<std::string> words{"sweep", fig2b, "-q", "--vary",
+                                       "ball.radius=list:0.01,0.02"};
+  REQUIRE(bbsim(with(words, {"-o", "a.h5"}), folder.path()).exit_code == 0);
+  REQUIRE(
+      bbsim(with(words, {"-o", "b.h5", "--set", "solver.method=bdf"}), folder.path()).exit_code ==
+      0);
+  const Result alike = bbsim({"compare", "a.h5", "b.h5"}, folder.path());
+  CAPTURE(alike.out);
+  CHECK(alike.exit_code == 0);
+  CHECK(contains(alike.out, "by its solver's rtol 1e-08, atol 1e-10\n"));
+  REQUIRE(bbsim({"sweep", fig2b, "-q", "--vary", "solver.rtol=list:1e-6,1e-8", "-o", "c.h5"},
+                folder.path())
+              .exit_code == 0);
+  CHECK(contains(bbsim({"compare", "c.h5", "c.h5"}, folder.path()).out, "within rtol 1e-09"));
+}

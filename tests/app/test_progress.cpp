@@ -1,0 +1,133 @@
+// The progress bar: its text for every width, and what a terminal of that width is sent.
+#include <algorithm>
+#include <cstddef>
+#include <initializer_list>
+#include <string>
+#include <vector>
+
+#include "catch.hpp"
+#include "progress_line.hpp"
+#include "shell.hpp"
+
+using namespace bbsim_test;
+using bbsim::app::log_line;
+using bbsim::app::progress_line;
+using bbsim::app::ProgressState;
+using bbsim::app::widest;
+
+namespace {
+
+bool contains(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
+
+// A scene that takes minutes.
+const char* const long_scene =
+    "ball: {radius: 0.01}\n"
+    "gimbal: {motion: {phi: {sinusoid: {amplitude: 1e-5, frequency: 300}}}}\n"
+    "time: {end: 1e6, step: 1}\n";
+
+// The longest line that was drawn, without what moves the cursor.
+std::size_t longest_line(const std::string& drawn) {
+  std::size_t longest = 0, length = 0;
+  for (std::size_t i = 0; i < drawn.size(); ++i) {
+    if (drawn[i] == '\r' || drawn[i] == '\n') {
+      length = 0;
+    } else if (drawn[i] == '\033') {
+      while (i < drawn.size() && drawn[i] != 'K') ++i;
+    } else {
+      longest = std::max(longest, ++length);
+    }
+  }
+  return longest;
+}
+
+}  // namespace
+
+TEST_CASE("a progress line fits its terminal, whatever its width") {
+  const std::string long_name = "a/folder/of/" + std::string(100, 'x') + ".yaml";
+  for (const std::string& label : {std::string("configs/fig2b.yaml"), long_name,
+                                   std::string("\u7403\u7403\u7403\u7403\u7403\u7403.yaml")}) {
+    for (const std::string detail : {"", "1230000 cases/s", "checking the cases"}) {
+      for (const double done : {0.0, 0.004, 0.5, 0.999, 1.0}) {
+        for (std::size_t columns = 10; columns < 250; ++columns) {
+          const std::string line = progress_line({label, detail, done, 123456.0}, columns);
+          CAPTURE(line, columns);
+          REQUIRE(widest(line) <= columns);
+          REQUIRE(contains(line, "%"));
+        }
+      }
+    }
+  }
+}
+
+TEST_CASE("what matters least is left out first") {
+  const ProgressState state{"configs/fig2b.yaml", "130 cases/s", 0.47, 12};
+  CHECK(progress_line(state, 100) ==
+        "configs/fig2b.yaml [##############................]  47%, 130 cases/s, 12 s left");
+  CHECK(progress_line(state, 79) ==
+        "configs/fig2b.yaml [#############................]  47%, 130 cases/s, 12 s left");
+  CHECK(progress_line(state, 50) == "fig2b.yaml [###.....]  47%, 130 cases/s, 12 s left");
+  CHECK(progress_line(state, 40) == "fig2b.yaml [#####......]  47%, 12 s left");
+  CHECK(progress_line(state, 30) == "fig2b.yaml  47%, 12 s left");
+  CHECK(progress_line(state, 24) == "....yaml  47%, 12 s left");
+  CHECK(progress_line(state, 20) == " 47%, 12 s left");
+  CHECK(progress_line(state, 12) == " 47%");
+  CHECK(log_line(state) == "configs/fig2b.yaml: 47.0%, 130 cases/s, 12 s left");
+}
+
+TEST_CASE("a terminal is never sent a line wider than it is") {
+  const Folder folder;
+  folder.write("a-scenario-with-a-name-that-is-rather-long.yaml", long_scene);
+  for (const unsigned short columns : std::initializer_list<unsigned short>{20, 40, 80}) {
+    const std::string drawn = on_terminal(
+        {"run", "a-scenario-with-a-name-that-is-rather-long.yaml"}, columns, folder.path(), 1.6);
+    const std::string bar = drawn.substr(0, drawn.find("interrupted"));
+    CAPTURE(columns, bar);
+    CHECK(contains(bar, "%"));
+    CHECK(longest_line(bar) < columns);
+  }
+}
+
+TEST_CASE("after --resume the time left is told from what is done now") {
+  // Of 10,000 cases all but some are there: a tenth of a second each would be told as no time at
+  // all, if those from before counted.
+  const Folder folder;
+  const std::string fig2a = config("fig2a.yaml");
+  const std::vector<std::string> sweep{
+      "sweep", fig2a, "--vary", "gimbal.motion.phi.sinusoid.phase=linear:0:1:400000",
+      "-j",    "1",   "-o",     "s.csv"};
+  std::vector<std::string> resumed = sweep;
+  resumed.emplace_back("--resume");
+  (void)on_terminal(sweep, 120, folder.path(), 4);
+  const std::string drawn = on_terminal(resumed, 120, folder.path(), 2);
+  // Seconds of "..., 123 cases/s, 12 s left" at the first look.
+  std::size_t at = drawn.find(" left");
+  REQUIRE(at != std::string::npos);
+  const std::string line = drawn.substr(0, at);
+  CAPTURE(line);
+  const std::size_t rate_at = line.rfind("%, ") + 3;
+  const double rate = std::stod(line.substr(rate_at));
+  const std::size_t left_at = line.find("cases/s, ", rate_at) + 9;
+  const double left = std::stod(line.substr(left_at)) * (contains(line, " min") ? 60 : 1);
+  const double part = std::stod(line.substr(line.rfind("] ") + 2)) / 100;
+  CHECK(left == Approx(400000 * (1 - part) / rate).epsilon(0.35));  // minutes and per cent: rounded
+}
+
+TEST_CASE("rates have three digits") {
+  const Folder folder;
+  const std::string drawn =
+      on_terminal({"sweep", config("fig2a.yaml"), "--vary",
+                   "gimbal.motion.phi.sinusoid.phase=linear:0:1:400000", "-j", "1", "-o", "s.csv"},
+                  120, folder.path(), 2);
+  const std::size_t at = drawn.find(" cases/s");
+  REQUIRE(at != std::string::npos);
+  const std::size_t begin = drawn.rfind(' ', at - 1) + 1;
+  std::string digits;
+  for (const char c : drawn.substr(begin, at - begin)) {
+    if (c != '.') digits += c;
+  }
+  CAPTURE(digits);
+  CHECK(digits.find_first_not_of("0123456789") == std::string::npos);
+  CHECK(digits.find_last_not_of('0') < 3);
+}

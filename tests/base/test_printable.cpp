@@ -1,0 +1,46 @@
+// What reaches a terminal, and what is shown in its place.
+#include <string>
+
+#include "base/printable.hpp"
+#include "catch.hpp"
+
+using bbsim::printable;
+
+TEST_CASE("plain text, in any script, stays as it is") {
+  for (const std::string text :
+       {"", "a line\nand another\twith a tab", "\u03b3 = 0.1\u00b0 \u2265 0", "\u7403.yaml",
+        "\U0001F3B1", "~ \\x1b written out", "\u00a0"}) {
+    CHECK(printable(text) == text);
+  }
+}
+
+TEST_CASE("what a terminal obeys is written as an escape") {
+  CHECK(printable("\x1b[31mred\x1b[0m") == "\\x1b[31mred\\x1b[0m");
+  CHECK(printable("\x1b]0;title\x07") == "\\x1b]0;title\\x07");
+  CHECK(printable("over\rwritten\b\x7f") == "over\\x0dwritten\\x08\\x7f");
+  CHECK(printable(std::string("nul\0", 4)) == "nul\\x00");
+  CHECK(printable("\u009b31m") == "\\u009b31m");  // CSI as one character
+}
+
+TEST_CASE("what turns the direction of writing is written as an escape") {
+  CHECK(printable("\u202egpj.exe") == "\\u202egpj.exe");
+  CHECK(printable("a\u2066b\u2069\u200f\u061c") == "a\\u2066b\\u2069\\u200f\\u061c");
+  CHECK(printable("line\u2028separator") == "line\\u2028separator");
+}
+
+TEST_CASE("bytes that are no UTF-8 are written as escapes, one by one") {
+  CHECK(printable("caf\xe9") == "caf\\xe9");  // Latin-1
+  CHECK(printable("\x9b"
+                  "31m") == "\\x9b31m");                           // CSI of an 8-bit terminal
+  CHECK(printable("\xc0\x9b") == "\\xc0\\x9b");                    // too long a form
+  CHECK(printable("\xe0\x9f\xbf") == "\\xe0\\x9f\\xbf");           // too long a form
+  CHECK(printable("\xed\xa0\x80") == "\\xed\\xa0\\x80");           // half of a pair
+  CHECK(printable("\xf4\x90\x80\x80") == "\\xf4\\x90\\x80\\x80");  // beyond U+10FFFF
+  CHECK(printable("\xe2\x82") == "\\xe2\\x82");                    // cut off
+  CHECK(printable("\xe2\x82z") == "\\xe2\\x82z");
+}
+
+TEST_CASE("what has been made printable stays as it is") {
+  const std::string once = printable("\x1b\xe9\u202e\n");
+  CHECK(printable(once) == once);
+}
