@@ -131,6 +131,7 @@ record::RunSummary summarise(const Scenario& scenario, const model::Model& model
   summary.version = BBSIM_VERSION;
   summary.instruction_set = solve::collocation::choose_kernels().name;
   summary.scenario = scenario.source.file;
+  summary.scenario_text = scenario.source.text;
   summary.title = scenario.title;
   summary.overrides = scenario.source.overrides;
   summary.status = status_name(outcome.ending);

@@ -118,6 +118,7 @@ std::string to_json(const RunSummary& summary) {
   nlohmann::ordered_json& statistics = json["statistics"] = nlohmann::ordered_json::object();
   for_each_statistic(summary,
                      [&](const char* name, const auto& value) { statistics[name] = value; });
+  json["scenario_text"] = summary.scenario_text;
   constexpr int indent = 2;
   return json.dump(indent, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }

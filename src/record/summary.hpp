@@ -34,6 +34,7 @@ struct RunSummary {
   std::string version;
   std::string instruction_set;  // that the kernels are for, such as avx2
   std::string scenario;         // its file, as the user named it
+  std::string scenario_text;    // that file's content; in JSON only, attributes get it apart
   std::string title;
   std::vector<std::string> overrides;  // each "key.path=value"
   std::string status;                  // done, failed, interrupted or stopped

@@ -53,18 +53,26 @@ const Node* build_tree(const Source& source, Problems& problems, Nodes& nodes) {
 
 using namespace input;
 
+namespace {
+
+void read_into(Scenario& scenario, Problems& problems, std::vector<record::InputTable>* inputs) {
+  Nodes nodes;
+  if (const Node* root = build_tree(scenario.source, problems, nodes)) {
+    Context context{problems, std::filesystem::path(scenario.source.file).parent_path()};
+    MappingOf(read_sections).read({root, "", {}, &context}, scenario);
+    if (inputs != nullptr) *inputs = context.tables->all();
+  }
+}
+
+}  // namespace
+
 Scenario parse_scenario(const std::string& text, const std::string& name,
                         const std::vector<std::string>& overrides,
                         std::vector<record::InputTable>* inputs) {
   Scenario scenario;
   scenario.source = {name, text, overrides};
   Problems problems(name, without_byte_order_mark(scenario.source.text), overrides);
-  Nodes nodes;
-  if (const Node* root = build_tree(scenario.source, problems, nodes)) {
-    Context context{problems, std::filesystem::path(name).parent_path()};
-    MappingOf(read_sections).read({root, "", {}, &context}, scenario);
-    if (inputs != nullptr) *inputs = context.tables->all();
-  }
+  read_into(scenario, problems, inputs);
   problems.throw_if_any();
   scenario.remarks = problems.remarks();
   return scenario;
@@ -85,6 +93,15 @@ std::vector<std::string> table_files(const Scenario& scenario) {
     if (table != nullptr) files.push_back(folder / table->file);
   }
   return files;
+}
+
+Scenario parse_sound_parts(const std::string& text, const std::string& name,
+                           const std::vector<std::string>& overrides) {
+  Scenario scenario;
+  scenario.source = {name, text, overrides};
+  Problems unheard(name, without_byte_order_mark(scenario.source.text), overrides);
+  read_into(scenario, unheard, nullptr);
+  return scenario;
 }
 
 Scenario read_scenario(const std::string& file, const std::vector<std::string>& overrides,

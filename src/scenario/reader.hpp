@@ -30,4 +30,9 @@ namespace bbsim {
 // The table files that a scenario names, as they are opened.
 [[nodiscard]] std::vector<std::string> table_files(const Scenario& scenario);
 
+// What can be read of it; the rest keeps its defaults. For those who show what a run was and run
+// nothing: its tables may be gone, and another version may have known other keys.
+[[nodiscard]] Scenario parse_sound_parts(const std::string& text, const std::string& name,
+                                         const std::vector<std::string>& overrides = {});
+
 }  // namespace bbsim

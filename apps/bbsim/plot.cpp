@@ -1,0 +1,224 @@
+#include <CLI/App.hpp>
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "commands.hpp"
+#include "fonts.hpp"
+#include "gnuplot.hpp"
+#include "plot/read_result.hpp"
+#include "plot/run_picture.hpp"
+#include "plot/script.hpp"
+#include "plot/sweep_picture.hpp"
+#include "record/atomic_file.hpp"
+#include "record/outputs.hpp"
+#include "terminal.hpp"
+
+namespace bbsim::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct PlotArguments {
+  std::vector<std::string> files;
+  std::string output, format;
+  bool overlay = false;
+  std::vector<std::string> columns, over;
+  plot::Beside beside;
+};
+
+struct NamedFormat {
+  std::string_view name;
+  plot::Format format;
+};
+constexpr std::array formats = {NamedFormat{"svg", plot::Format::svg},
+                                NamedFormat{"png", plot::Format::png},
+                                NamedFormat{"pdf", plot::Format::pdf}};
+
+// What --format says, or else the ending of --output.
+NamedFormat format_of(const PlotArguments& arguments) {
+  std::string name = arguments.format;
+  if (name.empty()) {
+    if (arguments.output.empty() || arguments.output == "-") return formats[0];
+    name = fs::path(arguments.output).extension();
+    std::ranges::transform(name, name.begin(), [](unsigned char c) { return std::tolower(c); });
+    if (!name.empty()) name.erase(0, 1);
+  }
+  const auto found = std::ranges::find(formats, name, &NamedFormat::name);
+  if (found != formats.end()) return *found;
+  throw InputError(arguments.format.empty()
+                       ? "--output: found " + arguments.output +
+                             ", allowed is a name that ends in .svg, .png or .pdf"
+                       : "--format: found " + name + ", allowed are svg, png and pdf");
+}
+
+std::vector<std::string> split(const std::string& text, char separator) {
+  std::vector<std::string> parts;
+  for (std::size_t start = 0; start != std::string::npos;) {
+    const std::size_t end = text.find(separator, start);
+    std::string part = text.substr(start, end - start);
+    part.erase(0, part.find_first_not_of(' '));
+    part.erase(part.find_last_not_of(' ') + 1);
+    parts.push_back(part);
+    start = end == std::string::npos ? end : end + 1;
+  }
+  return parts;
+}
+
+// "x,y;phi" is two panels; so is the option given twice.
+plot::Asked asked_columns(const std::vector<std::string>& given) {
+  plot::Asked asked;
+  for (const std::string& panels : given) {
+    for (const std::string& panel : split(panels, ';')) asked.push_back(split(panel, ','));
+  }
+  return asked;
+}
+
+plot::Picture picture_of(const std::vector<plot::Result>& results, const PlotArguments& arguments) {
+  const plot::Asked asked = asked_columns(arguments.columns);
+  const auto is_sweep = [](const plot::Result& result) { return result.is_sweep(); };
+  if (std::ranges::none_of(results, is_sweep)) {
+    if (!arguments.over.empty()) {
+      throw InputError("--over: " + results.front().file +
+                       " is no sweep; a run is drawn over time");
+    }
+    return plot::run_picture(results, asked);
+  }
+  if (results.size() > 1) throw InputError("--overlay: a sweep has a picture to itself");
+  plot::SweepChoice choice;
+  for (const std::vector<std::string>& panel : asked) {
+    choice.measures.insert(choice.measures.end(), panel.begin(), panel.end());
+  }
+  for (const std::string& keys : arguments.over) {
+    const std::vector<std::string> parts = split(keys, ',');
+    choice.over.insert(choice.over.end(), parts.begin(), parts.end());
+  }
+  return plot::sweep_picture(results.front(), choice);
+}
+
+// Files that make one picture.
+struct Task {
+  std::vector<std::string> files;
+  std::string output;
+};
+
+std::vector<Task> tasks_of(const PlotArguments& arguments, std::string_view ending) {
+  const std::vector<std::string>& files = arguments.files;
+  const bool several = files.size() > 1;
+  if (several && !arguments.overlay && !arguments.output.empty()) {
+    throw InputError("--output: found " + arguments.output +
+                     " for several files; allowed with --overlay, which draws them in one picture");
+  }
+  const auto named_after = [&](const std::string& file, const char* more) {
+    if (!arguments.output.empty()) return arguments.output;
+    if (file == "-") throw InputError("--output: missing; what is drawn from - has no name");
+    return fs::path(file).replace_extension().string() + more + '.' + std::string(ending);
+  };
+  if (several && arguments.overlay) return {{files, named_after(files.front(), "-overlay")}};
+  std::vector<Task> tasks;
+  for (const std::string& file : files) tasks.push_back({{file}, named_after(file, "")});
+  return tasks;
+}
+
+// Before any of them is opened.
+void declare_files(const std::vector<Task>& tasks, const PlotArguments& arguments) {
+  record::Outputs outputs;
+  for (const std::string& file : arguments.files) outputs.reads(file, "what is drawn");
+  if (!arguments.beside.summary.empty()) outputs.reads(arguments.beside.summary, "--summary");
+  if (!arguments.beside.scenario.empty()) outputs.reads(arguments.beside.scenario, "--scenario");
+  for (const Task& task : tasks) {
+    outputs.writes(task.output, arguments.output.empty()
+                                    ? "the picture of " + task.files.front() + ", without -o"
+                                    : "-o");
+  }
+}
+
+void draw(const Task& task, plot::Format format, const PlotArguments& arguments,
+          const Options& options) {
+  std::vector<plot::Result> results;
+  for (const std::string& file : task.files) {
+    results.push_back(plot::read_result(file, arguments.beside));
+  }
+  const plot::Picture picture = picture_of(results, arguments);
+  record::write_file(
+      task.output,
+      plot::mended(run_gnuplot(plot::gnuplot_script(picture, format, some_font_has)), format));
+  if (options.quiet || task.output == "-") return;
+  std::size_t rows = 0;
+  for (const plot::Result& result : results) rows += result.rows;
+  say(task.output + ": " + std::to_string(rows) +
+      (results.front().is_sweep() ? " cases, " : " rows, ") +
+      std::to_string(picture.panels.size()) + " panels");
+}
+
+ExitCode plot_files(const PlotArguments& arguments, const Options& options) {
+  const NamedFormat format = format_of(arguments);
+  const std::vector<Task> tasks = tasks_of(arguments, format.name);
+  if (arguments.files.size() > 1 && !arguments.beside.summary.empty()) {
+    throw InputError("--summary: a summary is of one run, and several are to be drawn");
+  }
+  if (!arguments.beside.overrides.empty() && arguments.beside.scenario.empty()) {
+    throw InputError("--set: allowed with --scenario, in which it sets a key");
+  }
+  declare_files(tasks, arguments);
+  require_gnuplot();
+  // What can be drawn is drawn, whatever is wrong with other files.
+  std::vector<Problem> problems;
+  for (const Task& task : tasks) {
+    try {
+      draw(task, format.format, arguments, options);
+    } catch (const InputError& error) {
+      problems.insert(problems.end(), error.problems().begin(), error.problems().end());
+    }
+  }
+  if (!problems.empty()) throw InputError(problems);
+  return ExitCode::done;
+}
+
+}  // namespace
+
+void add_plot(CLI::App& app, const Options& options, Chosen& chosen) {
+  CLI::App* command = app.add_subcommand("plot", "Draw runs and sweeps");
+  command->footer(
+      "A run: its path in the plane, and its columns over time; a sweep: its measures over the "
+      "keys that vary. Title, plate, events and friction coefficient are in .h5 files; for a .csv "
+      "they are taken from its summary, NAME.json beside NAME.csv or --summary, or from "
+      "--scenario.\n"
+      "\n"
+      "Examples:\n"
+      "  bbsim run configs/rig.yaml --summary rig.json && bbsim plot rig.csv\n"
+      "  bbsim plot rig.csv --columns 'path;x,x_reference;phi,phi_command' -o rig.pdf\n"
+      "  bbsim plot --overlay slow.csv fast.csv -o both.png\n"
+      "  bbsim plot fig2b-sweep.csv --columns x_end,max_tilt");
+  const auto arguments = std::make_shared<PlotArguments>();
+  command
+      ->add_option("FILES", arguments->files,
+                   "CSV or HDF5 files of runs and sweeps; - is CSV on standard input")
+      ->required();
+  command->add_option("-o,--output", arguments->output,
+                      "FILE.svg, .png or .pdf, or - for standard output; default: FILE with .svg");
+  command->add_option("--format", arguments->format, "svg, png or pdf; default: as the ending says")
+      ->type_name("FORMAT");
+  command->add_flag("--overlay", arguments->overlay,
+                    "all files in one picture, to be compared; default name: FIRST-overlay.svg");
+  may_be_repeated(*command->add_option(
+      "--columns", arguments->columns,
+      "what to draw: columns of a panel parted by commas, panels by semicolons; path is the "
+      "picture in the plane. Of a sweep: measures"));
+  may_be_repeated(*command->add_option("--over", arguments->over,
+                                       "KEY[,KEY] of a sweep: what its measures are drawn over"));
+  command->add_option("--summary", arguments->beside.summary,
+                      "FILE.json that `bbsim run --summary` wrote of the run");
+  command->add_option("--scenario", arguments->beside.scenario, "FILE.yaml that was run");
+  may_be_repeated(*command->add_option("--set", arguments->beside.overrides,
+                                       "key.path=value that was set in it; may be given again"));
+  command->callback([arguments, &options, &chosen] {
+    chosen = [arguments, &options] { return plot_files(*arguments, options); };
+  });
+}
+
+}  // namespace bbsim::app

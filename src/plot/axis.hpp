@@ -1,0 +1,69 @@
+// Units and tics that suit a range of values, so that labels are short whatever its size.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "plot/picture.hpp"
+
+namespace bbsim::plot {
+
+// What values span; empty (low above high) before the first one.
+struct Range {
+  double low = 1, high = 0;
+
+  [[nodiscard]] bool empty() const { return low > high; }
+  [[nodiscard]] double largest() const;  // size, 0 if empty
+  // Wide enough to be seen: more than the rounding of its values.
+  [[nodiscard]] bool wide() const;
+  void include(double value);  // what is not finite is passed over
+  void include(const std::vector<double>& values);
+  void include(const Range& other);
+};
+
+// A unit of the catalogue of columns as it is drawn: "rad" as degrees, for instance.
+struct Unit {
+  std::string text;   // "°"; empty for a plain number, or where the unit is not known
+  double factor = 1;  // times a value in SI units
+  friend bool operator==(const Unit&, const Unit&) = default;
+};
+
+// What is drawn is (value - offset) * factor.
+struct Scale {
+  double factor = 1, offset = 0;
+  std::string unit;     // with its prefix or power of ten: "cm", "10⁶ rad"; may be empty
+  std::string shift{};  // what to write after the quantity's name: " − 0.1 m", or nothing
+
+  [[nodiscard]] double operator()(double value) const { return (value - offset) * factor; }
+  // "x (cm)", "x − 0.1 m (µm)"
+  [[nodiscard]] std::string heading(const std::string& name) const;
+};
+
+// For values in SI units. Values that differ by little are drawn as differences from a round one,
+// if `may_shift`.
+[[nodiscard]] Scale choose_scale(const Unit& unit, const Range& range, bool may_shift = true);
+
+// The scales of the two axes of a plane, of one factor.
+struct PlaneScales {
+  Scale x, y;
+};
+[[nodiscard]] PlaneScales choose_scales(const Unit& unit, const Range& x, const Range& y);
+
+// An axis over a range in drawn units, with air at both ends, and tics about so far apart.
+[[nodiscard]] Axis linear_axis(Range range, double pixels, double pixels_a_tic, double air = 0.06);
+
+// The same, from the least value to the greatest.
+[[nodiscard]] Axis tight_axis(const Range& range, double pixels, double pixels_a_tic);
+
+// A logarithmic axis over a range above 0.
+[[nodiscard]] Axis log_axis(const Range& range, double pixels, double pixels_a_tic, double air);
+
+// Whether values above 0 are better seen by their logarithm: they span more than three decades.
+[[nodiscard]] bool better_by_log(const Range& range);
+
+// Tics of a linear axis between two values, at 1, 2 or 5 times a power of ten.
+[[nodiscard]] std::vector<Tic> linear_tics(double low, double high, std::size_t about);
+
+}  // namespace bbsim::plot

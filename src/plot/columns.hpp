@@ -1,0 +1,46 @@
+// Which columns of runs share a panel, what they are called there, and in which unit.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "plot/axis.hpp"
+#include "plot/result.hpp"
+
+namespace bbsim::plot {
+
+// What a line is to its panel: what the panel is about, or what stands beside it for comparison.
+enum class Role { main, reference, measured, command };
+
+struct PlannedLine {
+  std::string column;
+  Role role = Role::main;
+  std::string name;  // in a legend
+};
+
+struct PlannedPanel {
+  std::string name;  // its heading, without the unit
+  Unit unit;
+  std::vector<PlannedLine> lines;
+};
+
+// A panel for each quantity that any of the runs has, in an order that suits a control engineer:
+// where the ball is, what the gimbal does, forces. x beside y, and phi beside theta, share a panel
+// if nothing else stands in it. Of several runs each panel has one quantity. What is in no
+// catalogue has a panel of its own.
+[[nodiscard]] std::vector<PlannedPanel> plan_panels(const std::vector<Result>& runs);
+
+// A panel for each list of columns. Throws InputError for a column that no run has, that holds no
+// number, or whose unit is not that of its neighbours; for an empty list; and for t.
+[[nodiscard]] std::vector<PlannedPanel> plan_panels(
+    const std::vector<Result>& runs, const std::vector<std::vector<std::string>>& asked);
+
+// The unit in which a column of runs is drawn.
+[[nodiscard]] Unit unit_of(std::string_view column);
+
+// Whether the command columns are accelerations: as the scenario says, or if there is none, by
+// whether the commands resemble them more than they do angles.
+[[nodiscard]] bool drives_acceleration(const Result& run);
+
+}  // namespace bbsim::plot

@@ -1,0 +1,199 @@
+#include "plot/read_result.hpp"
+
+#include <cerrno>
+#include <charconv>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <string_view>
+
+#include "base/error.hpp"
+#include "record/case_table.hpp"
+#include "record/descriptor.hpp"
+#include "record/format.hpp"
+#include "scenario/reader.hpp"
+#include "scenario/variation.hpp"
+
+namespace bbsim::plot {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::json;
+
+bool is_hdf5(const std::string& file) {
+  return record::format_of(file) == record::Format::hdf5;
+}
+
+std::vector<std::string> lines_of(const std::string& text) {
+  std::vector<std::string> lines;
+  std::istringstream stream(text);
+  for (std::string line; std::getline(stream, line);) lines.push_back(line);
+  return lines;
+}
+
+double to_number(const std::string& text) {
+  double value = 0;
+  std::from_chars(text.data(), text.data() + text.size(), value);
+  return value;
+}
+
+// "t=0.54 event=edge action=stop x=0.16 y=-0.02 ...", as record/summary.hpp writes it.
+Event event_of(const std::string& line) {
+  std::map<std::string, std::string> members;
+  std::istringstream words(line);
+  for (std::string word; words >> word;) {
+    const std::size_t equals = word.find('=');
+    if (equals != std::string::npos) members[word.substr(0, equals)] = word.substr(equals + 1);
+  }
+  return {members["event"], members["action"] == "stop", to_number(members["t"]),
+          to_number(members["x"]), to_number(members["y"])};
+}
+
+// Where the scenario's text stands for a file that may have changed since, or be gone with its
+// tables: what can be read of it is enough for a picture.
+void take_scenario(Result& result, const std::string& text, const std::string& name,
+                   const std::vector<std::string>& overrides) {
+  if (text.empty()) return;
+  result.scenario = parse_sound_parts(text, name, overrides);
+}
+
+void take_attributes(Result& result, const record::Attributes& attributes) {
+  std::map<std::string, std::string> by_name;
+  for (const auto& [name, value] : attributes) by_name[name] = value.text();
+  result.title = by_name["title"];
+  result.status = by_name["status"];
+  if (by_name.contains("end_time")) result.end_time = to_number(by_name["end_time"]);
+  for (const std::string& line : lines_of(by_name["events"])) {
+    result.events.push_back(event_of(line));
+  }
+  take_scenario(result, by_name["scenario_text"], by_name["scenario"],
+                lines_of(by_name["overrides"]));
+  result.tells_drawn = by_name.contains("vary");
+  for (const std::string& line : lines_of(by_name["vary"])) {
+    const Variation variation = input::split_variation(line);
+    if (input::parse_variation(variation).random()) result.drawn_keys.push_back(variation.key);
+  }
+}
+
+Result read_hdf5_result(const std::string& file) {
+  const record::CaseTableReader reader(file);
+  record::CaseBlock block;
+  reader.read(0, reader.rows(), block);
+  Result result;
+  result.file = file;
+  result.rows = reader.rows();
+  for (std::size_t c = 0; c < reader.columns().size(); ++c) {
+    const record::CaseColumn& from = reader.columns()[c];
+    if (from.kind == record::CaseKind::series) continue;  // trajectories of a sweep
+    Column column{from.name, std::move(block.values[c])};
+    if (from.kind == record::CaseKind::text) {
+      column.texts = std::move(block.texts[c]);
+      column.numbers.assign(result.rows, NAN);
+    }
+    result.columns.push_back(std::move(column));
+  }
+  if (result.rows == 0) throw InputError(file + ": has no rows");
+  take_attributes(result, reader.attributes());
+  return result;
+}
+
+template <class T>
+T member(const Json& json, const char* name, T otherwise) {
+  const auto found = json.find(name);
+  if (found == json.end()) return otherwise;
+  if constexpr (std::is_arithmetic_v<T>) {
+    return found->is_number() ? found->get<T>() : otherwise;
+  } else {
+    return found->is_string() ? found->get<T>() : otherwise;
+  }
+}
+
+bool is_summary(const Json& json) {
+  return json.is_object() && json.contains("status") && json.contains("events") &&
+         json["events"].is_array() && json.contains("output");
+}
+
+void take_summary(Result& result, const Json& json) {
+  result.title = member<std::string>(json, "title", "");
+  result.status = member<std::string>(json, "status", "");
+  if (json.contains("end_time")) result.end_time = member(json, "end_time", 0.0);
+  for (const Json& event : json["events"]) {
+    if (!event.is_object()) continue;
+    result.events.push_back({member<std::string>(event, "event", ""),
+                             member<std::string>(event, "action", "") == "stop",
+                             member(event, "t", 0.0), member(event, "x", 0.0),
+                             member(event, "y", 0.0)});
+  }
+  std::vector<std::string> overrides;
+  if (json.contains("overrides") && json["overrides"].is_array()) {
+    for (const Json& text : json["overrides"]) {
+      if (text.is_string()) overrides.push_back(text.get<std::string>());
+    }
+  }
+  take_scenario(result, member<std::string>(json, "scenario_text", ""),
+                member<std::string>(json, "scenario", ""), overrides);
+}
+
+// `discarded`, which is no summary, if it cannot be read or is no JSON.
+Json parse_json(const std::string& file) {
+  std::ifstream stream(file, std::ios::binary);
+  return stream ? Json::parse(stream, nullptr, false) : Json(Json::value_t::discarded);
+}
+
+void read_summary(Result& result, const std::string& file) {
+  if (!std::ifstream(file))
+    throw InputError("cannot read " + file + ": " + record::error_text(errno));
+  const Json json = parse_json(file);
+  if (!is_summary(json)) {
+    throw InputError(file +
+                     ": is no summary; allowed: what `bbsim run --summary FILE.json` writes");
+  }
+  const std::size_t rows = member(json, "rows", std::size_t{0});
+  if (rows != result.rows) {
+    throw InputError(file + ": is the summary of another run: it has " + std::to_string(rows) +
+                     " rows, " + result.file + " has " + std::to_string(result.rows));
+  }
+  take_summary(result, json);
+}
+
+// NAME.json beside NAME.csv, if it tells of that very file.
+void find_summary(Result& result) {
+  const fs::path csv(result.file);
+  fs::path summary = csv;
+  summary.replace_extension(".json");
+  std::error_code ignored;
+  if (result.file == "-" || !fs::is_regular_file(summary, ignored)) return;
+  const Json json = parse_json(summary);
+  if (!is_summary(json)) return;
+  const bool same_name =
+      fs::path(member<std::string>(json, "output", "")).filename() == csv.filename();
+  if (same_name && member(json, "rows", std::size_t{0}) == result.rows) take_summary(result, json);
+}
+
+}  // namespace
+
+Result read_result(const std::string& file, const Beside& beside) {
+  if (const std::string ending = record::lower_ending(file);
+      ending == ".yaml" || ending == ".yml") {
+    throw InputError(file + ": is a scenario; draw its result: bbsim run " + file +
+                     " -o run.h5 && bbsim plot run.h5");
+  }
+  Result result = is_hdf5(file) ? read_hdf5_result(file) : read_csv_columns(file);
+  if (!beside.summary.empty()) {
+    read_summary(result, beside.summary);
+  } else if (!is_hdf5(file) && !result.is_sweep()) {
+    find_summary(result);
+  }
+  if (!beside.scenario.empty()) {
+    result.scenario = read_scenario(beside.scenario, beside.overrides);
+  }
+  if (result.scenario && (result.title.empty() || !beside.scenario.empty())) {
+    result.title = result.scenario->title;
+  }
+  return result;
+}
+
+}  // namespace bbsim::plot

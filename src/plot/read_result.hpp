@@ -1,0 +1,27 @@
+// Files -> a result and what is known of its scene.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "plot/result.hpp"
+
+namespace bbsim::plot {
+
+// Where to look for what a CSV file has no place for. Both may be empty.
+struct Beside {
+  std::string summary;                 // as `bbsim run --summary` wrote it
+  std::string scenario;                // the scenario that was run,
+  std::vector<std::string> overrides;  // and what was set in it
+};
+
+// Reads a CSV or HDF5 file of a run or a sweep, or any other CSV file with a header; "-" is CSV on
+// standard input. An HDF5 file tells of its scene itself. For a CSV without a summary named,
+// NAME.json beside NAME.csv is taken if it is the summary of a run into that file, with as many
+// rows. A scenario that is named comes before both. Throws InputError.
+[[nodiscard]] Result read_result(const std::string& file, const Beside& beside);
+
+// Only the columns, of CSV. Throws InputError with file:line.
+[[nodiscard]] Result read_csv_columns(const std::string& file);
+
+}  // namespace bbsim::plot

@@ -1,0 +1,48 @@
+// A result as pictures need it: its columns, and what is known of the scene that gave them.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "scenario/scenario.hpp"
+
+namespace bbsim::plot {
+
+// Numbers in SI units. A field that is no number is NaN; where one of them is not empty, all
+// fields are in `texts` as well.
+struct Column {
+  std::string name;
+  std::vector<double> numbers;
+  std::vector<std::string> texts{};
+
+  [[nodiscard]] bool is_text() const { return !texts.empty(); }
+};
+
+struct Event {
+  std::string name;
+  bool stopped = false;
+  double t = 0, x = 0, y = 0;  // s, m
+};
+
+struct Result {
+  std::string file;  // as the user named it
+  std::vector<Column> columns;
+  std::size_t rows = 0;
+
+  // What a CSV cannot tell; empty where nothing else does.
+  std::string title, status;
+  std::optional<double> end_time{};  // that the run reached, s
+  std::vector<Event> events{};
+  std::optional<Scenario> scenario{};
+  std::vector<std::string> drawn_keys{};  // of a sweep: keys whose values were drawn by chance
+  bool tells_drawn = false;               // whether drawn_keys is known
+
+  [[nodiscard]] const Column* find(std::string_view name) const;
+  // A row a case, as `bbsim sweep` writes them.
+  [[nodiscard]] bool is_sweep() const;
+};
+
+}  // namespace bbsim::plot

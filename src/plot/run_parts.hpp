@@ -1,0 +1,54 @@
+// The parts of the picture of runs.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "plot/columns.hpp"
+#include "plot/legend.hpp"
+#include "plot/picture.hpp"
+#include "plot/result.hpp"
+
+namespace bbsim::plot {
+
+// The time that runs are drawn over; row numbers where one of them has no t.
+struct Abscissa {
+  bool is_time = true;
+  Range range;
+  Scale scale;
+
+  [[nodiscard]] std::vector<double> of(const Result& run) const;  // as drawn
+};
+[[nodiscard]] Abscissa abscissa_of(const std::vector<Result>& runs);
+
+// How each kind of event is marked, in all panels alike: kinds in the order in which they come.
+struct EventMarks {
+  explicit EventMarks(const std::vector<Result>& runs);
+  [[nodiscard]] Stroke stroke_of(const Result& run, const Event& event) const;
+  [[nodiscard]] std::vector<Entry> legend() const;
+
+ private:
+  struct Kind {
+    std::string name;
+    std::size_t times = 0;
+    bool stopped = false;
+  };
+  [[nodiscard]] std::size_t index_of(const std::string& name) const;
+
+  const std::vector<Result>& runs_;
+  std::vector<Kind> kinds_;
+};
+
+// The stroke of a run among several, of the only one, the first.
+[[nodiscard]] Stroke stroke_of_run(const std::vector<Result>& runs, const Result& run);
+
+[[nodiscard]] bool has_path(const std::vector<Result>& runs);
+
+// The path in the plane, to scale, in the box or the part of it that its legend leaves.
+void add_path(Picture& picture, const std::vector<Result>& runs, const EventMarks& marks, Box box);
+
+// Columns over time. Only the lowest panel of a stack has labels at its time axis.
+void add_time_panel(Picture& picture, const std::vector<Result>& runs, const PlannedPanel& planned,
+                    const Abscissa& abscissa, const EventMarks& marks, Box box, bool lowest);
+
+}  // namespace bbsim::plot

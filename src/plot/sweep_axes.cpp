@@ -1,0 +1,123 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "plot/columns.hpp"
+#include "plot/sweep_parts.hpp"
+#include "plot/text.hpp"
+#include "record/measures.hpp"
+
+namespace bbsim::plot {
+namespace {
+
+// Values above 0 that follow each other by equal factors, over more than a factor of ten.
+bool by_equal_factors(const std::vector<double>& values) {
+  if (values.size() < 3 || values.front() <= 0 || values.back() / values.front() < 10) return false;
+  const double factor = values[1] / values[0];
+  for (std::size_t i = 2; i < values.size(); ++i) {
+    if (std::abs(values[i] / values[i - 1] / factor - 1) > 1e-3) return false;
+  }
+  return true;
+}
+
+Unit unit_of_measure(const std::string& name) {
+  if (name == "end_time") return {"s"};
+  const std::optional<record::Measure> measure = record::find_measure(name);
+  return measure ? unit_of(measure->column->name) : Unit{};
+}
+
+}  // namespace
+
+StatusMarks::StatusMarks(const SweepTable& table) {
+  for (const std::string& status : table.status) {
+    if (status == "done") continue;
+    const auto known = std::ranges::find(kinds_, status, &Kind::status);
+    if (known == kinds_.end()) {
+      kinds_.push_back({status, 1});
+    } else {
+      ++known->cases;
+    }
+  }
+}
+
+Stroke StatusMarks::stroke_of(const std::string& status) const {
+  constexpr std::array shapes = {Marker::cross, Marker::plus, Marker::square, Marker::diamond,
+                                 Marker::triangle};
+  const auto index = std::ranges::find(kinds_, status, &Kind::status) - kinds_.begin();
+  return {"#d55e00", 0, Dash::solid, shapes[static_cast<std::size_t>(index) % shapes.size()], 1};
+}
+
+std::vector<Entry> StatusMarks::legend() const {
+  std::vector<Entry> entries;
+  for (const Kind& kind : kinds_) {
+    entries.push_back(
+        {kind.status + ": " + std::to_string(kind.cases) + (kind.cases == 1 ? " case" : " cases"),
+         stroke_of(kind.status)});
+  }
+  return entries;
+}
+
+MeasureAxis::MeasureAxis(const SweepTable& table, const Column& measure) {
+  Range whole;
+  for (std::size_t i = 0; i < measure.numbers.size(); ++i) {
+    if (table.done(i)) whole.include(measure.numbers[i]);
+  }
+  log = better_by_log(whole);
+  scale = choose_scale(unit_of_measure(measure.name), whole, !log);
+  if (!whole.empty()) range = {scale(whole.low), scale(whole.high)};
+}
+
+Axis MeasureAxis::axis(double pixels, double pixels_a_tic, double air) const {
+  return log ? log_axis(range, pixels, pixels_a_tic, air)
+             : linear_axis(range, pixels, pixels_a_tic, air);
+}
+
+KeyAxis::KeyAxis(const SweepTable& table, const Key& of) : key(of) {
+  std::string name = clean(key.name);
+  const std::vector<std::string> followers = table.followers(key);
+  for (std::size_t i = 0; i < followers.size(); ++i) {
+    name += (i == 0 ? ", with " : ", ") + clean(followers[i]);
+  }
+  if (key.is_text()) {
+    label = name;
+    return;
+  }
+  log = by_equal_factors(key.distinct);
+  Range range;
+  range.include(key.distinct);
+  scale = choose_scale({"SI"}, range, !log);
+  label = scale.heading(name);
+}
+
+std::vector<double> KeyAxis::edges() const {
+  std::vector<double> at;
+  for (const double value : key.distinct) at.push_back(log ? std::log(place(value)) : place(value));
+  std::vector<double> edges(at.size() + 1);
+  for (std::size_t i = 1; i < at.size(); ++i) edges[i] = (at[i - 1] + at[i]) / 2;
+  edges.front() = at.front() - (edges[1] - at.front());
+  edges.back() = at.back() + (at.back() - edges[at.size() - 1]);
+  if (log) {
+    for (double& edge : edges) edge = std::exp(edge);
+  }
+  return edges;
+}
+
+Axis KeyAxis::axis(double pixels, double pixels_a_tic, bool cells) const {
+  const std::vector<double> limits = edges();
+  Range range{cells ? limits.front() : place(key.distinct.front()),
+              cells ? limits.back() : place(key.distinct.back())};
+  if (key.is_text()) {
+    const auto count = static_cast<double>(key.labels.size());
+    Axis axis{-0.5, count - 0.5};
+    for (std::size_t i = 0; i < key.labels.size(); ++i) {
+      axis.tics.push_back(
+          {static_cast<double>(i), cut_middle(clean(key.labels[i]), 0.9 * pixels / count, 12)});
+    }
+    return axis;
+  }
+  const double air = cells ? 0 : 0.02;
+  return log ? log_axis(range, pixels, pixels_a_tic, air)
+             : linear_axis(range, pixels, pixels_a_tic, air);
+}
+
+}  // namespace bbsim::plot

@@ -1,0 +1,197 @@
+#include "plot/sweep_picture.hpp"
+
+#include <algorithm>
+#include <filesystem>
+
+#include "base/error.hpp"
+#include "plot/sweep_parts.hpp"
+#include "plot/text.hpp"
+
+namespace bbsim::plot {
+namespace {
+
+// More values than these make a map rather than a line each.
+constexpr std::size_t most_groups = 5;
+
+// What the measures are drawn over.
+struct Form {
+  enum class Kind { lines, scatter, map, histogram } kind = Kind::histogram;
+  const Key* over = nullptr;
+  const Key* against = nullptr;  // of a map
+  const Key* group = nullptr;    // of lines
+};
+
+std::string names_of(const std::vector<std::string>& names) {
+  std::string text;
+  for (const std::string& name : names) text += (text.empty() ? "" : ", ") + name;
+  return text;
+}
+
+const Key& find_key(const SweepTable& table, const std::string& name) {
+  const auto found = std::ranges::find(table.keys, name, &Key::name);
+  if (found != table.keys.end()) return *found;
+  std::vector<std::string> names;
+  for (const Key& key : table.keys) names.push_back(key.name);
+  throw InputError("--over: found " + name + "; what varies: " + names_of(names));
+}
+
+// The keys whose values were listed, those that go along with others left out.
+std::vector<const Key*> listed_keys(const SweepTable& table) {
+  std::vector<const Key*> keys;
+  for (std::size_t k = 0; k < table.keys.size(); ++k) {
+    if (!table.keys[k].drawn && table.keys[k].leader == k) keys.push_back(&table.keys[k]);
+  }
+  return keys;
+}
+
+// A line for each of its values is better than a map with so few rows.
+bool makes_groups(const Key& key) {
+  return key.distinct.size() <= most_groups || key.is_text();
+}
+
+Form form_over(const SweepTable& table, const std::vector<std::string>& names) {
+  if (names.size() > 2) {
+    throw InputError("--over: found " + names_of(names) + "; allowed: one key, or two");
+  }
+  const Key& first = find_key(table, names[0]);
+  if (names.size() == 2) {
+    const Key& second = find_key(table, names[1]);
+    if (&first == &second) throw InputError("--over: found " + names[0] + " twice");
+    return {Form::Kind::map, &first, &second, nullptr};
+  }
+  if (first.drawn) return {Form::Kind::scatter, &first, nullptr, nullptr};
+  const Key* group = nullptr;
+  for (const Key* key : listed_keys(table)) {
+    if (key->leader != first.leader && makes_groups(*key) && group == nullptr) group = key;
+  }
+  return {Form::Kind::lines, &first, nullptr, group};
+}
+
+Form choose_form(const SweepTable& table, const std::vector<std::string>& over) {
+  if (!over.empty()) return form_over(table, over);
+  std::vector<const Key*> keys = listed_keys(table);
+  if (keys.empty()) return {Form::Kind::histogram, nullptr, nullptr, nullptr};
+  // The two with most values, in the file's order.
+  const auto more = [](const Key* a, const Key* b) {
+    return a->distinct.size() > b->distinct.size();
+  };
+  std::vector<const Key*> by_count = keys;
+  std::ranges::stable_sort(by_count, more);
+  if (by_count.size() == 1) return {Form::Kind::lines, by_count[0], nullptr, nullptr};
+  const Key *first = by_count[0], *second = by_count[1];
+  if (makes_groups(*second) && !first->is_text()) {
+    return {Form::Kind::lines, first, nullptr, second};
+  }
+  if (std::ranges::find(keys, first) > std::ranges::find(keys, second)) std::swap(first, second);
+  return {Form::Kind::map, first, second, nullptr};
+}
+
+// The measures that are asked for; or all, but those that are the same in all cases.
+std::vector<const Column*> choose_measures(const SweepTable& table, const Result& sweep,
+                                           const std::vector<std::string>& asked) {
+  std::vector<const Column*> measures;
+  for (const std::string& name : asked) {
+    const Column* const found = sweep.find(name);
+    if (std::ranges::find(table.measures, found) == table.measures.end() && name != "end_time") {
+      std::vector<std::string> names;
+      for (const Column* measure : table.measures) names.push_back(measure->name);
+      throw InputError("--columns: found " + (name.empty() ? "nothing" : name) + "; measures of " +
+                       sweep.file + ": " + names_of(names));
+    }
+    measures.push_back(found);
+  }
+  if (!measures.empty()) return measures;
+  for (const Column* measure : table.measures) {
+    if (MeasureAxis(table, *measure).range.wide()) measures.push_back(measure);
+  }
+  return measures.empty() ? table.measures : measures;
+}
+
+// What the keys that are no axis did: nothing, or a median was taken over them.
+std::string taken_over(const SweepTable& table, const Form& form) {
+  if (form.kind == Form::Kind::histogram || form.kind == Form::Kind::scatter) return "";
+  std::string listed, drawn;
+  for (const Key& key : table.keys) {
+    const auto leads = [&](const Key* axis) {
+      return axis != nullptr && axis->leader == key.leader;
+    };
+    if (leads(form.over) || leads(form.against) || leads(form.group)) continue;
+    std::string& text = key.drawn ? drawn : listed;
+    text += (text.empty() ? "" : ", ") + clean(key.name);
+  }
+  if (!drawn.empty()) drawn = "draws of " + drawn;
+  if (listed.empty() && drawn.empty()) return "";
+  const std::string over = listed + (listed.empty() || drawn.empty() ? "" : " and ") + drawn;
+  return (form.kind == Form::Kind::lines ? "median, and 5 to 95 % as a band, over "
+                                         : "median over ") +
+         over;
+}
+
+// Title, subtitle and legend; where the panels begin.
+double add_top(Picture& picture, const Result& sweep, const std::string& remark,
+               const std::vector<Entry>& legend) {
+  const double room = picture.width - 60, middle = picture.width / 2;
+  const std::string file = sweep.file == "-"
+                               ? "standard input"
+                               : clean(std::filesystem::path(sweep.file).filename().string());
+  const std::string title = clean(sweep.title);
+  constexpr double title_size = 17, subtitle_size = 12;
+  picture.words.push_back({Words::Align::centre, middle, 26,
+                           cut(title.empty() ? file : title, room, title_size), title_size});
+  std::string subtitle = (title.empty() ? "" : file + ", ") + std::to_string(sweep.rows) + " cases";
+  if (!remark.empty()) subtitle += "; " + remark;
+  picture.words.push_back({Words::Align::centre, middle, 49, cut(subtitle, room, subtitle_size),
+                           subtitle_size, "#505050"});
+  if (legend.empty()) return 62;
+  const double rows = static_cast<double>(legend_rows(legend, 30, picture.width - 30));
+  const double last = 74 + legend_pitch * (rows - 1);
+  place_legend(picture, legend, 30, picture.width - 30, last, Words::Align::centre);
+  return last + 14;
+}
+
+}  // namespace
+
+Picture sweep_picture(const Result& sweep, const SweepChoice& choice) {
+  const SweepTable table = sweep_table(sweep);
+  if (table.keys.empty()) throw InputError(sweep.file + ": nothing to draw: no key varies");
+  const std::vector<const Column*> measures = choose_measures(table, sweep, choice.measures);
+  if (measures.empty()) throw InputError(sweep.file + ": nothing to draw: it has no measures");
+  const Form form = choose_form(table, choice.over);
+  const StatusMarks marks(table);
+  const bool map = form.kind == Form::Kind::map, histogram = form.kind == Form::Kind::histogram;
+
+  const bool one = measures.size() == 1;
+  Picture picture;
+  picture.width = one ? 900 : 1200;
+  std::vector<Entry> legend =
+      form.kind == Form::Kind::lines ? group_legend(form.group) : std::vector<Entry>{};
+  for (const Entry& entry : marks.legend()) legend.push_back(entry);
+  const double top = add_top(picture, sweep, taken_over(table, form), legend);
+  const double pitch = one ? 440 : map ? 320 : histogram ? 230 : 185;
+  const double below = histogram ? 52 : 12;  // its tics and label, where each panel has them
+  const std::size_t columns = one ? 1 : 2, rows = (measures.size() + columns - 1) / columns;
+  picture.height = top + pitch * static_cast<double>(rows) + (histogram ? 10 : 50);
+  for (std::size_t m = 0; m < measures.size(); ++m) {
+    const std::size_t row = m / columns, column = m % columns;
+    const double left = column == 0 ? 88 : 688, y = top + pitch * static_cast<double>(row);
+    const Box box{left, y + 28, one ? picture.width - 30 : left + 482, y + pitch - below};
+    const bool lowest = m + columns >= measures.size();
+    switch (form.kind) {
+      case Form::Kind::lines:
+        add_lines(picture, table, *measures[m], *form.over, form.group, marks, box, lowest);
+        break;
+      case Form::Kind::scatter:
+        add_scatter(picture, table, *measures[m], *form.over, marks, box, lowest);
+        break;
+      case Form::Kind::map:
+        add_map(picture, table, *measures[m], *form.over, *form.against, marks, box, lowest);
+        break;
+      case Form::Kind::histogram:
+        add_histogram(picture, table, *measures[m], box);
+        break;
+    }
+  }
+  return picture;
+}
+
+}  // namespace bbsim::plot

@@ -1,0 +1,119 @@
+#include "plot/sweep_table.hpp"
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <utility>
+
+namespace bbsim::plot {
+namespace {
+
+// Fewer cases tell nothing of how their values were found.
+constexpr std::size_t many_cases = 8;
+
+std::vector<double> sorted_distinct(std::vector<double> values) {
+  std::erase_if(values, [](double value) { return std::isnan(value); });
+  std::ranges::sort(values);
+  const auto repeated = std::ranges::unique(values);
+  values.erase(repeated.begin(), repeated.end());
+  return values;
+}
+
+Key key_of(const Column& column) {
+  Key key{column.name, column.numbers, {}};
+  if (column.is_text()) {
+    std::map<std::string, std::size_t> places;
+    for (std::size_t i = 0; i < column.texts.size(); ++i) {
+      const auto [place, added] = places.emplace(column.texts[i], key.labels.size());
+      if (added) key.labels.push_back(column.texts[i]);
+      key.values[i] = static_cast<double>(place->second);
+    }
+  }
+  key.distinct = sorted_distinct(key.values);
+  return key;
+}
+
+bool looks_drawn(const Key& key) {
+  const std::size_t cases = key.values.size();
+  if (key.is_text() || cases < many_cases || 2 * key.distinct.size() <= cases) return false;
+  return !std::ranges::is_sorted(key.values) &&
+         !std::ranges::is_sorted(key.values, std::ranges::greater());
+}
+
+// Whether each value of the one comes with one value of the other, and the other way round.
+bool go_along(const Key& one, const Key& other) {
+  if (one.distinct.size() != other.distinct.size()) return false;
+  std::map<double, double> partners;
+  for (std::size_t i = 0; i < one.values.size(); ++i) {
+    if (std::isnan(one.values[i]) || std::isnan(other.values[i])) return false;
+    const auto [partner, added] = partners.emplace(one.values[i], other.values[i]);
+    if (!added && partner->second != other.values[i]) return false;
+  }
+  return true;
+}
+
+// Of "failed at 0.7 s: ..." the word "failed".
+std::string first_word(const std::string& text) {
+  const auto end = std::ranges::find_if(
+      text, [](unsigned char c) { return std::isspace(c) != 0 || c == ':' || c == ','; });
+  return {text.begin(), end};
+}
+
+}  // namespace
+
+std::vector<std::string> SweepTable::followers(const Key& key) const {
+  std::vector<std::string> names;
+  for (const Key& other : keys) {
+    if (&other != &key && other.leader == key.leader) names.push_back(other.name);
+  }
+  return names;
+}
+
+SweepTable sweep_table(const Result& sweep) {
+  SweepTable table;
+  bool before_status = true;
+  for (const Column& column : sweep.columns) {
+    if (column.name == "case") continue;
+    if (column.name == "status") {
+      before_status = false;
+      for (const std::string& text : column.texts) table.status.push_back(first_word(text));
+      continue;
+    }
+    if (!before_status) {
+      if (!column.is_text() && column.name != "reason") table.measures.push_back(&column);
+      continue;
+    }
+    Key key = key_of(column);
+    if (key.distinct.size() < 2) continue;
+    key.drawn = sweep.tells_drawn
+                    ? std::ranges::find(sweep.drawn_keys, key.name) != sweep.drawn_keys.end()
+                    : looks_drawn(key);
+    key.leader = table.keys.size();
+    table.keys.push_back(std::move(key));
+  }
+  for (std::size_t k = 0; k < table.keys.size(); ++k) {
+    for (std::size_t earlier = 0; earlier < k; ++earlier) {
+      Key& key = table.keys[k];
+      const Key& other = table.keys[earlier];
+      if (key.drawn || other.drawn || key.leader != k || !go_along(key, other)) continue;
+      key.leader = other.leader;
+    }
+  }
+  std::erase_if(table.measures, [](const Column* column) {
+    return column->name == "end_time" && sorted_distinct(column->numbers).size() < 2;
+  });
+  return table;
+}
+
+double quantile(std::vector<double>& values, double part) {
+  if (values.empty()) return std::numeric_limits<double>::quiet_NaN();
+  std::ranges::sort(values);
+  const double place = part * static_cast<double>(values.size() - 1);
+  const auto below = static_cast<std::size_t>(place);
+  const std::size_t above = std::min(below + 1, values.size() - 1);
+  return std::lerp(values[below], values[above], place - static_cast<double>(below));
+}
+
+}  // namespace bbsim::plot

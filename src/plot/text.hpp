@@ -1,0 +1,34 @@
+// Words in a picture: what may stand there, how wide it is, how it is cut to fit.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <string_view>
+
+namespace bbsim::plot {
+
+// `text` as one line of valid UTF-8 that every format can hold: what is no character, or turns the
+// direction of writing, becomes U+FFFD; line breaks and other control characters become blanks.
+[[nodiscard]] std::string clean(std::string_view text);
+
+// A clean text with U+FFFD for each character that neither DejaVu Sans nor `has_letter` has.
+[[nodiscard]] std::string with_letters(std::string_view text,
+                                       const std::function<bool(std::uint32_t)>& has_letter);
+
+// An upper bound, but for rare letters, on the width of a clean text in a sans-serif font, in
+// pixels as `size` is.
+[[nodiscard]] double width_of(std::string_view text, double size);
+
+// The text, or as much of it as fits into `width` with "..." for the rest: at the end, or, for
+// names of files, which differ at either end, in the middle.
+[[nodiscard]] std::string cut(const std::string& text, double width, double size);
+[[nodiscard]] std::string cut_middle(const std::string& text, double width, double size);
+
+// A number as a person reads it: up to `digits` of them, with a minus sign rather than a hyphen.
+[[nodiscard]] std::string number(double value, int digits = 4);
+
+// 10 to that power, as text with superscripts.
+[[nodiscard]] std::string power_of_ten(int exponent);
+
+}  // namespace bbsim::plot

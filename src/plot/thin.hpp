@@ -1,0 +1,16 @@
+// Fewer points for the same line on the screen.
+#pragma once
+
+#include "plot/picture.hpp"
+
+namespace bbsim::plot {
+
+// Of a curve over a growing x, at most four points a column of pixels: the first, the lowest, the
+// highest and the last. No spike is lost, and gaps stay. Others are returned as they are.
+[[nodiscard]] Curve thin_over_time(Curve curve, const Panel& panel);
+
+// Of a path, the points that are at least a part of a pixel from the one before, and more of them
+// left out where it still has more than 50,000.
+[[nodiscard]] Curve thin_path(Curve curve, const Panel& panel);
+
+}  // namespace bbsim::plot

@@ -1,0 +1,109 @@
+#include <cmath>
+#include <string>
+
+#include "../record/folder.hpp"
+#include "base/error.hpp"
+#include "catch.hpp"
+#include "plot/read_result.hpp"
+
+using namespace bbsim;
+using Catch::Matchers::Contains;
+
+namespace {
+
+const std::string summary_of_two_rows =
+    R"({"status": "stopped", "title": "A title", "end_time": 0.5, "rows": 2, "output": "run.csv",
+        "overrides": ["plate.size=[0.4, 0.2]"], "scenario": "/nowhere/scene.yaml",
+        "events": [{"t": 0.25, "event": "edge", "action": "stop", "x": 0.1, "y": -0.2}],
+        "scenario_text": "ball: {radius: 0.01}\nplate: {size: [0.3, 0.2]}\ngimbal: {motion: {phi: {table: {file: gone.csv, time: t, value: p}}}}\nevents: {slip: {friction: 0.3}}\ntime: {end: 1, step: 0.1}\n"})";
+
+plot::Result read(const std::string& file, const plot::Beside& beside = {}) {
+  return plot::read_result(file, beside);
+}
+
+}  // namespace
+
+TEST_CASE("CSV of any origin: gaps, quotes, marks of other systems, text") {
+  const Folder folder;
+  const plot::Result result = read(folder.put(
+      "a.csv",
+      "\xEF\xBB\xBFt, x ,\"a name, quoted\",note\r\n0,1,2,\r\n1,,+3,late\r\n\r\n2,nan,-4e3,x\r\n"));
+  CHECK(result.rows == 3);
+  REQUIRE(result.find("x") != nullptr);
+  CHECK(result.find("x")->numbers[0] == 1);
+  CHECK(std::isnan(result.find("x")->numbers[1]));
+  CHECK_FALSE(result.find("x")->is_text());
+  CHECK(result.find("a name, quoted")->numbers == std::vector<double>{2, 3, -4000});
+  CHECK(result.find("note")->texts == std::vector<std::string>{"", "late", "x"});
+  CHECK_FALSE(result.is_sweep());
+}
+
+TEST_CASE("what is no CSV of rows is refused with its place") {
+  const Folder folder;
+  const auto refused = [&](const std::string& content) {
+    try {
+      static_cast<void>(read(folder.put("a.csv", content)));
+    } catch (const InputError& error) {
+      return std::string(error.what());
+    }
+    return std::string("taken");
+  };
+  CHECK_THAT(refused(""), Contains("a.csv: is empty"));
+  CHECK_THAT(refused("t,x\n"), Contains("has a header and no rows"));
+  CHECK_THAT(refused("1,2\n3,4\n"), Contains("a.csv:1: is a row of numbers"));
+  CHECK_THAT(refused("t,x\n1,2\n3\n"), Contains("a.csv:3: found 1 fields; the header names 2"));
+  CHECK_THAT(refused("t,t\n1,2\n"), Contains("the column t is there twice"));
+  CHECK_THAT(refused("t,\n1,2\n"), Contains("a column's name is empty"));
+  CHECK_THAT(refused("t,x\n1,\"2\n"), Contains("a.csv:2: a quote is left open"));
+  CHECK_THAT(refused(std::string("\0\1\2", 3)), Contains("is no header"));
+  CHECK_THROWS_WITH(read("/dev/zero"), Contains("more than 1048576 bytes"));
+  CHECK_THROWS_WITH(read(folder / "none.csv"), Contains("no such file"));
+  CHECK_THROWS_WITH(read(folder.name()), Contains("is a directory"));
+  CHECK_THROWS_WITH(read("scene.yaml"), Contains("is a scenario; draw its result"));
+}
+
+TEST_CASE("a summary beside a CSV tells of its scene, if it is of that very run") {
+  const Folder folder;
+  const std::string csv = folder.put("run.csv", "t,x\n0,1\n0.25,2\n");
+  CHECK(read(csv).title.empty());
+  folder.put("run.json", summary_of_two_rows);
+  const plot::Result result = read(csv);
+  CHECK(result.title == "A title");
+  CHECK(result.status == "stopped");
+  REQUIRE(result.events.size() == 1);
+  CHECK(result.events[0].name == "edge");
+  CHECK(result.events[0].stopped);
+  CHECK(result.events[0].y == -0.2);
+  // The table that the scenario reads is gone; the rest is known, with what was set.
+  REQUIRE(result.scenario);
+  REQUIRE(result.scenario->plate.size);
+  CHECK((*result.scenario->plate.size)[0] == 0.4);
+  CHECK(result.scenario->events.slip->friction == 0.3);
+
+  // Of another run: not taken up unasked, refused if named.
+  const std::string other = folder.put("other.csv", "t,x\n0,1\n0.25,2\n0.5,3\n");
+  folder.put("other.json", summary_of_two_rows);
+  CHECK(read(other).title.empty());
+  CHECK_THROWS_WITH(read(other, {folder / "run.json", "", {}}),
+                    Contains("of another run: it has 2 rows"));
+  CHECK_THROWS_WITH(read(csv, {csv, "", {}}), Contains("is no summary"));
+  CHECK_THROWS_WITH(read(csv, {folder / "none.json", "", {}}), Contains("no such file"));
+  folder.put("run.json",
+             "{\"status\": 3, \"events\": [1, {}], \"output\": \"run.csv\", \"rows\": 2}");
+  CHECK(read(csv).title.empty());
+}
+
+TEST_CASE("a scenario that is named comes before what is beside") {
+  const Folder folder;
+  const std::string csv = folder.put("run.csv", "t,x\n0,1\n0.25,2\n");
+  folder.put("run.json", summary_of_two_rows);
+  const std::string scene = folder.put(
+      "scene.yaml",
+      "title: Another\nball: {radius: 0.01}\nplate: {diameter: 0.5}\ngimbal: {motion: {phi: 0}}\n"
+      "time: {end: 1, step: 0.1}\n");
+  const plot::Result result = read(csv, {"", scene, {"plate.diameter=0.6"}});
+  CHECK(result.title == "Another");
+  CHECK(result.scenario->plate.diameter == 0.6);
+  CHECK(result.events.size() == 1);
+  CHECK_THROWS_AS(read(csv, {"", scene, {"plate.diametre=0.6"}}), InputError);
+}

@@ -1,0 +1,204 @@
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "base/error.hpp"
+#include "catch.hpp"
+#include "plot/run_picture.hpp"
+#include "results.hpp"
+
+using namespace bbsim;
+using namespace bbsim_test;
+using namespace bbsim::plot;
+using Catch::Matchers::Contains;
+
+namespace {
+
+Function wave(double size, double offset = 0) {
+  return [=](double t) { return offset + size * std::sin(t); };
+}
+
+bool has_curve(const Picture& picture, Curve::Shape shape) {
+  return std::ranges::any_of(picture.panels, [&](const Panel& panel) {
+    return std::ranges::any_of(panel.curves,
+                               [&](const Curve& curve) { return curve.shape == shape; });
+  });
+}
+
+Result rig_run() {
+  Result run = run_of({{"x", wave(0.05)},
+                       {"y", wave(0.04)},
+                       {"x_reference", wave(0.05)},
+                       {"y_reference", wave(0.04)},
+                       {"x_measured", wave(0.051)},
+                       {"phi", wave(0.1)},
+                       {"phi_command", wave(0.12)},
+                       {"friction_demand", [](double t) { return 0.15 + 0.1 * std::sin(t); }}});
+  run.scenario.emplace();
+  run.scenario->plate.size = Pair{0.32, 0.24};
+  run.scenario->events.slip = SlipEvent{0.3};
+  run.scenario->controller.emplace().drives = Drives::angle;
+  run.scenario->controller->sampling = Sampling{0.02};
+  run.title = "A rig";
+  run.status = "stopped";
+  run.end_time = 10;
+  run.events = {{"slip", false, 4, 0.01, 0.02}, {"edge", true, 10, 0.16, 0.01}};
+  return run;
+}
+
+}  // namespace
+
+TEST_CASE("a rig's run shows plate, events, limit, reference, what was seen, and steps") {
+  const Picture picture = run_picture({rig_run()}, {});
+  CHECK(collisions(picture) == "");
+  for (const char* text :
+       {"A rig", "run.csv, stopped at t = 10 s: edge", "plate's edge", "slip", "edge (stops)",
+        "coefficient 0.3", "reference", "as seen", "command", "start", "end", "friction demand"}) {
+    CAPTURE(text);
+    CHECK(says(picture, text));
+  }
+  CHECK(has_curve(picture, Curve::Shape::steps));
+  // The path's panel shows the whole plate.
+  const Panel& path = picture.panels.front();
+  CHECK(path.x.low <= -16);
+  CHECK(path.x.high >= 16);
+  // Events are marked in all panels over time.
+  for (std::size_t p = 1; p < picture.panels.size(); ++p) {
+    CHECK(picture.panels[p].uprights.size() == 2);
+  }
+}
+
+TEST_CASE("a law without samples has no steps") {
+  Result run = rig_run();
+  run.scenario->controller->sampling.reset();
+  std::erase_if(run.columns, [](const Column& column) { return column.name == "x_measured"; });
+  CHECK_FALSE(has_curve(run_picture({run}, {}), Curve::Shape::steps));
+}
+
+TEST_CASE("a plate that would hide the path is left out, a limit that is far away is told") {
+  Result run = rig_run();
+  run.events.clear();
+  for (Column& column : run.columns) {
+    if (column.name == "t") continue;
+    for (double& value : column.numbers) value *= 0.001;
+  }
+  const Picture picture = run_picture({run}, {});
+  CHECK_FALSE(says(picture, "plate's edge"));
+  CHECK(says(picture, "coefficient 0.3, far above"));
+}
+
+TEST_CASE("the test of collisions sees one") {
+  Picture picture;
+  picture.words = {{Words::Align::left, 100, 100, "one"}, {Words::Align::centre, 115, 106, "two"}};
+  CHECK_THAT(collisions(picture), Contains("\"one\" over \"two\""));
+  picture.words = {{Words::Align::right, 10, 100, "beyond"}};
+  CHECK_THAT(collisions(picture), Contains("outside: beyond"));
+}
+
+TEST_CASE("nothing collides, whatever the values, the names and the number of panels") {
+  const std::vector<std::string> names = {"x",
+                                          "y",
+                                          "gamma",
+                                          "phi",
+                                          "theta",
+                                          "vx",
+                                          "vy",
+                                          "spin",
+                                          "x_reference",
+                                          "y_reference",
+                                          "phi_command",
+                                          "friction_demand",
+                                          "motor_power",
+                                          "power",
+                                          "normal_force",
+                                          "friction_force",
+                                          "motor_torque_phi",
+                                          "motor_torque_theta",
+                                          "a_column_of_somebody_else_with_a_very_long_name_indeed",
+                                          "energy",
+                                          "singularity_distance"};
+  for (const double size : {1e-300, 1e-9, 1e-4, 0.1, 3.0, 86.0, 1e5, 1.4e6, 1e300}) {
+    for (const double offset : {0.0, 1.0, 1e6}) {
+      for (std::size_t count = 1; count <= names.size(); count += 3) {
+        for (const double end : {1e-9, 0.3, 10.0, 1e6}) {
+          std::vector<std::pair<std::string, Function>> columns;
+          for (std::size_t c = 0; c < count; ++c) {
+            columns.emplace_back(names[c], [=](double t) {
+              return size * (offset + std::sin(t / end + static_cast<double>(c)));
+            });
+          }
+          Result run = run_of(columns, end, 50);
+          run.title = std::string(300, 'W');
+          run.file = "/a/folder/" + std::string(200, 'm') + ".csv";
+          CAPTURE(size, offset, count, end);
+          CHECK(collisions(run_picture({run}, {})) == "");
+        }
+      }
+    }
+  }
+}
+
+TEST_CASE("comparisons name each run, and tell them apart without colour") {
+  std::vector<Result> runs;
+  for (int i = 0; i < 4; ++i) {
+    runs.push_back(rig_run());
+    runs.back().file = "folder-" + std::to_string(i) + "/rig.csv";
+    runs.back().status = i == 2 ? "failed" : "done";
+  }
+  const Picture picture = run_picture(runs, {});
+  CHECK(collisions(picture) == "");
+  CHECK(says(picture, "folder-1/rig.csv"));
+  CHECK(says(picture, "folder-2/rig.csv, failed at t = 10 s"));
+  std::vector<Dash> dashes;
+  for (const Curve& curve : picture.panels.back().curves) dashes.push_back(curve.stroke.dash);
+  for (const Dash dash : {Dash::solid, Dash::dashed, Dash::dotted, Dash::dash_dotted}) {
+    CHECK(std::ranges::find(dashes, dash) != dashes.end());
+  }
+}
+
+TEST_CASE("many events are marked at the top only") {
+  Result run = rig_run();
+  run.events.assign(500, {"slip", false, 4, 0.01, 0.02});
+  const Picture picture = run_picture({run}, {});
+  CHECK(says(picture, "slip, 500 times"));
+  CHECK(picture.panels.back().uprights.front().stroke.width == 0);
+}
+
+TEST_CASE("a run that stands still, has one row, gaps, infinities or no time is drawn") {
+  const Function still = [](double) { return 0.1; };
+  CHECK(collisions(run_picture({run_of({{"x", still}, {"y", still}})}, {})) == "");
+
+  Result one_row;
+  one_row.file = "one.csv";
+  one_row.rows = 1;
+  one_row.columns = {{"t", {0}}, {"x", {1}}, {"y", {2}}, {"phi", {0.1}}};
+  const Picture point = run_picture({one_row}, {});
+  CHECK(point.panels.back().curves.front().stroke.marker == Marker::dot);
+
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  Result gaps = run_of({{"x", wave(1)}, {"y", wave(1)}});
+  gaps.columns[1].numbers[3] = NAN;
+  gaps.columns[2].numbers[4] = infinity;
+  gaps.columns[1].numbers[5] = -infinity;
+  const Picture with_gaps = run_picture({gaps}, {});
+  CHECK(with_gaps.panels.front().x.high < 200);  // cm
+  CHECK(collisions(with_gaps) == "");
+
+  Result timeless = run_of({{"x", wave(1)}});
+  timeless.columns.erase(timeless.columns.begin());
+  CHECK(says(run_picture({timeless}, {}), "row"));
+}
+
+TEST_CASE("there is nothing to draw of a run without finite numbers") {
+  const Result run = run_of({{"x", [](double) { return NAN; }}});
+  CHECK_THROWS_WITH(run_picture({run}, {}), Contains("nothing to draw"));
+  CHECK_THROWS_WITH(run_picture({run_of({{"x", wave(1)}})}, {{"path"}}),
+                    Contains("no numbers x and y"));
+}
+
+TEST_CASE("the path can be asked for, alone or with columns") {
+  const Result run = run_of({{"x", wave(1)}, {"y", wave(2)}, {"phi", wave(1)}});
+  CHECK(run_picture({run}, {{"path"}}).panels.size() == 1);
+  CHECK(run_picture({run}, {{"phi"}, {"path"}}).panels.size() == 2);
+  CHECK(run_picture({run}, {{"phi"}}).panels.size() == 1);
+}

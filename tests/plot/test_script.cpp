@@ -1,0 +1,60 @@
+#include <algorithm>
+#include <sstream>
+
+#include "catch.hpp"
+#include "plot/script.hpp"
+
+using namespace bbsim::plot;
+using Catch::Matchers::Contains;
+
+namespace {
+
+const HasLetter no_letter = [](std::uint32_t) { return false; };
+
+Picture picture_saying(const std::string& text) {
+  Picture picture;
+  picture.words.push_back({Words::Align::left, 10, 10, text});
+  return picture;
+}
+
+}  // namespace
+
+TEST_CASE("a text is nothing but text to gnuplot") {
+  const std::string script =
+      gnuplot_script(picture_saying("it's `id` \"$(id)\" @m ''two''\n!rm x\nset output 'y'\\"),
+                     Format::svg, no_letter);
+  CHECK_THAT(script, Contains("set label 'it'.apostrophe.'s `id` \"$(id)\" @m '.apostrophe.''."
+                              "apostrophe.'two'.apostrophe.''.apostrophe.' !rm x set output '."
+                              "apostrophe.'y'.apostrophe.'\\' at"));
+  std::istringstream lines(script);
+  for (std::string line; std::getline(lines, line);) {
+    CHECK_FALSE(line.starts_with("!"));
+    CHECK_FALSE(line.starts_with("set output"));
+  }
+}
+
+TEST_CASE("letters that no font has do not reach the formats that draw them") {
+  CHECK_THAT(gnuplot_script(picture_saying("漢"), Format::svg, no_letter), Contains("'漢'"));
+  CHECK_THAT(gnuplot_script(picture_saying("漢"), Format::png, no_letter), Contains("'�'"));
+  CHECK_THAT(gnuplot_script(picture_saying("漢"), Format::pdf, no_letter), Contains("'�'"));
+}
+
+TEST_CASE("data are places in the panel, whatever their size") {
+  Picture picture;
+  Panel panel;
+  panel.box = {0, 0, 100, 100};
+  panel.x = {0, 1e300};
+  panel.y = {-1e308, 1e308};
+  panel.curves.emplace_back();
+  panel.curves.back().x = {0, 1e300, 5e299};
+  panel.curves.back().y = {-1e308, 1e308, NAN};
+  picture.panels.push_back(panel);
+  CHECK_THAT(gnuplot_script(picture, Format::png, no_letter),
+             Contains("0.000000 0.000000\n1.000000 1.000000\n0.500000 NaN\n"));
+}
+
+TEST_CASE("what gnuplot leaves of XML in a text is mended") {
+  CHECK(mended("<text>a ]]> b</text>", Format::svg) == "<text>a ]]&gt; b</text>");
+  CHECK(mended("a ]]> b", Format::png) == "a ]]> b");
+  CHECK(mended("<![CDATA[ x ]]>", Format::svg) == "<![CDATA[ x ]]>");
+}

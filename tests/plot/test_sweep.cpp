@@ -1,0 +1,218 @@
+#include <cmath>
+
+#include "base/error.hpp"
+#include "catch.hpp"
+#include "plot/sweep_picture.hpp"
+#include "plot/sweep_table.hpp"
+#include "results.hpp"
+
+using namespace bbsim;
+using namespace bbsim_test;
+using namespace bbsim::plot;
+using Catch::Matchers::Contains;
+
+namespace {
+
+// A sweep over keys with their values a case; x_end is `measure` of the case's number.
+Result sweep_of(
+    const std::vector<Column>& keys,
+    const Function& measure = [](double n) { return std::cos(n); }) {
+  Result sweep;
+  sweep.file = "sweep.csv";
+  sweep.rows = keys.front().numbers.size();
+  Column number{"case", {}}, status{"status", {}}, end{"end_time", {}}, x{"x_end", {}};
+  for (std::size_t i = 0; i < sweep.rows; ++i) {
+    number.numbers.push_back(static_cast<double>(i));
+    status.numbers.push_back(NAN);
+    status.texts.emplace_back("done");
+    end.numbers.push_back(10);
+    x.numbers.push_back(measure(static_cast<double>(i)));
+  }
+  sweep.columns.push_back(number);
+  sweep.columns.insert(sweep.columns.end(), keys.begin(), keys.end());
+  sweep.columns.insert(sweep.columns.end(), {status, end, x});
+  return sweep;
+}
+
+void end_as(Result& sweep, std::size_t a_case, const std::string& status) {
+  for (Column& column : sweep.columns) {
+    if (column.name == "status") column.texts[a_case] = status;
+  }
+}
+
+Column repeated(const std::string& name, std::size_t cases, std::size_t inner, std::size_t count) {
+  Column column{name, {}};
+  for (std::size_t i = 0; i < cases; ++i) {
+    column.numbers.push_back(0.1 * static_cast<double>(i / inner % count + 1));
+  }
+  return column;
+}
+
+// Without order: multiples of the golden ratio, modulo 1.
+Column drawn(const std::string& name, std::size_t cases) {
+  Column column{name, {}};
+  for (std::size_t i = 0; i < cases; ++i) {
+    column.numbers.push_back(std::fmod(0.6180339887 * static_cast<double>(i + 1), 1.0));
+  }
+  return column;
+}
+
+std::size_t cells(const Picture& picture) {
+  std::size_t count = 0;
+  for (const Panel& panel : picture.panels) count = std::max(count, panel.cells.size());
+  return count;
+}
+
+bool has_band(const Picture& picture) {
+  return std::ranges::any_of(picture.panels.front().curves,
+                             [](const Curve& curve) { return curve.shape == Curve::Shape::band; });
+}
+
+}  // namespace
+
+TEST_CASE("keys that are listed, drawn, tied or constant are told apart") {
+  const std::size_t cases = 60;
+  const SweepTable table = sweep_table(
+      sweep_of({repeated("a", cases, 10, 6), repeated("b", cases, 10, 6), drawn("c", cases),
+                repeated("constant", cases, 1, 1), drawn("d", cases)}));
+  REQUIRE(table.keys.size() == 4);
+  CHECK_FALSE(table.keys[0].drawn);
+  CHECK(table.keys[0].distinct.size() == 6);
+  CHECK(table.keys[1].leader == 0);
+  CHECK(table.followers(table.keys[0]) == std::vector<std::string>{"b"});
+  CHECK(table.keys[2].drawn);
+  CHECK(table.keys[3].drawn);
+  CHECK(table.keys[3].leader == 3);   // draws do not go along, though none comes twice
+  CHECK(table.measures.size() == 1);  // all ended at one time
+}
+
+TEST_CASE("a file that tells which keys were drawn is believed") {
+  Result sweep = sweep_of({drawn("a", 20), repeated("b", 20, 1, 20)});
+  sweep.tells_drawn = true;
+  sweep.drawn_keys = {"b"};
+  const SweepTable table = sweep_table(sweep);
+  CHECK_FALSE(table.keys[0].drawn);
+  CHECK(table.keys[1].drawn);
+}
+
+TEST_CASE("of a status the first word counts") {
+  Result sweep = sweep_of({repeated("a", 4, 1, 4)});
+  end_as(sweep, 0, "failed at 0.744 s: the step shrank");
+  end_as(sweep, 1, "refused: ball.radius");
+  end_as(sweep, 2, "stopped");
+  CHECK(sweep_table(sweep).status ==
+        std::vector<std::string>{"failed", "refused", "stopped", "done"});
+}
+
+TEST_CASE("one key gives lines, with cases that are not done marked at the foot") {
+  Result sweep = sweep_of({repeated("ball.radius", 20, 1, 20)});
+  end_as(sweep, 3, "failed");
+  end_as(sweep, 4, "failed");
+  end_as(sweep, 9, "stopped");
+  const Picture picture = sweep_picture(sweep, {});
+  CHECK(collisions(picture) == "");
+  REQUIRE(picture.panels.size() == 1);
+  const auto& curves = picture.panels[0].curves;
+  REQUIRE(curves.size() == 3);
+  CHECK(std::isnan(curves[0].y[3]));  // a case that failed has no part in the line
+  CHECK(curves[1].x.size() == 2);
+  CHECK(curves[2].x.size() == 1);
+  CHECK(curves[1].stroke.marker != curves[2].stroke.marker);
+  CHECK(says(picture, "failed: 2 cases"));
+  CHECK(says(picture, "stopped: 1 case"));
+  CHECK(says(picture, "ball.radius (SI)"));
+}
+
+TEST_CASE("two keys give a map; one with few values gives a line for each") {
+  Result grid = sweep_of({repeated("a", 120, 12, 10), repeated("b", 120, 1, 12)});
+  end_as(grid, 7, "failed");
+  const Picture map = sweep_picture(grid, {});
+  CHECK(collisions(map) == "");
+  CHECK(cells(map) == 120);
+  CHECK(map.panels.size() == 2);  // the scale of colours is the other one
+  CHECK(says(map, "failed: 1 case"));
+  const Picture lines =
+      sweep_picture(sweep_of({repeated("a", 60, 3, 20), repeated("b", 60, 1, 3)}), {});
+  CHECK(cells(lines) == 0);
+  CHECK(lines.panels[0].curves.size() == 3);
+  CHECK(says(lines, "b = 0.2"));
+  CHECK(sweep_picture(grid, {{}, {"b"}}).panels[0].cells.empty());
+}
+
+TEST_CASE("draws give histograms, a median and a band over listed keys, or points") {
+  const Picture histogram = sweep_picture(sweep_of({drawn("a", 200), drawn("b", 200)}), {});
+  CHECK(collisions(histogram) == "");
+  double counted = 0;
+  for (const Cell& bar : histogram.panels[0].cells) counted += bar.top;
+  CHECK(counted == 200);
+  const Result mixed = sweep_of({repeated("a", 200, 20, 10), drawn("b", 200)});
+  const Picture lines = sweep_picture(mixed, {});
+  CHECK(has_band(lines));
+  CHECK(says(lines, "sweep.csv"));
+  CHECK(std::ranges::any_of(lines.words, [](const Words& words) {
+    return words.text.find("over draws of b") != std::string::npos;
+  }));
+  const Picture points = sweep_picture(mixed, {{}, {"b"}});
+  CHECK(points.panels[0].curves[0].x.size() == 200);
+  CHECK(points.panels[0].curves[0].stroke.width == 0);
+}
+
+TEST_CASE("a key of words stands beside the words") {
+  Column method{"solver.method",
+                std::vector<double>(6, NAN),
+                {"radau", "bdf", "adams", "radau", "bdf", "adams"}};
+  const Picture picture =
+      sweep_picture(sweep_of({method, repeated("a", 6, 3, 2)}), {{}, {"solver.method"}});
+  CHECK(collisions(picture) == "");
+  REQUIRE(picture.panels[0].x.tics.size() == 3);
+  CHECK(picture.panels[0].x.tics[1].label == "bdf");
+  CHECK(picture.panels[0].curves[0].stroke.width == 0);
+}
+
+TEST_CASE("measures over decades, constant ones, and none that is done are drawn") {
+  const Result decades =
+      sweep_of({repeated("a", 20, 1, 20)}, [](double n) { return std::pow(10.0, n - 5); });
+  CHECK(sweep_picture(decades, {}).panels[0].y.log);
+  CHECK(collisions(sweep_picture(decades, {})) == "");
+  const Result constant = sweep_of({repeated("a", 20, 1, 20)}, [](double) { return 3.0; });
+  CHECK(collisions(sweep_picture(constant, {})) == "");
+  Result map = sweep_of({repeated("a", 100, 10, 10), repeated("b", 100, 1, 10)});
+  for (std::size_t i = 0; i < 100; ++i) end_as(map, i, "failed");
+  CHECK(collisions(sweep_picture(map, {})) == "");
+  Result draws = sweep_of({drawn("a", 50)});
+  for (std::size_t i = 0; i < 50; ++i) end_as(draws, i, "failed");
+  CHECK(says(sweep_picture(draws, {}), "failed: 50 cases"));
+}
+
+TEST_CASE("a map of a million cases has no more cells than can be seen") {
+  const Picture picture =
+      sweep_picture(sweep_of({repeated("a", 250000, 500, 500), repeated("b", 250000, 1, 500)}), {});
+  CHECK(cells(picture) <= 160 * 160);
+  CHECK(cells(picture) >= 100 * 100);
+}
+
+TEST_CASE("nothing collides, whatever the keys are called and however large they are") {
+  for (const double size : {1e-300, 1e-9, 1e-3, 1.0, 1e7, 1e300}) {
+    for (const std::size_t inner : {std::size_t{1}, std::size_t{3}, std::size_t{12}}) {
+      Column a = repeated(std::string(120, 'k') + ".0", 144, inner, 144 / inner);
+      for (double& value : a.numbers) value *= size;
+      Result sweep = sweep_of({a, repeated("b\nc", 144, 1, inner)},
+                              [=](double n) { return size * std::cos(n); });
+      sweep.columns.push_back(sweep.columns.back());
+      sweep.columns.back().name = "max_tilt";
+      CAPTURE(size, inner);
+      CHECK(collisions(sweep_picture(sweep, {})) == "");
+    }
+  }
+}
+
+TEST_CASE("what a sweep has not cannot be drawn") {
+  const Result sweep = sweep_of({repeated("a", 12, 4, 3), repeated("b", 12, 1, 4)});
+  CHECK_THROWS_WITH(sweep_picture(sweep, {{"y_end"}, {}}),
+                    Contains("measures of sweep.csv: x_end"));
+  CHECK_THROWS_WITH(sweep_picture(sweep, {{}, {"c"}}), Contains("what varies: a, b"));
+  CHECK_THROWS_WITH(sweep_picture(sweep, {{}, {"a", "a"}}), Contains("twice"));
+  CHECK_THROWS_WITH(sweep_picture(sweep, {{}, {"a", "b", "c"}}), Contains("one key, or two"));
+  CHECK_THROWS_WITH(sweep_picture(sweep_of({repeated("a", 3, 1, 1)}), {}),
+                    Contains("no key varies"));
+}
