@@ -54,6 +54,7 @@ Result bbsim(const Launch& launch) {
     sigprocmask(SIG_SETMASK, &before, nullptr);
     redirect(STDOUT_FILENO, out);
     redirect(STDERR_FILENO, err);
+    close_range(STDERR_FILENO + 1, ~0U, 0);  // what the tests' own surroundings left open
     if (!launch.folder.empty() && chdir(launch.folder.c_str()) != 0) _exit(126);
     if (launch.prepare) launch.prepare();
     std::vector<std::string> words{BBSIM_PROGRAM};

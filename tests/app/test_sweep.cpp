@@ -383,7 +383,7 @@ TEST_CASE("a sweep of tied keys that was interrupted goes on to the same bytes")
   CHECK(folder.read("s.csv") == folder.read("t.csv"));
 }
 
-TEST_CASE("--set of a key that varies is refused") {
+TEST_CASE("a key that varies is not to be set by --set") {
   const Folder folder;
   const Result result =
       bbsim(sweep(config("fig2a.yaml"), {"--vary", "gravity=list:1,2", "--set", "gravity=3"}),

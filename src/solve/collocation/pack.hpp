@@ -66,13 +66,25 @@ struct Pack {
   BBSIM_INLINE friend Pack operator-(Pack a) { return of(-a.v); }
   BBSIM_INLINE Pack& operator+=(Pack b) { return v += b.v, *this; }
   BBSIM_INLINE Pack& operator-=(Pack b) { return v -= b.v, *this; }
+  // A product that is not fused with what it is added to: of two in a sum, one can be, and which
+  // one is then no matter of the compiler's mood.
+  BBSIM_INLINE friend Pack rounded(Pack a) {
+#if defined(__x86_64__)
+    asm("" : "+v"(a.v));
+#elif defined(__aarch64__)
+    asm("" : "+w"(a.v));
+#endif
+    return a;
+  }
   BBSIM_INLINE friend double sum(Pack a) {
     double total = a.v[0];
     for (int i = 1; i < lanes; ++i) total += a.v[i];
     return total;
   }
   // All of one step's times lie between the same knots of a table: any tells the piece.
-  BBSIM_INLINE friend double plain(Pack a) { return a.v[0]; }
+  BBSIM_INLINE friend double plain(Pack a) {
+    return a.v[0];
+  }
 };
 
 // Within 1 ulp or so of the true value up to 10^5: reduction by multiples of pi/2 after Cody and
