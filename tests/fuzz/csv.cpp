@@ -9,6 +9,7 @@
 
 #include "fuzz.hpp"
 #include "record/case_text.hpp"
+#include "record/cell_table.hpp"
 #include "record/compare.hpp"
 #include "record/number_text.hpp"
 #include "record/table_writer.hpp"
@@ -54,6 +55,11 @@ void must_be_a_table(const record::TableData& table) {
     must(column.size() == table.columns.front().size());
     for (const double number : column) must_round_trip(number);
   }
+}
+
+void must_be_like_itself(const record::CellTable& table) {
+  must(!table.names.empty() && table.columns.size() == table.names.size());
+  for (const record::CellColumn& column : table.columns) must(column.size() == table.rows);
   const record::Comparison comparison = record::compare(table, table);
   must(comparison.alike());
   must(!record::to_text(comparison, "a", "b", {}).empty());
@@ -82,6 +88,7 @@ void must_split_again(std::string_view line) {
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const std::string_view text = text_of(data, size);
   may_refuse([&] { must_be_a_table(record::read_table(NamedMemory(text).name())); });
+  may_refuse([&] { must_be_like_itself(record::read_cells(NamedMemory(text).name())); });
   for (std::string_view rest = text; !rest.empty();) must_split_again(take_line(rest));
   return 0;
 }
