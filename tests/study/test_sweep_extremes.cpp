@@ -93,7 +93,7 @@ double error_of(const CaseResults& results, const SweepTask& task) {
   double largest = 0;
   const std::size_t numbers = 1 + task.measures.size();
   for (std::size_t i = 0; i < task.plan.cases(); ++i) {
-    CHECK(results.status[i] == "done");
+    CHECK(results.status[i].word == "done");
     const std::vector<double> expected = from_many_rows(task, i);
     for (std::size_t m = 0; m < expected.size(); ++m) {
       CAPTURE(i, task.measures[m].name, results.numbers[i * numbers + 1 + m], expected[m]);
