@@ -85,7 +85,9 @@ class HybridIntegration {
         return ended(Ending::interrupted, at);
       }
       if (at < limit && pace_.creeps(at, [&] { return stopped_at(at); })) {
-        return failed(at, pace_.reason());
+        Outcome outcome = failed(at, pace_.reason());
+        state_at(at, outcome.last_state);
+        return outcome;
       }
       if (watch_.progress && steps % 256 == 0) watch_.progress(at);
     }

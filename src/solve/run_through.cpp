@@ -2,6 +2,7 @@
 #include <array>
 #include <cmath>
 #include <utility>
+#include <vector>
 
 #include "solve/pace.hpp"
 #include "solve/piece.hpp"
@@ -80,6 +81,10 @@ Outcome run_through(Stepper& stepper, const model::Model& model, const OutputGri
       stepper.jump();
     } else if (pace.creeps(reached)) {
       fail(pace.reason());
+      std::vector<double> row(row_size);
+      stepper.evaluate(&reached, 1, row.data());
+      outcome.last_state.assign(row.begin(),
+                                row.begin() + static_cast<std::ptrdiff_t>(model.size()));
       break;
     }
     if (watch.stop != nullptr && watch.stop->load(std::memory_order_relaxed)) {

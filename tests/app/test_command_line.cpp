@@ -127,7 +127,7 @@ TEST_CASE("a number that an option cannot take is answered with what it can") {
                  "found 4096; allowed: a whole number from 1 to 1024"));
 }
 
-TEST_CASE("-q may stand before and after every command") {
+TEST_CASE("the flag -q may stand before and after every command") {
   for (const std::string& command : commands) {
     if (command == "help") continue;
     const Result after = bbsim(Names{command, "-q", "--help"});
@@ -142,7 +142,7 @@ TEST_CASE("-q may stand before and after every command") {
   CHECK(bbsim({"compare", "-q", "a.csv", "a.csv"}, folder.path()).exit_code == 0);
 }
 
-TEST_CASE("-q leaves the reason of an exit code that is not 0") {
+TEST_CASE("the flag -q leaves the reason of an exit code that is not 0") {
   const Folder folder;
   const Result failed = bbsim({"run", config("fig2b-literal.yaml"), "-q"}, folder.path());
   CHECK(failed.exit_code == 1);

@@ -116,7 +116,9 @@ TEST_CASE("the motors' peaks are in the summary where the plate's inertia is kno
   for (const double torque : columns.at("motor_torque_phi")) {
     peak = std::max(peak, std::abs(torque));
   }
-  CHECK(motors.at("peak_torque_phi") == peak);
+  // Rows are just before a command comes; the peak is right after one.
+  CHECK(motors.at("peak_torque_phi") > 1.4 * peak);
+  CHECK(motors.at("peak_torque_phi") < 2 * peak);
   CHECK(motors.at("carries") == "ball and plate");
 }
 

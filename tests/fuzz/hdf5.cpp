@@ -1,5 +1,5 @@
-// The reader of HDF5 files on sound files of all kinds (foreign_hdf5.hpp): that HDF5 itself fails on
-// damaged ones is another matter (hdf5_file.cpp).
+// The reader of HDF5 files on sound files of all kinds (foreign_hdf5.hpp): that HDF5 itself fails
+// on damaged ones is another matter (hdf5_file.cpp).
 #include <cstdlib>
 #include <string>
 #include <vector>

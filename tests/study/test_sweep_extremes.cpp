@@ -57,12 +57,27 @@ CaseResults run_all(CaseRunner& runner, const SweepTask& task) {
   return results;
 }
 
-// The greatest of equidistant values, and of the parabolas through three of them about it.
+// The greatest of equidistant values, and of the polynomial through the seven about it.
 double greatest_of(const std::vector<double>& values) {
   const auto most = std::max_element(values.begin(), values.end());
-  if (most == values.begin() || most + 1 == values.end()) return *most;
-  const double slope = (most[1] - most[-1]) / 2, bend = most[1] - 2 * most[0] + most[-1];
-  return bend < 0 ? most[0] - slope * slope / (2 * bend) : *most;
+  if (values.end() - most <= 3 || most - values.begin() < 3) return *most;
+  const auto at = [&](double u) {  // Lagrange's
+    double sum = 0;
+    for (int k = -3; k <= 3; ++k) {
+      double factor = most[k];
+      for (int other = -3; other <= 3; ++other) {
+        if (other != k) factor *= (u - other) / (k - other);
+      }
+      sum += factor;
+    }
+    return sum;
+  };
+  double from = -1, to = 1;
+  for (int i = 0; i < 60; ++i) {
+    const double a = from + 0.382 * (to - from), b = from + 0.618 * (to - from);
+    (at(a) < at(b) ? from : to) = at(a) < at(b) ? a : b;
+  }
+  return std::max(*most, at(from));
 }
 
 // The measures of case `number`, from many rows at the finest tolerance.

@@ -127,7 +127,7 @@ std::size_t RadauStepper::detail() const {
 // the last one, and those of products of two states half as fast. What depends on the time alone
 // need not show in the error: its coefficients fall from as many as there are radians on.
 std::size_t RadauStepper::parts() const {
-  constexpr double least = 4, of_products = 1.5, a_radian = 2.5, most = 128;
+  constexpr double least = 8, of_products = 2, a_radian = 3, most = 128;
   const double parts = std::max(of_products * kernel_->stages * fill_,
                                 least + a_radian * std::abs(tempo_ * accepted_step_));
   return static_cast<std::size_t>(std::clamp(std::ceil(parts), least, most));
