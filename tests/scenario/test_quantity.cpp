@@ -1,7 +1,9 @@
 // Quantities. Values are compared exactly: powers of ten are applied to the decimal text, and other
 // units convert with one rounding of the exact product.
 #include <clocale>
+#include <fstream>
 #include <numbers>
+#include <string>
 
 #include "catch.hpp"
 #include "scenario/quantity.hpp"
@@ -54,11 +56,13 @@ TEST_CASE("a quantity in decimal units is the double nearest to it") {
   CHECK(plain("100 g", Dimension::mass) == 0.1);
   CHECK(plain("3 mg", Dimension::mass) == 3e-6);
   CHECK(plain("20 ms", Dimension::time) == 0.02);
+  CHECK(plain("20 ns", Dimension::time) == 2e-8);
   CHECK(plain("1e3 us", Dimension::time) == 1e-3);
   CHECK(plain("2 min", Dimension::time) == 120);
   CHECK(plain("1.5 h", Dimension::time) == 5400);
   CHECK(plain("4 mrad", Dimension::angle) == 0.004);
   CHECK(plain("10 cm/s", Dimension::velocity) == 0.1);
+  CHECK(plain("3 mm/s", Dimension::velocity) == 0.003);
   CHECK(plain("36 km/h", Dimension::velocity) == 10);
   CHECK(plain("981 cm/s^2", Dimension::acceleration) == 9.81);
   CHECK(plain("9.81 m/s\u00b2", Dimension::acceleration) == 9.81);
@@ -70,10 +74,12 @@ TEST_CASE("angles and frequencies become radians") {
   CHECK(plain("-45 deg", Dimension::angle) == -pi / 4);
   CHECK(plain("1 Hz", Dimension::angular_rate) == 2 * pi);
   CHECK(plain("0.5 Hz", Dimension::angular_rate) == pi);
+  CHECK(plain("500 mHz", Dimension::angular_rate) == pi);
   CHECK(plain("0.5 kHz", Dimension::angular_rate) == plain("500 Hz", Dimension::angular_rate));
   CHECK(plain("60 rpm", Dimension::angular_rate) == 2 * pi);
   CHECK(plain("90 deg/s", Dimension::angular_rate) == pi / 2);
   CHECK(plain("3 rad/s", Dimension::angular_rate) == 3);
+  CHECK(plain("3 mrad/s", Dimension::angular_rate) == 0.003);
 }
 
 TEST_CASE("what is no quantity says why") {
@@ -136,4 +142,25 @@ TEST_CASE("the SI unit of a dimension reads as one of it") {
   }
   CHECK(si_unit(Dimension::number).empty());
   CHECK(si_unit(Dimension::angular_rate) == "rad/s");
+}
+
+TEST_CASE("docs/scenario.md lists the units of each dimension") {
+  const Dimension dimension =
+      GENERATE(Dimension::length, Dimension::mass, Dimension::time, Dimension::angle,
+               Dimension::angular_rate, Dimension::velocity, Dimension::acceleration);
+  const std::string noun(bbsim::input::noun(dimension));  // "a length"
+  const std::string row = "| " + noun.substr(noun.find(' ') + 1) + " | ";
+  const std::string units = fault("1 of none", dimension);
+  const std::string before = " are: ";
+  const auto first = units.find(before) + before.size();
+  const std::string listed = units.substr(first, units.rfind(')') - first);
+
+  std::ifstream page(BBSIM_SOURCE_DIR "/docs/scenario.md");
+  std::string line, found;
+  while (std::getline(page, line)) {
+    if (line.starts_with(row)) found = line.substr(row.size());
+  }
+  found = found.substr(0, found.find(" |"));
+  found = found.substr(0, found.find(" ("));  // a remark
+  CHECK(found == listed);
 }
