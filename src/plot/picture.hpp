@@ -64,7 +64,8 @@ struct Panel {
   Box box;
   Axis x, y;
   bool grid = true;
-  bool framed = false;  // on all sides, not only where the axes are
+  bool framed = false;    // on all sides, not only where the axes are
+  bool is_scale = false;  // the colours of the one before, not to be counted
   std::vector<Cell> cells{};
   std::vector<Curve> curves{};  // from the lowest to the uppermost
   std::vector<Upright> uprights{};

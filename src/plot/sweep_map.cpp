@@ -63,6 +63,7 @@ void add_colour_scale(Picture& picture, const MeasureAxis& measure, const Box& m
   scale.box = {map.right + gap, map.top, map.right + gap + width, map.bottom};
   scale.grid = false;
   scale.framed = true;
+  scale.is_scale = true;
   scale.x = {0, 1};
   scale.y = measure.axis(map.height(), 32, 0);
   scale.y.at_right = true;

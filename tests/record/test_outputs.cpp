@@ -38,6 +38,11 @@ bool in_child(const std::function<bool()>& action) {
 
 }  // namespace
 
+TEST_CASE("two outputs to standard output are refused, whatever it is") {
+  CHECK_THAT(refusal("", "-", "-"), Contains("it is the same file as standard output (-o)"));
+  CHECK(refusal("", "/dev/null", "-").empty());
+}
+
 TEST_CASE("an output that is an input is refused, by any path and through any link") {
   const Folder folder;
   const std::string file = folder.put("a.yaml", "x");
