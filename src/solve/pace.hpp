@@ -33,14 +33,14 @@ class Pace {
   [[nodiscard]] std::string reason() const;
 
  private:
-  static constexpr std::size_t window = 16384;
+  static constexpr std::size_t window = 4096;
   // Hours of the fastest integrator: more steps than this are not waited for.
   static constexpr double most_steps = 1e10;
   // Windows in a row in which the end stays out of reach while the steps become shorter, and
   // windows whatever they do: a transient passes in half a million steps.
-  static constexpr int most_shrinking = 4, most_slow = 32;
+  static constexpr int most_shrinking = 4, most_slow = 128;
   // An event is waited for that is so many windows away, and for so many.
-  static constexpr int soon = 16, most_awaited = 32;
+  static constexpr int soon = 64, most_awaited = 128;
 
   bool look(double time, double event);
 
