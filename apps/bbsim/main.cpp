@@ -13,6 +13,7 @@
 #include "command_line.hpp"
 #include "commands.hpp"
 #include "help.hpp"
+#include "record/temporaries.hpp"
 #include "signals.hpp"
 #include "solve/collocation/radau.hpp"
 #include "terminal.hpp"
@@ -50,11 +51,19 @@ ExitCode run(const Command& command) {
   }
 }
 
-// Where there is no memory even for an exception, as may be before main() begins, the program would
-// end by a signal. In all other cases that is as it should be: it is a fault of ours.
+// Where there is no memory even for an exception, as may be before main() begins, or where it ends
+// in a destructor (those of nlohmann::json take some), the program would end by a signal. In all
+// other cases that is as it should be: it is a fault of ours.
 [[gnu::constructor(101)]] void say_when_memory_ends() {
   std::set_terminate([] {
-    if (std::current_exception()) std::abort();
+    try {
+      if (const std::exception_ptr thrown = std::current_exception())
+        std::rethrow_exception(thrown);
+    } catch (const std::bad_alloc&) {
+      bbsim::record::remove_temporaries();
+    } catch (...) {
+      std::abort();
+    }
     std::fputs("out of memory: end other programs, or give this one more\n", stderr);
     std::_Exit(code(ExitCode::ended_early));
   });

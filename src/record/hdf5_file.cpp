@@ -5,10 +5,16 @@
 #include <string_view>
 
 #include "base/error.hpp"
+#include "base/printable.hpp"
+#include "record/hdf5_guard.hpp"
 #include "record/hdf5_module.hpp"
 
 namespace bbsim::record {
 namespace {
+
+constexpr const char* crash =
+    ": the HDF5 library crashed, which it may where memory ends; end other programs, or write "
+    ".csv\n";
 
 const bbsim_hdf5_module& module_to_write(const std::string& target) {
   const Hdf5Module& module = hdf5_module();
@@ -51,30 +57,45 @@ std::string last_part(const std::string& file) {
 Hdf5Output::Hdf5Output(const std::string& target, std::span<const bbsim_hdf5_column> columns,
                        Durable durable)
     : target_(target),
+      message_of_crash_(printable("cannot write " + target + crash)),
       module_(module_to_write(target)),
       file_(target, durable),
-      writer_(nullptr, module_.destroy) {
+      writer_(nullptr, Destroy{this}) {
+  call([&](bbsim_hdf5_error* error) {
+    writer_.reset(module_.create(file_.descriptor(), columns.data(), columns.size(), error));
+    return writer_ == nullptr ? 1 : 0;
+  });
+}
+
+void Hdf5Output::Destroy::operator()(bbsim_hdf5_writer* writer) const {
+  const WithinHdf5 within(output->message_of_crash_.c_str());
+  output->module_.destroy(writer);
+}
+
+template <class Function>
+void Hdf5Output::call(const Function& function) {
   bbsim_hdf5_error error{};
-  writer_.reset(module_.create(file_.descriptor(), columns.data(), columns.size(), &error));
-  if (writer_ == nullptr) fail(error);
+  int result = 0;
+  {
+    const WithinHdf5 within(message_of_crash_.c_str());
+    result = function(&error);
+  }
+  if (result != 0) fail(error);
 }
 
 void Hdf5Output::write_axis(const bbsim_hdf5_column& axis, const double* values) {
   check_open();
-  bbsim_hdf5_error error{};
-  if (module_.write_axis(writer_.get(), &axis, values, &error) != 0) fail(error);
+  call([&](auto* error) { return module_.write_axis(writer_.get(), &axis, values, error); });
 }
 
 void Hdf5Output::append(const bbsim_hdf5_values* columns, std::size_t rows) {
   check_open();
-  bbsim_hdf5_error error{};
-  if (module_.append(writer_.get(), columns, rows, &error) != 0) fail(error);
+  call([&](auto* error) { return module_.append(writer_.get(), columns, rows, error); });
 }
 
 void Hdf5Output::write_column(const bbsim_hdf5_column& column, const double* values) {
   check_open();
-  bbsim_hdf5_error error{};
-  if (module_.write_column(writer_.get(), &column, values, &error) != 0) fail(error);
+  call([&](auto* error) { return module_.write_column(writer_.get(), &column, values, error); });
 }
 
 void Hdf5Output::write_inputs(const std::vector<InputTable>& inputs) {
@@ -89,12 +110,12 @@ void Hdf5Output::write_inputs(const std::vector<InputTable>& inputs) {
       columns.push_back({data->names[c].c_str(), names[c].c_str(), data->columns[c].data()});
     }
     const std::string name = free_name(last_part(file), files);
+    const char* const read_as = file.c_str();
     const std::size_t rows = data->columns.empty() ? 0 : data->columns[0].size();
-    bbsim_hdf5_error error{};
-    if (module_.write_input(writer_.get(), name.c_str(), file.c_str(), columns.data(),
-                            columns.size(), rows, &error) != 0) {
-      fail(error);
-    }
+    call([&](auto* error) {
+      return module_.write_input(writer_.get(), name.c_str(), read_as, columns.data(),
+                                 columns.size(), rows, error);
+    });
   }
 }
 
@@ -103,8 +124,9 @@ void Hdf5Output::finish(const Attributes& attributes) {
   std::vector<bbsim_hdf5_attribute> pairs;
   pairs.reserve(attributes.size());
   for (const auto& [name, value] : attributes) pairs.push_back(described(name, value));
-  bbsim_hdf5_error error{};
-  if (module_.finish(writer_.get(), pairs.data(), pairs.size(), &error) != 0) fail(error);
+  call([&](auto* error) {
+    return module_.finish(writer_.get(), pairs.data(), pairs.size(), error);
+  });
   writer_.reset();
   file_.commit();
 }

@@ -14,9 +14,13 @@
 namespace bbsim::record {
 
 // A file on its way to its final name. What these take is as the module's interface says. Every
-// function throws OutputError; after that, only destruction may follow.
+// function throws OutputError; after that, only destruction may follow. Where the HDF5 library
+// crashes, the program ends as if nobody had caught that error.
 class Hdf5Output {
  public:
+  Hdf5Output(const Hdf5Output&) = delete;
+  Hdf5Output& operator=(const Hdf5Output&) = delete;
+
   // Throws here, before any work is done, if the target cannot be written to.
   Hdf5Output(const std::string& target, std::span<const bbsim_hdf5_column> columns,
              Durable durable = Durable::no);
@@ -31,12 +35,21 @@ class Hdf5Output {
 
  private:
   void check_open() const;
+  // Calls a function of the module, with where it says why it failed.
+  template <class Function>
+  void call(const Function& function);
   [[noreturn]] void fail(const bbsim_hdf5_error& error);
 
+  struct Destroy {
+    const Hdf5Output* output;
+    void operator()(bbsim_hdf5_writer* writer) const;
+  };
+
   std::string target_;
+  std::string message_of_crash_;
   const bbsim_hdf5_module& module_;
   AtomicFile file_;  // outlives writer_, which writes to its descriptor
-  std::unique_ptr<bbsim_hdf5_writer, void (*)(bbsim_hdf5_writer*)> writer_;
+  std::unique_ptr<bbsim_hdf5_writer, Destroy> writer_;
 };
 
 // Throws OutputError if this program cannot write HDF5.

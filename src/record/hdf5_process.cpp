@@ -163,8 +163,7 @@ Hdf5Process::Hdf5Process(pid_t process, int requests, int answers)
     : process_(process), requests_(requests), answers_(answers), owner_(getpid()) {}
 
 Hdf5Process::~Hdf5Process() {
-  close(requests_);  // it ends at that
-  close(answers_);
+  hang_up();
   if (process_ != 0 && owner_ == getpid()) wait_for(process_);
 }
 
@@ -183,7 +182,7 @@ void Hdf5Process::send(const void* bytes, std::size_t size) {
   const char* from = static_cast<const char*>(bytes);
   while (size > 0) {
     const ssize_t put = ::send(requests_, from, size, MSG_NOSIGNAL);
-    if (put < 0 && errno != EINTR) fail_by_end();
+    if (put < 0 && errno != EINTR) fail(errno);
     if (put <= 0) continue;
     from += put;
     size -= static_cast<std::size_t>(put);
@@ -194,7 +193,8 @@ void Hdf5Process::receive(void* bytes, std::size_t size) {
   char* to = static_cast<char*>(bytes);
   while (size > 0) {
     const ssize_t got = ::read(answers_, to, size);
-    if (got == 0 || (got < 0 && errno != EINTR)) fail_by_end();
+    if (got == 0) fail_by_end();
+    if (got < 0 && errno != EINTR) fail(errno);
     if (got < 0) continue;
     to += got;
     size -= static_cast<std::size_t>(got);
@@ -207,7 +207,20 @@ void Hdf5Process::end() {
   wait_for(process_.exchange(0));
 }
 
+void Hdf5Process::hang_up() {
+  for (int* line : {&requests_, &answers_}) {
+    if (*line >= 0) close(std::exchange(*line, -1));
+  }
+}
+
+void Hdf5Process::fail(int error) {
+  if (error == EPIPE || error == ECONNRESET) fail_by_end();
+  end();
+  throw Hdf5Trouble("talking with the HDF5 reader failed: " + error_text(error));
+}
+
 void Hdf5Process::fail_by_end() {
+  hang_up();
   const std::optional<int> status = wait_for(process_.exchange(0));
   ended_idle_ = !status || (WIFEXITED(*status) && WEXITSTATUS(*status) == 0);
   if (!status) throw Hdf5Trouble(std::string("the HDF5 reader ended over it") + damaged);

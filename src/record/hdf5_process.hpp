@@ -48,6 +48,9 @@ class Hdf5Process {
   void send(const void* bytes, std::size_t size);
   void receive(void* bytes, std::size_t size);
   void end();
+  void hang_up();  // it ends at that, once it is done with what it does
+  // Throws Hdf5Trouble for an errno that a line to it met, and does not wait for one that lives on.
+  [[noreturn]] void fail(int error);
   // Waits for its end and throws Hdf5Trouble with what it ended by.
   [[noreturn]] void fail_by_end();
 

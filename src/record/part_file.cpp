@@ -195,7 +195,8 @@ void PartFile::discard() {
   if (!descriptor_.is_open()) return;
   if (in_place()) {  // otherwise the plan is another sweep's
     remove_own_file(part_, descriptor_.get());
-    if (plan_descriptor_.is_open()) remove_own_file(plan_, plan_descriptor_.get());
+    // One that cannot be removed keeps what says what it is of.
+    if (plan_descriptor_.is_open() && !in_place()) remove_own_file(plan_, plan_descriptor_.get());
   }
   descriptor_.close();
 }

@@ -1,6 +1,8 @@
 // HDF5 files are read in a process of their own: what becomes of it is an error with its reason;
 // what a file says of its size is not believed; and nothing of a file reaches a terminal raw.
+#include <fcntl.h>
 #include <hdf5.h>
+#include <sys/socket.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -22,9 +24,12 @@
 #include "tables.hpp"
 
 using bbsim::InputError;
+using bbsim::hdf5::Message;
 using bbsim::record::CaseBlock;
 using bbsim::record::CaseTableReader;
 using bbsim::record::Hdf5Process;
+using bbsim::record::Hdf5Talk;
+using bbsim::record::Hdf5Trouble;
 using bbsim::record::read_table;
 using bbsim::record::TableData;
 using Catch::Matchers::Contains;
@@ -172,6 +177,28 @@ TEST_CASE("a reader that cannot be started is an error") {
              Contains("the HDF5 reader bbsim-hdf5-reader is not in " + folder.name()));
   if (before != nullptr) setenv("BBSIM_MODULE_PATH", kept.c_str(), 1);
   if (before == nullptr) unsetenv("BBSIM_MODULE_PATH");
+}
+
+TEST_CASE("a line to the reader that fails is an error, and not a wait for the reader's end") {
+  std::array<int, 2> requests{-1, -1};
+  REQUIRE(socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, requests.data()) == 0);
+  const int answers = open("/", O_RDONLY | O_DIRECTORY | O_CLOEXEC);  // read() of it is an error
+  REQUIRE(answers >= 0);
+  const pid_t child = fork();
+  if (child == 0) {
+    execlp("sleep", "sleep", "60", nullptr);
+    _exit(127);
+  }
+  REQUIRE(child > 0);
+  const auto started = std::chrono::steady_clock::now();
+  {
+    Hdf5Process process(child, requests[0], answers);
+    Hdf5Talk talk(process, Message::open, "a.h5");
+    CHECK(message_of<Hdf5Trouble>([&] { (void)talk.next(); }) ==
+          "talking with the HDF5 reader failed: is a directory");
+  }
+  CHECK(std::chrono::steady_clock::now() - started < std::chrono::seconds(20));
+  close(requests[1]);
 }
 
 TEST_CASE("files that are open at a time share a process, which ends when it has nothing to do") {

@@ -1,5 +1,7 @@
 // The module's functions for the program: the C++ inside, with every exception turned into a
 // bbsim_hdf5_error at the border.
+#include <hdf5.h>
+
 #include <exception>
 #include <memory>
 #include <string_view>
@@ -25,6 +27,9 @@ void set_error(bbsim_hdf5_error& error, int system_error, std::string_view text)
 template <class Action>
 int guarded(bbsim_hdf5_error* error, Action action) noexcept {
   try {
+    // All files are closed by then, and after a call that got no memory the library may crash
+    // there. Of no effect where HDF5 is in use already, by whoever else.
+    [[maybe_unused]] static const herr_t ignored = H5dont_atexit();
     keep_errors_to_ourselves();
     action();
     return 0;

@@ -1,0 +1,318 @@
+// Preloaded into a program (LD_PRELOAD), makes one of the calls to the system that it makes fail:
+// the K-th of a name, as often as the program makes it between the beginning of main() and its end.
+// scripts/try-failing-calls compiles this and says what is to fail, in the environment:
+//
+//   FAIL_PROGRAM  the program's name, as started; others, such as its children, are left alone
+//   FAIL_CALL     the name of the call
+//   FAIL_AT       which of them fails, from 1; 0: none, the calls are only counted
+//   FAIL_WITH     an error's name, such as EIO; SHORT: half of the bytes go through, without an
+//   error FAIL_ON       if set, all later ones of that name fail, too FAIL_REPORT   a file: gets
+//   "fired" when a call fails, or, of FAIL_AT=0, lines CALL NUMBER at the end
+//
+// What is written to standard error always arrives: messages are what is looked at. Calls that the
+// C library makes within itself, such as those of fwrite, are not seen.
+#define _GNU_SOURCE
+#include <dlfcn.h>
+#include <errno.h>
+#include <fcntl.h>
+#include <link.h>
+#include <pthread.h>
+#include <spawn.h>
+#include <stdarg.h>
+#include <stdatomic.h>
+#include <stdbool.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/socket.h>
+#include <sys/stat.h>
+#include <sys/syscall.h>
+#include <sys/uio.h>
+#include <unistd.h>
+
+// clang-format off
+#define ALL_CALLS(X)                                                                            \
+  X(open) X(openat) X(fopen) X(fdopen) X(read) X(pread) X(readv) X(write) X(pwrite) X(writev)   \
+  X(send) X(fsync) X(fdatasync) X(sync_file_range) X(rename) X(renameat2) X(link) X(linkat)     \
+  X(unlink) X(close) X(ftruncate) X(stat) X(lstat) X(fstat) X(fchmod) X(fchown) X(flock)        \
+  X(fcntl) X(faccessat) X(readlink) X(malloc) X(calloc) X(realloc) X(aligned_alloc)             \
+  X(hdf5_malloc) X(hdf5_calloc) X(hdf5_realloc) X(posix_spawn) X(pthread_create) X(socketpair)  \
+  X(pipe2) X(dlopen)
+// clang-format on
+
+#define NAMED(name) call_##name,
+enum call { ALL_CALLS(NAMED) number_of_calls };
+#define TEXT(name) #name,
+static const char* const call_names[] = {ALL_CALLS(TEXT)};
+
+static atomic_bool counting;
+static atomic_long made[number_of_calls];
+static const char* report;
+static int failing = -1;  // a call; -1: only count
+static long fails_at;
+static bool fails_on, halves;
+static int error_number;
+
+// Not by functions that may be made to fail.
+static void say(const char* text) {
+  const long file = syscall(SYS_openat, AT_FDCWD, report, O_WRONLY | O_CREAT | O_APPEND, 0666);
+  syscall(SYS_write, file, text, strlen(text));
+  syscall(SYS_close, file);
+}
+
+// Whether this call is the one; errno is what it is to be then. Keeps errno otherwise.
+static bool fails(enum call call) {
+  if (!atomic_load(&counting)) return false;
+  const long number = atomic_fetch_add(&made[call], 1) + 1;
+  if ((int)call != failing || number < fails_at || (number > fails_at && !fails_on)) return false;
+  if (number == fails_at) say("fired\n");
+  errno = error_number;
+  return true;
+}
+
+static int number_of(const char* name) {
+  static const struct {
+    const char* name;
+    int number;
+  } errors[] = {{"EACCES", EACCES}, {"EAGAIN", EAGAIN}, {"EINTR", EINTR},   {"EINVAL", EINVAL},
+                {"EIO", EIO},       {"EMFILE", EMFILE}, {"ENOLCK", ENOLCK}, {"ENOMEM", ENOMEM},
+                {"ENOSPC", ENOSPC}, {"EPERM", EPERM},   {"EPIPE", EPIPE},   {"EXDEV", EXDEV}};
+  for (size_t i = 0; i < sizeof errors / sizeof errors[0]; ++i) {
+    if (strcmp(errors[i].name, name) == 0) return errors[i].number;
+  }
+  say("unknown FAIL_WITH\n");
+  _exit(99);
+}
+
+static void set_up(void) {
+  const char* program = getenv("FAIL_PROGRAM");
+  const char* call = getenv("FAIL_CALL");
+  const char* at = getenv("FAIL_AT");
+  const char* with = getenv("FAIL_WITH");
+  report = getenv("FAIL_REPORT");
+  if (!program || !at || !report || strcmp(program, program_invocation_short_name) != 0) return;
+  fails_at = atol(at);
+  fails_on = getenv("FAIL_ON") != NULL;
+  if (fails_at > 0 && call && with) {
+    for (int i = 0; i < number_of_calls; ++i) {
+      if (strcmp(call_names[i], call) == 0) failing = i;
+    }
+    if (failing < 0) say("unknown FAIL_CALL\n");
+    halves = strcmp(with, "SHORT") == 0;
+    error_number = halves ? 0 : number_of(with);
+  }
+  atomic_store(&counting, true);
+}
+
+static int (*real_main)(int, char**, char**);
+static int counted_main(int count, char** arguments, char** environment) {
+  set_up();
+  return real_main(count, arguments, environment);
+}
+
+int __libc_start_main(int (*program)(int, char**, char**), int count, char** arguments,
+                      void (*init)(void), void (*fini)(void), void (*rtld_fini)(void), void* end);
+int __libc_start_main(int (*program)(int, char**, char**), int count, char** arguments,
+                      void (*init)(void), void (*fini)(void), void (*rtld_fini)(void), void* end) {
+  const __typeof__(&__libc_start_main) start = dlsym(RTLD_NEXT, "__libc_start_main");
+  real_main = program;
+  return start(counted_main, count, arguments, init, fini, rtld_fini, end);
+}
+
+__attribute__((destructor)) static void say_counts(void) {
+  if (!atomic_exchange(&counting, false) || failing >= 0) return;
+  for (int i = 0; i < number_of_calls; ++i) {
+    if (!made[i]) continue;
+    char line[80];
+    snprintf(line, sizeof line, "%s %ld\n", call_names[i], (long)made[i]);
+    say(line);
+  }
+}
+
+// NEXT(name): the function that would be called without us; looked up once, not counted.
+static void* next(void* _Atomic* place, const char* name) {
+  void* found = atomic_load(place);
+  if (found) return found;
+  const bool was = atomic_exchange(&counting, false);
+  found = dlsym(RTLD_NEXT, name);
+  atomic_store(&counting, was);
+  atomic_store(place, found);
+  return found;
+}
+#define NEXT(name)            \
+  static void* _Atomic known; \
+  const __typeof__(&name) next_function = (__typeof__(&name))next(&known, #name)
+
+// The HDF5 reader ends by one of these.
+_Noreturn void _exit(int code) {
+  NEXT(_exit);
+  say_counts();
+  next_function(code);
+  __builtin_unreachable();
+}
+_Noreturn void _Exit(int code) {
+  _exit(code);
+}
+
+// CALL(result, name, counted as, value at failure, parameters, arguments)
+#define CALL(result, name, as, failed, parameters, arguments) \
+  result name parameters {                                    \
+    NEXT(name);                                               \
+    if (fails(call_##as)) return failed;                      \
+    return next_function arguments;                           \
+  }
+
+static size_t at_most(size_t bytes) {
+  return bytes > 1 ? bytes / 2 : bytes;
+}
+// The same of what moves bytes; nothing on standard error fails.
+#define TRANSFER(name, parameters, file, size, arguments) \
+  ssize_t name parameters {                               \
+    NEXT(name);                                           \
+    if ((file) != STDERR_FILENO && fails(call_##name)) {  \
+      if (!halves) return -1;                             \
+      size = at_most(size);                               \
+    }                                                     \
+    return next_function arguments;                       \
+  }
+
+TRANSFER(read, (int file, void* to, size_t size), file, size, (file, to, size))
+TRANSFER(pread, (int file, void* to, size_t size, off_t place), file, size, (file, to, size, place))
+TRANSFER(write, (int file, const void* from, size_t size), file, size, (file, from, size))
+TRANSFER(pwrite, (int file, const void* from, size_t size, off_t place), file, size,
+         (file, from, size, place))
+TRANSFER(send, (int file, const void* from, size_t size, int flags), file, size,
+         (file, from, size, flags))
+CALL(ssize_t, readv, readv, -1, (int file, const struct iovec* parts, int count),
+     (file, parts, count))
+ssize_t writev(int file, const struct iovec* parts, int count) {
+  NEXT(writev);
+  if (file != STDERR_FILENO && fails(call_writev)) {
+    if (!halves) return -1;
+    return write(file, parts[0].iov_base, at_most(parts[0].iov_len));
+  }
+  return next_function(file, parts, count);
+}
+
+static mode_t mode_of(int how, va_list list) {
+  return (how & O_CREAT) || (how & O_TMPFILE) == O_TMPFILE ? va_arg(list, mode_t) : 0;
+}
+#define OPENING(name, as, parameters, arguments) \
+  int name parameters {                          \
+    NEXT(name);                                  \
+    va_list list;                                \
+    va_start(list, how);                         \
+    const mode_t mode = mode_of(how, list);      \
+    va_end(list);                                \
+    if (fails(call_##as)) return -1;             \
+    return next_function arguments;              \
+  }
+OPENING(open, open, (const char* name, int how, ...), (name, how, mode))
+OPENING(open64, open, (const char* name, int how, ...), (name, how, mode))
+OPENING(openat, openat, (int folder, const char* name, int how, ...), (folder, name, how, mode))
+OPENING(openat64, openat, (int folder, const char* name, int how, ...), (folder, name, how, mode))
+CALL(FILE*, fopen, fopen, NULL, (const char* name, const char* how), (name, how))
+CALL(FILE*, fopen64, fopen, NULL, (const char* name, const char* how), (name, how))
+CALL(FILE*, fdopen, fdopen, NULL, (int file, const char* how), (file, how))
+
+// A descriptor is closed even if closing it fails.
+int close(int file) {
+  NEXT(close);
+  if (!fails(call_close)) return next_function(file);
+  next_function(file);
+  errno = error_number;
+  return -1;
+}
+
+// Only what makes a descriptor.
+int fcntl(int file, int command, ...) {
+  NEXT(fcntl);
+  va_list list;
+  va_start(list, command);
+  void* const argument = va_arg(list, void*);
+  va_end(list);
+  if ((command == F_DUPFD || command == F_DUPFD_CLOEXEC) && fails(call_fcntl)) return -1;
+  return next_function(file, command, argument);
+}
+
+CALL(int, fsync, fsync, -1, (int file), (file))
+CALL(int, fdatasync, fdatasync, -1, (int file), (file))
+CALL(int, sync_file_range, sync_file_range, -1,
+     (int file, off64_t place, off64_t size, unsigned flags), (file, place, size, flags))
+CALL(int, rename, rename, -1, (const char* from, const char* to), (from, to))
+CALL(int, renameat2, renameat2, -1,
+     (int from_folder, const char* from, int to_folder, const char* to, unsigned flags),
+     (from_folder, from, to_folder, to, flags))
+CALL(int, link, link, -1, (const char* from, const char* to), (from, to))
+CALL(int, linkat, linkat, -1,
+     (int from_folder, const char* from, int to_folder, const char* to, int flags),
+     (from_folder, from, to_folder, to, flags))
+CALL(int, unlink, unlink, -1, (const char* name), (name))
+CALL(int, ftruncate, ftruncate, -1, (int file, off_t size), (file, size))
+CALL(int, stat, stat, -1, (const char* name, struct stat* status), (name, status))
+CALL(int, lstat, lstat, -1, (const char* name, struct stat* status), (name, status))
+CALL(int, fstat, fstat, -1, (int file, struct stat* status), (file, status))
+CALL(int, fstat64, fstat, -1, (int file, struct stat64* status), (file, status))
+CALL(int, fchmod, fchmod, -1, (int file, mode_t mode), (file, mode))
+CALL(int, fchown, fchown, -1, (int file, uid_t user, gid_t group), (file, user, group))
+int flock(int file, int how);
+CALL(int, flock, flock, -1, (int file, int how), (file, how))
+CALL(int, faccessat, faccessat, -1, (int folder, const char* name, int how, int flags),
+     (folder, name, how, flags))
+CALL(ssize_t, readlink, readlink, -1, (const char* name, char* to, size_t size), (name, to, size))
+CALL(int, socketpair, socketpair, -1, (int domain, int type, int protocol, int ends[2]),
+     (domain, type, protocol, ends))
+CALL(int, pipe2, pipe2, -1, (int ends[2], int flags), (ends, flags))
+// One that fails must say why when dlerror asks; one that succeeds runs what libraries have to set
+// up.
+void* dlopen(const char* name, int how) {
+  NEXT(dlopen);
+  if (fails(call_dlopen)) return next_function("/nowhere/that/does/not/open.so", how);
+  const bool was = atomic_exchange(&counting, false);
+  void* const library = next_function(name, how);
+  atomic_store(&counting, was);
+  return library;
+}
+// These return what others leave in errno.
+CALL(int, posix_spawn, posix_spawn, error_number,
+     (pid_t * process, const char* program, const posix_spawn_file_actions_t* actions,
+      const posix_spawnattr_t* attributes, char* const arguments[], char* const environment[]),
+     (process, program, actions, attributes, arguments, environment))
+CALL(int, pthread_create, pthread_create, error_number,
+     (pthread_t * thread, const pthread_attr_t* attributes, void* (*function)(void*),
+      void* argument),
+     (thread, attributes, function, argument))
+
+// Memory, which looking up a name takes, too: by the C library's own names.
+void* __libc_malloc(size_t size);
+void* __libc_calloc(size_t count, size_t size);
+void* __libc_realloc(void* memory, size_t size);
+void* __libc_memalign(size_t alignment, size_t size);
+
+enum asker { the_program, the_hdf5_library, another };
+static enum asker asker_of(void* caller) {
+  struct dl_find_object found;
+  if (_dl_find_object(caller, &found) != 0) return another;
+  const char* const name = found.dlfo_link_map->l_name;
+  if (strstr(name, "/libhdf5")) return the_hdf5_library;
+  return *name == '\0' || strstr(name, "/libc.so") || strstr(name, "/libbbsim") ? the_program
+                                                                                : another;
+}
+#define NO_MEMORY(name)      \
+  (atomic_load(&counting) && \
+   memory_fails(asker_of(__builtin_return_address(0)), call_##name, call_hdf5_##name))
+static bool memory_fails(enum asker asker, enum call call, enum call of_hdf5) {
+  return asker != another && fails(asker == the_program ? call : of_hdf5);
+}
+void* malloc(size_t size) {
+  return NO_MEMORY(malloc) ? NULL : __libc_malloc(size);
+}
+void* calloc(size_t count, size_t size) {
+  return NO_MEMORY(calloc) ? NULL : __libc_calloc(count, size);
+}
+void* realloc(void* memory, size_t size) {
+  return NO_MEMORY(realloc) ? NULL : __libc_realloc(memory, size);
+}
+void* aligned_alloc(size_t alignment, size_t size) {
+  return fails(call_aligned_alloc) ? NULL : __libc_memalign(alignment, size);
+}
