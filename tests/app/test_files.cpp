@@ -177,6 +177,7 @@ TEST_CASE("a merge that cannot read its parts says so and writes nothing") {
   REQUIRE(shard(folder, "p-1of2.csv", "1/2").exit_code == 0);
   REQUIRE(shard(folder, "p-2of2.csv", "2/2").exit_code == 0);
   for (const rlim_t descriptors : {4}) {
+    if (under_sanitizers) break;
     Launch launch{{"merge", "p-1of2.csv", "p-2of2.csv", "-o", "m.csv"}, folder.path()};
     launch.prepare = [descriptors] { limit(RLIMIT_NOFILE, descriptors); };
     const Result result = bbsim(launch);
@@ -417,6 +418,7 @@ TEST_CASE("a table in a folder whose name is no UTF-8 is no reason to end") {
 }
 
 TEST_CASE("where there are fewer threads, fewer are used") {
+  if (under_sanitizers) return;
   const Folder folder;
   folder.write("in.yaml", scene);
   const Names arguments{"sweep",     "in.yaml", "--vary", "gravity=linear:1:2:5000",

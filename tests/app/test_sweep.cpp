@@ -174,12 +174,15 @@ TEST_CASE("parts with many cases are merged, and links and folders understood") 
 
 TEST_CASE("a slow sweep that is interrupted keeps each case") {
   const Folder folder;
-  const Result cut =
-      bbsim(Launch{{"sweep", config("rig.yaml"), "--vary",
-                    "controller.sensor.seed=linear:1:2000:2000", "-j", "1", "-o", "s.csv"},
-                   folder.path(),
-                   2,
-                   std::chrono::milliseconds(3000)});
+  Launch launch{{"sweep", config("rig.yaml"), "--vary", "controller.sensor.seed=linear:1:2000:2000",
+                 "-j", "1", "-o", "s.csv"},
+                folder.path(),
+                2};
+  launch.signal_when = [&] {
+    return std::filesystem::exists(folder / "s.csv.part") &&
+           rows(folder.read("s.csv.part")).size() > 3;
+  };
+  const Result cut = bbsim(launch);
   CHECK(cut.exit_code == 130);
   REQUIRE(folder.files() == std::vector<std::string>{"s.csv.part", "s.csv.plan"});
   CHECK(rows(folder.read("s.csv.part")).size() > 2);
