@@ -5,7 +5,7 @@
 namespace bbsim::solve {
 
 bool Pace::look(double time, double event) {
-  const double before = advance_;
+  double& before = advances_[windows_++ % advances_.size()];
   advance_ = time - from_;
   from_ = time;
   const double taken = static_cast<double>(steps_), of_window = static_cast<double>(window);
@@ -13,6 +13,7 @@ bool Pace::look(double time, double event) {
   const double needed = taken + (end_ - time) / advance_ * of_window;
   const bool out_of_reach = !(needed <= most_steps);
   shrinking_ = out_of_reach && advance_ < 0.9 * before ? shrinking_ + 1 : 0;
+  before = advance_;
   slow_ = out_of_reach ? slow_ + 1 : 0;
   if (taken > most_steps) return true;
   if (shrinking_ < most_shrinking && slow_ < most_slow) return false;

@@ -6,6 +6,7 @@
 // many more it would take at the pace of the last ones, and it is asked again and again.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <limits>
 #include <string>
@@ -36,9 +37,9 @@ class Pace {
   static constexpr std::size_t window = 4096;
   // Hours of the fastest integrator: more steps than this are not waited for.
   static constexpr double most_steps = 1e10;
-  // Windows in a row in which the end stays out of reach while the steps become shorter, and
-  // windows whatever they do: a transient passes in half a million steps.
-  static constexpr int most_shrinking = 4, most_slow = 128;
+  // Windows in a row in which the end stays out of reach while the steps become shorter than some
+  // windows before, and windows whatever they do: a transient passes in half a million steps.
+  static constexpr int most_shrinking = 6, most_slow = 128;
   // An event is waited for that is so many windows away, and for so many.
   static constexpr int soon = 64, most_awaited = 128;
 
@@ -46,8 +47,10 @@ class Pace {
 
   double end_;
   std::size_t steps_ = 0;
-  double from_ = 0;     // where the last window began, s
-  double advance_ = 0;  // how far it came, s
+  double from_ = 0;                   // where the last window began, s
+  double advance_ = 0;                // how far it came, s
+  std::array<double, 4> advances_{};  // of the last windows
+  std::size_t windows_ = 0;
   int shrinking_ = 0, slow_ = 0, awaited_ = 0;
 };
 
