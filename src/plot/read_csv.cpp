@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <limits>
 #include <string_view>
+#include <unordered_set>
 
 #include "base/error.hpp"
 #include "base/shown.hpp"
@@ -68,9 +69,10 @@ void read_header(const record::LineReader& lines, const Fields& fields, Result& 
   if (std::ranges::all_of(names, [&](std::string_view n) { return is_number(n, ignored); })) {
     fail(lines, "is a row of numbers; the first line names the columns");
   }
+  std::unordered_set<std::string_view> seen;
   for (const std::string_view name : names) {
     if (name.empty()) fail(lines, "a column's name is empty");
-    if (result.find(name) != nullptr) {
+    if (!seen.insert(name).second) {
       fail(lines, "the column " + shown(name) + " is there twice");
     }
     result.columns.push_back({std::string(name), {}});

@@ -9,6 +9,7 @@
 #include <limits>
 #include <optional>
 #include <string_view>
+#include <unordered_set>
 
 #include "base/error.hpp"
 #include "base/shown.hpp"
@@ -134,7 +135,8 @@ class Parser {
     constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
     if (text_.starts_with(byte_order_mark)) text_.remove_prefix(byte_order_mark.size());
     if (trimmed(text_).empty()) fail(text_, "found no header; the first row names the columns");
-    for_each_field([this](std::string_view name, std::size_t) {
+    std::unordered_set<std::string_view> seen;
+    for_each_field([&](std::string_view name, std::size_t) {
       double number = 0;
       if (name.empty()) fail(name, "a column's name is empty");
       if (name.find(';') != std::string_view::npos || name.find('\t') != std::string_view::npos) {
@@ -150,7 +152,7 @@ class Parser {
         fail(name, "found the number " + quoted(name, longest_name) +
                        "; the first row names the columns");
       }
-      if (std::find(table_.names.begin(), table_.names.end(), name) != table_.names.end()) {
+      if (!seen.insert(name).second) {
         fail(name, "column " + quoted(name, longest_name) + " is there twice");
       }
       table_.names.emplace_back(name);

@@ -359,14 +359,14 @@ TEST_CASE("an interrupted sweep to standard output has printed the cases that it
 TEST_CASE("a sweep that is resumed counts the cases of before, too") {
   const Folder folder;
   const Names arguments{
-      "sweep", config("falls.yaml"), "--vary", "ball.mass=linear:0.1:0.2:3000", "-j", "1", "-o",
+      "sweep", config("falls.yaml"), "--vary", "ball.mass=linear:0.1:0.2:900", "-j", "1", "-o",
       "s.csv"};
   REQUIRE(kill_once_there_are(10000, "s.csv.part", arguments, folder).exit_code == 137);
   const Result rest = bbsim(with(arguments, {"--resume", "--summary", "s.json"}), folder.path());
   CHECK(rest.exit_code == 0);
-  CHECK_THAT(rest.err, Contains(" of them from before, 3000 ended early (see status)"));
+  CHECK_THAT(rest.err, Contains(" of them from before, 900 ended early (see status)"));
   CHECK(nlohmann::json::parse(folder.read("s.json")).at("statuses") ==
-        nlohmann::json{{"stopped", 3000}});
+        nlohmann::json{{"stopped", 900}});
 }
 
 TEST_CASE("a part that was damaged is cut where it is, and it is said") {
