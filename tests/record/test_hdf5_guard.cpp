@@ -20,7 +20,7 @@ struct End {
 };
 
 // Takes all of the stack that there is.
-[[gnu::noinline, gnu::noclone]] int without_end(int depth) {
+[[gnu::noinline]] int without_end(int depth) {
   volatile char frame[4096]{};
   frame[0] = static_cast<char>(depth);
   return depth == 0 ? 0 : without_end(depth + 1) + frame[0];
