@@ -10,7 +10,7 @@ namespace bbsim::app {
 
 model::Model assemble(const Scenario& scenario, const std::vector<const record::Column*>& columns) {
   try {
-    return model::assemble(scenario, record::any_needs(columns, record::Needs::gamma));
+    return model::assemble(scenario, record::need_gamma(columns));
   } catch (const KeyError& error) {
     throw InputError({Problem{place_of(scenario.source, error.key()), error.what()}});
   }

@@ -1,3 +1,5 @@
+#include "check.hpp"
+
 #include <CLI/App.hpp>
 #include <cmath>
 #include <cstddef>
@@ -126,6 +128,13 @@ ExitCode check(const ScenarioArguments& arguments) {
   record::Outputs outputs;
   reads_scenario(outputs, arguments.file, table_files(scenario));
   prints(outputs);
+  print(check_report(scenario, true));
+  return ExitCode::done;
+}
+
+}  // namespace
+
+std::string check_report(const Scenario& scenario, bool sweep) {
   const auto columns = record::columns_named(scenario.output.columns);
   const model::Model model = assemble(scenario, columns);
   const solve::OutputGrid grid(scenario.time);
@@ -150,13 +159,10 @@ ExitCode check(const ScenarioArguments& arguments) {
   if (model.closed_loop()) tell_closed_loop(report, scenario, model);
 
   tell_solver(report, scenario, model);
-  tell_sweep(report, scenario);
+  if (sweep) tell_sweep(report, scenario);
   for (const std::string& remark : scenario.remarks) report.line("remark", remark);
-  print(report.text());
-  return ExitCode::done;
+  return report.text();
 }
-
-}  // namespace
 
 void add_check(CLI::App& app, Chosen& chosen) {
   CLI::App* command = app.add_subcommand(

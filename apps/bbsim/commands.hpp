@@ -62,5 +62,6 @@ void add_accuracy(CLI::App& app, const Options& options, Chosen& chosen);
 void add_sweep(CLI::App& app, const Options& options, Chosen& chosen);
 void add_merge(CLI::App& app, const Options& options, Chosen& chosen);
 void add_plot(CLI::App& app, const Options& options, Chosen& chosen);
+void add_replay(CLI::App& app, const Options& options, Chosen& chosen);
 
 }  // namespace bbsim::app

@@ -94,6 +94,7 @@ ExitCode command_line(int argc, char** argv) {
   bbsim::app::add_sweep(app, options, chosen);
   bbsim::app::add_merge(app, options, chosen);
   bbsim::app::add_plot(app, options, chosen);
+  bbsim::app::add_replay(app, options, chosen);
   bbsim::app::add_compare(app, chosen);
   bbsim::app::add_verify(app, options, chosen);
   bbsim::app::add_columns(app, chosen);

@@ -279,7 +279,7 @@ void add_sweep(CLI::App& app, const Options& options, Chosen& chosen) {
   may_be_repeated(*command
                        ->add_option("--measure", arguments->measure,
                                     "instead of the default measures: min_, max_, rms_ or end_ "
-                                    "and one of bbsim columns; may be given again")
+                                    "and one of bbsim columns but ball_q...; may be given again")
                        ->type_name("NAME,..."));
   command
       ->add_option("-o,--output", arguments->output,

@@ -161,7 +161,7 @@ Model assemble(const Scenario& scenario, bool gamma, Symmetry symmetry) {
               gamma && shape == Shape::full,
               scenario.ball.radius,
               std::move(stops),
-              std::move(rig)};
+              rig};
   Watchlist watched = watchlist(scenario);
   if (!watched.monitors.empty()) model.watched = std::move(watched);
   return model;

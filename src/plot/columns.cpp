@@ -22,6 +22,7 @@ enum class Place {
   velocity,
   spin,
   gamma,
+  orientation,
   phi,
   theta,
   rates,
@@ -47,6 +48,8 @@ struct Known {
 // What a panel of several columns is called: the quantity that they have in common.
 std::string_view common_name(Place place) {
   switch (place) {
+    case Place::orientation:
+      return "ball's orientation";
     case Place::velocity:
       return "velocity";
     case Place::rates:
@@ -79,6 +82,10 @@ constexpr std::array known_columns = {
     Known{"vy", "vy", Place::velocity},
     Known{"spin", "spin", Place::spin},
     Known{"gamma", "γ", Place::gamma},
+    Known{"ball_qw", "orientation w", Place::orientation, Role::main, "w"},
+    Known{"ball_qx", "orientation x", Place::orientation, Role::main, "x"},
+    Known{"ball_qy", "orientation y", Place::orientation, Role::main, "y"},
+    Known{"ball_qz", "orientation z", Place::orientation, Role::main, "z"},
     Known{"phi", "φ", Place::phi},
     Known{"phi_command", "φ command", Place::phi, Role::command},
     Known{"theta", "θ", Place::theta},

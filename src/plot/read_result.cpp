@@ -1,5 +1,7 @@
 #include "plot/read_result.hpp"
 
+#include <algorithm>
+#include <array>
 #include <cerrno>
 #include <charconv>
 #include <cmath>
@@ -9,6 +11,8 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 #include <string_view>
+#include <utility>
+#include <variant>
 
 #include "base/error.hpp"
 #include "record/case_table.hpp"
@@ -21,7 +25,7 @@ namespace bbsim::plot {
 namespace {
 
 namespace fs = std::filesystem;
-using Json = nlohmann::json;
+using Json = nlohmann::ordered_json;
 
 bool is_hdf5(const std::string& file) {
   return record::format_of(file) == record::Format::hdf5;
@@ -38,6 +42,26 @@ double to_number(const std::string& text) {
   double value = 0;
   std::from_chars(text.data(), text.data() + text.size(), value);
   return value;
+}
+
+// The scenario's text has a place of its own.
+std::string summary_text(Json json) {
+  json.erase("scenario_text");
+  return json.dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+// The attributes of an HDF5 file as the summary that they are; of lists, a line an entry.
+std::string summary_of(const record::Attributes& attributes) {
+  constexpr std::array statistics = {"steps", "rhs_evaluations", "jacobian_evaluations",
+                                     "nonlinear_iterations", "error_test_failures"};
+  Json json = Json::object();
+  for (const auto& [name, value] : attributes) {
+    Json& place = std::ranges::find(statistics, name) == statistics.end()
+                      ? json[name]
+                      : json["statistics"][name];
+    std::visit([&place](const auto& held) { place = held; }, value.value());
+  }
+  return summary_text(std::move(json));
 }
 
 // "t=0.54 event=edge action=stop x=0.16 y=-0.02 ...", as record/summary.hpp writes it.
@@ -65,6 +89,9 @@ void take_attributes(Result& result, const record::Attributes& attributes) {
   for (const auto& [name, value] : attributes) by_name[name] = value.text();
   result.title = by_name["title"];
   result.status = by_name["status"];
+  result.reason = by_name["reason"];
+  result.version = by_name["version"];
+  result.summary = summary_of(attributes);
   if (by_name.contains("end_time")) result.end_time = to_number(by_name["end_time"]);
   for (const std::string& line : lines_of(by_name["events"])) {
     result.events.push_back(event_of(line));
@@ -89,6 +116,7 @@ Result read_hdf5_result(const std::string& file) {
     const record::CaseColumn& from = reader.columns()[c];
     if (from.kind == record::CaseKind::series) continue;  // trajectories of a sweep
     Column column{from.name, std::move(block.values[c])};
+    column.unit = from.unit;
     if (from.kind == record::CaseKind::text) {
       column.texts = std::move(block.texts[c]);
       column.numbers.assign(result.rows, NAN);
@@ -119,6 +147,9 @@ bool is_summary(const Json& json) {
 void take_summary(Result& result, const Json& json) {
   result.title = member<std::string>(json, "title", "");
   result.status = member<std::string>(json, "status", "");
+  result.reason = member<std::string>(json, "reason", "");
+  result.version = member<std::string>(json, "version", "");
+  result.summary = summary_text(json);
   if (json.contains("end_time")) result.end_time = member(json, "end_time", 0.0);
   for (const Json& event : json["events"]) {
     if (!event.is_object()) continue;

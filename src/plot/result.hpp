@@ -17,6 +17,7 @@ struct Column {
   std::string name;
   std::vector<double> numbers;
   std::vector<std::string> texts{};
+  std::string unit{};  // as its file says; empty if it does not
 
   [[nodiscard]] bool is_text() const { return !texts.empty(); }
 };
@@ -34,6 +35,8 @@ struct Result {
 
   // What a CSV cannot tell; empty where nothing else does.
   std::string title, status;
+  std::string reason, version;       // why a run ended early; of the bbsim that ran it
+  std::string summary;               // JSON, as `run --summary` writes it, without scenario_text
   std::optional<double> end_time{};  // that the run reached, s
   std::vector<Event> events{};
   std::optional<Scenario> scenario{};

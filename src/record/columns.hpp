@@ -5,19 +5,23 @@
 #include <string_view>
 
 #include "model/dynamics.hpp"
+#include "model/quaternion.hpp"
 #include "model/sample.hpp"
 
 namespace bbsim::record {
 
-// One row as the columns see it. `dynamics` is null unless a column of the run needs it.
+// One row as the columns see it. `dynamics` and `orientation`, from the ball's own frame to the
+// plane's, are null unless a column of the run needs them.
 struct Row {
   const model::Sample& sample;
   const model::Dynamics* dynamics;
+  const model::Quaternion* orientation = nullptr;
 };
 
 // What a column is computed from: `reference` is there with a controller, `samples` with one in
-// discrete time, `plate` where the plate's inertia is known.
-enum class Needs { state, gamma, reference, samples, dynamics, plate };
+// discrete time, `plate` where the plate's inertia is known;
+// `orientation` comes of all rows so far, with gamma.
+enum class Needs { state, gamma, orientation, reference, samples, dynamics, plate };
 
 struct Column {
   std::string_view name;

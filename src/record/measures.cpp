@@ -36,13 +36,16 @@ std::optional<Measure> find_measure(std::string_view name) {
   for (const Prefix& prefix : prefixes) {
     if (!name.starts_with(prefix.text)) continue;
     const Column* const column = find_column(name.substr(prefix.text.size()));
+    // A quaternion has no extremes that mean anything.
+    if (column != nullptr && column->needs == Needs::orientation) return {};
     if (column != nullptr) return Measure{prefix.kind, column, std::string(name)};
   }
   return {};
 }
 
 std::string allowed_measures() {
-  return "min_, max_, rms_ or end_ and one of bbsim columns, such as max_tilt, rms_x, end_phi";
+  return "min_, max_, rms_ or end_ and one of bbsim columns but ball_q..., such as max_tilt, "
+         "rms_x, end_phi";
 }
 
 std::vector<std::string> default_measures(bool closed_loop) {

@@ -23,6 +23,10 @@ bool any_needs(const std::vector<const Column*>& columns, Needs what) {
                      [what](const Column* column) { return column->needs == what; });
 }
 
+bool need_gamma(const std::vector<const Column*>& columns) {
+  return any_needs(columns, Needs::gamma) || any_needs(columns, Needs::orientation);
+}
+
 Recorder::Recorder(const model::Model& model, const model::BallConstants& constants,
                    const solve::OutputGrid& grid, std::vector<const Column*> columns,
                    TableWriter& writer)
@@ -36,6 +40,7 @@ Recorder::Recorder(const model::Model& model, const model::BallConstants& consta
                               [](double moment) { return moment > 0; })),
       gaps_(columns_.size()),
       block_(columns_.size()) {
+  if (any_needs(columns_, Needs::orientation)) turn_.emplace(model.radius);
   if (!needs_dynamics_ && !with_plate_) return;
   loads_.emplace(6, [this](const model::Sample& sample, double* numbers) {
     const model::MotorLoad load = model::motor_load(sample, constants_);
@@ -60,8 +65,9 @@ void Recorder::accept(std::size_t first, std::size_t count, const double* values
     const model::Sample sample = model_.sample(grid_[first + i], values + i * row_size);
     model::Dynamics dynamics;
     if (needs_dynamics_) dynamics = model::dynamics(sample, constants_);
+    const model::Quaternion* const orientation = turn_ ? &turn_->go_to(sample) : nullptr;
     for (std::size_t c = 0; c < columns_.size(); ++c) {
-      block_[c][i] = columns_[c]->value({sample, &dynamics});
+      block_[c][i] = columns_[c]->value({sample, &dynamics, orientation});
     }
   }
 
@@ -81,9 +87,9 @@ void Recorder::look_for_gaps(std::size_t first, std::size_t count) {
   }
 }
 
-std::string Recorder::why_not_finite() const {
+std::string Recorder::why_not_finite(std::size_t columns) const {
   std::string text;
-  for (std::size_t c = 0; c < columns_.size(); ++c) {
+  for (std::size_t c = 0; c < std::min(columns, columns_.size()); ++c) {
     if (gaps_[c].rows == 0) continue;
     char line[120];
     std::snprintf(line, sizeof line, " is no finite number in %zu rows, the first at t = %.6g s",

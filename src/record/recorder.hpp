@@ -2,10 +2,13 @@
 #pragma once
 
 #include <cstddef>
+#include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "model/model.hpp"
+#include "record/ball_turn.hpp"
 #include "record/columns.hpp"
 #include "record/extremes.hpp"
 #include "record/summary.hpp"
@@ -20,6 +23,9 @@ namespace bbsim::record {
 
 [[nodiscard]] bool any_needs(const std::vector<const Column*>& columns, Needs what);
 
+// Whether one of them is computed from gamma, which the model then integrates.
+[[nodiscard]] bool need_gamma(const std::vector<const Column*>& columns);
+
 class Recorder : public solve::StateSink {
  public:
   Recorder(const model::Model& model, const model::BallConstants& constants,
@@ -30,8 +36,10 @@ class Recorder : public solve::StateSink {
   // Of the run so far; nothing unless a column needs the forces, or the plate's inertia is known.
   [[nodiscard]] std::optional<MotorPeaks> peaks() const;
 
-  // Why some of the rows so far hold a number that is not finite; empty if all are.
-  [[nodiscard]] std::string why_not_finite() const;
+  // Why some of the rows so far hold a number that is not finite, in the first `columns` columns;
+  // empty if all are.
+  [[nodiscard]] std::string why_not_finite(
+      std::size_t columns = std::numeric_limits<std::size_t>::max()) const;
 
   // Throws OutputError.
   void accept(std::size_t first, std::size_t count, const double* values) override;
@@ -46,6 +54,7 @@ class Recorder : public solve::StateSink {
   std::vector<const Column*> columns_;
   TableWriter& writer_;
   bool needs_dynamics_, with_plate_;
+  std::optional<BallTurn> turn_;   // where a column asks for the ball's orientation
   std::optional<Extremes> loads_;  // of the motors, each as it is and turned over
   struct Gaps {
     std::size_t rows = 0;  // that are no finite number

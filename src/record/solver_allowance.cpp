@@ -116,12 +116,13 @@ const Column* computed(const std::string& name) {
 
 // Columns of one kind share the size of their errors.
 std::string_view kind_of(const Column& column) {
+  if (column.needs == Needs::orientation) return "gamma";  // angles of the ball, both
   return column.name == "spin" || column.name == "gamma" ? column.name : column.unit;
 }
 
 double unit_of(const Column& column, const Claim& claim) {
   if (column.name == "spin") return claim.spin_unit;
-  if (column.name == "gamma") return claim.gamma_unit;
+  if (kind_of(column) == "gamma") return claim.gamma_unit;
   if (column.unit == "rad/s^2") return claim.acceleration_unit;
   return 1;
 }

@@ -85,8 +85,8 @@ class SingleRunner : public CaseRunner {
     for (const Axis& axis : task.plan.axes()) {
       if (axis.key.starts_with("solver")) same_tolerances_ = false;
     }
-    gamma_ = record::any_needs(task.measures, record::Needs::gamma) ||
-             record::any_needs(task.series, record::Needs::gamma);
+    gamma_ =
+        record::any_needs(task.measures, record::Needs::gamma) || record::need_gamma(task.series);
   }
 
   std::size_t run(std::size_t first, std::size_t count, CaseResults& into,

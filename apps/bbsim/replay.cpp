@@ -1,0 +1,248 @@
+#include <CLI/App.hpp>
+#include <algorithm>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "assemble.hpp"
+#include "commands.hpp"
+#include "plot/read_result.hpp"
+#include "record/format.hpp"
+#include "record/memory_table.hpp"
+#include "record/recorder.hpp"
+#include "replay/log.hpp"
+#include "replay/sources.hpp"
+#include "replay_file.hpp"
+#include "scenario/reader.hpp"
+#include "signals.hpp"
+#include "simulation.hpp"
+#include "terminal.hpp"
+
+namespace bbsim::app {
+namespace {
+
+struct ReplayArguments {
+  std::vector<std::string> files;
+  std::string output, title;
+  std::vector<std::string> logs, maps;
+  plot::Beside beside;
+};
+
+bool is_scenario(const std::string& file) {
+  const std::string ending = record::lower_ending(file);
+  return ending == ".yaml" || ending == ".yml";
+}
+
+// One of the files, read; a scenario is yet to be run.
+struct Source {
+  std::string name;
+  std::optional<Scenario> scenario{};
+  std::optional<plot::Result> result{};
+  std::optional<replay::Run> log{};
+};
+
+// Files of one name are told apart by their folders, and the same file given twice by a number.
+std::vector<std::string> names_of(const std::vector<std::string>& files) {
+  std::vector<std::string> names;
+  for (const std::string& file : files) {
+    const auto alike = [&](const std::string& other) {
+      return other != file && short_name(other) == short_name(file);
+    };
+    std::string name = std::ranges::any_of(files, alike) ? file : short_name(file);
+    const std::string plain = name;
+    for (int number = 2; std::ranges::find(names, name) != names.end(); ++number) {
+      name = plain + " (" + std::to_string(number) + ")";
+    }
+    names.push_back(name);
+  }
+  return names;
+}
+
+std::string output_of(const ReplayArguments& arguments) {
+  if (!arguments.output.empty()) return arguments.output;
+  const std::string& first =
+      arguments.files.empty() ? arguments.logs.front() : arguments.files.front();
+  if (first == "-") throw InputError("--output: missing; what is shown from - has no name");
+  if (is_scenario(first)) return default_output(first, ".html");
+  return std::filesystem::path(first).replace_extension(".html").string();
+}
+
+void check_arguments(const ReplayArguments& arguments) {
+  if (arguments.files.empty() && arguments.logs.empty()) {
+    throw InputError("FILES: missing; allowed: results, scenarios, or --data LOG.csv");
+  }
+  if (!arguments.output.empty()) require_replay_ending(arguments.output, "--output");
+  const auto scenarios = std::ranges::count_if(arguments.files, is_scenario);
+  const auto results = static_cast<std::ptrdiff_t>(arguments.files.size()) - scenarios;
+  if (!arguments.beside.summary.empty() && results != 1) {
+    throw InputError("--summary: a summary is of one run, and " + std::to_string(results) +
+                     " results are to be shown");
+  }
+  if (!arguments.beside.scenario.empty() && results == 0) {
+    throw InputError("--scenario: allowed with a result, of which it is the scenario");
+  }
+  if (!arguments.beside.overrides.empty() && scenarios == 0 && arguments.beside.scenario.empty()) {
+    throw InputError("--set: allowed with a scenario, in which it sets a key");
+  }
+  const std::size_t maps = arguments.maps.size(), logs = arguments.logs.size();
+  if (maps > 1 && maps != logs) {
+    throw InputError("--map: found " + std::to_string(maps) + " for " + std::to_string(logs) +
+                     " of --data; allowed: one for all, or one for each in their order");
+  }
+  if (maps > 0 && logs == 0) throw InputError("--map: allowed with --data, whose columns it names");
+}
+
+// All of them, and all that is wrong with them at once.
+std::vector<Source> read_all(const ReplayArguments& arguments, record::Outputs& outputs) {
+  std::vector<std::string> files = arguments.files;
+  files.insert(files.end(), arguments.logs.begin(), arguments.logs.end());
+  const std::vector<std::string> names = names_of(files);
+  std::vector<Source> sources;
+  std::vector<Problem> problems;
+  for (std::size_t i = 0; i < files.size(); ++i) {
+    Source source{names[i]};
+    try {
+      if (i >= arguments.files.size()) {
+        outputs.reads(files[i], "--data");
+        const std::size_t log = i - arguments.files.size();
+        const std::string map = arguments.maps.empty()       ? ""
+                                : arguments.maps.size() == 1 ? arguments.maps.front()
+                                                             : arguments.maps[log];
+        source.log = replay::run_of_log(plot::read_csv_columns(files[i]), map, names[i]);
+      } else if (is_scenario(files[i])) {
+        source.scenario = read_scenario(files[i], arguments.beside.overrides);
+        reads_scenario(outputs, files[i], table_files(*source.scenario));
+      } else {
+        outputs.reads(files[i], "what is shown");
+        source.result = plot::read_result(files[i], arguments.beside);
+      }
+      sources.push_back(std::move(source));
+    } catch (const InputError& error) {
+      problems.insert(problems.end(), error.problems().begin(), error.problems().end());
+    }
+  }
+  if (!problems.empty()) throw InputError(problems);
+  return sources;
+}
+
+replay::Run run_scenario(const Source& source, const Options& options, ExitCode& code) {
+  const Scenario& scenario = *source.scenario;
+  const auto asked = record::columns_named(scenario.output.columns);
+  const auto columns = with_pictured(asked, scenario);
+  const model::Model model = assemble(scenario, columns);
+  const solve::OutputGrid grid(scenario.time);
+  record::MemoryTable table(columns);
+  const Simulation made =
+      simulate(scenario, model, grid, columns, asked.size(), table, options.quiet);
+  tell(made, options.quiet);
+  if (code == ExitCode::done || made.code == ExitCode::interrupted) code = made.code;
+  replay::Run run = run_of(scenario, table.take(), made.summary);
+  run.name = source.name;
+  return run;
+}
+
+std::string title_of(const replay::Scene& scene) {
+  for (const replay::Run& run : scene.runs) {
+    if (!run.title.empty()) return run.title;
+  }
+  for (const replay::Sweep& sweep : scene.sweeps) {
+    if (!sweep.title.empty()) return sweep.title;
+  }
+  return scene.runs.empty() ? scene.sweeps.front().name : scene.runs.front().name;
+}
+
+ExitCode replay_files(const ReplayArguments& arguments, const Options& options) {
+  check_arguments(arguments);
+  const std::string output = output_of(arguments);
+  record::Outputs outputs;
+  if (!arguments.beside.summary.empty()) outputs.reads(arguments.beside.summary, "--summary");
+  if (!arguments.beside.scenario.empty()) outputs.reads(arguments.beside.scenario, "--scenario");
+  std::vector<Source> sources = read_all(arguments, outputs);
+  outputs.writes(output, arguments.output.empty() ? "the first file's name, without -o" : "-o");
+
+  const auto is_sweep = [](const Source& source) {
+    return source.result && source.result->is_sweep();
+  };
+  const auto sweeps = static_cast<std::size_t>(std::ranges::count_if(sources, is_sweep));
+  if (sweeps > 0 && sweeps < sources.size()) {
+    throw InputError(std::ranges::find_if(sources, is_sweep)->name +
+                     ": is a sweep, among runs; allowed: a page of runs, or one of sweeps");
+  }
+
+  ReplayFile file(output);
+  replay::Scene scene;
+  scene.version = BBSIM_VERSION;
+  ExitCode code = ExitCode::done;
+  for (Source& source : sources) {
+    if (source.scenario) {
+      scene.runs.push_back(run_scenario(source, options, code));
+      if (code == ExitCode::interrupted) break;
+    } else if (source.log) {
+      scene.runs.push_back(std::move(*source.log));
+    } else if (is_sweep(source)) {
+      scene.sweeps.push_back(replay::sweep_of_result(std::move(*source.result), source.name));
+    } else {
+      scene.runs.push_back(run_of(std::move(*source.result), source.name));
+    }
+  }
+  scene.title = arguments.title.empty() ? title_of(scene) : arguments.title;
+  file.write(scene, options.quiet);
+  return code;
+}
+
+}  // namespace
+
+void add_replay(CLI::App& app, const Options& options, Chosen& chosen) {
+  CLI::App* command =
+      app.add_subcommand("replay", "Show runs and sweeps: one HTML file that replays them");
+  command->footer(
+      "The page opens in any browser, offline: the rig in three dimensions, plots, what was run. "
+      "Of several runs the first one leads and the others are its ghosts. A scenario is run first. "
+      "Title, plate, ball and events of a .csv are taken from its summary, NAME.json beside "
+      "NAME.csv or --summary, or from --scenario.\n"
+      "\n"
+      "Examples:\n"
+      "  bbsim replay configs/rig.yaml -o rig.html\n"
+      "  bbsim run configs/fig2b.yaml --summary fig2b.json && bbsim replay fig2b.csv\n"
+      "  bbsim replay slow.h5 fast.h5 -o both.html\n"
+      "  bbsim replay configs/rig.yaml --data log.csv --map t=Time:ms,x=Ballx:mm,y=Bally:mm\n"
+      "  bbsim replay fig2b-sweep.csv --scenario configs/fig2b.yaml\n"
+      "  bbsim replay configs/fig2a.yaml -o fig2a.glb");
+  const auto arguments = std::make_shared<ReplayArguments>();
+  command->add_option("FILES", arguments->files,
+                      "results (CSV, HDF5) of runs or sweeps, or scenarios; - is CSV on standard "
+                      "input");
+  command
+      ->add_option("-o,--output", arguments->output,
+                   "FILE.html, FILE.glb (glTF, for Blender and slides), or - for a page on "
+                   "standard output; default: the first file's name with .html")
+      ->type_name("FILE");
+  may_be_repeated(
+      *command
+           ->add_option("--data", arguments->logs,
+                        "LOG.csv of a real rig, shown beside the runs; may be given again")
+           ->type_name("LOG"));
+  may_be_repeated(
+      *command
+           ->add_option("--map", arguments->maps,
+                        "COLUMN=NAME[:UNIT],... which column of the log is which of bbsim columns, "
+                        "and its unit; default: the log's names are bbsim's, in SI units")
+           ->type_name("MAP"));
+  command->add_option("--title", arguments->title, "of the page; default: the scenario's")
+      ->type_name("TEXT");
+  command
+      ->add_option("--summary", arguments->beside.summary,
+                   "FILE.json that `bbsim run --summary` wrote of the result")
+      ->type_name("FILE");
+  command->add_option("--scenario", arguments->beside.scenario, "FILE.yaml that a result is of")
+      ->type_name("FILE");
+  add_overrides(*command, arguments->beside.overrides);
+  command->callback([arguments, &options, &chosen] {
+    chosen = [arguments, &options] { return replay_files(*arguments, options); };
+  });
+}
+
+}  // namespace bbsim::app

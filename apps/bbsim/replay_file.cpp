@@ -1,0 +1,142 @@
+#include "replay_file.hpp"
+
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+#include <optional>
+#include <sstream>
+#include <utility>
+
+#include "check.hpp"
+#include "commands.hpp"
+#include "record/format.hpp"
+#include "record/recorder.hpp"
+#include "replay/gltf.hpp"
+#include "replay/page.hpp"
+#include "replay/sources.hpp"
+#include "scenario/reader.hpp"
+#include "terminal.hpp"
+
+namespace bbsim::app {
+namespace {
+
+bool is_gltf(const std::string& file) {
+  return record::lower_ending(file) == ".glb";
+}
+
+std::vector<std::string> lines_of(const std::string& text) {
+  std::vector<std::string> lines;
+  std::istringstream stream(text);
+  for (std::string line; std::getline(stream, line);) lines.push_back(line);
+  return lines;
+}
+
+void describe_all(replay::Run& run, const Scenario& scenario) {
+  replay::describe(run, scenario);
+  run.check = lines_of(check_report(scenario, false));
+}
+
+std::string size_text(std::size_t bytes) {
+  char text[40];
+  std::snprintf(text, sizeof text, "%.2f MB", static_cast<double>(bytes) / 1e6);
+  return text;
+}
+
+std::string count_text(std::size_t count, const char* one, const char* many) {
+  return std::to_string(count) + ' ' + (count == 1 ? one : many);
+}
+
+std::string content_text(const replay::Scene& scene) {
+  std::size_t rows = 0, cases = 0;
+  for (const replay::Run& run : scene.runs) rows += replay::row_count(run);
+  for (const replay::Sweep& sweep : scene.sweeps) cases += sweep.status.size();
+  if (scene.runs.empty()) return count_text(cases, "case", "cases");
+  const std::string text = count_text(rows, "row", "rows");
+  return scene.runs.size() == 1 ? text : std::to_string(scene.runs.size()) + " runs, " + text;
+}
+
+}  // namespace
+
+void require_replay_ending(const std::string& file, const std::string& option) {
+  if (file == "-" || is_gltf(file) || record::lower_ending(file) == ".html") return;
+  throw InputError(
+      option + ": found " + file +
+      ", allowed is a name that ends in .html, a page, or .glb, a model of what moves");
+}
+
+ReplayFile::ReplayFile(const std::string& target)
+    : target_(target),
+      gltf_(is_gltf(target)),
+      template_(gltf_ ? "" : replay::page_template()),
+      file_(target) {}
+
+void ReplayFile::write(const replay::Scene& scene, bool quiet) {
+  const std::string content = gltf_ ? replay::gltf(scene) : replay::page(scene, template_);
+  file_.write(content);
+  file_.commit();
+  if (quiet || target_ == "-") return;
+  say(target_ + ": " + content_text(scene) + ", " + size_text(content.size()));
+}
+
+std::vector<const record::Column*> with_pictured(const std::vector<const record::Column*>& columns,
+                                                 const Scenario& scenario) {
+  std::vector<std::string> names{"t",       "x",       "y",       "phi",    "theta",
+                                 "ball_qw", "ball_qx", "ball_qy", "ball_qz"};
+  if (scenario.controller) {
+    for (const char* name : {"x_reference", "y_reference", "phi_command", "theta_command"}) {
+      names.emplace_back(name);
+    }
+    if (scenario.controller->sampling) {
+      names.emplace_back("x_measured");
+      names.emplace_back("y_measured");
+    }
+  }
+  std::vector<const record::Column*> all = columns;
+  for (const record::Column* column : record::columns_named(names)) {
+    if (std::ranges::find(all, column) == all.end()) all.push_back(column);
+  }
+  return all;
+}
+
+replay::Run run_of(const Scenario& scenario, record::TableData rows, record::RunSummary summary) {
+  replay::Run run = replay::run_of_table(std::move(rows), short_name(scenario.source.file));
+  describe_all(run, scenario);
+  run.status = summary.status;
+  run.reason = summary.reason;
+  run.version = summary.version;
+  for (const record::EventRecord& event : summary.events) {
+    run.events.push_back({event.t, event.name, event.action, event.x, event.y});
+  }
+  summary.scenario_text.clear();  // it has a place of its own
+  run.summary = record::to_json(summary);
+  return run;
+}
+
+replay::Run run_of(plot::Result result, const std::string& name) {
+  const std::optional<Scenario> scenario = std::exchange(result.scenario, std::nullopt);
+  const std::string title = result.title;
+  replay::Run run = replay::run_of_result(std::move(result), name);
+  if (!scenario) return run;
+  const Source& source = scenario->source;
+  try {
+    describe_all(run, parse_scenario(source.text, source.file, source.overrides));
+  } catch (const InputError&) {  // its tables are gone, say, or another version wrote it
+    replay::describe_sight(run, *scenario);
+  }
+  if (!title.empty()) run.title = title;
+  return run;
+}
+
+replay::Scene scene_of(replay::Run run) {
+  replay::Scene scene;
+  scene.version = BBSIM_VERSION;
+  scene.title = run.title.empty() ? run.name : run.title;
+  scene.runs.push_back(std::move(run));
+  return scene;
+}
+
+std::string short_name(const std::string& file) {
+  return file == "-" ? "standard input" : std::filesystem::path(file).filename().string();
+}
+
+}  // namespace bbsim::app

@@ -1,0 +1,54 @@
+// A replay as a file, and how a run becomes one: for `replay`, and for `run --replay`.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "plot/result.hpp"
+#include "record/atomic_file.hpp"
+#include "record/columns.hpp"
+#include "record/summary.hpp"
+#include "record/table_writer.hpp"
+#include "replay/scene.hpp"
+#include "scenario/scenario.hpp"
+
+namespace bbsim::app {
+
+// Throws InputError unless the name ends in .html or .glb, or is "-", a page on standard output.
+void require_replay_ending(const std::string& file, const std::string& option);
+
+// Opened before the work is done that it shows: what is missing for it is said at once.
+class ReplayFile {
+ public:
+  // Throws OutputError: the file cannot be written to, or there is no template for pages.
+  explicit ReplayFile(const std::string& target);
+
+  // Whole or not at all, and what was written is said. Throws InputError, OutputError.
+  void write(const replay::Scene& scene, bool quiet);
+
+ private:
+  std::string target_;
+  bool gltf_;
+  std::string template_;
+  record::AtomicFile file_;
+};
+
+// These columns, and after them what a picture of the scene needs and is not among them.
+[[nodiscard]] std::vector<const record::Column*> with_pictured(
+    const std::vector<const record::Column*>& columns, const Scenario& scenario);
+
+// A scenario that was run, with what `bbsim check` says of it.
+[[nodiscard]] replay::Run run_of(const Scenario& scenario, record::TableData rows,
+                                 record::RunSummary summary);
+
+// A result with what is known of its scenario: all of it where it and its tables can be read as
+// they were, else what is sound in it.
+[[nodiscard]] replay::Run run_of(plot::Result result, const std::string& name);
+
+// With the title of its run, or its name.
+[[nodiscard]] replay::Scene scene_of(replay::Run run);
+
+// What a file is called in a scene: without its folder.
+[[nodiscard]] std::string short_name(const std::string& file);
+
+}  // namespace bbsim::app

@@ -1,0 +1,190 @@
+#include "simulation.hpp"
+
+#include <optional>
+#include <utility>
+
+#include "describe.hpp"
+#include "model/explain.hpp"
+#include "progress.hpp"
+#include "record/edge_note.hpp"
+#include "record/recorder.hpp"
+#include "signals.hpp"
+#include "solve/choose.hpp"
+#include "solve/collocation/radau.hpp"
+#include "solve/cpu_clock.hpp"
+#include "solve/integrate.hpp"
+#include "study/error_control.hpp"
+#include "terminal.hpp"
+#include "warnings.hpp"
+
+namespace bbsim::app {
+namespace {
+
+const char* status_name(solve::Ending ending) {
+  switch (ending) {
+    case solve::Ending::done:
+      return "done";
+    case solve::Ending::failed:
+      return "failed";
+    case solve::Ending::interrupted:
+      return "interrupted";
+    case solve::Ending::stopped:
+      return "stopped";
+  }
+  return "";
+}
+
+ExitCode exit_code(solve::Ending ending) {
+  switch (ending) {
+    case solve::Ending::done:
+      return ExitCode::done;
+    case solve::Ending::failed:
+    case solve::Ending::stopped:
+      return ExitCode::ended_early;
+    case solve::Ending::interrupted:
+      return ExitCode::interrupted;
+  }
+  return ExitCode::ended_early;
+}
+
+// What was integrated, and how well, as far as the run can tell.
+struct Integration {
+  solve::Outcome outcome;
+  solve::Tolerances tolerances;
+  std::optional<double> error_estimate;  // m, of a run with solver.error
+  std::vector<double> row_estimates;     // the same of each row
+  bool within_error = true;
+  double cpu_seconds = 0;
+};
+
+Integration integrate(const Scenario& scenario, const model::Model& model,
+                      const solve::OutputGrid& grid, solve::StateSink& sink,
+                      const solve::Watch& watch) {
+  const solve::CpuClock clock;
+  const Solver& solver = scenario.solver;
+  Integration made;
+  if (solver.error) {
+    study::ErrorControlled run =
+        study::integrate_to_error(model, solver.method, *solver.error, grid, sink, watch);
+    made = {std::move(run.outcome), run.tolerances, {}, {}, true, 0};
+    if (made.outcome.ending == solve::Ending::done ||
+        made.outcome.ending == solve::Ending::stopped) {
+      made.error_estimate = run.estimate;
+      made.row_estimates = std::move(run.row_estimates);
+      made.within_error = run.met;
+    }
+  } else {
+    made.tolerances = {solver.rtol, solver.atol};
+    made.outcome = solve::integrate(model, solver.method, made.tolerances, grid, sink, watch);
+  }
+  made.cpu_seconds = clock.seconds();
+  return made;
+}
+
+// Why the run is not all that was asked for; empty if it is.
+std::string shortfall(const Scenario& scenario, const model::Model& model,
+                      const Integration& made) {
+  const double end = scenario.time.end;
+  switch (made.outcome.ending) {
+    case solve::Ending::failed:
+      return failure_text(scenario, model, made.outcome);
+    case solve::Ending::interrupted:
+      return "interrupted at t = " + short_number(made.outcome.reached) + " s of " +
+             short_number(end) + " s.";
+    case solve::Ending::stopped:
+      return "the run stopped at t = " + short_number(made.outcome.reached) + " s of " +
+             short_number(end) + " s: " + occurrence_text(made.outcome.occurrences.back()) +
+             ".\n  " + stopping_text(scenario, made.outcome.occurrences.back().name);
+    case solve::Ending::done:
+      break;
+  }
+  if (made.within_error) return "";
+  return "an error of " + short_number(*scenario.solver.error) +
+         " m is out of reach: the scene amplifies rounding, and double precision gives about " +
+         short_number(*made.error_estimate) +
+         " m.\n  Ask for that, or end the scene earlier. The rows are those of the best run.";
+}
+
+record::RunSummary summarise(const Scenario& scenario, const model::Model& model,
+                             const Integration& made, const std::string& reason,
+                             const std::vector<std::string>& warnings,
+                             const std::optional<record::MotorPeaks>& peaks) {
+  const solve::Outcome& outcome = made.outcome;
+  record::RunSummary summary;
+  summary.version = BBSIM_VERSION;
+  summary.instruction_set = solve::collocation::choose_kernels().name;
+  summary.scenario = scenario.source.file;
+  summary.scenario_text = scenario.source.text;
+  summary.title = scenario.title;
+  summary.overrides = scenario.source.overrides;
+  summary.status = status_name(outcome.ending);
+  summary.reason = reason;
+  summary.warnings = warnings;
+  summary.end_time = outcome.reached;
+  summary.rows = outcome.rows;
+  summary.states = model.state_names();
+  for (const model::Note& note : model::explain(scenario, model)) {
+    summary.model_notes.push_back(note.part + ": " + note.reason);
+  }
+  summary.method = solve::method_name(outcome.method);
+  summary.rtol = made.tolerances.rtol;
+  summary.atol = made.tolerances.atol;
+  summary.error_bound = scenario.solver.error;
+  summary.error_estimate = made.error_estimate;
+  for (const model::Occurrence& event : outcome.occurrences) {
+    summary.events.push_back(record::event_record(event));
+  }
+  summary.peaks = peaks;
+  summary.statistics = {outcome.statistics.steps,
+                        outcome.statistics.rhs_evaluations,
+                        outcome.statistics.jacobian_evaluations,
+                        outcome.statistics.nonlinear_iterations,
+                        outcome.statistics.error_test_failures,
+                        made.cpu_seconds};
+  return summary;
+}
+
+}  // namespace
+
+Simulation simulate(const Scenario& scenario, const model::Model& model,
+                    const solve::OutputGrid& grid,
+                    const std::vector<const record::Column*>& columns, std::size_t asked,
+                    record::TableWriter& writer, bool quiet) {
+  record::Recorder recorder(model, model::constants_of(scenario), grid, columns, writer);
+  std::optional<record::EdgeNote> edge;
+  if (record::EdgeNote::wanted(scenario)) edge.emplace(model, scenario.plate, grid, recorder);
+  solve::StateSink& sink = edge ? static_cast<solve::StateSink&>(*edge) : recorder;
+
+  Progress progress(scenario.source.file, quiet);
+  const solve::Watch watch{&watch_signals(),
+                           [&](double time) { progress.update(time / grid.end()); }};
+  Integration made = integrate(scenario, model, grid, sink, watch);
+  progress.clear();
+
+  std::string reason = shortfall(scenario, model, made);
+  const std::string not_finite = recorder.why_not_finite(asked);
+  if (reason.empty() && !not_finite.empty()) {
+    reason = "the motion was found to its end, but " + not_finite +
+             ".\n  There it is beyond the range of doubles, or not defined.";
+  }
+  const std::vector<std::string> warnings =
+      warnings_of(scenario, model, made.outcome.ending == solve::Ending::failed,
+                  edge ? edge->left() : std::nullopt);
+  Simulation simulation;
+  simulation.summary = summarise(scenario, model, made, reason, warnings, recorder.peaks());
+  simulation.noted = noted_text(made.outcome.occurrences);
+  simulation.row_estimates = std::move(made.row_estimates);
+  simulation.code = exit_code(made.outcome.ending);
+  const bool whole = made.within_error && not_finite.empty();
+  if (simulation.code == ExitCode::done && !whole) simulation.code = ExitCode::ended_early;
+  return simulation;
+}
+
+void tell(const Simulation& made, bool quiet) {
+  if (!made.summary.reason.empty()) say(made.summary.reason);
+  if (quiet) return;
+  for (const std::string& warning : made.summary.warnings) say(warning);
+  if (!made.noted.empty()) say(made.noted);
+}
+
+}  // namespace bbsim::app

@@ -1,0 +1,38 @@
+// One run of a scenario from its first row to its last: for `run`, and for `replay` of a scenario.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "base/error.hpp"
+#include "model/model.hpp"
+#include "record/columns.hpp"
+#include "record/summary.hpp"
+#include "record/table_writer.hpp"
+#include "scenario/scenario.hpp"
+#include "solve/output_grid.hpp"
+
+namespace bbsim::app {
+
+struct Simulation {
+  // With status, reason and warnings, as it is to be told; `output` is left to whoever knows it.
+  record::RunSummary summary;
+  // Of a run with an error estimate, each row's, m.
+  std::vector<double> row_estimates;
+  std::string noted;  // how often each thing was noted; empty if nothing was
+  ExitCode code = ExitCode::done;
+};
+
+// Integrates the model, which these columns need, and hands the rows to `writer`, which is left to
+// be finished. Of the columns the first `asked` have to be finite numbers; the others are for a
+// picture beside.
+[[nodiscard]] Simulation simulate(const Scenario& scenario, const model::Model& model,
+                                  const solve::OutputGrid& grid,
+                                  const std::vector<const record::Column*>& columns,
+                                  std::size_t asked, record::TableWriter& writer, bool quiet);
+
+// Says why the run ended early, and, unless it is to be quiet, warnings and what was noted.
+void tell(const Simulation& made, bool quiet);
+
+}  // namespace bbsim::app

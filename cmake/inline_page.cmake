@@ -1,0 +1,49 @@
+# Puts an HTML file and the local styles and scripts that it names into one:
+#
+#   cmake -DINDEX=index.html -DLIBRARIES=FILE|FILE -DOUTPUT=page.html -P inline_page.cmake
+#
+# What index.html names stands beside it or is one of LIBRARIES, by its name.
+file(READ "${INDEX}" page)
+get_filename_component(folder "${INDEX}" DIRECTORY)
+string(REPLACE "|" ";" LIBRARIES "${LIBRARIES}")
+
+function(content_of name result)
+  set(file "${folder}/${name}")
+  foreach(library IN LISTS LIBRARIES)
+    get_filename_component(library_name "${library}" NAME)
+    if(library_name STREQUAL name)
+      set(file "${library}")
+    endif()
+  endforeach()
+  file(READ "${file}" content)
+  # It would end the script that it stands in; a map would be asked for over the network.
+  if(content MATCHES "</(script|style)")
+    message(FATAL_ERROR "${file} contains '</${CMAKE_MATCH_1}': it cannot stand in a page")
+  endif()
+  string(REGEX REPLACE "\n?(//|/[*])# sourceMappingURL=[^\n]*" "" content "${content}")
+  # The sources are for reading, the page for mailing: without indentation and lines of comment.
+  if(NOT name MATCHES "[.]min[.]")
+    string(REGEX REPLACE "\n[ \t]*//[^\n]*" "" content "${content}")
+    string(REGEX REPLACE "\n[ \t\n]+" "\n" content "${content}")
+  endif()
+  set(${result} "${content}" PARENT_SCOPE)
+endfunction()
+
+string(REGEX MATCHALL "<link rel=\"stylesheet\" href=\"[^\"]*\">" links "${page}")
+foreach(link IN LISTS links)
+  string(REGEX REPLACE ".*href=\"([^\"]*)\".*" "\\1" name "${link}")
+  content_of("${name}" content)
+  string(REPLACE "${link}" "<style>\n${content}</style>" page "${page}")
+endforeach()
+
+string(REGEX MATCHALL "<script src=\"[^\"]*\"></script>" scripts "${page}")
+foreach(script IN LISTS scripts)
+  string(REGEX REPLACE ".*src=\"([^\"]*)\".*" "\\1" name "${script}")
+  content_of("${name}" content)
+  string(REPLACE "${script}" "<script>\n${content}\n</script>" page "${page}")
+endforeach()
+
+if(page MATCHES "(href|src)=\"[^\"#]+\\.(js|css)\"")
+  message(FATAL_ERROR "${INDEX} names a file that was not put into the page: ${CMAKE_MATCH_0}")
+endif()
+file(WRITE "${OUTPUT}" "${page}")

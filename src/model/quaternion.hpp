@@ -1,0 +1,21 @@
+// Rotations as unit quaternions.
+#pragma once
+
+#include <array>
+
+namespace bbsim::model {
+
+// w, x, y, z.
+using Quaternion = std::array<double, 4>;
+
+// The rotation by the length of `vector` about it.
+[[nodiscard]] Quaternion rotation_by(const std::array<double, 3>& vector);
+
+// First b, then a.
+[[nodiscard]] Quaternion product(const Quaternion& a, const Quaternion& b);
+
+[[nodiscard]] Quaternion conjugate(const Quaternion& q);
+
+[[nodiscard]] double size(const Quaternion& q);
+
+}  // namespace bbsim::model

@@ -1,0 +1,74 @@
+#include "replay/base64.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+#include <limits>
+#include <vector>
+
+namespace bbsim::replay {
+namespace {
+
+template <class Word>
+void put_little_endian(Word word, std::vector<unsigned char>& bytes) {
+  for (std::size_t i = 0; i < sizeof word; ++i) {
+    bytes.push_back(static_cast<unsigned char>(word >> (8 * i) & 0xFFU));
+  }
+}
+
+}  // namespace
+
+std::string base64(std::span<const unsigned char> bytes) {
+  constexpr const char* digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::string text;
+  text.reserve((bytes.size() + 2) / 3 * 4);
+  for (std::size_t i = 0; i < bytes.size(); i += 3) {
+    const std::size_t here = std::min<std::size_t>(3, bytes.size() - i);
+    std::uint32_t group = 0;
+    for (std::size_t k = 0; k < 3; ++k) group = group << 8 | (k < here ? bytes[i + k] : 0U);
+    for (std::size_t k = 0; k < 4; ++k) {
+      text += k <= here ? digits[group >> (18 - 6 * k) & 63] : '=';
+    }
+  }
+  return text;
+}
+
+float to_float(double value) {
+  constexpr double largest = std::numeric_limits<float>::max();
+  if (std::abs(value) > largest) {
+    return std::copysign(std::numeric_limits<float>::infinity(),
+                         static_cast<float>(std::copysign(1.0, value)));
+  }
+  return static_cast<float>(value);
+}
+
+std::string base64_of_floats(std::span<const double> values) {
+  std::vector<unsigned char> bytes;
+  bytes.reserve(values.size() * sizeof(float));
+  for (const double value : values) {
+    put_little_endian(std::bit_cast<std::uint32_t>(to_float(value)), bytes);
+  }
+  return base64(bytes);
+}
+
+std::string base64_of_doubles(std::span<const double> values) {
+  std::vector<unsigned char> bytes;
+  bytes.reserve(values.size() * sizeof(double));
+  for (const double value : values) put_little_endian(std::bit_cast<std::uint64_t>(value), bytes);
+  return base64(bytes);
+}
+
+std::string base64_of_parts(std::span<const double> values) {
+  constexpr double steps = 32767;
+  std::vector<unsigned char> bytes;
+  bytes.reserve(values.size() * sizeof(std::int16_t));
+  for (const double value : values) {
+    const auto part = static_cast<std::int16_t>(std::lround(std::clamp(value, -1.0, 1.0) * steps));
+    put_little_endian(static_cast<std::uint16_t>(part), bytes);
+  }
+  return base64(bytes);
+}
+
+}  // namespace bbsim::replay

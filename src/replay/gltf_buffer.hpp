@@ -1,0 +1,39 @@
+// The binary part of a glTF file and the JSON that says what is where in it.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <nlohmann/json.hpp>
+#include <span>
+#include <string>
+
+namespace bbsim::replay {
+
+class GltfBuffer {
+ public:
+  // Each returns the number of the new accessor. Attributes of vertices and what animations read
+  // are kept apart, as the format asks.
+  std::size_t add_scalars(
+      std::span<const float> values);  // with their bounds: an animation's times
+  std::size_t add_vectors(std::span<const std::array<float, 3>> values);
+  std::size_t add_quaternions(std::span<const std::array<float, 4>> values);
+  // With bounds, which positions have to have.
+  std::size_t add_vertices(std::span<const std::array<float, 3>> values, bool bounds);
+  std::size_t add_indices(std::span<const std::uint16_t> values);
+
+  // Puts "accessors", "bufferViews" and "buffers" into `json`; returns the file: header, JSON,
+  // bytes.
+  [[nodiscard]] std::string file(nlohmann::ordered_json json) const;
+
+ private:
+  void put(std::uint32_t word);
+  std::size_t add(const char* type, int component, std::size_t count, std::size_t start,
+                  int target);
+
+  std::string bytes_;
+  nlohmann::ordered_json accessors_ = nlohmann::ordered_json::array();
+  nlohmann::ordered_json views_ = nlohmann::ordered_json::array();
+};
+
+}  // namespace bbsim::replay

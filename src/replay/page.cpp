@@ -1,0 +1,364 @@
+#include "replay/page.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <nlohmann/json.hpp>
+#include <system_error>
+
+#include "base/error.hpp"
+#include "record/atomic_file.hpp"
+#include "replay/base64.hpp"
+#include "replay/kept_rows.hpp"
+#include "replay/rotation.hpp"
+#include "replay/stage.hpp"
+#include "replay/sweep_cases.hpp"
+
+namespace bbsim::replay {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr std::string_view title_mark = "@BBSIM_TITLE@";
+constexpr std::string_view data_mark = "@BBSIM_DATA@";
+constexpr const char* template_name = "replay.html";
+constexpr std::size_t most_rows = 20000;
+constexpr std::size_t most_bytes = 2'400'000;
+constexpr std::size_t most_cases = 40000;
+constexpr std::size_t most_sweep_numbers = 320000;
+constexpr std::size_t most_events = 2000;
+constexpr std::size_t longest_chord = 200;  // points
+
+template <class Value>
+std::vector<Value> picked(const std::vector<Value>& values, const std::vector<std::size_t>& rows) {
+  std::vector<Value> result;
+  result.reserve(rows.size());
+  for (const std::size_t row : rows) result.push_back(values[row]);
+  return result;
+}
+
+Json columns_json(const Run& run, const std::vector<std::size_t>& rows) {
+  Json columns = Json::array();
+  for (const Series& series : run.columns) {
+    if (series.name == "t") continue;
+    columns.push_back({{"name", series.name},
+                       {"unit", series.unit},
+                       {"meaning", series.meaning},
+                       {"data", base64_of_floats(picked(series.values, rows))}});
+  }
+  return columns;
+}
+
+std::string orientation_text(const std::vector<Quaternion>& orientation,
+                             const std::vector<std::size_t>& rows) {
+  std::vector<double> numbers;
+  numbers.reserve(4 * rows.size());
+  for (const std::size_t row : rows) {
+    numbers.insert(numbers.end(), orientation[row].begin(), orientation[row].end());
+  }
+  return base64_of_parts(numbers);
+}
+
+// Times i * step from a start, to the bit, are these three numbers; others are all there.
+Json times_json(const std::vector<double>& t) {
+  const double start = t.front(), step = t.size() > 1 ? t[1] - t[0] : 0;
+  bool even = true;
+  for (std::size_t i = 0; i < t.size(); ++i) {
+    even = even && t[i] == start + static_cast<double>(i) * step;
+  }
+  if (even) return {{"start", start}, {"step", step}, {"count", t.size()}};
+  return base64_of_doubles(t);
+}
+
+Json events_json(const Run& run) {
+  Json events = Json::array();
+  // Of very many the first, and the last, which may have stopped the run.
+  for (std::size_t i = 0; i < run.events.size(); ++i) {
+    if (i + 1 >= most_events && i + 1 < run.events.size()) continue;
+    const Event& event = run.events[i];
+    events.push_back({{"t", event.t},
+                      {"name", event.name},
+                      {"action", event.action},
+                      {"x", event.x},
+                      {"y", event.y}});
+  }
+  return events;
+}
+
+// Whether all points between two are that near to the line from one to the other.
+bool near_chord(const std::vector<std::array<double, 2>>& path, std::size_t from, std::size_t to,
+                double tolerance) {
+  const double dx = path[to][0] - path[from][0], dy = path[to][1] - path[from][1];
+  const double length = std::hypot(dx, dy);
+  for (std::size_t i = from + 1; i < to; ++i) {
+    const double px = path[i][0] - path[from][0], py = path[i][1] - path[from][1];
+    const double along = length > 0 ? (px * dx + py * dy) / length : 0;
+    const double off = length > 0 ? std::abs(px * dy - py * dx) / length : std::hypot(px, py);
+    if (off > tolerance || along < -tolerance || along > length + tolerance) return false;
+  }
+  return true;
+}
+
+// Of the reference path as many points as a line through them needs that is nowhere further from it
+// than a 5000th of its extent.
+std::string reference_text(const Run& run) {
+  const auto& path = run.reference;
+  double extent = 0;
+  for (const auto& point : path)
+    extent = std::max({extent, std::abs(point[0]), std::abs(point[1])});
+  const double tolerance = extent / 5000;
+  std::vector<double> numbers;
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < path.size(); ++i) {
+    const bool must = i == 0 || i + 1 == path.size() || i - kept >= longest_chord;
+    if (!must && near_chord(path, kept, i + 1, tolerance)) continue;
+    numbers.insert(numbers.end(), path[i].begin(), path[i].end());
+    kept = i;
+  }
+  return base64_of_floats(numbers);
+}
+
+Json poles_json(const Poles& poles) {
+  Json values = Json::array();
+  for (const auto& pole : poles.values) values.push_back({pole.real(), pole.imag()});
+  return {{"period", poles.period ? Json(*poles.period) : Json()}, {"values", values}};
+}
+
+Json run_json(const Run& run, const Stage& stage, std::size_t most) {
+  const double radius = run.ball_radius.value_or(stage.ball_radius);
+  const std::vector<Quaternion> orientation = orientation_of(run, radius);
+  const KeptRows kept = kept_rows(run, orientation, most);
+  Json json = {{"name", run.name},        {"title", run.title},
+               {"status", run.status},    {"reason", run.reason},
+               {"end", run.end},          {"rows", row_count(run)},
+               {"buckets", kept.buckets}, {"motionError", kept.motion_error}};
+  json["ball"] = {{"radius", radius}, {"given", run.ball_radius.has_value()}};
+  json["mounting"] = {{"height", run.mounting.height},
+                      {"skew", run.mounting.skew},
+                      {"yaw", run.mounting.yaw},
+                      {"baseTilt", run.mounting.base_tilt}};
+  json["time"] = times_json(picked(find_series(run, "t")->values, kept.rows));
+  json["columns"] = columns_json(run, kept.rows);
+  json["orientation"] = orientation_text(orientation, kept.rows);
+  json["orientationGiven"] = !run.orientation.empty();
+  json["events"] = events_json(run);
+  json["eventCount"] = run.events.size();
+  json["reference"] = reference_text(run);
+  json["friction"] = run.friction ? Json(*run.friction) : Json();
+  json["scenario"] = {
+      {"file", run.scenario_file}, {"text", run.scenario_text}, {"overrides", run.overrides}};
+  json["summary"] = run.summary.empty() ? Json() : Json::parse(run.summary, nullptr, false);
+  json["check"] = run.check;
+  json["poles"] = run.poles ? poles_json(*run.poles) : Json();
+  json["version"] = run.version;
+  return json;
+}
+
+Json sweep_column_json(const SweepColumn& column, const std::vector<std::size_t>& cases,
+                       bool exact) {
+  Json json = {{"name", column.name}, {"unit", column.unit}};
+  if (!column.words.empty()) {
+    json["words"] = picked(column.words, cases);
+  } else {
+    const std::vector<double> values = picked(column.values, cases);
+    json[exact ? "doubles" : "floats"] =
+        exact ? base64_of_doubles(values) : base64_of_floats(values);
+  }
+  return json;
+}
+
+Json sweep_json(const Sweep& sweep, std::size_t sweeps) {
+  const std::size_t numbers = 2 * sweep.keys.size() + sweep.measures.size() + 1;
+  const std::vector<std::size_t> cases = cases_kept(
+      sweep, std::max<std::size_t>(1, std::min(most_cases, most_sweep_numbers / numbers) / sweeps));
+  Json json = {{"name", sweep.name}, {"title", sweep.title}, {"cases", sweep.status.size()}};
+  json["numbers"] = base64_of_doubles(picked(sweep.cases, cases));
+  // Most cases end alike: each way once, and its position for every case.
+  std::vector<std::string> ways;
+  Json status = Json::array();
+  for (const std::size_t i : cases) {
+    const auto found = std::find(ways.begin(), ways.end(), sweep.status[i]);
+    status.push_back(found - ways.begin());
+    if (found == ways.end()) ways.push_back(sweep.status[i]);
+  }
+  json["statuses"] = ways;
+  json["status"] = status;
+  Json keys = Json::array(), measures = Json::array();
+  for (const SweepColumn& key : sweep.keys) keys.push_back(sweep_column_json(key, cases, true));
+  for (const SweepColumn& measure : sweep.measures) {
+    measures.push_back(sweep_column_json(measure, cases, false));
+  }
+  json["keys"] = std::move(keys);
+  json["measures"] = std::move(measures);
+  json["scenario"] = {
+      {"file", sweep.scenario_file}, {"text", sweep.scenario_text}, {"overrides", sweep.overrides}};
+  return json;
+}
+
+Json scene_json(const Scene& scene) {
+  Json json = {{"format", 1}, {"version", scene.version}, {"title", scene.title}};
+  Json runs = Json::array(), sweeps = Json::array();
+  if (!scene.runs.empty()) {
+    const Stage stage = stage_of(scene);
+    json["stage"] = {{"width", stage.width},
+                     {"depth", stage.depth},
+                     {"round", stage.round},
+                     {"plateGiven", stage.plate_given}};
+    for (const Run& run : scene.runs) runs.push_back(run_json(run, stage, rows_allowed(scene)));
+  }
+  for (const Sweep& sweep : scene.sweeps) sweeps.push_back(sweep_json(sweep, scene.sweeps.size()));
+  json["runs"] = std::move(runs);
+  json["sweeps"] = std::move(sweeps);
+  return json;
+}
+
+// JSON to stand in a <script>: these characters are in strings only, where their escapes mean the
+// same, and without them nothing ends the script or a line of it.
+std::string script_text(const Json& json) {
+  const std::string text = json.dump(-1, ' ', false, Json::error_handler_t::replace);
+  std::string result;
+  result.reserve(text.size());
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    switch (text[i]) {
+      case '<':
+        result += "\\u003c";
+        break;
+      case '>':
+        result += "\\u003e";
+        break;
+      case '&':
+        result += "\\u0026";
+        break;
+      case '\xE2':  // U+2028 and U+2029
+        if (text.compare(i, 3, "\xE2\x80\xA8") == 0 || text.compare(i, 3, "\xE2\x80\xA9") == 0) {
+          result += text[i + 2] == '\xA8' ? "\\u2028" : "\\u2029";
+          i += 2;
+          break;
+        }
+        [[fallthrough]];
+      default:
+        result += text[i];
+    }
+  }
+  return result;
+}
+
+// Text to stand in HTML. Bytes that are no UTF-8 are replaced as in the JSON.
+std::string html_text(const std::string& raw) {
+  const std::string text =
+      Json::parse(Json(raw).dump(-1, ' ', false, Json::error_handler_t::replace))
+          .get<std::string>();
+  std::string result;
+  for (const char c : text) {
+    switch (c) {
+      case '<':
+        result += "&lt;";
+        break;
+      case '>':
+        result += "&gt;";
+        break;
+      case '&':
+        result += "&amp;";
+        break;
+      case '"':
+        result += "&quot;";
+        break;
+      default:
+        if (static_cast<unsigned char>(c) >= 0x20) result += c;
+    }
+  }
+  return result;
+}
+
+// The template without its parts between <!--NAME--> and <!--/NAME-->: a sweep needs no three.js.
+std::string without(const std::string& name, std::string_view page_template) {
+  const std::string begin = "<!--" + name + "-->", end = "<!--/" + name + "-->";
+  std::string result;
+  std::size_t place = 0;
+  while (true) {
+    const std::size_t from = page_template.find(begin, place);
+    const std::size_t to = from == std::string_view::npos ? from : page_template.find(end, from);
+    if (to == std::string_view::npos) break;
+    result += page_template.substr(place, from - place);
+    place = to + end.size();
+  }
+  result += page_template.substr(place);
+  return result;
+}
+
+std::size_t place_of(std::string_view mark, std::string_view text) {
+  const std::size_t place = text.find(mark);
+  if (place == std::string_view::npos || text.find(mark, place + 1) != std::string_view::npos) {
+    throw InputError("the page's template is damaged: it has to have " + std::string(mark) +
+                     " once; install bbsim whole");
+  }
+  return place;
+}
+
+}  // namespace
+
+std::size_t rows_allowed(const Scene& scene) {
+  // Of the run with the most columns: time, its other columns, the ball's orientation.
+  std::size_t bytes = 1;
+  for (const Run& run : scene.runs) {
+    bytes = std::max(bytes, sizeof(double) + (run.columns.size() + 1) * sizeof(float));
+  }
+  const std::size_t runs = std::max<std::size_t>(scene.runs.size(), 1);
+  return std::max<std::size_t>(std::min(most_rows, most_bytes / bytes) / runs, 100);
+}
+
+std::string page(const Scene& scene, std::string_view whole_template) {
+  check_scene(scene);
+  std::string needed{whole_template};
+  if (scene.runs.empty()) needed = without("runs", needed);
+  if (scene.sweeps.empty()) needed = without("sweeps", needed);
+  const std::string_view page_template = needed;
+  const std::size_t title = place_of(title_mark, page_template);
+  const std::size_t data = place_of(data_mark, page_template);
+  if (data < title) {
+    throw InputError("the page's template is damaged: its data are before its title");
+  }
+  const std::size_t after_title = title + title_mark.size();
+  std::string result{page_template.substr(0, title)};
+  result += html_text(scene.title);
+  result += page_template.substr(after_title, data - after_title);
+  result += script_text(scene_json(scene));
+  result += page_template.substr(data + data_mark.size());
+  return result;
+}
+
+std::string page_template(const std::vector<std::string>& folders) {
+  std::string looked_in;
+  for (const std::string& folder : folders) {
+    std::ifstream stream(std::filesystem::path(folder) / template_name, std::ios::binary);
+    if (stream) return {std::istreambuf_iterator<char>(stream), {}};
+    looked_in.append(looked_in.empty() ? "" : " and ").append(folder);
+  }
+  throw OutputError(
+      std::string("cannot make a page: its template ") + template_name + " is not in " + looked_in +
+      "; it is made where bbsim is built with three.js and dygraphs (Debian: "
+      "libjs-three, libjs-dygraphs; scripts/setup installs them): build again, or set "
+      "BBSIM_SHARE_PATH to the template's folder");
+}
+
+std::string page_template() {
+  if (const char* folder = std::getenv("BBSIM_SHARE_PATH"); folder != nullptr && *folder != '\0') {
+    return page_template({folder});
+  }
+  std::error_code error;
+  const std::filesystem::path program = std::filesystem::read_symlink("/proc/self/exe", error);
+  const std::filesystem::path prefix = program.parent_path().parent_path();
+  std::vector<std::string> folders{prefix / "share" / "bbsim"};
+  const std::string installed = prefix / BBSIM_INSTALL_DATADIR / "bbsim";
+  if (installed != folders.front()) folders.push_back(installed);
+  return page_template(folders);
+}
+
+void write_page(const std::string& file, const Scene& scene) {
+  record::write_file(file, page(scene, page_template()));
+}
+
+}  // namespace bbsim::replay

@@ -1,0 +1,49 @@
+'use strict';
+// The ball: octants in two colours, the engineer's mark of a centre of mass, on which rolling and turning
+// about any axis is seen; one of them has a dot, which tells a whole turn from a half.
+bbsim.ball = (() => {
+  function paint(canvas, cream, colour) {
+    const ink = canvas.getContext('2d', {willReadFrequently: true});
+    const {width, height} = canvas;
+    ink.fillStyle = cream;
+    ink.fillRect(0, 0, width, height);
+    ink.fillStyle = colour;
+    for (let sector = 0; sector < 4; ++sector) {
+      ink.fillRect(sector * width / 4, sector % 2 === 0 ? 0 : height / 2, width / 4, height / 2);
+    }
+    ink.strokeStyle = 'rgba(20, 24, 30, .55)';
+    ink.lineWidth = width / 160;
+    ink.beginPath();
+    for (let sector = 0; sector <= 4; ++sector) {
+      ink.moveTo(sector * width / 4, 0);
+      ink.lineTo(sector * width / 4, height);
+    }
+    ink.moveTo(0, height / 2);
+    ink.lineTo(width, height / 2);
+    ink.stroke();
+    ink.fillStyle = 'rgba(20, 24, 30, .8)';
+    ink.beginPath();
+    ink.ellipse(0.375 * width, 0.27 * height, width / 26, height / 18, 0, 0, 2 * Math.PI);
+    ink.fill();
+  }
+
+  function build(radius, ghost) {
+    const canvas = document.createElement('canvas');
+    canvas.width = 512;
+    canvas.height = 256;
+    const texture = new THREE.CanvasTexture(canvas);
+    const material = bbsim.paint.lit({
+      map: texture, gloss: 0.3, transparent: ghost, opacity: ghost ? 0.72 : 1,
+    });
+    const mesh = new THREE.Mesh(new THREE.SphereBufferGeometry(radius, 40, 28), material);
+    return {
+      mesh,
+      colour(cream, colour) {
+        paint(canvas, cream, colour);
+        texture.needsUpdate = true;
+      },
+    };
+  }
+
+  return {build};
+})();

@@ -1,0 +1,78 @@
+'use strict';
+// The time that picture, plots and scrubber show, and how it goes on.
+bbsim.clock = (() => {
+  const {start, end} = bbsim.data;
+  const listeners = [], stateListeners = [];
+  let now = start, playing = false, speed = 1, loop = false, last = null;
+
+  const tell = () => listeners.forEach((listener) => listener(now));
+  const tellState = () => stateListeners.forEach((listener) => listener());
+
+  function frame(time) {
+    if (!playing) return;
+    // The first frame only says what time it is.
+    const next = now + (last === null ? 0 : (time - last) / 1000 * speed);
+    last = time;
+    if (next >= end) {
+      if (loop && end > start) {
+        now = start + (next - start) % (end - start);
+      } else {
+        now = end;
+        playing = false;
+        tellState();
+      }
+    } else {
+      now = next;
+    }
+    tell();
+    if (playing) requestAnimationFrame(frame);
+  }
+
+  const clock = {
+    get now() { return now; },
+    get playing() { return playing; },
+    get speed() { return speed; },
+    get loop() { return loop; },
+    seek(t) {
+      if (!Number.isFinite(t)) return;
+      now = Math.min(Math.max(t, start), end);
+      tell();
+    },
+    play() {
+      if (playing || end <= start) return;
+      if (now >= end) now = start;
+      playing = true;
+      last = null;
+      tellState();
+      requestAnimationFrame(frame);
+    },
+    pause() {
+      if (!playing) return;
+      playing = false;
+      tellState();
+    },
+    toggle() {
+      if (playing) clock.pause();
+      else clock.play();
+    },
+    setSpeed(value) {
+      speed = value;
+      tellState();
+    },
+    setLoop(value) {
+      loop = value;
+      tellState();
+    },
+    // To a row of the leading run: on or back from where time is now.
+    step(rows) {
+      const run = bbsim.data.runs[0];
+      clock.pause();
+      const row = run.row(now), onRow = Math.abs(run.t[row] - now) < 1e-12 * Math.max(1, Math.abs(now));
+      const next = rows > 0 ? row + rows : row + rows + (onRow ? 0 : 1);
+      clock.seek(run.t[Math.min(Math.max(next, 0), run.t.length - 1)]);
+    },
+    onTime: (listener) => listeners.push(listener),
+    onState: (listener) => stateListeners.push(listener),
+  };
+  return clock;
+})();

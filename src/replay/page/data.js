@@ -1,0 +1,109 @@
+'use strict';
+// The scene that the page was made of: its numbers decoded, and runs that know their state at any time.
+bbsim.data = (() => {
+  function bytes(text) {
+    const raw = atob(text);
+    const result = new Uint8Array(raw.length);
+    for (let i = 0; i < raw.length; ++i) result[i] = raw.charCodeAt(i);
+    return result;
+  }
+  const floats = (text) => new Float32Array(bytes(text).buffer);
+  const doubles = (text) => new Float64Array(bytes(text).buffer);
+
+  const parts = (text) => Float32Array.from(new Int16Array(bytes(text).buffer), (part) => part / 32767);
+
+  // All of them, or where they are evenly spaced their start and step.
+  function times(json) {
+    if (typeof json === 'string') return doubles(json);
+    return Float64Array.from({length: json.count}, (_, i) => json.start + i * json.step);
+  }
+
+  function extent(values) {
+    let least = Infinity, greatest = -Infinity;
+    for (const value of values) {
+      if (!Number.isFinite(value)) continue;
+      if (value < least) least = value;
+      if (value > greatest) greatest = value;
+    }
+    return least <= greatest ? {least, greatest, size: Math.max(Math.abs(least), Math.abs(greatest))}
+                             : {least: 0, greatest: 0, size: 0};
+  }
+
+  class Run {
+    constructor(json, index) {
+      Object.assign(this, json);
+      this.index = index;
+      this.t = times(json.time);
+      this.columns = new Map();
+      for (const column of json.columns) {
+        const values = floats(column.data);
+        this.columns.set(column.name, {...column, values, ...extent(values)});
+      }
+      // A beam is written without the axis that it does not have: the ball stays on the other one.
+      this.absent = new Map();
+      for (const name of ['x', 'y']) {
+        if (!this.columns.has(name)) this.absent.set(name, new Float32Array(this.t.length));
+      }
+      this.quaternions = parts(json.orientation);
+      this.path = floats(json.reference);
+      this.start = this.t[0];
+      this.last = this.t[this.t.length - 1];
+      this.hasAngles = this.columns.has('phi') || this.columns.has('theta');
+      this.hasReference = this.columns.has('x_reference') && this.columns.has('y_reference');
+      this.isMeasured = this.columns.has('x_measured') && this.columns.has('y_measured');
+      this.shown = true;
+    }
+
+    values(name) {
+      const column = this.columns.get(name);
+      return column ? column.values : this.absent.get(name);
+    }
+
+    // The last row at or before t; the first one before that.
+    row(t) {
+      let low = 0, high = this.t.length - 1;
+      while (low < high) {
+        const middle = (low + high + 1) >> 1;
+        if (this.t[middle] <= t) low = middle;
+        else high = middle - 1;
+      }
+      return low;
+    }
+
+    // Between two rows on a straight line; `otherwise` where the run has no such column or no number.
+    at(t, name, otherwise = NaN) {
+      const values = this.values(name);
+      if (!values) return otherwise;
+      const row = this.row(t);
+      const a = values[row];
+      if (t <= this.t[row] || row + 1 >= this.t.length) return Number.isFinite(a) ? a : otherwise;
+      const part = (t - this.t[row]) / (this.t[row + 1] - this.t[row]);
+      const value = a + part * (values[row + 1] - a);
+      return Number.isFinite(value) ? value : otherwise;
+    }
+
+    // Of the row that is nearest to t.
+    nearest(t) {
+      const row = this.row(t);
+      return row + 1 < this.t.length && this.t[row + 1] - t < t - this.t[row] ? row + 1 : row;
+    }
+
+    // The ball's orientation in the plane's frame, into a THREE.Quaternion.
+    orientationAt(t, into) {
+      const q = this.quaternions, row = this.row(t), i = 4 * row;
+      into.set(q[i + 1], q[i + 2], q[i + 3], q[i]).normalize();
+      if (t > this.t[row] && row + 1 < this.t.length) {
+        const part = (t - this.t[row]) / (this.t[row + 1] - this.t[row]);
+        into.slerp(new THREE.Quaternion(q[i + 5], q[i + 6], q[i + 7], q[i + 4]).normalize(), part);
+      }
+      return into;
+    }
+  }
+
+  const scene = JSON.parse(document.getElementById('bbsim-data').textContent);
+  const runs = scene.runs.map((run, index) => new Run(run, index));
+  const start = Math.min(...runs.map((run) => run.start));
+  const end = Math.max(...runs.map((run) => run.last));
+
+  return {scene, runs, start, end, floats, doubles, extent};
+})();

@@ -1,0 +1,99 @@
+'use strict';
+// What was run: the scenario's text, how it went, what was modelled, the poles, statistics.
+bbsim.makeDetails = (container) => {
+  const {data, text} = bbsim;
+  const {element} = text;
+
+  function copyButton(words) {
+    const button = element('button', {type: 'button', class: 'copy'}, 'Copy');
+    button.addEventListener('click', async () => {
+      try {
+        await navigator.clipboard.writeText(words);
+        button.textContent = 'Copied';
+      } catch {
+        // Without the right to the clipboard: mark it, so that one key copies it.
+        getSelection().selectAllChildren(button.closest('.copyable').querySelector('code'));
+        button.textContent = 'Marked';
+      }
+      setTimeout(() => { button.textContent = 'Copy'; }, 1500);
+    });
+    return button;
+  }
+
+  function card(title, ...content) {
+    return element('details', {class: 'card', open: true}, element('summary', {}, element('h3', {}, title)), ...content);
+  }
+
+  // A JSON value as rows of names and values.
+  function rowsOf(value) {
+    const list = element('dl', {class: 'rows'});
+    for (const [name, member] of Object.entries(value)) {
+      const shown = Array.isArray(member) ? member.map((m) => (typeof m === 'object' ? JSON.stringify(m) : String(m))).join('\n')
+                  : member !== null && typeof member === 'object' ? JSON.stringify(member)
+                  : typeof member === 'number' ? text.number(member, 8) : String(member);
+      if (shown === '' || shown === 'null') continue;
+      list.append(element('div', {}, element('dt', {}, name.replaceAll('_', ' ')), element('dd', {}, shown)));
+    }
+    return list;
+  }
+
+  function rowsNote(run) {
+    if (run.t.length === run.rows) return `All ${run.rows} rows are in this page.`;
+    return `Of ${run.rows} rows ${run.t.length} are in this page: those with the least and the greatest value of each column in ` +
+        `${run.buckets} stretches, and those that the motion needs to be drawn within ` +
+        `${run.motionError <= 1 ? 'half a thousandth' : `${text.number(Math.max(1, run.motionError) * 0.05, 2)} %`} of its extent. ` +
+        'The result file is the record.';
+  }
+
+  function section(run) {
+    const several = data.runs.length > 1;
+    const root = element('section', {class: 'run'}, element('h2', {}, several ? run.name : 'What was run'));
+    if (run.title && (several || run.title !== data.scene.title)) root.append(element('p', {}, run.title));
+    if (run.status && run.status !== 'done') {
+      root.append(element('p', {class: `why ${run.status}`}, element('b', {}, `${run.status} `), run.reason));
+    }
+    const {scenario, summary} = run;
+    if (scenario.text) {
+      root.append(card(scenario.file || 'scenario', element('div', {class: 'copyable'}, copyButton(scenario.text),
+                       element('pre', {tabindex: '0', 'aria-label': 'The scenario'}, bbsim.highlight(scenario.text)))));
+    }
+    if (scenario.overrides.length > 0) {
+      root.append(card('Set on the command line', element('pre', {}, scenario.overrides.join('\n'))));
+    }
+    if (run.events.length > 0) root.append(eventsOf(run));
+    if (run.poles && run.poles.values.length > 0) {
+      root.append(card(run.poles.period === null ? 'Poles about home' : `Poles of a period of ${text.number(run.poles.period * 1e3)} ms`,
+                       element('figure', {}, bbsim.drawPoles(run.poles),
+                               element('figcaption', {}, run.poles.period === null ? 'stable left of the line, 1/s'
+                                                                                   : 'stable within the circle'))));
+    }
+    if (run.check.length > 0) root.append(card('Model', element('pre', {class: 'wrap'}, run.check.join('\n'))));
+    if (summary) {
+      const {statistics, events, model_notes, ...rest} = summary;
+      root.append(card('Summary', rowsOf(rest)));
+      if (statistics) root.append(card('Statistics', rowsOf(statistics)));
+    }
+    const notes = [rowsNote(run)];
+    if (!run.orientationGiven) notes.push('The ball is drawn as one that rolls straight from row to row: its orientation was not recorded.');
+    if (run.version) notes.push(`Run by bbsim ${run.version}.`);
+    root.append(element('p', {class: 'fine'}, notes.join(' ')));
+    if (several) root.append(element('button', {type: 'button', onclick: () => bbsim.save.csv(run)}, 'Save as CSV'));
+    return root;
+  }
+
+  function eventsOf(run) {
+    const list = element('ol', {class: 'events'});
+    for (const event of run.events.slice(0, 50)) {
+      list.append(element('li', {}, element('button', {type: 'button', class: 'link', onclick: () => {
+        bbsim.clock.pause();
+        bbsim.clock.seek(event.t);
+      }}, `${event.action === 'stop' ? '■' : '◆'} ${text.number(event.t, 6)} s`), ` ${event.name}, ${event.action === 'stop' ? 'stopped' : 'noted'}, ` +
+        `at x ${text.number(event.x * 1e3)} mm, y ${text.number(event.y * 1e3)} mm`));
+    }
+    const more = run.eventCount - 50;
+    return card(`Events (${run.eventCount})`, list, more > 0 ? element('p', {class: 'fine'}, `and ${more} more`) : null);
+  }
+
+  for (const run of data.runs) container.append(section(run));
+  return {copyButton};
+};

@@ -1,0 +1,180 @@
+'use strict';
+// The rig: base, ring that turns by phi, plate that turns by theta in it, at its true size. Frames as in
+// bbsim's docs/model.md: R = R_x(base tilt) R_y(phi) R_z(skew) R_x(theta) R_z(yaw - skew).
+bbsim.gimbal = (() => {
+  const {stage} = bbsim.data.scene;
+
+  // A frame of bars with rounded corners around the origin, `half` wide inside, of square section.
+  function frameGeometry(halfX, halfY, bar, round) {
+    const outline = (x, y, radius, path) => {
+      if (round) return path.absarc(0, 0, x, 0, 2 * Math.PI, false);
+      path.moveTo(x, -y + radius);
+      path.lineTo(x, y - radius);
+      path.absarc(x - radius, y - radius, radius, 0, Math.PI / 2, false);
+      path.lineTo(-x + radius, y);
+      path.absarc(-x + radius, y - radius, radius, Math.PI / 2, Math.PI, false);
+      path.lineTo(-x, -y + radius);
+      path.absarc(-x + radius, -y + radius, radius, Math.PI, 1.5 * Math.PI, false);
+      path.lineTo(x - radius, -y);
+      path.absarc(x - radius, -y + radius, radius, 1.5 * Math.PI, 2 * Math.PI, false);
+    };
+    const shape = new THREE.Shape(), hole = new THREE.Path();
+    outline(halfX + bar, halfY + bar, 2 * bar, shape);
+    outline(halfX, halfY, bar, hole);
+    shape.holes.push(hole);
+    const bevel = 0.18 * bar;
+    const geometry = new THREE.ExtrudeBufferGeometry(shape, {
+      depth: bar - 2 * bevel, bevelThickness: bevel, bevelSize: bevel, bevelOffset: -bevel, bevelSegments: 2,
+      curveSegments: round ? 40 : 5,
+    });
+    geometry.translate(0, 0, -bar / 2 + bevel);
+    return geometry;
+  }
+
+  // A rod between two points of an axis, 'x' or 'y'.
+  function rod(axis, from, to, radius, material) {
+    const mesh = new THREE.Mesh(new THREE.CylinderBufferGeometry(radius, radius, Math.abs(to - from), 20), material);
+    if (axis === 'x') mesh.rotation.z = Math.PI / 2;
+    mesh.position[axis] = (from + to) / 2;
+    return mesh;
+  }
+
+  function box(size, at, material) {
+    const mesh = new THREE.Mesh(new THREE.BoxBufferGeometry(...size), material);
+    mesh.position.set(...at);
+    return mesh;
+  }
+
+  // Lines every 1, 2 or 5 times a power of ten, about a dozen across.
+  function gridSpacing() {
+    const wanted = Math.max(stage.width, stage.depth) / 10;
+    const power = 10 ** Math.floor(Math.log10(wanted));
+    return [1, 2, 5, 10].map((n) => n * power).find((spacing) => spacing >= wanted * 0.85);
+  }
+
+  // The plate's face: its grid and its rim, in metres from its corner.
+  function paintPlate(canvas, palette) {
+    const ink = canvas.getContext('2d', {willReadFrequently: true}), {width, depth} = stage, size = Math.max(width, depth);
+    ink.setTransform(canvas.width / width, 0, 0, canvas.height / depth, 0, 0);
+    ink.fillStyle = palette.plate;
+    ink.fillRect(0, 0, width, depth);
+    const spacing = gridSpacing(), line = size / 460;
+    ink.strokeStyle = palette.grid;
+    for (let n = 0; n * spacing < size / 2; ++n) {
+      ink.lineWidth = n === 0 ? 2 * line : line;
+      ink.beginPath();
+      for (const side of n === 0 ? [0] : [-n, n]) {
+        ink.moveTo(width / 2 + side * spacing, 0);
+        ink.lineTo(width / 2 + side * spacing, depth);
+        ink.moveTo(0, depth / 2 + side * spacing);
+        ink.lineTo(width, depth / 2 + side * spacing);
+      }
+      ink.stroke();
+    }
+    ink.strokeStyle = palette.rim;
+    ink.lineWidth = 5 * line;
+    ink.setLineDash(stage.plateGiven ? [] : [size / 40, size / 60]);  // no edge: drawn to fit
+    ink.beginPath();
+    if (stage.round) ink.arc(width / 2, depth / 2, width / 2 - 2.5 * line, 0, 2 * Math.PI);
+    else ink.rect(2.5 * line, 2.5 * line, width - 5 * line, depth - 5 * line);
+    ink.stroke();
+  }
+
+  function build(run, materials) {
+    const size = Math.max(stage.width, stage.depth);
+    const bar = 0.03 * size, gap = 0.025 * size, thickness = 0.014 * size;
+    const halfX = stage.width / 2 + gap, halfY = stage.depth / 2 + gap;
+    const {height, skew, yaw, baseTilt} = run.mounting;
+    const postY = halfY + bar + 0.7 * gap, foot = size * 0.46;
+
+    const base = new THREE.Group();
+    base.rotation.x = baseTilt;
+    for (const side of [-1, 1]) {
+      const y = side * (postY + bar / 2);
+      const post = box([1.5 * bar, bar, foot], [0, y, -foot / 2], materials.metal);
+      const bearing = rod('y', -bar / 2, bar / 2, 0.95 * bar, materials.metal);
+      bearing.position.set(0, y, 0);
+      base.add(post, bearing, box([5 * bar, 1.6 * bar, 0.35 * bar], [0, y, -foot], materials.metal));
+    }
+    base.add(box([1.5 * bar, 2 * postY, 0.35 * bar], [0, 0, -foot], materials.metal));
+
+    const ring = new THREE.Group();
+    ring.add(new THREE.Mesh(frameGeometry(halfX, halfY, bar, stage.round), materials.frame));
+    for (const side of [-1, 1]) {
+      ring.add(rod('y', side * (halfY + bar * 0.6), side * (postY + 1.25 * bar), 0.32 * bar, materials.axle));
+    }
+    const cross = new THREE.Group();
+    cross.rotation.z = skew;
+    const hinge = new THREE.Group();
+    for (const side of [-1, 1]) {
+      hinge.add(rod('x', side * (stage.width / 2 - gap), side * (halfX + bar * 0.5), 0.28 * bar, materials.axle));
+    }
+    const plane = new THREE.Group();
+    plane.rotation.z = yaw - skew;
+    const disc = stage.round
+        ? new THREE.CylinderBufferGeometry(stage.width / 2, stage.width / 2, thickness, 96).rotateX(Math.PI / 2)
+        : new THREE.BoxBufferGeometry(stage.width, stage.depth, thickness);
+    const slab = new THREE.Mesh(disc, materials.slab);
+    slab.position.z = height - thickness / 2 - 0.002 * size;
+    const face = new THREE.Mesh(stage.round ? new THREE.CircleBufferGeometry(stage.width / 2, 96)
+                                            : new THREE.PlaneBufferGeometry(stage.width, stage.depth), materials.face);
+    face.position.z = height;
+    plane.add(slab, face);
+    if (Math.abs(height) > thickness) {
+      plane.add(box([2 * bar, 2 * bar, Math.abs(height)], [0, 0, height / 2 - thickness / 2], materials.axle));
+    }
+
+    base.add(ring);
+    ring.add(cross);
+    cross.add(hinge);
+    hinge.add(plane);
+    // What has to be in the picture: the ring's corners, the posts' ends.
+    const outline = [];
+    for (const x of [-1, 1]) {
+      for (const y of [-1, 1]) {
+        for (const z of [-1.5 * bar, 1.5 * bar]) outline.push(new THREE.Vector3(x * (halfX + bar), y * (halfY + bar), z));
+        outline.push(new THREE.Vector3(x * 2.5 * bar, y * (postY + bar), -foot), new THREE.Vector3(0, y * (postY + 1.4 * bar), bar));
+      }
+    }
+    return {
+      base, ring, hinge, plane, size, foot, outline,
+      set(phi, theta) {
+        ring.rotation.y = phi;
+        hinge.rotation.x = theta;
+      },
+    };
+  }
+
+  // Of a run that does not lead: its plate's edge, on links of its own.
+  function buildGhost(run, line) {
+    const base = new THREE.Group(), ring = new THREE.Group(), cross = new THREE.Group(), hinge = new THREE.Group(),
+          plane = new THREE.Group();
+    base.rotation.x = run.mounting.baseTilt;
+    cross.rotation.z = run.mounting.skew;
+    plane.rotation.z = run.mounting.yaw - run.mounting.skew;
+    base.add(ring);
+    ring.add(cross);
+    cross.add(hinge);
+    hinge.add(plane);
+    const points = [];
+    const corners = stage.round ? 96 : 4;
+    for (let i = 0; i <= corners; ++i) {
+      const angle = 2 * Math.PI * (i + (stage.round ? 0 : 0.5)) / corners;
+      const c = Math.cos(angle), s = Math.sin(angle);
+      points.push(stage.round ? new THREE.Vector3(c * stage.width / 2, s * stage.depth / 2, 0)
+                              : new THREE.Vector3(Math.sign(c) * stage.width / 2, Math.sign(s) * stage.depth / 2, 0));
+    }
+    const edge = new THREE.Line(new THREE.BufferGeometry().setFromPoints(points), line);
+    edge.position.z = run.mounting.height;
+    plane.add(edge);
+    return {
+      base, plane,
+      set(phi, theta) {
+        ring.rotation.y = phi;
+        hinge.rotation.x = theta;
+      },
+    };
+  }
+
+  return {build, buildGhost, paintPlate, gridSpacing};
+})();

@@ -1,0 +1,211 @@
+'use strict';
+// What is painted on the plate: paths as ribbons, marks, and small labels that face the eye.
+bbsim.paint = (() => {
+  // A ribbon along points (xs, ys), a quad a segment, cut into dashes [on, off] of that length if given. The
+  // returned geometry has `until`: how many indices the first n points need.
+  function ribbon(xs, ys, width, dash = null) {
+    const positions = [], indices = [], until = new Uint32Array(xs.length + 1);
+    let along = 0;
+    const quad = (ax, ay, bx, by, ux, uy) => {
+      const first = positions.length / 3, nx = -uy * width / 2, ny = ux * width / 2;
+      const overlap = dash ? 0 : 0.3 * width;  // closes the gaps of corners
+      const cx = ax - ux * overlap, cy = ay - uy * overlap, dx = bx + ux * overlap, dy = by + uy * overlap;
+      positions.push(cx - nx, cy - ny, 0, dx - nx, dy - ny, 0, dx + nx, dy + ny, 0, cx + nx, cy + ny, 0);
+      indices.push(first, first + 1, first + 2, first, first + 2, first + 3);
+    };
+    let last = -1;
+    for (let i = 0; i < xs.length; ++i) {
+      if (Number.isFinite(xs[i]) && Number.isFinite(ys[i])) {
+        if (last >= 0) {
+          const ax = xs[last], ay = ys[last], length = Math.hypot(xs[i] - ax, ys[i] - ay);
+          // A fifth of the width is less than anybody sees.
+          if (length > width / 5) {
+            const ux = (xs[i] - ax) / length, uy = (ys[i] - ay) / length;
+            if (!dash) {
+              quad(ax, ay, xs[i], ys[i], ux, uy);
+            } else {
+              const period = dash[0] + dash[1];
+              let from = 0;
+              while (from < length) {
+                const phase = (along + from) % period;
+                const on = phase < dash[0];
+                const to = Math.min(length, from + Math.max((on ? dash[0] : period) - phase, 1e-6 * period));
+                if (on) quad(ax + ux * from, ay + uy * from, ax + ux * to, ay + uy * to, ux, uy);
+                from = to;
+              }
+            }
+            along += length;
+            last = i;
+          }
+        } else {
+          last = i;
+        }
+      }
+      until[i + 1] = indices.length;
+    }
+    const geometry = new THREE.BufferGeometry();
+    geometry.setAttribute('position', new THREE.BufferAttribute(new Float32Array(positions), 3));
+    // As all other bodies have them: one way to read them is compiled.
+    geometry.setAttribute('normal', new THREE.BufferAttribute(new Float32Array(positions.length), 3));
+    geometry.setAttribute('uv', new THREE.BufferAttribute(new Float32Array(positions.length / 3 * 2), 2));
+    geometry.setIndex(new THREE.BufferAttribute(new Uint32Array(indices), 1));
+    geometry.until = until;
+    return geometry;
+  }
+
+  const white = new THREE.DataTexture(new Uint8Array([255, 255, 255, 255]), 1, 1, THREE.RGBAFormat);
+  white.needsUpdate = true;
+  const lights = {
+    lamp: {value: new THREE.Vector3(-0.35, 0.75, 1.25).normalize()},
+    lampColour: {value: new THREE.Color()}, sky: {value: new THREE.Color()}, earth: {value: new THREE.Color()},
+  };
+
+  // All that is drawn shares this one small program, since compiling programs is what a first picture waits for:
+  // light from the sky above and the earth below, one lamp whose gleam moves over a plate that tilts.
+  const vertexShader = `
+    precision highp float;
+    attribute vec3 position, normal;
+    attribute vec2 uv;
+    uniform mat4 modelMatrix, viewMatrix, projectionMatrix;
+    uniform vec3 cameraPosition;
+    varying vec3 direction, toEye;
+    varying vec2 place;
+    void main() {
+      vec4 world = modelMatrix * vec4(position, 1.0);
+      direction = mat3(modelMatrix[0].xyz, modelMatrix[1].xyz, modelMatrix[2].xyz) * normal;
+      toEye = cameraPosition - world.xyz;
+      place = uv;
+      gl_Position = projectionMatrix * viewMatrix * world;
+    }`;
+  const fragmentShader = `
+    precision highp float;
+    uniform sampler2D map;
+    uniform vec3 color, lamp, lampColour, sky, earth;
+    uniform float opacity, gloss, lit;
+    varying vec3 direction, toEye;
+    varying vec2 place;
+    void main() {
+      vec4 texel = texture2D(map, place);
+      vec3 base = texel.rgb * color;
+      vec3 n = normalize(direction + vec3(0.0, 0.0, 1e-6));
+      vec3 light = mix(earth, sky, 0.5 + 0.5 * n.z) + lampColour * max(dot(n, lamp), 0.0);
+      float gleam = pow(max(dot(n, normalize(lamp + normalize(toEye))), 0.0), 50.0);
+      gl_FragColor = vec4(mix(base, base * light + gloss * gleam, lit), texel.a * opacity);
+    }`;
+
+  function material({map = white, opacity = 1, gloss = 0, lit = 1, ...options}) {
+    const uniforms = {
+      ...lights, map: {value: map}, color: {value: new THREE.Color(0xffffff)}, opacity: {value: opacity},
+      gloss: {value: gloss}, lit: {value: lit},
+    };
+    const made = new THREE.RawShaderMaterial({uniforms, vertexShader, fragmentShader, ...options});
+    made.color = uniforms.color.value;
+    made.map = null;  // that is for materials of the library's own
+    return made;
+  }
+  // Bodies, and paint on them.
+  const lit = (options = {}) => material(options);
+  const flat = (options = {}) => material({
+    lit: 0, depthWrite: false, polygonOffset: true, polygonOffsetFactor: -1, polygonOffsetUnits: -4, ...options,
+  });
+
+  // A ring with a cross in it: where the ball is wanted.
+  function target(radius, material) {
+    const group = new THREE.Group();
+    group.add(new THREE.Mesh(new THREE.RingBufferGeometry(0.88 * radius, radius, 48), material));
+    for (const turn of [0, Math.PI / 2]) {
+      for (const side of [-1, 1]) {
+        const bar = new THREE.Mesh(new THREE.PlaneBufferGeometry(0.5 * radius, 0.12 * radius), material);
+        bar.rotation.z = turn;
+        bar.position.set(side * 1.05 * radius * Math.cos(turn), side * 1.05 * radius * Math.sin(turn), 0);
+        group.add(bar);
+      }
+    }
+    return group;
+  }
+
+  // An arrow from the origin along x or y.
+  function arrow(axis, length, width, material) {
+    const shape = new THREE.Shape();
+    const head = 3.2 * width;
+    for (const [x, y] of [[0, -0.5], [1, -0.5], [1, -1.6], [2, 0], [1, 1.6], [1, 0.5], [0, 0.5]]) {
+      const px = x === 2 ? length : x * (length - head), py = y * width;
+      if (x === 0 && y < 0) shape.moveTo(px, py);
+      else shape.lineTo(px, py);
+    }
+    const mesh = new THREE.Mesh(new THREE.ShapeBufferGeometry(shape), material);
+    if (axis === 'y') mesh.rotation.z = Math.PI / 2;
+    return mesh;
+  }
+
+  // Where something happened: an octagon where it stopped the run, a diamond where it was noted.
+  function eventMark(action, radius, fill, rim) {
+    const sides = action === 'stop' ? 8 : 4;
+    const group = new THREE.Group();
+    const outer = new THREE.Mesh(new THREE.CircleBufferGeometry(radius, sides, action === 'stop' ? Math.PI / 8 : 0), rim);
+    const inner = new THREE.Mesh(new THREE.CircleBufferGeometry(0.68 * radius, sides, action === 'stop' ? Math.PI / 8 : 0), fill);
+    inner.position.z = 0.02 * radius;
+    inner.renderOrder = 1;
+    group.add(outer, inner);
+    return group;
+  }
+
+  // A word that faces the eye, `pixels` high whatever the distance: face() turns it, in the world's frame, to a
+  // camera for which one pixel at distance 1 is that large.
+  function label(words, colour, halo, pixels = 15) {
+    const canvas = document.createElement('canvas');
+    const ink = canvas.getContext('2d', {willReadFrequently: true}), zoom = 2;
+    const font = `600 ${pixels * zoom}px system-ui, sans-serif`;
+    ink.font = font;
+    const width = Math.ceil(ink.measureText(words).width + 10 * zoom), height = Math.ceil(1.5 * pixels * zoom);
+    // Powers of two, which every WebGL takes as they are.
+    canvas.width = 2 ** Math.ceil(Math.log2(width));
+    canvas.height = 2 ** Math.ceil(Math.log2(height));
+    ink.font = font;
+    ink.textAlign = 'center';
+    ink.textBaseline = 'middle';
+    ink.lineJoin = 'round';
+    ink.lineWidth = 4 * zoom;
+    ink.strokeStyle = halo;
+    ink.strokeText(words, canvas.width / 2, canvas.height / 2);
+    ink.fillStyle = colour;
+    ink.fillText(words, canvas.width / 2, canvas.height / 2);
+    const map = new THREE.CanvasTexture(canvas);
+    map.minFilter = THREE.LinearFilter;
+    map.generateMipmaps = false;
+    const mesh = new THREE.Mesh(new THREE.PlaneBufferGeometry(canvas.width / zoom, canvas.height / zoom),
+                                flat({map, transparent: true, depthTest: false}));
+    mesh.renderOrder = 20;
+    mesh.face = (place, camera, pixel) => {
+      mesh.position.copy(place);
+      mesh.quaternion.setFromRotationMatrix(camera.matrixWorld);
+      const deep = -place.clone().applyMatrix4(camera.matrixWorldInverse).z;
+      mesh.scale.setScalar(Math.max(deep, 1e-9) * pixel);
+    };
+    return mesh;
+  }
+
+  // A soft round shadow.
+  function shadow(darkness) {
+    const canvas = document.createElement('canvas');
+    canvas.width = canvas.height = 128;
+    const ink = canvas.getContext('2d', {willReadFrequently: true});
+    const fade = ink.createRadialGradient(64, 64, 0, 64, 64, 64);
+    for (const [at, part] of [[0, 1], [0.45, 0.75], [0.7, 0.32], [1, 0]]) {
+      fade.addColorStop(at, `rgba(0, 0, 0, ${darkness * part})`);
+    }
+    ink.fillStyle = fade;
+    ink.fillRect(0, 0, 128, 128);
+    return new THREE.Mesh(new THREE.PlaneBufferGeometry(2, 2), flat({map: new THREE.CanvasTexture(canvas), transparent: true}));
+  }
+
+  // An upright cross: where the sensor saw the ball.
+  function cross(size, material) {
+    const group = new THREE.Group();
+    group.add(new THREE.Mesh(new THREE.PlaneBufferGeometry(size, 0.22 * size), material),
+              new THREE.Mesh(new THREE.PlaneBufferGeometry(0.22 * size, size), material));
+    return group;
+  }
+
+  return {lights, ribbon, lit, flat, target, arrow, eventMark, label, shadow, cross};
+})();

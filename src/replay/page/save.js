@@ -1,0 +1,71 @@
+'use strict';
+// What the page gives away: a picture of the view, and its numbers.
+bbsim.save = (() => {
+  const {text} = bbsim;
+
+  function offer(blob, name) {
+    const url = URL.createObjectURL(blob);
+    const link = text.element('a', {href: url, download: name});
+    document.body.append(link);
+    link.click();
+    link.remove();
+    setTimeout(() => URL.revokeObjectURL(url), 10000);
+  }
+
+  // A file's name, of what names things here; nothing in it that a file system minds.
+  function fileName(name, ending) {
+    const stem = name.split('/').pop().replace(/\.(csv|h5|hdf5|yaml|yml)$/i, '').replace(/[^\p{L}\p{N}._-]+/gu, '-');
+    return (stem.replace(/^[-.]+/, '') || 'replay') + ending;
+  }
+
+  // The shortest decimal that reads back to the same float.
+  function float(value) {
+    if (!Number.isFinite(value)) return Number.isNaN(value) ? 'nan' : value > 0 ? 'inf' : '-inf';
+    for (let digits = 6; digits < 9; ++digits) {
+      const short = Number(value.toPrecision(digits));
+      if (Math.fround(short) === value) return String(short);
+    }
+    return String(Number(value.toPrecision(9)));
+  }
+
+  function csvOf(run) {
+    const columns = [...run.columns.values()];
+    const lines = [['t', ...columns.map((column) => column.name)].join(',')];
+    for (let row = 0; row < run.t.length; ++row) {
+      lines.push([String(run.t[row]), ...columns.map((column) => float(column.values[row]))].join(','));
+    }
+    return lines.join('\n') + '\n';
+  }
+
+  function csv(run) {
+    offer(new Blob([csvOf(run)], {type: 'text/csv'}), fileName(run.name, '-page.csv'));
+  }
+
+  // The view with its title and time beneath, as wide as it is on the screen.
+  function png(picture, timeText) {
+    picture.draw();
+    const view = picture.renderer.domElement, zoom = view.width / view.clientWidth;
+    const caption = Math.round(34 * zoom);
+    const canvas = document.createElement('canvas');
+    canvas.width = view.width;
+    canvas.height = view.height + caption;
+    const ink = canvas.getContext('2d'), colours = bbsim.palette.now();
+    ink.fillStyle = colours.background;
+    ink.fillRect(0, 0, canvas.width, canvas.height);
+    ink.drawImage(view, 0, 0);
+    ink.fillStyle = colours.ink;
+    ink.textBaseline = 'middle';
+    ink.font = `600 ${15 * zoom}px system-ui, sans-serif`;
+    const middle = view.height + caption / 2;
+    const tilted = picture.factor === 1 ? '' : `, tilt drawn ${picture.factor} times`;
+    const right = `t = ${timeText(bbsim.clock.now)} s${tilted}`;
+    ink.textAlign = 'right';
+    ink.fillText(right, canvas.width - 14 * zoom, middle);
+    ink.textAlign = 'left';
+    const room = canvas.width - 42 * zoom - ink.measureText(right).width;
+    ink.fillText(text.visible(bbsim.data.scene.title), 14 * zoom, middle, Math.max(room, 40 * zoom));
+    canvas.toBlob((blob) => offer(blob, fileName(picture.lead.name, `-${timeText(bbsim.clock.now)}s.png`)), 'image/png');
+  }
+
+  return {csv, csvOf, png, offer, fileName};
+})();

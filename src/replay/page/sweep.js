@@ -1,0 +1,517 @@
+'use strict';
+// A sweep: a map of a measure over two keys, lines over one, a histogram; a case tells how to run it again.
+bbsim.makeSweep = (json, container) => {
+  const {text, palette, data} = bbsim;
+  const {element, svg, number} = text;
+
+  function columnOf(column) {
+    const made = {name: column.name, unit: column.unit};
+    if (column.words) {
+      made.names = [...new Set(column.words)];
+      made.words = column.words;
+      made.values = Float64Array.from(column.words, (word) => made.names.indexOf(word));
+    } else {
+      made.values = column.doubles ? data.doubles(column.doubles) : data.floats(column.floats);
+    }
+    const finite = [...new Set(made.values)].filter(Number.isFinite).sort((a, b) => a - b);
+    made.levels = finite;
+    made.size = finite.length ? Math.max(Math.abs(finite[0]), Math.abs(finite[finite.length - 1])) : 0;
+    // Factors from level to level that are more alike than differences: a logarithmic axis.
+    made.logarithmic = !made.words && finite.length > 2 && finite[0] > 0 && finite[finite.length - 1] / finite[0] > 20 &&
+        Math.abs(Math.log(finite[1] / finite[0]) / Math.log(finite[finite.length - 1] / finite[0]) * (finite.length - 1) - 1) < 0.5;
+    return made;
+  }
+
+  const keys = json.keys.map(columnOf), measures = json.measures.map(columnOf);
+  const cases = data.doubles(json.numbers), status = json.status;
+  const count = cases.length;
+  const doneIndex = json.statuses.indexOf('done');
+  const isDone = (i) => status[i] === doneIndex;
+  const statusOf = (i) => json.statuses[status[i]];
+  const grid = keys.reduce((product, key) => product * key.levels.length, 1) === count;
+  // Keys of which each value stands in several cases are axes; others were drawn, or go along with one.
+  const axes = keys.filter((key) => grid || key.levels.length <= count / 2);
+
+  // Viridis, which grows lighter evenly and is read in grey as well.
+  const stops = [[68, 1, 84], [72, 40, 120], [62, 74, 137], [49, 104, 142], [38, 130, 142], [31, 158, 137], [53, 183, 121],
+                 [110, 206, 88], [181, 222, 43], [253, 231, 37]];
+  function colourOf(part) {
+    const at = Math.min(Math.max(part, 0), 1) * (stops.length - 1), low = Math.min(Math.floor(at), stops.length - 2);
+    return `rgb(${stops[low].map((c, i) => Math.round(c + (at - low) * (stops[low + 1][i] - c))).join(',')})`;
+  }
+
+  const valueText = (column, i) => (column.words ? column.words[i] : `${number(column.values[i], 7)}${column.unit && column.unit !== '1' ? ' ' + column.unit : ''}`);
+  const shortText = (column, value) => (column.names ? column.names[value] || '' : number(value));
+
+  // As a shell takes it back.
+  const quoted = (word) => (/^[\w@%+=:,./-]+$/.test(word) ? word : `'${word.replaceAll("'", `'\\''`)}'`);
+  function commandOf(i) {
+    const sets = [...json.scenario.overrides, ...keys.map((key) => `${key.name}=${key.words ? key.words[i] : String(key.values[i])}`)];
+    const stem = (json.scenario.file || 'scenario.yaml').split('/').pop().replace(/\.ya?ml$/, '');
+    return [`bbsim run ${quoted(json.scenario.file || 'SCENARIO')}`, ...sets.map((set) => `--set ${quoted(set)}`),
+            `-o ${quoted(`${stem}-case-${cases[i]}.csv`)}`].join(' \\\n  ');
+  }
+
+  // What is asked for. Of the measures first one that says how well the ball was led, if it is there.
+  const telling = ['rms_tracking_error', 'max_tracking_error', 'max_distance'];
+  const firstMeasure = Math.max(0, measures.findIndex((m) => m.name === telling.find((name) => measures.some((other) => other.name === name))));
+  const state = {kind: axes.length >= 2 || keys.length >= 2 ? 'map' : 'lines', measure: firstMeasure, x: 0, y: Math.min(1, keys.length - 1), fixed: new Map(), chosen: -1};
+  if (!grid && axes.length < 2) state.kind = axes.length === 1 ? 'lines' : 'histogram';
+  if (axes.length > 0) state.x = keys.indexOf(axes[axes.length - 1]);
+  if (axes.length > 1) state.y = keys.indexOf(axes[axes.length - 2]);
+  if (state.y === state.x) state.y = keys.length > 1 ? (state.x + 1) % keys.length : state.x;
+
+  const canvas = element('canvas', {tabindex: '0', role: 'img'});
+  const over = svg('svg', {class: 'over', 'aria-hidden': 'true'});
+  const drawing = element('div', {class: 'drawing'}, canvas, over);
+  const tip = element('div', {class: 'tip', hidden: true});
+  drawing.append(tip);
+  const side = element('div', {class: 'case', 'aria-live': 'polite'});
+  const controls = element('div', {class: 'controls'});
+  const counts = element('ul', {class: 'statuses'});
+  let marks = [];  // of what is drawn: {i, x, y, w, h}
+
+  function select(label, options, chosen, action) {
+    const made = element('select', {'aria-label': label}, ...options.map((words, i) => element('option', {value: String(i)}, words)));
+    made.value = String(chosen);
+    made.addEventListener('change', () => {
+      action(Number(made.value));
+      refresh();
+    });
+    return element('label', {}, `${label} `, made);
+  }
+
+  // The cases that stand in the picture: of a grid those at the fixed values of the keys that are no axis.
+  function fixedKeys() {
+    if (!grid || state.kind === 'histogram') return [];
+    return keys.filter((key, k) => k !== state.x && k !== state.y && key.levels.length > 1);
+  }
+  function selected() {
+    const fixed = fixedKeys();
+    const result = [];
+    for (let i = 0; i < count; ++i) {
+      if (fixed.every((key) => key.values[i] === key.levels[Math.min(state.fixed.get(key.name) || 0, key.levels.length - 1)])) result.push(i);
+    }
+    return result;
+  }
+
+  function makeControls() {
+    controls.replaceChildren();
+    const kinds = [['map', 'Map', keys.length >= 2], ['lines', 'Lines', true], ['histogram', 'Histogram', true]].filter(([, , can]) => can);
+    const group = element('div', {class: 'segments', role: 'group', 'aria-label': 'Kind of picture'});
+    for (const [kind, words] of kinds) {
+      group.append(element('button', {type: 'button', 'data-kind': kind, 'aria-pressed': String(state.kind === kind), onclick: () => {
+        state.kind = kind;
+        refresh();
+      }}, words));
+    }
+    controls.append(group, select('Measure', measures.map((m) => text.columnName(m.name)), state.measure, (k) => { state.measure = k; }));
+    if (state.kind !== 'histogram') {
+      controls.append(select('across', keys.map((key) => key.name), state.x, (k) => {
+        if (k === state.y) state.y = state.x;
+        state.x = k;
+      }));
+      if (keys.length > 1) {
+        controls.append(select(state.kind === 'map' ? 'up' : 'a line for each', keys.map((key) => key.name), state.y, (k) => {
+          if (k === state.x) state.x = state.y;
+          state.y = k;
+        }));
+      }
+    }
+    for (const key of fixedKeys()) {
+      const level = Math.min(state.fixed.get(key.name) || 0, key.levels.length - 1);
+      const shown = element('output', {}, shortText(key, key.levels[level]));
+      const slider = element('input', {type: 'range', min: '0', max: String(key.levels.length - 1), value: String(level), 'aria-label': key.name});
+      slider.addEventListener('input', () => {
+        state.fixed.set(key.name, Number(slider.value));
+        shown.textContent = text.visible(shortText(key, key.levels[slider.value]));
+        draw();
+      });
+      controls.append(element('label', {}, `${key.name} `, slider, shown));
+    }
+  }
+
+  // The axis of a column: position of a value between two ends, and ticks.
+  function axisOf(column, from, to, cells) {
+    const {levels} = column;
+    const list = column.names || (cells && levels.length <= 400);
+    if (list) {
+      const step = (to - from) / levels.length;
+      const every = Math.max(1, Math.ceil(levels.length / Math.max(2, Math.abs(to - from) / 64)));
+      return {
+        place: (value) => from + (levels.indexOf(value) + 0.5) * step, cell: Math.abs(step),
+        ticks: levels.map((value, i) => [from + (i + 0.5) * step, shortText(column, value)]).filter((_, i) => i % every === 0),
+      };
+    }
+    const low = levels[0], high = levels[levels.length - 1];
+    const scaled = column.logarithmic ? Math.log : (v) => v;
+    const a = scaled(low), b = scaled(high), pad = (b - a) * 0.04 || Math.abs(a) * 0.1 || 1;
+    const place = (value) => from + (scaled(value) - a + pad) / (b - a + 2 * pad) * (to - from);
+    const ticks = [];
+    if (column.logarithmic) {
+      for (let p = Math.floor(Math.log10(low)); p <= Math.ceil(Math.log10(high)); ++p) {
+        for (const m of [1, 2, 5]) {
+          const value = m * 10 ** p;
+          if (value >= low * 0.999 && value <= high * 1.001) ticks.push([place(value), number(value, 3)]);
+        }
+      }
+    } else {
+      for (const value of niceTicks(low, high, Math.abs(to - from) / 70)) ticks.push([place(value), number(value)]);
+    }
+    return {place, cell: 7, ticks};
+  }
+  function niceTicks(low, high, wanted) {
+    if (!(high > low)) return [low];
+    const raw = (high - low) / Math.max(2, wanted), power = 10 ** Math.floor(Math.log10(raw));
+    const step = [1, 2, 5, 10].map((m) => m * power).find((s) => s >= raw);
+    const result = [];
+    for (let n = Math.ceil(low / step - 1e-9); n * step <= high + 1e-9 * step; ++n) result.push(Number((n * step).toPrecision(12)));
+    return result;
+  }
+
+  const unitOf = (column) => (column.unit && column.unit !== '1' ? `, ${column.unit}` : '');
+  let ink, width, height;
+  const box = {left: 74, top: 14, right: 96, bottom: 46};
+
+  function frame(x, y, xName, yName) {
+    over.replaceChildren();
+    over.setAttribute('viewBox', `0 0 ${width} ${height}`);
+    const bottom = height - box.bottom;
+    for (const [at, words] of x.ticks) {
+      over.append(svg('path', {d: `M${at} ${bottom}v5`}), svg('text', {x: at, y: bottom + 18, 'text-anchor': 'middle'}, words));
+    }
+    for (const [at, words] of y.ticks) {
+      over.append(svg('path', {d: `M${box.left} ${at}h-5`}), svg('text', {x: box.left - 8, y: at + 4, 'text-anchor': 'end'}, words));
+    }
+    over.append(svg('path', {d: `M${box.left} ${box.top}V${bottom}H${width - box.right}`}),
+                svg('text', {x: (box.left + width - box.right) / 2, y: height - 8, 'text-anchor': 'middle', class: 'name'}, xName),
+                svg('text', {x: 0, y: 0, 'text-anchor': 'middle', class: 'name', transform: `translate(13 ${(box.top + bottom) / 2}) rotate(-90)`}, yName));
+  }
+
+  // Not done: grey, with a cross where it failed and a stroke where it was stopped.
+  function paintStatus(i, x, y, w, h) {
+    const dark = palette.isDark();
+    ink.fillStyle = dark ? '#3a434e' : '#d5dae0';
+    ink.fillRect(x, y, w, h);
+    if (w < 5 || h < 5) return;
+    ink.strokeStyle = dark ? '#aab4bf' : '#59636e';
+    ink.lineWidth = 1.2;
+    ink.beginPath();
+    const m = 0.28 * Math.min(w, h, 30), cx = x + w / 2, cy = y + h / 2;
+    ink.moveTo(cx - m, cy + m);
+    ink.lineTo(cx + m, cy - m);
+    if (!statusOf(i).startsWith('stopped')) {
+      ink.moveTo(cx - m, cy - m);
+      ink.lineTo(cx + m, cy + m);
+    }
+    ink.stroke();
+  }
+
+  // From the least to the greatest; where a few lie far out, only to the 2nd and 98th of a hundred.
+  function colourRange(values) {
+    values.sort((a, b) => a - b);
+    const at = (part) => values[Math.min(values.length - 1, Math.floor(part * values.length))];
+    const range = {low: at(0), high: at(1), clipped: false};
+    if (values.length < 20 || range.high - range.low <= 4 * (at(0.98) - at(0.02))) return range;
+    return {low: at(0.02), high: at(0.98), clipped: true};
+  }
+
+  function colourBar(low, high, clipped) {
+    const x = width - box.right + 18, top = box.top, bottom = height - box.bottom;
+    for (let y = 0; y < bottom - top; ++y) {
+      ink.fillStyle = colourOf(1 - y / (bottom - top));
+      ink.fillRect(x, top + y, 14, 1.5);
+    }
+    for (const value of niceTicks(low, high, 5)) {
+      const y = bottom - (value - low) / (high - low || 1) * (bottom - top);
+      over.append(svg('path', {d: `M${x + 14} ${y}h4`}), svg('text', {x: x + 21, y: y + 4}, number(value, 3)));
+    }
+    if (clipped) {
+      over.append(svg('text', {x: x - 2, y: bottom + 18}, 'a few are'), svg('text', {x: x - 2, y: bottom + 32}, 'beyond'));
+    }
+  }
+
+  function drawMap(list, measure) {
+    const kx = keys[state.x], ky = keys[state.y];
+    const cells = axes.includes(kx) && axes.includes(ky);
+    const x = axisOf(kx, box.left, width - box.right, cells), y = axisOf(ky, height - box.bottom, box.top, cells);
+    const {low, high, clipped} = colourRange(list.filter(isDone).map((i) => measure.values[i]).filter(Number.isFinite));
+    for (const i of list) {
+      const w = Math.max(x.cell, 1), h = Math.max(y.cell, 1);
+      const mark = {i, x: x.place(kx.values[i]) - w / 2, y: y.place(ky.values[i]) - h / 2, w, h};
+      if (!Number.isFinite(mark.x + mark.y)) continue;
+      marks.push(mark);
+      const value = measure.values[i];
+      if (isDone(i) && Number.isFinite(value)) {
+        ink.fillStyle = colourOf(high > low ? (value - low) / (high - low) : 0.5);
+        if (cells) {
+          ink.fillRect(mark.x, mark.y, w + 0.5, h + 0.5);
+        } else {
+          ink.beginPath();
+          ink.arc(mark.x + w / 2, mark.y + h / 2, 4, 0, 2 * Math.PI);
+          ink.fill();
+        }
+      } else {
+        paintStatus(i, mark.x, mark.y, w, h);
+      }
+    }
+    frame(x, y, kx.name + unitOf(kx), ky.name + unitOf(ky));
+    colourBar(low, high, clipped);
+  }
+
+  function drawLines(list, measure) {
+    const kx = keys[state.x], ky = keys.length > 1 ? keys[state.y] : null;
+    const x = axisOf(kx, box.left, width - box.right, Boolean(kx.names));
+    const {least, greatest} = data.extent(list.map((i) => measure.values[i]));
+    const y = axisOf({levels: least < greatest ? [least, greatest] : [least - 1, least + 1]}, height - box.bottom, box.top, false);
+    const byLine = new Map();
+    const lined = ky && grid && ky.levels.length <= 12;
+    for (const i of list) {
+      const value = measure.values[i];
+      const line = lined ? ky.values[i] : 0;
+      const mark = {i, x: x.place(kx.values[i]) - 4, y: (Number.isFinite(value) ? y.place(value) : height - box.bottom) - 4, w: 8, h: 8, line, value};
+      if (!Number.isFinite(mark.x)) continue;
+      marks.push(mark);
+      if (!byLine.has(line)) byLine.set(line, []);
+      byLine.get(line).push(mark);
+    }
+    frame(x, y, kx.name + unitOf(kx), text.columnName(measure.name) + unitOf(measure));
+    const connect = grid && (!ky || lined);
+    const ends = [];
+    [...byLine.keys()].sort((a, b) => a - b).forEach((line, n) => {
+      const points = byLine.get(line).sort((a, b) => a.x - b.x);
+      ink.strokeStyle = ink.fillStyle = palette.run(n);
+      ink.lineWidth = 1.8;
+      ink.setLineDash(palette.dash(n) || []);
+      if (connect) {
+        ink.beginPath();
+        let on = false;
+        for (const point of points) {
+          if (!isDone(point.i) || !Number.isFinite(point.value)) { on = false; continue; }
+          if (on) ink.lineTo(point.x + 4, point.y + 4);
+          else ink.moveTo(point.x + 4, point.y + 4);
+          on = true;
+        }
+        ink.stroke();
+      }
+      ink.setLineDash([]);
+      for (const point of points) {
+        if (isDone(point.i) && Number.isFinite(point.value)) {
+          if (connect && points.length > 80) continue;
+          ink.globalAlpha = connect ? 1 : 0.55;
+          ink.beginPath();
+          ink.arc(point.x + 4, point.y + 4, 3, 0, 2 * Math.PI);
+          ink.fill();
+          ink.globalAlpha = 1;
+        } else {
+          paintStatus(point.i, point.x - 1, point.y - 1, 10, 10);
+        }
+      }
+      if (!connect) drawMedians(points);
+      const end = points.filter((point) => isDone(point.i) && Number.isFinite(point.value)).pop();
+      if (lined && end) ends.push({y: end.y + 8, words: shortText(ky, line), colour: palette.run(n)});
+    });
+    // Names at the lines' ends, moved apart.
+    ends.sort((a, b) => a.y - b.y);
+    ends.forEach((end, n) => { if (n > 0) end.y = Math.max(end.y, ends[n - 1].y + 14); });
+    if (lined) over.append(svg('text', {x: width - box.right + 10, y: 12, class: 'name'}, ky.name.split('.').slice(-2).join('.')));
+    for (const end of ends) {
+      const words = svg('text', {x: width - box.right + 10, y: Math.max(end.y, 28)}, end.words);
+      words.style.fill = end.colour;
+      over.append(words);
+    }
+  }
+
+  // Where many cases stand above one value: a line through their medians.
+  function drawMedians(points) {
+    const above = new Map();
+    for (const point of points) {
+      if (!isDone(point.i) || !Number.isFinite(point.value)) continue;
+      if (!above.has(point.x)) above.set(point.x, []);
+      above.get(point.x).push(point.y);
+    }
+    if (above.size < 2 || above.size > points.length / 5) return;
+    ink.strokeStyle = palette.now().ink;
+    ink.lineWidth = 2.5;
+    ink.beginPath();
+    let last = null;
+    for (const x of [...above.keys()].sort((a, b) => a - b)) {
+      const ys = above.get(x).sort((a, b) => a - b), middle = ys[ys.length >> 1] + 4;
+      if (last === null) ink.moveTo(x + 4, middle);
+      else ink.lineTo(x + 4, middle);
+      last = [x + 4, middle];
+    }
+    ink.stroke();
+    over.append(svg('text', {x: last[0] + 8, y: last[1] + 4}, 'median'));
+  }
+
+  function drawHistogram(list, measure) {
+    const values = list.filter((i) => isDone(i) && Number.isFinite(measure.values[i])).sort((a, b) => measure.values[a] - measure.values[b]);
+    const other = list.length - values.length;
+    if (values.length === 0) {
+      frame({ticks: []}, {ticks: []}, text.columnName(measure.name), 'cases');
+      return;
+    }
+    const at = (part) => measure.values[values[Math.min(values.length - 1, Math.floor(part * values.length))]];
+    const low = measure.values[values[0]], high = measure.values[values[values.length - 1]];
+    // Freedman and Diaconis' width, between 5 and 60 bars.
+    const bar = 2 * (at(0.75) - at(0.25)) / Math.cbrt(values.length) || (high - low) / 10 || 1;
+    const bars = Math.min(60, Math.max(5, Math.ceil((high - low) / bar)));
+    const heap = Array.from({length: bars}, () => []);
+    for (const i of values) heap[Math.min(bars - 1, Math.floor((measure.values[i] - low) / (high - low || 1) * bars))].push(i);
+    const most = Math.max(...heap.map((h) => h.length));
+    const x = axisOf({levels: low < high ? [low, high] : [low - 1, low + 1]}, box.left, width - box.right, false);
+    const bottom = height - box.bottom, tall = (n) => n / most * (bottom - box.top - 8);
+    const wide = (x.place(high) - x.place(low)) / bars || 20;
+    heap.forEach((cases_, n) => {
+      const mark = {x: x.place(low) + n * wide, y: bottom - tall(cases_.length), w: wide, h: tall(cases_.length), i: cases_[cases_.length >> 1], cases: cases_.length,
+                    from: low + n * (high - low) / bars, to: low + (n + 1) * (high - low) / bars};
+      ink.fillStyle = palette.run(1);
+      ink.fillRect(mark.x + 0.5, mark.y, Math.max(1, wide - 1), mark.h);
+      if (cases_.length > 0) marks.push(mark);
+    });
+    const ticks = niceTicks(0, most, 5).filter(Number.isInteger).map((n) => [bottom - tall(n), String(n)]);
+    frame(x, {ticks}, text.columnName(measure.name) + unitOf(measure), 'cases');
+    const middle = at(0.5);
+    over.append(svg('path', {d: `M${x.place(middle)} ${box.top}V${bottom}`, class: 'middle'}),
+                svg('text', {x: x.place(middle) + 6, y: box.top + 10}, `median ${number(middle)}`));
+    if (other > 0) over.append(svg('text', {x: width - 8, y: box.top + 10, 'text-anchor': 'end'}, `${other} not done`));
+  }
+
+  function draw() {
+    const scale = window.devicePixelRatio || 1;
+    width = Math.max(280, drawing.clientWidth);
+    height = Math.max(300, Math.min(0.62 * width, 620));
+    box.left = width < 480 ? 58 : 74;
+    box.right = state.kind === 'histogram' ? 20 : width < 480 ? 66 : 96;
+    canvas.width = width * scale;
+    canvas.height = height * scale;
+    drawing.style.height = `${height}px`;
+    ink = canvas.getContext('2d', {willReadFrequently: true});
+    ink.setTransform(scale, 0, 0, scale, 0, 0);
+    ink.clearRect(0, 0, width, height);
+    marks = [];
+    const measure = measures[state.measure], list = selected();
+    ({map: drawMap, lines: drawLines, histogram: drawHistogram})[state.kind](list, measure);
+    canvas.setAttribute('aria-label', text.visible(`${state.kind} of ${measure.name}, ${list.length} cases; arrow keys go from case to case`));
+    showChosen();
+  }
+
+  function showChosen() {
+    over.querySelectorAll('.chosen').forEach((old) => old.remove());
+    const mark = marks.find((m) => m.i === state.chosen);
+    if (mark) over.append(svg('rect', {x: mark.x - 1.5, y: mark.y - 1.5, width: mark.w + 3, height: mark.h + 3, class: 'chosen'}));
+  }
+
+  function choose(i) {
+    state.chosen = i;
+    showChosen();
+    const command = commandOf(i);
+    const rows = element('dl', {class: 'rows'});
+    for (const column of [...keys, ...measures]) {
+      rows.append(element('div', {}, element('dt', {}, column.name), element('dd', {}, valueText(column, i))));
+    }
+    const copy = element('button', {type: 'button', class: 'copy', onclick: async () => {
+      try {
+        await navigator.clipboard.writeText(command);
+        copy.textContent = 'Copied';
+      } catch {
+        getSelection().selectAllChildren(side.querySelector('code'));
+        copy.textContent = 'Marked';
+      }
+    }}, 'Copy');
+    side.replaceChildren(element('h3', {}, `Case ${cases[i]}`), element('p', {class: isDone(i) ? 'fine' : 'why'}, statusOf(i)), rows,
+                         element('p', {class: 'fine again'}, 'To run it again:'),
+                         element('div', {class: 'copyable'}, copy, element('pre', {class: 'wrap', tabindex: '0'}, element('code', {id: 'rerun'}, command))));
+  }
+
+  function nearest(event) {
+    const bounds = canvas.getBoundingClientRect();
+    const px = (event.clientX - bounds.left) * width / bounds.width, py = (event.clientY - bounds.top) * height / bounds.height;
+    let best = null, least = 30 * 30;
+    for (const mark of marks) {
+      const dx = Math.max(mark.x - px, 0, px - mark.x - mark.w), dy = Math.max(mark.y - py, 0, py - mark.y - mark.h);
+      const middle = Math.hypot(mark.x + mark.w / 2 - px, mark.y + mark.h / 2 - py) * 1e-3;
+      const far = dx * dx + dy * dy + middle;
+      if (far < least) [best, least] = [mark, far];
+    }
+    return best;
+  }
+
+  canvas.addEventListener('pointermove', (event) => {
+    const mark = nearest(event);
+    tip.hidden = !mark;
+    if (!mark) return;
+    const measure = measures[state.measure];
+    const lines = mark.cases === undefined
+        ? [`case ${cases[mark.i]}`, ...keys.map((key) => `${key.name} = ${valueText(key, mark.i)}`), `${measure.name} = ${valueText(measure, mark.i)}`]
+        : [`${mark.cases} cases`, `${number(mark.from)} to ${number(mark.to)}`];
+    if (mark.cases === undefined && !isDone(mark.i)) lines.push(statusOf(mark.i));
+    tip.replaceChildren(...lines.map((line) => element('div', {}, line)));
+    const left = Math.min(mark.x + mark.w + 10, width - 190);
+    tip.style.transform = `translate(${Math.max(0, left)}px, ${Math.max(0, mark.y - 10)}px)`;
+  });
+  canvas.addEventListener('pointerleave', () => { tip.hidden = true; });
+  canvas.addEventListener('click', (event) => {
+    const mark = nearest(event);
+    if (mark) choose(mark.i);
+  });
+  canvas.addEventListener('keydown', (event) => {
+    const ways = {ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, -1], ArrowDown: [0, 1]};
+    const way = ways[event.key];
+    if (!way || marks.length === 0) return;
+    event.preventDefault();
+    const now = marks.find((m) => m.i === state.chosen);
+    if (!now) return choose(marks[0].i);
+    let best = null, least = Infinity;
+    for (const mark of marks) {
+      const dx = mark.x - now.x, dy = mark.y - now.y, ahead = dx * way[0] + dy * way[1], aside = Math.abs(dx * way[1]) + Math.abs(dy * way[0]);
+      if (ahead > 0.5 && ahead + 3 * aside < least) [best, least] = [mark, ahead + 3 * aside];
+    }
+    if (best) choose(best.i);
+  });
+
+  function refresh() {
+    makeControls();
+    draw();
+  }
+
+  const tally = new Map();
+  for (const s of status) {
+    const word = json.statuses[s].split(/[ :]/)[0];
+    tally.set(word, (tally.get(word) || 0) + 1);
+  }
+  for (const [word, n] of [...tally].sort((a, b) => b[1] - a[1])) counts.append(element('li', {class: `status ${word}`}, `${{done: '●', stopped: '⁄'}[word] || '×'} ${n} ${word}`));
+  const thinned = count < json.cases ? ` ${count} of them are in this page, evenly thinned out; the result file is the record.` : '';
+  container.append(element('section', {class: 'sweep'},
+      element('header', {}, element('h2', {}, json.name), element('p', {class: 'fine'}, `${json.cases} cases over ${keys.map((k) => k.name).join(', ')}.${thinned}`), counts),
+      controls, element('div', {class: 'columns'}, drawing, side)));
+  if (json.scenario.text) {
+    container.append(element('details', {class: 'card'}, element('summary', {}, element('h3', {}, json.scenario.file || 'scenario')),
+                             element('pre', {tabindex: '0'}, bbsim.highlight(json.scenario.text))));
+  }
+  side.append(element('p', {class: 'fine'}, 'Choose a case to see its values and the command that runs it again.'));
+  refresh();
+  new ResizeObserver(() => { if (drawing.clientWidth && Math.abs(drawing.clientWidth - width) > 1) draw(); }).observe(drawing);
+  palette.onChange(draw);
+  return {
+    state, choose, commandOf, refresh,
+    // For tests: where a case is drawn, in the window.
+    placeOf(number_) {
+      const mark = marks.find((m) => cases[m.i] === number_);
+      if (!mark) return null;
+      const bounds = canvas.getBoundingClientRect();
+      return [bounds.left + (mark.x + mark.w / 2) * bounds.width / width, bounds.top + (mark.y + mark.h / 2) * bounds.height / height];
+    },
+    csv() {
+      const columns = [...keys, ...measures];
+      const lines = [['case', ...keys.map((k) => k.name), 'status', ...measures.map((m) => m.name)].join(',')];
+      const plain = (words) => (/[",\n]/.test(words) ? `"${words.replaceAll('"', '""')}"` : words);
+      for (let i = 0; i < count; ++i) {
+        const cell = (column) => (column.words ? plain(column.words[i]) : String(column.values[i]));
+        lines.push([cases[i], ...keys.map(cell), plain(statusOf(i)), ...columns.slice(keys.length).map(cell)].join(','));
+      }
+      return lines.join('\n') + '\n';
+    },
+  };
+};

@@ -1,0 +1,88 @@
+'use strict';
+// Texts and numbers as people read them. Nothing of a scene is ever put into the page as HTML.
+window.bbsim = {};
+
+bbsim.text = (() => {
+  // What would not show, or would turn the text around it, as a sign for itself: escape codes, for one.
+  function visible(text) {
+    return String(text).replace(
+        /[\u0000-\u0008\u000b-\u001f\u007f-\u009f\u200b-\u200f\u202a-\u202e\u2028\u2029\u2060-\u2069\ufeff]/g,
+        (c) => {
+          const code = c.charCodeAt(0);
+          if (code < 0x20) return String.fromCharCode(0x2400 + code);
+          return '⟨U+' + code.toString(16).toUpperCase().padStart(4, '0') + '⟩';
+        });
+  }
+
+  // element('p', {class: 'x', onclick: f}, 'text', child...): texts become text nodes.
+  function element(name, attributes = {}, ...children) {
+    const made = document.createElement(name);
+    for (const [key, value] of Object.entries(attributes)) {
+      if (value === false || value === undefined || value === null) continue;
+      if (key.startsWith('on')) made.addEventListener(key.slice(2), value);
+      else made.setAttribute(key, value === true ? '' : value);
+    }
+    for (const child of children) {
+      if (child !== null && child !== undefined) {
+        made.append(typeof child === 'string' ? visible(child) : child);
+      }
+    }
+    return made;
+  }
+
+  function svg(name, attributes = {}, ...children) {
+    const made = document.createElementNS('http://www.w3.org/2000/svg', name);
+    for (const [key, value] of Object.entries(attributes)) made.setAttribute(key, value);
+    for (const child of children) made.append(typeof child === 'string' ? visible(child) : child);
+    return made;
+  }
+
+  // Four significant digits, with the sign for minus.
+  function number(value, digits = 4) {
+    if (!Number.isFinite(value)) return Number.isNaN(value) ? '–' : value > 0 ? '∞' : '−∞';
+    if (value === 0) return '0';
+    const size = Math.abs(value);
+    const rounded = Number(value.toPrecision(digits));
+    const text = size >= 1e6 || size < 1e-4 ? rounded.toExponential().replace('e+', 'e') : String(rounded);
+    return text.replaceAll('-', '−');
+  }
+
+  // With as many decimals as a value of that size needs, so that it does not jitter as it runs.
+  function steady(value, size) {
+    if (!Number.isFinite(value)) return number(value);
+    if (size >= 1e6 || (size > 0 && size < 1e-5)) return number(value);
+    const decimals = Math.max(0, Math.min(8, 3 - Math.floor(Math.log10(size || 1))));
+    const text = value.toFixed(decimals);
+    return (Number(text) === 0 ? (0).toFixed(decimals) : text).replaceAll('-', '−');
+  }
+
+  const degrees = 180 / Math.PI;
+  const angles = {'rad': '°', 'rad/s': '°/s', 'rad/s^2': '°/s²'};
+  const prefixed = ['m', 'm/s', 'N', 'N m', 'W', 'J', 'N s', 'V', 'A'];
+
+  // The unit in which a quantity of that size is shown: {factor, unit}.
+  function shownIn(unit, size) {
+    if (unit in angles) return {factor: degrees, unit: angles[unit]};
+    const name = unit === '1' ? '' : unit.replace('^2', '²').replace('N m', 'N·m').replace('kg m', 'kg·m');
+    const lengths = unit === 'm';
+    if (prefixed.includes(unit) && size > 0) {
+      if (size < 1e-4) return {factor: 1e6, unit: 'µ' + name};
+      if (size < (lengths ? 1 : 0.1)) return {factor: 1e3, unit: 'm' + name};
+    }
+    return {factor: 1, unit: name};
+  }
+
+  const symbols = {phi: 'φ', theta: 'θ', gamma: 'γ'};
+
+  // phi_command: φ command.
+  function columnName(name) {
+    return name.split('_').map((word) => symbols[word] || word).join(' ');
+  }
+
+  // Time with as many decimals as rows need.
+  function decimalsOfTime(step) {
+    return Math.max(1, Math.min(6, Math.ceil(-Math.log10(step || 0.01) - 1e-9)));
+  }
+
+  return {visible, element, svg, number, steady, shownIn, columnName, decimalsOfTime, degrees};
+})();

@@ -1,0 +1,30 @@
+// Rotations: of the gimbal's links and of the ball that rolls on the plane.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "model/quaternion.hpp"
+#include "replay/scene.hpp"
+
+namespace bbsim::replay {
+
+using model::conjugate;
+using model::product;
+using model::rotation_by;
+
+// From the plane's frame to the world's: R of docs/model.md, (M15).
+[[nodiscard]] Quaternion plane_orientation(const Mounting& mounting, double phi, double theta);
+
+// Orientations of the ball in the plane's frame, from the identity, if between two rows it rolls
+// straight and pivots evenly: by the rotation (-dy/r, dx/r, dgamma). Second order in the rows'
+// distance; where a run has the integrated rotation, that is better. `gamma` may be nullptr: no
+// pivoting. Rows in which something is not finite repeat the last orientation.
+[[nodiscard]] std::vector<Quaternion> rolled(const std::vector<double>& x,
+                                             const std::vector<double>& y,
+                                             const std::vector<double>* gamma, double radius);
+
+// The run's own orientations, or where it has none rolled() with this radius.
+[[nodiscard]] std::vector<Quaternion> orientation_of(const Run& run, double radius);
+
+}  // namespace bbsim::replay

@@ -1,0 +1,93 @@
+#include "replay/scene.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/error.hpp"
+#include "record/number_text.hpp"
+
+namespace bbsim::replay {
+namespace {
+
+[[noreturn]] void refuse(const std::string& name, const std::string& what) {
+  throw InputError(name + ": cannot be replayed: " + what);
+}
+
+void check_times(const Run& run, const std::vector<double>& times) {
+  for (std::size_t row = 0; row < times.size(); ++row) {
+    const std::string place = "t in row " + std::to_string(row + 1) + " is ";
+    if (!std::isfinite(times[row])) {
+      refuse(run.name, place + record::number_text(times[row]) + "; every row needs a finite time");
+    }
+    if (row > 0 && times[row] <= times[row - 1]) {
+      refuse(run.name, place + record::number_text(times[row]) + ", after " +
+                           record::number_text(times[row - 1]) + "; times have to increase");
+    }
+  }
+}
+
+void check_run(const Run& run) {
+  if (find_series(run, "t") == nullptr) {
+    refuse(run.name, "it has no column t; a replay needs t, x and y");
+  }
+  if (find_series(run, "x") == nullptr && find_series(run, "y") == nullptr) {
+    refuse(run.name, "it has neither a column x nor y; a replay needs t, x and y");
+  }
+  const std::size_t rows = row_count(run);
+  if (rows == 0) refuse(run.name, "it has no rows");
+  for (const Series& column : run.columns) {
+    if (column.values.size() != rows) {
+      refuse(run.name, "column " + column.name + " has " + std::to_string(column.values.size()) +
+                           " rows, and t has " + std::to_string(rows));
+    }
+  }
+  if (!run.orientation.empty() && run.orientation.size() != rows) {
+    refuse(run.name, "there are " + std::to_string(run.orientation.size()) +
+                         " orientations of the ball, and t has " + std::to_string(rows) + " rows");
+  }
+  check_times(run, find_series(run, "t")->values);
+}
+
+void check_sweep(const Sweep& sweep) {
+  const std::size_t cases = sweep.status.size();
+  if (cases == 0) refuse(sweep.name, "it has no cases");
+  if (sweep.keys.empty()) refuse(sweep.name, "no key varies in it");
+  if (sweep.measures.empty()) refuse(sweep.name, "it has no measure");
+  const auto check = [&](const std::string& name, std::size_t rows) {
+    if (rows != cases) {
+      refuse(sweep.name, "column " + name + " has " + std::to_string(rows) +
+                             " rows, and status has " + std::to_string(cases));
+    }
+  };
+  check("case", sweep.cases.size());
+  for (const SweepColumn& key : sweep.keys) check(key.name, key.rows());
+  for (const SweepColumn& measure : sweep.measures) check(measure.name, measure.rows());
+}
+
+}  // namespace
+
+const Series* find_series(const Run& run, std::string_view name) {
+  const auto named = [name](const Series& series) { return series.name == name; };
+  const auto found = std::find_if(run.columns.begin(), run.columns.end(), named);
+  return found == run.columns.end() ? nullptr : &*found;
+}
+
+std::size_t row_count(const Run& run) {
+  const Series* t = find_series(run, "t");
+  return t == nullptr ? 0 : t->values.size();
+}
+
+std::vector<double> coordinate(const Run& run, std::string_view name) {
+  const Series* series = find_series(run, name);
+  return series == nullptr ? std::vector<double>(row_count(run), 0.0) : series->values;
+}
+
+void check_scene(const Scene& scene) {
+  if (scene.runs.empty() && scene.sweeps.empty()) {
+    throw InputError("nothing to replay: neither a run nor a sweep");
+  }
+  for (const Run& run : scene.runs) check_run(run);
+  for (const Sweep& sweep : scene.sweeps) check_sweep(sweep);
+}
+
+}  // namespace bbsim::replay

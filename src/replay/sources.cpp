@@ -1,0 +1,191 @@
+#include "replay/sources.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <string_view>
+#include <utility>
+
+#include "model/model.hpp"
+#include "model/reference_path.hpp"
+#include "model/rig/linear_rig.hpp"
+#include "model/spectrum.hpp"
+#include "record/columns.hpp"
+
+namespace bbsim::replay {
+namespace {
+
+constexpr std::array<std::string_view, 4> orientation_columns = {"ball_qw", "ball_qx", "ball_qy",
+                                                                 "ball_qz"};
+
+// One lap of what goes round, else the whole scene.
+double duration_of(const Reference& reference, double end) {
+  const auto* circle = std::get_if<CircleReference>(&reference);
+  if (circle == nullptr || circle->rate == 0) return end;
+  return std::min(end, 2 * std::numbers::pi / std::abs(circle->rate));
+}
+
+std::vector<std::array<double, 2>> path_of(const Reference& reference, double end) {
+  const model::SignalPair signals = model::reference_path(reference);
+  const auto point = [&](double t) {
+    const auto jets = signals.at(t);
+    return std::array<double, 2>{jets[0].value, jets[1].value};
+  };
+  if (std::holds_alternative<PointReference>(reference)) return {point(0)};
+  constexpr int pieces = 1500;
+  std::vector<std::array<double, 2>> path;
+  for (int i = 0; i <= pieces; ++i) path.push_back(point(duration_of(reference, end) * i / pieces));
+  return path;
+}
+
+std::optional<Poles> poles_of(const model::Model& model) {
+  if (!model.closed_loop()) return {};
+  if (model.rig && model.rig->sampled) {
+    return Poles{model::sampled_poles(std::get<model::RigLoop<>>(model.system), *model.rig),
+                 model.rig->sampled->sampling.period};
+  }
+  return Poles{model::closed_loop_poles(model), {}};
+}
+
+// Of a measure: that of the column after "max_" and the like, or before "_end".
+std::string unit_of_measure(const std::string& name) {
+  if (name == "end_time") return "s";
+  const std::size_t prefix = name.find('_');
+  const record::Column* column = nullptr;
+  if (prefix != std::string::npos) column = record::find_column(name.substr(prefix + 1));
+  if (column == nullptr && name.ends_with("_end")) {
+    column = record::find_column(name.substr(0, name.size() - 4));
+  }
+  return column == nullptr ? "" : std::string(column->unit);
+}
+
+Series series_of(const std::string& name, std::vector<double> values) {
+  const record::Column* const known = record::find_column(name);
+  if (known == nullptr) return {name, "", "", std::move(values)};
+  return {name, std::string(known->unit), std::string(known->meaning), std::move(values)};
+}
+
+// Where all four parts of the ball's orientation are recorded, they are that, and no plots. A row
+// without one repeats the last.
+void take_orientation(Run& run) {
+  std::array<std::size_t, 4> places{};
+  for (std::size_t part = 0; part < places.size(); ++part) {
+    const auto found = std::ranges::find(run.columns, orientation_columns[part], &Series::name);
+    if (found == run.columns.end()) return;
+    places[part] = static_cast<std::size_t>(found - run.columns.begin());
+  }
+  Quaternion last{1, 0, 0, 0};
+  const std::size_t rows = run.columns[places[0]].values.size();
+  run.orientation.reserve(rows);
+  for (std::size_t row = 0; row < rows; ++row) {
+    Quaternion now{};
+    for (std::size_t part = 0; part < now.size(); ++part) {
+      now[part] = run.columns[places[part]].values[row];
+    }
+    const double size = model::size(now);
+    if (std::isfinite(size) && size > 0) {
+      for (std::size_t part = 0; part < now.size(); ++part) last[part] = now[part] / size;
+    }
+    run.orientation.push_back(last);
+  }
+  std::erase_if(run.columns, [](const Series& series) {
+    return std::ranges::find(orientation_columns, series.name) != orientation_columns.end();
+  });
+}
+
+SweepColumn sweep_column(plot::Column column) {
+  return {column.name, column.unit, column.is_text() ? std::vector<double>{} : column.numbers,
+          column.texts};
+}
+
+}  // namespace
+
+Run run_of_table(record::TableData table, const std::string& name) {
+  Run run;
+  run.name = name;
+  for (std::size_t c = 0; c < table.names.size(); ++c) {
+    run.columns.push_back(series_of(table.names[c], std::move(table.columns[c])));
+  }
+  take_orientation(run);
+  return run;
+}
+
+void describe_sight(Run& run, const Scenario& scenario) {
+  run.title = scenario.title;
+  run.end = scenario.time.end;
+  run.plate = {scenario.plate.size, scenario.plate.diameter};
+  run.ball_radius = scenario.ball.radius;
+  const bbsim::Mounting& mounting = scenario.gimbal.mounting;
+  run.mounting = {mounting.height, mounting.skew, mounting.yaw, mounting.base_tilt};
+  if (scenario.events.slip) run.friction = scenario.events.slip->friction;
+  run.scenario_file = scenario.source.file;
+  run.scenario_text = scenario.source.text;
+  run.overrides = scenario.source.overrides;
+}
+
+void describe(Run& run, const Scenario& scenario) {
+  describe_sight(run, scenario);
+  if (scenario.controller) {
+    run.reference = path_of(scenario.controller->reference, scenario.time.end);
+  }
+  run.poles = poles_of(model::assemble(scenario, false));
+}
+
+Run run_of_result(plot::Result result, const std::string& name) {
+  Run run;
+  run.name = name;
+  run.title = std::move(result.title);
+  run.status = std::move(result.status);
+  run.reason = std::move(result.reason);
+  run.version = std::move(result.version);
+  run.summary = std::move(result.summary);
+  for (const plot::Event& event : result.events) {
+    run.events.push_back({event.t, event.name, event.stopped ? "stop" : "note", event.x, event.y});
+  }
+  for (plot::Column& column : result.columns) {
+    if (column.is_text()) continue;
+    run.columns.push_back(series_of(column.name, std::move(column.numbers)));
+    if (!column.unit.empty()) run.columns.back().unit = std::move(column.unit);
+  }
+  take_orientation(run);
+  return run;
+}
+
+Sweep sweep_of_result(plot::Result result, const std::string& name) {
+  Sweep sweep;
+  sweep.name = name;
+  sweep.title = std::move(result.title);
+  if (result.scenario) {
+    sweep.scenario_file = result.scenario->source.file;
+    sweep.scenario_text = result.scenario->source.text;
+    sweep.overrides = result.scenario->source.overrides;
+  }
+  const plot::Column* const reason = result.find("reason");
+  std::vector<std::string> reasons;
+  if (reason != nullptr) reasons = reason->texts;
+  bool before_status = true;
+  for (plot::Column& column : result.columns) {
+    if (column.name == "case") {
+      sweep.cases = std::move(column.numbers);
+    } else if (column.name == "status") {
+      before_status = false;
+      sweep.status = std::move(column.texts);
+    } else if (before_status) {
+      sweep.keys.push_back(sweep_column(std::move(column)));
+    } else if (column.name != "reason") {
+      sweep.measures.push_back(sweep_column(std::move(column)));
+      SweepColumn& measure = sweep.measures.back();
+      if (measure.unit.empty()) measure.unit = unit_of_measure(measure.name);
+    }
+  }
+  for (std::size_t i = 0; i < reasons.size() && i < sweep.status.size(); ++i) {
+    if (!reasons[i].empty()) sweep.status[i] += ": " + reasons[i];
+  }
+  // What one looks for comes first; when a case ended is known for most.
+  std::stable_partition(sweep.measures.begin(), sweep.measures.end(),
+                        [](const SweepColumn& measure) { return measure.name != "end_time"; });
+  return sweep;
+}
+
+}  // namespace bbsim::replay

@@ -1,0 +1,19 @@
+// The sizes of what is drawn around the ball: as the scene gives them, or such that the path fits.
+#pragma once
+
+#include "replay/scene.hpp"
+
+namespace bbsim::replay {
+
+struct Stage {
+  double width = 0, depth = 0;  // of the plate along x and y, m
+  bool round = false;
+  bool plate_given = false;  // else it is drawn to fit the paths
+  double ball_radius = 0;    // of the leading run
+  bool ball_given = false;   // else it is a thirtieth of the plate
+};
+
+// Of the scene's runs; the first one that has a plate says what it is.
+[[nodiscard]] Stage stage_of(const Scene& scene);
+
+}  // namespace bbsim::replay

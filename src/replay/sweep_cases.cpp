@@ -1,0 +1,82 @@
+#include "replay/sweep_cases.hpp"
+
+#include <algorithm>
+#include <map>
+#include <set>
+#include <string>
+
+namespace bbsim::replay {
+namespace {
+
+// Of each case, the position of its value among the key's values, in their order.
+struct Levels {
+  std::vector<std::size_t> of_case;
+  std::size_t count = 0;
+};
+
+template <class Value>
+Levels levels_of(const std::vector<Value>& values) {
+  std::map<Value, std::size_t> positions;
+  for (const Value& value : values) positions.emplace(value, 0);
+  std::size_t next = 0;
+  for (auto& [value, position] : positions) position = next++;
+  Levels levels;
+  levels.count = positions.size();
+  levels.of_case.reserve(values.size());
+  for (const Value& value : values) levels.of_case.push_back(positions.find(value)->second);
+  return levels;
+}
+
+bool is_grid(const std::vector<Levels>& keys, std::size_t cases) {
+  std::size_t combinations = 1;
+  for (const Levels& key : keys) {
+    if (combinations > cases / key.count) return false;
+    combinations *= key.count;
+  }
+  if (combinations != cases) return false;
+  std::set<std::size_t> seen;
+  for (std::size_t i = 0; i < cases; ++i) {
+    std::size_t number = 0;
+    for (const Levels& key : keys) number = number * key.count + key.of_case[i];
+    seen.insert(number);
+  }
+  return seen.size() == cases;
+}
+
+}  // namespace
+
+std::vector<std::size_t> cases_kept(const Sweep& sweep, std::size_t most) {
+  const std::size_t cases = sweep.status.size();
+  std::vector<Levels> keys;
+  for (const SweepColumn& key : sweep.keys) {
+    keys.push_back(key.words.empty() ? levels_of(key.values) : levels_of(key.words));
+  }
+  std::vector<std::size_t> strides(keys.size(), 1);
+  std::size_t every = 1;
+  if (cases > most && is_grid(keys, cases)) {
+    const auto left = [&](std::size_t k) { return (keys[k].count + strides[k] - 1) / strides[k]; };
+    const auto total = [&] {
+      std::size_t product = 1;
+      for (std::size_t k = 0; k < keys.size(); ++k) product *= left(k);
+      return product;
+    };
+    while (total() > most) {
+      std::size_t longest = 0;
+      for (std::size_t k = 1; k < keys.size(); ++k) {
+        if (left(k) > left(longest)) longest = k;
+      }
+      strides[longest] *= 2;
+    }
+  } else {
+    every = (cases + most - 1) / most;
+  }
+  std::vector<std::size_t> kept;
+  for (std::size_t i = 0; i < cases; i += std::max<std::size_t>(every, 1)) {
+    bool keep = true;
+    for (std::size_t k = 0; k < keys.size(); ++k) keep &= keys[k].of_case[i] % strides[k] == 0;
+    if (keep) kept.push_back(i);
+  }
+  return kept;
+}
+
+}  // namespace bbsim::replay

@@ -1,0 +1,179 @@
+// bbsim replay and run --replay, as a user runs them. What the pages show is tested in a browser
+// (tests/replay/browser).
+#include <algorithm>
+#include <cstdlib>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "catch.hpp"
+#include "process.hpp"
+
+using namespace bbsim_test;
+using Catch::Matchers::Contains;
+
+namespace {
+
+// The data in a page, as its script reads them.
+nlohmann::json data_of(const std::string& page) {
+  const std::string begin = "<script type=\"application/json\" id=\"bbsim-data\">";
+  const std::size_t from = page.find(begin);
+  REQUIRE(from != std::string::npos);
+  const std::size_t start = from + begin.size();
+  return nlohmann::json::parse(page.substr(start, page.find("</script>", start) - start));
+}
+
+std::vector<std::string> names_of(const nlohmann::json& run) {
+  std::vector<std::string> names;
+  for (const auto& column : run.at("columns")) names.push_back(column.at("name"));
+  return names;
+}
+
+}  // namespace
+
+TEST_CASE("a scenario is run and shown with all that is known of it") {
+  const Folder folder;
+  const Result made = bbsim({"replay", config("rig.yaml"), "-o", "rig.html"}, folder.path());
+  REQUIRE(made.exit_code == 0);
+  CHECK_THAT(made.err, Contains("rig.html: 2001 rows, 1."));
+  CHECK(folder.files() == std::vector<std::string>{"rig.html"});
+  const auto scene = data_of(folder.read("rig.html"));
+  const auto& run = scene.at("runs").at(0);
+  CHECK(scene.at("title") == "A hobby rig on the circle of Fig. 2(b)");
+  CHECK(run.at("name") == "rig.yaml");
+  CHECK(run.at("status") == "done");
+  CHECK(run.at("orientationGiven") == true);
+  CHECK_FALSE(run.at("check").empty());
+  CHECK_FALSE(run.at("poles").is_null());
+  CHECK(run.at("summary").at("statistics").at("steps") > 0);
+}
+
+TEST_CASE("run --replay shows the run, and its result is the same to the byte") {
+  const Folder folder;
+  REQUIRE(bbsim({"run", config("fig2b.yaml"), "-o", "a.csv", "-q"}, folder.path()).exit_code == 0);
+  REQUIRE(
+      bbsim({"run", config("fig2b.yaml"), "-o", "b.csv", "--replay", "b.html", "-q"}, folder.path())
+          .exit_code == 0);
+  CHECK(folder.read("a.csv") == folder.read("b.csv"));
+  // The page has what a picture needs whatever the file's columns are.
+  REQUIRE(bbsim({"run", config("fig2b.yaml"), "--set", "output.columns=[t,gamma]", "-o", "c.csv",
+                 "--replay", "c.html", "-q"},
+                folder.path())
+              .exit_code == 0);
+  CHECK(folder.read("c.csv").starts_with("t,gamma\n"));
+  const auto names = names_of(data_of(folder.read("c.html")).at("runs").at(0));
+  for (const char* name : {"x", "y", "phi", "theta", "x_reference"}) {
+    CHECK(std::find(names.begin(), names.end(), name) != names.end());
+  }
+  CHECK(folder.read("b.html").size() < 1'200'000);
+}
+
+TEST_CASE("a run that an event stopped is shown to its end, from every kind of file") {
+  const Folder folder;
+  const auto check_page = [&](const std::string& name) {
+    const auto run = data_of(folder.read(name)).at("runs").at(0);
+    CHECK(run.at("status") == "stopped");
+    CHECK_THAT(run.at("reason").get<std::string>(), Contains("the contact point left the plate"));
+    CHECK(run.at("events").size() == 1);
+    CHECK(run.at("rows") == 28);
+  };
+  CHECK(bbsim({"run", config("falls.yaml"), "-o", "f.csv", "--summary", "f.json", "--replay",
+               "f.html"},
+              folder.path())
+            .exit_code == 1);
+  check_page("f.html");
+  CHECK(bbsim({"replay", "f.csv", "-o", "csv.html"}, folder.path()).exit_code == 0);
+  check_page("csv.html");
+  CHECK(bbsim({"run", config("falls.yaml"), "-o", "f.h5"}, folder.path()).exit_code == 1);
+  CHECK(bbsim({"replay", "f.h5"}, folder.path()).exit_code == 0);
+  check_page("f.html");
+  CHECK(bbsim({"replay", config("falls.yaml"), "-o", "yaml.html"}, folder.path()).exit_code == 1);
+  check_page("yaml.html");
+}
+
+TEST_CASE("runs and the log of a rig are one scene, a sweep another, glTF a file of its own") {
+  const Folder folder;
+  const std::string log = folder.write("log.csv", "Time,Ballx,Bally\n0,-10,0\n100,-9,1\n200,,2\n");
+  CHECK(bbsim({"replay", config("fig2a.yaml"), config("fig2b.yaml"), "--data", log, "--map",
+               "t=Time:ms,x=Ballx:mm,y=Bally:cm", "-o", "all.html"},
+              folder.path())
+            .exit_code == 0);
+  const auto runs = data_of(folder.read("all.html")).at("runs");
+  REQUIRE(runs.size() == 3);
+  CHECK(runs.at(2).at("name") == "log.csv");
+  CHECK(runs.at(2).at("time") == nlohmann::json::parse(R"({"start":0.0,"step":0.1,"count":3})"));
+
+  REQUIRE(bbsim({"sweep", config("fig2b.yaml"), "--vary", "ball.radius=linear:0.01:0.02:3", "-o",
+                 "s.csv", "-q"},
+                folder.path())
+              .exit_code == 0);
+  CHECK(bbsim({"replay", "s.csv"}, folder.path()).exit_code == 0);
+  CHECK(data_of(folder.read("s.html")).at("sweeps").at(0).at("cases") == 3);
+  CHECK(bbsim({"replay", config("fig2a.yaml"), "-o", "a.glb"}, folder.path()).exit_code == 0);
+  CHECK(folder.read("a.glb").starts_with("glTF"));
+}
+
+TEST_CASE("what a replay cannot show is said with its place, and nothing is written") {
+  const Folder folder;
+  const std::string log = folder.write("log.csv", "Time,Ballx\n0,-10\n100,far\n");
+  struct Fault {
+    std::vector<std::string> arguments;
+    int exit_code;
+    std::string message;
+  };
+  const std::vector<Fault> faults = {
+      {{}, 2, "FILES: missing"},
+      {{config("fig2a.yaml"), "-o", "a.png"},
+       2,
+       "--output: found a.png, allowed is a name that ends"},
+      {{"none.csv", "-o", "a.html"}, 2, "none.csv"},
+      {{log, "-o", "a.html"}, 2, "log.csv: cannot be replayed: it has no column t"},
+      {{"--data", log, "--map", "t=Time:ms,x=Ballx:mm", "-o", "a.html"},
+       2,
+       "log.csv: column Ballx, row 2: found \"far\""},
+      {{"--data", log, "--map", "t=Time:mm", "-o", "a.html"}, 2, "t=Time:mm\": t is in s"},
+      {{"--data", log, "--map", "t=time", "-o", "a.html"}, 2, "did you mean Time?"},
+      {{"--data", log, "--map", "xx=Ballx", "-o", "a.html"}, 2, "there is no column \"xx\""},
+      {{"--data", log, "--map", "t", "-o", "a.html"}, 2, "COLUMN=NAME:UNIT"},
+      {{"--data", log, "--map", "t=Time,t=Time", "-o", "a.html"}, 2, "t is there twice"},
+      {{config("fig2a.yaml"), "--map", "t=Time", "-o", "a.html"}, 2, "allowed with --data"},
+      {{log, "--set", "ball.radius=1", "-o", "a.html"}, 2, "--set: allowed with a scenario"},
+      {{config("fig2a.yaml"), "-o", "none/a.html"}, 3, "none/a.html"},
+  };
+  for (const Fault& fault : faults) {
+    std::vector<std::string> arguments{"replay"};
+    arguments.insert(arguments.end(), fault.arguments.begin(), fault.arguments.end());
+    const Result made = bbsim(arguments, folder.path());
+    CAPTURE(fault.message, made.err);
+    CHECK(made.exit_code == fault.exit_code);
+    CHECK_THAT(made.err, Contains(fault.message));
+  }
+  CHECK(folder.files() == std::vector<std::string>{"log.csv"});
+}
+
+TEST_CASE("without the page's template it is said before the run what is missing") {
+  const Folder folder;
+  Launch launch;
+  launch.arguments = {"run", config("fig2a.yaml"), "-o", "a.csv", "--replay", "a.html"};
+  launch.folder = folder.path();
+  launch.prepare = [] { setenv("BBSIM_SHARE_PATH", "/nowhere", 1); };
+  const Result made = bbsim(launch);
+  CHECK(made.exit_code == 3);
+  CHECK_THAT(made.err, Contains("replay.html is not in /nowhere") && Contains("libjs-three"));
+  CHECK(folder.files().empty());
+}
+
+TEST_CASE("an interrupted run is shown as far as it came") {
+  const Folder folder;
+  Launch launch;
+  launch.arguments = {
+      "run",   config("fig2b.yaml"), "--set", "time.end=1e8", "--set", "time.step=10000", "-o",
+      "i.csv", "--replay",           "i.html"};
+  launch.folder = folder.path();
+  launch.signal = 2;
+  const Result made = bbsim(launch);
+  REQUIRE(made.exit_code == 130);
+  const auto run = data_of(folder.read("i.html")).at("runs").at(0);
+  CHECK(run.at("status") == "interrupted");
+  CHECK_THAT(run.at("reason").get<std::string>(), Contains("interrupted at t = "));
+}

@@ -1,0 +1,138 @@
+// Columns ball_qw to ball_qz: the ball's orientation against closed forms and against its twist.
+#include <Eigen/Geometry>
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+#include "catch.hpp"
+#include "model/model.hpp"
+#include "record/ball_turn.hpp"
+#include "record/memory_table.hpp"
+#include "record/recorder.hpp"
+#include "scenario/reader.hpp"
+#include "solve/integrate.hpp"
+
+using namespace bbsim;
+
+namespace {
+
+Eigen::Quaterniond eigen(const model::Quaternion& q) {
+  return {q[0], q[1], q[2], q[3]};
+}
+
+model::Sample moving(double t, double x, double vx, double y, double vy) {
+  model::Sample sample;
+  sample.t = t;
+  sample.ball = {x, y, vx, vy, 0};
+  return sample;
+}
+
+record::TableData run(const std::string& name, const std::string& overrides_columns,
+                      const std::string& step) {
+  const Scenario scene =
+      read_scenario(std::string(BBSIM_SOURCE_DIR) + "/configs/" + name + ".yaml",
+                    {"output.columns=" + overrides_columns, "time.step=" + step});
+  const auto columns = record::columns_named(scene.output.columns);
+  const model::Model model = model::assemble(scene, record::need_gamma(columns));
+  const solve::OutputGrid grid(scene.time);
+  record::MemoryTable table(columns);
+  record::Recorder recorder(model, model::constants_of(scene), grid, columns, table);
+  const solve::Outcome outcome = solve::integrate(
+      model, scene.solver.method, {scene.solver.rtol, scene.solver.atol}, grid, recorder, {});
+  REQUIRE(outcome.ending == solve::Ending::done);
+  return table.take();
+}
+
+constexpr const char* all = "[t,ball_qw,ball_qx,ball_qy,ball_qz,vx,vy,spin]";
+
+Eigen::Quaterniond orientation(const record::TableData& table, std::size_t row) {
+  return {table.columns[1][row], table.columns[2][row], table.columns[3][row],
+          table.columns[4][row]};
+}
+
+}  // namespace
+
+TEST_CASE("a ball that rolls straight turns by distance over radius, once round and on") {
+  record::BallTurn turn(0.02);
+  const double length = 2 * std::numbers::pi * 0.02;
+  CHECK(eigen(turn.go_to(moving(0, 0, 0, 0, 0))).isApprox(Eigen::Quaterniond::Identity()));
+  for (int i = 1; i <= 8; ++i) {
+    const double s = i / 8.0;
+    const Eigen::Quaterniond expected(
+        Eigen::AngleAxisd(2 * std::numbers::pi * s * s, Eigen::Vector3d::UnitY()));
+    // Faster and faster: on a line the integral of the twist is all there is to it.
+    const auto q = eigen(turn.go_to(moving(s, length * s * s, 2 * length * s, 0, 0)));
+    CHECK(q.angularDistance(expected) < 1e-7);
+  }
+}
+
+TEST_CASE("round a circle the orientation is off by the fourth power of the rows' distance") {
+  // In the frame that turns with the contact point the ball turns at a constant rate.
+  const double r = 0.01, big = 0.05, angle = 2;
+  const auto error = [&](int rows) {
+    record::BallTurn turn(r);
+    model::Quaternion last{};
+    for (int i = 0; i <= rows; ++i) {
+      const double a = angle * i / rows, s = std::sin(a), c = std::cos(a);
+      last = turn.go_to(moving(a, big * c, -big * s, big * s, big * c));
+    }
+    const Eigen::Vector3d axis(-big / r * angle, 0, -angle);
+    const Eigen::Quaterniond exact =
+        Eigen::AngleAxisd(angle, Eigen::Vector3d::UnitZ()) *
+        Eigen::Quaterniond(Eigen::AngleAxisd(axis.norm(), axis.normalized()));
+    return eigen(last).angularDistance(exact);
+  };
+  const double coarse = error(20), fine = error(40);
+  CHECK(coarse < 0.01);
+  CHECK(std::log2(coarse / fine) > 3.8);
+}
+
+TEST_CASE("the columns turn at the ball's twist") {
+  // Central differences over two rows of 1 ms: off by h^2/6 times the third derivative, of
+  // |w|^3 / 8 and its like; |w| stays below 60 rad/s in both.
+  for (const char* name : {"fig2a", "fig2b"}) {
+    const record::TableData table = run(name, all, "0.001");
+    const Scenario scene =
+        read_scenario(std::string(BBSIM_SOURCE_DIR) + "/configs/" + name + ".yaml");
+    const double r = scene.ball.radius;
+    const std::size_t rows = table.columns[0].size();
+    REQUIRE(rows > 1000);
+    double worst = 0, largest = 0;
+    for (std::size_t i = 1; i + 1 < rows; i += 7) {
+      const Eigen::Quaterniond now = orientation(table, i);
+      CHECK(now.norm() == Approx(1).epsilon(1e-14));
+      const Eigen::Quaterniond step =
+          orientation(table, i + 1) * orientation(table, i - 1).inverse();
+      const double h = table.columns[0][i + 1] - table.columns[0][i - 1];
+      const Eigen::AngleAxisd turned(step);
+      const Eigen::Vector3d found = turned.angle() / h * turned.axis();
+      const Eigen::Vector3d twist(-table.columns[6][i] / r, table.columns[5][i] / r,
+                                  table.columns[7][i]);
+      worst = std::max(worst, (found - twist).norm());
+      largest = std::max(largest, twist.norm());
+    }
+    CAPTURE(name, worst, largest);
+    CHECK(largest > 1);
+    CHECK(worst < 1e-3 * largest);
+  }
+}
+
+TEST_CASE("rows far apart give the orientation of rows near each other") {
+  for (const char* name : {"fig2a", "fig2b"}) {
+    const record::TableData coarse = run(name, all, "0.02"), fine = run(name, all, "0.001");
+    double worst = 0;
+    for (std::size_t i = 0; i < coarse.columns[0].size(); ++i) {
+      worst = std::max(worst, orientation(coarse, i).angularDistance(orientation(fine, 20 * i)));
+    }
+    CAPTURE(name, worst);
+    CHECK(worst < 2e-6);  // docs/scenario.md says 1e-6 of fig2a
+  }
+}
+
+TEST_CASE("asking for the orientation changes no other column") {
+  const record::TableData with = run("fig2b", "[t,x,y,vx,phi,ball_qw]", "0.02");
+  const record::TableData without = run("fig2b", "[t,x,y,vx,phi]", "0.02");
+  for (std::size_t c = 0; c < without.columns.size(); ++c) {
+    CHECK(with.columns[c] == without.columns[c]);
+  }
+}

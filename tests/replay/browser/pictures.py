@@ -1,0 +1,28 @@
+"""Takes the pictures of docs/replay.md: pictures.py BBSIM MAKE_PAGE TEMPLATE SOURCE FOLDER"""
+
+import os
+import sys
+
+folder = os.path.abspath(sys.argv[5])
+from test_replay import Comparison, files  # noqa: E402: it reads the command line
+from webdriver import Browser, small_png  # noqa: E402
+
+
+def take(name, page, script, width, height, **options):
+    with Browser(width, height, **options) as browser:
+        browser.open(page)
+        browser.run(script)
+        browser.frame()
+        browser.frame()
+        with open(os.path.join(folder, name + ".png"), "wb") as picture:
+            picture.write(small_png(browser.picture()))
+
+
+os.makedirs(folder, exist_ok=True)
+take("replay-rig", files.replay("rig"), "bbsim.seek(12.4)", 1100, 700)
+take("replay-falls", files.replay("falls"), "bbsim.seek(9)", 1100, 700, dark=True)
+take("replay-phone", files.replay("fig2b"), "bbsim.seek(3)", 400, 800, phone=True)
+take("replay-compare", Comparison().page(), "bbsim.seek(1.2)", 1100, 700)
+gains, _ = files.sweep("map", "fig2b", "--vary", "controller.pd.kv.0.0=linear:0.2:4:31", "--vary",
+                       "controller.pd.kp.0.0=linear:0:8:25")
+take("replay-sweep", gains, "bbsim.sweeps[0].choose(134)", 1100, 700)

@@ -1,0 +1,267 @@
+// A scene arrives in its page: numbers as exact as they are meant to be, texts as texts.
+#include <cmath>
+#include <limits>
+
+#include "base/error.hpp"
+#include "catch.hpp"
+#include "make_scene.hpp"
+#include "read_page.hpp"
+#include "replay/base64.hpp"
+#include "replay/page.hpp"
+#include "replay/stage.hpp"
+
+using bbsim::InputError;
+using bbsim::OutputError;
+using bbsim::replay::page;
+using bbsim::replay::Run;
+using bbsim::replay::Scene;
+using namespace bbsim_test;
+
+namespace {
+
+Scene scene_of(Run run) {
+  Scene scene;
+  scene.title = run.title;
+  scene.version = "1.2.3";
+  scene.runs.push_back(std::move(run));
+  return scene;
+}
+
+std::string refusal(const Scene& scene) {
+  try {
+    static_cast<void>(page(scene, small_template));
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+}  // namespace
+
+TEST_CASE("base64 as in RFC 4648") {
+  const auto of = [](std::string_view text) {
+    return bbsim::replay::base64(
+        {reinterpret_cast<const unsigned char*>(text.data()), text.size()});
+  };
+  CHECK(of("").empty());
+  CHECK(of("f") == "Zg==");
+  CHECK(of("fo") == "Zm8=");
+  CHECK(of("foo") == "Zm9v");
+  CHECK(of("foob") == "Zm9vYg==");
+  CHECK(of("fooba") == "Zm9vYmE=");
+  CHECK(of("foobar") == "Zm9vYmFy");
+  CHECK(of("\xff\xfe\xfd") == "//79");
+}
+
+TEST_CASE("numbers that no float holds are infinite in a page, and no undefined conversion") {
+  const std::vector<double> values{1e300, -1e300, 0.1, std::nan("")};
+  const auto back = numbers_of<float>(bbsim::replay::base64_of_floats(values));
+  CHECK(back[0] == std::numeric_limits<float>::infinity());
+  CHECK(back[1] == -std::numeric_limits<float>::infinity());
+  CHECK(back[2] == 0.1F);
+  CHECK(std::isnan(back[3]));
+}
+
+TEST_CASE("a run's rows read back from its page") {
+  const Run run = circling(500);
+  const auto data = data_of(page(scene_of(run), small_template));
+  const auto& made = data.at("runs").at(0);
+  CHECK(data.at("version") == "1.2.3");
+  CHECK(made.at("rows") == 500);
+  CHECK(made.at("buckets") == 0);  // nothing was left out
+  CHECK(made.at("ball").at("radius") == 0.01);
+  CHECK(data.at("stage").at("width") == 0.3);
+  CHECK(data.at("stage").at("plateGiven") == true);
+  REQUIRE(made.at("columns").size() == run.columns.size() - 1);  // t apart
+  for (std::size_t c = 1; c < run.columns.size(); ++c) {
+    const auto& column = made.at("columns").at(c - 1);
+    CHECK(column.at("name") == run.columns[c].name);
+    const auto values = numbers_of<float>(column.at("data"));
+    REQUIRE(values.size() == 500);
+    for (std::size_t row = 0; row < values.size(); ++row) {
+      CHECK(values[row] == static_cast<float>(run.columns[c].values[row]));
+    }
+  }
+  const auto quaternions = numbers_of<std::int16_t>(made.at("orientation"));
+  REQUIRE(quaternions.size() == 4 * 500);
+  CHECK(quaternions[0] == 32767);
+  CHECK(quaternions[1] == 0);
+}
+
+TEST_CASE("times are exact: three numbers where they are evenly spaced, else all of them") {
+  Run run = circling(100);
+  std::vector<double>& t = run.columns[0].values;
+  const auto time_of = [&] {
+    return data_of(page(scene_of(run), small_template)).at("runs").at(0).at("time");
+  };
+  auto time = time_of();
+  REQUIRE(time.is_object());
+  for (std::size_t i = 0; i < t.size(); ++i) {
+    CHECK(time.at("start").get<double>() + static_cast<double>(i) * time.at("step").get<double>() ==
+          t[i]);
+  }
+  t.back() += 1e-9;
+  time = time_of();
+  REQUIRE(time.is_string());
+  CHECK(numbers_of<double>(time) == t);
+}
+
+TEST_CASE("hostile texts stay texts, wherever they stand") {
+  const std::string hostile =
+      "</script><script>alert(1)</script><!-- \" ' ` & \\ \x1b[31m \xE2\x80\xA8 \xE2\x80\xA9 "
+      "\xE2\x80\xAE @BBSIM_DATA@ \xff";
+  Run run = circling(3);
+  run.name = run.title = run.status = run.reason = hostile;
+  run.scenario_file = run.scenario_text = hostile;
+  run.check = {hostile};
+  run.overrides = {hostile};
+  run.version = hostile;
+  run.summary = R"({"title": "</script>"})";
+  run.columns.push_back({hostile, hostile, hostile, {1, 2, 3}});
+  run.events.push_back({0.01, hostile, hostile, 0, 0});
+  Scene scene = scene_of(run);
+  scene.version = hostile;
+  scene.sweeps.push_back(swept());
+  scene.sweeps[0].name = scene.sweeps[0].keys[0].name = scene.sweeps[0].status[0] = hostile;
+
+  const std::string made = page(scene, small_template);
+  const auto count = [&](const std::string& words) {
+    std::size_t found = 0;
+    for (std::size_t at = made.find(words); at != std::string::npos;
+         at = made.find(words, at + 1)) {
+      ++found;
+    }
+    return found;
+  };
+  CHECK(count("</script>") == 1);  // the template's own
+  CHECK(count("<script") == 1);
+  CHECK(count("<!--") == 4);          // the template's own
+  CHECK(count("\xE2\x80\xA8") == 1);  // in the title, where it is a character like others
+  CHECK(made.find('\x1b') == std::string::npos);
+  CHECK(made.find('\xff') == std::string::npos);
+  CHECK(made.find("&lt;/script&gt;") != std::string::npos);
+
+  const auto data = data_of(made);
+  const std::string arrived = hostile.substr(0, hostile.size() - 1) + "\xEF\xBF\xBD";
+  CHECK(data.at("title") == arrived);
+  CHECK(data.at("runs").at(0).at("scenario").at("text") == arrived);
+  CHECK(data.at("runs").at(0).at("events").at(0).at("name") == arrived);
+  CHECK(data.at("runs").at(0).at("summary").at("title") == "</script>");
+  CHECK(data.at("sweeps").at(0).at("statuses").at(0) == arrived);
+}
+
+TEST_CASE("a page has the libraries that it needs") {
+  Scene run = scene_of(circling(3)), sweep, both = run;
+  sweep.sweeps.push_back(swept());
+  both.sweeps.push_back(swept());
+  CHECK(page(run, small_template).find("three dimensions<!--/runs-->") != std::string::npos);
+  CHECK(page(run, small_template).find("maps") == std::string::npos);
+  CHECK(page(sweep, small_template).find("three dimensions") == std::string::npos);
+  CHECK(page(sweep, small_template).find("maps") != std::string::npos);
+  CHECK(page(both, small_template).find("three dimensions") != std::string::npos);
+  CHECK(page(both, small_template).find("maps") != std::string::npos);
+}
+
+TEST_CASE("a million rows of many columns stay under 5 MB, and lose no peak") {
+  Run run = circling(1'000'000);
+  // Noise, and one peak of a single row.
+  for (int extra = 0; extra < 10; ++extra) {
+    std::vector<double> noise(1'000'000);
+    unsigned state = 1U + static_cast<unsigned>(extra);
+    for (double& value : noise) {
+      state = state * 1664525U + 1013904223U;
+      value = static_cast<double>(state >> 8) * 1e-9;
+    }
+    noise[700'001] = 5;
+    run.columns.push_back({"noise_" + std::to_string(extra), "N", "", std::move(noise)});
+  }
+  const std::string made = page(scene_of(run), small_template);
+  CHECK(made.size() < 3'800'000);  // the template has 1.15 MB
+  const auto data = data_of(made).at("runs").at(0);
+  CHECK(data.at("rows") == 1'000'000);
+  const auto values = numbers_of<float>(data.at("columns").back().at("data"));
+  CHECK(std::count(values.begin(), values.end(), 5.0F) == 1);
+}
+
+TEST_CASE("several runs share a page's room") {
+  Scene scene = scene_of(circling(30'000));
+  const std::size_t alone = bbsim::replay::rows_allowed(scene);
+  scene.runs.push_back(scene.runs.front());
+  CHECK(bbsim::replay::rows_allowed(scene) == alone / 2);
+}
+
+TEST_CASE("the plate is the scene's, or one that the path fits on") {
+  Scene scene = scene_of(circling(2100));
+  auto stage = bbsim::replay::stage_of(scene);
+  CHECK(stage.width == 0.3);
+  CHECK(stage.depth == 0.2);
+  CHECK(stage.plate_given);
+  scene.runs[0].plate = {};
+  stage = bbsim::replay::stage_of(scene);
+  CHECK_FALSE(stage.plate_given);
+  CHECK(stage.width == Approx(2 * 1.2 * 0.05));
+  scene.runs[0].plate.diameter = 0.25;
+  CHECK(bbsim::replay::stage_of(scene).round);
+  // A last row on its way to infinity does not shrink the rest.
+  scene.runs[0].plate = {};
+  scene.runs[0].columns[1].values.back() = 1e200;
+  CHECK(bbsim::replay::stage_of(scene).width <= 2 * 1.2 * 20 * 0.05);
+}
+
+TEST_CASE("what cannot be replayed is refused with what is wrong") {
+  CHECK(refusal({}) == "nothing to replay: neither a run nor a sweep");
+  Scene scene = scene_of(circling(3));
+  scene.runs[0].columns[2].values.pop_back();
+  CHECK(refusal(scene) == "circle.csv: cannot be replayed: column y has 2 rows, and t has 3");
+  scene = scene_of(circling(3));
+  scene.runs[0].columns[0].values[2] = 0.01;
+  CHECK(refusal(scene) ==
+        "circle.csv: cannot be replayed: t in row 3 is 0.01, after 0.01; times have to increase");
+  scene = scene_of(circling(3));
+  scene.runs[0].columns.erase(scene.runs[0].columns.begin() + 1, scene.runs[0].columns.begin() + 3);
+  CHECK(
+      refusal(scene) ==
+      "circle.csv: cannot be replayed: it has neither a column x nor y; a replay needs t, x and y");
+  scene = scene_of(circling(0));
+  CHECK(refusal(scene) == "circle.csv: cannot be replayed: it has no rows");
+  scene = scene_of(circling(3));
+  scene.sweeps.push_back(swept());
+  scene.sweeps[0].measures[0].values.pop_back();
+  CHECK(refusal(scene) ==
+        "swept.csv: cannot be replayed: column max_distance has 860 rows, and "
+        "status has 861");
+}
+
+TEST_CASE("a beam without y is on its axis") {
+  Run run = circling(3);
+  run.columns.erase(run.columns.begin() + 2);
+  CHECK_NOTHROW(page(scene_of(run), small_template));
+}
+
+TEST_CASE("a template that is none, or is not there") {
+  const Scene scene = scene_of(circling(3));
+  CHECK_THROWS_AS(page(scene, "<title></title>@BBSIM_DATA@"), InputError);
+  CHECK_THROWS_AS(page(scene, small_template + small_template), InputError);
+  CHECK_THROWS_AS(page(scene, "@BBSIM_DATA@ @BBSIM_TITLE@"), InputError);
+  try {
+    static_cast<void>(bbsim::replay::page_template({"/nowhere", "/else"}));
+    FAIL("a template from nowhere");
+  } catch (const OutputError& error) {
+    CHECK(std::string(error.what()).find("replay.html is not in /nowhere and /else") !=
+          std::string::npos);
+    CHECK(std::string(error.what()).find("libjs-three, libjs-dygraphs") != std::string::npos);
+  }
+}
+
+TEST_CASE("a sweep's cases read back: keys exact, each way to end once") {
+  Scene scene;
+  scene.sweeps.push_back(swept());
+  const auto data = data_of(page(scene, small_template)).at("sweeps").at(0);
+  CHECK(data.at("cases") == 861);
+  CHECK(numbers_of<double>(data.at("keys").at(0).at("doubles")) == scene.sweeps[0].keys[0].values);
+  CHECK(data.at("statuses") == nlohmann::json{"done", "failed at 0.7 s: it grew, \"fast\""});
+  for (std::size_t i = 0; i < 861; ++i) {
+    CHECK(data.at("statuses").at(data.at("status").at(i).get<std::size_t>()) ==
+          scene.sweeps[0].status[i]);
+  }
+}

@@ -1,0 +1,90 @@
+// The ball's and the plane's orientation against what they stand for.
+#include <Eigen/Geometry>
+#include <cmath>
+#include <numbers>
+
+#include "catch.hpp"
+#include "replay/rotation.hpp"
+
+using namespace bbsim::replay;
+
+namespace {
+
+constexpr double pi = std::numbers::pi;
+
+Eigen::Quaterniond eigen(const Quaternion& q) {
+  return {q[0], q[1], q[2], q[3]};
+}
+
+// Of the rotation that takes one to the other, rad. From products of doubles of size 1.
+double apart(const Quaternion& a, const Eigen::Quaterniond& b) {
+  return eigen(a).angularDistance(b);
+}
+
+}  // namespace
+
+TEST_CASE("the plane's orientation is the chain of (M15)") {
+  const Mounting mounting{0.01, 0.1, -0.3, 0.2};
+  const double phi = 0.4, theta = -0.7;
+  const auto about = [](double angle, const Eigen::Vector3d& axis) {
+    return Eigen::AngleAxisd(angle, axis);
+  };
+  const Eigen::Quaterniond expected(
+      about(0.2, Eigen::Vector3d::UnitX()) * about(phi, Eigen::Vector3d::UnitY()) *
+      about(0.1, Eigen::Vector3d::UnitZ()) * about(theta, Eigen::Vector3d::UnitX()) *
+      about(-0.4, Eigen::Vector3d::UnitZ()));
+  CHECK(apart(plane_orientation(mounting, phi, theta), expected) < 1e-7);
+  // Positive phi lowers the +x side, positive theta raises the +y side.
+  const Quaternion tilted = plane_orientation({}, 0.1, 0.2);
+  CHECK((eigen(tilted) * Eigen::Vector3d::UnitX()).z() < 0);
+  CHECK((eigen(tilted) * Eigen::Vector3d::UnitY()).z() > 0);
+}
+
+TEST_CASE("a ball that rolls along x turns about y, once a circumference") {
+  const double r = 0.02;
+  const std::vector<double> x{0, pi * r / 2, pi * r, 2 * pi * r}, y{0, 0, 0, 0};
+  const auto turned = rolled(x, y, nullptr, r);
+  CHECK(apart(turned[0], Eigen::Quaterniond::Identity()) < 1e-7);
+  // After a quarter its top points along x.
+  const Eigen::Vector3d top = eigen(turned[1]) * Eigen::Vector3d::UnitZ();
+  CHECK((top - Eigen::Vector3d::UnitX()).norm() < 1e-12);
+  CHECK(apart(turned[3], Eigen::Quaterniond::Identity()) < 1e-7);
+}
+
+TEST_CASE("gamma turns the ball about the normal") {
+  const std::vector<double> none{0, 0, 0}, gamma{0, 0.3, 1.1};
+  const auto turned = rolled(none, none, &gamma, 0.01);
+  CHECK(apart(turned[2], Eigen::Quaterniond(Eigen::AngleAxisd(1.1, Eigen::Vector3d::UnitZ()))) <
+        1e-7);
+}
+
+TEST_CASE("round a circle the error of rolling from row to row falls with its square") {
+  // Rolling round a circle of radius R with w = angle: in the frame that turns with the contact
+  // point the ball turns at a constant rate, so that its orientation is known in closed form.
+  const double r = 0.01, big = 0.05, angle = 2;
+  const auto error = [&](int rows) {
+    std::vector<double> x, y;
+    for (int i = 0; i <= rows; ++i) {
+      const double a = angle * i / rows;
+      x.push_back(big * std::cos(a));
+      y.push_back(big * std::sin(a));
+    }
+    // omega = R_z(a) (-big a'/r, 0, 0)  =>  Q = R_z(a) exp((-big/r, 0, -1) a).
+    const double along = -big / r * angle, normal = -angle;
+    const Eigen::Vector3d axis(along, 0, normal);
+    const Eigen::Quaterniond exact =
+        Eigen::AngleAxisd(angle, Eigen::Vector3d::UnitZ()) *
+        Eigen::Quaterniond(Eigen::AngleAxisd(axis.norm(), axis.normalized()));
+    return apart(rolled(x, y, nullptr, r).back(), exact);
+  };
+  const double coarse = error(100), fine = error(200);
+  CHECK(coarse < 0.01);
+  CHECK(std::log2(coarse / fine) > 1.9);
+}
+
+TEST_CASE("a row without numbers keeps the last orientation, and the next goes on") {
+  const std::vector<double> x{0, std::nan(""), 0.01, 0.02}, y{0, 0, 0, 0};
+  const auto turned = rolled(x, y, nullptr, 0.01);
+  CHECK(turned[1] == turned[0]);
+  for (const auto& q : turned) CHECK(eigen(q).norm() == Approx(1));
+}

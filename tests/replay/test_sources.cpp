@@ -1,0 +1,111 @@
+// Scenes from scenarios, tables and sweeps.
+#include <cmath>
+#include <fstream>
+
+#include "../record/folder.hpp"
+#include "base/error.hpp"
+#include "catch.hpp"
+#include "plot/read_result.hpp"
+#include "replay/sources.hpp"
+#include "scenario/reader.hpp"
+
+using namespace bbsim;
+using namespace bbsim::replay;
+
+namespace {
+
+std::string config(const std::string& name) {
+  return std::string(BBSIM_SOURCE_DIR) + "/configs/" + name + ".yaml";
+}
+
+Run described(const std::string& name) {
+  Run run;
+  describe(run, read_scenario(config(name)));
+  return run;
+}
+
+}  // namespace
+
+TEST_CASE("a scenario says what a replay shows") {
+  const Run rig = described("rig");
+  CHECK(rig.title == "A hobby rig on the circle of Fig. 2(b)");
+  CHECK(rig.plate.size == std::array<double, 2>{0.32, 0.24});
+  CHECK(rig.ball_radius == 0.02);
+  CHECK(rig.friction == 0.3);
+  CHECK(rig.end == 40);
+  REQUIRE(rig.poles);
+  CHECK(rig.poles->period == 0.02);
+  CHECK(rig.poles->values.size() == 20);
+  CHECK(rig.scenario_text.find("A hobby rig") != std::string::npos);
+  // One lap of the circle, closed.
+  REQUIRE(rig.reference.size() > 100);
+  CHECK(rig.reference.front()[0] == Approx(rig.reference.back()[0]));
+  for (const auto& point : rig.reference) CHECK(std::hypot(point[0], point[1]) == Approx(0.05));
+
+  const Run open = described("fig2a");
+  CHECK_FALSE(open.poles);
+  CHECK(open.reference.empty());
+  CHECK_FALSE(open.plate.size);
+  const Run point = described("falls");
+  CHECK(point.reference.size() == 1);
+  const Run continuous = described("fig2b");
+  REQUIRE(continuous.poles);
+  CHECK_FALSE(continuous.poles->period);
+  CHECK(continuous.poles->values.size() == 8);
+}
+
+TEST_CASE("a table's columns have their units") {
+  const Run run = run_of_table({{"t", "x", "phi", "mine"}, {{0, 1}, {0, 1}, {0, 1}, {0, 1}}}, "a");
+  CHECK(find_series(run, "x")->unit == "m");
+  CHECK(find_series(run, "phi")->unit == "rad");
+  CHECK(find_series(run, "mine")->unit.empty());
+  CHECK(row_count(run) == 2);
+}
+
+TEST_CASE("a sweep's table: keys, status and measures") {
+  const Folder folder;
+  const std::string file =
+      folder.put("s.csv",
+                 "case,ball.radius,solver.method,status,reason,end_time,max_tilt,x_end\n"
+                 "0,0.01,radau,done,,10,0.1,0.5\n"
+                 "1,0.02,bdf,failed,\"it grew, \"\"fast\"\"\",0.7,nan,1\n");
+  const replay::Sweep sweep = sweep_of_result(plot::read_result(file, {}), "s.csv");
+  CHECK(sweep.name == "s.csv");
+  CHECK(sweep.cases == std::vector<double>{0, 1});
+  REQUIRE(sweep.keys.size() == 2);
+  CHECK(sweep.keys[0].values == std::vector<double>{0.01, 0.02});
+  CHECK(sweep.keys[1].words == std::vector<std::string>{"radau", "bdf"});
+  CHECK(sweep.status[0] == "done");
+  CHECK(sweep.status[1] == "failed: it grew, \"fast\"");
+  REQUIRE(sweep.measures.size() == 3);
+  CHECK(sweep.measures[0].name == "max_tilt");
+  CHECK(sweep.measures[0].unit == "rad");
+  CHECK(std::isnan(sweep.measures[0].values[1]));
+  CHECK(sweep.measures[1].unit == "m");
+  CHECK(sweep.measures[2].name == "end_time");
+  CHECK(sweep.measures[2].unit == "s");
+}
+
+TEST_CASE("a result brings what its summary tells, and the ball's orientation") {
+  const Folder folder;
+  const std::string file = folder.put("r.csv",
+                                      "t,x,y,ball_qw,ball_qx,ball_qy,ball_qz\n"
+                                      "0,0,0,1,0,0,0\n1,1,2,0,0,2,0\n2,1,2,nan,nan,nan,nan\n");
+  folder.put("r.json",
+             R"({"version": "7", "title": "A title", "status": "stopped", "reason": "it fell",
+                 "end_time": 1, "rows": 3, "output": "r.csv", "scenario_text": "", "events":
+                 [{"t": 0.5, "event": "edge", "action": "stop", "x": 0.1, "y": 0.2}]})");
+  const Run run = run_of_result(plot::read_result(file, {}), "r.csv");
+  CHECK(run.title == "A title");
+  CHECK(run.status == "stopped");
+  CHECK(run.reason == "it fell");
+  CHECK(run.version == "7");
+  CHECK(run.summary.find("scenario_text") == std::string::npos);
+  CHECK(run.summary.find("it fell") != std::string::npos);
+  REQUIRE(run.events.size() == 1);
+  CHECK(run.events[0].action == "stop");
+  CHECK(run.columns.size() == 3);
+  REQUIRE(run.orientation.size() == 3);
+  CHECK(run.orientation[1] == Quaternion{0, 0, 1, 0});
+  CHECK(run.orientation[2] == run.orientation[1]);  // nothing is known: the last one
+}
