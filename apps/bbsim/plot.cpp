@@ -1,7 +1,6 @@
 #include <CLI/App.hpp>
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <filesystem>
 #include <memory>
 #include <string>
@@ -15,6 +14,7 @@
 #include "plot/script.hpp"
 #include "plot/sweep_picture.hpp"
 #include "record/atomic_file.hpp"
+#include "record/format.hpp"
 #include "record/outputs.hpp"
 #include "terminal.hpp"
 
@@ -44,8 +44,7 @@ NamedFormat format_of(const PlotArguments& arguments) {
   std::string name = arguments.format;
   if (name.empty()) {
     if (arguments.output.empty() || arguments.output == "-") return formats[0];
-    name = fs::path(arguments.output).extension();
-    std::ranges::transform(name, name.begin(), [](unsigned char c) { return std::tolower(c); });
+    name = record::lower_ending(arguments.output);
     if (!name.empty()) name.erase(0, 1);
   }
   const auto found = std::ranges::find(formats, name, &NamedFormat::name);

@@ -4,9 +4,9 @@
 #include <cstdio>
 #include <filesystem>
 #include <optional>
-#include <sstream>
 #include <utility>
 
+#include "base/text.hpp"
 #include "check.hpp"
 #include "commands.hpp"
 #include "record/format.hpp"
@@ -22,13 +22,6 @@ namespace {
 
 bool is_gltf(const std::string& file) {
   return record::lower_ending(file) == ".glb";
-}
-
-std::vector<std::string> lines_of(const std::string& text) {
-  std::vector<std::string> lines;
-  std::istringstream stream(text);
-  for (std::string line; std::getline(stream, line);) lines.push_back(line);
-  return lines;
 }
 
 void describe_all(replay::Run& run, const Scenario& scenario) {

@@ -22,8 +22,9 @@ Quaternion conjugate(const Quaternion& q) {
   return {q[0], -q[1], -q[2], -q[3]};
 }
 
-double size(const Quaternion& q) {
-  return std::hypot(std::hypot(q[0], q[1]), std::hypot(q[2], q[3]));
+Quaternion normalised(const Quaternion& q) {
+  const double size = std::hypot(std::hypot(q[0], q[1]), std::hypot(q[2], q[3]));
+  return {q[0] / size, q[1] / size, q[2] / size, q[3] / size};
 }
 
 }  // namespace bbsim::model

@@ -16,6 +16,7 @@ using Quaternion = std::array<double, 4>;
 
 [[nodiscard]] Quaternion conjugate(const Quaternion& q);
 
-[[nodiscard]] double size(const Quaternion& q);
+// The same rotation by a quaternion of size 1; q is not 0.
+[[nodiscard]] Quaternion normalised(const Quaternion& q);
 
 }  // namespace bbsim::model

@@ -9,6 +9,7 @@
 
 #include "base/error.hpp"
 #include "base/shown.hpp"
+#include "base/text.hpp"
 #include "plot/read_result.hpp"
 #include "record/case_text.hpp"
 #include "record/line_reader.hpp"
@@ -22,13 +23,6 @@ namespace {
 }
 [[noreturn]] void fail_whole(const record::LineReader& lines, const std::string& message) {
   throw InputError(lines.name() + ": " + message);
-}
-
-std::string_view trimmed(std::string_view text) {
-  const auto blank = [](char c) { return c == ' ' || c == '\t'; };
-  while (!text.empty() && blank(text.front())) text.remove_prefix(1);
-  while (!text.empty() && blank(text.back())) text.remove_suffix(1);
-  return text;
 }
 
 bool is_number(std::string_view text, double& value) {

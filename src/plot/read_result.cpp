@@ -15,6 +15,7 @@
 #include <variant>
 
 #include "base/error.hpp"
+#include "base/text.hpp"
 #include "record/case_table.hpp"
 #include "record/descriptor.hpp"
 #include "record/format.hpp"
@@ -29,13 +30,6 @@ using Json = nlohmann::ordered_json;
 
 bool is_hdf5(const std::string& file) {
   return record::format_of(file) == record::Format::hdf5;
-}
-
-std::vector<std::string> lines_of(const std::string& text) {
-  std::vector<std::string> lines;
-  std::istringstream stream(text);
-  for (std::string line; std::getline(stream, line);) lines.push_back(line);
-  return lines;
 }
 
 double to_number(const std::string& text) {

@@ -26,9 +26,7 @@ const model::Quaternion& BallTurn::go_to(const model::Sample& row) {
     const double weight = (row.t - last_.t) / 12;
     Vector whole{};
     for (std::size_t i = 0; i < 3; ++i) whole[i] = turn[i] - weight * bent[i];
-    now_ = model::product(model::rotation_by(whole), now_);
-    const double size = model::size(now_);  // 1 but for rounding
-    for (double& part : now_) part /= size;
+    now_ = model::normalised(model::product(model::rotation_by(whole), now_));
   }
   last_ = row;
   return now_;

@@ -13,6 +13,7 @@
 
 #include "base/error.hpp"
 #include "base/shown.hpp"
+#include "base/text.hpp"
 #include "record/case_text.hpp"
 #include "record/formats.hpp"
 #include "record/line_reader.hpp"
@@ -27,17 +28,8 @@ std::size_t most_bytes() {
   return static_cast<std::size_t>(pages) / 2 * static_cast<std::size_t>(page);
 }
 
-bool is_blank(char c) {
-  return c == ' ' || c == '\t';
-}
 bool is_control(char c) {
   return static_cast<unsigned char>(c) < ' ' || c == '\x7f';
-}
-
-std::string_view trimmed(std::string_view text) {
-  while (!text.empty() && is_blank(text.front())) text.remove_prefix(1);
-  while (!text.empty() && is_blank(text.back())) text.remove_suffix(1);
-  return text;
 }
 
 constexpr std::size_t longest_name = 40;  // in a message

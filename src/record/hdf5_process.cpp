@@ -14,7 +14,6 @@
 #include <utility>
 
 #include "base/shown.hpp"
-#include "record/descriptor.hpp"
 #include "record/hdf5_module.hpp"
 
 namespace bbsim::record {
@@ -32,27 +31,6 @@ std::shared_ptr<Hdf5Process>& current() {
   static std::shared_ptr<Hdf5Process> process;
   return process;
 }
-
-class Descriptor {
- public:
-  // Above those of standard input, output and error, which the child gets others for.
-  explicit Descriptor(int number) : number_(number) {
-    if (number < 0 || number > STDERR_FILENO) return;
-    number_ = fcntl(number, F_DUPFD_CLOEXEC, STDERR_FILENO + 1);
-    close(number);
-  }
-  ~Descriptor() {
-    if (number_ >= 0) close(number_);
-  }
-  Descriptor(const Descriptor&) = delete;
-  Descriptor& operator=(const Descriptor&) = delete;
-
-  [[nodiscard]] int get() const { return number_; }
-  int release() { return std::exchange(number_, -1); }
-
- private:
-  int number_;
-};
 
 [[noreturn]] void no_process(int error) {
   throw Hdf5Trouble("no process can be had to read it in: " + error_text(error));
@@ -102,16 +80,17 @@ std::shared_ptr<Hdf5Process> start_process() {
   if (program.path.empty()) throw Hdf5Trouble(program.trouble);
   std::array<int, 2> ends{-1, -1};
   if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends.data()) != 0) no_process(errno);
-  Descriptor requests(ends[0]);
-  const Descriptor its_requests(ends[1]);
+  // Above those of standard input, output and error, which the child gets others for.
+  Descriptor requests = above_standard_streams(ends[0]);
+  const Descriptor its_requests = above_standard_streams(ends[1]);
   if (pipe2(ends.data(), O_CLOEXEC) != 0) no_process(errno);
-  Descriptor answers(ends[0]);
-  const Descriptor its_answers(ends[1]);
+  Descriptor answers = above_standard_streams(ends[0]);
+  const Descriptor its_answers = above_standard_streams(ends[1]);
   fcntl(answers.get(), F_SETPIPE_SZ, pipe_bytes);  // it does with less
 
   const Spawning spawning(its_requests.get(), its_answers.get());
   const pid_t process = spawning.start(program.path);
-  return std::make_shared<Hdf5Process>(process, requests.release(), answers.release());
+  return std::make_shared<Hdf5Process>(process, std::move(requests), std::move(answers));
 }
 
 // The status that a child ends with; nothing if somebody else has taken it.
@@ -159,8 +138,11 @@ void Hdf5Process::retire() {
   if (current().get() == this) current().reset();
 }
 
-Hdf5Process::Hdf5Process(pid_t process, int requests, int answers)
-    : process_(process), requests_(requests), answers_(answers), owner_(getpid()) {}
+Hdf5Process::Hdf5Process(pid_t process, Descriptor requests, Descriptor answers)
+    : process_(process),
+      requests_(std::move(requests)),
+      answers_(std::move(answers)),
+      owner_(getpid()) {}
 
 Hdf5Process::~Hdf5Process() {
   hang_up();
@@ -181,7 +163,7 @@ void Hdf5Process::expect_ready() {
 void Hdf5Process::send(const void* bytes, std::size_t size) {
   const char* from = static_cast<const char*>(bytes);
   while (size > 0) {
-    const ssize_t put = ::send(requests_, from, size, MSG_NOSIGNAL);
+    const ssize_t put = ::send(requests_.get(), from, size, MSG_NOSIGNAL);
     if (put < 0 && errno != EINTR) fail(errno);
     if (put <= 0) continue;
     from += put;
@@ -192,7 +174,7 @@ void Hdf5Process::send(const void* bytes, std::size_t size) {
 void Hdf5Process::receive(void* bytes, std::size_t size) {
   char* to = static_cast<char*>(bytes);
   while (size > 0) {
-    const ssize_t got = ::read(answers_, to, size);
+    const ssize_t got = ::read(answers_.get(), to, size);
     if (got == 0) fail_by_end();
     if (got < 0 && errno != EINTR) fail(errno);
     if (got < 0) continue;
@@ -208,9 +190,8 @@ void Hdf5Process::end() {
 }
 
 void Hdf5Process::hang_up() {
-  for (int* line : {&requests_, &answers_}) {
-    if (*line >= 0) close(std::exchange(*line, -1));
-  }
+  requests_.close();
+  answers_.close();
 }
 
 void Hdf5Process::fail(int error) {

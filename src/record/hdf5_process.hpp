@@ -15,6 +15,7 @@
 #include <string>
 #include <string_view>
 
+#include "record/descriptor.hpp"
 #include "record/hdf5/messages.hpp"
 
 namespace bbsim::record {
@@ -33,7 +34,7 @@ class Hdf5Process {
   // Files that are opened from now on are read in another one.
   void retire();
 
-  Hdf5Process(pid_t process, int requests, int answers);
+  Hdf5Process(pid_t process, Descriptor requests, Descriptor answers);
   ~Hdf5Process();
   Hdf5Process(const Hdf5Process&) = delete;
   Hdf5Process& operator=(const Hdf5Process&) = delete;
@@ -56,7 +57,7 @@ class Hdf5Process {
 
   std::mutex mutex_;            // one talk at a time
   std::atomic<pid_t> process_;  // 0 once it is known to have ended
-  int requests_, answers_;
+  Descriptor requests_, answers_;
   pid_t owner_;  // whose child it is
   bool ended_idle_ = false;
 };

@@ -23,9 +23,7 @@ std::vector<Quaternion> rolled(const std::vector<double>& x, const std::vector<d
       const std::array<double, 3> turn{-(y[row] - y[row - 1]) / radius,
                                        (x[row] - x[row - 1]) / radius, dgamma};
       if (std::isfinite(turn[0] + turn[1] + turn[2])) {
-        now = product(rotation_by(turn), now);
-        const double size = model::size(now);
-        for (double& component : now) component /= size;
+        now = model::normalised(product(rotation_by(turn), now));
       }
     }
     result.push_back(now);

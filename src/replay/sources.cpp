@@ -83,10 +83,8 @@ void take_orientation(Run& run) {
     for (std::size_t part = 0; part < now.size(); ++part) {
       now[part] = run.columns[places[part]].values[row];
     }
-    const double size = model::size(now);
-    if (std::isfinite(size) && size > 0) {
-      for (std::size_t part = 0; part < now.size(); ++part) last[part] = now[part] / size;
-    }
+    now = model::normalised(now);
+    if (std::isfinite(now[0] + now[1] + now[2] + now[3])) last = now;
     run.orientation.push_back(last);
   }
   std::erase_if(run.columns, [](const Series& series) {

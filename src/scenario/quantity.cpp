@@ -6,6 +6,7 @@
 #include <cmath>
 #include <span>
 
+#include "base/text.hpp"
 #include "scenario/decimal.hpp"
 
 namespace bbsim::input {
@@ -82,12 +83,6 @@ const Unit* find_unit(std::span<const Unit> units, std::string_view name) {
     if (unit.name == name) return &unit;
   }
   return nullptr;
-}
-
-std::string_view trimmed(std::string_view text) {
-  const std::size_t first = text.find_first_not_of(" \t");
-  if (first == std::string_view::npos) return {};
-  return text.substr(first, text.find_last_not_of(" \t") - first + 1);
 }
 
 struct Spelling {

@@ -4,6 +4,7 @@
 #include <string_view>
 
 #include "base/error.hpp"
+#include "base/text.hpp"
 #include "scenario/decimal.hpp"
 #include "scenario/problems.hpp"
 #include "scenario/quantity.hpp"
@@ -29,12 +30,6 @@ constexpr Form forms[] = {{"linear", Kind::linear, 3},
                           {"uniform", Kind::uniform, 2},
                           {"normal", Kind::normal, 2}};
 
-std::string trimmed(std::string_view text) {
-  const std::size_t first = text.find_first_not_of(" \t");
-  if (first == std::string_view::npos) return "";
-  return std::string(text.substr(first, text.find_last_not_of(" \t") - first + 1));
-}
-
 // Parts between separators that stand in no brackets and no quotes.
 std::vector<std::string> parted(std::string_view text, char separator) {
   std::vector<std::string> parts;
@@ -43,7 +38,7 @@ std::vector<std::string> parted(std::string_view text, char separator) {
   std::size_t start = 0;
   for (std::size_t i = 0; i <= text.size(); ++i) {
     if (i == text.size() || (text[i] == separator && depth == 0 && quote == 0)) {
-      parts.push_back(trimmed(text.substr(start, i - start)));
+      parts.emplace_back(trimmed(text.substr(start, i - start)));
       start = i + 1;
     } else if (quote != 0) {
       if (text[i] == quote) quote = 0;
@@ -76,7 +71,7 @@ std::size_t read_count(const Variation& variation, const std::string& text) {
 VariationSpec parse_variation(const Variation& variation) {
   const std::string_view text = variation.spec;
   const std::size_t colon = text.find(':');
-  const std::string name = trimmed(text.substr(0, colon));
+  const std::string_view name = trimmed(text.substr(0, colon));
   const Form* form = nullptr;
   for (const Form& one : forms) {
     if (one.name == name) form = &one;
@@ -111,9 +106,10 @@ std::vector<TiedKey> tied_keys(const Variation& variation) {
     if (const std::size_t star = part.find('*'); star != std::string::npos) {
       const Quantity number =
           read_quantity(std::string_view(part).substr(0, star), false, Dimension::number);
-      key = {trimmed(std::string_view(part).substr(star + 1)), number.value.value_or(0)};
+      key = {std::string(trimmed(std::string_view(part).substr(star + 1))),
+             number.value.value_or(0)};
     } else if (part.starts_with('-')) {
-      key = {trimmed(std::string_view(part).substr(1)), -1};
+      key = {std::string(trimmed(std::string_view(part).substr(1))), -1};
     }
     if (key.path.empty() || key.factor == 0) {
       fail(variation, part.empty() ? "no key beside a comma" : shown(part),

@@ -127,7 +127,7 @@ struct Surroundings {
   }
 
   int before;
-  Folder folder;
+  InputFolder folder;
   Messages messages;
 };
 

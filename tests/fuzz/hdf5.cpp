@@ -45,7 +45,7 @@ extern "C" int LLVMFuzzerInitialize(int*, char***) {
 }
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  static const Folder folder;
+  static const InputFolder folder;
   static const std::string file = folder.path() / "foreign.h5";
   write_foreign_hdf5(file, data, size);
   may_refuse([&] { must_be_a_table(record::read_table(file)); });

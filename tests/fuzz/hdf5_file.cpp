@@ -15,9 +15,9 @@ extern "C" int LLVMFuzzerInitialize(int*, char***) {
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace bbsim_fuzz;
-  static const Folder folder;
+  static const InputFolder folder;
   static const std::string file = folder.path() / "damaged.h5";
-  folder.put("damaged.h5", text_of(data, size));
+  folder.put("damaged.h5", std::string(text_of(data, size)));
   may_refuse([&] { (void)bbsim::record::read_table(file); });
   may_refuse([&] {
     const bbsim::record::CaseTableReader reader(file);

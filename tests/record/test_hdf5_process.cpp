@@ -19,6 +19,7 @@
 #include "catch.hpp"
 #include "folder.hpp"
 #include "record/case_table.hpp"
+#include "record/descriptor.hpp"
 #include "record/hdf5_process.hpp"
 #include "record/table_writer.hpp"
 #include "tables.hpp"
@@ -27,6 +28,7 @@ using bbsim::InputError;
 using bbsim::hdf5::Message;
 using bbsim::record::CaseBlock;
 using bbsim::record::CaseTableReader;
+using bbsim::record::Descriptor;
 using bbsim::record::Hdf5Process;
 using bbsim::record::Hdf5Talk;
 using bbsim::record::Hdf5Trouble;
@@ -192,7 +194,7 @@ TEST_CASE("a line to the reader that fails is an error, and not a wait for the r
   REQUIRE(child > 0);
   const auto started = std::chrono::steady_clock::now();
   {
-    Hdf5Process process(child, requests[0], answers);
+    Hdf5Process process(child, Descriptor(requests[0]), Descriptor(answers));
     Hdf5Talk talk(process, Message::open, "a.h5");
     CHECK(message_of<Hdf5Trouble>([&] { (void)talk.next(); }) ==
           "talking with the HDF5 reader failed: is a directory");
