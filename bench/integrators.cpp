@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "report.hpp"
-#include "solve/collocation/radau.hpp"
+#include "simd/instruction_set.hpp"
 #include "study/accuracy.hpp"
 
 namespace {
@@ -33,7 +33,7 @@ std::vector<double> tolerance_ladder() {
 }
 
 int run(const Arguments& arguments) {
-  const std::string kernels = bbsim::solve::collocation::choose_kernels().name;
+  const std::string kernels = bbsim::simd::name_of(simd::chosen_instruction_set());
   std::printf(
       "instruction set of radau: %s\n"
       "processor time of one run with its output, the least of many; no gamma\n"

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "solve/cpu_clock.hpp"
+#include "base/cpu_clock.hpp"
 
 namespace bbsim::bench {
 namespace {

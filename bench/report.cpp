@@ -5,8 +5,8 @@
 #include <iterator>
 #include <optional>
 
+#include "base/number_text.hpp"
 #include "equal_error.hpp"
-#include "record/number_text.hpp"
 
 namespace bbsim::bench {
 namespace {
@@ -90,7 +90,7 @@ std::string points_csv(const std::vector<Measured>& scenes) {
       csv += measured.scene + ',' + point.tool;
       for (const double value :
            {point.tolerances.rtol, point.tolerances.atol, point.error, 1e6 * point.seconds}) {
-        csv += ',' + record::number_text(value);
+        csv += ',' + number_text(value);
       }
       csv += ',' + std::to_string(point.runs) + '\n';
     }

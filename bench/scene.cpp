@@ -6,13 +6,13 @@
 #include <variant>
 
 #include "base/error.hpp"
-#include "record/table_writer.hpp"
+#include "file/table_writer.hpp"
 #include "scenario/reader.hpp"
 
 namespace bbsim::bench {
 namespace {
 
-const std::vector<double>& column(const record::TableData& table, const std::string& name,
+const std::vector<double>& column(const file::TableData& table, const std::string& name,
                                   const std::string& file) {
   const auto found = std::find(table.names.begin(), table.names.end(), name);
   if (found == table.names.end()) throw InputError(file + ": has no column " + name);
@@ -24,7 +24,7 @@ const std::vector<double>& column(const record::TableData& table, const std::str
 Scene load_scene(const std::string& folder, const std::string& name) {
   const std::string file = folder + "/reference/" + name + ".csv";
   const Scenario scenario = read_scenario(folder + "/scenarios/" + name + ".yaml");
-  const record::TableData table = record::read_table(file);
+  const file::TableData table = file::read_table(file);
   Scene scene{name, model::assemble(scenario, false), solve::OutputGrid(scenario.time),
               {},   column(table, "x", file),         column(table, "y", file)};
   for (std::size_t i = 0; i < scene.grid.size(); ++i) scene.times.push_back(scene.grid[i]);

@@ -15,11 +15,11 @@
 #include <string>
 #include <vector>
 
+#include "base/cpu_clock.hpp"
 #include "equal_error.hpp"
-#include "solve/cpu_clock.hpp"
 #include "solve/integrate.hpp"
-#include "study/sweep/single.hpp"
-#include "study/sweep/sweep.hpp"
+#include "sweep/single.hpp"
+#include "sweep/sweep.hpp"
 #include "tools.hpp"
 
 namespace {
@@ -72,15 +72,15 @@ const std::vector<Job> jobs{
 // Whose solutions are known.
 constexpr double known_cases = 64;
 
-std::vector<record::Measure> default_measures(bool loop) {
-  std::vector<record::Measure> measures;
-  for (const std::string& name : record::default_measures(loop)) {
-    measures.push_back(*record::find_measure(name));
+std::vector<scenario::Measure> default_measures(bool loop) {
+  std::vector<scenario::Measure> measures;
+  for (const std::string& name : scenario::default_measures(loop)) {
+    measures.push_back(*scenario::find_measure(name));
   }
   return measures;
 }
 
-bool is_length(const record::Measure& measure) {
+bool is_length(const scenario::Measure& measure) {
   return measure.column->unit == "m";
 }
 
@@ -93,12 +93,12 @@ class Cases {
         plan_(family_, sweep(job, samples)),
         task_{family_, plan_,
               default_measures(family_.read(plan_.settings(0)).controller.has_value())},
-        engine_(study::choose_engine(task_)) {}
+        engine_(sweep::choose_engine(task_)) {}
   Cases(const Cases&) = delete;
   Cases& operator=(const Cases&) = delete;
 
-  [[nodiscard]] const study::SweepTask& task() const { return task_; }
-  [[nodiscard]] const study::Engine& engine() const { return engine_; }
+  [[nodiscard]] const sweep::SweepTask& task() const { return task_; }
+  [[nodiscard]] const sweep::Engine& engine() const { return engine_; }
   [[nodiscard]] std::size_t count() const { return plan_.cases(); }
 
  private:
@@ -115,13 +115,13 @@ class Cases {
   }
 
   ScenarioFamily family_;
-  study::SweepPlan plan_;
-  study::SweepTask task_;
-  study::Engine engine_;
+  sweep::SweepPlan plan_;
+  sweep::SweepTask task_;
+  sweep::Engine engine_;
 };
 
 // The largest difference of the measures that are lengths, m.
-double largest_error(const study::SweepTask& task, const std::vector<double>& numbers,
+double largest_error(const sweep::SweepTask& task, const std::vector<double>& numbers,
                      const std::vector<double>& exact) {
   double largest = 0;
   const std::size_t width = 1 + task.measures.size();
@@ -157,17 +157,17 @@ struct Candidate {
 
 // Errors of the few cases whose solution is known; times of many, so that what is done once a sweep
 // does not count.
-Candidate sweep_point(const std::string& file, const Job& job, const study::CaseResults& exact,
+Candidate sweep_point(const std::string& file, const Job& job, const sweep::CaseResults& exact,
                       solve::Tolerances tolerances) {
   constexpr double many = 4096;
   const Cases few(file, job, known_cases, tolerances);
-  study::CaseResults results;
+  sweep::CaseResults results;
   static_cast<void>(few.engine().runner()->run(0, few.count(), results, goes_on));
   const double error = largest_error(few.task(), results.numbers, exact.numbers);
   const auto cases = std::make_shared<Cases>(file, job, many, tolerances);
-  const auto runner = std::shared_ptr<study::CaseRunner>(cases->engine().runner());
+  const auto runner = std::shared_ptr<sweep::CaseRunner>(cases->engine().runner());
   return {{"sweep", tolerances, error, 1e99, 1}, [cases, runner](double budget) {
-            study::CaseResults taken;
+            sweep::CaseResults taken;
             return least_seconds(
                        budget,
                        [&] { static_cast<void>(runner->run(0, cases->count(), taken, goes_on)); }) /
@@ -177,11 +177,11 @@ Candidate sweep_point(const std::string& file, const Job& job, const study::Case
 
 // The measures over the rows alone, of those that are lengths: what tools give that have no other
 // idea of the motion between them.
-void add_row_measures(const study::SweepTask& task, const bench::Scene& scene,
+void add_row_measures(const sweep::SweepTask& task, const bench::Scene& scene,
                       const bench::Rows& rows, std::vector<double>& numbers) {
-  using Kind = record::Measure::Kind;
+  using Kind = scenario::Measure::Kind;
   numbers.push_back(scene.grid.end());
-  for (const record::Measure& measure : task.measures) {
+  for (const scenario::Measure& measure : task.measures) {
     double most = 0, squares = 0, last = 0;
     for (std::size_t i = 0; is_length(measure) && i < scene.grid.size(); ++i) {
       const model::Sample sample = scene.model.sample(scene.grid[i], rows.row(i));
@@ -197,7 +197,7 @@ void add_row_measures(const study::SweepTask& task, const bench::Scene& scene,
 
 // The tool over the known cases, its models made and its memory there before the clock starts.
 Candidate tool_point(const bench::Tool& tool, const Cases& cases, solve::Tolerances tolerances) {
-  const study::SweepTask& task = cases.task();
+  const sweep::SweepTask& task = cases.task();
   const auto scenes = std::make_shared<std::vector<bench::Scene>>();
   std::vector<double> numbers, exact;
   bool fine = true;
@@ -243,8 +243,8 @@ void add_ladder(double error, std::vector<Candidate>& candidates, Make make) {
 void measure(const Job& job, const std::string& folder, double budget) {
   const std::string file = folder + "/scenarios/" + job.scene + ".yaml";
   const Cases finest(file, job, known_cases, {1e-13, 1e-15});
-  study::CaseResults exact;
-  static_cast<void>(study::single_runner(finest.task())->run(0, finest.count(), exact, goes_on));
+  sweep::CaseResults exact;
+  static_cast<void>(sweep::single_runner(finest.task())->run(0, finest.count(), exact, goes_on));
 
   std::vector<Candidate> candidates;
   add_ladder(job.error, candidates, [&](solve::Tolerances tolerances) {
@@ -283,9 +283,9 @@ void measure_threads(const std::string& folder) {
   for (int turn = 0; turn < 5; ++turn) {
     for (std::size_t threads = 1; threads <= 2; ++threads) {
       const auto start = std::chrono::steady_clock::now();
-      static_cast<void>(study::run_sweep(
-          cases.engine(), {0, cases.count()}, threads, goes_on, [](study::CaseResults&) {},
-          [](const study::CaseResults&) {}));
+      static_cast<void>(sweep::run_sweep(
+          cases.engine(), {0, cases.count()}, threads, goes_on, [](sweep::CaseResults&) {},
+          [](const sweep::CaseResults&) {}));
       const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - start;
       least[threads - 1] = std::min(least[threads - 1], wall.count());
     }
@@ -304,12 +304,12 @@ void measure_blow_ups(const std::string& folder) {
                   0,  "",      0};
     const Cases cases(file, job, 1000, {1e-8, 1e-10});
     const auto runner = cases.engine().runner();
-    study::CaseResults results;
+    sweep::CaseResults results;
     const double time = least_seconds(
         0.5, [&] { static_cast<void>(runner->run(0, cases.count(), results, goes_on)); });
     const auto failed =
         std::count_if(results.status.begin(), results.status.end(),
-                      [](const study::CaseStatus& status) { return status.word != "done"; });
+                      [](const sweep::CaseStatus& status) { return status.word != "done"; });
     std::printf("%-28s %6.1f us a case, %td of %zu end early\n", gains,
                 1e6 * time / static_cast<double>(cases.count()), failed, cases.count());
     return time / static_cast<double>(cases.count());

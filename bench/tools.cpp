@@ -7,8 +7,8 @@
 #include <type_traits>
 #include <variant>
 
-#include "solve/collocation/radau.hpp"
-#include "solve/cvode.hpp"
+#include "solve/cvode/cvode.hpp"
+#include "solve/radau/radau.hpp"
 
 namespace bbsim::bench {
 namespace {

@@ -1,17 +1,23 @@
 # Code that is compiled once for each instruction set, from one source, and chosen at run time:
 #
-#   bbsim_add_kernels(TARGET CHOOSER)
+#   bbsim_add_kernels(TARGET ROOM)
 #
 # makes an object library of kernels_baseline.cpp and, where the processor may have them,
-# kernels_avx2.cpp and kernels_avx512.cpp of the current folder, and puts it into bbsim_core together
-# with CHOOSER, the source that picks one of them.
-function(bbsim_add_kernels target chooser)
+# kernels_avx2.cpp and kernels_avx512.cpp of the current folder, and puts it into the library ROOM,
+# where one of them is picked (simd/instruction_set.hpp).
+set(BBSIM_X86_KERNELS OFF)
+if(NOT BBSIM_BASELINE_ONLY AND CMAKE_SYSTEM_PROCESSOR MATCHES "^(x86_64|AMD64)$" AND CMAKE_SIZEOF_VOID_P EQUAL 8)
+  set(BBSIM_X86_KERNELS ON)
+  target_compile_definitions(bbsim_options INTERFACE BBSIM_X86_KERNELS)
+endif()
+
+function(bbsim_add_kernels target room)
   add_library(${target} OBJECT kernels_baseline.cpp)
-  target_include_directories(${target} PRIVATE ${PROJECT_SOURCE_DIR}/src)
+  target_include_directories(${target} PRIVATE $<TARGET_PROPERTY:${room},INCLUDE_DIRECTORIES>)
   target_link_libraries(${target} PRIVATE bbsim::options)
   set_target_properties(${target} PROPERTIES POSITION_INDEPENDENT_CODE ON)
 
-  target_sources(bbsim_core PRIVATE ${chooser} $<TARGET_OBJECTS:${target}>)
+  target_sources(${room} PRIVATE $<TARGET_OBJECTS:${target}>)
 
   # Options of a source come last on the command line, after those of bbsim::options, which they are
   # to override. Kernels agree between instruction sets to the tolerance, not to the bit: products may
@@ -23,12 +29,10 @@ function(bbsim_add_kernels target chooser)
   endif()
   set_source_files_properties(kernels_baseline.cpp PROPERTIES COMPILE_OPTIONS "${options}")
 
-  if(NOT BBSIM_BASELINE_ONLY AND CMAKE_SYSTEM_PROCESSOR MATCHES "^(x86_64|AMD64)$" AND CMAKE_SIZEOF_VOID_P EQUAL 8)
+  if(BBSIM_X86_KERNELS)
     target_sources(${target} PRIVATE kernels_avx2.cpp kernels_avx512.cpp)
     set_source_files_properties(kernels_avx2.cpp PROPERTIES COMPILE_OPTIONS "${options};-mavx2;-mfma")
     set_source_files_properties(kernels_avx512.cpp PROPERTIES COMPILE_OPTIONS
       "${options};-mavx512f;-mavx512dq;-mavx512vl;-mavx2;-mfma;-mprefer-vector-width=512")
-    set_source_files_properties(${chooser} TARGET_DIRECTORY bbsim_core PROPERTIES
-      COMPILE_DEFINITIONS BBSIM_X86_KERNELS)
   endif()
 endfunction()

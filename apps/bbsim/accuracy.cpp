@@ -13,12 +13,12 @@
 #include "assemble.hpp"
 #include "commands.hpp"
 #include "describe.hpp"
+#include "file/atomic_file.hpp"
+#include "file/format.hpp"
+#include "file/outputs.hpp"
 #include "gnuplot.hpp"
 #include "model/model.hpp"
 #include "progress.hpp"
-#include "record/atomic_file.hpp"
-#include "record/format.hpp"
-#include "record/outputs.hpp"
 #include "record/recorder.hpp"
 #include "scenario/reader.hpp"
 #include "signals.hpp"
@@ -84,7 +84,7 @@ std::vector<double> tolerance_ladder(const std::string& text) {
 }
 
 study::Picture picture_of(const std::string& file) {
-  const std::string ending = record::lower_ending(file);
+  const std::string ending = file::lower_ending(file);
   if (ending == ".svg") return study::Picture::svg;
   if (ending == ".png") return study::Picture::png;
   throw InputError("--plot: found " + file + ", allowed is a name that ends in .svg or .png");
@@ -102,22 +102,22 @@ ExitCode accuracy(const AccuracyArguments& arguments, const Options& options) {
   const Scenario scenario = read_scenario(arguments.scenario.file, arguments.scenario.overrides);
   const std::vector<Method> methods = methods_named(arguments.methods);
   const std::vector<double> rtols = tolerance_ladder(arguments.rtols);
-  record::Outputs outputs;
+  file::Outputs outputs;
   reads_scenario(outputs, arguments.scenario.file, table_files(scenario));
   if (arguments.csv != "-") prints(outputs);
   if (!arguments.csv.empty()) outputs.writes(arguments.csv, "--csv");
   if (!arguments.plot.empty()) outputs.writes(arguments.plot, "--plot");
   // What is written is opened, and gnuplot looked for, before the work is done.
-  std::unique_ptr<record::AtomicFile> csv, plot;
-  if (!arguments.csv.empty()) csv = std::make_unique<record::AtomicFile>(arguments.csv);
+  std::unique_ptr<file::AtomicFile> csv, plot;
+  if (!arguments.csv.empty()) csv = std::make_unique<file::AtomicFile>(arguments.csv);
   const study::Picture picture =
       arguments.plot.empty() ? study::Picture::svg : picture_of(arguments.plot);
   if (!arguments.plot.empty()) {
     require_gnuplot();
-    plot = std::make_unique<record::AtomicFile>(arguments.plot);
+    plot = std::make_unique<file::AtomicFile>(arguments.plot);
   }
 
-  const auto columns = record::columns_named(scenario.output.columns);
+  const auto columns = scenario::columns_named(scenario.output.columns);
   const model::Model model = assemble(scenario, columns);
   if (model.hybrid()) {
     throw InputError(

@@ -8,9 +8,10 @@
 
 namespace bbsim::app {
 
-model::Model assemble(const Scenario& scenario, const std::vector<const record::Column*>& columns) {
+model::Model assemble(const Scenario& scenario,
+                      const std::vector<const scenario::Column*>& columns) {
   try {
-    return model::assemble(scenario, record::need_gamma(columns));
+    return model::assemble(scenario, scenario::need_gamma(columns));
   } catch (const KeyError& error) {
     throw InputError({Problem{place_of(scenario.source, error.key()), error.what()}});
   }

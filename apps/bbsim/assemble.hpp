@@ -4,12 +4,12 @@
 #include <vector>
 
 #include "model/model.hpp"
-#include "record/columns.hpp"
+#include "scenario/columns.hpp"
 
 namespace bbsim::app {
 
 // The model that these columns need. Throws InputError.
 [[nodiscard]] model::Model assemble(const Scenario& scenario,
-                                    const std::vector<const record::Column*>& columns);
+                                    const std::vector<const scenario::Column*>& columns);
 
 }  // namespace bbsim::app

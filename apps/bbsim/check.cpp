@@ -16,7 +16,7 @@
 #include "scenario/reader.hpp"
 #include "solve/choose.hpp"
 #include "solve/output_grid.hpp"
-#include "study/sweep/plan.hpp"
+#include "sweep/plan.hpp"
 #include "terminal.hpp"
 
 namespace bbsim::app {
@@ -116,16 +116,16 @@ void tell_solver(Report& report, const Scenario& scenario, const model::Model& m
 void tell_sweep(Report& report, const Scenario& scenario) {
   if (scenario.sweep.vary.empty()) return;
   const ScenarioFamily family(scenario.source);
-  const study::SweepPlan plan(family, scenario.sweep);
+  const sweep::SweepPlan plan(family, scenario.sweep);
   static_cast<void>(plan.check(family, 0, plan.cases(), [](double) { return true; }));
   std::string keys;
-  for (const study::Axis& axis : plan.axes()) keys += (keys.empty() ? "" : ", ") + axis.key;
+  for (const sweep::Axis& axis : plan.axes()) keys += (keys.empty() ? "" : ", ") + axis.key;
   report.line("sweep", std::to_string(plan.cases()) + " cases of bbsim sweep, over " + keys);
 }
 
 ExitCode check(const ScenarioArguments& arguments) {
   const Scenario scenario = read_scenario(arguments.file, arguments.overrides);
-  record::Outputs outputs;
+  file::Outputs outputs;
   reads_scenario(outputs, arguments.file, table_files(scenario));
   prints(outputs);
   print(check_report(scenario, true));
@@ -135,7 +135,7 @@ ExitCode check(const ScenarioArguments& arguments) {
 }  // namespace
 
 std::string check_report(const Scenario& scenario, bool sweep) {
-  const auto columns = record::columns_named(scenario.output.columns);
+  const auto columns = scenario::columns_named(scenario.output.columns);
   const model::Model model = assemble(scenario, columns);
   const solve::OutputGrid grid(scenario.time);
 
@@ -151,7 +151,7 @@ std::string check_report(const Scenario& scenario, bool sweep) {
   for (const std::string& name : scenario.output.columns) names += " " + name;
   report.line("output", std::to_string(grid.size()) + " rows to t = " + short_number(grid.end()) +
                             " s:" + names);
-  if (!any_needs(columns, record::Needs::dynamics) && !scenario.plate.inertia) {
+  if (!any_needs(columns, scenario::Needs::dynamics) && !scenario.plate.inertia) {
     report.line("", "no forces, torques or energy: no output column asks for them");
   }
 

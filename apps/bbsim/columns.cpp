@@ -1,4 +1,4 @@
-#include "record/columns.hpp"
+#include "scenario/columns.hpp"
 
 #include <algorithm>
 #include <cstddef>
@@ -24,7 +24,7 @@ ExitCode print_columns() {
     (report += meaning) += '\n';
   };
   add("column", "unit", "meaning");
-  for (const record::Column& column : record::all_columns()) {
+  for (const scenario::Column& column : scenario::columns) {
     add(column.name, column.unit, column.meaning);
   }
   print(report);

@@ -5,8 +5,8 @@
 #include <string_view>
 #include <vector>
 
-#include "scenario/nearest.hpp"
 #include "terminal.hpp"
+#include "yaml/nearest.hpp"
 
 namespace bbsim::app {
 namespace {
@@ -29,7 +29,7 @@ std::vector<std::string> names_of_options(const CLI::App& command) {
 
 std::string nearest(std::string_view word, const std::vector<std::string>& names) {
   const std::vector<std::string_view> views(names.begin(), names.end());
-  return std::string(input::nearest_name(word, views));
+  return std::string(yaml::nearest_name(word, views));
 }
 
 constexpr const char* more = "\nRun bbsim --help for more information.";

@@ -51,13 +51,13 @@ void add_error(CLI::App& command, std::string& error) {
       ->type_name("E");
 }
 
-void reads_scenario(record::Outputs& outputs, const std::string& file,
+void reads_scenario(file::Outputs& outputs, const std::string& file,
                     const std::vector<std::string>& tables) {
   outputs.reads(file, "the scenario");
   for (const std::string& table : tables) outputs.reads(table, "a table of the scenario");
 }
 
-void prints(record::Outputs& outputs) {
+void prints(file::Outputs& outputs) {
   outputs.writes("-", "what is printed");
 }
 

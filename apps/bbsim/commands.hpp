@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "base/error.hpp"
-#include "record/outputs.hpp"
+#include "file/outputs.hpp"
 
 namespace bbsim::app {
 
@@ -44,11 +44,11 @@ inline constexpr double largest_whole = 9007199254740992.0;
 [[nodiscard]] CLI::Validator whole_number(double least, double most = largest_whole);
 
 // Says that a command reads a scenario, and these tables with it.
-void reads_scenario(record::Outputs& outputs, const std::string& file,
+void reads_scenario(file::Outputs& outputs, const std::string& file,
                     const std::vector<std::string>& tables);
 
 // Says that it prints: nothing it reads may be what its standard output goes to.
-void prints(record::Outputs& outputs);
+void prints(file::Outputs& outputs);
 
 // An option that may be given again, each time with one value: what follows may be the scenario.
 void may_be_repeated(CLI::Option& option);

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "commands.hpp"
-#include "record/cell_table.hpp"
+#include "file/cell_table.hpp"
 #include "record/solver_allowance.hpp"
 #include "terminal.hpp"
 
@@ -20,9 +20,9 @@ struct CompareOptions {
   std::vector<std::string> columns;
 };
 
-record::Allowances allowances_of(const CompareOptions& options, const record::CellTable& a,
-                                 const record::CellTable& b) {
-  const record::Tolerances standard;
+record::Allowances allowances_of(const CompareOptions& options, const file::CellTable& a,
+                                 const file::CellTable& b) {
+  const record::Allowance standard;
   if (options.rtol || options.atol) {
     return {options.rtol.value_or(standard.rtol), options.atol.value_or(standard.atol)};
   }
@@ -30,12 +30,12 @@ record::Allowances allowances_of(const CompareOptions& options, const record::Ce
 }
 
 ExitCode run_compare(const CompareOptions& options) {
-  record::Outputs outputs;
+  file::Outputs outputs;
   outputs.reads(options.a, "A");
   outputs.reads(options.b, "B");
   prints(outputs);
-  const record::CellTable a = record::read_cells(options.a, options.columns);
-  const record::CellTable b = record::read_cells(options.b, options.columns);
+  const file::CellTable a = file::read_cells(options.a, options.columns);
+  const file::CellTable b = file::read_cells(options.b, options.columns);
   const record::Allowances allowances = allowances_of(options, a, b);
   const record::Comparison comparison = record::compare(a, b, allowances, options.columns);
   print(to_text(comparison, options.a, options.b, allowances));

@@ -3,8 +3,8 @@
 
 #include <string>
 
+#include "model/control/sampled_cycle.hpp"
 #include "model/model.hpp"
-#include "model/rig/linear_rig.hpp"
 #include "model/spectrum.hpp"
 #include "solve/outcome.hpp"
 

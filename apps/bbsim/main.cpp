@@ -12,10 +12,10 @@
 #include "base/error.hpp"
 #include "command_line.hpp"
 #include "commands.hpp"
+#include "file/temporaries.hpp"
 #include "help.hpp"
-#include "record/temporaries.hpp"
 #include "signals.hpp"
-#include "solve/collocation/radau.hpp"
+#include "simd/instruction_set.hpp"
 #include "terminal.hpp"
 
 namespace {
@@ -60,7 +60,7 @@ ExitCode run(const Command& command) {
       if (const std::exception_ptr thrown = std::current_exception())
         std::rethrow_exception(thrown);
     } catch (const std::bad_alloc&) {
-      bbsim::record::remove_temporaries();
+      bbsim::file::remove_temporaries();
     } catch (...) {
       std::abort();
     }
@@ -71,7 +71,7 @@ ExitCode run(const Command& command) {
 
 std::string version() {
   return std::string("bbsim " BBSIM_VERSION "\ninstruction set: ") +
-         bbsim::solve::collocation::choose_kernels().name;
+         bbsim::simd::name_of(bbsim::simd::chosen_instruction_set());
 }
 
 ExitCode command_line(int argc, char** argv) {

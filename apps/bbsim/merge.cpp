@@ -1,4 +1,4 @@
-#include "record/merge.hpp"
+#include "sweep/merge.hpp"
 
 #include <CLI/App.hpp>
 #include <memory>
@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "commands.hpp"
-#include "record/outputs.hpp"
+#include "file/outputs.hpp"
 #include "signals.hpp"
 #include "terminal.hpp"
 
@@ -19,16 +19,16 @@ struct MergeArguments {
 };
 
 ExitCode merge(const MergeArguments& arguments, const Options& options) {
-  record::Outputs outputs;
+  file::Outputs outputs;
   for (const std::string& part : arguments.parts) {
     outputs.reads(part, "a part");
-    if (const std::string plan = record::plan_of_part(part); !plan.empty()) {
+    if (const std::string plan = sweep::plan_of_part(part); !plan.empty()) {
       outputs.reads(plan, "the plan of " + part);
     }
   }
   outputs.writes(arguments.output, "-o");
-  const record::Merged merged =
-      record::merge_cases(arguments.parts, arguments.output, watch_signals());
+  const sweep::Merged merged =
+      sweep::merge_cases(arguments.parts, arguments.output, watch_signals());
   if (!merged.note.empty() && !options.quiet) say(merged.note);
   if (merged.interrupted) {
     say("interrupted; nothing was written.");

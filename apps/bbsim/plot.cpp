@@ -7,15 +7,15 @@
 #include <vector>
 
 #include "commands.hpp"
+#include "file/atomic_file.hpp"
+#include "file/format.hpp"
+#include "file/outputs.hpp"
 #include "fonts.hpp"
 #include "gnuplot.hpp"
 #include "plot/read_result.hpp"
 #include "plot/run_picture.hpp"
 #include "plot/script.hpp"
 #include "plot/sweep_picture.hpp"
-#include "record/atomic_file.hpp"
-#include "record/format.hpp"
-#include "record/outputs.hpp"
 #include "terminal.hpp"
 
 namespace bbsim::app {
@@ -44,7 +44,7 @@ NamedFormat format_of(const PlotArguments& arguments) {
   std::string name = arguments.format;
   if (name.empty()) {
     if (arguments.output.empty() || arguments.output == "-") return formats[0];
-    name = record::lower_ending(arguments.output);
+    name = file::lower_ending(arguments.output);
     if (!name.empty()) name.erase(0, 1);
   }
   const auto found = std::ranges::find(formats, name, &NamedFormat::name);
@@ -125,7 +125,7 @@ std::vector<Task> tasks_of(const PlotArguments& arguments, std::string_view endi
 
 // Before any of them is opened.
 void declare_files(const std::vector<Task>& tasks, const PlotArguments& arguments) {
-  record::Outputs outputs;
+  file::Outputs outputs;
   for (const std::string& file : arguments.files) outputs.reads(file, "what is drawn");
   if (!arguments.beside.summary.empty()) outputs.reads(arguments.beside.summary, "--summary");
   if (!arguments.beside.scenario.empty()) outputs.reads(arguments.beside.scenario, "--scenario");
@@ -143,7 +143,7 @@ void draw(const Task& task, plot::Format format, const PlotArguments& arguments,
     results.push_back(plot::read_result(file, arguments.beside));
   }
   const plot::Picture picture = picture_of(results, arguments);
-  record::write_file(
+  file::write_file(
       task.output,
       plot::mended(run_gnuplot(plot::gnuplot_script(picture, format, some_font_has)), format));
   if (options.quiet || task.output == "-") return;

@@ -9,9 +9,9 @@
 
 #include "assemble.hpp"
 #include "commands.hpp"
+#include "file/format.hpp"
+#include "file/memory_table.hpp"
 #include "plot/read_result.hpp"
-#include "record/format.hpp"
-#include "record/memory_table.hpp"
 #include "record/recorder.hpp"
 #include "replay/log.hpp"
 #include "replay/sources.hpp"
@@ -32,7 +32,7 @@ struct ReplayArguments {
 };
 
 bool is_scenario(const std::string& file) {
-  const std::string ending = record::lower_ending(file);
+  const std::string ending = file::lower_ending(file);
   return ending == ".yaml" || ending == ".yml";
 }
 
@@ -96,7 +96,7 @@ void check_arguments(const ReplayArguments& arguments) {
 }
 
 // All of them, and all that is wrong with them at once.
-std::vector<Source> read_all(const ReplayArguments& arguments, record::Outputs& outputs) {
+std::vector<Source> read_all(const ReplayArguments& arguments, file::Outputs& outputs) {
   std::vector<std::string> files = arguments.files;
   files.insert(files.end(), arguments.logs.begin(), arguments.logs.end());
   const std::vector<std::string> names = names_of(files);
@@ -130,11 +130,11 @@ std::vector<Source> read_all(const ReplayArguments& arguments, record::Outputs& 
 
 replay::Run run_scenario(const Source& source, const Options& options, ExitCode& code) {
   const Scenario& scenario = *source.scenario;
-  const auto asked = record::columns_named(scenario.output.columns);
+  const auto asked = scenario::columns_named(scenario.output.columns);
   const auto columns = with_pictured(asked, scenario);
   const model::Model model = assemble(scenario, columns);
   const solve::OutputGrid grid(scenario.time);
-  record::MemoryTable table(columns);
+  file::MemoryTable table(scenario::names_of(columns));
   const Simulation made =
       simulate(scenario, model, grid, columns, asked.size(), table, options.quiet);
   tell(made, options.quiet);
@@ -157,7 +157,7 @@ std::string title_of(const replay::Scene& scene) {
 ExitCode replay_files(const ReplayArguments& arguments, const Options& options) {
   check_arguments(arguments);
   const std::string output = output_of(arguments);
-  record::Outputs outputs;
+  file::Outputs outputs;
   if (!arguments.beside.summary.empty()) outputs.reads(arguments.beside.summary, "--summary");
   if (!arguments.beside.scenario.empty()) outputs.reads(arguments.beside.scenario, "--scenario");
   std::vector<Source> sources = read_all(arguments, outputs);

@@ -9,7 +9,7 @@
 #include "base/text.hpp"
 #include "check.hpp"
 #include "commands.hpp"
-#include "record/format.hpp"
+#include "file/format.hpp"
 #include "record/recorder.hpp"
 #include "replay/gltf.hpp"
 #include "replay/page.hpp"
@@ -21,7 +21,7 @@ namespace bbsim::app {
 namespace {
 
 bool is_gltf(const std::string& file) {
-  return record::lower_ending(file) == ".glb";
+  return file::lower_ending(file) == ".glb";
 }
 
 void describe_all(replay::Run& run, const Scenario& scenario) {
@@ -51,7 +51,7 @@ std::string content_text(const replay::Scene& scene) {
 }  // namespace
 
 void require_replay_ending(const std::string& file, const std::string& option) {
-  if (file == "-" || is_gltf(file) || record::lower_ending(file) == ".html") return;
+  if (file == "-" || is_gltf(file) || file::lower_ending(file) == ".html") return;
   throw InputError(
       option + ": found " + file +
       ", allowed is a name that ends in .html, a page, or .glb, a model of what moves");
@@ -71,8 +71,8 @@ void ReplayFile::write(const replay::Scene& scene, bool quiet) {
   say(target_ + ": " + content_text(scene) + ", " + size_text(content.size()));
 }
 
-std::vector<const record::Column*> with_pictured(const std::vector<const record::Column*>& columns,
-                                                 const Scenario& scenario) {
+std::vector<const scenario::Column*> with_pictured(
+    const std::vector<const scenario::Column*>& columns, const Scenario& scenario) {
   std::vector<std::string> names{"t",       "x",       "y",       "phi",    "theta",
                                  "ball_qw", "ball_qx", "ball_qy", "ball_qz"};
   if (scenario.controller) {
@@ -84,14 +84,14 @@ std::vector<const record::Column*> with_pictured(const std::vector<const record:
       names.emplace_back("y_measured");
     }
   }
-  std::vector<const record::Column*> all = columns;
-  for (const record::Column* column : record::columns_named(names)) {
+  std::vector<const scenario::Column*> all = columns;
+  for (const scenario::Column* column : scenario::columns_named(names)) {
     if (std::ranges::find(all, column) == all.end()) all.push_back(column);
   }
   return all;
 }
 
-replay::Run run_of(const Scenario& scenario, record::TableData rows, record::RunSummary summary) {
+replay::Run run_of(const Scenario& scenario, file::TableData rows, record::RunSummary summary) {
   replay::Run run = replay::run_of_table(std::move(rows), short_name(scenario.source.file));
   describe_all(run, scenario);
   run.status = summary.status;

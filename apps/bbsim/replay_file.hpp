@@ -4,12 +4,12 @@
 #include <string>
 #include <vector>
 
+#include "file/atomic_file.hpp"
+#include "file/table_writer.hpp"
 #include "plot/result.hpp"
-#include "record/atomic_file.hpp"
-#include "record/columns.hpp"
 #include "record/summary.hpp"
-#include "record/table_writer.hpp"
 #include "replay/scene.hpp"
+#include "scenario/columns.hpp"
 #include "scenario/scenario.hpp"
 
 namespace bbsim::app {
@@ -30,15 +30,15 @@ class ReplayFile {
   std::string target_;
   bool gltf_;
   std::string template_;
-  record::AtomicFile file_;
+  file::AtomicFile file_;
 };
 
 // These columns, and after them what a picture of the scene needs and is not among them.
-[[nodiscard]] std::vector<const record::Column*> with_pictured(
-    const std::vector<const record::Column*>& columns, const Scenario& scenario);
+[[nodiscard]] std::vector<const scenario::Column*> with_pictured(
+    const std::vector<const scenario::Column*>& columns, const Scenario& scenario);
 
 // A scenario that was run, with what `bbsim check` says of it.
-[[nodiscard]] replay::Run run_of(const Scenario& scenario, record::TableData rows,
+[[nodiscard]] replay::Run run_of(const Scenario& scenario, file::TableData rows,
                                  record::RunSummary summary);
 
 // A result with what is known of its scenario: all of it where it and its tables can be read as

@@ -8,10 +8,10 @@
 #include "assemble.hpp"
 #include "commands.hpp"
 #include "describe.hpp"
+#include "file/atomic_file.hpp"
+#include "file/memory_table.hpp"
+#include "file/outputs.hpp"
 #include "model/model.hpp"
-#include "record/atomic_file.hpp"
-#include "record/memory_table.hpp"
-#include "record/outputs.hpp"
 #include "record/recorder.hpp"
 #include "replay_file.hpp"
 #include "scenario/reader.hpp"
@@ -26,13 +26,13 @@ struct RunArguments {
   std::string output, summary, error, replay;
 };
 
-constexpr record::ColumnHeader position_error{
+constexpr file::ColumnHeader position_error{
     "position_error", "m", "estimate of the error of x and y: the larger one in this row"};
 
 // Before any of them is opened.
 void declare_files(const RunArguments& arguments, const Scenario& scenario,
                    const std::string& output) {
-  record::Outputs outputs;
+  file::Outputs outputs;
   reads_scenario(outputs, arguments.scenario.file, table_files(scenario));
   outputs.writes(output, arguments.output.empty() ? "its name by default, without -o" : "-o");
   if (!arguments.summary.empty()) outputs.writes(arguments.summary, "--summary");
@@ -43,33 +43,33 @@ ExitCode run(const RunArguments& arguments, const Options& options) {
   if (!arguments.replay.empty()) require_replay_ending(arguments.replay, "--replay");
   std::vector<std::string> overrides = arguments.scenario.overrides;
   if (!arguments.error.empty()) overrides.push_back("solver.error=" + arguments.error);
-  std::vector<record::InputTable> inputs;
+  std::vector<file::InputTable> inputs;
   const Scenario scenario = read_scenario(arguments.scenario.file, overrides, &inputs);
-  const auto asked = record::columns_named(scenario.output.columns);
+  const auto asked = scenario::columns_named(scenario.output.columns);
   const auto columns = arguments.replay.empty() ? asked : with_pictured(asked, scenario);
   const model::Model model = assemble(scenario, columns);
   const solve::OutputGrid grid(scenario.time);
 
   const std::string output =
       arguments.output.empty() ? default_output(arguments.scenario.file, ".csv") : arguments.output;
-  std::vector<record::ColumnHeader> headers;
+  std::vector<file::ColumnHeader> headers;
   headers.reserve(asked.size());
-  for (const record::Column* column : asked) {
+  for (const scenario::Column* column : asked) {
     headers.push_back({column->name, column->unit, column->meaning});
   }
   declare_files(arguments, scenario, output);
   std::optional<ReplayFile> replay;
   if (!arguments.replay.empty()) replay.emplace(arguments.replay);
-  const auto writer = record::open_table(output, headers);
+  const auto writer = file::open_table(output, headers);
   const auto summary_file =
-      arguments.summary.empty() ? nullptr : std::make_unique<record::AtomicFile>(arguments.summary);
+      arguments.summary.empty() ? nullptr : std::make_unique<file::AtomicFile>(arguments.summary);
   writer->keep(inputs);
-  std::optional<record::MemoryTable> pictured;
-  if (replay) pictured.emplace(columns, writer.get(), asked.size());
+  std::optional<file::MemoryTable> pictured;
+  if (replay) pictured.emplace(scenario::names_of(columns), writer.get(), asked.size());
 
   Simulation made =
       simulate(scenario, model, grid, columns, asked.size(),
-               pictured ? static_cast<record::TableWriter&>(*pictured) : *writer, options.quiet);
+               pictured ? static_cast<file::TableWriter&>(*pictured) : *writer, options.quiet);
   record::RunSummary& summary = made.summary;
   summary.output = output;
   if (summary.error_estimate) writer->add_column(position_error, made.row_estimates);

@@ -5,7 +5,7 @@
 #include <csignal>
 
 #include "base/error.hpp"
-#include "record/temporaries.hpp"
+#include "file/temporaries.hpp"
 
 namespace bbsim::app {
 namespace {
@@ -15,7 +15,7 @@ static_assert(std::atomic<bool>::is_always_lock_free, "a signal handler may set 
 
 void end(int) {
   if (watched.load(std::memory_order_relaxed) && !end_requested.exchange(true)) return;
-  record::remove_temporaries();
+  file::remove_temporaries();
   _exit(static_cast<int>(ExitCode::interrupted));
 }
 

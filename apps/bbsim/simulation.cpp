@@ -3,15 +3,15 @@
 #include <optional>
 #include <utility>
 
+#include "base/cpu_clock.hpp"
 #include "describe.hpp"
 #include "model/explain.hpp"
 #include "progress.hpp"
 #include "record/edge_note.hpp"
 #include "record/recorder.hpp"
 #include "signals.hpp"
+#include "simd/instruction_set.hpp"
 #include "solve/choose.hpp"
-#include "solve/collocation/radau.hpp"
-#include "solve/cpu_clock.hpp"
 #include "solve/integrate.hpp"
 #include "study/error_control.hpp"
 #include "terminal.hpp"
@@ -112,7 +112,7 @@ record::RunSummary summarise(const Scenario& scenario, const model::Model& model
   const solve::Outcome& outcome = made.outcome;
   record::RunSummary summary;
   summary.version = BBSIM_VERSION;
-  summary.instruction_set = solve::collocation::choose_kernels().name;
+  summary.instruction_set = simd::name_of(simd::chosen_instruction_set());
   summary.scenario = scenario.source.file;
   summary.scenario_text = scenario.source.text;
   summary.title = scenario.title;
@@ -148,8 +148,8 @@ record::RunSummary summarise(const Scenario& scenario, const model::Model& model
 
 Simulation simulate(const Scenario& scenario, const model::Model& model,
                     const solve::OutputGrid& grid,
-                    const std::vector<const record::Column*>& columns, std::size_t asked,
-                    record::TableWriter& writer, bool quiet) {
+                    const std::vector<const scenario::Column*>& columns, std::size_t asked,
+                    file::TableWriter& writer, bool quiet) {
   record::Recorder recorder(model, model::constants_of(scenario), grid, columns, writer);
   std::optional<record::EdgeNote> edge;
   if (record::EdgeNote::wanted(scenario)) edge.emplace(model, scenario.plate, grid, recorder);

@@ -6,10 +6,10 @@
 #include <vector>
 
 #include "base/error.hpp"
+#include "file/table_writer.hpp"
 #include "model/model.hpp"
-#include "record/columns.hpp"
 #include "record/summary.hpp"
-#include "record/table_writer.hpp"
+#include "scenario/columns.hpp"
 #include "scenario/scenario.hpp"
 #include "solve/output_grid.hpp"
 
@@ -29,8 +29,8 @@ struct Simulation {
 // picture beside.
 [[nodiscard]] Simulation simulate(const Scenario& scenario, const model::Model& model,
                                   const solve::OutputGrid& grid,
-                                  const std::vector<const record::Column*>& columns,
-                                  std::size_t asked, record::TableWriter& writer, bool quiet);
+                                  const std::vector<const scenario::Column*>& columns,
+                                  std::size_t asked, file::TableWriter& writer, bool quiet);
 
 // Says why the run ended early, and, unless it is to be quiet, warnings and what was noted.
 void tell(const Simulation& made, bool quiet);

@@ -1,4 +1,4 @@
-#include "study/sweep/sweep.hpp"
+#include "sweep/sweep.hpp"
 
 #include <CLI/App.hpp>
 #include <CLI/Validators.hpp>
@@ -14,17 +14,17 @@
 #include <utility>
 #include <vector>
 
+#include "base/number_text.hpp"
 #include "commands.hpp"
 #include "describe.hpp"
+#include "file/atomic_file.hpp"
+#include "file/outputs.hpp"
 #include "progress.hpp"
-#include "record/atomic_file.hpp"
-#include "record/case_file.hpp"
-#include "record/measures.hpp"
-#include "record/number_text.hpp"
-#include "record/outputs.hpp"
+#include "scenario/measures.hpp"
 #include "scenario/variation.hpp"
 #include "signals.hpp"
 #include "solve/output_grid.hpp"
+#include "sweep/case_file.hpp"
 #include "sweep_text.hpp"
 #include "terminal.hpp"
 
@@ -58,13 +58,13 @@ Sweep sweep_of(const SweepArguments& arguments, const Sweep& in_scenario) {
   if (!arguments.vary.empty()) {
     sweep.vary.clear();
     for (const std::string& one : arguments.vary) {
-      sweep.vary.push_back(input::split_variation(one));
+      sweep.vary.push_back(scenario::split_variation(one));
     }
   }
   if (!arguments.combine.empty()) {
     sweep.combine = arguments.combine == "zip" ? Combine::zip : Combine::grid;
   }
-  const auto random = [](const Variation& one) { return input::parse_variation(one).random(); };
+  const auto random = [](const Variation& one) { return scenario::parse_variation(one).random(); };
   if (!arguments.vary.empty() && std::none_of(sweep.vary.begin(), sweep.vary.end(), random)) {
     sweep.samples.reset();  // of what the scenario would draw
   }
@@ -83,18 +83,19 @@ Sweep sweep_of(const SweepArguments& arguments, const Sweep& in_scenario) {
   return sweep;
 }
 
-std::vector<record::Measure> measures_of(const Sweep& sweep, const Scenario& scenario) {
+std::vector<scenario::Measure> measures_of(const Sweep& sweep, const Scenario& scenario) {
   const bool loop = scenario.controller.has_value();
-  std::vector<record::Measure> measures;
+  std::vector<scenario::Measure> measures;
   for (const std::string& name :
-       sweep.measure.empty() ? record::default_measures(loop) : sweep.measure) {
-    const std::optional<record::Measure> measure = record::find_measure(name);
+       sweep.measure.empty() ? scenario::default_measures(loop) : sweep.measure) {
+    const std::optional<scenario::Measure> measure = scenario::find_measure(name);
     if (!measure) {
-      throw InputError("measure: found " + name + "; allowed: " + record::allowed_measures());
+      throw InputError("measure: found " + name + "; allowed: " + scenario::allowed_measures());
     }
-    const char* const why = record::why_missing(*measure->column, scenario);
-    if (why != nullptr) throw InputError("measure: found " + name + ", but " + why);
-    for (const record::Measure& other : measures) {
+    if (const scenario::Missing lacks = scenario::missing(*measure->column, scenario)) {
+      throw InputError("measure: found " + name + ", but " + lacks.why);
+    }
+    for (const scenario::Measure& other : measures) {
       if (other.name == name) throw InputError("measure: found " + name + " twice");
     }
     measures.push_back(*measure);
@@ -103,15 +104,15 @@ std::vector<record::Measure> measures_of(const Sweep& sweep, const Scenario& sce
 }
 
 // Columns of the output rows to be kept of each case.
-void keep_trajectories(study::SweepTask& task, const Scenario& scenario) {
-  for (const study::Axis& axis : task.plan.axes()) {
+void keep_trajectories(sweep::SweepTask& task, const Scenario& scenario) {
+  for (const sweep::Axis& axis : task.plan.axes()) {
     if (axis.key.starts_with("time") || axis.key.starts_with("output")) {
       throw InputError("cannot keep trajectories where " + axis.key +
                        " varies: they must have the same rows in all cases");
     }
   }
   for (const std::string& name : scenario.output.columns) {
-    if (name != "t") task.series.push_back(record::find_column(name));
+    if (name != "t") task.series.push_back(scenario::find_column(name));
   }
   task.series_rows = solve::OutputGrid(scenario.time).size();
 }
@@ -130,13 +131,13 @@ std::size_t available_threads() {
 // Before any of them is opened.
 void declare_files(const SweepArguments& arguments, const ScenarioFamily& family,
                    const std::string& output) {
-  record::Outputs outputs;
+  file::Outputs outputs;
   std::vector<std::string> tables;
   for (const auto& [name, hash] : family.table_hashes()) tables.push_back(name);
   reads_scenario(outputs, arguments.scenario.file, tables);
   const std::string option = arguments.output.empty() ? "its name by default, without -o" : "-o";
   outputs.writes(output, option);
-  for (const std::string& file : record::case_files_beside(output)) {
+  for (const std::string& file : sweep::case_files_beside(output)) {
     outputs.writes(file, "kept beside " + output + " until the sweep is done");
   }
   if (!arguments.summary.empty()) outputs.writes(arguments.summary, "--summary");
@@ -148,14 +149,14 @@ ExitCode sweep(const SweepArguments& arguments, const Options& options) {
   const Shard shard = read_shard(arguments.shard);
   const ScenarioFamily family(arguments.scenario.file, overrides);
   const Sweep sweep = sweep_of(arguments, family.read_sweep());
-  const study::SweepPlan plan(family, sweep);
+  const sweep::SweepPlan plan(family, sweep);
   const Scenario first = family.read(plan.settings(0));
-  study::SweepTask task{family, plan, measures_of(sweep, first)};
+  sweep::SweepTask task{family, plan, measures_of(sweep, first)};
   if (arguments.keep_trajectories) keep_trajectories(task, first);
 
-  const study::Engine engine = study::choose_engine(task);
-  const study::CaseRange range =
-      study::shard_range(plan.cases(), engine.group, shard.number, shard.of);
+  const sweep::Engine engine = sweep::choose_engine(task);
+  const sweep::CaseRange range =
+      sweep::shard_range(plan.cases(), engine.group, shard.number, shard.of);
 
   const std::atomic<bool>& stop = watch_signals();
   if (!options.quiet) {
@@ -178,9 +179,9 @@ ExitCode sweep(const SweepArguments& arguments, const Options& options) {
                                  : arguments.output;
   declare_files(arguments, family, output);
   const auto summary =
-      arguments.summary.empty() ? nullptr : std::make_unique<record::AtomicFile>(arguments.summary);
-  const auto file = record::open_case_file(output, layout_of(facts, engine, range),
-                                           plan_text(facts), arguments.resume);
+      arguments.summary.empty() ? nullptr : std::make_unique<file::AtomicFile>(arguments.summary);
+  const auto file = sweep::open_case_file(output, layout_of(facts, engine, range), plan_text(facts),
+                                          arguments.resume);
   if (!file->kept().trouble.empty()) say(file->kept().trouble);
   const std::size_t kept = file->kept().rows, all = range.last - range.first;
   SweepEnd end{true, kept, file->kept().statuses, engine.name, output};
@@ -192,13 +193,13 @@ ExitCode sweep(const SweepArguments& arguments, const Options& options) {
   };
   const auto rate = [&] { return static_cast<double>(end.rows - kept) / seconds(); };
   progress.start(static_cast<double>(kept) / static_cast<double>(all));
-  end.finished = study::run_sweep(
+  end.finished = sweep::run_sweep(
       engine, {range.first + kept, range.last}, threads, stop,
-      [&task](study::CaseResults& results) { write_text(task, results); },
-      [&](const study::CaseResults& results) {
+      [&task](sweep::CaseResults& results) { write_text(task, results); },
+      [&](const sweep::CaseResults& results) {
         file->append(results.text, results.count, results.series);
         end.rows += results.count;
-        for (const study::CaseStatus& status : results.status) {
+        for (const sweep::CaseStatus& status : results.status) {
           end.statuses.add(status.word, status.reason);
         }
         progress.update(static_cast<double>(end.rows) / static_cast<double>(all),

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "describe.hpp"
-#include "record/case_text.hpp"
-#include "solve/collocation/radau.hpp"
+#include "file/case_text.hpp"
+#include "simd/instruction_set.hpp"
 #include "solve/output_grid.hpp"
 
 namespace bbsim::app {
@@ -21,7 +21,7 @@ std::string text_of(const Json& json) {
 }
 
 const char* instruction_set() {
-  return solve::collocation::choose_kernels().name;
+  return simd::name_of(simd::chosen_instruction_set());
 }
 
 const char* combine_of(const Sweep& sweep) {
@@ -35,7 +35,7 @@ struct Accuracy {
 };
 std::vector<Accuracy> accuracy_of(const SweepFacts& facts) {
   const Solver& solver = facts.first.solver;
-  for (const study::Axis& axis : facts.task.plan.axes()) {
+  for (const sweep::Axis& axis : facts.task.plan.axes()) {
     if (axis.key.starts_with("solver")) return {};
   }
   if (solver.error) return {{"error_bound", *solver.error}};
@@ -59,7 +59,7 @@ Json plan_of(const SweepFacts& facts) {
     plan["samples"] = *sweep.samples;
     plan["seed"] = sweep.seed;
   }
-  for (const record::Measure& measure : task.measures) plan["measure"].push_back(measure.name);
+  for (const scenario::Measure& measure : task.measures) plan["measure"].push_back(measure.name);
   plan["trajectories"] = !task.series.empty();
   plan["cases"] = task.plan.cases();
   if (shard.of > 1) plan["shard"] = std::to_string(shard.number) + '/' + std::to_string(shard.of);
@@ -68,18 +68,18 @@ Json plan_of(const SweepFacts& facts) {
 
 }  // namespace
 
-record::CaseFileLayout layout_of(const SweepFacts& facts, const study::Engine& engine,
-                                 study::CaseRange range) {
-  const study::SweepTask& task = facts.task;
-  record::CaseFileLayout layout;
-  using record::CaseKind;
+sweep::CaseFileLayout layout_of(const SweepFacts& facts, const sweep::Engine& engine,
+                                sweep::CaseRange range) {
+  const sweep::SweepTask& task = facts.task;
+  sweep::CaseFileLayout layout;
+  using file::CaseKind;
   layout.inputs = facts.family.inputs();
   layout.first_case = range.first;
   layout.cases = range.last - range.first;
   layout.group = engine.group;
   layout.is_shard = facts.shard.of > 1;
   layout.columns.push_back({"case", "1", "number of the case, from 0"});
-  for (const study::Axis& axis : task.plan.axes()) {
+  for (const sweep::Axis& axis : task.plan.axes()) {
     layout.columns.push_back({axis.key,
                               std::string(facts.family.unit_of(axis.key, task.plan.settings(0))),
                               "varied key of the scenario, in SI units and radians",
@@ -88,14 +88,14 @@ record::CaseFileLayout layout_of(const SweepFacts& facts, const study::Engine& e
   layout.columns.push_back({"status", "", "how the case ended, in one word", CaseKind::text});
   layout.columns.push_back({"reason", "", "why it ended early, or empty", CaseKind::text});
   layout.columns.push_back({"end_time", "s", "time reached"});
-  for (const record::Measure& measure : task.measures) {
+  for (const scenario::Measure& measure : task.measures) {
     layout.columns.push_back({measure.name, std::string(measure.column->unit), measure.meaning()});
   }
   if (task.series.empty()) return layout;
   const solve::OutputGrid grid(facts.first.time);
   layout.axis = {"t", "s", "time"};
   for (std::size_t i = 0; i < grid.size(); ++i) layout.axis_values.push_back(grid[i]);
-  for (const record::Column* column : task.series) {
+  for (const scenario::Column* column : task.series) {
     layout.columns.push_back({std::string(column->name), std::string(column->unit),
                               std::string(column->meaning), CaseKind::series, grid.size()});
   }
@@ -106,15 +106,14 @@ std::string plan_text(const SweepFacts& facts) {
   return text_of(plan_of(facts));
 }
 
-record::Attributes attributes_of(const SweepFacts& facts, const study::Engine& engine) {
+file::Attributes attributes_of(const SweepFacts& facts, const sweep::Engine& engine) {
   const Source& source = facts.family.source();
   const Sweep& sweep = facts.sweep;
-  record::Attributes attributes{
-      {"version", BBSIM_VERSION},
-      {"instruction_set", instruction_set()},
-      {"engine", engine.name},
-      {"scenario", std::filesystem::path(source.file).filename().string()},
-      {"scenario_text", source.text}};
+  file::Attributes attributes{{"version", BBSIM_VERSION},
+                              {"instruction_set", instruction_set()},
+                              {"engine", engine.name},
+                              {"scenario", std::filesystem::path(source.file).filename().string()},
+                              {"scenario_text", source.text}};
   const auto lines = [](const auto& items, const auto& text) {
     std::string all;
     for (const auto& item : items) all += (all.empty() ? "" : "\n") + text(item);
@@ -150,7 +149,7 @@ std::string summary_text(const SweepFacts& facts, const SweepEnd& end) {
   return text_of(summary);
 }
 
-void write_text(const study::SweepTask& task, study::CaseResults& results) {
+void write_text(const sweep::SweepTask& task, sweep::CaseResults& results) {
   const auto& axes = task.plan.axes();
   const std::size_t numbers = 1 + task.measures.size();
   std::string& text = results.text;
@@ -161,18 +160,18 @@ void write_text(const study::SweepTask& task, study::CaseResults& results) {
       text += ',';
       const double value = results.values[i * axes.size() + a];
       if (axes[a].numeric) {
-        record::append_number(text, value);
+        file::append_number(text, value);
       } else {
-        record::append_text(text, axes[a].texts[static_cast<std::size_t>(value)]);
+        file::append_text(text, axes[a].texts[static_cast<std::size_t>(value)]);
       }
     }
     text += ',';
-    record::append_text(text, results.status[i].word);
+    file::append_text(text, results.status[i].word);
     text += ',';
-    record::append_text(text, results.status[i].reason);
+    file::append_text(text, results.status[i].reason);
     for (std::size_t n = 0; n < numbers; ++n) {
       text += ',';
-      record::append_number(text, results.numbers[i * numbers + n]);
+      file::append_number(text, results.numbers[i * numbers + n]);
     }
     text += '\n';
   }

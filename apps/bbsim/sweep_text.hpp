@@ -4,9 +4,9 @@
 #include <cstddef>
 #include <string>
 
-#include "record/case_file.hpp"
 #include "scenario/family.hpp"
-#include "study/sweep/sweep.hpp"
+#include "sweep/case_file.hpp"
+#include "sweep/sweep.hpp"
 
 namespace bbsim::app {
 
@@ -18,25 +18,24 @@ struct Shard {
 struct SweepFacts {
   const ScenarioFamily& family;
   const Sweep& sweep;
-  const study::SweepTask& task;
+  const sweep::SweepTask& task;
   const Scenario& first;
   Shard shard;
 };
 
-[[nodiscard]] record::CaseFileLayout layout_of(const SweepFacts& facts, const study::Engine& engine,
-                                               study::CaseRange range);
+[[nodiscard]] sweep::CaseFileLayout layout_of(const SweepFacts& facts, const sweep::Engine& engine,
+                                              sweep::CaseRange range);
 
-// All that the results depend on, as JSON (record/plan_text.hpp).
+// All that the results depend on, as JSON (sweep/plan_text.hpp).
 [[nodiscard]] std::string plan_text(const SweepFacts& facts);
 
-[[nodiscard]] record::Attributes attributes_of(const SweepFacts& facts,
-                                               const study::Engine& engine);
+[[nodiscard]] file::Attributes attributes_of(const SweepFacts& facts, const sweep::Engine& engine);
 
 // How a sweep went.
 struct SweepEnd {
   bool finished = true;
   std::size_t rows = 0;
-  record::StatusCounts statuses;  // of these
+  sweep::StatusCounts statuses;  // of these
   std::string engine, output;
 };
 
@@ -44,6 +43,6 @@ struct SweepEnd {
 [[nodiscard]] std::string summary_text(const SweepFacts& facts, const SweepEnd& end);
 
 // The rows of some cases as CSV, into the results' text, on the thread that computed them.
-void write_text(const study::SweepTask& task, study::CaseResults& results);
+void write_text(const sweep::SweepTask& task, sweep::CaseResults& results);
 
 }  // namespace bbsim::app

@@ -4,7 +4,7 @@
 #include <new>
 
 #include "base/printable.hpp"
-#include "record/atomic_file.hpp"
+#include "file/atomic_file.hpp"
 
 namespace bbsim::app {
 
@@ -19,7 +19,7 @@ void say(std::string_view message) {
 }
 
 void print(const std::string& report) {
-  record::write_file("-", printable(report));
+  file::write_file("-", printable(report));
 }
 
 }  // namespace bbsim::app

@@ -13,7 +13,7 @@
 #include "progress.hpp"
 #include "scenario/reader.hpp"
 #include "signals.hpp"
-#include "study/simpler.hpp"
+#include "study/full_model.hpp"
 #include "study/verify_references.hpp"
 #include "terminal.hpp"
 
@@ -91,7 +91,7 @@ std::string table_of(const NamedScenario& named, const study::FullModelStudy& st
 ExitCode verify(const VerifyArguments& arguments, const Options& options) {
   // Before the checks, so that a mistake in it is told at once.
   const std::vector<NamedScenario> scenes = scenarios(arguments);
-  record::Outputs outputs;
+  file::Outputs outputs;
   if (!arguments.scenario.empty()) {
     reads_scenario(outputs, arguments.scenario, table_files(scenes.front().scenario));
   }

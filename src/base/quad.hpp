@@ -14,6 +14,8 @@
 #endif
 #endif
 
+#include "base/real.hpp"
+
 namespace bbsim {
 
 namespace quad_detail {
@@ -93,6 +95,12 @@ class Quad {
 // Rounded to double.
 [[nodiscard]] constexpr double plain(Quad a) {
   return static_cast<double>(a);
+}
+
+[[nodiscard]] inline SinCos<Quad> sin_cos(const Quad& angle) {
+  SinCos<Quad> direction;
+  sin_cos(angle, &direction.sin, &direction.cos);
+  return direction;
 }
 
 }  // namespace bbsim

@@ -3,9 +3,9 @@
 #include <utility>
 
 #include "base/instant.hpp"
+#include "model/assemble_rig.hpp"
 #include "model/model.hpp"
-#include "model/reference_path.hpp"
-#include "model/rig/assemble_rig.hpp"
+#include "model/signals/reference_path.hpp"
 
 namespace bbsim::model {
 namespace {
@@ -162,8 +162,8 @@ Model assemble(const Scenario& scenario, bool gamma, Symmetry symmetry) {
               scenario.ball.radius,
               std::move(stops),
               rig};
-  Watchlist watched = watchlist(scenario);
-  if (!watched.monitors.empty()) model.watched = std::move(watched);
+  EventMonitors events = event_monitors(scenario);
+  if (!events.monitors.empty()) model.events = std::move(events);
   return model;
 }
 

@@ -7,7 +7,7 @@
 #include <type_traits>
 #include <variant>
 
-#include "model/rig/assemble_rig.hpp"
+#include "model/assemble_rig.hpp"
 
 namespace bbsim::model {
 namespace {
@@ -153,7 +153,7 @@ std::string mounting_note(const Scenario& scene) {
 
 std::string events_note(const Scenario& scene) {
   List list;
-  for (const Monitor& monitor : watchlist(scene).monitors) {
+  for (const Monitor& monitor : event_monitors(scene).monitors) {
     list.add(std::string(monitor.name()) +
              (monitor.action == OnEvent::stop ? " (stops the run)" : " (is noted)"));
   }
@@ -173,7 +173,7 @@ std::string without(const Scenario& scene) {
   }
   list.add_if(mounting_note(scene).empty(), "mounting errors");
   list.add_if(!scene.plate.inertia, "the plate's inertia");
-  list.add_if(watchlist(scene).monitors.empty(), "events");
+  list.add_if(event_monitors(scene).monitors.empty(), "events");
   return list.text();
 }
 

@@ -49,7 +49,8 @@ std::vector<std::string> Model::state_names() const {
 }
 
 bool Model::closed_loop() const {
-  return std::visit([](const auto& any) { return !std::decay_t<decltype(any)>::linear; }, system);
+  return std::visit([](const auto& any) { return !std::decay_t<decltype(any)>::open_loop; },
+                    system);
 }
 
 }  // namespace bbsim::model

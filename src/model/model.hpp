@@ -8,9 +8,9 @@
 #include <variant>
 #include <vector>
 
-#include "model/rig/rig.hpp"
-#include "model/rig_loop.hpp"
-#include "model/system.hpp"
+#include "model/systems/rig.hpp"
+#include "model/systems/rig_loop.hpp"
+#include "model/systems/system.hpp"
 #include "scenario/scenario.hpp"
 
 namespace bbsim::model {
@@ -30,7 +30,7 @@ struct Model {
   double radius = 0;            // m
   std::vector<double> stops;    // times in (0, end) at which a derivative of the input jumps, s
   std::optional<Rig> rig{};     // of a RigLoop
-  std::optional<Watchlist> watched{};  // there if something is
+  std::optional<EventMonitors> events{};  // there if something is
 
   [[nodiscard]] std::size_t size() const { return initial.size(); }
   // Numbers in a row of output beside the states and gamma.
@@ -42,9 +42,9 @@ struct Model {
   [[nodiscard]] double gamma_not_integrated() const;
   // A row in the paper's symbols.
   [[nodiscard]] Sample sample(double t, const double* row) const;
-  // Whether anything switches, samples or is watched for: model/rig/hybrid.hpp runs it then.
+  // Whether anything switches, samples or is watched for: model/hybrid_system.hpp runs it then.
   [[nodiscard]] bool hybrid() const {
-    return watched.has_value() || (rig && (rig->switches() || rig->sampled));
+    return events.has_value() || (rig && (rig->switches() || rig->sampled));
   }
   [[nodiscard]] std::vector<std::string> state_names() const;
   [[nodiscard]] bool closed_loop() const;

@@ -11,7 +11,7 @@ struct BallMotion {
 };
 
 // The gimbal's angles and their derivatives, rad, rad/s, rad/s^2.
-struct GimbalMotion {
+struct GimbalState {
   double phi = 0, theta = 0;
   double phi_dot = 0, theta_dot = 0;
   double phi_ddot = 0, theta_ddot = 0;
@@ -21,7 +21,7 @@ struct Sample {
   double t = 0;  // s
   BallMotion ball;
   double gamma = 0;  // rad, 0 at the start and by symmetry; no number if not integrated
-  GimbalMotion gimbal;
+  GimbalState gimbal;
   Pair reference{0, 0};  // m; (0, 0) in open loop
   Pair command{0, 0};    // what the gimbal is told, rad or rad/s^2; (0, 0) in open loop
   Pair measured{0, 0};   // where the controller last saw the ball, m

@@ -5,7 +5,7 @@
 #include <type_traits>
 
 #include "model/eigenvalues.hpp"
-#include "model/jacobian.hpp"
+#include "model/systems/jacobian.hpp"
 
 namespace bbsim::model {
 namespace {
@@ -36,7 +36,7 @@ Eigenvalues closed_loop_poles(const Model& model) {
   return std::visit(
       [](const auto& loop) -> Eigenvalues {
         using Loop = std::decay_t<decltype(loop)>;
-        if constexpr (Loop::linear) {
+        if constexpr (Loop::open_loop) {
           return {};
         } else {
           const double home[Loop::size] = {};

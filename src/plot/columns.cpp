@@ -7,8 +7,8 @@
 #include <optional>
 
 #include "base/error.hpp"
-#include "record/columns.hpp"
-#include "scenario/nearest.hpp"
+#include "scenario/columns.hpp"
+#include "yaml/nearest.hpp"
 
 namespace bbsim::plot {
 namespace {
@@ -276,7 +276,7 @@ double misfit(const std::vector<double>& t, const std::vector<double>& u,
 std::string did_you_mean(const std::vector<Result>& runs, const std::string& name) {
   std::vector<std::string_view> names{"path"};
   for (const Column& column : runs.front().columns) names.push_back(column.name);
-  const std::string_view nearest = input::nearest_name(name, names);
+  const std::string_view nearest = yaml::nearest_name(name, names);
   return nearest.empty() ? "" : "; did you mean " + std::string(nearest) + "?";
 }
 
@@ -292,7 +292,7 @@ std::string names_of(const std::vector<Result>& runs) {
 
 Unit unit_of(std::string_view column) {
   constexpr double degrees = 180 / std::numbers::pi;
-  const record::Column* const found = record::find_column(column);
+  const scenario::Column* const found = scenario::find_column(column);
   if (found == nullptr || found->unit == "1") return {};
   const bool turns = column == "gamma" || column == "spin";  // of the ball, often many times round
   if (!turns && found->unit == "rad") return {"°", degrees};

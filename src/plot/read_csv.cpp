@@ -8,20 +8,20 @@
 #include <unordered_set>
 
 #include "base/error.hpp"
+#include "base/number_text.hpp"
 #include "base/shown.hpp"
 #include "base/text.hpp"
+#include "file/case_text.hpp"
+#include "file/line_reader.hpp"
 #include "plot/read_result.hpp"
-#include "record/case_text.hpp"
-#include "record/line_reader.hpp"
-#include "record/number_text.hpp"
 
 namespace bbsim::plot {
 namespace {
 
-[[noreturn]] void fail(const record::LineReader& lines, const std::string& message) {
+[[noreturn]] void fail(const file::LineReader& lines, const std::string& message) {
   throw InputError({Problem{lines.name() + ":" + std::to_string(lines.number()), message}});
 }
-[[noreturn]] void fail_whole(const record::LineReader& lines, const std::string& message) {
+[[noreturn]] void fail_whole(const file::LineReader& lines, const std::string& message) {
   throw InputError(lines.name() + ": " + message);
 }
 
@@ -39,7 +39,7 @@ class Fields {
   bool split(std::string_view line) {
     views_.clear();
     if (line.find('"') != std::string_view::npos) {
-      if (!record::split_fields(line, unquoted_)) return false;
+      if (!file::split_fields(line, unquoted_)) return false;
       for (const std::string& field : unquoted_) views_.push_back(trimmed(field));
       return true;
     }
@@ -57,7 +57,7 @@ class Fields {
   std::vector<std::string> unquoted_;
 };
 
-void read_header(const record::LineReader& lines, const Fields& fields, Result& result) {
+void read_header(const file::LineReader& lines, const Fields& fields, Result& result) {
   double ignored = 0;
   const auto& names = fields.views();
   if (std::ranges::all_of(names, [&](std::string_view n) { return is_number(n, ignored); })) {
@@ -78,7 +78,7 @@ void add_field(Column& column, std::string_view field) {
   const bool number = field.empty() || is_number(field, value);
   if (!number && !column.is_text()) {  // the first one: what came before is text from now on
     for (const double before : column.numbers) {
-      column.texts.push_back(std::isnan(before) ? "" : record::number_text(before));
+      column.texts.push_back(std::isnan(before) ? "" : number_text(before));
     }
     column.texts.emplace_back(field);
   } else if (column.is_text()) {
@@ -90,7 +90,7 @@ void add_field(Column& column, std::string_view field) {
 }  // namespace
 
 Result read_csv_columns(const std::string& file) {
-  record::LineReader lines(file);
+  file::LineReader lines(file);
   Result result;
   result.file = file;
   Fields fields;

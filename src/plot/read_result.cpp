@@ -16,9 +16,9 @@
 
 #include "base/error.hpp"
 #include "base/text.hpp"
-#include "record/case_table.hpp"
-#include "record/descriptor.hpp"
-#include "record/format.hpp"
+#include "file/case_table.hpp"
+#include "file/descriptor.hpp"
+#include "file/format.hpp"
 #include "scenario/reader.hpp"
 #include "scenario/variation.hpp"
 
@@ -29,7 +29,7 @@ namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
 bool is_hdf5(const std::string& file) {
-  return record::format_of(file) == record::Format::hdf5;
+  return file::format_of(file) == file::Format::hdf5;
 }
 
 double to_number(const std::string& text) {
@@ -45,7 +45,7 @@ std::string summary_text(Json json) {
 }
 
 // The attributes of an HDF5 file as the summary that they are; of lists, a line an entry.
-std::string summary_of(const record::Attributes& attributes) {
+std::string summary_of(const file::Attributes& attributes) {
   constexpr std::array statistics = {"steps", "rhs_evaluations", "jacobian_evaluations",
                                      "nonlinear_iterations", "error_test_failures"};
   Json json = Json::object();
@@ -78,7 +78,7 @@ void take_scenario(Result& result, const std::string& text, const std::string& n
   result.scenario = parse_sound_parts(text, name, overrides);
 }
 
-void take_attributes(Result& result, const record::Attributes& attributes) {
+void take_attributes(Result& result, const file::Attributes& attributes) {
   std::map<std::string, std::string> by_name;
   for (const auto& [name, value] : attributes) by_name[name] = value.text();
   result.title = by_name["title"];
@@ -94,24 +94,24 @@ void take_attributes(Result& result, const record::Attributes& attributes) {
                 lines_of(by_name["overrides"]));
   result.tells_drawn = by_name.contains("vary");
   for (const std::string& line : lines_of(by_name["vary"])) {
-    const Variation variation = input::split_variation(line);
-    if (input::parse_variation(variation).random()) result.drawn_keys.push_back(variation.key);
+    const Variation variation = scenario::split_variation(line);
+    if (scenario::parse_variation(variation).random()) result.drawn_keys.push_back(variation.key);
   }
 }
 
 Result read_hdf5_result(const std::string& file) {
-  const record::CaseTableReader reader(file);
-  record::CaseBlock block;
+  const file::CaseTableReader reader(file);
+  file::CaseBlock block;
   reader.read(0, reader.rows(), block);
   Result result;
   result.file = file;
   result.rows = reader.rows();
   for (std::size_t c = 0; c < reader.columns().size(); ++c) {
-    const record::CaseColumn& from = reader.columns()[c];
-    if (from.kind == record::CaseKind::series) continue;  // trajectories of a sweep
+    const file::CaseColumn& from = reader.columns()[c];
+    if (from.kind == file::CaseKind::series) continue;  // trajectories of a sweep
     Column column{from.name, std::move(block.values[c])};
     column.unit = from.unit;
-    if (from.kind == record::CaseKind::text) {
+    if (from.kind == file::CaseKind::text) {
       column.texts = std::move(block.texts[c]);
       column.numbers.assign(result.rows, NAN);
     }
@@ -170,7 +170,7 @@ Json parse_json(const std::string& file) {
 
 void read_summary(Result& result, const std::string& file) {
   if (!std::ifstream(file))
-    throw InputError("cannot read " + file + ": " + record::error_text(errno));
+    throw InputError("cannot read " + file + ": " + file::error_text(errno));
   const Json json = parse_json(file);
   if (!is_summary(json)) {
     throw InputError(file +
@@ -201,8 +201,7 @@ void find_summary(Result& result) {
 }  // namespace
 
 Result read_result(const std::string& file, const Beside& beside) {
-  if (const std::string ending = record::lower_ending(file);
-      ending == ".yaml" || ending == ".yml") {
+  if (const std::string ending = file::lower_ending(file); ending == ".yaml" || ending == ".yml") {
     throw InputError(file + ": is a scenario; draw its result: bbsim run " + file +
                      " -o run.h5 && bbsim plot run.h5");
   }

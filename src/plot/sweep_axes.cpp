@@ -5,7 +5,7 @@
 #include "plot/columns.hpp"
 #include "plot/sweep_parts.hpp"
 #include "plot/text.hpp"
-#include "record/measures.hpp"
+#include "scenario/measures.hpp"
 
 namespace bbsim::plot {
 namespace {
@@ -22,7 +22,7 @@ bool by_equal_factors(const std::vector<double>& values) {
 
 Unit unit_of_measure(const std::string& name) {
   if (name == "end_time") return {"s"};
-  const std::optional<record::Measure> measure = record::find_measure(name);
+  const std::optional<scenario::Measure> measure = scenario::find_measure(name);
   return measure ? unit_of(measure->column->name) : Unit{};
 }
 

@@ -14,7 +14,7 @@ Vector cross(const Vector& a, const Vector& b) {
 
 }  // namespace
 
-const model::Quaternion& BallTurn::go_to(const model::Sample& row) {
+const Quaternion& BallTurn::go_to(const model::Sample& row) {
   const model::BallMotion& from = last_.ball;
   const model::BallMotion& to = row.ball;
   if (std::exchange(begun_, true)) {
@@ -26,7 +26,7 @@ const model::Quaternion& BallTurn::go_to(const model::Sample& row) {
     const double weight = (row.t - last_.t) / 12;
     Vector whole{};
     for (std::size_t i = 0; i < 3; ++i) whole[i] = turn[i] - weight * bent[i];
-    now_ = model::normalised(model::product(model::rotation_by(whole), now_));
+    now_ = normalised(product(rotation_by(whole), now_));
   }
   last_ = row;
   return now_;

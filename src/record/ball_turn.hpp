@@ -1,7 +1,7 @@
 // How the ball is turned, from row to row: what columns ball_qw to ball_qz are.
 #pragma once
 
-#include "model/quaternion.hpp"
+#include "base/quaternion.hpp"
 #include "model/sample.hpp"
 
 namespace bbsim::record {
@@ -19,13 +19,13 @@ class BallTurn {
   explicit BallTurn(double radius) : radius_(radius) {}  // m
 
   // Goes on to a row, which has gamma.
-  const model::Quaternion& go_to(const model::Sample& row);
+  const Quaternion& go_to(const model::Sample& row);
 
  private:
   double radius_;
   bool begun_ = false;
   model::Sample last_{};
-  model::Quaternion now_{1, 0, 0, 0};
+  Quaternion now_{1, 0, 0, 0};
 };
 
 }  // namespace bbsim::record

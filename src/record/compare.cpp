@@ -6,17 +6,17 @@
 #include <tuple>
 
 #include "base/error.hpp"
-#include "record/number_text.hpp"
+#include "base/number_text.hpp"
 
 namespace bbsim::record {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-ValuePair compare_numbers(double a, double b, const Tolerances& tolerances) {
+ValuePair compare_numbers(double a, double b, const Allowance& allowance) {
   ValuePair pair{.a = a, .b = b};
   if (std::isfinite(a) && std::isfinite(b)) {
-    pair.allowance = tolerances.atol + tolerances.rtol * std::max(std::abs(a), std::abs(b));
+    pair.allowance = allowance.atol + allowance.rtol * std::max(std::abs(a), std::abs(b));
   }
   if (a == b || (std::isnan(a) && std::isnan(b))) return pair;
   pair.difference = std::abs(a - b);
@@ -29,7 +29,7 @@ ValuePair compare_numbers(double a, double b, const Tolerances& tolerances) {
 }
 
 // A number and a text differ, even if the text looks like it.
-ValuePair compare_texts(const CellColumn& a, const CellColumn& b, std::size_t i) {
+ValuePair compare_texts(const file::CellColumn& a, const file::CellColumn& b, std::size_t i) {
   ValuePair pair{.of_text = true};
   if (a.has_text(i) && b.has_text(i) && a.texts[i] == b.texts[i]) return pair;
   pair.difference = infinity;
@@ -45,13 +45,13 @@ bool is_worse(const ValuePair& one, const ValuePair& other) {
          std::tie(other_differs, other.excess, other.difference);
 }
 
-std::string as_text(const CellColumn& column, std::size_t i) {
+std::string as_text(const file::CellColumn& column, std::size_t i) {
   return column.has_text(i) ? '"' + column.texts[i] + '"' : number_text(column.numbers[i]);
 }
 
 // Of equal width.
-ColumnComparison compare_column(const std::string& name, const CellColumn& a, const CellColumn& b,
-                                const Tolerances& tolerances) {
+ColumnComparison compare_column(const std::string& name, const file::CellColumn& a,
+                                const file::CellColumn& b, const Allowance& allowance) {
   ColumnComparison result;
   result.name = name;
   const std::size_t size = std::min(a.size(), b.size());
@@ -61,7 +61,7 @@ ColumnComparison compare_column(const std::string& name, const CellColumn& a, co
     for (std::size_t position = 0; position < a.width && i < size; ++position, ++i) {
       ValuePair pair = a.has_text(i) || b.has_text(i)
                            ? compare_texts(a, b, i)
-                           : compare_numbers(a.numbers[i], b.numbers[i], tolerances);
+                           : compare_numbers(a.numbers[i], b.numbers[i], allowance);
       pair.row = row;
       pair.position = position;
       alike = alike && pair.alike();
@@ -80,7 +80,7 @@ ColumnComparison compare_column(const std::string& name, const CellColumn& a, co
   return result;
 }
 
-const CellColumn* find(const CellTable& table, const std::string& name) {
+const file::CellColumn* find(const file::CellTable& table, const std::string& name) {
   const auto at = std::find(table.names.begin(), table.names.end(), name);
   if (at == table.names.end()) return nullptr;
   return &table.columns[static_cast<std::size_t>(at - table.names.begin())];
@@ -92,7 +92,7 @@ std::string joined(const std::vector<std::string>& names) {
   return text;
 }
 
-void require_column(const CellTable& table, const char* which, const std::string& name) {
+void require_column(const file::CellTable& table, const char* which, const std::string& name) {
   if (find(table, name) != nullptr) return;
   throw InputError("--columns: the " + std::string(which) + " file has no column \"" + name +
                    "\"; it has " + joined(table.names));
@@ -105,8 +105,8 @@ void require_tolerance(const char* name, double value) {
 }
 
 // t of a row; or, of a column whose rows are as t is, of a number in it.
-std::optional<double> time_of(const CellTable& table, const ColumnComparison& column) {
-  const CellColumn* const time = find(table, "t");
+std::optional<double> time_of(const file::CellTable& table, const ColumnComparison& column) {
+  const file::CellColumn* const time = find(table, "t");
   if (time == nullptr || time->width != find(table, column.name)->width) return {};
   const std::size_t i = time->width > 1 ? column.worst.position : column.worst.row;
   if (i >= time->size() || time->has_text(i)) return {};
@@ -115,7 +115,7 @@ std::optional<double> time_of(const CellTable& table, const ColumnComparison& co
 
 }  // namespace
 
-const Tolerances& Allowances::of(const std::string& column) const {
+const Allowance& Allowances::of(const std::string& column) const {
   const auto own = by_column.find(column);
   return own == by_column.end() ? standard : own->second;
 }
@@ -126,7 +126,7 @@ bool Comparison::alike() const {
                      [](const ColumnComparison& column) { return column.different_rows == 0; });
 }
 
-Comparison compare(const CellTable& a, const CellTable& b, const Allowances& allowances,
+Comparison compare(const file::CellTable& a, const file::CellTable& b, const Allowances& allowances,
                    const std::vector<std::string>& columns) {
   require_tolerance("rtol", allowances.standard.rtol);
   require_tolerance("atol", allowances.standard.atol);
@@ -143,8 +143,8 @@ Comparison compare(const CellTable& a, const CellTable& b, const Allowances& all
     }
   }
   for (const std::string& name : columns.empty() ? a.names : columns) {
-    const CellColumn& in_a = *find(a, name);
-    const CellColumn* in_b = find(b, name);
+    const file::CellColumn& in_a = *find(a, name);
+    const file::CellColumn* in_b = find(b, name);
     if (in_b == nullptr) {
       result.only_in_a.push_back(name);
       continue;

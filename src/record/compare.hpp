@@ -7,13 +7,13 @@
 #include <string>
 #include <vector>
 
-#include "record/cell_table.hpp"
+#include "file/cell_table.hpp"
 
 namespace bbsim::record {
 
 // Values a and b are alike if |a - b| <= atol + rtol max(|a|, |b|), if both are the same infinity,
 // or if both are NaN; texts if they are equal. The defaults forgive rounding, and little more.
-struct Tolerances {
+struct Allowance {
   double rtol = 1e-9;
   double atol = 1e-12;  // in each column's own unit
 };
@@ -21,14 +21,14 @@ struct Tolerances {
 // What is forgiven in each column.
 struct Allowances {
   Allowances() = default;
-  Allowances(const Tolerances& tolerances) : standard(tolerances) {}
+  Allowances(const Allowance& allowance) : standard(allowance) {}
   Allowances(double rtol, double atol) : standard{rtol, atol} {}
 
-  Tolerances standard{};
-  std::map<std::string, Tolerances> by_column{};  // instead of the standard
+  Allowance standard{};
+  std::map<std::string, Allowance> by_column{};  // instead of the standard
   std::string reason{};  // why these, after "within": empty of the standard ones
 
-  [[nodiscard]] const Tolerances& of(const std::string& column) const;
+  [[nodiscard]] const Allowance& of(const std::string& column) const;
 };
 
 // The values of one row of a column in the two tables.
@@ -72,7 +72,7 @@ struct Comparison {
 // Compares columns by name, whatever their order. `columns` picks some of them; if it is empty,
 // all are compared and one that is missing on either side is a difference. Throws InputError for
 // a name of `columns` that a table lacks, and for a tolerance that is negative or not finite.
-[[nodiscard]] Comparison compare(const CellTable& a, const CellTable& b,
+[[nodiscard]] Comparison compare(const file::CellTable& a, const file::CellTable& b,
                                  const Allowances& allowances = {},
                                  const std::vector<std::string>& columns = {});
 

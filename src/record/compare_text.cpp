@@ -4,8 +4,8 @@
 #include <utility>
 #include <vector>
 
+#include "base/number_text.hpp"
 #include "record/compare.hpp"
-#include "record/number_text.hpp"
 
 namespace bbsim::record {
 namespace {

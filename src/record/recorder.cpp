@@ -9,27 +9,12 @@
 
 namespace bbsim::record {
 
-std::vector<const Column*> columns_named(const std::vector<std::string>& names) {
-  std::vector<const Column*> columns;
-  for (const std::string& name : names) {
-    columns.push_back(find_column(name));
-    if (columns.back() == nullptr) throw InputError("there is no column " + name);
-  }
-  return columns;
-}
-
-bool any_needs(const std::vector<const Column*>& columns, Needs what) {
-  return std::any_of(columns.begin(), columns.end(),
-                     [what](const Column* column) { return column->needs == what; });
-}
-
-bool need_gamma(const std::vector<const Column*>& columns) {
-  return any_needs(columns, Needs::gamma) || any_needs(columns, Needs::orientation);
-}
+using scenario::any_needs;
+using scenario::Needs;
 
 Recorder::Recorder(const model::Model& model, const model::BallConstants& constants,
-                   const solve::OutputGrid& grid, std::vector<const Column*> columns,
-                   TableWriter& writer)
+                   const solve::OutputGrid& grid, std::vector<const scenario::Column*> columns,
+                   file::TableWriter& writer)
     : model_(model),
       constants_(constants),
       grid_(grid),
@@ -65,9 +50,9 @@ void Recorder::accept(std::size_t first, std::size_t count, const double* values
     const model::Sample sample = model_.sample(grid_[first + i], values + i * row_size);
     model::Dynamics dynamics;
     if (needs_dynamics_) dynamics = model::dynamics(sample, constants_);
-    const model::Quaternion* const orientation = turn_ ? &turn_->go_to(sample) : nullptr;
+    const Quaternion* const orientation = turn_ ? &turn_->go_to(sample) : nullptr;
     for (std::size_t c = 0; c < columns_.size(); ++c) {
-      block_[c][i] = columns_[c]->value({sample, &dynamics, orientation});
+      block_[c][i] = value_of(*columns_[c])({sample, &dynamics, orientation});
     }
   }
 

@@ -7,29 +7,22 @@
 #include <string>
 #include <vector>
 
+#include "file/table_writer.hpp"
 #include "model/model.hpp"
 #include "record/ball_turn.hpp"
-#include "record/columns.hpp"
+#include "record/column_values.hpp"
 #include "record/extremes.hpp"
 #include "record/summary.hpp"
-#include "record/table_writer.hpp"
 #include "solve/outcome.hpp"
 #include "solve/output_grid.hpp"
 
 namespace bbsim::record {
 
-// The columns of these names, in this order. Throws InputError for an unknown one.
-[[nodiscard]] std::vector<const Column*> columns_named(const std::vector<std::string>& names);
-
-[[nodiscard]] bool any_needs(const std::vector<const Column*>& columns, Needs what);
-
-// Whether one of them is computed from gamma, which the model then integrates.
-[[nodiscard]] bool need_gamma(const std::vector<const Column*>& columns);
-
 class Recorder : public solve::StateSink {
  public:
   Recorder(const model::Model& model, const model::BallConstants& constants,
-           const solve::OutputGrid& grid, std::vector<const Column*> columns, TableWriter& writer);
+           const solve::OutputGrid& grid, std::vector<const scenario::Column*> columns,
+           file::TableWriter& writer);
   Recorder(const Recorder&) = delete;  // loads_ look through this one
   Recorder& operator=(const Recorder&) = delete;
 
@@ -51,8 +44,8 @@ class Recorder : public solve::StateSink {
   const model::Model& model_;
   model::BallConstants constants_;
   const solve::OutputGrid& grid_;
-  std::vector<const Column*> columns_;
-  TableWriter& writer_;
+  std::vector<const scenario::Column*> columns_;
+  file::TableWriter& writer_;
   bool needs_dynamics_, with_plate_;
   std::optional<BallTurn> turn_;   // where a column asks for the ball's orientation
   std::optional<Extremes> loads_;  // of the motors, each as it is and turned over

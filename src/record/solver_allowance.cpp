@@ -5,19 +5,25 @@
 #include <cmath>
 #include <string_view>
 
-#include "record/columns.hpp"
-#include "record/measures.hpp"
-#include "record/number_text.hpp"
+#include "base/number_text.hpp"
+#include "scenario/columns.hpp"
 #include "scenario/look_up.hpp"
+#include "scenario/measures.hpp"
 
 namespace bbsim::record {
+
+using scenario::Column;
+using scenario::find_column;
+using scenario::find_measure;
+using scenario::Needs;
+
 namespace {
 
-using input::Dimension;
+using yaml::Dimension;
 
 constexpr double growth = 100;  // of the errors of steps
 
-std::optional<std::string> attribute(const CellTable& table, std::string_view name) {
+std::optional<std::string> attribute(const file::CellTable& table, std::string_view name) {
   for (const auto& [key, value] : table.attributes) {
     if (key == name) return value.text();
   }
@@ -25,7 +31,7 @@ std::optional<std::string> attribute(const CellTable& table, std::string_view na
 }
 
 // A number above zero.
-std::optional<double> number(const CellTable& table, std::string_view name) {
+std::optional<double> number(const file::CellTable& table, std::string_view name) {
   const std::optional<std::string> text = attribute(table, name);
   double value = 0;
   if (!text) return {};
@@ -35,7 +41,7 @@ std::optional<double> number(const CellTable& table, std::string_view name) {
   return value;
 }
 
-Source source_of(const CellTable& table) {
+Source source_of(const file::CellTable& table) {
   Source source{"", attribute(table, "scenario_text").value_or(""), {}};
   std::string_view rest;
   const std::string overrides = attribute(table, "overrides").value_or("");
@@ -47,14 +53,14 @@ Source source_of(const CellTable& table) {
   return source;
 }
 
-const CellColumn* find(const CellTable& table, std::string_view name) {
+const file::CellColumn* find(const file::CellTable& table, std::string_view name) {
   const auto at = std::ranges::find(table.names, name);
   if (at == table.names.end()) return nullptr;
   return &table.columns[static_cast<std::size_t>(at - table.names.begin())];
 }
 
 // The largest finite size.
-double largest(const CellColumn& column) {
+double largest(const file::CellColumn& column) {
   double size = 0;
   for (const double value : column.numbers) {
     if (std::isfinite(value)) size = std::max(size, std::abs(value));
@@ -69,7 +75,7 @@ struct Claim {
   double spin_unit = 1, gamma_unit = 1, acceleration_unit = 1;
 };
 
-Claim claim_of(const CellTable& table) {
+Claim claim_of(const file::CellTable& table) {
   Claim claim;
   const std::optional<double> rtol = number(table, "rtol"), atol = number(table, "atol");
   if (rtol && atol) claim = {*rtol, *atol};
@@ -81,7 +87,7 @@ Claim claim_of(const CellTable& table) {
   if (source.text.empty()) return claim;
 
   double radius = number_at(source, "ball.radius", Dimension::length).value_or(1);
-  if (const CellColumn* varied = find(table, "ball.radius")) {
+  if (const file::CellColumn* varied = find(table, "ball.radius")) {
     for (const double value : varied->numbers) {
       if (value > 0) radius = std::min(radius, value);
     }
@@ -92,10 +98,10 @@ Claim claim_of(const CellTable& table) {
   double frequency =
       number_at(source, "gimbal.servo.natural_frequency", Dimension::angular_rate).value_or(0);
   double damping = number_at(source, "gimbal.servo.damping", Dimension::number).value_or(0);
-  if (const CellColumn* varied = find(table, "gimbal.servo.natural_frequency")) {
+  if (const file::CellColumn* varied = find(table, "gimbal.servo.natural_frequency")) {
     frequency = std::max(frequency, largest(*varied));
   }
-  if (const CellColumn* varied = find(table, "gimbal.servo.damping")) {
+  if (const file::CellColumn* varied = find(table, "gimbal.servo.damping")) {
     damping = std::max(damping, largest(*varied));
   }
   claim.acceleration_unit = std::max(1.0, frequency * (frequency + 2 * damping));
@@ -139,7 +145,7 @@ std::string claims_text(const Claim& claim) {
 
 }  // namespace
 
-std::optional<Allowances> solver_allowances(const CellTable& a, const CellTable& b) {
+std::optional<Allowances> solver_allowances(const file::CellTable& a, const file::CellTable& b) {
   const Claim claims[] = {claim_of(a), claim_of(b)};
   std::vector<std::string> texts;
   for (const Claim& claim : claims) {
@@ -149,7 +155,7 @@ std::optional<Allowances> solver_allowances(const CellTable& a, const CellTable&
   if (texts.empty()) return {};
 
   std::map<std::string_view, double> sizes;  // by kind
-  for (const CellTable* table : {&a, &b}) {
+  for (const file::CellTable* table : {&a, &b}) {
     for (std::size_t c = 0; c < table->names.size(); ++c) {
       const Column* const column = computed(table->names[c]);
       if (column == nullptr) continue;
@@ -166,7 +172,7 @@ std::optional<Allowances> solver_allowances(const CellTable& a, const CellTable&
   for (const std::string& name : a.names) {
     const Column* const column = computed(name);
     if (column == nullptr) continue;
-    Tolerances& own = allowances.by_column[name];
+    Allowance& own = allowances.by_column[name];
     for (const Claim& claim : claims) {
       if (claim.error_bound && column->unit == "m") {
         own.atol += *claim.error_bound;

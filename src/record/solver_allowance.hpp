@@ -21,6 +21,7 @@ namespace bbsim::record {
 // the length of the run, of gamma, its integral; and omega_n^2 + 2 zeta omega_n of the gimbal's
 // accelerations behind a servo. Columns that are not computed from states, such as t, a sweep's
 // keys and texts, are compared by the standard tolerances.
-[[nodiscard]] std::optional<Allowances> solver_allowances(const CellTable& a, const CellTable& b);
+[[nodiscard]] std::optional<Allowances> solver_allowances(const file::CellTable& a,
+                                                          const file::CellTable& b);
 
 }  // namespace bbsim::record

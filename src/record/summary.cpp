@@ -3,8 +3,8 @@
 #include <nlohmann/json.hpp>
 #include <string_view>
 
-#include "record/atomic_file.hpp"
-#include "record/number_text.hpp"
+#include "base/number_text.hpp"
+#include "file/atomic_file.hpp"
 
 namespace bbsim::record {
 namespace {
@@ -48,16 +48,16 @@ std::string to_text(const std::string& value) {
 std::string to_text(double value) {
   return number_text(value);
 }
-AttributeValue to_value(const std::string& value) {
+file::AttributeValue to_value(const std::string& value) {
   return value;
 }
-AttributeValue to_value(double value) {
+file::AttributeValue to_value(double value) {
   return value;
 }
-AttributeValue to_value(std::size_t value) {
+file::AttributeValue to_value(std::size_t value) {
   return value;
 }
-AttributeValue to_value(const std::vector<std::string>& values) {
+file::AttributeValue to_value(const std::vector<std::string>& values) {
   std::string text;
   for (const std::string& value : values) text += (text.empty() ? "" : "\n") + value;
   return text;
@@ -94,7 +94,7 @@ void for_each_member(const MotorPeaks& peaks, Add add) {
 
 EventRecord event_record(const model::Occurrence& occurrence) {
   const model::BallMotion& ball = occurrence.sample.ball;
-  const model::GimbalMotion& gimbal = occurrence.sample.gimbal;
+  const model::GimbalState& gimbal = occurrence.sample.gimbal;
   return {occurrence.t, occurrence.name, occurrence.stopped ? "stop" : "note",
           ball.x,       ball.y,          ball.x_dot,
           ball.y_dot,   ball.gamma_dot,  gimbal.phi,
@@ -124,11 +124,11 @@ std::string to_json(const RunSummary& summary) {
 }
 
 void write_summary(const std::string& file, const RunSummary& summary) {
-  write_file(file, to_json(summary));
+  file::write_file(file, to_json(summary));
 }
 
-Attributes to_attributes(const RunSummary& summary, const std::string& scenario_text) {
-  Attributes attributes;
+file::Attributes to_attributes(const RunSummary& summary, const std::string& scenario_text) {
+  file::Attributes attributes;
   const auto add = [&](const std::string_view name, const auto& value) {
     // Runs that are alike give the same bytes, wherever they go and however long they take.
     if (name != "output" && name != "cpu_seconds") attributes.emplace_back(name, to_value(value));

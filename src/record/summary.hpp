@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "base/greatest.hpp"
-#include "model/rig/occurrence.hpp"
-#include "record/table_writer.hpp"
+#include "file/table_writer.hpp"
+#include "model/events/occurrence.hpp"
 
 namespace bbsim::record {
 
@@ -68,6 +68,7 @@ void write_summary(const std::string& file, const RunSummary& summary);
 // The same names, those of `statistics` without a prefix, and `scenario_text`; numbers as numbers,
 // lists with one entry a line. Left out are what differs between runs that are alike: `output` and
 // `cpu_seconds`.
-[[nodiscard]] Attributes to_attributes(const RunSummary& summary, const std::string& scenario_text);
+[[nodiscard]] file::Attributes to_attributes(const RunSummary& summary,
+                                             const std::string& scenario_text);
 
 }  // namespace bbsim::record

@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "base/error.hpp"
-#include "record/atomic_file.hpp"
+#include "file/atomic_file.hpp"
 #include "replay/base64.hpp"
 #include "replay/gltf_buffer.hpp"
 #include "replay/kept_rows.hpp"
@@ -315,7 +315,7 @@ std::string gltf(const Scene& scene) {
 }
 
 void write_gltf(const std::string& file, const Scene& scene) {
-  record::write_file(file, gltf(scene));
+  file::write_file(file, gltf(scene));
 }
 
 }  // namespace bbsim::replay

@@ -7,18 +7,18 @@
 
 #include "base/error.hpp"
 #include "base/shown.hpp"
-#include "record/columns.hpp"
 #include "replay/sources.hpp"
-#include "scenario/nearest.hpp"
-#include "scenario/quantity.hpp"
+#include "scenario/columns.hpp"
+#include "yaml/nearest.hpp"
+#include "yaml/quantity.hpp"
 
 namespace bbsim::replay {
 namespace {
 
-using input::Dimension;
+using yaml::Dimension;
 
 struct Mapped {
-  const record::Column* column;
+  const scenario::Column* column;
   std::string from;
   double unit = 1;  // in SI
 };
@@ -31,21 +31,21 @@ Dimension dimension_of(std::string_view unit) {
   for (const Dimension one :
        {Dimension::length, Dimension::time, Dimension::angle, Dimension::angular_rate,
         Dimension::velocity, Dimension::acceleration}) {
-    if (input::si_unit(one) == unit) return one;
+    if (yaml::si_unit(one) == unit) return one;
   }
   return Dimension::number;
 }
 
-double unit_of(const std::string& part, const record::Column& column, const std::string& unit) {
+double unit_of(const std::string& part, const scenario::Column& column, const std::string& unit) {
   if (unit == column.unit) return 1;
-  const input::Quantity one = input::read_quantity("1 " + unit, false, dimension_of(column.unit));
+  const yaml::Quantity one = yaml::read_quantity("1 " + unit, false, dimension_of(column.unit));
   if (one.value && !unit.empty()) return *one.value;
   refuse(part, ": " + std::string(column.name) + " is in " + std::string(column.unit) +
                    "; allowed: no unit, that one, or another for the same quantity" + one.fault);
 }
 
 std::string near(const std::string& name, const std::vector<std::string_view>& names) {
-  const std::string_view nearest = input::nearest_name(name, names);
+  const std::string_view nearest = yaml::nearest_name(name, names);
   return nearest.empty() ? "" : "; did you mean " + std::string(nearest) + "?";
 }
 
@@ -55,10 +55,10 @@ Mapped mapped(const std::string& part) {
     refuse(part, "; allowed: COLUMN=NAME or COLUMN=NAME:UNIT, such as x=Ballx:mm");
   }
   const std::string name = part.substr(0, equals);
-  const record::Column* const column = record::find_column(name);
+  const scenario::Column* const column = scenario::find_column(name);
   if (column == nullptr) {
     std::vector<std::string_view> names;
-    for (const record::Column& one : record::all_columns()) names.push_back(one.name);
+    for (const scenario::Column& one : scenario::columns) names.push_back(one.name);
     refuse(part, ": there is no column " + quoted(name) + near(name, names) +
                      "; allowed: those of `bbsim columns`");
   }
@@ -100,11 +100,11 @@ void require_numbers(const plot::Result& log, const plot::Column& column) {
 Run run_of_log(plot::Result log, const std::string& map, const std::string& name) {
   if (map.empty()) return run_of_result(std::move(log), name);
   std::vector<Mapped> all = read_map(map);
-  const record::Column* const time = record::find_column("t");
+  const scenario::Column* const time = scenario::find_column("t");
   if (std::ranges::find(all, time, &Mapped::column) == all.end() && log.find("t") != nullptr) {
     all.push_back({time, "t", 1});
   }
-  record::TableData table;
+  file::TableData table;
   for (const Mapped& one : all) {
     const plot::Column* const column = log.find(one.from);
     if (column == nullptr) {

@@ -10,7 +10,7 @@
 #include <system_error>
 
 #include "base/error.hpp"
-#include "record/atomic_file.hpp"
+#include "file/atomic_file.hpp"
 #include "replay/base64.hpp"
 #include "replay/kept_rows.hpp"
 #include "replay/rotation.hpp"
@@ -358,7 +358,7 @@ std::string page_template() {
 }
 
 void write_page(const std::string& file, const Scene& scene) {
-  record::write_file(file, page(scene, page_template()));
+  file::write_file(file, page(scene, page_template()));
 }
 
 }  // namespace bbsim::replay

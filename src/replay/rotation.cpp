@@ -23,7 +23,7 @@ std::vector<Quaternion> rolled(const std::vector<double>& x, const std::vector<d
       const std::array<double, 3> turn{-(y[row] - y[row - 1]) / radius,
                                        (x[row] - x[row - 1]) / radius, dgamma};
       if (std::isfinite(turn[0] + turn[1] + turn[2])) {
-        now = model::normalised(product(rotation_by(turn), now));
+        now = normalised(product(rotation_by(turn), now));
       }
     }
     result.push_back(now);

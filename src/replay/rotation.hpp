@@ -4,14 +4,10 @@
 #include <cstddef>
 #include <vector>
 
-#include "model/quaternion.hpp"
+#include "base/quaternion.hpp"
 #include "replay/scene.hpp"
 
 namespace bbsim::replay {
-
-using model::conjugate;
-using model::product;
-using model::rotation_by;
 
 // From the plane's frame to the world's: R of docs/model.md, (M15).
 [[nodiscard]] Quaternion plane_orientation(const Mounting& mounting, double phi, double theta);

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "base/error.hpp"
-#include "record/number_text.hpp"
+#include "base/number_text.hpp"
 
 namespace bbsim::replay {
 namespace {
@@ -17,11 +17,11 @@ void check_times(const Run& run, const std::vector<double>& times) {
   for (std::size_t row = 0; row < times.size(); ++row) {
     const std::string place = "t in row " + std::to_string(row + 1) + " is ";
     if (!std::isfinite(times[row])) {
-      refuse(run.name, place + record::number_text(times[row]) + "; every row needs a finite time");
+      refuse(run.name, place + number_text(times[row]) + "; every row needs a finite time");
     }
     if (row > 0 && times[row] <= times[row - 1]) {
-      refuse(run.name, place + record::number_text(times[row]) + ", after " +
-                           record::number_text(times[row - 1]) + "; times have to increase");
+      refuse(run.name, place + number_text(times[row]) + ", after " + number_text(times[row - 1]) +
+                           "; times have to increase");
     }
   }
 }

@@ -13,11 +13,9 @@
 #include <string_view>
 #include <vector>
 
-#include "model/quaternion.hpp"
+#include "base/quaternion.hpp"
 
 namespace bbsim::replay {
-
-using model::Quaternion;
 
 struct Series {
   std::string name, unit, meaning;  // as in `bbsim columns`; unit "1" if dimensionless

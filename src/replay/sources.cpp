@@ -7,11 +7,11 @@
 #include <string_view>
 #include <utility>
 
+#include "model/control/sampled_cycle.hpp"
 #include "model/model.hpp"
-#include "model/reference_path.hpp"
-#include "model/rig/linear_rig.hpp"
+#include "model/signals/reference_path.hpp"
 #include "model/spectrum.hpp"
-#include "record/columns.hpp"
+#include "scenario/columns.hpp"
 
 namespace bbsim::replay {
 namespace {
@@ -52,16 +52,16 @@ std::optional<Poles> poles_of(const model::Model& model) {
 std::string unit_of_measure(const std::string& name) {
   if (name == "end_time") return "s";
   const std::size_t prefix = name.find('_');
-  const record::Column* column = nullptr;
-  if (prefix != std::string::npos) column = record::find_column(name.substr(prefix + 1));
+  const scenario::Column* column = nullptr;
+  if (prefix != std::string::npos) column = scenario::find_column(name.substr(prefix + 1));
   if (column == nullptr && name.ends_with("_end")) {
-    column = record::find_column(name.substr(0, name.size() - 4));
+    column = scenario::find_column(name.substr(0, name.size() - 4));
   }
   return column == nullptr ? "" : std::string(column->unit);
 }
 
 Series series_of(const std::string& name, std::vector<double> values) {
-  const record::Column* const known = record::find_column(name);
+  const scenario::Column* const known = scenario::find_column(name);
   if (known == nullptr) return {name, "", "", std::move(values)};
   return {name, std::string(known->unit), std::string(known->meaning), std::move(values)};
 }
@@ -83,7 +83,7 @@ void take_orientation(Run& run) {
     for (std::size_t part = 0; part < now.size(); ++part) {
       now[part] = run.columns[places[part]].values[row];
     }
-    now = model::normalised(now);
+    now = normalised(now);
     if (std::isfinite(now[0] + now[1] + now[2] + now[3])) last = now;
     run.orientation.push_back(last);
   }
@@ -99,7 +99,7 @@ SweepColumn sweep_column(plot::Column column) {
 
 }  // namespace
 
-Run run_of_table(record::TableData table, const std::string& name) {
+Run run_of_table(file::TableData table, const std::string& name) {
   Run run;
   run.name = name;
   for (std::size_t c = 0; c < table.names.size(); ++c) {

@@ -3,8 +3,8 @@
 
 #include <string>
 
+#include "file/table_writer.hpp"
 #include "plot/result.hpp"
-#include "record/table_writer.hpp"
 #include "replay/scene.hpp"
 #include "scenario/scenario.hpp"
 
@@ -13,7 +13,7 @@ namespace bbsim::replay {
 // A table's columns, with unit and meaning where `bbsim columns` knows them. Without x or y, as a
 // beam may be written, the ball stays on the other axis. Columns ball_qw to ball_qz become the
 // run's orientation.
-[[nodiscard]] Run run_of_table(record::TableData table, const std::string& name);
+[[nodiscard]] Run run_of_table(file::TableData table, const std::string& name);
 
 // The same of a result, with what its file or its summary tells; its scenario is left to
 // describe(). Columns of texts are left out.

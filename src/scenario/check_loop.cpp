@@ -1,28 +1,29 @@
-#include "record/columns.hpp"
+#include "scenario/columns.hpp"
 #include "scenario/sections.hpp"
 
-namespace bbsim::input {
+namespace bbsim::scenario {
 namespace {
 
 // The value at section.key, if it is there.
-std::optional<Value> find_in(Keys& scenario, std::string_view section, std::string_view key) {
-  const std::optional<Value> mapping = scenario.find(section);
-  return mapping ? Keys(*mapping).find(key) : std::nullopt;
+std::optional<yaml::Value> find_in(yaml::Keys& scenario, std::string_view section,
+                                   std::string_view key) {
+  const std::optional<yaml::Value> mapping = scenario.find(section);
+  return mapping ? yaml::Keys(*mapping).find(key) : std::nullopt;
 }
 
 // Reports at the key of `value`.
-void report(const Value& value, const std::string& message) {
+void report(const yaml::Value& value, const std::string& message) {
   value.context->problems.add(value.position, value.path + ": " + message);
 }
 
 // At gimbal, or at the top where there is no gimbal.
-void report_missing(Keys& scenario, const std::string& message) {
-  const std::optional<Value> gimbal = scenario.find("gimbal");
-  const Value& place = gimbal ? *gimbal : scenario.mapping();
+void report_missing(yaml::Keys& scenario, const std::string& message) {
+  const std::optional<yaml::Value> gimbal = scenario.find("gimbal");
+  const yaml::Value& place = gimbal ? *gimbal : scenario.mapping();
   place.context->problems.add(place.position, message);
 }
 
-void check_open_loop(Keys& scenario) {
+void check_open_loop(yaml::Keys& scenario) {
   if (const auto start = find_in(scenario, "gimbal", "start")) {
     report(*start,
            "found beside gimbal.motion, which says where the gimbal starts; allowed: only "
@@ -33,20 +34,10 @@ void check_open_loop(Keys& scenario) {
            "found beside gimbal.motion, which no servo follows; allowed: only with a "
            "controller that drives angle");
   }
-  const auto columns = find_in(scenario, "output", "columns");
-  if (!columns) return;
-  for (std::size_t i = 0; i < columns->node->items.size(); ++i) {
-    const Value item = columns->item(i);
-    const record::Column* column = record::find_column(item.node->text);
-    if (column != nullptr && column->needs == record::Needs::reference) {
-      item.refuse(", but there is no reference without a controller",
-                  "columns of an open loop, such as x");
-    }
-  }
 }
 
 // Where `drives` is neither, it has been reported already, and says nothing of the servo.
-void check_servo(Keys& scenario) {
+void check_servo(yaml::Keys& scenario) {
   const auto drives = find_in(scenario, "controller", "drives");
   const std::string driven = drives ? drives->node->text : "acceleration";
   const auto servo = find_in(scenario, "gimbal", "servo");
@@ -64,7 +55,7 @@ void check_servo(Keys& scenario) {
 
 }  // namespace
 
-void check_loop(Keys& scenario) {
+void check_loop(yaml::Keys& scenario) {
   const auto motion = find_in(scenario, "gimbal", "motion");
   const auto controller = scenario.find("controller");
   if (motion && controller) {
@@ -81,4 +72,4 @@ void check_loop(Keys& scenario) {
   }
 }
 
-}  // namespace bbsim::input
+}  // namespace bbsim::scenario

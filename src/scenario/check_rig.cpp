@@ -1,10 +1,10 @@
 #include <cmath>
 #include <string>
 
-#include "record/columns.hpp"
+#include "scenario/columns.hpp"
 #include "scenario/sections.hpp"
 
-namespace bbsim::input {
+namespace bbsim::scenario {
 namespace {
 
 // What is on its way through a delay is part of the loop's state, and of the matrix that has its
@@ -12,18 +12,18 @@ namespace {
 constexpr double most_periods = 100;
 
 // The value at a path of keys, if it is there.
-std::optional<Value> find_at(Keys& keys, std::initializer_list<std::string_view> path) {
-  std::optional<Value> value = keys.mapping();
+std::optional<yaml::Value> find_at(yaml::Keys& keys, std::initializer_list<std::string_view> path) {
+  std::optional<yaml::Value> value = keys.mapping();
   for (const std::string_view key : path) {
     if (!value) return {};
-    value = Keys(*value).find(key);
+    value = yaml::Keys(*value).find(key);
   }
   return value;
 }
 
 class Checks {
  public:
-  Checks(Keys& keys, const Scenario& scene) : keys_(keys), scene_(scene) {}
+  Checks(yaml::Keys& keys, const Scenario& scene) : keys_(keys), scene_(scene) {}
 
   void all() {
     controller();
@@ -174,31 +174,27 @@ class Checks {
 
   void columns() {
     const auto columns = find_at(keys_, {"output", "columns"});
-    if (!columns || columns->node->kind != Node::Kind::sequence) return;
+    if (!columns || columns->node->kind != yaml::Node::Kind::sequence) return;
     for (std::size_t i = 0; i < columns->node->items.size(); ++i) {
-      const Value item = columns->item(i);
-      const record::Column* column = record::find_column(item.node->text);
+      const yaml::Value item = columns->item(i);
+      const Column* column = find_column(item.node->text);
       if (column == nullptr) continue;
-      if (column->needs == record::Needs::plate && !scene_.plate.inertia) {
-        item.refuse(", but the plate's inertia is not known",
-                    "columns of the ball, such as torque_phi; or give plate.inertia");
-      }
-      if (column->needs == record::Needs::samples &&
-          !(scene_.controller && scene_.controller->sampling)) {
-        item.refuse(", but the controller takes no samples",
-                    "other columns; or give controller.sampling");
+      // Without motion and controller, that has been reported.
+      if (column->needs == Needs::reference && !scene_.gimbal.motion) continue;
+      if (const Missing lacks = missing(*column, scene_)) {
+        item.refuse(std::string(", but ") + lacks.why, lacks.instead);
       }
     }
   }
 
-  Keys& keys_;
+  yaml::Keys& keys_;
   const Scenario& scene_;
 };
 
 }  // namespace
 
-void check_rig(Keys& keys, const Scenario& scenario) {
+void check_rig(yaml::Keys& keys, const Scenario& scenario) {
   Checks(keys, scenario).all();
 }
 
-}  // namespace bbsim::input
+}  // namespace bbsim::scenario

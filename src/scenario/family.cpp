@@ -5,15 +5,16 @@
 #include <map>
 #include <utility>
 
-#include "scenario/check_text.hpp"
-#include "scenario/override.hpp"
-#include "scenario/rules.hpp"
 #include "scenario/sections.hpp"
-#include "scenario/text_file.hpp"
+#include "yaml/check_text.hpp"
+#include "yaml/override.hpp"
+#include "yaml/rules.hpp"
+#include "yaml/text_file.hpp"
 
 namespace bbsim {
 
-using namespace input;
+using namespace yaml;
+using namespace scenario;
 
 struct ScenarioFamily::State {
   Source source;
@@ -88,7 +89,7 @@ Sweep ScenarioFamily::read_sweep() const {
   if (state_->root->kind == Node::Kind::mapping) {
     Context context{problems, {}};
     Keys keys({state_->root, "", {}, &context});
-    keys.section("sweep", input::read_sweep, sweep);
+    keys.section("sweep", scenario::read_sweep, sweep);
   }
   problems.throw_if_any();
   return sweep;
@@ -109,7 +110,7 @@ std::vector<std::pair<std::string, std::uint64_t>> ScenarioFamily::table_hashes(
   return hashes;
 }
 
-std::vector<record::InputTable> ScenarioFamily::inputs() const {
+std::vector<file::InputTable> ScenarioFamily::inputs() const {
   return state_->tables->all();
 }
 

@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "record/table_writer.hpp"
+#include "file/table_writer.hpp"
 #include "scenario/scenario.hpp"
 
 namespace bbsim {
@@ -52,7 +52,7 @@ class ScenarioFamily {
   [[nodiscard]] std::vector<std::pair<std::string, std::uint64_t>> table_hashes() const;
 
   // These tables, as the scenario names them.
-  [[nodiscard]] std::vector<record::InputTable> inputs() const;
+  [[nodiscard]] std::vector<file::InputTable> inputs() const;
 
   [[nodiscard]] const Source& source() const;
 

@@ -2,12 +2,13 @@
 
 #include <algorithm>
 
-#include "scenario/check_text.hpp"
 #include "scenario/sections.hpp"
+#include "yaml/check_text.hpp"
 
 namespace bbsim {
 
-using namespace input;
+using namespace yaml;
+using namespace scenario;
 
 namespace {
 

@@ -5,8 +5,8 @@
 #include <string>
 #include <string_view>
 
-#include "scenario/quantity.hpp"
 #include "scenario/scenario.hpp"
+#include "yaml/quantity.hpp"
 
 namespace bbsim {
 
@@ -17,6 +17,6 @@ namespace bbsim {
 // The number at a key, in SI units; nothing if there is none. Whatever else is wrong with the text
 // does not matter, and no other file is opened.
 [[nodiscard]] std::optional<double> number_at(const Source& source, std::string_view key,
-                                              input::Dimension dimension);
+                                              yaml::Dimension dimension);
 
 }  // namespace bbsim

@@ -2,31 +2,31 @@
 
 #include <utility>
 
-#include "scenario/rules.hpp"
 #include "scenario/table_rows.hpp"
+#include "yaml/rules.hpp"
 
-namespace bbsim::input {
+namespace bbsim::scenario {
 namespace {
 
 // A Fourier series fits; a list of aliases that grows out of hand does not.
 constexpr std::size_t most_terms = 1000;
 
-constexpr Number angle{Dimension::angle};
-constexpr Number angular_rate{Dimension::angular_rate};
+constexpr yaml::Number angle{yaml::Dimension::angle};
+constexpr yaml::Number angular_rate{yaml::Dimension::angular_rate};
 
-void read_sinusoid(Keys& keys, Sinusoid& sinusoid) {
+void read_sinusoid(yaml::Keys& keys, Sinusoid& sinusoid) {
   keys.required("amplitude", angle, sinusoid.amplitude);
   keys.required("frequency", angular_rate, sinusoid.frequency);
   keys.optional("phase", angle, sinusoid.phase);
   keys.optional("offset", angle, sinusoid.offset);
 }
 
-void read_ramp(Keys& keys, Ramp& ramp) {
+void read_ramp(yaml::Keys& keys, Ramp& ramp) {
   keys.required("start", angle, ramp.start);
   keys.required("rate", angular_rate, ramp.rate);
 }
 
-void read_table(Keys& keys, Table& table) {
+void read_table(yaml::Keys& keys, Table& table) {
   TableRows rows;
   read_table_rows(keys, {"value"}, "angle", rows);
   if (rows.values.empty()) return;
@@ -39,27 +39,28 @@ struct Shapes {
   std::optional<Table> table;
 };
 
-void read_shapes(Keys& keys, Shapes& shapes) {
+void read_shapes(yaml::Keys& keys, Shapes& shapes) {
   keys.exactly_one({"sinusoid", "ramp", "table"});
-  keys.optional("sinusoid", MappingOf(read_sinusoid), shapes.sinusoid);
-  keys.optional("ramp", MappingOf(read_ramp), shapes.ramp);
-  keys.optional("table", MappingOf(read_table), shapes.table);
+  keys.optional("sinusoid", yaml::MappingOf(read_sinusoid), shapes.sinusoid);
+  keys.optional("ramp", yaml::MappingOf(read_ramp), shapes.ramp);
+  keys.optional("table", yaml::MappingOf(read_table), shapes.table);
 }
 
 constexpr std::string_view term_allowed =
     "an angle, such as 0.1 or \"4 deg\", or one of sinusoid, ramp, table";
 
-bool read_term(const Value& value, Profile& into) {
-  if (value.node->kind == Node::Kind::scalar) {
-    const Quantity quantity = read_quantity(value.node->text, value.node->quoted, Dimension::angle);
+bool read_term(const yaml::Value& value, Profile& into) {
+  if (value.node->kind == yaml::Node::Kind::scalar) {
+    const yaml::Quantity quantity =
+        yaml::read_quantity(value.node->text, value.node->quoted, yaml::Dimension::angle);
     if (!quantity.value) return value.refuse(quantity.fault, term_allowed);
     into.emplace_back(*quantity.value);
-    value.note(*quantity.value, Dimension::angle);
+    value.note(*quantity.value, yaml::Dimension::angle);
     return true;
   }
-  if (value.node->kind != Node::Kind::mapping) return value.refuse("", term_allowed);
+  if (value.node->kind != yaml::Node::Kind::mapping) return value.refuse("", term_allowed);
   Shapes shapes;
-  if (!MappingOf(read_shapes).read(value, shapes)) return false;
+  if (!yaml::MappingOf(read_shapes).read(value, shapes)) return false;
   if (shapes.sinusoid) into.emplace_back(*shapes.sinusoid);
   if (shapes.ramp) into.emplace_back(*shapes.ramp);
   if (shapes.table) into.emplace_back(std::move(*shapes.table));
@@ -72,9 +73,9 @@ std::string ProfileRule::allowed() const {
   return std::string(term_allowed) + ", or a list of these: their sum";
 }
 
-bool ProfileRule::read(const Value& value, Profile& into) const {
-  if (value.node->kind == Node::Kind::null) return value.refuse("", allowed());
-  if (value.node->kind != Node::Kind::sequence) return read_term(value, into);
+bool ProfileRule::read(const yaml::Value& value, Profile& into) const {
+  if (value.node->kind == yaml::Node::Kind::null) return value.refuse("", allowed());
+  if (value.node->kind != yaml::Node::Kind::sequence) return read_term(value, into);
   const std::size_t count = value.node->items.size();
   if (count == 0 || count > most_terms) {
     return value.refuse("", "a list of 1 to " + std::to_string(most_terms));
@@ -84,4 +85,4 @@ bool ProfileRule::read(const Value& value, Profile& into) const {
   return fine;
 }
 
-}  // namespace bbsim::input
+}  // namespace bbsim::scenario

@@ -4,13 +4,13 @@
 #include <string>
 
 #include "scenario/scenario.hpp"
-#include "scenario/schema.hpp"
+#include "yaml/schema.hpp"
 
-namespace bbsim::input {
+namespace bbsim::scenario {
 
 struct ProfileRule {
   [[nodiscard]] std::string allowed() const;
-  bool read(const Value& value, Profile& into) const;
+  bool read(const yaml::Value& value, Profile& into) const;
 };
 
-}  // namespace bbsim::input
+}  // namespace bbsim::scenario

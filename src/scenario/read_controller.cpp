@@ -1,39 +1,41 @@
 #include <cmath>
 
-#include "scenario/rules.hpp"
 #include "scenario/sections.hpp"
+#include "yaml/rules.hpp"
 
-namespace bbsim::input {
+namespace bbsim::scenario {
 namespace {
 
-void read_pd(Keys& keys, Controller& controller) {
-  keys.required("kv", GainMatrix{}, controller.kv);
-  keys.required("kp", GainMatrix{}, controller.kp);
+void read_pd(yaml::Keys& keys, Controller& controller) {
+  keys.required("kv", yaml::GainMatrix{}, controller.kv);
+  keys.required("kp", yaml::GainMatrix{}, controller.kp);
 }
 
-void read_pid(Keys& keys, Controller& controller) {
+void read_pid(yaml::Keys& keys, Controller& controller) {
   read_pd(keys, controller);
-  keys.required("ki", GainMatrix{}, controller.ki);
+  keys.required("ki", yaml::GainMatrix{}, controller.ki);
 }
 
-void read_state_feedback(Keys& keys, Controller& controller) {
-  keys.required("gain", StateGain{}, controller.gain);
+void read_state_feedback(yaml::Keys& keys, Controller& controller) {
+  keys.required("gain", yaml::StateGain{}, controller.gain);
 }
 
-void read_lqr(Keys& keys, Controller& controller) {
+void read_lqr(yaml::Keys& keys, Controller& controller) {
   LqrWeights& weights = controller.weights;
-  const Number weight{Dimension::number, {.at_least = 0}, "1"};
-  keys.required("position", Number{Dimension::number, {.above = 0}, "1"}, weights.position);
+  const yaml::Number weight{yaml::Dimension::number, {.at_least = 0}, "1"};
+  keys.required("position", yaml::Number{yaml::Dimension::number, {.above = 0}, "1"},
+                weights.position);
   keys.optional("velocity", weight, weights.velocity);
   keys.optional("angle", weight, weights.angle);
   keys.optional("rate", weight, weights.rate);
-  keys.required("command", Number{Dimension::number, {.above = 0}, "0.1"}, weights.command);
+  keys.required("command", yaml::Number{yaml::Dimension::number, {.above = 0}, "0.1"},
+                weights.command);
 }
 
 struct NamedLaw {
   std::string_view key;
   Law law;
-  void (*read)(Keys&, Controller&);
+  void (*read)(yaml::Keys&, Controller&);
 };
 constexpr NamedLaw laws[] = {
     {"pd", Law::pd, read_pd},
@@ -44,7 +46,7 @@ constexpr NamedLaw laws[] = {
     {"feedback_linearisation", Law::feedback_linearisation, read_pd},
 };
 
-void read_law(Keys& keys, Controller& controller) {
+void read_law(yaml::Keys& keys, Controller& controller) {
   std::vector<std::string_view> names;
   std::vector<const NamedLaw*> given;
   for (const NamedLaw& law : laws) {
@@ -52,8 +54,8 @@ void read_law(Keys& keys, Controller& controller) {
     if (keys.find(law.key)) given.push_back(&law);
   }
   if (given.empty()) {
-    keys.missing("pd",
-                 MappingOf(read_pd).allowed() + "; or another law: " + comma_separated(names));
+    keys.missing("pd", yaml::MappingOf(read_pd).allowed() +
+                           "; or another law: " + yaml::comma_separated(names));
     return;
   }
   if (given.size() > 1) {
@@ -64,46 +66,50 @@ void read_law(Keys& keys, Controller& controller) {
   keys.section(given[0]->key, given[0]->read, controller);
 }
 
-void read_sampling(Keys& keys, Sampling& sampling) {
-  const Number time{Dimension::time, {.at_least = 0}};
-  keys.required("period", Number{Dimension::time, {.above = 0}}, sampling.period);
+void read_sampling(yaml::Keys& keys, Sampling& sampling) {
+  const yaml::Number time{yaml::Dimension::time, {.at_least = 0}};
+  keys.required("period", yaml::Number{yaml::Dimension::time, {.above = 0}}, sampling.period);
   keys.optional("delay", time, sampling.delay);
-  keys.optional("resolution", AngleLimit{{.at_least = 0}}, sampling.resolution);
+  keys.optional("resolution", yaml::AngleLimit{{.at_least = 0}}, sampling.resolution);
   keys.optional("derivative_filter", time, sampling.derivative_filter);
 }
 
-void read_sensor(Keys& keys, Sensor& sensor) {
-  const Number length{Dimension::length, {.at_least = 0}};
+void read_sensor(yaml::Keys& keys, Sensor& sensor) {
+  const yaml::Number length{yaml::Dimension::length, {.at_least = 0}};
   keys.optional("resolution", length, sensor.resolution);
   keys.optional("noise", length, sensor.noise);
   // Doubles hold integers up to 2^53.
   double seed = static_cast<double>(sensor.seed);
-  const Number whole{Dimension::number, {.at_least = 0, .at_most = 9007199254740992.0}, "1"};
+  const yaml::Number whole{
+      yaml::Dimension::number, {.at_least = 0, .at_most = 9007199254740992.0}, "1"};
   if (keys.optional("seed", whole, seed)) {
     if (seed != std::floor(seed)) keys.find("seed")->refuse("", "a whole number of at least 0");
     sensor.seed = static_cast<unsigned long>(seed);
   }
-  keys.optional("delay", Number{Dimension::time, {.at_least = 0}}, sensor.delay);
-  keys.optional("dropout", Number{Dimension::number, {.at_least = 0, .at_most = 1}, "0.05"},
+  keys.optional("delay", yaml::Number{yaml::Dimension::time, {.at_least = 0}}, sensor.delay);
+  keys.optional("dropout",
+                yaml::Number{yaml::Dimension::number, {.at_least = 0, .at_most = 1}, "0.05"},
                 sensor.dropout);
-  keys.optional("area", SidesOf{}, sensor.area);
+  keys.optional("area", yaml::SidesOf{}, sensor.area);
 }
 
 }  // namespace
 
-void read_controller(Keys& keys, Controller& controller) {
+void read_controller(yaml::Keys& keys, Controller& controller) {
   read_law(keys, controller);
-  keys.optional("drives",
-                NameOf<Drives>{{{Drives::acceleration, "acceleration"}, {Drives::angle, "angle"}}},
-                controller.drives);
+  keys.optional(
+      "drives",
+      yaml::NameOf<Drives>{{{Drives::acceleration, "acceleration"}, {Drives::angle, "angle"}}},
+      controller.drives);
   keys.section("reference", read_reference, controller.reference);
   if (controller.drives == Drives::angle) {
-    keys.optional("limit", AngleLimit{{.above = 0}}, controller.limit);
+    keys.optional("limit", yaml::AngleLimit{{.above = 0}}, controller.limit);
   } else {
-    keys.optional("limit", Number{Dimension::number, {.above = 0}, "5"}, controller.limit);
+    keys.optional("limit", yaml::Number{yaml::Dimension::number, {.above = 0}, "5"},
+                  controller.limit);
   }
-  keys.optional("sampling", MappingOf(read_sampling), controller.sampling);
-  keys.optional("sensor", MappingOf(read_sensor), controller.sensor);
+  keys.optional("sampling", yaml::MappingOf(read_sampling), controller.sampling);
+  keys.optional("sensor", yaml::MappingOf(read_sensor), controller.sensor);
 }
 
-}  // namespace bbsim::input
+}  // namespace bbsim::scenario

@@ -1,34 +1,34 @@
 #include <set>
 
-#include "record/columns.hpp"
-#include "scenario/rules.hpp"
+#include "scenario/columns.hpp"
 #include "scenario/sections.hpp"
+#include "yaml/rules.hpp"
 
-namespace bbsim::input {
+namespace bbsim::scenario {
 namespace {
 
 constexpr double most_rows = 1e9;
 
 std::vector<std::string_view> column_names() {
   std::vector<std::string_view> names;
-  for (const record::Column& column : record::all_columns()) names.push_back(column.name);
+  for (const Column& column : columns) names.push_back(column.name);
   return names;
 }
 
 struct Columns {
   [[nodiscard]] static std::string allowed() { return "a list of columns, such as [t, x, y]"; }
 
-  static bool read(const Value& value, std::vector<std::string>& into) {
-    if (value.node->kind != Node::Kind::sequence || value.node->items.empty()) {
+  static bool read(const yaml::Value& value, std::vector<std::string>& into) {
+    if (value.node->kind != yaml::Node::Kind::sequence || value.node->items.empty()) {
       return value.refuse("", allowed());
     }
     into.clear();
     std::set<std::string_view> seen;
     for (std::size_t i = 0; i < value.node->items.size(); ++i) {
-      const Value item = value.item(i);
+      const yaml::Value item = value.item(i);
       const std::string& name = item.node->text;
-      if (record::find_column(name) == nullptr) {
-        refuse_name(item, column_names());
+      if (find_column(name) == nullptr) {
+        yaml::refuse_name(item, column_names());
       } else if (!seen.insert(name).second) {
         item.refuse(" again", "each column once");
       } else {
@@ -39,8 +39,8 @@ struct Columns {
   }
 };
 
-NameOf<Method> methods() {
-  NameOf<Method> rule;
+yaml::NameOf<Method> methods() {
+  yaml::NameOf<Method> rule;
   for (const NamedMethod& method : named_methods) {
     rule.choices.push_back({method.method, method.name});
   }
@@ -48,11 +48,11 @@ NameOf<Method> methods() {
 }
 
 // Of a bound on the error and tolerances, which exclude each other, the command line's count.
-void check_bound(Keys& keys, Solver& solver) {
-  const auto on_command_line = [](const Value& value) { return value.position.source > 0; };
-  const Value error = *keys.find("error");
+void check_bound(yaml::Keys& keys, Solver& solver) {
+  const auto on_command_line = [](const yaml::Value& value) { return value.position.source > 0; };
+  const yaml::Value error = *keys.find("error");
   for (const char* name : {"rtol", "atol"}) {
-    const std::optional<Value> tolerance = keys.find(name);
+    const std::optional<yaml::Value> tolerance = keys.find(name);
     if (!tolerance) continue;
     if (on_command_line(*tolerance) == on_command_line(error)) {
       tolerance->report(
@@ -70,28 +70,30 @@ void check_bound(Keys& keys, Solver& solver) {
 
 }  // namespace
 
-void read_time(Keys& keys, OutputTimes& time) {
-  const bool end = keys.required("end", Number{Dimension::time, {.above = 0}}, time.end);
-  const bool step = keys.required("step", Number{Dimension::time, {.above = 0}}, time.step);
+void read_time(yaml::Keys& keys, OutputTimes& time) {
+  const bool end =
+      keys.required("end", yaml::Number{yaml::Dimension::time, {.above = 0}}, time.end);
+  const bool step =
+      keys.required("step", yaml::Number{yaml::Dimension::time, {.above = 0}}, time.step);
   if (end) keys.context().end = time.end;
   if (end && step && time.end / time.step > most_rows) {
     keys.find("step")->refuse(", more than 1e9 rows of output",
-                              "a time of at least " + number_text(time.end / most_rows));
+                              "a time of at least " + yaml::number_text(time.end / most_rows));
   }
 }
 
-void read_solver(Keys& keys, Solver& solver) {
-  const Number rtol{Dimension::number, {.at_least = 1e-14, .at_most = 0.1}, "1e-8"};
-  const Number atol{Dimension::number, {.above = 0, .at_most = 1}, "1e-10"};
+void read_solver(yaml::Keys& keys, Solver& solver) {
+  const yaml::Number rtol{yaml::Dimension::number, {.at_least = 1e-14, .at_most = 0.1}, "1e-8"};
+  const yaml::Number atol{yaml::Dimension::number, {.above = 0, .at_most = 1}, "1e-10"};
   keys.optional("method", methods(), solver.method);
   keys.optional("rtol", rtol, solver.rtol);
   keys.optional("atol", atol, solver.atol);
-  const Number error{Dimension::length, {.above = 0, .at_most = 1}, "1e-9"};
+  const yaml::Number error{yaml::Dimension::length, {.above = 0, .at_most = 1}, "1e-9"};
   if (keys.optional("error", error, solver.error) && solver.error) check_bound(keys, solver);
 }
 
-void read_output(Keys& keys, Output& output) {
+void read_output(yaml::Keys& keys, Output& output) {
   keys.optional("columns", Columns{}, output.columns);
 }
 
-}  // namespace bbsim::input
+}  // namespace bbsim::scenario

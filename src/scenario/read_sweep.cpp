@@ -3,12 +3,12 @@
 #include <string>
 
 #include "base/error.hpp"
-#include "record/measures.hpp"
-#include "scenario/rules.hpp"
+#include "scenario/measures.hpp"
 #include "scenario/sections.hpp"
 #include "scenario/variation.hpp"
+#include "yaml/rules.hpp"
 
-namespace bbsim::input {
+namespace bbsim::scenario {
 namespace {
 
 // A mapping from keys of the scenario to what they vary over.
@@ -17,15 +17,16 @@ struct Variations {
     return "a mapping from keys to values, such as ball.radius: linear:0.005:0.02:16";
   }
 
-  static bool read(const Value& value, std::vector<Variation>& into) {
-    if (value.node->kind != Node::Kind::mapping || value.node->entries.empty()) {
+  static bool read(const yaml::Value& value, std::vector<Variation>& into) {
+    if (value.node->kind != yaml::Node::Kind::mapping || value.node->entries.empty()) {
       return value.refuse("", allowed());
     }
     bool fine = true;
-    for (const Entry& entry : value.node->entries) {
-      const Value spec{entry.value, value.path + '.' + entry.key, entry.position, value.context};
+    for (const yaml::Entry& entry : value.node->entries) {
+      const yaml::Value spec{entry.value, value.path + '.' + entry.key, entry.position,
+                             value.context};
       const auto same = [&](const Variation& other) { return other.key == entry.key; };
-      if (spec.node->kind != Node::Kind::scalar) {
+      if (spec.node->kind != yaml::Node::Kind::scalar) {
         fine = spec.refuse("", "a text such as linear:0.005:0.02:16");
       } else if (std::ranges::any_of(into, same)) {
         fine = spec.report("found again; allowed: each key once");
@@ -38,7 +39,7 @@ struct Variations {
   }
 
  private:
-  static bool understood(const Value& spec, const Variation& variation) {
+  static bool understood(const yaml::Value& spec, const Variation& variation) {
     try {
       static_cast<void>(parse_variation(variation));
       static_cast<void>(tied_keys(variation));
@@ -55,15 +56,15 @@ struct MeasureNames {
     return "a list of measures, such as [max_tilt, end_x]";
   }
 
-  static bool read(const Value& value, std::vector<std::string>& into) {
-    if (value.node->kind != Node::Kind::sequence || value.node->items.empty()) {
+  static bool read(const yaml::Value& value, std::vector<std::string>& into) {
+    if (value.node->kind != yaml::Node::Kind::sequence || value.node->items.empty()) {
       return value.refuse("", allowed());
     }
     bool fine = true;
     for (std::size_t i = 0; i < value.node->items.size(); ++i) {
-      const Value item = value.item(i);
-      if (!record::find_measure(item.node->text)) {
-        fine = item.refuse("", record::allowed_measures());
+      const yaml::Value item = value.item(i);
+      if (!find_measure(item.node->text)) {
+        fine = item.refuse("", allowed_measures());
       } else if (std::ranges::find(into, item.node->text) != into.end()) {
         fine = item.refuse(" again", "each measure once");
       } else {
@@ -74,23 +75,24 @@ struct MeasureNames {
   }
 };
 
-void read_whole(Keys& keys, std::string_view key, double least, double& into) {
+void read_whole(yaml::Keys& keys, std::string_view key, double least, double& into) {
   // Doubles hold integers up to 2^53.
-  const Number whole{Dimension::number, {.at_least = least, .at_most = 9007199254740992.0}, "1000"};
+  const yaml::Number whole{
+      yaml::Dimension::number, {.at_least = least, .at_most = 9007199254740992.0}, "1000"};
   if (keys.optional(key, whole, into) && into != std::floor(into)) {
-    keys.find(key)->refuse("", "a whole number of at least " + number_text(least));
+    keys.find(key)->refuse("", "a whole number of at least " + yaml::number_text(least));
   }
 }
 
 }  // namespace
 
-void read_sweep(Keys& keys, Sweep& sweep) {
+void read_sweep(yaml::Keys& keys, Sweep& sweep) {
   keys.optional("vary", Variations{}, sweep.vary);
-  keys.optional("combine", NameOf<Combine>{{{Combine::grid, "grid"}, {Combine::zip, "zip"}}},
+  keys.optional("combine", yaml::NameOf<Combine>{{{Combine::grid, "grid"}, {Combine::zip, "zip"}}},
                 sweep.combine);
   if (keys.find("samples")) read_whole(keys, "samples", 1, sweep.samples.emplace());
   read_whole(keys, "seed", 0, sweep.seed);
   keys.optional("measure", MeasureNames{}, sweep.measure);
 }
 
-}  // namespace bbsim::input
+}  // namespace bbsim::scenario

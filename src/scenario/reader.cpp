@@ -2,14 +2,16 @@
 
 #include <filesystem>
 
-#include "scenario/check_text.hpp"
-#include "scenario/override.hpp"
-#include "scenario/rules.hpp"
 #include "scenario/sections.hpp"
-#include "scenario/text_file.hpp"
+#include "yaml/check_text.hpp"
+#include "yaml/override.hpp"
+#include "yaml/rules.hpp"
+#include "yaml/text_file.hpp"
 
 namespace bbsim {
-namespace input {
+namespace scenario {
+
+using namespace yaml;
 
 // `time` stands before `gimbal`, whose tables must cover the run.
 void read_sections(Keys& keys, Scenario& scenario) {
@@ -49,13 +51,13 @@ const Node* build_tree(const Source& source, Problems& problems, Nodes& nodes) {
   return root;
 }
 
-}  // namespace input
+}  // namespace scenario
 
-using namespace input;
+using namespace scenario;
 
 namespace {
 
-void read_into(Scenario& scenario, Problems& problems, std::vector<record::InputTable>* inputs) {
+void read_into(Scenario& scenario, Problems& problems, std::vector<file::InputTable>* inputs) {
   Nodes nodes;
   if (const Node* root = build_tree(scenario.source, problems, nodes)) {
     Context context{problems, std::filesystem::path(scenario.source.file).parent_path()};
@@ -68,7 +70,7 @@ void read_into(Scenario& scenario, Problems& problems, std::vector<record::Input
 
 Scenario parse_scenario(const std::string& text, const std::string& name,
                         const std::vector<std::string>& overrides,
-                        std::vector<record::InputTable>* inputs) {
+                        std::vector<file::InputTable>* inputs) {
   Scenario scenario;
   scenario.source = {name, text, overrides};
   Problems problems(name, without_byte_order_mark(scenario.source.text), overrides);
@@ -105,7 +107,7 @@ Scenario parse_sound_parts(const std::string& text, const std::string& name,
 }
 
 Scenario read_scenario(const std::string& file, const std::vector<std::string>& overrides,
-                       std::vector<record::InputTable>* inputs) {
+                       std::vector<file::InputTable>* inputs) {
   return parse_scenario(read_text(file), name_in_messages(file), overrides, inputs);
 }
 

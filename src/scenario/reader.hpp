@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "record/table_writer.hpp"
+#include "file/table_writer.hpp"
 #include "scenario/scenario.hpp"
 
 namespace bbsim {
@@ -19,13 +19,13 @@ namespace bbsim {
 // `inputs`, if it is given, gets the tables that were read, as the scenario names them.
 [[nodiscard]] Scenario read_scenario(const std::string& file,
                                      const std::vector<std::string>& overrides = {},
-                                     std::vector<record::InputTable>* inputs = nullptr);
+                                     std::vector<file::InputTable>* inputs = nullptr);
 
 // The same, of text already in memory. `name` stands for the file in errors, and its folder is
 // where table files are looked for.
 [[nodiscard]] Scenario parse_scenario(const std::string& text, const std::string& name,
                                       const std::vector<std::string>& overrides = {},
-                                      std::vector<record::InputTable>* inputs = nullptr);
+                                      std::vector<file::InputTable>* inputs = nullptr);
 
 // The table files that a scenario names, as they are opened.
 [[nodiscard]] std::vector<std::string> table_files(const Scenario& scenario);

@@ -8,10 +8,9 @@
 #include <variant>
 #include <vector>
 
-namespace bbsim {
+#include "base/pair.hpp"
 
-using Pair = std::array<double, 2>;   // (x, y), or (phi, theta)
-using Matrix2 = std::array<Pair, 2>;  // rows phi, theta; columns x, y
+namespace bbsim {
 
 struct Ball {
   double radius = 0;            // m, > 0, required

@@ -2,34 +2,35 @@
 #pragma once
 
 #include "scenario/scenario.hpp"
-#include "scenario/schema.hpp"
+#include "yaml/schema.hpp"
 
-namespace bbsim::input {
+namespace bbsim::scenario {
 
-void read_ball(Keys& keys, Ball& ball);
-void read_plate(Keys& keys, Plate& plate);
-void read_events(Keys& keys, Events& events);
-void read_time(Keys& keys, OutputTimes& time);
-void read_gimbal(Keys& keys, Gimbal& gimbal);
-void read_controller(Keys& keys, Controller& controller);
-void read_reference(Keys& keys, Reference& reference);
-void read_solver(Keys& keys, Solver& solver);
-void read_output(Keys& keys, Output& output);
-void read_sweep(Keys& keys, Sweep& sweep);
+void read_ball(yaml::Keys& keys, Ball& ball);
+void read_plate(yaml::Keys& keys, Plate& plate);
+void read_events(yaml::Keys& keys, Events& events);
+void read_time(yaml::Keys& keys, OutputTimes& time);
+void read_gimbal(yaml::Keys& keys, Gimbal& gimbal);
+void read_controller(yaml::Keys& keys, Controller& controller);
+void read_reference(yaml::Keys& keys, Reference& reference);
+void read_solver(yaml::Keys& keys, Solver& solver);
+void read_output(yaml::Keys& keys, Output& output);
+void read_sweep(yaml::Keys& keys, Sweep& sweep);
 
 // All of them.
-void read_sections(Keys& keys, Scenario& scenario);
+void read_sections(yaml::Keys& keys, Scenario& scenario);
 
 // The tree of a scenario's text with all overrides applied; nullptr, with the problems reported, if
 // the text holds none.
-[[nodiscard]] const Node* build_tree(const Source& source, Problems& problems, Nodes& nodes);
+[[nodiscard]] const yaml::Node* build_tree(const Source& source, yaml::Problems& problems,
+                                           yaml::Nodes& nodes);
 
 // What must hold between the sections: whether a controller or a prescribed motion moves the
 // gimbal, and what may stand beside each.
-void check_loop(Keys& scenario);
+void check_loop(yaml::Keys& scenario);
 
 // What parts of the rig ask of each other: a servo limit of a servo, a sensor of samples, an edge
 // of a plate. After check_loop.
-void check_rig(Keys& keys, const Scenario& scenario);
+void check_rig(yaml::Keys& keys, const Scenario& scenario);
 
-}  // namespace bbsim::input
+}  // namespace bbsim::scenario

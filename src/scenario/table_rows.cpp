@@ -6,16 +6,16 @@
 #include <utility>
 
 #include "base/error.hpp"
-#include "scenario/rules.hpp"
+#include "yaml/rules.hpp"
 
-namespace bbsim::input {
+namespace bbsim::scenario {
 namespace {
 
 constexpr std::size_t fewest_rows = 4;  // of a C2 interpolant without end conditions to invent
 
 // The file's content, or nullptr after reporting why there is none.
-const record::TableData* load(const Value& file, const std::string& name) {
-  Context& context = *file.context;
+const file::TableData* load(const yaml::Value& file, const std::string& name) {
+  yaml::Context& context = *file.context;
   const std::filesystem::path path = context.folder / name;
   const std::lock_guard lock(context.tables->mutex);
   auto& tables = context.tables->by_file;
@@ -28,8 +28,8 @@ const record::TableData* load(const Value& file, const std::string& name) {
     return nullptr;
   }
   try {
-    auto data = std::make_shared<const record::TableData>(record::read_table(path.string()));
-    return tables.emplace(path.string(), record::InputTable{name, std::move(data)})
+    auto data = std::make_shared<const file::TableData>(file::read_table(path.string()));
+    return tables.emplace(path.string(), file::InputTable{name, std::move(data)})
         .first->second.data.get();
   } catch (const InputError& e) {
     for (const Problem& problem : e.problems()) {
@@ -40,13 +40,13 @@ const record::TableData* load(const Value& file, const std::string& name) {
   }
 }
 
-const std::vector<double>* find_column(const Value& key, const std::string& name,
-                                       const record::TableData& data) {
+const std::vector<double>* find_column(const yaml::Value& key, const std::string& name,
+                                       const file::TableData& data) {
   const auto found = std::ranges::find(data.names, name);
   if (found == data.names.end()) {
     std::vector<std::string> names;  // the file's own, fit for a terminal
-    for (const std::string& one : data.names) names.push_back(shown(one));
-    refuse_name(key, {names.begin(), names.end()});
+    for (const std::string& one : data.names) names.push_back(yaml::shown(one));
+    yaml::refuse_name(key, {names.begin(), names.end()});
     return nullptr;
   }
   return &data.columns[static_cast<std::size_t>(found - data.names.begin())];
@@ -63,17 +63,18 @@ std::string fault(const TableRows& table, const std::vector<std::string_view>& v
   for (std::size_t i = 0; i < rows; ++i) {
     const std::string row = " in row " + std::to_string(i + 1) + " below the header";
     if (!std::isfinite(table.times[i])) {
-      return "found the time " + number_text(table.times[i]) + row + "; allowed: a finite time";
+      return "found the time " + yaml::number_text(table.times[i]) + row +
+             "; allowed: a finite time";
     }
     for (std::size_t k = 0; k < value_keys.size(); ++k) {
       const double value = table.values[k][i];
       if (std::isfinite(value)) continue;
-      return "found the " + std::string(value_keys[k]) + ' ' + number_text(value) + row +
+      return "found the " + std::string(value_keys[k]) + ' ' + yaml::number_text(value) + row +
              "; allowed: a finite " + std::string(noun);
     }
     if (i > 0 && !(table.times[i] > table.times[i - 1])) {
-      return "found the time " + number_text(table.times[i]) + row + ", after " +
-             number_text(table.times[i - 1]) + "; allowed: strictly increasing times";
+      return "found the time " + yaml::number_text(table.times[i]) + row + ", after " +
+             yaml::number_text(table.times[i - 1]) + "; allowed: strictly increasing times";
     }
   }
   return "";
@@ -83,25 +84,25 @@ std::string cover_fault(const TableRows& table, double end) {
   const double first = table.times.front();
   const double last = table.times.back();
   if (first <= 0 && last >= end) return "";
-  return "found times from " + number_text(first) + " to " + number_text(last) +
-         " s; allowed: a table that covers the run, 0 to " + number_text(end) + " s";
+  return "found times from " + yaml::number_text(first) + " to " + yaml::number_text(last) +
+         " s; allowed: a table that covers the run, 0 to " + yaml::number_text(end) + " s";
 }
 
 }  // namespace
 
-void read_table_rows(Keys& keys, const std::vector<std::string_view>& value_keys,
+void read_table_rows(yaml::Keys& keys, const std::vector<std::string_view>& value_keys,
                      std::string_view noun, TableRows& into) {
-  constexpr Text column{"the name of a column of the file"};
+  constexpr yaml::Text column{"the name of a column of the file"};
   std::string time_name;
   std::vector<std::string> names(value_keys.size());
-  bool named = keys.required("file", Text{"the name of a CSV file"}, into.file);
+  bool named = keys.required("file", yaml::Text{"the name of a CSV file"}, into.file);
   named = keys.required("time", column, time_name) && named;
   for (std::size_t k = 0; k < names.size(); ++k) {
     named = keys.required(value_keys[k], column, names[k]) && named;
   }
   if (!named) return;
 
-  const record::TableData* data = load(*keys.find("file"), into.file);
+  const file::TableData* data = load(*keys.find("file"), into.file);
   if (data == nullptr) return;
   const std::vector<double>* times = find_column(*keys.find("time"), time_name, *data);
   std::vector<std::vector<double>> values;
@@ -115,7 +116,7 @@ void read_table_rows(Keys& keys, const std::vector<std::string_view>& value_keys
 
   std::string wrong = fault(into, value_keys, noun);
   if (wrong.empty() && keys.context().end) wrong = cover_fault(into, *keys.context().end);
-  if (!wrong.empty()) keys.mapping().report(shown(into.file) + ": " + wrong);
+  if (!wrong.empty()) keys.mapping().report(yaml::shown(into.file) + ": " + wrong);
 }
 
-}  // namespace bbsim::input
+}  // namespace bbsim::scenario

@@ -5,9 +5,9 @@
 #include <string_view>
 #include <vector>
 
-#include "scenario/schema.hpp"
+#include "yaml/schema.hpp"
 
-namespace bbsim::input {
+namespace bbsim::scenario {
 
 struct TableRows {
   std::string file;
@@ -18,7 +18,7 @@ struct TableRows {
 // Reads {file: motion.csv, time: t, KEY: column, ...}, with a key for each of `value_keys`, and the
 // file, once a scenario. `noun` says what a value is: "angle". Where something is wrong it is
 // reported, and `into.values` may stay empty.
-void read_table_rows(Keys& keys, const std::vector<std::string_view>& value_keys,
+void read_table_rows(yaml::Keys& keys, const std::vector<std::string_view>& value_keys,
                      std::string_view noun, TableRows& into);
 
-}  // namespace bbsim::input
+}  // namespace bbsim::scenario

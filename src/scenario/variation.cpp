@@ -5,11 +5,11 @@
 
 #include "base/error.hpp"
 #include "base/text.hpp"
-#include "scenario/decimal.hpp"
-#include "scenario/problems.hpp"
-#include "scenario/quantity.hpp"
+#include "yaml/decimal.hpp"
+#include "yaml/problems.hpp"
+#include "yaml/quantity.hpp"
 
-namespace bbsim::input {
+namespace bbsim::scenario {
 namespace {
 
 constexpr std::size_t most_values = 1'000'000'000;
@@ -53,7 +53,8 @@ std::vector<std::string> parted(std::string_view text, char separator) {
 
 [[noreturn]] void fail(const Variation& variation, const std::string& found,
                        std::string_view wanted) {
-  throw InputError(shown(variation.key) + ": found " + found + "; allowed: " + std::string(wanted));
+  throw InputError(yaml::shown(variation.key) + ": found " + found +
+                   "; allowed: " + std::string(wanted));
 }
 
 std::size_t read_count(const Variation& variation, const std::string& text) {
@@ -61,7 +62,7 @@ std::size_t read_count(const Variation& variation, const std::string& text) {
   const auto result = std::from_chars(text.data(), text.data() + text.size(), count);
   if (result.ec != std::errc{} || result.ptr != text.data() + text.size() || count == 0 ||
       count > most_values) {
-    fail(variation, "the count " + shown(text), "a whole number from 1 to 1e9");
+    fail(variation, "the count " + yaml::shown(text), "a whole number from 1 to 1e9");
   }
   return count;
 }
@@ -77,7 +78,7 @@ VariationSpec parse_variation(const Variation& variation) {
     if (one.name == name) form = &one;
   }
   if (form == nullptr || colon == std::string_view::npos) {
-    fail(variation, shown(text.empty() ? "nothing" : text), allowed);
+    fail(variation, yaml::shown(text.empty() ? "nothing" : text), allowed);
   }
   const std::string_view rest = text.substr(colon + 1);
   VariationSpec spec;
@@ -87,14 +88,14 @@ VariationSpec parse_variation(const Variation& variation) {
     spec.count = spec.values.size();
   } else {
     spec.values = parted(rest, ':');
-    if (spec.values.size() != form->parts) fail(variation, shown(text), allowed);
+    if (spec.values.size() != form->parts) fail(variation, yaml::shown(text), allowed);
     if (form->parts == 3) {
       spec.count = read_count(variation, spec.values.back());
       spec.values.pop_back();
     }
   }
   for (const std::string& value : spec.values) {
-    if (value.empty()) fail(variation, "an empty value in " + shown(text), allowed);
+    if (value.empty()) fail(variation, "an empty value in " + yaml::shown(text), allowed);
   }
   return spec;
 }
@@ -104,15 +105,15 @@ std::vector<TiedKey> tied_keys(const Variation& variation) {
   for (const std::string& part : parted(variation.key, ',')) {
     TiedKey key{part};
     if (const std::size_t star = part.find('*'); star != std::string::npos) {
-      const Quantity number =
-          read_quantity(std::string_view(part).substr(0, star), false, Dimension::number);
+      const yaml::Quantity number = yaml::read_quantity(std::string_view(part).substr(0, star),
+                                                        false, yaml::Dimension::number);
       key = {std::string(trimmed(std::string_view(part).substr(star + 1))),
              number.value.value_or(0)};
     } else if (part.starts_with('-')) {
       key = {std::string(trimmed(std::string_view(part).substr(1))), -1};
     }
     if (key.path.empty() || key.factor == 0) {
-      fail(variation, part.empty() ? "no key beside a comma" : shown(part),
+      fail(variation, part.empty() ? "no key beside a comma" : yaml::shown(part),
            "KEY, -KEY or NUMBER*KEY with a number that is not 0, parted by commas");
     }
     keys.push_back(std::move(key));
@@ -122,21 +123,21 @@ std::vector<TiedKey> tied_keys(const Variation& variation) {
 
 std::string scaled(const std::string& value, double factor) {
   if (factor == 1) return value;
-  const Decimal decimal = leading_decimal(value);
+  const yaml::Decimal decimal = yaml::leading_decimal(value);
   if (decimal.length == 0) return "";
-  const DecimalValue number = to_double(decimal, 0);
-  if (number.magnitude != Magnitude::fine) return "";
+  const yaml::DecimalValue number = yaml::to_double(decimal, 0);
+  if (number.magnitude != yaml::Magnitude::fine) return "";
   // Adding 0 takes the sign off a zero.
-  return number_text(factor * number.value + 0.0) + value.substr(decimal.length);
+  return yaml::number_text(factor * number.value + 0.0) + value.substr(decimal.length);
 }
 
 Variation split_variation(const std::string& assignment) {
   const std::size_t equals = assignment.find('=');
   if (equals == std::string::npos || equals == 0) {
-    throw InputError("--vary: found " + shown(assignment) +
+    throw InputError("--vary: found " + yaml::shown(assignment) +
                      "; allowed: KEY=SPEC, such as ball.position.0=linear:-0.1:0.1:21");
   }
   return {assignment.substr(0, equals), assignment.substr(equals + 1)};
 }
 
-}  // namespace bbsim::input
+}  // namespace bbsim::scenario

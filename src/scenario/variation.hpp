@@ -7,7 +7,7 @@
 
 #include "scenario/scenario.hpp"
 
-namespace bbsim::input {
+namespace bbsim::scenario {
 
 struct VariationSpec {
   enum class Kind { linear, log, list, uniform, normal } kind = Kind::list;
@@ -39,4 +39,4 @@ struct TiedKey {
 // KEYS=SPEC as on a command line. Throws InputError.
 [[nodiscard]] Variation split_variation(const std::string& assignment);
 
-}  // namespace bbsim::input
+}  // namespace bbsim::scenario

@@ -1,9 +1,9 @@
 #include "solve/integrate.hpp"
 
 #include "solve/choose.hpp"
-#include "solve/collocation/radau.hpp"
-#include "solve/cvode.hpp"
-#include "solve/hybrid.hpp"
+#include "solve/cvode/cvode.hpp"
+#include "solve/hybrid_driver.hpp"
+#include "solve/radau/radau.hpp"
 
 namespace bbsim::solve {
 

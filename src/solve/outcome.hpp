@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "model/rig/occurrence.hpp"
+#include "model/events/occurrence.hpp"
 #include "scenario/scenario.hpp"
 
 namespace bbsim::solve {

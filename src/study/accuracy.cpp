@@ -6,7 +6,7 @@
 #include <cstdlib>
 #include <limits>
 
-#include "solve/cpu_clock.hpp"
+#include "base/cpu_clock.hpp"
 #include "solve/integrate.hpp"
 #include "study/reference.hpp"
 

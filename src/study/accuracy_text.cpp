@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "record/number_text.hpp"
+#include "base/number_text.hpp"
 #include "solve/choose.hpp"
 
 namespace bbsim::study {
@@ -64,9 +64,9 @@ std::string accuracy_table(const AccuracyStudy& study) {
   append(text, "\n%-14s %-8s %8s %12s %12s\n", "error within", "method", "rtol", "error (m)",
          "time (us)");
   for (const BestChoice& choice : best) {
-    append(text, "%-14s %-8s %8.0e %12.2e %12.1f\n",
-           (record::number_text(choice.error) + " m").c_str(), name(*choice.point).c_str(),
-           choice.point->tolerances.rtol, choice.point->error, microseconds(*choice.point));
+    append(text, "%-14s %-8s %8.0e %12.2e %12.1f\n", (number_text(choice.error) + " m").c_str(),
+           name(*choice.point).c_str(), choice.point->tolerances.rtol, choice.point->error,
+           microseconds(*choice.point));
   }
   return text;
 }
@@ -78,7 +78,7 @@ std::string accuracy_csv(const AccuracyStudy& study) {
     text += name(point);
     for (const double value :
          {point.tolerances.rtol, point.tolerances.atol, point.error, microseconds(point)}) {
-      text += ',' + record::number_text(value);
+      text += ',' + number_text(value);
     }
     append(text, ",%zu,%zu,%zu,%s\n", point.statistics.steps, point.statistics.rhs_evaluations,
            point.statistics.jacobian_evaluations, status(point));

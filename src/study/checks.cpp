@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <limits>
 
-#include "solve/collocation/radau.hpp"
+#include "solve/radau/radau.hpp"
 #include "study/reference.hpp"
 
 namespace bbsim::study {
@@ -73,10 +73,10 @@ void Tracker::accept(std::size_t first, std::size_t count, const double* values)
 
 // The checks for a run, of which the first has other stages than it, and neighbours have other ones
 // than each other. A rig beyond the paper's has kernels of 8 and 12 stages only.
-std::array<solve::Unlike, 4> Checks::kinds(const Track& run, double rtol) const {
-  using solve::collocation::choose_stages, solve::collocation::stages_of;
+std::array<solve::CheckRun, 4> Checks::kinds(const Track& run, double rtol) const {
+  using solve::radau::choose_stages, solve::radau::stages_of;
   const int most = stages_of(model_, 16), fewer = most == 16 ? 12 : 8;
-  std::array<solve::Unlike, 4> kinds{{{most, 2}, {fewer, 3}, {most, 4}, {fewer, 5}}};
+  std::array<solve::CheckRun, 4> kinds{{{most, 2}, {fewer, 3}, {most, 4}, {fewer, 5}}};
   const bool alike = run.outcome.method == Method::radau &&
                      stages_of(model_, choose_stages(rtol)) == kinds[0].stages;
   if (alike) std::swap(kinds[0], kinds[1]);
@@ -88,14 +88,14 @@ void Checks::use(double rtol) {
   rtol_ = rtol;
 }
 
-const Track* Checks::check(solve::Unlike how) {
+const Track* Checks::check(solve::CheckRun how) {
   for (const Made& made : made_) {
     if (made.how.stages == how.stages && made.how.parts == how.parts) return made.track.get();
   }
   auto track = std::make_unique<Track>();
   Tracker tracker(model_, track->positions);
   track->outcome =
-      solve::integrate_unlike(model_, how, tolerances_of(rtol_), grid_, tracker, watch_);
+      solve::integrate_check_run(model_, how, tolerances_of(rtol_), grid_, tracker, watch_);
   ++runs_;
   interrupted_ = interrupted_ || track->outcome.ending == solve::Ending::interrupted;
   if (!came_to_its_end(track->outcome)) track.reset();
@@ -105,7 +105,7 @@ const Track* Checks::check(solve::Unlike how) {
 
 // Nothing if a check does not come to its end.
 std::optional<double> Checks::distance_from(const Track& run,
-                                            const std::array<solve::Unlike, 4>& kinds,
+                                            const std::array<solve::CheckRun, 4>& kinds,
                                             bool confirm) {
   const Track* const first = check(kinds[0]);
   if (first == nullptr) return {};

@@ -8,9 +8,9 @@
 #include <vector>
 
 #include "model/model.hpp"
+#include "solve/check_run.hpp"
 #include "solve/outcome.hpp"
 #include "solve/output_grid.hpp"
-#include "solve/unlike.hpp"
 
 namespace bbsim::study {
 
@@ -61,11 +61,11 @@ class Checks {
   [[nodiscard]] int runs() const { return runs_; }
 
  private:
-  [[nodiscard]] std::array<solve::Unlike, 4> kinds(const Track& run, double rtol) const;
+  [[nodiscard]] std::array<solve::CheckRun, 4> kinds(const Track& run, double rtol) const;
   [[nodiscard]] std::optional<double> distance_from(const Track& run,
-                                                    const std::array<solve::Unlike, 4>& kinds,
+                                                    const std::array<solve::CheckRun, 4>& kinds,
                                                     bool confirm);
-  const Track* check(solve::Unlike how);
+  const Track* check(solve::CheckRun how);
   void use(double rtol);
 
   const model::Model& model_;
@@ -74,7 +74,7 @@ class Checks {
   double rtol_ = 0;   // of the checks
   double least_ = 0;  // finer tolerances have failed
   struct Made {
-    solve::Unlike how;
+    solve::CheckRun how;
     std::unique_ptr<Track> track;  // null if it did not come to its end
   };
   std::vector<Made> made_;

@@ -10,10 +10,10 @@
 #include <utility>
 #include <variant>
 
-#include "model/jacobian.hpp"
-#include "model/quad.hpp"
+#include "base/quad.hpp"
 #include "model/spectrum.hpp"
-#include "study/collocation.hpp"
+#include "model/systems/jacobian.hpp"
+#include "study/quad_step.hpp"
 
 namespace bbsim::study {
 namespace {

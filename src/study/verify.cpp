@@ -18,7 +18,7 @@
 #include <variant>
 #include <vector>
 
-#include "model/dynamics.hpp"
+#include "model/ball/dynamics.hpp"
 #include "model/model.hpp"
 #include "scenario/reader.hpp"
 #include "solve/choose.hpp"

@@ -10,17 +10,17 @@
 #include <string>
 #include <vector>
 
+#include "base/number_text.hpp"
 #include "catch.hpp"
+#include "file/case_table.hpp"
 #include "process.hpp"
-#include "record/case_table.hpp"
-#include "record/number_text.hpp"
 
 // Within it `bbsim` is what runs the program, and `bbsim::` still the program's own namespace.
 namespace bbsim_test {
 
-using bbsim::record::AttributeValue;
-using bbsim::record::CaseTableReader;
-using bbsim::record::InputTable;
+using bbsim::file::AttributeValue;
+using bbsim::file::CaseTableReader;
+using bbsim::file::InputTable;
 using Catch::Matchers::Contains;
 
 namespace {
@@ -32,13 +32,13 @@ AttributeValue attribute_of(const CaseTableReader& file, const std::string& name
   return "absent";
 }
 
-std::string as_csv(const bbsim::record::TableData& table) {
+std::string as_csv(const bbsim::file::TableData& table) {
   std::string text;
   for (const std::string& name : table.names) text += (text.empty() ? "" : ",") + name;
   for (std::size_t row = 0; row < table.columns[0].size(); ++row) {
     for (std::size_t c = 0; c < table.columns.size(); ++c) {
       text += c == 0 ? '\n' : ',';
-      text += bbsim::record::number_text(table.columns[c][row]);
+      text += bbsim::number_text(table.columns[c][row]);
     }
   }
   return text + '\n';
@@ -99,7 +99,7 @@ TEST_CASE("with a bound on the error, each row has its estimate") {
                                    [](const auto& one) { return one.name == "position_error"; });
   REQUIRE(column != file.columns().end());
   CHECK(column->unit == "m");
-  bbsim::record::CaseBlock block;
+  bbsim::file::CaseBlock block;
   file.read(0, file.rows(), block);
   const auto& errors = block.values[static_cast<std::size_t>(column - file.columns().begin())];
   REQUIRE(errors.size() == file.rows());

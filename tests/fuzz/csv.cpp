@@ -7,12 +7,12 @@
 #include <string>
 #include <vector>
 
+#include "base/number_text.hpp"
+#include "file/case_text.hpp"
+#include "file/cell_table.hpp"
+#include "file/table_writer.hpp"
 #include "fuzz.hpp"
-#include "record/case_text.hpp"
-#include "record/cell_table.hpp"
 #include "record/compare.hpp"
-#include "record/number_text.hpp"
-#include "record/table_writer.hpp"
 
 namespace {
 
@@ -40,7 +40,7 @@ class NamedMemory {
 
 // What is written of a number reads back to the same bits.
 void must_round_trip(double number) {
-  const std::string text = record::number_text(number);
+  const std::string text = number_text(number);
   double back = 0;
   const auto result = std::from_chars(text.data(), text.data() + text.size(), back);
   must(result.ec == std::errc{} && result.ptr == text.data() + text.size());
@@ -49,7 +49,7 @@ void must_round_trip(double number) {
            : std::bit_cast<std::uint64_t>(back) == std::bit_cast<std::uint64_t>(number));
 }
 
-void must_be_a_table(const record::TableData& table) {
+void must_be_a_table(const file::TableData& table) {
   must(!table.names.empty() && table.columns.size() == table.names.size());
   for (const std::vector<double>& column : table.columns) {
     must(column.size() == table.columns.front().size());
@@ -57,9 +57,9 @@ void must_be_a_table(const record::TableData& table) {
   }
 }
 
-void must_be_like_itself(const record::CellTable& table) {
+void must_be_like_itself(const file::CellTable& table) {
   must(!table.names.empty() && table.columns.size() == table.names.size());
-  for (const record::CellColumn& column : table.columns) must(column.size() == table.rows);
+  for (const file::CellColumn& column : table.columns) must(column.size() == table.rows);
   const record::Comparison comparison = record::compare(table, table);
   must(comparison.alike());
   must(!record::to_text(comparison, "a", "b", {}).empty());
@@ -68,13 +68,13 @@ void must_be_like_itself(const record::CellTable& table) {
 // The fields of a line are the same again once they are written as a row has them.
 void must_split_again(std::string_view line) {
   std::vector<std::string> fields, again;
-  if (!record::split_fields(line, fields)) return;
+  if (!file::split_fields(line, fields)) return;
   std::string written;
   for (const std::string& field : fields) {
     if (&field != fields.data()) written += ',';
-    record::append_text(written, field);
+    file::append_text(written, field);
   }
-  must(record::split_fields(written, again));
+  must(file::split_fields(written, again));
   for (std::string& field : fields) {  // a row is a line: breaks become spaces
     for (char& c : field) {
       if (c == '\n' || c == '\r') c = ' ';
@@ -87,8 +87,8 @@ void must_split_again(std::string_view line) {
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const std::string_view text = text_of(data, size);
-  may_refuse([&] { must_be_a_table(record::read_table(NamedMemory(text).name())); });
-  may_refuse([&] { must_be_like_itself(record::read_cells(NamedMemory(text).name())); });
+  may_refuse([&] { must_be_a_table(file::read_table(NamedMemory(text).name())); });
+  may_refuse([&] { must_be_like_itself(file::read_cells(NamedMemory(text).name())); });
   for (std::string_view rest = text; !rest.empty();) must_split_again(take_line(rest));
   return 0;
 }

@@ -3,7 +3,7 @@
 
 #include <filesystem>
 
-#include "../record/folder.hpp"
+#include "support/folder.hpp"
 
 namespace bbsim_fuzz {
 

@@ -4,34 +4,34 @@
 #include <string>
 #include <vector>
 
+#include "file/case_table.hpp"
+#include "file/table_writer.hpp"
 #include "folder.hpp"
 #include "foreign_hdf5.hpp"
 #include "fuzz.hpp"
-#include "record/case_table.hpp"
-#include "record/table_writer.hpp"
 
 namespace {
 
 using namespace bbsim_fuzz;
 namespace record = bbsim::record;
 
-void must_be_cases(const record::CaseTableReader& reader) {
+void must_be_cases(const file::CaseTableReader& reader) {
   must(!reader.columns().empty());
-  record::CaseBlock block;
+  file::CaseBlock block;
   constexpr std::size_t rows = 7;
   for (std::size_t first = 0; first < reader.rows() && first < 3 * rows; first += rows) {
     reader.read(first, rows, block);
     must(block.rows <= rows);
     for (std::size_t c = 0; c < reader.columns().size(); ++c) {
-      const record::CaseColumn& column = reader.columns()[c];
-      const bool text = column.kind == record::CaseKind::text;
+      const file::CaseColumn& column = reader.columns()[c];
+      const bool text = column.kind == file::CaseKind::text;
       must(block.texts[c].size() == (text ? block.rows : 0));
       must(block.values[c].size() == (text ? 0 : block.rows * column.width));
     }
   }
 }
 
-void must_be_a_table(const record::TableData& table) {
+void must_be_a_table(const file::TableData& table) {
   must(!table.names.empty() && table.columns.size() == table.names.size());
   for (const std::vector<double>& column : table.columns)
     must(column.size() == table.columns[0].size());
@@ -48,7 +48,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   static const InputFolder folder;
   static const std::string file = folder.path() / "foreign.h5";
   write_foreign_hdf5(file, data, size);
-  may_refuse([&] { must_be_a_table(record::read_table(file)); });
-  may_refuse([&] { must_be_cases(record::CaseTableReader(file)); });
+  may_refuse([&] { must_be_a_table(file::read_table(file)); });
+  may_refuse([&] { must_be_cases(file::CaseTableReader(file)); });
   return 0;
 }

@@ -3,10 +3,10 @@
 #include <cstdlib>
 #include <string>
 
+#include "file/case_table.hpp"
+#include "file/table_writer.hpp"
 #include "folder.hpp"
 #include "fuzz.hpp"
-#include "record/case_table.hpp"
-#include "record/table_writer.hpp"
 
 extern "C" int LLVMFuzzerInitialize(int*, char***) {
   setenv("BBSIM_MODULE_PATH", BBSIM_MODULE_FOLDER, 1);
@@ -18,10 +18,10 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   static const InputFolder folder;
   static const std::string file = folder.path() / "damaged.h5";
   folder.put("damaged.h5", std::string(text_of(data, size)));
-  may_refuse([&] { (void)bbsim::record::read_table(file); });
+  may_refuse([&] { (void)bbsim::file::read_table(file); });
   may_refuse([&] {
-    const bbsim::record::CaseTableReader reader(file);
-    bbsim::record::CaseBlock block;
+    const bbsim::file::CaseTableReader reader(file);
+    bbsim::file::CaseBlock block;
     reader.read(0, 8, block);
   });
   return 0;

@@ -2,14 +2,14 @@
 //
 // The first byte of an input picks what is measured and whether the text is quoted, the rest is the
 // text.
-#include "scenario/quantity.hpp"
+#include "yaml/quantity.hpp"
 
 #include <cmath>
 
 #include "fuzz.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  using namespace bbsim::input;
+  using namespace bbsim::yaml;
   using bbsim_fuzz::must;
   if (size == 0) return 0;
   const auto dimension = static_cast<Dimension>(data[0] / 2 % 8);

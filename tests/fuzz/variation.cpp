@@ -10,7 +10,7 @@
 
 #include "fuzz.hpp"
 #include "scenario/family.hpp"
-#include "study/sweep/plan.hpp"
+#include "sweep/plan.hpp"
 
 namespace {
 
@@ -21,11 +21,11 @@ const bbsim::ScenarioFamily& family() {
   return it;
 }
 
-void must_be_a_case(const bbsim::study::SweepPlan& plan, std::size_t number) {
+void must_be_a_case(const bbsim::sweep::SweepPlan& plan, std::size_t number) {
   std::vector<double> values(plan.axes().size());
   plan.values(number, values.data());
   for (std::size_t a = 0; a < values.size(); ++a) {
-    const bbsim::study::Axis& axis = plan.axes()[a];
+    const bbsim::sweep::Axis& axis = plan.axes()[a];
     must(axis.numeric || (values[a] >= 0 && values[a] < static_cast<double>(axis.texts.size())));
   }
   const auto settings = plan.settings(number);
@@ -45,11 +45,11 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   may_refuse([&] {
     bool random = false;
     while (!rest.empty()) {
-      sweep.vary.push_back(bbsim::input::split_variation(std::string(take_line(rest))));
-      random = random || bbsim::input::parse_variation(sweep.vary.back()).random();
+      sweep.vary.push_back(bbsim::scenario::split_variation(std::string(take_line(rest))));
+      random = random || bbsim::scenario::parse_variation(sweep.vary.back()).random();
     }
     if (random) sweep.samples = 3;
-    const bbsim::study::SweepPlan plan(family(), sweep);
+    const bbsim::sweep::SweepPlan plan(family(), sweep);
     must(plan.cases() > 0);
     must_be_a_case(plan, 0);
     must_be_a_case(plan, plan.cases() / 2);

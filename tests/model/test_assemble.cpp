@@ -5,11 +5,11 @@
 #include <vector>
 
 #include "catch.hpp"
-#include "model/jacobian.hpp"
 #include "model/model.hpp"
+#include "model/random_states.hpp"
 #include "model/spectrum.hpp"
-#include "random_states.hpp"
-#include "scenes.hpp"
+#include "model/systems/jacobian.hpp"
+#include "support/scenes.hpp"
 
 using namespace bbsim;
 using namespace bbsim::model;

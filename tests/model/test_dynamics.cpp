@@ -4,10 +4,10 @@
 #include <cmath>
 
 #include "catch.hpp"
-#include "model/dynamics.hpp"
+#include "model/ball/dynamics.hpp"
 #include "model/model.hpp"
-#include "random_states.hpp"
-#include "scenes.hpp"
+#include "model/random_states.hpp"
+#include "support/scenes.hpp"
 
 using namespace bbsim::model;
 using bbsim_test::Random;

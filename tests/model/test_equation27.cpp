@@ -3,9 +3,9 @@
 #include <cmath>
 
 #include "catch.hpp"
-#include "model/rolling.hpp"
-#include "random_states.hpp"
-#include "twist_form.hpp"
+#include "model/ball/rolling.hpp"
+#include "model/random_states.hpp"
+#include "model/twist_form.hpp"
 
 using namespace bbsim::model;
 using bbsim_test::Random;

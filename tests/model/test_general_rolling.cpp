@@ -2,11 +2,11 @@
 #include <cmath>
 
 #include "catch.hpp"
-#include "model/dynamics.hpp"
-#include "model/general_rolling.hpp"
-#include "random_states.hpp"
-#include "scenes.hpp"
-#include "twist_form.hpp"
+#include "model/ball/dynamics.hpp"
+#include "model/ball/general_rolling.hpp"
+#include "model/random_states.hpp"
+#include "model/twist_form.hpp"
+#include "support/scenes.hpp"
 
 using namespace bbsim;
 using namespace bbsim::model;

@@ -7,9 +7,9 @@
 #include "catch.hpp"
 #include "model/explain.hpp"
 #include "model/model.hpp"
-#include "model/reference_path.hpp"
-#include "random_states.hpp"
-#include "scenes.hpp"
+#include "model/random_states.hpp"
+#include "model/signals/reference_path.hpp"
+#include "support/scenes.hpp"
 
 using namespace bbsim;
 using namespace bbsim::model;

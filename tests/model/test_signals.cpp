@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "catch.hpp"
-#include "model/signal_pair.hpp"
-#include "random_states.hpp"
+#include "model/random_states.hpp"
+#include "model/signals/signal_pair.hpp"
 
 using namespace bbsim;
 using namespace bbsim::model;

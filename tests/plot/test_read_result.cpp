@@ -1,10 +1,10 @@
 #include <cmath>
 #include <string>
 
-#include "../record/folder.hpp"
 #include "base/error.hpp"
 #include "catch.hpp"
 #include "plot/read_result.hpp"
+#include "support/folder.hpp"
 
 using namespace bbsim;
 using Catch::Matchers::Contains;

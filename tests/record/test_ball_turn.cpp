@@ -5,9 +5,9 @@
 #include <vector>
 
 #include "catch.hpp"
+#include "file/memory_table.hpp"
 #include "model/model.hpp"
 #include "record/ball_turn.hpp"
-#include "record/memory_table.hpp"
 #include "record/recorder.hpp"
 #include "scenario/reader.hpp"
 #include "solve/integrate.hpp"
@@ -16,7 +16,7 @@ using namespace bbsim;
 
 namespace {
 
-Eigen::Quaterniond eigen(const model::Quaternion& q) {
+Eigen::Quaterniond eigen(const Quaternion& q) {
   return {q[0], q[1], q[2], q[3]};
 }
 
@@ -27,15 +27,15 @@ model::Sample moving(double t, double x, double vx, double y, double vy) {
   return sample;
 }
 
-record::TableData run(const std::string& name, const std::string& overrides_columns,
-                      const std::string& step) {
+file::TableData run(const std::string& name, const std::string& overrides_columns,
+                    const std::string& step) {
   const Scenario scene =
       read_scenario(std::string(BBSIM_SOURCE_DIR) + "/configs/" + name + ".yaml",
                     {"output.columns=" + overrides_columns, "time.step=" + step});
-  const auto columns = record::columns_named(scene.output.columns);
-  const model::Model model = model::assemble(scene, record::need_gamma(columns));
+  const auto columns = scenario::columns_named(scene.output.columns);
+  const model::Model model = model::assemble(scene, scenario::need_gamma(columns));
   const solve::OutputGrid grid(scene.time);
-  record::MemoryTable table(columns);
+  file::MemoryTable table(scenario::names_of(columns));
   record::Recorder recorder(model, model::constants_of(scene), grid, columns, table);
   const solve::Outcome outcome = solve::integrate(
       model, scene.solver.method, {scene.solver.rtol, scene.solver.atol}, grid, recorder, {});
@@ -45,7 +45,7 @@ record::TableData run(const std::string& name, const std::string& overrides_colu
 
 constexpr const char* all = "[t,ball_qw,ball_qx,ball_qy,ball_qz,vx,vy,spin]";
 
-Eigen::Quaterniond orientation(const record::TableData& table, std::size_t row) {
+Eigen::Quaterniond orientation(const file::TableData& table, std::size_t row) {
   return {table.columns[1][row], table.columns[2][row], table.columns[3][row],
           table.columns[4][row]};
 }
@@ -71,7 +71,7 @@ TEST_CASE("round a circle the orientation is off by the fourth power of the rows
   const double r = 0.01, big = 0.05, angle = 2;
   const auto error = [&](int rows) {
     record::BallTurn turn(r);
-    model::Quaternion last{};
+    Quaternion last{};
     for (int i = 0; i <= rows; ++i) {
       const double a = angle * i / rows, s = std::sin(a), c = std::cos(a);
       last = turn.go_to(moving(a, big * c, -big * s, big * s, big * c));
@@ -91,7 +91,7 @@ TEST_CASE("the columns turn at the ball's twist") {
   // Central differences over two rows of 1 ms: off by h^2/6 times the third derivative, of
   // |w|^3 / 8 and its like; |w| stays below 60 rad/s in both.
   for (const char* name : {"fig2a", "fig2b"}) {
-    const record::TableData table = run(name, all, "0.001");
+    const file::TableData table = run(name, all, "0.001");
     const Scenario scene =
         read_scenario(std::string(BBSIM_SOURCE_DIR) + "/configs/" + name + ".yaml");
     const double r = scene.ball.radius;
@@ -119,7 +119,7 @@ TEST_CASE("the columns turn at the ball's twist") {
 
 TEST_CASE("rows far apart give the orientation of rows near each other") {
   for (const char* name : {"fig2a", "fig2b"}) {
-    const record::TableData coarse = run(name, all, "0.02"), fine = run(name, all, "0.001");
+    const file::TableData coarse = run(name, all, "0.02"), fine = run(name, all, "0.001");
     double worst = 0;
     for (std::size_t i = 0; i < coarse.columns[0].size(); ++i) {
       worst = std::max(worst, orientation(coarse, i).angularDistance(orientation(fine, 20 * i)));
@@ -130,8 +130,8 @@ TEST_CASE("rows far apart give the orientation of rows near each other") {
 }
 
 TEST_CASE("asking for the orientation changes no other column") {
-  const record::TableData with = run("fig2b", "[t,x,y,vx,phi,ball_qw]", "0.02");
-  const record::TableData without = run("fig2b", "[t,x,y,vx,phi]", "0.02");
+  const file::TableData with = run("fig2b", "[t,x,y,vx,phi,ball_qw]", "0.02");
+  const file::TableData without = run("fig2b", "[t,x,y,vx,phi]", "0.02");
   for (std::size_t c = 0; c < without.columns.size(); ++c) {
     CHECK(with.columns[c] == without.columns[c]);
   }

@@ -6,16 +6,16 @@
 
 #include "base/error.hpp"
 #include "catch.hpp"
-#include "folder.hpp"
 #include "record/compare.hpp"
+#include "support/folder.hpp"
 
 using bbsim::InputError;
-using bbsim::record::CellColumn;
-using bbsim::record::CellTable;
+using bbsim::file::CellColumn;
+using bbsim::file::CellTable;
+using bbsim::file::read_cells;
+using bbsim::record::Allowance;
 using bbsim::record::compare;
 using bbsim::record::Comparison;
-using bbsim::record::read_cells;
-using bbsim::record::Tolerances;
 using Catch::Matchers::Contains;
 
 namespace {
@@ -24,8 +24,8 @@ constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double largest = std::numeric_limits<double>::max();
 
-bool alike(double a, double b, const Tolerances& tolerances = {}) {
-  return compare({{"x"}, {{a}}}, {{"x"}, {{b}}}, tolerances).alike();
+bool alike(double a, double b, const Allowance& allowance = {}) {
+  return compare({{"x"}, {{a}}}, {{"x"}, {{b}}}, allowance).alike();
 }
 
 // Of a CSV's text.
@@ -40,8 +40,8 @@ const CellTable three_rows{{"t", "x"}, {{0, 0.5, 1}, {1, 2, 4}}};
 
 TEST_CASE("values are alike within atol + rtol max(|a|, |b|)") {
   // Powers of two, so that every sum and product is exact and the border is met exactly.
-  const Tolerances tolerances{0.25, 0.5};
-  CHECK(alike(4, 5.5, tolerances));  // 1.5 <= 0.5 + 0.25 * 5.5 = 1.875
+  const Allowance allowance{0.25, 0.5};
+  CHECK(alike(4, 5.5, allowance));  // 1.5 <= 0.5 + 0.25 * 5.5 = 1.875
   CHECK(alike(0, 0.5, {0, 0.5}));
   CHECK_FALSE(alike(0, std::nextafter(0.5, 1), {0, 0.5}));
   CHECK(alike(3, 4, {0.25, 0}));
@@ -51,30 +51,30 @@ TEST_CASE("values are alike within atol + rtol max(|a|, |b|)") {
   CHECK_FALSE(alike(-4, 4, {0.25, 0}));
 }
 
-TEST_CASE("the default tolerances forgive rounding only") {
+TEST_CASE("the default allowance forgives rounding only") {
   CHECK(alike(1, 1 + 1e-10));
   CHECK_FALSE(alike(1, 1 + 1e-8));
   CHECK(alike(0, 1e-13));
   CHECK_FALSE(alike(0, 1e-11));
 }
 
-TEST_CASE("without tolerances only equal values are alike") {
+TEST_CASE("without allowance only equal values are alike") {
   CHECK(alike(1, 1, {0, 0}));
   CHECK(alike(0.0, -0.0, {0, 0}));
   CHECK_FALSE(alike(0, 5e-324, {0, 0}));
 }
 
-TEST_CASE("NaN is like NaN, an infinity like itself, whatever the tolerances") {
-  for (const Tolerances& tolerances : {Tolerances{0, 0}, Tolerances{1e308, 1e308}}) {
-    CHECK(alike(not_a_number, not_a_number, tolerances));
-    CHECK(alike(infinity, infinity, tolerances));
-    CHECK(alike(-infinity, -infinity, tolerances));
-    CHECK_FALSE(alike(infinity, -infinity, tolerances));
-    CHECK_FALSE(alike(not_a_number, 0, tolerances));
-    CHECK_FALSE(alike(0, not_a_number, tolerances));
-    CHECK_FALSE(alike(not_a_number, infinity, tolerances));
-    CHECK_FALSE(alike(infinity, 1, tolerances));
-    CHECK_FALSE(alike(1, infinity, tolerances));
+TEST_CASE("NaN is like NaN, an infinity like itself, whatever the allowance") {
+  for (const Allowance& allowance : {Allowance{0, 0}, Allowance{1e308, 1e308}}) {
+    CHECK(alike(not_a_number, not_a_number, allowance));
+    CHECK(alike(infinity, infinity, allowance));
+    CHECK(alike(-infinity, -infinity, allowance));
+    CHECK_FALSE(alike(infinity, -infinity, allowance));
+    CHECK_FALSE(alike(not_a_number, 0, allowance));
+    CHECK_FALSE(alike(0, not_a_number, allowance));
+    CHECK_FALSE(alike(not_a_number, infinity, allowance));
+    CHECK_FALSE(alike(infinity, 1, allowance));
+    CHECK_FALSE(alike(1, infinity, allowance));
   }
   CHECK_FALSE(alike(largest, -largest, {1, 0}));  // the difference overflows
 }
@@ -187,8 +187,8 @@ TEST_CASE("a tolerance must be finite and not negative") {
 
 TEST_CASE("the report names column, row, time and both values") {
   const CellTable other{{"t", "x"}, {{0, 0.5, 1}, {1, 2.5, 4}}};
-  const Tolerances tolerances{0.125, 0};
-  CHECK(to_text(compare(three_rows, other, tolerances), "a.csv", "b.csv", tolerances) ==
+  const Allowance allowance{0.125, 0};
+  CHECK(to_text(compare(three_rows, other, allowance), "a.csv", "b.csv", allowance) ==
         "column  largest |a - b|  in row  times allowed  rows differ\n"
         "t                     0       0              0            0\n"
         "x                   0.5       1            1.6            1\n"

@@ -7,12 +7,12 @@
 #include <vector>
 
 #include "catch.hpp"
-#include "model/scenes.hpp"
-#include "record/measures.hpp"
+#include "record/meter.hpp"
 #include "record/recorder.hpp"
 #include "scenario/reader.hpp"
 #include "solve/integrate.hpp"
 #include "study/error_control.hpp"
+#include "support/scenes.hpp"
 
 using namespace bbsim;
 using namespace bbsim_test;
@@ -28,8 +28,8 @@ struct Measured {
 template <class Integrate>
 Measured measure(const Scenario& scene, const std::vector<std::string>& names,
                  Integrate integrate) {
-  std::vector<record::Measure> measures;
-  for (const std::string& name : names) measures.push_back(*record::find_measure(name));
+  std::vector<scenario::Measure> measures;
+  for (const std::string& name : names) measures.push_back(*scenario::find_measure(name));
   const model::Model model = model::assemble(scene, false);
   const model::BallConstants constants = model::constants_of(scene);
   const solve::OutputGrid grid(scene.time);
@@ -101,10 +101,10 @@ class Loads : public solve::StateSink, public solve::PieceSink {
   const model::BallConstants& constants_;
 };
 
-class NoFile : public record::TableWriter {
+class NoFile : public file::TableWriter {
  public:
   void append(std::span<const double* const>, std::size_t) override {}
-  void finish(const record::Attributes&) override {}
+  void finish(const file::Attributes&) override {}
 };
 
 record::MotorPeaks peaks_of(const Scenario& scene, solve::Tolerances tolerances) {

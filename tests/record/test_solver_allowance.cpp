@@ -5,9 +5,9 @@
 #include "record/compare.hpp"
 #include "record/solver_allowance.hpp"
 
+using bbsim::file::Attributes;
+using bbsim::file::CellTable;
 using bbsim::record::Allowances;
-using bbsim::record::Attributes;
-using bbsim::record::CellTable;
 using bbsim::record::solver_allowances;
 using Catch::Matchers::Contains;
 

@@ -5,11 +5,11 @@
 
 #include "base/error.hpp"
 #include "catch.hpp"
-#include "folder.hpp"
 #include "record/summary.hpp"
+#include "support/folder.hpp"
 
 using bbsim::OutputError;
-using bbsim::record::AttributeValue;
+using bbsim::file::AttributeValue;
 using bbsim::record::RunSummary;
 using bbsim::record::to_attributes;
 using bbsim::record::to_json;

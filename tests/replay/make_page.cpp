@@ -12,8 +12,8 @@
 #include <string>
 #include <vector>
 
+#include "file/atomic_file.hpp"
 #include "make_scene.hpp"
-#include "record/atomic_file.hpp"
 #include "replay/gltf.hpp"
 #include "replay/page.hpp"
 
@@ -48,7 +48,7 @@ void make(const std::vector<std::string>& arguments) {
   if (output.ends_with(".glb")) {
     bbsim::replay::write_gltf(output, scene);
   } else {
-    bbsim::record::write_file(output, bbsim::replay::page(scene, page_template));
+    bbsim::file::write_file(output, bbsim::replay::page(scene, page_template));
   }
 }
 

@@ -7,8 +7,8 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "file/table_writer.hpp"
 #include "plot/read_result.hpp"
-#include "record/table_writer.hpp"
 #include "replay/sources.hpp"
 #include "scenario/reader.hpp"
 
@@ -49,7 +49,7 @@ void add_summary(Run& run, const std::string& text) {
 Run run_of(const std::string& files) {
   const std::vector<std::string> names = parts_of(files, ',');
   const std::string base = names.at(0).substr(names.at(0).rfind('/') + 1);
-  Run run = bbsim::replay::run_of_table(bbsim::record::read_table(names.at(0)), base);
+  Run run = bbsim::replay::run_of_table(bbsim::file::read_table(names.at(0)), base);
   if (names.size() > 1 && !names[1].empty()) {
     bbsim::replay::describe(run, bbsim::read_scenario(names[1]));
   }

@@ -8,6 +8,9 @@
 #include "replay/rotation.hpp"
 #include "replay/sweep_cases.hpp"
 
+using bbsim::conjugate;
+using bbsim::product;
+using bbsim::Quaternion;
 using namespace bbsim::replay;
 using bbsim_test::circling;
 

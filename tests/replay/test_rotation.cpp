@@ -6,6 +6,7 @@
 #include "catch.hpp"
 #include "replay/rotation.hpp"
 
+using bbsim::Quaternion;
 using namespace bbsim::replay;
 
 namespace {

@@ -2,12 +2,12 @@
 #include <cmath>
 #include <fstream>
 
-#include "../record/folder.hpp"
 #include "base/error.hpp"
 #include "catch.hpp"
 #include "plot/read_result.hpp"
 #include "replay/sources.hpp"
 #include "scenario/reader.hpp"
+#include "support/folder.hpp"
 
 using namespace bbsim;
 using namespace bbsim::replay;

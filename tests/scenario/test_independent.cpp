@@ -5,7 +5,7 @@
 #include "catch.hpp"
 #include "model/model.hpp"
 #include "scenario/independent.hpp"
-#include "support.hpp"
+#include "support/reading.hpp"
 
 using namespace bbsim;
 

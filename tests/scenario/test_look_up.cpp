@@ -7,7 +7,7 @@
 using bbsim::number_at;
 using bbsim::place_of;
 using bbsim::Source;
-using bbsim::input::Dimension;
+using bbsim::yaml::Dimension;
 
 namespace {
 

@@ -1,6 +1,6 @@
 // The exact words of the commonest errors.
 #include "catch.hpp"
-#include "support.hpp"
+#include "support/reading.hpp"
 
 using namespace bbsim::test;
 

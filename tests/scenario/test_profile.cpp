@@ -2,7 +2,7 @@
 #include <numbers>
 
 #include "catch.hpp"
-#include "support.hpp"
+#include "support/reading.hpp"
 
 using namespace bbsim;
 using namespace bbsim::test;
@@ -149,7 +149,7 @@ TEST_CASE("the tables that were read are told, as the scenario names them") {
       "gimbal: {motion: {phi: {table: {file: a.csv, time: t, value: angle}},\n"
       "                  theta: [{table: {file: ./b.csv, time: t, value: angle}},\n"
       "                          {table: {file: a.csv, time: t, value: other}}]}}\n";
-  std::vector<record::InputTable> inputs;
+  std::vector<file::InputTable> inputs;
   static_cast<void>(parse_scenario(text, folder.file("scene.yaml"), {}, &inputs));
   REQUIRE(inputs.size() == 2);
   CHECK(inputs[0].file == "./b.csv");

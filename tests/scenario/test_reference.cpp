@@ -2,7 +2,7 @@
 #include <numbers>
 
 #include "catch.hpp"
-#include "support.hpp"
+#include "support/reading.hpp"
 
 using namespace bbsim;
 using namespace bbsim::test;

@@ -1,6 +1,6 @@
 // Keys of built rigs: what they read as, and which combinations are refused, with why.
 #include "catch.hpp"
-#include "support.hpp"
+#include "support/reading.hpp"
 
 using namespace bbsim;
 using namespace bbsim::test;

@@ -3,7 +3,7 @@
 #include <numbers>
 
 #include "catch.hpp"
-#include "support.hpp"
+#include "support/reading.hpp"
 
 using namespace bbsim;
 

@@ -4,10 +4,10 @@
 #include "base/error.hpp"
 #include "catch.hpp"
 #include "scenario/variation.hpp"
-#include "support.hpp"
+#include "support/reading.hpp"
 
 using namespace bbsim;
-using namespace bbsim::input;
+using namespace bbsim::scenario;
 using Kind = VariationSpec::Kind;
 
 namespace {

@@ -4,7 +4,7 @@
 #include <string>
 
 #include "catch.hpp"
-#include "run_in_memory.hpp"
+#include "support/run_in_memory.hpp"
 
 using namespace bbsim;
 using namespace bbsim_test;

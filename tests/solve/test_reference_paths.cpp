@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "catch.hpp"
-#include "run_in_memory.hpp"
+#include "support/run_in_memory.hpp"
 
 using namespace bbsim;
 using namespace bbsim_test;
@@ -85,7 +85,7 @@ TEST_CASE("radau and BDF agree along every reference path") {
   const model::Model model = model::assemble(scene, false);
   std::visit(
       [&](const auto& system) {
-        if constexpr (!std::decay_t<decltype(system)>::linear) reference = &system.reference();
+        if constexpr (!std::decay_t<decltype(system)>::open_loop) reference = &system.reference();
       },
       model.system);
   REQUIRE(reference != nullptr);

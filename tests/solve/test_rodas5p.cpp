@@ -7,11 +7,11 @@
 #include <vector>
 
 #include "catch.hpp"
-#include "solve/lanes/rodas5p.hpp"
+#include "solve/rosenbrock/rodas5p.hpp"
 
 namespace {
 
-using Table = bbsim::solve::lanes::Rodas5P<void>;
+using Table = bbsim::solve::rosenbrock::Rodas5P<void>;
 constexpr std::size_t s = 8;
 using Vector = std::array<double, s>;
 using Matrix = std::array<Vector, s>;

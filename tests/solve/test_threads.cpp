@@ -2,7 +2,7 @@
 #include <cmath>
 
 #include "catch.hpp"
-#include "solve/run_in_memory.hpp"
+#include "support/run_in_memory.hpp"
 
 using namespace bbsim;
 using namespace bbsim_test;

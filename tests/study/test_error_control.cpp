@@ -3,11 +3,11 @@
 #include <cmath>
 #include <string>
 
-#include "../solve/run_in_memory.hpp"
 #include "catch.hpp"
-#include "solve/unlike.hpp"
+#include "solve/check_run.hpp"
 #include "study/error_control.hpp"
 #include "study/reference.hpp"
+#include "support/run_in_memory.hpp"
 
 using namespace bbsim;
 using namespace bbsim_test;
@@ -47,7 +47,7 @@ Positions exact(const model::Model& model, const solve::OutputGrid& grid) {
   Positions rows;
   if (model.hybrid()) {
     solve::Trajectory fine(model.row_size());
-    const auto outcome = solve::integrate_unlike(model, {12, 7}, {1e-14, 1e-16}, grid, fine, {});
+    const auto outcome = solve::integrate_check_run(model, {12, 7}, {1e-14, 1e-16}, grid, fine, {});
     REQUIRE(outcome.ending != solve::Ending::failed);
     for (std::size_t i = 0; i < fine.rows(); ++i) rows.emplace_back(fine.row(i), fine.row(i) + n);
     return rows;

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "base/quad.hpp"
 #include "catch.hpp"
-#include "model/quad.hpp"
 #include "reference_table.hpp"
 #include "scenario/reader.hpp"
 #include "solve/integrate.hpp"

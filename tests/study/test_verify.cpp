@@ -8,7 +8,7 @@
 
 #include "catch.hpp"
 #include "scenario/reader.hpp"
-#include "study/simpler.hpp"
+#include "study/full_model.hpp"
 #include "study/verify.hpp"
 
 using namespace bbsim;

@@ -1,0 +1,43 @@
+#include "base/noise.hpp"
+
+#include <cmath>
+
+namespace bbsim {
+namespace {
+
+// -log(p) by sums and products alone, which no C library rounds its own way: p = m 2^e, and
+// log m = 2 artanh((m - 1) / (m + 1)).
+double minus_log(double p) {
+  constexpr double ln_2 = 0.693147180559945309;
+  int exponent = 0;
+  const double m = std::frexp(p, &exponent);  // in [1/2, 1), exactly
+  const double s = (m - 1) / (m + 1), s2 = s * s;
+  double series = 0;
+  for (int i = 25; i >= 1; i -= 2) series = series * s2 + 1.0 / i;
+  return -(exponent * ln_2 + 2 * s * series);
+}
+
+}  // namespace
+
+double normal_quantile(double p) {
+  const double q = p - 0.5;
+  if (std::abs(q) <= 0.425) {
+    const double r = 0.180625 - q * q;
+    return q * (((59.109374720 * r + 159.29113202) * r + 50.434271938) * r + 3.3871327179) /
+           (((67.187563600 * r + 78.757757664) * r + 17.895169469) * r + 1);
+  }
+  double r = std::sqrt(minus_log(q < 0 ? p : 1 - p));
+  double z = 0;
+  if (r <= 5) {
+    r -= 1.6;
+    z = (((0.17023821103 * r + 1.3067284816) * r + 2.7568153900) * r + 1.4234372777) /
+        ((0.12021132975 * r + 0.73700164250) * r + 1);
+  } else {
+    r -= 5;
+    z = (((0.017337203997 * r + 0.42868294337) * r + 3.0812263860) * r + 6.6579051150) /
+        ((0.012258202635 * r + 0.24197894225) * r + 1);
+  }
+  return q < 0 ? -z : z;
+}
+
+}  // namespace bbsim

@@ -1,0 +1,11 @@
+// Two numbers that belong together.
+#pragma once
+
+#include <array>
+
+namespace bbsim {
+
+using Pair = std::array<double, 2>;   // (x, y), or (phi, theta)
+using Matrix2 = std::array<Pair, 2>;  // rows phi, theta; columns x, y
+
+}  // namespace bbsim

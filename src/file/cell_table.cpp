@@ -1,0 +1,54 @@
+#include "file/cell_table.hpp"
+
+#include <algorithm>
+#include <iterator>
+#include <limits>
+
+#include "file/case_table.hpp"
+#include "file/formats.hpp"
+
+namespace bbsim::file {
+
+void CellColumn::add_number(double number) {
+  numbers.push_back(number);
+  if (is_text.empty()) return;
+  is_text.push_back(false);
+  texts.emplace_back();
+}
+
+void CellColumn::add_text(std::string text) {
+  is_text.resize(numbers.size());
+  texts.resize(numbers.size());
+  numbers.push_back(std::numeric_limits<double>::quiet_NaN());
+  is_text.push_back(true);
+  texts.push_back(std::move(text));
+}
+
+CellTable read_hdf5_cells(const std::string& file) {
+  const CaseTableReader reader(file);
+  CellTable table;
+  for (const CaseColumn& column : reader.columns()) {
+    table.names.push_back(column.name);
+    table.columns.emplace_back();
+    table.columns.back().width = column.width;
+  }
+  constexpr std::size_t rows_at_a_time = 65536;
+  CaseBlock block;
+  for (std::size_t first = 0; first < reader.rows(); first += block.rows) {
+    reader.read(first, rows_at_a_time, block);
+    for (std::size_t c = 0; c < table.columns.size(); ++c) {
+      CellColumn& column = table.columns[c];
+      for (std::string& text : block.texts[c]) column.add_text(std::move(text));
+      column.numbers.insert(column.numbers.end(), block.values[c].begin(), block.values[c].end());
+    }
+  }
+  for (const auto& [column, values] : reader.axes()) {
+    table.names.push_back(column.name);
+    table.columns.emplace_back(values, values.size());  // one row, of its own width
+  }
+  table.rows = reader.rows();
+  table.attributes = reader.attributes();
+  return table;
+}
+
+}  // namespace bbsim::file

@@ -1,0 +1,22 @@
+#include "file/format.hpp"
+
+#include <algorithm>
+#include <cctype>
+#include <filesystem>
+
+namespace bbsim::file {
+
+Format format_of(const std::string& file) {
+  const std::string ending = lower_ending(file);
+  if (ending == ".csv") return Format::csv;
+  return ending == ".h5" || ending == ".hdf5" ? Format::hdf5 : Format::other;
+}
+
+std::string lower_ending(const std::string& file) {
+  std::string text = std::filesystem::path(file).extension();
+  std::transform(text.begin(), text.end(), text.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return text;
+}
+
+}  // namespace bbsim::file

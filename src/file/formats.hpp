@@ -1,0 +1,26 @@
+// The formats behind open_table() and read_table(); nobody else needs them.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "file/cell_table.hpp"
+#include "file/table_writer.hpp"
+
+namespace bbsim::file {
+
+// Each throws OutputError.
+[[nodiscard]] std::unique_ptr<TableWriter> open_csv(const std::string& target,
+                                                    const std::vector<ColumnHeader>& headers);
+[[nodiscard]] std::unique_ptr<TableWriter> open_hdf5(const std::string& target,
+                                                     const std::vector<ColumnHeader>& headers);
+
+// Each throws InputError.
+[[nodiscard]] TableData read_csv(const std::string& file);  // "-" is standard input
+[[nodiscard]] TableData read_hdf5(const std::string& file);
+[[nodiscard]] CellTable read_csv_cells(const std::string& file,
+                                       const std::vector<std::string>& wanted);
+[[nodiscard]] CellTable read_hdf5_cells(const std::string& file);
+
+}  // namespace bbsim::file

@@ -1,0 +1,22 @@
+#include "file/hdf5/handle.hpp"
+
+namespace bbsim::hdf5 {
+
+void fail(std::string_view doing) {
+  std::string reason;
+  // Upward begins with the most specific entry.
+  H5Ewalk2(
+      H5E_DEFAULT, H5E_WALK_UPWARD,
+      [](unsigned, const H5E_error2_t* entry, void* text) -> herr_t {
+        *static_cast<std::string*>(text) = entry->desc != nullptr ? entry->desc : "";
+        return 1;  // enough
+      },
+      &reason);
+  throw Failure(std::string(doing) + " failed" + (reason.empty() ? "" : ": " + reason));
+}
+
+void keep_errors_to_ourselves() {
+  H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
+}
+
+}  // namespace bbsim::hdf5

@@ -1,0 +1,75 @@
+#include "file/hdf5_module.hpp"
+
+#include <dlfcn.h>
+#include <unistd.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <system_error>
+#include <utility>
+#include <vector>
+
+namespace bbsim::file {
+namespace {
+
+constexpr const char* module_name = "libbbsim_hdf5.so";
+constexpr const char* reader_name = "bbsim-hdf5-reader";
+constexpr const char* advice = "; write or read .csv instead, ";
+
+// The file of that name in the first of these folders that has it.
+ModuleFile find(const std::string& what, const char* name,
+                const std::vector<std::string>& folders) {
+  std::string looked_in;
+  for (const std::string& folder : folders) {
+    std::string file = folder + "/" + name;
+    if (access(file.c_str(), F_OK) == 0) return {std::move(file), ""};
+    looked_in.append(looked_in.empty() ? "" : " and ").append(folder);
+  }
+  return {"", what + " " + name + " is not in " + looked_in + advice +
+                  "or install bbsim whole, or set BBSIM_MODULE_PATH to the module's folder"};
+}
+
+}  // namespace
+
+ModuleFile find_hdf5_reader(const std::vector<std::string>& folders) {
+  return find("the HDF5 reader", reader_name, folders);
+}
+
+Hdf5Module open_hdf5_module(const std::vector<std::string>& folders) {
+  const ModuleFile file = find("the HDF5 module", module_name, folders);
+  if (file.path.empty()) return {nullptr, file.trouble};
+  // Never closed: HDF5 cleans up when the process ends.
+  void* library = dlopen(file.path.c_str(), RTLD_NOW | RTLD_LOCAL);
+  if (library == nullptr) {
+    return {nullptr, std::string("the HDF5 module does not open: ") + dlerror() + advice +
+                         "or install the HDF5 library that it was built with"};
+  }
+  const auto entry = reinterpret_cast<bbsim_hdf5_entry_function>(dlsym(library, BBSIM_HDF5_ENTRY));
+  const bbsim_hdf5_module* functions = entry == nullptr ? nullptr : entry();
+  if (functions == nullptr || functions->interface_version != BBSIM_HDF5_INTERFACE) {
+    return {nullptr, "the HDF5 module " + file.path + " belongs to another version of bbsim" +
+                         advice + "or install the two together"};
+  }
+  return {functions, ""};
+}
+
+std::vector<std::string> hdf5_module_folders() {
+  if (const char* folder = std::getenv("BBSIM_MODULE_PATH"); folder != nullptr && *folder != '\0') {
+    return {folder};
+  }
+  std::error_code error;
+  const std::filesystem::path program = std::filesystem::read_symlink("/proc/self/exe", error);
+  if (error) return {};
+  const std::filesystem::path prefix = program.parent_path().parent_path();
+  std::vector<std::string> result{prefix / "lib" / "bbsim"};
+  const std::string installed = prefix / BBSIM_INSTALL_LIBDIR / "bbsim";
+  if (installed != result.front()) result.push_back(installed);
+  return result;
+}
+
+const Hdf5Module& hdf5_module() {
+  static const Hdf5Module module = open_hdf5_module(hdf5_module_folders());
+  return module;
+}
+
+}  // namespace bbsim::file

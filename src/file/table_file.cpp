@@ -1,0 +1,28 @@
+// Tables, in the format that their file's name asks for.
+#include "base/error.hpp"
+#include "file/atomic_file.hpp"
+#include "file/format.hpp"
+#include "file/formats.hpp"
+#include "file/table_writer.hpp"
+
+namespace bbsim::file {
+
+std::unique_ptr<TableWriter> open_table(const std::string& target,
+                                        const std::vector<ColumnHeader>& headers) {
+  const Format format = format_of(target);
+  if (format == Format::csv || is_written_directly(target)) return open_csv(target, headers);
+  if (format == Format::hdf5) return open_hdf5(target, headers);
+  throw InputError("output file \"" + target +
+                   "\": the name's ending picks the format and is one of .csv, .h5 and .hdf5; "
+                   "\"-\" is CSV on standard output");
+}
+
+TableData read_table(const std::string& file) {
+  return format_of(file) == Format::hdf5 ? read_hdf5(file) : read_csv(file);
+}
+
+CellTable read_cells(const std::string& file, const std::vector<std::string>& wanted) {
+  return format_of(file) == Format::hdf5 ? read_hdf5_cells(file) : read_csv_cells(file, wanted);
+}
+
+}  // namespace bbsim::file

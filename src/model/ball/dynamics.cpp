@@ -1,0 +1,128 @@
+#include "model/ball/dynamics.hpp"
+
+#include <Eigen/Geometry>
+#include <cmath>
+
+#include "model/ball/rolling.hpp"
+
+namespace bbsim::model {
+
+using Eigen::Vector3d;
+
+BallConstants constants_of(const Scenario& scene) {
+  BallConstants constants{scene.ball.radius, scene.ball.mass, scene.gravity};
+  constants.papers_rig = is_the_papers(scene);
+  constants.rolling = general_rolling(scene);
+  if (scene.plate.inertia) constants.plate_inertia = *scene.plate.inertia;
+  return constants;
+}
+
+namespace {
+
+// What forces, torques and energy are computed from. All vectors in the plane frame.
+struct Instant {
+  Instant(const Sample& sample, const BallConstants& with)
+      : constants(with), gimbal(sample.gimbal), ball(sample.ball) {
+    const double r = constants.radius;
+    const auto [sin_phi, cos_phi] = sin_cos(gimbal.phi);
+    const auto [s, c] = sin_cos(gimbal.theta);
+    phi = {sin_phi, cos_phi, gimbal.phi_dot, gimbal.phi_ddot};
+    theta = {s, c, gimbal.theta_dot, gimbal.theta_ddot};
+    const auto plane = constants.rolling.kinematics(phi, theta);
+    theta_axis = Vector3d(plane.theta_axis[0], plane.theta_axis[1], 0);
+    phi_axis = Vector3d(plane.phi_axis);
+    up = Vector3d(plane.up);
+    omega = theta_axis * theta.rate + phi_axis * phi.rate;
+    omega_dot = theta_axis * theta.acceleration + phi_axis * phi.acceleration +
+                Vector3d(plane.phi_axis_slope) * (phi.rate * theta.rate);
+    contact = Vector3d(ball.x, ball.y, constants.rolling.height);
+    centre = Vector3d(ball.x, ball.y, constants.rolling.height + r);
+    velocity = Vector3d(ball.x_dot, ball.y_dot, 0);
+  }
+
+  // The ball's acceleration in the plane, were the gimbal's motion this.
+  [[nodiscard]] Vector3d relative(const Axis<double>& p, const Axis<double>& t) const {
+    const double r = constants.radius, g = constants.gravity;
+    const RollingState<double, double, double> state{ball.x, ball.y, ball.x_dot, ball.y_dot,
+                                                     r * ball.gamma_dot};
+    if (constants.papers_rig) {
+      return {x_acceleration<double>(p, t, state, r, g), y_acceleration<double>(p, t, state, r, g),
+              0};
+    }
+    const auto rates = constants.rolling.rates<double>(p, t, state, r, g);
+    return {rates.x, rates.y, 0};
+  }
+
+  [[nodiscard]] Vector3d force() const {
+    const Vector3d centre_acceleration = relative(phi, theta) + 2 * omega.cross(velocity) +
+                                         omega_dot.cross(centre) + omega.cross(omega.cross(centre));
+    return constants.mass * (centre_acceleration + constants.gravity * up);
+  }
+
+  // What turns the plate itself, about the gimbal's centre.
+  [[nodiscard]] Vector3d plate_moment() const {
+    const Vector3d inertia(constants.plate_inertia.data());
+    return inertia.cwiseProduct(omega_dot) + omega.cross(inertia.cwiseProduct(omega));
+  }
+
+  const BallConstants& constants;
+  const GimbalState& gimbal;
+  const BallMotion& ball;
+  Axis<double> phi, theta;
+  Vector3d theta_axis, phi_axis, up;   // up: against gravity
+  Vector3d omega, omega_dot;           // of the plane
+  Vector3d contact, centre, velocity;  // of the ball; velocity in the plane
+};
+
+}  // namespace
+
+Vector3d contact_force(const Sample& sample, const BallConstants& constants) {
+  return Instant(sample, constants).force();
+}
+
+MotorLoad motor_load(const Sample& sample, const BallConstants& constants) {
+  const Instant now(sample, constants);
+  const Vector3d moment = now.contact.cross(now.force()), plate_moment = now.plate_moment();
+  MotorLoad load;
+  load.torque_phi = now.phi_axis.dot(moment) + now.phi_axis.dot(plate_moment);
+  load.torque_theta = now.theta_axis.dot(moment) + now.theta_axis.dot(plate_moment);
+  load.power =
+      load.torque_phi * sample.gimbal.phi_dot + load.torque_theta * sample.gimbal.theta_dot;
+  return load;
+}
+
+Dynamics dynamics(const Sample& sample, const BallConstants& constants) {
+  const Instant now(sample, constants);
+  const double r = constants.radius, m = constants.mass, g = constants.gravity;
+  const Vector3d& omega = now.omega;
+  const Vector3d centre_velocity = now.velocity + omega.cross(now.centre);
+  const Vector3d ball_omega =
+      omega + Vector3d(-now.ball.y_dot / r, now.ball.x_dot / r, now.ball.gamma_dot);
+
+  Dynamics result;
+  result.force = now.force();
+  const Vector3d moment = now.contact.cross(result.force);
+  result.torque_phi = now.phi_axis.dot(moment);
+  result.torque_theta = now.theta_axis.dot(moment);
+  result.energy = m * centre_velocity.squaredNorm() / 2 +
+                  constants.rolling.k / 2 * m * r * r * ball_omega.squaredNorm() +
+                  m * g * now.centre.dot(now.up);
+
+  const Vector3d plate_moment = now.plate_moment();
+  result.plate_torque_phi = now.phi_axis.dot(plate_moment);
+  result.plate_torque_theta = now.theta_axis.dot(plate_moment);
+
+  result.tilt = std::atan2(std::hypot(now.up.x(), now.up.y()), now.up.z());
+  result.tilt_rate = omega.norm();
+  const auto at_rest = [](const Axis<double>& axis, double acceleration) {
+    return Axis<double>{axis.sin, axis.cos, 0, acceleration};
+  };
+  const Vector3d rest = now.relative(at_rest(now.phi, 0), at_rest(now.theta, 0));
+  const Vector3d by_phi = now.relative(at_rest(now.phi, 1), at_rest(now.theta, 0)) - rest;
+  const Vector3d by_theta = now.relative(at_rest(now.phi, 0), at_rest(now.theta, 1)) - rest;
+  result.singularity_distance =
+      std::abs(by_phi.x() * by_theta.y() - by_theta.x() * by_phi.y()) / (r * r);
+  return result;
+}
+
+}  // namespace bbsim::model

@@ -1,0 +1,51 @@
+// Accelerations, contact force, motor torques and energy of one instant (docs/model.md, section 5).
+#pragma once
+
+#include <Eigen/Core>
+
+#include "model/ball/general_rolling.hpp"
+#include "model/sample.hpp"
+
+namespace bbsim::model {
+
+struct BallConstants {
+  double radius = 0, mass = 1, gravity = 0;  // m, kg, m/s^2
+  bool papers_rig = true;                    // equation (27) holds; otherwise `rolling` does
+  GeneralRolling rolling{};
+  std::array<double, 3> plate_inertia{0, 0, 0};  // about x, y and the normal, kg m^2
+};
+
+[[nodiscard]] BallConstants constants_of(const Scenario& scene);
+
+struct Dynamics {
+  Eigen::Vector3d force{0, 0,
+                        0};       // of the plane on the ball, plane frame, N; z is the normal force
+  double torque_phi = 0;          // motor torque that carries the ball, N m
+  double torque_theta = 0;        // N m
+  double energy = 0;              // kinetic and potential, J; potential zero at the gimbal's centre
+  double plate_torque_phi = 0;    // motor torque that turns the plate itself, N m
+  double plate_torque_theta = 0;  // N m
+  double tilt = 0;                // between the plane's normal and the vertical, rad
+  double tilt_rate = 0;           // size of the plane's angular velocity, rad/s
+  // Of the coefficients of (phi'', theta'') in (x'', y''), the determinant over r^2, its size: 0
+  // where they cannot be solved for. |7 r cos theta + 5 y sin theta| / (7 r): (28), (29).
+  double singularity_distance = 0;
+  [[nodiscard]] double normal_force() const { return force.z(); }
+  [[nodiscard]] double friction_force() const { return force.head<2>().norm(); }
+};
+
+// What the two motors give to carry the ball and the plate.
+struct MotorLoad {
+  double torque_phi = 0, torque_theta = 0;  // N m
+  double power = 0;                         // W
+};
+
+[[nodiscard]] MotorLoad motor_load(const Sample& sample, const BallConstants& constants);
+
+// Of the plane on the ball, plane frame, N; z is the normal force.
+[[nodiscard]] Eigen::Vector3d contact_force(const Sample& sample, const BallConstants& constants);
+
+// All of it, from the state and the gimbal's motion alone.
+[[nodiscard]] Dynamics dynamics(const Sample& sample, const BallConstants& constants);
+
+}  // namespace bbsim::model

@@ -1,0 +1,70 @@
+// Equation (27): a ball that rolls without slipping on a plane carried by a two-axis gimbal.
+//
+// Symbols as in docs/model.md, which numbers the equations. The spin enters as u = r gamma', a
+// speed like x' and y': gamma' itself grows as 1/r and would spoil the scaling for small balls.
+#pragma once
+
+#include "base/real.hpp"
+#include "model/ball/zero_and_one.hpp"
+
+namespace bbsim::model {
+
+// One gimbal angle: its sine and cosine, its rate (rad/s) and acceleration (rad/s^2).
+template <class Real>
+struct Axis {
+  Real sin, cos, rate, acceleration;
+};
+
+// An angle that is zero throughout.
+struct LockedAxis {
+  Zero sin;
+  One cos;
+  Zero rate, acceleration;
+};
+
+// The ball in the plane's own frame: contact point (m), its velocity (m/s), u = r gamma' (m/s).
+template <class X, class Y, class U>
+struct RollingState {
+  X x;
+  Y y;
+  X x_dot;
+  Y y_dot;
+  U u;
+};
+
+// The three rows of equation (27), solved for x'' (m/s^2), y'' (m/s^2) and u' = r gamma'' (m/s^2).
+//
+// r is the ball's radius (m) and g is gravity (m/s^2), of type Scalar: a double, or a pack of them
+// with another ball in each lane. Real is the type of the result: double, a dual number, a pack of
+// lanes, a 128-bit float; the arguments may be any types that combine to it, Zero and One among
+// them.
+template <class Real, class Phi, class Theta, class Ball, class Scalar>
+[[nodiscard]] inline Real x_acceleration(const Phi& phi, const Theta& theta, const Ball& ball,
+                                         const Scalar& r, const Scalar& g) {
+  return (5 * g * phi.sin                                                             //
+          - (7 * r * theta.cos + 5 * ball.y * theta.sin) * phi.acceleration           //
+          + 5 * ball.x * (phi.rate * phi.rate)                                        //
+          - (10 * ball.y * theta.cos - 12 * r * theta.sin) * (phi.rate * theta.rate)  //
+          - 12 * theta.sin * phi.rate * ball.y_dot + 2 * theta.rate * ball.u) /
+         7;
+}
+
+template <class Real, class Phi, class Theta, class Ball, class Scalar>
+[[nodiscard]] inline Real y_acceleration(const Phi& phi, const Theta& theta, const Ball& ball,
+                                         const Scalar& r, const Scalar& g) {
+  return (5 * ball.x * theta.sin * phi.acceleration + 7 * r * theta.acceleration          //
+          + 5 * (ball.y * theta.sin + r * theta.cos) * theta.sin * (phi.rate * phi.rate)  //
+          + 5 * ball.y * (theta.rate * theta.rate)                                        //
+          + 12 * theta.sin * phi.rate * ball.x_dot + 2 * theta.cos * phi.rate * ball.u    //
+          - 5 * g * phi.cos * theta.sin) /
+         7;
+}
+
+template <class Real, class Phi, class Theta, class Ball, class Scalar>
+[[nodiscard]] inline Real u_acceleration(const Phi& phi, const Theta& theta, const Ball& ball,
+                                         const Scalar& r) {
+  return r * (theta.sin * phi.acceleration + theta.cos * (phi.rate * theta.rate))  //
+         - (theta.rate * ball.x_dot + theta.cos * phi.rate * ball.y_dot);
+}
+
+}  // namespace bbsim::model

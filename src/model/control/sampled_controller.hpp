@@ -1,0 +1,52 @@
+// The microcontroller of a rig: what it sees of the ball and what it makes of it, once a sample.
+#pragma once
+
+#include <array>
+#include <optional>
+
+#include "base/noise.hpp"
+#include "model/systems/rig.hpp"
+
+namespace bbsim::model {
+
+// A touch screen or a camera, read once a sample.
+class BallSensor {
+ public:
+  explicit BallSensor(const Sensor& sensor) : sensor_(sensor), noise_(sensor.seed) {}
+
+  // What it says of a ball at (x, y), m; nothing if it misses it.
+  [[nodiscard]] std::optional<Pair> read(Pair position);
+
+ private:
+  Sensor sensor_;
+  Noise noise_;
+};
+
+// The law of a sampled loop. It has no velocity sensor: velocities are differences of what it saw,
+// behind a filter of first order. The integral of a PID grows while its command is within the
+// limit, or while the error brings it back there.
+class SampledController {
+ public:
+  explicit SampledController(const SampledLoop& loop) : loop_(loop) {}
+
+  // The command after a sample: rad, or rad/s^2 where accelerations are driven. `servo` is the
+  // servos' angles (rad) and rates (rad/s), for laws that feed them back. A sample that saw
+  // nothing changes nothing.
+  [[nodiscard]] Pair command(const std::optional<Pair>& seen, const double (&servo)[4],
+                             const std::array<Jet<double>, 2>& reference);
+
+  // What it saw last; before the first sample, (0, 0).
+  [[nodiscard]] Pair last_seen() const { return position_; }
+
+ private:
+  void estimate_velocity(Pair seen, double elapsed);
+  [[nodiscard]] Pair law_output(const double (&servo)[4],
+                                const std::array<Jet<double>, 2>& reference) const;
+
+  SampledLoop loop_;
+  bool seen_any_ = false;
+  int unseen_ = 0;  // samples since it saw the ball
+  Pair position_{0, 0}, velocity_{0, 0}, integral_{0, 0}, command_{0, 0};
+};
+
+}  // namespace bbsim::model

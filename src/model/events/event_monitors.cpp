@@ -1,0 +1,104 @@
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "model/systems/rig.hpp"
+
+namespace bbsim::model {
+
+const char* Monitor::name() const {
+  switch (kind) {
+    case Kind::edge:
+      return "edge";
+    case Kind::slip:
+      return "slip";
+    case Kind::lift_off:
+      return "lift_off";
+    case Kind::tilt:
+      return "tilt";
+    case Kind::singularity:
+      return "singularity";
+  }
+  return "";
+}
+
+double EventMonitors::edge_margin(const Sample& sample) const {
+  double left = unlimited;
+  if (plate.size) {
+    left = std::min((*plate.size)[0] / 2 - std::abs(sample.ball.x),
+                    (*plate.size)[1] / 2 - std::abs(sample.ball.y));
+  }
+  if (plate.diameter) {
+    left = std::min(left, *plate.diameter / 2 - std::hypot(sample.ball.x, sample.ball.y));
+  }
+  return left;
+}
+
+double EventMonitors::margin(const Monitor& monitor, const Sample& sample) const {
+  const EventMonitors alone{{monitor}, plate, constants};
+  double value = unlimited;
+  alone.margins(sample, &value);
+  return value;
+}
+
+void EventMonitors::margins(const Sample& sample, double* values) const {
+  using Kind = Monitor::Kind;
+  Dynamics now;
+  const auto asks_for = [this](Kind one, Kind other) {
+    return std::any_of(monitors.begin(), monitors.end(), [=](const Monitor& monitor) {
+      return monitor.kind == one || monitor.kind == other;
+    });
+  };
+  if (asks_for(Kind::tilt, Kind::singularity)) {
+    now = dynamics(sample, constants);
+  } else if (asks_for(Kind::slip, Kind::lift_off)) {
+    now.force = contact_force(sample, constants);
+  }
+  for (const Monitor& monitor : monitors) {
+    double& value = *values++;
+    switch (monitor.kind) {
+      case Kind::edge:
+        value = edge_margin(sample);
+        break;
+      case Kind::slip:
+        value = monitor.limit * now.normal_force() - now.friction_force();
+        break;
+      case Kind::lift_off:
+        // No force at all is none that holds it.
+        value = now.normal_force() != 0 ? now.normal_force() : -std::numeric_limits<double>::min();
+        break;
+      case Kind::tilt:
+        value = monitor.limit - now.tilt;
+        break;
+      case Kind::singularity:
+        value = now.singularity_distance - monitor.limit;
+        break;
+    }
+  }
+}
+
+EventMonitors event_monitors(const Scenario& scene) {
+  EventMonitors list{{}, scene.plate, constants_of(scene)};
+  const Events& events = scene.events;
+  using Kind = Monitor::Kind;
+  if (events.edge) list.monitors.push_back({Kind::edge, *events.edge});
+  if (events.slip) {
+    list.monitors.push_back({Kind::slip, events.slip->action, events.slip->friction});
+  }
+  if (events.lift_off) list.monitors.push_back({Kind::lift_off, *events.lift_off});
+  // Feedback linearisation leaves the tilt unstable: it ends in the plane turning over and over,
+  // ever faster.
+  const bool inverts = scene.controller && scene.controller->law == Law::feedback_linearisation;
+  if (events.tilt || inverts) {
+    const TiltEvent limit = events.tilt.value_or(TiltEvent{std::numbers::pi / 2, OnEvent::stop});
+    list.monitors.push_back({Kind::tilt, limit.action, limit.limit});
+  }
+  if (events.singularity || inverts) {
+    const SingularityEvent guard = events.singularity.value_or(SingularityEvent{});
+    list.monitors.push_back({Kind::singularity, guard.action, guard.distance});
+  }
+  return list;
+}
+
+}  // namespace bbsim::model

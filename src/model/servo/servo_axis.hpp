@@ -1,0 +1,60 @@
+// What one servo does: free, at a limit, at a stop; and its backlash. Between two switches it is
+// an AxisMode; each switch is where one of the guards falls through zero.
+#pragma once
+
+#include "model/systems/rig.hpp"
+
+namespace bbsim::model {
+
+// One axis at an instant.
+struct AxisState {
+  double angle = 0, rate = 0;  // of the servo, rad and rad/s
+  double demand = 0;           // acceleration in free motion, rad/s^2
+  double command = 0;          // rad
+};
+
+class ServoAxis {
+ public:
+  static constexpr int guards = 8;
+
+  ServoAxis(const Rig& rig, const ServoResponse& response, double offset)
+      : rig_(&rig), response_(response), offset_(offset) {}
+
+  // Chooses what the servo does from here. May change its rate: a stop takes it, and a servo of
+  // first order has it from its command.
+  void settle(AxisState& state, AxisMode& mode);
+
+  // Positive as long as nothing switches; `guards` numbers.
+  void evaluate(const AxisState& state, double* values) const;
+
+  // The size of each guard's quantity.
+  void scales(double* values) const;
+
+ private:
+  enum class Motion {
+    free,
+    accelerating_up,
+    accelerating_down,
+    rate_up,
+    rate_down,
+    stop_up,
+    stop_down
+  };
+  enum class Play { none, up, down, gap };
+
+  [[nodiscard]] Motion choose(AxisState& state) const;
+  void settle_backlash(const AxisState& state, AxisMode& mode);
+  // What pushes a servo at its rate limit, or at a stop, further: an acceleration, or, of first
+  // order, what the rate would be beyond the present one.
+  [[nodiscard]] double push(const AxisState& state) const;
+
+  const Rig* rig_;
+  ServoResponse response_;
+  double offset_;
+  Motion motion_ = Motion::free;
+  Play play_ = Play::none;
+  bool started_ = false;
+  double plane_ = 0;  // the plane's angle in the gap, rad
+};
+
+}  // namespace bbsim::model

@@ -1,0 +1,85 @@
+#include "model/signals/signal_pair.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <type_traits>
+#include <utility>
+
+namespace bbsim::model {
+
+void SignalPair::add_ramp(std::size_t component, double start, double rate) {
+  start_[component] += start;
+  rate_[component] += rate;
+}
+
+void SignalPair::add_sinusoid(std::size_t component, double amplitude, double frequency,
+                              double phase) {
+  if (amplitude == 0) return;
+  if (frequency == 0) {
+    add_constant(component, amplitude * std::sin(phase));
+    return;
+  }
+  const auto same = [frequency](const Harmonic& h) { return h.frequency == frequency; };
+  auto harmonic = std::find_if(harmonics_.begin(), harmonics_.end(), same);
+  if (harmonic == harmonics_.end()) {
+    harmonic = harmonics_.insert(harmonics_.end(), Harmonic{frequency, {0, 0}, {0, 0}});
+  }
+  harmonic->sine[component] += amplitude * std::cos(phase);
+  harmonic->cosine[component] += amplitude * std::sin(phase);
+}
+
+void SignalPair::add_table(std::size_t component, Spline spline) {
+  tables_.push_back({component, spline.view()});
+  splines_.push_back(std::move(spline));
+}
+
+void SignalPair::add(std::size_t component, const Profile& profile) {
+  for (const ProfileTerm& term : profile) {
+    std::visit(
+        [&](const auto& part) {
+          using Part = std::decay_t<decltype(part)>;
+          if constexpr (std::is_same_v<Part, double>) {
+            add_constant(component, part);
+          } else if constexpr (std::is_same_v<Part, Sinusoid>) {
+            add_constant(component, part.offset);
+            add_sinusoid(component, part.amplitude, part.frequency, part.phase);
+          } else if constexpr (std::is_same_v<Part, Ramp>) {
+            add_ramp(component, part.start, part.rate);
+          } else {
+            const auto zero = [](double value) { return value == 0; };
+            if (!std::all_of(part.values.begin(), part.values.end(), zero)) {
+              add_table(component, Spline(part.times, part.values));
+            }
+          }
+        },
+        term);
+  }
+}
+
+bool SignalPair::is_zero(std::size_t component) const {
+  const auto silent = [component](const Harmonic& h) {
+    return h.sine[component] == 0 && h.cosine[component] == 0;
+  };
+  const auto elsewhere = [component](const Tabulated& t) { return t.component != component; };
+  return start_[component] == 0 && rate_[component] == 0 &&
+         std::all_of(harmonics_.begin(), harmonics_.end(), silent) &&
+         std::all_of(tables_.begin(), tables_.end(), elsewhere);
+}
+
+std::vector<double> SignalPair::knots() const {
+  std::vector<double> times;
+  for (const Spline& spline : splines_) {
+    times.insert(times.end(), spline.knots().begin(), spline.knots().end());
+  }
+  std::sort(times.begin(), times.end());
+  times.erase(std::unique(times.begin(), times.end()), times.end());
+  return times;
+}
+
+double SignalPair::highest_frequency() const {
+  double highest = 0;
+  for (const Harmonic& h : harmonics_) highest = std::max(highest, std::abs(h.frequency));
+  return highest;
+}
+
+}  // namespace bbsim::model

@@ -1,0 +1,25 @@
+// The exact Jacobian of a system, by forward-mode automatic differentiation.
+#pragma once
+
+#include <Eigen/Core>
+
+#include "simd/gradient.hpp"
+
+namespace bbsim::model {
+
+template <class System>
+using JacobianOf = Eigen::Matrix<double, System::size, System::size>;
+
+// J(i, j) = d f_i / d z_j at (t, z). No allocation.
+template <class System>
+[[nodiscard]] JacobianOf<System> jacobian(const System& system, double t, const double* z) {
+  constexpr int n = System::size;
+  simd::Dual<n> state[n], rate[n];
+  for (int i = 0; i < n; ++i) state[i] = simd::Dual<n>::variable(z[i], i);
+  system.derivative(t, state, rate);
+  JacobianOf<System> matrix;
+  for (int i = 0; i < n; ++i) matrix.row(i) = rate[i].gradient.transpose();
+  return matrix;
+}
+
+}  // namespace bbsim::model

@@ -1,0 +1,70 @@
+// What a built rig has beside the right-hand side: what switches, what samples, what is watched.
+#pragma once
+
+#include <limits>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "model/ball/dynamics.hpp"
+#include "model/systems/rig_loop.hpp"
+#include "scenario/scenario.hpp"
+
+namespace bbsim::model {
+
+inline constexpr double unlimited = std::numeric_limits<double>::infinity();
+
+// A controller in discrete time and its sensor.
+struct SampledLoop {
+  Sampling sampling;
+  Sensor sensor;
+  RigLaw law;        // what is computed at each sample
+  double scale = 0;  // (1 + k) / g, s^2/m, for gravity compensation
+  double limit = unlimited;
+};
+
+// Of a closed loop that is a RigLoop.
+struct Rig {
+  double angle_limit = unlimited;         // rad
+  double rate_limit = unlimited;          // rad/s
+  double acceleration_limit = unlimited;  // rad/s^2
+  double dead_band = 0, backlash = 0;     // rad
+  std::optional<double> time_constant;    // of a servo of first order, s
+  Pair offset{0, 0};                      // angle of the plane at the servo's zero, rad
+  // Of the command of a continuous law; of its sine in gravity compensation.
+  double command_limit = unlimited;
+  std::optional<SampledLoop> sampled;
+
+  [[nodiscard]] bool switches() const {
+    return angle_limit < unlimited || rate_limit < unlimited || acceleration_limit < unlimited ||
+           backlash > 0 || command_limit < unlimited;
+  }
+};
+
+// Something that is watched: `margin` falls through zero when it happens.
+struct Monitor {
+  enum class Kind { edge, slip, lift_off, tilt, singularity };
+  Kind kind;
+  OnEvent action;
+  double limit = 0;  // friction coefficient, angle, or distance
+
+  [[nodiscard]] const char* name() const;
+};
+
+// All that a run is watched for.
+struct EventMonitors {
+  std::vector<Monitor> monitors;
+  Plate plate;
+  BallConstants constants;
+
+  // Of each monitor, how far it is from happening: negative once it does.
+  void margins(const Sample& sample, double* values) const;
+  [[nodiscard]] double margin(const Monitor& monitor, const Sample& sample) const;
+
+ private:
+  [[nodiscard]] double edge_margin(const Sample& sample) const;
+};
+
+[[nodiscard]] EventMonitors event_monitors(const Scenario& scene);
+
+}  // namespace bbsim::model

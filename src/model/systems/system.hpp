@@ -1,0 +1,357 @@
+// The ordinary differential equations of a scene: equation (27) with what moves the gimbal.
+//
+// A system is a plain value with
+//     size                          the number of states, at compile time
+//     derivative(t, z, dz)          z' = f(t, z), for any number types of time and state
+//     inputs(t)                     all of f that depends on the time alone
+//     derivative_of(inputs, z, dz)  the rest: f(t, z) = derivative_of(inputs(t), z)
+//     motions                       which states are velocities, and of which other states
+//     view()                        the same system in plain memory, for code of one instruction
+//     sample(t, z)                  the instant in the paper's symbols
+// and no knowledge of who integrates it. Which one a scene gets is assemble()'s choice.
+#pragma once
+
+#include <array>
+#include <string_view>
+
+#include "model/ball/rolling.hpp"
+#include "model/sample.hpp"
+#include "model/signals/signal_pair.hpp"
+
+namespace bbsim::model {
+
+// What can move: the ball anywhere on the plane, or along one axis of it, where symmetry keeps
+// the other coordinate, the spin and the other gimbal angle at zero.
+enum class Shape { full, along_x, along_y };
+
+// A state that is a velocity and the state that it is the rate of; -1 where that is no state.
+struct Motion {
+  int position, velocity;
+};
+
+// All velocities of a system, those with a position first. Together with the positions they are
+// the whole state.
+template <int velocities>
+struct Motions {
+  static constexpr int count = velocities;
+  Motion of[velocities];
+};
+
+// The ball's equation of motion, a parameter of the systems below: (27), or a simpler one to be
+// measured against it (model/ball/simpler_equations.hpp).
+struct Equation27 {
+  template <class Real, class Phi, class Theta, class Ball, class Scalar>
+  static Real x(const Phi& phi, const Theta& theta, const Ball& ball, const Scalar& r,
+                const Scalar& g) {
+    return x_acceleration<Real>(phi, theta, ball, r, g);
+  }
+  template <class Real, class Phi, class Theta, class Ball, class Scalar>
+  static Real y(const Phi& phi, const Theta& theta, const Ball& ball, const Scalar& r,
+                const Scalar& g) {
+    return y_acceleration<Real>(phi, theta, ball, r, g);
+  }
+  template <class Real, class Phi, class Theta, class Ball, class Scalar>
+  static Real u(const Phi& phi, const Theta& theta, const Ball& ball, const Scalar& r) {
+    return u_acceleration<Real>(phi, theta, ball, r);
+  }
+};
+
+// Fields, not indices: the packing of the ball into a solver's vector, and back.
+template <Shape shape>
+struct BallLayout;
+
+template <>
+struct BallLayout<Shape::full> {
+  static constexpr int size = 5;
+  static constexpr std::array<std::string_view, 5> names{"x", "y", "vx", "vy", "r*spin"};
+  static constexpr Motions<3> motions{{{0, 2}, {1, 3}, {-1, 4}}};
+
+  template <class Real>
+  static RollingState<Real, Real, Real> unpack(const Real* z) {
+    return {z[0], z[1], z[2], z[3], z[4]};
+  }
+  template <class Real, class Equation, class Phi, class Theta, class Ball, class Scalar>
+  static void derivative(const Equation& equation, const Phi& phi, const Theta& theta,
+                         const Ball& ball, const Scalar& r, const Scalar& g, Real* dz) {
+    dz[0] = ball.x_dot;
+    dz[1] = ball.y_dot;
+    if constexpr (requires { equation.template rates<Real>(phi, theta, ball, r, g); }) {
+      const auto rates = equation.template rates<Real>(phi, theta, ball, r, g);
+      dz[2] = rates.x;
+      dz[3] = rates.y;
+      dz[4] = rates.u;
+    } else {
+      dz[2] = equation.template x<Real>(phi, theta, ball, r, g);
+      dz[3] = equation.template y<Real>(phi, theta, ball, r, g);
+      dz[4] = equation.template u<Real>(phi, theta, ball, r);
+    }
+  }
+};
+
+template <>
+struct BallLayout<Shape::along_x> {
+  static constexpr int size = 2;
+  static constexpr std::array<std::string_view, 2> names{"x", "vx"};
+  static constexpr Motions<1> motions{{{0, 1}}};
+
+  template <class Real>
+  static RollingState<Real, Zero, Zero> unpack(const Real* z) {
+    return {z[0], {}, z[1], {}, {}};
+  }
+  template <class Real, class Equation, class Phi, class Theta, class Ball, class Scalar>
+  static void derivative(const Equation& equation, const Phi& phi, const Theta& theta,
+                         const Ball& ball, const Scalar& r, const Scalar& g, Real* dz) {
+    dz[0] = ball.x_dot;
+    dz[1] = equation.template x<Real>(phi, theta, ball, r, g);
+  }
+};
+
+template <>
+struct BallLayout<Shape::along_y> {
+  static constexpr int size = 2;
+  static constexpr std::array<std::string_view, 2> names{"y", "vy"};
+  static constexpr Motions<1> motions{{{0, 1}}};
+
+  template <class Real>
+  static RollingState<Zero, Real, Zero> unpack(const Real* z) {
+    return {{}, z[0], {}, z[1], {}};
+  }
+  template <class Real, class Equation, class Phi, class Theta, class Ball, class Scalar>
+  static void derivative(const Equation& equation, const Phi& phi, const Theta& theta,
+                         const Ball& ball, const Scalar& r, const Scalar& g, Real* dz) {
+    dz[0] = ball.y_dot;
+    dz[1] = equation.template y<Real>(phi, theta, ball, r, g);
+  }
+};
+
+inline constexpr bool phi_moves(Shape shape) {
+  return shape != Shape::along_y;
+}
+inline constexpr bool theta_moves(Shape shape) {
+  return shape != Shape::along_x;
+}
+
+template <Shape shape, class Ball>
+[[nodiscard]] BallMotion ball_motion(const Ball& ball, double r) {
+  return {ball.x, ball.y, ball.x_dot, ball.y_dot, static_cast<double>(ball.u) / r};
+}
+
+// The gimbal follows a given motion: its angles are functions of time, not states.
+template <Shape shape, class Signals = SignalPair, class Equation = Equation27>
+class OpenLoop {
+ public:
+  using Layout = BallLayout<shape>;
+  static constexpr Shape moves = shape;
+  static constexpr int size = Layout::size;
+  static constexpr bool open_loop = true;  // z' = A(t) z + b(t)
+  static constexpr auto motions = Layout::motions;
+
+  OpenLoop(double radius, double gravity, Signals motion, Equation equation = {})
+      : r_(radius), g_(gravity), motion_(std::move(motion)), equation_(equation) {}
+
+  template <class Time>
+  [[nodiscard]] auto inputs(const Time& t) const {
+    const auto angles = motion_.at(t);
+    return Inputs{axis<phi_moves(shape)>(angles[0]), axis<theta_moves(shape)>(angles[1])};
+  }
+
+  template <class Inputs, class Real>
+  void derivative_of(const Inputs& in, const Real* z, Real* dz) const {
+    Layout::template derivative<Real>(equation_, in.phi, in.theta, Layout::unpack(z), r_, g_, dz);
+  }
+
+  template <class Time, class Real>
+  void derivative(const Time& t, const Real* z, Real* dz) const {
+    derivative_of(inputs(t), z, dz);
+  }
+
+  [[nodiscard]] OpenLoop<shape, SignalView, Equation> view() const {
+    return {r_, g_, motion_.view(), equation_};
+  }
+
+  // The same scene with another equation for the ball.
+  template <class Other>
+  [[nodiscard]] OpenLoop<shape, Signals, Other> with_equation() const {
+    return {r_, g_, motion_};
+  }
+
+  [[nodiscard]] Sample sample(double t, const double* z) const {
+    const auto [phi, theta] = motion_.at(t);
+    return {t,
+            ball_motion<shape>(Layout::unpack(z), r_),
+            0,
+            {phi.value, theta.value, phi.rate, theta.rate, phi.acceleration, theta.acceleration},
+            {0, 0}};
+  }
+
+  [[nodiscard]] const Signals& motion() const { return motion_; }
+
+ private:
+  template <class Phi, class Theta>
+  struct Inputs {
+    Phi phi;
+    Theta theta;
+  };
+  template <class Phi, class Theta>
+  Inputs(Phi, Theta) -> Inputs<Phi, Theta>;
+
+  template <bool moves_at_all, class Time>
+  static auto axis(const Jet<Time>& angle) {
+    if constexpr (moves_at_all) {
+      const SinCos<Time> direction = sin_cos(angle.value);
+      return Axis<Time>{direction.sin, direction.cos, angle.rate, angle.acceleration};
+    } else {
+      return LockedAxis{};
+    }
+  }
+
+  double r_, g_;
+  Signals motion_;
+  [[no_unique_address]] Equation equation_;
+};
+
+// Proportional and derivative gains, rows phi, theta; columns x, y: equation (31). Scalar, here and
+// below, is that of rolling.hpp: a pack of doubles holds another loop in each lane.
+template <class Scalar>
+struct BasicGains {
+  Scalar kv[2][2], kp[2][2];
+};
+using Gains = BasicGains<double>;
+
+// One axis of the gimbal under control. Its acceleration is
+//     acceleration drive:  u                                         equation (31)
+//     angle drive:         omega_n^2 (u - angle) - 2 zeta omega_n angle'   a position servo
+template <class Scalar>
+struct BasicServoLaw {
+  Scalar omega_n, zeta;
+
+  template <Drives drives, class Real>
+  [[nodiscard]] Real acceleration(const Real& u, const Real& angle, const Real& rate) const {
+    if constexpr (drives == Drives::acceleration) {
+      return u;
+    } else {
+      return omega_n * omega_n * (u - angle) - 2 * zeta * omega_n * rate;
+    }
+  }
+};
+using ServoLaw = BasicServoLaw<double>;
+
+// A controller moves the gimbal: angles and rates are states, after those of the ball.
+template <Shape shape, Drives drives, class Signals = SignalPair, class Equation = Equation27,
+          class Scalar = double>
+class ClosedLoop {
+ public:
+  using Layout = BallLayout<shape>;
+  static constexpr Shape moves = shape;
+  static constexpr int axes = phi_moves(shape) + theta_moves(shape);
+  static constexpr int size = Layout::size + 2 * axes;
+  static constexpr bool open_loop = false;
+  static constexpr auto motions = [] {
+    Motions<Layout::motions.count + axes> all{};
+    int next = 0;
+    for (const Motion& m : Layout::motions.of) {
+      if (m.position >= 0) all.of[next++] = m;
+    }
+    for (int i = 0; i < axes; ++i) all.of[next++] = {Layout::size + i, Layout::size + axes + i};
+    for (const Motion& m : Layout::motions.of) {
+      if (m.position < 0) all.of[next++] = m;
+    }
+    return all;
+  }();
+
+  ClosedLoop(Scalar radius, Scalar gravity, const BasicGains<Scalar>& gains,
+             BasicServoLaw<Scalar> servo, Signals reference)
+      : r_(radius), g_(gravity), gains_(gains), servo_(servo), reference_(std::move(reference)) {}
+
+  // The reference and its derivatives.
+  template <class Time>
+  [[nodiscard]] std::array<Jet<Time>, 2> inputs(const Time& t) const {
+    return reference_.at(t);
+  }
+
+  template <class Time, class Real>
+  void derivative(const Time& t, const Real* z, Real* dz) const {
+    derivative_of(inputs(t), z, dz);
+  }
+
+  [[nodiscard]] ClosedLoop<shape, drives, SignalView, Equation> view() const {
+    return {r_, g_, gains_, servo_, reference_.view()};
+  }
+
+  // The same loop around a ball with another equation.
+  template <class Other>
+  [[nodiscard]] ClosedLoop<shape, drives, Signals, Other> with_equation() const {
+    return {r_, g_, gains_, servo_, reference_};
+  }
+
+  template <class Time, class Real>
+  void derivative_of(const std::array<Jet<Time>, 2>& reference, const Real* z, Real* dz) const {
+    const auto ball = Layout::unpack(z);
+    const Real* angles = z + Layout::size;  // [phi, theta,] then their rates
+    Real* angles_dot = dz + Layout::size;
+    const auto phi = axis<0, Real>(ball, reference, angles);
+    const auto theta = axis<1, Real>(ball, reference, angles);
+    Layout::template derivative<Real>(equation_, phi, theta, ball, r_, g_, dz);
+    for (int i = 0; i < axes; ++i) angles_dot[i] = angles[axes + i];
+    if constexpr (phi_moves(shape)) angles_dot[axes] = phi.acceleration;
+    if constexpr (theta_moves(shape)) angles_dot[2 * axes - 1] = theta.acceleration;
+  }
+
+  [[nodiscard]] Sample sample(double t, const double* z) const {
+    const auto ball = Layout::unpack(z);
+    const auto reference = reference_.at(t);
+    const double* angles = z + Layout::size;
+    GimbalState gimbal;
+    if constexpr (phi_moves(shape)) {
+      gimbal.phi = angles[0];
+      gimbal.phi_dot = angles[axes];
+      gimbal.phi_ddot = axis<0, double>(ball, reference, angles).acceleration;
+    }
+    if constexpr (theta_moves(shape)) {
+      gimbal.theta = angles[axes - 1];
+      gimbal.theta_dot = angles[2 * axes - 1];
+      gimbal.theta_ddot = axis<1, double>(ball, reference, angles).acceleration;
+    }
+    Sample sample{
+        t, ball_motion<shape>(ball, r_), 0, gimbal, {reference[0].value, reference[1].value}};
+    if constexpr (phi_moves(shape)) sample.command[0] = command<0, double>(ball, reference);
+    if constexpr (theta_moves(shape)) sample.command[1] = command<1, double>(ball, reference);
+    return sample;
+  }
+
+  [[nodiscard]] const Signals& reference() const { return reference_; }
+
+ private:
+  // Equation (31) for one row of the gains.
+  template <std::size_t row, class Real, class Ball, class Time>
+  [[nodiscard]] Real command(const Ball& ball, const std::array<Jet<Time>, 2>& reference) const {
+    return gains_.kv[row][0] * (reference[0].rate - ball.x_dot) +
+           gains_.kv[row][1] * (reference[1].rate - ball.y_dot) +
+           gains_.kp[row][0] * (reference[0].value - ball.x) +
+           gains_.kp[row][1] * (reference[1].value - ball.y);
+  }
+
+  // One axis of the gimbal: its command, and the servo behind it.
+  template <std::size_t row, class Real, class Ball, class Time>
+  [[nodiscard]] auto axis(const Ball& ball, const std::array<Jet<Time>, 2>& reference,
+                          const Real* angles) const {
+    if constexpr (row == 0 ? phi_moves(shape) : theta_moves(shape)) {
+      const Real& angle = angles[row == 0 ? 0 : axes - 1];
+      const Real& rate = angles[row == 0 ? axes : 2 * axes - 1];
+      const Real u = command<row, Real>(ball, reference);
+      const SinCos<Real> direction = sin_cos(angle);
+      return Axis<Real>{direction.sin, direction.cos, rate,
+                        servo_.template acceleration<drives, Real>(u, angle, rate)};
+    } else {
+      return LockedAxis{};
+    }
+  }
+
+  Scalar r_, g_;
+  BasicGains<Scalar> gains_;
+  BasicServoLaw<Scalar> servo_;
+  Signals reference_;
+  [[no_unique_address]] Equation equation_{};
+};
+
+}  // namespace bbsim::model

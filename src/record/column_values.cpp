@@ -1,0 +1,93 @@
+#include "record/column_values.hpp"
+
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <string_view>
+
+namespace bbsim::record {
+namespace {
+
+using R = const Row&;
+
+struct Entry {
+  std::string_view column;
+  ColumnValue value;
+};
+
+// In the order of scenario::columns.
+constexpr std::array values = {
+    Entry{"t", [](R row) { return row.sample.t; }},
+    Entry{"x", [](R row) { return row.sample.ball.x; }},
+    Entry{"y", [](R row) { return row.sample.ball.y; }},
+    Entry{"distance", [](R row) { return std::hypot(row.sample.ball.x, row.sample.ball.y); }},
+    Entry{"vx", [](R row) { return row.sample.ball.x_dot; }},
+    Entry{"vy", [](R row) { return row.sample.ball.y_dot; }},
+    Entry{"spin", [](R row) { return row.sample.ball.gamma_dot; }},
+    Entry{"gamma", [](R row) { return row.sample.gamma; }},
+    Entry{"ball_qw", [](R row) { return (*row.orientation)[0]; }},
+    Entry{"ball_qx", [](R row) { return (*row.orientation)[1]; }},
+    Entry{"ball_qy", [](R row) { return (*row.orientation)[2]; }},
+    Entry{"ball_qz", [](R row) { return (*row.orientation)[3]; }},
+    Entry{"phi", [](R row) { return row.sample.gimbal.phi; }},
+    Entry{"theta", [](R row) { return row.sample.gimbal.theta; }},
+    Entry{"phi_rate", [](R row) { return row.sample.gimbal.phi_dot; }},
+    Entry{"theta_rate", [](R row) { return row.sample.gimbal.theta_dot; }},
+    Entry{"phi_acceleration", [](R row) { return row.sample.gimbal.phi_ddot; }},
+    Entry{"theta_acceleration", [](R row) { return row.sample.gimbal.theta_ddot; }},
+    Entry{"x_reference", [](R row) { return row.sample.reference[0]; }},
+    Entry{"y_reference", [](R row) { return row.sample.reference[1]; }},
+    Entry{"tracking_error",
+          [](R row) {
+            const model::Sample& now = row.sample;
+            return std::hypot(now.ball.x - now.reference[0], now.ball.y - now.reference[1]);
+          }},
+    Entry{"phi_command", [](R row) { return row.sample.command[0]; }},
+    Entry{"theta_command", [](R row) { return row.sample.command[1]; }},
+    Entry{"x_measured", [](R row) { return row.sample.measured[0]; }},
+    Entry{"y_measured", [](R row) { return row.sample.measured[1]; }},
+    Entry{"tilt", [](R row) { return row.dynamics->tilt; }},
+    Entry{"tilt_rate", [](R row) { return row.dynamics->tilt_rate; }},
+    Entry{"singularity_distance", [](R row) { return row.dynamics->singularity_distance; }},
+    Entry{"normal_force", [](R row) { return row.dynamics->normal_force(); }},
+    Entry{"friction_force", [](R row) { return row.dynamics->friction_force(); }},
+    Entry{"friction_demand",
+          [](R row) { return row.dynamics->friction_force() / row.dynamics->normal_force(); }},
+    Entry{"torque_phi", [](R row) { return row.dynamics->torque_phi; }},
+    Entry{"torque_theta", [](R row) { return row.dynamics->torque_theta; }},
+    Entry{"motor_torque_phi",
+          [](R row) { return row.dynamics->torque_phi + row.dynamics->plate_torque_phi; }},
+    Entry{"motor_torque_theta",
+          [](R row) { return row.dynamics->torque_theta + row.dynamics->plate_torque_theta; }},
+    Entry{"motor_power",
+          [](R row) {
+            const model::GimbalState& gimbal = row.sample.gimbal;
+            const model::Dynamics& d = *row.dynamics;
+            return (d.torque_phi + d.plate_torque_phi) * gimbal.phi_dot +
+                   (d.torque_theta + d.plate_torque_theta) * gimbal.theta_dot;
+          }},
+    Entry{"energy", [](R row) { return row.dynamics->energy; }},
+    Entry{"power",
+          [](R row) {
+            const model::GimbalState& gimbal = row.sample.gimbal;
+            return row.dynamics->torque_phi * gimbal.phi_dot +
+                   row.dynamics->torque_theta * gimbal.theta_dot;
+          }},
+};
+
+constexpr bool in_order() {
+  if (values.size() != scenario::columns.size()) return false;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    if (values[i].column != scenario::columns[i].name) return false;
+  }
+  return true;
+}
+static_assert(in_order(), "each column has its value, in the catalogue's order");
+
+}  // namespace
+
+ColumnValue value_of(const scenario::Column& column) {
+  return values[static_cast<std::size_t>(&column - scenario::columns.data())].value;
+}
+
+}  // namespace bbsim::record

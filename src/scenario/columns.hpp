@@ -1,0 +1,113 @@
+// The one table of output columns: CSV headers, HDF5 datasets, `bbsim columns` and the docs. How
+// each is computed is record/column_values.hpp's matter.
+#pragma once
+
+#include <array>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "scenario/scenario.hpp"
+
+namespace bbsim::scenario {
+
+// What a column is computed from: `reference` is there with a controller, `samples` with one in
+// discrete time, `plate` where the plate's inertia is known;
+// `orientation` comes of all rows so far, with gamma.
+enum class Needs { state, gamma, orientation, reference, samples, dynamics, plate };
+
+struct Column {
+  std::string_view name;
+  std::string_view unit;     // "1" if dimensionless
+  std::string_view meaning;  // one phrase, without a full stop
+  Needs needs;
+};
+
+// All columns, in the order of `bbsim columns`.
+inline constexpr std::array columns = {
+    Column{"t", "s", "time", Needs::state},
+    Column{"x", "m", "contact point along the plane's x axis", Needs::state},
+    Column{"y", "m", "contact point along the plane's y axis", Needs::state},
+    Column{"distance", "m", "distance of the contact point from the plane's origin", Needs::state},
+    Column{"vx", "m/s", "velocity of the contact point in the plane, x'", Needs::state},
+    Column{"vy", "m/s", "velocity of the contact point in the plane, y'", Needs::state},
+    Column{"spin", "rad/s", "ball's rate of turn about the plane normal, relative to the plane",
+           Needs::state},
+    Column{"gamma", "rad", "ball's turn about the plane normal since the start: integral of spin",
+           Needs::gamma},
+    Column{"ball_qw", "1", "ball's orientation in the plane's frame, a unit quaternion: its scalar",
+           Needs::orientation},
+    Column{"ball_qx", "1", "ball's orientation: x part of the quaternion, 0 at the start",
+           Needs::orientation},
+    Column{"ball_qy", "1", "ball's orientation: y part", Needs::orientation},
+    Column{"ball_qz", "1", "ball's orientation: z part", Needs::orientation},
+    Column{"phi", "rad", "first (outer) gimbal angle, about the fixed y axis", Needs::state},
+    Column{"theta", "rad", "second (inner) gimbal angle, about the x axis that phi carries",
+           Needs::state},
+    Column{"phi_rate", "rad/s", "rate of phi", Needs::state},
+    Column{"theta_rate", "rad/s", "rate of theta", Needs::state},
+    Column{"phi_acceleration", "rad/s^2", "acceleration of phi", Needs::state},
+    Column{"theta_acceleration", "rad/s^2", "acceleration of theta", Needs::state},
+    Column{"x_reference", "m", "where the controller wants x", Needs::reference},
+    Column{"y_reference", "m", "where the controller wants y", Needs::reference},
+    Column{"tracking_error", "m",
+           "distance of the contact point from where the controller wants it", Needs::reference},
+    Column{"phi_command", "rad",
+           "command that the servo of phi follows (rad/s^2 if accelerations are driven)",
+           Needs::reference},
+    Column{"theta_command", "rad",
+           "command that the servo of theta follows (rad/s^2 if accelerations are driven)",
+           Needs::reference},
+    Column{"x_measured", "m", "x as the sensor last saw it", Needs::samples},
+    Column{"y_measured", "m", "y as the sensor last saw it", Needs::samples},
+    Column{"tilt", "rad", "angle between the plane's normal and the vertical", Needs::dynamics},
+    Column{"tilt_rate", "rad/s", "size of the plane's angular velocity", Needs::dynamics},
+    Column{"singularity_distance", "1",
+           "how far from where no gimbal accelerations give the ball any acceleration wanted: 0 "
+           "there, 1 at home on the paper's gimbal",
+           Needs::dynamics},
+    Column{"normal_force", "N",
+           "force of the plane on the ball along the normal; contact needs > 0", Needs::dynamics},
+    Column{"friction_force", "N", "size of the force of the plane on the ball along the plane",
+           Needs::dynamics},
+    Column{"friction_demand", "1",
+           "friction_force / normal_force; rolling needs it below the friction coefficient",
+           Needs::dynamics},
+    Column{"torque_phi", "N m", "motor torque about phi's axis that carries the ball",
+           Needs::dynamics},
+    Column{"torque_theta", "N m", "motor torque about theta's axis that carries the ball",
+           Needs::dynamics},
+    Column{"motor_torque_phi", "N m", "motor torque about phi's axis that carries ball and plate",
+           Needs::plate},
+    Column{"motor_torque_theta", "N m",
+           "motor torque about theta's axis that carries ball and plate", Needs::plate},
+    Column{"motor_power", "W", "power of the two motors with ball and plate", Needs::plate},
+    Column{"energy", "J",
+           "ball's kinetic and potential energy; potential is 0 at the gimbal's centre",
+           Needs::dynamics},
+    Column{"power", "W", "power of the two motor torques; the rate of change of energy",
+           Needs::dynamics},
+};
+
+// The column of that name, or nullptr.
+[[nodiscard]] const Column* find_column(std::string_view name);
+
+// The columns of these names, in this order. Throws InputError for an unknown one.
+[[nodiscard]] std::vector<const Column*> columns_named(const std::vector<std::string>& names);
+
+[[nodiscard]] std::vector<std::string> names_of(const std::vector<const Column*>& columns);
+
+[[nodiscard]] bool any_needs(const std::vector<const Column*>& columns, Needs what);
+
+// Whether one of them is computed from gamma, which the model then integrates.
+[[nodiscard]] bool need_gamma(const std::vector<const Column*>& columns);
+
+// Why the scene cannot fill a column, and which ones it can; both null if it can.
+struct Missing {
+  const char* why = nullptr;
+  const char* instead = nullptr;
+  explicit operator bool() const { return why != nullptr; }
+};
+[[nodiscard]] Missing missing(const Column& column, const Scenario& scenario);
+
+}  // namespace bbsim::scenario

@@ -1,0 +1,69 @@
+#include "simd/instruction_set.hpp"
+
+#include <algorithm>
+#include <cstdlib>
+#include <string>
+
+#include "base/error.hpp"
+
+namespace bbsim::simd {
+namespace {
+
+struct Candidate {
+  InstructionSet set;
+  const char* name;
+  bool (*runs_here)();
+};
+
+// From the best to the one that every processor runs.
+const Candidate candidates[] = {
+#ifdef BBSIM_X86_KERNELS
+    {InstructionSet::avx512, "avx512",
+     [] {
+       return __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") &&
+              __builtin_cpu_supports("avx512vl") && __builtin_cpu_supports("avx2") &&
+              __builtin_cpu_supports("fma");
+     }},
+    {InstructionSet::avx2, "avx2",
+     [] { return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma"); }},
+#endif
+#ifdef __x86_64__
+    {InstructionSet::baseline, "sse2", [] { return true; }},
+#else
+    {InstructionSet::baseline, "baseline", [] { return true; }},
+#endif
+};
+
+std::string names() {
+  std::string list;
+  for (const Candidate& candidate : candidates) {
+    list += (list.empty() ? "" : ", ") + std::string(candidate.name);
+    if (!candidate.runs_here()) list += " (not on this processor)";
+  }
+  return list;
+}
+
+}  // namespace
+
+const char* name_of(InstructionSet set) {
+  return std::ranges::find(candidates, set, &Candidate::set)->name;
+}
+
+std::optional<InstructionSet> find_instruction_set(std::string_view name) {
+  for (const Candidate& candidate : candidates) {
+    if (candidate.name == name && candidate.runs_here()) return candidate.set;
+  }
+  return {};
+}
+
+InstructionSet chosen_instruction_set() {
+  if (const char* const asked = std::getenv("BBSIM_SIMD")) {
+    if (const auto found = find_instruction_set(asked)) return *found;
+    throw InputError("environment variable BBSIM_SIMD: found '" + std::string(asked) +
+                     "'; allowed: " + names());
+  }
+  return std::ranges::find_if(candidates, [](const Candidate& one) { return one.runs_here(); })
+      ->set;
+}
+
+}  // namespace bbsim::simd

@@ -1,0 +1,180 @@
+// A pack of doubles, one a SIMD lane, and the numbers made of it.
+//
+// Included only by the kernels, which are compiled once for each instruction set. Every type
+// carries the set as a tag and every function is inlined or takes a tagged type, so that no code
+// for one set can be linked in place of code for another.
+#pragma once
+
+#include "base/real.hpp"
+#include "simd/sine_table.hpp"
+
+#define BBSIM_INLINE [[gnu::always_inline]] inline
+
+namespace bbsim::simd {
+
+// The compilers' own vector types (GCC, Clang).
+template <int lanes>
+struct Vectors;
+template <>
+struct Vectors<2> {
+  typedef double Number __attribute__((vector_size(16)));
+  typedef long long Mask __attribute__((vector_size(16)));
+};
+template <>
+struct Vectors<4> {
+  typedef double Number __attribute__((vector_size(32)));
+  typedef long long Mask __attribute__((vector_size(32)));
+};
+template <>
+struct Vectors<8> {
+  typedef double Number __attribute__((vector_size(64)));
+  typedef long long Mask __attribute__((vector_size(64)));
+};
+
+template <class Isa, int lanes>
+struct Pack {
+  static constexpr int size = lanes;
+  using Vector = typename Vectors<lanes>::Number;
+  using Mask = typename Vectors<lanes>::Mask;
+  Vector v;
+
+  BBSIM_INLINE Pack() {}  // NOLINT(modernize-use-equals-default): uninitialised on purpose
+  // As one vector: copied as plain memory, numbers made of packs would go by halves.
+  BBSIM_INLINE Pack(const Pack& other) : v(other.v) {}
+  BBSIM_INLINE Pack& operator=(const Pack& other) { return v = other.v, *this; }
+  BBSIM_INLINE Pack(double value) : v(value - Vector{}) {}  // NOLINT(google-explicit-constructor)
+  BBSIM_INLINE static Pack of(Vector v) {
+    Pack p;
+    p.v = v;
+    return p;
+  }
+  // From `lanes` doubles, aligned to the pack's own size.
+  BBSIM_INLINE static Pack load(const double* p) {
+    return of(*reinterpret_cast<const Vector*>(__builtin_assume_aligned(p, sizeof(Vector))));
+  }
+  BBSIM_INLINE void store(double* p) const {
+    *reinterpret_cast<Vector*>(__builtin_assume_aligned(p, sizeof(Vector))) = v;
+  }
+  BBSIM_INLINE double operator[](int lane) const { return v[lane]; }
+
+  BBSIM_INLINE friend Pack operator+(Pack a, Pack b) { return of(a.v + b.v); }
+  BBSIM_INLINE friend Pack operator-(Pack a, Pack b) { return of(a.v - b.v); }
+  BBSIM_INLINE friend Pack operator*(Pack a, Pack b) { return of(a.v * b.v); }
+  BBSIM_INLINE friend Pack operator/(Pack a, Pack b) { return of(a.v / b.v); }
+  BBSIM_INLINE friend Pack operator/(Pack a, int b) { return of(a.v * (1.0 / b)); }
+  BBSIM_INLINE friend Pack operator-(Pack a) { return of(-a.v); }
+  BBSIM_INLINE Pack& operator+=(Pack b) { return v += b.v, *this; }
+  BBSIM_INLINE Pack& operator-=(Pack b) { return v -= b.v, *this; }
+  // A product that is not fused with what it is added to: of two in a sum, one can be, and which
+  // one is then no matter of the compiler's mood.
+  BBSIM_INLINE friend Pack rounded(Pack a) {
+#if defined(__x86_64__)
+    asm("" : "+v"(a.v));
+#elif defined(__aarch64__)
+    asm("" : "+w"(a.v));
+#endif
+    return a;
+  }
+  BBSIM_INLINE friend double sum(Pack a) {
+    double total = a.v[0];
+    for (int i = 1; i < lanes; ++i) total += a.v[i];
+    return total;
+  }
+  // All of one step's times lie between the same knots of a table: any tells the piece.
+  BBSIM_INLINE friend double plain(Pack a) {
+    return a.v[0];
+  }
+};
+
+// Within 1 ulp or so of the true value up to 10^5: reduction by multiples of pi/2 after Cody and
+// Waite, then minimax polynomials. Beyond, that reduction loses digits.
+template <class Isa, int lanes>
+BBSIM_INLINE SinCos<Pack<Isa, lanes>> sin_cos_of_moderate(Pack<Isa, lanes> angle) {
+  using P = Pack<Isa, lanes>;
+  using Vector = typename P::Vector;
+  using Mask = typename P::Mask;
+  using T = SineTable;
+  // Adding 1.5 * 2^52 rounds to an integer and leaves it in the low bits.
+  const Vector magic = 6755399441055744.0 - Vector{};
+  const Vector shifted = angle.v * T::two_over_pi + magic;
+  const Vector turns = shifted - magic;
+  const Mask quadrant = (Mask)shifted;
+  const Vector r =
+      ((angle.v - turns * T::half_pi[0]) - turns * T::half_pi[1]) - turns * T::half_pi[2];
+  const Vector u = r * r;
+  const Vector u2 = u * u;
+  const Vector p = (T::sine[0] + u * T::sine[1]) +
+                   u2 * ((T::sine[2] + u * T::sine[3]) + u2 * (T::sine[4] + u * T::sine[5]));
+  const Vector q =
+      (T::cosine[0] + u * T::cosine[1]) +
+      u2 * ((T::cosine[2] + u * T::cosine[3]) + u2 * (T::cosine[4] + u * T::cosine[5]));
+  const Vector s = r + (r * u) * p;
+  const Vector c = 1.0 + (u * -0.5 + u2 * q);
+  const Mask odd = -(quadrant & 1);
+  const Mask sign_bit = (1LL << 63) - Mask{};
+  const Mask sine_sign = (quadrant << 62) & sign_bit;
+  const Mask cosine_sign = ((quadrant + 1) << 62) & sign_bit;
+  SinCos<P> result;
+  result.sin = P::of((Vector)((((Mask)c & odd) | ((Mask)s & ~odd)) ^ sine_sign));
+  result.cos = P::of((Vector)((((Mask)s & odd) | ((Mask)c & ~odd)) ^ cosine_sign));
+  return result;
+}
+
+// The same; beyond 10^5 the C library's.
+template <class Isa, int lanes>
+BBSIM_INLINE SinCos<Pack<Isa, lanes>> sin_cos(Pack<Isa, lanes> angle) {
+  using P = Pack<Isa, lanes>;
+  SinCos<P> result = sin_cos_of_moderate(angle);
+  const typename P::Mask small = (angle.v < 1e5) & (angle.v > -1e5);
+  long long all = small[0];
+  for (int i = 1; i < lanes; ++i) all &= small[i];
+  if (__builtin_expect(all == 0, 0)) {
+    for (int i = 0; i < lanes; ++i) {
+      result.sin.v[i] = __builtin_sin(angle.v[i]);
+      result.cos.v[i] = __builtin_cos(angle.v[i]);
+    }
+  }
+  return result;
+}
+
+// value + slope * epsilon, epsilon^2 = 0: with another state's direction in each lane, a column
+// of the Jacobian a lane.
+template <class P>
+struct Dual {
+  P value, slope;
+
+  BBSIM_INLINE Dual() {}  // NOLINT(modernize-use-equals-default): uninitialised on purpose
+  BBSIM_INLINE Dual(double constant)
+      : value(constant), slope(0.0) {}  // NOLINT(google-explicit-constructor)
+  BBSIM_INLINE Dual(P constant)
+      : value(constant), slope(0.0) {}  // NOLINT(google-explicit-constructor)
+  BBSIM_INLINE Dual(P v, P s) : value(v), slope(s) {}
+
+  BBSIM_INLINE friend Dual operator+(const Dual& a, const Dual& b) {
+    return {a.value + b.value, a.slope + b.slope};
+  }
+  BBSIM_INLINE friend Dual operator-(const Dual& a, const Dual& b) {
+    return {a.value - b.value, a.slope - b.slope};
+  }
+  BBSIM_INLINE friend Dual operator*(const Dual& a, const Dual& b) {
+    return {a.value * b.value, a.slope * b.value + a.value * b.slope};
+  }
+  BBSIM_INLINE friend Dual operator*(double a, const Dual& b) { return {a * b.value, a * b.slope}; }
+  BBSIM_INLINE friend Dual operator*(int a, const Dual& b) { return {a * b.value, a * b.slope}; }
+  BBSIM_INLINE friend Dual operator*(P a, const Dual& b) { return {a * b.value, a * b.slope}; }
+  BBSIM_INLINE friend Dual operator*(const Dual& a, P b) { return {a.value * b, a.slope * b}; }
+  BBSIM_INLINE friend Dual operator/(const Dual& a, int b) { return {a.value / b, a.slope / b}; }
+  BBSIM_INLINE friend Dual operator/(const Dual& a, const Dual& b) {
+    const P quotient = a.value / b.value;
+    return {quotient, (a.slope - quotient * b.slope) / b.value};
+  }
+  BBSIM_INLINE friend Dual operator-(const Dual& a) { return {-a.value, -a.slope}; }
+};
+
+template <class P>
+BBSIM_INLINE SinCos<Dual<P>> sin_cos(const Dual<P>& angle) {
+  const SinCos<P> wave = sin_cos(angle.value);
+  return {{wave.sin, wave.cos * angle.slope}, {wave.cos, -(wave.sin * angle.slope)}};
+}
+
+}  // namespace bbsim::simd

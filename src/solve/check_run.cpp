@@ -1,0 +1,60 @@
+#include "solve/check_run.hpp"
+
+#include <limits>
+#include <utility>
+
+#include "solve/hybrid_driver.hpp"
+#include "solve/radau/radau.hpp"
+
+namespace bbsim::solve {
+namespace {
+
+// Radau with a stop of its own at the end of each part of the way to a limit.
+class DividedStepper : public radau::RadauStepper {
+ public:
+  DividedStepper(const model::Model& model, CheckRun how, Tolerances tolerances, double end)
+      : RadauStepper(model, radau::choose_kernels(), how.stages, tolerances, end),
+        parts_(how.parts) {}
+
+  void start(double t, const double* z) override {
+    limit_ = std::numeric_limits<double>::quiet_NaN();  // another way begins
+    RadauStepper::start(t, z);
+  }
+
+  const char* step(double limit) override {
+    if (limit != limit_) {
+      limit_ = limit;
+      from_ = time();
+      part_ = 1;
+    }
+    while (part_ < parts_ && time() >= part_end()) ++part_;
+    return RadauStepper::step(part_ < parts_ ? part_end() : limit);
+  }
+
+ private:
+  [[nodiscard]] double part_end() const { return from_ + (limit_ - from_) * part_ / parts_; }
+
+  int parts_, part_ = 1;
+  double limit_ = 0, from_ = 0;  // s
+};
+
+}  // namespace
+
+Outcome integrate_check_run(const model::Model& model, CheckRun how, Tolerances tolerances,
+                            const OutputGrid& grid, StateSink& sink, const Watch& watch) {
+  const auto run = [&] {
+    if (model.hybrid()) {
+      const auto make_stepper = [&](const model::Model& of) {
+        return std::make_unique<DividedStepper>(of, how, tolerances, grid.end());
+      };
+      return integrate_hybrid(model, make_stepper, grid, sink, watch);
+    }
+    DividedStepper stepper(model, how, tolerances, grid.end());
+    return run_through(stepper, model, grid, sink, watch);
+  };
+  Outcome outcome = run();
+  outcome.method = Method::radau;
+  return outcome;
+}
+
+}  // namespace bbsim::solve

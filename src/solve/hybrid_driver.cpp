@@ -1,0 +1,430 @@
+#include "solve/hybrid_driver.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+#include <utility>
+
+#include "model/hybrid_system.hpp"
+#include "solve/cvode/cvode.hpp"
+#include "solve/pace.hpp"
+#include "solve/piece.hpp"
+#include "solve/radau/radau.hpp"
+#include "solve/row_block.hpp"
+
+namespace bbsim::solve {
+namespace {
+
+using Effect = model::HybridSystem::Effect;
+
+class HybridIntegration {
+ public:
+  HybridIntegration(const model::Model& model, const MakeStepper& make_stepper,
+                    const OutputGrid& grid, StateSink& sink, const Watch& watch)
+      : run_(model),
+        grid_(grid),
+        watch_(watch),
+        size_(model.size()),
+        plain_size_(model.size() + (model.gamma ? 1 : 0)),
+        row_size_(model.row_size()),
+        rows_(sink, row_size_),
+        pace_(grid.end()),
+        pieces_(sink.pieces()),
+        stepper_(make_stepper(run_.model())),
+        guards_(run_.guards()),
+        values_(run_.guards()),
+        now_(run_.guards()),
+        near_(run_.guards()) {}
+
+  Outcome run() {
+    std::vector<double> z = run_.model().initial;
+    run_.handle_time_event(0, z.data());
+    double* const first = rows_.next();
+    std::copy(z.begin(), z.end(), first);
+    if (plain_size_ > size_) first[size_] = 0;
+    finish_row(0, first);
+    if (pieces_ != nullptr) pieces_->begin_run();
+    if (look(0, z, 0) == Effect::stop) return ended(Ending::stopped, 0);
+    stepper_->start(0, z.data());
+    if (!guards_.empty()) arm(0, z.data());
+    for (std::size_t steps = 1;; ++steps) {
+      const double from = stepper_->time(), due = run_.next_time_event();
+      const double limit = std::min(due, grid_.end());
+      if (const char* reason = stepper_->step(limit)) return failed(from, reason);
+      const double to = stepper_->time();
+      double at = to;
+      told_ = from;
+      const Effect effect = scan(from, to, at, z);
+      const bool switches = effect == Effect::restart || (effect == Effect::none && to >= due);
+      const bool ends = effect == Effect::none && !switches && to >= grid_.end();
+      if (effect == Effect::none) tell(to, switches);
+      write_rows(at, !switches);
+      if (effect == Effect::stop) return ended(Ending::stopped, at);
+      if (ends) return ended(Ending::done, at);
+      if (switches) {
+        if (effect == Effect::none) state_at(at, z);
+        const double turned = row_.back();
+        if (run_.is_due(at)) run_.handle_time_event(at, z.data());
+        if (!progressed(at)) {
+          Outcome outcome = ended(Ending::failed, at);
+          outcome.reason = "the rig switches without end at one instant";
+          return outcome;  // with no states: they are those of the switch, not of the stepper
+        }
+        if (run_.model().rig) {
+          stepper_->start(at, z.data());
+        } else {
+          stepper_->jump();  // of the input alone: a run that is watched is one that is not
+        }
+        write_row_at(at, z, turned);
+        if (look(at, z, turned) == Effect::stop) return ended(Ending::stopped, at);
+        if (grid_.end() - at <= slack(at)) return ended(Ending::done, grid_.end());
+        if (!guards_.empty()) arm(at, z.data());
+      }
+      if (watch_.stop != nullptr && watch_.stop->load(std::memory_order_relaxed)) {
+        return ended(Ending::interrupted, at);
+      }
+      if (at < limit && pace_.creeps(at, [&] { return stopped_at(at); })) {
+        Outcome outcome = failed(at, pace_.reason());
+        state_at(at, outcome.last_state);
+        return outcome;
+      }
+      if (watch_.progress && steps % 256 == 0) watch_.progress(at);
+    }
+  }
+
+ private:
+  struct Guard {
+    double value = 0;      // at the last point looked at
+    double slope = 0;      // from there on, 1/s
+    double threshold = 0;  // fires below; 0 once it was positive
+  };
+
+  // Times nearer than this are one: i * step and n * period are rounded each their own way.
+  [[nodiscard]] double slack(double t) const { return run_.rounding(t); }
+
+  // A hundred switches in a row that take no time are not a motion.
+  bool progressed(double t) {
+    const bool still = t - last_switch_ <= 1e-13 * t;
+    still_ = still ? still_ + 1 : 0;
+    last_switch_ = t;
+    return still_ < 100;
+  }
+
+  // A guard that begins at zero, where the last one fell, fires once it is clearly below.
+  void arm(double t, const double* z) {
+    run_.evaluate_guards(t, z, values_.data());
+    for (std::size_t i = 0; i < guards_.size(); ++i) {
+      guards_[i].value = values_[i];
+      const double clearly = 1e-12 * run_.guard_scales()[i];
+      guards_[i].threshold = values_[i] > clearly ? 0 : std::min(0.0, values_[i]) - clearly;
+    }
+  }
+
+  void state_at(double t, std::vector<double>& z) {
+    row_.resize(plain_size_);
+    stepper_->evaluate(&t, 1, row_.data());
+    z.assign(row_.begin(), row_.begin() + static_cast<std::ptrdiff_t>(size_));
+  }
+
+  // After a switch; `turned` is the integral of u.
+  Effect look(double t, const std::vector<double>& z, double turned) {
+    const Effect effect = run_.check_events(t, z.data());
+    run_.note_turned(turned);
+    return effect;
+  }
+
+  // When an event will stop the run if its guard falls on as it has since this was last asked, s.
+  double stopped_at(double t) {
+    double soonest = std::numeric_limits<double>::infinity();
+    asked_.resize(guards_.size());
+    for (std::size_t i = 0; i < guards_.size(); ++i) {
+      const double value = guards_[i].value, fallen = asked_[i] - value;
+      if (run_.stops(i) && fallen > 0) {
+        soonest = std::min(soonest, t + value * (t - asked_time_) / fallen);
+      }
+      asked_[i] = value;
+    }
+    asked_time_ = t;
+    return soonest;
+  }
+
+  // How far guard i is above its threshold at t.
+  double above(std::size_t i, double t) {
+    state_at(t, look_);
+    run_.evaluate_guards(t, look_.data(), values_.data());
+    return values_[i] - guards_[i].threshold;
+  }
+
+  // The first time in (from, to] at which guard i is not above its threshold; it is at `from`, and
+  // is not at `to`. Regula falsi, and a bisection after each of its steps that does not halve.
+  double root(std::size_t i, double from, double to) {
+    double f_from = above(i, from), f_to = above(i, to);
+    bool halve = false;
+    for (int k = 0; k < 200; ++k) {
+      const double width = to - from;
+      if (width <= 2 * std::numeric_limits<double>::epsilon() * std::abs(to)) break;
+      double middle = from + width * (f_from / (f_from - f_to));
+      if (halve || !(middle > from && middle < to)) middle = from + width / 2;
+      if (middle <= from || middle >= to) break;
+      const double f = above(i, middle);
+      if (f > 0) {
+        from = middle;
+        f_from = f;
+      } else {
+        to = middle;
+        f_to = f;
+      }
+      halve = to - from > width / 2;
+    }
+    return to;
+  }
+
+  // The least value of guard i within [from, to] is looked for by golden sections; returns a time
+  // at which it is not positive, or `from`.
+  double dip(std::size_t i, double from, double to) {
+    constexpr double golden = 0.6180339887498949;
+    double a = from, b = to;
+    double c = b - golden * (b - a), d = a + golden * (b - a);
+    double fc = above(i, c), fd = above(i, d);
+    for (int k = 0; k < 60 && b - a > 1e-12 * b; ++k) {
+      if (fc <= 0) return c;
+      if (fd <= 0) return d;
+      if (fc < fd) {
+        b = d;
+        d = c;
+        fd = fc;
+        c = b - golden * (b - a);
+        fc = above(i, c);
+      } else {
+        a = c;
+        c = d;
+        fc = fd;
+        d = a + golden * (b - a);
+        fd = above(i, d);
+      }
+    }
+    return from;
+  }
+
+  // Point p of the `points` at which a step from `from` to `to` is looked at.
+  static double point(std::size_t p, std::size_t points, double from, double to) {
+    if (p == points) return to;
+    return from + (to - from) * static_cast<double>(p) / static_cast<double>(points);
+  }
+
+  // Slopes are differences over this part of the way from point to point.
+  static constexpr double nudged = 1e-4;
+
+  // States at all times that scan() looks at if nothing happens: one call costs little more than
+  // one for each pack of lanes.
+  void look_ahead(std::size_t points, double from, double to) {
+    planned_times_.clear();
+    double last = from;
+    for (std::size_t p = 1; p <= points; ++p) {
+      const double here = point(p, points, from, to), nudge = (here - last) * nudged;
+      planned_times_.insert(planned_times_.end(), {last + nudge, here - nudge, here});
+      last = here;
+    }
+    planned_rows_.resize(planned_times_.size() * plain_size_);
+    stepper_->evaluate(planned_times_.data(), planned_times_.size(), planned_rows_.data());
+    next_planned_ = 0;
+  }
+
+  // Values of all guards at t.
+  void look_at(double t, std::vector<double>& values) {
+    if (next_planned_ < planned_times_.size() && planned_times_[next_planned_] == t) {
+      run_.evaluate_guards(t, &planned_rows_[next_planned_ * plain_size_], values.data());
+      ++next_planned_;
+      return;
+    }
+    next_planned_ = planned_times_.size();  // another way than planned
+    state_at(t, look_);
+    run_.evaluate_guards(t, look_.data(), values.data());
+  }
+
+  // Whether a guard that is positive at both ends of an interval falls at its start, rises at its
+  // end, and its tangents there meet below zero: it may be negative between.
+  static bool may_dip(const Guard& guard, double end_value, double end_slope, double width) {
+    if (guard.threshold != 0 || !(guard.slope < 0) || !(end_slope > 0)) return false;
+    const double meet = (end_value - guard.value - end_slope * width) / (guard.slope - end_slope);
+    return guard.value + guard.slope * meet <= 0;
+  }
+
+  // Looks along the step for guards that fall. Occurrences that change nothing are noted on the
+  // way; at the first that does, `at` and z are set.
+  Effect scan(double from, double to, double& at, std::vector<double>& z) {
+    if (guards_.empty()) return Effect::none;
+    const std::size_t points = stepper_->detail();
+    look_ahead(points, from, to);
+    double last = from;  // looked at
+    for (std::size_t p = 1; p <= points;) {
+      const double here = point(p, points, from, to);
+      const double width = here - last, nudge = width * nudged;
+      if (!(width > 0)) {
+        ++p;
+        continue;
+      }
+      // Slopes at both ends by differences, good to some parts in 1e4.
+      look_at(last + nudge, near_);
+      for (std::size_t i = 0; i < guards_.size(); ++i) {
+        guards_[i].slope = (near_[i] - guards_[i].value) / nudge;
+      }
+      look_at(here - nudge, near_);
+      look_at(here, now_);
+      std::size_t first = guards_.size();
+      double first_time = here;
+      for (std::size_t i = 0; i < guards_.size(); ++i) {
+        // Infinite: not looked out for. No number: the motion overflows, which is for the stepper
+        // to say.
+        if (!std::isfinite(now_[i])) continue;
+        double low = here;
+        if (now_[i] > guards_[i].threshold) {
+          if (!may_dip(guards_[i], now_[i], (now_[i] - near_[i]) / nudge, width)) continue;
+          low = dip(i, last, here);
+          if (low == last) continue;
+        }
+        const double t = root(i, last, low);
+        if (first == guards_.size() || t < first_time) {
+          first = i;
+          first_time = t;
+        }
+      }
+      if (first == guards_.size()) {
+        for (std::size_t i = 0; i < guards_.size(); ++i) {
+          guards_[i].value = now_[i];
+          if (now_[i] > 1e-12 * run_.guard_scales()[i]) guards_[i].threshold = 0;
+        }
+        last = here;
+        ++p;
+        continue;
+      }
+      write_rows(first_time, false);  // in the mode that they belong to
+      tell(first_time, true);
+      state_at(first_time, z);
+      const Effect effect = run_.handle_state_event(first, first_time, z.data());
+      run_.note_turned(row_.back());
+      if (effect != Effect::none) {
+        at = first_time;
+        return effect;
+      }
+      arm(first_time, z.data());
+      last = first_time;
+    }
+    return Effect::none;
+  }
+
+  void finish_row(double t, double* row) {
+    if (row_size_ > plain_size_) run_.write_extras(t, row, row + plain_size_);
+  }
+
+  // Rows before `to`, and at it if `with_it`.
+  void write_rows(double to, bool with_it) {
+    for (; next_row_ < grid_.size(); ++next_row_) {
+      const double t = grid_[next_row_];
+      if (t > to || (!with_it && to - t <= slack(to))) break;
+      double* const row = rows_.next();
+      stepper_->evaluate(&t, 1, row);
+      finish_row(t, row);
+    }
+  }
+
+  // The row at the instant of a switch, after it; the integral of u does not jump. There are more
+  // than one where rows are nearer to each other than rounding.
+  void write_row_at(double at, const std::vector<double>& z, double turned) {
+    for (; next_row_ < grid_.size() && grid_[next_row_] - at <= slack(at); ++next_row_) {
+      double* const row = rows_.next();
+      std::copy(z.begin(), z.end(), row);
+      if (plain_size_ > size_) row[size_] = turned;
+      finish_row(grid_[next_row_], row);
+    }
+  }
+
+  // A part of the last step, in the present mode.
+  class Part : public Piece {
+   public:
+    Part(HybridIntegration& of, double from, double to)
+        : Piece(from, to, of.stepper_->parts()), of_(of) {}
+    void evaluate(const double* times, std::size_t count, double* rows) const override {
+      of_.evaluate_rows(times, count, rows);
+    }
+
+   private:
+    HybridIntegration& of_;
+  };
+
+  void evaluate_rows(const double* times, std::size_t count, double* rows) {
+    plain_rows_.resize(count * plain_size_);
+    stepper_->evaluate(times, count, plain_rows_.data());
+    for (std::size_t i = 0; i < count; ++i, rows += row_size_) {
+      std::copy_n(&plain_rows_[i * plain_size_], plain_size_, rows);
+      finish_row(times[i], rows);
+    }
+  }
+
+  // Tells what became of the motion up to `to`, before the mode changes.
+  void tell(double to, bool switches) {
+    if (pieces_ == nullptr) return;
+    const double last = switches ? std::nextafter(to, told_) : to;
+    if (last > told_) pieces_->accept(Part(*this, told_, last));
+    told_ = to;
+  }
+
+  Outcome ended(Ending ending, double reached) {
+    rows_.flush();
+    Outcome outcome;
+    outcome.ending = ending;
+    outcome.reached = reached;
+    outcome.rows = rows_.rows();
+    outcome.statistics = stepper_->statistics();
+    outcome.occurrences = run_.occurrences();
+    return with_all_rows(std::move(outcome), grid_.size());
+  }
+
+  Outcome failed(double reached, std::string reason) {
+    Outcome outcome = ended(Ending::failed, reached);
+    outcome.reason = std::move(reason);
+    outcome.last_state = stepper_->state();
+    outcome.worst_state = stepper_->worst_state();
+    return outcome;
+  }
+
+  model::HybridSystem run_;
+  const OutputGrid& grid_;
+  const Watch& watch_;
+  std::size_t size_, plain_size_, row_size_;
+  RowBlock rows_;
+  Pace pace_;
+  PieceSink* pieces_;
+  std::unique_ptr<Stepper> stepper_;
+  std::vector<Guard> guards_;
+  std::vector<double> values_, now_, near_, look_, row_, planned_times_, planned_rows_, plain_rows_;
+  std::vector<double> asked_;  // values of the guards when stopped_at() was last asked
+  double asked_time_ = 0;
+  std::size_t next_planned_ = 0;
+  std::size_t next_row_ = 1;
+  double told_ = 0;  // the pieces up to here, s
+  double last_switch_ = -1;
+  int still_ = 0;
+};
+
+}  // namespace
+
+Outcome integrate_hybrid(const model::Model& model, const MakeStepper& make_stepper,
+                         const OutputGrid& grid, StateSink& sink, const Watch& watch) {
+  return HybridIntegration(model, make_stepper, grid, sink, watch).run();
+}
+
+Outcome integrate_hybrid(const model::Model& model, Method method, Tolerances tolerances,
+                         const OutputGrid& grid, StateSink& sink, const Watch& watch) {
+  const auto make_stepper = [&](const model::Model& of) -> std::unique_ptr<Stepper> {
+    if (method != Method::radau) return make_cvode_stepper(of, method, tolerances);
+    return std::make_unique<radau::RadauStepper>(
+        of, radau::choose_kernels(), radau::choose_stages(tolerances.rtol), tolerances, grid.end());
+  };
+  Outcome outcome = integrate_hybrid(model, make_stepper, grid, sink, watch);
+  outcome.method = method;
+  return outcome;
+}
+
+}  // namespace bbsim::solve

@@ -1,0 +1,14 @@
+// For every processor: pairs of lanes, which are SSE2 on x86-64 and Neon on 64-bit ARM.
+#include "solve/radau/kernels.hpp"
+
+namespace bbsim::solve::radau {
+
+struct Baseline {
+  static constexpr int lanes = 2;
+};
+
+extern const StepKernels kernels_baseline;
+constinit const StepKernels kernels_baseline{
+    {BBSIM_KERNELS(Baseline, 8), BBSIM_KERNELS(Baseline, 12), BBSIM_KERNELS(Baseline, 16)}};
+
+}  // namespace bbsim::solve::radau

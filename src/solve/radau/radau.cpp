@@ -1,0 +1,253 @@
+#include "solve/radau/radau.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <new>
+#include <type_traits>
+#include <variant>
+
+namespace bbsim::solve {
+namespace radau {
+namespace {
+
+constexpr std::align_val_t alignment{64};
+
+double highest_frequency(const model::Model& model) {
+  return std::visit(
+      [](const auto& system) {
+        if constexpr (std::decay_t<decltype(system)>::open_loop) {
+          return system.motion().highest_frequency();
+        } else {
+          return system.reference().highest_frequency();
+        }
+      },
+      model.system);
+}
+
+// How fast the gimbal's angles turn in their sines, or a reference about its centre, rad/s.
+double tempo(const model::Model& model) {
+  return std::visit(
+      [&](const auto& system) {
+        double fastest = highest_frequency(model);
+        if constexpr (std::decay_t<decltype(system)>::open_loop) {
+          const model::SignalView motion = system.motion().view();
+          fastest += std::max(std::abs(motion.rate[0]), std::abs(motion.rate[1]));
+        }
+        return fastest;
+      },
+      model.system);
+}
+
+// z such that (z/2)^s / s! = tolerance: half a step of a sinusoid, in radians, whose s-th
+// Legendre coefficient has just fallen to the tolerance.
+double resolved(int stages, double tolerance) {
+  int sign = 0;  // std::lgamma would leave it in a variable that all threads share
+  return 2 * std::exp((std::log(tolerance) + ::lgamma_r(stages + 1.0, &sign)) / stages);
+}
+
+// For rigs beyond the paper's, 16 stages find the kernel of 12 (kernels.hpp).
+const Kernel& find_kernel(const StepKernels& kernels, int stages, const model::Model& model) {
+  const std::size_t order = stages == 8 ? 0 : stages == 12 ? 1 : 2;
+  return kernels.kernels[order][model.system.index()];
+}
+
+constexpr double safety = 0.9;
+
+// The size of the next step relative to one whose error was `error`.
+double growth(double error, int stages) {
+  constexpr double least = 0.1, most = 8;
+  if (!(error > 0)) return error == 0 ? most : least;
+  return std::clamp(safety * std::pow(error, -1.0 / (stages + 1)), least, most);
+}
+
+}  // namespace
+
+void RadauStepper::Free::operator()(void* memory) const {
+  ::operator delete(memory, alignment);
+}
+
+int choose_stages(double rtol) {
+  return rtol > 3e-6 ? 8 : rtol > 3e-9 ? 12 : 16;
+}
+
+int stages_of(const model::Model& model, int stages) {
+  return find_kernel(choose_kernels(), stages, model).stages;
+}
+
+RadauStepper::RadauStepper(const model::Model& model, const StepKernels& kernels, int stages,
+                           Tolerances tolerances, double end)
+    : model_(&model), kernels_(kernels), stages_(stages), tolerances_(tolerances) {
+  renew(model, end);
+}
+
+void RadauStepper::renew(const model::Model& model, double end) {
+  model_ = &model;
+  end_ = end;
+  const Kernel* const kernel = &find_kernel(kernels_, stages_, model);
+  if (kernel != kernel_) {
+    kernel_ = kernel;
+    reach_ = resolved(kernel_->stages, tolerances_.rtol);
+    workspace_.reset(::operator new(kernel_->workspace, alignment));
+  }
+  highest_frequency_ = highest_frequency(model);
+  // A sinusoid shorter than the distance between nodes would be mistaken for a longer one.
+  widest_ = highest_frequency_ > 0 ? 1.6 * kernel_->stages / highest_frequency_
+                                   : std::numeric_limits<double>::max();
+  tempo_ = tempo(model);
+  time_ = next_step_ = turned_ = last_step_ = 0;
+  last_error_ = 1;
+  attempted_ = false;
+  shrinking_ = 0;
+  worst_state_ = 0;
+  statistics_ = {};
+}
+
+// The kernel's own view of the system, in its present mode.
+void RadauStepper::look_at_model() {
+  std::visit(
+      [this](const auto& system) {
+        using View = decltype(system.view());
+        static_assert(std::is_trivially_destructible_v<View>);
+        if (viewed_ != model_->system.index()) {
+          view_.reset(::operator new(sizeof(View), alignment));
+          viewed_ = model_->system.index();
+        }
+        new (view_.get()) View(system.view());
+      },
+      model_->system);
+}
+
+std::size_t RadauStepper::detail() const {
+  return static_cast<std::size_t>(kernel_->stages);
+}
+
+// Coefficients of the accelerations fall as the powers of the step's length up to the tolerance at
+// the last one, and those of products of two states half as fast. What depends on the time alone
+// need not show in the error: its coefficients fall from as many as there are radians on.
+std::size_t RadauStepper::parts() const {
+  constexpr double least = 8, of_products = 2, a_radian = 3, most = 128;
+  const double parts = std::max(of_products * kernel_->stages * fill_,
+                                least + a_radian * std::abs(tempo_ * accepted_step_));
+  return static_cast<std::size_t>(std::clamp(std::ceil(parts), least, most));
+}
+
+// Makes the end of the last step the present state.
+void RadauStepper::settle() {
+  if (attempted_) kernel_->accept(workspace_.get());
+  attempted_ = false;
+}
+
+std::vector<double> RadauStepper::state() const {
+  std::vector<double> z(model_->size());
+  kernel_->state(workspace_.get(), z.data());
+  return z;
+}
+
+void RadauStepper::start(double t, const double* z) {
+  look_at_model();
+  void* const workspace = workspace_.get();
+  if (model_->gamma && t > 0 && attempted_) {
+    std::vector<double> row(model_->size() + 1);
+    evaluate(&t, 1, row.data());
+    turned_ = row.back();
+  }
+  attempted_ = false;
+  kernel_->start(workspace, {view_.get(), z, tolerances_.rtol, tolerances_.atol, model_->gamma,
+                             positions_only_});
+  time_ = t;
+  last_step_ = 0;
+  if (next_step_ > 0) return;
+  const double rate = std::max(kernel_->rate(workspace, t), highest_frequency_);
+  next_step_ = rate > 0 ? 2 * reach_ / rate : end_;
+  if (!(next_step_ > 0)) next_step_ = end_ * 1e-6;
+}
+
+// Whether the steps shrink as they do on the way to infinity in finite time, each to a part of what
+// is left: for long, and by far. A smooth motion that passes something makes no dozen of steps in a
+// row ever shorter, to a hundred thousandth; a rig may be stopped by an event on the way.
+bool RadauStepper::diverges(double step, double t) {
+  constexpr int long_since = 12;
+  constexpr double by_far = 1e-5;
+  if (!(step < 0.9 * last_step_)) {
+    shrinking_ = 0;
+    shrinks_from_ = step;
+  } else {
+    ++shrinking_;
+  }
+  shrank_by_ = step / last_step_;
+  last_step_ = step;
+  return !model_->hybrid() && shrinking_ >= long_since &&
+         step < by_far * std::min(shrinks_from_, t);
+}
+
+const char* RadauStepper::step(double limit) {
+  settle();
+  const int stages = kernel_->stages;
+  const double t = time_, left = limit - t;
+  bool rejected = false;
+  for (;;) {
+    double h = std::min(next_step_, widest_);
+    // The steps to the limit are alike.
+    const double pieces = std::ceil(left / h * (1 - 1e-3));
+    const bool arrives = pieces <= 1;
+    const double step = arrives ? left : pieces < 4 ? left / pieces : h;
+    if (!(step > 4 * std::numeric_limits<double>::epsilon() * t) && !arrives) {
+      return "the step shrank to the rounding of the time itself";
+    }
+    Attempt attempt;
+    kernel_->attempt(workspace_.get(), t, step, &attempt);
+    statistics_.rhs_evaluations += static_cast<std::size_t>(attempt.right_hand_sides);
+    statistics_.jacobian_evaluations += static_cast<std::size_t>(attempt.jacobians);
+    statistics_.nonlinear_iterations += static_cast<std::size_t>(attempt.iterations);
+    const bool converged = attempt.verdict == Verdict::converged;
+    if (converged) worst_state_ = static_cast<std::size_t>(attempt.worst_state);
+    if (!converged || !(attempt.error <= 1)) {
+      next_step_ = step * (converged ? std::min(0.9, growth(attempt.error, stages))
+                           : attempt.verdict == Verdict::not_finite ? 0.1
+                                                                    : 0.4);
+      rejected = true;
+      ++statistics_.error_test_failures;
+      continue;
+    }
+    if (!arrives && diverges(step, t)) return "the motion grows without bound";
+    attempted_ = true;
+    time_ = arrives ? limit : t + step;
+    ++statistics_.steps;
+    const double factor = growth(attempt.error, stages);
+    h = step * (rejected ? std::min(factor, 1.0) : factor);
+    // Where steps shrink, the error has grown from step to step by more than their sizes say, and
+    // will again (Gustafsson's predictive control; Hairer and Wanner, IV.8): rejections fewer.
+    if (shrinking_ >= 2 && attempt.error > 0) {
+      const double trend = growth(attempt.error / last_error_, stages) / growth(1, stages);
+      h = std::min(h, step * factor * shrank_by_ * trend);
+    }
+    last_error_ = std::max(attempt.error, 1e-3);
+    accepted_step_ = step;
+    fill_ = std::min(1.0, safety / factor);
+    // A step that the limit cut short says little of how long the next may be.
+    next_step_ = arrives && !rejected ? std::max(h, next_step_) : h;
+    return nullptr;
+  }
+}
+
+void RadauStepper::evaluate(const double* times, std::size_t count, double* rows) {
+  kernel_->evaluate(workspace_.get(), times, count, rows);
+  if (turned_ == 0) return;
+  const std::size_t row = model_->size() + 1;
+  for (std::size_t i = 0; i < count; ++i) rows[i * row + row - 1] += turned_;
+}
+
+}  // namespace radau
+
+Outcome integrate_radau(const model::Model& model, Tolerances tolerances, const OutputGrid& grid,
+                        StateSink& sink, const Watch& watch) {
+  radau::RadauStepper stepper(model, radau::choose_kernels(), radau::choose_stages(tolerances.rtol),
+                              tolerances, grid.end());
+  Outcome outcome = run_through(stepper, model, grid, sink, watch);
+  outcome.method = Method::radau;
+  return outcome;
+}
+
+}  // namespace bbsim::solve

@@ -1,0 +1,662 @@
+// The collocation step, for one system, number of stages and instruction set.
+//
+// Radau IIA with s stages (Hairer and Wanner, Solving Ordinary Differential Equations II, IV.5
+// and IV.8), written for second-order systems q'' = a(t, q, q'): the unknowns are the
+// accelerations k_i at the s nodes alone, for
+//     v_i = v + h sum_j A_ij k_j,     q_i = q + h c_i v + h^2 sum_j (A A)_ij k_j,
+// which halves the linear systems. A velocity without a position (the spin) has no q.
+//
+// The stages lie in SIMD lanes: one evaluation of the right-hand side serves several stages. The
+// Newton systems, made block diagonal by the eigenvectors of A, lie in lanes too:
+//     (I - h l_k Jv - h^2 l_k^2 Jq) y_k = (T^-1 residual)_k,   k = 1 ... s/2, complex.
+#pragma once
+
+#include "simd/pack.hpp"
+#include "solve/radau/kernel.hpp"
+#include "solve/radau/tables.hpp"
+
+namespace bbsim::solve::radau {
+
+template <class T>
+const T& instance();  // for its type only
+
+template <int count, int lanes>
+inline constexpr int padded = (count + lanes - 1) / lanes* lanes;
+
+// The tables of RadauTable, aligned and padded to whole packs. Padded stages repeat the last one,
+// padded eigenvalues are zero.
+template <class Isa, int s>
+struct alignas(64) PackedTable {
+  static constexpr int stages = padded<s, Isa::lanes>;
+  static constexpr int eigen_lanes = Isa::lanes == 8 && s == 8 ? 4 : Isa::lanes;
+  static constexpr int pairs = padded<s / 2, eigen_lanes>;
+  alignas(64) double c[stages]{};
+  alignas(64) double lambda_re[pairs]{}, lambda_im[pairs]{};
+  alignas(64) double a[s][stages]{}, a_squared[s][stages]{}, legendre[s][stages]{};
+  alignas(64) double forward_re[s][pairs]{}, forward_im[s][pairs]{};
+  alignas(64) double back_re[s / 2][stages]{}, back_im[s / 2][stages]{};
+
+  consteval PackedTable() {
+    using T = RadauTable<s>;
+    for (int i = 0; i < stages; ++i) {
+      const int from = i < s ? i : s - 1;
+      c[i] = T::c[from];
+      for (int j = 0; j < s; ++j) {
+        a[j][i] = T::a[j][from];
+        a_squared[j][i] = T::a_squared[j][from];
+        legendre[j][i] = T::legendre[j][from];
+      }
+      for (int k = 0; k < s / 2; ++k) {
+        back_re[k][i] = T::back_re[k][from];
+        back_im[k][i] = T::back_im[k][from];
+      }
+    }
+    for (int k = 0; k < s / 2; ++k) {
+      lambda_re[k] = T::lambda_re[k];
+      lambda_im[k] = T::lambda_im[k];
+      for (int j = 0; j < s; ++j) {
+        forward_re[j][k] = T::forward_re[j][k];
+        forward_im[j][k] = T::forward_im[j][k];
+      }
+    }
+  }
+};
+
+template <class Isa, class System, int s>
+struct Step {
+  using Table = PackedTable<Isa, s>;
+  static constexpr Table table{};
+  static constexpr int n = System::size;
+  static constexpr auto motions = System::motions;
+  static constexpr int nv = System::motions.count;
+  static constexpr int nq = n - nv;  // velocities with a position come first
+  static constexpr int lanes = Isa::lanes;
+  static constexpr int packs = Table::stages / lanes;
+  static constexpr int eigen_packs = Table::pairs / Table::eigen_lanes;
+  using P = simd::Pack<Isa, lanes>;
+  using E = simd::Pack<Isa, Table::eigen_lanes>;
+  using Inputs = decltype(instance<System>().inputs(P()));
+
+  // One value a stage, for each velocity or position.
+  template <int rows>
+  struct alignas(64) Stages {
+    double of[rows][Table::stages];
+  };
+
+  struct alignas(64) Workspace {
+    const System* system;
+    double rtol, atol;
+    bool gamma;
+    bool positions_only;  // in rows
+    bool newton;          // iterate by Newton; otherwise by substitution
+    bool has_guess;       // k holds the last attempt's values, over [guess_t, guess_t + guess_h]
+    bool accepted;        // whether that attempt was accepted
+    double contraction;   // remembered from the last step
+    double t, h;          // of the last attempt
+    double q[nv], v[nv];  // present state; q of a velocity without position is its integral
+    double q_weight[nv], v_weight[nv];
+    Stages<nv> k, f, v_stage, series;  // series: Legendre coefficients of k
+    Stages<nv> q_stage;
+    Inputs inputs[packs];
+    double jv[nv][nv], jq[nv][nv];
+    E m_re[eigen_packs][nv][nv], m_im[eigen_packs][nv][nv];
+    alignas(64) double r_re[nv][Table::pairs], r_im[nv][Table::pairs];
+    double q_series[nv][s + 2], v_series[nv][s + 1];
+  };
+
+  // out[v][i] = sum_j column[j][i] in[v][j]; `finish` takes each pack of the result.
+  template <int rows, int length, int width, class Result, class Finish>
+  BBSIM_INLINE static void apply(const double (&column)[length][width], const double* in,
+                                 int in_stride, Finish finish) {
+    constexpr int size = Result::size;
+    constexpr int total = width / size;
+    constexpr int block = rows >= 4 ? (total < 2 ? total : 2) : (total < 4 ? total : 4);
+    static_assert(total % block == 0 || block == 2 || block == 4);
+#pragma GCC unroll 8
+    for (int p0 = 0; p0 < total; p0 += block) {
+      Result sum[rows][block];
+#pragma GCC unroll 8
+      for (int v = 0; v < rows; ++v) {
+#pragma GCC unroll 4
+        for (int p = 0; p < block; ++p) sum[v][p] = Result(0.0);
+      }
+#pragma GCC unroll 2
+      for (int j = 0; j < length; ++j) {
+#pragma GCC unroll 4
+        for (int p = 0; p < block; ++p) {
+          if (p0 + p >= total) continue;
+          const Result a = Result::load(&column[j][(p0 + p) * size]);
+#pragma GCC unroll 8
+          for (int v = 0; v < rows; ++v) sum[v][p] += a * Result(in[v * in_stride + j]);
+        }
+      }
+#pragma GCC unroll 8
+      for (int v = 0; v < rows; ++v) {
+#pragma GCC unroll 4
+        for (int p = 0; p < block; ++p) {
+          if (p0 + p < total) finish(v, p0 + p, sum[v][p]);
+        }
+      }
+    }
+  }
+
+  BBSIM_INLINE static void evaluate_rates(Workspace& w) {
+#pragma GCC unroll 1
+    for (int p = 0; p < packs; ++p) {
+      P z[n], dz[n];
+#pragma GCC unroll 8
+      for (int i = 0; i < nv; ++i) {
+        z[motions.of[i].velocity] = P::load(&w.v_stage.of[i][p * lanes]);
+        if (i < nq) z[motions.of[i].position] = P::load(&w.q_stage.of[i][p * lanes]);
+      }
+      w.system->derivative_of(w.inputs[p], z, dz);
+#pragma GCC unroll 8
+      for (int i = 0; i < nv; ++i) dz[motions.of[i].velocity].store(&w.f.of[i][p * lanes]);
+    }
+  }
+
+  // From k to the stages of v and q; returns the weighted mean square of their change.
+  template <bool measured>
+  BBSIM_INLINE static double integrate_stages(Workspace& w) {
+    P change[4] = {P(0.0), P(0.0), P(0.0), P(0.0)};
+    const double h = w.h;
+    apply<nv, s, Table::stages, P>(table.a, w.k.of[0], Table::stages, [&](int i, int p, P sum) {
+      double* const target = &w.v_stage.of[i][p * lanes];
+      const P value = P(w.v[i]) + h * sum;
+      if constexpr (measured) {
+        const P scaled = (value - P::load(target)) * P(w.v_weight[i]);
+        change[i & 3] += scaled * scaled;
+      }
+      value.store(target);
+    });
+    apply<nq, s, Table::stages, P>(
+        table.a_squared, w.k.of[0], Table::stages, [&](int i, int p, P sum) {
+          double* const target = &w.q_stage.of[i][p * lanes];
+          const P value =
+              P(w.q[i]) + (P(h) * P::load(&table.c[p * lanes]) * P(w.v[i]) + (h * h) * sum);
+          if constexpr (measured) {
+            const P scaled = (value - P::load(target)) * P(w.q_weight[i]);
+            change[i & 3] += scaled * scaled;
+          }
+          value.store(target);
+        });
+    return sum((change[0] + change[1]) + (change[2] + change[3])) / Table::stages;
+  }
+
+  // d k_i / d v_j and d k_i / d q_j at (t, q, v), exactly.
+  static void differentiate(Workspace& w, double t, const double* q, const double* v) {
+    using D = simd::Dual<P>;
+    const auto in = w.system->inputs(P(t));
+    constexpr int directions = padded<n, lanes>;
+    alignas(64) double slope[nv][directions];
+    for (int first = 0; first < directions; first += lanes) {
+      D z[n], dz[n];
+      alignas(64) double seed[directions][lanes] = {};
+      for (int l = 0; l < lanes; ++l) seed[first + l][l] = 1;
+      for (int i = 0; i < nv; ++i) {
+        z[motions.of[i].velocity] = D(P(v[i]), P::load(seed[i]));
+        if (i < nq) z[motions.of[i].position] = D(P(q[i]), P::load(seed[nv + i]));
+      }
+      w.system->derivative_of(in, z, dz);
+      for (int i = 0; i < nv; ++i) dz[motions.of[i].velocity].slope.store(&slope[i][first]);
+    }
+    for (int i = 0; i < nv; ++i) {
+      for (int j = 0; j < nv; ++j) w.jv[i][j] = slope[i][j];
+      for (int j = 0; j < nq; ++j) w.jq[i][j] = slope[i][nv + j];
+    }
+  }
+
+  // The matrices I - h l Jv - h^2 l^2 Jq for all eigenvalues l, and their LU factors in place,
+  // without pivoting; the diagonal holds its own inverse.
+  static void factor(Workspace& w) {
+    for (int e = 0; e < eigen_packs; ++e) {
+      const E re = w.h * E::load(&table.lambda_re[e * E::size]);
+      const E im = w.h * E::load(&table.lambda_im[e * E::size]);
+      const E re2 = re * re - im * im;
+      const E im2 = 2.0 * (re * im);
+      auto& a = w.m_re[e];
+      auto& b = w.m_im[e];
+#pragma GCC unroll 8
+      for (int i = 0; i < nv; ++i) {
+#pragma GCC unroll 8
+        for (int j = 0; j < nv; ++j) {
+          E x = E(i == j ? 1.0 : 0.0) - re * E(w.jv[i][j]);
+          E y = -(im * E(w.jv[i][j]));
+          if (j < nq) {
+            x -= re2 * E(w.jq[i][j]);
+            y -= im2 * E(w.jq[i][j]);
+          }
+          a[i][j] = x;
+          b[i][j] = y;
+        }
+      }
+#pragma GCC unroll 8
+      for (int k = 0; k < nv; ++k) {
+        const E scale = E(1.0) / (a[k][k] * a[k][k] + b[k][k] * b[k][k]);
+        const E pr = a[k][k] * scale, pi = -(b[k][k] * scale);
+        a[k][k] = pr;
+        b[k][k] = pi;
+#pragma GCC unroll 8
+        for (int i = k + 1; i < nv; ++i) {
+          const E lr = a[i][k] * pr - b[i][k] * pi, li = a[i][k] * pi + b[i][k] * pr;
+          a[i][k] = lr;
+          b[i][k] = li;
+#pragma GCC unroll 8
+          for (int j = k + 1; j < nv; ++j) {
+            a[i][j] = (a[i][j] - lr * a[k][j]) + li * b[k][j];
+            b[i][j] = (b[i][j] - lr * b[k][j]) - li * a[k][j];
+          }
+        }
+      }
+    }
+  }
+
+  // Adds the Newton correction to k; the residual f - k is formed in place of f.
+  BBSIM_INLINE static void correct(Workspace& w) {
+    for (int i = 0; i < nv; ++i) {
+      for (int p = 0; p < packs; ++p) {
+        double* const f = &w.f.of[i][p * lanes];
+        (P::load(f) - P::load(&w.k.of[i][p * lanes])).store(f);
+      }
+    }
+    apply<nv, s, Table::pairs, E>(table.forward_re, w.f.of[0], Table::stages,
+                                  [&](int i, int p, E x) { x.store(&w.r_re[i][p * E::size]); });
+    apply<nv, s, Table::pairs, E>(table.forward_im, w.f.of[0], Table::stages,
+                                  [&](int i, int p, E x) { x.store(&w.r_im[i][p * E::size]); });
+#pragma GCC unroll 1
+    for (int e = 0; e < eigen_packs; ++e) {
+      const auto& a = w.m_re[e];
+      const auto& b = w.m_im[e];
+      E x[nv], y[nv];
+#pragma GCC unroll 8
+      for (int i = 0; i < nv; ++i) {
+        x[i] = E::load(&w.r_re[i][e * E::size]);
+        y[i] = E::load(&w.r_im[i][e * E::size]);
+#pragma GCC unroll 8
+        for (int j = 0; j < i; ++j) {
+          x[i] = (x[i] - a[i][j] * x[j]) + b[i][j] * y[j];
+          y[i] = (y[i] - a[i][j] * y[j]) - b[i][j] * x[j];
+        }
+      }
+#pragma GCC unroll 8
+      for (int i = nv - 1; i >= 0; --i) {
+#pragma GCC unroll 8
+        for (int j = i + 1; j < nv; ++j) {
+          x[i] = (x[i] - a[i][j] * x[j]) + b[i][j] * y[j];
+          y[i] = (y[i] - a[i][j] * y[j]) - b[i][j] * x[j];
+        }
+        const E re = a[i][i] * x[i] - b[i][i] * y[i];
+        y[i] = a[i][i] * y[i] + b[i][i] * x[i];
+        x[i] = re;
+        x[i].store(&w.r_re[i][e * E::size]);
+        y[i].store(&w.r_im[i][e * E::size]);
+      }
+    }
+    apply<nv, s / 2, Table::stages, P>(table.back_re, w.r_re[0], Table::pairs,
+                                       [&](int i, int p, P sum) {
+                                         double* const k = &w.k.of[i][p * lanes];
+                                         (P::load(k) + sum).store(k);
+                                       });
+    apply<nv, s / 2, Table::stages, P>(table.back_im, w.r_im[0], Table::pairs,
+                                       [&](int i, int p, P sum) {
+                                         double* const k = &w.k.of[i][p * lanes];
+                                         (P::load(k) + sum).store(k);
+                                       });
+  }
+
+  // First values of k over [t, t + h].
+  static void guess(Workspace& w, double t, double h) {
+    if (!w.has_guess) {
+      for (int i = 0; i < nv; ++i) {
+        for (int p = 0; p < packs; ++p) P(0.0).store(&w.k.of[i][p * lanes]);
+      }
+    } else if (w.accepted) {
+      // The accelerations at the end of the last step, held.
+      for (int i = 0; i < nv; ++i) {
+        const double last = w.k.of[i][s - 1];
+        for (int p = 0; p < packs; ++p) P(last).store(&w.k.of[i][p * lanes]);
+      }
+    } else {
+      // The polynomial of the rejected, longer attempt.
+      for (int p = 0; p < packs; ++p) {
+        const P x = (2 * (t - w.t) / w.h - 1) + (2 * h / w.h) * P::load(&table.c[p * lanes]);
+        P value[nv], before = P(1.0), now = x;
+        for (int i = 0; i < nv; ++i) value[i] = w.series.of[i][0] + w.series.of[i][1] * x;
+        for (int m = 1; m + 1 < s; ++m) {
+          const P next = ((2.0 * m + 1) / (m + 1)) * x * now - (double(m) / (m + 1)) * before;
+          before = now;
+          now = next;
+          for (int i = 0; i < nv; ++i) value[i] += P(w.series.of[i][m + 1]) * now;
+        }
+        for (int i = 0; i < nv; ++i) value[i].store(&w.k.of[i][p * lanes]);
+      }
+    }
+  }
+
+  BBSIM_INLINE static double magnitude(double x) {
+    return __builtin_fabs(x);
+  }
+  BBSIM_INLINE static double larger(double a, double b) {
+    return a < b ? b : a;
+  }
+
+  static void weigh(Workspace& w) {
+    for (int i = 0; i < nv; ++i) {
+      w.v_weight[i] = 1 / (w.rtol * magnitude(w.v[i]) + w.atol);
+      w.q_weight[i] = 1 / (w.rtol * magnitude(w.q[i]) + w.atol);
+    }
+  }
+
+  static void start(void* workspace, const Start& from) {
+    Workspace& w = *static_cast<Workspace*>(workspace);
+    w.system = static_cast<const System*>(from.system);
+    w.rtol = from.rtol;
+    w.atol = from.atol;
+    w.gamma = from.gamma;
+    w.positions_only = from.positions_only;
+    w.newton = !System::open_loop;
+    w.has_guess = false;
+    w.accepted = false;
+    w.contraction = 1;
+    w.t = w.h = 0;
+    for (int i = 0; i < nv; ++i) {
+      w.v[i] = from.state[motions.of[i].velocity];
+      w.q[i] = i < nq ? from.state[motions.of[i].position] : 0.0;
+    }
+    for (int i = 0; i < nv; ++i) {
+      for (double& term : w.q_series[i]) term = 0;
+    }
+    weigh(w);
+  }
+
+  static double rate(void* workspace, double t) {
+    Workspace& w = *static_cast<Workspace*>(workspace);
+    differentiate(w, t, w.q, w.v);
+    double jv = 0, jq = 0;
+    for (int i = 0; i < nv; ++i) {
+      double row_v = 0, row_q = 0;
+      for (int j = 0; j < nv; ++j) row_v += magnitude(w.jv[i][j]);
+      for (int j = 0; j < nq; ++j) row_q += magnitude(w.jq[i][j]);
+      jv = larger(jv, row_v);
+      jq = larger(jq, row_q);
+    }
+    return larger(jv, __builtin_sqrt(jq));
+  }
+
+  static constexpr int most_iterations = 25;
+
+  static void attempt(void* workspace, double t, double h, Attempt* result) {
+    Workspace& w = *static_cast<Workspace*>(workspace);
+    guess(w, t, h);
+    w.t = t;
+    w.h = h;
+    w.has_guess = false;
+    Attempt& a = *result;
+    a = {Verdict::diverged, 0, 0, 0, 0, 0, 0};
+    for (int p = 0; p < packs; ++p) {
+      w.inputs[p] = w.system->inputs(P(t) + P(h) * P::load(&table.c[p * lanes]));
+    }
+    integrate_stages<false>(w);
+    bool factored = false;
+    double last = 0, contraction = w.contraction;
+    const double enough = 0.02, floor = 30 * 2.2e-16 / w.rtol;
+    for (;;) {
+      evaluate_rates(w);
+      if (w.newton) {
+        if (!factored) {
+          // The Jacobian in mid-step.
+          double q[nv], v[nv];
+          for (int i = 0; i < nv; ++i) {
+            v[i] = w.v_stage.of[i][s / 2];
+            if (i < nq) q[i] = w.q_stage.of[i][s / 2];
+          }
+          differentiate(w, t + table.c[s / 2] * h, q, v);
+          factor(w);
+          factored = true;
+          ++a.jacobians;
+        }
+        correct(w);
+      } else {
+        for (int i = 0; i < nv; ++i) {
+          for (int p = 0; p < packs; ++p) {
+            P::load(&w.f.of[i][p * lanes]).store(&w.k.of[i][p * lanes]);
+          }
+        }
+      }
+      const double change = __builtin_sqrt(integrate_stages<true>(w));
+      ++a.iterations;
+      a.right_hand_sides += s;
+      if (!(change < 1e300)) {
+        a.verdict = Verdict::not_finite;
+        w.contraction = 1;
+        return;
+      }
+      if (change == 0) {
+        contraction = 0;
+        break;
+      }
+      if (a.iterations > 1) {
+        contraction = change / last;
+        if (change > floor && contraction > (w.newton ? 0.9 : 0.3)) {
+          if (!w.newton) {
+            w.newton = true;
+            last = change;
+            continue;
+          }
+          if (a.iterations > 2) {
+            w.contraction = 1;
+            a.contraction = contraction;
+            return;
+          }
+        }
+      }
+      last = change;
+      if (change <= floor || change <= enough) break;
+      if (a.iterations > 1 && contraction < 0.95 &&
+          change * contraction / (1 - contraction) <= enough) {
+        break;
+      }
+      if (a.iterations >= most_iterations) {
+        w.contraction = 1;
+        a.contraction = contraction;
+        return;
+      }
+    }
+    a.verdict = Verdict::converged;
+    a.contraction = contraction;
+    w.contraction = larger(0.3 * w.contraction, contraction);
+    w.has_guess = true;
+    w.accepted = false;
+    apply<nv, s, Table::stages, P>(
+        table.legendre, w.k.of[0], Table::stages,
+        [&](int i, int p, P sum) { sum.store(&w.series.of[i][p * lanes]); });
+    estimate(w, a);
+  }
+
+  // Whether gamma is wanted, and velocity i the spin: the first of those without a position.
+  BBSIM_INLINE static bool turns(const Workspace& w, int i) {
+    return i == nq && w.gamma;
+  }
+
+  // Rounding in an acceleration, which a shorter step would not lessen: that of the right-hand
+  // side, or, where a stiff equation ties the acceleration to the position, the position's own
+  // after the polynomial is differentiated twice.
+  static double noise(const Workspace& w, int i) {
+    if (!w.newton || i >= nq) return 0;
+    double from_rates = 0;
+    for (int j = 0; j < nv; ++j) {
+      from_rates += magnitude(w.jv[i][j] * w.v[j]);
+      if (j < nq) from_rates += magnitude(w.jq[i][j] * w.q[j]);
+    }
+    const double twice = (s * s) / w.h;
+    const double from_position = twice * twice * (magnitude(w.q[i]) + magnitude(w.h * w.v[i]));
+    return 2.2e-16 * (from_rates < from_position ? from_rates : from_position);
+  }
+
+  // The error from the fall of the last Legendre coefficients of the accelerations: the first one
+  // left out, integrated once for a velocity, twice for a position.
+  static void estimate(Workspace& w, Attempt& a) {
+    const double once = magnitude(w.h) / (2 * s + 1);
+    for (int i = 0; i < nv; ++i) {
+      const double* const k = w.series.of[i];
+      const double tail = larger(magnitude(k[s - 1]), magnitude(k[s - 2]));
+      const double before = larger(magnitude(k[s - 3]), magnitude(k[s - 4]));
+      double left_out = tail < before ? tail * __builtin_sqrt(tail / before) : tail;
+      left_out = larger(0, left_out - noise(w, i));
+      const double v_scale =
+          w.rtol * larger(magnitude(w.v[i]), magnitude(w.v_stage.of[i][s - 1])) + w.atol;
+      const double v_error = once * left_out / v_scale;
+      if (!(v_error <= a.error)) {
+        a.error = v_error;
+        a.worst_state = motions.of[i].velocity;
+      }
+      if (i < nq || turns(w, i)) {
+        const double reached = i < nq ? w.q_stage.of[i][s - 1] : 0.0;
+        const double q_scale = w.rtol * larger(magnitude(w.q[i]), magnitude(reached)) + w.atol;
+        const double q_error = once * once * left_out / q_scale;
+        if (q_error > a.error) {
+          a.error = q_error;
+          a.worst_state = i < nq ? motions.of[i].position : motions.of[i].velocity;
+        }
+      }
+    }
+  }
+
+  // 1, 1/3, 1/5, ...: products are cheaper than quotients.
+  struct OddParts {
+    double of[s + 3]{};
+    consteval OddParts() {
+      for (int m = 0; m < s + 3; ++m) of[m] = 1.0 / (2 * m + 1);
+    }
+  };
+  static constexpr OddParts odd_parts{};
+
+  // (h/2) times the integral from -1 of a Legendre series, plus its value there.
+  template <int length>
+  BBSIM_INLINE static void integrate_series(const double* k, double half, double from,
+                                            double* out) {
+    const auto at = [&](int m) { return m < length ? k[m] : 0.0; };
+    out[0] = from + half * (at(0) - at(1) / 3);
+#pragma GCC unroll 2
+    for (int m = 1; m <= length; ++m) {
+      out[m] = half * (k[m - 1] * odd_parts.of[m - 1] - at(m + 1) * odd_parts.of[m + 1]);
+    }
+  }
+
+  static void accept(void* workspace) {
+    Workspace& w = *static_cast<Workspace*>(workspace);
+    for (int i = 0; i < nv; ++i) {
+      if (i < nq) {
+        w.q[i] = w.q_stage.of[i][s - 1];
+      } else if (turns(w, i)) {
+        // The integral of an integral: q + h v + (h/2)^2 times that of the series.
+        const double* const k = w.series.of[i];
+        w.q[i] += w.h * (w.v[i] + w.h / 2 * (k[0] - k[1] / 3));
+      }
+      w.v[i] = w.v_stage.of[i][s - 1];
+    }
+    w.accepted = true;
+    weigh(w);
+  }
+
+  static void evaluate(void* workspace, const double* times, std::size_t count, double* rows) {
+    Workspace& w = *static_cast<Workspace*>(workspace);
+    expand(w);
+    if (w.positions_only && !w.gamma) {
+      evaluate_rows<false>(w, times, count, rows);
+    } else {
+      evaluate_rows<true>(w, times, count, rows);
+    }
+  }
+
+  // Of velocities and positions, once for all that evaluate: how a compiler fuses the products of
+  // a sum of two is no matter of who asks.
+  [[gnu::noinline]] static void expand(Workspace& w) {
+    const double half = w.h / 2;
+    for (int i = 0; i < nv; ++i) {
+      integrate_series<s>(w.series.of[i], half, w.v[i], w.v_series[i]);
+      if (i < nq || turns(w, i))
+        integrate_series<s + 1>(w.v_series[i], half, w.q[i], w.q_series[i]);
+    }
+  }
+
+  // The same positions to the bit, with velocities or without.
+  template <bool velocities>
+  BBSIM_INLINE static void evaluate_rows(Workspace& w, const double* times, std::size_t count,
+                                         double* rows) {
+    const double half = w.h / 2;
+    const int row = n + (w.gamma ? 1 : 0);
+    // Two packs of times at once: the recurrence waits for itself.
+    constexpr int together = 2;
+    for (std::size_t first = 0; first < count; first += together * lanes) {
+      const std::size_t left = count - first;
+      const int used = left < together * lanes ? static_cast<int>(left) : together * lanes;
+      alignas(64) double at[together * lanes];
+      for (int l = 0; l < together * lanes; ++l) at[l] = times[first + (l < used ? l : 0)];
+      P x[together], before[together], now[together], q[nv][together], v[nv][together];
+#pragma GCC unroll 2
+      for (int p = 0; p < together; ++p) {
+        x[p] = (P::load(at + p * lanes) - P(w.t + half)) * P(1 / half);
+        before[p] = P(1.0);
+        now[p] = x[p];
+#pragma GCC unroll 8
+        for (int i = 0; i < nv; ++i) {
+          if (velocities) v[i][p] = w.v_series[i][0] + w.v_series[i][1] * x[p];
+          if (velocities || i < nq) q[i][p] = w.q_series[i][0] + w.q_series[i][1] * x[p];
+        }
+      }
+      for (int m = 1; m <= s; ++m) {
+#pragma GCC unroll 2
+        for (int p = 0; p < together; ++p) {
+          const P next =
+              recurrence.first[m] * x[p] * now[p] - rounded(recurrence.second[m] * before[p]);
+          before[p] = now[p];
+          now[p] = next;
+#pragma GCC unroll 8
+          for (int i = 0; i < nv; ++i) {
+            if (velocities && m < s) v[i][p] += P(w.v_series[i][m + 1]) * next;
+            if (velocities || i < nq) q[i][p] += P(w.q_series[i][m + 1]) * next;
+          }
+        }
+      }
+      for (int l = 0; l < used; ++l) {
+        const int p = l / lanes, lane = l % lanes;
+        double* const target = rows + (first + static_cast<std::size_t>(l)) * row;
+#pragma GCC unroll 8
+        for (int i = 0; i < nv; ++i) {
+          if (velocities) target[motions.of[i].velocity] = v[i][p][lane];
+          if (i < nq) {
+            target[motions.of[i].position] = q[i][p][lane];
+          } else if (velocities && turns(w, i)) {
+            target[n] = q[i][p][lane];
+          }
+        }
+      }
+    }
+  }
+
+  // P_(m+1) = first[m] x P_m - second[m] P_(m-1)
+  struct Recurrence {
+    double first[s + 2]{}, second[s + 2]{};
+    consteval Recurrence() {
+      for (int m = 0; m < s + 2; ++m) {
+        first[m] = (2.0 * m + 1) / (m + 1);
+        second[m] = double(m) / (m + 1);
+      }
+    }
+  };
+  static constexpr Recurrence recurrence{};
+
+  static void state(const void* workspace, double* z) {
+    const Workspace& w = *static_cast<const Workspace*>(workspace);
+    for (int i = 0; i < nv; ++i) {
+      z[motions.of[i].velocity] = w.v[i];
+      if (i < nq) z[motions.of[i].position] = w.q[i];
+    }
+  }
+
+  static constexpr Kernel kernel{s,        n,       sizeof(Workspace), &start, &rate,
+                                 &attempt, &accept, &evaluate,         &state};
+};
+
+}  // namespace bbsim::solve::radau

@@ -1,0 +1,101 @@
+#include "sweep/case_file.hpp"
+
+#include <limits>
+#include <utility>
+
+#include "base/error.hpp"
+#include "file/atomic_file.hpp"
+#include "file/format.hpp"
+#include "sweep/case_file_hdf5.hpp"
+#include "sweep/case_part.hpp"
+
+namespace bbsim::sweep {
+namespace {
+
+// A pipe, a device, standard output: rows as they come, so that an end before the last one takes
+// none of them.
+class Stream : public CaseFile {
+ public:
+  Stream(const std::string& target, const CaseFileLayout& layout) : file_(target) {
+    file_.write(header_of(layout.columns) + '\n');
+  }
+
+  [[nodiscard]] const KeptRows& kept() const override { return kept_; }
+  [[nodiscard]] std::string part() const override { return ""; }
+  void append(std::string_view lines, std::size_t /*rows*/,
+              const std::vector<std::vector<double>>& /*there are none*/) override {
+    file_.write(lines);
+    file_.flush();
+  }
+  void interrupt() override { file_.commit(); }
+  void finish(const file::Attributes&) override { file_.commit(); }
+
+ private:
+  file::AtomicFile file_;
+  KeptRows kept_;
+};
+
+class Csv : public CaseFile {
+ public:
+  Csv(const std::string& target, CaseFileLayout layout, const std::string& plan, bool resume)
+      : layout_(std::move(layout)), part_(target, layout_, plan, resume) {
+    part_.take_up(std::numeric_limits<std::size_t>::max());
+  }
+
+  [[nodiscard]] const KeptRows& kept() const override { return part_.kept(); }
+  [[nodiscard]] std::string part() const override {
+    return part_.file().in_place() ? part_.file().name() : "";
+  }
+  void append(std::string_view lines, std::size_t rows,
+              const std::vector<std::vector<double>>& /*there are none*/) override {
+    part_.append(lines, rows);
+  }
+  void interrupt() override { part_.file().sync(); }
+  void finish(const file::Attributes& /*CSV has no place for them*/) override {
+    part_.check_complete();
+    part_.file().commit(layout_.is_shard);
+  }
+
+ private:
+  CaseFileLayout layout_;
+  CasePart part_;
+};
+
+}  // namespace
+
+std::unique_ptr<CaseFile> open_case_file(const std::string& target, CaseFileLayout layout,
+                                         const std::string& plan, bool resume) {
+  const bool series = !layout.axis_values.empty();
+  const auto refuse_series = [&] {
+    if (series) {
+      throw InputError("cannot keep trajectories in " + target +
+                       ": they need a file that ends in .h5 or .hdf5");
+    }
+  };
+  if (file::is_written_directly(target)) {
+    refuse_series();
+    if (resume) {
+      throw InputError("cannot resume on " + target +
+                       ": only a file in a folder keeps what was done");
+    }
+    return std::make_unique<Stream>(target, layout);
+  }
+  switch (file::format_of(target)) {
+    case file::Format::hdf5:
+      return open_case_file_hdf5(target, std::move(layout), plan, resume);
+    case file::Format::csv:
+      refuse_series();
+      return std::make_unique<Csv>(target, std::move(layout), plan, resume);
+    case file::Format::other:
+      break;
+  }
+  throw InputError("cannot tell the format of " + target +
+                   " by its name; allowed endings: .csv, .h5, .hdf5");
+}
+
+std::vector<std::string> case_files_beside(const std::string& target) {
+  if (file::is_written_directly(target)) return {};
+  return sweep::PartFile::names_beside(target);
+}
+
+}  // namespace bbsim::sweep

@@ -1,0 +1,17 @@
+// The HDF5 side of case_file.hpp.
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "sweep/case_file.hpp"
+
+namespace bbsim::sweep {
+
+// An HDF5 file that was not closed is of no use, so the part is CSV, and for the series a file of
+// plain numbers; finish() makes the HDF5 file of them.
+[[nodiscard]] std::unique_ptr<CaseFile> open_case_file_hdf5(const std::string& target,
+                                                            CaseFileLayout layout,
+                                                            const std::string& plan, bool resume);
+
+}  // namespace bbsim::sweep

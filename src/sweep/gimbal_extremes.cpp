@@ -1,0 +1,114 @@
+#include "sweep/gimbal_extremes.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+namespace bbsim::sweep {
+namespace {
+
+// Of a polynomial of this degree over half a stretch of so many radians, the first coefficient left
+// out is that of a Bessel function, J_17(2) = 3e-15.
+constexpr std::size_t parts = 16;
+constexpr double stretch = 4;  // rad
+
+// A gimbal that turns so often has been everywhere that it goes to.
+constexpr double most_stretches = 1e5;
+constexpr std::size_t together = 60;  // stretches that are looked at in one go
+
+// Of the fastest sinusoid, and of the sine of an angle that itself changes fast; cos(phi)
+// cos(theta) is a mean of cos(phi + theta) and cos(phi - theta). rad/s
+double bandwidth_of(const model::SignalView& motion) {
+  double frequency = 0, rate = std::abs(motion.rate[0]) + std::abs(motion.rate[1]);
+  for (std::size_t k = 0; k < motion.harmonic_count; ++k) {
+    const model::Harmonic& one = motion.harmonics[k];
+    frequency = std::max(frequency, std::abs(one.frequency));
+    for (std::size_t i = 0; i < 2; ++i) {
+      rate += std::abs(one.frequency) * std::hypot(one.sine[i], one.cosine[i]);
+    }
+  }
+  return 2 * frequency + rate;
+}
+
+// What comes after this repeats what was before: a sinusoid of both angles has all of its sizes in
+// one period, and in half of one if the plane is level in the mean.
+double repeats_after(const model::SignalView& motion) {
+  const bool repeats = motion.rate[0] == 0 && motion.rate[1] == 0 && motion.table_count == 0 &&
+                       motion.harmonic_count == 1;
+  if (!repeats) return std::numeric_limits<double>::infinity();
+  const bool level = motion.start[0] == 0 && motion.start[1] == 0;
+  return (level ? 1 : 2) * std::numbers::pi / std::abs(motion.harmonics[0].frequency);
+}
+
+}  // namespace
+
+double tilt_of(double versine) {
+  return versine < 1 ? 2 * std::asin(std::sqrt(versine / 2))
+                     : std::numbers::pi - 2 * std::asin(std::sqrt(std::max(0.0, 1 - versine / 2)));
+}
+
+GimbalExtremes::GimbalExtremes()
+    : kernels_(choose_sweep_kernels()), points_(search_.points(parts)) {}
+
+GimbalExtremes::Greatest GimbalExtremes::of(const model::SignalPair& motion, double end) {
+  versine_most_ = rate_squared_most_ = 0;
+  count_ = 0;
+  spans_.clear();
+  const model::SignalView view = motion.view();
+  const double bandwidth = bandwidth_of(view);
+  double from = 0;
+  if (view.table_count > 0) {
+    for (const double knot : motion.knots()) {
+      if (knot > from && knot < end) {
+        cover(motion, from, knot, bandwidth);
+        from = knot;
+      }
+    }
+  }
+  cover(motion, from, std::min(end, repeats_after(view)), bandwidth);
+  look(motion);
+  return {tilt_of(versine_most_), std::sqrt(rate_squared_most_)};
+}
+
+// Between knots, if there are any.
+void GimbalExtremes::cover(const model::SignalPair& motion, double from, double to,
+                           double bandwidth) {
+  if (motion.view().table_count > 0) {
+    double rate = 0;
+    for (const double t : {from, (from + to) / 2, to}) {
+      const auto [phi, theta] = motion.at(t);
+      rate = std::max(rate, std::abs(phi.rate) + std::abs(theta.rate));
+    }
+    constexpr double between = 1.5;  // of a polynomial of low degree
+    bandwidth += between * rate;
+  }
+  const double wanted = std::ceil((to - from) * bandwidth / stretch);
+  const double pieces = std::clamp(wanted, 1.0, most_stretches);
+  const double length = (to - from) / pieces;
+  for (double i = 0; i < pieces; ++i) {
+    if (spans_.size() == together) look(motion);
+    double* const times = angles_.times(together * points_.size()) + count_;
+    const double start = from + i * length;
+    for (std::size_t p = 0; p < points_.size(); ++p) times[p] = start + length * points_[p];
+    spans_.push_back({count_, parts});
+    count_ += points_.size();
+  }
+}
+
+void GimbalExtremes::look(const model::SignalPair& motion) {
+  versine_.resize(count_);
+  rate_squared_.resize(count_);
+  angles_.evaluate(motion, count_);
+  double versine, rate_squared;
+  kernels_.gimbal({angles_.value(0), angles_.value(1), angles_.rate(0), angles_.rate(1)}, count_,
+                  {versine_.data(), rate_squared_.data()}, &versine, &rate_squared);
+  versine_most_ = search_.greatest_between(spans_, versine_.data(), Spacing::close,
+                                           std::max(versine, versine_most_));
+  rate_squared_most_ = search_.greatest_between(spans_, rate_squared_.data(), Spacing::close,
+                                                std::max(rate_squared, rate_squared_most_));
+  spans_.clear();
+  count_ = 0;
+}
+
+}  // namespace bbsim::sweep

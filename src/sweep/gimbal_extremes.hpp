@@ -1,0 +1,47 @@
+// The greatest tilt, and the greatest size of the angular velocity, of a plane that moves as given
+// functions of time say.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "base/chebyshev.hpp"
+#include "model/signals/signal_pair.hpp"
+#include "sweep/kernels/sweep_kernels.hpp"
+#include "sweep/padded_rows.hpp"
+#include "sweep/signal_rows.hpp"
+#include "sweep/spans.hpp"
+
+namespace bbsim::sweep {
+
+// The tilt whose versine, 1 - cos(tilt), this is, rad.
+[[nodiscard]] double tilt_of(double versine);
+
+class GimbalExtremes {
+ public:
+  GimbalExtremes();
+  GimbalExtremes(const GimbalExtremes&) = delete;  // points_ is among its own tables
+  GimbalExtremes& operator=(const GimbalExtremes&) = delete;
+
+  struct Greatest {
+    double tilt = 0;  // rad
+    double rate = 0;  // rad/s
+  };
+  // Over the times from 0 to `end` (s).
+  [[nodiscard]] Greatest of(const model::SignalPair& motion, double end);
+
+ private:
+  void cover(const model::SignalPair& motion, double from, double to, double bandwidth);
+  void look(const model::SignalPair& motion);
+
+  const SweepKernels& kernels_;
+  SpanSearch search_;
+  const ChebyshevPoints& points_;
+  std::vector<Span> spans_;  // that have not been looked at yet
+  std::size_t count_ = 0;    // of their points
+  SignalRows angles_;        // at them
+  PaddedRows versine_, rate_squared_;
+  double versine_most_ = 0, rate_squared_most_ = 0;
+};
+
+}  // namespace bbsim::sweep

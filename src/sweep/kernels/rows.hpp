@@ -1,0 +1,179 @@
+// The sweep's kernels, for one instruction set.
+#pragma once
+
+#include <type_traits>
+
+#include "simd/pack.hpp"
+#include "sweep/kernels/sweep_kernels.hpp"
+
+namespace bbsim::sweep {
+
+template <class Isa>
+struct RowKernels {
+  static constexpr int lanes = Isa::lanes;
+  using P = simd::Pack<Isa, lanes>;
+  using Sine = simd::SineTable;
+
+  static constexpr std::size_t padded(std::size_t rows) {
+    return (rows + row_padding - 1) / row_padding * row_padding;
+  }
+
+  BBSIM_INLINE static P larger(P a, P b) { return P::of(a.v > b.v ? a.v : b.v); }
+  BBSIM_INLINE static P magnitude(P a) { return P::of(a.v < 0 ? -a.v : a.v); }
+  BBSIM_INLINE static double largest(P a) {
+    double most = a[0];
+    for (int i = 1; i < lanes; ++i) most = a[i] > most ? a[i] : most;
+    return most;
+  }
+
+  // Of |angle| <= pi/4.
+  BBSIM_INLINE static P sine(P angle) {
+    const auto u = angle.v * angle.v, u2 = u * u;
+    const auto p =
+        (Sine::sine[0] + u * Sine::sine[1]) +
+        u2 * ((Sine::sine[2] + u * Sine::sine[3]) + u2 * (Sine::sine[4] + u * Sine::sine[5]));
+    return P::of(angle.v + (angle.v * u) * p);
+  }
+
+  // 1 - cos(phi) cos(theta), without what is lost by such differences.
+  BBSIM_INLINE static P versine(P sin_half_phi, P sin_half_theta) {
+    const P a = sin_half_phi * sin_half_phi, b = sin_half_theta * sin_half_theta;
+    return P(2.0) * (a + b) - P(4.0) * (a * b);
+  }
+
+  BBSIM_INLINE static double largest_angle(const GimbalTrack& track, std::size_t end) {
+    P most = P(0.0);
+    for (std::size_t i = 0; i < end; i += lanes) {
+      const P phi = magnitude(P::load(track.phi + i)), theta = magnitude(P::load(track.theta + i));
+      most = larger(larger(phi, theta), most);
+    }
+    return largest(most);
+  }
+
+  static void gimbal(const GimbalTrack& track, std::size_t rows, const GimbalSizes& sizes,
+                     double* versine_most, double* rate_squared_most) {
+    const std::size_t end = padded(rows);
+    const bool small = largest_angle(track, end) < 1.57;
+    P versines = P(0.0), rates = P(0.0);
+    for (std::size_t i = 0; i < end; i += lanes) {
+      const P phi = P(0.5) * P::load(track.phi + i), theta = P(0.5) * P::load(track.theta + i);
+      const P tilted =
+          small ? versine(sine(phi), sine(theta)) : versine(sin_cos(phi).sin, sin_cos(theta).sin);
+      tilted.store(sizes.versine + i);
+      versines = larger(tilted, versines);
+      const P phi_rate = P::load(track.phi_rate + i), theta_rate = P::load(track.theta_rate + i);
+      const P squared = phi_rate * phi_rate + theta_rate * theta_rate;
+      squared.store(sizes.rate_squared + i);
+      rates = larger(squared, rates);
+    }
+    *versine_most = largest(versines);
+    *rate_squared_most = largest(rates);
+  }
+
+  static double distances(const double* x, const double* y, std::size_t rows, double* squares) {
+    P most = P(0.0);
+    const std::size_t end = padded(rows);
+    for (std::size_t i = 0; i < end; i += lanes) {
+      const P dx = P::load(x + i), dy = P::load(y + i);
+      const P squared = dx * dx + dy * dy;
+      squared.store(squares + i);
+      most = larger(squared, most);
+    }
+    return largest(most);
+  }
+
+  static double sum_of(const double* values, std::size_t rows) {
+    P total = P(0.0);
+    const std::size_t whole = rows / lanes * lanes;
+    for (std::size_t i = 0; i < whole; i += lanes) total += P::load(values + i);
+    double all = sum(total);
+    for (std::size_t i = whole; i < rows; ++i) all += values[i];
+    return all;
+  }
+
+  // Whether any lane is set. Narrow lanes are fewer to ask.
+  BBSIM_INLINE static bool any(typename P::Mask mask) {
+    if constexpr (lanes == 2) {
+      return (mask[0] | mask[1]) != 0;
+    } else {
+      typedef std::conditional_t<lanes == 4, int, short> Narrow
+          __attribute__((vector_size(16), aligned(16)));
+      const auto halves = (typename simd::Vectors<2>::Mask) __builtin_convertvector(mask, Narrow);
+      return (halves[0] | halves[1]) != 0;
+    }
+  }
+
+  static void above(const double* values, std::size_t rows, double limit, unsigned char* marks) {
+    static_assert(row_padding % lanes == 0);
+    const std::size_t end = padded(rows);
+    for (std::size_t i = 0; i < end; i += row_padding) {
+      typename P::Mask more = P::load(values + i).v > limit;
+      for (std::size_t k = lanes; k < row_padding; k += lanes) {
+        more |= P::load(values + i + k).v > limit;
+      }
+      marks[i / row_padding] = any(more) ? 1 : 0;
+    }
+  }
+
+  static void wave(double frequency, const double* times, std::size_t rows, double* sines,
+                   double* cosines) {
+    const std::size_t end = padded(rows);
+    for (std::size_t i = 0; i < end; i += lanes) {
+      const auto both = sin_cos(P(frequency) * P::load(times + i));
+      both.sin.store(sines + i);
+      both.cos.store(cosines + i);
+    }
+  }
+
+  // What SignalView::at() computes, with the waves at hand.
+  static void signals(const model::SignalView& view, const Wave* waves, const double* times,
+                      std::size_t rows, double* const values[2], double* const rates[2]) {
+    const std::size_t end = padded(rows);
+    for (int c = 0; c < 2; ++c) {
+      const P start = P(view.start[c]), rate = P(view.rate[c]);
+      for (std::size_t i = 0; i < end; i += lanes) {
+        P value = start + rate * P::load(times + i), slope = rate;
+        for (std::size_t k = 0; k < view.harmonic_count; ++k) {
+          const P sine = P::load(waves[k].sines + i), cosine = P::load(waves[k].cosines + i);
+          const P a = P(view.harmonics[k].sine[c]), b = P(view.harmonics[k].cosine[c]);
+          value += a * sine + b * cosine;
+          slope += P(view.harmonics[k].frequency) * (a * cosine - b * sine);
+        }
+        value.store(values[c] + i);
+        slope.store(rates[c] + i);
+      }
+    }
+  }
+
+  static double superpose(const Superposition& motion, const double* factors, double* squares) {
+    P most = P(0.0);
+    const std::size_t end = padded(motion.rows);
+    constexpr std::size_t together = 4;  // packs of rows, to fill the pipeline
+    for (std::size_t i = 0; i < end; i += together * lanes) {
+      P x[together], y[together];
+      for (std::size_t p = 0; p < together; ++p) x[p] = y[p] = P(0.0);
+      for (std::size_t k = 0; k < motion.terms; ++k) {
+        const P factor = P(factors[k]);
+#pragma GCC unroll 4
+        for (std::size_t p = 0; p < together; ++p) {
+          if (i + p * lanes >= end) break;
+          x[p] += factor * P::load(motion.x_terms[k] + i + p * lanes);
+          y[p] += factor * P::load(motion.y_terms[k] + i + p * lanes);
+        }
+      }
+#pragma GCC unroll 4
+      for (std::size_t p = 0; p < together; ++p) {
+        if (i + p * lanes >= end) break;
+        const P squared = x[p] * x[p] + y[p] * y[p];
+        squared.store(squares + i + p * lanes);
+        most = larger(squared, most);
+      }
+    }
+    return largest(most);
+  }
+
+  static constexpr SweepKernels kernels{&gimbal, &distances, &sum_of,   &above,
+                                        &wave,   &signals,   &superpose};
+};
+
+}  // namespace bbsim::sweep

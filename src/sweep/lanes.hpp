@@ -1,0 +1,19 @@
+// Loops of one kind in step, a case in each SIMD lane.
+#pragma once
+
+#include "sweep/task.hpp"
+
+namespace bbsim::sweep {
+
+// Whether the sweep is of loops under equation (31) at tolerances where lanes are ahead of single
+// runs, and all its measures are those of a track.
+[[nodiscard]] bool can_use_lanes(const SweepTask& task);
+
+// Cases that step together.
+[[nodiscard]] std::size_t lane_group();
+
+// Of a task that can_use_lanes(); it outlives the runner. A case that does not fit among the others
+// of its group is run by itself.
+[[nodiscard]] std::unique_ptr<CaseRunner> lane_runner(const SweepTask& task);
+
+}  // namespace bbsim::sweep

@@ -1,0 +1,86 @@
+#include "sweep/merge.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <filesystem>
+#include <optional>
+#include <set>
+
+#include "base/error.hpp"
+#include "file/format.hpp"
+#include "file/target.hpp"
+#include "sweep/merge_csv.hpp"
+#include "sweep/merge_hdf5.hpp"
+
+namespace bbsim::sweep {
+namespace {
+
+bool is_hdf5(const std::string& file) {
+  return file::format_of(file) == file::Format::hdf5;
+}
+
+struct ShardName {
+  std::size_t number, of;
+};
+
+// "...-2of3.csv"
+std::optional<ShardName> shard_in(const std::string& file) {
+  const std::string stem = std::filesystem::path(file).stem();
+  const std::size_t dash = stem.rfind('-');
+  if (dash == std::string::npos) return {};
+  const char *const begin = stem.data() + dash + 1, *const end = stem.data() + stem.size();
+  ShardName name{};
+  const auto first = std::from_chars(begin, end, name.number);
+  if (first.ec != std::errc{} || end - first.ptr < 3 || first.ptr[0] != 'o' ||
+      first.ptr[1] != 'f') {
+    return {};
+  }
+  const auto second = std::from_chars(first.ptr + 2, end, name.of);
+  if (second.ec != std::errc{} || second.ptr != end) return {};
+  return name;
+}
+
+void check_names(const std::vector<std::string>& parts) {
+  std::size_t of = 0;
+  std::set<std::size_t> seen;
+  for (const std::string& part : parts) {
+    if (const auto name = shard_in(part)) {
+      of = std::max(of, name->of);
+      seen.insert(name->number);
+    }
+  }
+  for (std::size_t k = 1; k <= of && !seen.empty(); ++k) {
+    if (seen.count(k) == 0) {
+      throw InputError("found parts of " + std::to_string(of) + ", but not part " +
+                       std::to_string(k) + "; allowed: all parts of the sweep");
+    }
+  }
+}
+
+}  // namespace
+
+Merged merge_cases(const std::vector<std::string>& parts, const std::string& target,
+                   const std::atomic<bool>& stop) {
+  check_names(parts);
+  const bool to_hdf5 = !file::is_written_directly(target) && is_hdf5(target);
+  if (!file::is_written_directly(target) && file::format_of(target) == file::Format::other) {
+    throw InputError("cannot tell the format of " + target +
+                     " by its name; allowed endings: .csv, .h5, .hdf5");
+  }
+  const auto hdf5 = static_cast<std::size_t>(std::count_if(parts.begin(), parts.end(), is_hdf5));
+  if ((hdf5 > 0) != to_hdf5 || (hdf5 > 0 && hdf5 < parts.size())) {
+    throw InputError("found CSV and HDF5 together; allowed: parts and a file of one format");
+  }
+  return to_hdf5 ? merge_hdf5(parts, target, stop) : merge_csv(parts, target, stop);
+}
+
+std::string plan_of_part(const std::string& part) {
+  const std::string path = file::follow_links(part).value_or(part);
+  std::error_code ignored;
+  const auto exists = [&](const std::string& file) {
+    return std::filesystem::exists(std::filesystem::symlink_status(file, ignored));
+  };
+  return exists(path + ".plan") && !exists(path + ".part") ? path + ".plan" : "";
+}
+
+}  // namespace bbsim::sweep

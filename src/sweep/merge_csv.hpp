@@ -1,0 +1,11 @@
+// The CSV side of merge.hpp.
+#pragma once
+
+#include "sweep/merge.hpp"
+
+namespace bbsim::sweep {
+
+[[nodiscard]] Merged merge_csv(const std::vector<std::string>& parts, const std::string& target,
+                               const std::atomic<bool>& stop);
+
+}  // namespace bbsim::sweep

@@ -1,0 +1,144 @@
+#include "sweep/merge_hdf5.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+#include "base/error.hpp"
+#include "file/case_table.hpp"
+#include "sweep/merge_text.hpp"
+
+namespace bbsim::sweep {
+namespace {
+
+// Numbers of series in memory at a time, about.
+constexpr std::size_t most_numbers = std::size_t{1} << 19U;
+constexpr std::size_t most_rows = 1024;
+
+constexpr const char* instruction_set = "instruction_set";
+
+struct Part {
+  std::string file;
+  file::CaseTableReader table;
+  std::size_t first = 0;  // case
+};
+
+std::size_t rows_at_a_time(const std::vector<file::CaseColumn>& columns) {
+  std::size_t widest = 1;
+  for (const file::CaseColumn& column : columns) widest = std::max(widest, column.width);
+  return std::clamp<std::size_t>(most_numbers / widest, 1, most_rows);
+}
+
+std::size_t case_in(const std::string& file, double number) {
+  constexpr double most = 9007199254740992;  // up to where doubles tell whole numbers apart
+  if (number >= 0 && number <= most && number == std::floor(number)) {
+    return static_cast<std::size_t>(number);
+  }
+  throw InputError(file +
+                   ": found a case that is no whole number; allowed: what bbsim sweep writes");
+}
+
+file::Attributes without_instruction_set(const file::Attributes& all) {
+  file::Attributes rest;
+  for (const auto& attribute : all) {
+    if (attribute.first != instruction_set) rest.push_back(attribute);
+  }
+  return rest;
+}
+
+InstructionSets instruction_sets_of(const std::vector<Part>& parts) {
+  InstructionSets all;
+  for (const Part& part : parts) {
+    for (const auto& [name, value] : part.table.attributes()) {
+      if (name == instruction_set) all.add(value.text());
+    }
+  }
+  return all;
+}
+
+// To the bit: of numbers that are none, too.
+bool same_data(const file::TableData& a, const file::TableData& b) {
+  return a.names == b.names &&
+         std::equal(a.columns.begin(), a.columns.end(), b.columns.begin(), b.columns.end(),
+                    [](const std::vector<double>& one, const std::vector<double>& other) {
+                      return one.size() == other.size() &&
+                             std::memcmp(one.data(), other.data(), one.size() * sizeof(double)) ==
+                                 0;
+                    });
+}
+
+// Whether the scenarios read the same.
+bool same_inputs(const std::vector<file::InputTable>& a, const std::vector<file::InputTable>& b) {
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(),
+                    [](const file::InputTable& one, const file::InputTable& other) {
+                      return one.file == other.file && same_data(*one.data, *other.data);
+                    });
+}
+
+}  // namespace
+
+Merged merge_hdf5(const std::vector<std::string>& files, const std::string& target,
+                  const std::atomic<bool>& stop) {
+  std::vector<Part> parts;
+  file::CaseBlock block;
+  for (const std::string& file : files) {
+    Part part{file, file::CaseTableReader(file), 0};
+    if (part.table.columns().empty() || part.table.columns()[0].name != "case" ||
+        part.table.columns()[0].kind != file::CaseKind::number) {
+      throw InputError(file + ": found no column case first; allowed: what bbsim sweep writes");
+    }
+    if (part.table.rows() > 0) {
+      part.table.read(0, 1, block);
+      part.first = case_in(file, block.values[0][0]);
+    }
+    parts.push_back(std::move(part));
+  }
+  std::stable_sort(parts.begin(), parts.end(),
+                   [](const Part& a, const Part& b) { return a.first < b.first; });
+
+  const file::CaseTableReader& model = parts.front().table;
+  const InstructionSets instruction_sets = instruction_sets_of(parts);
+  const file::Attributes common = without_instruction_set(model.attributes());
+  const std::vector<file::InputTable> inputs = model.read_inputs();
+  for (const Part& part : parts) {
+    if (part.table.columns() == model.columns() && part.table.axes() == model.axes() &&
+        without_instruction_set(part.table.attributes()) == common &&
+        same_inputs(part.table.read_inputs(), inputs)) {
+      continue;
+    }
+    throw InputError(part.file + ": found other columns or another scenario than in " +
+                     parts.front().file + "; allowed: parts of one sweep");
+  }
+
+  file::CaseTableWriter out(target, model.columns(), model.axes(), inputs);
+  Merged merged{0, false, instruction_sets.note()};
+  const std::size_t rows = rows_at_a_time(model.columns());
+  for (const Part& part : parts) {
+    for (std::size_t first = 0; first < part.table.rows(); first += rows) {
+      if (stop.load(std::memory_order_relaxed)) {
+        merged.interrupted = true;
+        return merged;
+      }
+      part.table.read(first, rows, block);
+      if (block.rows != std::min(rows, part.table.rows() - first)) {
+        throw InputError("cannot read " + part.file + ": fewer rows came than it has");
+      }
+      for (std::size_t i = 0; i < block.rows; ++i, ++merged.cases) {
+        check_case(part.file, case_in(part.file, block.values[0][i]), merged.cases);
+      }
+      out.append(block);
+    }
+  }
+  file::Attributes attributes = model.attributes();
+  for (auto& [name, value] : attributes) {
+    if (name == "cases" && value.text() != std::to_string(merged.cases)) {
+      throw InputError("found " + std::to_string(merged.cases) + " cases of " + value.text() +
+                       "; allowed: all parts of the sweep");
+    }
+    if (name == instruction_set) value = instruction_sets.names();
+  }
+  out.finish(attributes);
+  return merged;
+}
+
+}  // namespace bbsim::sweep

@@ -1,0 +1,19 @@
+#include "sweep/padded_rows.hpp"
+
+#include "sweep/kernels/sweep_kernels.hpp"
+
+namespace bbsim::sweep {
+
+void PaddedRows::resize(std::size_t rows) {
+  const std::size_t room = (rows + row_padding - 1) / row_padding * row_padding;
+  if (room <= room_) return;
+  data_.reset(static_cast<double*>(::operator new (room * sizeof(double), std::align_val_t{64})));
+  room_ = room;
+}
+
+void PaddedRows::pad(std::size_t rows) {
+  double* const values = data_.get();
+  for (std::size_t i = rows; i % row_padding != 0; ++i) values[i] = values[rows - 1];
+}
+
+}  // namespace bbsim::sweep

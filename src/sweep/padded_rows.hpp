@@ -1,0 +1,27 @@
+// Doubles aligned and padded as the sweep's kernels want them.
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <new>
+
+namespace bbsim::sweep {
+
+class PaddedRows {
+ public:
+  // Values survive only where there was room already.
+  void resize(std::size_t rows);
+  // Repeats the last of `rows` values in the padding.
+  void pad(std::size_t rows);
+  [[nodiscard]] double* data() { return data_.get(); }
+  [[nodiscard]] const double* data() const { return data_.get(); }
+
+ private:
+  struct Free {
+    void operator()(double* memory) const { ::operator delete (memory, std::align_val_t{64}); }
+  };
+  std::unique_ptr<double, Free> data_;
+  std::size_t room_ = 0;
+};
+
+}  // namespace bbsim::sweep

@@ -1,0 +1,325 @@
+#include "sweep/plan.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "base/error.hpp"
+#include "base/noise.hpp"
+#include "scenario/independent.hpp"
+#include "yaml/problems.hpp"
+#include "yaml/quantity.hpp"
+
+namespace bbsim::sweep {
+namespace {
+
+using Kind = scenario::VariationSpec::Kind;
+using Setting = ScenarioFamily::Setting;
+
+constexpr double most_cases = 1e12;
+
+// SplitMix64 (Steele, Lea and Flood, OOPSLA 2014): a bijection that leaves no pattern of its
+// argument, so that counting through arguments is as good as a generator with a state.
+std::uint64_t mixed(std::uint64_t x) {
+  x += 0x9E3779B97F4A7C15U;
+  x = (x ^ (x >> 30U)) * 0xBF58476D1CE4E5B9U;
+  x = (x ^ (x >> 27U)) * 0x94D049BB133111EBU;
+  return x ^ (x >> 31U);
+}
+
+// FNV-1a
+std::uint64_t hash(const std::string& text) {
+  std::uint64_t value = 0xCBF29CE484222325U;
+  for (const char c : text) value = (value ^ static_cast<unsigned char>(c)) * 0x100000001B3U;
+  return value;
+}
+
+// a b + c d, rounded once or twice: round numbers stay round.
+double sum_of_products(double a, double b, double c, double d) {
+  const double ab = a * b, cd = c * d, sum = ab + cd;
+  const double lost_in_sum = std::abs(ab) > std::abs(cd) ? (ab - sum) + cd : (cd - sum) + ab;
+  return sum + (lost_in_sum + std::fma(a, b, -ab) + std::fma(c, d, -cd));
+}
+
+// Value i of `count`; the first and the last are exact.
+double spaced(const Axis& axis, std::size_t i) {
+  if (i == 0) return axis.from;
+  if (i + 1 == axis.count) return axis.to;
+  const double before = static_cast<double>(i), after = static_cast<double>(axis.count - 1 - i);
+  const double all = static_cast<double>(axis.count - 1);
+  if (axis.kind == Kind::log) {
+    const double first = std::log(std::abs(axis.from)), last = std::log(std::abs(axis.to));
+    return std::copysign(std::exp((first * after + last * before) / all), axis.from);
+  }
+  return sum_of_products(axis.from, after, axis.to, before) / all;
+}
+
+double listed(const Axis& axis, std::size_t i) {
+  if (axis.kind != Kind::list) return spaced(axis, i);
+  return axis.numeric ? axis.numbers[i] : static_cast<double>(i);
+}
+
+// A number of the axis that is not 0, if there is one: of those that are equally far apart it is
+// among the first two, and of a distribution it may be any that stands in its place.
+double not_zero(const Axis& axis) {
+  if (axis.random()) return axis.from != 0 ? axis.from : axis.to;
+  const std::size_t look_at =
+      axis.kind == Kind::list ? axis.count : std::min<std::size_t>(axis.count, 2);
+  for (std::size_t i = 0; i < look_at; ++i) {
+    if (listed(axis, i) != 0) return listed(axis, i);
+  }
+  return 0;
+}
+
+std::string value_text(const Axis& axis, double value) {
+  return axis.numeric ? yaml::number_text(value) : axis.texts[static_cast<std::size_t>(value)];
+}
+
+// Whether the path goes on from another one.
+bool within(const std::string& path, const std::string& other) {
+  return path.starts_with(other + '.');
+}
+
+[[noreturn]] void fail(const std::string& key, const std::string& message) {
+  throw InputError(yaml::shown(key) + ": " + message);
+}
+
+// A key that varies must not be another one's, nor a part of it.
+void check_apart(const std::string& key, const std::vector<Setting>& others) {
+  for (const Setting& other : others) {
+    if (other.key == key) fail(key, "found twice; allowed: each key once");
+    if (within(other.key, key) || within(key, other.key)) {
+      fail(key, "found beside " + other.key + "; allowed: keys apart from each other");
+    }
+  }
+  if (key == "sweep" || within(key, "sweep")) {
+    fail(key, "found, but a sweep does not vary itself; allowed: any other key");
+  }
+}
+
+// What --set gives to a key that varies would not be in any case.
+void check_overrides(const std::string& key, const Source& source) {
+  for (const std::string& set : source.overrides) {
+    const std::string set_key = set.substr(0, set.find('='));
+    if (set_key != key && !within(set_key, key)) continue;
+    throw InputError("--set " + yaml::shown(set) + ": found, but the sweep varies " +
+                     yaml::shown(key) +
+                     ", and its values would replace this one; allowed: one of the two");
+  }
+}
+
+// Each key that varies, with the first of its values.
+std::vector<Setting> first_settings(const Sweep& sweep, const Source& source) {
+  std::vector<Setting> firsts;
+  for (const Variation& variation : sweep.vary) {
+    const scenario::VariationSpec spec = scenario::parse_variation(variation);
+    for (const scenario::TiedKey& key : scenario::tied_keys(variation)) {
+      check_apart(key.path, firsts);
+      check_overrides(key.path, source);
+      for (const std::string& value : spec.values) {
+        if (!scenario::scaled(value, key.factor).empty()) continue;
+        fail(variation.key, "found the value " + yaml::shown(value) +
+                                ", which is no number that a factor could be applied to; allowed: "
+                                "numbers, or keys without factors");
+      }
+      firsts.push_back({key.path, scenario::scaled(spec.values[0], key.factor)});
+    }
+  }
+  return firsts;
+}
+
+}  // namespace
+
+// Reads the values of the keys of one variation, which are the next ones of `settings`; these have
+// the first values of all keys, since the scenario need not be complete without.
+void SweepPlan::add_axes(const ScenarioFamily& family, const Variation& variation,
+                         std::vector<Setting> settings) {
+  const scenario::VariationSpec spec = scenario::parse_variation(variation);
+  const std::vector<scenario::TiedKey> keys = scenario::tied_keys(variation);
+  const std::size_t lead = axes_.size();
+  Axis axis;
+  axis.kind = spec.kind;
+  axis.count = spec.random() ? 1 : spec.count;
+  axis.lead = lead;
+  axis.stream = mixed(mixed(seed_) ^ hash(keys[0].path));
+  std::vector<double> numbers;  // of the first key
+  for (const std::string& value : spec.values) {
+    const bool deviation = spec.kind == Kind::normal && &value == &spec.values.back();
+    for (std::size_t k = 0; k < keys.size(); ++k) {
+      const double factor = deviation ? std::abs(keys[k].factor) : keys[k].factor;
+      settings[lead + k].value = scenario::scaled(value, factor);
+    }
+    for (std::size_t k = 0; k < (deviation ? 1 : keys.size()); ++k) {
+      std::vector<Setting> read = settings;
+      std::rotate(read.begin() + static_cast<std::ptrdiff_t>(lead + k),
+                  read.begin() + static_cast<std::ptrdiff_t>(lead + k + 1), read.end());
+      const std::optional<double> number = family.read_number(read);
+      axis.numeric = axis.numeric && number;
+      if (k == 0 && number) numbers.push_back(*number);
+    }
+  }
+  const auto plain = [](const scenario::TiedKey& key) { return key.factor == 1; };
+  if (!axis.numeric && !std::all_of(keys.begin(), keys.end(), plain)) {
+    fail(variation.key, "found " + yaml::shown(variation.spec) +
+                            ", but not all of the keys hold a single number; allowed: numbers, or "
+                            "keys without factors");
+  }
+  const auto tie = [&] {
+    for (std::size_t k = 0; k < keys.size(); ++k) {
+      axes_.push_back(axis);
+      axes_.back().key = keys[k].path;
+      axes_.back().factor = keys[k].factor / keys[0].factor;
+    }
+  };
+  if (spec.kind == Kind::list) {
+    axis.numeric ? void(axis.numbers = std::move(numbers)) : void(axis.texts = spec.values);
+    return tie();
+  }
+  if (!axis.numeric) {
+    fail(variation.key, "found " + yaml::shown(variation.spec) +
+                            ", but the key holds no single number; allowed: list:A,B,C");
+  }
+  axis.from = numbers[0];
+  axis.to = numbers[1];
+  if (spec.kind == Kind::log &&
+      (axis.from == 0 || axis.to == 0 || (axis.from < 0) != (axis.to < 0))) {
+    fail(variation.key, "found " + yaml::shown(variation.spec) +
+                            "; allowed: log from and to numbers of one sign, neither 0");
+  }
+  if (spec.kind == Kind::normal && !(axis.to >= 0)) {
+    fail(variation.key, "found " + yaml::shown(variation.spec) +
+                            "; allowed: normal with a standard deviation of at least 0");
+  }
+  tie();
+}
+
+SweepPlan::SweepPlan(const ScenarioFamily& family, const Sweep& sweep)
+    : combine_(sweep.combine), seed_(static_cast<std::uint64_t>(sweep.seed)) {
+  if (sweep.vary.empty()) {
+    throw InputError(
+        "found no key to vary; allowed: --vary KEY=SPEC, or a sweep block in the scenario");
+  }
+  const std::vector<Setting> firsts = first_settings(sweep, family.source());
+  for (const Variation& variation : sweep.vary) add_axes(family, variation, firsts);
+
+  double cases = 1;
+  bool random = false;
+  std::size_t longest = 1;
+  for (std::size_t a = 0; a < axes_.size(); ++a) {
+    if (!is_lead(a)) continue;
+    const Axis& axis = axes_[a];
+    random = random || axis.random();
+    longest = std::max(longest, axis.count);
+    cases *= static_cast<double>(axis.count);
+  }
+  if (combine_ == Combine::zip) {
+    for (const Axis& axis : axes_) {
+      if (axis.random() || axis.count == longest) continue;
+      fail(axis.key, "found " + std::to_string(axis.count) + " values, and " +
+                         std::to_string(longest) +
+                         " of another key; allowed with zip: as many of each");
+    }
+    cases = static_cast<double>(longest);
+  }
+  if (random && !sweep.samples) {
+    throw InputError(
+        "samples: missing, but values are drawn; allowed: --samples N, the number of cases to "
+        "draw");
+  }
+  if (!random && sweep.samples) {
+    throw InputError("samples: found, but no value is drawn; allowed: only with uniform or normal");
+  }
+  if (sweep.samples) cases *= *sweep.samples;
+  if (cases > most_cases) throw InputError("found more than 1e12 cases; allowed: at most that");
+  samples_ = static_cast<std::size_t>(sweep.samples.value_or(1));
+  cases_ = static_cast<std::size_t>(cases);
+
+  Scenario first = family.read(settings(0));
+  // All of them or none: a key of another sort may change what the others mean.
+  const bool independent = std::all_of(axes_.begin(), axes_.end(), [&](const Axis& axis) {
+    return axis.numeric && !independent_number(first, axis.key).empty();
+  });
+  for (Axis& axis : axes_) axis.independent = independent;
+}
+
+double SweepPlan::drawn(const Axis& axis, std::size_t number) {
+  const std::uint64_t bits = mixed(axis.stream + number);
+  const double p = (static_cast<double>(bits >> 12U) + 0.5) * 0x1p-52;
+  if (axis.kind == Kind::uniform) return axis.from + p * (axis.to - axis.from);
+  return axis.from + axis.to * normal_quantile(p);
+}
+
+void SweepPlan::values(std::size_t number, double* values) const {
+  std::size_t rest = number / samples_;
+  for (std::size_t a = axes_.size(); a-- > 0;) {
+    const Axis& axis = axes_[a];
+    if (!is_lead(a)) continue;
+    if (axis.random()) {
+      values[a] = drawn(axis, number);
+    } else if (combine_ == Combine::zip) {
+      values[a] = listed(axis, rest);
+    } else {
+      values[a] = listed(axis, rest % axis.count);
+      rest /= axis.count;
+    }
+  }
+  for (std::size_t a = 0; a < axes_.size(); ++a) {
+    // Adding 0 takes the sign off a zero.
+    if (!is_lead(a)) values[a] = axes_[a].factor * values[axes_[a].lead] + 0.0;
+  }
+}
+
+std::vector<Setting> SweepPlan::settings(std::size_t number) const {
+  std::vector<double> at(axes_.size());
+  values(number, at.data());
+  return settings_of(at);
+}
+
+std::vector<Setting> SweepPlan::settings_of(const std::vector<double>& values) const {
+  std::vector<Setting> settings;
+  settings.reserve(axes_.size());
+  for (std::size_t a = 0; a < axes_.size(); ++a) {
+    settings.push_back({axes_[a].key, value_text(axes_[a], values[a])});
+  }
+  return settings;
+}
+
+std::vector<Setting> SweepPlan::general_settings() const {
+  std::vector<double> at;
+  for (const Axis& axis : axes_) at.push_back(axis.factor * not_zero(axes_[axis.lead]));
+  return settings_of(at);
+}
+
+bool SweepPlan::check(const ScenarioFamily& family, std::size_t first, std::size_t last,
+                      const std::function<bool(double)>& goes_on) const {
+  const auto told = [&](std::size_t number, std::size_t every) {
+    return (number - first) % every != 0 ||
+           goes_on(static_cast<double>(number - first) / static_cast<double>(last - first));
+  };
+  if (!independent()) {
+    for (std::size_t i = first; i < last; ++i) {
+      if (!told(i, 64)) return false;
+      static_cast<void>(family.read(settings(i)));
+    }
+    return true;
+  }
+  // Ranges have no holes, and the ends of what is listed or drawn between bounds have been read.
+  for (std::size_t a = 0; a < axes_.size(); ++a) {
+    const Axis& axis = axes_[a];
+    if (axis.kind != Kind::normal || !is_lead(a)) continue;
+    std::size_t least = first, greatest = first;
+    double low = std::numeric_limits<double>::infinity(), high = -low;
+    for (std::size_t i = first; i < last; ++i) {
+      if (!told(i, 65536)) return false;
+      const double value = drawn(axis, i);
+      if (value < low) low = value, least = i;
+      if (value > high) high = value, greatest = i;
+    }
+    if (first == last) continue;
+    static_cast<void>(family.read(settings(least)));
+    static_cast<void>(family.read(settings(greatest)));
+  }
+  return true;
+}
+
+}  // namespace bbsim::sweep

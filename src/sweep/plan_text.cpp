@@ -1,0 +1,58 @@
+#include "sweep/plan_text.hpp"
+
+#include <nlohmann/json.hpp>
+
+namespace bbsim::sweep {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+// Discarded if it is none.
+Json parsed(const std::string& plan) {
+  return Json::parse(plan, nullptr, false);
+}
+
+std::string instruction_set_of(const Json& plan) {
+  const auto found = plan.find("instruction_set");
+  return found != plan.end() && found->is_string() ? found->get<std::string>() : "unknown";
+}
+
+}  // namespace
+
+PlanDifference compare_plans(const std::string& one, const std::string& two, bool of_shards) {
+  const Json a = parsed(one), b = parsed(two);
+  if (!a.is_object() || !b.is_object()) return {"text, which is no plan of bbsim", {}};
+  PlanDifference difference;
+  const auto note = [&](const std::string& key) {
+    if (key == "instruction_set") {
+      difference.instruction_sets = {instruction_set_of(a), instruction_set_of(b)};
+    } else if (key != "shard" || !of_shards) {
+      difference.other += (difference.other.empty() ? "" : ", ") + key;
+    }
+  };
+  for (const auto& [key, value] : a.items()) {
+    if (!b.contains(key) || b.at(key) != value) note(key);
+  }
+  for (const auto& [key, value] : b.items()) {
+    if (!a.contains(key)) note(key);
+  }
+  return difference;
+}
+
+std::optional<std::size_t> cases_in(const std::string& plan) {
+  const Json json = parsed(plan);
+  if (!json.is_object()) return {};
+  const auto found = json.find("cases");
+  if (found == json.end() || !found->is_number_unsigned()) return {};
+  return found->get<std::size_t>();
+}
+
+std::string instruction_set_in(const std::string& plan) {
+  return instruction_set_of(parsed(plan));
+}
+
+bool is_plan(const std::string& text) {
+  return parsed(text).is_object();
+}
+
+}  // namespace bbsim::sweep

@@ -1,0 +1,45 @@
+// A run's contact point at any time: the integrator's own polynomials, kept.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <vector>
+
+#include "base/chebyshev.hpp"
+#include "solve/outcome.hpp"
+#include "solve/piece.hpp"
+
+namespace bbsim::sweep {
+
+// Of a ball anywhere on the plane.
+class RecordedMotion : public solve::StateSink, public solve::PieceSink {
+ public:
+  // x and y are polynomials of this degree over each piece; rows are so long.
+  RecordedMotion(std::size_t degree, std::size_t row_size);
+
+  void accept(std::size_t, std::size_t, const double*) override {}
+  [[nodiscard]] solve::PieceSink* pieces() override { return this; }
+  [[nodiscard]] bool wants_rows() const override { return false; }
+  void begin_run() override { pieces_.clear(); }
+  void accept(const solve::Piece& piece) override;
+
+  // x and y at t, s; within the run.
+  [[nodiscard]] std::array<double, 2> at(double t) const;
+  // The greatest size of x or y in the pieces that times between the two lie in.
+  [[nodiscard]] double size(double from, double to) const;
+
+ private:
+  struct Kept {
+    double from, to;
+    std::array<std::vector<double>, 2> values{};  // of x and y, at points_
+    double size = 0;
+  };
+  [[nodiscard]] std::vector<Kept>::const_iterator piece_at(double t) const;
+
+  ChebyshevPoints points_;
+  std::size_t row_size_;
+  std::vector<Kept> pieces_;
+  std::vector<double> times_, rows_;
+};
+
+}  // namespace bbsim::sweep

@@ -1,0 +1,45 @@
+// Two functions of time, a gimbal's motion or a reference, at many times at once.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "model/signals/signal_pair.hpp"
+#include "sweep/kernels/sweep_kernels.hpp"
+#include "sweep/padded_rows.hpp"
+
+namespace bbsim::sweep {
+
+class SignalRows {
+ public:
+  SignalRows() : kernels_(choose_sweep_kernels()) {}
+
+  // Where the times are to be put, s; those that were there stay where there was room for them.
+  [[nodiscard]] double* times(std::size_t count);
+  // At the first `count` of the times. Sinusoids of the frequencies, and at the times, of the call
+  // before are not evaluated again.
+  void evaluate(const model::SignalPair& signals, std::size_t count);
+
+  [[nodiscard]] const double* value(std::size_t component) const {
+    return values_[component].data();
+  }
+  [[nodiscard]] const double* rate(std::size_t component) const { return rates_[component].data(); }
+
+ private:
+  void evaluate_splines(const model::SignalPair& signals, std::size_t count);
+  void evaluate_waves(const model::SignalView& signals, std::size_t count);
+
+  struct Sampled {
+    double frequency = 0;
+    bool done = false;
+    PaddedRows sines, cosines;
+  };
+
+  const SweepKernels& kernels_;
+  PaddedRows times_, values_[2], rates_[2];
+  std::vector<Sampled> sampled_;  // at timed_
+  std::vector<double> timed_;
+  std::vector<Wave> waves_;
+};
+
+}  // namespace bbsim::sweep

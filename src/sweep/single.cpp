@@ -1,0 +1,208 @@
+#include "sweep/single.hpp"
+
+#include <algorithm>
+#include <cstdio>
+#include <limits>
+#include <memory>
+#include <optional>
+#include <span>
+#include <utility>
+
+#include "base/error.hpp"
+#include "model/model.hpp"
+#include "record/recorder.hpp"
+#include "solve/choose.hpp"
+#include "solve/integrate.hpp"
+#include "solve/radau/radau.hpp"
+#include "study/error_control.hpp"
+#include "sweep/case_scenario.hpp"
+#include "sweep/track_meter.hpp"
+#include "sweep/verdict.hpp"
+
+namespace bbsim::sweep {
+namespace {
+
+constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
+
+// When it ended is a column of its own.
+CaseStatus status_of(const solve::Outcome& outcome) {
+  switch (outcome.ending) {
+    case solve::Ending::failed:
+      return {"failed", outcome.reason};
+    case solve::Ending::stopped:
+      return {"stopped", outcome.occurrences.back().name};
+    case solve::Ending::done:
+    case solve::Ending::interrupted:
+      break;
+  }
+  return {};
+}
+
+// Passes rows on to two sinks, and to the first of them the motion between.
+class Both : public solve::StateSink {
+ public:
+  Both(solve::StateSink& one, solve::StateSink& other) : one_(one), other_(other) {}
+  void accept(std::size_t first, std::size_t count, const double* values) override {
+    one_.accept(first, count, values);
+    other_.accept(first, count, values);
+  }
+  [[nodiscard]] solve::PieceSink* pieces() override { return one_.pieces(); }
+
+ private:
+  solve::StateSink& one_;
+  solve::StateSink& other_;
+};
+
+// Where a Recorder puts the columns of one case: its place among the results.
+class SeriesWriter : public file::TableWriter {
+ public:
+  SeriesWriter(std::vector<std::vector<double>>& series, std::size_t first_row)
+      : series_(series), row_(first_row) {}
+
+  void append(std::span<const double* const> columns, std::size_t rows) override {
+    for (std::size_t c = 0; c < columns.size(); ++c) {
+      std::copy_n(columns[c], rows, series_[c].begin() + static_cast<std::ptrdiff_t>(row_));
+    }
+    row_ += rows;
+  }
+  void finish(const file::Attributes&) override {}
+
+ private:
+  std::vector<std::vector<double>>& series_;
+  std::size_t row_;
+};
+
+class SingleRunner : public CaseRunner {
+ public:
+  explicit SingleRunner(const SweepTask& task)
+      : task_(task),
+        scenario_(task),
+        meter_(task.measures),
+        track_(task.measures),
+        kernels_(solve::radau::choose_kernels()),
+        quick_(task.series.empty() && are_track_measures(task.measures)),
+        same_signals_(shares_signals(task.plan)) {
+    for (const Axis& axis : task.plan.axes()) {
+      if (axis.key.starts_with("solver")) same_tolerances_ = false;
+    }
+    gamma_ = scenario::any_needs(task.measures, scenario::Needs::gamma) ||
+             scenario::need_gamma(task.series);
+  }
+
+  std::size_t run(std::size_t first, std::size_t count, CaseResults& into,
+                  const std::atomic<bool>& stop) override {
+    into.first = first;
+    into.resize(count, task_);
+    for (std::size_t i = 0; i < count; ++i) {
+      task_.plan.values(first + i, &into.values[i * task_.plan.axes().size()]);
+      if (!run_case(first + i, i, into, stop)) return i;
+    }
+    return count;
+  }
+
+ private:
+  bool run_case(std::size_t number, std::size_t place, CaseResults& into,
+                const std::atomic<bool>& stop) {
+    double* const numbers = &into.numbers[place * (1 + task_.measures.size())];
+    CaseStatus& status = into.status[place];
+    try {
+      const Scenario& scenario =
+          scenario_.at(number, &into.values[place * task_.plan.axes().size()]);
+      const model::Model model = model::assemble(scenario, gamma_);
+      const model::BallConstants constants = model::constants_of(scenario);
+      const solve::OutputGrid grid(scenario.time);
+      const Solver& solver = scenario.solver;
+      if (quick_ && !solver.error && solve::choose_method(solver.method) == Method::radau &&
+          has_track(model)) {
+        return run_quickly(scenario, model, constants, grid, stop, numbers, status);
+      }
+      meter_.begin(model, constants, grid);
+      SeriesWriter series(into.series, place * task_.series_rows);
+      record::Recorder recorder(model, constants, grid, task_.series, series);
+      Both both(meter_, recorder);
+      solve::StateSink& sink = task_.series.empty() ? static_cast<solve::StateSink&>(meter_) : both;
+      const solve::Watch watch{&stop, {}};
+      solve::Outcome outcome;
+      if (solver.error) {
+        const study::ErrorControlled run =
+            study::integrate_to_error(model, solver.method, *solver.error, grid, sink, watch);
+        status = status_of(run.outcome);
+        if (run.outcome.ending == solve::Ending::done && !run.met) {
+          char text[80];
+          std::snprintf(text, sizeof text, "error about %.2g m: out of reach of double precision",
+                        run.estimate);
+          status = {"inaccurate", text};
+        }
+        outcome = run.outcome;
+      } else {
+        outcome =
+            solve::integrate(model, solver.method, {solver.rtol, solver.atol}, grid, sink, watch);
+        status = status_of(outcome);
+      }
+      if (outcome.ending == solve::Ending::interrupted) return false;
+      numbers[0] = outcome.reached;
+      meter_.finish(outcome, numbers + 1);
+      judge(task_, scenario, numbers + 1, status);
+    } catch (const InputError& error) {  // there is no gain of an LQR, say
+      std::fill_n(numbers, 1 + task_.measures.size(), nothing);
+      status = {"refused", error.what()};
+    }
+    return true;
+  }
+
+  // What solve::integrate does with a smooth model, without looking at each row by itself.
+  bool run_quickly(const Scenario& scenario, const model::Model& model,
+                   const model::BallConstants& constants, const solve::OutputGrid& grid,
+                   const std::atomic<bool>& stop, double* numbers, CaseStatus& status) {
+    const solve::Tolerances tolerances{scenario.solver.rtol, scenario.solver.atol};
+    track_.begin(model, constants, grid, same_signals_);
+    if (stepper_ && same_tolerances_) {
+      stepper_->renew(model, grid.end());
+    } else {
+      stepper_.emplace(model, kernels_, solve::radau::choose_stages(tolerances.rtol), tolerances,
+                       grid.end());
+    }
+    stepper_->leave_out_velocities(track_.wants_positions_only(model));
+    const solve::Outcome outcome = solve::run_through(*stepper_, model, grid, track_, {&stop, {}});
+    if (outcome.ending == solve::Ending::interrupted) return false;
+    numbers[0] = outcome.reached;
+    track_.finish(numbers + 1);
+    status = status_of(outcome);
+    judge(task_, scenario, numbers + 1, status);
+    return true;
+  }
+
+  const SweepTask& task_;
+  CaseScenario scenario_;
+  record::Meter meter_;
+  TrackMeter track_;
+  const solve::radau::StepKernels& kernels_;
+  std::optional<solve::radau::RadauStepper> stepper_;  // its memory, from case to case
+  bool quick_, same_signals_, same_tolerances_ = true;
+  bool gamma_ = false;
+};
+
+}  // namespace
+
+void CaseResults::resize(std::size_t cases, const SweepTask& task) {
+  count = cases;
+  values.resize(cases * task.plan.axes().size());
+  numbers.resize(cases * (1 + task.measures.size()));
+  status.resize(cases);
+  series.resize(task.series.size());
+  for (auto& column : series) column.assign(cases * task.series_rows, nothing);
+}
+
+void CaseResults::cut(std::size_t cases, const SweepTask& task) {
+  count = cases;
+  values.resize(cases * task.plan.axes().size());
+  numbers.resize(cases * (1 + task.measures.size()));
+  status.resize(cases);
+  for (auto& column : series) column.resize(cases * task.series_rows);
+}
+
+std::unique_ptr<CaseRunner> single_runner(const SweepTask& task) {
+  return std::make_unique<SingleRunner>(task);
+}
+
+}  // namespace bbsim::sweep

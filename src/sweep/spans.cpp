@@ -1,0 +1,56 @@
+#include "sweep/spans.hpp"
+
+#include <algorithm>
+
+#include "base/greatest.hpp"
+
+namespace bbsim::sweep {
+namespace {
+
+// A maximum's value needs its place to the square root of what it is to be good to.
+constexpr double place = 1e-7;
+
+// A polynomial is nowhere further above the values at its Chebyshev points than this part of their
+// range: (L - 1) / 2, of the Lebesgue constant L <= 1 + 2 / pi log(129) up to degree 128.
+constexpr double beyond = 1.55;
+
+}  // namespace
+
+// Of values that are not negative the range is no more than the greatest of them.
+double SpanSearch::greatest_between(const std::vector<Span>& spans, const double* values,
+                                    Spacing spacing, double greatest) {
+  if (spans.empty()) return greatest;
+  const std::size_t count = spans.back().first + spans.back().parts + 1;
+  above_.resize((count + row_padding - 1) / row_padding);
+  kernels_.above(values, count, greatest / (1 + beyond), above_.data());
+  for (const Span& span : spans) {
+    const std::size_t last = span.first + span.parts;
+    unsigned char above = 0;
+    for (std::size_t block = span.first / row_padding; block <= last / row_padding; ++block) {
+      above |= above_[block];
+    }
+    if (above == 0) continue;
+    greatest = greatest_within(span.parts, values + span.first, spacing, greatest);
+  }
+  return greatest;
+}
+
+double SpanSearch::greatest_within(std::size_t parts, const double* values, Spacing spacing,
+                                   double greatest) {
+  const ChebyshevPoints& points = tables_.points(parts);
+  const auto look_closer = [&](const Bracket& bracket) {
+    const Peak peak = climb(bracket, place * (bracket.to.at - bracket.from.at),
+                            [&](double s) { return points.at(values, s); });
+    if (peak.value > greatest) greatest = peak.value;
+  };
+  if (spacing == Spacing::close) {
+    for_each_bracket(points, values, greatest, Between::smooth, look_closer);
+  } else {
+    refine(points, values, greatest, finer_);
+    for_each_bracket(tables_.points(2 * parts), finer_.data(), greatest, Between::smooth,
+                     look_closer);
+  }
+  return greatest;
+}
+
+}  // namespace bbsim::sweep

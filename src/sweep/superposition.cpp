@@ -1,0 +1,337 @@
+#include "sweep/superposition.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <iterator>
+#include <optional>
+#include <string_view>
+#include <type_traits>
+#include <utility>
+#include <variant>
+
+#include "solve/choose.hpp"
+#include "solve/radau/radau.hpp"
+#include "sweep/case_scenario.hpp"
+#include "sweep/gimbal_extremes.hpp"
+#include "sweep/kernels/sweep_kernels.hpp"
+#include "sweep/padded_rows.hpp"
+#include "sweep/recorded_motion.hpp"
+#include "sweep/spans.hpp"
+#include "sweep/verdict.hpp"
+
+namespace bbsim::sweep {
+namespace {
+
+using Kind = scenario::Measure::Kind;
+
+// A few roundings: these solutions are made once.
+constexpr solve::Tolerances finest{1e-13, 1e-15};
+
+// What z' = A(t) z + g b_g(t) + r b_r(t) is linear in.
+struct Part {
+  std::array<std::string_view, 2> keys;  // that it depends on; u = r gamma' on two
+  double (*factor)(const Scenario& scenario);
+};
+constexpr Part parts[] = {
+    {{"ball.position.0", ""}, [](const Scenario& s) { return s.ball.position[0]; }},
+    {{"ball.position.1", ""}, [](const Scenario& s) { return s.ball.position[1]; }},
+    {{"ball.velocity.0", ""}, [](const Scenario& s) { return s.ball.velocity[0]; }},
+    {{"ball.velocity.1", ""}, [](const Scenario& s) { return s.ball.velocity[1]; }},
+    {{"ball.spin", "ball.radius"}, [](const Scenario& s) { return s.ball.radius * s.ball.spin; }},
+    {{"ball.radius", ""}, [](const Scenario& s) { return s.ball.radius; }},
+    {{"gravity", ""}, [](const Scenario& s) { return s.gravity; }},
+};
+constexpr std::size_t part_count = std::size(parts), states = 5;
+
+bool depends_on(const Part& part, const std::string& key) {
+  return key == part.keys[0] || key == part.keys[1];
+}
+
+bool is_superposed(const scenario::Measure& measure) {
+  const std::string_view name = measure.column->name;
+  if (measure.kind == Kind::end) return name == "x" || name == "y";
+  return measure.kind == Kind::greatest &&
+         (name == "distance" || name == "tilt" || name == "tilt_rate");
+}
+
+// What is left out of x and y between points, relative to them: squares are then right to 1e-10.
+constexpr double shown = 1e-12;
+constexpr int most_halvings = 12;
+
+}  // namespace
+
+// Of each term x and y at the same times, for a factor of 1: at Chebyshev points of stretches so
+// short that polynomials through them are all that there is to know, whatever the output times are.
+struct Superposed {
+  struct Term {
+    const Part* part;  // null: what does not vary
+    PaddedRows x, y;
+  };
+  std::vector<Term> terms;
+  std::vector<Span> stretches;
+  std::size_t points = 0;
+  double end = 0;
+  GimbalExtremes::Greatest gimbal;
+};
+
+namespace {
+
+// Cuts the time into stretches on which polynomials through so many points show all motions.
+class Stretches {
+ public:
+  Stretches(const std::vector<RecordedMotion>& motions, std::size_t intervals)
+      : motions_(&motions), points_(intervals) {}
+
+  // To be called with one stretch of time after another, in none of which an input has a corner.
+  void add(double from, double to, int halvings = 0) {
+    if (halvings < most_halvings && !are_shown(from, to)) {
+      const double middle = from + (to - from) / 2;
+      add(from, middle, halvings + 1);
+      add(middle, to, halvings + 1);
+      return;
+    }
+    for (std::size_t i = 0; i < points_.size(); ++i) {
+      times_.push_back(i + 1 < points_.size() ? from + (to - from) * points_[i] : to);
+    }
+  }
+
+  [[nodiscard]] std::size_t intervals() const { return points_.size() - 1; }
+  [[nodiscard]] const std::vector<double>& times() const { return times_; }
+
+ private:
+  // Relative to how far each motion goes in the integrator's steps there: it is no more exact
+  // itself.
+  [[nodiscard]] bool are_shown(double from, double to) const {
+    std::vector<double> x(points_.size()), y(points_.size());
+    return std::all_of(motions_->begin(), motions_->end(), [&](const RecordedMotion& motion) {
+      for (std::size_t i = 0; i < points_.size(); ++i) {
+        const auto position = motion.at(from + (to - from) * points_[i]);
+        x[i] = position[0];
+        y[i] = position[1];
+      }
+      return points_.tail(x.data()) + points_.tail(y.data()) <= shown * motion.size(from, to);
+    });
+  }
+
+  const std::vector<RecordedMotion>* motions_;
+  ChebyshevPoints points_;
+  std::vector<double> times_;
+};
+
+// The fewest points that show all motions. High degrees need fewer of them, unless the inputs have
+// many corners.
+Stretches fewest_points(const std::vector<RecordedMotion>& motions, const model::Model& model,
+                        double end) {
+  std::optional<Stretches> fewest;
+  for (const std::size_t intervals : {15, 7}) {
+    Stretches tried(motions, intervals);
+    double from = 0;
+    for (const double stop : model.stops) {
+      tried.add(from, stop);
+      from = stop;
+    }
+    tried.add(from, end);
+    if (!fewest || tried.times().size() < fewest->times().size()) fewest = std::move(tried);
+  }
+  return *fewest;
+}
+
+// x and y of all terms at those points.
+void fill(Superposed& solutions, const std::vector<RecordedMotion>& motions,
+          const Stretches& stretches) {
+  const std::vector<double>& times = stretches.times();
+  solutions.points = times.size();
+  for (std::size_t first = 0; first < times.size(); first += stretches.intervals() + 1) {
+    solutions.stretches.push_back({first, stretches.intervals()});
+  }
+  for (std::size_t k = 0; k < motions.size(); ++k) {
+    Superposed::Term& term = solutions.terms[k];
+    term.x.resize(times.size());
+    term.y.resize(times.size());
+    for (std::size_t i = 0; i < times.size(); ++i) {
+      const auto position = motions[k].at(times[i]);
+      term.x.data()[i] = position[0];
+      term.y.data()[i] = position[1];
+    }
+    term.x.pad(times.size());
+    term.y.pad(times.size());
+  }
+}
+
+}  // namespace
+
+bool can_superpose(const SweepTask& task) {
+  if (!task.series.empty()) return false;
+  if (!std::all_of(task.measures.begin(), task.measures.end(), is_superposed)) return false;
+  for (const Axis& axis : task.plan.axes()) {
+    const auto linear = [&](const Part& part) { return depends_on(part, axis.key); };
+    if (!axis.independent || std::none_of(std::begin(parts), std::end(parts), linear)) return false;
+  }
+  const Scenario scenario = task.family.read(task.plan.settings(0));
+  if (!scenario.gimbal.motion || scenario.solver.error ||
+      solve::choose_method(scenario.solver.method) != Method::radau) {
+    return false;
+  }
+  // A small sweep would spend more on the solutions than on its cases.
+  constexpr std::size_t worth_it = 32;
+  const model::Model model = model::assemble(scenario, false);
+  using General = model::OpenLoop<model::Shape::full, model::SignalPair, model::GeneralRolling>;
+  return task.plan.cases() >= worth_it && !model.hybrid() &&
+         !std::holds_alternative<General>(model.system);
+}
+
+std::shared_ptr<const Superposed> solve_superposed(const SweepTask& task) {
+  const Scenario scenario = task.family.read(task.plan.settings(0));
+  const solve::OutputGrid grid(scenario.time);
+  model::Model model = model::assemble(scenario, false);
+  model::SignalPair motion;
+  std::visit(
+      [&](const auto& system) {
+        if constexpr (std::decay_t<decltype(system)>::open_loop) motion = system.motion();
+      },
+      model.system);
+
+  // The factors of all parts, of which those that vary are terms of their own.
+  std::array<double, part_count> fixed{};
+  auto solutions = std::make_shared<Superposed>();
+  solutions->terms.push_back({nullptr, {}, {}});
+  for (std::size_t p = 0; p < part_count; ++p) {
+    const auto& axes = task.plan.axes();
+    if (std::any_of(axes.begin(), axes.end(),
+                    [&](const Axis& axis) { return depends_on(parts[p], axis.key); })) {
+      solutions->terms.push_back({&parts[p], {}, {}});
+    } else {
+      fixed[p] = parts[p].factor(scenario);
+    }
+  }
+
+  solutions->end = grid.end();
+  std::vector<RecordedMotion> motions;
+  for (const Superposed::Term& term : solutions->terms) {
+    std::array<double, part_count> factors = fixed;
+    if (term.part != nullptr) {
+      factors = {};
+      factors[static_cast<std::size_t>(term.part - parts)] = 1;
+    }
+    model.system = model::OpenLoop<model::Shape::full>(factors[5], factors[6], motion);
+    model.initial.assign(factors.begin(), factors.begin() + states);
+    const int stages = solve::radau::choose_stages(finest.rtol);
+    solve::radau::RadauStepper stepper(model, solve::radau::choose_kernels(), stages, finest,
+                                       grid.end());
+    // Accelerations are polynomials through the stages.
+    RecordedMotion& recorded =
+        motions.emplace_back(static_cast<std::size_t>(stages) + 1, model.row_size());
+    const solve::Outcome outcome = solve::run_through(stepper, model, grid, recorded, {});
+    if (outcome.ending != solve::Ending::done) return nullptr;
+  }
+  fill(*solutions, motions, fewest_points(motions, model, grid.end()));
+  // The tilt is that of the motion, whatever the ball does.
+  solutions->gimbal = GimbalExtremes().of(motion, grid.end());
+  return solutions;
+}
+
+namespace {
+
+class SuperpositionRunner : public CaseRunner {
+ public:
+  SuperpositionRunner(const SweepTask& task, std::shared_ptr<const Superposed> solutions)
+      : task_(task),
+        scenario_(task),
+        solutions_(std::move(solutions)),
+        kernels_(choose_sweep_kernels()),
+        factors_(solutions_->terms.size()) {
+    squares_.resize(solutions_->points);
+    for (const Superposed::Term& term : solutions_->terms) {
+      x_.push_back(term.x.data());
+      y_.push_back(term.y.data());
+    }
+    for (const scenario::Measure& measure : task.measures) {
+      far_ = far_ || measure.column->name == "distance";
+    }
+  }
+
+  std::size_t run(std::size_t first, std::size_t count, CaseResults& into,
+                  const std::atomic<bool>& stop) override {
+    if (stop.load(std::memory_order_relaxed)) return 0;
+    into.first = first;
+    into.resize(count, task_);
+    const std::size_t axes = task_.plan.axes().size(), numbers = 1 + task_.measures.size();
+    for (std::size_t i = 0; i < count; ++i) {
+      task_.plan.values(first + i, &into.values[i * axes]);
+      run_case(first + i, &into.values[i * axes], &into.numbers[i * numbers], into.status[i]);
+    }
+    return count;
+  }
+
+ private:
+  void run_case(std::size_t number, const double* values, double* numbers, CaseStatus& status) {
+    const Scenario& scenario = scenario_.at(number, values);
+    factors_[0] = 1;
+    for (std::size_t k = 1; k < factors_.size(); ++k) {
+      factors_[k] = solutions_->terms[k].part->factor(scenario);
+    }
+    const double distance = far_ ? farthest() : 0;
+    status = {};
+    numbers[0] = solutions_->end;
+    for (std::size_t m = 0; m < task_.measures.size(); ++m) {
+      const scenario::Measure& measure = task_.measures[m];
+      const std::string_view name = measure.column->name;
+      numbers[1 + m] = name == "distance"    ? distance
+                       : name == "tilt"      ? solutions_->gimbal.tilt
+                       : name == "tilt_rate" ? solutions_->gimbal.rate
+                                             : last(name == "x" ? x_ : y_);
+    }
+    judge(task_, scenario, numbers + 1, status);
+  }
+
+  [[nodiscard]] double farthest() {
+    const Superposition motion{solutions_->points, factors_.size(), x_.data(), y_.data()};
+    double squared = kernels_.superpose(motion, factors_.data(), squares_.data());
+    int exponent = 0;
+    if (!is_square(squared)) {
+      // All of it smaller, or larger, by a power of two.
+      double size = 0;
+      for (std::size_t i = 0; i < motion.rows; ++i) {
+        size = std::max({size, std::abs(at(x_, i)), std::abs(at(y_, i))});
+      }
+      if (size == 0 || !std::isfinite(size)) return size;
+      std::frexp(size, &exponent);
+      for (double& factor : factors_) factor = std::scalbn(factor, -exponent);
+      squared = kernels_.superpose(motion, factors_.data(), squares_.data());
+      for (double& factor : factors_) factor = std::scalbn(factor, exponent);
+    }
+    squared =
+        search_.greatest_between(solutions_->stretches, squares_.data(), Spacing::close, squared);
+    return std::scalbn(std::sqrt(squared), exponent);
+  }
+
+  [[nodiscard]] double last(const std::vector<const double*>& terms) const {
+    return at(terms, solutions_->points - 1);
+  }
+
+  [[nodiscard]] double at(const std::vector<const double*>& terms, std::size_t row) const {
+    double sum = 0;
+    for (std::size_t k = 0; k < terms.size(); ++k) sum += factors_[k] * terms[k][row];
+    return sum;
+  }
+
+  const SweepTask& task_;
+  CaseScenario scenario_;
+  std::shared_ptr<const Superposed> solutions_;
+  const SweepKernels& kernels_;
+  std::vector<const double*> x_, y_;  // of each term
+  std::vector<double> factors_;
+  PaddedRows squares_;
+  SpanSearch search_;
+  bool far_ = false;
+};
+
+}  // namespace
+
+std::unique_ptr<CaseRunner> superposition_runner(const SweepTask& task,
+                                                 std::shared_ptr<const Superposed> solutions) {
+  return std::make_unique<SuperpositionRunner>(task, std::move(solutions));
+}
+
+}  // namespace bbsim::sweep

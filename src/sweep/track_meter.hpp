@@ -1,0 +1,118 @@
+// The measures that most sweeps ask for, many instants at a time.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+#include "model/model.hpp"
+#include "record/meter.hpp"
+#include "solve/outcome.hpp"
+#include "solve/output_grid.hpp"
+#include "solve/piece.hpp"
+#include "sweep/gimbal_extremes.hpp"
+#include "sweep/kernels/sweep_kernels.hpp"
+#include "sweep/padded_rows.hpp"
+#include "sweep/plan.hpp"
+#include "sweep/signal_rows.hpp"
+#include "sweep/spans.hpp"
+
+namespace bbsim::sweep {
+
+// Whether all of them can be taken by a TrackMeter: of any column at the end; the greatest tilt,
+// tilt_rate and distance; the greatest and the root mean square of tracking_error.
+[[nodiscard]] bool are_track_measures(const std::vector<scenario::Measure>& measures);
+
+// Whether a TrackMeter understands the model's rows: a ball anywhere on the plane under equation
+// (27), with a given motion or equation (31).
+[[nodiscard]] bool has_track(const model::Model& model);
+
+// Whether all cases of a plan have one motion or reference, at the same times.
+[[nodiscard]] bool shares_signals(const SweepPlan& plan);
+
+// The motion of the model's gimbal, or the reference of its loop. The model has a track.
+[[nodiscard]] const model::SignalPair& signals_of(const model::Model& model);
+
+// What a run was greatest at.
+struct TrackExtremes {
+  double versine = 0;       // 1 - cos(tilt)
+  double rate_squared = 0;  // of the plane's angular velocity, rad^2/s^2
+  double distance = 0;      // from the plane's origin, m
+  double error = 0;         // distance from the reference, m
+};
+
+// Takes the measures of one run after another, as record::Meter does. Squares of the states are
+// polynomials over each step of the integrator, and what else it looks at is as smooth: their
+// extremes are those of polynomials through values at as many points as they need.
+class TrackMeter : public solve::StateSink, public solve::PieceSink {
+ public:
+  explicit TrackMeter(std::vector<scenario::Measure> measures);
+  TrackMeter(const TrackMeter&) = delete;
+  TrackMeter& operator=(const TrackMeter&) = delete;
+
+  // Whether it looks at positions alone.
+  [[nodiscard]] bool wants_positions_only(const model::Model& model) const;
+
+  // Begins a run; the three outlive it. `same_signals`: the motion or reference, and the grid, are
+  // those of the run before.
+  void begin(const model::Model& model, const model::BallConstants& constants,
+             const solve::OutputGrid& grid, bool same_signals);
+
+  void accept(std::size_t first, std::size_t count, const double* values) override;
+  [[nodiscard]] solve::PieceSink* pieces() override { return this; }
+  [[nodiscard]] bool wants_rows() const override { return wants_rms_; }
+  void begin_run() override;
+  void accept(const solve::Piece& piece) override;
+
+  // In place of the two, a loop's rows, which may lie apart, and what it was greatest at: state s
+  // of row i is values[i * row_stride + s * stride].
+  void take(std::size_t count, const double* values, std::size_t row_stride, std::size_t stride,
+            const TrackExtremes& greatest);
+
+  // Writes the run's measures, one after the other.
+  void finish(double* results);
+
+ private:
+  void copy_points(const double* rows, std::size_t count);
+  void copy_rows(std::size_t first, std::size_t count, const double* values, std::size_t row_stride,
+                 std::size_t stride);
+  void look();
+  void look_at_distances(double& greatest);
+  void rescale(int exponent);
+  [[nodiscard]] GimbalExtremes::Greatest motion_extremes();
+  [[nodiscard]] double rms_error();
+
+  std::vector<scenario::Measure> measures_;
+  const SweepKernels& kernels_;
+  const model::Model* model_ = nullptr;
+  const model::BallConstants* constants_ = nullptr;
+  const solve::OutputGrid* grid_ = nullptr;
+  const model::SignalPair* signals_ = nullptr;
+  bool wants_distance_ = false, wants_gimbal_ = false, wants_error_ = false, wants_rms_ = false;
+  bool closed_ = false;
+
+  // The points of the pieces that have not been looked at yet.
+  SpanSearch search_;
+  std::vector<Span> spans_;
+  std::size_t points_ = 0;
+  PaddedRows x_, y_, phi_, theta_, phi_rate_, theta_rate_;
+  SignalRows reference_;  // at them
+  PaddedRows sizes_, more_sizes_;
+  std::vector<double> times_, piece_rows_;
+
+  TrackExtremes greatest_;  // so far; of a given motion without its own
+  double reached_ = 0;      // s
+
+  GimbalExtremes gimbal_;                           // of a given motion
+  std::optional<GimbalExtremes::Greatest> motion_;  // up to motion_until_
+  double motion_until_ = 0;                         // s
+
+  std::size_t rows_ = 0;  // that came or, where they are not wanted, would have come
+  PaddedRows row_x_, row_y_, row_squares_;
+  SignalRows row_reference_;
+  std::optional<solve::OutputGrid> timed_;  // whose times those are
+  bool has_row_reference_ = false;
+  std::vector<double> last_;  // row
+};
+
+}  // namespace bbsim::sweep

@@ -1,0 +1,61 @@
+#include "yaml/nearest.hpp"
+
+#include <algorithm>
+#include <cstddef>
+#include <string>
+#include <vector>
+
+namespace bbsim::yaml {
+namespace {
+
+std::string lower(std::string_view text) {
+  std::string result(text);
+  for (char& c : result) {
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  }
+  return result;
+}
+
+// Damerau-Levenshtein distance in its "optimal string alignment" form, by rows of the table.
+std::size_t typing_errors(std::string_view a, std::string_view b) {
+  std::vector<std::size_t> before(b.size() + 1);
+  std::vector<std::size_t> above(b.size() + 1);
+  std::vector<std::size_t> row(b.size() + 1);
+  for (std::size_t j = 0; j <= b.size(); ++j) row[j] = j;
+  for (std::size_t i = 1; i <= a.size(); ++i) {
+    before.swap(above);
+    above.swap(row);
+    row[0] = i;
+    for (std::size_t j = 1; j <= b.size(); ++j) {
+      const std::size_t changed = a[i - 1] == b[j - 1] ? 0 : 1;
+      row[j] = std::min({above[j] + 1, row[j - 1] + 1, above[j - 1] + changed});
+      if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1]) {
+        row[j] = std::min(row[j], before[j - 2] + 1);
+      }
+    }
+  }
+  return row[b.size()];
+}
+
+}  // namespace
+
+std::string_view nearest_name(std::string_view word, std::span<const std::string_view> names) {
+  std::string_view best;
+  constexpr std::size_t longest = 64;  // no name is near a longer word
+  if (word.empty() || word.size() > longest) return best;
+
+  const std::string wanted = lower(word);
+  std::size_t fewest = longest;
+  for (const std::string_view name : names) {
+    if (wanted.size() >= 3 && name.starts_with(wanted)) return name;
+    const std::size_t errors = typing_errors(wanted, lower(name));
+    const bool near = 3 * errors <= std::max(wanted.size(), name.size());
+    if (near && errors < fewest) {
+      fewest = errors;
+      best = name;
+    }
+  }
+  return best;
+}
+
+}  // namespace bbsim::yaml

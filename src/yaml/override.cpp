@@ -1,0 +1,150 @@
+#include "yaml/override.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <cstddef>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "yaml/check_text.hpp"
+#include "yaml/problems.hpp"
+#include "yaml/text_file.hpp"
+
+namespace bbsim::yaml {
+namespace {
+
+using Path = std::span<const std::string_view>;
+
+std::vector<std::string_view> split(std::string_view path) {
+  std::vector<std::string_view> names;
+  while (true) {
+    const std::size_t dot = path.find('.');
+    names.push_back(path.substr(0, dot));
+    if (dot == std::string_view::npos) return names;
+    path.remove_prefix(dot + 1);
+  }
+}
+
+std::string joined(Path names) {
+  std::string text;
+  for (const std::string_view name : names) {
+    if (!text.empty()) text += '.';
+    text += name;
+  }
+  return shown(text);
+}
+
+class Setter {
+ public:
+  Setter(Path path, const Node& value, int source, Nodes& nodes)
+      : path_(path), value_(value), source_(source), nodes_(nodes) {}
+
+  // `old` with the value put at the path's names from `level` on; nullptr stands for no node.
+  [[nodiscard]] const Node* set(const Node* old, std::size_t level) const {
+    if (level == path_.size()) return &value_;
+    if (old == nullptr || old->kind == Node::Kind::null) {
+      Node& created = nodes_.emplace_back();
+      created.kind = Node::Kind::mapping;
+      created.position = {source_};
+      return set_entry(created, level);
+    }
+    if (old->kind == Node::Kind::mapping) return set_entry(nodes_.emplace_back(*old), level);
+    if (old->kind == Node::Kind::sequence) return set_item(nodes_.emplace_back(*old), level);
+    fail(joined(path_.first(level)) + ": found " + shown(*old) +
+         ", which has no keys; allowed: a path through mappings and lists");
+  }
+
+ private:
+  const Node* set_entry(Node& mapping, std::size_t level) const {
+    auto entry = std::ranges::find(mapping.entries, path_[level], &Entry::key);
+    if (entry == mapping.entries.end()) {
+      entry = mapping.entries.insert(entry, {std::string(path_[level]), {source_}, nullptr});
+    } else if (level + 1 == path_.size()) {
+      entry->position = {source_};
+    }
+    entry->value = set(entry->value, level + 1);
+    mapping.height = std::max(mapping.height, entry->value->height + 1);
+    return &mapping;
+  }
+
+  const Node* set_item(Node& list, std::size_t level) const {
+    const std::string_view name = path_[level];
+    std::size_t index = 0;
+    const auto result = std::from_chars(name.data(), name.data() + name.size(), index);
+    // One spelling for each position: a sweep would take .00 and .0 for two keys.
+    const bool number = result.ec == std::errc{} && result.ptr == name.data() + name.size() &&
+                        (name.size() == 1 || name.front() != '0');
+    if (!number || index > list.items.size()) {
+      fail(joined(path_.first(level)) + ": found the position " + shown(name) +
+           " in a list; allowed: 0 to " + std::to_string(list.items.size()) +
+           ", where the last appends");
+    }
+    if (index == list.items.size()) list.items.push_back(nullptr);
+    list.items[index] = set(list.items[index], level + 1);
+    list.height = std::max(list.height, list.items[index]->height + 1);
+    return &list;
+  }
+
+  [[noreturn]] void fail(const std::string& message) const { throw TextFault({source_}, message); }
+
+  Path path_;
+  const Node& value_;
+  int source_;
+  Nodes& nodes_;
+};
+
+// Digits and what numbers are made of: no need of YAML, which takes a sweep a third of its time.
+bool is_plain_number(std::string_view text) {
+  return text.size() < 40 && text.substr(0, 2) != "--" &&
+         text.find_first_not_of("0123456789.eE-+") == std::string_view::npos &&
+         text.find_first_of("0123456789") != std::string_view::npos;
+}
+
+const Node& parse_value(std::string_view text, int source, Nodes& nodes) {
+  if (is_plain_number(text)) {
+    Node& number = nodes.emplace_back();
+    number.kind = Node::Kind::scalar;
+    number.position = {source};
+    number.text = text;
+    return number;
+  }
+  if (text.size() > largest_text) {
+    throw TextFault({source}, "found " + std::to_string(text.size()) + " bytes; allowed: at most " +
+                                  std::to_string(largest_text));
+  }
+  const Node* value = parse_yaml(check_text(text, source), source, nodes);
+  if (value != nullptr) return *value;
+  Node& nothing = nodes.emplace_back();
+  nothing.position = {source};
+  return nothing;
+}
+
+}  // namespace
+
+const Node* apply_override(std::string_view assignment, int source, const Node& root,
+                           Nodes& nodes) {
+  const std::size_t equals = assignment.find('=');
+  if (equals == std::string_view::npos) {
+    throw TextFault({source}, "found no =; allowed: key.path=value, such as ball.radius=0.02");
+  }
+  return apply_override(assignment.substr(0, equals), assignment.substr(equals + 1), source, root,
+                        nodes);
+}
+
+const Node* apply_override(std::string_view path, std::string_view value, int source,
+                           const Node& root, Nodes& nodes) {
+  const std::vector<std::string_view> names = split(path);
+  if (std::ranges::find(names, std::string_view()) != names.end()) {
+    throw TextFault({source},
+                    "found an empty key before the =; allowed: key.path=value, such as "
+                    "ball.radius=0.02");
+  }
+  const Node& node = parse_value(value, source, nodes);
+  if (names.size() + static_cast<std::size_t>(node.height) > deepest) {
+    throw TextFault({source}, "found nesting deeper than 32 levels; allowed: at most 32");
+  }
+  return Setter(names, node, source, nodes).set(&root, 0);
+}
+
+}  // namespace bbsim::yaml

@@ -1,0 +1,195 @@
+#include "yaml/quantity.hpp"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <span>
+
+#include "base/text.hpp"
+#include "yaml/decimal.hpp"
+
+namespace bbsim::yaml {
+namespace {
+
+// 1 unit = 10^power * (factor + rest) in SI. `rest` is what rounding took from the factor, so that
+// one fused multiplication gives the converted value correctly rounded in all but rare cases.
+struct Unit {
+  std::string_view name;
+  int power = 0;
+  double factor = 1, rest = 0;
+};
+
+constexpr Unit degree(std::string_view name) {
+  return {name, 0, 0.017453292519943295, 2.9486522708701687e-19};  // pi / 180
+}
+constexpr Unit per_minute(std::string_view name) {
+  return {name, 0, 0.10471975511965978, -5.1697025413851275e-18};  // 2 pi / 60
+}
+constexpr Unit turns(std::string_view name, int power) {
+  return {name, power, 6.283185307179586, 2.4492935982947064e-16};  // 2 pi
+}
+constexpr Unit per_hour(std::string_view name) {
+  return {name, 0, 0.2777777777777778, -1.2335811384723961e-17};  // 1000 / 3600
+}
+
+constexpr std::array length_units = {Unit{"m"},      Unit{"km", 3},  Unit{"cm", -2},
+                                     Unit{"mm", -3}, Unit{"um", -6}, Unit{"nm", -9}};
+constexpr std::array mass_units = {Unit{"kg"}, Unit{"g", -3}, Unit{"mg", -6}};
+constexpr std::array time_units = {Unit{"s"},      Unit{"ms", -3},     Unit{"us", -6},
+                                   Unit{"ns", -9}, Unit{"min", 0, 60}, Unit{"h", 0, 3600}};
+constexpr std::array angle_units = {Unit{"rad"}, Unit{"mrad", -3}, degree("deg")};
+constexpr std::array angular_rate_units = {Unit{"rad/s"},    Unit{"mrad/s", -3}, degree("deg/s"),
+                                           turns("Hz", 0),   turns("mHz", -3),   turns("kHz", 3),
+                                           per_minute("rpm")};
+constexpr std::array velocity_units = {Unit{"m/s"}, Unit{"cm/s", -2}, Unit{"mm/s", -3},
+                                       per_hour("km/h")};
+constexpr std::array acceleration_units = {Unit{"m/s^2"}, Unit{"cm/s^2", -2}, Unit{"mm/s^2", -3}};
+
+struct Description {
+  Dimension dimension;
+  std::string_view noun, plural, example;
+  std::span<const Unit> units;
+};
+
+constexpr std::array descriptions = {
+    Description{Dimension::number, "a number", "numbers", "1", {}},
+    Description{Dimension::length, "a length", "lengths", "0.01 or \"1 cm\"", length_units},
+    Description{Dimension::mass, "a mass", "masses", "0.1 or \"100 g\"", mass_units},
+    Description{Dimension::time, "a time", "times", "0.02 or \"20 ms\"", time_units},
+    Description{Dimension::angle, "an angle", "angles", "0.1 or \"4 deg\"", angle_units},
+    Description{Dimension::angular_rate, "an angular rate", "angular rates", "3 or \"0.5 Hz\"",
+                angular_rate_units},
+    Description{Dimension::velocity, "a velocity", "velocities", "0.1 or \"10 cm/s\"",
+                velocity_units},
+    Description{Dimension::acceleration, "an acceleration", "accelerations",
+                "9.81 or \"9.81 m/s^2\"", acceleration_units},
+};
+
+constexpr bool in_order() {
+  for (std::size_t i = 0; i < descriptions.size(); ++i) {
+    if (descriptions[i].dimension != static_cast<Dimension>(i)) return false;
+  }
+  return true;
+}
+static_assert(in_order(), "descriptions stand in the order of enum Dimension");
+
+const Description& description(Dimension dimension) {
+  return descriptions[static_cast<std::size_t>(dimension)];
+}
+
+const Unit* find_unit(std::span<const Unit> units, std::string_view name) {
+  for (const Unit& unit : units) {
+    if (unit.name == name) return &unit;
+  }
+  return nullptr;
+}
+
+struct Spelling {
+  std::string_view typographic, plain;
+};
+constexpr std::array spellings = {Spelling{"\u00b5", "u"},     // micro sign
+                                  Spelling{"\u03bc", "u"},     // Greek mu
+                                  Spelling{"\u00b2", "^2"},    // superscript two
+                                  Spelling{"\u00b0", "deg"}};  // degree sign
+
+std::string plain_spelling(std::string_view unit) {
+  std::string result;
+  while (!unit.empty()) {
+    const auto* const known = std::ranges::find_if(spellings, [&](const Spelling& spelling) {
+      return unit.starts_with(spelling.typographic);
+    });
+    result += known == spellings.end() ? unit.substr(0, 1) : known->plain;
+    unit.remove_prefix(known == spellings.end() ? 1 : known->typographic.size());
+  }
+  return result;
+}
+
+std::string list_of(std::span<const Unit> units) {
+  std::string text;
+  for (const Unit& unit : units) {
+    if (!text.empty()) text += ", ";
+    text += unit.name;
+  }
+  return text;
+}
+
+std::string size_fault(Magnitude magnitude) {
+  if (magnitude == Magnitude::too_large) return ", too large for a double (at most 1.8e308)";
+  return ", too small for a double (0, or at least 2.3e-308 in size)";
+}
+
+Quantity convert(const Decimal& decimal, const Unit& unit) {
+  const DecimalValue read = to_double(decimal, unit.power);
+  if (read.magnitude != Magnitude::fine) return {{}, size_fault(read.magnitude)};
+  const double value = std::fma(read.value, unit.factor, read.value * unit.rest);
+  const Magnitude magnitude = magnitude_of(value, read.value == 0);
+  if (magnitude != Magnitude::fine) return {{}, size_fault(magnitude)};
+  return {value, {}};
+}
+
+bool is_infinite_or_nan(std::string_view text) {
+  if (!text.empty() && (text.front() == '+' || text.front() == '-')) text.remove_prefix(1);
+  if (!text.empty() && text.front() == '.') text.remove_prefix(1);
+  std::string lower(text);
+  for (char& c : lower) {
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  }
+  return lower == "nan" || lower == "inf" || lower == "infinity";
+}
+
+std::string unit_fault(std::string_view unit, Dimension dimension) {
+  if (unit.front() == ',') return ", with a comma where a decimal point belongs";
+  const std::string name = plain_spelling(unit);
+  for (const Description& other : descriptions) {
+    if (find_unit(other.units, name) != nullptr) return std::string(", ").append(other.noun);
+  }
+  if (dimension == Dimension::number) return "";
+  const Description& wanted = description(dimension);
+  return ", in an unknown unit (units of " + std::string(wanted.noun) +
+         " are: " + list_of(wanted.units) + ")";
+}
+
+}  // namespace
+
+std::string_view noun(Dimension dimension) {
+  return description(dimension).noun;
+}
+std::string_view plural(Dimension dimension) {
+  return description(dimension).plural;
+}
+std::string_view si_unit(Dimension dimension) {
+  const std::span<const Unit> units = description(dimension).units;
+  return units.empty() ? "" : units.front().name;  // the others are told by it
+}
+
+std::string_view example(Dimension dimension) {
+  return description(dimension).example;
+}
+
+Quantity read_quantity(std::string_view text, bool quoted, Dimension dimension) {
+  text = trimmed(text);
+  if (is_infinite_or_nan(text)) return {{}, ", which is not finite"};
+  const Decimal decimal = leading_decimal(text);
+  if (decimal.length == 0) return {};
+
+  const std::string_view unit = trimmed(text.substr(decimal.length));
+  if (unit.empty()) {
+    if (!quoted) return convert(decimal, Unit{});
+    const bool takes_unit = dimension != Dimension::number;
+    return {{},
+            takes_unit ? ", a text (drop the quotes or add a unit)" : ", a text (drop the quotes)"};
+  }
+  if (const Unit* known = find_unit(description(dimension).units, plain_spelling(unit))) {
+    return convert(decimal, *known);
+  }
+  return {{}, unit_fault(unit, dimension)};
+}
+
+std::string number_text(double value) {
+  std::array<char, 32> buffer{};
+  const auto result = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value);
+  return {buffer.data(), result.ptr};
+}
+
+}  // namespace bbsim::yaml

@@ -1,0 +1,40 @@
+// Numbers and quantities ("10 cm") as text -> doubles in SI units and radians.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace bbsim::yaml {
+
+// What a quantity measures; its SI unit is m, kg, s, rad, rad/s, m/s or m/s^2. `number` has none.
+enum class Dimension { number, length, mass, time, angle, angular_rate, velocity, acceleration };
+
+// With its article: "a length".
+[[nodiscard]] std::string_view noun(Dimension dimension);
+
+// In the plural: "lengths".
+[[nodiscard]] std::string_view plural(Dimension dimension);
+
+// The SI unit, in which values are: "rad/s"; empty of a number.
+[[nodiscard]] std::string_view si_unit(Dimension dimension);
+
+// As one may write it: 0.01 or "1 cm".
+[[nodiscard]] std::string_view example(Dimension dimension);
+
+// A value in SI units, or what is wrong with the text: a phrase to follow it in a sentence, such
+// as ", a length", possibly empty.
+struct Quantity {
+  std::optional<double> value;
+  std::string fault;
+};
+
+// Reads a number (SI) or a number and a unit of `dimension`. Independent of the locale. Powers of
+// ten between a unit and SI are applied to the decimal text, so "10 cm" is exactly the double 0.1.
+// A quoted plain number is text, hence a fault.
+[[nodiscard]] Quantity read_quantity(std::string_view text, bool quoted, Dimension dimension);
+
+// The shortest text that reads back as `value`.
+[[nodiscard]] std::string number_text(double value);
+
+}  // namespace bbsim::yaml

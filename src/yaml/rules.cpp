@@ -1,0 +1,198 @@
+#include "yaml/rules.hpp"
+
+#include <cmath>
+#include <numbers>
+
+namespace bbsim::yaml {
+
+bool Range::holds(double value) const {
+  return (!above || value > *above) && (!at_least || value >= *at_least) &&
+         (!at_most || value <= *at_most);
+}
+
+std::string Range::text() const {
+  if (above && at_most) {
+    return " greater than " + number_text(*above) + " and at most " + number_text(*at_most);
+  }
+  if (at_least && at_most)
+    return " from " + number_text(*at_least) + " to " + number_text(*at_most);
+  if (above) return " greater than " + number_text(*above);
+  if (at_least) return " of at least " + number_text(*at_least);
+  if (at_most) return " of at most " + number_text(*at_most);
+  return "";
+}
+
+std::string Number::allowed() const {
+  const std::string_view such_as = example.empty() ? yaml::example(dimension) : example;
+  return std::string(noun(dimension)) + range.text() + ", such as " + std::string(such_as);
+}
+
+bool Number::read(const Value& value, double& into) const {
+  const Node& node = *value.node;
+  if (node.kind != Node::Kind::scalar) return value.refuse("", allowed());
+  const Quantity quantity = read_quantity(node.text, node.quoted, dimension);
+  if (!quantity.value) return value.refuse(quantity.fault, allowed());
+  if (!range.holds(*quantity.value)) return value.refuse("", allowed());
+  into = *quantity.value;
+  value.note(into, dimension);
+  return true;
+}
+
+bool AngleLimit::read(const Value& value, double& into) const {
+  if (!Number{Dimension::angle, range}.read(value, into)) return false;
+  const Node& node = *value.node;
+  const bool without_unit =
+      read_quantity(node.text, node.quoted, Dimension::number).value.has_value();
+  if (without_unit && std::abs(into) > 2 * std::numbers::pi) {
+    value.warn("found " + shown(node) + ", which is in radians, more than a turn; for degrees: \"" +
+               shown(node) + " deg\"");
+  }
+  return true;
+}
+
+std::string PairOf::allowed() const {
+  return "two " + std::string(plural(dimension)) + " [x, y], such as [0.1, 0]";
+}
+
+namespace {
+
+// "0" or "1", as a path of --set or --vary names one of two.
+std::optional<std::size_t> position_in_pair(std::string_view key) {
+  if (key == "0") return 0;
+  if (key == "1") return 1;
+  return {};
+}
+
+// Whether the node is what such paths make where there was no list: --set ball.velocity.0=1.
+bool holds_positions(const Node& node) {
+  return node.kind == Node::Kind::mapping && node.position.source > 0 &&
+         std::ranges::all_of(node.entries, [](const Entry& entry) {
+           return position_in_pair(entry.key).has_value();
+         });
+}
+
+}  // namespace
+
+bool PairOf::read(const Value& value, Pair& into) const {
+  const Node& node = *value.node;
+  if (holds_positions(node)) {  // the other one keeps its default
+    bool fine = true;
+    for (const Entry& entry : node.entries) {
+      const Value item{entry.value, value.path_of(entry.key), entry.position, value.context};
+      fine = Number{dimension}.read(item, into[*position_in_pair(entry.key)]) && fine;
+    }
+    return fine;
+  }
+  if (node.kind != Node::Kind::sequence || node.items.size() != into.size()) {
+    return value.refuse("", allowed());
+  }
+  bool fine = true;
+  for (std::size_t i = 0; i < into.size(); ++i) {
+    fine = Number{dimension}.read(value.item(i), into[i]) && fine;
+  }
+  return fine;
+}
+
+std::string SidesOf::allowed() {
+  return "two lengths greater than 0, such as [0.3, 0.2]";
+}
+
+bool SidesOf::read(const Value& value, Pair& into) {
+  if (value.node->kind != Node::Kind::sequence || value.node->items.size() != into.size()) {
+    return value.refuse("", allowed());
+  }
+  bool fine = true;
+  for (std::size_t i = 0; i < into.size(); ++i) {
+    fine = Number{Dimension::length, {.above = 0}}.read(value.item(i), into[i]) && fine;
+  }
+  return fine;
+}
+
+std::string MomentsOf::allowed() {
+  return "three moments of inertia about x, y and the normal, such as [2e-4, 2e-4, 4e-4]";
+}
+
+bool MomentsOf::read(const Value& value, std::array<double, 3>& into) {
+  if (value.node->kind != Node::Kind::sequence || value.node->items.size() != into.size()) {
+    return value.refuse("", allowed());
+  }
+  bool fine = true;
+  for (std::size_t i = 0; i < into.size(); ++i) {
+    fine = Number{Dimension::number, {.at_least = 0}, "2e-4"}.read(value.item(i), into[i]) && fine;
+  }
+  return fine;
+}
+
+std::string StateGain::allowed() {
+  return "two rows, phi and theta, of four numbers (for x, y, vx, vy) or of eight (for phi, theta, "
+         "phi_rate, theta_rate too)";
+}
+
+bool StateGain::read(const Value& value, std::array<std::array<double, 8>, 2>& into) {
+  if (value.node->kind != Node::Kind::sequence || value.node->items.size() != into.size()) {
+    return value.refuse("", allowed());
+  }
+  bool fine = true;
+  for (std::size_t row = 0; row < into.size(); ++row) {
+    const Value numbers = value.item(row);
+    const std::size_t count = numbers.node->items.size();
+    if (numbers.node->kind != Node::Kind::sequence || (count != 4 && count != 8)) {
+      fine = numbers.refuse("", allowed());
+      continue;
+    }
+    for (std::size_t i = 0; i < count; ++i) {
+      fine = Number{}.read(numbers.item(i), into[row][i]) && fine;
+    }
+  }
+  return fine;
+}
+
+std::string GainMatrix::allowed() const {
+  return "a number k, for [[k, 0], [0, k]], or a 2x2 matrix [[a, b], [c, d]]";
+}
+
+bool GainMatrix::read(const Value& value, Matrix2& into) const {
+  const Node& node = *value.node;
+  if (node.kind == Node::Kind::scalar) {
+    const Quantity quantity = read_quantity(node.text, node.quoted, Dimension::number);
+    if (!quantity.value) return value.refuse(quantity.fault, allowed());
+    into = {{{*quantity.value, 0}, {0, *quantity.value}}};
+    value.note(*quantity.value, Dimension::number);
+    return true;
+  }
+  if (node.kind != Node::Kind::sequence || node.items.size() != into.size()) {
+    return value.refuse("", allowed());
+  }
+  bool fine = true;
+  for (std::size_t row = 0; row < into.size(); ++row) {
+    const Value numbers = value.item(row);
+    if (numbers.node->kind != Node::Kind::sequence || numbers.node->items.size() != 2) {
+      fine = numbers.refuse("", "a row of two numbers, such as [1, 0]");
+    } else {
+      fine = PairOf{}.read(numbers, into[row]) && fine;
+    }
+  }
+  return fine;
+}
+
+bool Text::read(const Value& value, std::string& into) const {
+  const Node& node = *value.node;
+  if (node.kind != Node::Kind::scalar) return value.refuse("", allowed());
+  if (node.text.empty()) return value.refuse("", allowed());
+  for (const char c : node.text) {
+    const bool line = lines && (c == '\n' || c == '\t');
+    if ((static_cast<unsigned char>(c) < 0x20 && !line) || c == 0x7F) {
+      return value.refuse(", with control characters", allowed());
+    }
+  }
+  into = node.text;
+  return true;
+}
+
+bool refuse_name(const Value& value, const std::vector<std::string_view>& names) {
+  const std::string_view nearest = nearest_name(value.node->text, names);
+  const std::string hint = nearest.empty() ? "" : " (did you mean " + std::string(nearest) + "?)";
+  return value.refuse(hint, "one of " + comma_separated(names));
+}
+
+}  // namespace bbsim::yaml

@@ -1,0 +1,144 @@
+// What a value may be, and how it is read: the rules that schema.hpp speaks of.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <iterator>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "base/pair.hpp"
+#include "yaml/nearest.hpp"
+#include "yaml/quantity.hpp"
+#include "yaml/schema.hpp"
+
+namespace bbsim::yaml {
+
+// Bounds, in SI units; those that are not there do not bind.
+struct Range {
+  std::optional<double> above{};
+  std::optional<double> at_least{};
+  std::optional<double> at_most{};
+
+  [[nodiscard]] bool holds(double value) const;
+  [[nodiscard]] std::string text() const;  // " greater than 0"; empty without bounds
+};
+
+// A number in SI units, or a quantity.
+struct Number {
+  Dimension dimension = Dimension::number;
+  Range range{};
+  std::string_view example{};  // empty: the dimension's own
+
+  [[nodiscard]] std::string allowed() const;
+  bool read(const Value& value, double& into) const;
+};
+
+// An angle that something must not exceed. One of more than a turn, without a unit, is read, and
+// remarked upon: whoever wrote it may have meant degrees.
+struct AngleLimit {
+  Range range{};
+
+  [[nodiscard]] std::string allowed() const { return Number{Dimension::angle, range}.allowed(); }
+  bool read(const Value& value, double& into) const;
+};
+
+// [x, y]
+struct PairOf {
+  Dimension dimension = Dimension::number;
+
+  [[nodiscard]] std::string allowed() const;
+  bool read(const Value& value, Pair& into) const;
+};
+
+// [width, height] of a rectangle, m
+struct SidesOf {
+  [[nodiscard]] static std::string allowed();
+  static bool read(const Value& value, Pair& into);
+};
+
+// [about x, about y, about the normal], kg m^2
+struct MomentsOf {
+  [[nodiscard]] static std::string allowed();
+  static bool read(const Value& value, std::array<double, 3>& into);
+};
+
+// Two rows, phi and theta, of four numbers (x, y, vx, vy) or eight (... and phi, theta, their
+// rates)
+struct StateGain {
+  [[nodiscard]] static std::string allowed();
+  static bool read(const Value& value, std::array<std::array<double, 8>, 2>& into);
+};
+
+// A list of values that one rule reads.
+template <class Rule, class T>
+struct ListOf {
+  Rule rule;
+  std::size_t fewest, most;
+  std::string_view items;  // "points [x, y]"
+
+  [[nodiscard]] std::string allowed() const {
+    return "a list of " + std::to_string(fewest) + " to " + std::to_string(most) + ' ' +
+           std::string(items);
+  }
+  bool read(const Value& value, std::vector<T>& into) const {
+    const Node& node = *value.node;
+    if (node.kind != Node::Kind::sequence || node.items.size() < fewest ||
+        node.items.size() > most) {
+      return value.refuse("", allowed());
+    }
+    into.resize(node.items.size());
+    bool fine = true;
+    for (std::size_t i = 0; i < into.size(); ++i) {
+      fine = rule.read(value.item(i), into[i]) && fine;
+    }
+    return fine;
+  }
+};
+
+// A number k, which stands for [[k, 0], [0, k]], or a matrix [[a, b], [c, d]].
+struct GainMatrix {
+  [[nodiscard]] std::string allowed() const;
+  bool read(const Value& value, Matrix2& into) const;
+};
+
+// A text without control characters; line breaks and tabs only where `lines` are allowed.
+struct Text {
+  std::string_view meaning;  // "the name of a column"
+  bool lines = false;
+
+  [[nodiscard]] std::string allowed() const { return std::string(meaning); }
+  bool read(const Value& value, std::string& into) const;
+};
+
+// Reports a text that is none of the names, with the nearest of them. Returns false.
+bool refuse_name(const Value& value, const std::vector<std::string_view>& names);
+
+// One of the names that stand for the values of an enumeration.
+template <class Enum>
+struct NameOf {
+  struct Named {
+    Enum value;
+    std::string_view name;
+  };
+  std::vector<Named> choices;
+
+  [[nodiscard]] std::vector<std::string_view> names() const {
+    std::vector<std::string_view> list;
+    std::ranges::transform(choices, std::back_inserter(list), &Named::name);
+    return list;
+  }
+  [[nodiscard]] std::string allowed() const { return "one of " + comma_separated(names()); }
+
+  bool read(const Value& value, Enum& into) const {
+    if (value.node->kind != Node::Kind::scalar) return value.refuse("", allowed());
+    const auto choice = std::ranges::find(choices, value.node->text, &Named::name);
+    if (choice == choices.end()) return refuse_name(value, names());
+    into = choice->value;
+    return true;
+  }
+};
+
+}  // namespace bbsim::yaml

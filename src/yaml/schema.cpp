@@ -1,0 +1,101 @@
+#include "yaml/schema.hpp"
+
+#include <algorithm>
+#include <unordered_map>
+
+#include "yaml/nearest.hpp"
+
+namespace bbsim::yaml {
+
+Value Value::item(std::size_t i) const {
+  const Node* child = node->items[i];
+  return {child, path_of(std::to_string(i)), child->position, context};
+}
+
+std::string Value::path_of(std::string_view key) const {
+  return path.empty() ? std::string(key) : path + '.' + std::string(key);
+}
+
+bool Value::refuse(std::string_view remark, std::string_view allowed) const {
+  return report("found " + shown(*node) + std::string(remark) +
+                "; allowed: " + std::string(allowed));
+}
+
+bool Value::report(std::string_view message) const {
+  const std::string text(message);
+  context->problems.add(node->position, path.empty() ? text : path + ": " + text);
+  return false;
+}
+
+void Value::warn(std::string_view message) const {
+  context->problems.remark(node->position, "warning: " + path + ": " + std::string(message));
+}
+
+void Value::mention(std::string_view message) const {
+  context->problems.remark(node->position, "note: " + path + ": " + std::string(message));
+}
+
+void Keys::know(std::string_view key) {
+  if (std::ranges::find(known_, key) == known_.end()) known_.push_back(key);
+}
+
+std::optional<Value> Keys::find(std::string_view key) {
+  know(key);
+  const auto& entries = mapping_.node->entries;
+  const auto entry = std::ranges::find(entries, key, &Entry::key);
+  if (entry == entries.end()) return {};
+  return Value{entry->value, mapping_.path_of(key), entry->position, mapping_.context};
+}
+
+bool Keys::missing(std::string_view key, std::string_view allowed) {
+  know(key);
+  context().problems.add(mapping_.position,
+                         mapping_.path_of(key) + ": missing; allowed: " + std::string(allowed));
+  return false;
+}
+
+bool Keys::exactly_one(const std::vector<std::string_view>& keys) {
+  std::vector<std::string_view> found;
+  for (const std::string_view key : keys) {
+    if (find(key)) found.push_back(key);
+  }
+  if (found.size() == 1) return true;
+  const std::string what = found.empty() ? "none" : comma_separated(found);
+  context().problems.add(
+      mapping_.position,
+      mapping_.path + ": found " + what + "; allowed: exactly one of " + comma_separated(keys));
+  return false;
+}
+
+void Keys::report_unknown(const Entry& entry) const {
+  const std::string_view nearest = nearest_name(entry.key, known_);
+  context().problems.add(entry.position,
+                         mapping_.path_of(shown(entry.key)) + ": unknown key; " +
+                             (nearest.empty() ? "known keys here: " + comma_separated(known_)
+                                              : "did you mean " + mapping_.path_of(nearest) + "?"));
+}
+
+void Keys::finish() const {
+  std::unordered_map<std::string_view, int> first_lines;
+  for (const Entry& entry : mapping_.node->entries) {
+    const auto [first, is_first] = first_lines.emplace(entry.key, entry.position.line);
+    if (std::ranges::find(known_, entry.key) == known_.end()) {
+      report_unknown(entry);
+    } else if (!is_first) {
+      context().problems.add(entry.position,
+                             mapping_.path_of(entry.key) + ": found again (first on line " +
+                                 std::to_string(first->second) + "); allowed: each key once");
+    }
+  }
+}
+
+std::string comma_separated(const std::vector<std::string_view>& words) {
+  std::string text;
+  for (const std::string_view word : words) {
+    if (!text.empty()) text += ", ";
+    text += word;
+  }
+  return text;
+}
+
+}  // namespace bbsim::yaml

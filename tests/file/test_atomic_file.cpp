@@ -1,0 +1,382 @@
+// A file is there whole or not at all, whatever stands where it is to go.
+#include <fcntl.h>
+#include <sys/resource.h>
+#include <sys/stat.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <csignal>
+#include <functional>
+#include <thread>
+
+#include "base/error.hpp"
+#include "catch.hpp"
+#include "file/atomic_file.hpp"
+#include "file/temporaries.hpp"
+#include "support/folder.hpp"
+#include "support/limits.hpp"
+#include "support/old_system.hpp"
+#include "support/rights.hpp"
+
+using bbsim::OutputError;
+using bbsim::file::AtomicFile;
+using bbsim::file::write_file;
+using Catch::Matchers::Contains;
+
+TEST_CASE("a file appears only at commit") {
+  const Folder folder;
+  const std::string file = folder / "a.csv";
+  {
+    AtomicFile atomic(file);
+    atomic.write("whole");
+    CHECK_FALSE(std::filesystem::exists(file));
+    atomic.commit();
+  }
+  CHECK(content_of(file) == "whole");
+  CHECK(folder.entries() == 1);
+}
+
+TEST_CASE("without commit nothing stays, and what was there is left alone") {
+  const Folder folder;
+  const std::string file = folder.put("a.csv", "old");
+  {
+    AtomicFile atomic(file);
+    atomic.write(std::string(3 * AtomicFile::buffer_size, 'x'));  // some reaches the disk
+    CHECK(folder.entries() == 1);                                 // not even meanwhile
+  }
+  CHECK(content_of(file) == "old");
+  CHECK(folder.entries() == 1);
+}
+
+TEST_CASE("bytes pass the buffer in order, whatever their portions") {
+  const Folder folder;
+  const std::string file = folder / "a.txt";
+  std::string expected;
+  AtomicFile atomic(file);
+  for (std::size_t size : {1UL, 0UL, AtomicFile::buffer_size - 1, AtomicFile::buffer_size,
+                           AtomicFile::buffer_size + 1, 7UL, 100000UL}) {
+    const std::string part(size, static_cast<char>('a' + size % 26));
+    atomic.write(part);
+    char* to = atomic.reserve(3);
+    to[0] = '<';
+    to[1] = '>';
+    atomic.advance(to + 2);
+    expected += part + "<>";
+  }
+  atomic.commit();
+  CHECK(content_of(file) == expected);
+}
+
+TEST_CASE("a symbolic link stays and what it points to is replaced") {
+  const Folder folder;
+  std::filesystem::create_directory(folder / "elsewhere");
+  const std::string real = folder / "elsewhere/real.csv";
+  std::filesystem::create_symlink("elsewhere/step.csv", folder / "link.csv");
+  std::filesystem::create_symlink("real.csv", folder / "elsewhere/step.csv");
+
+  write_file(folder / "link.csv", "first");  // through links that lead nowhere yet
+  CHECK(content_of(real) == "first");
+  write_file(folder / "link.csv", "second");
+  CHECK(content_of(real) == "second");
+  CHECK(std::filesystem::is_symlink(folder / "link.csv"));
+  CHECK(std::filesystem::is_symlink(folder / "elsewhere/step.csv"));
+  CHECK_FALSE(std::filesystem::is_symlink(real));
+}
+
+TEST_CASE("a circle of links is refused") {
+  const Folder folder;
+  std::filesystem::create_symlink("b", folder / "a");
+  std::filesystem::create_symlink("a", folder / "b");
+  CHECK_THAT(message_of<OutputError>([&] { write_file(folder / "a", "x"); }),
+             Contains("too many levels of symbolic links"));
+}
+
+TEST_CASE("permissions are those of the umask, or of the file replaced") {
+  const Folder folder;
+  const mode_t before = umask(027);
+  write_file(folder / "new.csv", "x");
+  umask(before);
+  CHECK(permissions_of(folder / "new.csv") == 0640);
+
+  const std::string old = folder.put("old.csv", "old");
+  REQUIRE(chmod(old.c_str(), 0604) == 0);
+  write_file(old, "new");
+  CHECK(content_of(old) == "new");
+  CHECK(permissions_of(old) == 0604);
+}
+
+TEST_CASE("a write-protected file is not replaced") {
+  const Folder folder;
+  const std::string file = folder.put("a.csv", "old");
+  REQUIRE(chmod(file.c_str(), 0444) == 0);
+  const pid_t child = fork();
+  if (child == 0) {
+    drop_rights_over_files();
+    const std::string message = message_of<OutputError>([&] { write_file(file, "new"); });
+    _exit(message.find("permission denied") != std::string::npos ? 0 : 1);
+  }
+  int status = -1;
+  waitpid(child, &status, 0);
+  CHECK(status == 0);
+  CHECK(content_of(file) == "old");
+}
+
+TEST_CASE("a name as long as the system allows can be written") {
+  const Folder folder;
+  const std::string longest(255, 'n');
+  write_file(folder / longest, "x");
+  CHECK(content_of(folder / longest) == "x");
+  CHECK_THAT(message_of<OutputError>([&] { AtomicFile(folder / (longest + "n")); }),
+             Contains("file name too long"));
+}
+
+TEST_CASE("what cannot be written is refused before anything is done") {
+  const Folder folder;
+  folder.put("file", "");
+  const auto refusal = [](const std::string& target) {
+    return message_of<OutputError>([&] { const AtomicFile file(target); });
+  };
+  CHECK(refusal(folder / "none/a.csv") == "cannot write " + (folder / "none/a.csv") +
+                                              ": there is no folder " + (folder / "none") +
+                                              "; create it, or write to another place");
+  CHECK_THAT(refusal(folder / "file/a.csv"), Contains("not a directory"));
+  CHECK_THAT(refusal(folder.name()), Contains("is a directory"));
+  CHECK_THAT(refusal(folder / "none/"), Contains("is a directory"));
+  CHECK_THAT(refusal(""), Contains("name is empty"));
+  // Nobody, not even root, may create a file there; which errno says so depends on the kernel.
+  CHECK_THAT(refusal("/proc/a.csv"), Contains("cannot write /proc/a.csv"));
+  CHECK(folder.entries() == 1);
+}
+
+TEST_CASE("a full device is an error, at the latest when the file is completed") {
+  AtomicFile small("/dev/full");
+  small.write("x");
+  CHECK_THAT(message_of<OutputError>([&] { small.commit(); }),
+             Contains("cannot write /dev/full: no space left on device; free some"));
+
+  AtomicFile large("/dev/full");
+  CHECK_THROWS_AS(large.write(std::string(2 * AtomicFile::buffer_size, 'x')), OutputError);
+  CHECK(std::filesystem::is_character_file("/dev/full"));
+}
+
+TEST_CASE("a full file system leaves the old file and no temporary") {
+  const Folder folder;
+  const std::string file = folder.put("a.csv", "old");
+  {
+    const FileSizeLimit limit(50000);  // bytes, between one buffer and two
+    CHECK_THAT(message_of<OutputError>([&] { write_file(file, std::string(100000, 'x')); }),
+               Contains("file too large; the limit is the file system's, or that of ulimit -f"));
+  }
+  CHECK(content_of(file) == "old");
+  CHECK(folder.entries() == 1);
+}
+
+TEST_CASE("a folder that takes the name in the meantime is an error at commit") {
+  const Folder folder;
+  {
+    AtomicFile file(folder / "a.csv");
+    std::filesystem::create_directory(folder / "a.csv");
+    CHECK_THAT(message_of<OutputError>([&] { file.commit(); }), Contains("is a directory"));
+  }
+  CHECK(folder.entries() == 1);
+}
+
+TEST_CASE("devices are written to and stay what they are") {
+  write_file("/dev/null", "x");
+  CHECK(std::filesystem::is_character_file("/dev/null"));
+
+  const Folder folder;
+  std::filesystem::create_symlink("/dev/null", folder / "a.csv");
+  write_file(folder / "a.csv", "x");
+  CHECK(std::filesystem::is_symlink(folder / "a.csv"));
+  CHECK(bbsim::file::is_written_directly(folder / "a.csv"));
+  CHECK_FALSE(bbsim::file::is_written_directly(folder / "b.csv"));
+  CHECK_FALSE(bbsim::file::is_written_directly(folder.name()));
+}
+
+TEST_CASE("a FIFO is written through") {
+  const Folder folder;
+  const std::string fifo = folder / "fifo";
+  REQUIRE(mkfifo(fifo.c_str(), 0600) == 0);
+  std::string got;
+  std::thread reader([&] { got = content_of(fifo); });
+  write_file(fifo, std::string(200000, 'x'));  // more than a pipe holds
+  reader.join();
+  CHECK(got.size() == 200000);
+  CHECK(std::filesystem::is_fifo(fifo));
+  CHECK(folder.entries() == 1);
+}
+
+TEST_CASE("a reader that goes away is an error") {
+  int ends[2];
+  REQUIRE(pipe(ends) == 0);
+  close(ends[0]);
+  const auto before = std::signal(SIGPIPE, SIG_IGN);
+  const std::string name = "/dev/fd/" + std::to_string(ends[1]);
+  CHECK_THAT(message_of<OutputError>([&] { write_file(name, "x"); }), Contains("broken pipe"));
+  (void)std::signal(SIGPIPE, before);
+  close(ends[1]);
+}
+
+TEST_CASE("a pipe that does not block is waited for") {
+  int ends[2];
+  REQUIRE(pipe2(ends, O_NONBLOCK) == 0);
+  constexpr std::size_t size = 300000;  // more than a pipe holds
+  std::size_t got = 0;
+  std::thread reader([&] {
+    char buffer[4096];
+    while (got < size) {
+      const ssize_t n = read(ends[0], buffer, sizeof buffer);
+      if (n > 0) got += static_cast<std::size_t>(n);
+      if (n < 0) std::this_thread::yield();
+    }
+  });
+  write_file("/dev/fd/" + std::to_string(ends[1]), std::string(size, 'x'));
+  reader.join();
+  CHECK(got == size);
+  close(ends[0]);
+  close(ends[1]);
+}
+
+// The descriptor's own position is used: what a shell appends to a file goes on at its end.
+TEST_CASE("standard output that goes to a file is neither replaced nor truncated") {
+  const Folder folder;
+  const std::string file = folder.put("out", "before\n");
+  std::filesystem::create_symlink("/dev/stdout", folder / "link");
+  for (const std::string& name : {std::string("-"), std::string("/dev/stdout"),
+                                  std::string("/proc/self/fd/1"), folder / "link"}) {
+    const pid_t child = fork();
+    if (child == 0) {
+      const int out = open(file.c_str(), O_WRONLY | O_APPEND);
+      dup2(out, STDOUT_FILENO);
+      write_file(name, "more\n");
+      _exit(0);
+    }
+    int status = -1;
+    waitpid(child, &status, 0);
+    CHECK(status == 0);
+  }
+  CHECK(content_of(file) == "before\nmore\nmore\nmore\nmore\n");
+}
+
+TEST_CASE("a closed standard output is an error, and no file takes its place") {
+  const Folder folder;
+  const pid_t child = fork();
+  if (child == 0) {
+    close(STDOUT_FILENO);
+    close(STDERR_FILENO);
+    const std::string message = message_of<OutputError>([] { write_file("-", "x"); });
+    const AtomicFile file(folder / "a.csv");
+    const bool good = message == "cannot write standard output: bad file descriptor" &&
+                      file.descriptor() > STDERR_FILENO;
+    _exit(good ? 0 : 1);
+  }
+  int status = -1;
+  waitpid(child, &status, 0);
+  CHECK(status == 0);
+}
+
+namespace {
+
+// Runs `action` in a process that then ends by that signal, or by _exit(0) where that is 0.
+int ended_by(const std::function<void()>& action, int signal) {
+  const pid_t child = fork();
+  if (child == 0) {
+    action();
+    if (signal == 0) _exit(0);
+    raise(signal);
+    _exit(99);
+  }
+  int status = -1;
+  waitpid(child, &status, 0);
+  return status;
+}
+
+}  // namespace
+
+TEST_CASE("however a process ends, nothing stays of a file that was not completed") {
+  const Folder folder;
+  const std::string old = folder.put("old.csv", "old");
+  for (const std::string& name : {folder / "new.csv", old}) {
+    const int status = ended_by(
+        [&] {
+          auto* file = new AtomicFile(name);
+          file->write(std::string(2 * AtomicFile::buffer_size, 'x'));
+        },
+        SIGKILL);
+    CHECK(WTERMSIG(status) == SIGKILL);
+    CHECK(folder.entries() == 1);
+  }
+  CHECK(content_of(old) == "old");
+}
+
+TEST_CASE("a file without a name gets one by way of /proc, where there is no other") {
+  const Folder folder;
+  folder.put("old.csv", "old");
+  const int status = ended_by(
+      [&] {
+        if (!refuse_empty_paths() || chdir(folder.name().c_str()) != 0) _exit(77);
+        for (const char* name : {"old.csv", "new.csv"}) {
+          AtomicFile file(name);
+          file.write("new");
+          if (std::distance(std::filesystem::directory_iterator("."), {}) != 1) _exit(98);
+          file.commit();
+          if (name[0] == 'o' && content_of(name) != "new") _exit(99);
+        }
+      },
+      0);
+  CHECK(status == 0);
+  CHECK(content_of(folder / "new.csv") == "new");
+  CHECK(folder.entries() == 2);
+}
+
+TEST_CASE("without files that have no name, a signal's handler removes the temporary") {
+  const Folder folder;
+  folder.put("old.csv", "old");
+  const auto on_old_system = [&](const std::function<void()>& action) {
+    return [&folder, action] {
+      if (!refuse_unnamed_files() || chdir(folder.name().c_str()) != 0) _exit(77);
+      action();
+    };
+  };
+  REQUIRE(ended_by(on_old_system([] {
+                     write_file("new.csv", "new");
+                     write_file("old.csv", "newer");
+                   }),
+                   0) == 0);
+  CHECK(content_of(folder / "new.csv") == "new");
+  CHECK(content_of(folder / "old.csv") == "newer");
+  CHECK(folder.entries() == 2);
+
+  const auto begin = [] {
+    auto* file = new AtomicFile("third.csv");
+    file->write("x");
+    if (std::distance(std::filesystem::directory_iterator("."), {}) != 3) _exit(98);
+  };
+  const int left = ended_by(on_old_system(begin), SIGKILL);
+  CHECK(WTERMSIG(left) == SIGKILL);
+  CHECK(folder.entries() == 3);  // as nothing can be done about it
+
+  const int removed = ended_by(on_old_system([&] {
+                                 (void)std::signal(SIGTERM, [](int) {
+                                   bbsim::file::remove_temporaries();
+                                   _exit(130);
+                                 });
+                                 auto* file = new AtomicFile("third.csv");
+                                 file->write("x");
+                               }),
+                               SIGTERM);
+  CHECK(WEXITSTATUS(removed) == 130);
+  CHECK(folder.entries() == 3);
+}
+
+TEST_CASE("a process that was forked off leaves its parent's temporaries") {
+  const Folder folder;
+  const std::string name = folder.put("temporary", "x");
+  bbsim::file::remember_temporary(name.c_str());
+  CHECK(ended_by([] { bbsim::file::remove_temporaries(); }, 0) == 0);
+  CHECK(folder.entries() == 1);
+  bbsim::file::remove_temporaries();
+  CHECK(folder.entries() == 0);
+  bbsim::file::forget_temporary(name.c_str());
+}

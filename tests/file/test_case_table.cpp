@@ -1,0 +1,619 @@
+// Tables of cases: numbers, text and series, read back to the bit and block by block; the same
+// rows give the same bytes however they came, and so do parts that are merged.
+#include <hdf5.h>
+#include <hdf5_hl.h>
+#include <sys/stat.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <array>
+#include <cstdint>
+
+#include "base/error.hpp"
+#include "catch.hpp"
+#include "file/case_table.hpp"
+#include "support/folder.hpp"
+#include "support/limits.hpp"
+#include "support/tables.hpp"
+
+using bbsim::InputError;
+using bbsim::OutputError;
+using bbsim::file::Attributes;
+using bbsim::file::CaseAxis;
+using bbsim::file::CaseBlock;
+using bbsim::file::CaseColumn;
+using bbsim::file::CaseKind;
+using bbsim::file::CaseTableReader;
+using bbsim::file::CaseTableWriter;
+using bbsim::file::read_table;
+using Catch::Matchers::Contains;
+
+namespace {
+
+using Columns = std::vector<CaseColumn>;
+
+constexpr double inf = std::numeric_limits<double>::infinity();
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+
+Columns three_kinds(std::size_t width) {
+  return {{"gain", "1/s", "of the loop"},
+          {"ending", "1", "why the case ended", CaseKind::text},
+          {"x", "m", "the ball's way", CaseKind::series, width}};
+}
+
+// The same case whatever block it is in.
+CaseBlock cases(std::size_t first, std::size_t rows, std::size_t width) {
+  static const std::vector<std::string> endings = {"done", "", "Kugel fällt: ψ > 90°", "nan"};
+  CaseBlock block{rows, {{}, {}, {}}, {{}, {}, {}}};
+  for (std::size_t row = first; row < first + rows; ++row) {
+    block.values[0].push_back(row % 7 == 3 ? nan : 0.1 * static_cast<double>(row));
+    block.texts[1].push_back(endings[row % endings.size()]);
+    if (row % 100 == 99) block.texts[1].back().append(row, 'y');
+    for (std::size_t i = 0; i < width; ++i) {
+      block.values[2].push_back(i == 1 ? -inf : static_cast<double>(row * 1000 + i) / 3);
+    }
+  }
+  return block;
+}
+
+bool same(const CaseBlock& a, const CaseBlock& b) {
+  bool result = a.rows == b.rows && a.texts == b.texts && a.values.size() == b.values.size();
+  for (std::size_t c = 0; result && c < a.values.size(); ++c) {
+    result = same_bits(a.values[c], b.values[c]);
+  }
+  return result;
+}
+
+const Attributes some_attributes = {
+    {"title", "über"}, {"empty", ""}, {"a", "after z"}, {"rtol", 1e-8}, {"cases", 3000}};
+const std::vector<CaseAxis> some_axes = {{{"t", "s", "output times"}, {0, 0.5, 1}}};
+
+// Writes `rows` cases in blocks of `at_once`.
+void write_cases(const std::string& file, std::size_t rows, std::size_t width,
+                 std::size_t at_once) {
+  CaseTableWriter writer(file, three_kinds(width), some_axes);
+  for (std::size_t first = 0; first < rows; first += at_once) {
+    writer.append(cases(first, std::min(at_once, rows - first), width));
+  }
+  writer.finish(some_attributes);
+}
+
+// content_of() takes its time over large files.
+std::string bytes_of(const std::string& file) {
+  std::string bytes(std::filesystem::file_size(file), '\0');
+  std::ifstream(file, std::ios::binary).read(bytes.data(), std::ssize(bytes));
+  return bytes;
+}
+
+bool same_files(const std::string& a, const std::string& b) {
+  return bytes_of(a) == bytes_of(b);
+}
+
+std::string refusal(const std::string& file) {
+  return message_of<InputError>([&] { (void)CaseTableReader(file); });
+}
+
+// What HDF5 itself says of a dataset.
+struct Facts {
+  std::vector<hsize_t> size, most, chunk;
+  bool text, utf8, number, axis;
+};
+
+Facts facts_of(hid_t file, const char* name) {
+  const hid_t dataset = H5Dopen2(file, name, H5P_DEFAULT);
+  const hid_t space = H5Dget_space(dataset);
+  const hid_t type = H5Dget_type(dataset);
+  const hid_t creation = H5Dget_create_plist(dataset);
+  const auto rank = static_cast<std::size_t>(H5Sget_simple_extent_ndims(space));
+  Facts facts{
+      std::vector<hsize_t>(rank), std::vector<hsize_t>(rank), {}, false, false, false, false};
+  H5Sget_simple_extent_dims(space, facts.size.data(), facts.most.data());
+  if (H5Pget_layout(creation) == H5D_CHUNKED) {
+    facts.chunk.resize(rank);
+    H5Pget_chunk(creation, static_cast<int>(rank), facts.chunk.data());
+  }
+  facts.text = H5Tget_class(type) == H5T_STRING && H5Tis_variable_str(type) > 0;
+  facts.utf8 = facts.text && H5Tget_cset(type) == H5T_CSET_UTF8;
+  facts.number = H5Tequal(type, H5T_IEEE_F64LE) > 0;
+  facts.axis = H5Aexists(dataset, "axis") > 0;
+  H5Pclose(creation);
+  H5Tclose(type);
+  H5Sclose(space);
+  H5Dclose(dataset);
+  return facts;
+}
+
+}  // namespace
+
+TEST_CASE("a table of cases as HDF5 sees it") {
+  const Folder folder;
+  write_cases(folder / "a.h5", 5, 3, 5);
+  const hid_t file = H5Fopen((folder / "a.h5").c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
+  REQUIRE(file >= 0);
+  using Sizes = std::vector<hsize_t>;
+
+  const Facts gain = facts_of(file, "gain");
+  CHECK((gain.number && !gain.axis));
+  CHECK(gain.size == Sizes{5});
+  CHECK(gain.most == Sizes{H5S_UNLIMITED});
+  CHECK(gain.chunk == Sizes{1024});
+
+  const Facts ending = facts_of(file, "ending");
+  CHECK((ending.text && ending.utf8 && !ending.axis));
+  CHECK(ending.size == Sizes{5});
+  CHECK(ending.most == Sizes{H5S_UNLIMITED});
+  CHECK(ending.chunk == Sizes{1024});
+
+  const Facts x = facts_of(file, "x");
+  CHECK((x.number && !x.axis));
+  CHECK(x.size == Sizes{5, 3});
+  CHECK(x.most == Sizes{H5S_UNLIMITED, 3});
+  CHECK(x.chunk == Sizes{4096, 3});  // 96 KiB
+
+  const Facts t = facts_of(file, "t");
+  CHECK((t.number && t.axis));
+  CHECK(t.size == Sizes{3});
+  CHECK(t.most == Sizes{3});
+  CHECK(t.chunk.empty());
+
+  // The strings themselves, and one of them of no length.
+  const hid_t dataset = H5Dopen2(file, "ending", H5P_DEFAULT);
+  const hid_t type = H5Dget_type(dataset);
+  std::vector<char*> texts(5, nullptr);
+  REQUIRE(H5Dread(dataset, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, static_cast<void*>(texts.data())) >=
+          0);
+  CHECK(std::string(texts[0]) == "done");
+  CHECK((texts[1] == nullptr || *texts[1] == '\0'));
+  CHECK(std::string(texts[2]) == "Kugel fällt: ψ > 90°");
+  for (char* text : texts) H5free_memory(text);
+  H5Tclose(type);
+  H5Dclose(dataset);
+  H5Fclose(file);
+}
+
+TEST_CASE("cases are whole numbers and the scale of all rows, times that of trajectories") {
+  const Folder folder;
+  Columns columns = three_kinds(3);
+  columns.insert(columns.begin(), {"case", "1", "number of the case, from 0"});
+  CaseBlock block = cases(0, 5, 3);
+  block.values.insert(block.values.begin(), {7, 8, 9, 10, 0x1p53});
+  block.texts.insert(block.texts.begin(), std::vector<std::string>());
+  {
+    CaseTableWriter writer(folder / "a.h5", columns, some_axes);
+    writer.append(block);
+    writer.finish({});
+  }
+  const hid_t file = H5Fopen((folder / "a.h5").c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
+  REQUIRE(file >= 0);
+  const hid_t number = H5Dopen2(file, "case", H5P_DEFAULT);
+  const hid_t type = H5Dget_type(number);
+  CHECK(H5Tequal(type, H5T_STD_I64LE) > 0);
+  std::vector<std::int64_t> numbers(5);
+  H5Dread(number, H5T_NATIVE_INT64, H5S_ALL, H5S_ALL, H5P_DEFAULT, numbers.data());
+  CHECK(numbers == std::vector<std::int64_t>{7, 8, 9, 10, 9007199254740992});
+  H5Tclose(type);
+
+  const hid_t t = H5Dopen2(file, "t", H5P_DEFAULT);
+  CHECK(H5DSis_scale(number) > 0);
+  CHECK(H5DSis_scale(t) > 0);
+  for (const char* name : {"gain", "ending", "x"}) {
+    const hid_t dataset = H5Dopen2(file, name, H5P_DEFAULT);
+    CHECK(H5DSis_scale(dataset) == 0);
+    CHECK(H5DSis_attached(dataset, number, 0) > 0);
+    if (std::string(name) == "x") CHECK(H5DSis_attached(dataset, t, 1) > 0);
+    H5Dclose(dataset);
+  }
+  H5Dclose(t);
+  H5Dclose(number);
+  H5Fclose(file);
+
+  const CaseTableReader reader(folder / "a.h5");
+  CHECK(reader.columns() == columns);
+  CaseBlock back;
+  reader.read(0, 5, back);
+  CHECK(same(back, block));
+}
+
+TEST_CASE("chunks of series are whole rows of some 100 KiB") {
+  const Folder folder;
+  CaseTableWriter writer(folder / "a.h5", {{"a", "1", "", CaseKind::series, 1},
+                                           {"b", "1", "", CaseKind::series, 5000},
+                                           {"c", "1", "", CaseKind::series, 100000}});
+  writer.finish({});
+  const hid_t file = H5Fopen((folder / "a.h5").c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
+  CHECK(facts_of(file, "a").chunk == std::vector<hsize_t>{16384, 1});
+  CHECK(facts_of(file, "b").chunk == std::vector<hsize_t>{2, 5000});
+  CHECK(facts_of(file, "c").chunk == std::vector<hsize_t>{1, 100000});
+  H5Fclose(file);
+}
+
+TEST_CASE("a table of cases reads back: columns, units, axes, attributes, rows") {
+  const Folder folder;
+  write_cases(folder / "a.h5", 2500, 3, 700);
+  const CaseTableReader reader(folder / "a.h5");
+  CHECK(reader.columns() == three_kinds(3));
+  REQUIRE(reader.axes().size() == 1);
+  CHECK(reader.axes()[0].first == some_axes[0].first);
+  CHECK(reader.axes()[0].second == some_axes[0].second);
+  CHECK(reader.attributes() == some_attributes);
+  CHECK(reader.rows() == 2500);
+
+  CaseBlock block;
+  reader.read(0, 2500, block);
+  CHECK(same(block, cases(0, 2500, 3)));
+  reader.read(1023, 2, block);
+  CHECK(same(block, cases(1023, 2, 3)));
+  reader.read(2400, 1000, block);  // beyond the end
+  CHECK(same(block, cases(2400, 100, 3)));
+  reader.read(2500, 1, block);
+  CHECK(same(block, cases(0, 0, 3)));
+  reader.read(17, 0, block);
+  CHECK(same(block, cases(0, 0, 3)));
+  CHECK(folder.entries() == 1);
+}
+
+TEST_CASE("any number reads back to the bit from a table of cases") {
+  const Folder folder;
+  const auto table = random_table(2, 3000);
+  CaseTableWriter writer(folder / "a.h5", {{"n", "1", ""}, {"s", "1", "", CaseKind::series, 1500}});
+  std::vector<double> series = table.columns[1];
+  while (series.size() < 3000 * 1500) series.insert(series.end(), series.begin(), series.end());
+  series.resize(3000 * 1500);
+  const CaseBlock block{3000, {table.columns[0], series}, {{}, {}}};
+  writer.append(block);
+  writer.finish({});
+  CaseBlock back;
+  CaseTableReader(folder / "a.h5").read(0, 3000, back);
+  CHECK(same(back, block));
+}
+
+TEST_CASE("a table without cases, of one case, and of a single column") {
+  const Folder folder;
+  write_cases(folder / "none.h5", 0, 3, 1);
+  const CaseTableReader none(folder / "none.h5");
+  CHECK(none.rows() == 0);
+  CHECK(none.columns() == three_kinds(3));
+  CaseBlock block = cases(0, 2, 3);
+  none.read(0, 10, block);
+  CHECK(same(block, cases(0, 0, 3)));
+
+  for (const CaseColumn& column : three_kinds(3)) {
+    CaseTableWriter writer(folder / "one.h5", {column});
+    const bool text = column.kind == CaseKind::text;
+    const std::vector<double> values(text ? 0 : column.width, 1.5);
+    const CaseBlock one{1, {values}, {std::vector<std::string>(text ? 1 : 0, "ψ")}};
+    writer.append(one);
+    writer.finish({});
+    const CaseTableReader reader(folder / "one.h5");
+    CHECK(reader.axes().empty());
+    CHECK(reader.attributes().empty());
+    reader.read(0, 1, block);
+    CHECK(same(block, one));
+  }
+}
+
+TEST_CASE("the same cases give the same bytes, however they are cut into blocks") {
+  const Folder folder;
+  using Sizes = std::pair<std::size_t, std::size_t>;
+  for (const auto& [rows, width] : {Sizes{2500, 3}, Sizes{150, 8000}}) {  // 1024 and 128 at once
+    write_cases(folder / "whole.h5", rows, width, rows);
+    sleep(1);  // HDF5 stamps objects with whole seconds
+    for (const std::size_t at_once : {1, 7, 128, 1000}) {
+      CAPTURE(width, at_once);
+      write_cases(folder / "cut.h5", rows, width, at_once);
+      const bool equal = same_files(folder / "whole.h5", folder / "cut.h5");
+      CHECK(equal);
+    }
+  }
+}
+
+TEST_CASE("parts that are merged give the bytes of the whole") {
+  const Folder folder;
+  const std::size_t width = 40;
+  write_cases(folder / "whole.h5", 3000, width, 3000);
+  for (const auto& [name, first, rows] :
+       std::vector<std::tuple<std::string, std::size_t, std::size_t>>{
+           {"1.h5", 0, 1100}, {"2.h5", 1100, 0}, {"3.h5", 1100, 1900}}) {
+    CaseTableWriter part(folder / name, three_kinds(width), some_axes);
+    part.append(cases(first, rows, width));
+    part.finish(some_attributes);
+  }
+  const CaseTableReader first(folder / "1.h5");
+  CaseTableWriter merged(folder / "merged.h5", first.columns(), first.axes());
+  for (const char* name : {"1.h5", "2.h5", "3.h5"}) {
+    const CaseTableReader part(folder / name);
+    REQUIRE(part.columns() == first.columns());
+    CaseBlock block;
+    for (std::size_t row = 0; row < part.rows(); row += block.rows) {
+      part.read(row, 333, block);
+      merged.append(block);
+    }
+  }
+  merged.finish(first.attributes());
+  const bool equal = same_files(folder / "whole.h5", folder / "merged.h5");
+  CHECK(equal);
+}
+
+TEST_CASE("a hundred thousand cases") {
+  const Folder folder;
+  const std::size_t rows = 100000;
+  const std::size_t width = 4;
+  CaseTableWriter writer(folder / "a.h5", three_kinds(width));
+  CaseBlock block = cases(0, 10000, width);
+  for (std::size_t first = 0; first < rows; first += block.rows) writer.append(block);
+  writer.finish({});
+  const CaseTableReader reader(folder / "a.h5");
+  REQUIRE(reader.rows() == rows);
+  CaseBlock back;
+  bool equal = true;
+  for (std::size_t first = 0; first < rows; first += block.rows) {
+    reader.read(first, block.rows, back);
+    equal = equal && same(back, block);
+  }
+  CHECK(equal);
+}
+
+TEST_CASE("wide series") {
+  const Folder folder;
+  write_cases(folder / "a.h5", 700, 5000, 64);
+  const CaseTableReader reader(folder / "a.h5");
+  CaseBlock back;
+  reader.read(0, 700, back);
+  const bool equal = same(back, cases(0, 700, 5000));
+  CHECK(equal);
+  reader.read(699, 1, back);
+  CHECK(same(back, cases(699, 1, 5000)));
+}
+
+TEST_CASE("an unfinished table of cases leaves nothing") {
+  const Folder folder;
+  folder.put("a.h5", "old");
+  {
+    CaseTableWriter writer(folder / "a.h5", three_kinds(3));
+    writer.append(cases(0, 2000, 3));
+  }
+  CHECK(content_of(folder / "a.h5") == "old");
+  CHECK(folder.entries() == 1);
+}
+
+// Wherever the disk gets full: in the header, the rows, the strings, the attributes, at closing.
+TEST_CASE("a disk that gets full while cases are written is an error and leaves the old file") {
+  const Folder folder;
+  const std::size_t rows = 3000;
+  write_cases(folder / "whole.h5", rows, 50, rows);
+  const std::uintmax_t size = std::filesystem::file_size(folder / "whole.h5");
+  const std::string file = folder.put("a.h5", "old");
+  constexpr std::uintmax_t steps = 61;
+  for (std::uintmax_t i = 0; i <= steps; ++i) {
+    const FileSizeLimit limit((size - 1) * i / steps);
+    CAPTURE(i);
+    CHECK_THAT(message_of<OutputError>([&] { write_cases(file, rows, 50, 500); }),
+               Contains("cannot write " + file + ": file too large"));
+  }
+  CHECK(content_of(file) == "old");
+  CHECK(folder.entries() == 2);
+  write_cases(file, rows, 50, 500);  // HDF5 is none the worse for it
+  const bool equal = same_files(folder / "whole.h5", file);
+  CHECK(equal);
+}
+
+TEST_CASE("a process that met a full disk while it wrote cases ends as it should") {
+  const Folder folder;
+  for (const rlim_t bytes : {1000, 20000, 400000}) {
+    const pid_t child = fork();
+    if (child == 0) {
+      const FileSizeLimit limit(bytes);
+      const std::string message =
+          message_of<OutputError>([&] { write_cases(folder / "a.h5", 3000, 50, 3000); });
+      std::exit(message.empty() ? 1 : 0);  // with what HDF5 does at exit
+    }
+    int status = -1;
+    waitpid(child, &status, 0);
+    CHECK(status == 0);
+  }
+  CHECK(folder.entries() == 0);
+}
+
+TEST_CASE("after a failure a table of cases is not completed") {
+  const Folder folder;
+  CaseTableWriter writer(folder / "a.h5", three_kinds(50));
+  {
+    const FileSizeLimit limit(10000);
+    CHECK_THROWS_AS(writer.append(cases(0, 3000, 50)), OutputError);
+  }
+  CHECK_THROWS_AS(writer.append(cases(0, 3000, 50)), OutputError);
+  CHECK_THROWS_AS(writer.finish({}), OutputError);
+  CHECK_FALSE(std::filesystem::exists(folder / "a.h5"));
+}
+
+TEST_CASE("what cannot hold a table of cases is refused") {
+  const Folder folder;
+  const auto message = [](const std::string& target) {
+    return message_of<OutputError>([&] { CaseTableWriter(target, three_kinds(3)); });
+  };
+  for (const char* target : {"/dev/full", "/dev/null", "-", "/dev/stdout"}) {
+    CHECK_THAT(message(target),
+               Contains("cannot write " + std::string(target) + ": it is a device"));
+  }
+  REQUIRE(mkfifo((folder / "pipe.h5").c_str(), 0600) == 0);
+  CHECK_THAT(message(folder / "pipe.h5"), Contains("HDF5 needs a regular file"));
+  CHECK_THAT(message(folder / "none/a.h5"), Contains("there is no folder"));
+  CHECK_THAT(message(folder.name()), Contains("is a directory"));
+}
+
+TEST_CASE("columns and blocks that make no table are refused") {
+  const Folder folder;
+  const std::string file = folder / "a.h5";
+  const auto message = [&](const Columns& columns, const std::vector<CaseAxis>& axes) {
+    return message_of<OutputError>([&] { CaseTableWriter(file, columns, axes); });
+  };
+  CHECK_THAT(message({}, {}), Contains("at least one column"));
+  CHECK_THAT(message({{"a", "", ""}, {"a", "", ""}}, {}), Contains("two columns are called a"));
+  CHECK_THAT(message({{"t", "", ""}}, some_axes), Contains("the axis t has the name of"));
+  CHECK_THAT(message({{"x", "", "", CaseKind::series, 0}}, {}), Contains("has no values"));
+  CHECK_THAT(message({{"", "", ""}}, {}), Contains("cannot write " + file));
+
+  CaseTableWriter writer(file, three_kinds(3));
+  CaseBlock block = cases(0, 2, 3);
+  block.values[2].pop_back();
+  CHECK_THROWS_AS(writer.append(block), OutputError);
+  CHECK_THROWS_AS(writer.append({1, {{1}}, {{}}}), OutputError);
+  CHECK(folder.entries() == 0);
+}
+
+TEST_CASE("a run's HDF5 file is a table of cases, too") {
+  const Folder folder;
+  const auto table = random_table(3, 2000);
+  write_table(folder / "a.h5", {{"t", "x", "y"}, table.columns}, {{"title", "run"}});
+  const CaseTableReader reader(folder / "a.h5");
+  CHECK(reader.columns() == Columns{{"t", "m", "one value a row"},
+                                    {"x", "m", "one value a row"},
+                                    {"y", "m", "one value a row"}});
+  CHECK(reader.axes().empty());
+  CHECK(reader.attributes() == Attributes{{"title", "run"}});
+  CaseBlock block;
+  reader.read(0, 2000, block);
+  CHECK(same(block, {2000, table.columns, {{}, {}, {}}}));
+}
+
+TEST_CASE("a table of cases is read as a table if it has nothing but numbers") {
+  const Folder folder;
+  const auto written = [&](const Columns& columns, const std::vector<CaseAxis>& axes) {
+    CaseTableWriter(folder / "a.h5", columns, axes).finish({});
+    return message_of<InputError>([&] { (void)read_table(folder / "a.h5"); });
+  };
+  CHECK(written({{"a", "1", ""}}, {}).empty());
+  const std::string start = "cannot read " + (folder / "a.h5") + ": dataset ";
+  CHECK(written({{"a", "1", ""}, {"why", "1", "", CaseKind::text}}, {}) ==
+        start + "why is no column of numbers: it holds text");
+  CHECK(written({{"x", "1", "", CaseKind::series, 1}}, {}) ==
+        start + "x is no column of numbers: it holds several numbers a row, in two dimensions");
+  CHECK(written({{"a", "1", ""}}, some_axes) ==
+        start + "t is no column of numbers: it holds the axis of other datasets");
+}
+
+TEST_CASE("files that are no table of cases are refused") {
+  const Folder folder;
+  const std::string none = folder / "none.h5";
+  CHECK(refusal(none) == "cannot read " + none + ": no such file or directory");
+  CHECK_THAT(refusal(folder.put("text.h5", "t,x\n1,2\n")), Contains("it is no HDF5 file"));
+  CHECK_THAT(refusal(folder.put("empty.h5", "")), Contains("it is no HDF5 file"));
+  CHECK_THAT(refusal(folder.name()), Contains("it is no regular file"));
+  CHECK_THAT(refusal("/dev/null"), Contains("it is no regular file"));
+
+  write_cases(folder / "a.h5", 3000, 3, 3000);
+  const std::string whole = content_of(folder / "a.h5");
+  for (const std::size_t bytes : {whole.size() / 2, whole.size() - 1}) {
+    CHECK_THAT(refusal(folder.put("cut.h5", whole.substr(0, bytes))),
+               Contains("cannot read " + (folder / "cut.h5") + ": opening the file failed"));
+  }
+
+  H5Fclose(H5Fcreate((folder / "bare.h5").c_str(), H5F_ACC_EXCL, H5P_DEFAULT, H5P_DEFAULT));
+  CHECK_THAT(refusal(folder / "bare.h5"), Contains("no column of cases"));
+
+  const hid_t file = H5Fopen((folder / "a.h5").c_str(), H5F_ACC_RDWR, H5P_DEFAULT);
+  const hsize_t rows = 3001;
+  const hid_t dataset = H5Dopen2(file, "ending", H5P_DEFAULT);
+  H5Dset_extent(dataset, &rows);
+  H5Dclose(dataset);
+  H5Fclose(file);
+  CHECK_THAT(refusal(folder / "a.h5"), Contains("dataset ending has 3001 rows, gain has 3000"));
+
+  const std::vector<hsize_t> cube = {2, 2, 2};
+  const hid_t third =
+      H5Fcreate((folder / "cube.h5").c_str(), H5F_ACC_EXCL, H5P_DEFAULT, H5P_DEFAULT);
+  const hid_t space = H5Screate_simple(3, cube.data(), nullptr);
+  H5Dclose(
+      H5Dcreate2(third, "cube", H5T_NATIVE_DOUBLE, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT));
+  H5Sclose(space);
+  H5Fclose(third);
+  CHECK_THAT(refusal(folder / "cube.h5"),
+             Contains("dataset cube is no column: it has 3 dimensions; numbers may have 1 or 2"));
+}
+
+TEST_CASE("attributes of other kinds and of fixed length") {
+  const Folder folder;
+  write_cases(folder / "a.h5", 3, 3, 3);
+  const hid_t file = H5Fopen((folder / "a.h5").c_str(), H5F_ACC_RDWR, H5P_DEFAULT);
+  const hid_t scalar = H5Screate(H5S_SCALAR);
+  const double number = 1.5;
+  const hid_t first =
+      H5Acreate2(file, "number", H5T_NATIVE_DOUBLE, scalar, H5P_DEFAULT, H5P_DEFAULT);
+  H5Awrite(first, H5T_NATIVE_DOUBLE, &number);
+  H5Aclose(first);
+  const hid_t type = H5Tcopy(H5T_C_S1);
+  H5Tset_size(type, 4);
+  const hid_t second = H5Acreate2(file, "fixed", type, scalar, H5P_DEFAULT, H5P_DEFAULT);
+  H5Awrite(second, type, "abc");
+  H5Aclose(second);
+  H5Tclose(type);
+  H5Sclose(scalar);
+  H5Fclose(file);
+  Attributes expected = some_attributes;
+  expected.emplace_back("number", 1.5);
+  expected.emplace_back("fixed", "abc");
+  CHECK(CaseTableReader(folder / "a.h5").attributes() == expected);
+}
+
+TEST_CASE("files of earlier versions are read: texts of any length, numbers as texts") {
+  const Folder folder;
+  const std::string file = folder / "old.h5";
+  const hid_t id = H5Fcreate(file.c_str(), H5F_ACC_EXCL, H5P_DEFAULT, H5P_DEFAULT);
+  const hid_t text = H5Tcopy(H5T_C_S1);
+  H5Tset_size(text, H5T_VARIABLE);
+  H5Tset_cset(text, H5T_CSET_UTF8);
+  const hid_t scalar = H5Screate(H5S_SCALAR);
+  const auto put = [&](hid_t object, const char* name, const char* value) {
+    const hid_t attribute = H5Acreate2(object, name, text, scalar, H5P_DEFAULT, H5P_DEFAULT);
+    H5Awrite(attribute, text, &value);
+    H5Aclose(attribute);
+  };
+  const hsize_t rows = 2;
+  const hid_t space = H5Screate_simple(1, &rows, nullptr);
+  const hid_t number =
+      H5Dcreate2(id, "case", H5T_IEEE_F64LE, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
+  const std::array<double, 2> numbers{0, 1};
+  H5Dwrite(number, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, numbers.data());
+  put(number, "unit", "1");
+  put(number, "description", "number of the case");
+  H5Dclose(number);
+  const hid_t status = H5Dcreate2(id, "status", text, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
+  const std::array<const char*, 2> texts{"done", "failed at 1 s"};
+  H5Dwrite(status, text, H5S_ALL, H5S_ALL, H5P_DEFAULT, texts.data());
+  H5Dclose(status);
+  put(id, "cases", "2");
+  H5Sclose(space);
+  H5Sclose(scalar);
+  H5Tclose(text);
+  H5Fclose(id);
+
+  const CaseTableReader reader(file);
+  CHECK(reader.columns() ==
+        Columns{{"case", "1", "number of the case"}, {"status", "", "", CaseKind::text}});
+  CHECK(reader.attributes() == Attributes{{"cases", "2"}});
+  CHECK(reader.read_inputs().empty());
+  CaseBlock block;
+  reader.read(0, 2, block);
+  CHECK(block.values[0] == std::vector<double>{0, 1});
+  CHECK(block.texts[1] == std::vector<std::string>{"done", "failed at 1 s"});
+}
+
+TEST_CASE("texts of one length are texts") {
+  const Folder folder;
+  const hid_t id = H5Fcreate((folder / "a.h5").c_str(), H5F_ACC_EXCL, H5P_DEFAULT, H5P_DEFAULT);
+  const hid_t text = H5Tcopy(H5T_C_S1);
+  H5Tset_size(text, 4);
+  const hsize_t rows = 3;
+  const hid_t space = H5Screate_simple(1, &rows, nullptr);
+  const hid_t dataset = H5Dcreate2(id, "s", text, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
+  H5Dwrite(dataset, text, H5S_ALL, H5S_ALL, H5P_DEFAULT, "done\0\0\0\0ab\0\0");
+  H5Dclose(dataset);
+  H5Sclose(space);
+  H5Tclose(text);
+  H5Fclose(id);
+  CaseBlock block;
+  const CaseTableReader reader(folder / "a.h5");
+  REQUIRE(reader.columns()[0].kind == CaseKind::text);
+  reader.read(0, 3, block);
+  CHECK(block.texts[0] == std::vector<std::string>{"done", "", "ab"});
+}

@@ -1,0 +1,273 @@
+// CSV: written and read back to the bit; what is no table of numbers is refused, with its place.
+#include <sys/stat.h>
+
+#include <bit>
+#include <chrono>
+#include <cmath>
+#include <cstdint>
+#include <fstream>
+#include <limits>
+#include <random>
+#include <thread>
+
+#include "base/error.hpp"
+#include "catch.hpp"
+#include "file/atomic_file.hpp"
+#include "file/table_writer.hpp"
+#include "support/folder.hpp"
+#include "support/tables.hpp"
+
+using bbsim::InputError;
+using bbsim::OutputError;
+using bbsim::file::open_table;
+using bbsim::file::read_table;
+using bbsim::file::TableData;
+using Catch::Matchers::Contains;
+
+namespace {
+
+// The message for a file of that content, without the folder.
+std::string refusal(const std::string& content) {
+  const Folder folder;
+  const std::string file = folder.put("a.csv", content);
+  std::string message = message_of<InputError>([&] { (void)read_table(file); });
+  const std::size_t at = message.find(folder.name());
+  if (at != std::string::npos) message.erase(at, folder.name().size() + 1);
+  return message;
+}
+
+TableData parsed(const std::string& content) {
+  const Folder folder;
+  return read_table(folder.put("a.csv", content));
+}
+
+}  // namespace
+
+TEST_CASE("CSV has bare names, then the shortest numbers") {
+  const Folder folder;
+  const std::string file = folder / "a.csv";
+  write_table(file, {{"t", "x"}, {{0, 0.1, 1e300, -0.0}, {1.0 / 3, -1e-5, 5e-324, 123456789}}});
+  CHECK(content_of(file) == "t,x\n0,0.3333333333333333\n0.1,-1e-05\n1e+300,5e-324\n-0,123456789\n");
+}
+
+TEST_CASE("CSV spells what is not finite") {
+  const Folder folder;
+  const std::string file = folder / "a.csv";
+  const double not_a_number = std::numeric_limits<double>::quiet_NaN();
+  const double infinity = std::numeric_limits<double>::infinity();
+  write_table(file, {{"x"}, {{not_a_number, -not_a_number, infinity, -infinity}}});
+  CHECK(content_of(file) == "x\nnan\nnan\ninf\n-inf\n");
+  CHECK(same_bits(read_table(file).columns[0], {not_a_number, not_a_number, infinity, -infinity}));
+}
+
+TEST_CASE("CSV reads back to the bit") {
+  const Folder folder;
+  const std::string file = folder / "a.csv";
+  const TableData table = random_table(5, 3000);
+  write_table(file, table);
+  const TableData back = read_table(file);
+  CHECK(back.names == table.names);
+  for (std::size_t c = 0; c < table.columns.size(); ++c) {
+    CHECK(same_bits(back.columns[c], table.columns[c]));
+  }
+}
+
+TEST_CASE("a table without rows is one") {
+  const Folder folder;
+  const std::string file = folder / "a.csv";
+  write_table(file, {{"t", "x"}, {{}, {}}});
+  CHECK(content_of(file) == "t,x\n");
+  const TableData back = read_table(file);
+  CHECK(back.names.size() == 2);
+  CHECK(back.columns[1].empty());
+}
+
+TEST_CASE("an unfinished table leaves nothing") {
+  const Folder folder;
+  folder.put("a.csv", "old");
+  {
+    auto writer = open_table(folder / "a.csv", {{"x", "m", "position"}});
+    const double value = 1;
+    const double* column = &value;
+    writer->append({&column, 1}, 1);
+  }
+  CHECK(content_of(folder / "a.csv") == "old");
+  CHECK(folder.entries() == 1);
+}
+
+TEST_CASE("the ending picks the format") {
+  const Folder folder;
+  const std::string message = message_of<InputError>([&] {
+    (void)open_table(folder / "a.txt", {{"x", "m", ""}});
+  });
+  CHECK_THAT(message, Contains("a.txt") && Contains(".csv, .h5 and .hdf5"));
+  CHECK_THROWS_AS(open_table(folder / "csv", {{"x", "m", ""}}), InputError);
+  CHECK_THROWS_AS(open_table("", {{"x", "m", ""}}), InputError);
+  CHECK(folder.entries() == 0);
+  write_table(folder / "A.CSV", {{"x"}, {{1}}});
+  CHECK(content_of(folder / "A.CSV") == "x\n1\n");
+}
+
+TEST_CASE("a device gets CSV whatever its name") {
+  const Folder folder;
+  std::filesystem::create_symlink("/dev/null", folder / "a.h5");
+  write_table(folder / "a.h5", {{"x"}, {{1}}});
+  CHECK(std::filesystem::is_symlink(folder / "a.h5"));
+  CHECK_THROWS_AS(write_table("/dev/full", {{"x"}, {{1}}}), OutputError);
+}
+
+TEST_CASE("a folder that is not there is an OutputError") {
+  const Folder folder;
+  CHECK_THROWS_AS(open_table(folder / "none/a.csv", {{"x", "m", ""}}), OutputError);
+}
+
+TEST_CASE("CSV may come from elsewhere") {
+  CHECK(parsed("\xEF\xBB\xBFt,x\r\n1,2\r\n").names == std::vector<std::string>{"t", "x"});
+  CHECK(parsed("t\n1\n2").columns[0] == std::vector<double>{1, 2});
+  CHECK(parsed(" t ,\tx\n 1 , +2.5e0\t\n").columns[1] == std::vector<double>{2.5});
+  CHECK(parsed(" t ,\tx\n 1 , +2.5e0\t\n").names[1] == "x");
+  const TableData special = parsed("a,b\nNaN,-Infinity\nnan,INF\n");
+  CHECK(std::isnan(special.columns[0][0]));
+  CHECK(special.columns[1][0] == -std::numeric_limits<double>::infinity());
+  CHECK(special.columns[1][1] == std::numeric_limits<double>::infinity());
+}
+
+TEST_CASE("long decimals are read to the nearest double") {
+  // strtod of the C library rounds correctly; from_chars must agree, ties included.
+  std::vector<std::string> decimals = {"0.000350562590206655033482",
+                                       "4.3359050650618905124e-37",
+                                       "-0.0999883468382828927404",
+                                       "9007199254740993",
+                                       "9007199254740992.99999999999",
+                                       "2.2250738585072011e-308",
+                                       "4.9406564584124654e-324",
+                                       "2.4703282292062327e-324",
+                                       "2.4703282292062328e-324",
+                                       "1e-400",
+                                       "-1e-400",
+                                       "1.7976931348623158e308"};
+  std::mt19937_64 random(1);
+  for (int i = 0; i < 2000; ++i) {
+    decimals.push_back("0." + std::to_string(random() | (1ULL << 63)) +
+                       std::to_string(random() % 90 + 10) + "e" +
+                       std::to_string(static_cast<int>(random() % 600) - 300));
+  }
+  std::string content = "x\n";
+  std::vector<double> expected;
+  for (const std::string& decimal : decimals) {
+    content += decimal + "\n";
+    expected.push_back(std::strtod(decimal.c_str(), nullptr));
+  }
+  CHECK(same_bits(parsed(content).columns[0], expected));
+}
+
+TEST_CASE("ragged rows are refused") {
+  CHECK(refusal("t,x\n1,2\n3\n") == "a.csv:3:1: found 1 number; the header names 2 columns");
+  CHECK(refusal("t,x\n1,2,3\n") == "a.csv:2:1: found 3 numbers; the header names 2 columns");
+  CHECK(refusal("t\n1,2\n") == "a.csv:2:1: found 2 numbers; the header names 1 column");
+}
+
+TEST_CASE("what is no number is refused") {
+  CHECK(refusal("t,x\n1,2\n1, abc\n") ==
+        "a.csv:3:4: column x: found \"abc\", a number is expected");
+  CHECK(refusal("t,x\n1,\n") == "a.csv:2:3: column x: found nothing, a number is expected");
+  CHECK(refusal("t\n1e400\n") ==
+        "a.csv:2:1: column t: found \"1e400\", too large for a double (at most 1.8e308)");
+  for (const char* text :
+       {"0x10", "1.5.2", "1 2",   "\"1\"", "+-1",  "--1", "+",  "-",  ".",    "e5",
+        "1e",   "1;2",   "1_000", "one",   "\x01", "#1",  "0x", "1f", "nanx", "inf2"}) {
+    CAPTURE(text);
+    CHECK_THAT(refusal(std::string("t\n") + text + "\n"),
+               Contains("a.csv:2:1: column t: found ") && Contains("a number is expected"));
+  }
+}
+
+TEST_CASE("what is found is shown fit for a terminal") {
+  CHECK_THAT(refusal("t\n\x1b[31mred\n"), Contains("found \"\\x1b[31mred\""));
+  // A header may not hold control characters, but all else that turns a terminal's head.
+  CHECK(refusal("t,\u009b31mx\n1,y\n") ==
+        "a.csv:2:3: column \\u009b31mx: found \"y\", a number is expected");
+  CHECK_THAT(refusal("t\n" + std::string(100000, 'z') + "\n"),
+             Contains("found \"" + std::string(40, 'z') + "...\""));
+}
+
+TEST_CASE("a blank line is refused") {
+  CHECK_THAT(refusal("t,x\n1,2\n\n3,4\n"), Contains("a.csv:3:1: found a blank line"));
+  CHECK_THAT(refusal("t\n1\n \r\n"), Contains("a.csv:3:2: found a blank line"));
+}
+
+TEST_CASE("a header is required, of names that differ") {
+  CHECK_THAT(refusal(""), Contains("a.csv:1:1: found no header"));
+  CHECK_THAT(refusal("\xEF\xBB\xBF"), Contains("a.csv:1:1: found no header"));
+  CHECK_THAT(refusal("\nt,x\n1,2\n"), Contains("a.csv:1:1: found no header"));
+  CHECK_THAT(refusal("t,,x\n"), Contains("a.csv:1:3: a column's name is empty"));
+  CHECK_THAT(refusal("t,x,\n"), Contains("a.csv:1:5: a column's name is empty"));
+  CHECK_THAT(refusal("t,x,t\n"), Contains("a.csv:1:5: column \"t\" is there twice"));
+  CHECK_THAT(refusal("0,0.1\n1,2\n"), Contains("a.csv:1:1: found the number \"0\""));
+  CHECK_THAT(refusal("t,\"x\"\n"), Contains("a.csv:1:3:") && Contains("quotation marks"));
+  CHECK_THAT(refusal("t;x\n0;1\n"), Contains("commas separate columns"));
+  CHECK_THAT(refusal("t\tx\n0\t1\n"), Contains("commas separate columns"));
+  CHECK_THAT(refusal(std::string("t\0x\n", 4)), Contains("a control character"));
+  CHECK_THAT(refusal("t,x\r1,2\r"), Contains("a control character"));  // line ends of old
+}
+
+TEST_CASE("a file that cannot be read is an InputError") {
+  const Folder folder;
+  CHECK(message_of<InputError>([&] { (void)read_table(folder / "none.csv"); }) ==
+        "cannot read " + (folder / "none.csv") + ": no such file or directory");
+  CHECK_THAT(message_of<InputError>([&] { (void)read_table(folder.name()); }),
+             Contains("is a directory"));
+}
+
+TEST_CASE("a line that does not end is refused, of devices and of files") {
+  const std::string limit = ":1:1: found a line of more than 1048576 bytes";
+  CHECK_THAT(message_of<InputError>([] { (void)read_table("/dev/zero"); }),
+             Contains("/dev/zero" + limit));
+  CHECK_THAT(refusal(std::string(3000000, 'x')), Contains("a.csv" + limit));
+  CHECK_THAT(refusal("t\n" + std::string(1048577, '1') + "\n"),
+             Contains("a.csv:2:1: found a line of more than"));
+  // One byte less is a number, if too large a one.
+  CHECK_THAT(refusal("t\n" + std::string(1048576, '1') + "\n"), Contains("too large for a double"));
+  // What begins well is read as far as it is well.
+  CHECK_FALSE(message_of<InputError>([] { (void)read_table("/dev/urandom"); }).empty());
+  CHECK_THAT(message_of<InputError>([] { (void)read_table("/dev/null"); }),
+             Contains("/dev/null:1:1: found no header"));
+}
+
+TEST_CASE("a long row is read, and rows across what is read at a time") {
+  std::string header = "c0", row = "0";
+  for (int c = 1; c < 50000; ++c) {
+    header.append(",c").append(std::to_string(c));
+    row.append(",").append(std::to_string(c));
+  }
+  const TableData wide = parsed(header + "\n" + row + "\r\n" + row + "\n");
+  REQUIRE(wide.columns.size() == 50000);
+  CHECK(wide.columns[49999] == std::vector<double>{49999, 49999});
+
+  std::string content = "t,x\n";
+  for (int i = 0; i < 100000; ++i)
+    content.append(std::to_string(i)).append(",").append(std::to_string(2 * i)).append("\n");
+  const TableData rows = parsed(content);
+  REQUIRE(rows.columns[1].size() == 100000);
+  bool right = true;
+  for (std::size_t i = 0; i < 100000; ++i) {
+    right = right && rows.columns[1][i] == 2 * static_cast<double>(i);
+  }
+  CHECK(right);
+}
+
+TEST_CASE("a pipe is read as it comes") {
+  const Folder folder;
+  const std::string pipe = folder / "pipe.csv";
+  REQUIRE(mkfifo(pipe.c_str(), 0600) == 0);
+  std::thread writer([&pipe] {
+    std::ofstream stream(pipe);
+    for (const char* part : {"t,", "x\n1", ",2\n", "3,4\r", "\n5,6"}) {
+      stream << part << std::flush;
+      std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    }
+  });
+  const TableData table = read_table(pipe);
+  writer.join();
+  CHECK(table.columns == std::vector<std::vector<double>>{{1, 3, 5}, {2, 4, 6}});
+}

@@ -1,0 +1,379 @@
+// HDF5 files are read in a process of their own: what becomes of it is an error with its reason;
+// what a file says of its size is not believed; and nothing of a file reaches a terminal raw.
+#include <fcntl.h>
+#include <hdf5.h>
+#include <sys/socket.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <array>
+#include <atomic>
+#include <chrono>
+#include <csignal>
+#include <cstdlib>
+#include <memory>
+#include <optional>
+#include <thread>
+
+#include "base/error.hpp"
+#include "catch.hpp"
+#include "file/case_table.hpp"
+#include "file/descriptor.hpp"
+#include "file/hdf5_process.hpp"
+#include "file/table_writer.hpp"
+#include "support/folder.hpp"
+#include "support/tables.hpp"
+
+using bbsim::InputError;
+using bbsim::file::CaseBlock;
+using bbsim::file::CaseTableReader;
+using bbsim::file::Descriptor;
+using bbsim::file::Hdf5Process;
+using bbsim::file::Hdf5Talk;
+using bbsim::file::Hdf5Trouble;
+using bbsim::file::read_table;
+using bbsim::file::TableData;
+using bbsim::hdf5::Message;
+using Catch::Matchers::Contains;
+
+namespace {
+
+std::string refusal(const std::string& file) {
+  return message_of<InputError>([&] { (void)read_table(file); });
+}
+
+// Puts a script in the place of the program that reads, for files opened from now on.
+class FakeReader {
+ public:
+  explicit FakeReader(const std::string& script) {
+    Hdf5Process::running()->retire();
+    if (const char* before = std::getenv("BBSIM_MODULE_PATH")) before_ = before;
+    const std::string file = folder_.put("bbsim-hdf5-reader", script);
+    chmod(file.c_str(), 0755);
+    setenv("BBSIM_MODULE_PATH", folder_.name().c_str(), 1);
+  }
+  ~FakeReader() {
+    if (before_) {
+      setenv("BBSIM_MODULE_PATH", before_->c_str(), 1);
+    } else {
+      unsetenv("BBSIM_MODULE_PATH");
+    }
+    Hdf5Process::running()->retire();
+  }
+  FakeReader(const FakeReader&) = delete;
+  FakeReader& operator=(const FakeReader&) = delete;
+
+ private:
+  Folder folder_;
+  std::optional<std::string> before_;
+};
+
+// A file of one dataset, as `make` creates it.
+template <class Make>
+std::string foreign(const Folder& folder, const std::string& name, Make make) {
+  const std::string file = folder / name;
+  const hid_t id = H5Fcreate(file.c_str(), H5F_ACC_EXCL, H5P_DEFAULT, H5P_DEFAULT);
+  const hid_t creation = H5Pcreate(H5P_DATASET_CREATE);
+  make(id, creation);
+  H5Pclose(creation);
+  H5Fclose(id);
+  return file;
+}
+
+hid_t dataset_of(hid_t file, const char* name, hsize_t rows, hid_t creation) {
+  const hid_t space = H5Screate_simple(1, &rows, nullptr);
+  const hid_t id =
+      H5Dcreate2(file, name, H5T_IEEE_F64LE, space, H5P_DEFAULT, creation, H5P_DEFAULT);
+  H5Sclose(space);
+  return id;
+}
+
+}  // namespace
+
+TEST_CASE("a reader that is killed by a signal is an error that says so") {
+  const Folder folder;
+  const std::string file = folder / "a.h5";
+  write_table(file, {{"t", "x"}, {{0, 1}, {2, 3}}});
+  const auto with = [&](const std::string& script) {
+    const FakeReader fake("#!/bin/sh\n" + script + "\n");
+    return refusal(file);
+  };
+  const std::string start = "cannot read " + file + ": ";
+  const std::string damaged = ": the file is damaged, or not as HDF5 writes it";
+  CHECK(with("kill -SEGV $$") ==
+        start + "the HDF5 library failed on it (signal 11, Segmentation fault)" + damaged);
+  CHECK_THAT(with("kill -ABRT $$"), Contains("(signal 6, Aborted)"));
+  CHECK(with("kill -PROF $$") == start + "the HDF5 library goes in circles on it" + damaged);
+  CHECK_THAT(with("kill -KILL $$"), Contains("was ended from outside (signal 9, Killed)"));
+  CHECK_THAT(with("exit 3"), Contains("the HDF5 reader ended with code 3"));
+  CHECK_THAT(with("exit 127"), Contains("does not start; install the HDF5 library"));
+  CHECK_THAT(with("echo nonsense and more of it"), Contains("another version of bbsim"));
+  CHECK(refusal(file).empty());  // the real one is none the worse for it
+}
+
+// What these do to the library depends on its version: 1.10.8 divides by zero over the first.
+TEST_CASE("a file whose chunks have no dimensions is an error") {
+  const Folder folder;
+  const std::string sound = foreign(folder, "sound.h5", [](hid_t id, hid_t creation) {
+    const hsize_t chunk = 1000;
+    H5Pset_chunk(creation, 1, &chunk);
+    const hid_t dataset = dataset_of(id, "x", 1000, creation);
+    const std::vector<double> numbers(1000, 1.5);
+    H5Dwrite(dataset, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, numbers.data());
+    H5Dclose(dataset);
+  });
+  CHECK(read_table(sound).columns[0] == std::vector<double>(1000, 1.5));
+  std::string bytes = content_of(sound);
+  // The message of the layout: version 3, in chunks, 2 dimensions, an address, then their sizes.
+  const std::size_t sizes = bytes.find(std::string("\xe8\x03\0\0\x08\0\0\0", 8));
+  REQUIRE(sizes != std::string::npos);
+  REQUIRE(bytes.substr(sizes - 11, 3) == "\x03\x02\x02");
+  bytes[sizes - 9] = 0;
+  const std::string file = folder.put("damaged.h5", bytes);
+  CHECK_THAT(refusal(file), Contains("cannot read " + file + ": "));
+}
+
+// ... and goes in circles over this one.
+TEST_CASE("a file whose strings lead nowhere is an error") {
+  const Folder folder;
+  const std::string sound = foreign(folder, "sound.h5", [](hid_t id, hid_t) {
+    const hid_t text = H5Tcopy(H5T_C_S1);
+    H5Tset_size(text, H5T_VARIABLE);
+    const hsize_t rows = 3;
+    const hid_t space = H5Screate_simple(1, &rows, nullptr);
+    const hid_t dataset = H5Dcreate2(id, "s", text, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
+    const std::array<const char*, 3> texts{"the first one", "the second one", "the third one"};
+    H5Dwrite(dataset, text, H5S_ALL, H5S_ALL, H5P_DEFAULT, texts.data());
+    H5Dclose(dataset);
+    H5Sclose(space);
+    H5Tclose(text);
+  });
+  std::string bytes = content_of(sound);
+  const std::size_t second = bytes.find("the second one");
+  REQUIRE(second != std::string::npos);
+  // What stands before it in the heap: its number, 2 bytes of 8, and its size, 8 bytes.
+  bytes.replace(second - 16, 2, 2, '\0');
+  bytes.replace(second - 8, 8, 8, '\0');
+  const std::string file = folder.put("damaged.h5", bytes);
+  CaseBlock block;
+  CHECK_THAT(message_of<InputError>([&] {
+               const CaseTableReader reader(file);
+               reader.read(0, 3, block);
+             }),
+             Contains("cannot read " + file + ": "));
+}
+
+TEST_CASE("a reader that cannot be started is an error") {
+  const Folder folder;
+  write_table(folder / "a.h5", {{"t"}, {{0}}});
+  {
+    const FakeReader fake("#!/none/at/all\n");
+    CHECK_THAT(refusal(folder / "a.h5"),
+               Contains("no process can be had to read it in: no such file or directory"));
+  }
+  Hdf5Process::running()->retire();
+  const char* before = std::getenv("BBSIM_MODULE_PATH");
+  const std::string kept = before == nullptr ? "" : before;
+  setenv("BBSIM_MODULE_PATH", folder.name().c_str(), 1);
+  CHECK_THAT(refusal(folder / "a.h5"),
+             Contains("the HDF5 reader bbsim-hdf5-reader is not in " + folder.name()));
+  if (before != nullptr) setenv("BBSIM_MODULE_PATH", kept.c_str(), 1);
+  if (before == nullptr) unsetenv("BBSIM_MODULE_PATH");
+}
+
+TEST_CASE("a line to the reader that fails is an error, and not a wait for the reader's end") {
+  std::array<int, 2> requests{-1, -1};
+  REQUIRE(socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, requests.data()) == 0);
+  const int answers = open("/", O_RDONLY | O_DIRECTORY | O_CLOEXEC);  // read() of it is an error
+  REQUIRE(answers >= 0);
+  const pid_t child = fork();
+  if (child == 0) {
+    execlp("sleep", "sleep", "60", nullptr);
+    _exit(127);
+  }
+  REQUIRE(child > 0);
+  const auto started = std::chrono::steady_clock::now();
+  {
+    Hdf5Process process(child, Descriptor(requests[0]), Descriptor(answers));
+    Hdf5Talk talk(process, Message::open, "a.h5");
+    CHECK(message_of<Hdf5Trouble>([&] { (void)talk.next(); }) ==
+          "talking with the HDF5 reader failed: is a directory");
+  }
+  CHECK(std::chrono::steady_clock::now() - started < std::chrono::seconds(20));
+  close(requests[1]);
+}
+
+TEST_CASE("files that are open at a time share a process, which ends when it has nothing to do") {
+  const Folder folder;
+  const std::string file = folder / "a.h5";
+  const TableData table = random_table(3, 100);
+  write_table(file, table);
+  const auto process = Hdf5Process::running();
+  {
+    std::vector<std::unique_ptr<CaseTableReader>> readers;
+    for (int i = 0; i < 200; ++i) readers.push_back(std::make_unique<CaseTableReader>(file));
+    CaseBlock block;
+    readers[17]->read(0, 100, block);
+    CHECK(same_bits(block.values[2], table.columns[2]));
+  }
+  CHECK(Hdf5Process::running() == process);
+  std::this_thread::sleep_for(std::chrono::milliseconds(1500));
+  CHECK(same_bits(read_table(file).columns[1], table.columns[1]));
+  CHECK(process->ended_idle());
+  CHECK(Hdf5Process::running() != process);
+}
+
+TEST_CASE("threads that read at a time get each their own rows") {
+  const Folder folder;
+  constexpr std::size_t threads = 6;
+  std::vector<TableData> tables;
+  for (std::size_t i = 0; i < threads; ++i) {
+    tables.push_back(random_table(2, 5000));
+    std::fill(tables[i].columns[1].begin(), tables[i].columns[1].end(), static_cast<double>(i));
+    write_table(folder / (std::to_string(i) + ".h5"), tables[i]);
+  }
+  std::atomic<int> wrong{0};
+  std::vector<std::thread> all;
+  for (std::size_t i = 0; i < threads; ++i) {
+    all.emplace_back([&, i] {
+      for (int again = 0; again < 10; ++again) {
+        const TableData back = read_table(folder / (std::to_string(i) + ".h5"));
+        if (!same_bits(back.columns[1], tables[i].columns[1])) ++wrong;
+      }
+    });
+  }
+  for (std::thread& one : all) one.join();
+  CHECK(wrong == 0);
+}
+
+TEST_CASE("after a file that HDF5 fails on the next one is read by another process") {
+  const Folder folder;
+  write_table(folder / "a.h5", random_table(3, 3000));
+  const std::string whole = content_of(folder / "a.h5");
+  const std::string cut = folder.put("cut.h5", whole.substr(0, whole.size() / 2));
+  const auto process = Hdf5Process::running();
+  CHECK_THAT(refusal(cut), Contains("opening the file failed"));
+  CHECK(Hdf5Process::running() != process);
+  CHECK(refusal(folder / "a.h5").empty());
+}
+
+TEST_CASE("a dataset that declares more than the file can hold is refused with its sizes") {
+  const Folder folder;
+  const std::string file = foreign(folder, "a.h5", [](hid_t id, hid_t creation) {
+    const hsize_t chunk = 1024;
+    H5Pset_chunk(creation, 1, &chunk);
+    for (const char* name : {"t", "x", "y"}) H5Dclose(dataset_of(id, name, 40000000, creation));
+  });
+  const std::uintmax_t size = std::filesystem::file_size(file);
+  CHECK(size < 5000);
+  CHECK(refusal(file) ==
+        "cannot read " + file +
+            ": dataset t declares 40000000 rows, 320000000 bytes; the file has " +
+            std::to_string(size) +
+            " bytes, 0 of them for it: it is damaged, or the dataset was never filled");
+
+  // As large as numbers get.
+  const std::string most = foreign(folder, "most.h5", [](hid_t id, hid_t creation) {
+    const hsize_t chunk = 1024;
+    H5Pset_chunk(creation, 1, &chunk);
+    H5Dclose(dataset_of(id, "x", ~hsize_t{0} / 2, creation));
+  });
+  CHECK_THAT(refusal(most), Contains("declares 9223372036854775807 rows, 18446744073709551615 "));
+}
+
+TEST_CASE("a dataset that is packed may be larger than the file, but not by any factor") {
+  const Folder folder;
+  constexpr hsize_t rows = 2000000;
+  const auto packed = [&](const std::string& name, hsize_t declared) {
+    return foreign(folder, name, [&](hid_t id, hid_t creation) {
+      const hsize_t chunk = 500000;
+      H5Pset_chunk(creation, 1, &chunk);
+      H5Pset_deflate(creation, 6);
+      const hid_t dataset = dataset_of(id, "x", declared, creation);
+      const std::vector<double> numbers(rows, 1.5);
+      const hid_t memory = H5Screate_simple(1, &rows, nullptr);
+      const hid_t space = H5Dget_space(dataset);
+      const hsize_t first = 0;
+      H5Sselect_hyperslab(space, H5S_SELECT_SET, &first, nullptr, &rows, nullptr);
+      H5Dwrite(dataset, H5T_NATIVE_DOUBLE, memory, space, H5P_DEFAULT, numbers.data());
+      H5Sclose(space);
+      H5Sclose(memory);
+      H5Dclose(dataset);
+    });
+  };
+  const std::string sound = packed("sound.h5", rows);
+  CHECK(std::filesystem::file_size(sound) < 200000);  // 16 MB of numbers
+  CHECK(read_table(sound).columns ==
+        std::vector<std::vector<double>>{std::vector<double>(rows, 1.5)});
+  CHECK_THAT(refusal(packed("false.h5", 1000 * rows)), Contains("declares 2000000000 rows"));
+}
+
+TEST_CASE("what lies in other files is not read") {
+  const Folder folder;
+  folder.put("secret", std::string(800, 's'));
+  write_table(folder / "other.h5", {{"x"}, {{1, 2}}});
+  const std::string raw = foreign(folder, "raw.h5", [&](hid_t id, hid_t creation) {
+    H5Pset_external(creation, (folder / "secret").c_str(), 0, 800);
+    H5Dclose(dataset_of(id, "x", 100, creation));
+  });
+  CHECK_THAT(refusal(raw), Contains("dataset x is no column: its numbers are in other files"));
+
+  const std::string mapped = foreign(folder, "mapped.h5", [&](hid_t id, hid_t creation) {
+    const hsize_t rows = 2;
+    const hid_t space = H5Screate_simple(1, &rows, nullptr);
+    H5Pset_virtual(creation, space, (folder / "other.h5").c_str(), "x", space);
+    H5Sclose(space);
+    H5Dclose(dataset_of(id, "x", 2, creation));
+  });
+  CHECK_THAT(refusal(mapped), Contains("its numbers are in other files"));
+
+  const std::string linked = foreign(folder, "linked.h5", [&](hid_t id, hid_t) {
+    H5Lcreate_external((folder / "other.h5").c_str(), "x", id, "x", H5P_DEFAULT, H5P_DEFAULT);
+  });
+  CHECK_THAT(refusal(linked), Contains("x is a link to another file"));
+
+  const std::string way_round = foreign(folder, "way-round.h5", [&](hid_t id, hid_t) {
+    const hid_t group = H5Gcreate2(id, "g", H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
+    H5Lcreate_external((folder / "other.h5").c_str(), "x", group, "x", H5P_DEFAULT, H5P_DEFAULT);
+    H5Gclose(group);
+    H5Lcreate_soft("/g/x", id, "x", H5P_DEFAULT, H5P_DEFAULT);
+  });
+  CHECK_THAT(refusal(way_round), Contains("opening x failed"));
+
+  const std::string within = foreign(folder, "within.h5", [&](hid_t id, hid_t creation) {
+    H5Dclose(dataset_of(id, "x", 2, creation));
+    H5Lcreate_soft("/x", id, "y", H5P_DEFAULT, H5P_DEFAULT);
+  });
+  CHECK(read_table(within).names == std::vector<std::string>{"x", "y"});
+}
+
+TEST_CASE("what a file calls its datasets is shown fit for a terminal") {
+  const Folder folder;
+  const std::string file = foreign(folder, "a\x1b[2J.h5", [](hid_t id, hid_t) {
+    const std::array<hsize_t, 3> sizes{2, 2, 2};
+    const hid_t space = H5Screate_simple(3, sizes.data(), nullptr);
+    H5Dclose(H5Dcreate2(id, "x\x1b]0;title\x07\n", H5T_IEEE_F64LE, space, H5P_DEFAULT, H5P_DEFAULT,
+                        H5P_DEFAULT));
+    H5Sclose(space);
+  });
+  CHECK(refusal(file) == "cannot read " + (folder / "a\\x1b[2J.h5") +
+                             ": dataset x\\x1b]0;title\\x07\\n is no column: it has 3 dimensions; "
+                             "numbers may have 1 or 2, text 1");
+}
+
+// As a shell leaves it after trap '' CHLD.
+TEST_CASE("files are read where the system keeps no children's ends") {
+  const Folder folder;
+  const std::string file = folder / "a.h5";
+  write_table(file, {{"t", "x"}, {{0, 1}, {2, 3}}});
+  void (*const before)(int) = std::signal(SIGCHLD, SIG_IGN);
+  Hdf5Process::running()->retire();
+  CHECK(refusal(file).empty());
+  std::this_thread::sleep_for(std::chrono::milliseconds(1500));
+  CHECK(refusal(file).empty());
+  {
+    const FakeReader fake("#!/bin/sh\nkill -SEGV $$\n");
+    CHECK_THAT(refusal(file), Contains("the HDF5 reader ended over it: the file is damaged"));
+  }
+  static_cast<void>(std::signal(SIGCHLD, before));
+}

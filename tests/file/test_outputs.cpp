@@ -1,0 +1,100 @@
+// Nothing that a command writes to is another of its files, whatever it is called.
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <functional>
+
+#include "base/error.hpp"
+#include "catch.hpp"
+#include "file/outputs.hpp"
+#include "support/folder.hpp"
+
+using bbsim::InputError;
+using bbsim::file::Outputs;
+using Catch::Matchers::Contains;
+
+namespace {
+
+// Of an output beside one file that is read and one that is written.
+std::string refusal(const std::string& read, const std::string& written, const std::string& file) {
+  return message_of<InputError>([&] {
+    Outputs outputs;
+    if (!read.empty()) outputs.reads(read, "the scenario");
+    if (!written.empty()) outputs.writes(written, "-o");
+    outputs.writes(file, "--summary");
+  });
+}
+
+// Runs `action` in a process of its own; whether it returned true.
+bool in_child(const std::function<bool()>& action) {
+  const pid_t child = fork();
+  if (child == 0) _exit(action() ? 0 : 1);
+  int status = -1;
+  waitpid(child, &status, 0);
+  return status == 0;
+}
+
+}  // namespace
+
+TEST_CASE("two outputs to standard output are refused, whatever it is") {
+  CHECK_THAT(refusal("", "-", "-"), Contains("it is the same file as standard output (-o)"));
+  CHECK(refusal("", "/dev/null", "-").empty());
+}
+
+TEST_CASE("an output that is an input is refused, by any path and through any link") {
+  const Folder folder;
+  const std::string file = folder.put("a.yaml", "x");
+  std::filesystem::create_directory(folder / "sub");
+  std::filesystem::create_symlink("a.yaml", folder / "link");
+  std::filesystem::create_symlink("../link", folder / "sub/link");
+  std::filesystem::create_symlink("/dev/stdin", folder / "input");
+  REQUIRE(link(file.c_str(), (folder / "hard").c_str()) == 0);
+  const std::string text = refusal(file, "", file);
+  CHECK(text == "cannot write " + file + " (--summary): it is the same file as " + file +
+                    " (the scenario), which is read here; allowed: a file of its own");
+  for (const char* name : {"link", "sub/link", "hard", "sub/../a.yaml", "./a.yaml"}) {
+    CHECK_THAT(refusal(file, "", folder / name), Contains("the same file as " + file));
+    CHECK_THAT(refusal(folder / name, "", file), Contains("which is read here"));
+  }
+  CHECK(refusal(file, "", folder / "b.yaml").empty());
+  CHECK(refusal(file, "", folder / "sub/a.yaml").empty());
+}
+
+TEST_CASE("two outputs into one file are refused, be it there or not") {
+  const Folder folder;
+  std::filesystem::create_directory(folder / "sub");
+  std::filesystem::create_symlink("sub/new.csv", folder / "link.csv");
+  CHECK_THAT(refusal("", folder / "new.csv", folder / "new.csv"),
+             Contains("(-o), which is written here, too"));
+  CHECK_THAT(refusal("", folder / "new.csv", folder / "sub/../new.csv"), Contains("same file"));
+  CHECK_THAT(refusal("", folder / "link.csv", folder / "sub/new.csv"), Contains("same file"));
+  CHECK(refusal("", folder / "new.csv", folder / "sub/new.csv").empty());
+  CHECK(refusal("", folder / "new.csv", folder / "new.json").empty());
+  CHECK(refusal("", folder / "none/a.csv", folder / "none/a.csv").empty());  // cannot be written
+}
+
+TEST_CASE("devices and pipes are nobody's") {
+  const Folder folder;
+  REQUIRE(mkfifo((folder / "fifo").c_str(), 0600) == 0);
+  for (const std::string& name : {std::string("/dev/null"), folder / "fifo"}) {
+    CHECK(refusal(name, name, name).empty());
+  }
+}
+
+TEST_CASE("a standard stream that goes to a file is that file") {
+  const Folder folder;
+  const std::string file = folder.put("a.yaml", "x");
+  CHECK(in_child([&] {
+    dup2(open(file.c_str(), O_WRONLY | O_APPEND), STDOUT_FILENO);
+    for (const char* name : {"-", "/dev/stdout", "/dev/fd/1", "/proc/self/fd/1"}) {
+      if (refusal(file, "", name).find("same file") == std::string::npos) return false;
+    }
+    return refusal("", "-", "/dev/stdout").find("standard output (-o)") != std::string::npos;
+  }));
+  CHECK(in_child([&] {
+    dup2(open(file.c_str(), O_RDONLY), STDIN_FILENO);
+    return refusal("-", "", file).find("standard input (the scenario)") != std::string::npos;
+  }));
+}

@@ -1,0 +1,171 @@
+// Riccati equations, LQR gains, and the poles of sampled loops.
+#include <Eigen/Eigenvalues>
+#include <cmath>
+#include <complex>
+
+#include "base/error.hpp"
+#include "catch.hpp"
+#include "model/assemble_rig.hpp"
+#include "model/control/riccati.hpp"
+#include "model/control/sampled_cycle.hpp"
+#include "support/run_in_memory.hpp"
+#include "support/scenes.hpp"
+
+using namespace bbsim;
+using namespace bbsim_test;
+using Eigen::MatrixXd;
+
+namespace {
+
+MatrixXd one(double value) {
+  return MatrixXd::Constant(1, 1, value);
+}
+
+Scenario lqr_scene(bool sampled) {
+  Scenario scene = fig2b();
+  scene.ball.radius = 0.02;
+  scene.ball.position = {0.05, -0.03};
+  scene.gimbal.servo = Servo{30, 0.8};
+  scene.controller->law = Law::lqr;
+  scene.controller->weights = {100, 1, 0, 0, 1};
+  scene.controller->reference = PointReference{};
+  if (sampled) scene.controller->sampling = Sampling{0.02, 0, 0, 0};
+  scene.time = {8, 0.02};
+  return scene;
+}
+
+double largest(const model::Eigenvalues& poles) {
+  return std::abs(poles.front());
+}
+
+}  // namespace
+
+TEST_CASE("Riccati equations with known solutions") {
+  // x+ = x + u, cost x^2 + u^2: X = 1 + X / (1 + X), the golden ratio.
+  const auto discrete = model::solve_discrete_riccati(one(1), one(1), one(1), one(1));
+  const double golden = (1 + std::sqrt(5.0)) / 2;
+  CHECK(discrete.cost(0, 0) == Approx(golden).epsilon(1e-14));
+  CHECK(discrete.gain(0, 0) == Approx(golden / (1 + golden)).epsilon(1e-14));
+
+  // The double integrator, cost x^2 + u^2: K = (1, sqrt 2).
+  MatrixXd a(2, 2), b(2, 1), q(2, 2);
+  a << 0, 1, 0, 0;
+  b << 0, 1;
+  q << 1, 0, 0, 0;
+  const auto continuous = model::solve_continuous_riccati(a, b, q, one(1));
+  CHECK(continuous.gain(0, 0) == Approx(1).epsilon(1e-13));
+  CHECK(continuous.gain(0, 1) == Approx(std::sqrt(2.0)).epsilon(1e-13));
+
+  // What nothing sees and grows has a gain, but none that stabilises.
+  MatrixXd modes(2, 2), first(2, 1), seen(2, 2);
+  modes << 0.5, 0, 0, 2;
+  first << 1, 0;
+  seen << 1, 0, 0, 0;
+  CHECK_THROWS_AS(model::solve_discrete_riccati(modes, first, seen, one(1)), InputError);
+
+  // What nothing moves and does not decay has no solution.
+  CHECK_THROWS_AS(model::solve_continuous_riccati(a, MatrixXd::Zero(2, 1), q, one(1)), InputError);
+}
+
+TEST_CASE("LQR gains of the rig solve their equation and stabilise it") {
+  const auto built = model::assemble_rig<false>(lqr_scene(false), {});
+  const model::LinearPlant plant = model::linear_plant(built.loop);
+  const LqrWeights weights = lqr_scene(false).controller->weights;
+  const auto gain = model::lqr_gain(plant, weights, 0);
+  const MatrixXd closed = plant.a - plant.b * gain;
+  for (const auto& pole : closed.eigenvalues()) CHECK(pole.real() < -0.1);
+
+  const model::LinearPlant step = model::after(plant, 0.02);
+  const auto sampled = model::lqr_gain(plant, weights, 0.02);
+  const MatrixXd map = step.a - step.b * sampled;
+  for (const auto& pole : map.eigenvalues()) CHECK(std::abs(pole) < 0.999);
+
+  // The residual of the continuous equation, by the cost of this gain.
+  MatrixXd q = MatrixXd::Zero(8, 8);
+  q.diagonal() << 100, 100, 1, 1, 0, 0, 0, 0;
+  const auto solved =
+      model::solve_continuous_riccati(plant.a, plant.b, q, MatrixXd::Identity(2, 2));
+  const MatrixXd& x = solved.cost;
+  const MatrixXd residual =
+      plant.a.transpose() * x + x * plant.a - x * plant.b * plant.b.transpose() * x + q;
+  // Rounding of the largest term, through the conditioning of the doubling: some thousand.
+  CHECK(residual.norm() < 1e-12 * (x * plant.b * plant.b.transpose() * x).norm());
+}
+
+TEST_CASE("LQR brings the ball home, sampled or not") {
+  const bool sampled = GENERATE(false, true);
+  const Run run = run_in_memory(lqr_scene(sampled), Method::automatic, {1e-9, 1e-11}, false);
+  REQUIRE(run.outcome.ending == solve::Ending::done);
+  CHECK(std::hypot(run.samples.back().ball.x, run.samples.back().ball.y) < 1e-3);
+}
+
+TEST_CASE("from sample to sample a small motion obeys the polynomial of the sampled poles") {
+  // Without errors of sensor and servo a small motion is linear: the state at samples is multiplied
+  // by the cycle's matrix M, so x at samples satisfies the recurrence whose coefficients are those
+  // of M's characteristic polynomial (Cayley and Hamilton).
+  Scenario scene = lqr_scene(true);
+  scene.controller->law = GENERATE(Law::pd, Law::pid, Law::lqr);
+  scene.controller->kp = {{{0.4, 0}, {0, -0.4}}};
+  scene.controller->kv = {{{0.35, 0}, {0, -0.35}}};
+  scene.controller->ki = {{{0.1, 0}, {0, -0.1}}};
+  if (scene.controller->law != Law::pid) scene.controller->ki = {};
+  const bool first_order = GENERATE(false, true);
+  if (first_order) {
+    if (scene.controller->law == Law::lqr) return;
+    Servo servo;
+    servo.time_constant = 0.05;
+    scene.gimbal.servo = servo;
+  }
+  const auto [delay, late] = GENERATE(std::pair{0.0, 0.0}, std::pair{0.013, 0.0},
+                                      std::pair{0.02, 0.01}, std::pair{0.03, 0.055});
+  CAPTURE(int(scene.controller->law), first_order, delay, late);
+  scene.controller->sampling = Sampling{0.02, delay, 0, 0.03};
+  scene.controller->sensor = Sensor{};
+  scene.controller->sensor->delay = late;
+  scene.ball.position = {1e-7, 0};
+  scene.time = {2, 0.02};
+  const model::Model model = model::assemble(scene, false);
+  const auto poles =
+      model::sampled_poles(std::get<model::RigLoop<false>>(model.system), *model.rig);
+  std::vector<std::complex<double>> polynomial{1};  // by falling powers
+  for (const auto& pole : poles) {
+    polynomial.push_back(0);
+    for (std::size_t i = polynomial.size() - 1; i > 0; --i)
+      polynomial[i] -= pole * polynomial[i - 1];
+  }
+  const Run run = run_in_memory(scene, Method::automatic, {1e-11, 1e-19}, false);
+  REQUIRE(run.outcome.ending == solve::Ending::done);
+  const std::size_t n = poles.size();
+  // From a time at which all that was exposed before the start has passed through the delays.
+  for (std::size_t from = 5; from + n < run.samples.size(); ++from) {
+    double sum = 0, sizes = 0;
+    for (std::size_t i = 0; i <= n; ++i) {
+      const double term = polynomial[i].real() * run.samples[from + n - i].ball.x;
+      sum += term;
+      sizes += std::abs(term);
+    }
+    // A loop that its delays make unstable grows out of what is small.
+    if (std::abs(run.samples[from + n].gimbal.phi) > 1e-4) break;
+    // The tolerance, times a hundred; what is not linear is smaller by the squares of the angles.
+    CHECK(std::abs(sum) < 1e-9 * sizes);
+  }
+}
+
+TEST_CASE("delays make a sampled loop unstable where its poles say so") {
+  Scenario scene = lqr_scene(true);
+  scene.controller->law = Law::pd;
+  scene.controller->kp = {{{1.5, 0}, {0, -1.5}}};
+  scene.controller->kv = {{{0.9, 0}, {0, -0.9}}};
+  scene.ball.position = {1e-5, 1e-5};
+  const bool slow = GENERATE(false, true);
+  scene.controller->sampling = Sampling{0.02, slow ? 0.12 : 0.01, 0, 0.01};
+  const model::Model model = model::assemble(scene, false);
+  const double size =
+      largest(model::sampled_poles(std::get<model::RigLoop<false>>(model.system), *model.rig));
+  CHECK((size > 1) == slow);
+  scene.time = {4, 0.02};
+  const Run run = run_in_memory(scene, Method::automatic, {1e-9, 1e-15}, false);
+  REQUIRE(run.outcome.ending == solve::Ending::done);
+  const double end = std::abs(run.samples.back().ball.x);
+  CHECK((end > 1e-5) == slow);
+}

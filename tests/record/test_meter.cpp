@@ -1,0 +1,70 @@
+// Measures of a run, at the ends of the range of doubles too.
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "catch.hpp"
+#include "record/meter.hpp"
+#include "record/square_sum.hpp"
+#include "scenario/reader.hpp"
+#include "solve/integrate.hpp"
+
+using namespace bbsim;
+using namespace bbsim::record;
+using namespace bbsim::scenario;
+
+namespace {
+
+double root_mean_square(const std::vector<double>& values) {
+  SquareSum sum;
+  for (const double value : values) sum.add(value);
+  return sum.root_mean(values.size());
+}
+
+}  // namespace
+
+TEST_CASE("the root of a mean square neither overflows nor vanishes") {
+  for (const double size : {1e-300, 1e-234, 1e-150, 1.0, 1e150, 1e234, 1e300}) {
+    CAPTURE(size);
+    // Root, division and scaling: a rounding each.
+    CHECK(root_mean_square({3 * size, -4 * size}) == Approx(size * std::sqrt(12.5)).epsilon(1e-15));
+    CHECK(root_mean_square({size, 0, 0, 0}) == Approx(size / 2).epsilon(1e-15));
+  }
+  CHECK(root_mean_square({0, 0}) == 0);
+  // What is far smaller than the rest adds nothing, and what is near the borders is not lost.
+  CHECK(root_mean_square({1e200, 1}) == Approx(1e200 / std::sqrt(2)).epsilon(1e-15));
+  CHECK(root_mean_square({0.9e-140, 1.1e-140}) == Approx(std::sqrt(1.01) * 1e-140).epsilon(1e-14));
+  CHECK(root_mean_square({0.9e140, 1.1e140}) == Approx(std::sqrt(1.01) * 1e140).epsilon(1e-14));
+  // Elsewhere, to the bit what it is without care.
+  const double a = 0.1, b = 0.7;
+  CHECK(root_mean_square({a, b}) == std::sqrt((a * a + b * b) / 2));
+  CHECK(std::isinf(root_mean_square({std::numeric_limits<double>::infinity(), 1})));
+}
+
+TEST_CASE("rms_ of a motion of 1e234 m is a number") {
+  const Scenario scene = parse_scenario(
+      "gravity: 0\nball: {radius: 0.01, position: [1e234, 0]}\n"
+      "gimbal: {motion: {}}\ntime: {end: 1, step: 0.5}\n",
+      "far.yaml");
+  const model::Model model = model::assemble(scene, false);
+  const model::BallConstants constants = model::constants_of(scene);
+  const solve::OutputGrid grid(scene.time);
+  Meter meter({*find_measure("rms_x")});
+  meter.begin(model, constants, grid);
+  const auto outcome = solve::integrate(model, Method::automatic, {1e-8, 1e-10}, grid, meter);
+  double rms = 0;
+  meter.finish(outcome, &rms);
+  CHECK(rms == Approx(1e234).epsilon(1e-15));
+}
+
+TEST_CASE("a measure that is no finite number has its reason") {
+  const Scenario scene = parse_scenario(
+      "ball: {radius: 0.01}\ngimbal: {motion: {}}\ntime: {end: 1, step: 0.5}\n", "still.yaml");
+  const std::vector<Measure> measures{*find_measure("end_x"), *find_measure("max_motor_power"),
+                                      *find_measure("max_energy")};
+  const double nan = std::nan(""), infinite = std::numeric_limits<double>::infinity();
+  const double finite[] = {1, 2, 3}, bad[] = {1, nan, infinite};
+  CHECK(why_not_finite(measures, finite, scene).empty());
+  CHECK(why_not_finite(measures, bad, scene) ==
+        "max_motor_power is no number: plate.inertia is not known; max_energy is infinite");
+}

@@ -1,0 +1,296 @@
+// The collocation integrator: against quad-precision solutions, at its limits, and its parts.
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <cstdlib>
+#include <string>
+#include <vector>
+
+#include "base/error.hpp"
+#include "catch.hpp"
+#include "model/systems/jacobian.hpp"
+#include "solve/cvode/cvode.hpp"
+#include "solve/radau/radau.hpp"
+#include "support/run_in_memory.hpp"
+
+using namespace bbsim;
+using namespace bbsim_test;
+using solve::radau::RadauStepper;
+using solve::radau::StepKernels;
+
+namespace {
+
+struct Rows {
+  solve::Outcome run;
+  solve::Trajectory rows;
+};
+
+Rows integrate(const model::Model& model, const Scenario& scene, double rtol,
+               const StepKernels& kernels = solve::radau::choose_kernels(), int stages = 0,
+               const solve::Watch& watch = {}) {
+  if (stages == 0) stages = solve::radau::choose_stages(rtol);
+  RadauStepper stepper(model, kernels, stages, {rtol, rtol / 100}, scene.time.end);
+  solve::Trajectory rows(model.row_size());
+  const solve::Outcome run =
+      run_through(stepper, model, solve::OutputGrid(scene.time), rows, watch);
+  return {run, std::move(rows)};
+}
+
+// Of all states in all rows, in units of rtol: relative to the largest value of each state, and
+// where that is below atol / rtol = 0.01, to 0.01.
+double difference(const solve::Trajectory& a, const solve::Trajectory& b, std::size_t row_size) {
+  REQUIRE(a.rows() == b.rows());
+  double worst = 0;
+  for (std::size_t column = 0; column < row_size; ++column) {
+    double largest = 1e-2, apart = 0;
+    for (std::size_t i = 0; i < a.rows(); ++i) {
+      largest = std::max(largest, std::abs(b.row(i)[column]));
+      apart = std::max(apart, std::abs(a.row(i)[column] - b.row(i)[column]));
+    }
+    worst = std::max(worst, apart / largest);
+  }
+  return worst;
+}
+
+Scenario at_rest() {
+  Scenario scene;
+  scene.gravity = 9.81;
+  scene.ball.radius = 0.01;
+  scene.ball.position = {0.1, 0.2};
+  scene.gimbal.motion = {{0.0}, {0.0}};
+  scene.time = {10, 0.1};
+  return scene;
+}
+
+}  // namespace
+
+TEST_CASE("collocation follows the quad-precision solutions at every tolerance") {
+  struct Case {
+    const char* name;
+    double amplification;  // of a local error of rtol, over the run
+  };
+  // A tolerance bounds the error of a step, relative to the state; a run of some ten steps may add
+  // them up, and `fast` and `tumble` carry them through states that grow 10^4 times.
+  const auto [name, amplification] =
+      GENERATE(Case{"fig2a", 10}, Case{"fig2b", 10}, Case{"small-ball", 10}, Case{"spin", 10},
+               Case{"stiff-servo", 10}, Case{"fast", 1e4}, Case{"tumble", 1e4});
+  const int stages = GENERATE(8, 12, 16);
+  const double rtol = GENERATE(1e-5, 1e-8, 1e-11);
+  CAPTURE(name, stages, rtol);
+  const Scenario scene = scenario_named(name);
+  const model::Model model = model::assemble(scene, true);
+  const Rows result = integrate(model, scene, rtol, solve::radau::choose_kernels(), stages);
+  REQUIRE(result.run.ending == solve::Ending::done);
+  REQUIRE(result.run.reached == scene.time.end);
+  const QuadReference reference(name);
+  const std::vector<double>&x = reference["x"], &y = reference["y"], &gamma = reference["gamma"];
+  REQUIRE(result.rows.rows() == x.size());
+  const solve::OutputGrid grid(scene.time);
+  double turned = 0;
+  for (double angle : gamma) turned = std::max(turned, std::abs(angle) * scene.ball.radius);
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    const double* row = result.rows.row(i);
+    const model::Sample sample = model.sample(grid[i], row);
+    CHECK(std::abs(sample.ball.x - x[i]) < amplification * rtol);
+    CHECK(std::abs(sample.ball.y - y[i]) < amplification * rtol);
+    if (model.gamma) {
+      CHECK(std::abs(row[model.size()] - gamma[i] * scene.ball.radius) <
+            amplification * rtol * (1 + turned));
+    }
+  }
+}
+
+TEST_CASE("a step's error falls at least with the order of its stages") {
+  const Scenario scene = scenario_named("fast");
+  const model::Model model = model::assemble(scene, false);
+  // Steps of 0.8 and 0.4 s, 2 and 1 rad either side of the middle of the sinusoid: the method's
+  // order at the end of a step of 8 stages is 15; one-sided, with room for the first step to be
+  // outside the asymptotic range, the 9 of its polynomial.
+  const auto error_of = [&](double h) {
+    Scenario one = scene;
+    one.time = {h, h};
+    const auto& kernel = solve::radau::choose_kernels().kernels[0][model.system.index()];
+    const Rows exact = integrate(model, one, 1e-13);
+    const auto view = std::get<0>(model.system).view();
+    std::vector<double> memory(kernel.workspace / sizeof(double) + 8);
+    void* place = memory.data();
+    std::size_t space = memory.size() * sizeof(double);
+    void* const workspace = std::align(64, kernel.workspace, place, space);
+    kernel.start(workspace, {&view, model.initial.data(), 1e-12, 1e-14, false});
+    solve::radau::Attempt attempt{};
+    kernel.attempt(workspace, 0, h, &attempt);
+    REQUIRE(attempt.verdict == solve::radau::Verdict::converged);
+    kernel.accept(workspace);
+    double z[5];
+    kernel.state(workspace, z);
+    return std::hypot(z[0] - exact.rows.row(1)[0], z[1] - exact.rows.row(1)[1]);
+  };
+  CHECK(std::log2(error_of(0.8) / error_of(0.4)) > 9);
+}
+
+TEST_CASE("a servo's speed costs collocation no steps") {
+  Scenario scene = scenario_named("stiff-servo");
+  const double natural_frequency = GENERATE(2000.0, 20000.0);
+  scene.gimbal.servo->natural_frequency = natural_frequency;
+  // The loop is stable while r k_v omega_n^2 < 2 zeta omega_n (docs/model.md, section 4).
+  const double gain = 100 / natural_frequency;
+  scene.controller->kv = {{{gain, 0}, {0, -gain}}};
+  scene.controller->kp = scene.controller->kv;
+  const model::Model model = model::assemble(scene, true);
+  const Rows usual = integrate(model, scene, 1e-6);
+  const Rows tight = integrate(model, scene, 1e-11);
+  CHECK(usual.run.ending == solve::Ending::done);
+  // Following the servo itself would take 21 s * 20000 / s = 420,000 of its times.
+  CHECK(usual.run.statistics.steps < 100);
+  CHECK(tight.run.statistics.steps < 500);
+  // Ten local errors of 1e-6 m, and of the ball alone: the servo's own motion is not smooth.
+  for (std::size_t i = 0; i < usual.rows.rows(); ++i) {
+    CHECK(std::abs(usual.rows.row(i)[0] - tight.rows.row(i)[0]) < 1e-5);
+    CHECK(std::abs(usual.rows.row(i)[1] - tight.rows.row(i)[1]) < 1e-5);
+  }
+}
+
+TEST_CASE("collocation stops at the knots of a table") {
+  Scenario scene = at_rest();
+  Table table;
+  for (int i = 0; i <= 20; ++i) {
+    table.times.push_back(0.5 * i);
+    table.values.push_back(0.05 * ((i * 7) % 5) / 4.0);  // jagged on purpose
+  }
+  scene.gimbal.motion = {{table}, {0.02}};
+  const model::Model model = model::assemble(scene, true);
+  REQUIRE(model.stops.size() == 19);
+  const Rows ours = integrate(model, scene, 1e-11);
+  solve::Trajectory theirs(model.size() + 1);
+  const solve::OutputGrid grid(scene.time);
+  const solve::Outcome outcome =
+      solve::integrate_cvode(model, Method::adams, {1e-12, 1e-14}, grid, theirs, {});
+  REQUIRE(outcome.ending == solve::Ending::done);
+  CHECK(ours.run.statistics.steps >= 20);
+  CHECK(ours.run.reached == 10);
+  // CVODE restarts 19 times at an rtol of 1e-12, and adds up some hundred local errors.
+  CHECK(difference(ours.rows, theirs, model.size() + 1) < 1e-9);
+}
+
+TEST_CASE("collocation ends where the solution reaches infinity") {
+  const Scenario scene = scenario_named("fig2b-literal");
+  const model::Model model = model::assemble(scene, true);
+  solve::Trajectory rows(model.size() + 1);
+  const solve::OutputGrid grid(scene.time);
+  const solve::Outcome outcome = solve::integrate_radau(model, {1e-9, 1e-11}, grid, rows, {});
+  CHECK(outcome.ending == solve::Ending::failed);
+  CHECK_FALSE(outcome.reason.empty());
+  // Where BDF at an rtol of 1e-12 ends. The steps are parts of what is left to there, and end the
+  // run when they are less than 1e-5 of the time.
+  CHECK(outcome.reached < 0.7487576252);
+  CHECK(outcome.reached > 0.7487576252 * (1 - 1e-5));
+  CHECK(outcome.rows == 75);  // 0 to 0.74 s
+  CHECK(rows.rows() == 75);
+  REQUIRE(outcome.last_state.size() == model.size());
+  CHECK(outcome.worst_state < model.size());
+  for (double value : outcome.last_state) CHECK(std::isfinite(value));
+  CHECK(outcome.statistics.steps < 2000);
+}
+
+TEST_CASE("a ball at rest stays there exactly, in a few steps") {
+  Scenario scene = at_rest();
+  const bool looped = GENERATE(false, true);
+  if (looped) {
+    scene = scenario_named("fig2b");
+    scene.ball.position = {0.03, -0.02};
+    scene.controller->reference = PointReference{{0.03, -0.02}};
+  }
+  const model::Model model = model::assemble(scene, true);
+  const Rows result = integrate(model, scene, 1e-8);
+  CHECK(result.run.statistics.steps <= 5);
+  for (std::size_t i = 0; i < result.rows.rows(); ++i) {
+    for (std::size_t k = 0; k < model.size(); ++k) {
+      CHECK(result.rows.row(i)[k] == model.initial[k]);
+    }
+  }
+}
+
+TEST_CASE("a fast, small sinusoid beside a slow one is not stepped over") {
+  Scenario scene = scenario_named("fig2a");
+  scene.gimbal.motion->phi.emplace_back(Sinusoid{1e-3, 300, 0, 0});
+  const model::Model model = model::assemble(scene, false);
+  const Rows loose = integrate(model, scene, 1e-5);
+  const Rows tight = integrate(model, scene, 1e-11);
+  // 10 s * 300 rad/s at fewer than two nodes a radian.
+  CHECK(loose.run.statistics.steps * 8 > 1500);
+  CHECK(difference(loose.rows, tight.rows, model.size()) < 1e-3);  // a hundred local errors
+}
+
+TEST_CASE("instruction sets agree to the tolerance") {
+  const char* name = GENERATE("fig2a", "fig2b", "stiff-servo", "spin");
+  const int stages = GENERATE(8, 12, 16);
+  const Scenario scene = scenario_named(name);
+  const model::Model model = model::assemble(scene, true);
+  const Rows chosen = integrate(model, scene, 1e-9, solve::radau::choose_kernels(), stages);
+  for (const char* const set : {"avx512", "avx2", "sse2", "baseline"}) {
+    const auto found = simd::find_instruction_set(set);
+    if (!found) continue;
+    CAPTURE(name, stages, set);
+    const StepKernels& kernels = solve::radau::kernels_for(*found);
+    const Rows other = integrate(model, scene, 1e-9, kernels, stages);
+    // Both within ten local errors of the truth; where they take the same steps, far closer.
+    CHECK(difference(other.rows, chosen.rows, model.size() + (model.gamma ? 1 : 0)) < 2e-8);
+  }
+}
+
+TEST_CASE("BBSIM_SIMD names the kernels, or is refused") {
+  setenv("BBSIM_SIMD", "abacus", 1);
+  CHECK_THROWS_WITH(solve::radau::choose_kernels(), Catch::Contains("BBSIM_SIMD") &&
+                                                        Catch::Contains("'abacus'") &&
+                                                        Catch::Contains("allowed"));
+#ifdef __x86_64__
+  setenv("BBSIM_SIMD", "sse2", 1);
+  CHECK(std::string(simd::name_of(simd::chosen_instruction_set())) == "sse2");
+#endif
+  unsetenv("BBSIM_SIMD");
+}
+
+TEST_CASE("the first step's rate is the norm of the exact Jacobian") {
+  const Scenario scene = scenario_named("fig2b");
+  const model::Model model = model::assemble(scene, false);
+  Scenario still = scene;
+  still.time = {1e-3, 1e-3};
+  std::visit(
+      [&](const auto& system) {
+        const auto matrix = model::jacobian(system, 0.0, model.initial.data());
+        using System = std::decay_t<decltype(system)>;
+        double of_velocities = 0, of_positions = 0;
+        for (const auto& row : System::motions.of) {
+          double v = 0, q = 0;
+          for (const auto& column : System::motions.of) {
+            v += std::abs(matrix(row.velocity, column.velocity));
+            if (column.position >= 0) q += std::abs(matrix(row.velocity, column.position));
+          }
+          of_velocities = std::max(of_velocities, v);
+          of_positions = std::max(of_positions, q);
+        }
+        const auto view = system.view();
+        const auto& kernel = solve::radau::choose_kernels().kernels[0][model.system.index()];
+        std::vector<double> memory(kernel.workspace / sizeof(double) + 8);
+        void* place = memory.data();
+        std::size_t space = memory.size() * sizeof(double);
+        void* const workspace = std::align(64, kernel.workspace, place, space);
+        kernel.start(workspace, {&view, model.initial.data(), 1e-8, 1e-10, false});
+        // Sums of the same numbers, in another order.
+        CHECK(kernel.rate(workspace, 0) ==
+              Approx(std::max(of_velocities, std::sqrt(of_positions))).epsilon(1e-14));
+      },
+      model.system);
+}
+
+TEST_CASE("a run of collocation can be stopped from outside") {
+  const Scenario scene = scenario_named("fast");
+  const model::Model model = model::assemble(scene, false);
+  std::atomic<bool> stop{true};
+  solve::Watch watch;
+  watch.stop = &stop;
+  const Rows result = integrate(model, scene, 1e-8, solve::radau::choose_kernels(), 8, watch);
+  CHECK(result.run.ending == solve::Ending::interrupted);
+  CHECK(result.run.statistics.steps == 1);
+  CHECK(result.run.reached < 10);
+}

@@ -1,0 +1,98 @@
+// The constants of the collocation, and its sine and cosine.
+#include <algorithm>
+#include <cmath>
+#include <complex>
+
+#include "catch.hpp"
+#include "simd/pack.hpp"
+#include "solve/radau/tables.hpp"
+
+using namespace bbsim::solve::radau;
+
+namespace {
+
+struct TestLanes {};
+
+template <int s>
+void check_tables() {
+  using T = RadauTable<s>;
+  CAPTURE(s);
+  CHECK(T::c[s - 1] == 1);
+  // Order conditions of a collocation: powers up to s - 1 are integrated exactly. Bounds are s
+  // roundings of numbers below 1, and one for each multiplication of a power.
+  const double rounding = 4 * s * 2.3e-16;
+  for (int i = 0; i < s; ++i) {
+    for (int q = 1; q <= s; ++q) {
+      double sum = 0, twice = 0;
+      for (int j = 0; j < s; ++j) {
+        sum += T::a[j][i] * std::pow(T::c[j], q - 1);
+        twice += T::a_squared[j][i] * std::pow(T::c[j], q - 1);
+      }
+      CHECK(std::abs(sum - std::pow(T::c[i], q) / q) < rounding);
+      if (q < s) CHECK(std::abs(twice - std::pow(T::c[i], q + 1) / (q * (q + 1))) < rounding);
+    }
+  }
+  // The last row is Radau's quadrature: exact up to degree 2 s - 2.
+  for (int q = s; q < 2 * s; ++q) {
+    double sum = 0;
+    for (int j = 0; j < s; ++j) sum += T::a[j][s - 1] * std::pow(T::c[j], q - 1);
+    CHECK(std::abs(sum - 1.0 / q) < rounding);
+  }
+  // back * lambda * forward = a. The eigenvectors are nearly parallel: rounding is magnified by
+  // the size of their inverse.
+  double magnified = 1;
+  for (int j = 0; j < s; ++j) {
+    for (int k = 0; k < s / 2; ++k) {
+      magnified =
+          std::max({magnified, std::abs(T::forward_re[j][k]), std::abs(T::forward_im[j][k])});
+    }
+  }
+  for (int i = 0; i < s; ++i) {
+    for (int j = 0; j < s; ++j) {
+      double sum = 0;
+      for (int k = 0; k < s / 2; ++k) {
+        const std::complex<double> lambda(T::lambda_re[k], T::lambda_im[k]);
+        const std::complex<double> y =
+            lambda * std::complex<double>(T::forward_re[j][k], T::forward_im[j][k]);
+        sum += T::back_re[k][i] * y.real() + T::back_im[k][i] * y.imag();
+      }
+      CHECK(std::abs(sum - T::a[j][i]) < rounding * magnified);
+    }
+  }
+  // Legendre coefficients of the shifted P_1 = 2 c - 1.
+  for (int i = 0; i < s; ++i) {
+    double sum = 0;
+    for (int j = 0; j < s; ++j) sum += T::legendre[j][i] * (2 * T::c[j] - 1);
+    CHECK(std::abs(sum - (i == 1 ? 1 : 0)) < 4 * rounding);
+  }
+}
+
+}  // namespace
+
+TEST_CASE("the tables satisfy the order conditions and their factors multiply to A") {
+  check_tables<8>();
+  check_tables<12>();
+  check_tables<16>();
+}
+
+TEST_CASE("sine and cosine in lanes are within two units in the last place") {
+  using P = bbsim::simd::Pack<TestLanes, 2>;
+  double worst = 0;
+  const auto look = [&](double angle) {
+    const auto wave = sin_cos(P(angle));
+    const auto in_ulps = [](double value, long double exact) {
+      const double unit = std::nextafter(std::abs(static_cast<double>(exact)), 10.0) -
+                          std::abs(static_cast<double>(exact));
+      return static_cast<double>(std::abs(value - exact)) / unit;
+    };
+    worst = std::max({worst, in_ulps(wave.sin[0], std::sin(static_cast<long double>(angle))),
+                      in_ulps(wave.cos[1], std::cos(static_cast<long double>(angle)))});
+  };
+  for (int i = -40000; i <= 40000; ++i) look(i * 2.5e-4 + 1e-5);  // -10 to 10
+  CHECK(worst < 2);
+  worst = 0;
+  for (int i = 0; i < 20000; ++i) look(9e4 + i * 1.37);  // across the end of the fast reduction
+  CHECK(worst < 2);
+  CHECK(sin_cos(P(0.0)).sin[0] == 0);
+  CHECK(sin_cos(P(0.0)).cos[0] == 1);
+}

@@ -1,0 +1,192 @@
+// Servos at their limits: when they switch, and what that does to the ball.
+#include <cmath>
+
+#include "catch.hpp"
+#include "support/run_in_memory.hpp"
+#include "support/scenes.hpp"
+
+using namespace bbsim;
+using namespace bbsim_test;
+
+namespace {
+
+constexpr solve::Tolerances tight{1e-11, 1e-13};
+
+// phi follows one step of the command; theta stays level.
+Scenario step_scene(double command) {
+  Scenario scene = fig2b();
+  scene.controller->kv = {};
+  scene.controller->kp = {{{1, 0}, {0, 0}}};
+  // A sampled controller that sees the ball once, at x = 0: the command is held for good.
+  scene.ball.position = {0, 0};
+  scene.controller->reference = PointReference{{command, 0}};
+  scene.controller->sampling = Sampling{1e3, 0, 0, 0};
+  scene.gimbal.servo = Servo{10, 0.5};
+  scene.time = {2, 0.01};
+  return scene;
+}
+
+Run run_of(const Scenario& scene, Method method) {
+  Run run = run_in_memory(scene, method, tight, false);
+  REQUIRE(run.outcome.ending == solve::Ending::done);
+  REQUIRE(run.samples.size() == solve::OutputGrid(scene.time).size());
+  return run;
+}
+
+// q'' = w^2 (u - q) - 2 zeta w q' from (q, v), after a time.
+std::pair<double, double> free_servo(double q, double v, double u, double w, double zeta,
+                                     double time) {
+  const double wd = w * std::sqrt(1 - zeta * zeta), e = std::exp(-zeta * w * time);
+  const double c = std::cos(wd * time), s = std::sin(wd * time);
+  const double b = (v + zeta * w * (q - u)) / wd;
+  const double d = (q - u) * c + b * s;
+  return {u + e * d, e * (-zeta * w * d + wd * (b * c - (q - u) * s))};
+}
+
+}  // namespace
+
+TEST_CASE("a servo at its acceleration limit switches at the very time") {
+  const Method method = GENERATE(Method::radau, Method::bdf, Method::adams);
+  Scenario scene = step_scene(0.2);
+  const double u = 0.2, w = 10, zeta = 0.5, most = 12;
+  scene.gimbal.servo->acceleration_limit = most;
+  const Run run = run_of(scene, method);
+  // q = most t^2 / 2 until w^2 (u - q) - 2 zeta w q' = most.
+  const double a = w * w * most / 2, b = 2 * zeta * w * most, c = most - w * w * u;
+  const double t1 = (-b + std::sqrt(b * b - 4 * a * c)) / (2 * a);
+  const double q1 = most * t1 * t1 / 2, v1 = most * t1;
+  // Then free, as long as the demand stays above -most: it is -12 at about a quarter of a turn.
+  for (const model::Sample& sample : run.samples) {
+    if (sample.t > t1 + 0.1) break;
+    const auto [q, v] = sample.t < t1 ? std::pair{most * sample.t * sample.t / 2, most * sample.t}
+                                      : free_servo(q1, v1, u, w, zeta, sample.t - t1);
+    CHECK(std::abs(sample.gimbal.phi - q) < 1e-9);
+    CHECK(std::abs(sample.gimbal.phi_dot - v) < 1e-8);
+    CHECK(std::abs(sample.gimbal.phi_ddot) <= most * (1 + 1e-9));
+  }
+}
+
+TEST_CASE("a servo at its rate limit keeps that rate, then leaves it") {
+  const Method method = GENERATE(Method::radau, Method::bdf, Method::adams);
+  Scenario scene = step_scene(0.5);
+  const double u = 0.5, w = 10, zeta = 0.5, fastest = 1;
+  scene.gimbal.servo->rate_limit = fastest;
+  const Run run = run_of(scene, method);
+  // Free until q' = fastest: by bisection of the closed form.
+  double from = 0, to = 0.1;
+  for (int i = 0; i < 60; ++i) {
+    const double middle = (from + to) / 2;
+    (free_servo(0, 0, u, w, zeta, middle).second < fastest ? from : to) = middle;
+  }
+  const double t1 = to, q1 = free_servo(0, 0, u, w, zeta, t1).first;
+  // At the limit until w^2 (u - q) = 2 zeta w fastest.
+  const double q2 = u - 2 * zeta * fastest / w, t2 = t1 + (q2 - q1) / fastest;
+  for (const model::Sample& sample : run.samples) {
+    if (sample.t > t2 + 0.3) break;
+    const double t = sample.t;
+    const double q = t < t1   ? free_servo(0, 0, u, w, zeta, t).first
+                     : t < t2 ? q1 + fastest * (t - t1)
+                              : free_servo(q2, fastest, u, w, zeta, t - t2).first;
+    CHECK(std::abs(sample.gimbal.phi - q) < 1e-9);
+    CHECK(sample.gimbal.phi_dot <= fastest);
+    if (t > t1 + 1e-6 && t < t2 - 1e-6) CHECK(sample.gimbal.phi_dot == fastest);
+  }
+  CHECK(t2 < 0.6);
+}
+
+TEST_CASE("a hard stop takes the servo's rate, and kicks the ball by r times it") {
+  const Method method = GENERATE(Method::radau, Method::bdf, Method::adams);
+  Scenario scene = step_scene(0.2);
+  const double u = 0.2, w = 10, zeta = 0.5, stop = 0.15, r = scene.ball.radius;
+  scene.gimbal.servo->angle_limit = stop;
+  const Run run = run_of(scene, method);
+  double from = 0, to = 0.25;
+  for (int i = 0; i < 60; ++i) {
+    const double middle = (from + to) / 2;
+    (free_servo(0, 0, u, w, zeta, middle).first < stop ? from : to) = middle;
+  }
+  const double t1 = to;
+  for (const model::Sample& sample : run.samples) {
+    if (sample.t <= t1) continue;
+    CHECK(sample.gimbal.phi == stop);
+    CHECK(sample.gimbal.phi_dot == 0);
+    CHECK(sample.gimbal.phi_ddot == 0);
+  }
+  // Of (27), with y = 0 = theta: (x' + r phi')' = 5/7 (g sin phi + x phi'^2), without a jump.
+  // Integrated over the run by Simpson's rule, apart before and after the stop.
+  const auto integrand = [&](const model::Sample& s) {
+    return 5.0 / 7 *
+           (scene.gravity * std::sin(s.gimbal.phi) +
+            s.ball.x * s.gimbal.phi_dot * s.gimbal.phi_dot);
+  };
+  Scenario fine = scene;
+  fine.time = {t1, t1 / 2000};
+  fine.gimbal.servo->angle_limit.reset();
+  const Run before = run_of(fine, method);
+  double momentum = 0;
+  for (std::size_t i = 0; i + 2 < before.samples.size(); i += 2) {
+    momentum += t1 / 2000 / 3 *
+                (integrand(before.samples[i]) + 4 * integrand(before.samples[i + 1]) +
+                 integrand(before.samples[i + 2]));
+  }
+  const model::Sample& end = run.samples.back();
+  momentum += 5.0 / 7 * scene.gravity * std::sin(stop) * (end.t - t1);
+  // A hundred times what the tolerances allow for a step; BDF and Adams take thousands of steps.
+  const double bound = method == Method::radau ? 1e-9 : 1e-7;
+  CHECK(end.ball.x_dot + r * end.gimbal.phi_dot == Approx(momentum).epsilon(bound));
+}
+
+TEST_CASE("backlash: the plane follows only where the servo pushes it") {
+  const Method method = GENERATE(Method::radau, Method::bdf, Method::adams);
+  Scenario scene = step_scene(0.2);
+  const double gap = 0.04;
+  scene.gimbal.servo->backlash = gap;
+  const Run run = run_of(scene, method);
+  // The servo overshoots (zeta 0.5) and comes back by less than the gap: the plane stays where the
+  // overshoot left it, half a gap behind its largest angle.
+  const double overshoot = 0.2 * (1 + std::exp(-std::acos(-1.0) * 0.5 / std::sqrt(0.75)));
+  CHECK(overshoot - 0.2 < gap);
+  CHECK(run.samples.back().gimbal.phi == Approx(overshoot - gap / 2).epsilon(1e-9));
+  CHECK(run.samples.back().gimbal.phi_dot == 0);
+  // At first it does not move at all, until the servo has crossed half the gap.
+  CHECK(run.samples[3].gimbal.phi == 0);
+}
+
+TEST_CASE("a servo of first order follows its command exponentially, and kicks the ball at once") {
+  const Method method = GENERATE(Method::radau, Method::bdf, Method::adams);
+  Scenario scene = step_scene(0.01);
+  Servo servo;
+  servo.time_constant = 0.1;
+  scene.gimbal.servo = servo;
+  scene.gravity = 0;
+  const Run run = run_of(scene, method);
+  const double r = scene.ball.radius, rate = 0.01 / 0.1;
+  CHECK(run.samples.front().gimbal.phi_dot == Approx(rate).epsilon(1e-14));
+  CHECK(run.samples.front().ball.x_dot == Approx(-r * rate).epsilon(1e-13));
+  for (const model::Sample& sample : run.samples) {
+    const double q = 0.01 * (1 - std::exp(-sample.t / 0.1));
+    CHECK(std::abs(sample.gimbal.phi - q) < 1e-11);
+  }
+}
+
+TEST_CASE("a dead band keeps small changes of the command from the servo") {
+  Scenario scene = fig2b();
+  scene.ball.radius = 0.02;
+  scene.controller->kp = {{{0.5, 0}, {0, -0.5}}};
+  scene.controller->kv = {{{0.5, 0}, {0, -0.5}}};
+  scene.controller->sampling = Sampling{0.02, 0, 0, 0.02};
+  scene.gimbal.servo = Servo{30, 0.8};
+  scene.gimbal.servo->dead_band = 0.004;
+  const Run run = run_of(scene, Method::automatic);
+  double before = run.samples.front().command[0];
+  int kept = 0;
+  for (const model::Sample& sample : run.samples) {
+    if (sample.command[0] == before) {
+      ++kept;
+    } else {
+      CHECK(std::abs(sample.command[0] - before) > 0.004);
+    }
+    before = sample.command[0];
+  }
+  CHECK(kept > 10);
+}

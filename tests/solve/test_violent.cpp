@@ -1,0 +1,123 @@
+// Stiff, unstable and exploding scenes, extreme sizes, and a pulse.
+#include <cmath>
+
+#include "solve/hard_cases.hpp"
+
+using namespace bbsim;
+using namespace bbsim_test;
+
+namespace {
+
+constexpr solve::Tolerances usual{1e-9, 1e-11};
+
+}  // namespace
+
+TEST_CASE("servos of 2000 and 20000 rad/s: the loop's accuracy, in few steps") {
+  const char* const frequency = GENERATE("2000", "20000");
+  // Not Adams: stability would hold its steps below 1/20000 s.
+  const Method method = GENERATE(Method::automatic, Method::radau, Method::bdf);
+  CAPTURE(frequency, name_of(method));
+  const Scenario scene =
+      hard_case("stiff-servo", {std::string("gimbal.servo.natural_frequency=") + frequency});
+  static const ExactRun references[2] = {
+      quad_reference(hard_case("stiff-servo", {"gimbal.servo.natural_frequency=2000"})),
+      quad_reference(hard_case("stiff-servo", {"gimbal.servo.natural_frequency=20000"}))};
+  const Run run = run_in_memory(scene, method, usual);
+  check_against(references[std::string(frequency) == "20000"], run, usual, scene.ball.radius);
+  // Not one step for each 1/omega_n: that would be 42000 or 420000.
+  CHECK(run.outcome.statistics.steps < 4000);
+}
+
+TEST_CASE("a solution that reaches infinity ends there, with its rows and a reason") {
+  const Method method = GENERATE(Method::automatic, Method::radau, Method::bdf, Method::adams);
+  CAPTURE(name_of(method));
+  const Scenario scene = hard_case("blow-up");
+  const Run run = run_in_memory(scene, method, usual);
+  CHECK(run.outcome.ending == solve::Ending::failed);
+  CHECK_FALSE(run.outcome.reason.empty());
+  // The solution's size at t is about 1/(T - t)^p: the end is as sharp as the last step is short.
+  CHECK(std::abs(run.outcome.reached - 0.7488) < 1e-3);
+  CHECK(run.samples.size() == 75);
+  CHECK(run.outcome.statistics.steps < 20000);
+  // Up to t = 0.6 s it is a scene like any other, that grows.
+  Scenario before = scene;
+  before.time.end = 0.6;
+  const ExactRun reference = quad_reference(before);
+  for (std::size_t i = 1; i < reference.x.size() - 1; ++i) {
+    // The growth is not of the ball alone: its errors pass through the gimbal, whose gain of
+    // kv = 100 multiplies them.
+    const double allowed = 100 * allowance(run, usual, scene.ball.radius, i);
+    CHECK(std::abs(run.samples[i].ball.x - reference.x[i]) < allowed);
+    CHECK(std::abs(run.samples[i].ball.y - reference.y[i]) < allowed);
+  }
+}
+
+TEST_CASE("exponential instability keeps its relative error, over 15 decades") {
+  const Method method = GENERATE(Method::automatic, Method::radau, Method::bdf, Method::adams);
+  CAPTURE(name_of(method));
+  const Scenario scene = hard_case("unstable");
+  const Run run = run_in_memory(scene, method, usual);
+  REQUIRE(run.outcome.ending == solve::Ending::done);
+  REQUIRE(run.samples.size() == 201);
+  const double w = 2, g = scene.gravity, r = scene.ball.radius;
+  const double k = w * std::sqrt(5.0 / 7), q = w * std::sqrt(2.0 / 7);
+  const double b = 5 * g / (12 * w * k), c = r * 5 * w * (2.0 / 7) / q;
+  for (std::size_t i = 1; i < run.samples.size(); ++i) {
+    const double t = run.samples[i].t;
+    const double x =
+        0.05 * std::cosh(k * t) + b * std::sinh(k * t) - 5 * g / (12 * w * w) * std::sin(w * t);
+    const double vy = 0.1 * std::cos(q * t) + c * std::sin(q * t);
+    // The closed form itself: k t up to 34, rounded, and the same for the solver's constants.
+    const double rounding = 40 * 4 * 2.3e-16 * std::abs(x);
+    CHECK(std::abs(run.samples[i].ball.x - x) < allowance(run, usual, r, i) + rounding);
+    // Across it does not grow, but BDF's local error is measured over all states together.
+    if (method == Method::bdf || method == Method::adams) continue;
+    const double steps = static_cast<double>(run.outcome.statistics.steps);
+    CHECK(std::abs(run.samples[i].ball.y_dot - vy) < steps * (usual.rtol + usual.atol));
+  }
+}
+
+TEST_CASE("theta through 90 degrees and phi round and round") {
+  const Method method = GENERATE(Method::automatic, Method::radau, Method::bdf, Method::adams);
+  CAPTURE(name_of(method));
+  const Scenario scene = hard_case("overhead");
+  static const ExactRun reference = quad_reference(hard_case("overhead"));
+  const Run run = run_in_memory(scene, method, usual);
+  check_against(reference, run, usual, scene.ball.radius);
+  double largest_theta = 0;
+  for (const auto& sample : run.samples) {
+    largest_theta = std::max(largest_theta, std::abs(sample.gimbal.theta));
+  }
+  CHECK(largest_theta > 1.9);
+  CHECK(run.samples.back().gimbal.phi == 25);
+}
+
+TEST_CASE("balls of 10 micrometres and of 10 metres") {
+  const char* const name = GENERATE("ball-10um", "ball-10m");
+  const Method method = GENERATE(Method::automatic, Method::radau, Method::bdf, Method::adams);
+  CAPTURE(name, name_of(method));
+  const Scenario scene = hard_case(name);
+  const Run run = run_in_memory(scene, method, usual);
+  check_against(quad_reference(scene), run, usual, scene.ball.radius);
+  CHECK(run.outcome.statistics.steps < 5000);
+}
+
+TEST_CASE("a pulse of 1 ms in 1000 s is felt") {
+  const Method method = GENERATE(Method::automatic, Method::radau, Method::bdf, Method::adams);
+  CAPTURE(name_of(method));
+  const Scenario scene = hard_case("pulse");
+  const solve::Tolerances tolerances{scene.solver.rtol, scene.solver.atol};
+  const Run run = run_in_memory(scene, method, tolerances);
+  static const ExactRun reference = quad_reference(hard_case("pulse"));
+  check_against(reference, run, tolerances, scene.ball.radius);
+  // Before it nothing: the table's zeros are zeros, what the spline rings is below 3.7^-60.
+  CHECK(std::abs(run.samples[499].ball.x - 0.05) < 1e-15);
+  // After it, of 7 x'' = 5 g sin phi - 7 r phi'' + 5 x phi'^2: the first term gives 5/7 g times
+  // the area 0.02 * 0.5 ms * 256/315, the second nothing, and the third 5/7 x times
+  // 0.02^2 / 0.5 ms * 64 B, B the integral of s^2 (1 - s^2)^6 over [-1, 1], which is 2048/45045.
+  // It is to a percent: x moves by r phi = 0.2 mm of 50 mm on the way.
+  const double speed =
+      5.0 / 7 *
+      (scene.gravity * 0.02 * 0.5e-3 * 256 / 315 * 1 + 0.05 * 4e-4 / 0.5e-3 * 64 * 2048 / 45045);
+  CHECK(std::abs(run.samples.back().ball.x_dot / speed - 1) < 0.01);
+}

@@ -1,0 +1,423 @@
+// The ways in which a sweep computes its cases, held against single runs.
+#include <unistd.h>
+
+#include <atomic>
+#include <cmath>
+#include <cstdio>
+#include <fstream>
+#include <limits>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "catch.hpp"
+#include "record/meter.hpp"
+#include "solve/integrate.hpp"
+#include "sweep/single.hpp"
+#include "sweep/superposition.hpp"
+#include "sweep/sweep.hpp"
+
+using namespace bbsim;
+using namespace bbsim::sweep;
+
+namespace {
+
+const std::atomic<bool> goes_on{false};
+
+std::vector<scenario::Measure> measures(const std::vector<std::string>& names) {
+  std::vector<scenario::Measure> found;
+  for (const std::string& name : names) found.push_back(*scenario::find_measure(name));
+  return found;
+}
+
+// A sweep with all that it refers to.
+struct Setup {
+  Setup(const std::string& scene, std::vector<Variation> vary, const std::vector<std::string>& set,
+        const std::vector<std::string>& names, double samples = 0)
+      : family(BBSIM_SOURCE_DIR "/" + scene, set),
+        plan(family, sweep(std::move(vary), samples)),
+        task{family, plan, measures(names)} {}
+
+  static Sweep sweep(std::vector<Variation> vary, double samples) {
+    Sweep made;
+    made.vary = std::move(vary);
+    if (samples > 0) made.samples = samples;
+    return made;
+  }
+
+  ScenarioFamily family;
+  SweepPlan plan;
+  SweepTask task;
+};
+
+CaseResults run_all(CaseRunner& runner, std::size_t cases) {
+  CaseResults results;
+  REQUIRE(runner.run(0, cases, results, goes_on));
+  return results;
+}
+
+const std::vector<std::string> open_measures{"x_end", "y_end", "max_distance", "max_tilt",
+                                             "max_tilt_rate"};
+const std::vector<std::string> loop_measures{"x_end",
+                                             "y_end",
+                                             "max_tilt",
+                                             "max_tilt_rate",
+                                             "max_distance",
+                                             "rms_tracking_error",
+                                             "max_tracking_error"};
+
+// The largest difference of two sweeps' numbers, of those above 1 relative to them.
+double largest_difference(const CaseResults& a, const CaseResults& b) {
+  REQUIRE(a.numbers.size() == b.numbers.size());
+  double largest = 0;
+  for (std::size_t i = 0; i < a.numbers.size(); ++i) {
+    const double size = std::max(1.0, std::abs(a.numbers[i]));
+    largest = std::max(largest, std::abs(a.numbers[i] - b.numbers[i]) / size);
+  }
+  return largest;
+}
+
+// By record::Meter, which looks at every row by itself, from the rows of solve::integrate.
+CaseResults one_by_one(const SweepTask& task) {
+  CaseResults results;
+  results.resize(task.plan.cases(), task);
+  const std::size_t numbers = 1 + task.measures.size();
+  for (std::size_t i = 0; i < task.plan.cases(); ++i) {
+    const Scenario scenario = task.family.read(task.plan.settings(i));
+    const model::Model model = model::assemble(scenario, false);
+    const model::BallConstants constants = model::constants_of(scenario);
+    const solve::OutputGrid grid(scenario.time);
+    record::Meter meter(task.measures);
+    meter.begin(model, constants, grid);
+    const solve::Outcome outcome = solve::integrate(
+        model, scenario.solver.method, {scenario.solver.rtol, scenario.solver.atol}, grid, meter);
+    results.numbers[i * numbers] = outcome.reached;
+    meter.finish(outcome, &results.numbers[i * numbers + 1]);
+  }
+  return results;
+}
+
+}  // namespace
+
+TEST_CASE("many rows at a time give the measures of each row by itself") {
+  SECTION("under a given motion") {
+    const Setup setup("configs/fig2a.yaml",
+                      {{"gimbal.motion.phi.sinusoid.amplitude", "uniform:-2:2"},
+                       {"gimbal.motion.theta.sinusoid.frequency", "uniform:0.5:3"}},
+                      {"time.step=0.07"}, open_measures, 40);
+    const auto runner = single_runner(setup.task);
+    // Sums and products of the same numbers in another order; angles beyond a right one too.
+    CHECK(largest_difference(run_all(*runner, 40), one_by_one(setup.task)) < 1e-12);
+  }
+  SECTION("under one motion, which is evaluated once") {
+    const Setup setup("configs/fig2a.yaml", {{"ball.spin", "uniform:-5:5"}}, {"time.step=0.3"},
+                      open_measures, 10);
+    const auto runner = single_runner(setup.task);
+    CHECK(largest_difference(run_all(*runner, 10), one_by_one(setup.task)) < 1e-12);
+  }
+  SECTION("in a loop") {
+    const Setup setup("configs/fig2b.yaml",
+                      {{"controller.pd.kv.0.0", "uniform:0.8:1.2"},
+                       {"controller.reference.circle.radius", "uniform:0.01:0.08"}},
+                      {"time.step=0.13"}, loop_measures, 20);
+    const auto runner = single_runner(setup.task);
+    CHECK(largest_difference(run_all(*runner, 20), one_by_one(setup.task)) < 1e-12);
+  }
+  SECTION("of runs that end early") {
+    const Setup setup("configs/fig2b-literal.yaml", {{"controller.pd.kv", "linear:60:100:5"}}, {},
+                      loop_measures);
+    const auto runner = single_runner(setup.task);
+    const CaseResults results = run_all(*runner, 5), expected = one_by_one(setup.task);
+    const std::size_t numbers = 1 + setup.task.measures.size();
+    for (std::size_t i = 0; i < results.numbers.size(); ++i) {
+      // The plane turns over and over in the last steps: no number of points shows each time.
+      const std::size_t place = i % numbers;
+      const bool tilt = place > 0 && setup.task.measures[place - 1].name == "max_tilt";
+      CHECK(results.numbers[i] == Approx(expected.numbers[i]).epsilon(tilt ? 1e-3 : 1e-12));
+    }
+    CHECK(results.status[0].word == "failed");
+  }
+}
+
+TEST_CASE("a key above the motion or the reference changes it from case to case") {
+  const Setup setup(
+      "configs/fig2a.yaml",
+      {{"gimbal",
+        "list:{motion: {phi: 0.01}}, {motion: {phi: 0.3, theta: {ramp: {start: 0, rate: "
+        "0.01}}}}"}},
+      {}, open_measures);
+  const auto runner = single_runner(setup.task);
+  CHECK(largest_difference(run_all(*runner, 2), one_by_one(setup.task)) < 1e-12);
+}
+
+TEST_CASE("distances neither overflow nor vanish on the way") {
+  const double size = GENERATE(1e160, 1e-180);
+  char far[80];
+  std::snprintf(far, sizeof far, "linear:%g:%g:40", size, 2 * size);
+  const Setup setup("configs/fig2a.yaml", {{"ball.position.0", far}},
+                    {"ball.position.1=0", "gravity=0", "ball.radius=1e-200"}, {"max_distance"});
+  REQUIRE(can_superpose(setup.task));
+  const auto runner = superposition_runner(setup.task, solve_superposed(setup.task));
+  const auto single = single_runner(setup.task);
+  const CaseResults sums = run_all(*runner, 40), runs = run_all(*single, 40);
+  for (std::size_t i = 0; i < 40; ++i) {
+    CHECK(sums.numbers[2 * i + 1] >= size);
+    CHECK(sums.numbers[2 * i + 1] == Approx(runs.numbers[2 * i + 1]).epsilon(1e-6));
+  }
+}
+
+TEST_CASE("superposition agrees with single runs") {
+  const Setup setup("configs/fig2a.yaml",
+                    {{"ball.position.0", "uniform:-0.2:0.2"},
+                     {"ball.velocity.1", "uniform:-0.2:0.2"},
+                     {"ball.radius", "uniform:0.005:0.05"},
+                     {"ball.spin", "uniform:-20:20"},
+                     {"gravity", "uniform:1:20"}},
+                    {"solver.rtol=1e-12", "solver.atol=1e-14"}, open_measures, 100);
+  REQUIRE(can_superpose(setup.task));
+  const auto runner = superposition_runner(setup.task, solve_superposed(setup.task));
+  const auto single = single_runner(setup.task);
+  // Distances up to some metres, single runs at 1e-12.
+  CHECK(largest_difference(run_all(*runner, 100), run_all(*single, 100)) < 1e-11);
+}
+
+TEST_CASE("superposition follows tables and planar scenes") {
+  const auto [scene, key] = GENERATE(std::pair("configs/recorded.yaml", "ball.position.0"),
+                                     std::pair("configs/incline.yaml", "ball.velocity.0"));
+  const Setup setup(scene, {{key, "uniform:0.01:0.02"}}, {"solver.rtol=1e-12", "solver.atol=1e-14"},
+                    open_measures, 40);
+  REQUIRE(can_superpose(setup.task));
+  const auto runner = superposition_runner(setup.task, solve_superposed(setup.task));
+  const auto single = single_runner(setup.task);
+  CHECK(largest_difference(run_all(*runner, 40), run_all(*single, 40)) < 1e-11);
+}
+
+TEST_CASE("what is not linear is not superposed") {
+  const auto superposes = [](const std::string& scene, Variation vary,
+                             const std::vector<std::string>& set,
+                             const std::vector<std::string>& names) {
+    return can_superpose(Setup(scene, {std::move(vary)}, set, names, 100).task);
+  };
+  const std::string open = "configs/fig2a.yaml";
+  CHECK(superposes(open, {"gravity", "uniform:1:2"}, {}, open_measures));
+  CHECK_FALSE(
+      superposes(open, {"gimbal.motion.phi.sinusoid.phase", "uniform:1:2"}, {}, open_measures));
+  CHECK_FALSE(superposes(open, {"gravity", "uniform:1:2"}, {}, {"max_normal_force"}));
+  CHECK_FALSE(
+      superposes(open, {"gravity", "uniform:1:2"}, {"ball.inertia_factor=0.5"}, open_measures));
+  CHECK_FALSE(
+      superposes(open, {"gravity", "uniform:1:2"}, {"events.lift_off=note"}, open_measures));
+  CHECK_FALSE(superposes(open, {"gravity", "uniform:1:2"}, {"solver.method=bdf"}, open_measures));
+  CHECK_FALSE(superposes(open, {"gravity", "uniform:1:2"}, {"solver.error=1e-6"}, open_measures));
+  CHECK_FALSE(superposes("configs/fig2b.yaml", {"gravity", "uniform:1:2"}, {}, loop_measures));
+}
+
+TEST_CASE("trajectories are the rows of each case, and no number beyond its end") {
+  Setup setup("configs/fig2b-literal.yaml", {{"controller.pd.kv", "list:0.001,100"}},
+              {"time.end=1"}, {"x_end"});
+  const solve::OutputGrid grid(setup.family.read(setup.plan.settings(0)).time);
+  setup.task.series = {scenario::find_column("x"), scenario::find_column("normal_force")};
+  setup.task.series_rows = grid.size();
+  const CaseResults results = run_all(*single_runner(setup.task), 2);
+  REQUIRE(results.series[0].size() == 2 * grid.size());
+  for (std::size_t i = 0; i < 2; ++i) {
+    const Scenario scenario = setup.family.read(setup.plan.settings(i));
+    const model::Model model = model::assemble(scenario, false);
+    solve::Trajectory rows(model.row_size());
+    static_cast<void>(solve::integrate(model, scenario.solver.method,
+                                       {scenario.solver.rtol, scenario.solver.atol}, grid, rows));
+    CHECK(rows.rows() == (i == 0 ? grid.size() : 75));
+    for (std::size_t row = 0; row < grid.size(); ++row) {
+      const double x = results.series[0][i * grid.size() + row];
+      const double force = results.series[1][i * grid.size() + row];
+      if (row >= rows.rows()) {
+        CHECK((std::isnan(x) && std::isnan(force)));
+        continue;
+      }
+      const model::Sample sample = model.sample(grid[row], rows.row(row));
+      CHECK(x == sample.ball.x);
+      CHECK(force == model::dynamics(sample, model::constants_of(scenario)).normal_force());
+    }
+  }
+}
+
+TEST_CASE("cases come in order, once each, from any number of threads") {
+  const Setup setup("configs/fig2a.yaml", {{"gimbal.motion.phi.sinusoid.phase", "linear:0:3:301"}},
+                    {}, {"x_end"});
+  const Engine engine = choose_engine(setup.task);
+  for (const std::size_t threads : {1, 2, 7, 400}) {
+    std::size_t next = 5;
+    const bool finished = run_sweep(
+        engine, {5, 300}, threads, goes_on, [](CaseResults&) {},
+        [&](const CaseResults& results) {
+          CHECK(results.first == next);
+          next += results.count;
+        });
+    CHECK(finished);
+    CHECK(next == 300);
+  }
+}
+
+TEST_CASE("a sweep ends where it is told to, and where its results cannot be kept") {
+  const Setup setup("configs/fig2a.yaml", {{"gimbal.motion.phi.sinusoid.phase", "linear:0:3:5000"}},
+                    {}, {"x_end"});
+  const Engine engine = choose_engine(setup.task);
+  std::atomic<bool> stop{false};
+  std::size_t delivered = 0;
+  CHECK_FALSE(run_sweep(
+      engine, {0, 5000}, 2, stop, [](CaseResults&) {},
+      [&](const CaseResults& results) {
+        delivered += results.count;
+        stop = true;
+      }));
+  CHECK(delivered > 0);
+  CHECK(delivered < 5000);
+  CHECK_THROWS_AS(run_sweep(
+                      engine, {0, 5000}, 2, goes_on, [](CaseResults&) {},
+                      [](const CaseResults&) { throw std::runtime_error("full"); }),
+                  std::runtime_error);
+}
+
+TEST_CASE("shards are whole groups, as even as can be, and make up the sweep") {
+  for (const std::size_t cases : {0, 1, 7, 8, 9, 100, 1000003}) {
+    for (const std::size_t group : {1, 8}) {
+      for (const std::size_t shards : {1, 2, 3, 10}) {
+        std::size_t next = 0, least = cases, most = 0;
+        for (std::size_t k = 1; k <= shards; ++k) {
+          const CaseRange range = shard_range(cases, group, k, shards);
+          CHECK(range.first == next);
+          CHECK((range.first % group == 0 || range.first == cases));
+          least = std::min(least, range.last - range.first);
+          most = std::max(most, range.last - range.first);
+          next = range.last;
+        }
+        CHECK(next == cases);
+        CHECK(most - least < 2 * group);
+      }
+    }
+  }
+}
+
+namespace {
+
+// Within the tolerance of 1e-6 of both, over a loop that amplifies it little.
+void check_lanes(const Setup& setup) {
+  const Engine engine = choose_engine(setup.task);
+  REQUIRE(engine.name == "lanes");
+  const std::size_t cases = setup.plan.cases();
+  const CaseResults lanes = run_all(*engine.runner(), cases);
+  CHECK(largest_difference(lanes, run_all(*single_runner(setup.task), cases)) < 1e-4);
+  for (const CaseStatus& status : lanes.status) {
+    CHECK(status.word == "done");
+    CHECK(status.reason.empty());
+  }
+}
+
+const std::vector<std::string> coarse{"solver.rtol=1e-6", "solver.atol=1e-8"};
+
+}  // namespace
+
+TEST_CASE("planar cases do not decide how the others are computed") {
+  // Along x alone where the ball starts on that axis.
+  const char* const spec =
+      GENERATE("linear:0:5 cm:11", "linear:5 cm:0:11", "list:0,0,0,0,0,0,0,0,1 cm");
+  CAPTURE(spec);
+  check_lanes(Setup("configs/beam.yaml", {{"ball.position.1", spec}}, coarse, loop_measures));
+}
+
+TEST_CASE("a sweep of planar cases alone is run one by one") {
+  const Setup setup("configs/beam.yaml", {{"ball.position.0", "linear:0:5 cm:11"}}, coarse,
+                    loop_measures);
+  CHECK(choose_engine(setup.task).name == "single runs");
+  const Setup zeros("configs/beam.yaml", {{"ball.position.1,ball.velocity.1", "list:0,0,0"}},
+                    coarse, loop_measures);
+  CHECK(choose_engine(zeros.task).name == "single runs");
+}
+
+TEST_CASE("what most cases are like decides the engine, whichever comes first") {
+  const auto engine = [](const std::string& spec) {
+    const Setup setup(
+        "tests/data/scenarios/stiff-servo.yaml",
+        {{"gimbal.servo.natural_frequency", spec}, {"ball.position.0", "linear:0:0.05:16"}},
+        {"solver.rtol=1e-8"}, loop_measures);
+    return choose_engine(setup.task).name;
+  };
+  // What a servo of 2000 rad/s does decays 2e4 times over the 21 s, of one of 10 rad/s 200 times.
+  CHECK(engine("list:10,2000,2000,2000") == "lanes");
+  CHECK(engine("list:2000,2000,2000,10") == "lanes");
+  CHECK(engine("list:2000,10,10,10") == "single runs");
+  CHECK(engine("list:10,10,10,2000") == "single runs");
+}
+
+TEST_CASE("tied keys are computed by every engine") {
+  SECTION("lanes") {
+    check_lanes(Setup("configs/fig2b.yaml",
+                      {{"controller.pd.kv.0.0,-controller.pd.kv.1.1", "linear:0.8:1.2:9"},
+                       {"ball.position.0,-0.5*ball.position.1", "list:1 cm,4 cm"}},
+                      coarse, loop_measures));
+  }
+  SECTION("superposition") {
+    const Setup setup("configs/fig2a.yaml",
+                      {{"ball.position.0,-2*ball.position.1", "uniform:-0.2:0.2"}},
+                      {"solver.rtol=1e-12", "solver.atol=1e-14"}, open_measures, 50);
+    REQUIRE(can_superpose(setup.task));
+    const auto runner = superposition_runner(setup.task, solve_superposed(setup.task));
+    const CaseResults sums = run_all(*runner, 50), runs = run_all(*single_runner(setup.task), 50);
+    CHECK(largest_difference(sums, runs) < 1e-11);
+    for (std::size_t i = 0; i < 50; ++i) CHECK(sums.values[2 * i + 1] == -2 * sums.values[2 * i]);
+  }
+  SECTION("single runs, by numbers put in place and by scenarios read anew") {
+    for (const char* set : {"ball.spin=0", "events.lift_off=note"}) {
+      const Setup tied("configs/fig2b.yaml",
+                       {{"controller.pd.kv.0.0,-controller.pd.kv.1.1", "list:0.8,1.2"}}, {set},
+                       loop_measures);
+      const CaseResults results = run_all(*single_runner(tied.task), 2);
+      for (std::size_t i = 0; i < 2; ++i) {
+        const std::string kv = i == 0 ? "0.8" : "1.2";
+        const Setup one("configs/fig2b.yaml", {{"controller.pd.kv.1.1", "list:-" + kv}},
+                        {set, "controller.pd.kv.0.0=" + kv}, loop_measures);
+        const CaseResults alone = run_all(*single_runner(one.task), 1);
+        for (std::size_t n = 0; n < alone.numbers.size(); ++n) {
+          CHECK(results.numbers[i * alone.numbers.size() + n] == alone.numbers[n]);
+        }
+      }
+    }
+  }
+}
+
+TEST_CASE("a case without what a measure needs has no number for it, and says why") {
+  const std::string second = GENERATE("{size: [0.3, 0.3]}", "{diameter: 0.3}");
+  const Setup setup("configs/fig2a.yaml",
+                    {{"plate", "list:{inertia: [1e-4, 1e-4, 2e-4]}," + second}}, {},
+                    {"end_motor_torque_phi", "x_end"});
+  const CaseResults results = run_all(*single_runner(setup.task), 2);
+  CHECK(results.status[0].word == "done");
+  CHECK(results.status[0].reason.empty());
+  CHECK(std::isfinite(results.numbers[1]));
+  CHECK(std::isnan(results.numbers[4]));
+  CHECK(std::isfinite(results.numbers[5]));
+  CHECK(results.status[1].reason ==
+        "end_motor_torque_phi is no number: plate.inertia is not known");
+}
+
+TEST_CASE("a measure beyond the range of doubles has its reason, whatever the engine") {
+  SECTION("single runs, row by row and many rows at a time") {
+    for (const char* measure : {"max_normal_force", "end_normal_force"}) {
+      const Setup setup("configs/fig2a.yaml", {{"ball.mass", "list:1,1e308"}}, {}, {measure});
+      const CaseResults results = run_all(*single_runner(setup.task), 2);
+      CHECK(results.status[0].word == "done");
+      CHECK(results.status[0].reason.empty());
+      CHECK(results.status[1].reason == measure + std::string(" is infinite"));
+    }
+  }
+  SECTION("lanes") {
+    const Setup setup("configs/fig2b.yaml", {{"ball.mass", "list:1,1e308"}}, coarse,
+                      {"end_normal_force"});
+    const Engine engine = choose_engine(setup.task);
+    REQUIRE(engine.name == "lanes");
+    const CaseResults results = run_all(*engine.runner(), 2);
+    CHECK(results.status[0].word == "done");
+    CHECK(results.status[0].reason.empty());
+    CHECK(results.status[1].reason == "end_normal_force is infinite");
+  }
+}

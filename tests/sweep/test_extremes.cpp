@@ -1,0 +1,367 @@
+// What a sweep's cases are greatest at between their rows, by each of its engines.
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <functional>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "catch.hpp"
+#include "record/column_values.hpp"
+#include "solve/integrate.hpp"
+#include "study/reference.hpp"
+#include "sweep/gimbal_extremes.hpp"
+#include "sweep/lanes.hpp"
+#include "sweep/single.hpp"
+#include "sweep/superposition.hpp"
+#include "sweep/sweep.hpp"
+
+using namespace bbsim;
+using namespace bbsim::sweep;
+
+namespace {
+
+const std::atomic<bool> goes_on{false};
+
+const std::vector<std::string> extremes{"max_distance", "max_tilt", "max_tilt_rate"};
+const std::vector<std::string> loop_extremes{"max_distance", "max_tilt", "max_tilt_rate",
+                                             "max_tracking_error"};
+
+struct Setup {
+  Setup(const std::string& scene, std::vector<Variation> vary, const std::vector<std::string>& set,
+        const std::vector<std::string>& names, double samples)
+      : family(BBSIM_SOURCE_DIR "/" + scene, set),
+        plan(family, sweep(std::move(vary), samples)),
+        task{family, plan, measures(names)} {}
+
+  static Sweep sweep(std::vector<Variation> vary, double samples) {
+    Sweep made;
+    made.vary = std::move(vary);
+    made.samples = samples;
+    return made;
+  }
+  static std::vector<scenario::Measure> measures(const std::vector<std::string>& names) {
+    std::vector<scenario::Measure> found;
+    for (const std::string& name : names) found.push_back(*scenario::find_measure(name));
+    return found;
+  }
+
+  ScenarioFamily family;
+  SweepPlan plan;
+  SweepTask task;
+};
+
+CaseResults run_all(CaseRunner& runner, const SweepTask& task) {
+  CaseResults results;
+  REQUIRE(runner.run(0, task.plan.cases(), results, goes_on) == task.plan.cases());
+  return results;
+}
+
+// The greatest of equidistant values, and of the polynomial through the seven about it.
+double greatest_of(const std::vector<double>& values) {
+  const auto most = std::max_element(values.begin(), values.end());
+  if (values.end() - most <= 3 || most - values.begin() < 3) return *most;
+  const auto at = [&](double u) {  // Lagrange's
+    double sum = 0;
+    for (int k = -3; k <= 3; ++k) {
+      double factor = most[k];
+      for (int other = -3; other <= 3; ++other) {
+        if (other != k) factor *= (u - other) / (k - other);
+      }
+      sum += factor;
+    }
+    return sum;
+  };
+  double from = -1, to = 1;
+  for (int i = 0; i < 60; ++i) {
+    const double a = from + 0.382 * (to - from), b = from + 0.618 * (to - from);
+    (at(a) < at(b) ? from : to) = at(a) < at(b) ? a : b;
+  }
+  return std::max(*most, at(from));
+}
+
+// The measures of case `number`, from many rows at the finest tolerance.
+std::vector<double> from_many_rows(const SweepTask& task, std::size_t number) {
+  Scenario scenario = task.family.read(task.plan.settings(number));
+  scenario.time.step = scenario.time.end / 40000;
+  const model::Model model = model::assemble(scenario, false);
+  const model::BallConstants constants = model::constants_of(scenario);
+  const solve::OutputGrid grid(scenario.time);
+  solve::Trajectory rows(model.row_size());
+  REQUIRE(solve::integrate(model, Method::radau, {1e-13, 1e-15}, grid, rows).ending ==
+          solve::Ending::done);
+  std::vector<std::vector<double>> values(task.measures.size());
+  for (std::size_t i = 0; i < grid.size(); ++i) {
+    const model::Sample sample = model.sample(grid[i], rows.row(i));
+    const model::Dynamics dynamics = model::dynamics(sample, constants);
+    for (std::size_t m = 0; m < task.measures.size(); ++m) {
+      values[m].push_back(record::value_of(*task.measures[m].column)({sample, &dynamics}));
+    }
+  }
+  std::vector<double> greatest;
+  for (const auto& of_measure : values) greatest.push_back(greatest_of(of_measure));
+  return greatest;
+}
+
+// The largest difference of any case from many rows, absolute: m, rad, rad/s.
+double error_of(const CaseResults& results, const SweepTask& task) {
+  double largest = 0;
+  const std::size_t numbers = 1 + task.measures.size();
+  for (std::size_t i = 0; i < task.plan.cases(); ++i) {
+    CHECK(results.status[i].word == "done");
+    const std::vector<double> expected = from_many_rows(task, i);
+    for (std::size_t m = 0; m < expected.size(); ++m) {
+      CAPTURE(i, task.measures[m].name, results.numbers[i * numbers + 1 + m], expected[m]);
+      const double error = std::abs(results.numbers[i * numbers + 1 + m] - expected[m]);
+      CHECK(error < 1e-8);
+      largest = std::max(largest, error);
+    }
+  }
+  return largest;
+}
+
+}  // namespace
+
+TEST_CASE("maxima between rows a second apart, by single runs") {
+  SECTION("of a loop") {
+    const Setup setup("configs/fig2b.yaml",
+                      {{"controller.pd.kv.0.0", "uniform:0.8:1.2"},
+                       {"gimbal.servo.natural_frequency", "uniform:8:30"}},
+                      {"time.step=1", "solver.rtol=1e-11", "solver.atol=1e-13"}, loop_extremes, 6);
+    // Of rates up to 0.2 rad/s; between the ends of steps, a hundred times their tolerance.
+    CHECK(error_of(run_all(*single_runner(setup.task), setup.task), setup.task) < 1e-9);
+  }
+  SECTION("of a loop, together with a mean over the rows") {
+    std::vector<std::string> names = loop_extremes;
+    const std::vector<std::string> set{"time.step=1", "solver.rtol=1e-10", "solver.atol=1e-12"};
+    const std::vector<Variation> vary{{"controller.pd.kv.0.0", "uniform:0.8:1.2"}};
+    const Setup without("configs/fig2b.yaml", vary, set, names, 4);
+    names.emplace_back("rms_tracking_error");
+    const Setup with("configs/fig2b.yaml", vary, set, names, 4);
+    const CaseResults a = run_all(*single_runner(without.task), without.task);
+    const CaseResults b = run_all(*single_runner(with.task), with.task);
+    for (std::size_t i = 0; i < 4; ++i) {
+      for (std::size_t m = 0; m < 5; ++m) CHECK(a.numbers[i * 5 + m] == b.numbers[i * 6 + m]);
+    }
+  }
+  SECTION("of a given motion") {
+    const Setup setup("configs/fig2a.yaml",
+                      {{"gimbal.motion.phi.sinusoid.amplitude", "uniform:0.005:0.5"},
+                       {"gimbal.motion.theta.sinusoid.frequency", "uniform:0.5:3"},
+                       {"ball.velocity.0", "uniform:-1:1"}},
+                      {"time.step=1", "solver.rtol=1e-11", "solver.atol=1e-13"}, extremes, 8);
+    CHECK(error_of(run_all(*single_runner(setup.task), setup.task), setup.task) < 1e-9);
+  }
+  SECTION("of what only record::Meter measures") {
+    const Setup setup("configs/fig2b.yaml", {{"controller.pd.kv.0.0", "uniform:0.8:1.2"}},
+                      {"time.step=1", "solver.rtol=1e-11", "solver.atol=1e-13"},
+                      {"max_x", "max_friction_force", "max_phi_rate", "max_spin", "max_power"}, 3);
+    CHECK(error_of(run_all(*single_runner(setup.task), setup.task), setup.task) < 1e-9);
+  }
+  SECTION("of a scene that is planar") {
+    const Setup setup("configs/fig2a.yaml", {{"gimbal.motion.theta.sinusoid.phase", "uniform:0:3"}},
+                      {"gimbal.motion.phi=0", "time.step=1", "solver.rtol=1e-11",
+                       "solver.atol=1e-13", "ball.position=[0, 0.1]"},
+                      extremes, 4);
+    CHECK(error_of(run_all(*single_runner(setup.task), setup.task), setup.task) < 1e-10);
+  }
+}
+
+TEST_CASE("maxima between rows a second apart, in lanes") {
+  // Loops whose fastest mode lets lanes be used at a tolerance that is fine enough.
+  const Setup setup("tests/data/scenarios/stiff-servo.yaml",
+                    {{"controller.pd.kv.0.0", "uniform:0.035:0.065"},
+                     {"controller.pd.kp.1.1", "uniform:-0.065:-0.035"}},
+                    {"time.step=1", "solver.rtol=1e-9", "solver.atol=1e-11"},
+                    {"max_distance", "max_tilt", "max_tracking_error"}, 11);
+  REQUIRE(can_use_lanes(setup.task));
+  CHECK(error_of(run_all(*lane_runner(setup.task), setup.task), setup.task) < 1e-8);
+}
+
+TEST_CASE("extremes in lanes are those of single runs, within the tolerance") {
+  const std::string scene = GENERATE("configs/fig2b.yaml", "configs/hold.yaml");
+  const double rtol = GENERATE(1e-4, 1e-7);
+  char tolerance[2][40];
+  std::snprintf(tolerance[0], sizeof tolerance[0], "solver.rtol=%g", rtol);
+  std::snprintf(tolerance[1], sizeof tolerance[1], "solver.atol=%g", 1e-2 * rtol);
+  const std::vector<Variation> vary{{"ball.velocity.0", "uniform:-0.2:0.2"},
+                                    {"controller.pd.kv.0.0", "uniform:0.8:1.2"}};
+  const Setup coarse(scene, vary, {"time.step=1", tolerance[0], tolerance[1]}, loop_extremes, 16);
+  const Setup fine(scene, vary, {"time.step=1", "solver.rtol=1e-12", "solver.atol=1e-14"},
+                   loop_extremes, 16);
+  REQUIRE(can_use_lanes(coarse.task));
+  const CaseResults lanes = run_all(*lane_runner(coarse.task), coarse.task);
+  const CaseResults exact = run_all(*single_runner(fine.task), fine.task);
+  for (std::size_t i = 0; i < lanes.numbers.size(); ++i) {
+    CAPTURE(scene, rtol, i);
+    CHECK(lanes.numbers[i] == Approx(exact.numbers[i]).epsilon(10 * rtol).margin(0.3 * rtol));
+  }
+}
+
+TEST_CASE("maxima between rows ten seconds apart, by superposition") {
+  // The ball goes to and fro beside the middle: the greatest distances are nearly alike, and none
+  // of them is at the start or at the end.
+  const Setup setup(
+      "configs/fig2a.yaml",
+      {{"ball.position.0", "uniform:0:0.1"},
+       {"ball.radius", "uniform:0.005:0.02"},
+       {"gravity", "uniform:5:10"}},
+      {"gimbal.motion.theta=0", "time.step=10", "solver.rtol=1e-11", "solver.atol=1e-13"},
+      {"max_distance", "max_tilt", "max_tilt_rate", "x_end"}, 40);
+  REQUIRE(can_superpose(setup.task));
+  const auto runner = superposition_runner(setup.task, solve_superposed(setup.task));
+  const CaseResults sums = run_all(*runner, setup.task);
+  const CaseResults runs = run_all(*single_runner(setup.task), setup.task);
+  for (std::size_t i = 0; i < sums.numbers.size(); ++i) {
+    CHECK(sums.numbers[i] == Approx(runs.numbers[i]).epsilon(1e-10));
+  }
+  for (std::size_t i = 0; i < 40; i += 13) {
+    const std::vector<double> expected = from_many_rows(setup.task, i);
+    for (std::size_t m = 0; m < 3; ++m) {
+      CHECK(sums.numbers[i * 5 + 1 + m] == Approx(expected[m]).epsilon(1e-10));
+    }
+  }
+}
+
+TEST_CASE("superposition needs no output step, tables or not") {
+  const std::string scene = GENERATE("configs/fig2a.yaml", "configs/recorded.yaml");
+  const auto sums = [&](const std::string& step) {
+    const Setup setup(scene, {{"ball.velocity.0", "uniform:-0.3:0.3"}}, {"time.step=" + step},
+                      extremes, 40);
+    REQUIRE(can_superpose(setup.task));
+    const auto runner = superposition_runner(setup.task, solve_superposed(setup.task));
+    return run_all(*runner, setup.task).numbers;
+  };
+  CHECK(sums("0.01") == sums("1"));
+}
+
+TEST_CASE("extremes of single runs do not depend on the output step, to the bit") {
+  const auto runs = [](const std::string& step, const std::string& scene,
+                       const Variation& variation, const std::vector<std::string>& names) {
+    const Setup setup(scene, {variation}, {"time.step=" + step}, names, 3);
+    return run_all(*single_runner(setup.task), setup.task).numbers;
+  };
+  for (const char* const step : {"0.01", "0.5"}) {
+    const Variation motion{"gimbal.motion.phi.sinusoid.amplitude", "uniform:0.005:0.015"};
+    CHECK(runs("1", "configs/fig2a.yaml", motion, extremes) ==
+          runs(step, "configs/fig2a.yaml", motion, extremes));
+    const Variation gain{"controller.pd.kv.0.0", "uniform:0.8:1.2"};
+    CHECK(runs("1", "configs/fig2b.yaml", gain, loop_extremes) ==
+          runs(step, "configs/fig2b.yaml", gain, loop_extremes));
+    const Variation noise{"controller.sensor.noise", "uniform:1e-4:3e-4"};
+    CHECK(runs("1", "configs/rig.yaml", noise, {"max_motor_power", "min_x", "max_tilt"}) ==
+          runs(step, "configs/rig.yaml", noise, {"max_motor_power", "min_x", "max_tilt"}));
+  }
+}
+
+TEST_CASE("extremes agree with a solution in quad precision") {
+  const Setup setup("configs/fig2b.yaml", {{"ball.mass", "uniform:1:2"}},
+                    {"time.end=2", "time.step=2", "solver.rtol=1e-12", "solver.atol=1e-14"},
+                    {"max_distance", "max_tracking_error"}, 1);
+  const CaseResults results = run_all(*single_runner(setup.task), setup.task);
+  Scenario scenario = setup.family.read(setup.plan.settings(0));
+  scenario.time.step = 1e-3;
+  const model::Model model = model::assemble(scenario, false);
+  const solve::OutputGrid grid(scenario.time);
+  const study::ReferenceSolution exact = study::solve_reference(model, grid);
+  REQUIRE(exact.rows() == grid.size());
+  std::vector<double> distances, errors;
+  for (std::size_t i = 0; i < grid.size(); ++i) {
+    const double x = static_cast<double>(exact.row(i)[0]), y = static_cast<double>(exact.row(i)[1]);
+    const auto [x_wanted, y_wanted] =
+        std::get<model::ClosedLoop<model::Shape::full, Drives::angle>>(model.system)
+            .reference()
+            .at(grid[i]);
+    distances.push_back(std::hypot(x, y));
+    errors.push_back(std::hypot(x - x_wanted.value, y - y_wanted.value));
+  }
+  CHECK(results.numbers[1] == Approx(greatest_of(distances)).epsilon(1e-11));
+  CHECK(results.numbers[2] == Approx(greatest_of(errors)).epsilon(1e-11));
+}
+
+namespace {
+
+// The greatest tilt and rate at so many times.
+GimbalExtremes::Greatest at_many_times(const model::SignalPair& motion, double end) {
+  constexpr std::size_t times = 400000;
+  std::vector<double> tilts, rates;
+  for (std::size_t i = 0; i <= times; ++i) {
+    const auto [phi, theta] = motion.at(end * static_cast<double>(i) / times);
+    const double cos_phi = std::cos(phi.value), cos_theta = std::cos(theta.value);
+    tilts.push_back(std::atan2(std::hypot(std::sin(phi.value), cos_phi * std::sin(theta.value)),
+                               cos_phi * cos_theta));
+    rates.push_back(std::hypot(phi.rate, theta.rate));
+  }
+  return {greatest_of(tilts), greatest_of(rates)};
+}
+
+void check_gimbal(const model::SignalPair& motion, double end) {
+  const GimbalExtremes::Greatest found = GimbalExtremes().of(motion, end);
+  const GimbalExtremes::Greatest expected = at_many_times(motion, end);
+  CHECK(found.tilt == Approx(expected.tilt).epsilon(1e-10));
+  CHECK(found.rate == Approx(expected.rate).epsilon(1e-10));
+}
+
+}  // namespace
+
+TEST_CASE("a given motion's greatest tilt and rate are those at many times") {
+  model::SignalPair motion;
+  SECTION("at rest") {
+    motion.add_constant(0, 0.2);
+    const GimbalExtremes::Greatest found = GimbalExtremes().of(motion, 5);
+    CHECK(found.tilt == Approx(0.2).epsilon(1e-14));
+    CHECK(found.rate == 0);
+  }
+  SECTION("one frequency, a part of a turn or many") {
+    const double end = GENERATE(0.1, 1.0, 2.5, 40.0);
+    const double level = GENERATE(0.0, 0.1);
+    const double size = GENERATE(0.01, 1.2);
+    motion.add_constant(0, level);
+    motion.add_sinusoid(0, size, 1.3, 0.4);
+    motion.add_sinusoid(1, 0.7 * size, 1.3, 2);
+    check_gimbal(motion, end);
+  }
+  SECTION("several frequencies and a ramp") {
+    motion.add_sinusoid(0, 0.2, 1.3, 0.4);
+    motion.add_sinusoid(0, 0.05, 17, 1);
+    motion.add_sinusoid(1, 0.1, 3.1, 2);
+    motion.add_ramp(1, 0.1, 0.02);
+    check_gimbal(motion, 20);
+  }
+  SECTION("over and over") {
+    motion.add_ramp(0, 0, 3);
+    motion.add_constant(1, 0.3);
+    const GimbalExtremes::Greatest found = GimbalExtremes().of(motion, 20);
+    // The normal is furthest from the vertical where phi is half a turn.
+    CHECK(found.tilt == Approx(M_PI - 0.3).epsilon(1e-10));
+    CHECK(found.rate == Approx(3).epsilon(1e-14));
+  }
+  SECTION("tables") {
+    std::vector<double> times, values;
+    std::mt19937 random(3);
+    std::uniform_real_distribution<double> uniform(-0.3, 0.3);
+    for (int i = 0; i < 40; ++i) {
+      times.push_back(0.25 * i);
+      values.push_back(uniform(random));
+    }
+    motion.add_table(0, model::Spline(times, values));
+    motion.add_sinusoid(1, 0.2, 2, 0);
+    check_gimbal(motion, 9.3);
+  }
+}
+
+TEST_CASE("what was evaluated for one motion does not stay for another") {
+  GimbalExtremes gimbal;
+  std::mt19937 random(4);
+  std::uniform_real_distribution<double> uniform(0.1, 1);
+  for (int i = 0; i < 20; ++i) {
+    model::SignalPair motion;
+    motion.add_sinusoid(0, uniform(random), i % 3 == 0 ? 2 * uniform(random) : 1, uniform(random));
+    motion.add_sinusoid(1, uniform(random), i % 2 == 0 ? 1 : 3 * uniform(random), uniform(random));
+    const GimbalExtremes::Greatest found = gimbal.of(motion, 10),
+                                   fresh = GimbalExtremes().of(motion, 10);
+    CHECK(found.tilt == fresh.tilt);
+    CHECK(found.rate == fresh.rate);
+  }
+}

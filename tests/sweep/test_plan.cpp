@@ -1,0 +1,284 @@
+// Which cases a sweep has.
+#include <unistd.h>
+
+#include <array>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <set>
+#include <string>
+
+#include "base/error.hpp"
+#include "catch.hpp"
+#include "sweep/plan.hpp"
+
+using namespace bbsim;
+using namespace bbsim::sweep;
+
+namespace {
+
+const std::string scene = BBSIM_SOURCE_DIR "/configs/fig2a.yaml";
+const std::string loop = BBSIM_SOURCE_DIR "/configs/fig2b.yaml";
+
+Sweep vary(std::vector<Variation> keys) {
+  Sweep sweep;
+  sweep.vary = std::move(keys);
+  return sweep;
+}
+
+SweepPlan plan_of(const Sweep& sweep, const std::string& file = scene) {
+  return {ScenarioFamily(file, {}), sweep};
+}
+
+std::string fault(const Sweep& sweep, const std::string& file = scene,
+                  const std::vector<std::string>& set = {}) {
+  try {
+    const ScenarioFamily family(file, set);
+    const SweepPlan plan(family, sweep);
+    static_cast<void>(plan.check(family, 0, plan.cases(), [](double) { return true; }));
+    return "";
+  } catch (const InputError& error) {
+    return error.what();
+  }
+}
+
+bool contains(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
+
+std::array<double, 2> values(const SweepPlan& plan, std::size_t number) {
+  std::array<double, 2> at{};
+  plan.values(number, at.data());
+  return at;
+}
+
+}  // namespace
+
+TEST_CASE("a grid has every combination, the last key fastest, in SI units") {
+  const SweepPlan plan = plan_of(vary(
+      {{"ball.position.0", "linear:-10 cm:10 cm:5"}, {"ball.radius", "list:1 cm,0.02,30 mm"}}));
+  REQUIRE(plan.cases() == 15);
+  CHECK(values(plan, 0) == std::array{-0.1, 0.01});
+  CHECK(values(plan, 1) == std::array{-0.1, 0.02});
+  CHECK(values(plan, 3) == std::array{-0.05, 0.01});
+  CHECK(values(plan, 14) == std::array{0.1, 0.03});
+}
+
+TEST_CASE("log goes by equal factors and ends exactly") {
+  const SweepPlan plan =
+      plan_of(vary({{"gravity", "log:0.1:100:4"}, {"ball.spin", "log:-1:-4:3"}}));
+  CHECK(values(plan, 0) == std::array{0.1, -1.0});
+  CHECK(values(plan, 3)[0] == Approx(1));
+  CHECK(values(plan, 1)[1] == Approx(-2));
+  CHECK(values(plan, 11) == std::array{100.0, -4.0});
+  const SweepPlan wide =
+      plan_of(vary({{"gravity", "log:1e-200:1e160:3"}, {"ball.spin", "list:1"}}));
+  CHECK(values(wide, 1)[0] == Approx(1e-20));
+}
+
+TEST_CASE("zip goes along all lists together") {
+  Sweep sweep = vary({{"gravity", "linear:1:3:3"}, {"ball.spin", "list:7,8,9"}});
+  sweep.combine = Combine::zip;
+  const SweepPlan plan = plan_of(sweep);
+  REQUIRE(plan.cases() == 3);
+  CHECK(values(plan, 1) == std::array{2.0, 8.0});
+  sweep.vary[1].spec = "list:7,8";
+  CHECK(contains(fault(sweep), "ball.spin: found 2 values, and 3 of another key"));
+}
+
+TEST_CASE("what is drawn depends on seed, key and case alone") {
+  Sweep sweep = vary({{"gravity", "uniform:9:10"}, {"ball.spin", "normal:5:2"}});
+  sweep.samples = 2000;
+  const SweepPlan plan = plan_of(sweep);
+  REQUIRE(plan.cases() == 2000);
+  double sum = 0, squares = 0, least = 10, most = 9;
+  std::set<double> different;
+  for (std::size_t i = 0; i < plan.cases(); ++i) {
+    const auto [uniform, normal] = values(plan, i);
+    least = std::min(least, uniform);
+    most = std::max(most, uniform);
+    sum += normal;
+    squares += (normal - 5) * (normal - 5);
+    different.insert(uniform);
+  }
+  CHECK(different.size() == 2000);
+  CHECK(least >= 9);
+  CHECK(least < 9.01);
+  CHECK(most > 9.99);
+  CHECK(most <= 10);
+  // Four standard errors.
+  CHECK(std::abs(sum / 2000 - 5) < 4 * 2 / std::sqrt(2000));
+  CHECK(std::abs(squares / 2000 - 4) < 4 * 4 * std::sqrt(2.0 / 2000));
+
+  SECTION("so another key does not change it") {
+    std::swap(sweep.vary[0], sweep.vary[1]);
+    const SweepPlan turned = plan_of(sweep);
+    for (const std::size_t i : {0, 1, 1999}) {
+      CHECK(values(turned, i)[0] == values(plan, i)[1]);
+      CHECK(values(turned, i)[1] == values(plan, i)[0]);
+    }
+  }
+  SECTION("and another seed does") {
+    sweep.seed = 2;
+    CHECK(values(plan_of(sweep), 0)[0] != values(plan, 0)[0]);
+  }
+  SECTION("with a list each value gets as many draws") {
+    sweep.vary[1].spec = "list:1,2,3";
+    const SweepPlan mixed = plan_of(sweep);
+    CHECK(mixed.cases() == 6000);
+    CHECK(values(mixed, 1999)[1] == 1);
+    CHECK(values(mixed, 2000)[1] == 2);
+    CHECK(values(mixed, 2000)[0] != values(mixed, 0)[0]);
+  }
+}
+
+TEST_CASE("values that are no numbers are listed as texts") {
+  const SweepPlan plan = plan_of(
+      vary({{"solver.method", "list:radau,bdf"}, {"controller.pd.kp", "list:1,[[2, 0], [0, 3]]"}}),
+      loop);
+  CHECK_FALSE(plan.axes()[0].numeric);
+  CHECK_FALSE(plan.axes()[1].numeric);
+  REQUIRE(plan.cases() == 4);
+  const auto settings = plan.settings(3);
+  CHECK(settings[0].value == "bdf");
+  CHECK(settings[1].value == "[[2, 0], [0, 3]]");
+}
+
+TEST_CASE("all that is wrong with a sweep is said before it runs") {
+  CHECK(contains(fault(vary({})), "no key to vary"));
+  CHECK(contains(fault(vary({{"ball.raduis", "list:1"}})), "did you mean ball.radius?"));
+  CHECK(contains(fault(vary({{"ball.radius", "list:0.01,-1"}})),
+                 "with ball.radius=-1: ball.radius: found -1; allowed: a length greater than 0"));
+  CHECK(contains(fault(vary({{"ball.radius", "linear:0:1:3"}})), "with ball.radius=0: "));
+  CHECK(contains(fault(vary({{"ball.radius", "list:1 s"}})), "with ball.radius=1 s: "));
+  CHECK(contains(fault(vary({{"ball.radius", "list:1"}, {"ball.radius", "list:2"}})), "twice"));
+  CHECK(contains(fault(vary({{"ball.radius", "log:-1:1:3"}})), "found -1"));
+  CHECK(contains(fault(vary({{"ball.position", "list:[1, 2]"}, {"ball.position.0", "list:1"}})),
+                 "apart from each other"));
+  CHECK(contains(fault(vary({{"sweep.seed", "list:1"}})), "does not vary itself"));
+  CHECK(contains(fault(vary({{"ball.spin", "log:-1:1:3"}})), "neither 0"));
+  CHECK(contains(fault(vary({{"solver.method", "linear:1:2:3"}})), "solver.method: found 1"));
+  CHECK(contains(fault(vary({{"title", "linear:1:2:3"}})), "no single number"));
+  CHECK(contains(fault(vary({{"gravity", "uniform:1:2"}})), "--samples N"));
+  CHECK(contains(fault(vary({{"ball.spin", "list:1"},
+                             {"gravity", "linear:1:2:1000000000"},
+                             {"ball.mass", "linear:1:2:1000000000"}})),
+                 "more than 1e12 cases"));
+  Sweep sweep = vary({{"gravity", "list:1,2"}});
+  sweep.samples = 3;
+  CHECK(contains(fault(sweep), "no value is drawn"));
+}
+
+TEST_CASE("a draw that the scenario does not allow is found before it runs") {
+  Sweep sweep = vary({{"ball.radius", "normal:0.01:0.004"}});
+  sweep.samples = 10000;  // a negative one is at 2.5 standard deviations
+  CHECK(contains(fault(sweep), "allowed: a length greater than 0"));
+  sweep.vary[0].spec = "normal:0.01:0.001";
+  CHECK(fault(sweep).empty());
+}
+
+TEST_CASE("rules between keys are checked for each of their combinations") {
+  const std::string rig = BBSIM_SOURCE_DIR "/configs/rig.yaml";
+  // A delay of more than 100 periods is refused.
+  const Sweep sweep = vary({{"controller.sampling.period", "list:20 ms,1 ms"},
+                            {"controller.sampling.delay", "list:10 ms,0.2"},
+                            {"ball.position.0", "linear:0:0.05:100"}});
+  const std::string text = fault(sweep, rig);
+  CHECK(contains(text,
+                 "with controller.sampling.delay=0.2: controller.sampling.delay: found more "
+                 "than 100 periods"));
+}
+
+TEST_CASE("tied keys go together, each by its factor") {
+  const SweepPlan plan =
+      plan_of(vary({{"ball.position.0,-ball.position.1", "linear:-10 cm:10 cm:5"}}));
+  REQUIRE(plan.cases() == 5);
+  REQUIRE(plan.axes().size() == 2);
+  CHECK(plan.axes()[0].key == "ball.position.0");
+  CHECK(plan.axes()[1].key == "ball.position.1");
+  CHECK(values(plan, 0) == std::array{-0.1, 0.1});
+  CHECK(values(plan, 1) == std::array{-0.05, 0.05});
+  CHECK(values(plan, 2) == std::array{0.0, 0.0});
+  CHECK_FALSE(std::signbit(values(plan, 2)[1]));
+  CHECK(plan.settings(4)[1].key == "ball.position.1");
+  CHECK(plan.settings(4)[1].value == "-0.1");
+
+  // A factor before the first key too; the values are those of no factor.
+  const SweepPlan scaled =
+      plan_of(vary({{" -2 * ball.position.0 , 0.5*ball.position.1", "list:1 cm,4"}}));
+  CHECK(values(scaled, 0) == std::array{-0.02, 0.005});
+  CHECK(values(scaled, 1) == std::array{-8.0, 2.0});
+
+  SECTION("beside others they are one axis of a grid") {
+    const SweepPlan grid =
+        plan_of(vary({{"ball.position.0,ball.position.1", "list:1,2"}, {"gravity", "list:5,6,7"}}));
+    REQUIRE(grid.cases() == 6);
+    std::array<double, 3> at{};
+    grid.values(4, at.data());
+    CHECK(at == std::array{2.0, 2.0, 6.0});
+  }
+  SECTION("and of a zip") {
+    Sweep sweep = vary({{"ball.position.0,ball.position.1", "list:1,2"}, {"gravity", "list:5,6"}});
+    sweep.combine = Combine::zip;
+    const SweepPlan zip = plan_of(sweep);
+    REQUIRE(zip.cases() == 2);
+    std::array<double, 3> at{};
+    zip.values(1, at.data());
+    CHECK(at == std::array{2.0, 2.0, 6.0});
+  }
+  SECTION("what is drawn is drawn once") {
+    Sweep sweep = vary({{"ball.position.0,-3*ball.position.1", "normal:0.1:0.02"}});
+    sweep.samples = 50;
+    const SweepPlan drawn = plan_of(sweep);
+    sweep.vary[0].key = "ball.position.0";
+    const SweepPlan alone = plan_of(sweep);
+    for (const std::size_t i : {0, 1, 49}) {
+      CHECK(values(drawn, i)[0] == values(alone, i)[0]);
+      CHECK(values(drawn, i)[1] == -3 * values(drawn, i)[0]);
+    }
+  }
+  SECTION("texts too, as they are") {
+    const SweepPlan texts =
+        plan_of(vary({{"controller.pd.kv,controller.pd.kp", "list:1,[[2, 0], [0, -2]]"}}), loop);
+    REQUIRE(texts.cases() == 2);
+    CHECK(texts.settings(1)[0].value == "[[2, 0], [0, -2]]");
+    CHECK(texts.settings(1)[1].value == "[[2, 0], [0, -2]]");
+    CHECK(texts.axes()[1].texts[1] == "[[2, 0], [0, -2]]");
+  }
+}
+
+TEST_CASE("what cannot be tied is said before it runs") {
+  CHECK(contains(fault(vary({{"gravity,gravity", "list:1"}})), "gravity: found twice"));
+  CHECK(
+      contains(fault(vary({{"ball.radius,ball.raduis", "list:1"}})), "did you mean ball.radius?"));
+  CHECK(contains(fault(vary({{"ball.position,ball.position.0", "list:[1, 2]"}})), "apart from"));
+  CHECK(contains(fault(vary({{"ball.spin,-ball.radius", "linear:1:2:3"}})),
+                 "with ball.radius=-1: ball.radius: found -1"));
+  CHECK(contains(fault(vary({{"ball.mass,gravity,", "list:1"}})), "no key beside a comma"));
+  CHECK(contains(fault(vary({{"ball.mass,0*gravity", "list:1"}})), "a number that is not 0"));
+  CHECK(contains(fault(vary({{"ball.mass,x*gravity", "list:1"}})), "NUMBER*KEY"));
+  CHECK(contains(
+      fault(vary({{"controller.pd.kv,-controller.pd.kp", "list:1,[[2, 0], [0, -2]]"}}), loop),
+      "no number that a factor could be applied to"));
+  CHECK(contains(fault(vary({{"title,-gravity", "list:-5,-6"}})), "a single number"));
+}
+
+TEST_CASE("a position has one spelling") {
+  const std::string text =
+      fault(vary({{"ball.position.0", "list:1,2"}, {"ball.position.00", "list:3,4"}}));
+  CHECK(contains(text, "ball.position.00=3: ball.position: found the position 00 in a list"));
+}
+
+TEST_CASE("a value from --set for a key that varies is refused") {
+  const Sweep sweep = vary({{"ball.position.0", "list:1,2"}});
+  CHECK(contains(fault(sweep, scene, {"ball.position.0=5"}),
+                 "--set ball.position.0=5: found, but the sweep varies ball.position.0"));
+  CHECK(fault(sweep, scene, {"ball.position.1=5"}).empty());
+  // Of a value above it something stays.
+  CHECK(fault(sweep, scene, {"ball.position=[7, 8]"}).empty());
+  CHECK(contains(fault(vary({{"ball.position", "list:[1, 2]"}}), scene, {"ball.position.1=5"}),
+                 "the sweep varies ball.position"));
+  CHECK(
+      contains(fault(vary({{"gravity,ball.position.0", "list:1,2"}}), scene, {"ball.position.0=5"}),
+               "the sweep varies ball.position.0"));
+}

@@ -1,0 +1,22 @@
+#include <array>
+
+#include "catch.hpp"
+#include "yaml/nearest.hpp"
+
+using bbsim::yaml::nearest_name;
+
+TEST_CASE("the nearest name is the one with the fewest typing errors") {
+  constexpr std::array<std::string_view, 5> names = {"radius", "mass", "position", "velocity",
+                                                     "frequency"};
+  CHECK(nearest_name("raduis", names) == "radius");   // two letters swapped
+  CHECK(nearest_name("radus", names) == "radius");    // one missing
+  CHECK(nearest_name("radiuss", names) == "radius");  // one added
+  CHECK(nearest_name("Mass", names) == "mass");
+  CHECK(nearest_name("MASS", names) == "mass");
+  CHECK(nearest_name("poistion", names) == "position");
+  CHECK(nearest_name("freq", names) == "frequency");  // an abbreviation
+  CHECK(nearest_name("colour", names).empty());
+  CHECK(nearest_name("", names).empty());
+  CHECK(nearest_name(std::string(1000, 'r'), names).empty());
+  CHECK(nearest_name("radius", {}).empty());
+}

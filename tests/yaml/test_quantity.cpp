@@ -1,0 +1,166 @@
+// Quantities. Values are compared exactly: powers of ten are applied to the decimal text, and other
+// units convert with one rounding of the exact product.
+#include <clocale>
+#include <fstream>
+#include <numbers>
+#include <string>
+
+#include "catch.hpp"
+#include "yaml/quantity.hpp"
+
+using bbsim::yaml::Dimension;
+using bbsim::yaml::read_quantity;
+
+namespace {
+
+constexpr double pi = std::numbers::pi;
+
+double plain(const std::string& text, Dimension dimension) {
+  const auto quantity = read_quantity(text, false, dimension);
+  INFO(text << quantity.fault);
+  REQUIRE(quantity.value);
+  return *quantity.value;
+}
+
+std::string fault(const std::string& text, Dimension dimension, bool quoted = true) {
+  const auto quantity = read_quantity(text, quoted, dimension);
+  INFO(text);
+  REQUIRE_FALSE(quantity.value);
+  return quantity.fault;
+}
+
+}  // namespace
+
+TEST_CASE("a bare number is in SI units") {
+  CHECK(plain("0.01", Dimension::length) == 0.01);
+  CHECK(plain("-3", Dimension::angle) == -3);
+  CHECK(plain("+2.5e-3", Dimension::time) == 2.5e-3);
+  CHECK(plain("1.", Dimension::number) == 1);
+  CHECK(plain(".5", Dimension::number) == 0.5);
+  CHECK(plain("1E3", Dimension::number) == 1000);
+  CHECK(plain("0e999999999999999999999", Dimension::number) == 0);
+  CHECK(plain("0.1000000000000000055511151231257827021181583404541015625", Dimension::number) ==
+        0.1);
+  CHECK(plain("1" + std::string(400, '0') + "e-400", Dimension::number) == 1);
+}
+
+TEST_CASE("a quantity in decimal units is the double nearest to it") {
+  CHECK(plain("10 cm", Dimension::length) == 0.1);
+  CHECK(plain("0.1 mm", Dimension::length) == 0.0001);
+  CHECK(plain("7um", Dimension::length) == 7e-6);
+  CHECK(plain("7 \u00b5m", Dimension::length) == 7e-6);
+  CHECK(plain("7 \u03bcm", Dimension::length) == 7e-6);
+  CHECK(plain("1.1 km", Dimension::length) == 1100);
+  CHECK(plain("3 nm", Dimension::length) == 3e-9);
+  CHECK(plain("2 m", Dimension::length) == 2);
+  CHECK(plain("100 g", Dimension::mass) == 0.1);
+  CHECK(plain("3 mg", Dimension::mass) == 3e-6);
+  CHECK(plain("20 ms", Dimension::time) == 0.02);
+  CHECK(plain("20 ns", Dimension::time) == 2e-8);
+  CHECK(plain("1e3 us", Dimension::time) == 1e-3);
+  CHECK(plain("2 min", Dimension::time) == 120);
+  CHECK(plain("1.5 h", Dimension::time) == 5400);
+  CHECK(plain("4 mrad", Dimension::angle) == 0.004);
+  CHECK(plain("10 cm/s", Dimension::velocity) == 0.1);
+  CHECK(plain("3 mm/s", Dimension::velocity) == 0.003);
+  CHECK(plain("36 km/h", Dimension::velocity) == 10);
+  CHECK(plain("981 cm/s^2", Dimension::acceleration) == 9.81);
+  CHECK(plain("9.81 m/s\u00b2", Dimension::acceleration) == 9.81);
+}
+
+TEST_CASE("angles and frequencies become radians") {
+  CHECK(plain("90 deg", Dimension::angle) == pi / 2);
+  CHECK(plain("180\u00b0", Dimension::angle) == pi);
+  CHECK(plain("-45 deg", Dimension::angle) == -pi / 4);
+  CHECK(plain("1 Hz", Dimension::angular_rate) == 2 * pi);
+  CHECK(plain("0.5 Hz", Dimension::angular_rate) == pi);
+  CHECK(plain("500 mHz", Dimension::angular_rate) == pi);
+  CHECK(plain("0.5 kHz", Dimension::angular_rate) == plain("500 Hz", Dimension::angular_rate));
+  CHECK(plain("60 rpm", Dimension::angular_rate) == 2 * pi);
+  CHECK(plain("90 deg/s", Dimension::angular_rate) == pi / 2);
+  CHECK(plain("3 rad/s", Dimension::angular_rate) == 3);
+  CHECK(plain("3 mrad/s", Dimension::angular_rate) == 0.003);
+}
+
+TEST_CASE("what is no quantity says why") {
+  CHECK(fault("10 cm", Dimension::time) == ", a length");
+  CHECK(fault("3 s", Dimension::angle) == ", a time");
+  CHECK(fault("1 m", Dimension::number) == ", a length");
+  CHECK(fault("10 parsec", Dimension::length) ==
+        ", in an unknown unit (units of a length are: m, km, cm, mm, um, nm)");
+  CHECK(fault("1 hz", Dimension::angular_rate) ==
+        ", in an unknown unit (units of an angular rate are: rad/s, mrad/s, deg/s, Hz, mHz, kHz, "
+        "rpm)");
+  CHECK(fault("0.01", Dimension::length) == ", a text (drop the quotes or add a unit)");
+  CHECK(fault("0.01", Dimension::number) == ", a text (drop the quotes)");
+  CHECK(fault("0,01", Dimension::length) == ", with a comma where a decimal point belongs");
+  for (const char* text : {"nan", ".nan", ".NaN", "inf", "-.inf", "+Infinity"}) {
+    CHECK(fault(text, Dimension::length, false) == ", which is not finite");
+  }
+  for (const char* text : {"", " ", "abc", "e5", ".", "-", "+-1", "cm"}) {
+    CHECK(fault(text, Dimension::length, false).empty());
+  }
+  CHECK_FALSE(fault("0x10", Dimension::length, false).empty());
+  CHECK_FALSE(fault("1_000", Dimension::length, false).empty());
+  CHECK_FALSE(fault("1:30", Dimension::time, false).empty());
+  CHECK_FALSE(fault("1 2", Dimension::length, false).empty());
+}
+
+TEST_CASE("what a double cannot hold is refused") {
+  const std::string large = ", too large for a double (at most 1.8e308)";
+  const std::string small = ", too small for a double (0, or at least 2.3e-308 in size)";
+  CHECK(fault("1e400", Dimension::number, false) == large);
+  CHECK(fault("-1e400", Dimension::number, false) == large);
+  CHECK(fault("1e308 km", Dimension::length) == large);
+  CHECK(fault("1e308 Hz", Dimension::angular_rate) == large);
+  CHECK(fault("1e99999999999999999999", Dimension::number, false) == large);
+  CHECK(fault("1" + std::string(400, '0'), Dimension::number, false) == large);
+  CHECK(fault("1e-400", Dimension::number, false) == small);
+  CHECK(fault("1e-320", Dimension::number, false) == small);
+  CHECK(fault("0." + std::string(400, '0') + "1", Dimension::number, false) == small);
+  CHECK(fault("1e-307 mm", Dimension::length) == small);
+  CHECK(fault("1e-307 deg", Dimension::angle) == small);
+}
+
+TEST_CASE("numbers do not depend on the locale") {
+  const std::string before = std::setlocale(LC_ALL, nullptr);
+  for (const char* name : {"de_DE.UTF-8", "fr_FR.UTF-8", "C.UTF-8"}) {
+    std::setlocale(LC_ALL, name);  // where it is not installed, the locale stays as it was
+    CHECK(plain("0.25 cm", Dimension::length) == 0.0025);
+    CHECK(bbsim::yaml::number_text(0.5) == "0.5");
+  }
+  std::setlocale(LC_ALL, before.c_str());
+}
+
+TEST_CASE("the SI unit of a dimension reads as one of it") {
+  for (const Dimension dimension :
+       {Dimension::length, Dimension::mass, Dimension::time, Dimension::angle,
+        Dimension::angular_rate, Dimension::velocity, Dimension::acceleration}) {
+    const std::string unit(si_unit(dimension));
+    CAPTURE(unit);
+    CHECK(read_quantity("3 " + unit, true, dimension).value == 3);
+  }
+  CHECK(si_unit(Dimension::number).empty());
+  CHECK(si_unit(Dimension::angular_rate) == "rad/s");
+}
+
+TEST_CASE("docs/scenario.md lists the units of each dimension") {
+  const Dimension dimension =
+      GENERATE(Dimension::length, Dimension::mass, Dimension::time, Dimension::angle,
+               Dimension::angular_rate, Dimension::velocity, Dimension::acceleration);
+  const std::string noun(bbsim::yaml::noun(dimension));  // "a length"
+  const std::string row = "| " + noun.substr(noun.find(' ') + 1) + " | ";
+  const std::string units = fault("1 of none", dimension);
+  const std::string before = " are: ";
+  const auto first = units.find(before) + before.size();
+  const std::string listed = units.substr(first, units.rfind(')') - first);
+
+  std::ifstream page(BBSIM_SOURCE_DIR "/docs/scenario.md");
+  std::string line, found;
+  while (std::getline(page, line)) {
+    if (line.starts_with(row)) found = line.substr(row.size());
+  }
+  found = found.substr(0, found.find(" |"));
+  found = found.substr(0, found.find(" ("));  // a remark
+  CHECK(found == listed);
+}
