@@ -8,19 +8,20 @@
 #include <variant>
 
 #include "solve/cvode/cvode.hpp"
+#include "solve/integrate.hpp"
 #include "solve/radau/radau.hpp"
 
 namespace bbsim::bench {
 namespace {
 
 bool run_radau(const Scene& scene, solve::Tolerances tolerances, Rows& rows) {
-  return solve::integrate_radau(scene.model, tolerances, scene.grid, rows, {}).ending ==
+  return solve::integrate(scene.model, Method::radau, tolerances, scene.grid, rows, {}).ending ==
          solve::Ending::done;
 }
 
 template <Method method>
 bool run_cvode(const Scene& scene, solve::Tolerances tolerances, Rows& rows) {
-  return solve::integrate_cvode(scene.model, method, tolerances, scene.grid, rows, {}).ending ==
+  return solve::integrate(scene.model, method, tolerances, scene.grid, rows, {}).ending ==
          solve::Ending::done;
 }
 

@@ -7,10 +7,10 @@
 
 namespace bbsim {
 
-// Without the blanks and tabs at its ends.
+// Without the blanks and tabs at its ends; of nothing else, the empty end of it.
 [[nodiscard]] inline std::string_view trimmed(std::string_view text) {
   const std::size_t first = text.find_first_not_of(" \t");
-  if (first == std::string_view::npos) return {};
+  if (first == std::string_view::npos) return text.substr(text.size());
   return text.substr(first, text.find_last_not_of(" \t") - first + 1);
 }
 

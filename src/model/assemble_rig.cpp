@@ -18,9 +18,9 @@ ServoResponse servo_response(const Scenario& scene) {
   return {w * w, w * w, 2 * servo.damping * w};
 }
 
-RigLaw rig_law(const Scenario& scene, const ServoResponse& servo) {
+ControlLaw control_law(const Scenario& scene, const ServoResponse& servo) {
   const Controller& controller = *scene.controller;
-  RigLaw law;
+  ControlLaw law;
   law.kind = LawKind::linear;
   for (std::size_t i = 0; i < 2; ++i) {
     for (std::size_t j = 0; j < 2; ++j) {
@@ -50,6 +50,7 @@ RigLaw rig_law(const Scenario& scene, const ServoResponse& servo) {
     }
     case Law::gravity_compensation:
       law.kind = LawKind::gravity_compensation;
+      law.scale = (1 + scene.ball.inertia_factor) / scene.gravity;
       break;
     case Law::feedback_linearisation:
       law.kind = LawKind::feedback_linearisation;
@@ -58,7 +59,7 @@ RigLaw rig_law(const Scenario& scene, const ServoResponse& servo) {
   return law;
 }
 
-Rig build_rig(const Scenario& scene, const RigLaw& law) {
+Rig build_rig(const Scenario& scene, const ControlLaw& law) {
   const Controller& controller = *scene.controller;
   Rig rig;
   rig.offset = {scene.gimbal.mounting.phi_offset, scene.gimbal.mounting.theta_offset};
@@ -74,8 +75,8 @@ Rig build_rig(const Scenario& scene, const RigLaw& law) {
   const bool compensates = law.kind == LawKind::gravity_compensation;
   const double limit = command_limit(controller).value_or(unlimited);
   if (controller.sampling) {
-    rig.sampled = SampledLoop{*controller.sampling, controller.sensor.value_or(Sensor{}), law,
-                              (1 + scene.ball.inertia_factor) / scene.gravity, limit};
+    rig.sampled =
+        SampledLoop{*controller.sampling, controller.sensor.value_or(Sensor{}), law, limit};
   } else {
     rig.command_limit = compensates ? std::sin(limit) : limit;
   }
@@ -103,9 +104,9 @@ bool integrates_error(const Scenario& scene) {
 template <bool integrates>
 AssembledRig<integrates> assemble_rig(const Scenario& scene, SignalPair reference) {
   const ServoResponse servo = servo_response(scene);
-  const RigLaw law = rig_law(scene, servo);
+  const ControlLaw law = control_law(scene, servo);
   Rig rig = build_rig(scene, law);
-  const RigLaw continuous = rig.sampled ? RigLaw{} : law;
+  const ControlLaw continuous = rig.sampled ? ControlLaw{} : law;
   RigMode mode;
   for (std::size_t i = 0; i < 2; ++i) mode.axis[i].offset = rig.offset[i];
   return {RigLoop<integrates>(scene.ball.radius, scene.gravity, general_rolling(scene), continuous,

@@ -11,6 +11,8 @@ namespace {
 // Instants of different clocks that are nearer than this, relative to the period, are one.
 constexpr double one_instant = 1e-9;
 
+constexpr int angle = RigLayout::angle, rate = RigLayout::rate;  // of phi, among the states
+
 }  // namespace
 
 template <class Use>
@@ -107,7 +109,7 @@ void HybridSystem::take_sample(double t, const double* z) {
   ++sampled_->sample.number;
   const std::optional<Pair> seen = sampled_->seen.front();
   sampled_->seen.erase(sampled_->seen.begin());
-  const double servo[4] = {z[5], z[6], z[7], z[8]};
+  const double servo[4] = {z[angle], z[angle + 1], z[rate], z[rate + 1]};
   const auto reference = with_loop([t](const auto& loop) { return loop.reference().at(t); });
   sampled_->commands.push_back(sampled_->controller.command(seen, servo, reference));
   sampled_->measured = sampled_->controller.last_seen();
@@ -118,10 +120,7 @@ void HybridSystem::apply_command() {
   const Pair command = sampled_->commands.front();
   sampled_->commands.erase(sampled_->commands.begin());
   for (std::size_t i = 0; i < 2; ++i) {
-    if (std::abs(command[i] - sampled_->target[i]) > model_.rig->dead_band) {
-      sampled_->target[i] = command[i];
-    }
-    mode().command[i] = sampled_->target[i];
+    mode().command[i] = servos_[i].follow(command[i]);
   }
 }
 
@@ -130,7 +129,7 @@ void HybridSystem::settle_commands(double t, const double* z) {
   const double limit = model_.rig->command_limit;
   RigMode& present = mode();
   for (int i = 0; i < 2; ++i) {
-    const double raw = axes(t, z).raw[i];
+    const double raw = axes(t, z).command.raw[i];
     AxisMode& axis = present.axis[i];
     const bool within = std::abs(raw) <= limit;
     axis.command_factor = within ? 1 : 0;
@@ -138,7 +137,7 @@ void HybridSystem::settle_commands(double t, const double* z) {
   }
   // The integral of the error in each coordinate waits while a command that it acts on is at its
   // limit.
-  const RigLaw law = with_loop([](const auto& loop) { return loop.law(); });
+  const ControlLaw law = with_loop([](const auto& loop) { return loop.law(); });
   for (int j = 0; j < 2; ++j) {
     bool waits = false;
     for (int i = 0; i < 2; ++i) {
@@ -149,7 +148,7 @@ void HybridSystem::settle_commands(double t, const double* z) {
 }
 
 AxisState HybridSystem::axis_state(int i, const RigAxes<double>& wanted, const double* z) const {
-  return {z[5 + i], z[7 + i], wanted.demand[i], wanted.command[i]};
+  return {z[angle + i], z[rate + i], wanted.demand[i], wanted.command.value[i]};
 }
 
 void HybridSystem::settle(double t, double* z) {
@@ -166,15 +165,15 @@ bool HybridSystem::settle_servos(double t, double* z) {
   const RigAxes<double> wanted = axes(t, z);
   double rate_before[2], jump[2];
   bool jumps = false, moved = false;
-  for (int i = 0; i < 2; ++i) rate_before[i] = mode().axis[i].ratio * z[7 + i];
+  for (int i = 0; i < 2; ++i) rate_before[i] = mode().axis[i].ratio * z[rate + i];
   for (int i = 0; i < 2; ++i) {
     AxisState state = axis_state(i, wanted, z);
     AxisMode& axis = mode().axis[i];
     servos_[static_cast<std::size_t>(i)].settle(state, axis);
-    moved = moved || state.angle != z[5 + i] || state.rate != z[7 + i];
-    z[5 + i] = state.angle;
-    z[7 + i] = state.rate;
-    jump[i] = axis.ratio * z[7 + i] - rate_before[i];
+    moved = moved || state.angle != z[angle + i] || state.rate != z[rate + i];
+    z[angle + i] = state.angle;
+    z[rate + i] = state.rate;
+    jump[i] = axis.ratio * z[rate + i] - rate_before[i];
     jumps = jumps || jump[i] != 0;
   }
   if (!jumps) return moved;
@@ -196,7 +195,7 @@ void HybridSystem::evaluate_guards(double t, const double* z, double* values) co
       servos_[static_cast<std::size_t>(i)].evaluate(axis_state(i, wanted, z), values);
       double* const command = values + ServoAxis::guards;
       const AxisMode& axis = present.axis[i];
-      const double raw = wanted.raw[i];
+      const double raw = wanted.command.raw[i];
       const bool free = axis.command_factor != 0;
       command[0] = limit == unlimited ? unlimited : free ? limit - raw : unlimited;
       command[1] = limit == unlimited ? unlimited : free ? limit + raw : unlimited;
@@ -260,10 +259,10 @@ HybridSystem::Effect HybridSystem::check_events(double t, const double* z) {
 
 void HybridSystem::write_extras(double t, const double* z, double* out) const {
   if (!model_.rig) return;
-  with_loop([&](const auto& loop) { loop.write_extras(t, z, out); });
+  RigExtras extras = with_loop([&](const auto& loop) { return loop.extras(t, z); });
   const Pair measured = sampled_ ? sampled_->measured : Pair{z[0], z[1]};
-  out[RigLoop<>::extras - 2] = measured[0];
-  out[RigLoop<>::extras - 1] = measured[1];
+  std::copy(measured.begin(), measured.end(), extras.measured);
+  extras.pack(out);
 }
 
 }  // namespace bbsim::model

@@ -99,7 +99,6 @@ class HybridSystem {
     Clock expose, sample, apply;
     std::vector<std::optional<Pair>> seen;  // exposed, not yet sampled: a queue
     std::vector<Pair> commands;             // computed, not yet applied: a queue
-    Pair target{0, 0};                      // that the servos follow
     Pair measured{0, 0};
   };
   std::optional<Sampled> sampled_;

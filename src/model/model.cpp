@@ -5,15 +5,16 @@
 namespace bbsim::model {
 
 std::size_t Model::extras() const {
-  return rig && hybrid() ? std::size_t{RigLoop<>::extras} : 0;
+  return rig && hybrid() ? std::size_t{RigExtras::size} : 0;
 }
 
 Sample Model::sample(double t, const double* row) const {
   Sample sample = std::visit(
       [&](const auto& any) {
         if constexpr (is_rig<std::decay_t<decltype(any)>>) {
-          return extras() > 0 ? any.sample(t, row, row + size() + (gamma ? 1 : 0))
-                              : any.sample(t, row);
+          return extras() > 0
+                     ? any.sample(t, row, RigExtras::unpack(row + size() + (gamma ? 1 : 0)))
+                     : any.sample(t, row);
         } else {
           return any.sample(t, row);
         }

@@ -5,23 +5,13 @@
 #include <optional>
 #include <string>
 #include <string_view>
-#include <variant>
 #include <vector>
 
+#include "model/systems/list.hpp"
 #include "model/systems/rig.hpp"
-#include "model/systems/rig_loop.hpp"
-#include "model/systems/system.hpp"
 #include "scenario/scenario.hpp"
 
 namespace bbsim::model {
-
-using System = std::variant<
-    OpenLoop<Shape::full>, OpenLoop<Shape::along_x>,
-    OpenLoop<Shape::along_y>,  //
-    ClosedLoop<Shape::full, Drives::acceleration>, ClosedLoop<Shape::along_x, Drives::acceleration>,
-    ClosedLoop<Shape::along_y, Drives::acceleration>, ClosedLoop<Shape::full, Drives::angle>,
-    ClosedLoop<Shape::along_x, Drives::angle>, ClosedLoop<Shape::along_y, Drives::angle>,
-    OpenLoop<Shape::full, SignalPair, GeneralRolling>, RigLoop<false>, RigLoop<true>>;
 
 struct Model {
   System system;

@@ -39,13 +39,13 @@ Missing missing(const Column& column, const Scenario& scenario) {
   switch (column.needs) {
     case Needs::reference:
       if (scenario.controller) return {};
-      return {"there is no reference without a controller", "columns of an open loop, such as x"};
+      return {"there is no controller", "columns of an open loop, such as x"};
     case Needs::samples:
       if (scenario.controller && scenario.controller->sampling) return {};
       return {"the controller takes no samples", "other columns; or give controller.sampling"};
     case Needs::plate:
       if (scenario.plate.inertia) return {};
-      return {"the plate's inertia is not known",
+      return {"plate.inertia is not known",
               "columns of the ball, such as torque_phi; or give plate.inertia"};
     case Needs::state:
     case Needs::gamma:

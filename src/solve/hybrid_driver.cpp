@@ -7,10 +7,8 @@
 #include <utility>
 
 #include "model/hybrid_system.hpp"
-#include "solve/cvode/cvode.hpp"
 #include "solve/pace.hpp"
 #include "solve/piece.hpp"
-#include "solve/radau/radau.hpp"
 #include "solve/row_block.hpp"
 
 namespace bbsim::solve {
@@ -413,18 +411,6 @@ class HybridIntegration {
 Outcome integrate_hybrid(const model::Model& model, const MakeStepper& make_stepper,
                          const OutputGrid& grid, StateSink& sink, const Watch& watch) {
   return HybridIntegration(model, make_stepper, grid, sink, watch).run();
-}
-
-Outcome integrate_hybrid(const model::Model& model, Method method, Tolerances tolerances,
-                         const OutputGrid& grid, StateSink& sink, const Watch& watch) {
-  const auto make_stepper = [&](const model::Model& of) -> std::unique_ptr<Stepper> {
-    if (method != Method::radau) return make_cvode_stepper(of, method, tolerances);
-    return std::make_unique<radau::RadauStepper>(
-        of, radau::choose_kernels(), radau::choose_stages(tolerances.rtol), tolerances, grid.end());
-  };
-  Outcome outcome = integrate_hybrid(model, make_stepper, grid, sink, watch);
-  outcome.method = method;
-  return outcome;
 }
 
 }  // namespace bbsim::solve

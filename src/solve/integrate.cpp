@@ -1,20 +1,21 @@
 #include "solve/integrate.hpp"
 
 #include "solve/choose.hpp"
-#include "solve/cvode/cvode.hpp"
 #include "solve/hybrid_driver.hpp"
-#include "solve/radau/radau.hpp"
+#include "solve/make_stepper.hpp"
 
 namespace bbsim::solve {
 
 Outcome integrate(const model::Model& model, Method method, Tolerances tolerances,
                   const OutputGrid& grid, StateSink& sink, const Watch& watch) {
   const Method chosen = choose_method(method);
-  if (model.hybrid()) return integrate_hybrid(model, chosen, tolerances, grid, sink, watch);
-  if (chosen == Method::radau) {
-    return integrate_radau(model, tolerances, grid, sink, watch);
-  }
-  return integrate_cvode(model, chosen, tolerances, grid, sink, watch);
+  const auto stepper_of = [&](const model::Model& any) {
+    return make_stepper(any, chosen, tolerances, grid.end());
+  };
+  Outcome outcome = model.hybrid() ? integrate_hybrid(model, stepper_of, grid, sink, watch)
+                                   : run_through(*stepper_of(model), model, grid, sink, watch);
+  outcome.method = chosen;
+  return outcome;
 }
 
 }  // namespace bbsim::solve

@@ -114,7 +114,7 @@ TEST_CASE("combinations that mean nothing are refused, with why") {
            Case{base,
                 {"gimbal.servo.angle_limit=0.1", "gimbal.start.phi=0.2"},
                 "gimbal.start: found beyond gimbal.servo.angle_limit"},
-           Case{base, {"output.columns=[t, motor_torque_phi]"}, "the plate's inertia is not known"},
+           Case{base, {"output.columns=[t, motor_torque_phi]"}, "plate.inertia is not known"},
            Case{base, {"output.columns=[t, x_measured]"}, "the controller takes no samples"},
            Case{
                base, {"events.slip={friction: 0.3, action: ignore}"}, "allowed: one of stop, note"},

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "catch.hpp"
+#include "support/largest.hpp"
 #include "support/run_in_memory.hpp"
 
 using namespace bbsim;
@@ -25,10 +26,12 @@ Errors errors_against(const std::string& name, const Run& run) {
   for (std::size_t i = 0; i < run.samples.size(); ++i) {
     const model::Sample& sample = run.samples[i];
     REQUIRE(std::abs(sample.t - reference["t"][i]) < 1e-12);
-    errors.position = std::max({errors.position, std::abs(sample.ball.x - reference["x"][i]),
-                                std::abs(sample.ball.y - reference["y"][i])});
-    errors.spin = std::max(errors.spin, std::abs(sample.ball.gamma_dot - reference["spin"][i]));
-    errors.gamma = std::max(errors.gamma, std::abs(sample.gamma - reference["gamma"][i]));
+    errors.position = largest_finite(
+        errors.position,
+        {std::abs(sample.ball.x - reference["x"][i]), std::abs(sample.ball.y - reference["y"][i])});
+    errors.spin =
+        largest_finite(errors.spin, {std::abs(sample.ball.gamma_dot - reference["spin"][i])});
+    errors.gamma = largest_finite(errors.gamma, {std::abs(sample.gamma - reference["gamma"][i])});
     largest_spin = std::max(largest_spin, std::abs(reference["spin"][i]));
     largest_gamma = std::max(largest_gamma, std::abs(reference["gamma"][i]));
   }

@@ -10,7 +10,9 @@
 #include "catch.hpp"
 #include "model/systems/jacobian.hpp"
 #include "solve/cvode/cvode.hpp"
+#include "solve/integrate.hpp"
 #include "solve/radau/radau.hpp"
+#include "support/largest.hpp"
 #include "support/run_in_memory.hpp"
 
 using namespace bbsim;
@@ -44,10 +46,10 @@ double difference(const solve::Trajectory& a, const solve::Trajectory& b, std::s
   for (std::size_t column = 0; column < row_size; ++column) {
     double largest = 1e-2, apart = 0;
     for (std::size_t i = 0; i < a.rows(); ++i) {
-      largest = std::max(largest, std::abs(b.row(i)[column]));
-      apart = std::max(apart, std::abs(a.row(i)[column] - b.row(i)[column]));
+      largest = largest_finite(largest, {std::abs(b.row(i)[column])});
+      apart = largest_finite(apart, {std::abs(a.row(i)[column] - b.row(i)[column])});
     }
-    worst = std::max(worst, apart / largest);
+    worst = largest_finite(worst, {apart / largest});
   }
   return worst;
 }
@@ -164,7 +166,7 @@ TEST_CASE("collocation stops at the knots of a table") {
   solve::Trajectory theirs(model.size() + 1);
   const solve::OutputGrid grid(scene.time);
   const solve::Outcome outcome =
-      solve::integrate_cvode(model, Method::adams, {1e-12, 1e-14}, grid, theirs, {});
+      solve::integrate(model, Method::adams, {1e-12, 1e-14}, grid, theirs, {});
   REQUIRE(outcome.ending == solve::Ending::done);
   CHECK(ours.run.statistics.steps >= 20);
   CHECK(ours.run.reached == 10);
@@ -177,7 +179,8 @@ TEST_CASE("collocation ends where the solution reaches infinity") {
   const model::Model model = model::assemble(scene, true);
   solve::Trajectory rows(model.size() + 1);
   const solve::OutputGrid grid(scene.time);
-  const solve::Outcome outcome = solve::integrate_radau(model, {1e-9, 1e-11}, grid, rows, {});
+  const solve::Outcome outcome =
+      solve::integrate(model, Method::radau, {1e-9, 1e-11}, grid, rows, {});
   CHECK(outcome.ending == solve::Ending::failed);
   CHECK_FALSE(outcome.reason.empty());
   // Where BDF at an rtol of 1e-12 ends. The steps are parts of what is left to there, and end the

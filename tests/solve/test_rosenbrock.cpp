@@ -9,6 +9,7 @@
 
 #include "catch.hpp"
 #include "simd/instruction_set.hpp"
+#include "solve/integrate.hpp"
 #include "solve/radau/radau.hpp"
 #include "solve/rosenbrock/loop_lanes.hpp"
 #include "support/run_in_memory.hpp"
@@ -86,7 +87,7 @@ solve::Trajectory truth(const Scenario& scene) {
   const model::Model model = model::assemble(scene, false);
   solve::Trajectory rows(model.row_size());
   const solve::OutputGrid grid(scene.time);
-  REQUIRE(solve::integrate_radau(model, {1e-12, 1e-14}, grid, rows, {}).ending ==
+  REQUIRE(solve::integrate(model, Method::radau, {1e-12, 1e-14}, grid, rows, {}).ending ==
           solve::Ending::done);
   return rows;
 }

@@ -3,6 +3,7 @@
 
 #include "catch.hpp"
 #include "solve/check_run.hpp"
+#include "support/largest.hpp"
 #include "support/run_in_memory.hpp"
 
 using namespace bbsim;
@@ -74,8 +75,8 @@ TEST_CASE("integrators agree on when a rig switches") {
     double apart = 0;
     for (std::size_t i = 0; i < radau.samples.size(); ++i) {
       const model::Sample &a = radau.samples[i], &b = other.samples[i];
-      apart = std::max({apart, std::abs(a.ball.x - b.ball.x), std::abs(a.ball.y - b.ball.y),
-                        scene.ball.radius * std::abs(a.gamma - b.gamma)});
+      apart = largest_finite(apart, {std::abs(a.ball.x - b.ball.x), std::abs(a.ball.y - b.ball.y),
+                                     scene.ball.radius * std::abs(a.gamma - b.gamma)});
       for (const double command : {a.command[0], a.command[1]}) {
         CHECK(std::abs(command) <= limit * (1 + 1e-9));
       }
@@ -123,7 +124,7 @@ TEST_CASE("a run that ends at a switch is the beginning of a longer one") {
   }
 }
 
-TEST_CASE("an unlike run has other stages and more steps between samples, on any rig") {
+TEST_CASE("a check run has other stages and more steps between samples, on any rig") {
   Scenario scene = parse_scenario(cases[3].text, "rig.yaml");
   const bool smooth = GENERATE(true, false);
   if (smooth) {

@@ -13,6 +13,7 @@
 #include "catch.hpp"
 #include "record/meter.hpp"
 #include "solve/integrate.hpp"
+#include "support/largest.hpp"
 #include "sweep/single.hpp"
 #include "sweep/superposition.hpp"
 #include "sweep/sweep.hpp"
@@ -72,7 +73,7 @@ double largest_difference(const CaseResults& a, const CaseResults& b) {
   double largest = 0;
   for (std::size_t i = 0; i < a.numbers.size(); ++i) {
     const double size = std::max(1.0, std::abs(a.numbers[i]));
-    largest = std::max(largest, std::abs(a.numbers[i] - b.numbers[i]) / size);
+    largest = bbsim_test::largest_finite(largest, {std::abs(a.numbers[i] - b.numbers[i]) / size});
   }
   return largest;
 }

@@ -175,8 +175,8 @@ TEST_CASE("reference columns need a controller") {
   const std::vector<std::string> chosen = {"t", "x_reference"};
   CHECK(parse(closed_loop, {"output.columns=[t, x_reference]"}).output.columns == chosen);
   check_refused(open_loop, "output.columns=[t, x_reference]",
-                "output.columns.1: found x_reference, but there is no reference without a "
-                "controller; allowed: columns of an open loop, such as x");
+                "output.columns.1: found x_reference, but there is no controller; allowed: columns "
+                "of an open loop, such as x");
 }
 
 TEST_CASE("a title is a text") {

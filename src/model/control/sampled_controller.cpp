@@ -44,28 +44,16 @@ void SampledController::estimate_velocity(Pair seen, double elapsed) {
 
 Pair SampledController::law_output(const double (&servo)[4],
                                    const std::array<Jet<double>, 2>& reference) const {
-  const RigLaw& law = loop_.law;
-  Pair u{0, 0};
-  for (std::size_t i = 0; i < 2; ++i) {
-    for (std::size_t j = 0; j < 2; ++j) {
-      const double e = reference[j].value - position_[j];
-      const double e_rate = reference[j].rate - velocity_[j];
-      if (law.kind == LawKind::gravity_compensation) {
-        u[i] += law.kp[i][j] * e + law.kv[i][j] * e_rate;
-      } else {
-        u[i] += law.gain[i][j] * e + law.gain[i][2 + j] * e_rate - law.gain[i][4 + j] * servo[j] -
-                law.gain[i][6 + j] * servo[2 + j] + law.integral[i][j] * integral_[j];
-      }
-    }
-  }
-  if (law.kind == LawKind::gravity_compensation) {
-    const auto angle = [&](double sine) {
-      return std::asin(std::clamp(sine, -std::sin(loop_.limit), std::sin(loop_.limit)));
-    };
-    const double phi = angle(loop_.scale * (u[0] + reference[0].acceleration));
-    u = {phi, angle(-loop_.scale * (u[1] + reference[1].acceleration) / std::cos(phi))};
-  }
-  return u;
+  const Feedback<double> state{{position_[0], position_[1]},
+                               {velocity_[0], velocity_[1]},
+                               {servo[0], servo[1]},
+                               {servo[2], servo[3]},
+                               {integral_[0], integral_[1]}};
+  const bool of_sine = loop_.law.kind == LawKind::gravity_compensation;
+  const double highest = of_sine ? std::sin(loop_.limit) : unlimited;
+  const auto limited = [highest](int, double raw) { return std::clamp(raw, -highest, highest); };
+  const Command<double> u = model::command(loop_.law, state, reference, limited);
+  return {u.value[0], u.value[1]};
 }
 
 Pair SampledController::command(const std::optional<Pair>& seen, const double (&servo)[4],

@@ -19,8 +19,31 @@ using Vector2 = Eigen::Vector2d;
 constexpr int places[8] = {0, 1, 2, 3, 5, 6, 7, 8};
 
 RigLoop<> held(const RigLoop<>& loop) {
-  RigLoop<> plain(loop.radius(), loop.gravity(), loop.rolling(), RigLaw{}, loop.servo(), {});
+  RigLoop<> plain(loop.radius(), loop.gravity(), loop.rolling(), ControlLaw{}, loop.servo(), {});
   return plain;
+}
+
+// All that a law feeds back, in the order of its fields.
+using Feedbacks = Eigen::Matrix<double, 10, 1>;
+
+// u = K (what is fed back) about home, by differentiating the law.
+Eigen::Matrix<double, 2, 10> linearised(const ControlLaw& law) {
+  using Number = simd::Dual<10>;
+  const auto pair = [](int first, Number(&into)[2]) {
+    for (int i = 0; i < 2; ++i) into[i] = Number::variable(0, first + i);
+  };
+  Feedback<Number> state;
+  pair(0, state.position);
+  pair(2, state.velocity);
+  pair(4, state.angle);
+  pair(6, state.rate);
+  pair(8, state.integral);
+  const std::array<Jet<double>, 2> home{};
+  const auto unlimited_command = [](int, const Number& raw) { return raw; };
+  const Command<Number> u = command(law, state, home, unlimited_command);
+  Eigen::Matrix<double, 2, 10> gain;
+  for (int i = 0; i < 2; ++i) gain.row(i) = u.value[i].gradient.transpose();
+  return gain;
 }
 
 // One period of a sampled loop, linear. Of its state, in this order: the plant's 8; the exposures
@@ -29,7 +52,10 @@ RigLoop<> held(const RigLoop<>& loop) {
 class Cycle {
  public:
   Cycle(const RigLoop<>& loop, const Rig& rig)
-      : rig_(rig), loop_(held(loop)), plant_(linear_plant(loop_)) {
+      : rig_(rig),
+        loop_(held(loop)),
+        law_(linearised(rig.sampled->law)),
+        plant_(linear_plant(loop_)) {
     const SampledLoop& sampled = *rig.sampled;
     const double period = sampled.sampling.period;
     const auto split = [period](double delay, double* whole) {
@@ -43,9 +69,7 @@ class Cycle {
     application_ = split(sampled.sampling.delay, &whole);
     if (application_ <= 1e-9 * period) application_ = 0;
     commands_ = static_cast<int>(whole);
-    for (const auto& row : sampled.law.integral) {
-      integrates_ = integrates_ || row[0] != 0 || row[1] != 0;
-    }
+    integrates_ = sampled.law.integrates();
     const double instants[3] = {std::min(exposure_, application_),
                                 std::max(exposure_, application_), period};
     double from = 0;
@@ -106,20 +130,10 @@ class Cycle {
     velocity = (keep * velocity + (1 - keep) / period * (seen - position)).eval();
     position = seen;
     if (integrates_) s.segment<2>(integral_at()) -= period * seen;
-    const RigLaw& law = sampled.law;
-    Vector2 u = Vector2::Zero();
-    for (int i = 0; i < 2; ++i) {
-      for (int j = 0; j < 2; ++j) {
-        if (law.kind == LawKind::gravity_compensation) {
-          u[i] += (i == 0 ? -1 : 1) * sampled.scale *
-                  (law.kp[i][j] * position[j] + law.kv[i][j] * velocity[j]);
-        } else {
-          u[i] -= law.gain[i][j] * position[j] + law.gain[i][2 + j] * velocity[j] +
-                  law.gain[i][4 + j] * s[4 + j] + law.gain[i][6 + j] * s[6 + j];
-          if (integrates_) u[i] += law.integral[i][j] * s[integral_at() + j];
-        }
-      }
-    }
+    Feedbacks known = Feedbacks::Zero();
+    known << position, velocity, s.segment<4>(4), Vector2::Zero();
+    if (integrates_) known.tail<2>() = s.segment<2>(integral_at());
+    const Vector2 u = law_ * known;
     s.segment<2>(commands_at() + 2 * commands_) = u;
   }
 
@@ -141,6 +155,7 @@ class Cycle {
 
   const Rig& rig_;
   RigLoop<> loop_;
+  Eigen::Matrix<double, 2, 10> law_;
   LinearPlant plant_;
   double exposure_ = 0, application_ = 0;  // instants within the period, s
   int exposures_ = 0, commands_ = 0;       // in the queues at the period's start

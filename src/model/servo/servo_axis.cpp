@@ -11,6 +11,11 @@ constexpr double at_limit = 1 - 1e-11;
 
 }  // namespace
 
+double ServoAxis::follow(double command) {
+  if (std::abs(command - target_) > rig_->dead_band) target_ = command;
+  return target_;
+}
+
 double ServoAxis::push(const AxisState& state) const {
   if (!rig_->time_constant) return state.demand;
   return (state.command - state.angle) / *rig_->time_constant - state.rate;

@@ -1,5 +1,5 @@
-// What one servo does: free, at a limit, at a stop; and its backlash. Between two switches it is
-// an AxisMode; each switch is where one of the guards falls through zero.
+// What one servo does: free, at a limit, at a stop; its backlash and its dead band. Between two
+// switches it is an AxisMode; each switch is where one of the guards falls through zero.
 #pragma once
 
 #include "model/systems/rig.hpp"
@@ -19,6 +19,10 @@ class ServoAxis {
 
   ServoAxis(const Rig& rig, const ServoResponse& response, double offset)
       : rig_(&rig), response_(response), offset_(offset) {}
+
+  // The command that the servo follows after it got this one: nearer to the last one than the dead
+  // band it is not followed.
+  [[nodiscard]] double follow(double command);
 
   // Chooses what the servo does from here. May change its rate: a stop takes it, and a servo of
   // first order has it from its command.
@@ -54,7 +58,8 @@ class ServoAxis {
   Motion motion_ = Motion::free;
   Play play_ = Play::none;
   bool started_ = false;
-  double plane_ = 0;  // the plane's angle in the gap, rad
+  double target_ = 0;  // the command that is followed
+  double plane_ = 0;   // the plane's angle in the gap, rad
 };
 
 }  // namespace bbsim::model

@@ -18,8 +18,7 @@ inline constexpr double unlimited = std::numeric_limits<double>::infinity();
 struct SampledLoop {
   Sampling sampling;
   Sensor sensor;
-  RigLaw law;        // what is computed at each sample
-  double scale = 0;  // (1 + k) / g, s^2/m, for gravity compensation
+  ControlLaw law;  // what is computed at each sample
   double limit = unlimited;
 };
 
@@ -31,7 +30,7 @@ struct Rig {
   double dead_band = 0, backlash = 0;     // rad
   std::optional<double> time_constant;    // of a servo of first order, s
   Pair offset{0, 0};                      // angle of the plane at the servo's zero, rad
-  // Of the command of a continuous law; of its sine in gravity compensation.
+  // A continuous law's command is kept within it; in gravity compensation, the command's sine.
   double command_limit = unlimited;
   std::optional<SampledLoop> sampled;
 

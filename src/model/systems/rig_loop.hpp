@@ -3,10 +3,14 @@
 //
 // What switches (a servo at its rate limit, a command that a sample changed) is constant between
 // two switches, and stands in a RigMode: the right-hand side has no branch on the state, and is as
-// smooth as equation (27). model/rig/ says when what switches.
+// smooth as equation (27). HybridSystem says when what switches.
 #pragma once
 
+#include <cstring>
+#include <type_traits>
+
 #include "model/ball/general_rolling.hpp"
+#include "model/control/law.hpp"
 #include "model/systems/system.hpp"
 
 namespace bbsim::model {
@@ -31,60 +35,58 @@ struct ServoResponse {
   double from_command = 1, from_angle = 0, from_rate = 0;
 };
 
-enum class LawKind { held, linear, gravity_compensation, feedback_linearisation };
-
-// How a command u follows from the error e = reference - (x, y), rows phi, theta.
-//   linear                  u = gain (e, e', -q, -q') + integral (of e)
-//   gravity_compensation    angles on which gravity gives the ball x_d'' + kv e' + kp e
-//   feedback_linearisation  accelerations of the gimbal that give the ball the same
-struct RigLaw {
-  LawKind kind = LawKind::held;
-  double gain[2][8] = {};
-  double integral[2][2] = {};
-  double kv[2][2] = {}, kp[2][2] = {};
-};
-
-// asin(s) for |s| below 0.99, of any number type, with its derivatives: Newton's iteration.
-template <class Real>
-[[nodiscard]] Real arcsine(const Real& s) {
-  const Real s2 = s * s;
-  Real angle = s * (Real(1.0) + s2 * (Real(1.0 / 6) + s2 * (Real(3.0 / 40) + (15.0 / 336) * s2)));
-  // Six suffice up to |s| = 0.99.
-  for (int i = 0; i < 6; ++i) {
-    const SinCos<Real> at = sin_cos(angle);
-    angle = angle - (at.sin - s) / at.cos;
-  }
-  return angle;
-}
-
 template <class Real>
 struct RigAxes {
-  Real raw[2];      // command before its limit; sine of the angle in gravity compensation
-  Real command[2];  // behind its limit, rad, or rad/s^2 where accelerations are driven
-  Real demand[2];   // acceleration that the servo would have in free motion, rad/s^2
+  Command<Real> command;
+  Real demand[2];  // acceleration that the servo would have in free motion, rad/s^2
 };
+
+// Where a rig's states are, after the ball's five: of phi, and next to it of theta.
+struct RigLayout : BallLayout<Shape::full> {
+  static constexpr int angle = BallLayout<Shape::full>::size, rate = angle + 2, integral = rate + 2;
+};
+
+// What a row of output needs beside the states, since it changes with the mode: of the plane, phi
+// and theta; the commands; and, of a sampled loop, where the ball was seen last.
+struct RigExtras {
+  double angle[2], rate[2], acceleration[2], command[2], measured[2];
+
+  static constexpr int size = 10;
+  [[nodiscard]] static RigExtras unpack(const double* numbers) {
+    RigExtras extras;
+    std::memcpy(&extras, numbers, sizeof extras);
+    return extras;
+  }
+  void pack(double* numbers) const { std::memcpy(numbers, this, sizeof *this); }
+};
+static_assert(sizeof(RigExtras) == RigExtras::size * sizeof(double));
 
 // States: the ball's five, the servos' angles and rates; and the integrals of the error, of a law
 // in continuous time that has them.
 template <bool integrates = false, class Signals = SignalPair>
 class RigLoop {
  public:
-  using Layout = BallLayout<Shape::full>;
+  using Layout = RigLayout;
   static constexpr Shape moves = Shape::full;
-  static constexpr int size = integrates ? 11 : 9;
+  static constexpr int size = Layout::integral + (integrates ? 2 : 0);
   static constexpr bool open_loop = false;
+  static constexpr bool papers_rig = false;
   static constexpr auto motions = [] {
+    constexpr int angle = Layout::angle, rate = Layout::rate, integral = Layout::integral;
     if constexpr (integrates) {
-      return Motions<7>{{{0, 2}, {1, 3}, {5, 7}, {6, 8}, {-1, 4}, {-1, 9}, {-1, 10}}};
+      return Motions<7>{{{0, 2},
+                         {1, 3},
+                         {angle, rate},
+                         {angle + 1, rate + 1},
+                         {-1, 4},
+                         {-1, integral},
+                         {-1, integral + 1}}};
     } else {
-      return Motions<5>{{{0, 2}, {1, 3}, {5, 7}, {6, 8}, {-1, 4}}};
+      return Motions<5>{{{0, 2}, {1, 3}, {angle, rate}, {angle + 1, rate + 1}, {-1, 4}}};
     }
   }();
-  // What a row of output needs beside the states, since it changes with the mode: the plane's
-  // angles, rates and accelerations; the command; and, of a sampled loop, what was measured last.
-  static constexpr int extras = 10;
 
-  RigLoop(double radius, double gravity, const GeneralRolling& rolling, const RigLaw& law,
+  RigLoop(double radius, double gravity, const GeneralRolling& rolling, const ControlLaw& law,
           const ServoResponse& servo, Signals reference, const RigMode& present = {})
       : mode(present),
         r_(radius),
@@ -118,10 +120,11 @@ class RigLoop {
       const AxisMode& of = mode.axis[i];
       const Real acceleration = of.demand_factor * loop.demand[i] + Real(of.set_acceleration);
       plane[i] = plane_axis(i, z, of.ratio * acceleration);
-      dz[5 + i] = z[7 + i];
-      dz[7 + i] = acceleration;
+      dz[Layout::angle + i] = z[Layout::rate + i];
+      dz[Layout::rate + i] = acceleration;
       if constexpr (integrates) {
-        dz[9 + i] = of.integrate * (reference[static_cast<std::size_t>(i)].value - z[i]);
+        dz[Layout::integral + i] =
+            of.integrate * (reference[static_cast<std::size_t>(i)].value - z[i]);
       }
     }
     Layout::derivative(rolling_, plane[0], plane[1], Layout::unpack(z), r_, g_, dz);
@@ -132,39 +135,19 @@ class RigLoop {
   [[nodiscard]] RigAxes<Real> axes(const std::array<Jet<Time>, 2>& reference, const Real* z) const {
     RigAxes<Real> loop;
     if (law_.kind == LawKind::held) {
-      for (int i = 0; i < 2; ++i) loop.raw[i] = loop.command[i] = Real(mode.command[i]);
-    } else if (law_.kind == LawKind::linear) {
       for (int i = 0; i < 2; ++i) {
-        Real u = Real(0.0);
-        for (int j = 0; j < 2; ++j) {
-          const Jet<Time>& wanted = reference[static_cast<std::size_t>(j)];
-          u = u + law_.gain[i][j] * (wanted.value - z[j]) +
-              law_.gain[i][2 + j] * (wanted.rate - z[2 + j]) - law_.gain[i][4 + j] * z[5 + j] -
-              law_.gain[i][6 + j] * z[7 + j];
-          if constexpr (integrates) u = u + law_.integral[i][j] * z[9 + j];
-        }
-        loop.raw[i] = u;
-        loop.command[i] = limited(i, u);
+        loop.command.raw[i] = loop.command.value[i] = Real(mode.command[i]);
       }
+    } else if (law_.kind == LawKind::feedback_linearisation) {
+      loop.command = linearise(reference, z);
     } else {
-      Real wanted[2];
-      for (int i = 0; i < 2; ++i) {
-        wanted[i] = Real(reference[static_cast<std::size_t>(i)].acceleration);
-        for (int j = 0; j < 2; ++j) {
-          const Jet<Time>& path = reference[static_cast<std::size_t>(j)];
-          wanted[i] = wanted[i] + law_.kv[i][j] * (path.rate - z[2 + j]) +
-                      law_.kp[i][j] * (path.value - z[j]);
-        }
-      }
-      if (law_.kind == LawKind::gravity_compensation) {
-        compensate_gravity(wanted, loop);
-      } else {
-        linearise(wanted, z, loop);
-      }
+      loop.command = model::command(law_, feedback(z), reference,
+                                    [this](int i, const Real& raw) { return limited(i, raw); });
     }
     for (int i = 0; i < 2; ++i) {
-      loop.demand[i] = servo_.from_command * loop.command[i] - servo_.from_angle * z[5 + i] -
-                       servo_.from_rate * z[7 + i];
+      loop.demand[i] = servo_.from_command * loop.command.value[i] -
+                       servo_.from_angle * z[Layout::angle + i] -
+                       servo_.from_rate * z[Layout::rate + i];
     }
     return loop;
   }
@@ -180,39 +163,39 @@ class RigLoop {
     return jump;
   }
 
-  // All extras but what was measured, at the present mode.
-  void write_extras(double t, const double* z, double* out) const {
+  // All but what was measured, at the present mode.
+  [[nodiscard]] RigExtras extras(double t, const double* z) const {
     const RigAxes<double> loop = axes(reference_.at(t), z);
+    RigExtras extras{};
     for (int i = 0; i < 2; ++i) {
       const AxisMode& of = mode.axis[i];
-      out[i] = of.ratio * z[5 + i] + of.offset;
-      out[2 + i] = of.ratio * z[7 + i];
-      out[4 + i] = of.ratio * (of.demand_factor * loop.demand[i] + of.set_acceleration);
-      out[6 + i] = loop.command[i];
+      extras.angle[i] = of.ratio * z[Layout::angle + i] + of.offset;
+      extras.rate[i] = of.ratio * z[Layout::rate + i];
+      extras.acceleration[i] = of.ratio * (of.demand_factor * loop.demand[i] + of.set_acceleration);
+      extras.command[i] = loop.command.value[i];
     }
+    return extras;
   }
 
-  [[nodiscard]] Sample sample(double t, const double* z, const double* extra) const {
+  [[nodiscard]] Sample sample(double t, const double* z, const RigExtras& with) const {
     const auto reference = reference_.at(t);
-    Sample sample{t,
-                  ball_motion<Shape::full>(Layout::unpack(z), r_),
-                  0,
-                  {extra[0], extra[1], extra[2], extra[3], extra[4], extra[5]},
-                  {reference[0].value, reference[1].value}};
-    sample.command = {extra[6], extra[7]};
-    sample.measured = {extra[8], extra[9]};
-    return sample;
+    return {t,
+            ball_motion<Shape::full>(Layout::unpack(z), r_),
+            0,
+            {with.angle[0], with.angle[1], with.rate[0], with.rate[1], with.acceleration[0],
+             with.acceleration[1]},
+            {reference[0].value, reference[1].value},
+            {with.command[0], with.command[1]},
+            {with.measured[0], with.measured[1]}};
   }
 
   // At the present mode.
   [[nodiscard]] Sample sample(double t, const double* z) const {
-    double extra[extras] = {};
-    write_extras(t, z, extra);
-    return sample(t, z, extra);
+    return sample(t, z, extras(t, z));
   }
 
   [[nodiscard]] const Signals& reference() const { return reference_; }
-  [[nodiscard]] const RigLaw& law() const { return law_; }
+  [[nodiscard]] const ControlLaw& law() const { return law_; }
   [[nodiscard]] const ServoResponse& servo() const { return servo_; }
   [[nodiscard]] const GeneralRolling& rolling() const { return rolling_; }
   [[nodiscard]] double radius() const { return r_; }
@@ -227,8 +210,8 @@ class RigLoop {
   template <class Real>
   [[nodiscard]] Axis<Real> plane_axis(int i, const Real* z, const Real& acceleration) const {
     const AxisMode& of = mode.axis[i];
-    const SinCos<Real> direction = sin_cos(Real(of.ratio * z[5 + i] + Real(of.offset)));
-    return {direction.sin, direction.cos, of.ratio * z[7 + i], acceleration};
+    const SinCos<Real> direction = sin_cos(Real(of.ratio * z[Layout::angle + i] + Real(of.offset)));
+    return {direction.sin, direction.cos, of.ratio * z[Layout::rate + i], acceleration};
   }
 
   template <class Real>
@@ -252,32 +235,40 @@ class RigLoop {
     return mode.axis[i].command_factor * raw + Real(mode.axis[i].set_command);
   }
 
-  // The static part of (27): (1 + k) x'' = g sin phi, (1 + k) y'' = -g cos phi sin theta.
   template <class Real>
-  void compensate_gravity(const Real (&wanted)[2], RigAxes<Real>& loop) const {
-    const double scale = (1 + rolling_.k) / g_;
-    loop.raw[0] = scale * wanted[0];
-    const Real sine = limited(0, loop.raw[0]);
-    loop.command[0] = arcsine(sine);
-    loop.raw[1] = -(scale * wanted[1]) / sin_cos(loop.command[0]).cos;
-    loop.command[1] = arcsine(limited(1, loop.raw[1]));
+  [[nodiscard]] static auto feedback(const Real* z) {
+    using Integral = std::conditional_t<integrates, Real, Zero>;
+    Feedback<Real, Integral> state;
+    for (int i = 0; i < 2; ++i) {
+      state.position[i] = z[i];
+      state.velocity[i] = z[2 + i];
+      state.angle[i] = z[Layout::angle + i];
+      state.rate[i] = z[Layout::rate + i];
+      if constexpr (integrates) state.integral[i] = z[Layout::integral + i];
+    }
+    return state;
   }
 
   // (27) solved for (phi'', theta''), Cramer's rule.
-  template <class Real>
-  void linearise(const Real (&wanted)[2], const Real* z, RigAxes<Real>& loop) const {
+  template <class Time, class Real>
+  [[nodiscard]] Command<Real> linearise(const std::array<Jet<Time>, 2>& reference,
+                                        const Real* z) const {
+    const auto state = feedback(z);
     const auto rest = rates_under(z, 0, 0);
     const Inertial<Real> m = coefficients(z);
-    const Real x = wanted[0] - rest.x, y = wanted[1] - rest.y;
+    const Real x = wanted_acceleration(law_, 0, state, reference) - rest.x;
+    const Real y = wanted_acceleration(law_, 1, state, reference) - rest.y;
     const Real determinant = m.of[0][0] * m.of[1][1] - m.of[0][1] * m.of[1][0];
-    loop.raw[0] = (x * m.of[1][1] - m.of[0][1] * y) / determinant;
-    loop.raw[1] = (m.of[0][0] * y - x * m.of[1][0]) / determinant;
-    for (int i = 0; i < 2; ++i) loop.command[i] = limited(i, loop.raw[i]);
+    Command<Real> u;
+    u.raw[0] = (x * m.of[1][1] - m.of[0][1] * y) / determinant;
+    u.raw[1] = (m.of[0][0] * y - x * m.of[1][0]) / determinant;
+    for (int i = 0; i < 2; ++i) u.value[i] = limited(i, u.raw[i]);
+    return u;
   }
 
   double r_, g_;
   GeneralRolling rolling_;
-  RigLaw law_;
+  ControlLaw law_;
   ServoResponse servo_;
   Signals reference_;
 };

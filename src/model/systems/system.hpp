@@ -13,8 +13,11 @@
 
 #include <array>
 #include <string_view>
+#include <type_traits>
 
+#include "model/ball/general_rolling.hpp"
 #include "model/ball/rolling.hpp"
+#include "model/control/law.hpp"
 #include "model/sample.hpp"
 #include "model/signals/signal_pair.hpp"
 
@@ -144,6 +147,7 @@ class OpenLoop {
   static constexpr Shape moves = shape;
   static constexpr int size = Layout::size;
   static constexpr bool open_loop = true;  // z' = A(t) z + b(t)
+  static constexpr bool papers_rig = !std::is_same_v<Equation, GeneralRolling>;
   static constexpr auto motions = Layout::motions;
 
   OpenLoop(double radius, double gravity, Signals motion, Equation equation = {})
@@ -210,14 +214,6 @@ class OpenLoop {
   [[no_unique_address]] Equation equation_;
 };
 
-// Proportional and derivative gains, rows phi, theta; columns x, y: equation (31). Scalar, here and
-// below, is that of rolling.hpp: a pack of doubles holds another loop in each lane.
-template <class Scalar>
-struct BasicGains {
-  Scalar kv[2][2], kp[2][2];
-};
-using Gains = BasicGains<double>;
-
 // One axis of the gimbal under control. Its acceleration is
 //     acceleration drive:  u                                         equation (31)
 //     angle drive:         omega_n^2 (u - angle) - 2 zeta omega_n angle'   a position servo
@@ -246,6 +242,7 @@ class ClosedLoop {
   static constexpr int axes = phi_moves(shape) + theta_moves(shape);
   static constexpr int size = Layout::size + 2 * axes;
   static constexpr bool open_loop = false;
+  static constexpr bool papers_rig = true;
   static constexpr auto motions = [] {
     Motions<Layout::motions.count + axes> all{};
     int next = 0;
@@ -314,23 +311,15 @@ class ClosedLoop {
     }
     Sample sample{
         t, ball_motion<shape>(ball, r_), 0, gimbal, {reference[0].value, reference[1].value}};
-    if constexpr (phi_moves(shape)) sample.command[0] = command<0, double>(ball, reference);
-    if constexpr (theta_moves(shape)) sample.command[1] = command<1, double>(ball, reference);
+    if constexpr (phi_moves(shape)) sample.command[0] = command<double>(gains_, 0, ball, reference);
+    if constexpr (theta_moves(shape))
+      sample.command[1] = command<double>(gains_, 1, ball, reference);
     return sample;
   }
 
   [[nodiscard]] const Signals& reference() const { return reference_; }
 
  private:
-  // Equation (31) for one row of the gains.
-  template <std::size_t row, class Real, class Ball, class Time>
-  [[nodiscard]] Real command(const Ball& ball, const std::array<Jet<Time>, 2>& reference) const {
-    return gains_.kv[row][0] * (reference[0].rate - ball.x_dot) +
-           gains_.kv[row][1] * (reference[1].rate - ball.y_dot) +
-           gains_.kp[row][0] * (reference[0].value - ball.x) +
-           gains_.kp[row][1] * (reference[1].value - ball.y);
-  }
-
   // One axis of the gimbal: its command, and the servo behind it.
   template <std::size_t row, class Real, class Ball, class Time>
   [[nodiscard]] auto axis(const Ball& ball, const std::array<Jet<Time>, 2>& reference,
@@ -338,7 +327,7 @@ class ClosedLoop {
     if constexpr (row == 0 ? phi_moves(shape) : theta_moves(shape)) {
       const Real& angle = angles[row == 0 ? 0 : axes - 1];
       const Real& rate = angles[row == 0 ? axes : 2 * axes - 1];
-      const Real u = command<row, Real>(ball, reference);
+      const Real u = command<Real>(gains_, row, ball, reference);
       const SinCos<Real> direction = sin_cos(angle);
       return Axis<Real>{direction.sin, direction.cos, rate,
                         servo_.template acceleration<drives, Real>(u, angle, rate)};

@@ -253,12 +253,4 @@ std::unique_ptr<Stepper> make_cvode_stepper(const model::Model& model, Method me
       model.system);
 }
 
-Outcome integrate_cvode(const model::Model& model, Method method, Tolerances tolerances,
-                        const OutputGrid& grid, StateSink& sink, const Watch& watch) {
-  const auto stepper = make_cvode_stepper(model, method, tolerances);
-  Outcome outcome = run_through(*stepper, model, grid, sink, watch);
-  outcome.method = method;
-  return outcome;
-}
-
 }  // namespace bbsim::solve

@@ -1,23 +1,19 @@
 // The adapter to CVODES, SUNDIALS' CVODE with quadratures: variable-order BDF or Adams.
 #pragma once
 
+#include <memory>
+
 #include "model/model.hpp"
 #include "solve/outcome.hpp"
-#include "solve/output_grid.hpp"
 #include "solve/stepper.hpp"
 
 namespace bbsim::solve {
 
 // BDF (Method::bdf, orders 1 to 5) with Newton iterations, a dense solver and the exact Jacobian;
-// or Adams-Moulton (Method::adams, orders 1 to 12) with fixed-point iterations.
+// or Adams-Moulton (Method::adams, orders 1 to 12) with fixed-point iterations; no other method.
 //
-// Output rows are interpolated by the method's own polynomial. gamma is a quadrature,
-// outside the nonlinear system. The model's stops are reached exactly and restarted from.
-[[nodiscard]] Outcome integrate_cvode(const model::Model& model, Method method,
-                                      Tolerances tolerances, const OutputGrid& grid,
-                                      StateSink& sink, const Watch& watch);
-
-// The same, a step at a time. Keeps a reference to the model.
+// Rows are interpolated by the method's own polynomial. gamma is a quadrature, outside the
+// nonlinear system. Keeps a reference to the model.
 [[nodiscard]] std::unique_ptr<Stepper> make_cvode_stepper(const model::Model& model, Method method,
                                                           Tolerances tolerances);
 

@@ -21,9 +21,8 @@ enum class Verdict { converged, diverged, not_finite };
 // What became of an attempted step.
 struct Attempt {
   Verdict verdict;
-  double error;        // estimated local error in the tolerance's weights: at most 1 is good
-  double contraction;  // of the iterations
-  int worst_state;     // the state with the largest estimate
+  double error;     // estimated local error in the tolerance's weights: at most 1 is good
+  int worst_state;  // the state with the largest estimate
   int iterations;
   int right_hand_sides;
   int jacobians;
@@ -49,7 +48,7 @@ struct Kernel {
   void (*state)(const void* workspace, double* state);
 };
 
-// One for each alternative of model::System, in its order.
+// One for each system of model/systems/list.hpp, in its order.
 inline constexpr int system_count = 12;
 
 struct StepKernels {

@@ -7,7 +7,6 @@ struct Avx2 {
 };
 
 extern const StepKernels kernels_avx2;
-constinit const StepKernels kernels_avx2{
-    {BBSIM_KERNELS(Avx2, 8), BBSIM_KERNELS(Avx2, 12), BBSIM_KERNELS(Avx2, 16)}};
+constinit const StepKernels kernels_avx2 = kernels_of<Avx2>();
 
 }  // namespace bbsim::solve::radau

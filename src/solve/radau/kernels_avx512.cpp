@@ -7,7 +7,6 @@ struct Avx512 {
 };
 
 extern const StepKernels kernels_avx512;
-constinit const StepKernels kernels_avx512{
-    {BBSIM_KERNELS(Avx512, 8), BBSIM_KERNELS(Avx512, 12), BBSIM_KERNELS(Avx512, 16)}};
+constinit const StepKernels kernels_avx512 = kernels_of<Avx512>();
 
 }  // namespace bbsim::solve::radau

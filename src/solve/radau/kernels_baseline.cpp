@@ -8,7 +8,6 @@ struct Baseline {
 };
 
 extern const StepKernels kernels_baseline;
-constinit const StepKernels kernels_baseline{
-    {BBSIM_KERNELS(Baseline, 8), BBSIM_KERNELS(Baseline, 12), BBSIM_KERNELS(Baseline, 16)}};
+constinit const StepKernels kernels_baseline = kernels_of<Baseline>();
 
 }  // namespace bbsim::solve::radau

@@ -8,8 +8,7 @@
 #include <type_traits>
 #include <variant>
 
-namespace bbsim::solve {
-namespace radau {
+namespace bbsim::solve::radau {
 namespace {
 
 constexpr std::align_val_t alignment{64};
@@ -239,15 +238,4 @@ void RadauStepper::evaluate(const double* times, std::size_t count, double* rows
   for (std::size_t i = 0; i < count; ++i) rows[i * row + row - 1] += turned_;
 }
 
-}  // namespace radau
-
-Outcome integrate_radau(const model::Model& model, Tolerances tolerances, const OutputGrid& grid,
-                        StateSink& sink, const Watch& watch) {
-  radau::RadauStepper stepper(model, radau::choose_kernels(), radau::choose_stages(tolerances.rtol),
-                              tolerances, grid.end());
-  Outcome outcome = run_through(stepper, model, grid, sink, watch);
-  outcome.method = Method::radau;
-  return outcome;
-}
-
-}  // namespace bbsim::solve
+}  // namespace bbsim::solve::radau

@@ -13,18 +13,7 @@
 #include "solve/radau/kernel.hpp"
 #include "solve/stepper.hpp"
 
-namespace bbsim::solve {
-
-// L-stable and superconvergent: stiff servos cost no more steps than the motion itself does. The
-// collocation polynomial gives the rows between steps. gamma is the polynomial's integral, under
-// error control. The model's stops are reached exactly and restarted from.
-//
-// Throws InputError if the environment variable BBSIM_SIMD names no instruction set of this
-// processor.
-[[nodiscard]] Outcome integrate_radau(const model::Model& model, Tolerances tolerances,
-                                      const OutputGrid& grid, StateSink& sink, const Watch& watch);
-
-namespace radau {
+namespace bbsim::solve::radau {
 
 [[nodiscard]] const StepKernels& kernels_for(simd::InstructionSet set);
 
@@ -39,6 +28,10 @@ namespace radau {
 // How many stages a model gets that is asked to take so many.
 [[nodiscard]] int stages_of(const model::Model& model, int stages);
 
+// L-stable and superconvergent: stiff servos cost no more steps than the motion itself does. The
+// collocation polynomial gives the rows between steps. gamma is the polynomial's integral, under
+// error control.
+//
 // A step never goes over a time of the model's stops, if the driver makes them its limits, nor over
 // a time at which a sinusoid of the input would pass between two nodes unseen. Allocates nothing
 // once it is made. Keeps a reference to the model.
@@ -99,5 +92,4 @@ class RadauStepper : public Stepper {
   Statistics statistics_;
 };
 
-}  // namespace radau
-}  // namespace bbsim::solve
+}  // namespace bbsim::solve::radau

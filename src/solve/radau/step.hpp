@@ -392,7 +392,7 @@ struct Step {
     w.h = h;
     w.has_guess = false;
     Attempt& a = *result;
-    a = {Verdict::diverged, 0, 0, 0, 0, 0, 0};
+    a = {Verdict::diverged, 0, 0, 0, 0, 0};
     for (int p = 0; p < packs; ++p) {
       w.inputs[p] = w.system->inputs(P(t) + P(h) * P::load(&table.c[p * lanes]));
     }
@@ -445,7 +445,6 @@ struct Step {
           }
           if (a.iterations > 2) {
             w.contraction = 1;
-            a.contraction = contraction;
             return;
           }
         }
@@ -458,12 +457,10 @@ struct Step {
       }
       if (a.iterations >= most_iterations) {
         w.contraction = 1;
-        a.contraction = contraction;
         return;
       }
     }
     a.verdict = Verdict::converged;
-    a.contraction = contraction;
     w.contraction = larger(0.3 * w.contraction, contraction);
     w.has_guess = true;
     w.accepted = false;

@@ -1,0 +1,118 @@
+// The control law, once: what a controller commands at a state, for every number type.
+#pragma once
+
+#include <array>
+
+#include "base/real.hpp"
+#include "model/signals/spline.hpp"
+
+namespace bbsim::model {
+
+// Proportional and derivative gains, rows phi, theta; columns x, y: equation (31). Scalar is that
+// of rolling.hpp: a pack of doubles holds another loop in each lane.
+template <class Scalar>
+struct BasicGains {
+  Scalar kv[2][2], kp[2][2];
+};
+using Gains = BasicGains<double>;
+
+// Equation (31) for one row of the gains; `ball` is a RollingState.
+template <class Real, class Scalar, class Ball, class Time>
+[[nodiscard]] Real command(const BasicGains<Scalar>& law, std::size_t row, const Ball& ball,
+                           const std::array<Jet<Time>, 2>& reference) {
+  return law.kv[row][0] * (reference[0].rate - ball.x_dot) +
+         law.kv[row][1] * (reference[1].rate - ball.y_dot) +
+         law.kp[row][0] * (reference[0].value - ball.x) +
+         law.kp[row][1] * (reference[1].value - ball.y);
+}
+
+enum class LawKind { held, linear, gravity_compensation, feedback_linearisation };
+
+// How a command u follows from the error e = reference - (x, y), rows phi, theta.
+//   held                    is none: the command is what it was
+//   linear                  u = gain (e, e', -q, -q') + integral (of e); q: the servos' angles
+//   gravity_compensation    angles on which gravity gives the ball x_d'' + kv e' + kp e
+//   feedback_linearisation  accelerations of the gimbal that give the ball the same
+struct ControlLaw {
+  LawKind kind = LawKind::held;
+  double gain[2][8] = {};
+  double integral[2][2] = {};
+  double kv[2][2] = {}, kp[2][2] = {};
+  double scale = 0;  // (1 + k) / g, s^2/m, for gravity compensation
+
+  [[nodiscard]] bool integrates() const {
+    return integral[0][0] != 0 || integral[0][1] != 0 || integral[1][0] != 0 || integral[1][1] != 0;
+  }
+};
+
+// What a law feeds back, SI. Integral is Zero where nothing is integrated.
+template <class Real, class Integral = Real>
+struct Feedback {
+  Real position[2], velocity[2];  // of the ball, as the controller knows them
+  Real angle[2], rate[2];         // of the servos
+  Integral integral[2];           // of the error
+};
+
+template <class Real>
+struct Command {
+  Real raw[2];    // before its limit; sine of the angle in gravity compensation
+  Real value[2];  // behind its limit, rad, or rad/s^2 where accelerations are driven
+};
+
+// asin(s) for |s| below 0.99, of any number type, with its derivatives: Newton's iteration.
+template <class Real>
+[[nodiscard]] Real arcsine(const Real& s) {
+  const Real s2 = s * s;
+  Real angle = s * (Real(1.0) + s2 * (Real(1.0 / 6) + s2 * (Real(3.0 / 40) + (15.0 / 336) * s2)));
+  // Six suffice up to |s| = 0.99.
+  for (int i = 0; i < 6; ++i) {
+    const SinCos<Real> at = sin_cos(angle);
+    angle = angle - (at.sin - s) / at.cos;
+  }
+  return angle;
+}
+
+// The acceleration that the last two laws want of the ball in coordinate i, m/s^2.
+template <class Real, class Integral, class Time>
+[[nodiscard]] Real wanted_acceleration(const ControlLaw& law, std::size_t i,
+                                       const Feedback<Real, Integral>& state,
+                                       const std::array<Jet<Time>, 2>& reference) {
+  Real wanted = Real(reference[i].acceleration);
+  for (std::size_t j = 0; j < 2; ++j) {
+    wanted = wanted + law.kv[i][j] * (reference[j].rate - state.velocity[j]) +
+             law.kp[i][j] * (reference[j].value - state.position[j]);
+  }
+  return wanted;
+}
+
+// `limited(i, raw)` is what the limit leaves of a command, and of a sine in gravity compensation.
+// Not for feedback linearisation, which asks for the plant's equations, nor for a held command.
+template <class Real, class Integral, class Time, class Limited>
+[[nodiscard]] Command<Real> command(const ControlLaw& law, const Feedback<Real, Integral>& state,
+                                    const std::array<Jet<Time>, 2>& reference,
+                                    const Limited& limited) {
+  Command<Real> u;
+  if (law.kind == LawKind::gravity_compensation) {
+    // The static part of (27): (1 + k) x'' = g sin phi, (1 + k) y'' = -g cos phi sin theta.
+    u.raw[0] = law.scale * wanted_acceleration(law, 0, state, reference);
+    u.value[0] = arcsine(limited(0, u.raw[0]));
+    u.raw[1] =
+        -(law.scale * wanted_acceleration(law, 1, state, reference)) / sin_cos(u.value[0]).cos;
+    u.value[1] = arcsine(limited(1, u.raw[1]));
+    return u;
+  }
+  for (std::size_t i = 0; i < 2; ++i) {
+    Real sum = Real(0.0);
+    for (std::size_t j = 0; j < 2; ++j) {
+      sum = sum + (law.gain[i][j] * (reference[j].value - state.position[j]) +
+                   law.gain[i][2 + j] * (reference[j].rate - state.velocity[j]) -
+                   law.gain[i][4 + j] * state.angle[j] - law.gain[i][6 + j] * state.rate[j] +
+                   law.integral[i][j] * state.integral[j]);
+    }
+    u.raw[i] = sum;
+    u.value[i] = limited(static_cast<int>(i), sum);
+  }
+  return u;
+}
+
+}  // namespace bbsim::model

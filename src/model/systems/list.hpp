@@ -1,0 +1,38 @@
+// The one list of systems: what a model can be, and what integrators have code for.
+#pragma once
+
+#include <type_traits>
+#include <utility>
+#include <variant>
+
+#include "model/systems/rig_loop.hpp"
+#include "model/systems/system.hpp"
+
+namespace bbsim::model {
+
+template <class Signals>
+using SystemList = std::variant<OpenLoop<Shape::full, Signals>,     //
+                                OpenLoop<Shape::along_x, Signals>,  //
+                                OpenLoop<Shape::along_y, Signals>,
+                                ClosedLoop<Shape::full, Drives::acceleration, Signals>,
+                                ClosedLoop<Shape::along_x, Drives::acceleration, Signals>,
+                                ClosedLoop<Shape::along_y, Drives::acceleration, Signals>,
+                                ClosedLoop<Shape::full, Drives::angle, Signals>,
+                                ClosedLoop<Shape::along_x, Drives::angle, Signals>,
+                                ClosedLoop<Shape::along_y, Drives::angle, Signals>,
+                                OpenLoop<Shape::full, Signals, GeneralRolling>,  //
+                                RigLoop<false, Signals>,                         //
+                                RigLoop<true, Signals>>;
+
+using System = SystemList<SignalPair>;
+using SystemViews = SystemList<SignalView>;
+
+// Whether the view of each system stands in the place of the system.
+template <class... Systems, class... Views>
+consteval bool views_in_order(std::type_identity<std::variant<Systems...>>,
+                              std::type_identity<std::variant<Views...>>) {
+  return (std::is_same_v<decltype(std::declval<const Systems&>().view()), Views> && ...);
+}
+static_assert(views_in_order(std::type_identity<System>{}, std::type_identity<SystemViews>{}));
+
+}  // namespace bbsim::model
