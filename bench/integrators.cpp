@@ -33,7 +33,7 @@ std::vector<double> tolerance_ladder() {
 }
 
 int run(const Arguments& arguments) {
-  const std::string kernels = bbsim::simd::name_of(simd::chosen_instruction_set());
+  const std::string kernels = bbsim::simd::name_of(bbsim::simd::chosen_instruction_set());
   std::printf(
       "instruction set of radau: %s\n"
       "processor time of one run with its output, the least of many; no gamma\n"

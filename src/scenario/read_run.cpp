@@ -78,7 +78,7 @@ void read_time(yaml::Keys& keys, OutputTimes& time) {
   if (end) keys.context().end = time.end;
   if (end && step && time.end / time.step > most_rows) {
     keys.find("step")->refuse(", more than 1e9 rows of output",
-                              "a time of at least " + yaml::number_text(time.end / most_rows));
+                              "a time of at least " + number_text(time.end / most_rows));
   }
 }
 

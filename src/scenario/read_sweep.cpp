@@ -80,7 +80,7 @@ void read_whole(yaml::Keys& keys, std::string_view key, double least, double& in
   const yaml::Number whole{
       yaml::Dimension::number, {.at_least = least, .at_most = 9007199254740992.0}, "1000"};
   if (keys.optional(key, whole, into) && into != std::floor(into)) {
-    keys.find(key)->refuse("", "a whole number of at least " + yaml::number_text(least));
+    keys.find(key)->refuse("", "a whole number of at least " + number_text(least));
   }
 }
 

@@ -1,3 +1,4 @@
+#include "base/number_text.hpp"
 #include "scenario/table_rows.hpp"
 
 #include <algorithm>
@@ -63,18 +64,18 @@ std::string fault(const TableRows& table, const std::vector<std::string_view>& v
   for (std::size_t i = 0; i < rows; ++i) {
     const std::string row = " in row " + std::to_string(i + 1) + " below the header";
     if (!std::isfinite(table.times[i])) {
-      return "found the time " + yaml::number_text(table.times[i]) + row +
+      return "found the time " + number_text(table.times[i]) + row +
              "; allowed: a finite time";
     }
     for (std::size_t k = 0; k < value_keys.size(); ++k) {
       const double value = table.values[k][i];
       if (std::isfinite(value)) continue;
-      return "found the " + std::string(value_keys[k]) + ' ' + yaml::number_text(value) + row +
+      return "found the " + std::string(value_keys[k]) + ' ' + number_text(value) + row +
              "; allowed: a finite " + std::string(noun);
     }
     if (i > 0 && !(table.times[i] > table.times[i - 1])) {
-      return "found the time " + yaml::number_text(table.times[i]) + row + ", after " +
-             yaml::number_text(table.times[i - 1]) + "; allowed: strictly increasing times";
+      return "found the time " + number_text(table.times[i]) + row + ", after " +
+             number_text(table.times[i - 1]) + "; allowed: strictly increasing times";
     }
   }
   return "";
@@ -84,8 +85,8 @@ std::string cover_fault(const TableRows& table, double end) {
   const double first = table.times.front();
   const double last = table.times.back();
   if (first <= 0 && last >= end) return "";
-  return "found times from " + yaml::number_text(first) + " to " + yaml::number_text(last) +
-         " s; allowed: a table that covers the run, 0 to " + yaml::number_text(end) + " s";
+  return "found times from " + number_text(first) + " to " + number_text(last) +
+         " s; allowed: a table that covers the run, 0 to " + number_text(end) + " s";
 }
 
 }  // namespace

@@ -1,3 +1,4 @@
+#include "base/number_text.hpp"
 #include "scenario/variation.hpp"
 
 #include <charconv>
@@ -128,7 +129,7 @@ std::string scaled(const std::string& value, double factor) {
   const yaml::DecimalValue number = yaml::to_double(decimal, 0);
   if (number.magnitude != yaml::Magnitude::fine) return "";
   // Adding 0 takes the sign off a zero.
-  return yaml::number_text(factor * number.value + 0.0) + value.substr(decimal.length);
+  return number_text(factor * number.value + 0.0) + value.substr(decimal.length);
 }
 
 Variation split_variation(const std::string& assignment) {

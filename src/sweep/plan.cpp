@@ -1,3 +1,4 @@
+#include "base/number_text.hpp"
 #include "sweep/plan.hpp"
 
 #include <algorithm>
@@ -72,7 +73,7 @@ double not_zero(const Axis& axis) {
 }
 
 std::string value_text(const Axis& axis, double value) {
-  return axis.numeric ? yaml::number_text(value) : axis.texts[static_cast<std::size_t>(value)];
+  return axis.numeric ? number_text(value) : axis.texts[static_cast<std::size_t>(value)];
 }
 
 // Whether the path goes on from another one.

@@ -186,10 +186,4 @@ Quantity read_quantity(std::string_view text, bool quoted, Dimension dimension) 
   return {{}, unit_fault(unit, dimension)};
 }
 
-std::string number_text(double value) {
-  std::array<char, 32> buffer{};
-  const auto result = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value);
-  return {buffer.data(), result.ptr};
-}
-
 }  // namespace bbsim::yaml

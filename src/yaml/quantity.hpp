@@ -34,7 +34,4 @@ struct Quantity {
 // A quoted plain number is text, hence a fault.
 [[nodiscard]] Quantity read_quantity(std::string_view text, bool quoted, Dimension dimension);
 
-// The shortest text that reads back as `value`.
-[[nodiscard]] std::string number_text(double value);
-
 }  // namespace bbsim::yaml

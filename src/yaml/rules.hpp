@@ -9,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+#include "base/number_text.hpp"
 #include "base/pair.hpp"
 #include "yaml/nearest.hpp"
 #include "yaml/quantity.hpp"

@@ -5,6 +5,7 @@
 #include <numbers>
 #include <string>
 
+#include "base/number_text.hpp"
 #include "catch.hpp"
 #include "yaml/quantity.hpp"
 
@@ -127,7 +128,7 @@ TEST_CASE("numbers do not depend on the locale") {
   for (const char* name : {"de_DE.UTF-8", "fr_FR.UTF-8", "C.UTF-8"}) {
     std::setlocale(LC_ALL, name);  // where it is not installed, the locale stays as it was
     CHECK(plain("0.25 cm", Dimension::length) == 0.0025);
-    CHECK(bbsim::yaml::number_text(0.5) == "0.5");
+    CHECK(bbsim::number_text(0.5) == "0.5");
   }
   std::setlocale(LC_ALL, before.c_str());
 }
