@@ -224,7 +224,7 @@ void split_into(std::vector<PlannedPanel>& panels, const PlannedPanel& panel) {
 }
 
 // With several runs, the lines of a panel differ by the run, so that no two quantities share one;
-// references, which are bands, may share it.
+// only references do, which are bands.
 void split_for_comparison(std::vector<PlannedPanel>& panels, const PlannedPanel& panel) {
   const std::size_t begin = panels.size();
   for (const PlannedLine& line : panel.lines) {
