@@ -21,8 +21,8 @@
 namespace bbsim::file {
 namespace {
 
-// An input that may go on for ever is read for so many bytes of numbers at most: a half of what this
-// machine has.
+// An input that may go on for ever is read for so many bytes of numbers at most: a half of what
+// this machine has.
 std::size_t most_bytes() {
   const long pages = sysconf(_SC_PHYS_PAGES), page = sysconf(_SC_PAGESIZE);
   if (pages <= 0 || page <= 0) return std::numeric_limits<std::size_t>::max();

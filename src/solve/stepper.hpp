@@ -39,7 +39,7 @@ class Stepper {
   // How many points of a step show all that its polynomial can do.
   [[nodiscard]] virtual std::size_t detail() const = 0;
   // Chebyshev points of so many intervals show what a smooth function of the states, and of the
-  // time, does over the last step. They are fewer than for a step as long as the tolerance allows.
+  // time, does over the last step. A step shorter than the tolerance allows needs fewer.
   [[nodiscard]] virtual std::size_t parts() const = 0;
 };
 
