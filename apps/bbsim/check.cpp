@@ -112,7 +112,7 @@ void tell_solver(Report& report, const Scenario& scenario, const model::Model& m
                       ": its fastest mode decays " + short_number(decays) + " times over it");
 }
 
-// Of a scenario with a sweep block; its values are checked too.
+// Tells what a sweep block of the scenario holds; its values are checked too.
 void tell_sweep(Report& report, const Scenario& scenario) {
   if (scenario.sweep.vary.empty()) return;
   const ScenarioFamily family(scenario.source);

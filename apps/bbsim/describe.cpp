@@ -39,7 +39,7 @@ std::string poles_line(const model::Eigenvalues& poles) {
     if (poles[i].imag() < 0) continue;  // its conjugate has been named
     if (!line.empty()) line += ", ";
     line += short_number(poles[i].real());
-    // Of a double pole, the rounding of its root.
+    // A smaller imaginary part is the rounding of a double pole's root.
     if (poles[i].imag() > 1e-7 * std::abs(poles[i]))
       line += " +- " + short_number(poles[i].imag()) + "i";
   }
@@ -203,7 +203,7 @@ std::string sampled_poles_line(const model::Eigenvalues& poles) {
     if (std::abs(pole) < 1e-3 || named == 6) return line + ", smaller ones";
     if (!line.empty()) line += ", ";
     line += short_number(pole.real());
-    // Of a double pole, the rounding of its root.
+    // A smaller imaginary part is the rounding of a double pole's root.
     if (pole.imag() > 1e-7 * std::abs(pole)) line += " +- " + short_number(pole.imag()) + "i";
     ++named;
   }

@@ -18,7 +18,7 @@ namespace bbsim::app {
 struct Simulation {
   // With status, reason and warnings, as it is to be told; `output` is left to whoever knows it.
   record::RunSummary summary;
-  // Of a run with an error estimate, each row's, m.
+  // The error of each row, in a run with an error estimate, m.
   std::vector<double> row_estimates;
   std::string noted;  // how often each thing was noted; empty if nothing was
   ExitCode code = ExitCode::done;

@@ -86,8 +86,8 @@ void for_each_bracket(const ChebyshevPoints& points, const double* values, const
       if (promises(values[inner] + chord * width)) look_within(width / 2);
       continue;
     }
-    // If the slope there leads inwards. It takes all values to tell, and no more than the next two
-    // to see that it would lead nowhere.
+    // A maximum lies within if the slope there leads inwards. It takes all values to tell, and no
+    // more than the next two to see that it would lead nowhere.
     if (!promises(here + 4 * (change + std::abs(values[inner] - values[next])))) continue;
     const double slope = i == 0 ? points.slope_at_start(values) : -points.slope_at_end(values);
     if (!(slope > 0)) continue;
@@ -115,7 +115,7 @@ template <class Function>
     const double middle = (low + high) / 2;
     if (std::abs(best.at - middle) <= 2 * precision - (high - low) / 2) break;
     if (i > 0) {
-      // To the top of the parabola through the three, if that is within, and the steps shrink.
+      // Goes to the top of the parabola through the three, if that is within, and the steps shrink.
       const double r = (best.at - second.at) * (best.value - third.value);
       double q = (best.at - third.at) * (best.value - second.value);
       double p = (best.at - third.at) * q - (best.at - second.at) * r;

@@ -7,13 +7,13 @@
 
 namespace bbsim {
 
-// On one line, fit for a terminal (printable.hpp), and cut off after that many bytes of the text.
+// The text on one line, fit for a terminal (printable.hpp), and cut off after that many bytes.
 [[nodiscard]] std::string shown(std::string_view text, std::size_t longest = 60);
 
-// The same in quotation marks; "nothing" for an empty text.
+// The text shown so in quotation marks; "nothing" for an empty one.
 [[nodiscard]] std::string quoted(std::string_view text, std::size_t longest = 60);
 
-// For what is never cut off, such as the name of a file.
+// The length for what is never cut off, such as the name of a file.
 inline constexpr std::size_t uncut = static_cast<std::size_t>(-1);
 
 }  // namespace bbsim

@@ -7,7 +7,7 @@
 
 namespace bbsim {
 
-// Without the blanks and tabs at its ends; of nothing else, the empty end of it.
+// The text without the blanks and tabs at its ends; of nothing else, the empty end of it.
 [[nodiscard]] inline std::string_view trimmed(std::string_view text) {
   const std::size_t first = text.find_first_not_of(" \t");
   if (first == std::string_view::npos) return text.substr(text.size());

@@ -49,7 +49,8 @@ class AtomicFile {
   // Puts the file under its final name. Nothing may be written afterwards.
   void commit();
 
-  // For a library that does the writing itself. Open for reading, too, if not a device or pipe.
+  // The descriptor is for a library that does the writing itself. It is open for reading, too, if
+  // not a device or pipe.
   [[nodiscard]] int descriptor() const { return descriptor_.get(); }
 
   // Throws the OutputError for an errno that writing to descriptor() met.

@@ -21,7 +21,7 @@ struct CellColumn {
 
   std::vector<double> numbers;  // NaN where there is a text
   std::size_t width = 1;
-  // Of a column without a single text, both are empty.
+  // Both are empty in a column without a single text.
   std::vector<std::string> texts{};
   std::vector<bool> is_text{};
 

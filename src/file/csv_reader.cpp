@@ -21,7 +21,8 @@
 namespace bbsim::file {
 namespace {
 
-// Of what may go on for ever, so many bytes of numbers at most: a half of what this machine has.
+// An input that may go on for ever is read for so many bytes of numbers at most: a half of what
+// this machine has.
 std::size_t most_bytes() {
   const long pages = sysconf(_SC_PHYS_PAGES), page = sysconf(_SC_PAGESIZE);
   if (pages <= 0 || page <= 0) return std::numeric_limits<std::size_t>::max();
@@ -92,7 +93,8 @@ class Parser {
   }
 
  private:
-  // Of a file, all that it has; what may go on for ever is bounded by this machine's memory.
+  // A file may have as many rows as it will; what may go on for ever is bounded by this machine's
+  // memory.
   [[nodiscard]] std::size_t room_for_rows() const {
     return lines_.size() ? std::numeric_limits<std::size_t>::max()
                          : most_bytes() / (sizeof(double) * table_.names.size());

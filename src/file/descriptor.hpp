@@ -42,7 +42,7 @@ class Descriptor {
 
 // What has been written survives a power cut afterwards. Returns an errno, or 0.
 [[nodiscard]] int sync_content(int descriptor);
-// The same of the names in a folder.
+// Does the same for the names in a folder.
 [[nodiscard]] int sync_folder(const std::string& folder);
 
 // "no space left on device": the system's text for an errno, to stand within a sentence.

@@ -14,7 +14,7 @@ class Flusher {
  public:
   using Clock = std::chrono::steady_clock;
 
-  // Of a file whose first `size` bytes need no care.
+  // The first `size` bytes of the file need no care.
   explicit Flusher(off_t size = 0) : sent_(size), last_(Clock::now()) {}
 
   // What is to be done once the file has that size.

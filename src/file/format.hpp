@@ -7,7 +7,7 @@ namespace bbsim::file {
 
 enum class Format { csv, hdf5, other };
 
-// By its ending, in capitals or not: .csv, .h5, .hdf5.
+// The ending of the file's name tells, in capitals or not: .csv, .h5, .hdf5.
 [[nodiscard]] Format format_of(const std::string& file);
 
 // ".svg" of "a.SVG".

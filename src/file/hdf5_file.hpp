@@ -27,7 +27,7 @@ class Hdf5Output {
 
   void write_axis(const bbsim_hdf5_column& axis, const double* values);
   void append(const bbsim_hdf5_values* columns, std::size_t rows);
-  // Of as many rows as there are by now.
+  // The column has as many rows as there are by now.
   void write_column(const bbsim_hdf5_column& column, const double* values);
   void write_inputs(const std::vector<InputTable>& inputs);
   // Completes the file and puts it under its final name. Without this call nothing stays.

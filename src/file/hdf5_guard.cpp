@@ -20,7 +20,7 @@ std::array<struct sigaction, crashes.size()> actions_before;
 // What to say of a crash of this thread; none outside HDF5.
 thread_local const char* message_of_crash = nullptr;
 
-// If this thread is within HDF5.
+// Ends the program with the message if this thread is within HDF5.
 void end_if_within() {
   const char* const message = message_of_crash;
   if (message == nullptr) return;
@@ -30,7 +30,7 @@ void end_if_within() {
 }
 
 void crashed(int /*signal*/) {
-  // Of another thread: it happens again once we return, and is then dealt with as without us.
+  // A crash of another thread happens again once we return, and is then dealt with as without us.
   end_if_within();
   for (std::size_t i = 0; i < crashes.size(); ++i) {
     sigaction(crashes[i], &actions_before[i], nullptr);

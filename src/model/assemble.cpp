@@ -103,8 +103,8 @@ std::vector<double> initial_state(const Scenario& scene, Shape shape) {
   return z;
 }
 
-// Of knots in their order those within the run, and of those that are one but for their rounding
-// the first: between them there would be nothing to integrate.
+// The integrator stops at those of the ordered knots that are within the run. Of knots that are one
+// but for their rounding it stops at the first: between them there would be nothing to integrate.
 std::vector<double> stops_at(const std::vector<double>& knots, double end) {
   std::vector<double> stops;
   double last = 0;

@@ -8,7 +8,8 @@ namespace bbsim::model {
 // Whether the loop is more than equation (31) with an ideal servo on the paper's gimbal.
 [[nodiscard]] bool needs_rig(const Scenario& scene);
 
-// Of the controller's command, rad or rad/s^2; gravity compensation has one of its own.
+// The limit of the controller's command, rad or rad/s^2; gravity compensation has one of its own if
+// none is given.
 [[nodiscard]] std::optional<double> command_limit(const Controller& controller);
 
 // Whether the loop integrates the error as a state: a law in continuous time with an integral.
@@ -20,7 +21,7 @@ struct AssembledRig {
   Rig rig;
 };
 
-// Of a scene that needs_rig(). Throws InputError where no LQR gain stabilises it.
+// The scene is one for which needs_rig() holds. Throws InputError where no LQR gain stabilises it.
 template <bool integrates>
 [[nodiscard]] AssembledRig<integrates> assemble_rig(const Scenario& scene, SignalPair reference);
 

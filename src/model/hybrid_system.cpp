@@ -199,7 +199,7 @@ void HybridSystem::evaluate_guards(double t, const double* z, double* values) co
       const bool free = axis.command_factor != 0;
       command[0] = limit == unlimited ? unlimited : free ? limit - raw : unlimited;
       command[1] = limit == unlimited ? unlimited : free ? limit + raw : unlimited;
-      // Of the one limit that it is at: a command can pass to the other in no time.
+      // A command at a limit is watched at that one alone: it can pass to the other in no time.
       if (!free && axis.set_command > 0) command[0] = raw - limit;
       if (!free && axis.set_command < 0) command[1] = -raw - limit;
     }

@@ -19,8 +19,8 @@ class HybridSystem {
   HybridSystem(const HybridSystem&) = delete;  // servos look at this one's rig
   HybridSystem& operator=(const HybridSystem&) = delete;
 
-  // In the present mode. Its system's right-hand side changes with handle_time_event() and
-  // handle_state_event() alone.
+  // The model in the present mode. Its system's right-hand side changes with handle_time_event()
+  // and handle_state_event() alone.
   [[nodiscard]] const Model& model() const { return model_; }
 
   // The next time (s) at which something happens that does not depend on the state; infinite if
@@ -49,7 +49,7 @@ class HybridSystem {
   // Guard i has fallen to zero at t. May change z; restart says that the integrator has to.
   Effect handle_state_event(std::size_t i, double t, double* z);
 
-  // After a jump, at the start too: what is watched for may have been jumped into.
+  // To be called after a jump, at the start too: what is watched for may have been jumped into.
   Effect check_events(double t, const double* z);
 
   // What a row of output has beside the states, at the present mode: Model::extras() numbers.

@@ -10,7 +10,7 @@ namespace bbsim::model {
 
 using Eigenvalues = std::vector<std::complex<double>>;  // 1/s, by falling real part
 
-// Of the whole right-hand side, linearised at (t, z).
+// The eigenvalues of the whole right-hand side, linearised at (t, z).
 [[nodiscard]] Eigenvalues eigenvalues(const Model& model, double t, const double* z);
 
 // The closed loop's poles: linearised about home (all angles, positions and rates zero), without

@@ -54,7 +54,7 @@ struct PlaneScales {
 // An axis over a range in drawn units, with air at both ends, and tics about so far apart.
 [[nodiscard]] Axis linear_axis(Range range, double pixels, double pixels_a_tic, double air = 0.06);
 
-// The same, from the least value to the greatest.
+// An axis of the same kind, from the least value to the greatest.
 [[nodiscard]] Axis tight_axis(const Range& range, double pixels, double pixels_a_tic);
 
 // A logarithmic axis over a range above 0.

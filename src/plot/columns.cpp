@@ -202,7 +202,7 @@ bool flattens(const std::vector<Result>& runs, const PlannedPanel& panel) {
   return widest > 50 * narrowest;
 }
 
-// Of phi_command the axis is phi, as that of phi_acceleration is.
+// The axis of phi_command is phi, as that of phi_acceleration is.
 std::string_view axis_of(std::string_view column) {
   return column.substr(0, column.find('_'));
 }
@@ -223,8 +223,8 @@ void split_into(std::vector<PlannedPanel>& panels, const PlannedPanel& panel) {
   panels.insert(panels.end(), parts.begin(), parts.end());
 }
 
-// Of several runs: lines of a panel differ by the run, so that no two quantities share one; but
-// references, which are bands.
+// With several runs, the lines of a panel differ by the run, so that no two quantities share one;
+// only references do, which are bands.
 void split_for_comparison(std::vector<PlannedPanel>& panels, const PlannedPanel& panel) {
   const std::size_t begin = panels.size();
   for (const PlannedLine& line : panel.lines) {

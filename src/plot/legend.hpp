@@ -28,7 +28,7 @@ inline constexpr double legend_pitch = 19;  // from row to row
 void place_legend(Picture& picture, const std::vector<Entry>& entries, double left, double right,
                   double y, Words::Align align = Words::Align::right);
 
-// The same in one row: names are cut until all have room.
+// Puts the entries in one row: names are cut until all have room.
 void place_in_a_row(Picture& picture, std::vector<Entry> entries, double left, double right,
                     double y);
 

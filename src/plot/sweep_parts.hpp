@@ -47,8 +47,8 @@ struct KeyAxis {
   KeyAxis(const SweepTable& table, const Key& of);
   // Room at both ends for half the distance to the next value if `cells`, otherwise for a marker.
   [[nodiscard]] Axis axis(double pixels, double pixels_a_tic, bool cells) const;
-  // Between neighbours, and beyond the outermost: where the cell of each value begins, and the
-  // last one ends. As drawn.
+  // Edges are between neighbours, and beyond the outermost: where the cell of each value begins,
+  // and the last one ends. They are as drawn.
   [[nodiscard]] std::vector<double> edges() const;
   [[nodiscard]] double place(double value) const { return key.is_text() ? value : scale(value); }
 };

@@ -53,7 +53,7 @@ bool go_along(const Key& one, const Key& other) {
   return true;
 }
 
-// Of "failed at 0.7 s: ..." the word "failed".
+// The word "failed" of "failed at 0.7 s: ...".
 std::string first_word(const std::string& text) {
   const auto end = std::ranges::find_if(
       text, [](unsigned char c) { return std::isspace(c) != 0 || c == ':' || c == ','; });

@@ -49,7 +49,7 @@ std::string as_text(const file::CellColumn& column, std::size_t i) {
   return column.has_text(i) ? '"' + column.texts[i] + '"' : number_text(column.numbers[i]);
 }
 
-// Of equal width.
+// The two columns have equal width.
 ColumnComparison compare_column(const std::string& name, const file::CellColumn& a,
                                 const file::CellColumn& b, const Allowance& allowance) {
   ColumnComparison result;

@@ -26,7 +26,8 @@ class Recorder : public solve::StateSink {
   Recorder(const Recorder&) = delete;  // loads_ look through this one
   Recorder& operator=(const Recorder&) = delete;
 
-  // Of the run so far; nothing unless a column needs the forces, or the plate's inertia is known.
+  // The peaks of the run so far; nothing unless a column needs the forces, or the plate's inertia
+  // is known.
   [[nodiscard]] std::optional<MotorPeaks> peaks() const;
 
   // Why some of the rows so far hold a number that is not finite, in the first `columns` columns;

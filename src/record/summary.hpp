@@ -49,7 +49,7 @@ struct RunSummary {
   double rtol = 0, atol = 0;
   std::vector<EventRecord> events;
   std::optional<MotorPeaks> peaks;  // where a column needs the forces, or with plate.inertia
-  // Of a run with solver.error: the bound asked for and the estimate reached, m.
+  // A run with solver.error has these: the bound asked for and the estimate reached, m.
   std::optional<double> error_bound, error_estimate;
   struct {
     std::size_t steps = 0, rhs_evaluations = 0, jacobian_evaluations = 0;
@@ -65,9 +65,9 @@ struct RunSummary {
 // Writes to_json() whole or not at all; "-" is standard output. Throws OutputError.
 void write_summary(const std::string& file, const RunSummary& summary);
 
-// The same names, those of `statistics` without a prefix, and `scenario_text`; numbers as numbers,
-// lists with one entry a line. Left out are what differs between runs that are alike: `output` and
-// `cpu_seconds`.
+// Attributes have the same names, those of `statistics` without a prefix, and `scenario_text`;
+// numbers are numbers, and lists have one entry a line. Left out are what differs between runs that
+// are alike: `output` and `cpu_seconds`.
 [[nodiscard]] file::Attributes to_attributes(const RunSummary& summary,
                                              const std::string& scenario_text);
 

@@ -12,7 +12,7 @@ namespace bbsim::replay {
 [[nodiscard]] std::string base64_of_floats(std::span<const double> values);
 [[nodiscard]] std::string base64_of_doubles(std::span<const double> values);
 
-// Of numbers from -1 to 1: in steps of 1/32767.
+// The values are from -1 to 1, and are kept in steps of 1/32767.
 [[nodiscard]] std::string base64_of_parts(std::span<const double> values);
 
 // The nearest float; not an overflow, which is undefined, but an infinity.

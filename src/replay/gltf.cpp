@@ -275,7 +275,8 @@ class Writer {
     for (std::size_t i = 0; i < rows.size(); ++i) {
       centres.push_back({to_float(x[i]), to_float(y[i]), to_float(height)});
       Quaternion q = orientation[rows[i]];
-      // Of the two that are the same rotation the nearer one, for players that do not look.
+      // Two quaternions are the same rotation: the nearer one is taken, for players that do not
+      // look.
       if (q[0] * last[0] + q[1] * last[1] + q[2] * last[2] + q[3] * last[3] < 0) {
         for (double& component : q) component = -component;
       }
@@ -290,7 +291,7 @@ class Writer {
     add_path(run.name, plane, centres, to_float(0.98 * radius));
   }
 
-  // Of the frame's bars, in parts of the plate.
+  // The width of the frame's bars, in parts of the plate.
   static constexpr float bar_part = 0.025F;
 
   const Scene& scene_;

@@ -11,7 +11,7 @@ namespace bbsim::replay {
 struct KeptRows {
   std::vector<std::size_t> rows;  // increasing; the first and the last are always there
   std::size_t buckets = 0;        // of the plots; 0 if all rows are kept
-  // Of straight lines between kept rows against the rows left out, at worst, in units of the
+  // How far straight lines between kept rows are from the rows left out, at worst, in units of the
   // tolerances below; 0 if all rows are kept. Beyond 1 only where `most` did not suffice.
   double motion_error = 0;
 };

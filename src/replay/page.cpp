@@ -75,7 +75,8 @@ Json times_json(const std::vector<double>& t) {
 
 Json events_json(const Run& run) {
   Json events = Json::array();
-  // Of very many the first, and the last, which may have stopped the run.
+  // Where there are very many events, the first ones are kept, and the last, which may have stopped
+  // the run.
   for (std::size_t i = 0; i < run.events.size(); ++i) {
     if (i + 1 >= most_events && i + 1 < run.events.size()) continue;
     const Event& event = run.events[i];
@@ -102,8 +103,8 @@ bool near_chord(const std::vector<std::array<double, 2>>& path, std::size_t from
   return true;
 }
 
-// Of the reference path as many points as a line through them needs that is nowhere further from it
-// than a 5000th of its extent.
+// As many points of the reference path as a line through them needs to be nowhere further from the
+// path than a 5000th of its extent.
 std::string reference_text(const Run& run) {
   const auto& path = run.reference;
   double extent = 0;
@@ -301,7 +302,8 @@ std::size_t place_of(std::string_view mark, std::string_view text) {
 }  // namespace
 
 std::size_t rows_allowed(const Scene& scene) {
-  // Of the run with the most columns: time, its other columns, the ball's orientation.
+  // A row's bytes in the run with the most columns: time, its other columns, the ball's
+  // orientation.
   std::size_t bytes = 1;
   for (const Run& run : scene.runs) {
     bytes = std::max(bytes, sizeof(double) + (run.columns.size() + 1) * sizeof(float));

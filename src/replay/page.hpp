@@ -21,7 +21,7 @@ namespace bbsim::replay {
 // BBSIM_SHARE_PATH. Throws OutputError if it is not there, with what to do.
 [[nodiscard]] std::string page_template();
 
-// As above, from one of these folders.
+// Reads the template as above, from one of these folders.
 [[nodiscard]] std::string page_template(const std::vector<std::string>& folders);
 
 // Rows that each run of a page may keep.

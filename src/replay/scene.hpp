@@ -54,8 +54,8 @@ struct Run {
   std::string status, reason;  // done, failed, interrupted or stopped; why, if it ended early
   double end = 0;              // time that was asked for; 0 if it is not known
   std::vector<Series> columns;
-  // From the ball's own frame to the plane's, one a row. Empty: as a ball rolls that goes from row
-  // to row (rolled()).
+  // Rotations from the ball's own frame to the plane's, one a row. Empty: the ball is taken to roll
+  // from row to row (rolled()).
   std::vector<Quaternion> orientation;
   std::vector<Event> events;
   Plate plate;
@@ -100,7 +100,7 @@ struct Scene {
 // The column of that name, or nullptr.
 [[nodiscard]] const Series* find_series(const Run& run, std::string_view name);
 
-// Of its column t.
+// The number of rows in its column t.
 [[nodiscard]] std::size_t row_count(const Run& run);
 
 // Its column x or y; zeros where it has none.

@@ -48,7 +48,8 @@ std::optional<Poles> poles_of(const model::Model& model) {
   return Poles{model::closed_loop_poles(model), {}};
 }
 
-// Of a measure: that of the column after "max_" and the like, or before "_end".
+// The unit of a measure is that of the column that it names after "max_" and the like, or before
+// "_end".
 std::string unit_of_measure(const std::string& name) {
   if (name == "end_time") return "s";
   const std::size_t prefix = name.find('_');

@@ -15,8 +15,8 @@ namespace bbsim::replay {
 // run's orientation.
 [[nodiscard]] Run run_of_table(file::TableData table, const std::string& name);
 
-// The same of a result, with what its file or its summary tells; its scenario is left to
-// describe(). Columns of texts are left out.
+// Makes a run of a result in the same way, with what its file or its summary tells; its scenario is
+// left to describe(). Columns of texts are left out.
 [[nodiscard]] Run run_of_result(plot::Result result, const std::string& name);
 
 // A result of `bbsim sweep` (plot::Result::is_sweep()).
@@ -26,7 +26,7 @@ namespace bbsim::replay {
 // Throws KeyError where the loop cannot be assembled.
 void describe(Run& run, const Scenario& scenario);
 
-// Of it what needs neither the scenario's tables nor a loop: no path and no poles.
+// Describes only what needs neither the scenario's tables nor a loop: no path and no poles.
 void describe_sight(Run& run, const Scenario& scenario);
 
 }  // namespace bbsim::replay

@@ -13,7 +13,7 @@ struct Stage {
   bool ball_given = false;   // else it is a thirtieth of the plate
 };
 
-// Of the scene's runs; the first one that has a plate says what it is.
+// The stage for all runs of the scene; the first run that has a plate says what the plate is.
 [[nodiscard]] Stage stage_of(const Scene& scene);
 
 }  // namespace bbsim::replay

@@ -8,7 +8,7 @@
 namespace bbsim::replay {
 namespace {
 
-// Of each case, the position of its value among the key's values, in their order.
+// The position of each case's value among the key's values, in their order.
 struct Levels {
   std::vector<std::size_t> of_case;
   std::size_t count = 0;

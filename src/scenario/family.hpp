@@ -21,7 +21,7 @@ class ScenarioFamily {
   // Reads `file`, or standard input for "-", and sets each "key.path=value" of `overrides`. Throws
   // InputError where that is no tree of keys; what the keys hold is checked by read().
   ScenarioFamily(const std::string& file, const std::vector<std::string>& overrides);
-  // The same of a text that has been read.
+  // Does the same with a text that has been read.
   explicit ScenarioFamily(const Source& source);
   ~ScenarioFamily();
   ScenarioFamily(ScenarioFamily&&) noexcept;
@@ -36,8 +36,8 @@ class ScenarioFamily {
   // Throws InputError with all problems; those of a setting begin with "KEY=VALUE".
   [[nodiscard]] Scenario read(const std::vector<Setting>& settings) const;
 
-  // The same, and the number in SI units that stands at the key of the last setting; nothing if
-  // what stands there is no single number.
+  // Reads as read() does, and returns the number in SI units that stands at the key of the last
+  // setting; nothing if what stands there is no single number.
   [[nodiscard]] std::optional<double> read_number(const std::vector<Setting>& settings) const;
 
   // The unit of the single number at that key, with these settings: "m"; empty of one whose unit
@@ -48,7 +48,7 @@ class ScenarioFamily {
   // The `sweep` block of the file. Throws InputError if something is wrong with it.
   [[nodiscard]] Sweep read_sweep() const;
 
-  // Of each table file that was read so far, a number that tells its content.
+  // A number for each table file that was read so far, which tells its content.
   [[nodiscard]] std::vector<std::pair<std::string, std::uint64_t>> table_hashes() const;
 
   // These tables, as the scenario names them.

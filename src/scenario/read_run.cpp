@@ -47,7 +47,8 @@ yaml::NameOf<Method> methods() {
   return rule;
 }
 
-// Of a bound on the error and tolerances, which exclude each other, the command line's count.
+// A bound on the error and tolerances exclude each other; if one of them is from the command line,
+// it is the one that counts.
 void check_bound(yaml::Keys& keys, Solver& solver) {
   const auto on_command_line = [](const yaml::Value& value) { return value.position.source > 0; };
   const yaml::Value error = *keys.find("error");

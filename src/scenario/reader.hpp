@@ -21,8 +21,8 @@ namespace bbsim {
                                      const std::vector<std::string>& overrides = {},
                                      std::vector<file::InputTable>* inputs = nullptr);
 
-// The same, of text already in memory. `name` stands for the file in errors, and its folder is
-// where table files are looked for.
+// Reads a scenario from text already in memory. `name` stands for the file in errors, and its
+// folder is where table files are looked for.
 [[nodiscard]] Scenario parse_scenario(const std::string& text, const std::string& name,
                                       const std::vector<std::string>& overrides = {},
                                       std::vector<file::InputTable>* inputs = nullptr);

@@ -6,8 +6,8 @@
 
 namespace bbsim::simd {
 
-// From the one that every processor runs to the best: pairs of lanes (SSE2 on x86-64, Neon on
-// 64-bit ARM), and fours and eights of x86-64.
+// The sets go from the one that every processor runs to the best: pairs of lanes (SSE2 on x86-64,
+// Neon on 64-bit ARM), and fours and eights of x86-64.
 enum class InstructionSet { baseline, avx2, avx512 };
 
 [[nodiscard]] const char* name_of(InstructionSet set);
@@ -19,7 +19,7 @@ enum class InstructionSet { baseline, avx2, avx512 };
 // Throws InputError if the variable names none.
 [[nodiscard]] InstructionSet chosen_instruction_set();
 
-// Of the kernels for each, those of that set.
+// Picks the kernels for that set from those given for each.
 template <class Kernels>
 [[nodiscard]] const Kernels& pick(InstructionSet set, const Kernels& baseline, const Kernels& avx2,
                                   const Kernels& avx512) {

@@ -39,7 +39,7 @@ struct Pack {
   Vector v;
 
   BBSIM_INLINE Pack() {}  // NOLINT(modernize-use-equals-default): uninitialised on purpose
-  // As one vector: copied as plain memory, numbers made of packs would go by halves.
+  // A pack is copied as one vector: as plain memory, numbers made of packs would go by halves.
   BBSIM_INLINE Pack(const Pack& other) : v(other.v) {}
   BBSIM_INLINE Pack& operator=(const Pack& other) { return v = other.v, *this; }
   BBSIM_INLINE Pack(double value) : v(value - Vector{}) {}  // NOLINT(google-explicit-constructor)
@@ -86,8 +86,8 @@ struct Pack {
   }
 };
 
-// Within 1 ulp or so of the true value up to 10^5: reduction by multiples of pi/2 after Cody and
-// Waite, then minimax polynomials. Beyond, that reduction loses digits.
+// The result is within 1 ulp or so of the true value up to 10^5: reduction by multiples of pi/2
+// after Cody and Waite, then minimax polynomials. Beyond, that reduction loses digits.
 template <class Isa, int lanes>
 BBSIM_INLINE SinCos<Pack<Isa, lanes>> sin_cos_of_moderate(Pack<Isa, lanes> angle) {
   using P = Pack<Isa, lanes>;
@@ -120,7 +120,7 @@ BBSIM_INLINE SinCos<Pack<Isa, lanes>> sin_cos_of_moderate(Pack<Isa, lanes> angle
   return result;
 }
 
-// The same; beyond 10^5 the C library's.
+// The result is the same up to 10^5; beyond, it is the C library's.
 template <class Isa, int lanes>
 BBSIM_INLINE SinCos<Pack<Isa, lanes>> sin_cos(Pack<Isa, lanes> angle) {
   using P = Pack<Isa, lanes>;

@@ -9,8 +9,8 @@ namespace bbsim::solve {
 
 struct CheckRun {
   int stages;  // of radau: 8, 12 or 16
-  // Into so many parts each way is cut from one stop of the integrator to the next, where an
-  // input's derivative jumps or a sample is taken: these dictate the steps of any method at any
+  // Each way from one stop of the integrator to the next, where an input's derivative jumps or a
+  // sample is taken, is cut into so many parts: these stops dictate the steps of any method at any
   // tolerance, which are then alike unless they are cut.
   int parts;
 };

@@ -56,8 +56,9 @@ struct Outcome {
   double reached = 0;                 // s
   std::size_t rows = 0;               // handed to the sink
   Statistics statistics;
-  // Of a failed run: what the integrator says, the state with the largest error estimate, and
-  // all states, at the time reached; no states if it failed for another reason than the motion.
+  // What there is to know of a failed run: what the integrator says, the state with the largest
+  // error estimate, and all states, at the time reached; no states if it failed for another reason
+  // than the motion.
   std::string reason;
   std::size_t worst_state = 0;
   std::vector<double> last_state;
@@ -65,8 +66,8 @@ struct Outcome {
   std::vector<model::Occurrence> occurrences{};
 };
 
-// The same, but failed with its reason if it says that it is done and has not handed on every one
-// of the `rows` of its grid: whatever lost them, no file without them may pass for whole.
+// The outcome as it is, but failed with its reason if it says that it is done and has not handed on
+// every one of the `rows` of its grid: whatever lost them, no file without them may pass for whole.
 [[nodiscard]] Outcome with_all_rows(Outcome outcome, std::size_t rows);
 
 // Collects a whole run in memory.

@@ -15,13 +15,13 @@ namespace bbsim::solve {
 
 class Pace {
  public:
-  // Of a run to `end`, s.
+  // The run is to go to `end`, s.
   explicit Pace(double end) : end_(end) {}
 
-  // After each step that was not as long as it might be: one that ended at a stop, a sample or the
-  // end says nothing. Whether to give up: `time` is where the run is, s. `event` tells when
-  // something will end the run, if it comes on as it has since `event` was last called, s; that is
-  // now and then.
+  // Tells whether to give up; to be called after each step that fell short of its limit: one that
+  // ended at a stop, a sample or the end says nothing. `time` is where the run is, s. `event` tells
+  // when something will end the run, if it comes on as it has since `event` was last called, s;
+  // that is now and then.
   template <class Event>
   [[nodiscard]] bool creeps(double time, Event event) {
     return ++steps_ % window == 0 && look(time, event());

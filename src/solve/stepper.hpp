@@ -23,8 +23,8 @@ class Stepper {
   // exactly. Returns why there is none, or null.
   virtual const char* step(double limit) = 0;
 
-  // Within the last step, ends included, by its own polynomial; `count` rows without gaps. To be
-  // called before the next step.
+  // Gives the states at times within the last step, ends included, by its own polynomial; `count`
+  // rows without gaps. To be called before the next step.
   virtual void evaluate(const double* times, std::size_t count, double* rows) = 0;
 
   // A derivative of the input jumps here, at the end of the last step.
@@ -38,8 +38,8 @@ class Stepper {
   [[nodiscard]] virtual Statistics statistics() const = 0;
   // How many points of a step show all that its polynomial can do.
   [[nodiscard]] virtual std::size_t detail() const = 0;
-  // Of the last step: Chebyshev points of so many intervals show what a smooth function of the
-  // states, and of the time, does over it. Fewer than of a step as long as the tolerance allows.
+  // Chebyshev points of so many intervals show what a smooth function of the states, and of the
+  // time, does over the last step. A step shorter than the tolerance allows needs fewer.
   [[nodiscard]] virtual std::size_t parts() const = 0;
 };
 

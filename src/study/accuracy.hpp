@@ -56,8 +56,9 @@ struct BestChoice {
   const AccuracyPoint* point = nullptr;
 };
 
-// From the coarsest decade that tells points apart to the finest one that any reached. Only runs
-// that came to their end count. The points are those of `study`, which must outlive the result.
+// The choices go from the coarsest decade that tells points apart to the finest one that any
+// reached. Only runs that came to their end count. The points are those of `study`, which must
+// outlive the result.
 [[nodiscard]] std::vector<BestChoice> best_by_decade(const AccuracyStudy& study);
 
 }  // namespace bbsim::study

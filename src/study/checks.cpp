@@ -13,7 +13,8 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-// Of checks, unless the run's tolerance is nearly as fine; then that times check_factor.
+// The tolerance of checks, unless the run's is nearly as fine; then it is the run's times
+// check_factor.
 constexpr double usual_rtol = 1e-13, check_factor = 1e-2;
 // An estimate is the distance of runs, which can be near each other by luck.
 constexpr double safety = 1.5;

@@ -52,8 +52,8 @@ class Checks {
   // all that is left of the error.
   [[nodiscard]] double estimate(const Track& run, double rtol, bool confirm);
 
-  // The same of each of the run's rows, once `estimate` of the whole run is known. Of a row that no
-  // check has it is no number.
+  // The estimate for each of the run's rows, once `estimate` of the whole run is known. For a row
+  // that no check has it is no number.
   [[nodiscard]] std::vector<double> row_estimates(const Track& run, double estimate) const;
 
   [[nodiscard]] bool interrupted() const { return interrupted_; }

@@ -13,8 +13,8 @@ struct ErrorControlled {
   solve::Outcome outcome;          // of the run whose rows the sink was given
   solve::Tolerances tolerances{};  // of that run
   double estimate = 0;             // of its error: max |dx|, |dy| over the rows, m
-  // The same of each of these rows; of one that the second run did not reach it is no number. None
-  // if there is no estimate.
+  // The estimate for each of these rows; for one that the second run did not reach it is no number.
+  // None if there is no estimate.
   std::vector<double> row_estimates;
   bool met = false;  // whether the estimate is within the bound
   int runs = 0;      // integrations that it took

@@ -44,7 +44,7 @@ class CaseFile {
   // Some rows; of each series, rows * width numbers.
   virtual void append(std::string_view lines, std::size_t rows,
                       const std::vector<std::vector<double>>& series) = 0;
-  // For an end before all cases are there: what is there stays, whatever happens then.
+  // To be called for an end before all cases are there: what is there stays, whatever happens then.
   virtual void interrupt() = 0;
   virtual void finish(const file::Attributes& attributes) = 0;
 };

@@ -51,15 +51,15 @@ class RowReader {
   enum class Field { whole_number, number, text };
 
   explicit RowReader(std::vector<Field> fields);
-  // Of the columns that a row of CSV has: all but series.
+  // Rows have the columns that CSV has: all but series.
   explicit RowReader(const std::vector<file::CaseColumn>& columns);
-  // Of a header, which tells no numbers from texts before the status.
+  // Rows are as the header says, which tells no numbers from texts before the status.
   explicit RowReader(const std::string& header);
 
   // Takes a row; returns what was found that is not as `bbsim sweep` writes it, empty if all is.
   [[nodiscard]] std::string read(std::string_view line);
 
-  // Of the last row, if it was as it should be.
+  // What the last row held, if it was as it should be.
   [[nodiscard]] std::size_t case_number() const { return case_number_; }
   [[nodiscard]] double number(std::size_t field) const { return numbers_[field]; }
   [[nodiscard]] std::string text(std::size_t field) const;

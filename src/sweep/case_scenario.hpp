@@ -15,7 +15,8 @@ class CaseScenario {
   CaseScenario(const CaseScenario&) = delete;  // places_ point into scenario_
   CaseScenario& operator=(const CaseScenario&) = delete;
 
-  // Until the next call. `values` are those of the plan for that case, which has been checked.
+  // The scenario is valid until the next call. `values` are those of the plan for that case, which
+  // has been checked.
   [[nodiscard]] const Scenario& at(std::size_t number, const double* values);
 
  private:

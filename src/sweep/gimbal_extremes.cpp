@@ -8,8 +8,8 @@
 namespace bbsim::sweep {
 namespace {
 
-// Of a polynomial of this degree over half a stretch of so many radians, the first coefficient left
-// out is that of a Bessel function, J_17(2) = 3e-15.
+// Over half a stretch of so many radians, the first coefficient that a polynomial of this degree
+// leaves out is that of a Bessel function, J_17(2) = 3e-15.
 constexpr std::size_t parts = 16;
 constexpr double stretch = 4;  // rad
 
@@ -17,8 +17,8 @@ constexpr double stretch = 4;  // rad
 constexpr double most_stretches = 1e5;
 constexpr std::size_t together = 60;  // stretches that are looked at in one go
 
-// Of the fastest sinusoid, and of the sine of an angle that itself changes fast; cos(phi)
-// cos(theta) is a mean of cos(phi + theta) and cos(phi - theta). rad/s
+// The bandwidth of the fastest sinusoid and of the sine of an angle that itself changes fast,
+// rad/s; cos(phi) cos(theta) is a mean of cos(phi + theta) and cos(phi - theta).
 double bandwidth_of(const model::SignalView& motion) {
   double frequency = 0, rate = std::abs(motion.rate[0]) + std::abs(motion.rate[1]);
   for (std::size_t k = 0; k < motion.harmonic_count; ++k) {

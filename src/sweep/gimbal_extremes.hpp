@@ -27,7 +27,7 @@ class GimbalExtremes {
     double tilt = 0;  // rad
     double rate = 0;  // rad/s
   };
-  // Over the times from 0 to `end` (s).
+  // The greatest values over the times from 0 to `end` (s).
   [[nodiscard]] Greatest of(const model::SignalPair& motion, double end);
 
  private:

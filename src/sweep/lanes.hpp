@@ -12,8 +12,8 @@ namespace bbsim::sweep {
 // Cases that step together.
 [[nodiscard]] std::size_t lane_group();
 
-// Of a task that can_use_lanes(); it outlives the runner. A case that does not fit among the others
-// of its group is run by itself.
+// The task is one for which can_use_lanes() holds, and outlives the runner. A case that does not
+// fit among the others of its group is run by itself.
 [[nodiscard]] std::unique_ptr<CaseRunner> lane_runner(const SweepTask& task);
 
 }  // namespace bbsim::sweep

@@ -90,7 +90,7 @@ struct Agreed {
   InstructionSets instruction_sets;
 };
 
-// Of the parts that have a plan.
+// Parts that have no plan are passed over.
 Agreed compare_plans_of(const std::vector<std::string>& files) {
   Agreed agreed;
   std::string first_file, first_plan;

@@ -11,7 +11,7 @@ namespace bbsim::sweep {
 void check_case(const std::string& file, std::size_t found, std::size_t expected);
 void check_all_there(std::size_t found, std::size_t expected);
 
-// By which the parts were computed.
+// The instruction sets by which the parts were computed.
 class InstructionSets {
  public:
   void add(const std::string& name);

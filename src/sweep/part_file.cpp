@@ -80,7 +80,7 @@ void PartFile::open_and_lock() {
   fail("lock", EBUSY);
 }
 
-// Of a part that was there before.
+// The part was there before: it may be gone on with only by the same plan.
 void PartFile::check_plan(bool resume) const {
   if (!resume) {
     throw InputError(part_ +

@@ -40,7 +40,7 @@ class PartFile {
   [[nodiscard]] bool in_place() const;
 
   void keep_only(off_t size);
-  // Handed to the system at once, and to the disk within seconds.
+  // Hands bytes to the system at once, and to the disk within seconds.
   void append(std::string_view bytes);
   // Says whether the part is to stay should the run end early.
   void set_worth_keeping(bool worth) { worth_keeping_ = worth; }

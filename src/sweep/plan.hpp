@@ -52,7 +52,7 @@ class SweepPlan {
   // The number of each axis in a case, or the position of its text in the list.
   void values(std::size_t number, double* values) const;
 
-  // The same as settings of a scenario.
+  // The values of a case as settings of a scenario.
   [[nodiscard]] std::vector<ScenarioFamily::Setting> settings(std::size_t number) const;
 
   // Settings of which no number is 0 if its key takes any that is not: of a scene that is symmetric

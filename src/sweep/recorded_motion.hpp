@@ -11,7 +11,7 @@
 
 namespace bbsim::sweep {
 
-// Of a ball anywhere on the plane.
+// The motion of a ball that may be anywhere on the plane.
 class RecordedMotion : public solve::StateSink, public solve::PieceSink {
  public:
   // x and y are polynomials of this degree over each piece; rows are so long.

@@ -10,11 +10,11 @@
 
 namespace bbsim::sweep {
 
-// Of each case its numbers, one series after the other, and a check of them, in a file beside a
+// Keeps each case's numbers, one series after the other, and a check of them, in a file beside a
 // locked part. Every function throws OutputError.
 class SeriesPart {
  public:
-  // With the owner and the permissions of the part.
+  // The file gets the owner and the permissions of the part.
   SeriesPart(std::string name, std::size_t numbers_a_case, int part);
 
   // Cases that an earlier run left, as they were written; looks at each. Those after the first that

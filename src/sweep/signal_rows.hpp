@@ -16,8 +16,8 @@ class SignalRows {
 
   // Where the times are to be put, s; those that were there stay where there was room for them.
   [[nodiscard]] double* times(std::size_t count);
-  // At the first `count` of the times. Sinusoids of the frequencies, and at the times, of the call
-  // before are not evaluated again.
+  // Evaluates the signals at the first `count` of the times. Sinusoids of the frequencies, and at
+  // the times, of the call before are not evaluated again.
   void evaluate(const model::SignalPair& signals, std::size_t count);
 
   [[nodiscard]] const double* value(std::size_t component) const {

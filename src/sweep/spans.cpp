@@ -16,7 +16,7 @@ constexpr double beyond = 1.55;
 
 }  // namespace
 
-// Of values that are not negative the range is no more than the greatest of them.
+// Since the values are not negative, their range is no more than the greatest of them.
 double SpanSearch::greatest_between(const std::vector<Span>& spans, const double* values,
                                     Spacing spacing, double greatest) {
   if (spans.empty()) return greatest;

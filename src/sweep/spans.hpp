@@ -35,7 +35,7 @@ class SpanSearch {
   // their order, from the first value on, which is aligned and padded as for the kernels.
   [[nodiscard]] double greatest_between(const std::vector<Span>& spans, const double* values,
                                         Spacing spacing, double greatest);
-  // The same of a single one.
+  // Looks in the same way within a single span.
   [[nodiscard]] double greatest_within(std::size_t parts, const double* values, Spacing spacing,
                                        double greatest);
 

@@ -61,8 +61,9 @@ constexpr int most_halvings = 12;
 
 }  // namespace
 
-// Of each term x and y at the same times, for a factor of 1: at Chebyshev points of stretches so
-// short that polynomials through them are all that there is to know, whatever the output times are.
+// The solutions for each term with a factor of 1: x and y of all terms at the same times, the
+// Chebyshev points of stretches so short that polynomials through them are all that there is to
+// know, whatever the output times are.
 struct Superposed {
   struct Term {
     const Part* part;  // null: what does not vary

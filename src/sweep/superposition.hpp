@@ -15,7 +15,7 @@ namespace bbsim::sweep {
 struct Superposed;
 [[nodiscard]] std::shared_ptr<const Superposed> solve_superposed(const SweepTask& task);
 
-// Of a task that can_superpose(); it outlives the runner.
+// The task is one for which can_superpose() holds, and outlives the runner.
 [[nodiscard]] std::unique_ptr<CaseRunner> superposition_runner(
     const SweepTask& task, std::shared_ptr<const Superposed> solutions);
 

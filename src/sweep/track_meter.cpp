@@ -145,7 +145,7 @@ void TrackMeter::accept(const solve::Piece& piece) {
       std::copy(times_.begin(), times_.end(), reference_.times(together) + points_);
     }
   }
-  // Of rows that are not wanted each, the last is the end of the run.
+  // Where not every row is wanted, only the last one is: it is the end of the run.
   bool has_row = false;
   if (!wants_rms_) {
     for (; rows_ < grid_->size() && (*grid_)[rows_] <= piece.to(); ++rows_) has_row = true;
@@ -230,7 +230,7 @@ void TrackMeter::look() {
   points_ = 0;
 }
 
-// Of x_ and y_, which are left as they are but for what underflows.
+// The distances are those of x_ and y_, which are left as they are but for what underflows.
 void TrackMeter::look_at_distances(double& greatest) {
   x_.pad(points_);
   y_.pad(points_);
@@ -318,7 +318,7 @@ void TrackMeter::finish(double* results) {
   }
 }
 
-// Of a given motion, which may be that of the run before.
+// The motion is a given one, and may be that of the run before.
 GimbalExtremes::Greatest TrackMeter::motion_extremes() {
   if (!motion_ || motion_until_ != reached_) {
     motion_ = gimbal_.of(*signals_, reached_);

@@ -64,8 +64,8 @@ class TrackMeter : public solve::StateSink, public solve::PieceSink {
   void begin_run() override;
   void accept(const solve::Piece& piece) override;
 
-  // In place of the two, a loop's rows, which may lie apart, and what it was greatest at: state s
-  // of row i is values[i * row_stride + s * stride].
+  // Takes the place of the two accept(): a loop's rows, which may lie apart, and what it was
+  // greatest at. State s of row i is values[i * row_stride + s * stride].
   void take(std::size_t count, const double* values, std::size_t row_stride, std::size_t stride,
             const TrackExtremes& greatest);
 

@@ -15,7 +15,7 @@ namespace bbsim::yaml {
 [[nodiscard]] const Node* apply_override(std::string_view assignment, int source, const Node& root,
                                          Nodes& nodes);
 
-// The same, of a key's path and its value apart.
+// Applies an override whose key's path and value are given apart.
 [[nodiscard]] const Node* apply_override(std::string_view path, std::string_view value, int source,
                                          const Node& root, Nodes& nodes);
 

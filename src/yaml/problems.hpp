@@ -51,7 +51,7 @@ class Problems {
   std::vector<std::string> remarks_;
 };
 
-// Of a piece of text, as anywhere.
+// A piece of text is shown here as anywhere.
 using bbsim::shown;
 
 // A node in a sentence that begins with "found": -0.01, "10 cm", nothing, a list of 3, a mapping.

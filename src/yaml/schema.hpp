@@ -95,7 +95,7 @@ class Keys {
     return !value || rule.read(*value, into);
   }
 
-  // The same; `into` is set if the key is there, and empty if not.
+  // Reads the value as above; `into` is set if the key is there, and empty if not.
   template <class Rule, class T>
   bool optional(std::string_view key, const Rule& rule, std::optional<T>& into) {
     const std::optional<Value> value = find(key);

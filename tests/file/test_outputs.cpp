@@ -17,7 +17,7 @@ using Catch::Matchers::Contains;
 
 namespace {
 
-// Of an output beside one file that is read and one that is written.
+// Why an output is refused beside one file that is read and one that is written.
 std::string refusal(const std::string& read, const std::string& written, const std::string& file) {
   return message_of<InputError>([&] {
     Outputs outputs;

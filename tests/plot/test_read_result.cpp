@@ -80,7 +80,7 @@ TEST_CASE("a summary beside a CSV tells of its scene, if it is of that very run"
   CHECK((*result.scenario->plate.size)[0] == 0.4);
   CHECK(result.scenario->events.slip->friction == 0.3);
 
-  // Of another run: not taken up unasked, refused if named.
+  // The summary of another run is not taken up unasked, and refused if named.
   const std::string other = folder.put("other.csv", "t,x\n0,1\n0.25,2\n0.5,3\n");
   folder.put("other.json", summary_of_two_rows);
   CHECK(read(other).title.empty());

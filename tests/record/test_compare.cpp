@@ -28,7 +28,7 @@ bool alike(double a, double b, const Allowance& allowance = {}) {
   return compare({{"x"}, {{a}}}, {{"x"}, {{b}}}, allowance).alike();
 }
 
-// Of a CSV's text.
+// Reads the cells of a CSV from its text.
 CellTable cells(const std::string& text, const std::vector<std::string>& wanted = {}) {
   const Folder folder;
   return read_cells(folder.put("a.csv", text), wanted);

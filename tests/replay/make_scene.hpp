@@ -7,7 +7,7 @@
 
 namespace bbsim_test {
 
-// Of RESULT.csv[,SCENARIO.yaml[,SUMMARY.json[,CHECK.txt]]].
+// `files` is RESULT.csv[,SCENARIO.yaml[,SUMMARY.json[,CHECK.txt]]].
 bbsim::replay::Run run_of(const std::string& files);
 
 bbsim::replay::Sweep sweep_of(const std::string& table, const std::string& scenario);

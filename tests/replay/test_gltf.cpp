@@ -162,7 +162,8 @@ TEST_CASE("the ball's octants face outwards and cover the ball") {
       }
     }
   }
-  // Of the sphere, less what flat faces cut off: below 2 % with 8 steps to the eighth.
+  // The area is that of the sphere, less what flat faces cut off: below 2 % with 8 steps to the
+  // eighth.
   CHECK(area > 0.98 * 4 * 3.14159);
   CHECK(area < 4 * 3.1416);
 }

@@ -17,7 +17,8 @@ Eigen::Quaterniond eigen(const Quaternion& q) {
   return {q[0], q[1], q[2], q[3]};
 }
 
-// Of the rotation that takes one to the other, rad. From products of doubles of size 1.
+// The angle of the rotation that takes one to the other, rad. It is from products of doubles of
+// size 1.
 double apart(const Quaternion& a, const Eigen::Quaterniond& b) {
   return eigen(a).angularDistance(b);
 }

@@ -154,8 +154,8 @@ TEST_CASE("a million seconds under control") {
     return std::hypot(run.samples[i].ball.x, run.samples[i].ball.y);
   };
   for (std::size_t i = 20; i < run.samples.size(); ++i) {
-    // Of one circle to what a hundred steps of 1e-7 leave, times the 1000 s in which the slow
-    // mode forgets them, over the 20 s in which the ball goes round.
+    // The radii are those of one circle to what a hundred steps of 1e-7 leave, times the 1000 s in
+    // which the slow mode forgets them, over the 20 s in which the ball goes round.
     CHECK(std::abs(radius(i) - radius(20)) < 5e-4);
   }
 }

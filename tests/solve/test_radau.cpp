@@ -38,8 +38,8 @@ Rows integrate(const model::Model& model, const Scenario& scene, double rtol,
   return {run, std::move(rows)};
 }
 
-// Of all states in all rows, in units of rtol: relative to the largest value of each state, and
-// where that is below atol / rtol = 0.01, to 0.01.
+// The largest difference of all states in all rows, in units of rtol: relative to the largest value
+// of each state, and where that is below atol / rtol = 0.01, to 0.01.
 double difference(const solve::Trajectory& a, const solve::Trajectory& b, std::size_t row_size) {
   REQUIRE(a.rows() == b.rows());
   double worst = 0;

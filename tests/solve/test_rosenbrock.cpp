@@ -92,7 +92,7 @@ solve::Trajectory truth(const Scenario& scene) {
   return rows;
 }
 
-// Of the ball's place, over all rows, m.
+// The error of the ball's place, over all rows, m.
 double error_of(const LoopLanes& lanes, int lane, const Scenario& scene) {
   const solve::Trajectory exact = truth(scene);
   double worst = 0;

@@ -112,8 +112,8 @@ TEST_CASE("a hard stop takes the servo's rate, and kicks the ball by r times it"
     CHECK(sample.gimbal.phi_dot == 0);
     CHECK(sample.gimbal.phi_ddot == 0);
   }
-  // Of (27), with y = 0 = theta: (x' + r phi')' = 5/7 (g sin phi + x phi'^2), without a jump.
-  // Integrated over the run by Simpson's rule, apart before and after the stop.
+  // Equation (27) with y = 0 = theta is (x' + r phi')' = 5/7 (g sin phi + x phi'^2), without a
+  // jump. It is integrated over the run by Simpson's rule, apart before and after the stop.
   const auto integrand = [&](const model::Sample& s) {
     return 5.0 / 7 *
            (scene.gravity * std::sin(s.gimbal.phi) +

@@ -129,7 +129,8 @@ TEST_CASE("maxima between rows a second apart, by single runs") {
                       {{"controller.pd.kv.0.0", "uniform:0.8:1.2"},
                        {"gimbal.servo.natural_frequency", "uniform:8:30"}},
                       {"time.step=1", "solver.rtol=1e-11", "solver.atol=1e-13"}, loop_extremes, 6);
-    // Of rates up to 0.2 rad/s; between the ends of steps, a hundred times their tolerance.
+    // The error is that of rates up to 0.2 rad/s; between the ends of steps, it is a hundred times
+    // their tolerance.
     CHECK(error_of(run_all(*single_runner(setup.task), setup.task), setup.task) < 1e-9);
   }
   SECTION("of a loop, together with a mean over the rows") {

@@ -274,7 +274,7 @@ TEST_CASE("a value from --set for a key that varies is refused") {
   CHECK(contains(fault(sweep, scene, {"ball.position.0=5"}),
                  "--set ball.position.0=5: found, but the sweep varies ball.position.0"));
   CHECK(fault(sweep, scene, {"ball.position.1=5"}).empty());
-  // Of a value above it something stays.
+  // A value for the list above the key is not refused: something of it stays.
   CHECK(fault(sweep, scene, {"ball.position=[7, 8]"}).empty());
   CHECK(contains(fault(vary({{"ball.position", "list:[1, 2]"}}), scene, {"ball.position.1=5"}),
                  "the sweep varies ball.position"));

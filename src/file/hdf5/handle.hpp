@@ -18,7 +18,7 @@ class Failure : public std::runtime_error {
 // Throws Failure with the most specific entry of HDF5's own error stack.
 [[noreturn]] void fail(std::string_view doing);
 
-// Of what fails HDF5 is to write nothing to standard error.
+// Keeps HDF5 from writing to standard error when something fails.
 void keep_errors_to_ourselves();
 
 // Passes a result on; HDF5 marks failure by a negative one.

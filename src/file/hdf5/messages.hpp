@@ -40,7 +40,7 @@ struct Head {
   std::uint32_t bytes = 0;  // that follow
 };
 
-// So many at most, whoever sends them.
+// No message has more bytes than this, whoever sends it.
 inline constexpr std::uint32_t most_bytes = std::uint32_t{1} << 26U;
 
 // Puts a message together.

@@ -178,7 +178,7 @@ class Strings {
   std::vector<char*> texts_;
 };
 
-// Of any length each. Returns their bytes.
+// Each string may have any length. Returns the bytes of all.
 std::uint64_t add_strings(hid_t dataset, const Datatype& type, const Selection& selected,
                           std::size_t rows, const std::string& doing,
                           std::vector<std::string>& texts) {
@@ -192,7 +192,7 @@ std::uint64_t add_strings(hid_t dataset, const Datatype& type, const Selection& 
   return bytes;
 }
 
-// Of one length, as the type says.
+// All strings have one length, as the type says.
 void add_fixed_strings(hid_t dataset, const Datatype& type, const Selection& selected,
                        std::size_t rows, const std::string& doing,
                        std::vector<std::string>& texts) {

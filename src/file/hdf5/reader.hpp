@@ -35,12 +35,12 @@ class Reader {
  public:
   Reader(const char* path, const Contents& contents);
 
-  // Of a dataset, counted in the order told.
+  // Datasets are counted in the order in which they were told.
   [[nodiscard]] const DatasetInfo& info(std::size_t dataset) const;
   // Rows [first, first + rows), within what there is, of what is no text; an axis has `width` rows
   // of one number.
   void read_numbers(std::size_t dataset, std::size_t first, std::size_t rows, double* to) const;
-  // The same of a text.
+  // Reads the same rows of a dataset that is a text.
   [[nodiscard]] std::vector<std::string> read_texts(std::size_t dataset, std::size_t first,
                                                     std::size_t rows) const;
 

@@ -14,7 +14,7 @@ namespace {
 
 // 8 KiB of numbers: small enough for the common run of a thousand rows, large enough for long ones.
 constexpr hsize_t rows_a_chunk = 1024;
-// Of a series, a chunk is as many rows, a power of two, as fit; at least one.
+// A chunk of a series has as many rows, a power of two, as fit into this; at least one.
 constexpr hsize_t bytes_a_series_chunk = hsize_t{128} * 1024;
 // Chunks are written once and front to back: a dataset needs to keep no more than the last one,
 // and none that is larger than this, as it is written whole.

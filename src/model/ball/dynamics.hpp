@@ -27,8 +27,8 @@ struct Dynamics {
   double plate_torque_theta = 0;  // N m
   double tilt = 0;                // between the plane's normal and the vertical, rad
   double tilt_rate = 0;           // size of the plane's angular velocity, rad/s
-  // Of the coefficients of (phi'', theta'') in (x'', y''), the determinant over r^2, its size: 0
-  // where they cannot be solved for. |7 r cos theta + 5 y sin theta| / (7 r): (28), (29).
+  // The size of the determinant of the coefficients of (phi'', theta'') in (x'', y''), over r^2: 0
+  // where they cannot be solved for. It is |7 r cos theta + 5 y sin theta| / (7 r): (28), (29).
   double singularity_distance = 0;
   [[nodiscard]] double normal_force() const { return force.z(); }
   [[nodiscard]] double friction_force() const { return force.head<2>().norm(); }
@@ -42,7 +42,7 @@ struct MotorLoad {
 
 [[nodiscard]] MotorLoad motor_load(const Sample& sample, const BallConstants& constants);
 
-// Of the plane on the ball, plane frame, N; z is the normal force.
+// The force of the plane on the ball in the plane's frame, N; z is the normal force.
 [[nodiscard]] Eigen::Vector3d contact_force(const Sample& sample, const BallConstants& constants);
 
 // All of it, from the state and the gimbal's motion alone.

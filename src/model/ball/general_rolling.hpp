@@ -17,7 +17,7 @@ struct PlaneKinematics {
   Both up[3];
 };
 
-// In place of Equation27 in a system. With the paper's rig it is equation (27) in exact
+// Takes the place of Equation27 in a system. With the paper's rig it is equation (27) in exact
 // arithmetic, and differs from it by rounding.
 struct GeneralRolling {
   double k = 0.4;     // the ball's moment of inertia over m r^2

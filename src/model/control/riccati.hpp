@@ -19,8 +19,9 @@ struct RiccatiSolution {
                                                      const Eigen::MatrixXd& q,
                                                      const Eigen::MatrixXd& r);
 
-// The same for z' = A z + B u and the integral: A^T X + X A - X B R^-1 B^T X + Q = 0, K = R^-1 B^T
-// X. By a Cayley transform to the discrete one: Chu, Fan and Lin, Linear Algebra Appl. 396 (2005).
+// Does the same for z' = A z + B u and the integral: A^T X + X A - X B R^-1 B^T X + Q = 0,
+// K = R^-1 B^T X. Method: a Cayley transform to the discrete one (Chu, Fan and Lin, Linear Algebra
+// Appl. 396, 2005).
 [[nodiscard]] RiccatiSolution solve_continuous_riccati(const Eigen::MatrixXd& a,
                                                        const Eigen::MatrixXd& b,
                                                        const Eigen::MatrixXd& q,

@@ -62,8 +62,8 @@ class Spline {
   [[nodiscard]] static Spline at_rest_at_ends(std::vector<double> times,
                                               const std::vector<double>& values);
 
-  // At rest at every knot, and holding the end values outside: quintics of least jerk (Flash and
-  // Hogan, 1985), each without speed and acceleration at both its ends.
+  // A spline that is at rest at every knot, and holds the end values outside: quintics of least
+  // jerk (Flash and Hogan, 1985), each without speed and acceleration at both its ends.
   // `times` and `values` as above.
   [[nodiscard]] static Spline at_rest_at_knots(std::vector<double> times,
                                                const std::vector<double>& values);

@@ -22,7 +22,7 @@ struct SampledLoop {
   double limit = unlimited;
 };
 
-// Of a closed loop that is a RigLoop.
+// How the servos and the controller of a closed loop that is a RigLoop differ from ideal ones.
 struct Rig {
   double angle_limit = unlimited;         // rad
   double rate_limit = unlimited;          // rad/s
@@ -56,7 +56,7 @@ struct EventMonitors {
   Plate plate;
   BallConstants constants;
 
-  // Of each monitor, how far it is from happening: negative once it does.
+  // Tells how far each monitor is from happening: negative once it does.
   void margins(const Sample& sample, double* values) const;
   [[nodiscard]] double margin(const Monitor& monitor, const Sample& sample) const;
 

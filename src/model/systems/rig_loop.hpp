@@ -15,7 +15,7 @@
 
 namespace bbsim::model {
 
-// Of one axis, between two switches.
+// What holds for one axis between two switches.
 struct AxisMode {
   double demand_factor = 1,
          set_acceleration =
@@ -189,7 +189,7 @@ class RigLoop {
             {with.measured[0], with.measured[1]}};
   }
 
-  // At the present mode.
+  // The sample is one of the present mode.
   [[nodiscard]] Sample sample(double t, const double* z) const {
     return sample(t, z, extras(t, z));
   }

@@ -38,7 +38,7 @@ struct Kernel {
   // How fast the linearised system moves about the present state, 1/s: the norm of its Jacobian,
   // positions counted by the root.
   double (*rate)(void* workspace, double t);
-  // From the present state at t over h.
+  // Attempts a step from the present state at t over h.
   void (*attempt)(void* workspace, double t, double h, Attempt* result);
   // Makes the end of the last attempt the present state.
   void (*accept)(void* workspace);

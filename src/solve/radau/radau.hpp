@@ -41,10 +41,11 @@ class RadauStepper : public Stepper {
   RadauStepper(const model::Model& model, const StepKernels& kernels, int stages,
                Tolerances tolerances, double end);
 
-  // As if made anew for another model, with the memory of the last one.
+  // Makes the stepper as if it were made anew for another model, with the memory of the last one.
   void renew(const model::Model& model, double end);
 
-  // Rows then have the positions alone; what else is in them is left as it is. Before start().
+  // Rows then have the positions alone; what else is in them is left as it is. To be called before
+  // start().
   void leave_out_velocities(bool yes) { positions_only_ = yes; }
 
   void start(double t, const double* z) override;

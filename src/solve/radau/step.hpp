@@ -155,7 +155,7 @@ struct Step {
     }
   }
 
-  // From k to the stages of v and q; returns the weighted mean square of their change.
+  // Takes k to the stages of v and q; returns the weighted mean square of their change.
   template <bool measured>
   BBSIM_INLINE static double integrate_stages(Workspace& w) {
     P change[4] = {P(0.0), P(0.0), P(0.0), P(0.0)};
@@ -566,8 +566,8 @@ struct Step {
     }
   }
 
-  // Of velocities and positions, once for all that evaluate: how a compiler fuses the products of
-  // a sum of two is no matter of who asks.
+  // Expands velocities and positions in one place for all that evaluate: how a compiler fuses the
+  // products of a sum of two is then no matter of who asks.
   [[gnu::noinline]] static void expand(Workspace& w) {
     const double half = w.h / 2;
     for (int i = 0; i < nv; ++i) {
@@ -577,7 +577,7 @@ struct Step {
     }
   }
 
-  // The same positions to the bit, with velocities or without.
+  // Positions are the same to the bit, with velocities or without.
   template <bool velocities>
   BBSIM_INLINE static void evaluate_rows(Workspace& w, const double* times, std::size_t count,
                                          double* rows) {

@@ -44,8 +44,8 @@ struct Kernel {
   // How fast each linearised loop moves about its present state, 1/s: the norm of its Jacobian,
   // positions counted by the root.
   void (*rate)(void* workspace, double t, double* rates);
-  // From the present states at t over h. Errors are estimates in the tolerances' weights, at most 1
-  // if good, and NaN where the step is not finite.
+  // Attempts a step from the present states at t over h. Errors are estimates in the tolerances'
+  // weights, at most 1 if good, and NaN where the step is not finite.
   void (*attempt)(void* workspace, double t, double h, double* errors);
   // The states at times within the last attempt, by its polynomial: [time][state][lane], aligned
   // to 64. To be called before accept().

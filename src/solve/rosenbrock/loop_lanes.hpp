@@ -32,7 +32,7 @@ class GroupStep {
 
   [[nodiscard]] double from() const { return from_; }  // s
   [[nodiscard]] double to() const { return to_; }
-  // Once, of each step: as Kernel::look().
+  // Looks at the step as Kernel::look() does; to be called once for each step.
   [[nodiscard]] bool look(Looks& looks) const { return kernel_.look(workspace_, &looks); }
   // States at times within the step, [time][state][lane], aligned to 64. They are polynomials of
   // degree 4 over it.
@@ -79,7 +79,7 @@ class LoopLanes {
   // Rows of a case that was given up, and of lanes beyond `count`, mean nothing.
   [[nodiscard]] const double* rows() const { return rows_.get(); }
 
-  // Of the last group; each attempted step takes one Jacobian.
+  // The statistics are those of the last group; each attempted step takes one Jacobian.
   [[nodiscard]] solve::Statistics statistics() const { return statistics_; }
 
  private:

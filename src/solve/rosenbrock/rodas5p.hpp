@@ -46,7 +46,7 @@ struct Rodas5P {
                                   0,
                                   0,
                                   0};
-  // Of the polynomial between steps.
+  // The coefficients of the polynomial between steps.
   static constexpr double dense[3][8] = {
       {25.948786856663858, -2.5579724845846235, 10.433815404888879, -2.3679251022685204,
        0.524948541321073, 1.1241088310450404, 0.4272876194431874, -0.17202221070155493},

@@ -70,7 +70,7 @@ struct Rosenbrock {
     const Mask less = a.v < b.v;
     return P::of((Vector)(((Mask)b.v & less) | ((Mask)a.v & ~less)));
   }
-  // By the bits: comparisons are compiled as if all numbers were finite.
+  // The bits tell, since comparisons are compiled as if all numbers were finite.
   BBSIM_INLINE static Mask is_finite(P a) {
     const Mask exponent = (0x7ffLL << 52) - Mask{};
     return ((Mask)a.v & exponent) != exponent;
@@ -409,10 +409,11 @@ struct Rosenbrock {
     return all != 0;
   }
 
-  // By the cubic through values and rates at both ends. Where both rates go the way that the values
-  // do, and neither is more than three times as steep, it goes one way (Fritsch and Carlson, SIAM
-  // Journal on Numerical Analysis 17:238, 1980). Otherwise it is above the ends by no more than
-  // 4/27 of the change that its rates there would give; what is of a higher degree is allowed for.
+  // Each size is judged by the cubic through values and rates at both ends. Where both rates go the
+  // way that the values do, and neither is more than three times as steep, it goes one way (Fritsch
+  // and Carlson, SIAM Journal on Numerical Analysis 17:238, 1980). Otherwise it is above the ends
+  // by no more than 4/27 of the change that its rates there would give; what is of a higher degree
+  // is allowed for.
   [[gnu::flatten]] static bool look(void* workspace, Looks* result) {
     Workspace& w = *static_cast<Workspace*>(workspace);
     constexpr double beyond = 0.25, worth = 1 + 1e-9;

@@ -26,7 +26,7 @@ struct RowKernels {
     return most;
   }
 
-  // Of |angle| <= pi/4.
+  // The polynomial holds for |angle| <= pi/4.
   BBSIM_INLINE static P sine(P angle) {
     const auto u = angle.v * angle.v, u2 = u * u;
     const auto p =

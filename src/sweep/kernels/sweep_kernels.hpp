@@ -46,7 +46,7 @@ struct SweepKernels {
   // Squared distances from the origin.
   double (*distances)(const double* x, const double* y, std::size_t rows, double* squares);
   double (*sum)(const double* values, std::size_t rows);
-  // Of each `row_padding` values, whether any is above the limit: 1, or else 0.
+  // Tells for each `row_padding` values whether any is above the limit: 1, or else 0.
   void (*above)(const double* values, std::size_t rows, double limit, unsigned char* any);
   void (*wave)(double frequency, const double* times, std::size_t rows, double* sines,
                double* cosines);
