@@ -1,4 +1,3 @@
-#include "base/number_text.hpp"
 #include "scenario/table_rows.hpp"
 
 #include <algorithm>
@@ -7,6 +6,7 @@
 #include <utility>
 
 #include "base/error.hpp"
+#include "base/number_text.hpp"
 #include "yaml/rules.hpp"
 
 namespace bbsim::scenario {
@@ -64,8 +64,7 @@ std::string fault(const TableRows& table, const std::vector<std::string_view>& v
   for (std::size_t i = 0; i < rows; ++i) {
     const std::string row = " in row " + std::to_string(i + 1) + " below the header";
     if (!std::isfinite(table.times[i])) {
-      return "found the time " + number_text(table.times[i]) + row +
-             "; allowed: a finite time";
+      return "found the time " + number_text(table.times[i]) + row + "; allowed: a finite time";
     }
     for (std::size_t k = 0; k < value_keys.size(); ++k) {
       const double value = table.values[k][i];

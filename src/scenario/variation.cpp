@@ -1,10 +1,10 @@
-#include "base/number_text.hpp"
 #include "scenario/variation.hpp"
 
 #include <charconv>
 #include <string_view>
 
 #include "base/error.hpp"
+#include "base/number_text.hpp"
 #include "base/text.hpp"
 #include "yaml/decimal.hpp"
 #include "yaml/problems.hpp"

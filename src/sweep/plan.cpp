@@ -1,4 +1,3 @@
-#include "base/number_text.hpp"
 #include "sweep/plan.hpp"
 
 #include <algorithm>
@@ -7,6 +6,7 @@
 
 #include "base/error.hpp"
 #include "base/noise.hpp"
+#include "base/number_text.hpp"
 #include "scenario/independent.hpp"
 #include "yaml/problems.hpp"
 #include "yaml/quantity.hpp"
