@@ -185,7 +185,7 @@ void add_row_measures(const sweep::SweepTask& task, const bench::Scene& scene,
     double most = 0, squares = 0, last = 0;
     for (std::size_t i = 0; is_length(measure) && i < scene.grid.size(); ++i) {
       const model::Sample sample = scene.model.sample(scene.grid[i], rows.row(i));
-      last = measure.column->value({sample, nullptr});
+      last = record::value_of(*measure.column)({sample, nullptr});
       most = std::max(most, last);
       squares += last * last;
     }
