@@ -17,6 +17,7 @@
 
 #include "base/cpu_clock.hpp"
 #include "equal_error.hpp"
+#include "record/column_values.hpp"
 #include "solve/integrate.hpp"
 #include "sweep/single.hpp"
 #include "sweep/sweep.hpp"
