@@ -24,7 +24,7 @@ ExitCode print_columns() {
     (report += meaning) += '\n';
   };
   add("column", "unit", "meaning");
-  for (const scenario::Column& column : scenario::columns) {
+  for (const scenario::Column& column : scenario::catalogue) {
     add(column.name, column.unit, column.meaning);
   }
   print(report);

@@ -76,9 +76,9 @@ constexpr std::array values = {
 };
 
 constexpr bool in_order() {
-  if (values.size() != scenario::columns.size()) return false;
+  if (values.size() != scenario::catalogue.size()) return false;
   for (std::size_t i = 0; i < values.size(); ++i) {
-    if (values[i].column != scenario::columns[i].name) return false;
+    if (values[i].column != scenario::catalogue[i].name) return false;
   }
   return true;
 }
@@ -87,7 +87,7 @@ static_assert(in_order(), "each column has its value, in the catalogue's order")
 }  // namespace
 
 ColumnValue value_of(const scenario::Column& column) {
-  return values[static_cast<std::size_t>(&column - scenario::columns.data())].value;
+  return values[static_cast<std::size_t>(&column - scenario::catalogue.data())].value;
 }
 
 }  // namespace bbsim::record

@@ -58,7 +58,7 @@ Mapped mapped(const std::string& part) {
   const scenario::Column* const column = scenario::find_column(name);
   if (column == nullptr) {
     std::vector<std::string_view> names;
-    for (const scenario::Column& one : scenario::columns) names.push_back(one.name);
+    for (const scenario::Column& one : scenario::catalogue) names.push_back(one.name);
     refuse(part, ": there is no column " + quoted(name) + near(name, names) +
                      "; allowed: those of `bbsim columns`");
   }

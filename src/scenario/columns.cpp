@@ -7,8 +7,8 @@
 namespace bbsim::scenario {
 
 const Column* find_column(std::string_view name) {
-  const auto found = std::ranges::find(columns, name, &Column::name);
-  return found == columns.end() ? nullptr : &*found;
+  const auto found = std::ranges::find(catalogue, name, &Column::name);
+  return found == catalogue.end() ? nullptr : &*found;
 }
 
 std::vector<const Column*> columns_named(const std::vector<std::string>& names) {

@@ -24,7 +24,7 @@ struct Column {
 };
 
 // All columns, in the order of `bbsim columns`.
-inline constexpr std::array columns = {
+inline constexpr std::array catalogue = {
     Column{"t", "s", "time", Needs::state},
     Column{"x", "m", "contact point along the plane's x axis", Needs::state},
     Column{"y", "m", "contact point along the plane's y axis", Needs::state},

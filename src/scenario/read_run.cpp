@@ -11,7 +11,7 @@ constexpr double most_rows = 1e9;
 
 std::vector<std::string_view> column_names() {
   std::vector<std::string_view> names;
-  for (const Column& column : columns) names.push_back(column.name);
+  for (const Column& column : catalogue) names.push_back(column.name);
   return names;
 }
 

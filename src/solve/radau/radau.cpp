@@ -54,6 +54,16 @@ const Kernel& find_kernel(const StepKernels& kernels, int stages, const model::M
 
 constexpr double safety = 0.9;
 
+// Of the greatest state; infinite if one is no number.
+double size_of(const std::vector<double>& state) {
+  double size = 0;
+  for (const double value : state) {
+    if (!std::isfinite(value)) return std::numeric_limits<double>::infinity();
+    size = std::max(size, std::abs(value));
+  }
+  return size;
+}
+
 // The size of the next step relative to one whose error was `error`.
 double growth(double error, int stages) {
   constexpr double least = 0.1, most = 8;
@@ -164,21 +174,22 @@ void RadauStepper::start(double t, const double* z) {
 }
 
 // Whether the steps shrink as they do on the way to infinity in finite time, each to a part of what
-// is left: for long, and by far. A smooth motion that passes something makes no dozen of steps in a
-// row ever shorter, to a hundred thousandth; a rig may be stopped by an event on the way.
+// is left: for long, and by far, while states grow. A smooth motion that passes something makes no
+// dozen of steps in a row ever shorter, to a hundred thousandth; one whose tolerance is below what
+// rounding lets it reach may, and goes on. A rig may be stopped by an event on the way.
 bool RadauStepper::diverges(double step, double t) {
-  constexpr int long_since = 12;
-  constexpr double by_far = 1e-5;
+  constexpr int for_a_while = 4, long_since = 12;
+  constexpr double by_far = 1e-5, grown = 2;
   if (!(step < 0.9 * last_step_)) {
     shrinking_ = 0;
     shrinks_from_ = step;
   } else {
-    ++shrinking_;
+    if (++shrinking_ == for_a_while) size_before_ = size_of(state());
   }
   shrank_by_ = step / last_step_;
   last_step_ = step;
   return !model_->hybrid() && shrinking_ >= long_since &&
-         step < by_far * std::min(shrinks_from_, t);
+         step < by_far * std::min(shrinks_from_, t) && !(size_of(state()) < grown * size_before_);
 }
 
 const char* RadauStepper::step(double limit) {

@@ -87,6 +87,7 @@ class RadauStepper : public Stepper {
   // last one, and its part of the one before.
   int shrinking_ = 0;
   double shrinks_from_ = 0, last_step_ = 0, shrank_by_ = 1;
+  double size_before_ = 0;               // the greatest state when steps had shrunk for a while
   double last_error_ = 1;                // of the last step, in the tolerances' weights
   double accepted_step_ = 0, fill_ = 1;  // its length (s), and part of what would have passed
   std::size_t worst_state_ = 0;
