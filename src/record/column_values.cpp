@@ -15,7 +15,7 @@ struct Entry {
   ColumnValue value;
 };
 
-// In the order of scenario::columns.
+// In the order of scenario::catalogue.
 constexpr std::array values = {
     Entry{"t", [](R row) { return row.sample.t; }},
     Entry{"x", [](R row) { return row.sample.ball.x; }},
