@@ -89,12 +89,20 @@ def on_screen(view, row, radius, factor=1):
 
 
 class InBrowser(unittest.TestCase):
-    options = {}
+    options = {}  # of a browser that is like no other's; those without share one
+    shared = None
 
     @classmethod
     def setUpClass(cls):
+        if not cls.options and InBrowser.shared is not None:
+            cls.browser = InBrowser.shared
+            return
         cls.browser = Browser(**cls.options).__enter__()
-        cls.addClassCleanup(cls.browser.__exit__, None, None, None)
+        if cls.options:
+            cls.addClassCleanup(cls.browser.__exit__, None, None, None)
+        else:
+            InBrowser.shared = cls.browser
+            unittest.addModuleCleanup(cls.browser.__exit__, None, None, None)
 
     def open(self, page):
         """Opens a page afresh, and asserts that it needs nothing and complains of nothing."""
