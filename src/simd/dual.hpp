@@ -1,55 +1,61 @@
 // A number with its derivative in one direction, for the exact columns of a Jacobian.
 //
-// Included only by the kernels; see collocation/pack.hpp for why all is inlined or tagged.
+// Included only by the kernels; see pack.hpp for why all is inlined or tagged.
 #pragma once
 
 #include "simd/pack.hpp"
 
 namespace bbsim::simd {
 
-// value + slope * epsilon, epsilon^2 = 0. The compiler, which knows the slopes of the variables, 0
-// or 1, drops what does not depend on the direction (CMakeLists.txt lets it), and computes the
-// values once for all directions: there are no branches here, sines included.
-template <class P>
-struct Partial {
+// How large the angles may be whose sines are taken: beyond 10^5 a moderate one's may be off, which
+// costs a Jacobian nothing but its user some steps, and spares a branch.
+enum class Angles { any, moderate };
+
+// value + slope * epsilon, epsilon^2 = 0: with another state's direction in each lane, a column of
+// the Jacobian a lane; or, with other loops in the lanes, one column of each.
+//
+// A compiler that knows the slopes of the variables, 0 or 1, can drop what does not depend on the
+// direction, and computes the values once for all directions where there is no branch.
+template <class P, Angles angles = Angles::any>
+struct Dual {
   P value, slope;
 
-  BBSIM_INLINE Partial() {}  // NOLINT(modernize-use-equals-default): uninitialised on purpose
+  BBSIM_INLINE Dual() {}  // NOLINT(modernize-use-equals-default): uninitialised on purpose
   // NOLINTNEXTLINE(google-explicit-constructor): a constant is a number like any other
-  BBSIM_INLINE Partial(double constant) : value(constant), slope(0.0) {}
+  BBSIM_INLINE Dual(double constant) : value(constant), slope(0.0) {}
   // NOLINTNEXTLINE(google-explicit-constructor)
-  BBSIM_INLINE Partial(P constant) : value(constant), slope(0.0) {}
-  BBSIM_INLINE Partial(P v, P s) : value(v), slope(s) {}
+  BBSIM_INLINE Dual(P constant) : value(constant), slope(0.0) {}
+  BBSIM_INLINE Dual(P v, P s) : value(v), slope(s) {}
 
-  BBSIM_INLINE friend Partial operator+(const Partial& a, const Partial& b) {
+  BBSIM_INLINE friend Dual operator+(const Dual& a, const Dual& b) {
     return {a.value + b.value, a.slope + b.slope};
   }
-  BBSIM_INLINE friend Partial operator-(const Partial& a, const Partial& b) {
+  BBSIM_INLINE friend Dual operator-(const Dual& a, const Dual& b) {
     return {a.value - b.value, a.slope - b.slope};
   }
-  BBSIM_INLINE friend Partial operator-(const Partial& a) { return {-a.value, -a.slope}; }
-  BBSIM_INLINE friend Partial operator*(const Partial& a, const Partial& b) {
+  BBSIM_INLINE friend Dual operator-(const Dual& a) { return {-a.value, -a.slope}; }
+  BBSIM_INLINE friend Dual operator*(const Dual& a, const Dual& b) {
     return {a.value * b.value, a.slope * b.value + a.value * b.slope};
   }
-  BBSIM_INLINE friend Partial operator*(double a, const Partial& b) {
-    return {a * b.value, a * b.slope};
-  }
-  BBSIM_INLINE friend Partial operator*(int a, const Partial& b) {
-    return {a * b.value, a * b.slope};
-  }
-  BBSIM_INLINE friend Partial operator*(P a, const Partial& b) {
-    return {a * b.value, a * b.slope};
-  }
-  BBSIM_INLINE friend Partial operator*(const Partial& a, P b) { return b * a; }
-  BBSIM_INLINE friend Partial operator/(const Partial& a, int b) {
-    return {a.value / b, a.slope / b};
+  BBSIM_INLINE friend Dual operator*(double a, const Dual& b) { return {a * b.value, a * b.slope}; }
+  BBSIM_INLINE friend Dual operator*(int a, const Dual& b) { return {a * b.value, a * b.slope}; }
+  BBSIM_INLINE friend Dual operator*(P a, const Dual& b) { return {a * b.value, a * b.slope}; }
+  BBSIM_INLINE friend Dual operator*(const Dual& a, P b) { return {a.value * b, a.slope * b}; }
+  BBSIM_INLINE friend Dual operator/(const Dual& a, int b) { return {a.value / b, a.slope / b}; }
+  BBSIM_INLINE friend Dual operator/(const Dual& a, const Dual& b) {
+    const P quotient = a.value / b.value;
+    return {quotient, (a.slope - quotient * b.slope) / b.value};
   }
 };
 
-// A Jacobian beyond angles of 10^5 may be off: it costs steps, not accuracy.
-template <class P>
-BBSIM_INLINE SinCos<Partial<P>> sin_cos(const Partial<P>& angle) {
-  const SinCos<P> wave = sin_cos_of_moderate(angle.value);
+template <class P, Angles angles>
+BBSIM_INLINE SinCos<Dual<P, angles>> sin_cos(const Dual<P, angles>& angle) {
+  SinCos<P> wave;
+  if constexpr (angles == Angles::moderate) {
+    wave = sin_cos_of_moderate(angle.value);
+  } else {
+    wave = sin_cos(angle.value);
+  }
   return {{wave.sin, wave.cos * angle.slope}, {wave.cos, -(wave.sin * angle.slope)}};
 }
 

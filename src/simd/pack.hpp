@@ -137,44 +137,4 @@ BBSIM_INLINE SinCos<Pack<Isa, lanes>> sin_cos(Pack<Isa, lanes> angle) {
   return result;
 }
 
-// value + slope * epsilon, epsilon^2 = 0: with another state's direction in each lane, a column
-// of the Jacobian a lane.
-template <class P>
-struct Dual {
-  P value, slope;
-
-  BBSIM_INLINE Dual() {}  // NOLINT(modernize-use-equals-default): uninitialised on purpose
-  BBSIM_INLINE Dual(double constant)
-      : value(constant), slope(0.0) {}  // NOLINT(google-explicit-constructor)
-  BBSIM_INLINE Dual(P constant)
-      : value(constant), slope(0.0) {}  // NOLINT(google-explicit-constructor)
-  BBSIM_INLINE Dual(P v, P s) : value(v), slope(s) {}
-
-  BBSIM_INLINE friend Dual operator+(const Dual& a, const Dual& b) {
-    return {a.value + b.value, a.slope + b.slope};
-  }
-  BBSIM_INLINE friend Dual operator-(const Dual& a, const Dual& b) {
-    return {a.value - b.value, a.slope - b.slope};
-  }
-  BBSIM_INLINE friend Dual operator*(const Dual& a, const Dual& b) {
-    return {a.value * b.value, a.slope * b.value + a.value * b.slope};
-  }
-  BBSIM_INLINE friend Dual operator*(double a, const Dual& b) { return {a * b.value, a * b.slope}; }
-  BBSIM_INLINE friend Dual operator*(int a, const Dual& b) { return {a * b.value, a * b.slope}; }
-  BBSIM_INLINE friend Dual operator*(P a, const Dual& b) { return {a * b.value, a * b.slope}; }
-  BBSIM_INLINE friend Dual operator*(const Dual& a, P b) { return {a.value * b, a.slope * b}; }
-  BBSIM_INLINE friend Dual operator/(const Dual& a, int b) { return {a.value / b, a.slope / b}; }
-  BBSIM_INLINE friend Dual operator/(const Dual& a, const Dual& b) {
-    const P quotient = a.value / b.value;
-    return {quotient, (a.slope - quotient * b.slope) / b.value};
-  }
-  BBSIM_INLINE friend Dual operator-(const Dual& a) { return {-a.value, -a.slope}; }
-};
-
-template <class P>
-BBSIM_INLINE SinCos<Dual<P>> sin_cos(const Dual<P>& angle) {
-  const SinCos<P> wave = sin_cos(angle.value);
-  return {{wave.sin, wave.cos * angle.slope}, {wave.cos, -(wave.sin * angle.slope)}};
-}
-
 }  // namespace bbsim::simd

@@ -28,7 +28,7 @@ using Feedbacks = Eigen::Matrix<double, 10, 1>;
 
 // u = K (what is fed back) about home, by differentiating the law.
 Eigen::Matrix<double, 2, 10> linearised(const ControlLaw& law) {
-  using Number = simd::Dual<10>;
+  using Number = simd::WithGradient<10>;
   const auto pair = [](int first, Number(&into)[2]) {
     for (int i = 0; i < 2; ++i) into[i] = Number::variable(0, first + i);
   };

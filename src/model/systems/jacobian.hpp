@@ -14,8 +14,8 @@ using JacobianOf = Eigen::Matrix<double, System::size, System::size>;
 template <class System>
 [[nodiscard]] JacobianOf<System> jacobian(const System& system, double t, const double* z) {
   constexpr int n = System::size;
-  simd::Dual<n> state[n], rate[n];
-  for (int i = 0; i < n; ++i) state[i] = simd::Dual<n>::variable(z[i], i);
+  simd::WithGradient<n> state[n], rate[n];
+  for (int i = 0; i < n; ++i) state[i] = simd::WithGradient<n>::variable(z[i], i);
   system.derivative(t, state, rate);
   JacobianOf<System> matrix;
   for (int i = 0; i < n; ++i) matrix.row(i) = rate[i].gradient.transpose();

@@ -11,7 +11,7 @@
 //     (I - h l_k Jv - h^2 l_k^2 Jq) y_k = (T^-1 residual)_k,   k = 1 ... s/2, complex.
 #pragma once
 
-#include "simd/pack.hpp"
+#include "simd/dual.hpp"
 #include "solve/radau/kernel.hpp"
 #include "solve/radau/tables.hpp"
 

@@ -121,7 +121,7 @@ struct Rosenbrock {
   template <int state>
   BBSIM_INLINE static void differentiate_by(const Loop& loop, double t, const P* z, P* value,
                                             P* slope, int stride) {
-    using D = simd::Partial<P>;
+    using D = simd::Dual<P, simd::Angles::moderate>;
     D moving[n + 2], rates[n];
 #pragma GCC unroll 16
     for (int i = 0; i < n + 2; ++i) moving[i] = D(z[i], P(i == state ? 1.0 : 0.0));
