@@ -17,6 +17,8 @@
 namespace {
 
 using namespace bbsim_fuzz;
+using bbsim::number_text;
+namespace file = bbsim::file;
 namespace record = bbsim::record;
 
 // A file in memory with a name, so that the disk sets no pace.

@@ -13,7 +13,7 @@
 namespace {
 
 using namespace bbsim_fuzz;
-namespace record = bbsim::record;
+namespace file = bbsim::file;
 
 void must_be_cases(const file::CaseTableReader& reader) {
   must(!reader.columns().empty());

@@ -6,10 +6,12 @@
 
 #include <cmath>
 
+#include "base/number_text.hpp"
 #include "fuzz.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace bbsim::yaml;
+  using bbsim::number_text;
   using bbsim_fuzz::must;
   if (size == 0) return 0;
   const auto dimension = static_cast<Dimension>(data[0] / 2 % 8);
