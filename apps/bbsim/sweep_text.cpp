@@ -45,7 +45,7 @@ std::vector<Accuracy> accuracy_of(const SweepFacts& facts) {
 Json plan_of(const SweepFacts& facts) {
   const auto& [family, sweep, task, first, shard] = facts;
   const Source& source = family.source();
-  Json plan;
+  Json plan = Json::object();  // a null that becomes one is left broken where memory fails
   plan["version"] = BBSIM_VERSION;
   plan["instruction_set"] = instruction_set();
   plan["scenario_text"] = source.text;
@@ -135,7 +135,7 @@ file::Attributes attributes_of(const SweepFacts& facts, const sweep::Engine& eng
 }
 
 std::string summary_text(const SweepFacts& facts, const SweepEnd& end) {
-  Json summary;
+  Json summary = Json::object();
   summary["status"] = end.finished ? "done" : "interrupted";
   summary["scenario"] = facts.family.source().file;
   summary["output"] = end.output;

@@ -102,7 +102,7 @@ class Writer {
   }
 
   Json primitive(const Mesh& mesh, Material material) {
-    Json attributes;
+    Json attributes = Json::object();
     attributes["POSITION"] = buffer_.add_vertices(mesh.positions, true);
     attributes["NORMAL"] = buffer_.add_vertices(mesh.normals, false);
     return {{"attributes", attributes},
@@ -232,7 +232,7 @@ class Writer {
     if (centres.size() < 2) return;
     std::vector<std::array<float, 3>> points = centres;
     for (auto& point : points) point[2] -= below;
-    Json attributes;
+    Json attributes = Json::object();
     attributes["POSITION"] = buffer_.add_vertices(points, true);
     constexpr int line_strip = 3;
     const Json line = {{"attributes", attributes}, {"mode", line_strip}, {"material", path_colour}};
