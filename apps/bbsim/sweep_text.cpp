@@ -45,21 +45,27 @@ std::vector<Accuracy> accuracy_of(const SweepFacts& facts) {
 Json plan_of(const SweepFacts& facts) {
   const auto& [family, sweep, task, first, shard] = facts;
   const Source& source = family.source();
-  Json plan = Json::object();  // a null that becomes one is left broken where memory fails
+  // Objects and lists are begun as such: nlohmann's leave a null that becomes one broken where
+  // memory fails just then.
+  Json plan = Json::object();
   plan["version"] = BBSIM_VERSION;
   plan["instruction_set"] = instruction_set();
   plan["scenario_text"] = source.text;
   plan["overrides"] = source.overrides;
-  for (const auto& [name, hash] : family.table_hashes()) plan["tables"][name] = hash;
+  Json tables = Json::object(), vary = Json::array(), measures = Json::array();
+  for (const auto& [name, hash] : family.table_hashes()) tables[name] = hash;
+  if (!tables.empty()) plan["tables"] = std::move(tables);
   for (const Variation& variation : sweep.vary) {
-    plan["vary"].push_back(variation.key + '=' + variation.spec);
+    vary.push_back(variation.key + '=' + variation.spec);
   }
+  plan["vary"] = std::move(vary);
   plan["combine"] = combine_of(sweep);
   if (sweep.samples) {
     plan["samples"] = *sweep.samples;
     plan["seed"] = sweep.seed;
   }
-  for (const scenario::Measure& measure : task.measures) plan["measure"].push_back(measure.name);
+  for (const scenario::Measure& measure : task.measures) measures.push_back(measure.name);
+  plan["measure"] = std::move(measures);
   plan["trajectories"] = !task.series.empty();
   plan["cases"] = task.plan.cases();
   if (shard.of > 1) plan["shard"] = std::to_string(shard.number) + '/' + std::to_string(shard.of);

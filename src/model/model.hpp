@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "model/events/event_monitors.hpp"
 #include "model/systems/list.hpp"
 #include "model/systems/rig.hpp"
 #include "scenario/scenario.hpp"

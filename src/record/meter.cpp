@@ -14,6 +14,7 @@ using Kind = Measure::Kind;
 Meter::Meter(std::vector<Measure> measures)
     : measures_(std::move(measures)), sums_(measures_.size()) {
   for (std::size_t m = 0; m < measures_.size(); ++m) {
+    values_.push_back(value_of(*measures_[m].column));
     const Needs needs = measures_[m].column->needs;
     const bool dynamics = needs == Needs::dynamics || needs == Needs::plate;
     switch (measures_[m].kind) {
@@ -32,7 +33,7 @@ Meter::Meter(std::vector<Measure> measures)
   extremes_.emplace(of_motion_.size(), [this](const model::Sample& sample, double* numbers) {
     const model::Dynamics dynamics = dynamics_at(sample, motion_needs_dynamics_);
     for (const std::size_t m : of_motion_) {
-      const double value = value_of(*measures_[m].column)({sample, &dynamics});
+      const double value = values_[m]({sample, &dynamics});
       *numbers++ = measures_[m].kind == Kind::least ? -value : value;
     }
   });
@@ -67,7 +68,7 @@ void Meter::accept(std::size_t first, std::size_t count, const double* values) {
     const model::Sample row = sample(i);
     const model::Dynamics dynamics = dynamics_at(row, rows_need_dynamics_);
     for (const std::size_t m : of_rows_) {
-      const double value = value_of(*measures_[m].column)({row, &dynamics});
+      const double value = values_[m]({row, &dynamics});
       if (std::isnan(value)) continue;
       sums_[m].squares.add(value);
       ++sums_[m].rows;
@@ -80,8 +81,7 @@ void Meter::finish(const solve::Outcome& outcome, double* results) {
   const model::Sample& last = stopped ? outcome.occurrences.back().sample : last_;
   const model::Dynamics dynamics = dynamics_at(last, end_needs_dynamics_);
   for (std::size_t m = 0; m < measures_.size(); ++m) {
-    if (measures_[m].kind == Kind::end)
-      results[m] = value_of(*measures_[m].column)({last, &dynamics});
+    if (measures_[m].kind == Kind::end) results[m] = values_[m]({last, &dynamics});
   }
   for (const std::size_t m : of_rows_) {
     results[m] = sums_[m].rows == 0 ? std::numeric_limits<double>::quiet_NaN()

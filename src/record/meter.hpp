@@ -34,6 +34,7 @@ class Meter : public solve::StateSink {
   [[nodiscard]] model::Dynamics dynamics_at(const model::Sample& sample, bool needed) const;
 
   std::vector<scenario::Measure> measures_;
+  std::vector<ColumnValue> values_;               // of their columns
   std::vector<std::size_t> of_motion_, of_rows_;  // the extremes, and the means
   bool motion_needs_dynamics_ = false, rows_need_dynamics_ = false, end_needs_dynamics_ = false;
   const model::Model* model_ = nullptr;

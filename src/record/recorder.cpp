@@ -25,6 +25,7 @@ Recorder::Recorder(const model::Model& model, const model::BallConstants& consta
                               [](double moment) { return moment > 0; })),
       gaps_(columns_.size()),
       block_(columns_.size()) {
+  for (const scenario::Column* column : columns_) values_.push_back(value_of(*column));
   if (any_needs(columns_, Needs::orientation)) turn_.emplace(model.radius);
   if (!needs_dynamics_ && !with_plate_) return;
   loads_.emplace(6, [this](const model::Sample& sample, double* numbers) {
@@ -52,7 +53,7 @@ void Recorder::accept(std::size_t first, std::size_t count, const double* values
     if (needs_dynamics_) dynamics = model::dynamics(sample, constants_);
     const Quaternion* const orientation = turn_ ? &turn_->go_to(sample) : nullptr;
     for (std::size_t c = 0; c < columns_.size(); ++c) {
-      block_[c][i] = value_of(*columns_[c])({sample, &dynamics, orientation});
+      block_[c][i] = values_[c]({sample, &dynamics, orientation});
     }
   }
 

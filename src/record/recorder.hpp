@@ -46,6 +46,7 @@ class Recorder : public solve::StateSink {
   model::BallConstants constants_;
   const solve::OutputGrid& grid_;
   std::vector<const scenario::Column*> columns_;
+  std::vector<ColumnValue> values_;  // of the columns
   file::TableWriter& writer_;
   bool needs_dynamics_, with_plate_;
   std::optional<BallTurn> turn_;   // where a column asks for the ball's orientation

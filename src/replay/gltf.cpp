@@ -140,7 +140,9 @@ class Writer {
 
   std::size_t add_child(std::size_t parent, Json node) {
     const std::size_t child = add_node(std::move(node));
-    nodes_[parent]["children"].push_back(child);
+    Json& children = nodes_[parent]["children"];
+    if (children.is_null()) children = Json::array();
+    children.push_back(child);
     return child;
   }
 

@@ -1,9 +1,9 @@
+#include "model/events/event_monitors.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
-
-#include "model/systems/rig.hpp"
 
 namespace bbsim::model {
 
@@ -24,7 +24,7 @@ const char* Monitor::name() const {
 }
 
 double EventMonitors::edge_margin(const Sample& sample) const {
-  double left = unlimited;
+  double left = std::numeric_limits<double>::infinity();
   if (plate.size) {
     left = std::min((*plate.size)[0] / 2 - std::abs(sample.ball.x),
                     (*plate.size)[1] / 2 - std::abs(sample.ball.y));
@@ -37,7 +37,7 @@ double EventMonitors::edge_margin(const Sample& sample) const {
 
 double EventMonitors::margin(const Monitor& monitor, const Sample& sample) const {
   const EventMonitors alone{{monitor}, plate, constants};
-  double value = unlimited;
+  double value = std::numeric_limits<double>::infinity();
   alone.margins(sample, &value);
   return value;
 }

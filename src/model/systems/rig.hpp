@@ -1,12 +1,9 @@
-// What a built rig has beside the right-hand side: what switches, what samples, what is watched.
+// What a built rig has beside the right-hand side: what switches and what samples.
 #pragma once
 
 #include <limits>
 #include <optional>
-#include <string>
-#include <vector>
 
-#include "model/ball/dynamics.hpp"
 #include "model/systems/rig_loop.hpp"
 #include "scenario/scenario.hpp"
 
@@ -39,31 +36,5 @@ struct Rig {
            backlash > 0 || command_limit < unlimited;
   }
 };
-
-// Something that is watched: `margin` falls through zero when it happens.
-struct Monitor {
-  enum class Kind { edge, slip, lift_off, tilt, singularity };
-  Kind kind;
-  OnEvent action;
-  double limit = 0;  // friction coefficient, angle, or distance
-
-  [[nodiscard]] const char* name() const;
-};
-
-// All that a run is watched for.
-struct EventMonitors {
-  std::vector<Monitor> monitors;
-  Plate plate;
-  BallConstants constants;
-
-  // Tells how far each monitor is from happening: negative once it does.
-  void margins(const Sample& sample, double* values) const;
-  [[nodiscard]] double margin(const Monitor& monitor, const Sample& sample) const;
-
- private:
-  [[nodiscard]] double edge_margin(const Sample& sample) const;
-};
-
-[[nodiscard]] EventMonitors event_monitors(const Scenario& scene);
 
 }  // namespace bbsim::model

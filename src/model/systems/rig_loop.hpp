@@ -17,12 +17,13 @@ namespace bbsim::model {
 
 // What holds for one axis between two switches.
 struct AxisMode {
-  double demand_factor = 1,
-         set_acceleration =
-             0;  // servo acceleration = demand_factor * demand + set_acceleration, rad/s^2
-  double ratio = 1, offset = 0;  // angle of the plane = ratio * angle of the servo + held, rad
-  double command_factor = 1, set_command = 0;  // the same for the controller's command
-  double integrate = 1;                        // of the error; 0 while the command is at its limit
+  // Acceleration of the servo = demand_factor * demand + set_acceleration, rad/s^2.
+  double demand_factor = 1, set_acceleration = 0;
+  // Angle of the plane = ratio * angle of the servo + offset, rad.
+  double ratio = 1, offset = 0;
+  // Command behind its limit = command_factor * command + set_command.
+  double command_factor = 1, set_command = 0;
+  double integrate = 1;  // the error; 0 while the command is at its limit
 };
 
 struct RigMode {

@@ -34,7 +34,7 @@ namespace bbsim::solve::radau {
 //
 // A step never goes over a time of the model's stops, if the driver makes them its limits, nor over
 // a time at which a sinusoid of the input would pass between two nodes unseen. Allocates nothing
-// once it is made. Keeps a reference to the model.
+// once it is made, but where steps shrink one after another. Keeps a reference to the model.
 class RadauStepper : public Stepper {
  public:
   // `end` (s) scales the first step where nothing moves.
