@@ -17,8 +17,8 @@ constexpr const char* reader_name = "bbsim-hdf5-reader";
 constexpr const char* advice = "; write or read .csv instead, ";
 
 // The file of that name in the first of these folders that has it.
-ModuleFile find(const std::string& what, const char* name,
-                const std::vector<std::string>& folders) {
+ModuleFile find_file(const std::string& what, const char* name,
+                     const std::vector<std::string>& folders) {
   std::string looked_in;
   for (const std::string& folder : folders) {
     std::string file = folder + "/" + name;
@@ -32,11 +32,11 @@ ModuleFile find(const std::string& what, const char* name,
 }  // namespace
 
 ModuleFile find_hdf5_reader(const std::vector<std::string>& folders) {
-  return find("the HDF5 reader", reader_name, folders);
+  return find_file("the HDF5 reader", reader_name, folders);
 }
 
 Hdf5Module open_hdf5_module(const std::vector<std::string>& folders) {
-  const ModuleFile file = find("the HDF5 module", module_name, folders);
+  const ModuleFile file = find_file("the HDF5 module", module_name, folders);
   if (file.path.empty()) return {nullptr, file.trouble};
   // Never closed: HDF5 cleans up when the process ends.
   void* library = dlopen(file.path.c_str(), RTLD_NOW | RTLD_LOCAL);
