@@ -78,7 +78,7 @@ sweep::CaseFileLayout layout_of(const SweepFacts& facts, const sweep::Engine& en
                                 sweep::CaseRange range) {
   const sweep::SweepTask& task = facts.task;
   sweep::CaseFileLayout layout;
-  using file::CaseKind;
+  using file::Hdf5Kind;
   layout.inputs = facts.family.inputs();
   layout.first_case = range.first;
   layout.cases = range.last - range.first;
@@ -89,10 +89,10 @@ sweep::CaseFileLayout layout_of(const SweepFacts& facts, const sweep::Engine& en
     layout.columns.push_back({axis.key,
                               std::string(facts.family.unit_of(axis.key, task.plan.settings(0))),
                               "varied key of the scenario, in SI units and radians",
-                              axis.numeric ? CaseKind::number : CaseKind::text});
+                              axis.numeric ? Hdf5Kind::number : Hdf5Kind::text});
   }
-  layout.columns.push_back({"status", "", "how the case ended, in one word", CaseKind::text});
-  layout.columns.push_back({"reason", "", "why it ended early, or empty", CaseKind::text});
+  layout.columns.push_back({"status", "", "how the case ended, in one word", Hdf5Kind::text});
+  layout.columns.push_back({"reason", "", "why it ended early, or empty", Hdf5Kind::text});
   layout.columns.push_back({"end_time", "s", "time reached"});
   for (const scenario::Measure& measure : task.measures) {
     layout.columns.push_back({measure.name, std::string(measure.column->unit), measure.meaning()});
@@ -103,7 +103,7 @@ sweep::CaseFileLayout layout_of(const SweepFacts& facts, const sweep::Engine& en
   for (std::size_t i = 0; i < grid.size(); ++i) layout.axis_values.push_back(grid[i]);
   for (const scenario::Column* column : task.series) {
     layout.columns.push_back({std::string(column->name), std::string(column->unit),
-                              std::string(column->meaning), CaseKind::series, grid.size()});
+                              std::string(column->meaning), Hdf5Kind::series, grid.size()});
   }
   return layout;
 }

@@ -38,7 +38,7 @@ bool name_file(int descriptor, const char* name) {
   return linkat(AT_FDCWD, self, AT_FDCWD, name, AT_SYMLINK_FOLLOW) == 0;
 }
 
-// By a name that is taken.
+// Tries it by a name that is taken.
 bool can_be_named(int descriptor) {
   return !name_file(descriptor, "/") && errno == EEXIST;
 }

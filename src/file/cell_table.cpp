@@ -4,8 +4,8 @@
 #include <iterator>
 #include <limits>
 
-#include "file/case_table.hpp"
 #include "file/formats.hpp"
+#include "file/hdf5_table.hpp"
 
 namespace bbsim::file {
 
@@ -25,15 +25,15 @@ void CellColumn::add_text(std::string text) {
 }
 
 CellTable read_hdf5_cells(const std::string& file) {
-  const CaseTableReader reader(file);
+  const Hdf5TableReader reader(file);
   CellTable table;
-  for (const CaseColumn& column : reader.columns()) {
+  for (const Hdf5Column& column : reader.columns()) {
     table.names.push_back(column.name);
     table.columns.emplace_back();
     table.columns.back().width = column.width;
   }
   constexpr std::size_t rows_at_a_time = 65536;
-  CaseBlock block;
+  Hdf5Block block;
   for (std::size_t first = 0; first < reader.rows(); first += block.rows) {
     reader.read(first, rows_at_a_time, block);
     for (std::size_t c = 0; c < table.columns.size(); ++c) {

@@ -1,57 +1,33 @@
 // HDF5 tables of numbers, as runs write them.
-#include "base/error.hpp"
 #include "base/shown.hpp"
 #include "file/formats.hpp"
-#include "file/hdf5_file.hpp"
 #include "file/hdf5_input.hpp"
+#include "file/hdf5_table.hpp"
 
 namespace bbsim::file {
 namespace {
 
-// The texts of a ColumnHeader as C strings, which string_views need not be.
-struct Header {
-  std::string name, unit, description;
-
-  explicit Header(const ColumnHeader& header)
-      : name(header.name), unit(header.unit), description(header.meaning) {}
-
-  [[nodiscard]] bbsim_hdf5_column column() const {
-    return {name.c_str(), unit.c_str(), description.c_str(), BBSIM_HDF5_NUMBER, 1, name == "t"};
-  }
-};
-
-Hdf5Output open_output(const std::string& target, const std::vector<ColumnHeader>& headers) {
-  const std::vector<Header> texts(headers.begin(), headers.end());
-  std::vector<bbsim_hdf5_column> columns;
-  for (const Header& text : texts) columns.push_back(text.column());
-  return {target, columns};
+Hdf5Column column_of(const ColumnHeader& header) {
+  return {std::string(header.name), std::string(header.unit), std::string(header.meaning)};
 }
 
+// A table of numbers alone.
 class Hdf5Writer final : public TableWriter {
  public:
-  Hdf5Writer(const std::string& target, const std::vector<ColumnHeader>& headers)
-      : output_(open_output(target, headers)) {}
+  Hdf5Writer(const std::string& target, const std::vector<Hdf5Column>& columns)
+      : table_(target, columns, {}, Durable::no) {}
 
   void append(std::span<const double* const> columns, std::size_t rows) override {
-    rows_ += rows;
-    values_.clear();
-    for (const double* column : columns) values_.push_back({column, nullptr});
-    output_.append(values_.data(), rows);
+    table_.append(columns, rows);
   }
-
   void add_column(const ColumnHeader& header, const std::vector<double>& values) override {
-    if (values.size() != rows_) throw OutputError("a column has not as many rows as the others");
-    output_.write_column(Header(header).column(), values.data());
+    table_.add_column(column_of(header), values);
   }
-
-  void keep(const std::vector<InputTable>& inputs) override { output_.write_inputs(inputs); }
-
-  void finish(const Attributes& attributes) override { output_.finish(attributes); }
+  void keep(const std::vector<InputTable>& inputs) override { table_.keep(inputs); }
+  void finish(const Attributes& attributes) override { table_.finish(attributes); }
 
  private:
-  Hdf5Output output_;
-  std::vector<bbsim_hdf5_values> values_;  // of the block that is written
-  std::size_t rows_ = 0;
+  Hdf5TableWriter table_;
 };
 
 const char* why_no_column(bbsim_hdf5_kind kind) {
@@ -71,7 +47,9 @@ const char* why_no_column(bbsim_hdf5_kind kind) {
 
 std::unique_ptr<TableWriter> open_hdf5(const std::string& target,
                                        const std::vector<ColumnHeader>& headers) {
-  return std::make_unique<Hdf5Writer>(target, headers);
+  std::vector<Hdf5Column> columns;
+  for (const ColumnHeader& header : headers) columns.push_back(column_of(header));
+  return std::make_unique<Hdf5Writer>(target, columns);
 }
 
 TableData read_hdf5(const std::string& file) {

@@ -76,7 +76,7 @@ class Hdf5Talk {
   [[nodiscard]] std::string bytes(const hdf5::Head& head);
   void bytes(const hdf5::Head& head, void* to);
 
-  // To be called after the last answer.
+  // The conversation ends after the last answer.
   void over() { over_ = true; }
 
  private:

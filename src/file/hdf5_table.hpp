@@ -1,4 +1,5 @@
-// Tables of cases, one row a case, in HDF5: what each case gave, as numbers, text and trajectories.
+// Tables in HDF5, of numbers, texts and series: a run, a number a column at each time; or a sweep,
+// what each case gave.
 //
 // Neither side keeps more than a block of rows, so that parts of a sweep, read block by block, can
 // be appended to one table however long it gets.
@@ -6,60 +7,68 @@
 
 #include <cstddef>
 #include <memory>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "file/atomic_file.hpp"
 #include "file/table_writer.hpp"
 
 namespace bbsim::file {
 
-enum class CaseKind { number, text, series };
+enum class Hdf5Kind { number, text, series };
 
-struct CaseColumn {
+struct Hdf5Column {
   std::string name, unit, meaning;
-  CaseKind kind = CaseKind::number;
-  std::size_t width = 1;  // numbers a case, of a series
+  Hdf5Kind kind = Hdf5Kind::number;
+  std::size_t width = 1;  // numbers a row, of a series
 
-  bool operator==(const CaseColumn&) const = default;
+  bool operator==(const Hdf5Column&) const = default;
 };
 
-// Numbers that go along every case's series, such as its times; not a column.
-using CaseAxis = std::pair<CaseColumn, std::vector<double>>;
+// Numbers that go along every row's series, such as its times; not a column.
+using Hdf5Axis = std::pair<Hdf5Column, std::vector<double>>;
 
 // Some rows, column by column. values[c] is empty for a text, texts[c] for all others. Of a
-// series, values[c] holds rows * width numbers, case after case. Texts are UTF-8 without NUL.
-struct CaseBlock {
+// series, values[c] holds rows * width numbers, row after row. Texts are UTF-8 without NUL.
+struct Hdf5Block {
   std::size_t rows = 0;
   std::vector<std::vector<double>> values;
   std::vector<std::vector<std::string>> texts;
 };
 
 // Writes HDF5, whole under its final name or not at all. A number is a dataset of one dimension, a
-// text one of strings of any length, a series one of cases x width; all grow with the cases. The
+// text one of strings of any length, a series one of rows x width; all grow with the rows. The
 // bytes depend on the rows alone, not on the blocks that they came in.
 //
 // Every function throws OutputError; after that, only destruction may follow.
-class CaseTableWriter {
+class Hdf5TableWriter {
  public:
   // `target` is a regular file or none yet, whatever its name ends in. Of a column, unit and
   // meaning become attributes of its dataset; so they do of an axis, whose kind and width do not
-  // count. No two may have the same name. A number called `case` is kept as a whole one, and is the
-  // dimension scale of all rows; an axis is that of the series of its length. `inputs` are what the
-  // scenario read.
-  CaseTableWriter(const std::string& target, const std::vector<CaseColumn>& columns,
-                  const std::vector<CaseAxis>& axes = {},
-                  const std::vector<InputTable>& inputs = {});
-  ~CaseTableWriter();
-  CaseTableWriter(CaseTableWriter&&) noexcept;
-  CaseTableWriter& operator=(CaseTableWriter&&) noexcept;
+  // count. No two may have the same name. A number called `case`, kept as a whole one, is the
+  // dimension scale of all rows, or one called `t` where there are no cases; an axis is that of the
+  // series of its length. `durable`: it survives a power cut once it is finished.
+  Hdf5TableWriter(const std::string& target, const std::vector<Hdf5Column>& columns,
+                  const std::vector<Hdf5Axis>& axes = {}, Durable durable = Durable::yes);
+  ~Hdf5TableWriter();
+  Hdf5TableWriter(Hdf5TableWriter&&) noexcept;
+  Hdf5TableWriter& operator=(Hdf5TableWriter&&) noexcept;
 
   // Appends rows, of which some stay in memory until there are enough to write. A block of
   // another shape than the columns' is an error.
-  void append(const CaseBlock& block);
+  void append(const Hdf5Block& block);
+  // The same of a table of numbers alone: columns[c][row].
+  void append(std::span<const double* const> columns, std::size_t rows);
 
-  // Completes the file, with attributes of its root, and puts it under its final name, where it
-  // survives a power cut. Without this call nothing stays.
+  // Adds a column of numbers that is known only once all rows are there.
+  void add_column(const Hdf5Column& column, const std::vector<double>& values);
+  // Keeps what the scenario read.
+  void keep(const std::vector<InputTable>& inputs);
+
+  // Completes the file, with attributes of its root, and puts it under its final name. Without
+  // this call nothing stays.
   void finish(const Attributes& attributes);
 
  private:
@@ -68,17 +77,17 @@ class CaseTableWriter {
 };
 
 // Reads such a table, or any other HDF5 file whose root's datasets have one number, string or row
-// of numbers a case. Every function throws InputError: what was found, what is allowed.
-class CaseTableReader {
+// of numbers a row. Every function throws InputError: what was found, what is allowed.
+class Hdf5TableReader {
  public:
-  explicit CaseTableReader(const std::string& file);
-  ~CaseTableReader();
-  CaseTableReader(CaseTableReader&&) noexcept;
-  CaseTableReader& operator=(CaseTableReader&&) noexcept;
+  explicit Hdf5TableReader(const std::string& file);
+  ~Hdf5TableReader();
+  Hdf5TableReader(Hdf5TableReader&&) noexcept;
+  Hdf5TableReader& operator=(Hdf5TableReader&&) noexcept;
 
   // In the file's order.
-  [[nodiscard]] const std::vector<CaseColumn>& columns() const;
-  [[nodiscard]] const std::vector<CaseAxis>& axes() const;  // kind number, width 1
+  [[nodiscard]] const std::vector<Hdf5Column>& columns() const;
+  [[nodiscard]] const std::vector<Hdf5Axis>& axes() const;  // kind number, width 1
   // The root's, those that are a text or a number.
   [[nodiscard]] const Attributes& attributes() const;
   [[nodiscard]] std::size_t rows() const;  // cases
@@ -86,7 +95,7 @@ class CaseTableReader {
   [[nodiscard]] std::vector<InputTable> read_inputs() const;
 
   // Rows [first, first + count), or as many of them as there are: into.rows tells.
-  void read(std::size_t first, std::size_t count, CaseBlock& into) const;
+  void read(std::size_t first, std::size_t count, Hdf5Block& into) const;
 
  private:
   class State;

@@ -3,31 +3,31 @@
 #include <utility>
 
 #include "base/shown.hpp"
-#include "file/case_table.hpp"
 #include "file/hdf5_input.hpp"
+#include "file/hdf5_table.hpp"
 
 namespace bbsim::file {
 namespace {
 
-CaseKind kind_of(bbsim_hdf5_kind kind) {
+Hdf5Kind kind_of(bbsim_hdf5_kind kind) {
   switch (kind) {
     case BBSIM_HDF5_TEXT:
-      return CaseKind::text;
+      return Hdf5Kind::text;
     case BBSIM_HDF5_SERIES:
-      return CaseKind::series;
+      return Hdf5Kind::series;
     default:
-      return CaseKind::number;
+      return Hdf5Kind::number;
   }
 }
 
 }  // namespace
 
-class CaseTableReader::State {
+class Hdf5TableReader::State {
  public:
   explicit State(const std::string& file) : input_(file) {
     for (std::size_t d = 0; d < input_.root_datasets(); ++d) {
       const Hdf5Dataset& dataset = input_.datasets()[d];
-      CaseColumn column{dataset.name, dataset.unit, dataset.description, kind_of(dataset.kind),
+      Hdf5Column column{dataset.name, dataset.unit, dataset.description, kind_of(dataset.kind),
                         dataset.width};
       if (dataset.kind == BBSIM_HDF5_AXIS) {
         column.width = 1;
@@ -48,12 +48,12 @@ class CaseTableReader::State {
     if (columns_.empty()) input_.fail("it holds no column of cases at its root");
   }
 
-  [[nodiscard]] const std::vector<CaseColumn>& columns() const { return columns_; }
-  [[nodiscard]] const std::vector<CaseAxis>& axes() const { return axes_; }
+  [[nodiscard]] const std::vector<Hdf5Column>& columns() const { return columns_; }
+  [[nodiscard]] const std::vector<Hdf5Axis>& axes() const { return axes_; }
   [[nodiscard]] const Attributes& attributes() const { return input_.attributes(); }
   [[nodiscard]] std::size_t rows() const { return rows_; }
 
-  void read(std::size_t first, std::size_t count, CaseBlock& into) const {
+  void read(std::size_t first, std::size_t count, Hdf5Block& into) const {
     count = first < rows_ ? std::min(count, rows_ - first) : 0;
     into.rows = count;
     into.values.resize(columns_.size());
@@ -89,35 +89,35 @@ class CaseTableReader::State {
 
  private:
   Hdf5Input input_;
-  std::vector<CaseColumn> columns_;
+  std::vector<Hdf5Column> columns_;
   std::vector<std::size_t> datasets_;  // of each column, as the input counts them
-  std::vector<CaseAxis> axes_;
+  std::vector<Hdf5Axis> axes_;
   std::size_t rows_ = 0;
 };
 
-CaseTableReader::CaseTableReader(const std::string& file) : state_(std::make_unique<State>(file)) {}
-CaseTableReader::~CaseTableReader() = default;
-CaseTableReader::CaseTableReader(CaseTableReader&&) noexcept = default;
-CaseTableReader& CaseTableReader::operator=(CaseTableReader&&) noexcept = default;
+Hdf5TableReader::Hdf5TableReader(const std::string& file) : state_(std::make_unique<State>(file)) {}
+Hdf5TableReader::~Hdf5TableReader() = default;
+Hdf5TableReader::Hdf5TableReader(Hdf5TableReader&&) noexcept = default;
+Hdf5TableReader& Hdf5TableReader::operator=(Hdf5TableReader&&) noexcept = default;
 
-const std::vector<CaseColumn>& CaseTableReader::columns() const {
+const std::vector<Hdf5Column>& Hdf5TableReader::columns() const {
   return state_->columns();
 }
-const std::vector<CaseAxis>& CaseTableReader::axes() const {
+const std::vector<Hdf5Axis>& Hdf5TableReader::axes() const {
   return state_->axes();
 }
-const Attributes& CaseTableReader::attributes() const {
+const Attributes& Hdf5TableReader::attributes() const {
   return state_->attributes();
 }
-std::size_t CaseTableReader::rows() const {
+std::size_t Hdf5TableReader::rows() const {
   return state_->rows();
 }
 
-std::vector<InputTable> CaseTableReader::read_inputs() const {
+std::vector<InputTable> Hdf5TableReader::read_inputs() const {
   return state_->read_inputs();
 }
 
-void CaseTableReader::read(std::size_t first, std::size_t count, CaseBlock& into) const {
+void Hdf5TableReader::read(std::size_t first, std::size_t count, Hdf5Block& into) const {
   state_->read(first, count, into);
 }
 

@@ -1,11 +1,11 @@
-// Cases on their way to an HDF5 file.
+// Rows on their way to an HDF5 file.
 #include <algorithm>
 #include <set>
 #include <string_view>
 
 #include "base/error.hpp"
-#include "file/case_table.hpp"
 #include "file/hdf5_file.hpp"
+#include "file/hdf5_table.hpp"
 
 namespace bbsim::file {
 namespace {
@@ -15,12 +15,12 @@ namespace {
 constexpr std::size_t most_rows_at_once = 1024;
 constexpr std::size_t most_bytes_at_once = std::size_t{8} * 1024 * 1024;
 
-std::size_t rows_at_once(const std::vector<CaseColumn>& columns) {
+std::size_t rows_at_once(const std::vector<Hdf5Column>& columns) {
   std::size_t bytes = 0;  // of a row, strings not counted
-  for (const CaseColumn& column : columns) {
-    bytes += column.kind == CaseKind::series
+  for (const Hdf5Column& column : columns) {
+    bytes += column.kind == Hdf5Kind::series
                  ? std::min(column.width, most_bytes_at_once) * sizeof(double)
-             : column.kind == CaseKind::text ? sizeof(std::string)
+             : column.kind == Hdf5Kind::text ? sizeof(std::string)
                                              : sizeof(double);
   }
   std::size_t rows = most_rows_at_once;
@@ -28,40 +28,49 @@ std::size_t rows_at_once(const std::vector<CaseColumn>& columns) {
   return rows;
 }
 
-// The number of a case: a whole one, and what the rows of all other columns are called by.
-bool is_case(const CaseColumn& column) {
-  return column.name == "case" && column.kind == CaseKind::number;
+// The number of a case: a whole one.
+bool is_case(const Hdf5Column& column) {
+  return column.name == "case" && column.kind == Hdf5Kind::number;
 }
 
-bbsim_hdf5_kind kind_of(const CaseColumn& column) {
+// The column that the rows of all others are called by, or the end.
+auto find_scale(const std::vector<Hdf5Column>& columns) {
+  const auto number = std::ranges::find_if(columns, is_case);
+  if (number != columns.end()) return number;
+  return std::ranges::find_if(columns, [](const Hdf5Column& column) {
+    return column.name == "t" && column.kind == Hdf5Kind::number;
+  });
+}
+
+bbsim_hdf5_kind kind_of(const Hdf5Column& column) {
   switch (column.kind) {
-    case CaseKind::text:
+    case Hdf5Kind::text:
       return BBSIM_HDF5_TEXT;
-    case CaseKind::series:
+    case Hdf5Kind::series:
       return BBSIM_HDF5_SERIES;
     default:
       return is_case(column) ? BBSIM_HDF5_INTEGER : BBSIM_HDF5_NUMBER;
   }
 }
 
-bbsim_hdf5_column described(const CaseColumn& column, bbsim_hdf5_kind kind, std::size_t width) {
-  return {column.name.c_str(), column.unit.c_str(), column.meaning.c_str(), kind, width,
-          is_case(column)};
+bbsim_hdf5_column described(const Hdf5Column& column, bbsim_hdf5_kind kind, std::size_t width,
+                            bool is_scale = false) {
+  return {column.name.c_str(), column.unit.c_str(), column.meaning.c_str(), kind, width, is_scale};
 }
 
 [[noreturn]] void refuse(const std::string& target, const std::string& reason) {
   throw OutputError("cannot write " + target + ": " + reason);
 }
 
-void check_layout(const std::string& target, const std::vector<CaseColumn>& columns,
-                  const std::vector<CaseAxis>& axes) {
-  if (columns.empty()) refuse(target, "a table of cases needs at least one column");
+void check_layout(const std::string& target, const std::vector<Hdf5Column>& columns,
+                  const std::vector<Hdf5Axis>& axes) {
+  if (columns.empty()) refuse(target, "a table needs at least one column");
   std::set<std::string_view> names;
-  for (const CaseColumn& column : columns) {
+  for (const Hdf5Column& column : columns) {
     if (!names.insert(column.name).second) {
       refuse(target, "two columns are called " + column.name);
     }
-    if (column.kind == CaseKind::series && column.width == 0) {
+    if (column.kind == Hdf5Kind::series && column.width == 0) {
       refuse(target, "the series " + column.name + " has no values");
     }
   }
@@ -73,48 +82,65 @@ void check_layout(const std::string& target, const std::vector<CaseColumn>& colu
 }
 
 // After the checks that come before any file is touched.
-Hdf5Output open_output(const std::string& target, const std::vector<CaseColumn>& columns,
-                       const std::vector<CaseAxis>& axes) {
+Hdf5Output open_output(const std::string& target, const std::vector<Hdf5Column>& columns,
+                       const std::vector<Hdf5Axis>& axes, Durable durable) {
   check_layout(target, columns, axes);
   if (is_written_directly(target)) {
     refuse(target,
            "it is a device, a pipe or standard output, and HDF5 needs a regular file; name one");
   }
+  const auto scale = find_scale(columns);
   std::vector<bbsim_hdf5_column> described_columns;
-  for (const CaseColumn& column : columns) {
-    described_columns.push_back(
-        described(column, kind_of(column), column.kind == CaseKind::series ? column.width : 1));
+  for (auto column = columns.begin(); column != columns.end(); ++column) {
+    described_columns.push_back(described(*column, kind_of(*column),
+                                          column->kind == Hdf5Kind::series ? column->width : 1,
+                                          column == scale));
   }
-  return {target, described_columns, Durable::yes};
+  return {target, described_columns, durable};
 }
 
 }  // namespace
 
-class CaseTableWriter::State {
+class Hdf5TableWriter::State {
  public:
-  State(const std::string& target, const std::vector<CaseColumn>& columns,
-        const std::vector<CaseAxis>& axes, const std::vector<InputTable>& inputs)
+  State(const std::string& target, const std::vector<Hdf5Column>& columns,
+        const std::vector<Hdf5Axis>& axes, Durable durable)
       : target_(target),
         columns_(columns),
         rows_at_once_(rows_at_once(columns)),
-        output_(open_output(target, columns, axes)) {
+        output_(open_output(target, columns, axes, durable)) {
     waiting_.values.resize(columns.size());
     waiting_.texts.resize(columns.size());
     for (const auto& [axis, values] : axes) {
       output_.write_axis(described(axis, BBSIM_HDF5_AXIS, values.size()), values.data());
     }
-    output_.write_inputs(inputs);
   }
 
-  void append(const CaseBlock& block) {
+  void append(const Hdf5Block& block) {
     check_shape(block);
-    for (std::size_t first = 0; first < block.rows;) {
-      const std::size_t count = std::min(block.rows - first, rows_at_once_ - waiting_.rows);
-      gather(block, first, count);
-      first += count;
-      if (waiting_.rows == rows_at_once_) flush();
-    }
+    append(
+        block.rows, [&block](std::size_t c) { return block.values[c].data(); },
+        [&block](std::size_t c) { return block.texts[c].data(); });
   }
+
+  void append(std::span<const double* const> columns, std::size_t rows) {
+    const bool fits = columns.size() == columns_.size() &&
+                      std::ranges::all_of(columns_, [](const Hdf5Column& column) {
+                        return column.kind == Hdf5Kind::number;
+                      });
+    if (!fits) refuse_shape();
+    append(
+        rows, [columns](std::size_t c) { return columns[c]; },
+        [](std::size_t) -> const std::string* { return nullptr; });
+  }
+
+  void add_column(const Hdf5Column& column, const std::vector<double>& values) {
+    if (values.size() != rows_) refuse(target_, "a column has not as many rows as the others");
+    flush();
+    output_.write_column(described(column, BBSIM_HDF5_NUMBER, 1), values.data());
+  }
+
+  void keep(const std::vector<InputTable>& inputs) { output_.write_inputs(inputs); }
 
   void finish(const Attributes& attributes) {
     flush();
@@ -122,33 +148,44 @@ class CaseTableWriter::State {
   }
 
  private:
-  void check_shape(const CaseBlock& block) const {
+  void check_shape(const Hdf5Block& block) const {
     bool fits = block.values.size() == columns_.size() && block.texts.size() == columns_.size();
     for (std::size_t c = 0; fits && c < columns_.size(); ++c) {
-      const bool text = columns_[c].kind == CaseKind::text;
+      const bool text = columns_[c].kind == Hdf5Kind::text;
       fits = block.values[c].size() == (text ? 0 : block.rows * width_of(c)) &&
              block.texts[c].size() == (text ? block.rows : 0);
     }
-    if (!fits) refuse(target_, "a block of rows does not have the shape of the columns");
+    if (!fits) refuse_shape();
+  }
+
+  [[noreturn]] void refuse_shape() const {
+    refuse(target_, "a block of rows does not have the shape of the columns");
   }
 
   [[nodiscard]] std::size_t width_of(std::size_t c) const {
-    return columns_[c].kind == CaseKind::series ? columns_[c].width : 1;
+    return columns_[c].kind == Hdf5Kind::series ? columns_[c].width : 1;
   }
 
-  void gather(const CaseBlock& block, std::size_t first, std::size_t count) {
-    for (std::size_t c = 0; c < columns_.size(); ++c) {
-      const auto part = [&](const auto& from, auto& to, std::size_t width) {
-        const auto begin = from.begin() + static_cast<std::ptrdiff_t>(first * width);
-        to.insert(to.end(), begin, begin + static_cast<std::ptrdiff_t>(count * width));
-      };
-      if (columns_[c].kind == CaseKind::text) {
-        part(block.texts[c], waiting_.texts[c], 1);
-      } else {
-        part(block.values[c], waiting_.values[c], width_of(c));
+  // numbers(c) and texts(c) are where the rows of a column begin.
+  template <class Numbers, class Texts>
+  void append(std::size_t rows, Numbers numbers, Texts texts) {
+    for (std::size_t first = 0; first < rows;) {
+      const std::size_t count = std::min(rows - first, rows_at_once_ - waiting_.rows);
+      for (std::size_t c = 0; c < columns_.size(); ++c) {
+        const std::size_t width = width_of(c);
+        if (columns_[c].kind == Hdf5Kind::text) {
+          waiting_.texts[c].insert(waiting_.texts[c].end(), texts(c) + first,
+                                   texts(c) + first + count);
+        } else {
+          waiting_.values[c].insert(waiting_.values[c].end(), numbers(c) + first * width,
+                                    numbers(c) + (first + count) * width);
+        }
       }
+      waiting_.rows += count;
+      first += count;
+      if (waiting_.rows == rows_at_once_) flush();
     }
-    waiting_.rows += count;
+    rows_ += rows;
   }
 
   void flush() {
@@ -165,25 +202,36 @@ class CaseTableWriter::State {
   }
 
   std::string target_;
-  std::vector<CaseColumn> columns_;
-  std::size_t rows_at_once_;
+  std::vector<Hdf5Column> columns_;
+  std::size_t rows_at_once_, rows_ = 0;
   Hdf5Output output_;
-  CaseBlock waiting_;
+  Hdf5Block waiting_;
 };
 
-CaseTableWriter::CaseTableWriter(const std::string& target, const std::vector<CaseColumn>& columns,
-                                 const std::vector<CaseAxis>& axes,
-                                 const std::vector<InputTable>& inputs)
-    : state_(std::make_unique<State>(target, columns, axes, inputs)) {}
-CaseTableWriter::~CaseTableWriter() = default;
-CaseTableWriter::CaseTableWriter(CaseTableWriter&&) noexcept = default;
-CaseTableWriter& CaseTableWriter::operator=(CaseTableWriter&&) noexcept = default;
+Hdf5TableWriter::Hdf5TableWriter(const std::string& target, const std::vector<Hdf5Column>& columns,
+                                 const std::vector<Hdf5Axis>& axes, Durable durable)
+    : state_(std::make_unique<State>(target, columns, axes, durable)) {}
+Hdf5TableWriter::~Hdf5TableWriter() = default;
+Hdf5TableWriter::Hdf5TableWriter(Hdf5TableWriter&&) noexcept = default;
+Hdf5TableWriter& Hdf5TableWriter::operator=(Hdf5TableWriter&&) noexcept = default;
 
-void CaseTableWriter::append(const CaseBlock& block) {
+void Hdf5TableWriter::append(const Hdf5Block& block) {
   state_->append(block);
 }
 
-void CaseTableWriter::finish(const Attributes& attributes) {
+void Hdf5TableWriter::append(std::span<const double* const> columns, std::size_t rows) {
+  state_->append(columns, rows);
+}
+
+void Hdf5TableWriter::add_column(const Hdf5Column& column, const std::vector<double>& values) {
+  state_->add_column(column, values);
+}
+
+void Hdf5TableWriter::keep(const std::vector<InputTable>& inputs) {
+  state_->keep(inputs);
+}
+
+void Hdf5TableWriter::finish(const Attributes& attributes) {
   state_->finish(attributes);
 }
 

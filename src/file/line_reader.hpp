@@ -26,7 +26,7 @@ class LineReader {
 
   // The number of the line that next() gave, from 1.
   [[nodiscard]] std::size_t number() const { return number_; }
-  // For messages.
+  // The file as messages call it.
   [[nodiscard]] const std::string& name() const { return name_; }
   // Bytes in all of a regular file; nothing of what may go on for ever.
   [[nodiscard]] std::optional<std::size_t> size() const { return size_; }

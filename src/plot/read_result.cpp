@@ -16,9 +16,9 @@
 
 #include "base/error.hpp"
 #include "base/text.hpp"
-#include "file/case_table.hpp"
 #include "file/descriptor.hpp"
 #include "file/format.hpp"
+#include "file/hdf5_table.hpp"
 #include "scenario/reader.hpp"
 #include "scenario/variation.hpp"
 
@@ -100,18 +100,18 @@ void take_attributes(Result& result, const file::Attributes& attributes) {
 }
 
 Result read_hdf5_result(const std::string& file) {
-  const file::CaseTableReader reader(file);
-  file::CaseBlock block;
+  const file::Hdf5TableReader reader(file);
+  file::Hdf5Block block;
   reader.read(0, reader.rows(), block);
   Result result;
   result.file = file;
   result.rows = reader.rows();
   for (std::size_t c = 0; c < reader.columns().size(); ++c) {
-    const file::CaseColumn& from = reader.columns()[c];
-    if (from.kind == file::CaseKind::series) continue;  // trajectories of a sweep
+    const file::Hdf5Column& from = reader.columns()[c];
+    if (from.kind == file::Hdf5Kind::series) continue;  // trajectories of a sweep
     Column column{from.name, std::move(block.values[c])};
     column.unit = from.unit;
-    if (from.kind == file::CaseKind::text) {
+    if (from.kind == file::Hdf5Kind::text) {
       column.texts = std::move(block.texts[c]);
       column.numbers.assign(result.rows, NAN);
     }

@@ -8,15 +8,15 @@
 #include <string_view>
 #include <vector>
 
-#include "file/case_table.hpp"
+#include "file/hdf5_table.hpp"
 #include "file/table_writer.hpp"
 #include "sweep/case_rows.hpp"
 
 namespace bbsim::sweep {
 
 struct CaseFileLayout {
-  std::vector<file::CaseColumn> columns;  // the case, then numbers and texts, then series
-  file::CaseColumn axis{};                // of the series, if there are any
+  std::vector<file::Hdf5Column> columns;  // the case, then numbers and texts, then series
+  file::Hdf5Column axis{};                // of the series, if there are any
   std::vector<double> axis_values{};
   std::vector<file::InputTable> inputs{};  // what the scenario read, for HDF5
   // Which cases come, and in groups of how many they are computed, the last one less perhaps.

@@ -20,8 +20,8 @@ class Hdf5Cases : public CaseFile {
  public:
   Hdf5Cases(const std::string& target, CaseFileLayout layout, const std::string& plan, bool resume)
       : target_(target), layout_(std::move(layout)), part_(target, layout_, plan, resume) {
-    for (const file::CaseColumn& column : layout_.columns) {
-      if (column.kind == file::CaseKind::series) series_numbers_ += column.width;
+    for (const file::Hdf5Column& column : layout_.columns) {
+      if (column.kind == file::Hdf5Kind::series) series_numbers_ += column.width;
     }
     std::size_t most = std::numeric_limits<std::size_t>::max();
     if (series_numbers_ > 0) {
@@ -53,14 +53,15 @@ class Hdf5Cases : public CaseFile {
   }
 
   void finish(const file::Attributes& attributes) override {
-    std::vector<file::CaseAxis> axes;
+    std::vector<file::Hdf5Axis> axes;
     if (series_) axes.emplace_back(layout_.axis, layout_.axis_values);
-    file::CaseTableWriter writer(target_, layout_.columns, axes, layout_.inputs);
+    file::Hdf5TableWriter writer(target_, layout_.columns, axes);
+    writer.keep(layout_.inputs);
     const std::size_t at_once =
         series_
             ? std::clamp<std::size_t>(most_bytes / (sizeof(double) * series_numbers_), 1, most_rows)
             : most_rows;
-    file::CaseBlock block;
+    file::Hdf5Block block;
     clear(block);
     std::size_t written = 0;
     const std::size_t read = part_.read([&](const RowReader& row) {
@@ -77,17 +78,17 @@ class Hdf5Cases : public CaseFile {
   }
 
  private:
-  void clear(file::CaseBlock& block) const {
+  void clear(file::Hdf5Block& block) const {
     block.rows = 0;
     block.values.assign(layout_.columns.size(), {});
     block.texts.assign(layout_.columns.size(), {});
   }
 
-  void add_row(const RowReader& row, file::CaseBlock& block) const {
+  void add_row(const RowReader& row, file::Hdf5Block& block) const {
     std::size_t field = 0;
     for (std::size_t c = 0; c < layout_.columns.size(); ++c) {
-      if (layout_.columns[c].kind == file::CaseKind::series) continue;
-      if (layout_.columns[c].kind == file::CaseKind::text) {
+      if (layout_.columns[c].kind == file::Hdf5Kind::series) continue;
+      if (layout_.columns[c].kind == file::Hdf5Kind::text) {
         block.texts[c].push_back(row.text(field++));
       } else {
         block.values[c].push_back(row.number(field++));
@@ -96,12 +97,12 @@ class Hdf5Cases : public CaseFile {
   }
 
   // Returns the number of rows, of which `first` is the first one.
-  std::size_t hand_on(file::CaseTableWriter& writer, file::CaseBlock& block, std::size_t first) {
+  std::size_t hand_on(file::Hdf5TableWriter& writer, file::Hdf5Block& block, std::size_t first) {
     if (series_) {
       series_->read(first, block.rows, numbers_);
       std::size_t offset = 0;
       for (std::size_t c = 0; c < layout_.columns.size(); ++c) {
-        if (layout_.columns[c].kind != file::CaseKind::series) continue;
+        if (layout_.columns[c].kind != file::Hdf5Kind::series) continue;
         const std::size_t width = layout_.columns[c].width;
         for (std::size_t i = 0; i < block.rows; ++i) {
           const auto from =

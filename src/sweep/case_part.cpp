@@ -8,19 +8,19 @@
 namespace bbsim::sweep {
 namespace {
 
-std::size_t status_field(const std::vector<file::CaseColumn>& columns) {
+std::size_t status_field(const std::vector<file::Hdf5Column>& columns) {
   const auto found =
       std::find_if(columns.begin(), columns.end(),
-                   [](const file::CaseColumn& column) { return column.name == "status"; });
+                   [](const file::Hdf5Column& column) { return column.name == "status"; });
   return static_cast<std::size_t>(found - columns.begin());
 }
 
 }  // namespace
 
-std::string header_of(const std::vector<file::CaseColumn>& columns) {
+std::string header_of(const std::vector<file::Hdf5Column>& columns) {
   std::string line;
-  for (const file::CaseColumn& column : columns) {
-    if (column.kind == file::CaseKind::series) continue;
+  for (const file::Hdf5Column& column : columns) {
+    if (column.kind == file::Hdf5Kind::series) continue;
     if (!line.empty()) line += ',';
     line += column.name;
   }

@@ -97,12 +97,12 @@ bool PartLines::next(std::string_view& line) {
 RowReader::RowReader(std::vector<Field> fields)
     : fields_(std::move(fields)), cells_(fields_.size()), numbers_(fields_.size()) {}
 
-RowReader::RowReader(const std::vector<file::CaseColumn>& columns)
+RowReader::RowReader(const std::vector<file::Hdf5Column>& columns)
     : RowReader([&columns] {
         std::vector<Field> fields{Field::whole_number};
         for (std::size_t c = 1; c < columns.size(); ++c) {
-          if (columns[c].kind == file::CaseKind::series) continue;
-          fields.push_back(columns[c].kind == file::CaseKind::text ? Field::text : Field::number);
+          if (columns[c].kind == file::Hdf5Kind::series) continue;
+          fields.push_back(columns[c].kind == file::Hdf5Kind::text ? Field::text : Field::number);
         }
         return fields;
       }()) {}

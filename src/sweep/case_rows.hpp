@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-#include "file/case_table.hpp"
+#include "file/hdf5_table.hpp"
 
 namespace bbsim::sweep {
 
@@ -52,7 +52,7 @@ class RowReader {
 
   explicit RowReader(std::vector<Field> fields);
   // Rows have the columns that CSV has: all but series.
-  explicit RowReader(const std::vector<file::CaseColumn>& columns);
+  explicit RowReader(const std::vector<file::Hdf5Column>& columns);
   // Rows are as the header says, which tells no numbers from texts before the status.
   explicit RowReader(const std::string& header);
 

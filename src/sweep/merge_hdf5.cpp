@@ -5,7 +5,7 @@
 #include <cstring>
 
 #include "base/error.hpp"
-#include "file/case_table.hpp"
+#include "file/hdf5_table.hpp"
 #include "sweep/merge_text.hpp"
 
 namespace bbsim::sweep {
@@ -19,13 +19,13 @@ constexpr const char* instruction_set = "instruction_set";
 
 struct Part {
   std::string file;
-  file::CaseTableReader table;
+  file::Hdf5TableReader table;
   std::size_t first = 0;  // case
 };
 
-std::size_t rows_at_a_time(const std::vector<file::CaseColumn>& columns) {
+std::size_t rows_at_a_time(const std::vector<file::Hdf5Column>& columns) {
   std::size_t widest = 1;
-  for (const file::CaseColumn& column : columns) widest = std::max(widest, column.width);
+  for (const file::Hdf5Column& column : columns) widest = std::max(widest, column.width);
   return std::clamp<std::size_t>(most_numbers / widest, 1, most_rows);
 }
 
@@ -56,7 +56,7 @@ InstructionSets instruction_sets_of(const std::vector<Part>& parts) {
   return all;
 }
 
-// To the bit: of numbers that are none, too.
+// Whether all are alike to the bit, numbers that are none included.
 bool same_data(const file::TableData& a, const file::TableData& b) {
   return a.names == b.names &&
          std::equal(a.columns.begin(), a.columns.end(), b.columns.begin(), b.columns.end(),
@@ -80,11 +80,11 @@ bool same_inputs(const std::vector<file::InputTable>& a, const std::vector<file:
 Merged merge_hdf5(const std::vector<std::string>& files, const std::string& target,
                   const std::atomic<bool>& stop) {
   std::vector<Part> parts;
-  file::CaseBlock block;
+  file::Hdf5Block block;
   for (const std::string& file : files) {
-    Part part{file, file::CaseTableReader(file), 0};
+    Part part{file, file::Hdf5TableReader(file), 0};
     if (part.table.columns().empty() || part.table.columns()[0].name != "case" ||
-        part.table.columns()[0].kind != file::CaseKind::number) {
+        part.table.columns()[0].kind != file::Hdf5Kind::number) {
       throw InputError(file + ": found no column case first; allowed: what bbsim sweep writes");
     }
     if (part.table.rows() > 0) {
@@ -96,7 +96,7 @@ Merged merge_hdf5(const std::vector<std::string>& files, const std::string& targ
   std::stable_sort(parts.begin(), parts.end(),
                    [](const Part& a, const Part& b) { return a.first < b.first; });
 
-  const file::CaseTableReader& model = parts.front().table;
+  const file::Hdf5TableReader& model = parts.front().table;
   const InstructionSets instruction_sets = instruction_sets_of(parts);
   const file::Attributes common = without_instruction_set(model.attributes());
   const std::vector<file::InputTable> inputs = model.read_inputs();
@@ -110,7 +110,8 @@ Merged merge_hdf5(const std::vector<std::string>& files, const std::string& targ
                      parts.front().file + "; allowed: parts of one sweep");
   }
 
-  file::CaseTableWriter out(target, model.columns(), model.axes(), inputs);
+  file::Hdf5TableWriter out(target, model.columns(), model.axes());
+  out.keep(inputs);
   Merged merged{0, false, instruction_sets.note()};
   const std::size_t rows = rows_at_a_time(model.columns());
   for (const Part& part : parts) {

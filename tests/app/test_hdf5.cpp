@@ -12,20 +12,20 @@
 
 #include "base/number_text.hpp"
 #include "catch.hpp"
-#include "file/case_table.hpp"
+#include "file/hdf5_table.hpp"
 #include "process.hpp"
 
 // Within it `bbsim` is what runs the program, and `bbsim::` still the program's own namespace.
 namespace bbsim_test {
 
 using bbsim::file::AttributeValue;
-using bbsim::file::CaseTableReader;
+using bbsim::file::Hdf5TableReader;
 using bbsim::file::InputTable;
 using Catch::Matchers::Contains;
 
 namespace {
 
-AttributeValue attribute_of(const CaseTableReader& file, const std::string& name) {
+AttributeValue attribute_of(const Hdf5TableReader& file, const std::string& name) {
   for (const auto& [known, value] : file.attributes()) {
     if (known == name) return value;
   }
@@ -74,7 +74,7 @@ TEST_CASE("a run can be run again from its HDF5 file alone, to the byte") {
   const Folder folder, other;
   run({"run", config("recorded.yaml"), "-q", "--set", "time.step=0.05", "-o", folder / "a.h5"},
       folder);
-  const CaseTableReader file(folder / "a.h5");
+  const Hdf5TableReader file(folder / "a.h5");
   other.write("recorded.yaml", attribute_of(file, "scenario_text").text());
   const std::vector<InputTable> inputs = file.read_inputs();
   REQUIRE(inputs.size() == 1);
@@ -85,7 +85,7 @@ TEST_CASE("a run can be run again from its HDF5 file alone, to the byte") {
   run({"run", config("recorded.yaml"), "-q", "--set", "time.step=0.05", "-o", "a.csv"}, folder);
   run({"run", "recorded.yaml", "-q", "--set", "time.step=0.05", "-o", "a.csv"}, other);
   CHECK(folder.read("a.csv") == other.read("a.csv"));
-  const CaseTableReader again(other / "a.h5");
+  const Hdf5TableReader again(other / "a.h5");
   CHECK(again.rows() == file.rows());
   CHECK(again.columns() == file.columns());
 }
@@ -94,12 +94,12 @@ TEST_CASE("with a bound on the error, each row has its estimate") {
   const Folder folder;
   run({"run", config("fig2b.yaml"), "-q", "--error", "1 um", "-o", "a.h5"}, folder);
   run({"run", config("fig2b.yaml"), "-q", "-o", "b.h5"}, folder);
-  const CaseTableReader file(folder / "a.h5");
+  const Hdf5TableReader file(folder / "a.h5");
   const auto column = std::find_if(file.columns().begin(), file.columns().end(),
                                    [](const auto& one) { return one.name == "position_error"; });
   REQUIRE(column != file.columns().end());
   CHECK(column->unit == "m");
-  bbsim::file::CaseBlock block;
+  bbsim::file::Hdf5Block block;
   file.read(0, file.rows(), block);
   const auto& errors = block.values[static_cast<std::size_t>(column - file.columns().begin())];
   REQUIRE(errors.size() == file.rows());
@@ -107,7 +107,7 @@ TEST_CASE("with a bound on the error, each row has its estimate") {
   CHECK(attribute_of(file, "error_estimate") == AttributeValue(greatest));
   CHECK(greatest < 1e-6);
   CHECK(attribute_of(file, "error_bound") == AttributeValue(1e-6));
-  const CaseTableReader without(folder / "b.h5");
+  const Hdf5TableReader without(folder / "b.h5");
   CHECK(without.columns().size() == file.columns().size() - 1);
 }
 
@@ -117,7 +117,7 @@ TEST_CASE("a sweep's HDF5 file has numbers as numbers, units of the keys, and it
        "ball.spin=normal:0:1", "--vary", "ball.inertia_factor=list:0.4,0.5", "--samples", "2",
        "--seed", "9", "-o", "a.h5"},
       folder);
-  const CaseTableReader file(folder / "a.h5");
+  const Hdf5TableReader file(folder / "a.h5");
   CHECK(attribute_of(file, "cases") == AttributeValue(20));
   CHECK(attribute_of(file, "samples") == AttributeValue(2));
   CHECK(attribute_of(file, "seed") == AttributeValue(9));

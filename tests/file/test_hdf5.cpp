@@ -11,8 +11,8 @@
 
 #include "base/error.hpp"
 #include "catch.hpp"
-#include "file/case_table.hpp"
 #include "file/hdf5_module.hpp"
+#include "file/hdf5_table.hpp"
 #include "file/table_writer.hpp"
 #include "support/folder.hpp"
 #include "support/limits.hpp"
@@ -20,9 +20,9 @@
 
 using bbsim::InputError;
 using bbsim::OutputError;
-using bbsim::file::CaseTableReader;
 using bbsim::file::find_hdf5_reader;
 using bbsim::file::hdf5_module_folders;
+using bbsim::file::Hdf5TableReader;
 using bbsim::file::InputTable;
 using bbsim::file::open_hdf5_module;
 using bbsim::file::open_table;
@@ -240,7 +240,7 @@ TEST_CASE("the tables that a scenario read go with its results, under any name")
   H5Dclose(column);
   H5Fclose(id);
 
-  const std::vector<InputTable> back = CaseTableReader(file).read_inputs();
+  const std::vector<InputTable> back = Hdf5TableReader(file).read_inputs();
   REQUIRE(back.size() == 4);
   for (std::size_t i = 0; i < back.size(); ++i) {
     CHECK(back[i].file == inputs[i].file);

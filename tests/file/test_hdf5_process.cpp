@@ -17,18 +17,18 @@
 
 #include "base/error.hpp"
 #include "catch.hpp"
-#include "file/case_table.hpp"
 #include "file/descriptor.hpp"
 #include "file/hdf5_process.hpp"
+#include "file/hdf5_table.hpp"
 #include "file/table_writer.hpp"
 #include "support/folder.hpp"
 #include "support/tables.hpp"
 
 using bbsim::InputError;
-using bbsim::file::CaseBlock;
-using bbsim::file::CaseTableReader;
 using bbsim::file::Descriptor;
+using bbsim::file::Hdf5Block;
 using bbsim::file::Hdf5Process;
+using bbsim::file::Hdf5TableReader;
 using bbsim::file::Hdf5Talk;
 using bbsim::file::Hdf5Trouble;
 using bbsim::file::read_table;
@@ -155,9 +155,9 @@ TEST_CASE("a file whose strings lead nowhere is an error") {
   bytes.replace(second - 16, 2, 2, '\0');
   bytes.replace(second - 8, 8, 8, '\0');
   const std::string file = folder.put("damaged.h5", bytes);
-  CaseBlock block;
+  Hdf5Block block;
   CHECK_THAT(message_of<InputError>([&] {
-               const CaseTableReader reader(file);
+               const Hdf5TableReader reader(file);
                reader.read(0, 3, block);
              }),
              Contains("cannot read " + file + ": "));
@@ -210,9 +210,9 @@ TEST_CASE("files that are open at a time share a process, which ends when it has
   write_table(file, table);
   const auto process = Hdf5Process::running();
   {
-    std::vector<std::unique_ptr<CaseTableReader>> readers;
-    for (int i = 0; i < 200; ++i) readers.push_back(std::make_unique<CaseTableReader>(file));
-    CaseBlock block;
+    std::vector<std::unique_ptr<Hdf5TableReader>> readers;
+    for (int i = 0; i < 200; ++i) readers.push_back(std::make_unique<Hdf5TableReader>(file));
+    Hdf5Block block;
     readers[17]->read(0, 100, block);
     CHECK(same_bits(block.values[2], table.columns[2]));
   }

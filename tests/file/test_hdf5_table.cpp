@@ -11,7 +11,7 @@
 
 #include "base/error.hpp"
 #include "catch.hpp"
-#include "file/case_table.hpp"
+#include "file/hdf5_table.hpp"
 #include "support/folder.hpp"
 #include "support/limits.hpp"
 #include "support/tables.hpp"
@@ -19,32 +19,32 @@
 using bbsim::InputError;
 using bbsim::OutputError;
 using bbsim::file::Attributes;
-using bbsim::file::CaseAxis;
-using bbsim::file::CaseBlock;
-using bbsim::file::CaseColumn;
-using bbsim::file::CaseKind;
-using bbsim::file::CaseTableReader;
-using bbsim::file::CaseTableWriter;
+using bbsim::file::Hdf5Axis;
+using bbsim::file::Hdf5Block;
+using bbsim::file::Hdf5Column;
+using bbsim::file::Hdf5Kind;
+using bbsim::file::Hdf5TableReader;
+using bbsim::file::Hdf5TableWriter;
 using bbsim::file::read_table;
 using Catch::Matchers::Contains;
 
 namespace {
 
-using Columns = std::vector<CaseColumn>;
+using Columns = std::vector<Hdf5Column>;
 
 constexpr double inf = std::numeric_limits<double>::infinity();
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 Columns three_kinds(std::size_t width) {
   return {{"gain", "1/s", "of the loop"},
-          {"ending", "1", "why the case ended", CaseKind::text},
-          {"x", "m", "the ball's way", CaseKind::series, width}};
+          {"ending", "1", "why the case ended", Hdf5Kind::text},
+          {"x", "m", "the ball's way", Hdf5Kind::series, width}};
 }
 
 // The same case whatever block it is in.
-CaseBlock cases(std::size_t first, std::size_t rows, std::size_t width) {
+Hdf5Block cases(std::size_t first, std::size_t rows, std::size_t width) {
   static const std::vector<std::string> endings = {"done", "", "Kugel fällt: ψ > 90°", "nan"};
-  CaseBlock block{rows, {{}, {}, {}}, {{}, {}, {}}};
+  Hdf5Block block{rows, {{}, {}, {}}, {{}, {}, {}}};
   for (std::size_t row = first; row < first + rows; ++row) {
     block.values[0].push_back(row % 7 == 3 ? nan : 0.1 * static_cast<double>(row));
     block.texts[1].push_back(endings[row % endings.size()]);
@@ -56,7 +56,7 @@ CaseBlock cases(std::size_t first, std::size_t rows, std::size_t width) {
   return block;
 }
 
-bool same(const CaseBlock& a, const CaseBlock& b) {
+bool same(const Hdf5Block& a, const Hdf5Block& b) {
   bool result = a.rows == b.rows && a.texts == b.texts && a.values.size() == b.values.size();
   for (std::size_t c = 0; result && c < a.values.size(); ++c) {
     result = same_bits(a.values[c], b.values[c]);
@@ -66,12 +66,12 @@ bool same(const CaseBlock& a, const CaseBlock& b) {
 
 const Attributes some_attributes = {
     {"title", "über"}, {"empty", ""}, {"a", "after z"}, {"rtol", 1e-8}, {"cases", 3000}};
-const std::vector<CaseAxis> some_axes = {{{"t", "s", "output times"}, {0, 0.5, 1}}};
+const std::vector<Hdf5Axis> some_axes = {{{"t", "s", "output times"}, {0, 0.5, 1}}};
 
 // Writes `rows` cases in blocks of `at_once`.
 void write_cases(const std::string& file, std::size_t rows, std::size_t width,
                  std::size_t at_once) {
-  CaseTableWriter writer(file, three_kinds(width), some_axes);
+  Hdf5TableWriter writer(file, three_kinds(width), some_axes);
   for (std::size_t first = 0; first < rows; first += at_once) {
     writer.append(cases(first, std::min(at_once, rows - first), width));
   }
@@ -90,7 +90,7 @@ bool same_files(const std::string& a, const std::string& b) {
 }
 
 std::string refusal(const std::string& file) {
-  return message_of<InputError>([&] { (void)CaseTableReader(file); });
+  return message_of<InputError>([&] { (void)Hdf5TableReader(file); });
 }
 
 // What HDF5 itself says of a dataset.
@@ -175,11 +175,11 @@ TEST_CASE("cases are whole numbers and the scale of all rows, times that of traj
   const Folder folder;
   Columns columns = three_kinds(3);
   columns.insert(columns.begin(), {"case", "1", "number of the case, from 0"});
-  CaseBlock block = cases(0, 5, 3);
+  Hdf5Block block = cases(0, 5, 3);
   block.values.insert(block.values.begin(), {7, 8, 9, 10, 0x1p53});
   block.texts.insert(block.texts.begin(), std::vector<std::string>());
   {
-    CaseTableWriter writer(folder / "a.h5", columns, some_axes);
+    Hdf5TableWriter writer(folder / "a.h5", columns, some_axes);
     writer.append(block);
     writer.finish({});
   }
@@ -207,18 +207,18 @@ TEST_CASE("cases are whole numbers and the scale of all rows, times that of traj
   H5Dclose(number);
   H5Fclose(file);
 
-  const CaseTableReader reader(folder / "a.h5");
+  const Hdf5TableReader reader(folder / "a.h5");
   CHECK(reader.columns() == columns);
-  CaseBlock back;
+  Hdf5Block back;
   reader.read(0, 5, back);
   CHECK(same(back, block));
 }
 
 TEST_CASE("chunks of series are whole rows of some 100 KiB") {
   const Folder folder;
-  CaseTableWriter writer(folder / "a.h5", {{"a", "1", "", CaseKind::series, 1},
-                                           {"b", "1", "", CaseKind::series, 5000},
-                                           {"c", "1", "", CaseKind::series, 100000}});
+  Hdf5TableWriter writer(folder / "a.h5", {{"a", "1", "", Hdf5Kind::series, 1},
+                                           {"b", "1", "", Hdf5Kind::series, 5000},
+                                           {"c", "1", "", Hdf5Kind::series, 100000}});
   writer.finish({});
   const hid_t file = H5Fopen((folder / "a.h5").c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
   CHECK(facts_of(file, "a").chunk == std::vector<hsize_t>{16384, 1});
@@ -230,7 +230,7 @@ TEST_CASE("chunks of series are whole rows of some 100 KiB") {
 TEST_CASE("a table of cases reads back: columns, units, axes, attributes, rows") {
   const Folder folder;
   write_cases(folder / "a.h5", 2500, 3, 700);
-  const CaseTableReader reader(folder / "a.h5");
+  const Hdf5TableReader reader(folder / "a.h5");
   CHECK(reader.columns() == three_kinds(3));
   REQUIRE(reader.axes().size() == 1);
   CHECK(reader.axes()[0].first == some_axes[0].first);
@@ -238,7 +238,7 @@ TEST_CASE("a table of cases reads back: columns, units, axes, attributes, rows")
   CHECK(reader.attributes() == some_attributes);
   CHECK(reader.rows() == 2500);
 
-  CaseBlock block;
+  Hdf5Block block;
   reader.read(0, 2500, block);
   CHECK(same(block, cases(0, 2500, 3)));
   reader.read(1023, 2, block);
@@ -255,36 +255,36 @@ TEST_CASE("a table of cases reads back: columns, units, axes, attributes, rows")
 TEST_CASE("any number reads back to the bit from a table of cases") {
   const Folder folder;
   const auto table = random_table(2, 3000);
-  CaseTableWriter writer(folder / "a.h5", {{"n", "1", ""}, {"s", "1", "", CaseKind::series, 1500}});
+  Hdf5TableWriter writer(folder / "a.h5", {{"n", "1", ""}, {"s", "1", "", Hdf5Kind::series, 1500}});
   std::vector<double> series = table.columns[1];
   while (series.size() < 3000 * 1500) series.insert(series.end(), series.begin(), series.end());
   series.resize(3000 * 1500);
-  const CaseBlock block{3000, {table.columns[0], series}, {{}, {}}};
+  const Hdf5Block block{3000, {table.columns[0], series}, {{}, {}}};
   writer.append(block);
   writer.finish({});
-  CaseBlock back;
-  CaseTableReader(folder / "a.h5").read(0, 3000, back);
+  Hdf5Block back;
+  Hdf5TableReader(folder / "a.h5").read(0, 3000, back);
   CHECK(same(back, block));
 }
 
 TEST_CASE("a table without cases, of one case, and of a single column") {
   const Folder folder;
   write_cases(folder / "none.h5", 0, 3, 1);
-  const CaseTableReader none(folder / "none.h5");
+  const Hdf5TableReader none(folder / "none.h5");
   CHECK(none.rows() == 0);
   CHECK(none.columns() == three_kinds(3));
-  CaseBlock block = cases(0, 2, 3);
+  Hdf5Block block = cases(0, 2, 3);
   none.read(0, 10, block);
   CHECK(same(block, cases(0, 0, 3)));
 
-  for (const CaseColumn& column : three_kinds(3)) {
-    CaseTableWriter writer(folder / "one.h5", {column});
-    const bool text = column.kind == CaseKind::text;
+  for (const Hdf5Column& column : three_kinds(3)) {
+    Hdf5TableWriter writer(folder / "one.h5", {column});
+    const bool text = column.kind == Hdf5Kind::text;
     const std::vector<double> values(text ? 0 : column.width, 1.5);
-    const CaseBlock one{1, {values}, {std::vector<std::string>(text ? 1 : 0, "ψ")}};
+    const Hdf5Block one{1, {values}, {std::vector<std::string>(text ? 1 : 0, "ψ")}};
     writer.append(one);
     writer.finish({});
-    const CaseTableReader reader(folder / "one.h5");
+    const Hdf5TableReader reader(folder / "one.h5");
     CHECK(reader.axes().empty());
     CHECK(reader.attributes().empty());
     reader.read(0, 1, block);
@@ -314,16 +314,16 @@ TEST_CASE("parts that are merged give the bytes of the whole") {
   for (const auto& [name, first, rows] :
        std::vector<std::tuple<std::string, std::size_t, std::size_t>>{
            {"1.h5", 0, 1100}, {"2.h5", 1100, 0}, {"3.h5", 1100, 1900}}) {
-    CaseTableWriter part(folder / name, three_kinds(width), some_axes);
+    Hdf5TableWriter part(folder / name, three_kinds(width), some_axes);
     part.append(cases(first, rows, width));
     part.finish(some_attributes);
   }
-  const CaseTableReader first(folder / "1.h5");
-  CaseTableWriter merged(folder / "merged.h5", first.columns(), first.axes());
+  const Hdf5TableReader first(folder / "1.h5");
+  Hdf5TableWriter merged(folder / "merged.h5", first.columns(), first.axes());
   for (const char* name : {"1.h5", "2.h5", "3.h5"}) {
-    const CaseTableReader part(folder / name);
+    const Hdf5TableReader part(folder / name);
     REQUIRE(part.columns() == first.columns());
-    CaseBlock block;
+    Hdf5Block block;
     for (std::size_t row = 0; row < part.rows(); row += block.rows) {
       part.read(row, 333, block);
       merged.append(block);
@@ -338,13 +338,13 @@ TEST_CASE("a hundred thousand cases") {
   const Folder folder;
   const std::size_t rows = 100000;
   const std::size_t width = 4;
-  CaseTableWriter writer(folder / "a.h5", three_kinds(width));
-  CaseBlock block = cases(0, 10000, width);
+  Hdf5TableWriter writer(folder / "a.h5", three_kinds(width));
+  Hdf5Block block = cases(0, 10000, width);
   for (std::size_t first = 0; first < rows; first += block.rows) writer.append(block);
   writer.finish({});
-  const CaseTableReader reader(folder / "a.h5");
+  const Hdf5TableReader reader(folder / "a.h5");
   REQUIRE(reader.rows() == rows);
-  CaseBlock back;
+  Hdf5Block back;
   bool equal = true;
   for (std::size_t first = 0; first < rows; first += block.rows) {
     reader.read(first, block.rows, back);
@@ -356,8 +356,8 @@ TEST_CASE("a hundred thousand cases") {
 TEST_CASE("wide series") {
   const Folder folder;
   write_cases(folder / "a.h5", 700, 5000, 64);
-  const CaseTableReader reader(folder / "a.h5");
-  CaseBlock back;
+  const Hdf5TableReader reader(folder / "a.h5");
+  Hdf5Block back;
   reader.read(0, 700, back);
   const bool equal = same(back, cases(0, 700, 5000));
   CHECK(equal);
@@ -369,7 +369,7 @@ TEST_CASE("an unfinished table of cases leaves nothing") {
   const Folder folder;
   folder.put("a.h5", "old");
   {
-    CaseTableWriter writer(folder / "a.h5", three_kinds(3));
+    Hdf5TableWriter writer(folder / "a.h5", three_kinds(3));
     writer.append(cases(0, 2000, 3));
   }
   CHECK(content_of(folder / "a.h5") == "old");
@@ -416,7 +416,7 @@ TEST_CASE("a process that met a full disk while it wrote cases ends as it should
 
 TEST_CASE("after a failure a table of cases is not completed") {
   const Folder folder;
-  CaseTableWriter writer(folder / "a.h5", three_kinds(50));
+  Hdf5TableWriter writer(folder / "a.h5", three_kinds(50));
   {
     const FileSizeLimit limit(10000);
     CHECK_THROWS_AS(writer.append(cases(0, 3000, 50)), OutputError);
@@ -429,7 +429,7 @@ TEST_CASE("after a failure a table of cases is not completed") {
 TEST_CASE("what cannot hold a table of cases is refused") {
   const Folder folder;
   const auto message = [](const std::string& target) {
-    return message_of<OutputError>([&] { CaseTableWriter(target, three_kinds(3)); });
+    return message_of<OutputError>([&] { Hdf5TableWriter(target, three_kinds(3)); });
   };
   for (const char* target : {"/dev/full", "/dev/null", "-", "/dev/stdout"}) {
     CHECK_THAT(message(target),
@@ -444,17 +444,17 @@ TEST_CASE("what cannot hold a table of cases is refused") {
 TEST_CASE("columns and blocks that make no table are refused") {
   const Folder folder;
   const std::string file = folder / "a.h5";
-  const auto message = [&](const Columns& columns, const std::vector<CaseAxis>& axes) {
-    return message_of<OutputError>([&] { CaseTableWriter(file, columns, axes); });
+  const auto message = [&](const Columns& columns, const std::vector<Hdf5Axis>& axes) {
+    return message_of<OutputError>([&] { Hdf5TableWriter(file, columns, axes); });
   };
   CHECK_THAT(message({}, {}), Contains("at least one column"));
   CHECK_THAT(message({{"a", "", ""}, {"a", "", ""}}, {}), Contains("two columns are called a"));
   CHECK_THAT(message({{"t", "", ""}}, some_axes), Contains("the axis t has the name of"));
-  CHECK_THAT(message({{"x", "", "", CaseKind::series, 0}}, {}), Contains("has no values"));
+  CHECK_THAT(message({{"x", "", "", Hdf5Kind::series, 0}}, {}), Contains("has no values"));
   CHECK_THAT(message({{"", "", ""}}, {}), Contains("cannot write " + file));
 
-  CaseTableWriter writer(file, three_kinds(3));
-  CaseBlock block = cases(0, 2, 3);
+  Hdf5TableWriter writer(file, three_kinds(3));
+  Hdf5Block block = cases(0, 2, 3);
   block.values[2].pop_back();
   CHECK_THROWS_AS(writer.append(block), OutputError);
   CHECK_THROWS_AS(writer.append({1, {{1}}, {{}}}), OutputError);
@@ -465,28 +465,28 @@ TEST_CASE("a run's HDF5 file is a table of cases, too") {
   const Folder folder;
   const auto table = random_table(3, 2000);
   write_table(folder / "a.h5", {{"t", "x", "y"}, table.columns}, {{"title", "run"}});
-  const CaseTableReader reader(folder / "a.h5");
+  const Hdf5TableReader reader(folder / "a.h5");
   CHECK(reader.columns() == Columns{{"t", "m", "one value a row"},
                                     {"x", "m", "one value a row"},
                                     {"y", "m", "one value a row"}});
   CHECK(reader.axes().empty());
   CHECK(reader.attributes() == Attributes{{"title", "run"}});
-  CaseBlock block;
+  Hdf5Block block;
   reader.read(0, 2000, block);
   CHECK(same(block, {2000, table.columns, {{}, {}, {}}}));
 }
 
 TEST_CASE("a table of cases is read as a table if it has nothing but numbers") {
   const Folder folder;
-  const auto written = [&](const Columns& columns, const std::vector<CaseAxis>& axes) {
-    CaseTableWriter(folder / "a.h5", columns, axes).finish({});
+  const auto written = [&](const Columns& columns, const std::vector<Hdf5Axis>& axes) {
+    Hdf5TableWriter(folder / "a.h5", columns, axes).finish({});
     return message_of<InputError>([&] { (void)read_table(folder / "a.h5"); });
   };
   CHECK(written({{"a", "1", ""}}, {}).empty());
   const std::string start = "cannot read " + (folder / "a.h5") + ": dataset ";
-  CHECK(written({{"a", "1", ""}, {"why", "1", "", CaseKind::text}}, {}) ==
+  CHECK(written({{"a", "1", ""}, {"why", "1", "", Hdf5Kind::text}}, {}) ==
         start + "why is no column of numbers: it holds text");
-  CHECK(written({{"x", "1", "", CaseKind::series, 1}}, {}) ==
+  CHECK(written({{"x", "1", "", Hdf5Kind::series, 1}}, {}) ==
         start + "x is no column of numbers: it holds several numbers a row, in two dimensions");
   CHECK(written({{"a", "1", ""}}, some_axes) ==
         start + "t is no column of numbers: it holds the axis of other datasets");
@@ -552,7 +552,7 @@ TEST_CASE("attributes of other kinds and of fixed length") {
   Attributes expected = some_attributes;
   expected.emplace_back("number", 1.5);
   expected.emplace_back("fixed", "abc");
-  CHECK(CaseTableReader(folder / "a.h5").attributes() == expected);
+  CHECK(Hdf5TableReader(folder / "a.h5").attributes() == expected);
 }
 
 TEST_CASE("files of earlier versions are read: texts of any length, numbers as texts") {
@@ -587,12 +587,12 @@ TEST_CASE("files of earlier versions are read: texts of any length, numbers as t
   H5Tclose(text);
   H5Fclose(id);
 
-  const CaseTableReader reader(file);
+  const Hdf5TableReader reader(file);
   CHECK(reader.columns() ==
-        Columns{{"case", "1", "number of the case"}, {"status", "", "", CaseKind::text}});
+        Columns{{"case", "1", "number of the case"}, {"status", "", "", Hdf5Kind::text}});
   CHECK(reader.attributes() == Attributes{{"cases", "2"}});
   CHECK(reader.read_inputs().empty());
-  CaseBlock block;
+  Hdf5Block block;
   reader.read(0, 2, block);
   CHECK(block.values[0] == std::vector<double>{0, 1});
   CHECK(block.texts[1] == std::vector<std::string>{"done", "failed at 1 s"});
@@ -611,9 +611,9 @@ TEST_CASE("texts of one length are texts") {
   H5Sclose(space);
   H5Tclose(text);
   H5Fclose(id);
-  CaseBlock block;
-  const CaseTableReader reader(folder / "a.h5");
-  REQUIRE(reader.columns()[0].kind == CaseKind::text);
+  Hdf5Block block;
+  const Hdf5TableReader reader(folder / "a.h5");
+  REQUIRE(reader.columns()[0].kind == Hdf5Kind::text);
   reader.read(0, 3, block);
   CHECK(block.texts[0] == std::vector<std::string>{"done", "", "ab"});
 }

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "file/case_table.hpp"
+#include "file/hdf5_table.hpp"
 #include "file/table_writer.hpp"
 #include "folder.hpp"
 #include "foreign_hdf5.hpp"
@@ -15,16 +15,16 @@ namespace {
 using namespace bbsim_fuzz;
 namespace file = bbsim::file;
 
-void must_be_cases(const file::CaseTableReader& reader) {
+void must_be_cases(const file::Hdf5TableReader& reader) {
   must(!reader.columns().empty());
-  file::CaseBlock block;
+  file::Hdf5Block block;
   constexpr std::size_t rows = 7;
   for (std::size_t first = 0; first < reader.rows() && first < 3 * rows; first += rows) {
     reader.read(first, rows, block);
     must(block.rows <= rows);
     for (std::size_t c = 0; c < reader.columns().size(); ++c) {
-      const file::CaseColumn& column = reader.columns()[c];
-      const bool text = column.kind == file::CaseKind::text;
+      const file::Hdf5Column& column = reader.columns()[c];
+      const bool text = column.kind == file::Hdf5Kind::text;
       must(block.texts[c].size() == (text ? block.rows : 0));
       must(block.values[c].size() == (text ? 0 : block.rows * column.width));
     }
@@ -49,6 +49,6 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   static const std::string file = folder.path() / "foreign.h5";
   write_foreign_hdf5(file, data, size);
   may_refuse([&] { must_be_a_table(file::read_table(file)); });
-  may_refuse([&] { must_be_cases(file::CaseTableReader(file)); });
+  may_refuse([&] { must_be_cases(file::Hdf5TableReader(file)); });
   return 0;
 }

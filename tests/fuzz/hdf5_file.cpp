@@ -3,7 +3,7 @@
 #include <cstdlib>
 #include <string>
 
-#include "file/case_table.hpp"
+#include "file/hdf5_table.hpp"
 #include "file/table_writer.hpp"
 #include "folder.hpp"
 #include "fuzz.hpp"
@@ -20,8 +20,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   folder.put("damaged.h5", std::string(text_of(data, size)));
   may_refuse([&] { (void)bbsim::file::read_table(file); });
   may_refuse([&] {
-    const bbsim::file::CaseTableReader reader(file);
-    bbsim::file::CaseBlock block;
+    const bbsim::file::Hdf5TableReader reader(file);
+    bbsim::file::Hdf5Block block;
     reader.read(0, 8, block);
   });
   return 0;

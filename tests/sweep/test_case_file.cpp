@@ -6,7 +6,7 @@
 
 #include "base/error.hpp"
 #include "catch.hpp"
-#include "file/case_table.hpp"
+#include "file/hdf5_table.hpp"
 #include "support/folder.hpp"
 #include "sweep/case_file.hpp"
 
@@ -25,8 +25,8 @@ CaseFileLayout layout(bool series = false, std::size_t group = 1) {
   CaseFileLayout made;
   made.columns = {{"case", "1", ""},
                   {"gravity", "SI", ""},
-                  {"status", "", "", CaseKind::text},
-                  {"reason", "", "", CaseKind::text},
+                  {"status", "", "", Hdf5Kind::text},
+                  {"reason", "", "", Hdf5Kind::text},
                   {"x_end", "m", ""}};
   made.first_case = 100;
   made.cases = 10;
@@ -34,7 +34,7 @@ CaseFileLayout layout(bool series = false, std::size_t group = 1) {
   if (series) {
     made.axis = {"t", "s", ""};
     made.axis_values = {0, 1, 2};
-    made.columns.push_back({"x", "m", "", CaseKind::series, 3});
+    made.columns.push_back({"x", "m", "", Hdf5Kind::series, 3});
   }
   return made;
 }
@@ -195,8 +195,8 @@ TEST_CASE("trajectories that are not as they were written are computed again") {
     KeptRows kept = file->kept();
     append(*file, 100 + kept.rows, 110, true);
     file->finish({});
-    const CaseTableReader reader(folder / "a.h5");
-    CaseBlock block;
+    const Hdf5TableReader reader(folder / "a.h5");
+    Hdf5Block block;
     reader.read(0, 10, block);
     CHECK(block.values[5] == series_of(100, 110)[0]);
     return kept;

@@ -99,10 +99,10 @@ TEST_CASE("a row that is not as a sweep writes it is told") {
 }
 
 TEST_CASE("the columns tell numbers from texts") {
-  RowReader reader(std::vector<CaseColumn>{{"case", "", ""},
+  RowReader reader(std::vector<Hdf5Column>{{"case", "", ""},
                                            {"gravity", "", ""},
-                                           {"status", "", "", CaseKind::text},
-                                           {"x", "", "", CaseKind::series, 3}});
+                                           {"status", "", "", Hdf5Kind::text},
+                                           {"x", "", "", Hdf5Kind::series, 3}});
   CHECK(reader.read("1,9.81,done").empty());
   CHECK_FALSE(reader.read("1,heavy,done").empty());
   CHECK_FALSE(reader.read("1,9.81,done,3").empty());
