@@ -17,7 +17,7 @@
 
 #include "base/cpu_clock.hpp"
 #include "equal_error.hpp"
-#include "record/column_values.hpp"
+#include "record/rows.hpp"
 #include "solve/integrate.hpp"
 #include "sweep/single.hpp"
 #include "sweep/sweep.hpp"
@@ -184,9 +184,13 @@ void add_row_measures(const sweep::SweepTask& task, const bench::Scene& scene,
   numbers.push_back(scene.grid.end());
   for (const scenario::Measure& measure : task.measures) {
     double most = 0, squares = 0, last = 0;
+    const model::BallConstants no_constants;  // lengths need none
+    record::Rows column({measure.column});
+    column.begin(scene.model, no_constants);
     for (std::size_t i = 0; is_length(measure) && i < scene.grid.size(); ++i) {
-      const model::Sample sample = scene.model.sample(scene.grid[i], rows.row(i));
-      last = record::value_of(*measure.column)({sample, nullptr});
+      const double t = scene.grid[i];
+      column.evaluate(&t, rows.row(i), 1);
+      last = column[0][0];
       most = std::max(most, last);
       squares += last * last;
     }

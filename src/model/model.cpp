@@ -8,15 +8,15 @@ std::size_t Model::extras() const {
   return rig && hybrid() ? std::size_t{RigExtras::size} : 0;
 }
 
-Sample Model::sample(double t, const double* row) const {
+Sample Model::sample(double t, const double* row, Detail detail) const {
   Sample sample = std::visit(
       [&](const auto& any) {
         if constexpr (is_rig<std::decay_t<decltype(any)>>) {
           return extras() > 0
-                     ? any.sample(t, row, RigExtras::unpack(row + size() + (gamma ? 1 : 0)))
-                     : any.sample(t, row);
+                     ? any.sample(t, row, RigExtras::unpack(row + size() + (gamma ? 1 : 0)), detail)
+                     : any.sample(t, row, detail);
         } else {
-          return any.sample(t, row);
+          return any.sample(t, row, detail);
         }
       },
       system);

@@ -32,7 +32,7 @@ struct Model {
   // number.
   [[nodiscard]] double gamma_not_integrated() const;
   // A row in the paper's symbols.
-  [[nodiscard]] Sample sample(double t, const double* row) const;
+  [[nodiscard]] Sample sample(double t, const double* row, Detail detail = Detail::all) const;
   // Whether anything switches, samples or is watched for: model/hybrid_system.hpp runs it then.
   [[nodiscard]] bool hybrid() const {
     return events.has_value() || (rig && (rig->switches() || rig->sampled));

@@ -17,6 +17,10 @@ struct GimbalState {
   double phi_ddot = 0, theta_ddot = 0;
 };
 
+// How much of a sample is wanted: the ball alone, with the gimbal's angles and rates, or all. The
+// rest is left as it is without a value.
+enum class Detail { ball, gimbal, all };
+
 struct Sample {
   double t = 0;  // s
   BallMotion ball;

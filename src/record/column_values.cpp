@@ -8,11 +8,30 @@
 namespace bbsim::record {
 namespace {
 
+// One of the rows.
+struct Row {
+  const model::Sample& sample;
+  const model::BallConstants& constants;
+  const model::Dynamics* dynamics;
+  const Quaternion* orientation;
+};
 using R = const Row&;
 
 struct Entry {
+  template <class Value>
+  constexpr Entry(std::string_view name, Value) : column(name), fill(&fill_with<Value>) {}
+
+  template <class Value>
+  static void fill_with(const RowBlock& rows, double* column) {
+    for (std::size_t i = 0; i < rows.count; ++i) {
+      column[i] = Value{}({rows.samples[i], *rows.constants,
+                           rows.dynamics == nullptr ? nullptr : rows.dynamics + i,
+                           rows.orientations == nullptr ? nullptr : rows.orientations + i});
+    }
+  }
+
   std::string_view column;
-  ColumnValue value;
+  FillColumn fill;
 };
 
 // In the order of scenario::catalogue.
@@ -46,9 +65,10 @@ constexpr std::array values = {
     Entry{"theta_command", [](R row) { return row.sample.command[1]; }},
     Entry{"x_measured", [](R row) { return row.sample.measured[0]; }},
     Entry{"y_measured", [](R row) { return row.sample.measured[1]; }},
-    Entry{"tilt", [](R row) { return row.dynamics->tilt; }},
-    Entry{"tilt_rate", [](R row) { return row.dynamics->tilt_rate; }},
-    Entry{"singularity_distance", [](R row) { return row.dynamics->singularity_distance; }},
+    Entry{"tilt", [](R row) { return model::tilt(row.sample, row.constants); }},
+    Entry{"tilt_rate", [](R row) { return model::tilt_rate(row.sample, row.constants); }},
+    Entry{"singularity_distance",
+          [](R row) { return model::singularity_distance(row.sample, row.constants); }},
     Entry{"normal_force", [](R row) { return row.dynamics->normal_force(); }},
     Entry{"friction_force", [](R row) { return row.dynamics->friction_force(); }},
     Entry{"friction_demand",
@@ -86,8 +106,8 @@ static_assert(in_order(), "each column has its value, in the catalogue's order")
 
 }  // namespace
 
-ColumnValue value_of(const scenario::Column& column) {
-  return values[static_cast<std::size_t>(&column - scenario::catalogue.data())].value;
+FillColumn fill_of(const scenario::Column& column) {
+  return values[static_cast<std::size_t>(&column - scenario::catalogue.data())].fill;
 }
 
 }  // namespace bbsim::record

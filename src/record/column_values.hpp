@@ -1,6 +1,8 @@
 // What the columns (scenario/columns.hpp) are: numbers of a row.
 #pragma once
 
+#include <cstddef>
+
 #include "base/quaternion.hpp"
 #include "model/ball/dynamics.hpp"
 #include "model/sample.hpp"
@@ -8,16 +10,19 @@
 
 namespace bbsim::record {
 
-// One row as the columns see it. `dynamics` and `orientation`, from the ball's own frame to the
-// plane's, are null unless a column of the run needs them.
-struct Row {
-  const model::Sample& sample;
+// Some rows. `dynamics` and `orientations`, from the ball's own frame to the plane's, are null
+// where no column needs them.
+struct RowBlock {
+  std::size_t count;
+  const model::Sample* samples;
+  const model::BallConstants* constants;
   const model::Dynamics* dynamics;
-  const Quaternion* orientation = nullptr;
+  const Quaternion* orientations;
 };
 
-using ColumnValue = double (*)(const Row&);
+// Writes a column of the rows, as many numbers as there are rows.
+using FillColumn = void (*)(const RowBlock& rows, double* column);
 
-[[nodiscard]] ColumnValue value_of(const scenario::Column& column);
+[[nodiscard]] FillColumn fill_of(const scenario::Column& column);
 
 }  // namespace bbsim::record

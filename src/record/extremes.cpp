@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <utility>
 
 namespace bbsim::record {
 namespace {
@@ -17,33 +16,41 @@ constexpr double place = 1e-7;
 // What is nearer than this is no greater, but rounded differently.
 constexpr double rounding = 1e-14;
 
+std::vector<const scenario::Column*> columns_of(const std::vector<Extremes::Sought>& sought) {
+  std::vector<const scenario::Column*> columns;
+  for (const Extremes::Sought& one : sought) columns.push_back(one.column);
+  return columns;
+}
+
 }  // namespace
 
-Extremes::Extremes(std::size_t count, Look look)
-    : look_(std::move(look)), greatest_(count), one_(count) {
+Extremes::Extremes(std::vector<Sought> sought)
+    : columns_(columns_of(sought)), greatest_(sought.size()) {
+  for (const Sought& one : sought) signs_.push_back(one.least ? -1 : 1);
   begin_run();
 }
 
-void Extremes::begin(const model::Model& model) {
+void Extremes::begin(const model::Model& model, const model::BallConstants& constants) {
   model_ = &model;
+  columns_.begin(model, constants);
   begin_run();
 }
 
 void Extremes::begin_run() {
   constexpr double none = std::numeric_limits<double>::quiet_NaN();
-  std::fill(greatest_.begin(), greatest_.end(), Greatest{none, none});
+  std::fill(greatest_.begin(), greatest_.end(), Extreme{none, none});
 }
 
 void Extremes::take(std::size_t i, double value, double t) {
-  Greatest& greatest = greatest_[i];
+  Extreme& greatest = greatest_[i];
   if (value > greatest.value || (std::isnan(greatest.value) && !std::isnan(value))) {
     greatest = {value, t};
   }
 }
 
-void Extremes::note(const model::Sample& sample) {
-  look_(sample, one_.data());
-  for (std::size_t i = 0; i < size(); ++i) take(i, one_[i], sample.t);
+void Extremes::note(double t, const double* row) {
+  columns_.evaluate(&t, row, 1);
+  for (std::size_t i = 0; i < size(); ++i) take(i, signs_[i] * columns_[i][0], t);
 }
 
 void Extremes::sample(const solve::Piece& piece, const ChebyshevPoints& points) {
@@ -56,9 +63,11 @@ void Extremes::sample(const solve::Piece& piece, const ChebyshevPoints& points) 
   }
   times_.back() = piece.to();
   piece.evaluate(times_.data(), count, rows_.data());
-  for (std::size_t p = 0; p < count; ++p) {
-    look_(model_->sample(times_[p], &rows_[p * row_size]), one_.data());
-    for (std::size_t i = 0; i < size(); ++i) values_[i * count + p] = one_[i];
+  columns_.evaluate(times_.data(), rows_.data(), count);
+  for (std::size_t i = 0; i < size(); ++i) {
+    for (std::size_t p = 0; p < count; ++p) {
+      values_[i * count + p] = signs_[i] * columns_[i][p];
+    }
   }
 }
 
@@ -92,8 +101,8 @@ void Extremes::climb_within(std::size_t i, const solve::Piece& piece,
     const Peak peak = climb(bracket, place * (bracket.to.at - bracket.from.at), [&](double s) {
       const double t = std::min(piece.from() + length * s, piece.to());
       piece.evaluate(&t, 1, rows_.data());
-      look_(model_->sample(t, rows_.data()), one_.data());
-      return one_[i];
+      columns_.evaluate(&t, rows_.data(), 1);
+      return signs_[i] * columns_[i][0];
     });
     take(i, peak.value, piece.from() + length * peak.at);
   };

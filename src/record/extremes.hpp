@@ -1,13 +1,13 @@
-// The greatest values that numbers of a run take, over its continuous motion.
+// The greatest and least values that columns of a run take, over its continuous motion.
 #pragma once
 
 #include <cstddef>
-#include <functional>
 #include <vector>
 
 #include "base/chebyshev.hpp"
 #include "base/greatest.hpp"
 #include "model/model.hpp"
+#include "record/rows.hpp"
 #include "solve/piece.hpp"
 
 namespace bbsim::record {
@@ -17,27 +17,31 @@ namespace bbsim::record {
 // two points than it was anywhere before, it goes for that maximum on the polynomial.
 class Extremes : public solve::PieceSink {
  public:
-  // Writes all the numbers, of one instant. What is no number is passed over.
-  using Look = std::function<void(const model::Sample& sample, double* numbers)>;
-
-  struct Greatest {
+  struct Sought {
+    const scenario::Column* column;
+    bool least = false;  // the greatest value otherwise
+  };
+  struct Extreme {
     double value;
     double t;  // s
   };
 
-  Extremes(std::size_t count, Look look);
+  // What is no number is passed over. No column may need orientations, which come of rows in turn.
+  explicit Extremes(std::vector<Sought> sought);
 
-  // Begins anew, with a model that outlives the run.
-  void begin(const model::Model& model);
-  // An instant that may be of no piece, such as the start of a run that ends there.
-  void note(const model::Sample& sample);
+  // Begins anew; the two outlive the run.
+  void begin(const model::Model& model, const model::BallConstants& constants);
+  // A row that may be of no piece, such as the start of a run that ends there.
+  void note(double t, const double* row);
 
   void begin_run() override;
   void accept(const solve::Piece& piece) override;
 
   [[nodiscard]] std::size_t size() const { return greatest_.size(); }
   // No number before there was one.
-  [[nodiscard]] const Greatest& operator[](std::size_t i) const { return greatest_[i]; }
+  [[nodiscard]] Extreme operator[](std::size_t i) const {
+    return {signs_[i] * greatest_[i].value, greatest_[i].t};
+  }
 
  private:
   void sample(const solve::Piece& piece, const ChebyshevPoints& points);
@@ -46,13 +50,14 @@ class Extremes : public solve::PieceSink {
   void take(std::size_t i, double value, double t);
   void climb_within(std::size_t i, const solve::Piece& piece, const ChebyshevPoints& points);
 
-  Look look_;
+  Rows columns_;
+  std::vector<double> signs_;  // -1 where the least value is the greatest of the column turned over
   const model::Model* model_ = nullptr;
-  std::vector<Greatest> greatest_;
+  std::vector<Extreme> greatest_;
   ChebyshevTables tables_;
-  std::vector<double> times_, rows_, one_;  // one_: the numbers of an instant
-  std::vector<double> values_, finer_;      // of each number, its values at the points
-  std::vector<std::size_t> matter_;         // those that may be greater in this piece than before
+  std::vector<double> times_, rows_;
+  std::vector<double> values_, finer_;  // of each column, its values at the points
+  std::vector<std::size_t> matter_;     // those that may be greater in this piece than before
 };
 
 }  // namespace bbsim::record

@@ -8,90 +8,98 @@
 namespace bbsim::record {
 
 using scenario::Measure;
-using scenario::Needs;
 using Kind = Measure::Kind;
 
-Meter::Meter(std::vector<Measure> measures)
-    : measures_(std::move(measures)), sums_(measures_.size()) {
-  for (std::size_t m = 0; m < measures_.size(); ++m) {
-    values_.push_back(value_of(*measures_[m].column));
-    const Needs needs = measures_[m].column->needs;
-    const bool dynamics = needs == Needs::dynamics || needs == Needs::plate;
-    switch (measures_[m].kind) {
-      case Kind::end:
-        end_needs_dynamics_ = end_needs_dynamics_ || dynamics;
-        break;
-      case Kind::rms:
-        of_rows_.push_back(m);
-        rows_need_dynamics_ = rows_need_dynamics_ || dynamics;
-        break;
-      default:
-        of_motion_.push_back(m);
-        motion_needs_dynamics_ = motion_needs_dynamics_ || dynamics;
-    }
+namespace {
+
+template <class Wanted>
+std::vector<std::size_t> those(const std::vector<Measure>& measures, Wanted wanted) {
+  std::vector<std::size_t> found;
+  for (std::size_t m = 0; m < measures.size(); ++m) {
+    if (wanted(measures[m].kind)) found.push_back(m);
   }
-  extremes_.emplace(of_motion_.size(), [this](const model::Sample& sample, double* numbers) {
-    const model::Dynamics dynamics = dynamics_at(sample, motion_needs_dynamics_);
-    for (const std::size_t m : of_motion_) {
-      const double value = values_[m]({sample, &dynamics});
-      *numbers++ = measures_[m].kind == Kind::least ? -value : value;
-    }
-  });
+  return found;
 }
+
+std::vector<const scenario::Column*> columns_of(const std::vector<Measure>& measures,
+                                                const std::vector<std::size_t>& which) {
+  std::vector<const scenario::Column*> columns;
+  for (const std::size_t m : which) columns.push_back(measures[m].column);
+  return columns;
+}
+
+std::vector<Extremes::Sought> sought_by(const std::vector<Measure>& measures,
+                                        const std::vector<std::size_t>& which) {
+  std::vector<Extremes::Sought> sought;
+  for (const std::size_t m : which) {
+    sought.push_back({measures[m].column, measures[m].kind == Kind::least});
+  }
+  return sought;
+}
+
+}  // namespace
+
+Meter::Meter(std::vector<Measure> measures)
+    : measures_(std::move(measures)),
+      at_end_(those(measures_, [](Kind kind) { return kind == Kind::end; })),
+      of_motion_(those(measures_,
+                       [](Kind kind) { return kind == Kind::greatest || kind == Kind::least; })),
+      of_rows_(those(measures_, [](Kind kind) { return kind == Kind::rms; })),
+      end_(columns_of(measures_, at_end_)),
+      rows_(columns_of(measures_, of_rows_)),
+      extremes_(sought_by(measures_, of_motion_)),
+      sums_(of_rows_.size()) {}
 
 void Meter::begin(const model::Model& model, const model::BallConstants& constants,
                   const solve::OutputGrid& grid) {
   model_ = &model;
-  constants_ = &constants;
   grid_ = &grid;
   std::fill(sums_.begin(), sums_.end(), Sum{});
-  extremes_->begin(model);
+  last_time_ = 0;
+  last_ = model.initial;
+  last_.resize(model.row_size());
+  end_.begin(model, constants);
+  rows_.begin(model, constants);
+  extremes_.begin(model, constants);
 }
 
 solve::PieceSink* Meter::pieces() {
-  return of_motion_.empty() ? nullptr : &*extremes_;
-}
-
-model::Dynamics Meter::dynamics_at(const model::Sample& sample, bool needed) const {
-  return needed ? model::dynamics(sample, *constants_) : model::Dynamics{};
+  return of_motion_.empty() ? nullptr : &extremes_;
 }
 
 void Meter::accept(std::size_t first, std::size_t count, const double* values) {
-  const auto sample = [&](std::size_t i) {
-    return model_->sample((*grid_)[first + i], values + i * model_->row_size());
-  };
+  if (count == 0) return;
   // A run may end before its first step.
-  if (first == 0 && !of_motion_.empty()) extremes_->note(sample(0));
-  if (count > 0) last_ = sample(count - 1);
+  if (first == 0 && !of_motion_.empty()) extremes_.note((*grid_)[0], values);
+  last_time_ = (*grid_)[first + count - 1];
+  const double* const last = values + (count - 1) * model_->row_size();
+  last_.assign(last, last + model_->row_size());
   if (of_rows_.empty()) return;
-  for (std::size_t i = 0; i < count; ++i) {
-    const model::Sample row = sample(i);
-    const model::Dynamics dynamics = dynamics_at(row, rows_need_dynamics_);
-    for (const std::size_t m : of_rows_) {
-      const double value = values_[m]({row, &dynamics});
+  times_.resize(count);
+  for (std::size_t i = 0; i < count; ++i) times_[i] = (*grid_)[first + i];
+  rows_.evaluate(times_.data(), values, count);
+  for (std::size_t k = 0; k < of_rows_.size(); ++k) {
+    for (std::size_t i = 0; i < count; ++i) {
+      const double value = rows_[k][i];
       if (std::isnan(value)) continue;
-      sums_[m].squares.add(value);
-      ++sums_[m].rows;
+      sums_[k].squares.add(value);
+      ++sums_[k].rows;
     }
   }
 }
 
 void Meter::finish(const solve::Outcome& outcome, double* results) {
-  const bool stopped = outcome.ending == solve::Ending::stopped;
-  const model::Sample& last = stopped ? outcome.occurrences.back().sample : last_;
-  const model::Dynamics dynamics = dynamics_at(last, end_needs_dynamics_);
-  for (std::size_t m = 0; m < measures_.size(); ++m) {
-    if (measures_[m].kind == Kind::end) results[m] = values_[m]({last, &dynamics});
+  if (outcome.ending == solve::Ending::stopped) {
+    end_.evaluate(outcome.occurrences.back().sample);
+  } else {
+    end_.evaluate(&last_time_, last_.data(), 1);
   }
-  for (const std::size_t m : of_rows_) {
-    results[m] = sums_[m].rows == 0 ? std::numeric_limits<double>::quiet_NaN()
-                                    : sums_[m].squares.root_mean(sums_[m].rows);
+  for (std::size_t k = 0; k < at_end_.size(); ++k) results[at_end_[k]] = end_[k][0];
+  for (std::size_t k = 0; k < of_rows_.size(); ++k) {
+    results[of_rows_[k]] = sums_[k].rows == 0 ? std::numeric_limits<double>::quiet_NaN()
+                                              : sums_[k].squares.root_mean(sums_[k].rows);
   }
-  for (std::size_t i = 0; i < of_motion_.size(); ++i) {
-    const std::size_t m = of_motion_[i];
-    const double greatest = (*extremes_)[i].value;
-    results[m] = measures_[m].kind == Kind::least ? -greatest : greatest;
-  }
+  for (std::size_t k = 0; k < of_motion_.size(); ++k) results[of_motion_[k]] = extremes_[k].value;
 }
 
 }  // namespace bbsim::record

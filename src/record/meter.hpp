@@ -1,12 +1,12 @@
 // Takes the measures of a sweep (scenario/measures.hpp), run after run.
 #pragma once
 
-#include <optional>
+#include <cstddef>
 #include <vector>
 
 #include "model/model.hpp"
-#include "record/column_values.hpp"
 #include "record/extremes.hpp"
+#include "record/rows.hpp"
 #include "record/square_sum.hpp"
 #include "scenario/measures.hpp"
 #include "solve/outcome.hpp"
@@ -19,8 +19,6 @@ namespace bbsim::record {
 class Meter : public solve::StateSink {
  public:
   explicit Meter(std::vector<scenario::Measure> measures);
-  Meter(const Meter&) = delete;  // extremes_ look through this one
-  Meter& operator=(const Meter&) = delete;
 
   // Begins a run; the three outlive it.
   void begin(const model::Model& model, const model::BallConstants& constants,
@@ -31,22 +29,20 @@ class Meter : public solve::StateSink {
   void finish(const solve::Outcome& outcome, double* results);
 
  private:
-  [[nodiscard]] model::Dynamics dynamics_at(const model::Sample& sample, bool needed) const;
-
   std::vector<scenario::Measure> measures_;
-  std::vector<ColumnValue> values_;               // of their columns
-  std::vector<std::size_t> of_motion_, of_rows_;  // the extremes, and the means
-  bool motion_needs_dynamics_ = false, rows_need_dynamics_ = false, end_needs_dynamics_ = false;
+  std::vector<std::size_t> at_end_, of_motion_, of_rows_;  // which of them; the last are the means
+  Rows end_, rows_;                                        // the columns of those
+  Extremes extremes_;
   const model::Model* model_ = nullptr;
-  const model::BallConstants* constants_ = nullptr;
   const solve::OutputGrid* grid_ = nullptr;
   struct Sum {
     std::size_t rows = 0;
     SquareSum squares{};
   };
-  std::vector<Sum> sums_;
-  model::Sample last_;                // row
-  std::optional<Extremes> extremes_;  // in the order of of_motion_; of the least, turned over
+  std::vector<Sum> sums_;      // of of_rows_
+  std::vector<double> times_;  // of a block of rows
+  double last_time_ = 0;       // s
+  std::vector<double> last_;   // row
 };
 
 }  // namespace bbsim::record

@@ -9,9 +9,8 @@
 
 #include "file/table_writer.hpp"
 #include "model/model.hpp"
-#include "record/ball_turn.hpp"
-#include "record/column_values.hpp"
 #include "record/extremes.hpp"
+#include "record/rows.hpp"
 #include "record/summary.hpp"
 #include "solve/outcome.hpp"
 #include "solve/output_grid.hpp"
@@ -23,8 +22,6 @@ class Recorder : public solve::StateSink {
   Recorder(const model::Model& model, const model::BallConstants& constants,
            const solve::OutputGrid& grid, std::vector<const scenario::Column*> columns,
            file::TableWriter& writer);
-  Recorder(const Recorder&) = delete;  // loads_ look through this one
-  Recorder& operator=(const Recorder&) = delete;
 
   // The peaks of the run so far; nothing unless a column needs the forces, or the plate's inertia
   // is known.
@@ -40,23 +37,21 @@ class Recorder : public solve::StateSink {
   [[nodiscard]] solve::PieceSink* pieces() override;
 
  private:
-  void look_for_gaps(std::size_t first, std::size_t count);
+  void look_for_gaps(std::size_t count);
 
   const model::Model& model_;
   model::BallConstants constants_;
   const solve::OutputGrid& grid_;
-  std::vector<const scenario::Column*> columns_;
-  std::vector<ColumnValue> values_;  // of the columns
+  Rows rows_;
   file::TableWriter& writer_;
-  bool needs_dynamics_, with_plate_;
-  std::optional<BallTurn> turn_;   // where a column asks for the ball's orientation
-  std::optional<Extremes> loads_;  // of the motors, each as it is and turned over
+  bool with_plate_;
+  std::optional<Extremes> loads_;  // of the motors: the greatest and the least of each
   struct Gaps {
     std::size_t rows = 0;  // that are no finite number
     double from = 0;       // the time of the first, s
   };
-  std::vector<Gaps> gaps_;                  // of each column
-  std::vector<std::vector<double>> block_;  // one vector a column
+  std::vector<Gaps> gaps_;     // of each column
+  std::vector<double> times_;  // of a block of rows
 };
 
 }  // namespace bbsim::record

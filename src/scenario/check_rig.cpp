@@ -180,7 +180,7 @@ class Checks {
       const Column* column = find_column(item.node->text);
       if (column == nullptr) continue;
       // Without motion and controller, that has been reported.
-      if (column->needs == Needs::reference && !scene_.gimbal.motion) continue;
+      if (column->needs == Needs::controller && !scene_.gimbal.motion) continue;
       if (const Missing lacks = missing(*column, scene_)) {
         item.refuse(std::string(", but ") + lacks.why, lacks.instead);
       }

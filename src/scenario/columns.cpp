@@ -37,7 +37,7 @@ bool need_gamma(const std::vector<const Column*>& columns) {
 
 Missing missing(const Column& column, const Scenario& scenario) {
   switch (column.needs) {
-    case Needs::reference:
+    case Needs::controller:
       if (scenario.controller) return {};
       return {"there is no controller", "columns of an open loop, such as x"};
     case Needs::samples:
@@ -47,9 +47,11 @@ Missing missing(const Column& column, const Scenario& scenario) {
       if (scenario.plate.inertia) return {};
       return {"plate.inertia is not known",
               "columns of the ball, such as torque_phi; or give plate.inertia"};
-    case Needs::state:
+    case Needs::ball:
     case Needs::gamma:
     case Needs::orientation:
+    case Needs::gimbal:
+    case Needs::accelerations:
     case Needs::dynamics:
       break;
   }

@@ -11,10 +11,20 @@
 
 namespace bbsim::scenario {
 
-// What a column is computed from: `reference` is there with a controller, `samples` with one in
-// discrete time, `plate` where the plate's inertia is known;
-// `orientation` comes of all rows so far, with gamma.
-enum class Needs { state, gamma, orientation, reference, samples, dynamics, plate };
+// What a column is computed from: the ball's motion; its angle gamma, and of all rows so far its
+// orientation; the gimbal's angles and rates, and its accelerations; what is there with a
+// controller, and with one in discrete time; forces; forces where the plate's inertia is known.
+enum class Needs {
+  ball,
+  gamma,
+  orientation,
+  gimbal,
+  accelerations,
+  controller,
+  samples,
+  dynamics,
+  plate
+};
 
 struct Column {
   std::string_view name;
@@ -25,14 +35,14 @@ struct Column {
 
 // All columns, in the order of `bbsim columns`.
 inline constexpr std::array catalogue = {
-    Column{"t", "s", "time", Needs::state},
-    Column{"x", "m", "contact point along the plane's x axis", Needs::state},
-    Column{"y", "m", "contact point along the plane's y axis", Needs::state},
-    Column{"distance", "m", "distance of the contact point from the plane's origin", Needs::state},
-    Column{"vx", "m/s", "velocity of the contact point in the plane, x'", Needs::state},
-    Column{"vy", "m/s", "velocity of the contact point in the plane, y'", Needs::state},
+    Column{"t", "s", "time", Needs::ball},
+    Column{"x", "m", "contact point along the plane's x axis", Needs::ball},
+    Column{"y", "m", "contact point along the plane's y axis", Needs::ball},
+    Column{"distance", "m", "distance of the contact point from the plane's origin", Needs::ball},
+    Column{"vx", "m/s", "velocity of the contact point in the plane, x'", Needs::ball},
+    Column{"vy", "m/s", "velocity of the contact point in the plane, y'", Needs::ball},
     Column{"spin", "rad/s", "ball's rate of turn about the plane normal, relative to the plane",
-           Needs::state},
+           Needs::ball},
     Column{"gamma", "rad", "ball's turn about the plane normal since the start: integral of spin",
            Needs::gamma},
     Column{"ball_qw", "1", "ball's orientation in the plane's frame, a unit quaternion: its scalar",
@@ -41,31 +51,31 @@ inline constexpr std::array catalogue = {
            Needs::orientation},
     Column{"ball_qy", "1", "ball's orientation: y part", Needs::orientation},
     Column{"ball_qz", "1", "ball's orientation: z part", Needs::orientation},
-    Column{"phi", "rad", "first (outer) gimbal angle, about the fixed y axis", Needs::state},
+    Column{"phi", "rad", "first (outer) gimbal angle, about the fixed y axis", Needs::gimbal},
     Column{"theta", "rad", "second (inner) gimbal angle, about the x axis that phi carries",
-           Needs::state},
-    Column{"phi_rate", "rad/s", "rate of phi", Needs::state},
-    Column{"theta_rate", "rad/s", "rate of theta", Needs::state},
-    Column{"phi_acceleration", "rad/s^2", "acceleration of phi", Needs::state},
-    Column{"theta_acceleration", "rad/s^2", "acceleration of theta", Needs::state},
-    Column{"x_reference", "m", "where the controller wants x", Needs::reference},
-    Column{"y_reference", "m", "where the controller wants y", Needs::reference},
+           Needs::gimbal},
+    Column{"phi_rate", "rad/s", "rate of phi", Needs::gimbal},
+    Column{"theta_rate", "rad/s", "rate of theta", Needs::gimbal},
+    Column{"phi_acceleration", "rad/s^2", "acceleration of phi", Needs::accelerations},
+    Column{"theta_acceleration", "rad/s^2", "acceleration of theta", Needs::accelerations},
+    Column{"x_reference", "m", "where the controller wants x", Needs::controller},
+    Column{"y_reference", "m", "where the controller wants y", Needs::controller},
     Column{"tracking_error", "m",
-           "distance of the contact point from where the controller wants it", Needs::reference},
+           "distance of the contact point from where the controller wants it", Needs::controller},
     Column{"phi_command", "rad",
            "command that the servo of phi follows (rad/s^2 if accelerations are driven)",
-           Needs::reference},
+           Needs::controller},
     Column{"theta_command", "rad",
            "command that the servo of theta follows (rad/s^2 if accelerations are driven)",
-           Needs::reference},
+           Needs::controller},
     Column{"x_measured", "m", "x as the sensor last saw it", Needs::samples},
     Column{"y_measured", "m", "y as the sensor last saw it", Needs::samples},
-    Column{"tilt", "rad", "angle between the plane's normal and the vertical", Needs::dynamics},
-    Column{"tilt_rate", "rad/s", "size of the plane's angular velocity", Needs::dynamics},
+    Column{"tilt", "rad", "angle between the plane's normal and the vertical", Needs::gimbal},
+    Column{"tilt_rate", "rad/s", "size of the plane's angular velocity", Needs::gimbal},
     Column{"singularity_distance", "1",
            "how far from where no gimbal accelerations give the ball any acceleration wanted: 0 "
            "there, 1 at home on the paper's gimbal",
-           Needs::dynamics},
+           Needs::gimbal},
     Column{"normal_force", "N",
            "force of the plane on the ball along the normal; contact needs > 0", Needs::dynamics},
     Column{"friction_force", "N", "size of the force of the plane on the ball along the plane",

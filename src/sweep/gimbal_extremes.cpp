@@ -71,7 +71,7 @@ GimbalExtremes::Greatest GimbalExtremes::of(const model::SignalPair& motion, dou
   return {tilt_of(versine_most_), std::sqrt(rate_squared_most_)};
 }
 
-// Between knots, if there are any.
+// Looks between the knots, if there are any.
 void GimbalExtremes::cover(const model::SignalPair& motion, double from, double to,
                            double bandwidth) {
   if (motion.view().table_count > 0) {

@@ -52,7 +52,7 @@ std::vector<std::string> PartFile::names_beside(const std::string& target) {
   return {path + ".part", path + ".plan", path + ".part.series"};
 }
 
-// Before anything else: the plan of a part belongs to whoever writes to the part.
+// Comes before anything else: the plan of a part belongs to whoever writes to the part.
 void PartFile::open_and_lock() {
   constexpr int most_attempts = 100;  // while other processes begin and end
   for (int attempt = 0; attempt < most_attempts; ++attempt) {
@@ -135,7 +135,7 @@ void PartFile::append(std::string_view bytes) {
   if (const int error = flusher_.perform(due, descriptor_.get(), size_)) fail("sync", error);
 }
 
-// Before any row is on the disk, so that no row is without its plan.
+// Comes before any row is on the disk, so that no row is without its plan.
 void PartFile::sync_names() {
   if (names_synced_) return;
   int error = file::sync_content(plan_descriptor_.get());

@@ -10,6 +10,7 @@
 
 #include "base/error.hpp"
 #include "model/model.hpp"
+#include "record/meter.hpp"
 #include "record/recorder.hpp"
 #include "solve/choose.hpp"
 #include "solve/integrate.hpp"

@@ -44,6 +44,14 @@ bool is_track_measure(const scenario::Measure& measure) {
 // Points of pieces that are looked at in one go; a piece has fewer.
 constexpr std::size_t together = 1024;
 
+std::vector<const scenario::Column*> end_columns(const std::vector<scenario::Measure>& measures) {
+  std::vector<const scenario::Column*> columns;
+  for (const scenario::Measure& measure : measures) {
+    if (measure.kind == Kind::end) columns.push_back(measure.column);
+  }
+  return columns;
+}
+
 void subtract(const SignalRows& signals, std::size_t count, PaddedRows& x, PaddedRows& y) {
   for (std::size_t i = 0; i < count; ++i) {
     x.data()[i] -= signals.value(0)[i];
@@ -77,7 +85,9 @@ const model::SignalPair& signals_of(const model::Model& model) {
 }
 
 TrackMeter::TrackMeter(std::vector<scenario::Measure> measures)
-    : measures_(std::move(measures)), kernels_(choose_sweep_kernels()) {
+    : measures_(std::move(measures)),
+      kernels_(choose_sweep_kernels()),
+      end_(end_columns(measures_)) {
   for (const scenario::Measure& measure : measures_) {
     if (measure.kind == Kind::end) continue;
     const std::string_view name = measure.column->name;
@@ -98,7 +108,7 @@ bool TrackMeter::wants_positions_only(const model::Model& model) const {
 void TrackMeter::begin(const model::Model& model, const model::BallConstants& constants,
                        const solve::OutputGrid& grid, bool same_signals) {
   model_ = &model;
-  constants_ = &constants;
+  end_.begin(model, constants);
   grid_ = &grid;
   with_track(model, [&](const model::SignalPair& signals, bool closed) {
     signals_ = &signals;
@@ -293,20 +303,16 @@ void TrackMeter::finish(double* results) {
   look();
   GimbalExtremes::Greatest gimbal{tilt_of(greatest_.versine), std::sqrt(greatest_.rate_squared)};
   if (!closed_ && wants_gimbal_) gimbal = motion_extremes();
-  model::Sample last;
-  bool has_last = false;
+  if (!end_.columns().empty()) {
+    const double t = (*grid_)[rows_ - 1];
+    end_.evaluate(&t, last_.data(), 1);
+  }
+  std::size_t at_end = 0;
   for (std::size_t m = 0; m < measures_.size(); ++m) {
     const scenario::Measure& measure = measures_[m];
     const std::string_view name = measure.column->name;
     if (measure.kind == Kind::end) {
-      if (name == "x" || name == "y") {
-        results[m] = last_[name == "x" ? 0 : 1];
-        continue;
-      }
-      if (!has_last) last = model_->sample((*grid_)[rows_ - 1], last_.data());
-      has_last = true;
-      const model::Dynamics dynamics = model::dynamics(last, *constants_);
-      results[m] = record::value_of(*measure.column)({last, &dynamics});
+      results[m] = end_[at_end++][0];
     } else if (measure.kind == Kind::rms) {
       results[m] = rms_error();
     } else {

@@ -6,7 +6,8 @@
 #include <vector>
 
 #include "model/model.hpp"
-#include "record/meter.hpp"
+#include "record/rows.hpp"
+#include "scenario/measures.hpp"
 #include "solve/outcome.hpp"
 #include "solve/output_grid.hpp"
 #include "solve/piece.hpp"
@@ -85,7 +86,6 @@ class TrackMeter : public solve::StateSink, public solve::PieceSink {
   std::vector<scenario::Measure> measures_;
   const SweepKernels& kernels_;
   const model::Model* model_ = nullptr;
-  const model::BallConstants* constants_ = nullptr;
   const solve::OutputGrid* grid_ = nullptr;
   const model::SignalPair* signals_ = nullptr;
   bool wants_distance_ = false, wants_gimbal_ = false, wants_error_ = false, wants_rms_ = false;
@@ -113,6 +113,7 @@ class TrackMeter : public solve::StateSink, public solve::PieceSink {
   std::optional<solve::OutputGrid> timed_;  // whose times those are
   bool has_row_reference_ = false;
   std::vector<double> last_;  // row
+  record::Rows end_;          // the columns that are wanted of it
 };
 
 }  // namespace bbsim::sweep

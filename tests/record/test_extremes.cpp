@@ -80,9 +80,12 @@ class Loads : public solve::StateSink, public solve::PieceSink {
       const double t =
           i == points ? piece.to() : piece.from() + (piece.to() - piece.from()) * i / points;
       piece.evaluate(&t, 1, row.data());
-      const model::MotorLoad load = model::motor_load(model_.sample(t, row.data()), constants_);
-      const double sizes[3] = {std::abs(load.torque_phi), std::abs(load.torque_theta),
-                               std::abs(load.power)};
+      const model::Sample now = model_.sample(t, row.data());
+      const model::Dynamics load = model::dynamics(now, constants_);
+      const double phi = load.torque_phi + load.plate_torque_phi;
+      const double theta = load.torque_theta + load.plate_torque_theta;
+      const double sizes[3] = {std::abs(phi), std::abs(theta),
+                               std::abs(phi * now.gimbal.phi_dot + theta * now.gimbal.theta_dot)};
       for (int k = 0; k < 3; ++k) {
         most[k] = std::max(most[k], sizes[k]);
         if (i == 0) after_switches[k] = std::max(after_switches[k], sizes[k]);

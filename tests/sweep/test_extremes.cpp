@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "catch.hpp"
-#include "record/column_values.hpp"
+#include "record/rows.hpp"
 #include "solve/integrate.hpp"
 #include "study/reference.hpp"
 #include "sweep/gimbal_extremes.hpp"
@@ -91,13 +91,15 @@ std::vector<double> from_many_rows(const SweepTask& task, std::size_t number) {
   solve::Trajectory rows(model.row_size());
   REQUIRE(solve::integrate(model, Method::radau, {1e-13, 1e-15}, grid, rows).ending ==
           solve::Ending::done);
+  std::vector<const scenario::Column*> columns;
+  for (const scenario::Measure& measure : task.measures) columns.push_back(measure.column);
+  record::Rows row(std::move(columns));
+  row.begin(model, constants);
   std::vector<std::vector<double>> values(task.measures.size());
   for (std::size_t i = 0; i < grid.size(); ++i) {
-    const model::Sample sample = model.sample(grid[i], rows.row(i));
-    const model::Dynamics dynamics = model::dynamics(sample, constants);
-    for (std::size_t m = 0; m < task.measures.size(); ++m) {
-      values[m].push_back(record::value_of(*task.measures[m].column)({sample, &dynamics}));
-    }
+    const double t = grid[i];
+    row.evaluate(&t, rows.row(i), 1);
+    for (std::size_t m = 0; m < task.measures.size(); ++m) values[m].push_back(row[m][0]);
   }
   std::vector<double> greatest;
   for (const auto& of_measure : values) greatest.push_back(greatest_of(of_measure));

@@ -80,17 +80,6 @@ Vector3d contact_force(const Sample& sample, const BallConstants& constants) {
   return Instant(sample, constants).force();
 }
 
-MotorLoad motor_load(const Sample& sample, const BallConstants& constants) {
-  const Instant now(sample, constants);
-  const Vector3d moment = now.contact.cross(now.force()), plate_moment = now.plate_moment();
-  MotorLoad load;
-  load.torque_phi = now.phi_axis.dot(moment) + now.phi_axis.dot(plate_moment);
-  load.torque_theta = now.theta_axis.dot(moment) + now.theta_axis.dot(plate_moment);
-  load.power =
-      load.torque_phi * sample.gimbal.phi_dot + load.torque_theta * sample.gimbal.theta_dot;
-  return load;
-}
-
 Dynamics dynamics(const Sample& sample, const BallConstants& constants) {
   const Instant now(sample, constants);
   const double r = constants.radius, m = constants.mass, g = constants.gravity;
@@ -111,18 +100,28 @@ Dynamics dynamics(const Sample& sample, const BallConstants& constants) {
   const Vector3d plate_moment = now.plate_moment();
   result.plate_torque_phi = now.phi_axis.dot(plate_moment);
   result.plate_torque_theta = now.theta_axis.dot(plate_moment);
+  return result;
+}
 
-  result.tilt = std::atan2(std::hypot(now.up.x(), now.up.y()), now.up.z());
-  result.tilt_rate = omega.norm();
+double tilt(const Sample& sample, const BallConstants& constants) {
+  const Vector3d up = Instant(sample, constants).up;
+  return std::atan2(std::hypot(up.x(), up.y()), up.z());
+}
+
+double tilt_rate(const Sample& sample, const BallConstants& constants) {
+  return Instant(sample, constants).omega.norm();
+}
+
+double singularity_distance(const Sample& sample, const BallConstants& constants) {
+  const Instant now(sample, constants);
   const auto at_rest = [](const Axis<double>& axis, double acceleration) {
     return Axis<double>{axis.sin, axis.cos, 0, acceleration};
   };
   const Vector3d rest = now.relative(at_rest(now.phi, 0), at_rest(now.theta, 0));
   const Vector3d by_phi = now.relative(at_rest(now.phi, 1), at_rest(now.theta, 0)) - rest;
   const Vector3d by_theta = now.relative(at_rest(now.phi, 0), at_rest(now.theta, 1)) - rest;
-  result.singularity_distance =
-      std::abs(by_phi.x() * by_theta.y() - by_theta.x() * by_phi.y()) / (r * r);
-  return result;
+  return std::abs(by_phi.x() * by_theta.y() - by_theta.x() * by_phi.y()) /
+         (constants.radius * constants.radius);
 }
 
 }  // namespace bbsim::model

@@ -18,34 +18,31 @@ struct BallConstants {
 [[nodiscard]] BallConstants constants_of(const Scenario& scene);
 
 struct Dynamics {
-  Eigen::Vector3d force{0, 0,
-                        0};       // of the plane on the ball, plane frame, N; z is the normal force
+  // Of the plane on the ball in the plane's frame, N; z is the normal force.
+  Eigen::Vector3d force{0, 0, 0};
   double torque_phi = 0;          // motor torque that carries the ball, N m
   double torque_theta = 0;        // N m
   double energy = 0;              // kinetic and potential, J; potential zero at the gimbal's centre
   double plate_torque_phi = 0;    // motor torque that turns the plate itself, N m
   double plate_torque_theta = 0;  // N m
-  double tilt = 0;                // between the plane's normal and the vertical, rad
-  double tilt_rate = 0;           // size of the plane's angular velocity, rad/s
-  // The size of the determinant of the coefficients of (phi'', theta'') in (x'', y''), over r^2: 0
-  // where they cannot be solved for. It is |7 r cos theta + 5 y sin theta| / (7 r): (28), (29).
-  double singularity_distance = 0;
   [[nodiscard]] double normal_force() const { return force.z(); }
   [[nodiscard]] double friction_force() const { return force.head<2>().norm(); }
 };
-
-// What the two motors give to carry the ball and the plate.
-struct MotorLoad {
-  double torque_phi = 0, torque_theta = 0;  // N m
-  double power = 0;                         // W
-};
-
-[[nodiscard]] MotorLoad motor_load(const Sample& sample, const BallConstants& constants);
 
 // The force of the plane on the ball in the plane's frame, N; z is the normal force.
 [[nodiscard]] Eigen::Vector3d contact_force(const Sample& sample, const BallConstants& constants);
 
 // All of it, from the state and the gimbal's motion alone.
 [[nodiscard]] Dynamics dynamics(const Sample& sample, const BallConstants& constants);
+
+// Between the plane's normal and the vertical, rad; of the gimbal's angles alone.
+[[nodiscard]] double tilt(const Sample& sample, const BallConstants& constants);
+
+// Size of the plane's angular velocity, rad/s; of the gimbal's angles and rates alone.
+[[nodiscard]] double tilt_rate(const Sample& sample, const BallConstants& constants);
+
+// The size of the determinant of the coefficients of (phi'', theta'') in (x'', y''), over r^2: 0
+// where they cannot be solved for. It is |7 r cos theta + 5 y sin theta| / (7 r): (28), (29).
+[[nodiscard]] double singularity_distance(const Sample& sample, const BallConstants& constants);
 
 }  // namespace bbsim::model

@@ -44,17 +44,11 @@ double EventMonitors::margin(const Monitor& monitor, const Sample& sample) const
 
 void EventMonitors::margins(const Sample& sample, double* values) const {
   using Kind = Monitor::Kind;
-  Dynamics now;
-  const auto asks_for = [this](Kind one, Kind other) {
-    return std::any_of(monitors.begin(), monitors.end(), [=](const Monitor& monitor) {
-      return monitor.kind == one || monitor.kind == other;
-    });
-  };
-  if (asks_for(Kind::tilt, Kind::singularity)) {
-    now = dynamics(sample, constants);
-  } else if (asks_for(Kind::slip, Kind::lift_off)) {
-    now.force = contact_force(sample, constants);
-  }
+  const bool asks_for_force =
+      std::any_of(monitors.begin(), monitors.end(), [](const Monitor& monitor) {
+        return monitor.kind == Kind::slip || monitor.kind == Kind::lift_off;
+      });
+  const Dynamics now{asks_for_force ? contact_force(sample, constants) : Eigen::Vector3d::Zero()};
   for (const Monitor& monitor : monitors) {
     double& value = *values++;
     switch (monitor.kind) {
@@ -69,10 +63,10 @@ void EventMonitors::margins(const Sample& sample, double* values) const {
         value = now.normal_force() != 0 ? now.normal_force() : -std::numeric_limits<double>::min();
         break;
       case Kind::tilt:
-        value = monitor.limit - now.tilt;
+        value = monitor.limit - tilt(sample, constants);
         break;
       case Kind::singularity:
-        value = now.singularity_distance - monitor.limit;
+        value = singularity_distance(sample, constants) - monitor.limit;
         break;
     }
   }

@@ -27,7 +27,7 @@ struct Tridiagonal {
 
   explicit Tridiagonal(std::size_t size) : lower(size), diagonal(size), upper(size), right(size) {}
 
-  // By elimination without pivots: the systems of splines are diagonally dominant.
+  // Elimination needs no pivots: the systems of splines are diagonally dominant.
   void solve(std::size_t first, std::size_t last, Numbers& m) {
     for (std::size_t i = first + 1; i <= last; ++i) {
       const double factor = lower[i] / diagonal[i - 1];
@@ -41,7 +41,7 @@ struct Tridiagonal {
   }
 };
 
-// That the first derivative is continuous at the inner knots, for the second derivatives m.
+// The equations for the second derivatives m that make the first one continuous at the inner knots.
 Tridiagonal inner_rows(const Intervals& of) {
   const Numbers& h = of.length;
   Tridiagonal rows(h.size() + 1);

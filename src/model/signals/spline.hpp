@@ -76,7 +76,7 @@ class Spline {
   // Valid as long as this spline or a copy of it lives.
   [[nodiscard]] SplineView view() const { return {pieces_->data(), pieces_->size()}; }
 
-  // Where the highest derivative jumps.
+  // The times at which the highest derivative jumps.
   [[nodiscard]] const std::vector<double>& knots() const { return times_; }
 
  private:

@@ -178,21 +178,23 @@ class RigLoop {
     return extras;
   }
 
-  [[nodiscard]] Sample sample(double t, const double* z, const RigExtras& with) const {
+  [[nodiscard]] Sample sample(double t, const double* z, const RigExtras& with,
+                              Detail detail = Detail::all) const {
+    Sample sample{t, ball_motion<Shape::full>(Layout::unpack(z), r_)};
+    sample.gimbal = {with.angle[0], with.angle[1],        with.rate[0],
+                     with.rate[1],  with.acceleration[0], with.acceleration[1]};
+    if (detail != Detail::all) return sample;
     const auto reference = reference_.at(t);
-    return {t,
-            ball_motion<Shape::full>(Layout::unpack(z), r_),
-            0,
-            {with.angle[0], with.angle[1], with.rate[0], with.rate[1], with.acceleration[0],
-             with.acceleration[1]},
-            {reference[0].value, reference[1].value},
-            {with.command[0], with.command[1]},
-            {with.measured[0], with.measured[1]}};
+    sample.reference = {reference[0].value, reference[1].value};
+    sample.command = {with.command[0], with.command[1]};
+    sample.measured = {with.measured[0], with.measured[1]};
+    return sample;
   }
 
   // The sample is one of the present mode.
-  [[nodiscard]] Sample sample(double t, const double* z) const {
-    return sample(t, z, extras(t, z));
+  [[nodiscard]] Sample sample(double t, const double* z, Detail detail = Detail::all) const {
+    if (detail == Detail::ball) return {t, ball_motion<Shape::full>(Layout::unpack(z), r_)};
+    return sample(t, z, extras(t, z), detail);
   }
 
   [[nodiscard]] const Signals& reference() const { return reference_; }

@@ -7,7 +7,7 @@
 //     derivative_of(inputs, z, dz)  the rest: f(t, z) = derivative_of(inputs(t), z)
 //     motions                       which states are velocities, and of which other states
 //     view()                        the same system in plain memory, for code of one instruction
-//     sample(t, z)                  the instant in the paper's symbols
+//     sample(t, z, detail)          the instant in the paper's symbols
 // and no knowledge of who integrates it. Which one a scene gets is assemble()'s choice.
 #pragma once
 
@@ -179,13 +179,13 @@ class OpenLoop {
     return {r_, g_, motion_};
   }
 
-  [[nodiscard]] Sample sample(double t, const double* z) const {
+  [[nodiscard]] Sample sample(double t, const double* z, Detail detail = Detail::all) const {
+    Sample sample{t, ball_motion<shape>(Layout::unpack(z), r_)};
+    if (detail == Detail::ball) return sample;
     const auto [phi, theta] = motion_.at(t);
-    return {t,
-            ball_motion<shape>(Layout::unpack(z), r_),
-            0,
-            {phi.value, theta.value, phi.rate, theta.rate, phi.acceleration, theta.acceleration},
-            {0, 0}};
+    sample.gimbal = {phi.value,  theta.value,      phi.rate,
+                     theta.rate, phi.acceleration, theta.acceleration};
+    return sample;
   }
 
   [[nodiscard]] const Signals& motion() const { return motion_; }
@@ -294,26 +294,29 @@ class ClosedLoop {
     if constexpr (theta_moves(shape)) angles_dot[2 * axes - 1] = theta.acceleration;
   }
 
-  [[nodiscard]] Sample sample(double t, const double* z) const {
+  [[nodiscard]] Sample sample(double t, const double* z, Detail detail = Detail::all) const {
     const auto ball = Layout::unpack(z);
-    const auto reference = reference_.at(t);
     const double* angles = z + Layout::size;
-    GimbalState gimbal;
+    Sample sample{t, ball_motion<shape>(ball, r_)};
     if constexpr (phi_moves(shape)) {
-      gimbal.phi = angles[0];
-      gimbal.phi_dot = angles[axes];
-      gimbal.phi_ddot = axis<0, double>(ball, reference, angles).acceleration;
+      sample.gimbal.phi = angles[0];
+      sample.gimbal.phi_dot = angles[axes];
     }
     if constexpr (theta_moves(shape)) {
-      gimbal.theta = angles[axes - 1];
-      gimbal.theta_dot = angles[2 * axes - 1];
-      gimbal.theta_ddot = axis<1, double>(ball, reference, angles).acceleration;
+      sample.gimbal.theta = angles[axes - 1];
+      sample.gimbal.theta_dot = angles[2 * axes - 1];
     }
-    Sample sample{
-        t, ball_motion<shape>(ball, r_), 0, gimbal, {reference[0].value, reference[1].value}};
-    if constexpr (phi_moves(shape)) sample.command[0] = command<double>(gains_, 0, ball, reference);
-    if constexpr (theta_moves(shape))
+    if (detail != Detail::all) return sample;
+    const auto reference = reference_.at(t);
+    sample.reference = {reference[0].value, reference[1].value};
+    if constexpr (phi_moves(shape)) {
+      sample.gimbal.phi_ddot = axis<0, double>(ball, reference, angles).acceleration;
+      sample.command[0] = command<double>(gains_, 0, ball, reference);
+    }
+    if constexpr (theta_moves(shape)) {
+      sample.gimbal.theta_ddot = axis<1, double>(ball, reference, angles).acceleration;
       sample.command[1] = command<double>(gains_, 1, ball, reference);
+    }
     return sample;
   }
 

@@ -1,0 +1,79 @@
+#include "record/rows.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace bbsim::record {
+namespace {
+
+using model::Detail;
+using scenario::Needs;
+
+Detail detail_for(Needs needs) {
+  switch (needs) {
+    case Needs::ball:
+    case Needs::gamma:
+    case Needs::orientation:
+      return Detail::ball;
+    case Needs::gimbal:
+      return Detail::gimbal;
+    case Needs::accelerations:
+    case Needs::controller:
+    case Needs::samples:
+    case Needs::dynamics:
+    case Needs::plate:
+      break;
+  }
+  return Detail::all;
+}
+
+}  // namespace
+
+Rows::Rows(std::vector<const scenario::Column*> columns) : columns_(std::move(columns)) {
+  for (const scenario::Column* column : columns_) {
+    fills_.push_back(fill_of(*column));
+    detail_ = std::max(detail_, detail_for(column->needs));
+  }
+  needs_dynamics_ = any_needs(columns_, Needs::dynamics) || any_needs(columns_, Needs::plate);
+  needs_orientation_ = any_needs(columns_, Needs::orientation);
+}
+
+void Rows::begin(const model::Model& model, const model::BallConstants& constants) {
+  model_ = &model;
+  constants_ = &constants;
+  if (needs_orientation_) turn_.emplace(model.radius);
+}
+
+void Rows::evaluate(const double* times, const double* rows, std::size_t count) {
+  samples_.resize(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    samples_[i] = model_->sample(times[i], rows + i * model_->row_size(), detail_);
+  }
+  fill();
+}
+
+void Rows::evaluate(const model::Sample& sample) {
+  samples_.assign(1, sample);
+  fill();
+}
+
+void Rows::fill() {
+  const std::size_t count = samples_.size();
+  if (needs_dynamics_) {
+    dynamics_.resize(count);
+    for (std::size_t i = 0; i < count; ++i) {
+      dynamics_[i] = model::dynamics(samples_[i], *constants_);
+    }
+  }
+  if (turn_) {
+    orientations_.resize(count);
+    for (std::size_t i = 0; i < count; ++i) orientations_[i] = turn_->go_to(samples_[i]);
+  }
+  const RowBlock block{count, samples_.data(), constants_,
+                       needs_dynamics_ ? dynamics_.data() : nullptr,
+                       turn_ ? orientations_.data() : nullptr};
+  numbers_.resize(columns_.size() * count);
+  for (std::size_t c = 0; c < columns_.size(); ++c) fills_[c](block, &numbers_[c * count]);
+}
+
+}  // namespace bbsim::record
