@@ -26,7 +26,7 @@ int code(ExitCode exit_code) {
   return static_cast<int>(exit_code);
 }
 
-// Without memory of its own: there may be none where this is called.
+// Needs no memory of its own: there may be none where this is called.
 ExitCode say(const char* message, ExitCode exit_code) {
   bbsim::app::say(message);
   return exit_code;

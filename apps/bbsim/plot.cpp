@@ -123,7 +123,7 @@ std::vector<Task> tasks_of(const PlotArguments& arguments, std::string_view endi
   return tasks;
 }
 
-// Before any of them is opened.
+// Comes before any of them is opened.
 void declare_files(const std::vector<Task>& tasks, const PlotArguments& arguments) {
   file::Outputs outputs;
   for (const std::string& file : arguments.files) outputs.reads(file, "what is drawn");

@@ -79,7 +79,7 @@ std::string progress_line(const ProgressState& state, std::size_t columns) {
   const std::string left = left_text(state), detail = detail_text(state);
   const std::string name = std::filesystem::path(state.label).filename().string();
 
-  // From all to little, the first that has room for its shortest bar.
+  // The forms go from all to little; the first that has room for its shortest bar.
   struct Form {
     const std::string& label;
     const std::string after;

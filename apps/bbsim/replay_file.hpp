@@ -45,7 +45,7 @@ class ReplayFile {
 // they were, else what is sound in it.
 [[nodiscard]] replay::Run run_of(plot::Result result, const std::string& name);
 
-// With the title of its run, or its name.
+// The scene of one run, called by the title of the run, or its name.
 [[nodiscard]] replay::Scene scene_of(replay::Run run);
 
 // What a file is called in a scene: without its folder.

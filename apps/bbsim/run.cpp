@@ -29,7 +29,7 @@ struct RunArguments {
 constexpr file::ColumnHeader position_error{
     "position_error", "m", "estimate of the error of x and y: the larger one in this row"};
 
-// Before any of them is opened.
+// Comes before any of them is opened.
 void declare_files(const RunArguments& arguments, const Scenario& scenario,
                    const std::string& output) {
   file::Outputs outputs;

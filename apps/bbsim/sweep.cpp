@@ -128,7 +128,7 @@ std::size_t available_threads() {
   return std::max(1U, std::thread::hardware_concurrency());
 }
 
-// Before any of them is opened.
+// Comes before any of them is opened.
 void declare_files(const SweepArguments& arguments, const ScenarioFamily& family,
                    const std::string& output) {
   file::Outputs outputs;

@@ -11,7 +11,7 @@ namespace bbsim::app {
 void say(std::string_view message) {
   try {
     const std::string line = printable(message) + '\n';
-    // In one piece, so that it stays whole among those of other processes.
+    // Written in one piece, so that it stays whole among those of other processes.
     static_cast<void>(std::fwrite(line.data(), 1, line.size(), stderr));
   } catch (const std::bad_alloc&) {
     std::fputs("out of memory\n", stderr);

@@ -44,7 +44,7 @@ std::vector<NamedScenario> scenarios(const VerifyArguments& arguments) {
   return list;
 }
 
-// As printf does.
+// Prints as printf does.
 template <class... Values>
 std::string formatted(const char* format, const Values&... values) {
   const int size = std::snprintf(nullptr, 0, format, values...);
@@ -89,7 +89,7 @@ std::string table_of(const NamedScenario& named, const study::FullModelStudy& st
 }
 
 ExitCode verify(const VerifyArguments& arguments, const Options& options) {
-  // Before the checks, so that a mistake in it is told at once.
+  // Looked up before the checks, so that a mistake in it is told at once.
   const std::vector<NamedScenario> scenes = scenarios(arguments);
   file::Outputs outputs;
   if (!arguments.scenario.empty()) {

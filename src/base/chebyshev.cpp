@@ -37,7 +37,7 @@ ChebyshevPoints::ChebyshevPoints(std::size_t intervals) : between_(intervals * (
   }
 }
 
-// In four sums, which do not wait for each other.
+// Four sums do not wait for each other.
 double ChebyshevPoints::between(const double* values, std::size_t i) const {
   const std::size_t count = points_.size();
   const double* const share = &between_[i * count];

@@ -71,7 +71,7 @@ void for_each_bracket(const ChebyshevPoints& points, const double* values, const
                   points[i] + slope / (2 * bend)});
       continue;
     }
-    // At an end, and beyond.
+    // The maximum may lie at an end, and beyond.
     const std::size_t inner = i == 0 ? 1 : last - 1, next = i == 0 ? 2 : last - 2;
     const double width = std::abs(points[inner] - points[i]);
     const double change = here - values[inner];

@@ -15,7 +15,7 @@ class Noise {
  public:
   explicit Noise(std::uint64_t seed) : generator_(seed) {}
 
-  // In (0, 1), of 52 bits.
+  // A number in (0, 1), of 52 bits.
   [[nodiscard]] double uniform() {
     return (static_cast<double>(generator_() >> 12U) + 0.5) * 0x1p-52;
   }

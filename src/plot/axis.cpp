@@ -92,7 +92,7 @@ bool is_far_off(const Range& range, double width) {
   return width <= close_together * range.largest();
 }
 
-// As differences from a round value near the middle of the range.
+// Labels are differences from a round value near the middle of the range.
 Scale shifted(const Unit& unit, const Range& range, double width) {
   Scale scale = prefixed(unit, width);
   shorten_labels(scale, width);

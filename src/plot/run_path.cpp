@@ -65,7 +65,7 @@ struct Extent {
   }
 };
 
-// Where both coordinates are numbers.
+// Whether both coordinates are numbers.
 struct Points {
   std::vector<double> x, y;
 };
@@ -157,7 +157,7 @@ void add_path(Picture& picture, const std::vector<Result>& runs, const EventMark
   add_heading(picture, box, y_scale.heading("y"));
   add_axis_label(picture, box, x_scale.heading("x"));
 
-  // To scale: the shorter range is widened until both axes have one.
+  // Drawn to scale: the shorter range is widened until both axes have one.
   Panel panel;
   panel.box = box;
   const double aspect = box.width() / box.height();

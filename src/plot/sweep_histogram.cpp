@@ -11,7 +11,7 @@ namespace {
 
 constexpr unsigned bars = 0x7fb8d8;  // of the blue of lines, paler
 
-// As Freedman and Diaconis choose it, from the quartiles, within what can be seen.
+// The width as Freedman and Diaconis choose it, from the quartiles, within what can be seen.
 std::size_t bin_count(std::vector<double>& values, double width) {
   const double between = quantile(values, 0.75) - quantile(values, 0.25);
   const double bin = 2 * between / std::cbrt(static_cast<double>(values.size()));

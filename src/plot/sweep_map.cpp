@@ -51,7 +51,7 @@ std::vector<double> cell_edges(const KeyAxis& axis) {
   return result;
 }
 
-// As it is seen.
+// The middle as the eye sees it.
 double middle(const Axis& axis, double low, double high) {
   return axis.log ? std::sqrt(low) * std::sqrt(high) : low / 2 + high / 2;
 }

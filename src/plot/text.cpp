@@ -63,8 +63,8 @@ bool in_dejavu(std::uint32_t code) {
   return code == 0x2070;  // superscript zero stands alone
 }
 
-// In hundredths of the font's size: of DejaVu Sans, the widest of the usual fonts, from the blank
-// to the tilde.
+// Widths in hundredths of the font's size: of DejaVu Sans, the widest of the usual fonts, from the
+// blank to the tilde.
 constexpr std::array<unsigned char, 95> widths = {
     32, 41, 46, 84, 64, 96, 78, 28, 40,  40, 50, 84, 32, 37, 32, 34, 64, 64, 64, 64, 64, 64, 64, 64,
     64, 64, 34, 34, 84, 84, 84, 54, 100, 69, 69, 70, 77, 64, 58, 78, 76, 30, 30, 66, 56, 87, 75, 79,

@@ -43,7 +43,7 @@ class PixelColumn {
 
   void flush(std::vector<std::size_t>& kept) {
     if (count_ == 0) return;
-    // In order, each once. A gap in a column of pixels is one point.
+    // They go in order, each once. A gap in a column of pixels is one point.
     std::vector<std::size_t> found{first_, low_, high_, last_};
     if (gap_ != none) found.push_back(gap_);
     std::sort(found.begin(), found.end());

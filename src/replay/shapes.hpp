@@ -12,7 +12,7 @@ struct Mesh {
   std::vector<std::uint16_t> triangles;  // three corners each, counterclockwise from outside
 };
 
-// From -1/2 to 1/2 along each axis.
+// A box from -1/2 to 1/2 along each axis.
 [[nodiscard]] Mesh unit_box();
 
 // Diameter 1 about the z axis, from z = -1/2 to 1/2.

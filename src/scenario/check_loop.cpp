@@ -16,7 +16,7 @@ void report(const yaml::Value& value, const std::string& message) {
   value.context->problems.add(value.position, value.path + ": " + message);
 }
 
-// At gimbal, or at the top where there is no gimbal.
+// Reports it at gimbal, or at the top where there is no gimbal.
 void report_missing(yaml::Keys& scenario, const std::string& message) {
   const std::optional<yaml::Value> gimbal = scenario.find("gimbal");
   const yaml::Value& place = gimbal ? *gimbal : scenario.mapping();

@@ -24,7 +24,7 @@ struct Measure {
 // min_, max_, rms_ or end_ and the name of a column; x_end and y_end are end_x and end_y.
 [[nodiscard]] std::optional<Measure> find_measure(std::string_view name);
 
-// For the message about a name that is none.
+// What the message about an unknown name lists.
 [[nodiscard]] std::string allowed_measures();
 
 // x_end, y_end, max_tilt, max_tilt_rate, max_distance, and with a controller rms_tracking_error and

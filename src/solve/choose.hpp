@@ -9,7 +9,7 @@
 
 namespace bbsim::solve {
 
-// As the scenario names it: "bdf".
+// The method as the scenario names it: "bdf".
 [[nodiscard]] std::string_view method_name(Method method);
 
 // The integrator that runs when `asked` is: radau for automatic, any other as it is.

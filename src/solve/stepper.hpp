@@ -44,7 +44,7 @@ class Stepper {
 };
 
 // Drives a stepper from the model's initial state to the end of the grid, and hands on the rows.
-// For models that are not hybrid().
+// The model is not hybrid().
 [[nodiscard]] Outcome run_through(Stepper& stepper, const model::Model& model,
                                   const OutputGrid& grid, StateSink& sink, const Watch& watch);
 

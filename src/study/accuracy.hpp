@@ -38,7 +38,7 @@ struct AccuracyWatch {
   std::function<void(double fraction)> progress{};  // of the whole study, in [0, 1]
 };
 
-// As the double that its first ten digits name: 1e-5, where 1e-3 / 100 is one next to it.
+// The double that its first ten digits name: 1e-5, where 1e-3 / 100 is one next to it.
 [[nodiscard]] double ten_digits(double value);
 
 // Runs every method at every rtol, with the rows kept in memory. atol is a hundredth of rtol, as

@@ -14,7 +14,7 @@
 namespace bbsim::study {
 namespace {
 
-// As printf, to the end of a string; lines of this file are shorter than the buffer.
+// Prints as printf does, to the end of a string; lines of this file are shorter than the buffer.
 [[gnu::format(printf, 2, 3)]] void append(std::string& text, const char* format, ...) {
   char line[256];
   va_list arguments;
@@ -25,7 +25,7 @@ namespace {
   text += line;
 }
 
-// To whole nanoseconds, which is what the clock has.
+// Rounds to whole nanoseconds, which is what the clock has.
 double microseconds(const AccuracyPoint& point) {
   return std::round(1e9 * point.cpu_seconds) / 1000;
 }
@@ -38,7 +38,8 @@ const char* status(const AccuracyPoint& point) {
   return point.ending == solve::Ending::done ? "done" : "failed";
 }
 
-// As a string of gnuplot in single quotes, where a quote is doubled and nothing else is special.
+// The text as a string of gnuplot in single quotes, where a quote is doubled and nothing else is
+// special.
 std::string quoted(std::string_view text) {
   std::string result = "'";
   for (const char c : text) {

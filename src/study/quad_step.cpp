@@ -104,7 +104,6 @@ void CollocationStep::factorise() {
   }
   matrix.diagonal().array() += 1;
   factors_.compute(matrix);
-  ++factorisations_;
 }
 
 void CollocationStep::residual_in_double() {

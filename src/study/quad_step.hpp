@@ -49,8 +49,6 @@ class CollocationStep {
     std::vector<Quad> legendre_;  // coefficients of the increment
   };
 
-  [[nodiscard]] std::size_t factorisations() const { return factorisations_; }
-
  private:
   [[nodiscard]] bool solve_in_double(double* correction);
   [[nodiscard]] bool refine();
@@ -73,7 +71,6 @@ class CollocationStep {
   std::vector<Quad> w_, slopes_;
   Eigen::VectorXd residual_;
   Eigen::PartialPivLU<Eigen::MatrixXd> factors_;
-  std::size_t factorisations_ = 0;
 };
 
 }  // namespace bbsim::study

@@ -10,16 +10,16 @@ namespace bbsim::yaml {
 // What a quantity measures; its SI unit is m, kg, s, rad, rad/s, m/s or m/s^2. `number` has none.
 enum class Dimension { number, length, mass, time, angle, angular_rate, velocity, acceleration };
 
-// With its article: "a length".
+// The quantity with its article: "a length".
 [[nodiscard]] std::string_view noun(Dimension dimension);
 
-// In the plural: "lengths".
+// The quantity in the plural: "lengths".
 [[nodiscard]] std::string_view plural(Dimension dimension);
 
 // The SI unit, in which values are: "rad/s"; empty of a number.
 [[nodiscard]] std::string_view si_unit(Dimension dimension);
 
-// As one may write it: 0.01 or "1 cm".
+// A value of that kind as one may write it: 0.01 or "1 cm".
 [[nodiscard]] std::string_view example(Dimension dimension);
 
 // A value in SI units, or what is wrong with the text: a phrase to follow it in a sentence, such

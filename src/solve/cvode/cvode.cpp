@@ -192,7 +192,7 @@ class CvodeStepper : public Stepper {
   void restart(double t) {
     add_statistics(statistics_);
     if (model_.gamma) {
-      // At t, which is within the last step.
+      // The row at t, which is within the last step.
       check(CVodeGetQuadDky(memory(), t, 0, turned_.get()), "CVodeGetQuadDky");
     }
     check(CVodeReInit(memory(), t, state_.get()), "CVodeReInit");

@@ -54,7 +54,7 @@ const Kernel& find_kernel(const StepKernels& kernels, int stages, const model::M
 
 constexpr double safety = 0.9;
 
-// Of the greatest state; infinite if one is no number.
+// The size of the greatest state; infinite if one is no number.
 double size_of(const std::vector<double>& state) {
   double size = 0;
   for (const double value : state) {
