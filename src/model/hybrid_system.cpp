@@ -27,7 +27,7 @@ RigMode& HybridSystem::mode() {
 }
 
 RigAxes<double> HybridSystem::axes(double t, const double* z) const {
-  return with_loop([&](const auto& loop) { return loop.axes(loop.reference().at(t), z); });
+  return with_loop([&](const auto& loop) { return loop.axes(loop.inputs(t), z); });
 }
 
 HybridSystem::HybridSystem(const Model& model) : model_(model) {
@@ -182,8 +182,8 @@ bool HybridSystem::settle_servos(double t, double* z) {
   return true;
 }
 
-Sample HybridSystem::sample(double t, const double* z) const {
-  return std::visit([&](const auto& system) { return system.sample(t, z); }, model_.system);
+Sample HybridSystem::sample(double t, const double* z, Detail detail) const {
+  return std::visit([&](const auto& system) { return system.sample(t, z, detail); }, model_.system);
 }
 
 void HybridSystem::evaluate_guards(double t, const double* z, double* values) const {
@@ -205,7 +205,7 @@ void HybridSystem::evaluate_guards(double t, const double* z, double* values) co
     }
   }
   if (happening_.empty()) return;
-  model_.events->margins(sample(t, z), values);
+  model_.events->margins(sample(t, z, Detail::motion), values);
   for (std::size_t m = 0; m < happening_.size(); ++m) {
     if (happening_[m] != 0) values[m] = -values[m];
   }
@@ -215,7 +215,7 @@ HybridSystem::Effect HybridSystem::occur(std::size_t monitor, double t, const do
   happening_[monitor] = 1;
   const Monitor& what = model_.events->monitors[monitor];
   const bool stops = what.action == OnEvent::stop;
-  Sample now = sample(t, z);
+  Sample now = sample(t, z, Detail::all);
   now.gamma = model_.gamma_not_integrated();
   if (sampled_) now.measured = sampled_->measured;
   occurrences_.push_back({t, what.name(), stops, now});
@@ -248,7 +248,7 @@ bool HybridSystem::stops(std::size_t i) const {
 
 HybridSystem::Effect HybridSystem::check_events(double t, const double* z) {
   if (happening_.empty()) return Effect::none;
-  const Sample now = sample(t, z);
+  const Sample now = sample(t, z, Detail::motion);
   for (std::size_t m = 0; m < happening_.size(); ++m) {
     const bool beyond = model_.events->margin(model_.events->monitors[m], now) < 0;
     if (beyond && happening_[m] == 0 && occur(m, t, z) == Effect::stop) return Effect::stop;

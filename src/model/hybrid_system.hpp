@@ -69,7 +69,7 @@ class HybridSystem {
   auto with_loop(Use use) const;
   [[nodiscard]] RigMode& mode();
   [[nodiscard]] RigAxes<double> axes(double t, const double* z) const;
-  [[nodiscard]] Sample sample(double t, const double* z) const;
+  [[nodiscard]] Sample sample(double t, const double* z, Detail detail) const;
   [[nodiscard]] AxisState axis_state(int i, const RigAxes<double>& wanted, const double* z) const;
   void settle(double t, double* z);
   bool settle_servos(double t, double* z);

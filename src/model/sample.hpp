@@ -17,9 +17,9 @@ struct GimbalState {
   double phi_ddot = 0, theta_ddot = 0;
 };
 
-// How much of a sample is wanted: the ball alone, with the gimbal's angles and rates, or all. The
-// rest is left as it is without a value.
-enum class Detail { ball, gimbal, all };
+// How much of a sample is wanted: the ball alone; with the gimbal's angles and rates; with its
+// accelerations; or all. The rest is left as it is without a value.
+enum class Detail { ball, gimbal, motion, all };
 
 struct Sample {
   double t = 0;  // s

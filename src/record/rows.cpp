@@ -18,10 +18,11 @@ Detail detail_for(Needs needs) {
     case Needs::gimbal:
       return Detail::gimbal;
     case Needs::accelerations:
-    case Needs::controller:
-    case Needs::samples:
     case Needs::dynamics:
     case Needs::plate:
+      return Detail::motion;
+    case Needs::controller:
+    case Needs::samples:
       break;
   }
   return Detail::all;

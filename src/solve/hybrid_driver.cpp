@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <string>
 #include <utility>
 
+#include "base/chebyshev.hpp"
 #include "model/hybrid_system.hpp"
 #include "solve/pace.hpp"
 #include "solve/piece.hpp"
@@ -33,7 +35,9 @@ class HybridIntegration {
         guards_(run_.guards()),
         values_(run_.guards()),
         now_(run_.guards()),
-        near_(run_.guards()) {}
+        near_(run_.guards()),
+        least_(run_.guards()),
+        most_(run_.guards()) {}
 
   Outcome run() {
     std::vector<double> z = run_.model().initial;
@@ -249,10 +253,42 @@ class HybridIntegration {
     return guard.value + guard.slope * meet <= 0;
   }
 
+  // Whether no guard falls within the step, by its values at Chebyshev points: the polynomial
+  // through them is nowhere further below them than (L - 1) / 2 of their range, with the Lebesgue
+  // constant L <= 1 + 2 / pi log(2 n + 1) of n intervals. Guards that are not finite are left to
+  // scan().
+  bool all_stay_up(double from, double to) {
+    const ChebyshevPoints& points = tables_.points(stepper_->parts());
+    const std::size_t count = points.size();
+    const double beyond = std::log(2.0 * static_cast<double>(count) - 1) / std::numbers::pi;
+    planned_times_.resize(count);
+    for (std::size_t p = 0; p < count; ++p) planned_times_[p] = from + (to - from) * points[p];
+    planned_times_.back() = to;
+    planned_rows_.resize(count * plain_size_);
+    stepper_->evaluate(planned_times_.data(), count, planned_rows_.data());
+    for (std::size_t i = 0; i < guards_.size(); ++i) {
+      if (guards_[i].threshold != 0) return false;  // it starts at zero
+      least_[i] = most_[i] = guards_[i].value;
+    }
+    for (std::size_t p = 0; p < count; ++p) {
+      run_.evaluate_guards(planned_times_[p], &planned_rows_[p * plain_size_], now_.data());
+      for (std::size_t i = 0; i < guards_.size(); ++i) {
+        least_[i] = std::min(least_[i], now_[i]);
+        most_[i] = std::max(most_[i], now_[i]);
+      }
+    }
+    for (std::size_t i = 0; i < guards_.size(); ++i) {
+      if (std::isinf(least_[i]) && least_[i] > 0) continue;  // not looked out for
+      if (!(least_[i] - beyond * (most_[i] - least_[i]) > 0)) return false;
+    }
+    for (std::size_t i = 0; i < guards_.size(); ++i) guards_[i].value = now_[i];
+    return true;
+  }
+
   // Looks along the step for guards that fall. Occurrences that change nothing are noted on the
   // way; at the first that does, `at` and z are set.
   Effect scan(double from, double to, double& at, std::vector<double>& z) {
-    if (guards_.empty()) return Effect::none;
+    if (guards_.empty() || all_stay_up(from, to)) return Effect::none;
     const std::size_t points = stepper_->detail();
     look_ahead(points, from, to);
     double last = from;  // looked at
@@ -396,7 +432,9 @@ class HybridIntegration {
   PieceSink* pieces_;
   std::unique_ptr<Stepper> stepper_;
   std::vector<Guard> guards_;
-  std::vector<double> values_, now_, near_, look_, row_, planned_times_, planned_rows_, plain_rows_;
+  ChebyshevTables tables_;
+  std::vector<double> values_, now_, near_, least_, most_, look_, row_, planned_times_,
+      planned_rows_, plain_rows_;
   std::vector<double> asked_;  // values of the guards when stopped_at() was last asked
   double asked_time_ = 0;
   std::size_t next_planned_ = 0;

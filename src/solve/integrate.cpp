@@ -10,7 +10,7 @@ Outcome integrate(const model::Model& model, Method method, Tolerances tolerance
                   const OutputGrid& grid, StateSink& sink, const Watch& watch) {
   const Method chosen = choose_method(method);
   const auto stepper_of = [&](const model::Model& any) {
-    return make_stepper(any, chosen, tolerances, grid.end());
+    return make_stepper(any, chosen, tolerances, grid);
   };
   Outcome outcome = model.hybrid() ? integrate_hybrid(model, stepper_of, grid, sink, watch)
                                    : run_through(*stepper_of(model), model, grid, sink, watch);

@@ -8,11 +8,12 @@
 namespace bbsim::solve {
 
 std::unique_ptr<Stepper> make_stepper(const model::Model& model, Method method,
-                                      Tolerances tolerances, double end) {
+                                      Tolerances tolerances, const OutputGrid& grid) {
   switch (method) {
     case Method::radau:
-      return std::make_unique<radau::RadauStepper>(
-          model, radau::choose_kernels(), radau::choose_stages(tolerances.rtol), tolerances, end);
+      return std::make_unique<radau::RadauStepper>(model, radau::choose_kernels(),
+                                                   radau::choose_stages(tolerances.rtol),
+                                                   tolerances, grid.end());
     case Method::bdf:
     case Method::adams:
       return make_cvode_stepper(model, method, tolerances);

@@ -17,20 +17,6 @@ constexpr double stretch = 4;  // rad
 constexpr double most_stretches = 1e5;
 constexpr std::size_t together = 60;  // stretches that are looked at in one go
 
-// The bandwidth of the fastest sinusoid and of the sine of an angle that itself changes fast,
-// rad/s; cos(phi) cos(theta) is a mean of cos(phi + theta) and cos(phi - theta).
-double bandwidth_of(const model::SignalView& motion) {
-  double frequency = 0, rate = std::abs(motion.rate[0]) + std::abs(motion.rate[1]);
-  for (std::size_t k = 0; k < motion.harmonic_count; ++k) {
-    const model::Harmonic& one = motion.harmonics[k];
-    frequency = std::max(frequency, std::abs(one.frequency));
-    for (std::size_t i = 0; i < 2; ++i) {
-      rate += std::abs(one.frequency) * std::hypot(one.sine[i], one.cosine[i]);
-    }
-  }
-  return 2 * frequency + rate;
-}
-
 // What comes after this repeats what was before: a sinusoid of both angles has all of its sizes in
 // one period, and in half of one if the plane is level in the mean.
 double repeats_after(const model::SignalView& motion) {
@@ -56,34 +42,23 @@ GimbalExtremes::Greatest GimbalExtremes::of(const model::SignalPair& motion, dou
   count_ = 0;
   spans_.clear();
   const model::SignalView view = motion.view();
-  const double bandwidth = bandwidth_of(view);
   double from = 0;
   if (view.table_count > 0) {
     for (const double knot : motion.knots()) {
       if (knot > from && knot < end) {
-        cover(motion, from, knot, bandwidth);
+        cover(motion, from, knot);
         from = knot;
       }
     }
   }
-  cover(motion, from, std::min(end, repeats_after(view)), bandwidth);
+  cover(motion, from, std::min(end, repeats_after(view)));
   look(motion);
   return {tilt_of(versine_most_), std::sqrt(rate_squared_most_)};
 }
 
 // Looks between the knots, if there are any.
-void GimbalExtremes::cover(const model::SignalPair& motion, double from, double to,
-                           double bandwidth) {
-  if (motion.view().table_count > 0) {
-    double rate = 0;
-    for (const double t : {from, (from + to) / 2, to}) {
-      const auto [phi, theta] = motion.at(t);
-      rate = std::max(rate, std::abs(phi.rate) + std::abs(theta.rate));
-    }
-    constexpr double between = 1.5;  // of a polynomial of low degree
-    bandwidth += between * rate;
-  }
-  const double wanted = std::ceil((to - from) * bandwidth / stretch);
+void GimbalExtremes::cover(const model::SignalPair& motion, double from, double to) {
+  const double wanted = std::ceil((to - from) * motion.bandwidth(from, to) / stretch);
   const double pieces = std::clamp(wanted, 1.0, most_stretches);
   const double length = (to - from) / pieces;
   for (double i = 0; i < pieces; ++i) {

@@ -31,7 +31,7 @@ class GimbalExtremes {
   [[nodiscard]] Greatest of(const model::SignalPair& motion, double end);
 
  private:
-  void cover(const model::SignalPair& motion, double from, double to, double bandwidth);
+  void cover(const model::SignalPair& motion, double from, double to);
   void look(const model::SignalPair& motion);
 
   const SweepKernels& kernels_;

@@ -82,4 +82,22 @@ double SignalPair::highest_frequency() const {
   return highest;
 }
 
+double SignalPair::bandwidth(double from, double to) const {
+  double rate = std::abs(rate_[0]) + std::abs(rate_[1]);
+  for (const Harmonic& one : harmonics_) {
+    for (std::size_t i = 0; i < 2; ++i) {
+      rate += std::abs(one.frequency) * std::hypot(one.sine[i], one.cosine[i]);
+    }
+  }
+  const double of_sinusoids = 2 * highest_frequency() + rate;
+  if (tables_.empty()) return of_sinusoids;
+  double most = 0;
+  for (const double t : {from, (from + to) / 2, to}) {
+    const auto [one, other] = at(t);
+    most = std::max(most, std::abs(one.rate) + std::abs(other.rate));
+  }
+  constexpr double between = 1.5;  // of a polynomial of low degree
+  return of_sinusoids + between * most;
+}
+
 }  // namespace bbsim::model

@@ -90,6 +90,11 @@ class SignalPair {
   // The largest frequency of a sinusoid, rad/s; 0 if there is none.
   [[nodiscard]] double highest_frequency() const;
 
+  // How fast sines of the components change between two times with no knot between them, rad/s: the
+  // bandwidth of the fastest sinusoid, and of the sine of an angle that itself changes fast;
+  // cos(phi) cos(theta) is a mean of cos(phi + theta) and cos(phi - theta).
+  [[nodiscard]] double bandwidth(double from, double to) const;
+
   // Both components at time t (s).
   template <class Time>
   [[nodiscard]] std::array<Jet<Time>, 2> at(const Time& t) const {

@@ -99,8 +99,15 @@ class RigLoop {
 
   RigMode mode;
 
+  // The reference, but where the command is held: nothing asks for it then.
   template <class Time>
   [[nodiscard]] std::array<Jet<Time>, 2> inputs(const Time& t) const {
+    if constexpr (!integrates) {
+      if (law_.kind == LawKind::held) {
+        const Jet<Time> nothing{Time(0.0), Time(0.0), Time(0.0)};
+        return {nothing, nothing};
+      }
+    }
     return reference_.at(t);
   }
 
@@ -166,7 +173,7 @@ class RigLoop {
 
   // All but what was measured, at the present mode.
   [[nodiscard]] RigExtras extras(double t, const double* z) const {
-    const RigAxes<double> loop = axes(reference_.at(t), z);
+    const RigAxes<double> loop = axes(inputs(t), z);
     RigExtras extras{};
     for (int i = 0; i < 2; ++i) {
       const AxisMode& of = mode.axis[i];
@@ -180,7 +187,9 @@ class RigLoop {
 
   [[nodiscard]] Sample sample(double t, const double* z, const RigExtras& with,
                               Detail detail = Detail::all) const {
-    Sample sample{t, ball_motion<Shape::full>(Layout::unpack(z), r_)};
+    Sample sample;
+    sample.t = t;
+    sample.ball = ball_motion<Shape::full>(Layout::unpack(z), r_);
     sample.gimbal = {with.angle[0], with.angle[1],        with.rate[0],
                      with.rate[1],  with.acceleration[0], with.acceleration[1]};
     if (detail != Detail::all) return sample;
@@ -193,8 +202,7 @@ class RigLoop {
 
   // The sample is one of the present mode.
   [[nodiscard]] Sample sample(double t, const double* z, Detail detail = Detail::all) const {
-    if (detail == Detail::ball) return {t, ball_motion<Shape::full>(Layout::unpack(z), r_)};
-    return sample(t, z, extras(t, z), detail);
+    return sample(t, z, detail == Detail::ball ? RigExtras{} : extras(t, z), detail);
   }
 
   [[nodiscard]] const Signals& reference() const { return reference_; }

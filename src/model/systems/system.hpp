@@ -180,7 +180,9 @@ class OpenLoop {
   }
 
   [[nodiscard]] Sample sample(double t, const double* z, Detail detail = Detail::all) const {
-    Sample sample{t, ball_motion<shape>(Layout::unpack(z), r_)};
+    Sample sample;
+    sample.t = t;
+    sample.ball = ball_motion<shape>(Layout::unpack(z), r_);
     if (detail == Detail::ball) return sample;
     const auto [phi, theta] = motion_.at(t);
     sample.gimbal = {phi.value,  theta.value,      phi.rate,
@@ -297,7 +299,9 @@ class ClosedLoop {
   [[nodiscard]] Sample sample(double t, const double* z, Detail detail = Detail::all) const {
     const auto ball = Layout::unpack(z);
     const double* angles = z + Layout::size;
-    Sample sample{t, ball_motion<shape>(ball, r_)};
+    Sample sample;
+    sample.t = t;
+    sample.ball = ball_motion<shape>(ball, r_);
     if constexpr (phi_moves(shape)) {
       sample.gimbal.phi = angles[0];
       sample.gimbal.phi_dot = angles[axes];
@@ -306,7 +310,7 @@ class ClosedLoop {
       sample.gimbal.theta = angles[axes - 1];
       sample.gimbal.theta_dot = angles[2 * axes - 1];
     }
-    if (detail != Detail::all) return sample;
+    if (detail < Detail::motion) return sample;
     const auto reference = reference_.at(t);
     sample.reference = {reference[0].value, reference[1].value};
     if constexpr (phi_moves(shape)) {
