@@ -123,7 +123,8 @@ ExitCode accuracy(const AccuracyArguments& arguments, const Options& options) {
     throw InputError(
         scenario.source.file +
         ": accuracy compares smooth runs; found a part that switches or is watched for: "
-        "controller.sampling, a limit, gimbal.servo.backlash or events; allowed: a scene "
+        "controller.sampling, a limit, gimbal.servo.backlash, dry friction or events; allowed: a "
+        "scene "
         "without them (`bbsim run --error` estimates the error of this one)");
   }
   const solve::OutputGrid grid(scenario.time);
@@ -157,10 +158,8 @@ ExitCode accuracy(const AccuracyArguments& arguments, const Options& options) {
 
 }  // namespace
 
-void add_accuracy(CLI::App& app, const Options& options, Chosen& chosen) {
-  CLI::App* command =
-      app.add_subcommand("accuracy", "Error and time of each method over a ladder of tolerances");
-  command->footer(
+void add_accuracy(CLI::App& command, const Options& options, Chosen& chosen) {
+  command.footer(
       "The error is the largest |dx| or |dy| over the output times, against a solution in quad "
       "precision; the time is the median processor time of repeated runs, files not counted. atol "
       "is rtol / 100 throughout. The second table names the fastest choice for each decade of "
@@ -168,20 +167,20 @@ void add_accuracy(CLI::App& app, const Options& options, Chosen& chosen) {
       "CSV columns: method, rtol, atol, error_m, time_us, steps, rhs_evaluations, "
       "jacobian_evaluations, status.");
   const auto arguments = std::make_shared<AccuracyArguments>();
-  add_scenario(*command, arguments->scenario);
-  command->add_option("--methods", arguments->methods, "methods to compare (default: all but auto)")
+  add_scenario(command, arguments->scenario);
+  command.add_option("--methods", arguments->methods, "methods to compare (default: all but auto)")
       ->type_name("NAME,...")
       ->delimiter(',')
       ->allow_extra_args(false);
-  command->add_option("--rtol", arguments->rtols, "tolerances, a decade apart")
+  command.add_option("--rtol", arguments->rtols, "tolerances, a decade apart")
       ->type_name("LOOSEST:TIGHTEST")
       ->capture_default_str();
   command
-      ->add_option("--csv", arguments->csv, "write all points to this file; - is standard output")
+      .add_option("--csv", arguments->csv, "write all points to this file; - is standard output")
       ->type_name("FILE");
-  command->add_option("--plot", arguments->plot, "draw time over error, with gnuplot")
+  command.add_option("--plot", arguments->plot, "draw time over error, with gnuplot")
       ->type_name("FILE.svg|FILE.png");
-  command->callback([arguments, &options, &chosen] {
+  command.callback([arguments, &options, &chosen] {
     chosen = [arguments, &options] { return accuracy(*arguments, options); };
   });
 }

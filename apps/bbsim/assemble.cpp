@@ -1,20 +1,56 @@
 #include "assemble.hpp"
 
+#include <unistd.h>
+
+#include <cstdio>
 #include <string>
 
 #include "base/error.hpp"
 #include "record/recorder.hpp"
 #include "scenario/look_up.hpp"
+#include "terminal.hpp"
 
 namespace bbsim::app {
 
-model::Model assemble(const Scenario& scenario,
-                      const std::vector<const scenario::Column*>& columns) {
+namespace {
+
+// Calls `make`; what is wrong with a key is thrown with its place.
+template <class Make>
+auto with_places(const Scenario& scenario, const Make& make) {
   try {
-    return model::assemble(scenario, scenario::need_gamma(columns));
+    return make();
   } catch (const KeyError& error) {
     throw InputError({Problem{place_of(scenario.source, error.key()), error.what()}});
   }
+}
+
+}  // namespace
+
+model::Model assemble(const Scenario& scenario,
+                      const std::vector<const scenario::Column*>& columns) {
+  return with_places(scenario,
+                     [&] { return model::assemble(scenario, scenario::need_gamma(columns)); });
+}
+
+model::Model assemble(const Scenario& scenario, const std::vector<const scenario::Column*>& columns,
+                      controller::Host& host) {
+  model::Model model = assemble(scenario, columns);
+  attach(host, scenario, model);
+  return model;
+}
+
+void attach(controller::Host& host, const Scenario& scenario, model::Model& model) {
+  with_places(scenario, [&] { host.attach(scenario, model); });
+}
+
+void say_of_controller(std::string_view line) {
+  // In the place of a progress bar, which is drawn again below it.
+  if (isatty(STDERR_FILENO) == 1) std::fputs("\r\033[K", stderr);
+  say("controller: " + std::string(line));
+}
+
+controller::Host make_host(const std::atomic<bool>* stop) {
+  return controller::Host(say_of_controller, stop);
 }
 
 }  // namespace bbsim::app

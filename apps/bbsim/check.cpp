@@ -5,13 +5,17 @@
 #include <cstddef>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "assemble.hpp"
 #include "commands.hpp"
 #include "describe.hpp"
+#include "linear_report.hpp"
+#include "model/control/sampled_cycle.hpp"
 #include "model/explain.hpp"
 #include "record/recorder.hpp"
+#include "scenario/coupled.hpp"
 #include "scenario/family.hpp"
 #include "scenario/reader.hpp"
 #include "solve/choose.hpp"
@@ -39,9 +43,10 @@ class Report {
 // The rows of an LQR's gain K, of u = K (reference - z): what the weights came to.
 void tell_gain(Report& report, const Scenario& scenario, const model::Model& model) {
   if (!scenario.controller || scenario.controller->law != Law::lqr) return;
-  const model::ControlLaw law = model.rig->sampled
-                                    ? model.rig->sampled->law
-                                    : std::get<model::RigLoop<false>>(model.system).law();
+  const auto* const coupled = std::get_if<model::CoupledLoop<>>(&model.system);
+  const model::ControlLaw law = model.rig->sampled ? model.rig->sampled->law
+                                : coupled          ? coupled->law()
+                                          : std::get<model::RigLoop<false>>(model.system).law();
   const auto row = [](const double(&gain)[8]) {
     std::string text;
     for (const double value : gain) {
@@ -55,9 +60,16 @@ void tell_gain(Report& report, const Scenario& scenario, const model::Model& mod
   report.line("", "on x, y, vx, vy, phi, theta, phi_rate, theta_rate");
 }
 
+// Of an unstable loop they would mean nothing.
+void tell_margins(Report& report, const Scenario& scenario, const model::Model& model) {
+  const model::Linearisation made =
+      model::linearise(scenario, model, model::LinearKind::loop, model::home_point());
+  report.line("margins", "of each command's loop, the other one closed");
+  for (const LabelledLine& line : margin_lines(made)) report.line(line.label, line.text);
+}
+
 void tell_sampled_loop(Report& report, const Scenario& scenario, const model::Model& model) {
-  const auto& loop = std::get<model::RigLoop<>>(model.system);
-  const model::Eigenvalues poles = model::sampled_poles(loop, *model.rig);
+  const model::Eigenvalues poles = model::sampled_poles(model);
   if (poles.empty()) {
     report.line("WARNING",
                 "the sampled loop has no poles that numbers can hold: its gains are too large");
@@ -74,12 +86,22 @@ void tell_sampled_loop(Report& report, const Scenario& scenario, const model::Mo
                         " a period, with a time constant of " +
                         short_number(-period / std::log(size)) + " s");
     report.line("", "without noise, dropouts, rounding, limits, dead band and backlash");
+    if (!scenario::is_coupled(scenario)) tell_margins(report, scenario, model);
   } else {
     report.line("WARNING", warning);
   }
 }
 
+// Of a loop whose law is not for bbsim to know.
+void tell_plant(Report& report, const model::Model& model) {
+  const model::Eigenvalues poles = model::plant_poles(model);
+  report.line("plant", std::to_string(poles.size()) +
+                           " poles about home under a held command (1/s): " + poles_line(poles));
+  report.line("closed loop", "no poles: only the controller knows its law");
+}
+
 void tell_closed_loop(Report& report, const Scenario& scenario, const model::Model& model) {
+  if (scenario.controller->own) return tell_plant(report, model);
   if (model.rig && model.rig->sampled) return tell_sampled_loop(report, scenario, model);
   const model::Eigenvalues poles = model::closed_loop_poles(model);
   if (poles.empty()) {
@@ -91,7 +113,8 @@ void tell_closed_loop(Report& report, const Scenario& scenario, const model::Mod
   report.line("closed loop",
               std::to_string(poles.size()) + " poles about home (1/s): " + poles_line(poles));
   if (warning.empty()) {
-    report.line("", "stable");
+    report.line("", model.dry ? "stable, without dry friction and limits" : "stable");
+    if (!scenario::is_coupled(scenario)) tell_margins(report, scenario, model);
   } else {
     report.line("WARNING", warning);
   }
@@ -123,12 +146,27 @@ void tell_sweep(Report& report, const Scenario& scenario) {
   report.line("sweep", std::to_string(plan.cases()) + " cases of bbsim sweep, over " + keys);
 }
 
+// What comes of starting the controller, if the scene has one of its own; it is asked for nothing.
+std::string try_controller(const Scenario& scenario) {
+  if (!scenario.controller || !scenario.controller->own) return "";
+  controller::Host host = make_host(nullptr);
+  const model::Model model =
+      assemble(scenario, scenario::columns_named(scenario.output.columns), host);
+  Report report;
+  std::string label = "controller";
+  for (const std::string& line : host.describe()) {
+    report.line(std::exchange(label, ""), line);
+  }
+  return report.text();
+}
+
 ExitCode check(const ScenarioArguments& arguments) {
   const Scenario scenario = read_scenario(arguments.file, arguments.overrides);
   file::Outputs outputs;
   reads_scenario(outputs, arguments.file, table_files(scenario));
+  reads_controller(outputs, scenario);
   prints(outputs);
-  print(check_report(scenario, true));
+  print(check_report(scenario, true) + try_controller(scenario));
   return ExitCode::done;
 }
 
@@ -151,12 +189,18 @@ std::string check_report(const Scenario& scenario, bool sweep) {
   for (const std::string& name : scenario.output.columns) names += " " + name;
   report.line("output", std::to_string(grid.size()) + " rows to t = " + short_number(grid.end()) +
                             " s:" + names);
-  if (!any_needs(columns, scenario::Needs::dynamics) && !scenario.plate.inertia) {
+  if (!scenario::need_dynamics(columns) && !scenario.plate.inertia) {
     report.line("", "no forces, torques or energy: no output column asks for them");
   }
 
   tell_gain(report, scenario, model);
-  if (model.closed_loop()) tell_closed_loop(report, scenario, model);
+  if (model.closed_loop()) {
+    tell_closed_loop(report, scenario, model);
+  } else if (const model::Eigenvalues poles = model::closed_loop_poles(model); !poles.empty()) {
+    report.line("plant", std::to_string(poles.size()) +
+                             " poles about home under no torque (1/s): " + poles_line(poles));
+    if (model.dry) report.line("", "without dry friction and limits");
+  }
 
   tell_solver(report, scenario, model);
   if (sweep) tell_sweep(report, scenario);
@@ -164,12 +208,10 @@ std::string check_report(const Scenario& scenario, bool sweep) {
   return report.text();
 }
 
-void add_check(CLI::App& app, Chosen& chosen) {
-  CLI::App* command = app.add_subcommand(
-      "check", "Validate a scenario; print what is modelled and why, poles, and the solver");
+void add_check(CLI::App& command, Chosen& chosen) {
   const auto arguments = std::make_shared<ScenarioArguments>();
-  add_scenario(*command, *arguments);
-  command->callback([arguments, &chosen] { chosen = [arguments] { return check(*arguments); }; });
+  add_scenario(command, *arguments);
+  command.callback([arguments, &chosen] { chosen = [arguments] { return check(*arguments); }; });
 }
 
 }  // namespace bbsim::app

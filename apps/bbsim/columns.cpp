@@ -33,10 +33,8 @@ ExitCode print_columns() {
 
 }  // namespace
 
-void add_columns(CLI::App& app, Chosen& chosen) {
-  CLI::App* command =
-      app.add_subcommand("columns", "List the output columns, their units and meaning");
-  command->callback([&chosen] { chosen = print_columns; });
+void add_columns(CLI::App& command, Chosen& chosen) {
+  command.callback([&chosen] { chosen = print_columns; });
 }
 
 }  // namespace bbsim::app

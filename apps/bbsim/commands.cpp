@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <system_error>
 
+#include "controller/host.hpp"
 #include "describe.hpp"
 
 namespace bbsim::app {
@@ -55,6 +56,12 @@ void reads_scenario(file::Outputs& outputs, const std::string& file,
                     const std::vector<std::string>& tables) {
   outputs.reads(file, "the scenario");
   for (const std::string& table : tables) outputs.reads(table, "a table of the scenario");
+}
+
+void reads_controller(file::Outputs& outputs, const Scenario& scenario) {
+  for (const std::string& file : controller::files_of(scenario)) {
+    outputs.reads(file, "the scenario's controller");
+  }
 }
 
 void prints(file::Outputs& outputs) {

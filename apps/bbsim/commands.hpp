@@ -1,5 +1,5 @@
-// The subcommands. Each add_ function declares one; when the command line names it, `chosen` is
-// set to what it does.
+// The subcommands. Each add_ function gives one its options; when the command line names it,
+// `chosen` is set to what it does.
 #pragma once
 
 #include <CLI/App.hpp>
@@ -10,6 +10,7 @@
 
 #include "base/error.hpp"
 #include "file/outputs.hpp"
+#include "scenario/scenario.hpp"
 
 namespace bbsim::app {
 
@@ -46,6 +47,8 @@ inline constexpr double largest_whole = 9007199254740992.0;
 // Says that a command reads a scenario, and these tables with it.
 void reads_scenario(file::Outputs& outputs, const std::string& file,
                     const std::vector<std::string>& tables);
+// The same of the files that the scene's own controller is made of.
+void reads_controller(file::Outputs& outputs, const Scenario& scenario);
 
 // Says that it prints: nothing it reads may be what its standard output goes to.
 void prints(file::Outputs& outputs);
@@ -53,15 +56,18 @@ void prints(file::Outputs& outputs);
 // An option that may be given again, each time with one value: what follows may be the scenario.
 void may_be_repeated(CLI::Option& option);
 
-void add_run(CLI::App& app, const Options& options, Chosen& chosen);
-void add_check(CLI::App& app, Chosen& chosen);
-void add_compare(CLI::App& app, Chosen& chosen);
-void add_verify(CLI::App& app, const Options& options, Chosen& chosen);
-void add_columns(CLI::App& app, Chosen& chosen);
-void add_accuracy(CLI::App& app, const Options& options, Chosen& chosen);
-void add_sweep(CLI::App& app, const Options& options, Chosen& chosen);
-void add_merge(CLI::App& app, const Options& options, Chosen& chosen);
-void add_plot(CLI::App& app, const Options& options, Chosen& chosen);
-void add_replay(CLI::App& app, const Options& options, Chosen& chosen);
+void add_run(CLI::App& command, const Options& options, Chosen& chosen);
+void add_check(CLI::App& command, Chosen& chosen);
+void add_linearize(CLI::App& command, Chosen& chosen);
+void add_measure(CLI::App& command, Chosen& chosen);
+void add_summarise(CLI::App& command, Chosen& chosen);
+void add_compare(CLI::App& command, Chosen& chosen);
+void add_verify(CLI::App& command, const Options& options, Chosen& chosen);
+void add_columns(CLI::App& command, Chosen& chosen);
+void add_accuracy(CLI::App& command, const Options& options, Chosen& chosen);
+void add_sweep(CLI::App& command, const Options& options, Chosen& chosen);
+void add_merge(CLI::App& command, const Options& options, Chosen& chosen);
+void add_plot(CLI::App& command, const Options& options, Chosen& chosen);
+void add_replay(CLI::App& command, const Options& options, Chosen& chosen);
 
 }  // namespace bbsim::app

@@ -44,10 +44,8 @@ ExitCode run_compare(const CompareOptions& options) {
 
 }  // namespace
 
-void add_compare(CLI::App& app, Chosen& chosen) {
-  CLI::App* command =
-      app.add_subcommand("compare", "Compare two results, of runs or of sweeps: CSV or HDF5");
-  command->footer(
+void add_compare(CLI::App& command, Chosen& chosen) {
+  command.footer(
       "Columns are compared by name, whatever their order, rows by position. Values a and b are "
       "alike if |a - b| <= atol + rtol max(|a|, |b|); NaN is like NaN, an infinity like the same "
       "infinity; texts, such as a sweep's status, are alike if they are equal. Without --rtol and "
@@ -57,25 +55,25 @@ void add_compare(CLI::App& app, Chosen& chosen) {
       "lacks a named column.");
   auto options = std::make_shared<CompareOptions>();
   command
-      ->add_option("A", options->a,
-                   "a CSV file, an HDF5 file (.h5, .hdf5), or - for CSV on standard input")
+      .add_option("A", options->a,
+                  "a CSV file, an HDF5 file (.h5, .hdf5), or - for CSV on standard input")
       ->required();
-  command->add_option("B", options->b, "what to compare it with")->required();
+  command.add_option("B", options->b, "what to compare it with")->required();
   command
-      ->add_option("--rtol", options->rtol,
-                   "relative tolerance, of the larger value; default: see below")
+      .add_option("--rtol", options->rtol,
+                  "relative tolerance, of the larger value; default: see below")
       ->type_name("R");
   command
-      ->add_option("--atol", options->atol,
-                   "absolute tolerance, in the column's unit; default: see below")
+      .add_option("--atol", options->atol,
+                  "absolute tolerance, in the column's unit; default: see below")
       ->type_name("A");
   command
-      ->add_option("--columns", options->columns,
-                   "compare these only (default: all; one that a file lacks is a difference)")
+      .add_option("--columns", options->columns,
+                  "compare these only (default: all; one that a file lacks is a difference)")
       ->type_name("NAME,...")
       ->delimiter(',')
       ->allow_extra_args(false);  // a file may follow
-  command->callback([options, &chosen] { chosen = [options] { return run_compare(*options); }; });
+  command.callback([options, &chosen] { chosen = [options] { return run_compare(*options); }; });
 }
 
 }  // namespace bbsim::app

@@ -48,12 +48,8 @@ std::string poles_line(const model::Eigenvalues& poles) {
 
 namespace {
 
-model::Eigenvalues poles_of_samples(const model::Model& model) {
-  return model::sampled_poles(std::get<model::RigLoop<>>(model.system), *model.rig);
-}
-
 std::string instability_of_samples(const model::Model& model) {
-  const model::Eigenvalues poles = poles_of_samples(model);
+  const model::Eigenvalues poles = model::sampled_poles(model);
   const auto outside = std::count_if(poles.begin(), poles.end(),
                                      [](const auto& pole) { return std::abs(pole) > 1 + 1e-9; });
   if (poles.empty() || std::abs(poles.front()) < 1 - 1e-9) return "";
@@ -113,6 +109,10 @@ std::string instability_warning(const Scenario& scenario, const model::Model& mo
 
 std::string failure_text(const Scenario& scenario, const model::Model& model,
                          const solve::Outcome& outcome) {
+  if (outcome.by_controller) {
+    return "the run ended early, at t = " + short_number(outcome.reached) + " s of " +
+           short_number(scenario.time.end) + " s: " + outcome.reason + '.';
+  }
   const std::vector<std::string> names = model.state_names();
   std::string text = "the run ended early, at t = " + short_number(outcome.reached) + " s of " +
                      short_number(scenario.time.end) + " s: " + outcome.reason + ".\n";
@@ -150,6 +150,10 @@ std::string occurrence_text(const model::Occurrence& occurrence) {
       {"slip", "rolling needs more friction than there is"},
       {"lift_off", "the ball leaves the plane: the normal force is no longer positive"},
       {"tilt", "the plane tilts to its limit"},
+      {"roll", "the ball rolls again"},
+      {"rest", "rolling resistance has brought the ball to rest"},
+      {"stick_phi", "friction of its motor holds phi"},
+      {"stick_theta", "friction of its motor holds theta"},
       {"singularity", "no accelerations of the gimbal give the ball the one wanted any more"},
   };
   std::string text = occurrence.name;
@@ -172,7 +176,14 @@ std::string stopping_text(const Scenario& scenario, const std::string& event) {
            "would "
            "let it run on.";
   }
-  const bool plain = event == "edge" || event == "lift_off";
+  if (event == "lift_off" && !events.lift_off) {
+    return "So it is by default where friction depends on the normal force; events.lift_off: note "
+           "would let it run on.";
+  }
+  if (event.starts_with("stick")) {
+    return "That is what the scene asks for: events.stick is stop; note would let it run on.";
+  }
+  const bool plain = event == "edge" || event == "lift_off" || event == "rest";
   return "That is what the scene asks for: events." + event + (plain ? "" : ".action") +
          " is stop; note would let it run on.";
 }

@@ -1,6 +1,7 @@
 // bbsim: a table of contents. Each subcommand has a file of its own; one ladder turns errors into
 // exit codes.
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
@@ -8,12 +9,14 @@
 #include <functional>
 #include <memory>
 #include <new>
+#include <string_view>
 
 #include "base/error.hpp"
 #include "command_line.hpp"
 #include "commands.hpp"
 #include "file/temporaries.hpp"
 #include "help.hpp"
+#include "model/control/external_controller.hpp"
 #include "signals.hpp"
 #include "simd/instruction_set.hpp"
 #include "terminal.hpp"
@@ -40,6 +43,8 @@ ExitCode run(const Command& command) {
     return say(error.what(), ExitCode::input_at_fault);
   } catch (const bbsim::ReaderGone&) {
     return ExitCode::output_failed;  // quietly: whoever reads has seen enough, as of `| head`
+  } catch (const bbsim::model::ControllerFault& error) {
+    return say(error.what(), error.interrupted() ? ExitCode::interrupted : ExitCode::ended_early);
   } catch (const bbsim::OutputError& error) {
     return say(error.what(), ExitCode::output_failed);
   } catch (const std::bad_alloc&) {
@@ -89,17 +94,46 @@ ExitCode command_line(int argc, char** argv) {
   bbsim::app::Options options;
   bbsim::app::add_quiet(app, options);
   std::function<ExitCode()> chosen;
-  bbsim::app::add_run(app, options, chosen);
-  bbsim::app::add_check(app, chosen);
-  bbsim::app::add_sweep(app, options, chosen);
-  bbsim::app::add_merge(app, options, chosen);
-  bbsim::app::add_plot(app, options, chosen);
-  bbsim::app::add_replay(app, options, chosen);
-  bbsim::app::add_compare(app, chosen);
-  bbsim::app::add_verify(app, options, chosen);
-  bbsim::app::add_columns(app, chosen);
-  bbsim::app::add_accuracy(app, options, chosen);
-  bbsim::app::add_help(app, chosen);
+  struct Command {
+    const char *name, *description;
+    std::function<void(CLI::App&)> add_options;
+  };
+  using namespace bbsim::app;
+  const Command commands[] = {
+      {"run", "Simulate a scenario", [&](CLI::App& command) { add_run(command, options, chosen); }},
+      {"check", "Validate a scenario; print what is modelled and why, poles, and the solver",
+       [&](CLI::App& command) { add_check(command, chosen); }},
+      {"linearize", "A, B, C, D, poles, zeros and margins of a scenario about a point",
+       [&](CLI::App& command) { add_linearize(command, chosen); }},
+      {"measure", "Measure a stored run: step metrics, extremes, crossings",
+       [&](CLI::App& command) { add_measure(command, chosen); }},
+      {"sweep", "Simulate a scenario at many values of its keys",
+       [&](CLI::App& command) { add_sweep(command, options, chosen); }},
+      {"merge", "Put the parts of a sweep (bbsim sweep --shard) together",
+       [&](CLI::App& command) { add_merge(command, options, chosen); }},
+      {"summarise", "Count, mean, deviation and quantiles of a sweep's measures, by group",
+       [&](CLI::App& command) { add_summarise(command, chosen); }},
+      {"plot", "Draw runs and sweeps",
+       [&](CLI::App& command) { add_plot(command, options, chosen); }},
+      {"replay", "Show runs and sweeps: one HTML file that replays them",
+       [&](CLI::App& command) { add_replay(command, options, chosen); }},
+      {"compare", "Compare two results, of runs or of sweeps: CSV or HDF5",
+       [&](CLI::App& command) { add_compare(command, chosen); }},
+      {"verify", "Check this build against known answers; show what the full model buys",
+       [&](CLI::App& command) { add_verify(command, options, chosen); }},
+      {"columns", "List the output columns, their units and meaning",
+       [&](CLI::App& command) { add_columns(command, chosen); }},
+      {"accuracy", "Error and time of each method over a ladder of tolerances",
+       [&](CLI::App& command) { add_accuracy(command, options, chosen); }},
+  };
+  // Options are made of those that are named: all of them take longer than many a run.
+  for (const auto& [name, description, add_options] : commands) {
+    CLI::App* const command = app.add_subcommand(name, description);
+    if (std::find(argv + 1, argv + argc, std::string_view(name)) != argv + argc) {
+      add_options(*command);
+    }
+  }
+  add_help(app, chosen);
 
   try {
     app.parse(argc, argv);

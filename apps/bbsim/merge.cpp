@@ -43,17 +43,15 @@ ExitCode merge(const MergeArguments& arguments, const Options& options) {
 
 }  // namespace
 
-void add_merge(CLI::App& app, const Options& options, Chosen& chosen) {
-  CLI::App* command =
-      app.add_subcommand("merge", "Put the parts of a sweep (bbsim sweep --shard) together");
+void add_merge(CLI::App& command, const Options& options, Chosen& chosen) {
   const auto arguments = std::make_shared<MergeArguments>();
-  command->add_option("PARTS", arguments->parts, "files of all shards, in any order")->required();
+  command.add_option("PARTS", arguments->parts, "files of all shards, in any order")->required();
   command
-      ->add_option("-o,--output", arguments->output,
-                   "FILE.csv or FILE.h5, as the parts; - for CSV on standard output")
+      .add_option("-o,--output", arguments->output,
+                  "FILE.csv or FILE.h5, as the parts; - for CSV on standard output")
       ->type_name("FILE")
       ->required();
-  command->callback([arguments, &options, &chosen] {
+  command.callback([arguments, &options, &chosen] {
     chosen = [arguments, &options] { return merge(*arguments, options); };
   });
 }

@@ -182,9 +182,8 @@ ExitCode plot_files(const PlotArguments& arguments, const Options& options) {
 
 }  // namespace
 
-void add_plot(CLI::App& app, const Options& options, Chosen& chosen) {
-  CLI::App* command = app.add_subcommand("plot", "Draw runs and sweeps");
-  command->footer(
+void add_plot(CLI::App& command, const Options& options, Chosen& chosen) {
+  command.footer(
       "A run: its path in the plane, and its columns over time; a sweep: its measures over the "
       "keys that vary. Title, plate, events and friction coefficient are in .h5 files; for a .csv "
       "they are taken from its summary, NAME.json beside NAME.csv or --summary, or from "
@@ -197,27 +196,27 @@ void add_plot(CLI::App& app, const Options& options, Chosen& chosen) {
       "  bbsim plot fig2b-sweep.csv --columns x_end,max_tilt");
   const auto arguments = std::make_shared<PlotArguments>();
   command
-      ->add_option("FILES", arguments->files,
-                   "CSV or HDF5 files of runs and sweeps; - is CSV on standard input")
+      .add_option("FILES", arguments->files,
+                  "CSV or HDF5 files of runs and sweeps; - is CSV on standard input")
       ->required();
-  command->add_option("-o,--output", arguments->output,
-                      "FILE.svg, .png or .pdf, or - for standard output; default: FILE with .svg");
-  command->add_option("--format", arguments->format, "svg, png or pdf; default: as the ending says")
+  command.add_option("-o,--output", arguments->output,
+                     "FILE.svg, .png or .pdf, or - for standard output; default: FILE with .svg");
+  command.add_option("--format", arguments->format, "svg, png or pdf; default: as the ending says")
       ->type_name("FORMAT");
-  command->add_flag("--overlay", arguments->overlay,
-                    "all files in one picture, to be compared; default name: FIRST-overlay.svg");
-  may_be_repeated(*command->add_option(
+  command.add_flag("--overlay", arguments->overlay,
+                   "all files in one picture, to be compared; default name: FIRST-overlay.svg");
+  may_be_repeated(*command.add_option(
       "--columns", arguments->columns,
       "what to draw: columns of a panel parted by commas, panels by semicolons; path is the "
       "picture in the plane. Of a sweep: measures"));
-  may_be_repeated(*command->add_option("--over", arguments->over,
-                                       "KEY[,KEY] of a sweep: what its measures are drawn over"));
-  command->add_option("--summary", arguments->beside.summary,
-                      "FILE.json that `bbsim run --summary` wrote of the run");
-  command->add_option("--scenario", arguments->beside.scenario, "FILE.yaml that was run");
-  may_be_repeated(*command->add_option("--set", arguments->beside.overrides,
-                                       "key.path=value that was set in it; may be given again"));
-  command->callback([arguments, &options, &chosen] {
+  may_be_repeated(*command.add_option("--over", arguments->over,
+                                      "KEY[,KEY] of a sweep: what its measures are drawn over"));
+  command.add_option("--summary", arguments->beside.summary,
+                     "FILE.json that `bbsim run --summary` wrote of the run");
+  command.add_option("--scenario", arguments->beside.scenario, "FILE.yaml that was run");
+  may_be_repeated(*command.add_option("--set", arguments->beside.overrides,
+                                      "key.path=value that was set in it; may be given again"));
+  command.callback([arguments, &options, &chosen] {
     chosen = [arguments, &options] { return plot_files(*arguments, options); };
   });
 }

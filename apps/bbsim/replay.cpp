@@ -115,6 +115,7 @@ std::vector<Source> read_all(const ReplayArguments& arguments, file::Outputs& ou
       } else if (is_scenario(files[i])) {
         source.scenario = read_scenario(files[i], arguments.beside.overrides);
         reads_scenario(outputs, files[i], table_files(*source.scenario));
+        reads_controller(outputs, *source.scenario);
       } else {
         outputs.reads(files[i], "what is shown");
         source.result = plot::read_result(files[i], arguments.beside);
@@ -132,11 +133,13 @@ replay::Run run_scenario(const Source& source, const Options& options, ExitCode&
   const Scenario& scenario = *source.scenario;
   const auto asked = scenario::columns_named(scenario.output.columns);
   const auto columns = with_pictured(asked, scenario);
-  const model::Model model = assemble(scenario, columns);
+  controller::Host host = make_host(&watch_signals());
+  const model::Model model = assemble(scenario, columns, host);
   const solve::OutputGrid grid(scenario.time);
   file::MemoryTable table(scenario::names_of(columns));
   const Simulation made =
       simulate(scenario, model, grid, columns, asked.size(), table, options.quiet);
+  host.finish();
   tell(made, options.quiet);
   if (code == ExitCode::done || made.code == ExitCode::interrupted) code = made.code;
   replay::Run run = run_of(scenario, table.take(), made.summary);
@@ -195,10 +198,8 @@ ExitCode replay_files(const ReplayArguments& arguments, const Options& options) 
 
 }  // namespace
 
-void add_replay(CLI::App& app, const Options& options, Chosen& chosen) {
-  CLI::App* command =
-      app.add_subcommand("replay", "Show runs and sweeps: one HTML file that replays them");
-  command->footer(
+void add_replay(CLI::App& command, const Options& options, Chosen& chosen) {
+  command.footer(
       "The page opens in any browser, offline: the rig in three dimensions, plots, what was run. "
       "Of several runs the first one leads and the others are its ghosts. A scenario is run first. "
       "Title, plate, ball and events of a .csv are taken from its summary, NAME.json beside "
@@ -212,35 +213,35 @@ void add_replay(CLI::App& app, const Options& options, Chosen& chosen) {
       "  bbsim replay fig2b-sweep.csv --scenario configs/fig2b.yaml\n"
       "  bbsim replay configs/fig2a.yaml -o fig2a.glb");
   const auto arguments = std::make_shared<ReplayArguments>();
-  command->add_option("FILES", arguments->files,
-                      "results (CSV, HDF5) of runs or sweeps, or scenarios; - is CSV on standard "
-                      "input");
+  command.add_option("FILES", arguments->files,
+                     "results (CSV, HDF5) of runs or sweeps, or scenarios; - is CSV on standard "
+                     "input");
   command
-      ->add_option("-o,--output", arguments->output,
-                   "FILE.html, FILE.glb (glTF, for Blender and slides), or - for a page on "
-                   "standard output; default: the first file's name with .html")
+      .add_option("-o,--output", arguments->output,
+                  "FILE.html, FILE.glb (glTF, for Blender and slides), or - for a page on "
+                  "standard output; default: the first file's name with .html")
       ->type_name("FILE");
   may_be_repeated(
       *command
-           ->add_option("--data", arguments->logs,
-                        "LOG.csv of a real rig, shown beside the runs; may be given again")
+           .add_option("--data", arguments->logs,
+                       "LOG.csv of a real rig, shown beside the runs; may be given again")
            ->type_name("LOG"));
   may_be_repeated(
       *command
-           ->add_option("--map", arguments->maps,
-                        "COLUMN=NAME[:UNIT],... which column of the log is which of bbsim columns, "
-                        "and its unit; default: the log's names are bbsim's, in SI units")
+           .add_option("--map", arguments->maps,
+                       "COLUMN=NAME[:UNIT],... which column of the log is which of bbsim columns, "
+                       "and its unit; default: the log's names are bbsim's, in SI units")
            ->type_name("MAP"));
-  command->add_option("--title", arguments->title, "of the page; default: the scenario's")
+  command.add_option("--title", arguments->title, "of the page; default: the scenario's")
       ->type_name("TEXT");
   command
-      ->add_option("--summary", arguments->beside.summary,
-                   "FILE.json that `bbsim run --summary` wrote of the result")
+      .add_option("--summary", arguments->beside.summary,
+                  "FILE.json that `bbsim run --summary` wrote of the result")
       ->type_name("FILE");
-  command->add_option("--scenario", arguments->beside.scenario, "FILE.yaml that a result is of")
+  command.add_option("--scenario", arguments->beside.scenario, "FILE.yaml that a result is of")
       ->type_name("FILE");
-  add_overrides(*command, arguments->beside.overrides);
-  command->callback([arguments, &options, &chosen] {
+  add_overrides(command, arguments->beside.overrides);
+  command.callback([arguments, &options, &chosen] {
     chosen = [arguments, &options] { return replay_files(*arguments, options); };
   });
 }

@@ -1,4 +1,5 @@
 #include <CLI/App.hpp>
+#include <deque>
 #include <memory>
 #include <optional>
 #include <string>
@@ -11,10 +12,13 @@
 #include "file/atomic_file.hpp"
 #include "file/memory_table.hpp"
 #include "file/outputs.hpp"
+#include "measure_text.hpp"
 #include "model/model.hpp"
 #include "record/recorder.hpp"
 #include "replay_file.hpp"
+#include "run_part.hpp"
 #include "scenario/reader.hpp"
+#include "signals.hpp"
 #include "simulation.hpp"
 #include "terminal.hpp"
 
@@ -24,6 +28,8 @@ namespace {
 struct RunArguments {
   ScenarioArguments scenario;
   std::string output, summary, error, replay;
+  std::vector<std::string> measures;
+  PartArguments part;
 };
 
 constexpr file::ColumnHeader position_error{
@@ -31,10 +37,21 @@ constexpr file::ColumnHeader position_error{
 
 // Comes before any of them is opened.
 void declare_files(const RunArguments& arguments, const Scenario& scenario,
-                   const std::string& output) {
+                   const std::string& output, const std::optional<RunPart>& part) {
   file::Outputs outputs;
   reads_scenario(outputs, arguments.scenario.file, table_files(scenario));
+  reads_controller(outputs, scenario);
+  if (!arguments.measures.empty()) {
+    // A pipe is nobody's, but what came of it could not be read.
+    for (const auto& [name, option] : {std::pair(output, "-o"), {arguments.summary, "--summary"}}) {
+      if (name != "-") continue;
+      throw InputError("--measure: prints to standard output, as " + std::string(option) +
+                       " - does; allowed: " + option + " FILE");
+    }
+    prints(outputs);
+  }
   outputs.writes(output, arguments.output.empty() ? "its name by default, without -o" : "-o");
+  if (part) part->declare(outputs);
   if (!arguments.summary.empty()) outputs.writes(arguments.summary, "--summary");
   if (!arguments.replay.empty()) outputs.writes(arguments.replay, "--replay");
 }
@@ -47,17 +64,33 @@ ExitCode run(const RunArguments& arguments, const Options& options) {
   const Scenario scenario = read_scenario(arguments.scenario.file, overrides, &inputs);
   const auto asked = scenario::columns_named(scenario.output.columns);
   const auto columns = arguments.replay.empty() ? asked : with_pictured(asked, scenario);
-  const model::Model model = assemble(scenario, columns);
-  const solve::OutputGrid grid(scenario.time);
-
+  const auto measures =
+      scenario::measures_named(scenario::split_measures(arguments.measures), scenario);
   const std::string output =
       arguments.output.empty() ? default_output(arguments.scenario.file, ".csv") : arguments.output;
+  std::optional<RunPart> part;
+  if (arguments.part.any()) part.emplace(arguments.part, scenario, inputs);
+  declare_files(arguments, scenario, output, part);
+  controller::Host host = make_host(&watch_signals());
+  auto needed = columns;
+  for (const scenario::Measure& measure : measures) {
+    needed.push_back(measure.column);
+    if (measure.instant.column != nullptr) needed.push_back(measure.instant.column);
+  }
+  const model::Model model = assemble(part ? part->whole() : scenario, needed, host);
+  const solve::OutputGrid grid = part ? part->grid() : solve::OutputGrid(scenario.time);
+  if (part) part->check(model, columns);
+
   std::vector<file::ColumnHeader> headers;
+  std::deque<std::string> units;  // as the scene's own controller names them
   headers.reserve(asked.size());
   for (const scenario::Column* column : asked) {
     headers.push_back({column->name, column->unit, column->meaning});
+    if (column->needs != scenario::Needs::own) continue;
+    units.push_back(host.unit_of(column->name).value_or("1"));
+    headers.back().unit = units.back();
   }
-  declare_files(arguments, scenario, output);
+  if (part) part->open();
   std::optional<ReplayFile> replay;
   if (!arguments.replay.empty()) replay.emplace(arguments.replay);
   const auto writer = file::open_table(output, headers);
@@ -67,11 +100,17 @@ ExitCode run(const RunArguments& arguments, const Options& options) {
   std::optional<file::MemoryTable> pictured;
   if (replay) pictured.emplace(scenario::names_of(columns), writer.get(), asked.size());
 
+  std::optional<record::Meter> meter;
+  if (!measures.empty()) meter.emplace(measures);
   Simulation made =
       simulate(scenario, model, grid, columns, asked.size(),
-               pictured ? static_cast<file::TableWriter&>(*pictured) : *writer, options.quiet);
+               pictured ? static_cast<file::TableWriter&>(*pictured) : *writer, options.quiet,
+               meter ? &*meter : nullptr, part ? &part->part() : nullptr);
   record::RunSummary& summary = made.summary;
   summary.output = output;
+  for (std::size_t m = 0; m < measures.size(); ++m) {
+    summary.measures.emplace_back(measures[m].name, made.measures[m]);
+  }
   if (summary.error_estimate) writer->add_column(position_error, made.row_estimates);
   writer->finish(record::to_attributes(summary, scenario.source.text));
   if (summary_file) {
@@ -79,16 +118,21 @@ ExitCode run(const RunArguments& arguments, const Options& options) {
     summary_file->commit();
   }
 
+  host.finish();
+  if (!measures.empty()) print(measure_text(measures, made.measures));
+  const std::string state = part ? part->finish(model) : "";
+  const std::size_t rows = part ? part->part().end_row - part->part().first_row : grid.size();
   tell(made, options.quiet);
   if (!options.quiet) {
     std::string line = name_of_output(output) + ": " + std::to_string(summary.rows) + " of " +
-                       std::to_string(grid.size()) + " rows, " + summary.method + ", " +
+                       std::to_string(rows) + " rows, " + summary.method + ", " +
                        std::to_string(summary.statistics.steps) + " steps";
     if (summary.error_estimate) {
       line += ", error about " + short_number(*summary.error_estimate) + " m";
     }
     say(line);
   }
+  if (!state.empty() && !options.quiet) say(state);
   if (replay) {
     replay->write(scene_of(run_of(scenario, pictured->take(), summary)), options.quiet);
   }
@@ -97,34 +141,40 @@ ExitCode run(const RunArguments& arguments, const Options& options) {
 
 }  // namespace
 
-void add_run(CLI::App& app, const Options& options, Chosen& chosen) {
-  CLI::App* command = app.add_subcommand("run", "Simulate a scenario");
-  command->footer(
-      "Examples:\n"
+void add_run(CLI::App& command, const Options& options, Chosen& chosen) {
+  command.footer(
+      measures_footer() +
+      "\n\nExamples:\n"
+      "  bbsim run configs/step.yaml --measure x.RiseTime,x.Overshoot,max_tilt\n"
       "  bbsim run configs/fig2a.yaml\n"
       "  bbsim run configs/fig2a.yaml --set ball.radius=\"2 cm\" -o big.h5\n"
       "  bbsim run configs/fig2b.yaml --error \"1 um\" --summary run.json\n"
       "  bbsim run configs/rig.yaml -o - -q | head -3\n"
+      "  bbsim run configs/rig.yaml --until \"20 s\" --save-state rig.state -o first.csv\n"
+      "  bbsim run configs/rig.yaml --from-state rig.state -o second.csv\n"
       "  bbsim run configs/rig.yaml -o rig.h5 --replay rig.html\n"
       "  sed 's/-10 cm/-5 cm/' configs/fig2a.yaml | bbsim run - -o near.csv");
   const auto arguments = std::make_shared<RunArguments>();
-  add_scenario(*command, arguments->scenario);
+  add_scenario(command, arguments->scenario);
   command
-      ->add_option("-o,--output", arguments->output,
-                   "FILE.csv, FILE.h5, or - for CSV on standard output; default: the scenario's "
-                   "name with .csv, in the current folder (of standard input: -)")
+      .add_option("-o,--output", arguments->output,
+                  "FILE.csv, FILE.h5, or - for CSV on standard output; default: the scenario's "
+                  "name with .csv, in the current folder (of standard input: -)")
       ->type_name("FILE");
-  add_error(*command, arguments->error);
+  add_error(command, arguments->error);
+  add_measures(command, arguments->measures,
+               "print measures of the motion as CSV, measure,value: see below; may be given again");
   command
-      ->add_option("--summary", arguments->summary,
-                   "FILE.json, or - for standard output: how the run went, what was modelled, "
-                   "statistics")
+      .add_option("--summary", arguments->summary,
+                  "FILE.json, or - for standard output: how the run went, what was modelled, "
+                  "statistics")
       ->type_name("FILE");
+  add_part(command, arguments->part);
   command
-      ->add_option("--replay", arguments->replay,
-                   "FILE.html: also a page that shows the run, or FILE.glb; as of bbsim replay")
+      .add_option("--replay", arguments->replay,
+                  "FILE.html: also a page that shows the run, or FILE.glb; as of bbsim replay")
       ->type_name("FILE");
-  command->callback([arguments, &options, &chosen] {
+  command.callback([arguments, &options, &chosen] {
     chosen = [arguments, &options] { return run(*arguments, options); };
   });
 }

@@ -5,6 +5,7 @@
 #include <csignal>
 
 #include "base/error.hpp"
+#include "controller/children.hpp"
 #include "file/temporaries.hpp"
 
 namespace bbsim::app {
@@ -16,6 +17,7 @@ static_assert(std::atomic<bool>::is_always_lock_free, "a signal handler may set 
 void end(int) {
   if (watched.load(std::memory_order_relaxed) && !end_requested.exchange(true)) return;
   file::remove_temporaries();
+  controller::end_children();
   _exit(static_cast<int>(ExitCode::interrupted));
 }
 

@@ -7,6 +7,7 @@
 #include "describe.hpp"
 #include "model/explain.hpp"
 #include "progress.hpp"
+#include "record/both_sinks.hpp"
 #include "record/edge_note.hpp"
 #include "record/recorder.hpp"
 #include "signals.hpp"
@@ -59,7 +60,7 @@ struct Integration {
 
 Integration integrate(const Scenario& scenario, const model::Model& model,
                       const solve::OutputGrid& grid, solve::StateSink& sink,
-                      const solve::Watch& watch) {
+                      const solve::Watch& watch, solve::Part* part) {
   const solve::CpuClock clock;
   const Solver& solver = scenario.solver;
   Integration made;
@@ -75,7 +76,8 @@ Integration integrate(const Scenario& scenario, const model::Model& model,
     }
   } else {
     made.tolerances = {solver.rtol, solver.atol};
-    made.outcome = solve::integrate(model, solver.method, made.tolerances, grid, sink, watch);
+    made.outcome = solve::integrate(model, solver.method, made.tolerances, grid, sink, watch, part);
+    if (part != nullptr) made.outcome.rows -= part->first_row;
   }
   made.cpu_seconds = clock.seconds();
   return made;
@@ -149,16 +151,24 @@ record::RunSummary summarise(const Scenario& scenario, const model::Model& model
 Simulation simulate(const Scenario& scenario, const model::Model& model,
                     const solve::OutputGrid& grid,
                     const std::vector<const scenario::Column*>& columns, std::size_t asked,
-                    file::TableWriter& writer, bool quiet) {
-  record::Recorder recorder(model, model::constants_of(scenario), grid, columns, writer);
+                    file::TableWriter& writer, bool quiet, record::Meter* meter,
+                    solve::Part* part) {
+  const model::BallConstants constants = model::constants_of(scenario);
+  record::Recorder recorder(model, constants, grid, columns, writer);
   std::optional<record::EdgeNote> edge;
   if (record::EdgeNote::wanted(scenario)) edge.emplace(model, scenario.plate, grid, recorder);
-  solve::StateSink& sink = edge ? static_cast<solve::StateSink&>(*edge) : recorder;
+  solve::StateSink& rows = edge ? static_cast<solve::StateSink&>(*edge) : recorder;
+  std::optional<record::BothSinks> both;
+  if (meter != nullptr) {
+    meter->begin(model, constants, grid);
+    both.emplace(rows, *meter);
+  }
+  solve::StateSink& sink = both ? static_cast<solve::StateSink&>(*both) : rows;
 
   Progress progress(scenario.source.file, quiet);
   const solve::Watch watch{&watch_signals(),
                            [&](double time) { progress.update(time / grid.end()); }};
-  Integration made = integrate(scenario, model, grid, sink, watch);
+  Integration made = integrate(scenario, model, grid, sink, watch, part);
   progress.clear();
 
   std::string reason = shortfall(scenario, model, made);
@@ -173,6 +183,10 @@ Simulation simulate(const Scenario& scenario, const model::Model& model,
   Simulation simulation;
   simulation.summary = summarise(scenario, model, made, reason, warnings, recorder.peaks());
   simulation.noted = noted_text(made.outcome.occurrences);
+  if (meter != nullptr) {
+    simulation.measures.resize(meter->size());
+    meter->finish(made.outcome, simulation.measures.data());
+  }
   simulation.row_estimates = std::move(made.row_estimates);
   simulation.code = exit_code(made.outcome.ending);
   const bool whole = made.within_error && not_finite.empty();

@@ -14,6 +14,7 @@
 #include <utility>
 #include <vector>
 
+#include "assemble.hpp"
 #include "base/number_text.hpp"
 #include "commands.hpp"
 #include "describe.hpp"
@@ -71,36 +72,15 @@ Sweep sweep_of(const SweepArguments& arguments, const Sweep& in_scenario) {
   if (arguments.samples) sweep.samples = *arguments.samples;
   if (arguments.seed) sweep.seed = *arguments.seed;
   if (!arguments.measure.empty()) {
-    sweep.measure.clear();
-    for (const std::string& names : arguments.measure) {
-      for (std::size_t start = 0; start != std::string::npos;) {
-        const std::size_t comma = names.find(',', start);
-        sweep.measure.push_back(names.substr(start, comma - start));
-        start = comma == std::string::npos ? comma : comma + 1;
-      }
-    }
+    sweep.measure = scenario::split_measures(arguments.measure);
   }
   return sweep;
 }
 
 std::vector<scenario::Measure> measures_of(const Sweep& sweep, const Scenario& scenario) {
   const bool loop = scenario.controller.has_value();
-  std::vector<scenario::Measure> measures;
-  for (const std::string& name :
-       sweep.measure.empty() ? scenario::default_measures(loop) : sweep.measure) {
-    const std::optional<scenario::Measure> measure = scenario::find_measure(name);
-    if (!measure) {
-      throw InputError("measure: found " + name + "; allowed: " + scenario::allowed_measures());
-    }
-    if (const scenario::Missing lacks = scenario::missing(*measure->column, scenario)) {
-      throw InputError("measure: found " + name + ", but " + lacks.why);
-    }
-    for (const scenario::Measure& other : measures) {
-      if (other.name == name) throw InputError("measure: found " + name + " twice");
-    }
-    measures.push_back(*measure);
-  }
-  return measures;
+  return scenario::measures_named(
+      sweep.measure.empty() ? scenario::default_measures(loop) : sweep.measure, scenario);
 }
 
 // Columns of the output rows to be kept of each case.
@@ -130,17 +110,26 @@ std::size_t available_threads() {
 
 // Comes before any of them is opened.
 void declare_files(const SweepArguments& arguments, const ScenarioFamily& family,
-                   const std::string& output) {
+                   const Scenario& first, const std::string& output) {
   file::Outputs outputs;
   std::vector<std::string> tables;
   for (const auto& [name, hash] : family.table_hashes()) tables.push_back(name);
   reads_scenario(outputs, arguments.scenario.file, tables);
+  reads_controller(outputs, first);
   const std::string option = arguments.output.empty() ? "its name by default, without -o" : "-o";
   outputs.writes(output, option);
   for (const std::string& file : sweep::case_files_beside(output)) {
     outputs.writes(file, "kept beside " + output + " until the sweep is done");
   }
   if (!arguments.summary.empty()) outputs.writes(arguments.summary, "--summary");
+}
+
+// A controller of one's own that cannot be had is the scenario's fault, and not that of each case.
+void try_controller(const ScenarioFamily& family, Scenario first) {
+  if (!first.controller || !first.controller->own) return;
+  first.source = family.source();  // where its keys stand
+  controller::Host host = make_host(&watch_signals());
+  static_cast<void>(assemble(first, scenario::columns_named(first.output.columns), host));
 }
 
 ExitCode sweep(const SweepArguments& arguments, const Options& options) {
@@ -152,6 +141,7 @@ ExitCode sweep(const SweepArguments& arguments, const Options& options) {
   const sweep::SweepPlan plan(family, sweep);
   const Scenario first = family.read(plan.settings(0));
   sweep::SweepTask task{family, plan, measures_of(sweep, first)};
+  task.tell = say_of_controller;
   if (arguments.keep_trajectories) keep_trajectories(task, first);
 
   const sweep::Engine engine = sweep::choose_engine(task);
@@ -177,7 +167,8 @@ ExitCode sweep(const SweepArguments& arguments, const Options& options) {
   const std::string output = arguments.output.empty()
                                  ? default_output(arguments.scenario.file, suffix(shard))
                                  : arguments.output;
-  declare_files(arguments, family, output);
+  declare_files(arguments, family, first, output);
+  try_controller(family, first);
   const auto summary =
       arguments.summary.empty() ? nullptr : std::make_unique<file::AtomicFile>(arguments.summary);
   const auto file = sweep::open_case_file(output, layout_of(facts, engine, range), plan_text(facts),
@@ -246,9 +237,8 @@ ExitCode sweep(const SweepArguments& arguments, const Options& options) {
 
 }  // namespace
 
-void add_sweep(CLI::App& app, const Options& options, Chosen& chosen) {
-  CLI::App* command = app.add_subcommand("sweep", "Simulate a scenario at many values of its keys");
-  command->footer(
+void add_sweep(CLI::App& command, const Options& options, Chosen& chosen) {
+  command.footer(
       "SPEC is linear:FROM:TO:COUNT, log:FROM:TO:COUNT, list:A,B,C, uniform:FROM:TO or "
       "normal:MEAN:SD; values may have units. KEY may be several keys that are tied, each with a "
       "factor: KEY,-KEY,2*KEY.\n"
@@ -260,52 +250,53 @@ void add_sweep(CLI::App& app, const Options& options, Chosen& chosen) {
       "  bbsim sweep configs/fig2b.yaml --vary controller.pd.kv.0.0=log:0.1:10:1000 \\\n"
       "      --shard 2/8 --resume -o part-2of8.csv");
   const auto arguments = std::make_shared<SweepArguments>();
-  add_scenario(*command, arguments->scenario);
+  add_scenario(command, arguments->scenario);
   may_be_repeated(*command
-                       ->add_option("--vary", arguments->vary,
-                                    "values for a key, or for several that are tied, see below; "
-                                    "may be given again; default: the scenario's sweep.vary")
+                       .add_option("--vary", arguments->vary,
+                                   "values for a key, or for several that are tied, see below; "
+                                   "may be given again; default: the scenario's sweep.vary")
                        ->type_name("KEY=SPEC"));
   command
-      ->add_option("--combine", arguments->combine,
-                   "grid: each value with each (default); zip: the first with the first")
+      .add_option("--combine", arguments->combine,
+                  "grid: each value with each (default); zip: the first with the first")
       ->type_name("HOW")
       ->check(CLI::IsMember({"grid", "zip"}).description(""));
-  command->add_option("--samples", arguments->samples, "cases to draw for uniform and normal")
+  command.add_option("--samples", arguments->samples, "cases to draw for uniform and normal")
       ->type_name("N")
       ->check(whole_number(1));
-  command->add_option("--seed", arguments->seed, "of what is drawn; default: 1")
+  command.add_option("--seed", arguments->seed, "of what is drawn; default: 1")
       ->type_name("N")
       ->check(whole_number(0));
   may_be_repeated(*command
-                       ->add_option("--measure", arguments->measure,
-                                    "instead of the default measures: min_, max_, rms_ or end_ "
-                                    "and one of bbsim columns but ball_q...; may be given again")
+                       .add_option("--measure", arguments->measure,
+                                   "instead of the default measures: min_, max_, rms_ or end_ "
+                                   "and one of bbsim columns but ball_q...; x.RiseTime, "
+                                   "y.Overshoot, ...; \"when x=0.05\" (docs/measures.md); may be "
+                                   "given again")
                        ->type_name("NAME,..."));
   command
-      ->add_option("-o,--output", arguments->output,
-                   "FILE.csv, FILE.h5, or - for CSV on standard output; default: the scenario's "
-                   "name with -sweep.csv, in the current folder (of standard input: -)")
+      .add_option("-o,--output", arguments->output,
+                  "FILE.csv, FILE.h5, or - for CSV on standard output; default: the scenario's "
+                  "name with -sweep.csv, in the current folder (of standard input: -)")
       ->type_name("FILE");
   command
-      ->add_option(
-          "--summary", arguments->summary,
-          "what the sweep was, how its cases ended, the engine: JSON; - is standard output")
+      .add_option("--summary", arguments->summary,
+                  "what the sweep was, how its cases ended, the engine: JSON; - is standard output")
       ->type_name("FILE");
   command
-      ->add_option("-j,--threads", arguments->threads,
-                   "threads; default: as many as there are processors")
+      .add_option("-j,--threads", arguments->threads,
+                  "threads; default: as many as there are processors")
       ->type_name("N")
       ->check(whole_number(1, 1024));
   command
-      ->add_option("--shard", arguments->shard,
-                   "only part K of N, from 1; `bbsim merge` puts the parts together")
+      .add_option("--shard", arguments->shard,
+                  "only part K of N, from 1; `bbsim merge` puts the parts together")
       ->type_name("K/N");
-  command->add_flag("--resume", arguments->resume, "go on with a sweep that did not end");
-  command->add_flag("--keep-trajectories", arguments->keep_trajectories,
-                    "keep the output rows of each case too (HDF5)");
-  add_error(*command, arguments->error);
-  command->callback([arguments, &options, &chosen] {
+  command.add_flag("--resume", arguments->resume, "go on with a sweep that did not end");
+  command.add_flag("--keep-trajectories", arguments->keep_trajectories,
+                   "keep the output rows of each case too (HDF5)");
+  add_error(command, arguments->error);
+  command.callback([arguments, &options, &chosen] {
     chosen = [arguments, &options] { return sweep(*arguments, options); };
   });
 }

@@ -95,7 +95,7 @@ sweep::CaseFileLayout layout_of(const SweepFacts& facts, const sweep::Engine& en
   layout.columns.push_back({"reason", "", "why it ended early, or empty", Hdf5Kind::text});
   layout.columns.push_back({"end_time", "s", "time reached"});
   for (const scenario::Measure& measure : task.measures) {
-    layout.columns.push_back({measure.name, std::string(measure.column->unit), measure.meaning()});
+    layout.columns.push_back({measure.name, measure.unit(), measure.meaning()});
   }
   if (task.series.empty()) return layout;
   const solve::OutputGrid grid(facts.first.time);

@@ -124,15 +124,13 @@ ExitCode verify(const VerifyArguments& arguments, const Options& options) {
 
 }  // namespace
 
-void add_verify(CLI::App& app, const Options& options, Chosen& chosen) {
-  CLI::App* command = app.add_subcommand(
-      "verify", "Check this build against known answers; show what the full model buys");
+void add_verify(CLI::App& command, const Options& options, Chosen& chosen) {
   const auto arguments = std::make_shared<VerifyArguments>();
-  command->add_option("SCENARIO", arguments->scenario,
-                      "a YAML file to compare simpler models over, - is standard input; default: "
-                      "the paper's Fig. 2");
-  add_overrides(*command, arguments->overrides);
-  command->callback([arguments, &options, &chosen] {
+  command.add_option("SCENARIO", arguments->scenario,
+                     "a YAML file to compare simpler models over, - is standard input; default: "
+                     "the paper's Fig. 2");
+  add_overrides(command, arguments->overrides);
+  command.callback([arguments, &options, &chosen] {
     chosen = [arguments, &options] { return verify(*arguments, options); };
   });
 }

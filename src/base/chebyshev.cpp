@@ -80,6 +80,18 @@ double ChebyshevPoints::slope_at_end(const double* values) const {
   return slope;
 }
 
+// Differences from each point's own value: a constant's slope is 0, without rounding.
+void ChebyshevPoints::slopes(const double* values, double* into) const {
+  for (std::size_t i = 0; i < points_.size(); ++i) {
+    double slope = 0;
+    for (std::size_t j = 0; j < points_.size(); ++j) {
+      if (j == i) continue;
+      slope += weights_[j] / weights_[i] / (points_[i] - points_[j]) * (values[j] - values[i]);
+    }
+    into[i] = slope;
+  }
+}
+
 // With T_N = +-1 at the points and T_(N-1) = T_N cos(angle), cos(angle) = 1 - 2 s.
 double ChebyshevPoints::tail(const double* values) const {
   double last = 0, before = 0;

@@ -21,6 +21,8 @@ class ChebyshevPoints {
   // Its derivative at 0 and at 1.
   [[nodiscard]] double slope_at_start(const double* values) const;
   [[nodiscard]] double slope_at_end(const double* values) const;
+  // Its derivative at all points, size() numbers.
+  void slopes(const double* values, double* into) const;
   // The polynomial between points i and i + 1: at the point between them of twice as many
   // intervals.
   [[nodiscard]] double between(const double* values, std::size_t i) const;

@@ -97,6 +97,15 @@ class Quad {
   return static_cast<double>(a);
 }
 
+// Newton's iteration doubles the digits of a double's root each time.
+[[nodiscard]] inline Quad root_along(Quad square, Quad along) {
+  Quad root(std::sqrt(plain(square)));
+  if (root > Quad(0.0)) {
+    for (int i = 0; i < 2; ++i) root = (root + square / root) / Quad(2.0);
+  }
+  return along < Quad(0.0) ? -root : root;
+}
+
 [[nodiscard]] inline SinCos<Quad> sin_cos(const Quad& angle) {
   SinCos<Quad> direction;
   sin_cos(angle, &direction.sin, &direction.cos);

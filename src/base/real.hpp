@@ -18,6 +18,12 @@ template <class Real>
   return {sin(angle), cos(angle)};
 }
 
+// The root of `square`, with the sign of `along`: the length of a vector as a coordinate that goes
+// on smoothly through zero, where the vector turns round.
+[[nodiscard]] inline double root_along(double square, double along) {
+  return std::copysign(std::sqrt(square), along);
+}
+
 // The time as a plain double, to choose an interval by. Overloaded for other number types.
 [[nodiscard]] inline double plain(double t) {
   return t;

@@ -3,9 +3,11 @@
 #include <utility>
 
 #include "base/instant.hpp"
+#include "model/assemble_coupled.hpp"
 #include "model/assemble_rig.hpp"
 #include "model/model.hpp"
 #include "model/signals/reference_path.hpp"
+#include "scenario/coupled.hpp"
 
 namespace bbsim::model {
 namespace {
@@ -27,7 +29,7 @@ bool stays_level(const Scenario& scene, const SignalPair& input, std::size_t axi
 // The symmetries of docs/model.md, section 3: theta, y and spin stay zero together, or phi, x
 // and spin.
 Shape choose_shape(const Scenario& scene, const SignalPair& input) {
-  if (needs_rig(scene) || !is_the_papers(scene)) return Shape::full;
+  if (needs_rig(scene) || scenario::is_coupled(scene) || !is_the_papers(scene)) return Shape::full;
   const Ball& ball = scene.ball;
   const auto at_rest = [&ball](std::size_t axis) {
     return ball.position[axis] == 0 && ball.velocity[axis] == 0;
@@ -78,6 +80,7 @@ System open_loop(Shape shape, const Scenario& scene, SignalPair motion) {
 }
 
 std::vector<double> initial_state(const Scenario& scene, Shape shape) {
+  if (scenario::is_coupled(scene)) return initial_coupled_state(scene);
   const Ball& ball = scene.ball;
   const GimbalStart& start = scene.gimbal.start;
   std::vector<double> z;
@@ -129,13 +132,23 @@ Model assemble(const Scenario& scenario, bool gamma, Symmetry symmetry) {
     input.add(1, scenario.gimbal.motion->theta);
     input.add_constant(0, scenario.gimbal.mounting.phi_offset);
     input.add_constant(1, scenario.gimbal.mounting.theta_offset);
+  } else if (scenario.gimbal.torque) {
+    input.add(0, scenario.gimbal.torque->phi);
+    input.add(1, scenario.gimbal.torque->theta);
   }
   std::vector<double> stops = stops_at(input.knots(), scenario.time.end);
   const Shape shape = symmetry == Symmetry::used ? choose_shape(scenario, input) : Shape::full;
 
   std::optional<Rig> rig;
+  std::optional<DryParts> dry;
   const auto system = [&]() -> System {
     const double r = scenario.ball.radius, g = scenario.gravity;
+    if (scenario::is_coupled(scenario)) {
+      CoupledScene coupled = assemble_coupled(scenario, std::move(input));
+      rig = coupled.rig;
+      dry = coupled.dry;
+      return std::move(coupled.system);
+    }
     if (needs_rig(scenario)) {
       const auto keep = [&rig](auto built) -> System {
         rig = built.rig;
@@ -161,7 +174,9 @@ Model assemble(const Scenario& scenario, bool gamma, Symmetry symmetry) {
               gamma && shape == Shape::full,
               scenario.ball.radius,
               std::move(stops),
-              rig};
+              rig,
+              {},
+              dry};
   EventMonitors events = event_monitors(scenario);
   if (!events.monitors.empty()) model.events = std::move(events);
   return model;

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "model/control/sampled_cycle.hpp"
+#include "scenario/columns.hpp"
 
 namespace bbsim::model {
 namespace {
@@ -18,7 +19,7 @@ ServoResponse servo_response(const Scenario& scene) {
   return {w * w, w * w, 2 * servo.damping * w};
 }
 
-ControlLaw control_law(const Scenario& scene, const ServoResponse& servo) {
+ControlLaw control_law(const Scenario& scene, const ServoResponse& servo, const PlantOf& plant_of) {
   const Controller& controller = *scene.controller;
   ControlLaw law;
   law.kind = LawKind::linear;
@@ -39,10 +40,8 @@ ControlLaw control_law(const Scenario& scene, const ServoResponse& servo) {
       }
       break;
     case Law::lqr: {
-      const RigLoop<> plant(scene.ball.radius, scene.gravity, general_rolling(scene), {}, servo,
-                            {});
       const double period = controller.sampling ? controller.sampling->period : 0;
-      const auto gain = lqr_gain(linear_plant(plant), controller.weights, period);
+      const auto gain = lqr_gain(plant_of(servo), controller.weights, period);
       for (int i = 0; i < 2; ++i) {
         for (int j = 0; j < 8; ++j) law.gain[i][j] = gain(i, j);
       }
@@ -54,6 +53,9 @@ ControlLaw control_law(const Scenario& scene, const ServoResponse& servo) {
       break;
     case Law::feedback_linearisation:
       law.kind = LawKind::feedback_linearisation;
+      break;
+    case Law::own:
+      law.kind = LawKind::held;
       break;
   }
   return law;
@@ -77,6 +79,7 @@ Rig build_rig(const Scenario& scene, const ControlLaw& law) {
   if (controller.sampling) {
     rig.sampled =
         SampledLoop{*controller.sampling, controller.sensor.value_or(Sensor{}), law, limit};
+    if (controller.own) rig.sampled->own_columns = scenario::own_columns(scene);
   } else {
     rig.command_limit = compensates ? std::sin(limit) : limit;
   }
@@ -102,9 +105,14 @@ bool integrates_error(const Scenario& scene) {
 }
 
 template <bool integrates>
-AssembledRig<integrates> assemble_rig(const Scenario& scene, SignalPair reference) {
+AssembledRig<integrates> assemble_rig(const Scenario& scene, SignalPair reference,
+                                      const PlantOf& plant) {
   const ServoResponse servo = servo_response(scene);
-  const ControlLaw law = control_law(scene, servo);
+  const PlantOf ideal = [&scene](const ServoResponse& behind) {
+    return linear_plant(
+        RigLoop<>(scene.ball.radius, scene.gravity, general_rolling(scene), {}, behind, {}));
+  };
+  const ControlLaw law = control_law(scene, servo, plant ? plant : ideal);
   Rig rig = build_rig(scene, law);
   const ControlLaw continuous = rig.sampled ? ControlLaw{} : law;
   RigMode mode;
@@ -114,7 +122,7 @@ AssembledRig<integrates> assemble_rig(const Scenario& scene, SignalPair referenc
           rig};
 }
 
-template AssembledRig<false> assemble_rig<false>(const Scenario&, SignalPair);
-template AssembledRig<true> assemble_rig<true>(const Scenario&, SignalPair);
+template AssembledRig<false> assemble_rig<false>(const Scenario&, SignalPair, const PlantOf&);
+template AssembledRig<true> assemble_rig<true>(const Scenario&, SignalPair, const PlantOf&);
 
 }  // namespace bbsim::model

@@ -1,6 +1,9 @@
 // The parts of a built rig that a scenario names.
 #pragma once
 
+#include <functional>
+
+#include "model/control/sampled_cycle.hpp"
 #include "model/systems/rig.hpp"
 
 namespace bbsim::model {
@@ -21,8 +24,13 @@ struct AssembledRig {
   Rig rig;
 };
 
-// The scene is one for which needs_rig() holds. Throws InputError where no LQR gain stabilises it.
+// The plant about home behind servos that respond so.
+using PlantOf = std::function<LinearPlant(const ServoResponse&)>;
+
+// The scene has a controller. `plant` is what LQR gains are of: by default a RigLoop's. Throws
+// InputError where no LQR gain stabilises it.
 template <bool integrates>
-[[nodiscard]] AssembledRig<integrates> assemble_rig(const Scenario& scene, SignalPair reference);
+[[nodiscard]] AssembledRig<integrates> assemble_rig(const Scenario& scene, SignalPair reference,
+                                                    const PlantOf& plant = {});
 
 }  // namespace bbsim::model

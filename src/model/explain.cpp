@@ -8,6 +8,7 @@
 #include <variant>
 
 #include "model/assemble_rig.hpp"
+#include "scenario/coupled.hpp"
 
 namespace bbsim::model {
 namespace {
@@ -40,6 +41,10 @@ class List {
 };
 
 std::string ball_note(const Scenario& scene, Shape shape) {
+  if (scenario::is_coupled(scene)) {
+    return "x, y and spin: Newton and Euler with the couples and friction of the contact, (M36) to "
+           "(M44)";
+  }
   if (!is_the_papers(scene)) {
     return "x, y and spin: equation (27) for any inertia factor and mounting, (M18) to (M20)";
   }
@@ -56,6 +61,21 @@ std::string ball_note(const Scenario& scene, Shape shape) {
 }
 
 std::string gimbal_note(const Scenario& scene) {
+  if (scenario::moved_by_torques(scene)) {
+    const std::string states =
+        "angles and rates are states: torques move plate, ring and ball, (M45) ";
+    if (!scene.controller) return states + "to (M47), given functions of time";
+    switch (scene.controller->drives) {
+      case Drives::torque:
+        return states + "to (M47), the controller's";
+      case Drives::voltage:
+        return states + "to (M47), of motors under the controller's voltages";
+      case Drives::angle:
+      case Drives::acceleration:
+        break;
+    }
+    return states + "to (M47), of motors whose position loops follow the controller's angles";
+  }
   if (!scene.controller) return "no gimbal states: the angles are given functions of time";
   if (scene.controller->drives == Drives::acceleration) {
     return needs_rig(scene)
@@ -77,6 +97,57 @@ std::string limits_note(const Servo& servo) {
   list.add_if(servo.dead_band > 0, "dead band " + degrees(servo.dead_band));
   list.add_if(servo.backlash > 0, "backlash " + degrees(servo.backlash));
   return list.text();
+}
+
+std::string losses_note(const Losses& losses) {
+  List list;
+  list.add_if(losses.rolling > 0, "rolling resistance " + number(losses.rolling));
+  list.add_if(losses.viscous > 0, "viscous " + number(losses.viscous) + " N m s");
+  list.add_if(losses.pivoting > 0, "pivoting " + number(1e3 * losses.pivoting) + " mm");
+  return list.text();
+}
+
+std::string motor_note(const Motor& motor) {
+  List list;
+  list.add_if(motor.viscous > 0, "viscous " + number(motor.viscous) + " N m s");
+  list.add_if(motor.friction > 0, "dry friction " + number(motor.friction) + " N m");
+  if (motor.torque_limit) list.add("at most " + number(*motor.torque_limit) + " N m");
+  if (motor.dc && motor.dc->voltage_limit) {
+    list.add("at most " + number(*motor.dc->voltage_limit) + " V");
+  }
+  if (motor.position_loop) {
+    list.add("position loop kp " + number(motor.position_loop->kp) + ", kd " +
+             number(motor.position_loop->kd) + ", ki " + number(motor.position_loop->ki));
+  }
+  return list.text();
+}
+
+std::string command_unit(Drives drives) {
+  switch (drives) {
+    case Drives::torque:
+      return " N m";
+    case Drives::voltage:
+      return " V";
+    case Drives::acceleration:
+    case Drives::angle:
+      break;
+  }
+  return " rad/s^2";
+}
+
+std::string own_law(const OwnController& own) {
+  std::string text;
+  if (const auto* program = std::get_if<ControllerProgram>(&own.by)) {
+    text = "one's own, a program:";
+    for (const std::string& word : program->command) text += ' ' + word;
+  } else {
+    text = "one's own, a library: " + std::get<ControllerLibrary>(own.by).file;
+  }
+  for (std::size_t i = 0; i < own.parameters.size(); ++i) {
+    text += (i == 0 ? ", with " : ", ") + own.parameters[i].name + " = " +
+            number(own.parameters[i].value);
+  }
+  return text;
 }
 
 std::string law_note(const Controller& controller) {
@@ -103,20 +174,25 @@ std::string law_note(const Controller& controller) {
           "feedback linearisation of (27): the ball follows, the tilt is an unstable internal "
           "state (docs/rig.md)";
       break;
+    case Law::own:
+      text = own_law(*controller.own);
+      break;
   }
   const std::optional<double> limit = command_limit(controller);
   if (limit) {
-    text += "; command within " +
-            (controller.drives == Drives::angle ? degrees(*limit) : number(*limit) + " rad/s^2");
+    text += "; command within " + (controller.drives == Drives::angle
+                                       ? degrees(*limit)
+                                       : number(*limit) + command_unit(controller.drives));
   }
   return text;
 }
 
-std::string sampling_note(const Sampling& sampling) {
+std::string sampling_note(const Sampling& sampling, bool own) {
   List list;
   list.add("a command every " + milliseconds(sampling.period) + ", held between");
   list.add_if(sampling.delay > 0, milliseconds(sampling.delay) + " late");
   list.add_if(sampling.resolution > 0, "in steps of " + degrees(sampling.resolution));
+  if (own) return list.text();
   list.add(sampling.derivative_filter > 0 ? "velocity from differences, filtered over " +
                                                 milliseconds(sampling.derivative_filter)
                                           : "velocity from differences, unfiltered");
@@ -153,6 +229,12 @@ std::string mounting_note(const Scenario& scene) {
 
 std::string events_note(const Scenario& scene) {
   List list;
+  if (scene.events.rest) {
+    list.add(*scene.events.rest == OnEvent::stop ? "rest (stops the run)" : "rest (is noted)");
+  }
+  if (scene.events.stick) {
+    list.add(*scene.events.stick == OnEvent::stop ? "stick (stops the run)" : "stick (is noted)");
+  }
   for (const Monitor& monitor : event_monitors(scene).monitors) {
     list.add(std::string(monitor.name()) +
              (monitor.action == OnEvent::stop ? " (stops the run)" : " (is noted)"));
@@ -164,14 +246,16 @@ std::string events_note(const Scenario& scene) {
 std::string without(const Scenario& scene) {
   List list;
   const Servo* servo = scene.gimbal.servo ? &*scene.gimbal.servo : nullptr;
+  const bool torques = scenario::moved_by_torques(scene);
   const Controller* controller = scene.controller ? &*scene.controller : nullptr;
   if (controller != nullptr) {
-    list.add_if(servo == nullptr || limits_note(*servo).empty(),
+    list.add_if(!torques && (servo == nullptr || limits_note(*servo).empty()),
                 "servo limits, dead band and backlash");
     list.add_if(!controller->sampling, "sampling");
     list.add_if(!controller->sensor, "sensor errors");
   }
   list.add_if(mounting_note(scene).empty(), "mounting errors");
+  list.add_if(losses_note(scene.ball.losses).empty(), "losses of the ball");
   list.add_if(!scene.plate.inertia, "the plate's inertia");
   list.add_if(event_monitors(scene).monitors.empty(), "events");
   return list.text();
@@ -199,13 +283,24 @@ std::vector<Note> explain(const Scenario& scene, const Model& model) {
     note("gamma", "a quadrature of the spin, beside the states");
   }
   if (scene.gimbal.servo) note("servo", limits_note(*scene.gimbal.servo));
+  if (scene.gimbal.motor) note("motors", motor_note(*scene.gimbal.motor));
+  note("losses", losses_note(scene.ball.losses));
+  if (scene.events.slip && scene.events.slip->sliding) {
+    note("sliding", "beyond " + number(scene.events.slip->friction) +
+                        " of the normal force, against " + number(*scene.events.slip->sliding) +
+                        " of it");
+  }
   if (scene.controller) {
     note("law", law_note(*scene.controller));
-    if (scene.controller->sampling) note("sampling", sampling_note(*scene.controller->sampling));
+    if (scene.controller->sampling)
+      note("sampling",
+           sampling_note(*scene.controller->sampling, scene.controller->own.has_value()));
     if (scene.controller->sensor) note("sensor", sensor_note(*scene.controller->sensor));
   }
   note("mounting", mounting_note(scene));
-  if (scene.plate.inertia) note("plate", "its inertia is in the motors' torques and power");
+  if (scene.plate.inertia && !scenario::moved_by_torques(scene)) {
+    note("plate", "its inertia is in the motors' torques and power");
+  }
   note("events", events_note(scene));
   note("without", without(scene));
   if (stops > 0) {

@@ -2,7 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <stdexcept>
+#include <utility>
 
+#include "base/archive.hpp"
 #include "base/instant.hpp"
 
 namespace bbsim::model {
@@ -18,11 +22,13 @@ constexpr int angle = RigLayout::angle, rate = RigLayout::rate;  // of phi, amon
 template <class Use>
 auto HybridSystem::with_loop(Use use) const {
   if (const auto* plain = std::get_if<RigLoop<false>>(&model_.system)) return use(*plain);
+  if (const auto* coupled = std::get_if<CoupledLoop<>>(&model_.system)) return use(coupled->loop);
   return use(std::get<RigLoop<true>>(model_.system));
 }
 
 RigMode& HybridSystem::mode() {
   if (auto* plain = std::get_if<RigLoop<false>>(&model_.system)) return plain->mode;
+  if (auto* coupled = std::get_if<CoupledLoop<>>(&model_.system)) return coupled->loop.mode;
   return std::get<RigLoop<true>>(model_.system).mode;
 }
 
@@ -30,7 +36,7 @@ RigAxes<double> HybridSystem::axes(double t, const double* z) const {
   return with_loop([&](const auto& loop) { return loop.axes(loop.inputs(t), z); });
 }
 
-HybridSystem::HybridSystem(const Model& model) : model_(model) {
+HybridSystem::HybridSystem(const Model& model, double resolution) : model_(model) {
   if (model_.rig) {
     const Rig& rig = *model_.rig;
     // With backlash the plane rests in mid-gap, whatever the servo's rate.
@@ -58,7 +64,15 @@ HybridSystem::HybridSystem(const Model& model) : model_(model) {
                                {of.period, of.delay},
                                {},
                                {}});
+      if (rig.sampled->law.kind == LawKind::held && !rig.sampled->external) {
+        throw std::logic_error("a run of a scene whose controller nobody has attached");
+      }
+      sampled_->own.assign(model_.own_columns().size(), std::numeric_limits<double>::quiet_NaN());
     }
+  }
+  if (model_.dry) {
+    dry_.emplace(*model_.dry, resolution);
+    dry_->append_scales(guard_scales_);
   }
   const std::size_t monitors = model_.events ? model_.events->monitors.size() : 0;
   guard_scales_.insert(guard_scales_.end(), monitors, 1.0);
@@ -97,7 +111,7 @@ void HybridSystem::handle_time_event(double t, double* z) {
     while (sampled_->sample.next() <= now) take_sample(t, z);
     while (sampled_->apply.next() <= now) apply_command();
   }
-  if (model_.rig) settle(t, z);
+  settle(t, z);
 }
 
 void HybridSystem::expose(const double* z) {
@@ -106,13 +120,23 @@ void HybridSystem::expose(const double* z) {
 }
 
 void HybridSystem::take_sample(double t, const double* z) {
-  ++sampled_->sample.number;
+  const double number = sampled_->sample.number++;
   const std::optional<Pair> seen = sampled_->seen.front();
   sampled_->seen.erase(sampled_->seen.begin());
   const double servo[4] = {z[angle], z[angle + 1], z[rate], z[rate + 1]};
   const auto reference = with_loop([t](const auto& loop) { return loop.reference().at(t); });
-  sampled_->commands.push_back(sampled_->controller.command(seen, servo, reference));
-  sampled_->measured = sampled_->controller.last_seen();
+  SampledController& controller = sampled_->controller;
+  ExternalController* const external = model_.rig->sampled->external.get();
+  if (external != nullptr) {
+    if (number == 0) external->begin();
+    const ControllerSample sample{static_cast<std::size_t>(number), t, seen, servo, reference};
+    sampled_->commands.push_back(
+        controller.within_limits(external->command(sample, sampled_->own.data())));
+    if (seen) sampled_->measured = *seen;
+    return;
+  }
+  sampled_->commands.push_back(controller.command(seen, servo, reference));
+  sampled_->measured = controller.last_seen();
 }
 
 void HybridSystem::apply_command() {
@@ -152,6 +176,11 @@ AxisState HybridSystem::axis_state(int i, const RigAxes<double>& wanted, const d
 }
 
 void HybridSystem::settle(double t, double* z) {
+  if (model_.rig) settle_rig(t, z);
+  if (dry_) dry_->settle(model_, t, z);
+}
+
+void HybridSystem::settle_rig(double t, double* z) {
   // A stop's kick may take the command to its limit, and that the servo from where it was: a few
   // rounds, of which the second mostly finds nothing to do.
   for (int round = 0; round < 4; ++round) {
@@ -204,6 +233,10 @@ void HybridSystem::evaluate_guards(double t, const double* z, double* values) co
       if (!free && axis.set_command < 0) command[1] = -raw - limit;
     }
   }
+  if (dry_) {
+    dry_->evaluate(model_, t, z, values);
+    values += DrySwitches::guards;
+  }
   if (happening_.empty()) return;
   model_.events->margins(sample(t, z, Detail::motion), values);
   for (std::size_t m = 0; m < happening_.size(); ++m) {
@@ -214,11 +247,15 @@ void HybridSystem::evaluate_guards(double t, const double* z, double* values) co
 HybridSystem::Effect HybridSystem::occur(std::size_t monitor, double t, const double* z) {
   happening_[monitor] = 1;
   const Monitor& what = model_.events->monitors[monitor];
-  const bool stops = what.action == OnEvent::stop;
+  return occur(what.name(), what.action == OnEvent::stop, t, z);
+}
+
+HybridSystem::Effect HybridSystem::occur(std::string name, bool stops, double t, const double* z) {
   Sample now = sample(t, z, Detail::all);
   now.gamma = model_.gamma_not_integrated();
   if (sampled_) now.measured = sampled_->measured;
-  occurrences_.push_back({t, what.name(), stops, now});
+  occurrences_.push_back(
+      {t, std::move(name), stops, now, sampled_ ? sampled_->own : std::vector<double>{}});
   return stops ? Effect::stop : Effect::none;
 }
 
@@ -232,12 +269,28 @@ HybridSystem::Effect HybridSystem::handle_state_event(std::size_t i, double t, d
   const std::size_t first_monitor = guards() - happening_.size();
   if (i < first_monitor) {
     settle(t, z);
-    return Effect::restart;
+    return note_dry(t, z) == Effect::stop ? Effect::stop : Effect::restart;
   }
   const std::size_t monitor = i - first_monitor;
   if (happening_[monitor] == 0) return occur(monitor, t, z);
   happening_[monitor] = 0;
   return Effect::none;
+}
+
+// What has begun or ended since this was last asked: sliding, always told of, and rests that are
+// events of the scene.
+HybridSystem::Effect HybridSystem::note_dry(double t, const double* z) {
+  if (!dry_) return Effect::none;
+  const DrySwitches::State now = dry_->state(model_), before = std::exchange(dry_state_, now);
+  Effect effect = Effect::none;
+  const auto note = [&](const char* name, const std::optional<OnEvent>& event) {
+    if (event && occur(name, *event == OnEvent::stop, t, z) == Effect::stop) effect = Effect::stop;
+  };
+  if (now.slides != before.slides) note(now.slides ? "slip" : "roll", OnEvent::note);
+  if (now.rests && !before.rests) note("rest", model_.dry->rest);
+  if (now.sticks[0] && !before.sticks[0]) note("stick_phi", model_.dry->stick);
+  if (now.sticks[1] && !before.sticks[1]) note("stick_theta", model_.dry->stick);
+  return effect;
 }
 
 bool HybridSystem::stops(std::size_t i) const {
@@ -247,6 +300,7 @@ bool HybridSystem::stops(std::size_t i) const {
 }
 
 HybridSystem::Effect HybridSystem::check_events(double t, const double* z) {
+  if (note_dry(t, z) == Effect::stop) return Effect::stop;
   if (happening_.empty()) return Effect::none;
   const Sample now = sample(t, z, Detail::motion);
   for (std::size_t m = 0; m < happening_.size(); ++m) {
@@ -257,12 +311,42 @@ HybridSystem::Effect HybridSystem::check_events(double t, const double* z) {
   return Effect::none;
 }
 
+template <class Archive>
+void HybridSystem::archive(Archive& archive) {
+  if (model_.rig) archive(mode());
+  archive(next_stop_, happening_);
+  for (ServoAxis& servo : servos_) archive(servo);
+  if (!sampled_) return;
+  Sampled& of = *sampled_;
+  archive(of.sensor, of.controller, of.expose.number, of.sample.number, of.apply.number, of.seen,
+          of.commands, of.measured);
+}
+
+template void HybridSystem::archive(StateWriter&);
+template void HybridSystem::archive(StateReader&);
+
 void HybridSystem::write_extras(double t, const double* z, double* out) const {
-  if (!model_.rig) return;
-  RigExtras extras = with_loop([&](const auto& loop) { return loop.extras(t, z); });
   const Pair measured = sampled_ ? sampled_->measured : Pair{z[0], z[1]};
-  std::copy(measured.begin(), measured.end(), extras.measured);
-  extras.pack(out);
+  std::visit(
+      [&](const auto& system) {
+        using Any = std::decay_t<decltype(system)>;
+        if constexpr (is_rig<Any>) {
+          RigExtras extras = system.extras(t, z);
+          std::copy(measured.begin(), measured.end(), extras.measured);
+          extras.pack(out);
+        } else if constexpr (is_coupled<Any>) {
+          CoupledExtras extras = system.extras(t, z);
+          if constexpr (is_coupled_loop<Any>) {
+            std::copy(measured.begin(), measured.end(), extras.rig.measured);
+          }
+          extras.pack(out);
+        }
+      },
+      model_.system);
+  if (sampled_) {
+    std::copy(sampled_->own.begin(), sampled_->own.end(),
+              out + model_.extras() - sampled_->own.size());
+  }
 }
 
 }  // namespace bbsim::model

@@ -6,7 +6,9 @@
 #include <string>
 #include <vector>
 
+#include "model/control/external_controller.hpp"
 #include "model/control/sampled_controller.hpp"
+#include "model/dry_switches.hpp"
 #include "model/events/occurrence.hpp"
 #include "model/model.hpp"
 #include "model/servo/servo_axis.hpp"
@@ -15,7 +17,8 @@ namespace bbsim::model {
 
 class HybridSystem {
  public:
-  explicit HybridSystem(const Model& model);
+  // `resolution`: what the integrator tells of a velocity from rest, m/s.
+  HybridSystem(const Model& model, double resolution);
   HybridSystem(const HybridSystem&) = delete;  // servos look at this one's rig
   HybridSystem& operator=(const HybridSystem&) = delete;
 
@@ -34,6 +37,7 @@ class HybridSystem {
   [[nodiscard]] double rounding(double t) const;
 
   // Does what is due at t, the time of the start or next_time_event(). May change the states z.
+  // Throws ControllerFault where a controller that is not built in does not do its part.
   void handle_time_event(double t, double* z);
 
   // What is looked out for between: each guard is positive until something happens.
@@ -61,6 +65,10 @@ class HybridSystem {
 
   [[nodiscard]] const std::vector<Occurrence>& occurrences() const { return occurrences_; }
 
+  // All that changes over a run (base/archive.hpp), but what has occurred.
+  template <class Archive>
+  void archive(Archive& archive);
+
  private:
   static constexpr int axis_guards = ServoAxis::guards + 2;  // and two of the command's limit
 
@@ -72,6 +80,9 @@ class HybridSystem {
   [[nodiscard]] Sample sample(double t, const double* z, Detail detail) const;
   [[nodiscard]] AxisState axis_state(int i, const RigAxes<double>& wanted, const double* z) const;
   void settle(double t, double* z);
+  void settle_rig(double t, double* z);
+  Effect note_dry(double t, const double* z);
+  Effect occur(std::string name, bool stops, double t, const double* z);
   bool settle_servos(double t, double* z);
   [[nodiscard]] double instant_end(double t) const;
   void settle_commands(double t, const double* z);
@@ -92,6 +103,8 @@ class HybridSystem {
   std::vector<ServoAxis> servos_;
   std::vector<double> guard_scales_;
   std::vector<char> happening_;  // for each monitor
+  std::optional<DrySwitches> dry_;
+  DrySwitches::State dry_state_;  // that occurrences know of
 
   struct Sampled {
     BallSensor sensor;
@@ -100,6 +113,7 @@ class HybridSystem {
     std::vector<std::optional<Pair>> seen;  // exposed, not yet sampled: a queue
     std::vector<Pair> commands;             // computed, not yet applied: a queue
     Pair measured{0, 0};
+    std::vector<double> own{};  // the last numbers of one's own controller
   };
   std::optional<Sampled> sampled_;
   std::vector<Occurrence> occurrences_;

@@ -5,23 +5,37 @@
 namespace bbsim::model {
 
 std::size_t Model::extras() const {
-  return rig && hybrid() ? std::size_t{RigExtras::size} : 0;
+  if (!hybrid()) return 0;
+  const bool coupled =
+      std::visit([](const auto& any) { return is_coupled<std::decay_t<decltype(any)>>; }, system);
+  if (coupled) return CoupledExtras::size + own_columns().size();
+  return rig ? RigExtras::size + own_columns().size() : 0;
 }
 
 Sample Model::sample(double t, const double* row, Detail detail) const {
   Sample sample = std::visit(
       [&](const auto& any) {
-        if constexpr (is_rig<std::decay_t<decltype(any)>>) {
-          return extras() > 0
-                     ? any.sample(t, row, RigExtras::unpack(row + size() + (gamma ? 1 : 0)), detail)
-                     : any.sample(t, row, detail);
+        using Any = std::decay_t<decltype(any)>;
+        const double* const beside = row + size() + (gamma ? 1 : 0);
+        if constexpr (is_rig<Any>) {
+          return extras() > 0 ? any.sample(t, row, RigExtras::unpack(beside), detail)
+                              : any.sample(t, row, detail);
+        } else if constexpr (is_coupled<Any>) {
+          return extras() > 0 ? any.sample(t, row, CoupledExtras::unpack(beside))
+                              : any.sample(t, row);
         } else {
           return any.sample(t, row, detail);
         }
       },
       system);
   sample.gamma = gamma ? row[size()] / radius : gamma_not_integrated();
+  if (const std::size_t own = own_columns().size(); own > 0) sample.own = row + row_size() - own;
   return sample;
+}
+
+const std::vector<std::string>& Model::own_columns() const {
+  static const std::vector<std::string> none;
+  return rig && rig->sampled ? rig->sampled->own_columns : none;
 }
 
 double Model::gamma_not_integrated() const {
@@ -32,9 +46,30 @@ double Model::gamma_not_integrated() const {
 
 std::vector<std::string> Model::state_names() const {
   return std::visit(
-      [](const auto& any) {
+      [](const auto& any) -> std::vector<std::string> {
         using Any = std::decay_t<decltype(any)>;
         std::vector<std::string> names(Any::Layout::names.begin(), Any::Layout::names.end());
+        if constexpr (is_coupled_loop<Any>) {
+          return {"x",
+                  "y",
+                  "vx",
+                  "vy",
+                  "r*spin",
+                  "phi",
+                  "theta",
+                  "phi_rate",
+                  "theta_rate",
+                  "x_integral",
+                  "y_integral",
+                  "phi_integral",
+                  "theta_integral",
+                  "slip_x",
+                  "slip_y",
+                  "energy_lost",
+                  "motor_work"};
+        } else if constexpr (is_coupled<Any>) {
+          return {"x", "y", "vx", "vy", "r*spin", "slip_x", "slip_y", "energy_lost", "motor_work"};
+        }
         if constexpr (Any::size > Any::Layout::size) {
           for (const char* suffix : {"", "_rate"}) {
             if (phi_moves(Any::moves)) names.push_back(std::string("phi") + suffix);
@@ -50,8 +85,16 @@ std::vector<std::string> Model::state_names() const {
 }
 
 bool Model::closed_loop() const {
-  return std::visit([](const auto& any) { return !std::decay_t<decltype(any)>::open_loop; },
-                    system);
+  return std::visit(
+      [](const auto& any) {
+        using Any = std::decay_t<decltype(any)>;
+        if constexpr (is_coupled_loop<Any>) {
+          return any.by != GimbalBy::given_torques;
+        } else {
+          return !Any::open_loop && !is_coupled<Any>;
+        }
+      },
+      system);
 }
 
 }  // namespace bbsim::model

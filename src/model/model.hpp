@@ -14,6 +14,29 @@
 
 namespace bbsim::model {
 
+// What switches in a coupled scene beside its servos and samples.
+struct DryParts {
+  bool rolling = false, pivoting = false;  // rolling resistance, pivoting friction
+  bool slides = false;
+  double static_friction = 0;       // beyond which it does
+  double friction = 0;              // of the motors, N m
+  double torque_limit = unlimited;  // of a motor, N m
+  // A voltage at its limit gives stall_torque - torque_by_rate rate one way; infinite without one.
+  double stall_torque = unlimited, torque_by_rate = 0;  // N m, N m s
+  std::optional<OnEvent> rest{}, stick{};               // whether they are events
+
+  [[nodiscard]] bool limits_torque() const {
+    return torque_limit < unlimited || stall_torque < unlimited;
+  }
+  [[nodiscard]] bool switches() const {
+    return rolling || pivoting || slides || friction > 0 || limits_torque();
+  }
+  // The most torque that the voltage gives in a direction, 1 or -1, at a rate.
+  [[nodiscard]] double by_voltage(double sign, double rate) const {
+    return sign * stall_torque - torque_by_rate * rate;
+  }
+};
+
 struct Model {
   System system;
   std::vector<double> initial;  // states at t = 0, as the system packs them
@@ -22,6 +45,7 @@ struct Model {
   std::vector<double> stops;    // times in (0, end) at which a derivative of the input jumps, s
   std::optional<Rig> rig{};     // of a RigLoop
   std::optional<EventMonitors> events{};  // there if something is
+  std::optional<DryParts> dry{};          // there if something of it switches
 
   [[nodiscard]] std::size_t size() const { return initial.size(); }
   // Numbers in a row of output beside the states and gamma.
@@ -35,8 +59,10 @@ struct Model {
   [[nodiscard]] Sample sample(double t, const double* row, Detail detail = Detail::all) const;
   // Whether anything switches, samples or is watched for: model/hybrid_system.hpp runs it then.
   [[nodiscard]] bool hybrid() const {
-    return events.has_value() || (rig && (rig->switches() || rig->sampled));
+    return events.has_value() || dry.has_value() || (rig && (rig->switches() || rig->sampled));
   }
+  // The names of the numbers that one's own controller gives for columns, in their order.
+  [[nodiscard]] const std::vector<std::string>& own_columns() const;
   [[nodiscard]] std::vector<std::string> state_names() const;
   [[nodiscard]] bool closed_loop() const;
 };

@@ -1,6 +1,8 @@
 // One instant of a run in the symbols of the paper: what the columns are computed from.
 #pragma once
 
+#include <optional>
+
 #include "scenario/scenario.hpp"
 
 namespace bbsim::model {
@@ -21,14 +23,32 @@ struct GimbalState {
 // accelerations; or all. The rest is left as it is without a value.
 enum class Detail { ball, gimbal, motion, all };
 
+// What a scene with couples, sliding or torques has beside that. All of them doubles.
+struct CoupledMotion {
+  double x_ddot, y_ddot;  // m/s^2
+  double couple[3];       // of the plane on the ball, in the plane's frame, N m
+  double slip[2];         // velocity of the ball's surface at the contact, m/s
+  double asked[2];        // of the motors: torque before their limits, N m
+  double given[2];        // and behind them
+  double lost_power;      // to couples and friction, W
+  double lost, work;      // energy lost, and given by the motors, since the start, J
+
+  static constexpr int size = 14;
+};
+static_assert(sizeof(CoupledMotion) == CoupledMotion::size * sizeof(double));
+
 struct Sample {
   double t = 0;  // s
-  BallMotion ball;
+  BallMotion ball{};
   double gamma = 0;  // rad, 0 at the start and by symmetry; no number if not integrated
-  GimbalState gimbal;
+  GimbalState gimbal{};
   Pair reference{0, 0};  // m; (0, 0) in open loop
   Pair command{0, 0};    // what the gimbal is told, rad or rad/s^2; (0, 0) in open loop
   Pair measured{0, 0};   // where the controller last saw the ball, m
+  std::optional<CoupledMotion> coupled{};
+  // What one's own controller gave beside its last command, in the order of
+  // SampledLoop::own_columns; stands in the row, and is null where there is none.
+  const double* own = nullptr;
 };
 
 }  // namespace bbsim::model

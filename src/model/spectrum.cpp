@@ -1,6 +1,7 @@
 #include "model/spectrum.hpp"
 
 #include <algorithm>
+#include <array>
 #include <limits>
 #include <type_traits>
 
@@ -10,6 +11,20 @@
 namespace bbsim::model {
 namespace {
 
+// With the plane level at home, whatever its offsets.
+template <class Loop>
+Loop level(Loop loop) {
+  if constexpr (is_rig<Loop>) loop.mode = {};
+  if constexpr (is_coupled_loop<Loop>) {
+    loop.loop.mode = {};
+    loop.parts.contact = {};
+    for (MotorMode& motor : loop.motors) motor = {};
+  }
+  return loop;
+}
+
+}  // namespace
+
 Eigenvalues sorted_eigenvalues(const Eigen::MatrixXd& matrix) {
   Eigenvalues values = eigenvalues_of(matrix);
   std::sort(values.begin(), values.end(), [](const auto& a, const auto& b) {
@@ -17,15 +32,6 @@ Eigenvalues sorted_eigenvalues(const Eigen::MatrixXd& matrix) {
   });
   return values;
 }
-
-// With the plane level at home, whatever its offsets.
-template <class Loop>
-Loop level(Loop loop) {
-  if constexpr (is_rig<Loop>) loop.mode = {};
-  return loop;
-}
-
-}  // namespace
 
 Eigenvalues eigenvalues(const Model& model, double t, const double* z) {
   return std::visit([&](const auto& system) { return sorted_eigenvalues(jacobian(system, t, z)); },
@@ -36,13 +42,26 @@ Eigenvalues closed_loop_poles(const Model& model) {
   return std::visit(
       [](const auto& loop) -> Eigenvalues {
         using Loop = std::decay_t<decltype(loop)>;
-        if constexpr (Loop::open_loop) {
+        if constexpr (Loop::open_loop || (is_coupled<Loop> && !is_coupled_loop<Loop>)) {
           return {};
         } else {
           const double home[Loop::size] = {};
-          const auto full = jacobian(level(loop), 0.0, home);
+          // Where the reference is, is no matter of home.
+          const auto full = jacobian_under(level(loop), std::array<Jet<double>, 2>{}, home);
           constexpr int spin = spin_index<Loop>;
-          if constexpr (is_rig<Loop>) {
+          if constexpr (is_coupled_loop<Loop>) {
+            if (loop.law().kind == LawKind::held && loop.by != GimbalBy::given_torques) return {};
+            std::vector<int> rest{0, 1, 2, 3, 5, 6, 7, 8};
+            for (int j = 0; j < 2; ++j) {
+              if (loop.law().integral[0][j] != 0 || loop.law().integral[1][j] != 0) {
+                rest.push_back(CoupledLoopLayout::integral + j);
+              }
+            }
+            if (loop.motor.from_integral != 0) {
+              rest.insert(rest.end(), {CoupledLoopLayout::motor, CoupledLoopLayout::motor + 1});
+            }
+            return sorted_eigenvalues(full(rest, rest));
+          } else if constexpr (is_rig<Loop>) {
             if (loop.law().kind == LawKind::held) return {};
             // Without the spin, as below, and without an integral that nothing feels.
             std::vector<int> rest{0, 1, 2, 3, 5, 6, 7, 8};

@@ -1,6 +1,7 @@
 // How a scene behaves near a state: eigenvalues of the exact Jacobian.
 #pragma once
 
+#include <Eigen/Core>
 #include <complex>
 #include <vector>
 
@@ -14,9 +15,13 @@ using Eigenvalues = std::vector<std::complex<double>>;  // 1/s, by falling real 
 [[nodiscard]] Eigenvalues eigenvalues(const Model& model, double t, const double* z);
 
 // The closed loop's poles: linearised about home (all angles, positions and rates zero), without
-// the spin, which no controller acts on and which adds a pole at exactly zero. Empty in open loop,
-// and of a sampled loop, whose poles are sampled_poles().
+// the spin, which no controller acts on and which adds a pole at exactly zero. Without what
+// is dry. Of a gimbal moved by given torques they are the plant's. Empty of a given motion, and of
+// a sampled loop, whose poles are sampled_poles().
 [[nodiscard]] Eigenvalues closed_loop_poles(const Model& model);
+
+// Those of a matrix, in that order; nothing where it is not finite.
+[[nodiscard]] Eigenvalues sorted_eigenvalues(const Eigen::MatrixXd& matrix);
 
 // "stable" if all real parts are negative, beyond the rounding of the eigenvalues.
 [[nodiscard]] bool stable(const Eigenvalues& poles);

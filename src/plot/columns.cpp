@@ -303,7 +303,7 @@ Unit unit_of(std::string_view column) {
 
 bool drives_acceleration(const Result& run) {
   if (run.scenario && run.scenario->controller) {
-    return run.scenario->controller->drives == Drives::acceleration;
+    return run.scenario->controller->drives != Drives::angle;
   }
   const Column* const t = run.find("t");
   double as_angle = 0, as_acceleration = 0;

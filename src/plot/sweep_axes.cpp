@@ -23,7 +23,10 @@ bool by_equal_factors(const std::vector<double>& values) {
 Unit unit_of_measure(const std::string& name) {
   if (name == "end_time") return {"s"};
   const std::optional<scenario::Measure> measure = scenario::find_measure(name);
-  return measure ? unit_of(measure->column->name) : Unit{};
+  if (!measure) return {};
+  // What is measured in the column's own unit is shown as the column is.
+  if (measure->unit() == measure->column->unit) return unit_of(measure->column->name);
+  return {measure->unit()};
 }
 
 }  // namespace

@@ -1,9 +1,11 @@
 #include "record/column_values.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
 #include <string_view>
+#include <utility>
 
 namespace bbsim::record {
 namespace {
@@ -93,6 +95,25 @@ constexpr std::array values = {
             return row.dynamics->torque_phi * gimbal.phi_dot +
                    row.dynamics->torque_theta * gimbal.theta_dot;
           }},
+    Entry{"total_energy", [](R row) { return row.dynamics->energy + row.dynamics->gimbal_energy; }},
+    Entry{"slip_x", [](R row) { return row.dynamics->coupled.slip[0]; }},
+    Entry{"slip_y", [](R row) { return row.dynamics->coupled.slip[1]; }},
+    Entry{"loss_power", [](R row) { return row.dynamics->coupled.lost_power; }},
+    Entry{"energy_lost", [](R row) { return row.dynamics->coupled.lost; }},
+    Entry{"motor_work", [](R row) { return row.dynamics->coupled.work; }},
+    Entry{"phi_torque_asked", [](R row) { return row.dynamics->coupled.asked[0]; }},
+    Entry{"theta_torque_asked", [](R row) { return row.dynamics->coupled.asked[1]; }},
+    Entry{"phi_torque", [](R row) { return row.dynamics->coupled.given[0]; }},
+    Entry{"theta_torque", [](R row) { return row.dynamics->coupled.given[1]; }},
+    Entry{"phi_current", [](R row) { return row.dynamics->current[0]; }},
+    Entry{"theta_current", [](R row) { return row.dynamics->current[1]; }},
+    Entry{"phi_voltage", [](R row) { return row.dynamics->voltage[0]; }},
+    Entry{"theta_voltage", [](R row) { return row.dynamics->voltage[1]; }},
+    Entry{"electrical_power",
+          [](R row) {
+            const model::Dynamics& d = *row.dynamics;
+            return d.voltage[0] * d.current[0] + d.voltage[1] * d.current[1];
+          }},
 };
 
 constexpr bool in_order() {
@@ -106,7 +127,35 @@ static_assert(in_order(), "each column has its value, in the catalogue's order")
 
 }  // namespace
 
-FillColumn fill_of(const scenario::Column& column) {
+namespace {
+
+// A number of one's own controller, by its place.
+template <std::size_t place>
+void fill_own(const RowBlock& rows, double* column) {
+  for (std::size_t i = 0; i < rows.count; ++i) {
+    const double* const own = rows.samples[i].own;
+    column[i] = own != nullptr ? own[place] : std::nan("");
+  }
+}
+
+void fill_nothing(const RowBlock& rows, double* column) {
+  std::fill_n(column, rows.count, std::nan(""));
+}
+
+template <std::size_t... place>
+constexpr auto own_fills(std::index_sequence<place...>) {
+  return std::array<FillColumn, sizeof...(place)>{&fill_own<place>...};
+}
+
+}  // namespace
+
+FillColumn fill_of(const scenario::Column& column, const std::vector<std::string>& own_columns) {
+  if (column.needs == scenario::Needs::own) {
+    constexpr auto of = own_fills(std::make_index_sequence<scenario::most_own_columns>{});
+    const auto found = std::ranges::find(own_columns, column.name);
+    if (found == own_columns.end()) return &fill_nothing;
+    return of[static_cast<std::size_t>(found - own_columns.begin())];
+  }
   return values[static_cast<std::size_t>(&column - scenario::catalogue.data())].fill;
 }
 

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <cstddef>
+#include <string>
+#include <vector>
 
 #include "base/quaternion.hpp"
 #include "model/ball/dynamics.hpp"
@@ -23,6 +25,9 @@ struct RowBlock {
 // Writes a column of the rows, as many numbers as there are rows.
 using FillColumn = void (*)(const RowBlock& rows, double* column);
 
-[[nodiscard]] FillColumn fill_of(const scenario::Column& column);
+// `own_columns` are those that the scene's own controller gives: Model::own_columns(). One that is
+// not among them is no number.
+[[nodiscard]] FillColumn fill_of(const scenario::Column& column,
+                                 const std::vector<std::string>& own_columns);
 
 }  // namespace bbsim::record

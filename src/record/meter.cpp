@@ -5,6 +5,8 @@
 #include <limits>
 #include <utility>
 
+#include "record/instants.hpp"
+
 namespace bbsim::record {
 
 using scenario::Measure;
@@ -28,6 +30,20 @@ std::vector<const scenario::Column*> columns_of(const std::vector<Measure>& meas
   return columns;
 }
 
+// Each once, and those that instants are told by.
+std::vector<const scenario::Column*> traced_by(const std::vector<Measure>& measures,
+                                               const std::vector<std::size_t>& which) {
+  std::vector<const scenario::Column*> columns;
+  for (const std::size_t m : which) {
+    for (const scenario::Column* column : {measures[m].column, measures[m].instant.column}) {
+      if (column != nullptr && std::ranges::find(columns, column) == columns.end()) {
+        columns.push_back(column);
+      }
+    }
+  }
+  return columns;
+}
+
 std::vector<Extremes::Sought> sought_by(const std::vector<Measure>& measures,
                                         const std::vector<std::size_t>& which) {
   std::vector<Extremes::Sought> sought;
@@ -45,9 +61,16 @@ Meter::Meter(std::vector<Measure> measures)
       of_motion_(those(measures_,
                        [](Kind kind) { return kind == Kind::greatest || kind == Kind::least; })),
       of_rows_(those(measures_, [](Kind kind) { return kind == Kind::rms; })),
+      of_curves_(those(measures_,
+                       [](Kind kind) {
+                         return kind == Kind::step || kind == Kind::when || kind == Kind::find;
+                       })),
       end_(columns_of(measures_, at_end_)),
       rows_(columns_of(measures_, of_rows_)),
       extremes_(sought_by(measures_, of_motion_)),
+      traces_(traced_by(measures_, of_curves_)),
+      traces_end_(traces_.columns()),
+      pieces_(of_motion_.empty() ? nullptr : &extremes_, of_curves_.empty() ? nullptr : &traces_),
       sums_(of_rows_.size()) {}
 
 void Meter::begin(const model::Model& model, const model::BallConstants& constants,
@@ -61,10 +84,12 @@ void Meter::begin(const model::Model& model, const model::BallConstants& constan
   end_.begin(model, constants);
   rows_.begin(model, constants);
   extremes_.begin(model, constants);
+  traces_.begin(model, constants);
+  traces_end_.begin(model, constants);
 }
 
 solve::PieceSink* Meter::pieces() {
-  return of_motion_.empty() ? nullptr : &extremes_;
+  return pieces_.sink();
 }
 
 void Meter::accept(std::size_t first, std::size_t count, const double* values) {
@@ -89,10 +114,19 @@ void Meter::accept(std::size_t first, std::size_t count, const double* values) {
 }
 
 void Meter::finish(const solve::Outcome& outcome, double* results) {
-  if (outcome.ending == solve::Ending::stopped) {
-    end_.evaluate(outcome.occurrences.back().sample);
-  } else {
-    end_.evaluate(&last_time_, last_.data(), 1);
+  if (outcome.rows == 0) {  // it ended before it began
+    std::fill_n(results, measures_.size(), std::numeric_limits<double>::quiet_NaN());
+    return;
+  }
+  for (Rows* const end : {&end_, &traces_end_}) {
+    if (outcome.ending == solve::Ending::stopped) {
+      const model::Occurrence& at = outcome.occurrences.back();
+      model::Sample last = at.sample;
+      if (!at.own.empty()) last.own = at.own.data();
+      end->evaluate(last);
+    } else {
+      end->evaluate(&last_time_, last_.data(), 1);
+    }
   }
   for (std::size_t k = 0; k < at_end_.size(); ++k) results[at_end_[k]] = end_[k][0];
   for (std::size_t k = 0; k < of_rows_.size(); ++k) {
@@ -100,6 +134,13 @@ void Meter::finish(const solve::Outcome& outcome, double* results) {
                                               : sums_[k].squares.root_mean(sums_[k].rows);
   }
   for (std::size_t k = 0; k < of_motion_.size(); ++k) results[of_motion_[k]] = extremes_[k].value;
+  if (of_curves_.empty()) return;
+  const bool stopped = outcome.ending == solve::Ending::stopped;
+  traces_.finish(stopped ? outcome.occurrences.back().t : last_time_, traces_end_);
+  const CurveOf curve_of = [this](const scenario::Column& column) -> const Curve& {
+    return traces_.of(column);
+  };
+  for (const std::size_t m : of_curves_) results[m] = measured(measures_[m], curve_of);
 }
 
 }  // namespace bbsim::record

@@ -1,13 +1,15 @@
-// Takes the measures of a sweep (scenario/measures.hpp), run after run.
+// Takes measures (scenario/measures.hpp) of runs, one after another.
 #pragma once
 
 #include <cstddef>
 #include <vector>
 
 #include "model/model.hpp"
+#include "record/both_sinks.hpp"
 #include "record/extremes.hpp"
 #include "record/rows.hpp"
 #include "record/square_sum.hpp"
+#include "record/traces.hpp"
 #include "scenario/measures.hpp"
 #include "solve/outcome.hpp"
 #include "solve/output_grid.hpp"
@@ -19,20 +21,27 @@ namespace bbsim::record {
 class Meter : public solve::StateSink {
  public:
   explicit Meter(std::vector<scenario::Measure> measures);
+  Meter(const Meter&) = delete;  // pieces_ look at this one's
+  Meter& operator=(const Meter&) = delete;
 
   // Begins a run; the three outlive it.
   void begin(const model::Model& model, const model::BallConstants& constants,
              const solve::OutputGrid& grid);
   void accept(std::size_t first, std::size_t count, const double* values) override;
   [[nodiscard]] solve::PieceSink* pieces() override;
-  // Writes the run's measures, one after the other.
+  [[nodiscard]] std::size_t size() const { return measures_.size(); }
+  // Writes the run's measures, size() of them, one after the other.
   void finish(const solve::Outcome& outcome, double* results);
 
  private:
   std::vector<scenario::Measure> measures_;
-  std::vector<std::size_t> at_end_, of_motion_, of_rows_;  // which of them; the last are the means
-  Rows end_, rows_;                                        // the columns of those
+  // Which of them: extremes, means, and step metrics and instants (record/instants.hpp).
+  std::vector<std::size_t> at_end_, of_motion_, of_rows_, of_curves_;
+  Rows end_, rows_;  // the columns of those
   Extremes extremes_;
+  Traces traces_;
+  Rows traces_end_;
+  BothPieces pieces_;
   const model::Model* model_ = nullptr;
   const solve::OutputGrid* grid_ = nullptr;
   struct Sum {

@@ -14,12 +14,16 @@ Detail detail_for(Needs needs) {
     case Needs::ball:
     case Needs::gamma:
     case Needs::orientation:
+    case Needs::own:
       return Detail::ball;
     case Needs::gimbal:
       return Detail::gimbal;
     case Needs::accelerations:
     case Needs::dynamics:
     case Needs::plate:
+    case Needs::torques:
+    case Needs::armature:
+    case Needs::coupled:
       return Detail::motion;
     case Needs::controller:
     case Needs::samples:
@@ -32,16 +36,19 @@ Detail detail_for(Needs needs) {
 
 Rows::Rows(std::vector<const scenario::Column*> columns) : columns_(std::move(columns)) {
   for (const scenario::Column* column : columns_) {
-    fills_.push_back(fill_of(*column));
     detail_ = std::max(detail_, detail_for(column->needs));
   }
-  needs_dynamics_ = any_needs(columns_, Needs::dynamics) || any_needs(columns_, Needs::plate);
+  needs_dynamics_ = scenario::need_dynamics(columns_);
   needs_orientation_ = any_needs(columns_, Needs::orientation);
 }
 
 void Rows::begin(const model::Model& model, const model::BallConstants& constants) {
   model_ = &model;
   constants_ = &constants;
+  fills_.clear();
+  for (const scenario::Column* column : columns_) {
+    fills_.push_back(fill_of(*column, model.own_columns()));
+  }
   if (needs_orientation_) turn_.emplace(model.radius);
 }
 

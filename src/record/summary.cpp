@@ -110,6 +110,10 @@ std::string to_json(const RunSummary& summary) {
                     [&](const char* name, const auto& value) { motors[name] = value; });
     motors["carries"] = summary.peaks->with_plate ? "ball and plate" : "ball";
   }
+  if (!summary.measures.empty()) {
+    nlohmann::ordered_json& measures = json["measures"] = nlohmann::ordered_json::object();
+    for (const auto& [name, value] : summary.measures) measures[name] = value;
+  }
   nlohmann::ordered_json& events = json["events"] = nlohmann::ordered_json::array();
   for (const EventRecord& event : summary.events) {
     nlohmann::ordered_json& entry = events.emplace_back(nlohmann::ordered_json::object());
@@ -136,6 +140,7 @@ file::Attributes to_attributes(const RunSummary& summary, const std::string& sce
   for_each_member(summary, add);
   for_each_statistic(summary, add);
   if (summary.peaks) for_each_member(*summary.peaks, add);
+  for (const auto& [name, value] : summary.measures) add("measure " + name, value);
   std::vector<std::string> events;
   for (const EventRecord& event : summary.events) {
     std::string line;

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "base/greatest.hpp"
@@ -48,6 +49,8 @@ struct RunSummary {
   std::string method;
   double rtol = 0, atol = 0;
   std::vector<EventRecord> events;
+  // What was measured (--measure), by name.
+  std::vector<std::pair<std::string, double>> measures;
   std::optional<MotorPeaks> peaks;  // where a column needs the forces, or with plate.inertia
   // A run with solver.error has these: the bound asked for and the estimate reached, m.
   std::optional<double> error_bound, error_estimate;

@@ -41,9 +41,11 @@ std::vector<std::array<double, 2>> path_of(const Reference& reference, double en
 
 std::optional<Poles> poles_of(const model::Model& model) {
   if (!model.closed_loop()) return {};
+  if (model.rig && model.rig->sampled && model.rig->sampled->law.kind == model::LawKind::held) {
+    return {};  // only the controller knows them
+  }
   if (model.rig && model.rig->sampled) {
-    return Poles{model::sampled_poles(std::get<model::RigLoop<>>(model.system), *model.rig),
-                 model.rig->sampled->sampling.period};
+    return Poles{model::sampled_poles(model), model.rig->sampled->sampling.period};
   }
   return Poles{model::closed_loop_poles(model), {}};
 }

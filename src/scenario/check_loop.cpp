@@ -34,22 +34,75 @@ void check_open_loop(yaml::Keys& scenario) {
            "found beside gimbal.motion, which no servo follows; allowed: only with a "
            "controller that drives angle");
   }
+  if (const auto motor = find_in(scenario, "gimbal", "motor")) {
+    report(
+        *motor,
+        "found beside gimbal.motion, which is what it is whatever the torques; allowed: only with "
+        "gimbal.torque or a controller");
+  }
 }
 
-// Where `drives` is neither, it has been reported already, and says nothing of the servo.
+// Where `drives` is none of them, it has been reported already, and says nothing of the servo.
 void check_servo(yaml::Keys& scenario) {
   const auto drives = find_in(scenario, "controller", "drives");
   const std::string driven = drives ? drives->node->text : "acceleration";
   const auto servo = find_in(scenario, "gimbal", "servo");
-  if (driven == "angle" && !servo) {
+  const auto motor = find_in(scenario, "gimbal", "motor");
+  const auto loop = motor ? yaml::Keys(*motor).find("position_loop") : std::nullopt;
+  if (driven == "angle" && !servo && !motor) {
     report_missing(scenario,
                    "gimbal.servo: missing, but controller.drives is angle; allowed: a mapping with "
                    "natural_frequency, damping");
+  }
+  if (driven == "angle" && motor && !servo && !loop) {
+    report(*motor,
+           "found without position_loop, but controller.drives is angle; allowed: a position_loop "
+           "that follows the angle, or drives: torque or voltage");
+  }
+  if (driven == "angle" && motor && servo) {
+    report(*servo,
+           "found beside gimbal.motor: a servo moves whatever the torques are; allowed: one of the "
+           "two");
   }
   if (driven == "acceleration" && servo) {
     report(*servo,
            "found, but controller.drives is acceleration, which no servo follows; allowed: "
            "only with drives: angle");
+  }
+  if (driven == "acceleration" && motor) {
+    report(
+        *motor,
+        "found, but controller.drives is acceleration, whatever torque that takes; allowed: only "
+        "with drives: torque or voltage, or angle and a position_loop");
+  }
+  if (driven == "torque" || driven == "voltage") {
+    if (servo) {
+      report(*servo, "found, but controller.drives is " + driven +
+                         ", which no servo follows; allowed: only with drives: angle");
+    }
+    if (loop) {
+      report(*loop, "found, but controller.drives is " + driven +
+                        "; allowed: only with drives: angle, which the loop follows");
+    }
+  }
+  if (driven == "voltage" && !(motor && yaml::Keys(*motor).find("dc"))) {
+    report_missing(scenario,
+                   "gimbal.motor.dc: missing, but controller.drives is voltage; allowed: a mapping "
+                   "with resistance, torque_constant");
+  }
+}
+
+void check_torque(yaml::Keys& scenario) {
+  if (const auto servo = find_in(scenario, "gimbal", "servo")) {
+    report(*servo,
+           "found beside gimbal.torque, which no servo follows; allowed: only with a controller "
+           "that drives angle");
+  }
+  const auto motor = find_in(scenario, "gimbal", "motor");
+  if (const auto loop = motor ? yaml::Keys(*motor).find("position_loop") : std::nullopt) {
+    report(*loop,
+           "found beside gimbal.torque, which is the motors' own; allowed: only with a controller "
+           "that drives angle");
   }
 }
 
@@ -57,13 +110,19 @@ void check_servo(yaml::Keys& scenario) {
 
 void check_loop(yaml::Keys& scenario) {
   const auto motion = find_in(scenario, "gimbal", "motion");
+  const auto torque = find_in(scenario, "gimbal", "torque");
   const auto controller = scenario.find("controller");
   if (motion && controller) {
     report(*controller,
            "found beside gimbal.motion; allowed: exactly one of the two, since either "
            "the motion is prescribed or the controller makes it");
+  } else if (torque && (motion || controller)) {
+    report(*torque, std::string("found beside ") + (motion ? "gimbal.motion" : "controller") +
+                        "; allowed: exactly one of gimbal.motion, gimbal.torque and controller");
   } else if (motion) {
     check_open_loop(scenario);
+  } else if (torque) {
+    check_torque(scenario);
   } else if (controller) {
     check_servo(scenario);
   } else {

@@ -2,6 +2,7 @@
 #include <string>
 
 #include "scenario/columns.hpp"
+#include "scenario/coupled.hpp"
 #include "scenario/sections.hpp"
 
 namespace bbsim::scenario {
@@ -29,6 +30,9 @@ class Checks {
     controller();
     servo();
     events();
+    losses();
+    sliding();
+    torques();
     columns();
   }
 
@@ -57,16 +61,24 @@ class Checks {
           "found, but neither noise nor dropout, which are all that is drawn; allowed: only with "
           "one of them");
     }
+    if (controller.law == Law::own && !controller.sampling) {
+      for (const char* key : {"program", "library"}) {
+        refuse({"controller", key},
+               "found without controller.sampling; allowed: only with it, since it is asked once a "
+               "sample");
+      }
+    }
     if (controller.law == Law::feedback_linearisation) {
       if (controller.sampling) {
         refuse({"controller", "sampling"},
                "found beside feedback_linearisation, which needs the exact state at all times; "
                "allowed: any other law");
       }
-      if (controller.drives == Drives::angle) {
+      if (controller.drives != Drives::acceleration) {
         refuse({"controller", "drives"},
-               "found angle, but feedback_linearisation gives the gimbal's accelerations; allowed: "
-               "acceleration");
+               std::string("found ") + (controller.drives == Drives::angle ? "angle" : "torques") +
+                   ", but feedback_linearisation gives the gimbal's accelerations; allowed: "
+                   "acceleration");
       }
     }
     if (controller.law == Law::lqr) {
@@ -84,7 +96,7 @@ class Checks {
     if (controller.law == Law::gravity_compensation) {
       if (controller.drives != Drives::angle) {
         refuse({"controller", "gravity_compensation"},
-               "found, but controller.drives is acceleration; allowed: only with drives: angle, "
+               "found, but controller.drives is not angle; allowed: only with drives: angle, "
                "since it gives angles");
       }
       if (!(scene_.gravity > 0)) {
@@ -97,10 +109,10 @@ class Checks {
                "cannot be inverted; allowed: at most that");
       }
     }
-    if (controller.drives == Drives::acceleration && controller.sampling &&
+    if (controller.drives != Drives::angle && controller.sampling &&
         controller.sampling->resolution > 0) {
       refuse({"controller", "sampling", "resolution"},
-             "found, but controller.drives is acceleration; allowed: only with drives: angle");
+             "found, but controller.drives is not angle; allowed: only with drives: angle");
     }
     if (controller.sampling && scene_.time.end > 0 &&
         scene_.time.end / controller.sampling->period > 1e8) {
@@ -169,6 +181,115 @@ class Checks {
         !(scene_.controller && scene_.controller->law == Law::feedback_linearisation)) {
       refuse({"events", "singularity"},
              "found without controller.feedback_linearisation; allowed: only with it");
+    }
+  }
+
+  [[nodiscard]] bool inverts() const {
+    return scene_.controller && scene_.controller->law == Law::feedback_linearisation;
+  }
+
+  void losses() {
+    const Losses& losses = scene_.ball.losses;
+    if (losses.viscous > 0 && !find_at(keys_, {"ball", "mass"})) {
+      refuse({"ball", "losses", "viscous"},
+             "found, but no ball.mass, and a lighter ball loses more; allowed: only with ball.mass "
+             "given");
+    }
+    if (losses.pivoting > 0 && scene_.ball.inertia_factor == 0) {
+      refuse(
+          {"ball", "losses", "pivoting"},
+          "found, but ball.inertia_factor is 0: such a ball's spin would stop at once; allowed: a "
+          "factor greater than 0");
+    }
+    if (has_dry_losses(scene_) && inverts()) {
+      refuse({"ball", "losses"},
+             "found dry friction beside feedback_linearisation, which inverts equations that are "
+             "smooth; allowed: viscous, or any other law");
+    }
+    if (scene_.events.rest && !(losses.rolling > 0)) {
+      refuse({"events", "rest"},
+             "found, but nothing brings the ball to rest; allowed: only with ball.losses.rolling");
+    }
+  }
+
+  void sliding() {
+    const bool slides = scene_.events.slip && scene_.events.slip->sliding;
+    if (scene_.ball.rotation && !slides) {
+      refuse({"ball", "rotation"},
+             "found, but the ball only rolls, which says how it turns; allowed: only with "
+             "events.slip and its action: slide");
+    }
+    if (!slides) return;
+    if (scene_.ball.inertia_factor == 0) {
+      refuse({"events", "slip", "action"},
+             "found slide, but ball.inertia_factor is 0: nothing would make such a ball slide; "
+             "allowed: a factor greater than 0");
+    }
+    if (inverts()) {
+      refuse(
+          {"events", "slip", "action"},
+          "found slide beside feedback_linearisation, which inverts the equations of a ball that "
+          "rolls; allowed: stop or note, or any other law");
+    }
+    const std::optional<Servo>& servo = scene_.gimbal.servo;
+    if (servo && (servo->time_constant || servo->angle_limit || servo->backlash > 0)) {
+      refuse({"events", "slip", "action"},
+             "found slide with a servo that jolts the plate (time_constant, angle_limit or "
+             "backlash), for which sliding friction has no answer; allowed: stop or note");
+    }
+  }
+
+  void torques() {
+    const Gimbal& gimbal = scene_.gimbal;
+    if (scene_.plate.mass == 0) {
+      refuse(
+          {"plate", "centre_of_mass"},
+          "found without plate.mass; allowed: only with it, since it is the mass that pulls there");
+    }
+    const bool sticks = gimbal.motor && gimbal.motor->friction > 0;
+    if (scene_.events.stick && !sticks) {
+      refuse({"events", "stick"},
+             "found, but nothing holds an axis; allowed: only with gimbal.motor.friction");
+    }
+    if (!moved_by_torques(scene_)) {
+      refuse({"gimbal", "ring_inertia"},
+             "found, but no torques move the gimbal; allowed: only with gimbal.torque, or a "
+             "controller of gimbal.motor");
+      return;
+    }
+    if (!find_at(keys_, {"ball", "mass"})) {
+      // The ball itself is there: it has a radius, or that is missed too.
+      refuse({"ball"},
+             "found no mass, but the ball's weight moves the gimbal; allowed: ball.mass given, "
+             "since its default of 1 kg is nobody's ball");
+    }
+    if (!scene_.plate.inertia) {
+      const auto gimbal_keys = find_at(keys_, {"gimbal"});
+      const yaml::Value& place = gimbal_keys ? *gimbal_keys : keys_.mapping();
+      place.context->problems.add(
+          place.position,
+          "plate.inertia: missing, but torques move the gimbal; allowed: three moments of inertia "
+          "about x, y and the normal, such as [2e-4, 2e-4, 4e-4]");
+    } else {
+      const double ring = gimbal.ring_inertia;
+      const double rotor = gimbal.motor ? gimbal.motor->rotor_inertia : 0;
+      const auto& j = *scene_.plate.inertia;
+      if (!(j[0] + rotor > 0) || !(j[1] + ring + rotor > 0)) {
+        refuse({"plate", "inertia"},
+               "found an axis that nothing gives any inertia; allowed: moments greater than 0");
+      }
+    }
+    if (inverts()) {
+      refuse({"controller", "feedback_linearisation"},
+             "found, but torques move the gimbal, and this law gives its accelerations; allowed: "
+             "drives: acceleration, or any other law");
+    }
+    if (scene_.controller && scene_.controller->law == Law::lqr && gimbal.motor &&
+        gimbal.motor->position_loop && gimbal.motor->position_loop->ki > 0) {
+      refuse(
+          {"gimbal", "motor", "position_loop", "ki"},
+          "found beside lqr, which does not see the loop's integral; allowed: ki 0, or any other "
+          "law");
     }
   }
 

@@ -1,14 +1,65 @@
 #include "scenario/columns.hpp"
 
 #include <algorithm>
+#include <functional>
+#include <map>
+#include <mutex>
 
 #include "base/error.hpp"
+#include "scenario/coupled.hpp"
 
 namespace bbsim::scenario {
 
+namespace {
+
+// Columns of numbers that the controllers of scenes give, by their names, which they look at. Those
+// who have a column hold on to it, whatever becomes of its scenario.
+struct OwnColumns {
+  std::mutex mutex;
+  std::map<std::string, Column, std::less<>> by_name;
+};
+
+OwnColumns& all_own_columns() {
+  static OwnColumns columns;
+  return columns;
+}
+
+}  // namespace
+
 const Column* find_column(std::string_view name) {
   const auto found = std::ranges::find(catalogue, name, &Column::name);
-  return found == catalogue.end() ? nullptr : &*found;
+  if (found != catalogue.end()) return &*found;
+  OwnColumns& own = all_own_columns();
+  const std::lock_guard lock(own.mutex);
+  const auto known = own.by_name.find(name);
+  return known == own.by_name.end() ? nullptr : &known->second;
+}
+
+const Column& own_column(std::string_view name) {
+  OwnColumns& own = all_own_columns();
+  const std::lock_guard lock(own.mutex);
+  const auto [place, is_new] = own.by_name.try_emplace(std::string(name), Column{});
+  if (is_new) {
+    place->second = {place->first, "1", "as the scene's own controller gives it", Needs::own};
+  }
+  return place->second;
+}
+
+bool is_own_name(std::string_view name) {
+  const auto letter = [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_';
+  };
+  return !name.empty() && name.size() <= 60 && letter(name[0]) &&
+         std::ranges::all_of(name, [&](char c) { return letter(c) || (c >= '0' && c <= '9'); });
+}
+
+std::vector<std::string> own_columns(const Scenario& scenario) {
+  std::vector<std::string> names;
+  for (const std::string& name : scenario.output.columns) {
+    const Column* const column = find_column(name);
+    if (column != nullptr && column->needs == Needs::own) names.push_back(name);
+  }
+  return names;
 }
 
 std::vector<const Column*> columns_named(const std::vector<std::string>& names) {
@@ -24,6 +75,11 @@ std::vector<std::string> names_of(const std::vector<const Column*>& columns) {
   std::vector<std::string> names;
   for (const Column* column : columns) names.emplace_back(column->name);
   return names;
+}
+
+bool need_dynamics(const std::vector<const Column*>& columns) {
+  return std::ranges::any_of(columns,
+                             [](const Column* column) { return column->needs >= Needs::dynamics; });
 }
 
 bool any_needs(const std::vector<const Column*>& columns, Needs what) {
@@ -47,9 +103,29 @@ Missing missing(const Column& column, const Scenario& scenario) {
       if (scenario.plate.inertia) return {};
       return {"plate.inertia is not known",
               "columns of the ball, such as torque_phi; or give plate.inertia"};
+    case Needs::torques:
+      if (moved_by_torques(scenario)) return {};
+      return {"no torques move the gimbal",
+              "what the gimbal's motion takes, such as motor_torque_phi; or give gimbal.motor"};
+    case Needs::armature:
+      if (moved_by_torques(scenario) && scenario.gimbal.motor && scenario.gimbal.motor->dc)
+        return {};
+      return {"gimbal.motor.dc is not known",
+              "columns of the torque, such as phi_torque; or give gimbal.motor.dc"};
+    case Needs::coupled:
+      if (is_coupled(scenario)) return {};
+      return {"nothing is lost: the ball rolls without losses",
+              "other columns, such as energy; or give ball.losses, or slip with action: slide"};
+    case Needs::own:
+      if (scenario.controller && scenario.controller->own) return {};
+      return {"the scene has no controller of its own that gives it",
+              "columns of bbsim columns; or controller.program or controller.library"};
+    case Needs::orientation:
+      if (!(scenario.events.slip && scenario.events.slip->sliding)) return {};
+      return {"the ball may slide, and its orientation is followed as it rolls",
+              "other columns; or an action of events.slip that is not slide"};
     case Needs::ball:
     case Needs::gamma:
-    case Needs::orientation:
     case Needs::gimbal:
     case Needs::accelerations:
     case Needs::dynamics:

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -11,9 +12,12 @@
 
 namespace bbsim::scenario {
 
-// What a column is computed from: the ball's motion; its angle gamma, and of all rows so far its
-// orientation; the gimbal's angles and rates, and its accelerations; what is there with a
-// controller, and with one in discrete time; forces; forces where the plate's inertia is known.
+// What a column is computed from, those that need the dynamics last: the ball's motion; its angle
+// gamma, and of all rows so far its orientation; the gimbal's angles and rates, and its
+// accelerations; what is there with a controller, and with one in discrete time; a number that
+// one's own controller gives beside its commands; forces; forces where the plate's inertia is
+// known, where torques move the gimbal, where DC motors do; and `coupled` where the ball has losses
+// or may slide, or torques move the gimbal.
 enum class Needs {
   ball,
   gamma,
@@ -22,8 +26,12 @@ enum class Needs {
   accelerations,
   controller,
   samples,
+  own,
   dynamics,
-  plate
+  plate,
+  torques,
+  armature,
+  coupled
 };
 
 struct Column {
@@ -62,12 +70,16 @@ inline constexpr std::array catalogue = {
     Column{"y_reference", "m", "where the controller wants y", Needs::controller},
     Column{"tracking_error", "m",
            "distance of the contact point from where the controller wants it", Needs::controller},
-    Column{"phi_command", "rad",
-           "command that the servo of phi follows (rad/s^2 if accelerations are driven)",
-           Needs::controller},
-    Column{"theta_command", "rad",
-           "command that the servo of theta follows (rad/s^2 if accelerations are driven)",
-           Needs::controller},
+    Column{
+        "phi_command", "rad",
+        "command that the servo of phi follows (rad/s^2 if accelerations are driven, N m or V if "
+        "torques or voltages are)",
+        Needs::controller},
+    Column{
+        "theta_command", "rad",
+        "command that the servo of theta follows (rad/s^2 if accelerations are driven, N m or V if "
+        "torques or voltages are)",
+        Needs::controller},
     Column{"x_measured", "m", "x as the sensor last saw it", Needs::samples},
     Column{"y_measured", "m", "y as the sensor last saw it", Needs::samples},
     Column{"tilt", "rad", "angle between the plane's normal and the vertical", Needs::gimbal},
@@ -95,12 +107,59 @@ inline constexpr std::array catalogue = {
     Column{"energy", "J",
            "ball's kinetic and potential energy; potential is 0 at the gimbal's centre",
            Needs::dynamics},
-    Column{"power", "W", "power of the two motor torques; the rate of change of energy",
+    Column{
+        "power", "W",
+        "power of the two motor torques that carry the ball; the rate of change of energy, but for "
+        "losses",
+        Needs::dynamics},
+    Column{"total_energy", "J",
+           "kinetic and potential energy of ball, plate, ring and the motors' rotors",
            Needs::dynamics},
+    Column{"slip_x", "m/s", "velocity of the ball's surface over the plane at the contact, along x",
+           Needs::coupled},
+    Column{"slip_y", "m/s", "velocity of the ball's surface over the plane at the contact, along y",
+           Needs::coupled},
+    Column{"loss_power", "W",
+           "power lost to the ball's couples, to sliding and in the motors' friction",
+           Needs::coupled},
+    Column{"energy_lost", "J", "energy lost since the start: integral of loss_power",
+           Needs::coupled},
+    Column{
+        "motor_work", "J",
+        "work of the motors on ball, plate, ring and rotors since the start, before their friction",
+        Needs::coupled},
+    Column{"phi_torque_asked", "N m", "torque asked of phi's motor, before its limits",
+           Needs::torques},
+    Column{"theta_torque_asked", "N m", "torque asked of theta's motor, before its limits",
+           Needs::torques},
+    Column{"phi_torque", "N m", "torque that phi's motor gives, before its friction",
+           Needs::torques},
+    Column{"theta_torque", "N m", "torque that theta's motor gives, before its friction",
+           Needs::torques},
+    Column{"phi_current", "A", "current of phi's motor", Needs::armature},
+    Column{"theta_current", "A", "current of theta's motor", Needs::armature},
+    Column{"phi_voltage", "V", "voltage of phi's motor", Needs::armature},
+    Column{"theta_voltage", "V", "voltage of theta's motor", Needs::armature},
+    Column{"electrical_power", "W", "voltage times current of the two motors", Needs::armature},
 };
 
-// The column of that name, or nullptr.
+// The column of that name, or nullptr. Numbers of one's own controller are found once a scene has
+// asked for them by that name.
 [[nodiscard]] const Column* find_column(std::string_view name);
+
+// The column of a number that one's own controller gives by that name, for which is_own_name()
+// holds and which is not in the catalogue. It stays as long as the program.
+const Column& own_column(std::string_view name);
+
+// Whether a number of one's own controller may have that name: letters, digits and underscores, at
+// most 60, and no digit first.
+[[nodiscard]] bool is_own_name(std::string_view name);
+
+// How many of them a scene may ask for.
+inline constexpr std::size_t most_own_columns = 64;
+
+// The names of those that the scene's output columns ask for, in their order.
+[[nodiscard]] std::vector<std::string> own_columns(const Scenario& scenario);
 
 // The columns of these names, in this order. Throws InputError for an unknown one.
 [[nodiscard]] std::vector<const Column*> columns_named(const std::vector<std::string>& names);
@@ -108,6 +167,9 @@ inline constexpr std::array catalogue = {
 [[nodiscard]] std::vector<std::string> names_of(const std::vector<const Column*>& columns);
 
 [[nodiscard]] bool any_needs(const std::vector<const Column*>& columns, Needs what);
+
+// Whether one of them is computed from forces, torques or energy.
+[[nodiscard]] bool need_dynamics(const std::vector<const Column*>& columns);
 
 // Whether one of them is computed from gamma, which the model then integrates.
 [[nodiscard]] bool need_gamma(const std::vector<const Column*>& columns);

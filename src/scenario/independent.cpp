@@ -5,6 +5,8 @@
 #include <span>
 #include <variant>
 
+#include "scenario/coupled.hpp"
+
 namespace bbsim {
 namespace {
 
@@ -115,6 +117,7 @@ Numbers in_controller(Controller& controller, Names names) {
 
 // A prescribed motion, or equation (31) with an ideal servo, and nothing that is watched.
 bool is_plain(const Scenario& scenario) {
+  if (bbsim::scenario::is_coupled(scenario)) return false;
   const Events& events = scenario.events;
   if (events.edge || events.slip || events.lift_off || events.tilt || events.singularity) {
     return false;

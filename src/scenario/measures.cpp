@@ -1,7 +1,13 @@
 #include "scenario/measures.hpp"
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
+
+#include "base/error.hpp"
+#include "base/number_text.hpp"
+#include "base/text.hpp"
+#include "yaml/quantity.hpp"
 
 namespace bbsim::scenario {
 namespace {
@@ -18,32 +24,247 @@ constexpr Prefix prefixes[] = {{"min_", Kind::least, "least over the continuous 
                                {"rms_", Kind::rms, "root mean square over the rows of: "},
                                {"end_", Kind::end, "at the end of the run: "}};
 
+struct Metric {
+  StepMetric metric;
+  std::string_view name, unit, meaning;  // unit: empty for the column's own
+};
+constexpr Metric metrics[] = {
+    {StepMetric::rise_time, "RiseTime", "s", "time from 10 % to 90 % of the value at the end of: "},
+    {StepMetric::settling_time, "SettlingTime", "s",
+     "time after which it stays within 2 % of the value at the end: "},
+    {StepMetric::settling_min, "SettlingMin", "", "least once it has risen to 90 %: "},
+    {StepMetric::settling_max, "SettlingMax", "", "greatest once it has risen to 90 %: "},
+    {StepMetric::overshoot, "Overshoot", "%", "beyond the value at the end, in percent of it: "},
+    {StepMetric::undershoot, "Undershoot", "%",
+     "to the other side of 0, in percent of the value at the end: "},
+    {StepMetric::peak, "Peak", "", "largest size of: "},
+    {StepMetric::peak_time, "PeakTime", "s", "time of the largest size of: "},
+    {StepMetric::steady_state_value, "SteadyStateValue", "", "at the end of the run: "},
+};
+
+const Metric& metric_of(StepMetric metric) {
+  return metrics[static_cast<std::size_t>(metric)];
+}
+
+// Takes `word` and the blanks after it from the text's front.
+bool take(std::string_view& text, std::string_view word) {
+  if (!text.starts_with(word)) return false;
+  const std::string_view rest = text.substr(word.size());
+  if (!rest.empty() && rest.front() != ' ' && rest.front() != '\t') return false;
+  text = trimmed(rest);
+  return true;
+}
+
+// A number, in SI, or a quantity of the unit's dimension.
+std::optional<double> value_in(std::string_view text, std::string_view unit) {
+  using yaml::Dimension;
+  Dimension dimension = Dimension::number;
+  for (const Dimension one :
+       {Dimension::length, Dimension::mass, Dimension::time, Dimension::angle,
+        Dimension::angular_rate, Dimension::velocity, Dimension::acceleration}) {
+    if (yaml::si_unit(one) == unit) dimension = one;
+  }
+  const std::optional<double> value = yaml::read_quantity(trimmed(text), false, dimension).value;
+  return value && std::isfinite(*value) ? value : std::nullopt;
+}
+
+// What stands behind rise=, fall= or cross=.
+bool read_number(std::string_view text, std::size_t& number) {
+  if (text == "last") {
+    number = 0;
+    return true;
+  }
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+  return error == std::errc() && end == text.data() + text.size() && number >= 1;
+}
+
+bool is_usable(const Column* column) {
+  // A quaternion has no extremes that mean anything.
+  return column != nullptr && column->needs != Needs::orientation;
+}
+
+// "x=0.05 rise=2", "tracking_error stays below 2 mm"
+std::optional<Instant> read_condition(std::string_view text, const FindColumn& find) {
+  Instant instant;
+  const std::size_t stays = text.find(" stays ");
+  if (stays != std::string_view::npos) {
+    instant.column = find(trimmed(text.substr(0, stays)));
+    std::string_view rest = trimmed(text.substr(stays + 7));
+    if (take(rest, "below")) {
+      instant.kind = Instant::Kind::stays_below;
+    } else if (take(rest, "above")) {
+      instant.kind = Instant::Kind::stays_above;
+    } else {
+      return {};
+    }
+    if (!is_usable(instant.column)) return {};
+    const std::optional<double> level = value_in(rest, instant.column->unit);
+    if (!level) return {};
+    instant.level = *level;
+    return instant;
+  }
+  struct Word {
+    std::string_view text;
+    Instant::Way way;
+  };
+  constexpr Word words[] = {{" rise=", Instant::Way::rise},
+                            {" fall=", Instant::Way::fall},
+                            {" cross=", Instant::Way::either}};
+  for (const Word& word : words) {
+    const std::size_t place = text.find(word.text);
+    if (place == std::string_view::npos) continue;
+    instant.way = word.way;
+    if (!read_number(trimmed(text.substr(place + word.text.size())), instant.number)) return {};
+    text = text.substr(0, place);
+    break;
+  }
+  const std::size_t equals = text.find('=');
+  if (equals == std::string_view::npos) return {};
+  instant.column = find(trimmed(text.substr(0, equals)));
+  if (!is_usable(instant.column)) return {};
+  const std::optional<double> level = value_in(text.substr(equals + 1), instant.column->unit);
+  if (!level) return {};
+  instant.level = *level;
+  return instant;
+}
+
+std::string text_of(const Instant& instant) {
+  const std::string level = number_text(instant.level);
+  if (instant.kind == Instant::Kind::at) return "at " + level;
+  const std::string column = "when " + std::string(instant.column->name);
+  if (instant.kind == Instant::Kind::stays_below) return column + " stays below " + level;
+  if (instant.kind == Instant::Kind::stays_above) return column + " stays above " + level;
+  constexpr const char* ways[] = {" cross=", " rise=", " fall="};
+  return column + "=" + level + ways[static_cast<std::size_t>(instant.way)] +
+         (instant.number == 0 ? "last" : std::to_string(instant.number));
+}
+
+std::optional<Measure> read_when_or_find(std::string_view text, const FindColumn& find) {
+  Measure measure;
+  measure.kind = Kind::when;
+  if (take(text, "find")) {
+    measure.kind = Kind::find;
+    const std::size_t blank = text.find_first_of(" \t");
+    if (blank == std::string_view::npos) return {};
+    measure.column = find(text.substr(0, blank));
+    if (!is_usable(measure.column)) return {};
+    text = trimmed(text.substr(blank));
+    if (take(text, "at")) {
+      const std::optional<double> time = value_in(text, "s");
+      if (!time) return {};
+      measure.instant.kind = Instant::Kind::at;
+      measure.instant.level = *time;
+      measure.name = "find " + std::string(measure.column->name) + " " + text_of(measure.instant);
+      return measure;
+    }
+  }
+  if (!take(text, "when")) return {};
+  const std::optional<Instant> instant = read_condition(text, find);
+  if (!instant) return {};
+  measure.instant = *instant;
+  measure.name = text_of(*instant);
+  if (measure.kind == Kind::find) {
+    measure.name = "find " + std::string(measure.column->name) + " " + measure.name;
+  } else {
+    measure.column = instant->column;
+  }
+  return measure;
+}
+
 }  // namespace
 
 std::string Measure::meaning() const {
+  const std::string of(column->meaning);
+  switch (kind) {
+    case Kind::step:
+      return std::string(metric_of(metric).meaning) + of;
+    case Kind::when:
+      return "time: " + name;
+    case Kind::find:
+      return text_of(instant) + ": " + of;
+    default:
+      break;
+  }
   for (const Prefix& prefix : prefixes) {
-    if (prefix.kind == kind) return std::string(prefix.meaning) + std::string(column->meaning);
+    if (prefix.kind == kind) return std::string(prefix.meaning) + of;
   }
   return "";
 }
 
+std::string Measure::unit() const {
+  if (kind == Kind::when) return "s";
+  if (kind == Kind::step && !metric_of(metric).unit.empty()) {
+    return std::string(metric_of(metric).unit);
+  }
+  return std::string(column->unit);
+}
+
 std::optional<Measure> find_measure(std::string_view name) {
+  return find_measure(name, [](std::string_view column) { return find_column(column); });
+}
+
+std::optional<Measure> find_measure(std::string_view name, const FindColumn& find) {
+  name = trimmed(name);
+  const std::size_t dot = name.rfind('.');
+  if (dot != std::string_view::npos) {
+    for (const Metric& metric : metrics) {
+      if (name.substr(dot + 1) != metric.name) continue;
+      const Column* const column = find(name.substr(0, dot));
+      if (!is_usable(column)) return {};
+      return Measure{Kind::step, column, std::string(name), metric.metric, {}};
+    }
+  }
+  if (name.starts_with("when ") || name.starts_with("find ")) return read_when_or_find(name, find);
   if (name == "x_end" || name == "y_end") {
-    return Measure{Kind::end, find_column(name.substr(0, 1)), std::string(name)};
+    const Column* const column = find(name.substr(0, 1));
+    if (column == nullptr) return {};
+    return Measure{Kind::end, column, std::string(name), {}, {}};
   }
   for (const Prefix& prefix : prefixes) {
     if (!name.starts_with(prefix.text)) continue;
-    const Column* const column = find_column(name.substr(prefix.text.size()));
-    // A quaternion has no extremes that mean anything.
-    if (column != nullptr && column->needs == Needs::orientation) return {};
-    if (column != nullptr) return Measure{prefix.kind, column, std::string(name)};
+    const Column* const column = find(name.substr(prefix.text.size()));
+    if (column == nullptr) continue;
+    if (!is_usable(column)) return {};
+    return Measure{prefix.kind, column, std::string(name), {}, {}};
   }
   return {};
 }
 
+std::vector<std::string> split_measures(const std::vector<std::string>& lists) {
+  std::vector<std::string> names;
+  for (const std::string& list : lists) {
+    for (std::size_t start = 0; start != std::string::npos;) {
+      const std::size_t comma = list.find(',', start);
+      names.emplace_back(trimmed(std::string_view(list).substr(start, comma - start)));
+      start = comma == std::string::npos ? comma : comma + 1;
+    }
+  }
+  return names;
+}
+
 std::string allowed_measures() {
   return "min_, max_, rms_ or end_ and one of bbsim columns but ball_q..., such as max_tilt, "
-         "rms_x, end_phi";
+         "rms_x, end_phi; COLUMN.RiseTime, SettlingTime, SettlingMin, SettlingMax, Overshoot, "
+         "Undershoot, Peak, PeakTime or SteadyStateValue; \"when COLUMN=VALUE rise=N\" (or fall=, "
+         "cross=; N or last), \"when COLUMN stays below VALUE\" (or above); \"find COLUMN when "
+         "...\", \"find COLUMN at TIME\"";
+}
+
+std::vector<Measure> measures_named(const std::vector<std::string>& names,
+                                    const Scenario& scenario) {
+  std::vector<Measure> measures;
+  for (const std::string& name : names) {
+    const std::optional<Measure> measure = find_measure(name);
+    if (!measure) throw InputError("measure: found " + name + "; allowed: " + allowed_measures());
+    if (const Missing lacks = missing(*measure, scenario)) {
+      throw InputError("measure: found " + name + ", but " + lacks.why);
+    }
+    for (const Measure& other : measures) {
+      if (other.name == measure->name) throw InputError("measure: found " + name + " twice");
+    }
+    measures.push_back(*measure);
+  }
+  return measures;
 }
 
 std::vector<std::string> default_measures(bool closed_loop) {
@@ -53,8 +274,16 @@ std::vector<std::string> default_measures(bool closed_loop) {
 }
 
 bool any_needs(const std::vector<Measure>& measures, Needs what) {
-  return std::any_of(measures.begin(), measures.end(),
-                     [what](const Measure& measure) { return measure.column->needs == what; });
+  return std::any_of(measures.begin(), measures.end(), [what](const Measure& measure) {
+    const Column* const watched = measure.instant.column;
+    return measure.column->needs == what || (watched != nullptr && watched->needs == what);
+  });
+}
+
+Missing missing(const Measure& measure, const Scenario& scenario) {
+  const Missing lacks = missing(*measure.column, scenario);
+  if (lacks || measure.instant.column == nullptr) return lacks;
+  return missing(*measure.instant.column, scenario);
 }
 
 std::string why_not_finite(const std::vector<Measure>& measures, const double* results,
@@ -62,7 +291,7 @@ std::string why_not_finite(const std::vector<Measure>& measures, const double* r
   std::string text;
   for (std::size_t m = 0; m < measures.size(); ++m) {
     if (std::isfinite(results[m])) continue;
-    const Missing lacks = missing(*measures[m].column, scenario);
+    const Missing lacks = missing(measures[m], scenario);
     text += (text.empty() ? "" : "; ") + measures[m].name +
             (std::isnan(results[m]) ? " is no number" : " is infinite");
     if (lacks) text += std::string(": ") + lacks.why;

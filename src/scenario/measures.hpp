@@ -1,6 +1,8 @@
-// What a sweep keeps of a run: one number of a column over the run.
+// What is kept of a run: one number of a column over the run.
 #pragma once
 
+#include <cstddef>
+#include <functional>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -10,22 +12,81 @@
 
 namespace bbsim::scenario {
 
+// What python-control's step_info() tells of a response, by its names (RiseTime). Of a response
+// that ends at its steady-state value y_f:
+//   rise_time           from the first time at 10 % of y_f to the first at 90 %, s
+//   settling_time       after which it stays within 2 % of y_f, s
+//   settling_min, _max  the least and greatest value from the first time at 90 % on
+//   overshoot           how far it goes beyond y_f, % of y_f
+//   undershoot          how far it goes to the other side of 0, % of y_f
+//   peak, peak_time     the largest size, and when
+//   steady_state_value  y_f: the value at the end of the run
+// Those that are relative to y_f are no number where it is 0.
+enum class StepMetric {
+  rise_time,
+  settling_time,
+  settling_min,
+  settling_max,
+  overshoot,
+  undershoot,
+  peak,
+  peak_time,
+  steady_state_value
+};
+
+// An instant of a run, as of SPICE's .measure.
+struct Instant {
+  enum class Kind {
+    crosses,      // the column passes through the level
+    stays_below,  // it is below the level from then on, to the end
+    stays_above,
+    at  // a time that is given
+  } kind = Kind::crosses;
+  enum class Way { either, rise, fall } way = Way::either;
+  std::size_t number = 1;          // which crossing, from 1; 0: the last one
+  const Column* column = nullptr;  // null of a time
+  double level = 0;                // in the column's unit; or the time, s
+};
+
 struct Measure {
   // least, greatest: over the continuous motion, both sides of every switch included; rms: the root
   // of the mean square over the rows; end: at the last instant reached, the row at time.end or
-  // where the scene stopped.
-  enum class Kind { least, greatest, rms, end } kind = Kind::end;
-  const Column* column = nullptr;
-  std::string name;  // max_tilt, end_phi, x_end
+  // where the scene stopped; step: see StepMetric; when: the time of an instant; find: the column's
+  // value there. All but rms and end are of the continuous motion.
+  enum class Kind { least, greatest, rms, end, step, when, find } kind = Kind::end;
+  const Column* column = nullptr;  // of `when`: the one that is looked at
+  std::string name;                // max_tilt, end_phi, x_end, x.RiseTime, when x=0.05 rise=1
+  StepMetric metric = StepMetric::rise_time;
+  Instant instant{};
 
   [[nodiscard]] std::string meaning() const;
+  [[nodiscard]] std::string unit() const;
 };
 
-// min_, max_, rms_ or end_ and the name of a column; x_end and y_end are end_x and end_y.
+// A measure's name:
+//   min_, max_, rms_ or end_ and the name of a column; x_end and y_end are end_x and end_y
+//   COLUMN.RiseTime, or another of python-control's names
+//   when COLUMN=VALUE [rise=N|fall=N|cross=N], N from 1 or last; without, its first crossing
+//   when COLUMN stays below VALUE, when COLUMN stays above VALUE
+//   find COLUMN when ..., find COLUMN at TIME
+// A VALUE may have a unit of the column's dimension: "5 cm". The name that comes back has numbers
+// in SI instead.
 [[nodiscard]] std::optional<Measure> find_measure(std::string_view name);
 
-// What the message about an unknown name lists.
+// The same of columns that `find` knows: those of a stored file.
+using FindColumn = std::function<const Column*(std::string_view name)>;
+[[nodiscard]] std::optional<Measure> find_measure(std::string_view name, const FindColumn& find);
+
+// Parts of a list at its commas.
+[[nodiscard]] std::vector<std::string> split_measures(const std::vector<std::string>& lists);
+
+// For the message about a name that is none.
 [[nodiscard]] std::string allowed_measures();
+
+// The measures of these names, each given once, which the scene has the columns for. Throws
+// InputError.
+[[nodiscard]] std::vector<Measure> measures_named(const std::vector<std::string>& names,
+                                                  const Scenario& scenario);
 
 // x_end, y_end, max_tilt, max_tilt_rate, max_distance, and with a controller rms_tracking_error and
 // max_tracking_error.
@@ -33,6 +94,9 @@ struct Measure {
 
 // What the columns of these measures are computed from.
 [[nodiscard]] bool any_needs(const std::vector<Measure>& measures, Needs what);
+
+// Why the scene cannot fill a column of the measure.
+[[nodiscard]] Missing missing(const Measure& measure, const Scenario& scenario);
 
 // Why some of the measures of a run that came to its end are no finite numbers; empty if all are.
 [[nodiscard]] std::string why_not_finite(const std::vector<Measure>& measures,

@@ -13,22 +13,40 @@ constexpr std::size_t most_terms = 1000;
 
 constexpr yaml::Number angle{yaml::Dimension::angle};
 constexpr yaml::Number angular_rate{yaml::Dimension::angular_rate};
+// What a profile is of.
+struct OfAngle {
+  static constexpr yaml::Dimension value = yaml::Dimension::angle;
+  static constexpr yaml::Dimension rate = yaml::Dimension::angular_rate;
+  static constexpr std::string_view noun = "angle";
+  static constexpr std::string_view term =
+      "an angle, such as 0.1 or \"4 deg\", or one of sinusoid, ramp, table";
+};
+struct OfTorque {
+  static constexpr yaml::Dimension value = yaml::Dimension::number;
+  static constexpr yaml::Dimension rate = yaml::Dimension::number;
+  static constexpr std::string_view noun = "torque";
+  static constexpr std::string_view term =
+      "a torque in N m, such as 0.01, or one of sinusoid, ramp, table";
+};
 
+template <class Of>
 void read_sinusoid(yaml::Keys& keys, Sinusoid& sinusoid) {
-  keys.required("amplitude", angle, sinusoid.amplitude);
+  keys.required("amplitude", yaml::Number{Of::value}, sinusoid.amplitude);
   keys.required("frequency", angular_rate, sinusoid.frequency);
   keys.optional("phase", angle, sinusoid.phase);
-  keys.optional("offset", angle, sinusoid.offset);
+  keys.optional("offset", yaml::Number{Of::value}, sinusoid.offset);
 }
 
+template <class Of>
 void read_ramp(yaml::Keys& keys, Ramp& ramp) {
-  keys.required("start", angle, ramp.start);
-  keys.required("rate", angular_rate, ramp.rate);
+  keys.required("start", yaml::Number{Of::value}, ramp.start);
+  keys.required("rate", yaml::Number{Of::rate}, ramp.rate);
 }
 
+template <class Of>
 void read_table(yaml::Keys& keys, Table& table) {
   TableRows rows;
-  read_table_rows(keys, {"value"}, "angle", rows);
+  read_table_rows(keys, {"value"}, Of::noun, rows);
   if (rows.values.empty()) return;
   table = {std::move(rows.file), std::move(rows.times), std::move(rows.values[0])};
 }
@@ -39,28 +57,27 @@ struct Shapes {
   std::optional<Table> table;
 };
 
+template <class Of>
 void read_shapes(yaml::Keys& keys, Shapes& shapes) {
   keys.exactly_one({"sinusoid", "ramp", "table"});
-  keys.optional("sinusoid", yaml::MappingOf(read_sinusoid), shapes.sinusoid);
-  keys.optional("ramp", yaml::MappingOf(read_ramp), shapes.ramp);
-  keys.optional("table", yaml::MappingOf(read_table), shapes.table);
+  keys.optional("sinusoid", yaml::MappingOf(read_sinusoid<Of>), shapes.sinusoid);
+  keys.optional("ramp", yaml::MappingOf(read_ramp<Of>), shapes.ramp);
+  keys.optional("table", yaml::MappingOf(read_table<Of>), shapes.table);
 }
 
-constexpr std::string_view term_allowed =
-    "an angle, such as 0.1 or \"4 deg\", or one of sinusoid, ramp, table";
-
+template <class Of>
 bool read_term(const yaml::Value& value, Profile& into) {
   if (value.node->kind == yaml::Node::Kind::scalar) {
     const yaml::Quantity quantity =
-        yaml::read_quantity(value.node->text, value.node->quoted, yaml::Dimension::angle);
-    if (!quantity.value) return value.refuse(quantity.fault, term_allowed);
+        yaml::read_quantity(value.node->text, value.node->quoted, Of::value);
+    if (!quantity.value) return value.refuse(quantity.fault, Of::term);
     into.emplace_back(*quantity.value);
-    value.note(*quantity.value, yaml::Dimension::angle);
+    value.note(*quantity.value, Of::value);
     return true;
   }
-  if (value.node->kind != yaml::Node::Kind::mapping) return value.refuse("", term_allowed);
+  if (value.node->kind != yaml::Node::Kind::mapping) return value.refuse("", Of::term);
   Shapes shapes;
-  if (!yaml::MappingOf(read_shapes).read(value, shapes)) return false;
+  if (!yaml::MappingOf(read_shapes<Of>).read(value, shapes)) return false;
   if (shapes.sinusoid) into.emplace_back(*shapes.sinusoid);
   if (shapes.ramp) into.emplace_back(*shapes.ramp);
   if (shapes.table) into.emplace_back(std::move(*shapes.table));
@@ -70,18 +87,20 @@ bool read_term(const yaml::Value& value, Profile& into) {
 }  // namespace
 
 std::string ProfileRule::allowed() const {
-  return std::string(term_allowed) + ", or a list of these: their sum";
+  return std::string(of_torque ? OfTorque::term : OfAngle::term) +
+         ", or a list of these: their sum";
 }
 
 bool ProfileRule::read(const yaml::Value& value, Profile& into) const {
+  const auto term = of_torque ? read_term<OfTorque> : read_term<OfAngle>;
   if (value.node->kind == yaml::Node::Kind::null) return value.refuse("", allowed());
-  if (value.node->kind != yaml::Node::Kind::sequence) return read_term(value, into);
+  if (value.node->kind != yaml::Node::Kind::sequence) return term(value, into);
   const std::size_t count = value.node->items.size();
   if (count == 0 || count > most_terms) {
     return value.refuse("", "a list of 1 to " + std::to_string(most_terms));
   }
   bool fine = true;
-  for (std::size_t i = 0; i < count; ++i) fine = read_term(value.item(i), into) && fine;
+  for (std::size_t i = 0; i < count; ++i) fine = term(value.item(i), into) && fine;
   return fine;
 }
 

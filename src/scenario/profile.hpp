@@ -1,4 +1,5 @@
-// A profile of a gimbal angle: a number, one of sinusoid, ramp and table, or a list: their sum.
+// A profile of a gimbal angle, or of a motor's torque: a number, one of sinusoid, ramp and table,
+// or a list: their sum.
 #pragma once
 
 #include <string>
@@ -9,6 +10,7 @@
 namespace bbsim::scenario {
 
 struct ProfileRule {
+  bool of_torque = false;
   [[nodiscard]] std::string allowed() const;
   bool read(const yaml::Value& value, Profile& into) const;
 };

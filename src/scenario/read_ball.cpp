@@ -3,6 +3,20 @@
 
 namespace bbsim::scenario {
 
+namespace {
+
+void read_losses(yaml::Keys& keys, Losses& losses) {
+  keys.optional("rolling",
+                yaml::Number{yaml::Dimension::number, {.at_least = 0, .at_most = 1}, "0.002"},
+                losses.rolling);
+  keys.optional("viscous", yaml::Number{yaml::Dimension::number, {.at_least = 0}, "2e-6"},
+                losses.viscous);
+  keys.optional("pivoting", yaml::Number{yaml::Dimension::length, {.at_least = 0}, "1e-4"},
+                losses.pivoting);
+}
+
+}  // namespace
+
 void read_ball(yaml::Keys& keys, Ball& ball) {
   keys.required("radius", yaml::Number{yaml::Dimension::length, {.above = 0}}, ball.radius);
   keys.optional("mass", yaml::Number{yaml::Dimension::mass, {.above = 0}}, ball.mass);
@@ -12,6 +26,8 @@ void read_ball(yaml::Keys& keys, Ball& ball) {
   // All mass at the centre has 0, all of it at the surface 2/3.
   const yaml::Number factor{yaml::Dimension::number, {.at_least = 0, .at_most = 0.67}, "0.4"};
   keys.optional("inertia_factor", factor, ball.inertia_factor);
+  keys.section("losses", read_losses, ball.losses);
+  keys.optional("rotation", yaml::PairOf{yaml::Dimension::angular_rate}, ball.rotation);
 }
 
 void read_plate(yaml::Keys& keys, Plate& plate) {
@@ -21,6 +37,8 @@ void read_plate(yaml::Keys& keys, Plate& plate) {
     keys.find("diameter")->report("given together with size; allowed: one of them");
   }
   keys.optional("inertia", yaml::MomentsOf{}, plate.inertia);
+  keys.optional("mass", yaml::Number{yaml::Dimension::mass, {.at_least = 0}}, plate.mass);
+  keys.optional("centre_of_mass", yaml::Number{yaml::Dimension::length}, plate.centre_of_mass);
 }
 
 }  // namespace bbsim::scenario

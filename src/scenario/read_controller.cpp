@@ -1,5 +1,8 @@
+#include <algorithm>
 #include <cmath>
+#include <utility>
 
+#include "scenario/columns.hpp"
 #include "scenario/sections.hpp"
 #include "yaml/rules.hpp"
 
@@ -32,6 +35,61 @@ void read_lqr(yaml::Keys& keys, Controller& controller) {
                 weights.command);
 }
 
+// Names of one's own, each with a number.
+struct Parameters {
+  [[nodiscard]] static std::string allowed() {
+    return "a mapping of names to numbers, such as {kp: 0.7}";
+  }
+
+  static bool read(const yaml::Value& value, std::vector<Parameter>& into) {
+    if (value.node->kind != yaml::Node::Kind::mapping) return value.refuse("", allowed());
+    yaml::Keys keys(value);
+    bool fine = true;
+    for (const yaml::Entry& entry : value.node->entries) {
+      const yaml::Value number = *keys.find(entry.key);
+      if (!is_own_name(entry.key)) {
+        fine = number.report(
+            "found a name of other characters than letters, digits and underscores, or of more "
+            "than 60; allowed: such as kp");
+      } else if (yaml::Number{yaml::Dimension::number, {}, "0.7"}.read(
+                     number, into.emplace_back(Parameter{entry.key, 0}).value)) {
+        continue;
+      }
+      fine = false;
+    }
+    keys.finish();
+    return fine;
+  }
+};
+
+constexpr yaml::Range some_time{.above = 0, .at_most = 86400};
+
+void read_program(yaml::Keys& keys, Controller& controller) {
+  OwnController& own = controller.own.emplace();
+  ControllerProgram program;
+  const yaml::ListOf<yaml::Text, std::string> words{
+      {"a word"}, 1, 1000, "words, such as [python3, pid.py]"};
+  keys.required("command", words, program.command);
+  keys.optional("parameters", Parameters{}, own.parameters);
+  const yaml::Number time{yaml::Dimension::time, some_time};
+  keys.optional("timeout", time, program.timeout);
+  program.start_timeout = std::max(program.start_timeout, program.timeout);
+  keys.optional("start_timeout", time, program.start_timeout);
+  own.by = std::move(program);
+  own.folder = keys.context().folder.string();
+  keys.context().own_controller = true;
+}
+
+void read_library(yaml::Keys& keys, Controller& controller) {
+  OwnController& own = controller.own.emplace();
+  ControllerLibrary library;
+  keys.required("file", yaml::Text{"the name of a shared library"}, library.file);
+  keys.optional("parameters", Parameters{}, own.parameters);
+  own.by = std::move(library);
+  own.folder = keys.context().folder.string();
+  keys.context().own_controller = true;
+}
+
 struct NamedLaw {
   std::string_view key;
   Law law;
@@ -44,6 +102,8 @@ constexpr NamedLaw laws[] = {
     {"lqr", Law::lqr, read_lqr},
     {"gravity_compensation", Law::gravity_compensation, read_pd},
     {"feedback_linearisation", Law::feedback_linearisation, read_pd},
+    {"program", Law::own, read_program},
+    {"library", Law::own, read_library},
 };
 
 void read_law(yaml::Keys& keys, Controller& controller) {
@@ -97,10 +157,12 @@ void read_sensor(yaml::Keys& keys, Sensor& sensor) {
 
 void read_controller(yaml::Keys& keys, Controller& controller) {
   read_law(keys, controller);
-  keys.optional(
-      "drives",
-      yaml::NameOf<Drives>{{{Drives::acceleration, "acceleration"}, {Drives::angle, "angle"}}},
-      controller.drives);
+  keys.optional("drives",
+                yaml::NameOf<Drives>{{{Drives::acceleration, "acceleration"},
+                                      {Drives::angle, "angle"},
+                                      {Drives::torque, "torque"},
+                                      {Drives::voltage, "voltage"}}},
+                controller.drives);
   keys.section("reference", read_reference, controller.reference);
   if (controller.drives == Drives::angle) {
     keys.optional("limit", yaml::AngleLimit{{.above = 0}}, controller.limit);

@@ -10,6 +10,37 @@ void read_motion(yaml::Keys& keys, GimbalMotion& motion) {
   keys.optional("theta", ProfileRule{}, motion.theta);
 }
 
+void read_torque(yaml::Keys& keys, GimbalMotion& torque) {
+  keys.optional("phi", ProfileRule{true}, torque.phi);
+  keys.optional("theta", ProfileRule{true}, torque.theta);
+}
+
+void read_dc(yaml::Keys& keys, DcMotor& dc) {
+  const yaml::Number positive{yaml::Dimension::number, {.above = 0}};
+  keys.required("resistance", positive, dc.resistance);
+  keys.required("torque_constant", positive, dc.torque_constant);
+  keys.optional("gear", positive, dc.gear);
+  keys.optional("voltage_limit", positive, dc.voltage_limit);
+}
+
+void read_position_loop(yaml::Keys& keys, PositionLoop& loop) {
+  const yaml::Number gain{yaml::Dimension::number, {.at_least = 0}};
+  keys.required("kp", yaml::Number{yaml::Dimension::number, {.above = 0}}, loop.kp);
+  keys.optional("kd", gain, loop.kd);
+  keys.optional("ki", gain, loop.ki);
+}
+
+void read_motor(yaml::Keys& keys, Motor& motor) {
+  const yaml::Number at_least_none{yaml::Dimension::number, {.at_least = 0}, "1e-3"};
+  keys.optional("rotor_inertia", at_least_none, motor.rotor_inertia);
+  keys.optional("viscous", at_least_none, motor.viscous);
+  keys.optional("friction", at_least_none, motor.friction);
+  keys.optional("torque_limit", yaml::Number{yaml::Dimension::number, {.above = 0}, "0.2"},
+                motor.torque_limit);
+  keys.optional("dc", yaml::MappingOf(read_dc), motor.dc);
+  keys.optional("position_loop", yaml::MappingOf(read_position_loop), motor.position_loop);
+}
+
 void read_start(yaml::Keys& keys, GimbalStart& start) {
   keys.optional("phi", yaml::Number{yaml::Dimension::angle}, start.phi);
   keys.optional("theta", yaml::Number{yaml::Dimension::angle}, start.theta);
@@ -63,8 +94,12 @@ void read_mounting(yaml::Keys& keys, Mounting& mounting) {
 
 void read_gimbal(yaml::Keys& keys, Gimbal& gimbal) {
   keys.optional("motion", yaml::MappingOf(read_motion), gimbal.motion);
+  keys.optional("torque", yaml::MappingOf(read_torque), gimbal.torque);
   keys.optional("start", yaml::MappingOf(read_start), gimbal.start);
   keys.optional("servo", yaml::MappingOf(read_servo), gimbal.servo);
+  keys.optional("ring_inertia", yaml::Number{yaml::Dimension::number, {.at_least = 0}, "1e-3"},
+                gimbal.ring_inertia);
+  keys.optional("motor", yaml::MappingOf(read_motor), gimbal.motor);
   keys.section("mounting", read_mounting, gimbal.mounting);
 }
 

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <set>
 
 #include "scenario/columns.hpp"
@@ -24,12 +25,22 @@ struct Columns {
     }
     into.clear();
     std::set<std::string_view> seen;
+    std::size_t own = 0;
     for (std::size_t i = 0; i < value.node->items.size(); ++i) {
       const yaml::Value item = value.item(i);
       const std::string& name = item.node->text;
-      if (find_column(name) == nullptr) {
-        yaml::refuse_name(item, column_names());
-      } else if (!seen.insert(name).second) {
+      if (std::ranges::find(catalogue, name, &Column::name) == catalogue.end()) {
+        if (!value.context->own_controller || !is_own_name(name)) {
+          yaml::refuse_name(item, column_names());
+          continue;
+        }
+        own_column(name);
+        if (++own > most_own_columns) {
+          item.refuse(", beside 64 other numbers of the controller's own", "64 of them");
+          continue;
+        }
+      }
+      if (!seen.insert(name).second) {
         item.refuse(" again", "each column once");
       } else {
         into.push_back(name);

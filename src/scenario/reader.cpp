@@ -83,8 +83,9 @@ Scenario parse_scenario(const std::string& text, const std::string& name,
 std::vector<std::string> table_files(const Scenario& scenario) {
   const auto folder = std::filesystem::path(scenario.source.file).parent_path();
   std::vector<std::string> files;
-  if (scenario.gimbal.motion) {
-    for (const Profile* profile : {&scenario.gimbal.motion->phi, &scenario.gimbal.motion->theta}) {
+  for (const auto& given : {&scenario.gimbal.motion, &scenario.gimbal.torque}) {
+    if (!*given) continue;
+    for (const Profile* profile : {&(*given)->phi, &(*given)->theta}) {
       for (const ProfileTerm& term : *profile) {
         if (const Table* table = std::get_if<Table>(&term)) files.push_back(folder / table->file);
       }

@@ -12,13 +12,26 @@
 
 namespace bbsim {
 
+// Couples against which the ball turns on the plate.
+struct Losses {
+  double rolling = 0;   // coefficient of rolling resistance: a couple of that times N r
+  double viscous = 0;   // couple over the rate of turn along the plane, N m s
+  double pivoting = 0;  // couple about the normal over N, m
+
+  friend bool operator==(const Losses&, const Losses&) = default;
+};
+
 struct Ball {
   double radius = 0;            // m, > 0, required
-  double mass = 1;              // kg, > 0; forces, torques and energy only
+  double mass = 1;              // kg, > 0; only where forces are asked for, or move something
   Pair position{0, 0};          // contact point in the plane frame, m
   Pair velocity{0, 0};          // of the contact point in the plane frame, m/s
   double spin = 0;              // about the plane normal, relative to the plane, rad/s
   double inertia_factor = 0.4;  // moment of inertia over m r^2: 2/5 solid, 2/3 a thin shell
+  Losses losses{};
+  // Rate of turn about the plane's axes x, y, relative to the plane, rad/s; what rolling gives if
+  // it is not there.
+  std::optional<Pair> rotation{};
 };
 
 // The plate that the ball rolls on, where a scene needs to know: a rectangle or a disc about the
@@ -28,6 +41,8 @@ struct Plate {
   std::optional<double> diameter{};  // m
   // Moments of inertia about the gimbal's centre along the plane's axes x, y, normal, kg m^2.
   std::optional<std::array<double, 3>> inertia{};
+  double mass = 0;            // kg
+  double centre_of_mass = 0;  // its height above the gimbal's centre, along the normal, m
 };
 
 // offset + amplitude sin(frequency t + phase)
@@ -92,8 +107,36 @@ struct Mounting {
   friend bool operator==(const Mounting&, const Mounting&) = default;
 };
 
+// Its armature under a voltage V, through the gear: torque = gear k_t (V - gear k_t rate) / R.
+struct DcMotor {
+  double resistance = 0;                  // R, ohm, > 0
+  double torque_constant = 0;             // k_t, N m/A, > 0
+  double gear = 1;                        // turns of the motor over those of the axis, > 0
+  std::optional<double> voltage_limit{};  // V
+};
+
+// Torque = kp (u - angle) + ki (integral of u - angle) - kd rate.
+struct PositionLoop {
+  double kp = 0;  // N m/rad, > 0
+  double kd = 0;  // N m s/rad
+  double ki = 0;  // N m/(rad s)
+};
+
+// What turns an axis, both alike, where torques move the gimbal.
+struct Motor {
+  double rotor_inertia = 0;              // through the gear, kg m^2
+  double viscous = 0;                    // N m s
+  double friction = 0;                   // dry, N m
+  std::optional<double> torque_limit{};  // N m
+  std::optional<DcMotor> dc{};
+  std::optional<PositionLoop> position_loop{};
+};
+
 struct Gimbal {
-  std::optional<GimbalMotion> motion{};  // prescribed; otherwise a controller moves it
+  std::optional<GimbalMotion> motion{};  // prescribed; otherwise a controller or torques move it
+  std::optional<GimbalMotion> torque{};  // of the motors, N m
+  double ring_inertia = 0;               // of what turns with phi alone, about its axis, kg m^2
+  std::optional<Motor> motor{};
   GimbalStart start;
   std::optional<Servo> servo{};  // there exactly when the controller drives angle
   Mounting mounting;
@@ -136,7 +179,7 @@ struct TableReference {
 using Reference = std::variant<PointReference, CircleReference, LissajousReference,
                                WaypointReference, TableReference>;
 
-enum class Drives { acceleration, angle };
+enum class Drives { acceleration, angle, torque, voltage };
 
 enum class Law {
   pd,                      // u = kv e' + kp e, e = reference - (x, y): equation (31)
@@ -145,6 +188,7 @@ enum class Law {
   lqr,                     // the same, with the gain that minimises a quadratic cost
   gravity_compensation,    // angles under which gravity gives the ball x_d'' + kv e' + kp e
   feedback_linearisation,  // accelerations of the gimbal that give the ball the same
+  own,                     // one's own: a program or a library (docs/controllers.md)
 };
 
 // Cost of lqr: the integral of the weighted squares of the ball's distance and velocity, of the
@@ -171,12 +215,38 @@ struct Sensor {
   std::optional<Pair> area{};  // sides of the rectangle in which it sees the ball, m
 };
 
+// A number that one's own controller is given.
+struct Parameter {
+  std::string name;
+  double value = 0;
+};
+
+// A program that is asked at each sample, over its standard input and output.
+struct ControllerProgram {
+  std::vector<std::string> command;  // its words, at least one; no shell reads them
+  double timeout = 1;                // s, > 0: for each answer
+  double start_timeout = 5;          // s, > 0: for the first, with all that it does to begin
+};
+
+// A shared library that is called at each sample (bbsim/controller.h).
+struct ControllerLibrary {
+  std::string file;  // as the scenario names it
+};
+
+// A controller that is not built in.
+struct OwnController {
+  std::variant<ControllerProgram, ControllerLibrary> by;
+  std::vector<Parameter> parameters;  // in the order of the file
+  std::string folder;  // the scenario's: names of files begin there, and the program runs there
+};
+
 // e = reference - (x, y).
 struct Controller {
   Law law = Law::pd;
   Matrix2 kv{}, kp{}, ki{};                     // pd, pid and the last two laws
   std::array<std::array<double, 8>, 2> gain{};  // state_feedback
   LqrWeights weights;                           // lqr
+  std::optional<OwnController> own{};           // own
   Drives drives = Drives::acceleration;
   Reference reference;
   std::optional<double> limit{};  // of the command, rad or rad/s^2
@@ -189,6 +259,8 @@ enum class OnEvent { stop, note };
 struct SlipEvent {
   double friction = 0;  // coefficient of static friction, > 0
   OnEvent action = OnEvent::note;
+  // Of sliding friction: the ball slides when it slips, instead of an action.
+  std::optional<double> sliding{};
 };
 struct TiltEvent {
   double limit = 0;  // of the angle between the plane's normal and the vertical, rad
@@ -206,6 +278,8 @@ struct Events {
   std::optional<OnEvent> lift_off{};  // the normal force is no longer positive
   std::optional<TiltEvent> tilt{};
   std::optional<SingularityEvent> singularity{};  // of feedback linearisation
+  std::optional<OnEvent> rest{};                  // rolling resistance brings the ball to rest
+  std::optional<OnEvent> stick{};                 // dry friction holds an axis of the gimbal
 };
 
 // Output at i * step, exactly, and at end.
@@ -268,7 +342,7 @@ struct Scenario {
   Ball ball;
   Plate plate;
   Gimbal gimbal;
-  std::optional<Controller> controller{};  // there exactly when gimbal.motion is not
+  std::optional<Controller> controller{};  // there exactly when gimbal.motion and .torque are not
   Events events;
   OutputTimes time;
   Solver solver;

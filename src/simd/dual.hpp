@@ -42,6 +42,10 @@ struct Dual {
   BBSIM_INLINE friend Dual operator*(P a, const Dual& b) { return {a * b.value, a * b.slope}; }
   BBSIM_INLINE friend Dual operator*(const Dual& a, P b) { return {a.value * b, a.slope * b}; }
   BBSIM_INLINE friend Dual operator/(const Dual& a, int b) { return {a.value / b, a.slope / b}; }
+  BBSIM_INLINE friend Dual root_along(const Dual& square, const Dual& along) {
+    const P root = root_along(square.value, along.value);
+    return {root, square.slope / (2.0 * root)};
+  }
   BBSIM_INLINE friend Dual operator/(const Dual& a, const Dual& b) {
     const P quotient = a.value / b.value;
     return {quotient, (a.slope - quotient * b.slope) / b.value};

@@ -60,6 +60,10 @@ struct WithGradient {
   friend WithGradient sin(const WithGradient& a) {
     return {std::sin(a.value), std::cos(a.value) * a.gradient};
   }
+  friend WithGradient root_along(const WithGradient& square, const WithGradient& along) {
+    const double root = std::copysign(std::sqrt(square.value), along.value);
+    return {root, square.gradient / (2 * root)};
+  }
   friend WithGradient cos(const WithGradient& a) {
     return {std::cos(a.value), -std::sin(a.value) * a.gradient};
   }

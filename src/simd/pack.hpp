@@ -80,6 +80,13 @@ struct Pack {
     for (int i = 1; i < lanes; ++i) total += a.v[i];
     return total;
   }
+  BBSIM_INLINE friend Pack root_along(Pack square, Pack along) {
+    Pack root;
+    for (int i = 0; i < lanes; ++i) {
+      root.v[i] = __builtin_copysign(__builtin_sqrt(square.v[i]), along.v[i]);
+    }
+    return root;
+  }
   // All of one step's times lie between the same knots of a table: any tells the piece.
   BBSIM_INLINE friend double plain(Pack a) {
     return a.v[0];

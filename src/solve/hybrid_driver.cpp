@@ -18,17 +18,25 @@ namespace {
 
 using Effect = model::HybridSystem::Effect;
 
+// Velocities below so many times the absolute tolerance are near rest: the integrator hardly knows
+// their direction.
+constexpr double near_rest = 10;
+
 class HybridIntegration {
  public:
   HybridIntegration(const model::Model& model, const MakeStepper& make_stepper,
-                    const OutputGrid& grid, StateSink& sink, const Watch& watch)
-      : run_(model),
+                    Tolerances tolerances, const OutputGrid& grid, StateSink& sink,
+                    const Watch& watch, Part* part)
+      : run_(model, near_rest * tolerances.atol),
         grid_(grid),
         watch_(watch),
+        part_(part),
+        end_row_(part != nullptr ? part->end_row : grid.size()),
+        cut_(grid[end_row_ - 1]),
         size_(model.size()),
         plain_size_(model.size() + (model.gamma ? 1 : 0)),
         row_size_(model.row_size()),
-        rows_(sink, row_size_),
+        rows_(sink, row_size_, part != nullptr ? part->first_row : 0),
         pace_(grid.end()),
         pieces_(sink.pieces()),
         stepper_(make_stepper(run_.model())),
@@ -40,47 +48,84 @@ class HybridIntegration {
         most_(run_.guards()) {}
 
   Outcome run() {
+    try {
+      return run_to_end();
+    } catch (const model::ControllerFault& fault) {
+      Outcome outcome =
+          ended(fault.interrupted() ? Ending::interrupted : Ending::failed, asked_at_);
+      outcome.reason = fault.what();
+      outcome.by_controller = !fault.interrupted();
+      return outcome;
+    }
+  }
+
+ private:
+  struct Guard {
+    double value = 0;      // at the last point looked at
+    double slope = 0;      // from there on, 1/s
+    double threshold = 0;  // fires below; 0 once it was positive
+  };
+
+  Outcome run_to_end() {
     std::vector<double> z = run_.model().initial;
+    if (pieces_ != nullptr) pieces_->begin_run();
+    if (part_ != nullptr && !part_->from.empty()) {
+      StateReader from(part_->from);
+      archive(from);
+      stepper_->restore(from);
+      next_row_ = part_->first_row;
+      begun_ = grid_[next_row_ - 1];
+      return go_on(z);
+    }
     run_.handle_time_event(0, z.data());
     double* const first = rows_.next();
     std::copy(z.begin(), z.end(), first);
     if (plain_size_ > size_) first[size_] = 0;
     finish_row(0, first);
-    if (pieces_ != nullptr) pieces_->begin_run();
     if (look(0, z, 0) == Effect::stop) return ended(Ending::stopped, 0);
     stepper_->start(0, z.data());
     if (!guards_.empty()) arm(0, z.data());
+    return go_on(z);
+  }
+
+  // From step to step, from a state that the stepper has; z is room for one.
+  Outcome go_on(std::vector<double>& z) {
+    const double end = step_limit(part_, grid_.end());
     for (std::size_t steps = 1;; ++steps) {
       const double from = stepper_->time(), due = run_.next_time_event();
-      const double limit = std::min(due, grid_.end());
+      const double limit = std::min(due, end);
+      if (part_ != nullptr && part_->keeps_state) keep_state();
       if (const char* reason = stepper_->step(limit)) return failed(from, reason);
       const double to = stepper_->time();
       double at = to;
       told_ = from;
       const Effect effect = scan(from, to, at, z);
       const bool switches = effect == Effect::restart || (effect == Effect::none && to >= due);
-      const bool ends = effect == Effect::none && !switches && to >= grid_.end();
+      const bool ends = effect == Effect::none && !switches && to >= end;
       if (effect == Effect::none) tell(to, switches);
       write_rows(at, !switches);
+      if (part_ends()) return ended(Ending::done, cut_);
       if (effect == Effect::stop) return ended(Ending::stopped, at);
       if (ends) return ended(Ending::done, at);
       if (switches) {
         if (effect == Effect::none) state_at(at, z);
         const double turned = row_.back();
+        asked_at_ = at;
         if (run_.is_due(at)) run_.handle_time_event(at, z.data());
         if (!progressed(at)) {
           Outcome outcome = ended(Ending::failed, at);
           outcome.reason = "the rig switches without end at one instant";
           return outcome;  // with no states: they are those of the switch, not of the stepper
         }
-        if (run_.model().rig) {
+        if (run_.model().rig || run_.model().dry) {
           stepper_->start(at, z.data());
         } else {
           stepper_->jump();  // of the input alone: a run that is watched is one that is not
         }
         write_row_at(at, z, turned);
+        if (part_ends()) return ended(Ending::done, cut_);
         if (look(at, z, turned) == Effect::stop) return ended(Ending::stopped, at);
-        if (grid_.end() - at <= slack(at)) return ended(Ending::done, grid_.end());
+        if (end - at <= slack(at)) return ended(Ending::done, grid_.end());
         if (!guards_.empty()) arm(at, z.data());
       }
       if (watch_.stop != nullptr && watch_.stop->load(std::memory_order_relaxed)) {
@@ -95,12 +140,22 @@ class HybridIntegration {
     }
   }
 
- private:
-  struct Guard {
-    double value = 0;      // at the last point looked at
-    double slope = 0;      // from there on, 1/s
-    double threshold = 0;  // fires below; 0 once it was positive
-  };
+  // Whether all rows are there of a part that is not the last one.
+  [[nodiscard]] bool part_ends() const {
+    return part_ != nullptr && next_row_ == end_row_ && end_row_ < grid_.size();
+  }
+
+  template <class Archive>
+  void archive(Archive& archive) {
+    archive(run_, pace_, guards_, asked_, asked_time_, last_switch_, still_);
+  }
+
+  void keep_state() {
+    part_->state.clear();
+    StateWriter into;
+    archive(into);
+    if (stepper_->save(into)) part_->state = into.bytes();
+  }
 
   // Times nearer than this are one: i * step and n * period are rounded each their own way.
   [[nodiscard]] double slack(double t) const { return run_.rounding(t); }
@@ -354,7 +409,7 @@ class HybridIntegration {
 
   // Rows before `to`, and at it if `with_it`.
   void write_rows(double to, bool with_it) {
-    for (; next_row_ < grid_.size(); ++next_row_) {
+    for (; next_row_ < end_row_; ++next_row_) {
       const double t = grid_[next_row_];
       if (t > to || (!with_it && to - t <= slack(to))) break;
       double* const row = rows_.next();
@@ -366,7 +421,7 @@ class HybridIntegration {
   // The row at the instant of a switch, after it; the integral of u does not jump. There are more
   // than one where rows are nearer to each other than rounding.
   void write_row_at(double at, const std::vector<double>& z, double turned) {
-    for (; next_row_ < grid_.size() && grid_[next_row_] - at <= slack(at); ++next_row_) {
+    for (; next_row_ < end_row_ && grid_[next_row_] - at <= slack(at); ++next_row_) {
       double* const row = rows_.next();
       std::copy(z.begin(), z.end(), row);
       if (plain_size_ > size_) row[size_] = turned;
@@ -375,9 +430,9 @@ class HybridIntegration {
   }
 
   // A part of the last step, in the present mode.
-  class Part : public Piece {
+  class PartOfStep : public Piece {
    public:
-    Part(HybridIntegration& of, double from, double to)
+    PartOfStep(HybridIntegration& of, double from, double to)
         : Piece(from, to, of.stepper_->parts()), of_(of) {}
     void evaluate(const double* times, std::size_t count, double* rows) const override {
       of_.evaluate_rows(times, count, rows);
@@ -399,8 +454,9 @@ class HybridIntegration {
   // Tells what became of the motion up to `to`, before the mode changes.
   void tell(double to, bool switches) {
     if (pieces_ == nullptr) return;
-    const double last = switches ? std::nextafter(to, told_) : to;
-    if (last > told_) pieces_->accept(Part(*this, told_, last));
+    const double first = std::max(told_, begun_);
+    const double last = std::min(switches ? std::nextafter(to, told_) : to, cut_);
+    if (last > first) pieces_->accept(PartOfStep(*this, first, last));
     told_ = to;
   }
 
@@ -412,7 +468,16 @@ class HybridIntegration {
     outcome.rows = rows_.rows();
     outcome.statistics = stepper_->statistics();
     outcome.occurrences = run_.occurrences();
-    return with_all_rows(std::move(outcome), grid_.size());
+    if (part_ != nullptr) {
+      // A part's first and last step are made by two parts.
+      std::erase_if(outcome.occurrences, [&](const model::Occurrence& one) {
+        return one.t > cut_ || (!part_->from.empty() && one.t <= begun_);
+      });
+      part_->next_row = next_row_;
+      part_->least_end = stepper_->least_end();
+      if (ending == Ending::failed || ending == Ending::stopped) part_->state.clear();
+    }
+    return with_all_rows(std::move(outcome), end_row_);
   }
 
   Outcome failed(double reached, std::string reason) {
@@ -426,6 +491,9 @@ class HybridIntegration {
   model::HybridSystem run_;
   const OutputGrid& grid_;
   const Watch& watch_;
+  Part* part_;
+  std::size_t end_row_;      // of this part
+  double cut_, begun_ = -1;  // the times of its last row, and of the last one before it
   std::size_t size_, plain_size_, row_size_;
   RowBlock rows_;
   Pace pace_;
@@ -441,14 +509,16 @@ class HybridIntegration {
   std::size_t next_row_ = 1;
   double told_ = 0;  // the pieces up to here, s
   double last_switch_ = -1;
+  double asked_at_ = 0;  // when something was last due, s
   int still_ = 0;
 };
 
 }  // namespace
 
 Outcome integrate_hybrid(const model::Model& model, const MakeStepper& make_stepper,
-                         const OutputGrid& grid, StateSink& sink, const Watch& watch) {
-  return HybridIntegration(model, make_stepper, grid, sink, watch).run();
+                         Tolerances tolerances, const OutputGrid& grid, StateSink& sink,
+                         const Watch& watch, Part* part) {
+  return HybridIntegration(model, make_stepper, tolerances, grid, sink, watch, part).run();
 }
 
 }  // namespace bbsim::solve

@@ -60,6 +60,7 @@ struct Outcome {
   // error estimate, and all states, at the time reached; no states if it failed for another reason
   // than the motion.
   std::string reason;
+  bool by_controller = false;  // it is the fault of a controller that is not built in
   std::size_t worst_state = 0;
   std::vector<double> last_state;
   // What was watched for and happened, in order; of a stopped run the last one stopped it.

@@ -30,6 +30,12 @@ class Pace {
     return creeps(time, [] { return std::numeric_limits<double>::infinity(); });
   }
 
+  // What it remembers (base/archive.hpp).
+  template <class Archive>
+  void archive(Archive& archive) {
+    archive(steps_, from_, advance_, advances_, windows_, shrinking_, slow_, awaited_);
+  }
+
   // Why, as Outcome::reason.
   [[nodiscard]] std::string reason() const;
 

@@ -11,10 +11,12 @@ namespace bbsim::solve {
 
 class RowBlock {
  public:
-  RowBlock(StateSink& sink, std::size_t row_size)
+  // `first` is the number of the first row.
+  RowBlock(StateSink& sink, std::size_t row_size, std::size_t first = 0)
       : sink_(sink),
         row_size_(row_size),
-        values_(std::make_unique_for_overwrite<double[]>(row_size * capacity)) {}
+        values_(std::make_unique_for_overwrite<double[]>(row_size * capacity)),
+        first_(first) {}
 
   // Room for the next row. It counts as handed on once the next call, or flush(), is made.
   [[nodiscard]] double* next() {
@@ -45,7 +47,7 @@ class RowBlock {
   StateSink& sink_;
   std::size_t row_size_;
   std::unique_ptr<double[]> values_;
-  std::size_t first_ = 0, count_ = 0;
+  std::size_t first_, count_ = 0;
 };
 
 }  // namespace bbsim::solve

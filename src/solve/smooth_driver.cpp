@@ -27,12 +27,16 @@ class Step : public Piece {
 }  // namespace
 
 Outcome run_through(Stepper& stepper, const model::Model& model, const OutputGrid& grid,
-                    StateSink& sink, const Watch& watch) {
+                    StateSink& sink, const Watch& watch, Part* part) {
   const std::size_t row_size = model.size() + (model.gamma ? 1 : 0);
-  RowBlock rows(sink, row_size);
-  double* const first = rows.next();
-  std::copy(model.initial.begin(), model.initial.end(), first);
-  if (model.gamma) first[model.size()] = 0;
+  const bool goes_on = part != nullptr && !part->from.empty();
+  const std::size_t end_row = part != nullptr ? part->end_row : grid.size();
+  RowBlock rows(sink, row_size, goes_on ? part->first_row : 0);
+  if (!goes_on) {
+    double* const first = rows.next();
+    std::copy(model.initial.begin(), model.initial.end(), first);
+    if (model.gamma) first[model.size()] = 0;
+  }
 
   PieceSink* const pieces = sink.pieces();
   if (pieces != nullptr) pieces->begin_run();
@@ -46,11 +50,26 @@ Outcome run_through(Stepper& stepper, const model::Model& model, const OutputGri
     outcome.last_state = stepper.state();
     outcome.worst_state = stepper.worst_state();
   };
-  stepper.start(0, model.initial.data());
   std::array<double, 64> times;
-  std::size_t next_row = 1, next_stop = 0;
+  std::size_t next_row = goes_on ? part->first_row : 1, next_stop = 0;
+  if (goes_on) {
+    StateReader from(part->from);
+    from(next_stop, pace);
+    stepper.restore(from);
+  } else {
+    stepper.start(0, model.initial.data());
+  }
+  const double begun = goes_on ? grid[next_row - 1] : 0, cut = grid[end_row - 1];
+  const double behind = step_limit(part, grid.end());
+  const auto keep_state = [&] {
+    part->state.clear();
+    StateWriter into;
+    into(next_stop, pace);
+    if (stepper.save(into)) part->state = into.bytes();
+  };
   for (std::size_t steps = 1;; ++steps) {
-    const double limit = next_stop < model.stops.size() ? model.stops[next_stop] : grid.end();
+    const double limit = next_stop < model.stops.size() ? model.stops[next_stop] : behind;
+    if (part != nullptr && part->keeps_state) keep_state();
     const double before = stepper.time();
     if (const char* reason = stepper.step(limit)) {
       fail(reason);
@@ -59,14 +78,16 @@ Outcome run_through(Stepper& stepper, const model::Model& model, const OutputGri
     const double reached = stepper.time();
     if (pieces != nullptr) {
       const bool at_stop = reached >= limit && reached < grid.end();
-      pieces->accept(Step(stepper, before, at_stop ? std::nextafter(reached, before) : reached));
+      const double from = std::max(before, begun);
+      const double to = std::min(at_stop ? std::nextafter(reached, before) : reached, cut);
+      if (to > from) pieces->accept(Step(stepper, from, to));
     }
     if (!with_rows) {
-      while (next_row < grid.size() && grid[next_row] <= reached) ++next_row;
+      while (next_row < end_row && grid[next_row] <= reached) ++next_row;
     }
-    while (next_row < grid.size() && grid[next_row] <= reached) {
+    while (next_row < end_row && grid[next_row] <= reached) {
       std::size_t count = 0;
-      while (count < times.size() && next_row + count < grid.size() &&
+      while (count < times.size() && next_row + count < end_row &&
              grid[next_row + count] <= reached) {
         times[count] = grid[next_row + count];
         ++count;
@@ -75,7 +96,7 @@ Outcome run_through(Stepper& stepper, const model::Model& model, const OutputGri
       stepper.evaluate(times.data(), count, out);
       next_row += count;
     }
-    if (reached >= grid.end()) break;
+    if (reached >= grid.end() || next_row == end_row) break;
     if (reached >= limit) {
       ++next_stop;
       stepper.jump();
@@ -96,8 +117,14 @@ Outcome run_through(Stepper& stepper, const model::Model& model, const OutputGri
   rows.flush();
   outcome.reached = stepper.time();
   outcome.rows = next_row;
+  if (part != nullptr) {
+    outcome.reached = std::min(outcome.reached, cut);
+    part->next_row = next_row;
+    part->least_end = stepper.least_end();
+    if (outcome.ending == Ending::failed) part->state.clear();
+  }
   outcome.statistics = stepper.statistics();
-  return with_all_rows(std::move(outcome), grid.size());
+  return with_all_rows(std::move(outcome), end_row);
 }
 
 }  // namespace bbsim::solve

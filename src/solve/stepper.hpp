@@ -5,9 +5,11 @@
 #include <memory>
 #include <vector>
 
+#include "base/archive.hpp"
 #include "model/model.hpp"
 #include "solve/outcome.hpp"
 #include "solve/output_grid.hpp"
+#include "solve/part.hpp"
 
 namespace bbsim::solve {
 
@@ -41,11 +43,22 @@ class Stepper {
   // Chebyshev points of so many intervals show what a smooth function of the states, and of the
   // time, does over the last step. A step shorter than the tolerance allows needs fewer.
   [[nodiscard]] virtual std::size_t parts() const = 0;
+
+  // All that it remembers, for another stepper of this model, method and tolerances: its steps are
+  // then those that this one would have made, to the bit. False if the integrator does not give it
+  // away.
+  [[nodiscard]] virtual bool save(StateWriter& /*into*/) { return false; }
+  // Takes the place of start(). Throws InputError where the bytes are not such a stepper's.
+  virtual void restore(StateReader& /*from*/) {}
+  // The earliest end of a run whose steps would have been those that were made with an infinite
+  // limit, s.
+  [[nodiscard]] virtual double least_end() const { return 0; }
 };
 
 // Drives a stepper from the model's initial state to the end of the grid, and hands on the rows.
 // The model is not hybrid().
 [[nodiscard]] Outcome run_through(Stepper& stepper, const model::Model& model,
-                                  const OutputGrid& grid, StateSink& sink, const Watch& watch);
+                                  const OutputGrid& grid, StateSink& sink, const Watch& watch,
+                                  Part* part = nullptr);
 
 }  // namespace bbsim::solve

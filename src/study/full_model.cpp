@@ -9,6 +9,7 @@
 #include "base/error.hpp"
 #include "model/ball/simpler_equations.hpp"
 #include "model/model.hpp"
+#include "scenario/coupled.hpp"
 #include "solve/cvode/derivative.hpp"
 #include "solve/integrate.hpp"
 #include "solve/output_grid.hpp"
@@ -63,7 +64,8 @@ SimplerModel compare(std::string name, std::string equation, const Trajectory& f
 
 FullModelStudy compare_simpler(const Scenario& scenario, const solve::Watch& watch) {
   const model::Model model = model::assemble(scenario, false);
-  if (model.hybrid() || model.rig || !model::is_the_papers(scenario)) {
+  if (model.hybrid() || model.rig || scenario::is_coupled(scenario) ||
+      !model::is_the_papers(scenario)) {
     throw InputError(scenario.source.file +
                      ": simpler models are compared over scenes of the paper's gimbal and ball, of "
                      "prescribed motion or under pd, without events and limits; run `bbsim verify` "

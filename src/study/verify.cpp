@@ -12,6 +12,7 @@
 #include <cmath>
 #include <cstddef>
 #include <functional>
+#include <iterator>
 #include <limits>
 #include <string>
 #include <utility>
@@ -24,6 +25,7 @@
 #include "solve/choose.hpp"
 #include "solve/integrate.hpp"
 #include "solve/output_grid.hpp"
+#include "study/verify_coupled.hpp"
 #include "study/verify_references.hpp"
 
 namespace bbsim::study {
@@ -306,6 +308,7 @@ Verification verify(const solve::Watch& watch) {
       [&] { return scaled(watch); },         [&] { return energy_conserved(watch); },
       [&] { return energy_balance(watch); },
   };
+  std::ranges::copy(coupled_checks(watch), std::back_inserter(all));
   for (const ReferenceScene& reference : reference_scenes) {
     all.emplace_back([&] { return against_reference(reference, watch); });
   }

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "base/error.hpp"
+#include "controller/host.hpp"
 #include "model/model.hpp"
 #include "record/meter.hpp"
 #include "record/recorder.hpp"
@@ -109,7 +110,11 @@ class SingleRunner : public CaseRunner {
     try {
       const Scenario& scenario =
           scenario_.at(number, &into.values[place * task_.plan.axes().size()]);
-      const model::Model model = model::assemble(scenario, gamma_);
+      model::Model model = model::assemble(scenario, gamma_);
+      if (scenario.controller && scenario.controller->own) {
+        if (!controllers_) controllers_.emplace(task_.tell, &stop);
+        controllers_->attach(scenario, model);
+      }
       const model::BallConstants constants = model::constants_of(scenario);
       const solve::OutputGrid grid(scenario.time);
       const Solver& solver = scenario.solver;
@@ -178,6 +183,7 @@ class SingleRunner : public CaseRunner {
   record::Meter meter_;
   TrackMeter track_;
   const solve::radau::StepKernels& kernels_;
+  std::optional<controller::Host> controllers_;        // of cases that have one of their own
   std::optional<solve::radau::RadauStepper> stepper_;  // its memory, from case to case
   bool quick_, same_signals_, same_tolerances_ = true;
   bool gamma_ = false;

@@ -5,8 +5,10 @@
 #include <cstddef>
 #include <memory>
 #include <string>
+#include <string_view>
 #include <vector>
 
+#include "controller/child.hpp"
 #include "scenario/family.hpp"
 #include "scenario/measures.hpp"
 #include "sweep/plan.hpp"
@@ -20,6 +22,8 @@ struct SweepTask {
   // Columns of the output rows that are kept of each case too; all cases must have as many rows.
   std::vector<const scenario::Column*> series{};
   std::size_t series_rows = 0;
+  // Gets what controllers that are programs say on their standard error, from all threads.
+  controller::Tell tell = [](std::string_view) {};
 };
 
 // How a case ended.

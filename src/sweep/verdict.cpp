@@ -9,7 +9,7 @@ namespace bbsim::sweep {
 void judge(const SweepTask& task, const Scenario& scenario, double* measures, CaseStatus& status) {
   const std::size_t count = task.measures.size();
   for (std::size_t m = 0; m < count; ++m) {
-    if (scenario::missing(*task.measures[m].column, scenario)) {
+    if (scenario::missing(task.measures[m], scenario)) {
       measures[m] = std::numeric_limits<double>::quiet_NaN();
     }
   }

@@ -53,6 +53,7 @@ struct Context {
   std::shared_ptr<Tables> tables = std::make_shared<Tables>();
   // Where each single number goes that is read, if somebody asks, by its key's path.
   std::map<std::string, NotedNumber>* numbers = nullptr;
+  bool own_controller = false;  // which gives numbers of its own names; once it is read
 };
 
 // A node on its way into the scenario.

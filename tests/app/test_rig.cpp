@@ -72,7 +72,7 @@ TEST_CASE("the rig tracks its circle, and three times its delay is unstable, as 
 TEST_CASE("check lists each part that a scene uses, and each that it does not") {
   const std::string rig = bbsim({"check", config("rig.yaml")}).out;
   for (const char* part : {"  servo ", "  law ", "  sampling ", "  sensor ", "  plate ",
-                           "  events ", "  without    mounting errors\n"}) {
+                           "  events ", "  without    mounting errors, losses of the ball\n"}) {
     CAPTURE(part);
     CHECK(contains(rig, part));
   }
@@ -80,7 +80,7 @@ TEST_CASE("check lists each part that a scene uses, and each that it does not") 
   CHECK(contains(
       plain,
       "  without    servo limits, dead band and backlash, sampling, sensor errors, mounting "
-      "errors, the plate's inertia, events\n"));
+      "errors, losses of the ball, the plate's inertia, events\n"));
 }
 
 TEST_CASE("an event that stops a run is told in the message, the summary and the file") {
@@ -133,4 +133,48 @@ TEST_CASE("accuracy says that it measures smooth scenes") {
   const Result result = bbsim({"accuracy", config("rig.yaml")});
   CHECK(result.exit_code == 2);
   CHECK(contains(result.err, "controller.sampling"));
+}
+
+TEST_CASE("energy, work and losses balance in every scenario of losses, sliding and torques") {
+  const std::string name = GENERATE("rolls-to-rest", "slides", "sags", "torque-lqr");
+  const Result result = bbsim({"run", config(name + ".yaml"), "-o", "-", "--set",
+                               "solver.rtol=1e-10", "--set", "solver.atol=1e-12"});
+  CHECK(result.exit_code == (name == "slides" ? 1 : 0));  // it stops where the ball rests
+  const auto columns = csv(result.out);
+  const bool works = columns.contains("motor_work");
+  double first = 0, size = 0, gap = 0;
+  const auto& energy = columns.at("total_energy");
+  REQUIRE(energy.size() > 100);
+  for (std::size_t i = 0; i < energy.size(); ++i) {
+    const double lost = columns.at("energy_lost")[i];
+    const double work = works ? columns.at("motor_work")[i] : 0;
+    if (i == 0) first = energy[0];
+    size = std::max({size, std::abs(energy[i]), lost, std::abs(work)});
+    gap = std::max(gap, std::abs(energy[i] + lost - work - first));
+  }
+  CAPTURE(name, gap, size);
+  CHECK(size > 0);
+  CHECK(gap < 1e-9 * size);
+}
+
+TEST_CASE("check has the poles of plate, ball and motors, and says what they leave out") {
+  const Result loop = bbsim({"check", config("sags.yaml")});
+  CHECK(loop.exit_code == 0);
+  CHECK(contains(loop.out, "8 poles about home"));
+  CHECK(contains(loop.out, "stable, without dry friction and limits"));
+  CHECK(contains(loop.out, "position loop kp 4, kd 0.12, ki 0"));
+  const Result regulator = bbsim({"check", config("torque-lqr.yaml")});
+  CHECK(contains(regulator.out, "gain phi"));
+  CHECK(contains(regulator.out, "the controller's"));
+  const std::string open = std::string(BBSIM_SOURCE_DIR) + "/tests/data/scenarios/torque-open.yaml";
+  const Result given = bbsim({"check", open});
+  CHECK(contains(given.out, "plant        8 poles about home under no torque"));
+  CHECK(contains(given.out, "given functions of time"));
+}
+
+TEST_CASE("a run of a ball that slides tells where it rolls, and where it rests") {
+  const Result result = bbsim({"run", config("slides.yaml"), "-o", "-"});
+  CHECK(contains(result.err, "noted: roll, once at t = 0.533974 s: the ball rolls again"));
+  CHECK(contains(result.err, "the run stopped at t = 3.33288 s"));
+  CHECK(contains(result.err, "events.rest is stop; note would let it run on"));
 }

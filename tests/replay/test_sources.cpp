@@ -35,7 +35,7 @@ TEST_CASE("a scenario says what a replay shows") {
   CHECK(rig.end == 40);
   REQUIRE(rig.poles);
   CHECK(rig.poles->period == 0.02);
-  CHECK(rig.poles->values.size() == 20);
+  CHECK(rig.poles->values.size() == 16);
   CHECK(rig.scenario_text.find("A hobby rig") != std::string::npos);
   // One lap of the circle, closed.
   REQUIRE(rig.reference.size() > 100);

@@ -121,9 +121,10 @@ TEST_CASE("what the controller drives") {
         Drives::acceleration);
   check_refused(closed_loop, "controller.drives=angel",
                 "controller.drives: found angel (did you mean angle?); allowed: one of "
-                "acceleration, angle");
+                "acceleration, angle, torque, voltage");
   check_refused(closed_loop, "controller.drives=",
-                "controller.drives: found nothing; allowed: one of acceleration, angle");
+                "controller.drives: found nothing; allowed: one of acceleration, angle, torque, "
+                "voltage");
 }
 
 TEST_CASE("gains are a number or a matrix") {

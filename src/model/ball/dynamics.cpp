@@ -14,6 +14,14 @@ BallConstants constants_of(const Scenario& scene) {
   constants.papers_rig = is_the_papers(scene);
   constants.rolling = general_rolling(scene);
   if (scene.plate.inertia) constants.plate_inertia = *scene.plate.inertia;
+  constants.plate_imbalance = scene.plate.mass * scene.plate.centre_of_mass;
+  constants.ring_inertia = scene.gimbal.ring_inertia;
+  if (scene.gimbal.motor) {
+    constants.rotor_inertia = scene.gimbal.motor->rotor_inertia;
+    if (const auto& dc = scene.gimbal.motor->dc) {
+      constants.armature = {dc->resistance, dc->gear * dc->torque_constant};
+    }
+  }
   return constants;
 }
 
@@ -22,7 +30,10 @@ namespace {
 // What forces, torques and energy are computed from. All vectors in the plane frame.
 struct Instant {
   Instant(const Sample& sample, const BallConstants& with)
-      : constants(with), gimbal(sample.gimbal), ball(sample.ball) {
+      : constants(with),
+        gimbal(sample.gimbal),
+        ball(sample.ball),
+        coupled(sample.coupled ? &*sample.coupled : nullptr) {
     const double r = constants.radius;
     const auto [sin_phi, cos_phi] = sin_cos(gimbal.phi);
     const auto [s, c] = sin_cos(gimbal.theta);
@@ -54,20 +65,42 @@ struct Instant {
   }
 
   [[nodiscard]] Vector3d force() const {
-    const Vector3d centre_acceleration = relative(phi, theta) + 2 * omega.cross(velocity) +
+    const Vector3d in_plane =
+        coupled ? Vector3d(coupled->x_ddot, coupled->y_ddot, 0) : relative(phi, theta);
+    const Vector3d centre_acceleration = in_plane + 2 * omega.cross(velocity) +
                                          omega_dot.cross(centre) + omega.cross(omega.cross(centre));
     return constants.mass * (centre_acceleration + constants.gravity * up);
+  }
+
+  // What the ball asks of the gimbal, about its centre.
+  [[nodiscard]] Vector3d ball_moment(const Vector3d& force) const {
+    const Vector3d moment = contact.cross(force);
+    return coupled != nullptr ? Vector3d(moment + Vector3d(coupled->couple)) : moment;
   }
 
   // What turns the plate itself, about the gimbal's centre.
   [[nodiscard]] Vector3d plate_moment() const {
     const Vector3d inertia(constants.plate_inertia.data());
-    return inertia.cwiseProduct(omega_dot) + omega.cross(inertia.cwiseProduct(omega));
+    Vector3d moment = inertia.cwiseProduct(omega_dot) + omega.cross(inertia.cwiseProduct(omega));
+    if (constants.plate_imbalance != 0) {
+      moment += constants.plate_imbalance * constants.gravity * Vector3d(-up.y(), up.x(), 0);
+    }
+    return moment;
+  }
+
+  // The same about phi's axis and about theta's, with what else the motors turn.
+  [[nodiscard]] double plate_torque_phi() const {
+    return phi_axis.dot(plate_moment()) +
+           (constants.ring_inertia + constants.rotor_inertia) * gimbal.phi_ddot;
+  }
+  [[nodiscard]] double plate_torque_theta() const {
+    return theta_axis.dot(plate_moment()) + constants.rotor_inertia * gimbal.theta_ddot;
   }
 
   const BallConstants& constants;
   const GimbalState& gimbal;
   const BallMotion& ball;
+  const CoupledMotion* coupled;  // null where the ball rolls without losses
   Axis<double> phi, theta;
   Vector3d theta_axis, phi_axis, up;   // up: against gravity
   Vector3d omega, omega_dot;           // of the plane
@@ -85,21 +118,40 @@ Dynamics dynamics(const Sample& sample, const BallConstants& constants) {
   const double r = constants.radius, m = constants.mass, g = constants.gravity;
   const Vector3d& omega = now.omega;
   const Vector3d centre_velocity = now.velocity + omega.cross(now.centre);
+  const Vector3d slip = now.coupled != nullptr
+                            ? Vector3d(now.coupled->slip[0], now.coupled->slip[1], 0)
+                            : Vector3d(Vector3d::Zero());
+  const Vector3d rolling = now.velocity - slip;
   const Vector3d ball_omega =
-      omega + Vector3d(-now.ball.y_dot / r, now.ball.x_dot / r, now.ball.gamma_dot);
+      omega + Vector3d(-rolling.y() / r, rolling.x() / r, now.ball.gamma_dot);
 
   Dynamics result;
   result.force = now.force();
-  const Vector3d moment = now.contact.cross(result.force);
+  const Vector3d moment = now.ball_moment(result.force);
   result.torque_phi = now.phi_axis.dot(moment);
   result.torque_theta = now.theta_axis.dot(moment);
   result.energy = m * centre_velocity.squaredNorm() / 2 +
                   constants.rolling.k / 2 * m * r * r * ball_omega.squaredNorm() +
                   m * g * now.centre.dot(now.up);
 
-  const Vector3d plate_moment = now.plate_moment();
-  result.plate_torque_phi = now.phi_axis.dot(plate_moment);
-  result.plate_torque_theta = now.theta_axis.dot(plate_moment);
+  result.plate_torque_phi = now.plate_torque_phi();
+  result.plate_torque_theta = now.plate_torque_theta();
+  const Vector3d inertia(constants.plate_inertia.data());
+  const double phi_rate = now.gimbal.phi_dot, theta_rate = now.gimbal.theta_dot;
+  result.gimbal_energy =
+      omega.dot(inertia.cwiseProduct(omega)) / 2 + constants.plate_imbalance * g * now.up.z() +
+      (constants.ring_inertia + constants.rotor_inertia) * phi_rate * phi_rate / 2 +
+      constants.rotor_inertia * theta_rate * theta_rate / 2;
+  if (now.coupled != nullptr) {
+    result.coupled = *now.coupled;
+    for (std::size_t i = 0; i < 2; ++i) {
+      const double current = now.coupled->given[i] / constants.armature.torque_by_current;
+      const double rate = i == 0 ? phi_rate : theta_rate;
+      result.current[i] = current;
+      result.voltage[i] =
+          constants.armature.resistance * current + constants.armature.torque_by_current * rate;
+    }
+  }
   return result;
 }
 

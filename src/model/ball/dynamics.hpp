@@ -13,6 +13,11 @@ struct BallConstants {
   bool papers_rig = true;                    // equation (27) holds; otherwise `rolling` does
   GeneralRolling rolling{};
   std::array<double, 3> plate_inertia{0, 0, 0};  // about x, y and the normal, kg m^2
+  double plate_imbalance = 0;                    // mass times height of its centre, kg m
+  double ring_inertia = 0, rotor_inertia = 0;    // kg m^2
+  struct Armature {
+    double resistance = 0, torque_by_current = 1;  // ohm; N m/A, through the gear
+  } armature{};
 };
 
 [[nodiscard]] BallConstants constants_of(const Scenario& scene);
@@ -25,6 +30,9 @@ struct Dynamics {
   double energy = 0;              // kinetic and potential, J; potential zero at the gimbal's centre
   double plate_torque_phi = 0;    // motor torque that turns the plate itself, N m
   double plate_torque_theta = 0;  // N m
+  double gimbal_energy = 0;       // of plate, ring and rotors, kinetic and potential, J
+  CoupledMotion coupled{};        // all 0 where the ball rolls without losses
+  Pair current{0, 0}, voltage{0, 0};  // of the motors, A and V
   [[nodiscard]] double normal_force() const { return force.z(); }
   [[nodiscard]] double friction_force() const { return force.head<2>().norm(); }
 };

@@ -77,16 +77,18 @@ Pair SampledController::command(const std::optional<Pair>& seen, const double (&
     }
     if (!grows_beyond) integral_[j] += e * elapsed;
   }
+  command_ = within_limits(integrates ? law_output(servo, reference) : before);
+  return command_;
+}
+
+Pair SampledController::within_limits(Pair command) const {
   // The largest step of the command that the limit lets through.
   const double step = loop_.sampling.resolution;
   const double most = step > 0 && loop_.limit < unlimited
                           ? std::floor(loop_.limit / step * (1 + 1e-12)) * step
                           : loop_.limit;
-  const Pair after = integrates ? law_output(servo, reference) : before;
-  for (std::size_t i = 0; i < 2; ++i) {
-    command_[i] = rounded_to(std::clamp(after[i], -most, most), step);
-  }
-  return command_;
+  for (double& one : command) one = rounded_to(std::clamp(one, -most, most), step);
+  return command;
 }
 
 }  // namespace bbsim::model

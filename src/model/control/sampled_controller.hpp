@@ -17,6 +17,12 @@ class BallSensor {
   // What it says of a ball at (x, y), m; nothing if it misses it.
   [[nodiscard]] std::optional<Pair> read(Pair position);
 
+  // What of it changes over a run (base/archive.hpp): how far its noise is drawn.
+  template <class Archive>
+  void archive(Archive& archive) {
+    archive(noise_);
+  }
+
  private:
   Sensor sensor_;
   Noise noise_;
@@ -35,8 +41,17 @@ class SampledController {
   [[nodiscard]] Pair command(const std::optional<Pair>& seen, const double (&servo)[4],
                              const std::array<Jet<double>, 2>& reference);
 
+  // What is left of a command: the nearest multiple of its resolution, within its limit.
+  [[nodiscard]] Pair within_limits(Pair command) const;
+
   // What it saw last; before the first sample, (0, 0).
   [[nodiscard]] Pair last_seen() const { return position_; }
+
+  // What it remembers (base/archive.hpp).
+  template <class Archive>
+  void archive(Archive& archive) {
+    archive(seen_any_, unseen_, position_, velocity_, integral_, command_);
+  }
 
  private:
   void estimate_velocity(Pair seen, double elapsed);

@@ -1,9 +1,14 @@
 #include "model/control/sampled_cycle.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <deque>
+#include <tuple>
 #include <unsupported/Eigen/MatrixFunctions>
+#include <utility>
 
+#include "model/control/linear_law.hpp"
 #include "model/control/riccati.hpp"
 #include "model/eigenvalues.hpp"
 #include "model/systems/jacobian.hpp"
@@ -16,180 +21,222 @@ using Eigen::VectorXd;
 using Vector2 = Eigen::Vector2d;
 
 // Where the states of LinearPlant are among those of RigLoop.
-constexpr int places[8] = {0, 1, 2, 3, 5, 6, 7, 8};
+constexpr std::array places{0, 1, 2, 3, 5, 6, 7, 8};
 
-RigLoop<> held(const RigLoop<>& loop) {
-  RigLoop<> plain(loop.radius(), loop.gravity(), loop.rolling(), ControlLaw{}, loop.servo(), {});
-  return plain;
+template <bool integrates>
+RigLoop<integrates> held(const RigLoop<integrates>& loop) {
+  return {loop.radius(), loop.gravity(), loop.rolling(), ControlLaw{}, loop.servo(), {}};
 }
 
-// All that a law feeds back, in the order of its fields.
-using Feedbacks = Eigen::Matrix<double, 10, 1>;
-
-// u = K (what is fed back) about home, by differentiating the law.
-Eigen::Matrix<double, 2, 10> linearised(const ControlLaw& law) {
-  using Number = simd::WithGradient<10>;
-  const auto pair = [](int first, Number(&into)[2]) {
-    for (int i = 0; i < 2; ++i) into[i] = Number::variable(0, first + i);
-  };
-  Feedback<Number> state;
-  pair(0, state.position);
-  pair(2, state.velocity);
-  pair(4, state.angle);
-  pair(6, state.rate);
-  pair(8, state.integral);
-  const std::array<Jet<double>, 2> home{};
-  const auto unlimited_command = [](int, const Number& raw) { return raw; };
-  const Command<Number> u = command(law, state, home, unlimited_command);
-  Eigen::Matrix<double, 2, 10> gain;
-  for (int i = 0; i < 2; ++i) gain.row(i) = u.value[i].gradient.transpose();
-  return gain;
+// States and commands, the latter constant, after a time.
+std::pair<MatrixXd, MatrixXd> advanced(const MatrixXd& a, const MatrixXd& b, double time) {
+  const Eigen::Index n = a.rows();
+  MatrixXd both = MatrixXd::Zero(n + 2, n + 2);
+  both.topLeftCorner(n, n) = a * time;
+  both.topRightCorner(n, 2) = b * time;
+  const MatrixXd all = both.exp();
+  return {all.topLeftCorner(n, n), all.topRightCorner(n, 2)};
 }
 
-// One period of a sampled loop, linear. Of its state, in this order: the plant's 8; the exposures
-// not yet sampled; the position and velocity that the controller has; the integral, if the law has
-// one; the commands not yet applied; the command that is held.
-class Cycle {
- public:
-  Cycle(const RigLoop<>& loop, const Rig& rig)
-      : rig_(rig),
-        loop_(held(loop)),
-        law_(linearised(rig.sampled->law)),
-        plant_(linear_plant(loop_)) {
-    const SampledLoop& sampled = *rig.sampled;
-    const double period = sampled.sampling.period;
-    const auto split = [period](double delay, double* whole) {
-      *whole = std::floor(delay / period + 1e-9);
-      return std::max(0.0, delay - *whole * period);
-    };
-    double whole = 0;
-    const double exposed_before = split(sampled.sensor.delay, &whole);
-    exposure_ = exposed_before > 1e-9 * period ? period - exposed_before : 0;
-    exposures_ = static_cast<int>(whole) + (exposure_ > 0 ? 1 : 0);
-    application_ = split(sampled.sampling.delay, &whole);
-    if (application_ <= 1e-9 * period) application_ = 0;
-    commands_ = static_cast<int>(whole);
-    integrates_ = sampled.law.integrates();
-    const double instants[3] = {std::min(exposure_, application_),
-                                std::max(exposure_, application_), period};
-    double from = 0;
-    for (int i = 0; i < 3; ++i) {
-      advance_[i] = after(plant_, instants[i] - from);
-      from = instants[i];
-    }
-  }
-
-  [[nodiscard]] int size() const { return held_at() + 2; }
-
-  void run(VectorXd& s) const {
-    if (exposure_ == 0) expose(s);
-    sample(s);
-    if (application_ == 0) apply(s);
-    advance(s, 0);
-    const bool exposure_first = exposure_ <= application_;
-    at_instant(s, exposure_first);
-    advance(s, 1);
-    at_instant(s, !exposure_first);
-    advance(s, 2);
-  }
-
- private:
-  [[nodiscard]] int memory_at() const { return 8 + 2 * (exposures_ + 1); }
-  [[nodiscard]] int integral_at() const { return memory_at() + 4; }
-  [[nodiscard]] int commands_at() const { return integral_at() + (integrates_ ? 2 : 0); }
-  [[nodiscard]] int held_at() const { return commands_at() + 2 * (commands_ + 1); }
-
-  void at_instant(VectorXd& s, bool exposure) const {
-    if (exposure) {
-      if (exposure_ > 0) expose(s);
-    } else if (application_ > 0) {
-      apply(s);
-    }
-  }
-
-  void advance(VectorXd& s, int i) const {
-    s.head<8>() = advance_[i].a * s.head<8>() + advance_[i].b * s.segment<2>(held_at());
-  }
-
-  // Queues: the entry to be taken next stands first; there is room for one more than wait at the
-  // period's start. An exposure within the period comes after the sample took one.
-  void expose(VectorXd& s) const {
-    s.segment<2>(8 + 2 * (exposure_ > 0 ? exposures_ - 1 : exposures_)) = s.head<2>();
-  }
-
-  void sample(VectorXd& s) const {
-    const SampledLoop& sampled = *rig_.sampled;
-    const double period = sampled.sampling.period;
-    const double filter = sampled.sampling.derivative_filter;
-    const double keep = filter / (filter + period);
-    const Vector2 seen = s.segment<2>(8);
-    for (int i = 0; i < exposures_; ++i) s.segment<2>(8 + 2 * i) = s.segment<2>(10 + 2 * i).eval();
-    s.segment<2>(8 + 2 * exposures_).setZero();
-    auto position = s.segment<2>(memory_at());
-    auto velocity = s.segment<2>(memory_at() + 2);
-    velocity = (keep * velocity + (1 - keep) / period * (seen - position)).eval();
-    position = seen;
-    if (integrates_) s.segment<2>(integral_at()) -= period * seen;
-    Feedbacks known = Feedbacks::Zero();
-    known << position, velocity, s.segment<4>(4), Vector2::Zero();
-    if (integrates_) known.tail<2>() = s.segment<2>(integral_at());
-    const Vector2 u = law_ * known;
-    s.segment<2>(commands_at() + 2 * commands_) = u;
-  }
-
-  void apply(VectorXd& s) const {
-    s.segment<2>(held_at()) = s.segment<2>(commands_at());
-    for (int i = 0; i < commands_; ++i) {
-      s.segment<2>(commands_at() + 2 * i) = s.segment<2>(commands_at() + 2 * i + 2).eval();
-    }
-    s.segment<2>(commands_at() + 2 * commands_).setZero();
-    if (!rig_.time_constant) return;
-    // A servo of first order takes its new rate at once, and kicks the ball.
-    const Vector2 rate = (s.segment<2>(held_at()) - s.segment<2>(4)) / *rig_.time_constant;
-    const double home[RigLoop<>::size] = {};
-    const auto kick = loop_.impulse(home, rate[0] - s[6], rate[1] - s[7]);
-    s[2] += kick[0];
-    s[3] += kick[1];
-    s.segment<2>(6) = rate;
-  }
-
-  const Rig& rig_;
-  RigLoop<> loop_;
-  Eigen::Matrix<double, 2, 10> law_;
-  LinearPlant plant_;
-  double exposure_ = 0, application_ = 0;  // instants within the period, s
-  int exposures_ = 0, commands_ = 0;       // in the queues at the period's start
-  bool integrates_ = false;
-  LinearPlant advance_[3];
-};
-
-}  // namespace
-
-LinearPlant linear_plant(const RigLoop<>& loop) {
-  RigLoop<> plain = held(loop);
-  const double home[RigLoop<>::size] = {};
-  const auto full = jacobian(plain, 0.0, home);
-  double none[RigLoop<>::size], one[RigLoop<>::size];
-  plain.derivative(0.0, home, none);
-  LinearPlant plant;
+// The states in `of` about home, under commands that are held in `mode`, the loop's own.
+template <class Loop>
+LinearPlant about_home(Loop& loop, RigMode& mode, const std::vector<int>& of) {
+  const double home[Loop::size] = {};
+  const auto full = jacobian(loop, 0.0, home);
+  double none[Loop::size], one[Loop::size];
+  loop.derivative(0.0, home, none);
+  const auto n = static_cast<Eigen::Index>(of.size());
+  LinearPlant plant{full(of, of), MatrixXd(n, 2)};
   for (int j = 0; j < 2; ++j) {
-    plain.mode.command[j] = 1;
-    plain.derivative(0.0, home, one);
-    plain.mode.command[j] = 0;
-    for (int i = 0; i < 8; ++i) plant.b(i, j) = one[places[i]] - none[places[i]];
-  }
-  for (int i = 0; i < 8; ++i) {
-    for (int j = 0; j < 8; ++j) plant.a(i, j) = full(places[i], places[j]);
+    mode.command[j] = 1;
+    loop.derivative(0.0, home, one);
+    mode.command[j] = 0;
+    for (Eigen::Index i = 0; i < n; ++i) {
+      const int place = of[static_cast<std::size_t>(i)];
+      plant.b(i, j) = one[place] - none[place];
+    }
   }
   return plant;
 }
 
+}  // namespace
+
+struct SampledCycle::Parts {
+  VectorXd plant;
+  std::deque<Vector2> exposures, commands;
+  Vector2 position, velocity, integral, held;
+};
+
+SampledCycle::SampledCycle(CycleParts parts) : parts_(std::move(parts)) {
+  const double period = parts_.sampling.period;
+  const auto split = [period](double delay, double* whole) {
+    *whole = std::floor(delay / period + 1e-9);
+    return std::max(0.0, delay - *whole * period);
+  };
+  double whole = 0;
+  const double exposed_before = split(parts_.sensor.delay, &whole);
+  exposure_ = exposed_before > 1e-9 * period ? period - exposed_before : 0;
+  exposures_ = static_cast<std::size_t>(whole) + (exposure_ > 0 ? 1 : 0);
+  application_ = split(parts_.sampling.delay, &whole);
+  if (application_ <= 1e-9 * period) application_ = 0;
+  commands_ = static_cast<std::size_t>(whole);
+  const double instants[3] = {std::min(exposure_, application_), std::max(exposure_, application_),
+                              period};
+  double from = 0;
+  for (int i = 0; i < 3; ++i) {
+    std::tie(advance_a_[i], advance_b_[i]) = advanced(parts_.a, parts_.b, instants[i] - from);
+    from = instants[i];
+  }
+}
+
+int SampledCycle::controller_at() const {
+  return static_cast<int>(parts_.a.rows()) + 2 * static_cast<int>(exposures_);
+}
+
+int SampledCycle::controller_size() const {
+  return 4 + (parts_.integrates ? 2 : 0);
+}
+
+int SampledCycle::size() const {
+  // A command that is applied at once is none of the period's start.
+  return controller_at() + controller_size() + 2 * static_cast<int>(commands_) +
+         (application_ > 0 ? 2 : 0);
+}
+
+std::vector<LinearSignal> SampledCycle::memory(const std::string& command_unit) const {
+  std::vector<LinearSignal> signals;
+  const auto add = [&signals](const char* first, const char* second, const std::string& suffix,
+                              const std::string& unit) {
+    signals.push_back({first + suffix, unit});
+    signals.push_back({second + suffix, unit});
+  };
+  for (std::size_t i = 1; i <= exposures_; ++i) add("x", "y", "_seen_" + std::to_string(i), "m");
+  add("x", "y", "_known", "m");
+  add("vx", "vy", "_known", "m/s");
+  if (parts_.integrates) add("x", "y", "_integral", "m s");
+  for (std::size_t i = 1; i <= commands_; ++i) {
+    add("phi", "theta", "_waiting_" + std::to_string(i), command_unit);
+  }
+  if (application_ > 0) add("phi", "theta", "_held", command_unit);
+  return signals;
+}
+
+SampledCycle::Parts SampledCycle::unpacked(const VectorXd& state) const {
+  Parts of;
+  Eigen::Index next = parts_.a.rows();
+  of.plant = state.head(next);
+  const auto pair = [&]() -> Vector2 {
+    next += 2;
+    return state.segment<2>(next - 2);
+  };
+  for (std::size_t i = 0; i < exposures_; ++i) of.exposures.push_back(pair());
+  of.position = pair();
+  of.velocity = pair();
+  of.integral = parts_.integrates ? pair() : Vector2::Zero().eval();
+  for (std::size_t i = 0; i < commands_; ++i) of.commands.push_back(pair());
+  of.held = application_ > 0 ? pair() : Vector2::Zero().eval();
+  return of;
+}
+
+VectorXd SampledCycle::packed(const Parts& of) const {
+  VectorXd state(size());
+  Eigen::Index next = of.plant.size();
+  state.head(next) = of.plant;
+  const auto put = [&](const Vector2& pair) {
+    state.segment<2>(next) = pair;
+    next += 2;
+  };
+  for (const Vector2& seen : of.exposures) put(seen);
+  put(of.position);
+  put(of.velocity);
+  if (parts_.integrates) put(of.integral);
+  for (const Vector2& command : of.commands) put(command);
+  if (application_ > 0) put(of.held);
+  return state;
+}
+
+void SampledCycle::advance(Parts& of, int i) const {
+  of.plant = (advance_a_[i] * of.plant + advance_b_[i] * of.held).eval();
+}
+
+void SampledCycle::expose(Parts& of) const {
+  of.exposures.emplace_back(of.plant.head<2>());
+}
+
+void SampledCycle::apply(Parts& of) const {
+  of.held = of.commands.front();
+  of.commands.pop_front();
+  if (!parts_.time_constant) return;
+  const Vector2 rate = (of.held - of.plant.segment<2>(4)) / *parts_.time_constant;
+  of.plant += (parts_.jump * (rate - of.plant.segment<2>(6))).eval();
+}
+
+SampledCycle::Output SampledCycle::run(const VectorXd& state, const Input& input) const {
+  Parts of = unpacked(state);
+  if (exposure_ == 0) expose(of);
+
+  const double period = parts_.sampling.period, filter = parts_.sampling.derivative_filter;
+  const double keep = filter / (filter + period);
+  Output output;
+  output.seen = of.exposures.front();
+  of.exposures.pop_front();
+  of.velocity = (keep * of.velocity + (1 - keep) / period * (output.seen - of.position)).eval();
+  of.position = output.seen;
+  if (parts_.integrates) of.integral += period * (input.reference.head<2>() - output.seen);
+  Eigen::Matrix<double, 10, 1> known;
+  known << of.position, of.velocity, of.plant.segment<4>(4), of.integral;
+  output.law = parts_.of_feedback * known + parts_.of_reference * input.reference;
+  Vector2 command = output.law;
+  for (int i = 0; i < 2; ++i) {
+    if (input.open[i]) command[i] = input.command[i];
+  }
+  of.commands.push_back(command);
+
+  if (application_ == 0) apply(of);
+  advance(of, 0);
+  const bool exposure_first = exposure_ <= application_;
+  for (int i = 1; i <= 2; ++i) {
+    if ((i == 1) == exposure_first) {
+      if (exposure_ > 0) expose(of);
+    } else if (application_ > 0) {
+      apply(of);
+    }
+    advance(of, i);
+  }
+  output.state = packed(of);
+  return output;
+}
+
+MatrixXd SampledCycle::map() const {
+  const int n = size();
+  MatrixXd map(n, n);
+  for (int j = 0; j < n; ++j) map.col(j) = run(VectorXd::Unit(n, j), {}).state;
+  return map;
+}
+
+LinearPlant linear_plant(const RigLoop<>& loop) {
+  RigLoop<> plain = held(loop);
+  return about_home(plain, plain.mode, {places.begin(), places.end()});
+}
+
+LinearPlant linear_plant(const CoupledLoop<>& loop) {
+  CoupledParts parts = loop.parts;
+  parts.contact = {};
+  CoupledLoop<> plain(parts, loop.by, loop.motor, held(loop.loop));
+  std::vector<int> of(places.begin(), places.end());
+  if (loop.motor.from_integral != 0) {
+    of.insert(of.end(), {CoupledLoopLayout::motor, CoupledLoopLayout::motor + 1});
+  }
+  return about_home(plain, plain.loop.mode, of);
+}
+
 LinearPlant after(const LinearPlant& plant, double time) {
-  Eigen::Matrix<double, 10, 10> both = Eigen::Matrix<double, 10, 10>::Zero();
-  both.topLeftCorner<8, 8>() = plant.a * time;
-  both.topRightCorner<8, 2>() = plant.b * time;
-  const Eigen::Matrix<double, 10, 10> all = both.exp();
-  return {all.topLeftCorner<8, 8>(), all.topRightCorner<8, 2>()};
+  const Eigen::Index n = plant.a.rows();
+  MatrixXd both = MatrixXd::Zero(n + 2, n + 2);
+  both.topLeftCorner(n, n) = plant.a * time;
+  both.topRightCorner(n, 2) = plant.b * time;
+  const MatrixXd all = both.exp();
+  return {all.topLeftCorner(n, n), all.topRightCorner(n, 2)};
 }
 
 Eigen::Matrix<double, 2, 8> lqr_gain(const LinearPlant& plant, const LqrWeights& weights,
@@ -206,15 +253,64 @@ Eigen::Matrix<double, 2, 8> lqr_gain(const LinearPlant& plant, const LqrWeights&
   return solve_continuous_riccati(plant.a, plant.b, q, r).gain;
 }
 
-Eigenvalues sampled_poles(const RigLoop<>& loop, const Rig& rig) {
-  const Cycle cycle(loop, rig);
-  const int n = cycle.size();
-  MatrixXd map(n, n);
-  for (int j = 0; j < n; ++j) {
-    VectorXd s = VectorXd::Unit(n, j);
-    cycle.run(s);
-    map.col(j) = s;
+namespace {
+
+// The plant's first eight states are those of LinearPlant, and `loop` kicks the ball as it does.
+template <bool integrates>
+CycleParts parts_of(const LinearPlant& plant, const RigLoop<integrates>& loop, const Rig& rig) {
+  const LinearLaw law = linear_law(rig.sampled->law, {}, {});
+  CycleParts parts;
+  parts.a = plant.a;
+  parts.b = plant.b;
+  parts.jump = MatrixXd::Zero(plant.a.rows(), 2);
+  const double home[RigLoop<integrates>::size] = {};
+  for (int i = 0; i < 2; ++i) {
+    const auto kick = loop.impulse(home, i == 0 ? 1 : 0, i == 0 ? 0 : 1);
+    parts.jump.col(i).head<8>() << 0, 0, kick[0], kick[1], 0, 0, i == 0 ? 1 : 0, i == 0 ? 0 : 1;
   }
+  parts.of_feedback = law.of_feedback;
+  parts.of_reference = law.of_reference;
+  parts.sampling = rig.sampled->sampling;
+  parts.sensor = rig.sampled->sensor;
+  parts.integrates = rig.sampled->law.integrates();
+  parts.time_constant = rig.time_constant;
+  return parts;
+}
+
+}  // namespace
+
+CycleParts cycle_parts(const RigLoop<>& loop, const Rig& rig) {
+  const RigLoop<> plain = held(loop);
+  return parts_of(linear_plant(plain), plain, rig);
+}
+
+Eigenvalues sampled_poles(const RigLoop<>& loop, const Rig& rig) {
+  if (rig.sampled->law.kind == LawKind::held) return {};
+  return poles_of_period(SampledCycle(cycle_parts(loop, rig)).map());
+}
+
+Eigenvalues sampled_poles(const Model& model) {
+  if (const auto* loop = std::get_if<CoupledLoop<>>(&model.system)) {
+    if (model.rig->sampled->law.kind == LawKind::held) return {};
+    return poles_of_period(
+        SampledCycle(parts_of(linear_plant(*loop), held(loop->loop), *model.rig)).map());
+  }
+  return sampled_poles(std::get<RigLoop<>>(model.system), *model.rig);
+}
+
+Eigenvalues plant_poles(const Model& model) {
+  const auto* const coupled = std::get_if<CoupledLoop<>>(&model.system);
+  Eigenvalues poles =
+      eigenvalues_of((coupled != nullptr ? linear_plant(*coupled)
+                                         : linear_plant(std::get<RigLoop<>>(model.system)))
+                         .a);
+  std::sort(poles.begin(), poles.end(), [](const auto& a, const auto& b) {
+    return a.real() != b.real() ? a.real() > b.real() : a.imag() > b.imag();
+  });
+  return poles;
+}
+
+Eigenvalues poles_of_period(const MatrixXd& map) {
   Eigenvalues poles = eigenvalues_of(map);
   std::sort(poles.begin(), poles.end(), [](const auto& a, const auto& b) {
     const double p = std::abs(a), q = std::abs(b);

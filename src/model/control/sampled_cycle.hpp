@@ -1,21 +1,28 @@
-// A rig about home as a linear system: for LQR gains and for the poles of sampled loops.
+// A rig as a linear system: for LQR gains, and what a sampled loop does in a period.
 #pragma once
 
 #include <Eigen/Core>
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
 
+#include "model/control/linear_system.hpp"
 #include "model/spectrum.hpp"
 #include "model/systems/rig.hpp"
 
 namespace bbsim::model {
 
-// z' = A z + B u for z = (x, y, x', y', phi, theta, phi', theta') and the commands u, without
-// limits, dead band and backlash. The spin, which does not act on them there, is left out.
+// z' = A z + B u for z = (x, y, x', y', phi, theta, phi', theta') and the commands u, about home,
+// without limits, dead band and backlash. The spin, which does not act on them there, is left out.
 struct LinearPlant {
-  Eigen::Matrix<double, 8, 8> a;
-  Eigen::Matrix<double, 8, 2> b;
+  // A motor's own loop with an integral has the two integrals after the 8.
+  Eigen::MatrixXd a, b;
 };
 
 [[nodiscard]] LinearPlant linear_plant(const RigLoop<>& loop);
+// Without what is dry.
+[[nodiscard]] LinearPlant linear_plant(const CoupledLoop<>& loop);
 
 // z and u after `time` (s) under a constant command: z(time) = a z + b u.
 [[nodiscard]] LinearPlant after(const LinearPlant& plant, double time);
@@ -25,9 +32,84 @@ struct LinearPlant {
 [[nodiscard]] Eigen::Matrix<double, 2, 8> lqr_gain(const LinearPlant& plant,
                                                    const LqrWeights& weights, double period);
 
+// What a sampled loop is made of, about any point. The first eight states of the plant are those of
+// LinearPlant; the spin may follow.
+struct CycleParts {
+  Eigen::MatrixXd a, b;
+  // What the states get when the rates of phi and theta jump by 1 rad/s: two columns. A servo of
+  // first order takes its new rate at once, and kicks the ball.
+  Eigen::MatrixXd jump;
+  // The law's commands: of the position, velocity, angles, rates and integrals fed back, two each;
+  // and of the reference's values, rates and accelerations.
+  Eigen::Matrix<double, 2, 10> of_feedback = Eigen::Matrix<double, 2, 10>::Zero();
+  Eigen::Matrix<double, 2, 6> of_reference = Eigen::Matrix<double, 2, 6>::Zero();
+  Sampling sampling;
+  Sensor sensor;
+  bool integrates = false;
+  std::optional<double> time_constant{};  // of a servo of first order, s
+};
+
+// One period of a sampled loop, linear: from one sample to the next. Of its state, in this order:
+// the plant's; what was seen and not yet sampled; the position and velocity that the controller
+// has; the integral, if the law has one; the commands not yet applied; the command that is held, if
+// the period begins with it.
+class SampledCycle {
+ public:
+  explicit SampledCycle(CycleParts parts);
+
+  struct Input {
+    Eigen::Matrix<double, 6, 1> reference = Eigen::Matrix<double, 6, 1>::Zero();
+    // Where the loop is open, this is commanded in place of what the law says.
+    bool open[2]{false, false};
+    Eigen::Vector2d command = Eigen::Vector2d::Zero();
+  };
+  struct Output {
+    Eigen::VectorXd state;  // a period later
+    Eigen::Vector2d seen;   // by the sample at the period's start, m
+    Eigen::Vector2d law;    // what the law says then
+  };
+  [[nodiscard]] Output run(const Eigen::VectorXd& state, const Input& input) const;
+
+  [[nodiscard]] int size() const;
+  // Of the states after the plant's.
+  [[nodiscard]] std::vector<LinearSignal> memory(const std::string& command_unit) const;
+  // Where among the states the controller's own are: from the position on, so many.
+  [[nodiscard]] int controller_at() const;
+  [[nodiscard]] int controller_size() const;
+
+  // What a period does to the state, the loop closed.
+  [[nodiscard]] Eigen::MatrixXd map() const;
+
+ private:
+  struct Parts;
+  [[nodiscard]] Parts unpacked(const Eigen::VectorXd& state) const;
+  [[nodiscard]] Eigen::VectorXd packed(const Parts& parts) const;
+  void advance(Parts& of, int i) const;
+  void expose(Parts& of) const;
+  void apply(Parts& of) const;
+
+  CycleParts parts_;
+  double exposure_ = 0, application_ = 0;     // instants within the period, s
+  std::size_t exposures_ = 0, commands_ = 0;  // in the queues at the period's start
+  Eigen::MatrixXd advance_a_[3], advance_b_[3];
+};
+
+// About home.
+[[nodiscard]] CycleParts cycle_parts(const RigLoop<>& loop, const Rig& rig);
+
 // The poles of a sampled loop about home: eigenvalues of what a period does to the plant, to what
 // is on its way through the delays, and to what the controller remembers. The loop is stable if all
-// lie within the unit circle. By falling size; empty if the gains are too large for numbers.
+// lie within the unit circle. By falling size; empty if the gains are too large for numbers, or if
+// the law is not for the model to know.
 [[nodiscard]] Eigenvalues sampled_poles(const RigLoop<>& loop, const Rig& rig);
+// The same of a model whose loop is sampled.
+[[nodiscard]] Eigenvalues sampled_poles(const Model& model);
+
+// The poles of the LinearPlant of a model with a rig under a constant command, 1/s, by falling real
+// part.
+[[nodiscard]] Eigenvalues plant_poles(const Model& model);
+
+// Eigenvalues of a map from period to period, in that order.
+[[nodiscard]] Eigenvalues poles_of_period(const Eigen::MatrixXd& map);
 
 }  // namespace bbsim::model

@@ -5,6 +5,8 @@
 #include <limits>
 #include <numbers>
 
+#include "scenario/coupled.hpp"
+
 namespace bbsim::model {
 
 const char* Monitor::name() const {
@@ -77,10 +79,15 @@ EventMonitors event_monitors(const Scenario& scene) {
   const Events& events = scene.events;
   using Kind = Monitor::Kind;
   if (events.edge) list.monitors.push_back({Kind::edge, *events.edge});
-  if (events.slip) {
+  if (events.slip && !events.slip->sliding) {
     list.monitors.push_back({Kind::slip, events.slip->action, events.slip->friction});
   }
-  if (events.lift_off) list.monitors.push_back({Kind::lift_off, *events.lift_off});
+  // Friction in proportion to a negative normal force would drive the ball.
+  const bool in_proportion =
+      scenario::has_dry_losses(scene) || (events.slip && events.slip->sliding);
+  if (events.lift_off || in_proportion) {
+    list.monitors.push_back({Kind::lift_off, events.lift_off.value_or(OnEvent::stop)});
+  }
   // Feedback linearisation leaves the tilt unstable: it ends in the plane turning over and over,
   // ever faster.
   const bool inverts = scene.controller && scene.controller->law == Law::feedback_linearisation;

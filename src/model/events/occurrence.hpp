@@ -2,16 +2,18 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "model/sample.hpp"
 
 namespace bbsim::model {
 
 struct Occurrence {
-  double t = 0;          // s
-  std::string name;      // as the scenario's key under events
-  bool stopped = false;  // the run
-  Sample sample;
+  double t = 0;               // s
+  std::string name;           // as the scenario's key under events
+  bool stopped = false;       // the run
+  Sample sample;              // without Sample::own, which stands here:
+  std::vector<double> own{};  // of one's own controller
 };
 
 }  // namespace bbsim::model

@@ -34,6 +34,12 @@ class ServoAxis {
   // The size of each guard's quantity.
   void scales(double* values) const;
 
+  // What it does at present (base/archive.hpp).
+  template <class Archive>
+  void archive(Archive& archive) {
+    archive(motion_, play_, started_, target_, plane_);
+  }
+
  private:
   enum class Motion {
     free,

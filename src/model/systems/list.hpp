@@ -5,6 +5,7 @@
 #include <utility>
 #include <variant>
 
+#include "model/systems/coupled.hpp"
 #include "model/systems/rig_loop.hpp"
 #include "model/systems/system.hpp"
 
@@ -22,7 +23,9 @@ using SystemList = std::variant<OpenLoop<Shape::full, Signals>,     //
                                 ClosedLoop<Shape::along_y, Drives::angle, Signals>,
                                 OpenLoop<Shape::full, Signals, GeneralRolling>,  //
                                 RigLoop<false, Signals>,                         //
-                                RigLoop<true, Signals>>;
+                                RigLoop<true, Signals>,                          //
+                                CoupledGiven<Signals>,                           //
+                                CoupledLoop<Signals>>;
 
 using System = SystemList<SignalPair>;
 using SystemViews = SystemList<SignalView>;

@@ -2,7 +2,10 @@
 #pragma once
 
 #include <limits>
+#include <memory>
 #include <optional>
+#include <string>
+#include <vector>
 
 #include "model/systems/rig_loop.hpp"
 #include "scenario/scenario.hpp"
@@ -11,12 +14,18 @@ namespace bbsim::model {
 
 inline constexpr double unlimited = std::numeric_limits<double>::infinity();
 
+class ExternalController;
+
 // A controller in discrete time and its sensor.
 struct SampledLoop {
   Sampling sampling;
   Sensor sensor;
-  ControlLaw law;  // what is computed at each sample
+  ControlLaw law;  // what is computed at each sample; held, if that is not for the model to know
   double limit = unlimited;
+  // Under a held law: who is asked instead (control/external_controller.hpp), which whoever runs
+  // the model has to see to; and the names of the numbers that it gives for columns.
+  std::shared_ptr<ExternalController> external{};
+  std::vector<std::string> own_columns{};
 };
 
 // How the servos and the controller of a closed loop that is a RigLoop differ from ideal ones.

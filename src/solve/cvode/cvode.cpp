@@ -89,6 +89,8 @@ class CvodeStepper : public Stepper {
     } else {
       use_fixed_point();
     }
+    // On the way to rest the step falls by more than the seven failures that CVODE allows make it.
+    if (model.dry) check(CVodeSetMaxErrTestFails(memory(), 40), "CVodeSetMaxErrTestFails");
     if (model.gamma) integrate_spin();
   }
 
@@ -172,6 +174,12 @@ class CvodeStepper : public Stepper {
         sundials::created(SUNLinSol_Dense(state_.get(), matrix_.get(), context_.get())));
     check(CVodeSetLinearSolver(memory(), linear_.get(), matrix_.get()), "CVodeSetLinearSolver");
     check(CVodeSetJacFn(memory(), Callbacks<System>::jacobian), "CVodeSetJacFn");
+    if constexpr (model::is_coupled<System>) {
+      // The direction of a friction turns as fast as the velocity is small: next to rest an old
+      // Jacobian is wrong by decades, which CVODE takes for convergence.
+      check(CVodeSetJacEvalFrequency(memory(), 1), "CVodeSetJacEvalFrequency");
+      check(CVodeSetLSetupFrequency(memory(), 1), "CVodeSetLSetupFrequency");
+    }
   }
 
   void use_fixed_point() {

@@ -49,9 +49,10 @@ struct Kernel {
 };
 
 // One for each system of model/systems/list.hpp, in its order.
-inline constexpr int system_count = 12;
+inline constexpr int system_count = 14;
 
 struct StepKernels {
+  // Of a system that only the baseline has kernels for, without functions.
   Kernel kernels[3][system_count];  // for 8, 12 and 16 stages
 };
 

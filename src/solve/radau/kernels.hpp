@@ -14,16 +14,28 @@ namespace bbsim::solve::radau {
 template <class System>
 inline constexpr int stages_at_most = System::papers_rig ? 16 : 12;
 
+// Of scenes with couples, sliding or torques, in which pieces are short and a right-hand side is
+// long enough to hide what wider lanes would save, there are kernels for the baseline alone: they
+// would take compilers as long as all others together.
+template <class Isa, class System>
+inline constexpr bool is_compiled = Isa::lanes == 2 || !model::is_coupled<System>;
+
 template <class Isa, class System, int stages>
-inline constexpr const Kernel& kernel_for =
-    Step<Isa, System, (stages < stages_at_most<System> ? stages : stages_at_most<System>)>::kernel;
+consteval Kernel kernel_for() {
+  if constexpr (is_compiled<Isa, System>) {
+    return Step<Isa, System,
+                (stages < stages_at_most<System> ? stages : stages_at_most<System>)>::kernel;
+  } else {
+    return {};
+  }
+}
 
 template <class Isa, class... Systems>
 consteval StepKernels kernels_of(std::type_identity<std::variant<Systems...>>) {
   static_assert(sizeof...(Systems) == system_count);
-  return {{{kernel_for<Isa, Systems, 8>...},
-           {kernel_for<Isa, Systems, 12>...},
-           {kernel_for<Isa, Systems, 16>...}}};
+  return {{{kernel_for<Isa, Systems, 8>()...},
+           {kernel_for<Isa, Systems, 12>()...},
+           {kernel_for<Isa, Systems, 16>()...}}};
 }
 
 // In the order of the systems.

@@ -49,7 +49,9 @@ double resolved(int stages, double tolerance) {
 // For rigs beyond the paper's, 16 stages find the kernel of 12 (kernels.hpp).
 const Kernel& find_kernel(const StepKernels& kernels, int stages, const model::Model& model) {
   const std::size_t order = stages == 8 ? 0 : stages == 12 ? 1 : 2;
-  return kernels.kernels[order][model.system.index()];
+  const Kernel& kernel = kernels.kernels[order][model.system.index()];
+  if (kernel.attempt != nullptr) return kernel;
+  return kernels_for(simd::InstructionSet::baseline).kernels[order][model.system.index()];
 }
 
 constexpr double safety = 0.9;
@@ -111,6 +113,7 @@ void RadauStepper::renew(const model::Model& model, double end) {
   shrinking_ = 0;
   worst_state_ = 0;
   statistics_ = {};
+  least_end_ = 0;
 }
 
 // The kernel's own view of the system, in its present mode.
@@ -170,6 +173,7 @@ void RadauStepper::start(double t, const double* z) {
   if (next_step_ > 0) return;
   const double rate = std::max(kernel_->rate(workspace, t), highest_frequency_);
   next_step_ = rate > 0 ? 2 * reach_ / rate : end_;
+  if (!(rate > 0)) least_end_ = std::numeric_limits<double>::infinity();  // it has made this step
   if (!(next_step_ > 0)) next_step_ = end_ * 1e-6;
 }
 
@@ -199,6 +203,8 @@ const char* RadauStepper::step(double limit) {
   bool rejected = false;
   for (;;) {
     double h = std::min(next_step_, widest_);
+    // Four steps or more from its end a run makes them as if there were none: see `pieces`.
+    if (std::isinf(limit)) least_end_ = std::max(least_end_, t + 3.01 * h);
     // The steps to the limit are alike.
     const double pieces = std::ceil(left / h * (1 - 1e-3));
     const bool arrives = pieces <= 1;
@@ -240,6 +246,35 @@ const char* RadauStepper::step(double limit) {
     next_step_ = arrives && !rejected ? std::max(h, next_step_) : h;
     return nullptr;
   }
+}
+
+template <class Archive>
+void RadauStepper::archive(Archive& archive) {
+  archive(time_, next_step_, attempted_, turned_, shrinking_, shrinks_from_, last_step_, shrank_by_,
+          size_before_, last_error_, accepted_step_, fill_, worst_state_, least_end_, statistics_);
+  // The kernel's memory is plain but for its first member, which is where the system's view is.
+  auto* const memory = static_cast<unsigned char*>(workspace_.get());
+  archive.bytes(memory + sizeof(void*), kernel_->workspace - sizeof(void*));
+}
+
+bool RadauStepper::save(StateWriter& into) {
+  std::size_t size = kernel_->workspace;
+  into(size);
+  archive(into);
+  return true;
+}
+
+void RadauStepper::restore(StateReader& from) {
+  std::size_t size = 0;
+  from(size);
+  if (size != kernel_->workspace) {
+    throw InputError("the state of the run is not of this scene's integrator");
+  }
+  look_at_model();
+  const std::vector<double> none(model_->size());
+  kernel_->start(workspace_.get(), {view_.get(), none.data(), tolerances_.rtol, tolerances_.atol,
+                                    model_->gamma, positions_only_});
+  archive(from);
 }
 
 void RadauStepper::evaluate(const double* times, std::size_t count, double* rows) {

@@ -58,8 +58,14 @@ class RadauStepper : public Stepper {
   [[nodiscard]] Statistics statistics() const override { return statistics_; }
   [[nodiscard]] std::size_t detail() const override;
   [[nodiscard]] std::size_t parts() const override;
+  [[nodiscard]] bool save(StateWriter& into) override;
+  void restore(StateReader& from) override;
+  [[nodiscard]] double least_end() const override { return least_end_; }
 
  private:
+  template <class Archive>
+  void archive(Archive& archive);
+
   struct Free {
     void operator()(void* memory) const;
   };
@@ -91,6 +97,7 @@ class RadauStepper : public Stepper {
   double last_error_ = 1;                // of the last step, in the tolerances' weights
   double accepted_step_ = 0, fill_ = 1;  // its length (s), and part of what would have passed
   std::size_t worst_state_ = 0;
+  double least_end_ = 0;  // see least_end(), s
   Statistics statistics_;
 };
 

@@ -304,8 +304,43 @@ struct Step {
                                        });
   }
 
+  // Whether a Jacobian next to a state may be off by decades: that of a direction is, where the
+  // velocity is nearly none. Newton's corrections are then small for want of sense, not of error.
+  static constexpr bool steep = requires {
+    System::steep;
+  };
+
+  // The accelerations at (t, q, v) for all stages.
+  static void hold_accelerations(Workspace& w, double t) {
+    P z[n], dz[n];
+    for (int i = 0; i < nv; ++i) {
+      z[motions.of[i].velocity] = P(w.v[i]);
+      if (i < nq) z[motions.of[i].position] = P(w.q[i]);
+    }
+    w.system->derivative_of(w.system->inputs(P(t)), z, dz);
+    for (int i = 0; i < nv; ++i) {
+      for (int p = 0; p < packs; ++p) dz[motions.of[i].velocity].store(&w.k.of[i][p * lanes]);
+    }
+  }
+
+  // How far the stages are from solving their equations, as a velocity in the tolerance's weights.
+  static double residual(Workspace& w) {
+    evaluate_rates(w);
+    double square = 0;
+    for (int i = 0; i < nv; ++i) {
+      for (int j = 0; j < s; ++j) {
+        const double part = w.h * (w.f.of[i][j] - w.k.of[i][j]) * w.v_weight[i];
+        square += part * part;
+      }
+    }
+    return __builtin_sqrt(square / s);
+  }
+
   // First values of k over [t, t + h].
   static void guess(Workspace& w, double t, double h) {
+    if constexpr (steep) {
+      if (!w.has_guess) return hold_accelerations(w, t);
+    }
     if (!w.has_guess) {
       for (int i = 0; i < nv; ++i) {
         for (int p = 0; p < packs; ++p) P(0.0).store(&w.k.of[i][p * lanes]);
@@ -456,6 +491,14 @@ struct Step {
         break;
       }
       if (a.iterations >= most_iterations) {
+        w.contraction = 1;
+        return;
+      }
+    }
+    if constexpr (steep) {
+      constexpr double hardly_solved = 30;  // stiff motors magnify what Newton's iteration leaves
+      a.right_hand_sides += s;
+      if (!(residual(w) <= hardly_solved)) {
         w.contraction = 1;
         return;
       }

@@ -1,0 +1,83 @@
+#include "linear_report.hpp"
+
+#include <cmath>
+#include <numbers>
+
+#include "describe.hpp"
+
+namespace bbsim::app {
+namespace {
+
+std::string degrees(double angle) {
+  return short_number(angle * 180 / std::numbers::pi) + " deg";
+}
+
+std::string at(double frequency) {
+  return " at " + short_number(frequency) + " rad/s";
+}
+
+std::string text_of(const model::Margins& margins) {
+  std::string text;
+  if (std::isfinite(margins.gain)) {
+    text += "gain by " + short_number(margins.gain) + " (" +
+            short_number(20 * std::log10(margins.gain)) + " dB)" + at(margins.gain_at);
+  } else {
+    text += "any gain above";
+  }
+  if (margins.reduction > 0) {
+    text += ", or down by " + short_number(margins.reduction) + at(margins.reduction_at);
+  }
+  if (!std::isfinite(margins.phase)) return text + "; any phase and delay";
+  text += "; phase " + degrees(margins.phase) + at(margins.phase_at);
+  return text + "; delay " + short_number(margins.delay) + " s";
+}
+
+std::string names_line(const std::vector<model::LinearSignal>& signals) {
+  std::string line;
+  for (const model::LinearSignal& signal : signals) {
+    line += (line.empty() ? "" : ", ") + signal.name + " (" + signal.unit + ")";
+  }
+  return line;
+}
+
+std::string values_line(const model::Eigenvalues& values) {
+  return values.empty() ? "none" : poles_line(values);
+}
+
+}  // namespace
+
+std::vector<LabelledLine> margin_lines(const model::Linearisation& made) {
+  std::vector<LabelledLine> lines;
+  for (const model::LoopMargins& loop : made.margins) {
+    lines.push_back({"  " + loop.command.substr(0, loop.command.find('_')), text_of(loop.margins)});
+  }
+  std::string text;
+  for (const model::Bandwidth& one : made.bandwidths) {
+    text += (text.empty() ? "" : ", ") + one.output + " " +
+            (std::isfinite(one.value) ? short_number(one.value) + " rad/s" : "unlimited");
+  }
+  if (!text.empty()) lines.push_back({"  bandwidth", text});
+  return lines;
+}
+
+std::string linear_report(const std::string& of, const model::Linearisation& made) {
+  std::string text;
+  const auto line = [&text](const std::string& label, const std::string& what) {
+    constexpr std::size_t width = 12;
+    text += label + std::string(label.size() < width ? width - label.size() : 0, ' ') + ' ' + what +
+            '\n';
+  };
+  const model::LinearSystem& system = made.system;
+  line("linear", of);
+  line("states", names_line(system.states));
+  line("inputs", names_line(system.inputs));
+  line("outputs", names_line(system.outputs));
+  line("period", system.period ? short_number(*system.period) + " s" : "continuous time");
+  line("poles", values_line(made.poles));
+  line("zeros", values_line(made.zeros));
+  if (!made.margins.empty()) line("margins", "of each command's loop, the other one closed");
+  for (const LabelledLine& one : margin_lines(made)) line(one.label, one.text);
+  return text;
+}
+
+}  // namespace bbsim::app

@@ -1,0 +1,20 @@
+// What a linearisation says to a person, shared by `linearize` and `check`.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "model/control/linearise.hpp"
+
+namespace bbsim::app {
+
+// A line each, with its label: margins of each command's loop, and the bandwidths.
+struct LabelledLine {
+  std::string label, text;
+};
+[[nodiscard]] std::vector<LabelledLine> margin_lines(const model::Linearisation& made);
+
+// Points of operation, names and units, poles, zeros and margins.
+[[nodiscard]] std::string linear_report(const std::string& of, const model::Linearisation& made);
+
+}  // namespace bbsim::app

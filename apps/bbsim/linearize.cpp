@@ -1,0 +1,157 @@
+#include <CLI/App.hpp>
+#include <memory>
+#include <string>
+
+#include "assemble.hpp"
+#include "base/number_text.hpp"
+#include "commands.hpp"
+#include "describe.hpp"
+#include "file/atomic_file.hpp"
+#include "linear_report.hpp"
+#include "record/linear_text.hpp"
+#include "scenario/reader.hpp"
+#include "signals.hpp"
+#include "study/operating_point.hpp"
+#include "terminal.hpp"
+#include "yaml/quantity.hpp"
+
+namespace bbsim::app {
+namespace {
+
+struct LinearizeArguments {
+  ScenarioArguments scenario;
+  std::string at = "home", output;
+  bool plant = false, loop = false, sampled = false;
+};
+
+using ToText = std::string (*)(const record::LinearReport&);
+
+// What a file of that name holds.
+ToText format_of(const std::string& output) {
+  if (output == "-" || output.ends_with(".json")) return record::to_json;
+  if (output.ends_with(".m")) return record::to_matlab;
+  if (output.ends_with(".py")) return record::to_python;
+  if (output.ends_with(".csv")) return record::to_csv;
+  throw InputError("-o: found " + output +
+                   "; allowed: a name that ends in .m, .py, .json or .csv, or - for JSON on "
+                   "standard output");
+}
+
+model::LinearKind kind_of(const LinearizeArguments& arguments, const Scenario& scenario) {
+  if (arguments.plant) return model::LinearKind::plant;
+  if (arguments.loop) return model::LinearKind::loop;
+  if (arguments.sampled) return model::LinearKind::sampled;
+  return model::usual_kind(scenario);
+}
+
+const char* name_of(model::LinearKind kind) {
+  switch (kind) {
+    case model::LinearKind::plant:
+      return "plant";
+    case model::LinearKind::loop:
+      return "loop";
+    case model::LinearKind::sampled:
+      return "sampled";
+  }
+  return "";
+}
+
+double read_time(const std::string& text, const Scenario& scenario) {
+  const yaml::Quantity time = yaml::read_quantity(text, false, yaml::Dimension::time);
+  if (!time.value || !(*time.value >= 0 && *time.value <= scenario.time.end)) {
+    throw InputError("--at: found " + text +
+                     "; allowed: home, equilibrium, or a time from 0 to time.end, which is " +
+                     short_number(scenario.time.end) + " s");
+  }
+  return *time.value;
+}
+
+ExitCode linearize(const LinearizeArguments& arguments) {
+  const ToText format = arguments.output.empty() ? nullptr : format_of(arguments.output);
+  const Scenario scenario = read_scenario(arguments.scenario.file, arguments.scenario.overrides);
+  file::Outputs outputs;
+  reads_scenario(outputs, arguments.scenario.file, table_files(scenario));
+  if (format != nullptr) {
+    outputs.writes(arguments.output, "-o");
+  } else {
+    prints(outputs);
+  }
+  const model::Model model = assemble(scenario, {});
+  model::LinearPoint point = model::home_point();
+  std::string at = arguments.at;
+  if (at == "equilibrium") {
+    point = model::equilibrium(scenario);
+  } else if (at != "home") {
+    const double time = read_time(at, scenario);
+    at = "t = " + number_text(time) + " s";
+    const study::PointInTime found =
+        study::point_in_time(scenario, model, time, {&watch_signals(), {}});
+    if (!found.point) {
+      if (found.outcome.ending == solve::Ending::interrupted) {
+        say("interrupted at t = " + short_number(found.outcome.reached) + " s.");
+        return ExitCode::interrupted;
+      }
+      say("the run does not reach t = " + short_number(time) + " s: it ends at t = " +
+          short_number(found.outcome.reached) + " s; `bbsim run` says why.");
+      return ExitCode::ended_early;
+    }
+    point = *found.point;
+  }
+  const model::LinearKind kind = kind_of(arguments, scenario);
+  const model::Linearisation made = model::linearise(scenario, model, kind, point);
+  if (made.poles.empty()) {
+    say("the " + std::string(name_of(kind)) + " about " + at +
+        " has no poles that numbers can hold.");
+    return ExitCode::ended_early;
+  }
+  const record::LinearReport report{scenario.source.file, name_of(kind), at, made};
+  if (format == nullptr) {
+    print(linear_report("the " + report.kind +
+                            (kind == model::LinearKind::sampled ? " plant" : "") + " about " + at,
+                        made));
+    return ExitCode::done;
+  }
+  file::write_file(arguments.output, format(report));
+  return ExitCode::done;
+}
+
+}  // namespace
+
+void add_linearize(CLI::App& command, Chosen& chosen) {
+  command.footer(
+      "Without -o the poles, zeros and margins are printed. The files hold A, B, C, D and names: "
+      ".m for MATLAB and Octave, .py for numpy and python-control, .json and .csv for all else.\n"
+      "\n"
+      "Examples:\n"
+      "  bbsim linearize configs/step.yaml\n"
+      "  bbsim linearize configs/rig.yaml --sampled -o plant.m\n"
+      "  bbsim linearize configs/fig2b.yaml --plant --at \"2 s\" -o plant.json");
+  const auto arguments = std::make_shared<LinearizeArguments>();
+  add_scenario(command, arguments->scenario);
+  command
+      .add_option("--at", arguments->at,
+                  "home, all zero (default); equilibrium, at rest under the reference of t = 0; "
+                  "or a TIME of the run")
+      ->type_name("POINT");
+  CLI::Option* plant = command.add_flag(
+      "--plant", arguments->plant,
+      "from the gimbal's commands to the ball's position (default without a controller)");
+  CLI::Option* loop =
+      command.add_flag("--loop", arguments->loop,
+                       "the closed loop, from the reference to the position (default with a "
+                       "controller); of a sampled controller from sample to sample");
+  CLI::Option* sampled = command.add_flag(
+      "--sampled", arguments->sampled,
+      "the plant under a command that is held between samples, with the delays of sensor and "
+      "controller");
+  loop->excludes(plant);
+  sampled->excludes(plant)->excludes(loop);
+  command
+      .add_option("-o,--output", arguments->output,
+                  "FILE.m, FILE.py, FILE.json or FILE.csv; - is JSON on standard output")
+      ->type_name("FILE");
+  command.callback(
+      [arguments, &chosen] { chosen = [arguments] { return linearize(*arguments); }; });
+}
+
+}  // namespace bbsim::app

@@ -1,0 +1,31 @@
+#include "measure_text.hpp"
+
+#include "base/number_text.hpp"
+#include "commands.hpp"
+
+namespace bbsim::app {
+
+std::string measure_text(const std::vector<scenario::Measure>& measures,
+                         const std::vector<double>& values) {
+  std::string text = "measure,value\n";
+  for (std::size_t m = 0; m < measures.size(); ++m) {
+    text += measures[m].name + ',' + number_text(values[m]) + '\n';
+  }
+  return text;
+}
+
+CLI::Option* add_measures(CLI::App& command, std::vector<std::string>& lists,
+                          const std::string& what) {
+  CLI::Option* const option = command.add_option("--measure", lists, what)->type_name("NAME,...");
+  may_be_repeated(*option);
+  return option;
+}
+
+std::string measures_footer() {
+  return "Measures: min_x, max_x, rms_x, end_x of any column x; x.RiseTime, SettlingTime, "
+         "SettlingMin, SettlingMax, Overshoot, Undershoot, Peak, PeakTime, SteadyStateValue as "
+         "python-control has them; \"when x=0.05\" (with rise=N, fall=N or cross=N, last too), "
+         "\"when x stays below 0.05\" (or above), \"find y when x=0.05\", \"find y at 2\".";
+}
+
+}  // namespace bbsim::app

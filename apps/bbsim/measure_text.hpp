@@ -1,0 +1,23 @@
+// Measures as the commands that take them print them.
+#pragma once
+
+#include <CLI/App.hpp>
+#include <string>
+#include <vector>
+
+#include "scenario/measures.hpp"
+
+namespace bbsim::app {
+
+// CSV: measure,value.
+[[nodiscard]] std::string measure_text(const std::vector<scenario::Measure>& measures,
+                                       const std::vector<double>& values);
+
+// --measure NAME,...; may be given again.
+CLI::Option* add_measures(CLI::App& command, std::vector<std::string>& lists,
+                          const std::string& what);
+
+// What a measure's name may be, for a command's help.
+[[nodiscard]] std::string measures_footer();
+
+}  // namespace bbsim::app

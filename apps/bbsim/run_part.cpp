@@ -1,0 +1,201 @@
+#include "run_part.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <fstream>
+#include <iterator>
+#include <utility>
+
+#include "base/error.hpp"
+#include "base/number_text.hpp"
+#include "describe.hpp"
+#include "scenario/coupled.hpp"
+#include "simd/instruction_set.hpp"
+#include "solve/choose.hpp"
+#include "yaml/quantity.hpp"
+
+namespace bbsim::app {
+namespace {
+
+// All that a run depends on but its end, and what it shows.
+std::string identity_of(const Scenario& scenario, const std::vector<file::InputTable>& inputs) {
+  std::string identity = scenario.source.text;
+  for (const std::string& override : scenario.source.overrides) {
+    if (override.starts_with("time.end=") || override.starts_with("output.")) continue;
+    identity += "\n--set " + override;
+  }
+  for (const file::InputTable& table : inputs) {
+    identity += "\n" + table.file;
+    for (std::size_t c = 0; c < table.data->names.size(); ++c) {
+      identity += "\n" + table.data->names[c];
+      for (const double value : table.data->columns[c]) identity += ' ' + number_text(value);
+    }
+  }
+  return identity;
+}
+
+std::string read_bytes(const std::string& file) {
+  std::ifstream stream(file, std::ios::binary);
+  if (!stream) throw InputError("--from-state: cannot read " + file);
+  return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+}  // namespace
+
+void add_part(CLI::App& command, PartArguments& arguments) {
+  command
+      .add_option("--save-state", arguments.save,
+                  "FILE: the state at the end of this run, or at --until, or where it is "
+                  "interrupted, to go on from")
+      ->type_name("FILE");
+  command
+      .add_option("--from-state", arguments.from,
+                  "go on from a state of the same scenario: the rows that follow, those of one run "
+                  "to the bit")
+      ->type_name("FILE");
+  command
+      .add_option("--until", arguments.until,
+                  "with --save-state: end this part of the run at that time; time.end stays the "
+                  "end of the whole")
+      ->type_name("TIME");
+}
+
+RunPart::RunPart(const PartArguments& arguments, const Scenario& scenario,
+                 const std::vector<file::InputTable>& inputs)
+    : arguments_(arguments), whole_(scenario), identity_(identity_of(scenario, inputs)) {
+  const Method method = solve::choose_method(scenario.solver.method);
+  if (scenario.solver.error) {
+    throw InputError(
+        "--save-state, --from-state: found with solver.error, for which a run is made several "
+        "times; allowed: with tolerances");
+  }
+  if (method != Method::radau) {
+    throw InputError("--save-state, --from-state: found with solver.method " +
+                     std::string(solve::method_name(method)) +
+                     ", which keeps its history to itself; allowed: radau");
+  }
+  if (scenario.controller && scenario.controller->own) {
+    throw InputError(
+        "--save-state, --from-state: found with a controller of one's own, whose state only it "
+        "knows; allowed: with a law that is built in");
+  }
+  if (scenario::is_coupled(scenario)) {
+    throw InputError(
+        "--save-state, --from-state: found with losses, sliding or torques, whose switches are not "
+        "kept; allowed: without");
+  }
+  if (!arguments_.from.empty()) {
+    from_ = record::state_of(read_bytes(arguments_.from), arguments_.from);
+  }
+  part_.keeps_state = !arguments_.save.empty();
+  choose_rows();
+}
+
+void RunPart::choose_rows() {
+  const OutputTimes times = whole_.time;
+  grid_.emplace(times);
+  part_.end_row = grid_->size();
+  if (!arguments_.until.empty()) {
+    const yaml::Quantity until =
+        yaml::read_quantity(arguments_.until, false, yaml::Dimension::time);
+    if (!part_.keeps_state || !until.value || !(*until.value >= times.step) ||
+        !(*until.value < times.end)) {
+      throw InputError("--until: found " + arguments_.until +
+                       "; allowed: with --save-state, a time from time.step to before time.end, " +
+                       short_number(times.end) + " s");
+    }
+    // Times nearer than this are one, as on the grid.
+    const double last = *until.value * (1 + 1e-12);
+    while ((*grid_)[part_.end_row - 1] > last) --part_.end_row;
+  } else if (part_.keeps_state) {
+    // The end is not known: rows are those of any longer run, so without one at an end that is no
+    // multiple of the step.
+    const std::size_t rows = grid_->size();
+    const double multiple = static_cast<double>(rows - 1) * times.step;
+    part_.end_row = std::abs(multiple - times.end) <= 1e-9 * times.step ? rows : rows - 1;
+    part_.endless = true;
+    grid_.emplace(OutputTimes{static_cast<double>(rows + 1) * times.step, times.step});
+    // Knots of the input behind the end are stops, too.
+    whole_.time.end += 1e9;
+  }
+  if (!from_) return;
+  part_.first_row = from_->next_row;
+  part_.from = from_->state;
+}
+
+void RunPart::check(const model::Model& model,
+                    const std::vector<const scenario::Column*>& columns) const {
+  if (!from_) return;
+  const std::string& file = arguments_.from;
+  const record::RunState& state = *from_;
+  const std::string set = simd::name_of(simd::chosen_instruction_set());
+  if (state.version != BBSIM_VERSION || state.instruction_set != set) {
+    throw InputError(file + ": is of bbsim " + state.version + " for " + state.instruction_set +
+                     "; allowed: of this one, " BBSIM_VERSION " for " + set +
+                     " (BBSIM_SIMD chooses another)");
+  }
+  if (state.identity != identity_) {
+    throw InputError(file +
+                     ": is of another scenario; allowed: the same text, --set and tables, but for "
+                     "time.end and output.columns");
+  }
+  if (state.gamma != model.gamma) {
+    throw InputError(file + ": is of a run " + (state.gamma ? "with" : "without") +
+                     " gamma among what it computes; allowed: columns that need gamma in both or "
+                     "in neither");
+  }
+  if (scenario::any_needs(columns, scenario::Needs::orientation)) {
+    throw InputError(
+        "--from-state: found with columns ball_q..., which come of all rows from the start; "
+        "allowed: other columns");
+  }
+  if (!state.endless && (part_.endless || state.end != grid_->end())) {
+    throw InputError(file + ": is of a run to t = " + short_number(state.end) +
+                     " s, found time.end " + short_number(whole_.time.end) +
+                     (part_.endless ? " and no --until" : "") + "; allowed: the same time.end" +
+                     (part_.endless ? ", with --until" : ""));
+  }
+  if (state.endless && !part_.endless && grid_->end() < state.least_end) {
+    throw InputError(
+        file + ": was made without knowing that the run ends at t = " + short_number(grid_->end()) +
+        " s, to which its last steps would have been fitted; allowed: a time.end of " +
+        (std::isfinite(state.least_end) ? short_number(state.least_end) + " s or more, or "
+                                        : std::string()) +
+        "a first part with this time.end and --until");
+  }
+  if (part_.first_row >= part_.end_row) {
+    throw InputError(file + ": is at t = " + short_number(state.time) +
+                     " s; allowed: an end after that");
+  }
+}
+
+void RunPart::declare(file::Outputs& outputs) const {
+  if (!arguments_.from.empty()) outputs.reads(arguments_.from, "--from-state");
+  if (!arguments_.save.empty()) outputs.writes(arguments_.save, "--save-state");
+}
+
+void RunPart::open() {
+  if (part_.keeps_state) file_ = std::make_unique<file::AtomicFile>(arguments_.save);
+}
+
+std::string RunPart::finish(const model::Model& model) {
+  if (!file_) return "";
+  if (part_.state.empty()) return arguments_.save + ": not written, there is nothing to go on from";
+  record::RunState state;
+  state.version = BBSIM_VERSION;
+  state.instruction_set = simd::name_of(simd::chosen_instruction_set());
+  state.identity = identity_;
+  state.gamma = model.gamma;
+  state.endless = part_.endless;
+  state.end = grid_->end();
+  state.least_end = part_.least_end;
+  state.next_row = part_.next_row;
+  state.time = (*grid_)[part_.next_row - 1];
+  state.state = part_.state;
+  file_->write(record::to_bytes(state));
+  file_->commit();
+  return arguments_.save + ": the state at t = " + short_number(state.time) + " s";
+}
+
+}  // namespace bbsim::app

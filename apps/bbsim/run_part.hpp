@@ -1,0 +1,62 @@
+// A run in parts: --save-state, --from-state and --until.
+#pragma once
+
+#include <CLI/App.hpp>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "file/atomic_file.hpp"
+#include "file/outputs.hpp"
+#include "file/table_writer.hpp"
+#include "model/model.hpp"
+#include "record/run_state.hpp"
+#include "scenario/columns.hpp"
+#include "scenario/scenario.hpp"
+#include "solve/outcome.hpp"
+#include "solve/output_grid.hpp"
+#include "solve/part.hpp"
+
+namespace bbsim::app {
+
+struct PartArguments {
+  std::string save, from, until;
+  [[nodiscard]] bool any() const { return !save.empty() || !from.empty() || !until.empty(); }
+};
+
+void add_part(CLI::App& command, PartArguments& arguments);
+
+// Which part of its run a command does. Everything throws InputError where bytes could not be those
+// of one run.
+class RunPart {
+ public:
+  RunPart(const PartArguments& arguments, const Scenario& scenario,
+          const std::vector<file::InputTable>& inputs);
+
+  // The scene that the model is of: of a run whose end is not known, one that goes on.
+  [[nodiscard]] const Scenario& whole() const { return whole_; }
+  // Of the whole run.
+  [[nodiscard]] const solve::OutputGrid& grid() const { return *grid_; }
+  [[nodiscard]] solve::Part& part() { return part_; }
+
+  // Checks the state that is gone on from, and these columns, before files are opened.
+  void check(const model::Model& model, const std::vector<const scenario::Column*>& columns) const;
+  void declare(file::Outputs& outputs) const;
+  void open();
+  // Writes the state that the part left; what there is to say of it.
+  [[nodiscard]] std::string finish(const model::Model& model);
+
+ private:
+  void choose_rows();
+
+  PartArguments arguments_;
+  Scenario whole_;
+  std::string identity_;
+  std::optional<record::RunState> from_;
+  std::optional<solve::OutputGrid> grid_;
+  solve::Part part_;
+  std::unique_ptr<file::AtomicFile> file_;
+};
+
+}  // namespace bbsim::app

@@ -1,0 +1,64 @@
+/* The PID of configs/step.yaml as one writes it for a board: it goes to the rig as it stands, and to
+ * bbsim, with the Arduino.h beside it:
+ *
+ *     c++ -std=c++17 -O2 -ffp-contract=off -I examples/controllers/arduino -include Arduino.h \
+ *         -x c++ examples/controllers/arduino/pid.ino -o examples/controllers/arduino/pid
+ *     bbsim run examples/controllers/arduino.yaml
+ *
+ * (On boards with an 8-bit processor a double is a float: there it rounds more than on the desktop.) */
+#include <Servo.h>
+
+const unsigned long period_ms = 20;
+const double period = 0.02;         // s
+const double filter = 0.04;         // time constant of the velocity's filter, s
+const double count = 0.00032;       // of the touch screen, m
+const double microsecond = 0.1 * 3.14159265358979323846 / 180;  // of a servo's pulse, rad
+const double limit = 12 * 3.14159265358979323846 / 180;         // rad
+const double kp = 0.7, kv = 0.6, ki = 0.35;
+
+Servo phi, theta;
+
+struct Axis {
+  double reference = 0, position = 0, velocity = 0, integral = 0;
+  bool seen_any = false;
+
+  double law() const { return kp * (reference - position) + kv * (0 - velocity) + ki * integral; }
+
+  double command(double seen, double elapsed) {
+    const double keep = filter / (filter + elapsed);
+    velocity = keep * velocity + (1 - keep) * (seen_any ? (seen - position) / elapsed : 0);
+    position = seen;
+    seen_any = true;
+    const double before = law(), error = reference - position;
+    // The integral waits while the command is at its limit, unless the error brings it back.
+    if (!(fabs(before) > limit && ki * error * before > 0)) integral += error * elapsed;
+    const double u = law();
+    return u > limit ? limit : u < -limit ? -limit : u;
+  }
+};
+
+Axis x, y;
+unsigned long next_sample = 0;
+double elapsed = period;
+
+void setup() {
+  Serial.begin(115200);
+  phi.attach(9);
+  theta.attach(10);
+  x.reference = 0.03;
+  Serial.println("PID is ready");
+}
+
+void loop() {
+  if (millis() < next_sample) return;
+  next_sample += period_ms;
+  const int at_x = analogRead(A0), at_y = analogRead(A1);
+  if (at_x == 0) {  // nothing touches the screen: the servos stay
+    elapsed += period;
+    return;
+  }
+  // Positive phi drives the ball towards +x, positive theta towards -y.
+  phi.writeMicroseconds(1500 + (int)lround(x.command((at_x - 512) * count, elapsed) / microsecond));
+  theta.writeMicroseconds(1500 - (int)lround(y.command((at_y - 512) * count, elapsed) / microsecond));
+  elapsed = period;
+}

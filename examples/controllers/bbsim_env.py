@@ -1,0 +1,167 @@
+#!/usr/bin/env python3
+"""A ball on a plate as a Gymnasium-style environment: reset() and step(), by bbsim itself.
+
+    from bbsim_env import BallOnPlate
+
+    env = BallOnPlate("examples/controllers/python.yaml")
+    observation, info = env.reset()
+    done = False
+    while not done:
+        action = [0.0, 0.0]  # commands for phi and theta, rad
+        observation, reward, terminated, truncated, info = env.step(action)
+        done = terminated or truncated
+    env.close()
+
+The scenario is any whose controller is a program: an environment puts itself in the place of that
+program, and time stands still until the next step(). An episode is a run of bbsim. Needs Python 3.9
+on Linux, and nothing else; Gymnasium's own classes take it as it is.
+"""
+import json
+import os
+import socket
+import subprocess
+import sys
+import tempfile
+
+
+class BallOnPlate:
+    """An observation is a list of eight numbers, SI: the ball as the sensor last saw it (x, y), where
+    it is to be (x, y), and the servos' angles and rates (phi, theta, phi_rate, theta_rate)."""
+
+    observation_size, action_size = 8, 2
+
+    def __init__(self, scenario, overrides=(), bbsim="bbsim", output=None, reward=None):
+        """`overrides` are "key.path=value", as after --set; `output` is a CSV or HDF5 file that gets
+        each episode in turn; `reward(sample, action)` replaces minus the squared distance from the
+        reference, m^2."""
+        self._scenario, self._overrides = os.fspath(scenario), list(overrides)
+        self._bbsim, self._output = os.fspath(bbsim), output
+        self._reward = reward or self.squared_distance
+        self._process = None
+
+    @staticmethod
+    def squared_distance(sample, _action):
+        if sample["ball"] is None:
+            return 0.0
+        return -sum((a - b) ** 2 for a, b in zip(sample["ball"], sample["reference"]))
+
+    def reset(self, *, seed=None, options=None):
+        """Begins an episode. `seed` is the sensor's, of a scenario with noise or dropouts; `options`
+        are keys of the scenario with their values, such as {"ball.position": [0.05, 0]}. Raises
+        RuntimeError with what bbsim says if it refuses."""
+        self.close()
+        keys = dict(options or {})
+        if seed is not None:
+            keys["controller.sensor.seed"] = seed
+        self._folder = tempfile.TemporaryDirectory(prefix="bbsim-env-")
+        place = os.path.join(self._folder.name, "socket")
+        keys["controller.program.command"] = [sys.executable, os.path.abspath(__file__), place]
+        keys["controller.program.timeout"] = 86400  # whoever learns may take its time
+        keys["controller.program.start_timeout"] = 60
+        overrides = self._overrides + [f"{key}={json.dumps(value)}" for key, value in keys.items()]
+        words = [self._bbsim, "run", self._scenario, "-q", "-o", self._output or "-"]
+        for override in overrides:
+            words += ["--set", override]
+        self._messages = tempfile.TemporaryFile()
+        with socket.socket(socket.AF_UNIX) as listening:
+            listening.bind(place)
+            listening.listen()
+            listening.settimeout(0.05)
+            self._process = subprocess.Popen(words, stdin=subprocess.DEVNULL,
+                                             stdout=subprocess.DEVNULL, stderr=self._messages)
+            self._line = None
+            while self._line is None:
+                try:
+                    self._line = listening.accept()[0]
+                except socket.timeout:
+                    if self._process.poll() is not None:
+                        self._fail()
+        self._line.settimeout(None)
+        _, (read_end, write_end), _, _ = socket.recv_fds(self._line, 1, 2)
+        self._from_bbsim, self._to_bbsim = open(read_end, "r"), open(write_end, "w")
+        self.hello = json.loads(self._from_bbsim.readline())
+        self._ball = [0.0, 0.0]
+        sample = self._ask({"protocol": 1})
+        if sample is None:
+            self._process.wait()
+            self._fail()
+        return self._observe(sample), {"sample": sample}
+
+    def step(self, action):
+        """Sends the commands for phi and theta (rad, or rad/s^2 if accelerations are driven), and
+        returns (observation, reward, terminated, truncated, info) of the next sample: terminated
+        where an event stopped the run, or the motion did, truncated at its end."""
+        if self._process is None:
+            raise RuntimeError("step() before reset(), or after the episode's end")
+        sample = self._ask({"command": [float(command) for command in action]})
+        terminated = truncated = False
+        if sample is None:  # bbsim has no more to ask
+            sample = self._sample
+            truncated = self._end() == 0
+            terminated = not truncated
+        info = {"sample": sample, "messages": self.messages if terminated else ""}
+        return self._observe(sample), self._reward(sample, action), terminated, truncated, info
+
+    def close(self):
+        """Ends the episode, wherever it is."""
+        if self._process is not None:
+            self._process.terminate()
+            self._end()
+
+    def _ask(self, answer):
+        try:
+            self._to_bbsim.write(json.dumps(answer) + "\n")
+            self._to_bbsim.flush()
+            line = self._from_bbsim.readline()
+        except BrokenPipeError:
+            line = ""
+        if not line:
+            return None
+        self._sample = json.loads(line)
+        return self._sample
+
+    def _observe(self, sample):
+        if sample["ball"] is not None:
+            self._ball = sample["ball"]
+        return [*self._ball, *sample["reference"], *sample["servo"], *sample["servo_rate"]]
+
+    def _end(self):
+        """Waits for bbsim's end; its exit code."""
+        for end in (self._line, self._to_bbsim, self._from_bbsim):
+            try:
+                end.close()
+            except BrokenPipeError:
+                pass
+        code = self._process.wait()
+        self._read_messages()
+        self._process = None
+        return code
+
+    def _read_messages(self):
+        self._messages.seek(0)
+        self.messages = self._messages.read().decode(errors="replace")
+        self._messages.close()
+        self._folder.cleanup()
+
+    def _fail(self):
+        self._read_messages()
+        self._process = None
+        raise RuntimeError("bbsim: " + self.messages.strip())
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *_):
+        self.close()
+
+
+def hand_over(place):
+    """What bbsim runs: hands its ends of the lines to the environment, and stays until that ends."""
+    with socket.socket(socket.AF_UNIX) as line:
+        line.connect(place)
+        socket.send_fds(line, [b"."], [0, 1])
+        line.recv(1)
+
+
+if __name__ == "__main__":
+    hand_over(sys.argv[1])

@@ -1,0 +1,286 @@
+#include "controller/child.hpp"
+
+#include <fcntl.h>
+#include <poll.h>
+#include <sys/syscall.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <chrono>
+#include <cmath>
+#include <csignal>
+#include <cstring>
+#include <system_error>
+#include <utility>
+
+#include "base/number_text.hpp"
+#include "base/shown.hpp"
+#include "controller/children.hpp"
+#include "controller/foreign_code.hpp"
+
+namespace bbsim::controller {
+namespace {
+
+constexpr std::size_t longest_line = 65536, longest_complaint = 4096, longest_shown = 200;
+constexpr int slice = 100;    // ms: how soon a request to end is heard, at most
+constexpr int parting = 300;  // ms: within which who closes a stream has ended, if it ends over it
+constexpr int farewell = 1000;  // ms, for it to end by itself
+
+double now() {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+struct Pipe {
+  file::Descriptor ours, its;
+};
+
+// Our end does not block; a new process gets its end alone.
+Pipe make_pipe(bool it_reads) {
+  std::array<int, 2> ends{-1, -1};
+  if (pipe2(ends.data(), O_CLOEXEC) != 0) {
+    throw std::system_error(errno, std::generic_category());
+  }
+  file::Descriptor reading = file::above_standard_streams(ends[0]);
+  file::Descriptor writing = file::above_standard_streams(ends[1]);
+  Pipe pipe = it_reads ? Pipe{std::move(writing), std::move(reading)}
+                       : Pipe{std::move(reading), std::move(writing)};
+  if (!pipe.ours.is_open() || !pipe.its.is_open() ||
+      fcntl(pipe.ours.get(), F_SETFL, O_NONBLOCK) != 0) {
+    throw std::system_error(errno, std::generic_category());
+  }
+  return pipe;
+}
+
+// Is readable once the process has ended; none where the system has no such descriptors.
+file::Descriptor end_of(pid_t process) {
+  return file::Descriptor(static_cast<int>(syscall(SYS_pidfd_open, process, 0)));
+}
+
+std::string how_it_ended(int status) {
+  if (WIFEXITED(status)) {
+    return "it ended with exit code " + std::to_string(WEXITSTATUS(status));
+  }
+  const int signal = WTERMSIG(status);
+  return "it was ended by signal " + std::to_string(signal) + " (" + strsignal(signal) + ')';
+}
+
+}  // namespace
+
+Child::Child(const std::vector<std::string>& words, const std::string& folder, Tell tell,
+             const std::atomic<bool>* stop)
+    : tell_(std::move(tell)), stop_(stop), buffer_(longest_line) {
+  Pipe input = make_pipe(true), output = make_pipe(false), error = make_pipe(false);
+  int fault = 0;
+  process_ =
+      start_program(words, folder, {input.its.get(), output.its.get(), error.its.get()}, fault);
+  if (process_ == 0) throw std::system_error(fault, std::generic_category());
+  input_ = std::move(input.ours);
+  output_ = std::move(output.ours);
+  error_ = std::move(error.ours);
+  ended_ = end_of(process_);
+}
+
+Child::~Child() {
+  try {
+    static_cast<void>(end());
+  } catch (...) {  // nobody is left to be told
+  }
+}
+
+std::string_view Child::ask(std::string_view line, double timeout) {
+  refuse_early_words();
+  timeout_ = timeout;
+  deadline_ = now() + timeout;
+  send(line);
+  for (;;) {
+    receive();
+    if (answer_ > 0) return {buffer_.data(), answer_ - 1};
+    wait(0);
+  }
+}
+
+// An answer that comes before its question is one to another, and so would be all after it.
+void Child::refuse_early_words() {
+  std::memmove(buffer_.data(), buffer_.data() + answer_, size_ - answer_);
+  size_ -= answer_;
+  answer_ = 0;
+  if (size_ == 0) {
+    const ssize_t got = read(output_.get(), buffer_.data(), buffer_.size());
+    if (got <= 0) return;  // that it has closed it is found when it is asked
+    size_ = static_cast<std::size_t>(got);
+  }
+  const std::string_view words = received();
+  fail("it said " + bbsim::quoted(words.substr(0, words.find('\n')), longest_shown) +
+       " before it was asked: a line each is allowed, and no more");
+}
+
+void Child::send(std::string_view line) {
+  while (!line.empty()) {
+    const ssize_t put = write(input_.get(), line.data(), line.size());
+    if (put >= 0) {
+      line.remove_prefix(static_cast<std::size_t>(put));
+    } else if (errno == EAGAIN) {
+      wait(POLLOUT);
+    } else if (errno == EPIPE) {
+      if (!has_ended(parting)) fail("it closed its standard input");
+      fail("");
+    } else if (errno != EINTR) {
+      fail("it cannot be written to: " + file::error_text(errno));
+    }
+  }
+}
+
+// Takes what there is of an answer.
+void Child::receive() {
+  while (answer_ == 0) {
+    if (size_ == buffer_.size()) {
+      fail("its answer has no end within " + std::to_string(longest_line) +
+           " bytes: " + bbsim::quoted(received(), longest_shown));
+    }
+    const ssize_t got = read(output_.get(), buffer_.data() + size_, buffer_.size() - size_);
+    if (got < 0 && errno == EINTR) continue;
+    if (got < 0 && errno == EAGAIN) return;
+    if (got < 0) fail("it cannot be read from: " + file::error_text(errno));
+    if (got == 0) {
+      if (!has_ended(parting)) fail("it closed its standard output");
+      fail(size_ == 0 ? "" : "its answer breaks off: " + bbsim::quoted(received(), longest_shown));
+    }
+    char* const start = buffer_.data() + size_;
+    char* const end = start + got;
+    char* const line_break = std::find(start, end, '\n');
+    if (line_break != end) answer_ = static_cast<std::size_t>(line_break - buffer_.data()) + 1;
+    size_ += static_cast<std::size_t>(got);
+  }
+}
+
+// Until there is something to read, or to write if that is asked for; or its end, or a slice of the
+// time has passed.
+void Child::wait(short for_output) {
+  if (stop_ != nullptr && stop_->load(std::memory_order_relaxed)) throw ChildInterrupted();
+  const double left = deadline_ - now();
+  if (left <= 0) fail_by_silence();
+  std::array<pollfd, 4> events{{{output_.get(), POLLIN, 0},
+                                {error_.get(), POLLIN, 0},
+                                {ended_.get(), POLLIN, 0},
+                                {for_output != 0 ? input_.get() : -1, for_output, 0}}};
+  const int ready = poll(events.data(), events.size(),
+                         static_cast<int>(std::min<double>(slice, std::ceil(1e3 * left))));
+  if (events[1].revents != 0) listen();
+  const bool ended = ready > 0 && events[2].revents != 0;
+  const bool may_have = ready == 0 && !ended_.is_open();
+  if ((ended || (may_have && has_ended(0))) && events[0].revents == 0) {
+    receive();  // what it said last
+    if (answer_ == 0)
+      fail(size_ == 0 ? "" : "its answer breaks off: " + bbsim::quoted(received(), longest_shown));
+  }
+}
+
+// Hands on what it says on its standard error.
+void Child::listen() {
+  std::array<char, 4096> part;
+  for (int i = 0; i < 16; ++i) {  // there may be no end of it
+    const ssize_t got = read(error_.get(), part.data(), part.size());
+    if (got == 0) error_.close();
+    if (got <= 0) break;
+    complaint_.append(part.data(), static_cast<std::size_t>(got));
+    say_lines(false);
+  }
+}
+
+void Child::say_lines(bool all) {
+  std::size_t start = 0;
+  for (;;) {
+    const std::size_t end = complaint_.find('\n', start);
+    if (end == std::string::npos) break;
+    tell_(std::string_view(complaint_).substr(start, end - start));
+    start = end + 1;
+  }
+  complaint_.erase(0, start);
+  if (!complaint_.empty() && (all || complaint_.size() > longest_complaint)) {
+    tell_(complaint_);
+    complaint_.clear();
+  }
+}
+
+void Child::fail_by_silence() {
+  std::string why = "it did not answer within " + number_text(timeout_) + " s";
+  if (size_ > 0) {
+    why += ": of its answer there is " + bbsim::quoted(received(), longest_shown) +
+           ", without a line break";
+  } else {
+    why += " (one that answers into a buffer has to flush it: print(..., flush=True) in Python)";
+  }
+  fail(why);
+}
+
+void Child::fail(const std::string& why) {
+  throw refuse(why);
+}
+
+ChildFault Child::refuse(const std::string& why) {
+  // It may be about to end over what it did.
+  const bool by_itself = has_ended(why.empty() ? 0 : slice / 2);
+  const std::optional<int> status = end();
+  const std::string how =
+      by_itself && status ? how_it_ended(*status) : "it was still running, and has been ended";
+  return ChildFault(why.empty() ? how : why + "; " + how);
+}
+
+// Whether it has, or does within so many milliseconds.
+bool Child::has_ended(int milliseconds) const {
+  if (process_ == 0) return true;
+  const double until = now() + milliseconds / 1e3;
+  for (;;) {
+    siginfo_t info{};
+    if (waitid(P_PID, static_cast<id_t>(process_), &info, WEXITED | WNOHANG | WNOWAIT) == 0 &&
+        info.si_pid == process_) {
+      return true;
+    }
+    const int left = static_cast<int>(std::ceil(1e3 * (until - now())));
+    if (left <= 0) return false;
+    pollfd ended{ended_.get(), POLLIN, 0};
+    poll(&ended, 1, ended_.is_open() ? left : std::min(left, 5));
+  }
+}
+
+// Ends all of its group, and waits for it; its status, if nobody else has taken that.
+std::optional<int> Child::end() {
+  if (process_ == 0) return {};
+  input_.close();
+  // While nobody has waited for the process, its id is no other's.
+  kill(-process_, SIGKILL);
+  forget_child(process_);
+  int status = 0;
+  pid_t found = 0;
+  while ((found = waitpid(process_, &status, 0)) < 0 && errno == EINTR) {
+  }
+  process_ = 0;
+  if (error_.is_open()) listen();
+  say_lines(true);
+  return found > 0 ? std::optional(status) : std::nullopt;
+}
+
+void Child::finish() {
+  if (process_ == 0) return;
+  input_.close();
+  const double until = now() + farewell / 1e3;
+  bool ended = has_ended(0);
+  while (!ended && now() < until) {
+    if (stop_ != nullptr && stop_->load(std::memory_order_relaxed)) break;
+    std::array<pollfd, 3> events{
+        {{output_.get(), POLLIN, 0}, {error_.get(), POLLIN, 0}, {ended_.get(), POLLIN, 0}}};
+    poll(events.data(), events.size(), ended_.is_open() ? slice : 5);
+    if (events[0].revents != 0 && read(output_.get(), buffer_.data(), buffer_.size()) == 0) {
+      output_.close();  // its last words are for nobody
+    }
+    if (events[1].revents != 0) listen();
+    ended = has_ended(0);
+  }
+  if (!ended) tell_("it went on after the end of its input, and has been ended");
+  static_cast<void>(end());
+}
+
+}  // namespace bbsim::controller

@@ -1,0 +1,114 @@
+#include "controller/host.hpp"
+
+#include <algorithm>
+#include <filesystem>
+#include <utility>
+
+#include "base/error.hpp"
+#include "base/shown.hpp"
+#include "controller/library.hpp"
+#include "controller/program.hpp"
+#include "scenario/columns.hpp"
+#include "yaml/nearest.hpp"
+
+namespace bbsim::controller {
+
+Host::Host(Tell tell, const std::atomic<bool>* stop) : tell_(std::move(tell)), stop_(stop) {}
+
+Host::~Host() {
+  try {
+    finish();
+  } catch (...) {  // nobody is left to be told
+  }
+}
+
+void Host::finish() {
+  if (program_) program_->finish();
+}
+
+void Host::attach(const Scenario& scenario, model::Model& model) {
+  if (!scenario.controller || !scenario.controller->own) return;
+  const OwnController& own = *scenario.controller->own;
+  const Setup setup = setup_of(scenario);
+  std::shared_ptr<model::ExternalController>& place = model.rig->sampled->external;
+  if (std::holds_alternative<ControllerLibrary>(own.by)) {
+    if (library_ && library_->is(own)) {
+      library_->renew(setup);
+    } else {
+      library_ = std::make_shared<Library>(own, setup);
+    }
+    place = library_;
+    return;
+  }
+  if (program_ && program_->is(own)) {
+    program_->renew(setup);
+  } else {
+    if (program_) program_->finish();
+    program_ = std::make_shared<Program>(own, setup, tell_, stop_);
+  }
+  require_columns(setup.columns);
+  place = program_;
+}
+
+void Host::require_columns(const std::vector<std::string>& asked) const {
+  const auto& given = program_->ready().columns;
+  if (!given) return;  // what it gives is found when it gives it
+  std::vector<std::string_view> names;
+  for (const auto& [name, unit] : *given) names.push_back(name);
+  for (const std::string& name : asked) {
+    if (std::ranges::find(names, name) != names.end()) continue;
+    std::string allowed;
+    for (const std::string_view one : names) {
+      allowed += (allowed.empty() ? "" : ", ") + shown(one);
+    }
+    for (const scenario::Column& column : scenario::catalogue) names.push_back(column.name);
+    const std::string nearest = shown(yaml::nearest_name(name, names));
+    throw KeyError("output.columns",
+                   "found " + name + ", which neither bbsim nor the controller gives" +
+                       (nearest.empty() ? "" : " (did you mean " + nearest + "?)") +
+                       "; allowed: those of bbsim columns" +
+                       (allowed.empty() ? "" : ", and the controller's " + allowed));
+  }
+}
+
+std::optional<std::string> Host::unit_of(std::string_view own_column) const {
+  if (!program_ || !program_->ready().columns) return {};
+  for (const auto& [name, unit] : *program_->ready().columns) {
+    if (name == own_column) return unit;
+  }
+  return {};
+}
+
+std::vector<std::string> Host::describe() const {
+  if (library_) return {"the library opens, and makes a controller for this scene"};
+  if (!program_) return {};
+  if (program_->fault()) throw model::ControllerFault(*program_->fault());
+  const Ready& ready = program_->ready();
+  std::vector<std::string> lines{"the program starts, and answers"};
+  lines.emplace_back(ready.reset ? "it can reset: a sweep starts one for each thread"
+                                 : "it does not say that it can reset: a sweep starts one for each "
+                                   "case");
+  std::string columns;
+  if (ready.columns) {
+    for (const auto& [name, unit] : *ready.columns) {
+      columns += (columns.empty() ? "" : ", ") + shown(name) + " (" + shown(unit) + ")";
+    }
+  }
+  if (!columns.empty()) lines.push_back("beside its commands it gives " + columns);
+  return lines;
+}
+
+std::vector<std::string> files_of(const Scenario& scenario) {
+  if (!scenario.controller || !scenario.controller->own) return {};
+  const OwnController& own = *scenario.controller->own;
+  if (std::holds_alternative<ControllerLibrary>(own.by)) return {Library::path_of(own)};
+  std::vector<std::string> files;
+  for (const std::string& word : std::get<ControllerProgram>(own.by).command) {
+    const std::filesystem::path path = std::filesystem::path(own.folder) / word;
+    std::error_code error;
+    if (std::filesystem::is_regular_file(path, error)) files.push_back(path.string());
+  }
+  return files;
+}
+
+}  // namespace bbsim::controller

@@ -1,0 +1,44 @@
+// A controller that is a shared library (bbsim/controller.h).
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "controller/setup.hpp"
+#include "model/control/external_controller.hpp"
+
+namespace bbsim::controller {
+
+// The functions of a library; it stays open as long as the program.
+struct LibraryFunctions;
+
+class Library : public model::ExternalController {
+ public:
+  // Opens it and creates a controller. Throws KeyError if one of the two cannot be done.
+  Library(const OwnController& own, const Setup& setup);
+  ~Library() override;
+  Library(const Library&) = delete;
+  Library& operator=(const Library&) = delete;
+
+  void begin() override;
+  Pair command(const model::ControllerSample& sample, double* own) override;
+
+  // The next run is of that setup. Throws KeyError.
+  void renew(const Setup& setup);
+
+  [[nodiscard]] bool is(const OwnController& own) const { return path_ == path_of(own); }
+  // Where the library is, from this folder.
+  [[nodiscard]] static std::string path_of(const OwnController& own);
+
+ private:
+  void create();
+  [[nodiscard]] std::string last_error(const void* controller) const;
+
+  std::string path_;
+  Setup setup_;
+  std::shared_ptr<const LibraryFunctions> functions_;
+  void* controller_ = nullptr;
+  bool fresh_ = false;  // no sample since it was created or reset
+};
+
+}  // namespace bbsim::controller

@@ -1,0 +1,115 @@
+#include "controller/program.hpp"
+
+#include <system_error>
+#include <utility>
+
+#include "base/error.hpp"
+#include "base/number_text.hpp"
+#include "base/shown.hpp"
+
+namespace bbsim::controller {
+namespace {
+
+std::string shown_words(const std::vector<std::string>& words) {
+  std::string text;
+  for (const std::string& word : words) text += (text.empty() ? "" : " ") + word;
+  return shown(text);
+}
+
+std::string at_sample(const model::ControllerSample& sample) {
+  return "at sample " + std::to_string(sample.number) + " (t = " + number_text(sample.t) + " s)";
+}
+
+}  // namespace
+
+Program::Program(const OwnController& own, const Setup& setup, Tell tell,
+                 const std::atomic<bool>* stop)
+    : program_(std::get<ControllerProgram>(own.by)),
+      folder_(own.folder),
+      setup_(setup),
+      tell_(std::move(tell)),
+      stop_(stop) {
+  start();
+}
+
+bool Program::is(const OwnController& own) const {
+  const auto* const other = std::get_if<ControllerProgram>(&own.by);
+  return other != nullptr && other->command == program_.command && own.folder == folder_ &&
+         other->timeout == program_.timeout && other->start_timeout == program_.start_timeout;
+}
+
+model::ControllerFault Program::fault_of(const std::string& when, const ChildFault& fault) const {
+  return model::ControllerFault("the controller (" + shown_words(program_.command) + ") failed " +
+                                when + ": " + fault.what());
+}
+
+void Program::start() {
+  try {
+    child_.reset();
+    child_ = std::make_unique<Child>(program_.command, folder_, tell_, stop_);
+  } catch (const std::system_error& error) {
+    throw KeyError("controller.program.command",
+                   "found " + bbsim::quoted(program_.command[0], uncut) +
+                       ", which cannot be started: " + file::error_text(error.code().value()) +
+                       "; allowed: a program, by its name or its path");
+  }
+  say_hello();
+}
+
+// Keeps what is wrong for begin().
+void Program::say_hello() {
+  fault_.reset();
+  ready_ = {};
+  try {
+    ready_ = read_ready(child_->ask(hello_line(setup_), program_.start_timeout));
+    if (!ready_.fault.empty()) throw child_->refuse(ready_.fault);
+  } catch (const ChildFault& fault) {
+    fault_ = fault_of("to begin", fault);
+  } catch (const ChildInterrupted&) {
+    fault_.emplace("interrupted", true);
+  }
+  if (fault_) child_.reset();
+  fresh_ = true;
+}
+
+void Program::renew(const Setup& setup) {
+  setup_ = setup;
+  if (child_ && ready_.reset) {
+    say_hello();
+  } else {
+    if (child_) child_->finish();
+    start();
+  }
+}
+
+void Program::begin() {
+  if (!fresh_) renew(setup_);
+  fresh_ = false;
+  if (fault_) throw model::ControllerFault(*fault_);
+}
+
+Pair Program::command(const model::ControllerSample& sample, double* own) {
+  if (!child_) throw model::ControllerFault("the controller has ended before");
+  try {
+    char line[longest_sample];
+    const std::size_t size = write_sample(sample, ready_.fields, line);
+    const std::string_view answer = child_->ask({line, size}, program_.timeout);
+    Pair command{};
+    const std::string wrong = read_answer(answer, setup_.columns, command, own);
+    if (!wrong.empty()) throw child_->refuse(wrong);
+    return command;
+  } catch (const ChildFault& fault) {
+    child_.reset();
+    throw fault_of(at_sample(sample), fault);
+  } catch (const ChildInterrupted&) {
+    child_.reset();
+    throw model::ControllerFault("interrupted", true);
+  }
+}
+
+void Program::finish() {
+  if (child_) child_->finish();
+  child_.reset();
+}
+
+}  // namespace bbsim::controller

@@ -1,0 +1,273 @@
+#include "controller/protocol.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <limits>
+#include <nlohmann/json.hpp>
+
+#include "base/number_text.hpp"
+#include "base/shown.hpp"
+
+namespace bbsim::controller {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+// A number with a point or an exponent, so that who reads it takes it for no integer: -0 would lose
+// its sign.
+char* write_real(char* to, double value) {
+  if (!std::isfinite(value)) return to + std::string_view("null").copy(to, 4);
+  char* const end = write_number(to, value);
+  const bool whole =
+      std::all_of(to, end, [](char c) { return c == '-' || (c >= '0' && c <= '9'); });
+  if (!whole) return end;
+  end[0] = '.';
+  end[1] = '0';
+  return end + 2;
+}
+
+char* write_text(char* to, std::string_view text) {
+  return to + text.copy(to, text.size());
+}
+
+// "name":[a,b]
+char* write_pair(char* to, std::string_view name, double a, double b) {
+  to = write_text(to, ",\"");
+  to = write_text(to, name);
+  to = write_text(to, "\":[");
+  to = write_real(to, a);
+  *to++ = ',';
+  to = write_real(to, b);
+  *to++ = ']';
+  return to;
+}
+
+// A line of JSON from its start to its end; what is asked for and not there leaves it where it is.
+class Reader {
+ public:
+  explicit Reader(std::string_view line) : at_(line.data()), end_(line.data() + line.size()) {}
+
+  bool take(char c) {
+    while (at_ < end_ && (*at_ == ' ' || *at_ == '\t' || *at_ == '\r')) ++at_;
+    if (at_ == end_ || *at_ != c) return false;
+    ++at_;
+    return true;
+  }
+
+  [[nodiscard]] bool at_end() {
+    while (at_ < end_ && (*at_ == ' ' || *at_ == '\t' || *at_ == '\r')) ++at_;
+    return at_ == end_;
+  }
+
+  // A name in quotation marks, as it is written.
+  bool take_name(std::string_view& name) {
+    if (!take('"')) return false;
+    const char* const start = at_;
+    while (at_ < end_ && *at_ != '"') at_ += *at_ == '\\' && at_ + 1 < end_ ? 2 : 1;
+    if (at_ >= end_) return false;
+    name = {start, static_cast<std::size_t>(at_ - start)};
+    ++at_;
+    return true;
+  }
+
+  // A number of JSON, or what Python and others write where there is none.
+  bool take_number(double& number) {
+    take_space();
+    constexpr double infinite = std::numeric_limits<double>::infinity();
+    constexpr std::pair<std::string_view, double> words[] = {
+        {"NaN", std::numeric_limits<double>::quiet_NaN()},
+        {"Infinity", infinite},
+        {"-Infinity", -infinite}};
+    for (const auto& [word, value] : words) {
+      if (!std::string_view(at_, static_cast<std::size_t>(end_ - at_)).starts_with(word)) continue;
+      number = value;
+      at_ += word.size();
+      return true;
+    }
+    const char* const first = at_ < end_ && *at_ == '-' ? at_ + 1 : at_;
+    if (first == end_ || *first < '0' || *first > '9') return false;  // from_chars reads "inf", say
+    const auto [after, error] = std::from_chars(at_, end_, number);
+    if (error == std::errc::result_out_of_range) {
+      number = std::numeric_limits<double>::infinity();
+    } else if (error != std::errc()) {
+      return false;
+    }
+    at_ = after;
+    return true;
+  }
+
+ private:
+  void take_space() {
+    while (at_ < end_ && (*at_ == ' ' || *at_ == '\t')) ++at_;
+  }
+
+  const char* at_;
+  const char* end_;
+};
+
+constexpr std::size_t longest_shown = 200;
+
+std::string not_understood(std::string_view line, const std::string& why) {
+  return "its answer was " + bbsim::quoted(line, longest_shown) + ": " + why;
+}
+
+constexpr const char* form = "allowed: {\"command\": [PHI, THETA]}, and beside it \"NAME\": NUMBER";
+
+// The text of {"error": "..."}, if it is that.
+std::optional<std::string> error_of(std::string_view line) {
+  const Json answer = Json::parse(line, nullptr, false);
+  if (!answer.is_object()) return {};
+  const auto error = answer.find("error");
+  if (error == answer.end() || !error->is_string()) return {};
+  return error->get<std::string>();
+}
+
+std::string refusal(std::string_view line, const std::string& why) {
+  if (const auto error = error_of(line))
+    return "it gave up: " + bbsim::quoted(*error, longest_shown);
+  return not_understood(line, why);
+}
+
+}  // namespace
+
+std::string hello_line(const Setup& setup) {
+  const bool angle = setup.drives == Drives::angle;
+  Json hello = Json::object();
+  hello["protocol"] = protocol_version;
+  hello["bbsim"] = BBSIM_VERSION;
+  hello["period"] = setup.period;
+  hello["delay"] = setup.delay;
+  hello["resolution"] = setup.resolution;
+  hello["derivative_filter"] = setup.derivative_filter;
+  hello["drives"] = angle ? "angle" : "acceleration";
+  hello["limit"] = std::isfinite(setup.limit) ? Json(setup.limit) : Json(nullptr);
+  hello["end"] = setup.end;
+  hello["parameters"] = Json::object();
+  for (const Parameter& parameter : setup.parameters) {
+    hello["parameters"][parameter.name] = parameter.value;
+  }
+  hello["columns"] = setup.columns;
+  hello["fields"] = Json::object();
+  hello["fields"]["sample"] = "1";
+  for (const Field& field : fields) hello["fields"][std::string(field.name)] = field.unit;
+  hello["command"] = angle ? "rad" : "rad/s^2";
+  return hello.dump() + '\n';
+}
+
+Ready read_ready(std::string_view line) {
+  Ready ready;
+  const auto refuse = [&](const std::string& why) {
+    ready.fault = refusal(line, why);
+    return ready;
+  };
+  const std::string wanted = "allowed: {\"protocol\": " + std::to_string(protocol_version) +
+                             "}, and beside it \"reset\": " +
+                             "true, \"columns\": {\"NAME\": \"UNIT\"}, \"fields\": [\"NAME\"]";
+  const Json answer = Json::parse(line, nullptr, false);
+  if (!answer.is_object() || !answer.contains("protocol")) return refuse(wanted);
+  for (const auto& [key, value] : answer.items()) {
+    if (key == "protocol") {
+      if (value != Json(protocol_version)) {
+        return refuse("found a protocol of another version; allowed: " +
+                      std::to_string(protocol_version));
+      }
+    } else if (key == "reset") {
+      if (!value.is_boolean()) return refuse("found a reset that is neither true nor false");
+      ready.reset = value.get<bool>();
+    } else if (key == "fields") {
+      ready.fields.reset();
+      for (const Json& name : value) {
+        const auto field = std::ranges::find_if(
+            fields, [&](const Field& one) { return name == Json(std::string(one.name)); });
+        if (field != fields.end()) {
+          ready.fields.set(static_cast<std::size_t>(field - fields.begin()));
+        } else if (name != Json("sample")) {
+          return refuse("found a field " + name.dump() + "; allowed: those of the hello");
+        }
+      }
+    } else if (key == "columns") {
+      if (!value.is_object()) return refuse("found columns that are no object; " + wanted);
+      ready.columns.emplace();
+      for (const auto& [name, unit] : value.items()) {
+        if (!unit.is_string()) return refuse("found a unit that is no text; " + wanted);
+        ready.columns->emplace_back(name, unit.get<std::string>());
+      }
+    } else {
+      return refuse("found " + bbsim::quoted(key) + "; " + wanted);
+    }
+  }
+  return ready;
+}
+
+std::size_t write_sample(const model::ControllerSample& sample, Fields wanted,
+                         char (&line)[longest_sample]) {
+  char* to = write_text(line, "{\"sample\":");
+  to = std::to_chars(to, to + longest_number, sample.number).ptr;
+  std::size_t next = 0;  // of the fields, in their order
+  const auto pair = [&](double a, double b) {
+    if (wanted[next]) to = write_pair(to, fields[next].name, a, b);
+    ++next;
+  };
+  if (wanted[next++]) {
+    to = write_text(to, ",\"t\":");
+    to = write_real(to, sample.t);
+  }
+  if (sample.seen) {
+    pair((*sample.seen)[0], (*sample.seen)[1]);
+  } else if (wanted[next++]) {
+    to = write_text(to, ",\"ball\":null");
+  }
+  const auto& [x, y] = sample.reference;
+  pair(x.value, y.value);
+  pair(x.rate, y.rate);
+  pair(x.acceleration, y.acceleration);
+  pair(sample.servo[0], sample.servo[1]);
+  pair(sample.servo[2], sample.servo[3]);
+  to = write_text(to, "}\n");
+  return static_cast<std::size_t>(to - line);
+}
+
+std::string read_answer(std::string_view line, std::span<const std::string> names, Pair& command,
+                        double* own) {
+  const auto refuse = [line](const std::string& why) { return refusal(line, why); };
+  Reader reader(line);
+  if (!reader.take('{')) return refuse(form);
+  constexpr double missing = std::numeric_limits<double>::quiet_NaN();
+  std::fill_n(own, names.size(), missing);
+  bool commanded = false;
+  do {
+    std::string_view name;
+    if (!reader.take_name(name) || !reader.take(':')) return refuse(form);
+    if (name == "command") {
+      commanded = reader.take('[') && reader.take_number(command[0]) && reader.take(',') &&
+                  reader.take_number(command[1]) && reader.take(']');
+      if (!commanded)
+        return refuse("found a command that is not two numbers; " + std::string(form));
+    } else {
+      double number = 0;
+      if (!reader.take_number(number)) {
+        return refuse("found " + bbsim::quoted(name) + " that is no number; " + form);
+      }
+      const auto wanted = std::ranges::find(names, name);
+      if (wanted == names.end()) continue;
+      if (!std::isfinite(number)) {
+        return refuse("found " + bbsim::quoted(name) + " that is no finite number");
+      }
+      own[wanted - names.begin()] = number;
+    }
+  } while (reader.take(','));
+  if (!reader.take('}') || !reader.at_end()) return refuse(form);
+  if (!commanded) return refuse("found no command; " + std::string(form));
+  if (!std::isfinite(command[0]) || !std::isfinite(command[1])) {
+    return refuse("found a command that is no finite number");
+  }
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    if (std::isnan(own[i])) {
+      return refuse("found no " + bbsim::quoted(names[i]) + ", which output.columns asks for");
+    }
+  }
+  return {};
+}
+
+}  // namespace bbsim::controller

@@ -1,0 +1,24 @@
+// What one's own controller is told of a run before its first sample.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "scenario/scenario.hpp"
+
+namespace bbsim::controller {
+
+// SI units and radians.
+struct Setup {
+  Drives drives = Drives::angle;
+  double period = 0, delay = 0, resolution = 0, derivative_filter = 0;  // as of Sampling
+  double limit = 0;  // of the command; infinite if there is none
+  double end = 0;    // of the run, s
+  std::vector<Parameter> parameters;
+  std::vector<std::string> columns;  // names of the numbers that it is asked for
+};
+
+// The scene is one whose controller is its own.
+[[nodiscard]] Setup setup_of(const Scenario& scenario);
+
+}  // namespace bbsim::controller

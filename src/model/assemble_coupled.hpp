@@ -1,0 +1,26 @@
+// Scenes with couples, sliding or torques, from their parts.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "model/model.hpp"
+#include "model/systems/rig.hpp"
+
+namespace bbsim::model {
+
+// What the scene names beyond ideal rolling.
+struct CoupledScene {
+  System system;
+  std::optional<Rig> rig{};       // of a controller
+  std::optional<DryParts> dry{};  // where something of it switches
+};
+
+// The scene is one for which scenario::is_coupled() holds; `input` is the given motion or torque,
+// or what the controller follows. Throws InputError where no LQR gain stabilises it.
+[[nodiscard]] CoupledScene assemble_coupled(const Scenario& scene, SignalPair input);
+
+// The states at the start.
+[[nodiscard]] std::vector<double> initial_coupled_state(const Scenario& scene);
+
+}  // namespace bbsim::model

@@ -1,0 +1,237 @@
+// Newton's and Euler's equations of a ball under couples and friction at its contact, and the
+// moments that it and the plate ask of the gimbal (docs/model.md, section 10).
+//
+// Everything follows linearly from what drives the motion, a Cause: so the same function gives the
+// accelerations of a given gimbal, the inertia that a gimbal moved by torques feels, and the force
+// and couple of each. What is dry is a direction here: when directions change is DrySwitches'
+// matter.
+//
+// Of vectors along the plane, those of the couple and of the ball's rotation are kept turned by a
+// quarter, so that they stand beside the velocity that they act on: p = (r omega_y, -r omega_x),
+// the velocity at which the ball would roll, and (C_y, -C_x) / (m r), an acceleration.
+#pragma once
+
+#include "base/real.hpp"
+#include "model/ball/general_rolling.hpp"
+#include "model/ball/rolling.hpp"
+
+namespace bbsim::model {
+
+// What the contact can do beside rolling.
+struct ContactLaw {
+  double rolling = 0;   // coefficient of rolling resistance
+  double viscous = 0;   // c_v / (m r^2), 1/s
+  double pivoting = 0;  // l / r
+  double sliding = 0;   // coefficient of sliding friction
+  friend bool operator==(const ContactLaw&, const ContactLaw&) = default;
+};
+
+// What something dry opposes: the direction of a velocity, or one that is held while the velocity
+// is too small to have one. `along` is near the former, and says which way is forward: a motion
+// that comes to its end goes smoothly on beyond it, until the end is found.
+struct DryDirection {
+  double moving = 0;  // 1: the velocity's; 0: `along`
+  double along[2] = {0, 0};
+};
+
+// What holds between two switches.
+struct ContactMode {
+  bool slides = false;  // otherwise the ball rolls, and p is the velocity
+  bool rests = false;   // rolling resistance keeps p at zero
+  bool held = false;    // pivoting friction keeps the spin at zero
+  DryDirection roll, slip;
+  double turns = 0;  // sign of the spin that pivoting friction opposes
+};
+
+template <class Real>
+struct Directions {
+  Real roll[2], slip[2];
+};
+
+template <class Real>
+void direction(const DryDirection& of, const Real& x, const Real& y, Real (&into)[2]) {
+  const double still = 1 - of.moving;
+  const Real size =
+      root_along(of.moving * (x * x + y * y) + Real(still), of.along[0] * x + of.along[1] * y);
+  into[0] = of.moving * (x / size) + Real(still * of.along[0]);
+  into[1] = of.moving * (y / size) + Real(still * of.along[1]);
+}
+
+// The plate, the ring that turns with phi alone, and the motors' rotors through their gears.
+struct GimbalBody {
+  double plate[3] = {0, 0, 0};  // moments about the gimbal's centre, along the plane's axes, kg m^2
+  double imbalance = 0;         // mass times height of its centre along the normal, kg m
+  double ring = 0, rotor = 0;   // kg m^2
+};
+
+// The plane's motion, without what phi'' and theta'' add to it.
+template <class Real>
+struct PlaneMotion {
+  Real phi_axis[3], theta_axis[3], up[3];
+  Real omega[3], omega_dot[3];
+};
+
+// What the accelerations follow from.
+template <class Real>
+struct Cause {
+  Real omega_dot[3];  // of the plane, rad/s^2
+  Real rest[3];       // the centre's acceleration without those of x, y and the plane, plus g up
+  Real turn[3];       // r times Omega x omega of the ball relative to the plane, m/s^2
+  Real drag[2];       // of the viscous couple, m/s^2
+};
+
+// What follows, over the ball's mass.
+template <class Real>
+struct Answer {
+  Real x, y, u;    // x'', y'' and u' = r gamma'', m/s^2
+  Real slip[2];    // rate of the slip velocity, m/s^2
+  Real force[3];   // of the plane on the ball, m/s^2
+  Real couple[3];  // (C_y, -C_x, C_n) / (m r), m/s^2
+};
+
+// The ball of one scene.
+struct CoupledBall {
+  double r = 0, m = 1, g = 0;
+  GeneralRolling rolling{};
+  ContactLaw law{};
+  GimbalBody body{};
+
+  [[nodiscard]] double above() const { return r + rolling.height; }
+
+  template <class Real>
+  [[nodiscard]] PlaneMotion<Real> plane(const Axis<Real>& phi, const Axis<Real>& theta) const {
+    const auto k = rolling.kinematics(phi, theta);
+    PlaneMotion<Real> plane;
+    const Real both = phi.rate * theta.rate;
+    for (int i = 0; i < 3; ++i) {
+      plane.phi_axis[i] = k.phi_axis[i];
+      plane.theta_axis[i] = Real(i < 2 ? k.theta_axis[i] : 0.0);
+      plane.up[i] = k.up[i];
+      plane.omega[i] = plane.theta_axis[i] * theta.rate + plane.phi_axis[i] * phi.rate;
+      plane.omega_dot[i] = k.phi_axis_slope[i] * both;
+    }
+    return plane;
+  }
+
+  // All but phi'' and theta''. `p` is the rolling velocity: that of the ball less the slip.
+  template <class Real, class Ball>
+  [[nodiscard]] Cause<Real> cause(const PlaneMotion<Real>& plane, const Ball& ball,
+                                  const Real (&p)[2]) const {
+    const auto& w = plane.omega;
+    const double z = above();
+    const Real squared = w[0] * w[0] + w[1] * w[1] + w[2] * w[2];
+    const Real along = w[0] * ball.x + w[1] * ball.y + z * w[2];
+    Cause<Real> cause;
+    for (int i = 0; i < 3; ++i) cause.omega_dot[i] = plane.omega_dot[i];
+    cause.rest[0] = w[0] * along - squared * ball.x - 2.0 * (w[2] * ball.y_dot) + g * plane.up[0];
+    cause.rest[1] = w[1] * along - squared * ball.y + 2.0 * (w[2] * ball.x_dot) + g * plane.up[1];
+    cause.rest[2] = w[2] * along - squared * Real(z) +
+                    2.0 * (w[0] * ball.y_dot - w[1] * ball.x_dot) + g * plane.up[2];
+    // r omega = (-p_y, p_x, u)
+    cause.turn[0] = w[1] * ball.u - w[2] * p[0];
+    cause.turn[1] = -(w[2] * p[1]) - w[0] * ball.u;
+    cause.turn[2] = w[0] * p[0] + w[1] * p[1];
+    for (int i = 0; i < 2; ++i) cause.drag[i] = -(law.viscous * p[i]);
+    return cause;
+  }
+
+  // What an axis' acceleration alone is the cause of, 1 rad/s^2.
+  template <class Real>
+  [[nodiscard]] static Cause<Real> of_axis(const Real (&axis)[3]) {
+    const Real none = Real(0.0);
+    return {{axis[0], axis[1], axis[2]}, {none, none, none}, {none, none, none}, {none, none}};
+  }
+
+  // Equations (M37) to (M44).
+  template <class Real, class Ball>
+  [[nodiscard]] Answer<Real> answer(const ContactMode& mode, const Directions<Real>& along,
+                                    const Ball& ball, const Cause<Real>& from) const {
+    const auto& w = from.omega_dot;
+    const double z = above(), k = rolling.k;
+    const Real a_x = from.rest[0] + z * w[1] - ball.y * w[2];
+    const Real a_y = from.rest[1] + ball.x * w[2] - z * w[0];
+    const Real n = from.rest[2] + ball.y * w[0] - ball.x * w[1];
+    const Real b_x = k * (r * w[0] + from.turn[0]), b_y = k * (r * w[1] + from.turn[1]);
+    const Real b_n = r * w[2] + from.turn[2];
+    Answer<Real> answer;
+    Real(&f)[3] = answer.force;
+    Real(&c)[3] = answer.couple;
+    c[0] = from.drag[0] - law.rolling * (n * along.roll[0]);
+    c[1] = from.drag[1] - law.rolling * (n * along.roll[1]);
+    f[2] = n;
+    if (mode.slides) {
+      f[0] = -(law.sliding * (n * along.slip[0]));
+      f[1] = -(law.sliding * (n * along.slip[1]));
+      if (mode.rests) {
+        c[0] = f[0] + b_y;
+        c[1] = f[1] - b_x;
+      }
+      answer.x = f[0] - a_x;
+      answer.y = f[1] - a_y;
+      answer.slip[0] = answer.x - (1 / k) * (c[0] - f[0] - b_y);
+      answer.slip[1] = answer.y - (1 / k) * (c[1] - f[1] + b_x);
+    } else {
+      if (mode.rests) {
+        c[0] = b_y + a_x;
+        c[1] = a_y - b_x;
+        answer.x = answer.y = Real(0.0);
+      } else {
+        const double share = 1 / (1 + k);
+        answer.x = share * (c[0] - b_y - a_x);
+        answer.y = share * (c[1] + b_x - a_y);
+      }
+      answer.slip[0] = answer.slip[1] = Real(0.0);
+      f[0] = answer.x + a_x;
+      f[1] = answer.y + a_y;
+    }
+    if (mode.held) {
+      answer.u = Real(0.0);
+      c[2] = k * b_n;
+    } else {
+      c[2] = -((law.pivoting * mode.turns) * n);
+      answer.u = (law.pivoting > 0 ? 1 / k : 0.0) * c[2] - b_n;
+    }
+    return answer;
+  }
+
+  // The power that couples and friction take from ball and plate, W. What rests takes none.
+  template <class Real, class Ball>
+  [[nodiscard]] Real lost_power(const ContactMode& mode, const Answer<Real>& of, const Ball& ball,
+                                const Real (&p)[2], const Real (&slip)[2]) const {
+    Real power = Real(0.0);
+    if (mode.slides) power = of.force[0] * slip[0] + of.force[1] * slip[1];
+    if (!mode.rests) power = power + of.couple[0] * p[0] + of.couple[1] * p[1];
+    if (!mode.held) power = power + of.couple[2] * ball.u;
+    return -(m * power);
+  }
+
+  // The moment that plate and ball ask for, about an axis, N m; without ring and rotors. Of a cause
+  // that has all of the plane's motion, and of one that is an axis' acceleration alone.
+  template <class Real, class Ball>
+  [[nodiscard]] Real moment(const Real (&axis)[3], const Cause<Real>& from, const Answer<Real>& of,
+                            const Ball& ball) const {
+    const double h = rolling.height;
+    const auto& f = of.force;
+    const Real x = m * (ball.y * f[2] - h * f[1] - r * of.couple[1]);
+    const Real y = m * (h * f[0] - ball.x * f[2] + r * of.couple[0]);
+    const Real z = m * (ball.x * f[1] - ball.y * f[0] + r * of.couple[2]);
+    return axis[0] * (x + body.plate[0] * from.omega_dot[0]) +
+           axis[1] * (y + body.plate[1] * from.omega_dot[1]) +
+           axis[2] * (z + body.plate[2] * from.omega_dot[2]);
+  }
+
+  // What the plate's turning and its weight ask for beside that, about an axis, N m.
+  template <class Real>
+  [[nodiscard]] Real own_moment(const Real (&axis)[3], const PlaneMotion<Real>& plane) const {
+    const auto& w = plane.omega;
+    const double* const j = body.plate;
+    const double weight = body.imbalance * g;
+    return axis[0] * ((j[2] - j[1]) * (w[1] * w[2]) - weight * plane.up[1]) +
+           axis[1] * ((j[0] - j[2]) * (w[2] * w[0]) + weight * plane.up[0]) +
+           axis[2] * ((j[1] - j[0]) * (w[0] * w[1]));
+  }
+};
+
+[[nodiscard]] CoupledBall coupled_ball(const Scenario& scene);
+
+}  // namespace bbsim::model

@@ -1,0 +1,49 @@
+// A controller that is not built in: the model knows when it is asked and what for, and nothing of
+// who answers (src/controller).
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <optional>
+#include <stdexcept>
+#include <string>
+
+#include "base/pair.hpp"
+#include "model/signals/spline.hpp"
+
+namespace bbsim::model {
+
+// What it is told at a sample, SI.
+struct ControllerSample {
+  std::size_t number;                           // from 0
+  double t;                                     // s
+  const std::optional<Pair>& seen;              // of the ball, m; nothing if the sensor missed it
+  const double (&servo)[4];                     // angles and rates of phi and theta
+  const std::array<Jet<double>, 2>& reference;  // m, m/s, m/s^2
+};
+
+// It did not do its part, and the run ends. what() says what was asked and what came instead.
+class ControllerFault : public std::runtime_error {
+ public:
+  // `interrupted`: it was asked to end, and is not at fault.
+  explicit ControllerFault(const std::string& message, bool interrupted = false)
+      : std::runtime_error(message), interrupted_(interrupted) {}
+  [[nodiscard]] bool interrupted() const { return interrupted_; }
+
+ private:
+  bool interrupted_;
+};
+
+class ExternalController {
+ public:
+  virtual ~ExternalController() = default;
+
+  // A run begins: what it remembers of another is to be forgotten. Throws ControllerFault.
+  virtual void begin() = 0;
+
+  // The commands for phi and theta, rad or rad/s^2, both finite; and into `own` the numbers that
+  // SampledLoop::own_columns names. Throws ControllerFault.
+  virtual Pair command(const ControllerSample& sample, double* own) = 0;
+};
+
+}  // namespace bbsim::model

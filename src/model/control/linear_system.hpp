@@ -1,0 +1,23 @@
+// A linear system with the names of what it is about.
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace bbsim::model {
+
+struct LinearSignal {
+  std::string name, unit;
+};
+
+// dz = A z + B u, y = C z + D u, where dz is z', or, with a period, z a period later. All are
+// deviations from the point about which the system is linear.
+struct LinearSystem {
+  std::vector<LinearSignal> states, inputs, outputs;
+  Eigen::MatrixXd a, b, c, d;
+  std::optional<double> period;  // s
+};
+
+}  // namespace bbsim::model

@@ -1,0 +1,610 @@
+#include "model/control/linearise.hpp"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <type_traits>
+#include <utility>
+
+#include "base/error.hpp"
+#include "model/assemble_rig.hpp"
+#include "model/control/linear_law.hpp"
+#include "model/control/sampled_cycle.hpp"
+#include "model/control/transmission_zeros.hpp"
+#include "model/eigenvalues.hpp"
+#include "model/signals/reference_path.hpp"
+#include "scenario/coupled.hpp"
+#include "simd/gradient.hpp"
+
+namespace bbsim::model {
+namespace {
+
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+constexpr int angle = RigLayout::angle, rate = RigLayout::rate, integral = RigLayout::integral;
+constexpr int spin = 4;
+constexpr int plant_size = RigLoop<>::size;
+
+// The gimbal and the ball without a controller's law, whatever moves the gimbal: a law that hands
+// on its reference, u = reference - position.
+RigLoop<> plant_of(const Scenario& scene, bool level) {
+  ServoResponse servo;
+  RigMode mode;
+  if (scene.controller) {
+    // As the loop has them.
+    Scenario plain = scene;
+    plain.controller->law = Law::pd;
+    const RigLoop<> loop = assemble_rig<false>(plain, {}).loop;
+    servo = loop.servo();
+    mode = loop.mode;
+  } else {
+    // A motion that is prescribed has the offsets in its angles.
+    level = true;
+  }
+  if (level) mode = {};
+  ControlLaw law;
+  law.kind = LawKind::linear;
+  law.gain[0][0] = law.gain[1][1] = 1;
+  return {scene.ball.radius, scene.gravity, general_rolling(scene), law, servo, {}, mode};
+}
+
+// Rates at a point, and what states and commands add to them.
+struct PlantDerivatives {
+  VectorXd rates;
+  MatrixXd of_state, of_command;
+};
+
+PlantDerivatives differentiate_plant(const RigLoop<>& plant, const LinearPoint& at) {
+  using Number = simd::WithGradient<plant_size + 2>;
+  Number z[plant_size], dz[plant_size];
+  for (int i = 0; i < plant_size; ++i) {
+    z[i] = Number::variable(at.state[static_cast<std::size_t>(i)], i);
+  }
+  std::array<Jet<Number>, 2> reference;
+  for (int i = 0; i < 2; ++i) {
+    const auto axis = static_cast<std::size_t>(i);
+    const Number command = Number::variable(at.command[axis], plant_size + i);
+    reference[axis] = {z[i] + command, Number(0.0), Number(0.0)};
+  }
+  plant.derivative_of(reference, z, dz);
+  PlantDerivatives found{VectorXd(plant_size), MatrixXd(plant_size, plant_size),
+                         MatrixXd(plant_size, 2)};
+  for (int i = 0; i < plant_size; ++i) {
+    found.rates[i] = dz[i].value;
+    found.of_state.row(i) = dz[i].gradient.head<plant_size>().transpose();
+    found.of_command.row(i) = dz[i].gradient.tail<2>().transpose();
+  }
+  return found;
+}
+
+// Of a loop in continuous time: what states and reference add to the rates, and states to the
+// commands. The reference's values, rates and accelerations, two of each.
+struct LoopDerivatives {
+  MatrixXd of_state, of_reference, command_of_state;
+};
+
+template <bool integrates>
+LoopDerivatives differentiate_loop(const Scenario& scene, const LinearPoint& at) {
+  RigLoop<integrates> loop = assemble_rig<integrates>(scene, {}).loop;
+  if (at.home) loop.mode = {};
+  constexpr int n = RigLoop<integrates>::size;
+  using Number = simd::WithGradient<n + 6>;
+  Number z[n], dz[n];
+  for (int i = 0; i < n; ++i) z[i] = Number::variable(at.state[static_cast<std::size_t>(i)], i);
+  std::array<Jet<Number>, 2> reference;
+  for (std::size_t i = 0; i < 2; ++i) {
+    const int first = n + static_cast<int>(i);
+    reference[i] = {Number::variable(at.reference[i].value, first),
+                    Number::variable(at.reference[i].rate, first + 2),
+                    Number::variable(at.reference[i].acceleration, first + 4)};
+  }
+  loop.derivative_of(reference, z, dz);
+  const RigAxes<Number> axes = loop.axes(reference, z);
+  LoopDerivatives found{MatrixXd(n, n), MatrixXd(n, 6), MatrixXd(2, n)};
+  for (int i = 0; i < n; ++i) {
+    found.of_state.row(i) = dz[i].gradient.template head<n>().transpose();
+    found.of_reference.row(i) = dz[i].gradient.template tail<6>().transpose();
+  }
+  for (int i = 0; i < 2; ++i) {
+    found.command_of_state.row(i) = axes.command.value[i].gradient.template head<n>().transpose();
+  }
+  return found;
+}
+
+// The coordinates that move: by symmetry x goes with phi, and y with theta.
+std::vector<int> axes_of(const Model& model) {
+  return std::visit(
+      [](const auto& system) -> std::vector<int> {
+        constexpr Shape shape = std::decay_t<decltype(system)>::moves;
+        if constexpr (shape == Shape::along_x) return {0};
+        if constexpr (shape == Shape::along_y) return {1};
+        return {0, 1};
+      },
+      model.system);
+}
+
+const char* coordinate(int axis) {
+  return axis == 0 ? "x" : "y";
+}
+
+const char* angle_name(int axis) {
+  return axis == 0 ? "phi" : "theta";
+}
+
+std::vector<LinearSignal> signals_of_states(const std::vector<int>& states) {
+  const LinearSignal all[] = {{"x", "m"},
+                              {"y", "m"},
+                              {"vx", "m/s"},
+                              {"vy", "m/s"},
+                              {"r*spin", "m/s"},
+                              {"phi", "rad"},
+                              {"theta", "rad"},
+                              {"phi_rate", "rad/s"},
+                              {"theta_rate", "rad/s"},
+                              {"x_integral", "m s"},
+                              {"y_integral", "m s"}};
+  std::vector<LinearSignal> signals;
+  signals.reserve(states.size());
+  for (const int i : states) signals.push_back(all[i]);
+  return signals;
+}
+
+std::string command_unit(const Scenario& scene) {
+  return scene.controller && scene.controller->drives == Drives::angle ? "rad" : "rad/s^2";
+}
+
+std::vector<LinearSignal> signals_of_commands(const Scenario& scene, const std::vector<int>& axes) {
+  std::vector<LinearSignal> signals;
+  for (const int axis : axes) {
+    signals.push_back(
+        {std::string(angle_name(axis)) + (scene.controller ? "_command" : "_acceleration"),
+         command_unit(scene)});
+  }
+  return signals;
+}
+
+std::vector<LinearSignal> signals_of_positions(const std::vector<int>& axes, const char* suffix) {
+  std::vector<LinearSignal> signals;
+  for (const int axis : axes) signals.push_back({std::string(coordinate(axis)) + suffix, "m"});
+  return signals;
+}
+
+// Which of the reference's inputs there are, of values, rates and accelerations: the values, and
+// what else the loop feels.
+std::vector<int> reference_inputs(const MatrixXd& of_reference, const std::vector<int>& axes,
+                                  std::vector<LinearSignal>& signals) {
+  constexpr const char* suffixes[] = {"_reference", "_reference_rate", "_reference_acceleration"};
+  constexpr const char* units[] = {"m", "m/s", "m/s^2"};
+  std::vector<int> columns;
+  for (int order = 0; order < 3; ++order) {
+    if (order > 0 && of_reference.middleCols(2 * order, 2).isZero(0)) continue;
+    for (const int axis : axes) {
+      columns.push_back(2 * order + axis);
+      signals.push_back({std::string(coordinate(axis)) + suffixes[order], units[order]});
+    }
+  }
+  return columns;
+}
+
+// The states of a RigLoop that belong to these axes, and the spin where it acts on another.
+std::vector<int> states_of(const MatrixXd& of_state, const std::vector<int>& axes) {
+  std::vector<int> states;
+  for (const int first : {0, 2}) {
+    for (const int axis : axes) states.push_back(first + axis);
+  }
+  VectorXd acts = of_state.col(spin);
+  acts[spin] = 0;
+  if (!acts.isZero(0)) states.push_back(spin);
+  for (const int first : {angle, rate}) {
+    for (const int axis : axes) states.push_back(first + axis);
+  }
+  return states;
+}
+
+// The positions, which are the first states.
+MatrixXd positions_of(Eigen::Index outputs, Eigen::Index states) {
+  return MatrixXd::Identity(outputs, states);
+}
+
+Linearisation plant_about(const Scenario& scene, const Model& model, const LinearPoint& at) {
+  if (scene.gimbal.servo && scene.gimbal.servo->time_constant) {
+    throw InputError(
+        "linearize: found --plant and a servo of first order (gimbal.servo.time_constant), whose "
+        "rate jumps with its command; allowed: --sampled, or --loop");
+  }
+  const std::vector<int> axes = axes_of(model);
+  const PlantDerivatives plant = differentiate_plant(plant_of(scene, at.home), at);
+  const std::vector<int> states = states_of(plant.of_state, axes);
+  Linearisation made;
+  LinearSystem& system = made.system;
+  system.states = signals_of_states(states);
+  system.inputs = signals_of_commands(scene, axes);
+  system.outputs = signals_of_positions(axes, "");
+  system.a = plant.of_state(states, states);
+  system.b = plant.of_command(states, axes);
+  system.c = positions_of(std::ssize(axes), std::ssize(states));
+  system.d = MatrixXd::Zero(std::ssize(axes), std::ssize(axes));
+  made.poles = sorted_eigenvalues(system.a);
+  made.zeros = transmission_zeros(system.a, system.b, system.c, system.d);
+  return made;
+}
+
+// From where the reference is, with the rates that it then has, to where the ball is.
+std::function<std::complex<double>(double)> tracking(const FrequencyResponse& response,
+                                                     const std::vector<int>& columns,
+                                                     const std::vector<int>& axes, int axis) {
+  return [=](double w) {
+    std::complex<double> sum = 0;
+    for (std::size_t j = 0; j < columns.size(); ++j) {
+      if (columns[j] % 2 != axis) continue;
+      const std::complex<double> derivative = std::pow(std::complex<double>(0, w), columns[j] / 2);
+      const auto output = std::find(axes.begin(), axes.end(), axis) - axes.begin();
+      sum += response.at(w, output, static_cast<Eigen::Index>(j)) * derivative;
+    }
+    return sum;
+  };
+}
+
+void add_bandwidths(Linearisation& made, const std::vector<int>& columns,
+                    const std::vector<int>& axes) {
+  const LinearSystem& system = made.system;
+  const double period = system.period.value_or(0);
+  const FrequencyResponse response(system.a, system.b, system.c, system.d, period);
+  const std::vector<double> frequencies = frequencies_to_look_at(made.poles, period);
+  for (const int axis : axes) {
+    made.bandwidths.push_back(
+        {coordinate(axis), bandwidth_of(tracking(response, columns, axes, axis), frequencies)});
+  }
+}
+
+// The loop of one command: with what A, B and C it goes once round, open there.
+void add_margins(Linearisation& made, int axis, const MatrixXd& a, const VectorXd& b,
+                 const Eigen::RowVectorXd& c) {
+  const double period = made.system.period.value_or(0);
+  // What comes back is taken from the reference: 1 + L.
+  const FrequencyResponse response(a, b, -c, MatrixXd::Zero(1, 1), period);
+  Eigenvalues poles = eigenvalues_of(a);
+  poles.insert(poles.end(), made.poles.begin(), made.poles.end());
+  made.margins.push_back({std::string(angle_name(axis)) + "_command",
+                          margins_of([&](double w) { return response.at(w, 0, 0); },
+                                     frequencies_to_look_at(poles, period))});
+}
+
+Linearisation continuous_loop_about(const Scenario& scene, const Model& model,
+                                    const LinearPoint& at) {
+  const std::vector<int> axes = axes_of(model);
+  const bool integrates = integrates_error(scene);
+  const LoopDerivatives loop =
+      integrates ? differentiate_loop<true>(scene, at) : differentiate_loop<false>(scene, at);
+  const PlantDerivatives plant = differentiate_plant(plant_of(scene, at.home), at);
+  std::vector<int> states = states_of(loop.of_state, axes);
+  for (const int axis : axes) {
+    // Without an integral that nothing feels.
+    if (integrates && !loop.command_of_state.col(integral + axis).isZero(0)) {
+      states.push_back(integral + axis);
+    }
+  }
+  Linearisation made;
+  LinearSystem& system = made.system;
+  system.states = signals_of_states(states);
+  const std::vector<int> columns = reference_inputs(loop.of_reference, axes, system.inputs);
+  system.outputs = signals_of_positions(axes, "");
+  system.a = loop.of_state(states, states);
+  system.b = loop.of_reference(states, columns);
+  system.c = positions_of(std::ssize(axes), std::ssize(states));
+  system.d = MatrixXd::Zero(std::ssize(axes), std::ssize(columns));
+  made.poles = sorted_eigenvalues(system.a);
+
+  // C (sI - A)^-1 (B0 + s B1 + s^2 B2) without the powers of s: positions have no direct term
+  // from accelerations of the gimbal but through their own derivatives.
+  const MatrixXd all = loop.of_reference(states, Eigen::all);
+  const auto of_order = [&](int order) -> MatrixXd {
+    std::vector<int> of;
+    for (const int axis : axes) of.push_back(2 * order + axis);
+    return all(Eigen::all, of);
+  };
+  const MatrixXd once = of_order(1) + system.a * of_order(2);
+  made.zeros =
+      transmission_zeros(system.a, of_order(0) + system.a * once, system.c, system.c * once);
+
+  MatrixXd of_command = MatrixXd::Zero(loop.of_state.rows(), 2);
+  of_command.topRows(plant_size) = plant.of_command;
+  for (const int axis : axes) {
+    const VectorXd b = of_command(states, axis);
+    const Eigen::RowVectorXd c = loop.command_of_state(axis, states);
+    add_margins(made, axis, system.a - b * c, b, c);
+  }
+  add_bandwidths(made, columns, axes);
+  return made;
+}
+
+// Of the plant's states, in SampledCycle's order: the spin, if it acts, comes last.
+std::vector<int> cycle_states(const MatrixXd& of_state) {
+  std::vector<int> states{0, 1, 2, 3, 5, 6, 7, 8};
+  VectorXd acts = of_state.col(spin);
+  acts[spin] = 0;
+  if (!acts.isZero(0)) states.push_back(spin);
+  return states;
+}
+
+CycleParts cycle_parts_about(const Scenario& scene, const LinearPoint& at,
+                             std::vector<int>& states) {
+  const RigLoop<> loop = plant_of(scene, at.home);
+  const PlantDerivatives plant = differentiate_plant(loop, at);
+  states = cycle_states(plant.of_state);
+  CycleParts parts;
+  parts.a = plant.of_state(states, states);
+  parts.b = plant.of_command(states, Eigen::all);
+  MatrixXd jump = MatrixXd::Zero(plant_size, 2);
+  for (int i = 0; i < 2; ++i) {
+    const auto kick = loop.impulse(at.state.data(), i == 0 ? 1 : 0, i == 0 ? 0 : 1);
+    for (int j = 0; j < 3; ++j) jump(2 + j, i) = kick[static_cast<std::size_t>(j)];
+    jump(rate + i, i) = 1;
+  }
+  parts.jump = jump(states, Eigen::all);
+
+  const Rig rig = assemble_rig<false>(scene, {}).rig;
+  const ControlLaw& law = rig.sampled->law;
+  Feedback<double> fed{};
+  for (int i = 0; i < 2; ++i) {
+    const auto state = [&](int place) { return at.state[static_cast<std::size_t>(place + i)]; };
+    fed.position[i] = state(0);
+    fed.velocity[i] = state(2);
+    fed.angle[i] = state(angle);
+    fed.rate[i] = state(rate);
+    fed.integral[i] = state(integral);
+  }
+  const LinearLaw linear = linear_law(law, fed, at.reference);
+  parts.of_feedback = linear.of_feedback;
+  parts.of_reference = linear.of_reference;
+  parts.sampling = rig.sampled->sampling;
+  parts.sensor = rig.sampled->sensor;
+  parts.integrates = law.integrates();
+  parts.time_constant = rig.time_constant;
+  return parts;
+}
+
+std::vector<LinearSignal> signals_of_cycle(const Scenario& scene, const std::vector<int>& states,
+                                           const SampledCycle& cycle) {
+  std::vector<LinearSignal> signals = signals_of_states(states);
+  for (LinearSignal& signal : cycle.memory(command_unit(scene))) {
+    signals.push_back(std::move(signal));
+  }
+  return signals;
+}
+
+Linearisation sampled_loop_about(const Scenario& scene, const LinearPoint& at) {
+  const std::vector<int> axes{0, 1};
+  std::vector<int> states;
+  const SampledCycle cycle(cycle_parts_about(scene, at, states));
+  const int n = cycle.size();
+  const VectorXd none = VectorXd::Zero(n);
+  MatrixXd of_reference(n, 6);
+  for (int j = 0; j < 6; ++j) {
+    SampledCycle::Input input;
+    input.reference[j] = 1;
+    of_reference.col(j) = cycle.run(none, input).state;
+  }
+  Linearisation made;
+  LinearSystem& system = made.system;
+  system.states = signals_of_cycle(scene, states, cycle);
+  const std::vector<int> columns = reference_inputs(of_reference, axes, system.inputs);
+  system.outputs = signals_of_positions(axes, "");
+  system.a = cycle.map();
+  system.b = of_reference(Eigen::all, columns);
+  system.c = positions_of(2, n);
+  system.d = MatrixXd::Zero(2, std::ssize(columns));
+  system.period = scene.controller->sampling->period;
+  made.poles = poles_of_period(system.a);
+  made.zeros =
+      transmission_zeros(system.a, of_reference.leftCols(2), system.c, MatrixXd::Zero(2, 2));
+  for (const int axis : axes) {
+    SampledCycle::Input open;
+    open.open[axis] = true;
+    MatrixXd a(n, n);
+    Eigen::RowVectorXd c(n);
+    for (int j = 0; j < n; ++j) {
+      const SampledCycle::Output out = cycle.run(VectorXd::Unit(n, j), open);
+      a.col(j) = out.state;
+      c[j] = out.law[axis];
+    }
+    open.command[axis] = 1;
+    add_margins(made, axis, a, cycle.run(none, open).state, c);
+  }
+  add_bandwidths(made, columns, axes);
+  return made;
+}
+
+Linearisation sampled_plant_about(const Scenario& scene, const LinearPoint& at) {
+  if (!scene.controller || !scene.controller->sampling) {
+    throw InputError(
+        "linearize: found --sampled, but the scene has no controller.sampling, whose period and "
+        "delays it shows; allowed: --plant, or --loop");
+  }
+  std::vector<int> states;
+  const SampledCycle cycle(cycle_parts_about(scene, at, states));
+  const std::vector<LinearSignal> signals = signals_of_cycle(scene, states, cycle);
+  const int n = cycle.size(), first = cycle.controller_at();
+  // What the controller remembers is no part of the plant.
+  std::vector<int> kept;
+  for (int i = 0; i < n; ++i) {
+    if (i < first || i >= first + cycle.controller_size()) kept.push_back(i);
+  }
+  SampledCycle::Input open;
+  open.open[0] = open.open[1] = true;
+  MatrixXd a(n, n), c(2, n), b(n, 2);
+  for (int j = 0; j < n; ++j) {
+    const SampledCycle::Output out = cycle.run(VectorXd::Unit(n, j), open);
+    a.col(j) = out.state;
+    c.col(j) = out.seen;
+  }
+  for (int j = 0; j < 2; ++j) {
+    SampledCycle::Input input = open;
+    input.command[j] = 1;
+    b.col(j) = cycle.run(VectorXd::Zero(n), input).state;
+  }
+  Linearisation made;
+  LinearSystem& system = made.system;
+  for (const int i : kept) system.states.push_back(signals[static_cast<std::size_t>(i)]);
+  system.inputs = signals_of_commands(scene, {0, 1});
+  system.outputs = signals_of_positions({0, 1}, "_measured");
+  system.a = a(kept, kept);
+  system.b = b(kept, Eigen::all);
+  system.c = c(Eigen::all, kept);
+  system.d = MatrixXd::Zero(2, 2);
+  system.period = scene.controller->sampling->period;
+  made.poles = poles_of_period(system.a);
+  made.zeros = transmission_zeros(system.a, system.b, system.c, system.d);
+  return made;
+}
+
+// The command under which the servos rest at their angles.
+Pair resting_command(const Scenario& scene, const LinearPoint& at) {
+  if (!scene.controller || scene.controller->drives == Drives::acceleration) return {0, 0};
+  return {at.state[angle], at.state[angle + 1]};
+}
+
+// Turns the gimbal to where the plane is level.
+void turn_level(const Scenario& scene, LinearPoint& point) {
+  const RigLoop<> plant = plant_of(scene, false);
+  const bool by_angle = scene.controller && scene.controller->drives == Drives::angle;
+  for (int i = 0; i < 50; ++i) {
+    point.command = resting_command(scene, point);
+    const PlantDerivatives at = differentiate_plant(plant, point);
+    const Eigen::Vector2d fall = at.rates.segment<2>(2);
+    if (fall.norm() <= 1e-15 * scene.gravity) return;
+    Eigen::Matrix2d slope = at.of_state.block<2, 2>(2, angle);
+    if (by_angle) slope += at.of_command.middleRows<2>(2);
+    const Eigen::Vector2d change = -slope.fullPivLu().solve(fall);
+    if (!change.allFinite()) break;
+    point.state[angle] += change[0];
+    point.state[angle + 1] += change[1];
+    // Newton's last step: what it leaves is rounding.
+    if (change.norm() < 1e-9) {
+      point.command = resting_command(scene, point);
+      return;
+    }
+  }
+  throw InputError(
+      "linearize: there is no equilibrium: no angles of this gimbal make its plane level");
+}
+
+// Where the law's command is the one under which the gimbal rests: position, and integrals.
+void place_ball(const ControlLaw& law, LinearPoint& point) {
+  std::vector<int> unknowns{0, 1};
+  std::vector<int> integrated;
+  for (int j = 0; j < 2; ++j) {
+    if (law.integral[0][j] == 0 && law.integral[1][j] == 0) continue;
+    unknowns.push_back(8 + j);
+    integrated.push_back(j);
+  }
+  const Eigen::Index n = std::ssize(unknowns);
+  for (int i = 0; i < 50; ++i) {
+    Feedback<double> fed{};
+    for (int j = 0; j < 2; ++j) {
+      fed.position[j] = point.state[static_cast<std::size_t>(j)];
+      fed.angle[j] = point.state[static_cast<std::size_t>(angle + j)];
+      fed.integral[j] = point.state[static_cast<std::size_t>(integral + j)];
+    }
+    const auto plain = [](int, double raw) { return raw; };
+    const Command<double> u = command(law, fed, point.reference, plain);
+    const LinearLaw linear = linear_law(law, fed, point.reference);
+    VectorXd left = VectorXd::Zero(n);
+    MatrixXd slope = MatrixXd::Zero(n, n);
+    for (int j = 0; j < 2; ++j) left[j] = u.value[j] - point.command[static_cast<std::size_t>(j)];
+    slope.topRows(2) = linear.of_feedback(Eigen::all, unknowns);
+    for (std::size_t k = 0; k < integrated.size(); ++k) {
+      const auto row = static_cast<Eigen::Index>(2 + k);
+      left[row] = fed.position[integrated[k]] -
+                  point.reference[static_cast<std::size_t>(integrated[k])].value;
+      slope(row, integrated[k]) = 1;
+    }
+    const Eigen::FullPivLU<MatrixXd> factors(slope);
+    if (!factors.isInvertible()) break;
+    const VectorXd change = -factors.solve(left);
+    if (!change.allFinite()) break;
+    for (Eigen::Index k = 0; k < n; ++k) {
+      const int place = unknowns[static_cast<std::size_t>(k)];
+      point.state[static_cast<std::size_t>(place < 8 ? place : integral + place - 8)] += change[k];
+    }
+    if (change.norm() <= 1e-12 * (1 + left.norm())) return;
+  }
+  throw InputError(
+      "linearize: there is no equilibrium: the law has no single position at which its command "
+      "keeps the plane level");
+}
+
+void require_known(const Scenario& scene) {
+  if (!scenario::is_coupled(scene)) return;
+  throw InputError(
+      "linearize: found losses, sliding or torques, whose equations it does not differentiate; "
+      "allowed: scenes without them. bbsim check shows the poles of these");
+}
+
+}  // namespace
+
+LinearPoint home_point() {
+  LinearPoint point;
+  point.home = true;
+  return point;
+}
+
+LinearPoint equilibrium(const Scenario& scene) {
+  require_known(scene);
+  LinearPoint point;
+  Pair position = scene.ball.position;
+  if (scene.controller) {
+    const auto path = reference_path(scene.controller->reference).at(0.0);
+    for (std::size_t i = 0; i < 2; ++i) position[i] = point.reference[i].value = path[i].value;
+  }
+  std::copy(position.begin(), position.end(), point.state.begin());
+  turn_level(scene, point);
+  if (!scene.controller || scene.controller->own ||
+      scene.controller->law == Law::feedback_linearisation) {
+    return point;
+  }
+  const AssembledRig<false> built = assemble_rig<false>(scene, {});
+  const ControlLaw& law = built.rig.sampled ? built.rig.sampled->law : built.loop.law();
+  place_ball(law, point);
+  const double limit = command_limit(*scene.controller).value_or(unlimited);
+  for (const double command : point.command) {
+    if (std::abs(command) > limit) {
+      throw InputError(
+          "linearize: there is no equilibrium: the command that keeps the plane level is beyond "
+          "controller.limit");
+    }
+  }
+  return point;
+}
+
+LinearKind usual_kind(const Scenario& scene) {
+  if (!scene.controller) return LinearKind::plant;
+  return scene.controller->own ? LinearKind::sampled : LinearKind::loop;
+}
+
+Linearisation linearise(const Scenario& scene, const Model& model, LinearKind kind,
+                        const LinearPoint& at) {
+  require_known(scene);
+  switch (kind) {
+    case LinearKind::plant:
+      break;
+    case LinearKind::sampled:
+      return sampled_plant_about(scene, at);
+    case LinearKind::loop:
+      if (!scene.controller) {
+        throw InputError(
+            "linearize: found --loop, but the scene has no controller; allowed: --plant");
+      }
+      if (scene.controller->own) {
+        throw InputError(
+            "linearize: found --loop and a controller of one's own, whose law only it knows; "
+            "allowed: --plant, --sampled");
+      }
+      return scene.controller->sampling ? sampled_loop_about(scene, at)
+                                        : continuous_loop_about(scene, model, at);
+  }
+  return plant_about(scene, model, at);
+}
+
+}  // namespace bbsim::model

@@ -1,0 +1,61 @@
+// A scene as a linear system about a point of its motion: the plant, the loop, or the plant as a
+// sampled controller sees it. Exact: by differentiating the right-hand side and the law.
+#pragma once
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include "model/control/frequency.hpp"
+#include "model/control/linear_system.hpp"
+#include "model/model.hpp"
+#include "model/spectrum.hpp"
+
+namespace bbsim::model {
+
+// plant    from the gimbal's commands to the ball's position, in continuous time
+// loop     from the reference to the position; of a sampled controller, from sample to sample
+// sampled  the plant under a command that is held, from sample to sample, with all delays
+enum class LinearKind { plant, loop, sampled };
+
+struct LinearPoint {
+  std::array<double, RigLoop<true>::size> state{};  // as RigLoop<true> packs it
+  Pair command{0, 0};  // rad; rad/s^2 where accelerations are driven, or prescribed
+  std::array<Jet<double>, 2> reference{};
+  bool home = false;  // all are zero, and the plane is level there, whatever its offsets
+};
+
+[[nodiscard]] LinearPoint home_point();
+
+// At rest: the plane level, the ball where the controller leads it under the reference of t = 0, or
+// without a controller where it starts. Throws InputError if there is no such point.
+[[nodiscard]] LinearPoint equilibrium(const Scenario& scene);
+
+// What one command's loop bears, the other one closed.
+struct LoopMargins {
+  std::string command;  // phi_command
+  Margins margins;
+};
+
+struct Bandwidth {
+  std::string output;  // x, of the response to x_reference
+  double value;        // rad/s, infinite if there is none
+};
+
+struct Linearisation {
+  LinearSystem system;
+  Eigenvalues poles, zeros;           // of a loop, from where the reference is to where the ball is
+  std::vector<LoopMargins> margins;   // of a loop
+  std::vector<Bandwidth> bandwidths;  // of a loop
+};
+
+// Without limits, dead band, backlash, rounding and noise. The spin is a state where it acts on
+// others, and an integral where the law has it. The scene is one of `model`, which says what
+// symmetry leaves out. Throws InputError where the scene has nothing of that kind.
+[[nodiscard]] Linearisation linearise(const Scenario& scene, const Model& model, LinearKind kind,
+                                      const LinearPoint& at);
+
+// What `bbsim linearize` shows of a scene unless it is told.
+[[nodiscard]] LinearKind usual_kind(const Scenario& scene);
+
+}  // namespace bbsim::model

@@ -1,0 +1,317 @@
+#include "model/dry_switches.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <variant>
+
+namespace bbsim::model {
+namespace {
+
+// A direction that has been held is given back to the velocity at this many times the speed at
+// which it was taken, so that none is taken again at once.
+constexpr double faster = 2;
+
+double dot(const double (&a)[2], const double (&b)[2]) {
+  return a[0] * b[0] + a[1] * b[1];
+}
+
+double size(const double* a) {
+  return std::hypot(a[0], a[1]);
+}
+
+// The direction against (x, y); none of nothing.
+DryDirection against(const double* v) {
+  const double length = size(v);
+  if (!(length > 0)) return {};
+  return {0, {-v[0] / length, -v[1] / length}};
+}
+
+}  // namespace
+
+// The parts of either kind of coupled scene; of one that is only looked at, constant ones.
+template <class Contact, class Motor>
+struct DrySwitches::BasicScene {
+  Contact* contact;
+  const CoupledBall* ball;
+  Motor* motors = nullptr;  // none where no torques move the gimbal
+  int slip = 0, rate = 0;   // among the states
+  std::function<Balance<double>(double, const double*)> balance{};
+
+  template <class AnyModel, class Use>
+  static auto of(AnyModel& model, Use use) {
+    if (auto* given = std::get_if<CoupledGiven<>>(&model.system)) {
+      BasicScene scene{&given->parts.contact, &given->parts.ball, nullptr,
+                       CoupledGivenLayout::slip};
+      scene.balance = [given](double t, const double* z) {
+        return given->balance(given->inputs(t), z);
+      };
+      return use(scene);
+    }
+    auto& loop = std::get<CoupledLoop<>>(model.system);
+    BasicScene scene{&loop.parts.contact, &loop.parts.ball,
+                     loop.by == GimbalBy::servos ? nullptr : loop.motors, CoupledLoopLayout::slip,
+                     CoupledLoopLayout::rate};
+    scene.balance = [&loop](double t, const double* z) { return loop.balance(loop.inputs(t), z); };
+    return use(scene);
+  }
+};
+
+// What has no velocity, so that it is to be chosen whether it begins to move.
+struct DrySwitches::AtZero {
+  bool slip = false, roll = false, spin = false, axis[2] = {false, false};
+};
+
+void DrySwitches::append_scales(std::vector<double>& scales) const {
+  const double torque = parts_.friction > 0 ? parts_.friction : 1;
+  const double limit = parts_.torque_limit < unlimited ? parts_.torque_limit : 1;
+  scales.insert(scales.end(), {slow_, slow_, slow_, slow_, slow_, torque, torque});
+  scales.insert(scales.end(), 8, limit);
+}
+
+void DrySwitches::settle_limits(Scene& scene, double t, const double* z) const {
+  if (scene.motors == nullptr || !parts_.limits_torque()) return;
+  const Balance<double> now = scene.balance(t, z);
+  for (int i = 0; i < 2; ++i) {
+    MotorMode& motor = scene.motors[i];
+    const double rate = z[scene.rate + i], asked = now.asked[i];
+    const double up = parts_.by_voltage(1, rate), down = parts_.by_voltage(-1, rate);
+    const double by_voltage = std::clamp(asked, down, up);
+    motor.by_rate = motor.set = motor.factor = 0;
+    if (std::abs(by_voltage) > parts_.torque_limit) {
+      motor.set = std::copysign(parts_.torque_limit, by_voltage);
+    } else if (by_voltage != asked) {
+      motor.set = std::copysign(parts_.stall_torque, asked - by_voltage);
+      motor.by_rate = -parts_.torque_by_rate;
+    } else {
+      motor.factor = 1;
+    }
+    motor.integrate = motor.factor;
+  }
+}
+
+void DrySwitches::settle_direction(DryDirection& of, const double (&v)[2], bool was_still) const {
+  const double speed = size(v);
+  const bool fast = speed > (of.moving != 0 ? slow_ * (1 + 1e-9) : slow_ * faster * (1 - 1e-9)) ||
+                    (was_still && speed > slow_);
+  const bool keeps = !fast && of.moving == 0 && size(of.along) > 0 && !was_still;
+  of.moving = fast ? 1 : 0;
+  if (keeps) return;
+  of.along[0] = v[0] / speed;
+  of.along[1] = v[1] / speed;
+}
+
+// How many of the conditions do not hold under which what is at zero goes on in this mode.
+int DrySwitches::faults(Scene& scene, double t, const double* z, const AtZero& zero, bool slide,
+                        bool rest) const {
+  ContactMode& contact = *scene.contact;
+  if (zero.slip) contact.slides = false;
+  if (zero.roll) {
+    contact.rests = true;
+    contact.roll = {};
+  }
+  Balance<double> now = scene.balance(t, z);
+  if (zero.slip && slide) {
+    contact.slip = against(now.answer.force);
+    contact.slides = true;
+    now = scene.balance(t, z);
+  }
+  if (zero.roll && !rest) {
+    contact.roll = against(now.answer.couple);
+    contact.rests = false;
+    now = scene.balance(t, z);
+  }
+  const Answer<double>& of = now.answer;
+  const double n = of.force[2];
+  int faults = 0;
+  if (zero.slip) {
+    faults += slide ? !(dot(of.slip, contact.slip.along) >= 0)
+                    : !(size(of.force) <= parts_.static_friction * n);
+  }
+  if (zero.roll) {
+    const double p_dot[2] = {of.x - of.slip[0], of.y - of.slip[1]};
+    faults += rest ? !(size(of.couple) <= scene.ball->law.rolling * n)
+                   : !(dot(p_dot, contact.roll.along) >= 0);
+  }
+  if (zero.spin) {
+    faults += contact.held ? !(std::abs(of.couple[2]) <= scene.ball->law.pivoting * n)
+                           : !(of.u * contact.turns >= 0);
+  }
+  for (int i = 0; i < 2; ++i) {
+    if (!zero.axis[i]) continue;
+    faults += scene.motors[i].free == 0 ? !(std::abs(now.needed[i]) <= parts_.friction)
+                                        : !(now.acceleration[i] * scene.motors[i].opposed >= 0);
+  }
+  return faults;
+}
+
+void DrySwitches::settle(Model& model, double t, double* z) const {
+  Scene::of(model, [&](Scene& scene) {
+    settle_limits(scene, t, z);
+    ContactMode& contact = *scene.contact;
+    AtZero zero;
+    double* const slip = z + scene.slip;
+    if (parts_.slides) {
+      if (contact.slides && contact.slip.moving == 0 &&
+          contact.slip.along[0] * slip[0] + contact.slip.along[1] * slip[1] <= 0) {
+        slip[0] = slip[1] = 0;
+      }
+      zero.slip = slip[0] == 0 && slip[1] == 0;
+      if (!zero.slip) {
+        settle_direction(contact.slip, {slip[0], slip[1]}, !contact.slides);
+        contact.slides = true;
+      }
+    }
+    if (scene.ball->law.rolling > 0) {
+      double p[2] = {z[2] - slip[0], z[3] - slip[1]};
+      if (!contact.rests && contact.roll.moving == 0 && size(contact.roll.along) > 0 &&
+          dot(contact.roll.along, p) <= 0) {
+        p[0] = p[1] = 0;
+        if (zero.slip || !parts_.slides) {
+          z[2] = z[3] = 0;
+        } else {  // it slides on without rolling
+          slip[0] = z[2];
+          slip[1] = z[3];
+        }
+      }
+      zero.roll = p[0] == 0 && p[1] == 0;
+      if (!zero.roll) {
+        settle_direction(contact.roll, p, contact.rests || size(contact.roll.along) == 0);
+        contact.rests = false;
+      }
+    }
+    if (scene.ball->law.pivoting > 0) {
+      if (contact.turns * z[4] < 0) z[4] = 0;
+      zero.spin = z[4] == 0;
+      if (!zero.spin) {
+        contact.held = false;
+        contact.turns = std::copysign(1.0, z[4]);
+      }
+    }
+    if (scene.motors != nullptr && parts_.friction > 0) {
+      for (int i = 0; i < 2; ++i) {
+        MotorMode& motor = scene.motors[i];
+        double& rate = z[scene.rate + i];
+        if (motor.opposed * rate < 0) rate = 0;
+        zero.axis[i] = rate == 0;
+        if (!zero.axis[i]) {
+          motor.free = 1;
+          motor.opposed = std::copysign(1.0, rate);
+        }
+      }
+    }
+
+    // All ways to go on, those at rest first; what holds is the first without a fault.
+    struct Choice {
+      int faults = std::numeric_limits<int>::max();
+      ContactMode contact;
+      MotorMode motors[2];
+    } best;
+    const auto signs = [](bool at_zero) { return at_zero ? 3 : 1; };
+    constexpr double sign[3] = {0, 1, -1};
+    const auto try_all = [&] {
+      for (int slide = 0; slide < (zero.slip ? 2 : 1); ++slide) {
+        for (int moves = 0; moves < (zero.roll ? 2 : 1); ++moves) {
+          for (int spin = 0; spin < signs(zero.spin); ++spin) {
+            for (int phi = 0; phi < signs(zero.axis[0]); ++phi) {
+              for (int theta = 0; theta < signs(zero.axis[1]); ++theta) {
+                if (zero.spin) {
+                  contact.held = spin == 0;
+                  contact.turns = sign[spin];
+                }
+                const int axis[2] = {phi, theta};
+                for (int i = 0; i < 2; ++i) {
+                  if (!zero.axis[i]) continue;
+                  scene.motors[i].free = axis[i] == 0 ? 0 : 1;
+                  scene.motors[i].opposed = sign[axis[i]];
+                }
+                const int wrong = faults(scene, t, z, zero, slide == 1, moves == 0);
+                if (wrong >= best.faults) continue;
+                best.faults = wrong;
+                best.contact = contact;
+                if (scene.motors != nullptr) std::copy_n(scene.motors, 2, best.motors);
+                if (wrong == 0) return;
+              }
+            }
+          }
+        }
+      }
+    };
+    try_all();
+    contact = best.contact;
+    if (scene.motors != nullptr) std::copy_n(best.motors, 2, scene.motors);
+  });
+}
+
+void DrySwitches::evaluate(const Model& model, double t, const double* z, double* values) const {
+  std::fill(values, values + guards, unlimited);
+  SeenScene::of(model, [&](const SeenScene& scene) {
+    const ContactMode& contact = *scene.contact;
+    const Balance<double> now = scene.balance(t, z);
+    const double n = now.answer.force[2];
+    const auto moving = [this](const DryDirection& of, const double(&v)[2], double* value) {
+      const double forward = dot(of.along, v), speed = size(v);
+      value[0] = of.moving != 0 ? forward - slow_ : forward;
+      value[1] = of.moving != 0 ? forward - speed / 2 : faster * slow_ - speed;
+    };
+    if (scene.ball->law.rolling > 0) {
+      if (contact.rests) {
+        values[0] = scene.ball->law.rolling * n - size(now.answer.couple);
+      } else {
+        moving(contact.roll, now.p, values);
+      }
+    }
+    if (parts_.slides) {
+      if (contact.slides) {
+        moving(contact.slip, now.slip, values + 2);
+      } else {
+        values[2] = parts_.static_friction * n - size(now.answer.force);
+      }
+    }
+    if (scene.ball->law.pivoting > 0) {
+      values[4] = contact.held ? scene.ball->law.pivoting * n - std::abs(now.answer.couple[2])
+                               : contact.turns * z[4];
+    }
+    if (scene.motors == nullptr) return;
+    for (int i = 0; i < 2; ++i) {
+      const MotorMode& motor = scene.motors[i];
+      const double rate = z[scene.rate + i];
+      if (parts_.friction > 0) {
+        values[5 + i] =
+            motor.free == 0 ? parts_.friction - std::abs(now.needed[i]) : motor.opposed * rate;
+      }
+      if (!parts_.limits_torque()) continue;
+      // What is asked against what the voltage gives, and what that leaves against the limit.
+      double* const limit = values + 7 + 4 * i;
+      const double asked = now.asked[i], most = parts_.torque_limit;
+      const double up = parts_.by_voltage(1, rate), down = parts_.by_voltage(-1, rate);
+      const double left = std::clamp(asked, down, up);
+      const bool at_voltage = motor.by_rate != 0, at_limit = motor.factor == 0 && !at_voltage;
+      if (at_limit) {
+        limit[2] = std::copysign(1.0, motor.set) * left - most;
+      } else {
+        limit[2] = most - left;
+        limit[3] = most + left;
+        limit[0] = at_voltage && motor.set > 0 ? asked - up : up - asked;
+        limit[1] = at_voltage && motor.set < 0 ? down - asked : asked - down;
+        if (at_voltage) limit[motor.set > 0 ? 1 : 0] = unlimited;
+      }
+      for (int k = 0; k < 4; ++k) {
+        if (std::isnan(limit[k])) limit[k] = unlimited;
+      }
+    }
+  });
+}
+
+DrySwitches::State DrySwitches::state(const Model& model) const {
+  return SeenScene::of(model, [](const SeenScene& scene) {
+    State state{scene.contact->slides, scene.contact->rests, {}};
+    for (int i = 0; i < 2 && scene.motors != nullptr; ++i) {
+      state.sticks[i] = scene.motors[i].free == 0;
+    }
+    return state;
+  });
+}
+
+}  // namespace bbsim::model

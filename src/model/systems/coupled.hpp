@@ -1,0 +1,476 @@
+// Scenes with couples on the ball, sliding, or a gimbal that torques move (docs/model.md, section
+// 10). Each has all states that such a scene can have; those that it does not use stay zero.
+#pragma once
+
+#include <algorithm>
+#include <cstring>
+
+#include "model/ball/newton_euler.hpp"
+#include "model/systems/rig_loop.hpp"
+
+namespace bbsim::model {
+
+// What holds for one motor between two switches. Its torque is factor * (what is asked of it) + set
+// + by_rate * rate.
+struct MotorMode {
+  double factor = 1, set = 0, by_rate = 0;
+  double opposed = 0;    // sign of the rate that dry friction opposes
+  double free = 1;       // 0: dry friction holds the axis
+  double integrate = 1;  // the position loop's error; 0 while the torque is at a limit
+};
+
+// What is asked of a motor, N m: from_command u - from_angle q - from_rate q' + from_integral times
+// the integral of u - q.
+struct MotorLaw {
+  double from_command = 0, from_angle = 0, from_rate = 0, from_integral = 0;
+  double viscous = 0, friction = 0;  // N m s, N m
+};
+
+// What a coupled scene does at an instant, in full.
+template <class Real>
+struct Balance {
+  Real acceleration[2];  // of the axes, rad/s^2
+  Answer<Real> answer;
+  Real p[2], slip[2];       // velocities, m/s
+  Real asked[2], given[2];  // of the motors, N m; of a gimbal that no torques move, what it takes
+  Real needed[2];           // torque beyond the motor's that each axis takes, if friction holds it
+  Real lost_power, work_power;  // W
+};
+
+// What a row has beside the states, since it changes with the mode.
+struct CoupledExtras {
+  RigExtras rig;
+  CoupledMotion motion;
+
+  static constexpr int size = sizeof(RigExtras) / sizeof(double) + CoupledMotion::size;
+  [[nodiscard]] static CoupledExtras unpack(const double* numbers) {
+    CoupledExtras extras;
+    std::memcpy(&extras, numbers, sizeof extras);
+    return extras;
+  }
+  void pack(double* numbers) const { std::memcpy(numbers, this, sizeof *this); }
+};
+static_assert(sizeof(CoupledExtras) == CoupledExtras::size * sizeof(double));
+
+// What both kinds of scene are made of.
+struct CoupledParts {
+  CoupledBall ball{};
+  ContactMode contact{};
+};
+
+template <class Real>
+[[nodiscard]] CoupledMotion coupled_motion(const Balance<Real>& now, const CoupledParts& parts,
+                                           double lost, double work) {
+  const double m = parts.ball.m, r = parts.ball.r;
+  const Answer<double>& of = now.answer;
+  CoupledMotion motion;
+  motion.x_ddot = of.x;
+  motion.y_ddot = of.y;
+  motion.couple[0] = -(m * r * of.couple[1]);
+  motion.couple[1] = m * r * of.couple[0];
+  motion.couple[2] = m * r * of.couple[2];
+  std::copy(now.slip, now.slip + 2, motion.slip);
+  std::copy(now.asked, now.asked + 2, motion.asked);
+  std::copy(now.given, now.given + 2, motion.given);
+  motion.lost_power = now.lost_power;
+  motion.lost = lost;
+  motion.work = work;
+  return motion;
+}
+
+// Steps that both take: the directions of what is dry, and the velocities that have them.
+template <class Real, class Ball>
+void look_at_contact(const ContactMode& mode, const Ball& ball, const Real* slip, Real (&p)[2],
+                     Real (&s)[2], Directions<Real>& along) {
+  s[0] = slip[0];
+  s[1] = slip[1];
+  p[0] = ball.x_dot - s[0];
+  p[1] = ball.y_dot - s[1];
+  direction(mode.roll, p[0], p[1], along.roll);
+  direction(mode.slip, s[0], s[1], along.slip);
+}
+
+struct CoupledGivenLayout : BallLayout<Shape::full> {
+  static constexpr int slip = BallLayout<Shape::full>::size, lost = slip + 2, work = lost + 1;
+  static constexpr int states = work + 1;
+};
+
+// The gimbal follows a given motion.
+template <class Signals = SignalPair>
+class CoupledGiven {
+ public:
+  using Layout = CoupledGivenLayout;
+  static constexpr Shape moves = Shape::full;
+  static constexpr int size = Layout::states;
+  static constexpr bool open_loop = false;  // dry couples are not linear
+  static constexpr bool papers_rig = false;
+  static constexpr bool steep = true;  // next to rest, where directions turn
+  static constexpr auto motions =
+      Motions<7>{{{0, 2}, {1, 3}, {-1, 4}, {-1, 5}, {-1, 6}, {-1, 7}, {-1, 8}}};
+
+  CoupledGiven(const CoupledParts& of, Signals motion) : parts(of), motion_(std::move(motion)) {}
+
+  CoupledParts parts;
+
+  template <class Time>
+  [[nodiscard]] std::array<Jet<Time>, 2> inputs(const Time& t) const {
+    return motion_.at(t);
+  }
+
+  template <class Time, class Real>
+  void derivative(const Time& t, const Real* z, Real* dz) const {
+    derivative_of(inputs(t), z, dz);
+  }
+
+  [[nodiscard]] CoupledGiven<SignalView> view() const { return {parts, motion_.view()}; }
+
+  template <class Time, class Real>
+  void derivative_of(const std::array<Jet<Time>, 2>& in, const Real* z, Real* dz) const {
+    const Balance<Real> now = balance(in, z);
+    dz[0] = z[2];
+    dz[1] = z[3];
+    dz[2] = now.answer.x;
+    dz[3] = now.answer.y;
+    dz[4] = now.answer.u;
+    dz[Layout::slip] = now.answer.slip[0];
+    dz[Layout::slip + 1] = now.answer.slip[1];
+    dz[Layout::lost] = now.lost_power;
+    dz[Layout::work] = now.work_power;
+  }
+
+  template <class Time, class Real>
+  [[nodiscard]] Balance<Real> balance(const std::array<Jet<Time>, 2>& in, const Real* z) const {
+    const CoupledBall& of = parts.ball;
+    const auto ball = Layout::unpack(z);
+    Axis<Real> axis[2];
+    for (std::size_t i = 0; i < 2; ++i) {
+      const SinCos<Time> wave = sin_cos(in[i].value);
+      axis[i] = {Real(wave.sin), Real(wave.cos), Real(in[i].rate), Real(in[i].acceleration)};
+    }
+    const PlaneMotion<Real> plane = of.plane(axis[0], axis[1]);
+    Balance<Real> now;
+    Directions<Real> along;
+    look_at_contact(parts.contact, ball, z + Layout::slip, now.p, now.slip, along);
+    Cause<Real> cause = of.cause(plane, ball, now.p);
+    for (int i = 0; i < 3; ++i) {
+      cause.omega_dot[i] = cause.omega_dot[i] + plane.phi_axis[i] * axis[0].acceleration +
+                           plane.theta_axis[i] * axis[1].acceleration;
+    }
+    now.answer = of.answer(parts.contact, along, ball, cause);
+    now.lost_power = of.lost_power(parts.contact, now.answer, ball, now.p, now.slip);
+    now.work_power = Real(0.0);
+    for (int i = 0; i < 2; ++i) {
+      const auto& about = i == 0 ? plane.phi_axis : plane.theta_axis;
+      now.acceleration[i] = axis[i].acceleration;
+      now.asked[i] = now.needed[i] = Real(0.0);
+      now.given[i] = of.moment(about, cause, now.answer, ball) + of.own_moment(about, plane);
+      now.work_power = now.work_power + now.given[i] * axis[i].rate;
+    }
+    return now;
+  }
+
+  [[nodiscard]] CoupledExtras extras(double t, const double* z) const {
+    const auto in = motion_.at(t);
+    CoupledExtras extras{};
+    for (std::size_t i = 0; i < 2; ++i) {
+      extras.rig.angle[i] = in[i].value;
+      extras.rig.rate[i] = in[i].rate;
+      extras.rig.acceleration[i] = in[i].acceleration;
+    }
+    extras.motion = coupled_motion(balance(in, z), parts, z[Layout::lost], z[Layout::work]);
+    return extras;
+  }
+
+  [[nodiscard]] Sample sample(double t, const double* z, const CoupledExtras& with) const {
+    const RigExtras& rig = with.rig;
+    return {t,
+            ball_motion<Shape::full>(Layout::unpack(z), parts.ball.r),
+            0,
+            {rig.angle[0], rig.angle[1], rig.rate[0], rig.rate[1], rig.acceleration[0],
+             rig.acceleration[1]},
+            {0, 0},
+            {0, 0},
+            {0, 0},
+            with.motion};
+  }
+  [[nodiscard]] Sample sample(double t, const double* z, Detail = Detail::all) const {
+    return sample(t, z, extras(t, z));
+  }
+
+  [[nodiscard]] const Signals& reference() const { return motion_; }
+
+ private:
+  Signals motion_;
+};
+
+struct CoupledLoopLayout : RigLayout {
+  static constexpr int motor = RigLayout::integral + 2, slip = motor + 2, lost = slip + 2,
+                       work = lost + 1;
+  static constexpr int states = work + 1;
+};
+
+// How the gimbal of a CoupledLoop moves.
+enum class GimbalBy {
+  servos,        // as in RigLoop
+  torques,       // of motors that a controller commands
+  given_torques  // of motors, functions of time
+};
+
+// The gimbal moves under a controller, or by torques.
+template <class Signals = SignalPair>
+class CoupledLoop {
+ public:
+  using Layout = CoupledLoopLayout;
+  static constexpr Shape moves = Shape::full;
+  static constexpr int size = Layout::states;
+  static constexpr bool open_loop = false;
+  static constexpr bool papers_rig = false;
+  static constexpr bool steep = true;  // next to rest, where directions turn
+  static constexpr auto motions = Motions<13>{{{0, 2},
+                                               {1, 3},
+                                               {5, 7},
+                                               {6, 8},
+                                               {-1, 4},
+                                               {-1, 9},
+                                               {-1, 10},
+                                               {-1, 11},
+                                               {-1, 12},
+                                               {-1, 13},
+                                               {-1, 14},
+                                               {-1, 15},
+                                               {-1, 16}}};
+
+  CoupledLoop(const CoupledParts& of, GimbalBy moved_by, const MotorLaw& law,
+              const RigLoop<true, Signals>& control)
+      : parts(of), by(moved_by), motor(law), loop(control) {}
+
+  CoupledParts parts;
+  GimbalBy by;
+  MotorLaw motor;
+  MotorMode motors[2]{};
+  RigLoop<true, Signals> loop;  // the law, and servos; torques, where it has none of the latter
+
+  template <class Time>
+  [[nodiscard]] std::array<Jet<Time>, 2> inputs(const Time& t) const {
+    return loop.inputs(t);
+  }
+
+  template <class Time, class Real>
+  void derivative(const Time& t, const Real* z, Real* dz) const {
+    derivative_of(inputs(t), z, dz);
+  }
+
+  [[nodiscard]] CoupledLoop<SignalView> view() const {
+    CoupledLoop<SignalView> view{parts, by, motor, loop.view()};
+    view.motors[0] = motors[0];
+    view.motors[1] = motors[1];
+    view.integrates_ = integrates_;
+    return view;
+  }
+
+  template <class Time, class Real>
+  void derivative_of(const std::array<Jet<Time>, 2>& in, const Real* z, Real* dz) const {
+    Real command[2];
+    const Balance<Real> now = balance(in, z, command);
+    dz[0] = z[2];
+    dz[1] = z[3];
+    dz[2] = now.answer.x;
+    dz[3] = now.answer.y;
+    dz[4] = now.answer.u;
+    for (int i = 0; i < 2; ++i) {
+      const AxisMode& of = loop.mode.axis[i];
+      dz[Layout::angle + i] = z[Layout::rate + i];
+      dz[Layout::rate + i] = now.acceleration[i];
+      dz[Layout::integral + i] =
+          of.integrate * (integrates_ * (Real(in[static_cast<std::size_t>(i)].value) - z[i]));
+      dz[Layout::motor + i] = (motor.from_integral != 0 ? motors[i].integrate : 0.0) *
+                              (command[i] - z[Layout::angle + i]);
+      dz[Layout::slip + i] = now.answer.slip[i];
+    }
+    dz[Layout::lost] = now.lost_power;
+    dz[Layout::work] = now.work_power;
+  }
+
+  template <class Time, class Real>
+  [[nodiscard]] Balance<Real> balance(const std::array<Jet<Time>, 2>& in, const Real* z) const {
+    Real command[2];
+    return balance(in, z, command);
+  }
+
+  // The inertia that the motors feel at the present mode, H of equation (M47), kg m^2.
+  [[nodiscard]] std::array<std::array<double, 2>, 2> inertia(const double* z) const {
+    const auto axes = plane_axes(z, Real2<double>{{0, 0}});
+    const PlaneMotion<double> plane = parts.ball.plane(axes.of[0], axes.of[1]);
+    const auto ball = Layout::unpack(z);
+    double p[2], s[2];
+    Directions<double> along;
+    look_at_contact(parts.contact, ball, z + Layout::slip, p, s, along);
+    std::array<std::array<double, 2>, 2> h{};
+    felt(plane, ball, along, [&](int i, int j, double value) {
+      h[static_cast<std::size_t>(i)][static_cast<std::size_t>(j)] = value;
+    });
+    return h;
+  }
+
+  [[nodiscard]] CoupledExtras extras(double t, const double* z) const {
+    double command[2];
+    const Balance<double> now = balance(loop.reference().at(t), z, command);
+    CoupledExtras extras{};
+    for (int i = 0; i < 2; ++i) {
+      const AxisMode& of = loop.mode.axis[i];
+      extras.rig.angle[i] = of.ratio * z[Layout::angle + i] + of.offset;
+      extras.rig.rate[i] = of.ratio * z[Layout::rate + i];
+      extras.rig.acceleration[i] = of.ratio * now.acceleration[i];
+      extras.rig.command[i] = by == GimbalBy::given_torques ? 0 : command[i];
+    }
+    extras.motion = coupled_motion(now, parts, z[Layout::lost], z[Layout::work]);
+    return extras;
+  }
+
+  [[nodiscard]] Sample sample(double t, const double* z, const CoupledExtras& with) const {
+    Sample sample = loop.sample(t, z, with.rig);
+    if (by == GimbalBy::given_torques) sample.reference = {0, 0};
+    sample.coupled = with.motion;
+    return sample;
+  }
+  [[nodiscard]] Sample sample(double t, const double* z, Detail = Detail::all) const {
+    return sample(t, z, extras(t, z));
+  }
+
+  [[nodiscard]] const Signals& reference() const { return loop.reference(); }
+  [[nodiscard]] const ControlLaw& law() const { return loop.law(); }
+  void integrate_error(bool yes) { integrates_ = yes ? 1 : 0; }
+
+ private:
+  template <class Real>
+  struct Real2 {
+    Real of[2];
+  };
+
+  template <class Real>
+  [[nodiscard]] Real2<Axis<Real>> plane_axes(const Real* z, const Real2<Real>& acceleration) const {
+    Real2<Axis<Real>> axes;
+    for (int i = 0; i < 2; ++i) {
+      const AxisMode& of = loop.mode.axis[i];
+      const SinCos<Real> wave = sin_cos(Real(of.ratio * z[Layout::angle + i] + Real(of.offset)));
+      axes.of[i] = {wave.sin, wave.cos, of.ratio * z[Layout::rate + i],
+                    of.ratio * acceleration.of[i]};
+    }
+    return axes;
+  }
+
+  // Columns of H, each the moments that an axis' acceleration alone asks for.
+  template <class Real, class Ball, class Put>
+  void felt(const PlaneMotion<Real>& plane, const Ball& ball, const Directions<Real>& along,
+            const Put& put) const {
+    const CoupledBall& of = parts.ball;
+    for (int j = 0; j < 2; ++j) {
+      const Cause<Real> cause = CoupledBall::of_axis(j == 0 ? plane.phi_axis : plane.theta_axis);
+      const Answer<Real> answer = of.answer(parts.contact, along, ball, cause);
+      for (int i = 0; i < 2; ++i) {
+        const auto& about = i == 0 ? plane.phi_axis : plane.theta_axis;
+        const double own = i != j ? 0.0 : of.body.rotor + (i == 0 ? of.body.ring : 0.0);
+        put(i, j, of.moment(about, cause, answer, ball) + Real(own));
+      }
+    }
+  }
+
+  template <class Time, class Real>
+  [[nodiscard]] Balance<Real> balance(const std::array<Jet<Time>, 2>& in, const Real* z,
+                                      Real (&command)[2]) const {
+    const CoupledBall& of = parts.ball;
+    const auto ball = Layout::unpack(z);
+    Balance<Real> now;
+    Directions<Real> along;
+    look_at_contact(parts.contact, ball, z + Layout::slip, now.p, now.slip, along);
+
+    Real2<Real> demand;
+    if (by == GimbalBy::given_torques) {
+      for (std::size_t i = 0; i < 2; ++i) command[i] = Real(in[i].value);
+    } else {
+      const RigAxes<Real> wanted = loop.axes(in, z);
+      for (int i = 0; i < 2; ++i) {
+        const AxisMode& mode = loop.mode.axis[i];
+        command[i] = wanted.command.value[i];
+        demand.of[i] = mode.demand_factor * wanted.demand[i] + Real(mode.set_acceleration);
+      }
+    }
+    const bool driven = by != GimbalBy::servos;
+    if (driven) demand.of[0] = demand.of[1] = Real(0.0);
+
+    const auto axes = plane_axes(z, demand);
+    const PlaneMotion<Real> plane = of.plane(axes.of[0], axes.of[1]);
+    Cause<Real> cause = of.cause(plane, ball, now.p);
+    Real own[2];
+    for (int i = 0; i < 2; ++i) {
+      own[i] = of.own_moment(i == 0 ? plane.phi_axis : plane.theta_axis, plane);
+    }
+    Real friction[2] = {Real(0.0), Real(0.0)};
+    if (driven) {
+      const Answer<Real> rest = of.answer(parts.contact, along, ball, cause);
+      Real h[2][2], left[2];
+      felt(plane, ball, along, [&](int i, int j, const Real& value) { h[i][j] = value; });
+      for (int i = 0; i < 2; ++i) {
+        const MotorMode& mode = motors[i];
+        const Real& rate = z[Layout::rate + i];
+        now.asked[i] = motor.from_command * command[i] - motor.from_angle * z[Layout::angle + i] -
+                       motor.from_rate * rate + motor.from_integral * z[Layout::motor + i];
+        now.given[i] = mode.factor * now.asked[i] + mode.by_rate * rate + Real(mode.set);
+        friction[i] = motor.viscous * rate + Real(motor.friction * mode.opposed);
+        left[i] = now.given[i] - friction[i] -
+                  of.moment(i == 0 ? plane.phi_axis : plane.theta_axis, cause, rest, ball) - own[i];
+      }
+      // An axis that friction holds has the equation phi'' = 0.
+      Real row[2][2], right[2];
+      for (int i = 0; i < 2; ++i) {
+        const double free = motors[i].free;
+        for (int j = 0; j < 2; ++j) row[i][j] = free * h[i][j] + Real(i == j ? 1 - free : 0.0);
+        right[i] = free * left[i];
+      }
+      const Real determinant = row[0][0] * row[1][1] - row[0][1] * row[1][0];
+      now.acceleration[0] = (right[0] * row[1][1] - row[0][1] * right[1]) / determinant;
+      now.acceleration[1] = (row[0][0] * right[1] - row[1][0] * right[0]) / determinant;
+      for (int i = 0; i < 2; ++i) {
+        now.needed[i] = h[i][0] * now.acceleration[0] + h[i][1] * now.acceleration[1] - left[i];
+      }
+    } else {
+      for (int i = 0; i < 2; ++i) {
+        now.acceleration[i] = demand.of[i];
+        now.asked[i] = now.needed[i] = Real(0.0);
+      }
+    }
+    for (int i = 0; i < 3; ++i) {
+      cause.omega_dot[i] = cause.omega_dot[i] +
+                           plane.phi_axis[i] * (loop.mode.axis[0].ratio * now.acceleration[0]) +
+                           plane.theta_axis[i] * (loop.mode.axis[1].ratio * now.acceleration[1]);
+    }
+    now.answer = of.answer(parts.contact, along, ball, cause);
+    now.lost_power = of.lost_power(parts.contact, now.answer, ball, now.p, now.slip);
+    now.work_power = Real(0.0);
+    for (int i = 0; i < 2; ++i) {
+      const auto& about = i == 0 ? plane.phi_axis : plane.theta_axis;
+      if (!driven) now.given[i] = of.moment(about, cause, now.answer, ball) + own[i];
+      now.lost_power = now.lost_power + motors[i].free * (friction[i] * z[Layout::rate + i]);
+      now.work_power = now.work_power + motors[i].free * (now.given[i] * axes.of[i].rate);
+    }
+    return now;
+  }
+
+  double integrates_ = 0;
+  template <class Other>
+  friend class CoupledLoop;
+};
+
+template <class Any>
+inline constexpr bool is_coupled = false;
+template <class Signals>
+inline constexpr bool is_coupled<CoupledGiven<Signals>> = true;
+template <class Signals>
+inline constexpr bool is_coupled<CoupledLoop<Signals>> = true;
+
+template <class Any>
+inline constexpr bool is_coupled_loop = false;
+template <class Signals>
+inline constexpr bool is_coupled_loop<CoupledLoop<Signals>> = true;
+
+}  // namespace bbsim::model

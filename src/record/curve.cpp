@@ -1,0 +1,170 @@
+#include "record/curve.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace bbsim::record {
+namespace {
+
+// Where `f`, which has different signs at both ends, is zero: by halves, to rounding.
+template <class Function>
+double root(double low, double high, Function f) {
+  const bool rises = f(low) < 0;
+  for (;;) {
+    const double middle = low + (high - low) / 2;
+    if (middle <= low || middle >= high) return middle;
+    ((f(middle) < 0) == rises ? low : high) = middle;
+  }
+}
+
+}  // namespace
+
+void Curve::clear() {
+  pieces_.clear();
+  values_.clear();
+  arcs_.clear();
+}
+
+double Curve::value(std::size_t piece, double part) const {
+  const Piece& of = pieces_[piece];
+  const double* const values = &values_[of.first];
+  if (of.points != nullptr) return of.points->at(values, part);
+  return part == 1 ? values[1] : values[0] + (values[1] - values[0]) * part;
+}
+
+double Curve::value(const Place& place) const {
+  return value(place.piece, place.part);
+}
+
+Curve::Place Curve::place(std::size_t piece, double part) const {
+  const Piece& of = pieces_[piece];
+  return {part == 1 ? of.to : of.from + (of.to - of.from) * part, piece, part};
+}
+
+void Curve::add_line(double from, double to, double from_value, double to_value) {
+  const std::size_t number = pieces_.size();
+  pieces_.push_back({from, to, nullptr, values_.size()});
+  values_.insert(values_.end(), {from_value, to_value});
+  if (!std::isfinite(from_value) || !std::isfinite(to_value)) return;
+  arcs_.push_back({place(number, 0), place(number, 1), from_value, to_value});
+}
+
+void Curve::add_piece(double from, double to, const ChebyshevPoints& points, const double* values) {
+  const std::size_t number = pieces_.size(), count = points.size();
+  pieces_.push_back({from, to, &points, values_.size()});
+  values_.insert(values_.end(), values, values + count);
+  if (!std::all_of(values, values + count, [](double value) { return std::isfinite(value); })) {
+    return;
+  }
+  slopes_.resize(count);
+  points.slopes(values, slopes_.data());
+  Arc arc{place(number, 0), {}, values[0], 0};
+  const auto end_arc = [&](double part, double value) {
+    arc.to = place(number, part);
+    arc.to_value = value;
+    arcs_.push_back(arc);
+    arc.from = arc.to;
+    arc.from_value = value;
+  };
+  const auto slope = [&](double part) { return points.at(slopes_.data(), part); };
+  const auto look_between = [&](double low, double low_slope, double high, double high_slope) {
+    if (low_slope * high_slope >= 0) return;
+    const double turn = root(low, high, slope);
+    end_arc(turn, this->value(number, turn));
+  };
+  // The turns are where the slope changes its sign, at the points and between them.
+  for (std::size_t i = 0; i + 1 < count; ++i) {
+    const double middle = points[i] + (points[i + 1] - points[i]) / 2;
+    const double middle_slope = slope(middle);
+    look_between(points[i], slopes_[i], middle, middle_slope);
+    look_between(middle, middle_slope, points[i + 1], slopes_[i + 1]);
+    // A turn at a point itself.
+    if (i + 2 < count && slopes_[i + 1] == 0) end_arc(points[i + 1], values[i + 1]);
+  }
+  end_arc(1, values[count - 1]);
+}
+
+Curve::Place Curve::at_level(const Arc& arc, double level) const {
+  if (arc.from.part == arc.to.part) return arc.to;
+  return place(arc.from.piece, root(arc.from.part, arc.to.part, [&](double part) {
+                 return value(arc.from.piece, part) - level;
+               }));
+}
+
+std::optional<Curve::Place> Curve::first_at_least(double sign, double level) const {
+  for (const Arc& arc : arcs_) {
+    if (sign * arc.from_value >= level) return arc.from;
+    if (sign * arc.to_value >= level) return at_level(arc, sign * level);
+  }
+  return {};
+}
+
+std::optional<Curve::Place> Curve::last_at_least(double sign, double level) const {
+  for (auto arc = arcs_.rbegin(); arc != arcs_.rend(); ++arc) {
+    if (sign * arc->to_value >= level) return arc->to;
+    if (sign * arc->from_value >= level) return at_level(*arc, sign * level);
+  }
+  return {};
+}
+
+std::optional<Curve::Place> Curve::crossing(double level, scenario::Instant::Way way,
+                                            std::size_t number) const {
+  using Way = scenario::Instant::Way;
+  std::optional<Place> last, reached;  // reached: where it came to the level and stands at it
+  double side = 0;                     // of the level, where it was
+  std::size_t found = 0;
+  const auto look = [&](double value, const Place& at) {
+    const double now = value > level ? 1 : value < level ? -1 : 0;
+    if (now == 0) {
+      if (!reached) reached = at;
+      return false;
+    }
+    const bool crosses = side * now < 0;
+    const bool counts = crosses && (way == Way::either || (way == Way::rise) == (now > 0));
+    if (counts) last = reached ? *reached : at;
+    side = now;
+    reached.reset();
+    return counts && ++found == number;
+  };
+  for (const Arc& arc : arcs_) {
+    if (look(arc.from_value, arc.from)) return last;
+    const bool through = (arc.from_value - level) * (arc.to_value - level) < 0;
+    if (look(arc.to_value, through ? at_level(arc, level) : arc.to)) return last;
+  }
+  return number == 0 ? last : std::nullopt;
+}
+
+Curve::Extreme Curve::greatest(double sign, const std::optional<Place>& from) const {
+  constexpr double none = std::numeric_limits<double>::quiet_NaN();
+  Extreme best{none, none};
+  const auto take = [&](double value, double t) {
+    if (!(sign * value <= sign * best.value)) best = {value, t};
+  };
+  if (from) take(value(*from), from->t);
+  for (const Arc& arc : arcs_) {
+    if (from &&
+        (arc.to.piece < from->piece || (arc.to.piece == from->piece && arc.to.part < from->part))) {
+      continue;
+    }
+    const bool within = from && arc.from.piece == from->piece && arc.from.part < from->part;
+    if (!within) take(arc.from_value, arc.from.t);
+    take(arc.to_value, arc.to.t);
+  }
+  return best;
+}
+
+std::optional<Curve::Place> Curve::place_at(double t) const {
+  if (pieces_.empty() || !(t >= pieces_.front().from)) return {};
+  // The last piece that has begun; what lies between two pieces is a switch, as short as rounding.
+  const auto after =
+      std::upper_bound(pieces_.begin(), pieces_.end(), t,
+                       [](double time, const Piece& piece) { return time < piece.from; });
+  const auto number = static_cast<std::size_t>(after - pieces_.begin()) - 1;
+  const Piece& of = pieces_[number];
+  if (after == pieces_.end() && t > of.to) return {};
+  const double length = of.to - of.from;
+  return Place{t, number, length > 0 ? std::clamp((t - of.from) / length, 0.0, 1.0) : 1.0};
+}
+
+}  // namespace bbsim::record

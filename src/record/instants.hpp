@@ -1,0 +1,24 @@
+// Measures of curves: step metrics, and what there is where something crosses something.
+#pragma once
+
+#include <functional>
+
+#include "record/curve.hpp"
+#include "scenario/measures.hpp"
+
+namespace bbsim::record {
+
+// The curve of a column.
+using CurveOf = std::function<const Curve&(const scenario::Column&)>;
+
+// The value of a measure of kind step, when or find. No number where there is none: it never
+// crosses, or it ends at 0, of which nothing is a part.
+[[nodiscard]] double measured(const scenario::Measure& measure, const CurveOf& curve_of);
+
+// Whether a measure is of one of these kinds.
+[[nodiscard]] inline bool is_of_curves(const scenario::Measure& measure) {
+  using Kind = scenario::Measure::Kind;
+  return measure.kind == Kind::step || measure.kind == Kind::when || measure.kind == Kind::find;
+}
+
+}  // namespace bbsim::record

@@ -1,0 +1,220 @@
+#include "record/linear_text.hpp"
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "base/number_text.hpp"
+
+namespace bbsim::record {
+namespace {
+
+using model::LinearSignal;
+using model::LinearSystem;
+using Json = nlohmann::ordered_json;
+using Signals = std::vector<LinearSignal>;
+
+Json json_of(const Eigen::MatrixXd& matrix) {
+  Json rows = Json::array();
+  for (Eigen::Index i = 0; i < matrix.rows(); ++i) {
+    Json row = Json::array();
+    for (Eigen::Index j = 0; j < matrix.cols(); ++j) row.push_back(matrix(i, j));
+    rows.push_back(row);
+  }
+  return rows;
+}
+
+Json json_of(const model::Eigenvalues& values) {
+  Json list = Json::array();
+  for (const auto& value : values) list.push_back({value.real(), value.imag()});
+  return list;
+}
+
+Json names_of(const Signals& signals) {
+  Json list = Json::array();
+  for (const LinearSignal& signal : signals) list.push_back(signal.name);
+  return list;
+}
+
+Json units_of(const Signals& signals) {
+  Json list = Json::array();
+  for (const LinearSignal& signal : signals) list.push_back(signal.unit);
+  return list;
+}
+
+// Infinities are null.
+Json number_or_null(double value) {
+  return std::isfinite(value) ? Json(value) : Json(nullptr);
+}
+
+std::string title_of(const LinearReport& report) {
+  const LinearSystem& system = report.linearisation.system;
+  std::string text = "The " + report.kind + " of " + report.scenario + " about " + report.at;
+  for (char& c : text) {
+    if (static_cast<unsigned char>(c) < ' ') c = ' ';  // a comment is one line
+  }
+  if (report.kind == "sampled") text.replace(0, 11, "The sampled plant");
+  return text + (system.period
+                     ? ", from sample to sample every " + number_text(*system.period) + " s"
+                     : ", in continuous time");
+}
+
+// The text of a matrix, with what its language puts before, between and behind rows.
+struct Brackets {
+  const char *open, *open_row, *between, *close_row, *next_row, *close;
+};
+
+std::string text_of(const Eigen::MatrixXd& matrix, const Brackets& brackets) {
+  std::string text = brackets.open;
+  for (Eigen::Index i = 0; i < matrix.rows(); ++i) {
+    if (i > 0) text += brackets.next_row;
+    text += brackets.open_row;
+    for (Eigen::Index j = 0; j < matrix.cols(); ++j) {
+      if (j > 0) text += brackets.between;
+      text += number_text(matrix(i, j));
+    }
+    text += brackets.close_row;
+  }
+  return text + brackets.close;
+}
+
+std::string list_of(const Signals& signals, std::string LinearSignal::*what, const char* open,
+                    const char* close) {
+  std::string text = open;
+  for (const LinearSignal& signal : signals) {
+    text += std::string(text.size() > 1 ? ", " : "") + "'" + signal.*what + "'";
+  }
+  return text + close;
+}
+
+constexpr const char* matrix_names[] = {"A", "B", "C", "D"};
+
+std::array<const Eigen::MatrixXd*, 4> matrices_of(const LinearSystem& system) {
+  return {&system.a, &system.b, &system.c, &system.d};
+}
+
+}  // namespace
+
+std::string to_json(const LinearReport& report) {
+  const model::Linearisation& made = report.linearisation;
+  const LinearSystem& system = made.system;
+  Json json = Json::object();
+  json["scenario"] = report.scenario;
+  json["kind"] = report.kind;
+  json["at"] = report.at;
+  json["states"] = names_of(system.states);
+  json["inputs"] = names_of(system.inputs);
+  json["outputs"] = names_of(system.outputs);
+  json["state_units"] = units_of(system.states);
+  json["input_units"] = units_of(system.inputs);
+  json["output_units"] = units_of(system.outputs);
+  const auto matrices = matrices_of(system);
+  for (std::size_t i = 0; i < matrices.size(); ++i) json[matrix_names[i]] = json_of(*matrices[i]);
+  json["poles"] = json_of(made.poles);
+  json["zeros"] = json_of(made.zeros);
+  json["period"] = system.period ? Json(*system.period) : Json(nullptr);
+  if (!made.margins.empty()) {
+    Json all = Json::object();
+    for (const model::LoopMargins& loop : made.margins) {
+      const model::Margins& margins = loop.margins;
+      Json one = Json::object();
+      one["gain"] = number_or_null(margins.gain);
+      one["gain_frequency"] = number_or_null(margins.gain_at);
+      one["gain_reduction"] = margins.reduction > 0 ? Json(margins.reduction) : Json(nullptr);
+      one["gain_reduction_frequency"] = number_or_null(margins.reduction_at);
+      one["phase"] = number_or_null(margins.phase);
+      one["phase_frequency"] = number_or_null(margins.phase_at);
+      one["delay"] = number_or_null(margins.delay);
+      one["delay_frequency"] = number_or_null(margins.delay_at);
+      all[loop.command] = one;
+    }
+    json["margins"] = all;
+    Json bandwidths = Json::object();
+    for (const model::Bandwidth& one : made.bandwidths) {
+      bandwidths[one.output] = number_or_null(one.value);
+    }
+    json["bandwidth"] = bandwidths;
+  }
+  return json.dump(1, ' ', false, Json::error_handler_t::replace) + '\n';
+}
+
+std::string to_matlab(const LinearReport& report) {
+  const LinearSystem& system = report.linearisation.system;
+  constexpr Brackets brackets{"[", "", ", ", "", "; ...\n     ", "];\n"};
+  std::string text = "% " + title_of(report) + ", by bbsim linearize.\n";
+  const auto matrices = matrices_of(system);
+  for (std::size_t i = 0; i < matrices.size(); ++i) {
+    text += std::string(matrix_names[i]) + " = " + text_of(*matrices[i], brackets);
+  }
+  const auto add = [&](const char* name, const Signals& signals) {
+    text += std::string(name) + "s = " + list_of(signals, &LinearSignal::name, "{", "};\n");
+    text += std::string(name) + "_units = " + list_of(signals, &LinearSignal::unit, "{", "};\n");
+  };
+  add("state", system.states);
+  add("input", system.inputs);
+  add("output", system.outputs);
+  const std::string period = system.period ? number_text(*system.period) : "0";
+  text += "period = " + period + ";  % s; 0 in continuous time\n";
+  // Octave knows ss() once its package is loaded.
+  return text +
+         "if exist('OCTAVE_VERSION', 'builtin') && isempty(which('ss'))\n"
+         "  try, pkg load control; catch, end\n"
+         "end\n"
+         "if ~isempty(which('ss'))\n"
+         "  sys = ss(A, B, C, D, period);\n"
+         "  set(sys, 'StateName', states, 'InputName', inputs, 'OutputName', outputs);\n"
+         "end\n";
+}
+
+std::string to_python(const LinearReport& report) {
+  const LinearSystem& system = report.linearisation.system;
+  constexpr Brackets brackets{"numpy.array([", "[", ", ", "]", ",\n    ", "])\n"};
+  std::string text = "# " + title_of(report) + ", by bbsim linearize.\nimport numpy\n\n";
+  const auto matrices = matrices_of(system);
+  for (std::size_t i = 0; i < matrices.size(); ++i) {
+    text += std::string(matrix_names[i]) + " = " + text_of(*matrices[i], brackets);
+  }
+  const auto add = [&](const char* name, const Signals& signals) {
+    text += std::string(name) + "s = " + list_of(signals, &LinearSignal::name, "[", "]\n");
+    text += std::string(name) + "_units = " + list_of(signals, &LinearSignal::unit, "[", "]\n");
+  };
+  add("state", system.states);
+  add("input", system.inputs);
+  add("output", system.outputs);
+  text += "period = " + (system.period ? number_text(*system.period) : std::string("0")) +
+          "  # s; 0 in continuous time\n";
+  return text +
+         "\ntry:\n"
+         "    import control\n"
+         "except ImportError:\n"
+         "    pass  # the matrices are all there is\n"
+         "else:\n"
+         "    sys = control.ss(A, B, C, D, period)\n"
+         "    sys.update_names(states=states, inputs=inputs, outputs=outputs)\n";
+}
+
+std::string to_csv(const LinearReport& report) {
+  const LinearSystem& system = report.linearisation.system;
+  std::string text = "row";
+  for (const Signals* signals : {&system.states, &system.inputs}) {
+    for (const LinearSignal& signal : *signals) text += ',' + signal.name;
+  }
+  text += '\n';
+  const auto add = [&](const std::string& name, const Eigen::MatrixXd& left,
+                       const Eigen::MatrixXd& right, Eigen::Index i) {
+    text += name;
+    for (const Eigen::MatrixXd* matrix : {&left, &right}) {
+      for (Eigen::Index j = 0; j < matrix->cols(); ++j) text += ',' + number_text((*matrix)(i, j));
+    }
+    text += '\n';
+  };
+  for (std::size_t i = 0; i < system.states.size(); ++i) {
+    add(system.states[i].name + (system.period ? "_next" : "_dot"), system.a, system.b,
+        static_cast<Eigen::Index>(i));
+  }
+  for (std::size_t i = 0; i < system.outputs.size(); ++i) {
+    add(system.outputs[i].name, system.c, system.d, static_cast<Eigen::Index>(i));
+  }
+  return text;
+}
+
+}  // namespace bbsim::record

@@ -1,0 +1,58 @@
+#include "record/run_state.hpp"
+
+#include <cstdint>
+#include <string_view>
+
+#include "base/archive.hpp"
+#include "base/error.hpp"
+
+namespace bbsim::record {
+namespace {
+
+constexpr std::string_view magic = "bbsim run state 1\n";
+
+// FNV-1a, 64 bits: against damage, not against malice.
+std::uint64_t check_sum(std::string_view bytes) {
+  std::uint64_t sum = 0xcbf29ce484222325;
+  for (const char c : bytes) sum = (sum ^ static_cast<unsigned char>(c)) * 0x100000001b3;
+  return sum;
+}
+
+template <class Archive>
+void archive_of(Archive& archive, RunState& state) {
+  archive(state.version, state.instruction_set, state.identity, state.gamma, state.endless,
+          state.end, state.least_end, state.time, state.next_row, state.state);
+}
+
+}  // namespace
+
+std::string to_bytes(RunState state) {
+  StateWriter writer;
+  archive_of(writer, state);
+  std::string bytes = std::string(magic) + writer.bytes();
+  std::uint64_t sum = check_sum(bytes);
+  StateWriter end;
+  end(sum);
+  return bytes + end.bytes();
+}
+
+RunState state_of(const std::string& bytes, const std::string& file) {
+  if (!bytes.starts_with(magic)) {
+    throw InputError(file + ": is no state of a run; allowed: what bbsim run --save-state wrote");
+  }
+  std::uint64_t sum = 0;
+  const std::size_t size = bytes.size() < magic.size() + sizeof sum ? 0 : bytes.size() - sizeof sum;
+  if (size > 0) {
+    StateReader end(std::string_view(bytes).substr(size));
+    end(sum);
+  }
+  if (size == 0 || sum != check_sum(std::string_view(bytes).substr(0, size))) {
+    throw InputError(file + ": is damaged: its check sum is not that of its content");
+  }
+  RunState state;
+  StateReader reader(std::string_view(bytes).substr(magic.size(), size - magic.size()));
+  archive_of(reader, state);
+  return state;
+}
+
+}  // namespace bbsim::record

@@ -1,0 +1,175 @@
+#include "record/summarise.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+
+#include "base/error.hpp"
+#include "base/number_text.hpp"
+
+namespace bbsim::record {
+namespace {
+
+using file::CellColumn;
+using file::CellTable;
+
+constexpr double none = std::numeric_limits<double>::quiet_NaN();
+
+std::string names_text(const std::vector<std::string>& names) {
+  std::string text;
+  for (const std::string& name : names) text += (text.empty() ? "" : ", ") + name;
+  return text;
+}
+
+const CellColumn& column_of(const CellTable& table, const std::string& file,
+                            const std::string& name, const std::string& option) {
+  const auto found = std::ranges::find(table.names, name);
+  if (found == table.names.end()) {
+    throw InputError(option + ": found " + name + "; " + file + " has the columns " +
+                     names_text(table.names));
+  }
+  return table.columns[static_cast<std::size_t>(found - table.names.begin())];
+}
+
+// What is told of unless measures are named: the numbers behind the status, which keys are before.
+std::vector<std::string> all_measures(const CellTable& table) {
+  std::vector<std::string> names;
+  const auto status = std::ranges::find(table.names, "status");
+  const bool of_sweep = status != table.names.end();
+  for (std::size_t c = of_sweep ? static_cast<std::size_t>(status - table.names.begin()) : 0;
+       c < table.names.size(); ++c) {
+    const CellColumn& column = table.columns[c];
+    if (column.texts.empty() && column.width == 1 && table.names[c] != "case" &&
+        table.names[c] != "end_time") {
+      names.push_back(table.names[c]);
+    }
+  }
+  return names;
+}
+
+double quantile(const std::vector<double>& sorted, double part) {
+  if (sorted.empty()) return none;
+  const double place = part * static_cast<double>(sorted.size() - 1);
+  const auto below = static_cast<std::size_t>(place);
+  const std::size_t above = std::min(below + 1, sorted.size() - 1);
+  return std::lerp(sorted[below], sorted[above], place - static_cast<double>(below));
+}
+
+GroupFigures figures_of(const std::string& measure, std::vector<double> values,
+                        const std::vector<double>& quantiles) {
+  std::ranges::sort(values);
+  GroupFigures figures{measure, values.size(), none, none, none, none, {}};
+  for (const double part : quantiles) figures.quantiles.push_back(quantile(values, part));
+  if (values.empty()) return figures;
+  figures.least = values.front();
+  figures.greatest = values.back();
+  const auto count = static_cast<double>(values.size());
+  // From the least on: large values that are alike keep their digits.
+  double sum = 0;
+  for (const double value : values) sum += value - figures.least;
+  figures.mean = figures.least + sum / count;
+  if (values.size() < 2) return figures;
+  double squares = 0;
+  for (const double value : values) {
+    squares += (value - figures.mean) * (value - figures.mean);
+  }
+  figures.deviation = std::sqrt(squares / (count - 1));
+  return figures;
+}
+
+}  // namespace
+
+std::vector<Group> summarise(const CellTable& table, const std::string& name,
+                             const std::vector<std::string>& keys,
+                             const std::vector<std::string>& measures,
+                             const std::vector<double>& quantiles) {
+  std::vector<const CellColumn*> by;
+  for (const std::string& key : keys) by.push_back(&column_of(table, name, key, "--by"));
+  const std::vector<std::string> names = measures.empty() ? all_measures(table) : measures;
+  if (names.empty()) {
+    throw InputError(name + ": has no columns of numbers to summarise; allowed: a sweep's result");
+  }
+  std::vector<const CellColumn*> columns;
+  for (const std::string& measure : names) {
+    const CellColumn& column = column_of(table, name, measure, "--measure");
+    if (!column.texts.empty() || column.width != 1) {
+      throw InputError(
+          "--measure: found " + measure +
+          ", which is no column of numbers; allowed: " + names_text(all_measures(table)));
+    }
+    columns.push_back(&column);
+  }
+  const auto status = std::ranges::find(table.names, "status");
+  const CellColumn* const ends =
+      status == table.names.end()
+          ? nullptr
+          : &table.columns[static_cast<std::size_t>(status - table.names.begin())];
+
+  std::vector<Group> groups;
+  std::map<std::vector<std::string>, std::size_t> places;
+  std::vector<std::vector<std::vector<double>>> values;  // by group and measure
+  for (std::size_t i = 0; i < table.rows; ++i) {
+    std::vector<std::string> key;
+    for (const CellColumn* column : by) {
+      key.push_back(column->has_text(i) ? column->texts[i] : number_text(column->numbers[i]));
+    }
+    const auto [place, is_new] = places.emplace(key, groups.size());
+    if (is_new) {
+      groups.push_back({key, 0, {}});
+      values.emplace_back(columns.size());
+    }
+    ++groups[place->second].cases;
+    if (ends != nullptr && ends->has_text(i) && ends->texts[i] != "done") continue;
+    for (std::size_t m = 0; m < columns.size(); ++m) {
+      const double value = columns[m]->numbers[i];
+      if (std::isfinite(value)) values[place->second][m].push_back(value);
+    }
+  }
+  for (std::size_t g = 0; g < groups.size(); ++g) {
+    for (std::size_t m = 0; m < columns.size(); ++m) {
+      groups[g].figures.push_back(figures_of(names[m], std::move(values[g][m]), quantiles));
+    }
+  }
+  return groups;
+}
+
+std::string to_csv(const std::vector<Group>& groups, const std::vector<std::string>& keys,
+                   const std::vector<double>& quantiles) {
+  std::string text;
+  for (const std::string& key : keys) text += key + ',';
+  text += "measure,cases,count,mean,deviation,min";
+  // 0.05 is q5, and 0.001 q0.1: hundredths are rounded as what they are meant to be.
+  for (const double part : quantiles) {
+    text += ",q" + number_text(std::round(part * 1e12) / 1e10);
+  }
+  text += ",max\n";
+  for (const Group& group : groups) {
+    std::string front;
+    for (const std::string& value : group.values) {
+      const bool plain = value.find_first_of(",\"\n\r") == std::string::npos;
+      if (plain) {
+        front += value;
+      } else {
+        front += '"';
+        for (const char c : value) front += c == '"' ? "\"\"" : std::string(1, c);
+        front += '"';
+      }
+      front += ',';
+    }
+    for (const GroupFigures& one : group.figures) {
+      text +=
+          front + one.measure + ',' + std::to_string(group.cases) + ',' + std::to_string(one.count);
+      const auto add = [&text](double value) { text += ',' + number_text(value); };
+      add(one.mean);
+      add(one.deviation);
+      add(one.least);
+      for (const double value : one.quantiles) add(value);
+      add(one.greatest);
+      text += '\n';
+    }
+  }
+  return text;
+}
+
+}  // namespace bbsim::record

@@ -1,0 +1,44 @@
+// Follows columns over the continuous motion of a run, and keeps them as curves.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "base/chebyshev.hpp"
+#include "model/model.hpp"
+#include "record/curve.hpp"
+#include "record/rows.hpp"
+#include "scenario/columns.hpp"
+#include "solve/piece.hpp"
+
+namespace bbsim::record {
+
+// Each piece of the run is looked at in as many points as it takes to have its columns to rounding,
+// or in 64 where they are not smooth.
+class Traces : public solve::PieceSink {
+ public:
+  // No column may need orientations, which come of rows in turn.
+  explicit Traces(std::vector<const scenario::Column*> columns);
+
+  // Begins anew; the two outlive the run.
+  void begin(const model::Model& model, const model::BallConstants& constants);
+  void begin_run() override;
+  void accept(const solve::Piece& piece) override;
+  // The run ends at `t`, where the columns have these values; if it ended before its first step,
+  // that is all.
+  void finish(double t, const Rows& last);
+
+  [[nodiscard]] const std::vector<const scenario::Column*>& columns() const {
+    return columns_.columns();
+  }
+  [[nodiscard]] const Curve& of(const scenario::Column& column) const;
+
+ private:
+  Rows columns_;
+  const model::Model* model_ = nullptr;
+  ChebyshevTables tables_;
+  std::vector<Curve> curves_;
+  std::vector<double> times_, rows_;
+};
+
+}  // namespace bbsim::record

@@ -1,0 +1,22 @@
+#include "scenario/coupled.hpp"
+
+namespace bbsim::scenario {
+
+bool moved_by_torques(const Scenario& scene) {
+  if (scene.gimbal.torque) return true;
+  if (!scene.controller) return false;
+  const Drives drives = scene.controller->drives;
+  return drives == Drives::torque || drives == Drives::voltage ||
+         (drives == Drives::angle && scene.gimbal.motor && scene.gimbal.motor->position_loop);
+}
+
+bool has_dry_losses(const Scenario& scene) {
+  return scene.ball.losses.rolling > 0 || scene.ball.losses.pivoting > 0;
+}
+
+bool is_coupled(const Scenario& scene) {
+  return has_dry_losses(scene) || scene.ball.losses.viscous > 0 ||
+         (scene.events.slip && scene.events.slip->sliding) || moved_by_torques(scene);
+}
+
+}  // namespace bbsim::scenario

@@ -1,0 +1,17 @@
+// Which scenes have more than ideal rolling under a gimbal that moves whatever the torques.
+#pragma once
+
+#include "scenario/scenario.hpp"
+
+namespace bbsim::scenario {
+
+// Whether torques move the gimbal.
+[[nodiscard]] bool moved_by_torques(const Scenario& scene);
+
+// Whether rolling resistance or pivoting friction acts on the ball.
+[[nodiscard]] bool has_dry_losses(const Scenario& scene);
+
+// Whether any loss does, the ball may slide, or torques move the gimbal.
+[[nodiscard]] bool is_coupled(const Scenario& scene);
+
+}  // namespace bbsim::scenario

@@ -1,0 +1,199 @@
+#include "study/verify_coupled.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <string>
+
+#include "model/ball/dynamics.hpp"
+#include "model/model.hpp"
+#include "solve/integrate.hpp"
+#include "solve/output_grid.hpp"
+
+namespace bbsim::study {
+namespace {
+
+using model::Sample;
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr solve::Tolerances tight{1e-12, 1e-14};
+
+struct Run {
+  std::vector<Sample> samples;
+  double allowance = infinity;  // of a position, as in verify.cpp; infinite if it came to no end
+};
+
+Run run(const Scenario& scene, const solve::Watch& watch) {
+  const model::Model model = model::assemble(scene, true);
+  const solve::OutputGrid grid(scene.time);
+  solve::Trajectory rows(model.row_size());
+  const solve::Outcome outcome =
+      solve::integrate(model, Method::automatic, tight, grid, rows, {watch.stop, {}});
+  Run made;
+  double size = 0;
+  for (std::size_t i = 0; i < rows.rows(); ++i) {
+    made.samples.push_back(model.sample(grid[i], rows.row(i)));
+    const model::BallMotion& ball = made.samples.back().ball;
+    for (const double value : {ball.x, ball.y, ball.x_dot, ball.y_dot}) {
+      size = std::max(size, std::abs(value));
+    }
+  }
+  if (outcome.ending == solve::Ending::done) {
+    made.allowance = static_cast<double>(outcome.statistics.steps) *
+                     (tight.rtol * size + tight.atol) * (1 + scene.time.end);
+  }
+  return made;
+}
+
+// The largest distance of `value` from `expected`; infinite of a run that is not whole.
+double distance(const Run& made, double (*value)(const Sample&),
+                const std::function<double(double)>& expected) {
+  double largest = made.allowance < infinity ? 0 : infinity;
+  for (const Sample& sample : made.samples) {
+    largest = std::max(largest, std::abs(value(sample) - expected(sample.t)));
+  }
+  return largest;
+}
+
+double x_of(const Sample& sample) {
+  return sample.ball.x;
+}
+
+Scenario level_plate() {
+  Scenario scene;
+  scene.ball.radius = 0.02;
+  scene.ball.mass = 0.05;
+  scene.gimbal.motion = GimbalMotion{};
+  scene.time = {10, 0.1};
+  return scene;
+}
+
+Check coasts_down(const solve::Watch& watch) {
+  Scenario scene = level_plate();
+  scene.ball.velocity = {0.2, 0};
+  scene.ball.losses.rolling = 0.004;
+  const Run made = run(scene, watch);
+  const double a = 0.004 * scene.gravity / 1.4, stop = 0.2 / a;
+  const double error = distance(made, x_of, [&](double t) {
+    const double rolled = std::min(t, stop);
+    return 0.2 * rolled - a * rolled * rolled / 2;
+  });
+  return {"rolling resistance: coasts down and stays (M41)", error, made.allowance, "m"};
+}
+
+Check starts_on_an_incline(const solve::Watch& watch) {
+  Scenario scene = level_plate();
+  const double c = 0.004;
+  scene.ball.losses.rolling = c;
+  scene.time = {1000, 10};
+  scene.gimbal.motion->phi = {std::atan(c * (1 - 1e-12))};
+  const Run below = run(scene, watch);
+  scene.gimbal.motion->phi = {std::atan(c * (1 + 1e-12))};
+  const Run above = run(scene, watch);
+  const bool right = below.allowance < infinity && above.allowance < infinity &&
+                     below.samples.back().ball.x == 0 && above.samples.back().ball.x > 0;
+  return {"rolling resistance: starts at tan(tilt) = c_rr", right ? 1e-12 : 1, 1e-12, "1"};
+}
+
+Check spins_down(const solve::Watch& watch) {
+  Scenario scene = level_plate();
+  scene.ball.spin = 20;
+  scene.ball.losses.pivoting = 1e-4;
+  const Run made = run(scene, watch);
+  const double r = scene.ball.radius, a = 1e-4 * scene.gravity / (0.4 * r * r), stop = 20 / a;
+  const double error = r * distance(
+                               made, [](const Sample& s) { return s.gamma; },
+                               [&](double t) {
+                                 const double turned = std::min(t, stop);
+                                 return 20 * turned - a * turned * turned / 2;
+                               });
+  return {"pivoting friction: spins down and stays", error, made.allowance, "m"};
+}
+
+Check decays(const solve::Watch& watch) {
+  Scenario scene = level_plate();
+  scene.ball.velocity = {0.2, 0};
+  scene.ball.losses.viscous = 5e-6;
+  const Run made = run(scene, watch);
+  const double rate = 5e-6 / (1.4 * 0.05 * 0.02 * 0.02);
+  const double error =
+      distance(made, x_of, [&](double t) { return 0.2 / rate * (1 - std::exp(-rate * t)); });
+  return {"viscous loss: decays", error, made.allowance, "m"};
+}
+
+Check slides_to_roll(double backspin, const solve::Watch& watch) {
+  Scenario scene = level_plate();
+  scene.ball.velocity = {1, 0};
+  scene.ball.rotation = Pair{0, backspin};
+  scene.events.slip = SlipEvent{0.3, OnEvent::note, 0.25};
+  scene.time = {2, 0.02};
+  const Run made = run(scene, watch);
+  const double k = 0.4, a = 0.25 * scene.gravity, slip = 1 - 0.02 * backspin;
+  const double rolls = k * slip / ((1 + k) * a);
+  const double error = distance(made, x_of, [&](double t) {
+    const double slid = std::min(t, rolls);
+    return slid - a * slid * slid / 2 + (t - slid) * (1 + k * 0.02 * backspin) / (1 + k);
+  });
+  return {backspin == 0 ? "sliding: rolls after 2v/(7 mu g), with 5v/7"
+                        : "sliding: backspin takes its part of the speed",
+          error, made.allowance, "m"};
+}
+
+// The energy of all that moves, with what was lost, less the motors' work. The integrals are states
+// under the same tolerance, so that what each may be wrong by is the allowance, in joules, and what
+// the energy may be is that of the states times the forces, momenta and moments of the scene.
+Check balance(const char* name, const Scenario& scene, const solve::Watch& watch) {
+  const Run made = run(scene, watch);
+  const model::BallConstants constants = model::constants_of(scene);
+  double error = made.allowance < infinity ? 0 : infinity, first = 0;
+  for (std::size_t i = 0; i < made.samples.size(); ++i) {
+    const model::Dynamics now = model::dynamics(made.samples[i], constants);
+    const double sum = now.energy + now.gimbal_energy + now.coupled.lost - now.coupled.work;
+    if (i == 0) first = sum;
+    error = std::max(error, std::abs(sum - first));
+  }
+  const double weight = (scene.ball.mass + scene.plate.mass) * scene.gravity;
+  return {name, error, (2 + weight) * made.allowance, "J"};
+}
+
+Check swings(const solve::Watch& watch) {
+  Scenario scene = level_plate();
+  scene.ball.position = {0.03, -0.02};
+  scene.ball.losses = {0.002, 1e-6, 1e-4};
+  scene.ball.spin = 5;
+  scene.plate.inertia = {4e-3, 6e-3, 1e-2};
+  scene.plate.mass = 0.5;
+  scene.plate.centre_of_mass = -0.05;
+  scene.gimbal.motion.reset();
+  scene.gimbal.torque = GimbalMotion{{Sinusoid{0.02, 3, 1, 0}}, {Sinusoid{0.015, 4, 0, 0}}};
+  scene.gimbal.ring_inertia = 2e-3;
+  scene.gimbal.motor = Motor{1e-3, 0.01, 0.005, {}, {}, {}};
+  scene.time = {3, 0.02};
+  return balance("torques, dry friction: energy, work and losses balance", scene, watch);
+}
+
+Check rocks(const solve::Watch& watch) {
+  Scenario scene = level_plate();
+  scene.ball.losses.rolling = 0.003;
+  scene.gimbal.motion->phi = {Sinusoid{0.2, 7, std::numbers::pi / 2, 0}};
+  scene.gimbal.motion->theta = {Sinusoid{0.15, 5, std::numbers::pi / 2, 0}};
+  scene.events.slip = SlipEvent{0.055, OnEvent::note, 0.045};
+  scene.time = {3, 0.02};
+  return balance("sliding and rolling by turns: energy, work and losses balance", scene, watch);
+}
+
+}  // namespace
+
+std::vector<std::function<Check()>> coupled_checks(const solve::Watch& watch) {
+  return {[&] { return coasts_down(watch); },
+          [&] { return starts_on_an_incline(watch); },
+          [&] { return spins_down(watch); },
+          [&] { return decays(watch); },
+          [&] { return slides_to_roll(0, watch); },
+          [&] { return slides_to_roll(-40, watch); },
+          [&] { return swings(watch); },
+          [&] { return rocks(watch); }};
+}
+
+}  // namespace bbsim::study

@@ -1,0 +1,13 @@
+// Checks of losses, sliding and torques against closed forms, and of their balance of energy.
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "study/verify.hpp"
+
+namespace bbsim::study {
+
+[[nodiscard]] std::vector<std::function<Check()>> coupled_checks(const solve::Watch& watch);
+
+}  // namespace bbsim::study

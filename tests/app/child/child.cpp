@@ -1,0 +1,134 @@
+// A controller for tests, which does its part until sample 5 and then what its first word says. Its
+// second word names a file that gets the ids of its processes.
+#include <unistd.h>
+
+#include <chrono>
+#include <csignal>
+#include <cstdio>
+#include <cstdlib>
+#include <functional>
+#include <iostream>
+#include <map>
+#include <string>
+#include <thread>
+
+namespace {
+
+constexpr const char* answer = "{\"command\": [0.01, -0.02], \"u\": 0.5}";
+
+[[noreturn]] void stay() {
+  for (;;) pause();
+}
+
+void note_process(const char* file, pid_t process = getpid()) {
+  if (std::FILE* const stream = std::fopen(file, "a")) {
+    std::fprintf(stream, "%d\n", static_cast<int>(process));
+    std::fclose(stream);
+  }
+}
+
+void say(const std::string& text) {
+  std::cout << text << std::flush;
+}
+
+void say_line(const std::string& text) {
+  say(text + '\n');
+}
+
+// Leaves a process behind that would stay, with all streams.
+void leave_another(const char* file) {
+  if (const pid_t process = fork()) return note_process(file, process);
+  for (const int signal : {SIGHUP, SIGTERM, SIGINT}) (void)std::signal(signal, SIG_IGN);
+  stay();
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  const std::string mode = argc > 1 ? argv[1] : "good";
+  const char* const file = argc > 2 ? argv[2] : "/dev/null";
+  note_process(file);
+  std::cerr << "started" << std::endl;
+
+  const std::map<std::string, std::function<void()>> deeds = {
+      {"sleeps",
+       [file] {
+         note_process((std::string(file) + ".asleep").c_str());
+         stay();
+       }},
+      {"dies", [] { std::_Exit(3); }},
+      {"crashes", [] { (void)std::raise(SIGKILL); }},
+      {"garbage", [] { say_line("hello \x1b[31mworld"); }},
+      {"floods",
+       [] {
+         for (;;) say(std::string(4096, 'x'));
+       }},
+      {"closes",
+       [] {
+         close(STDOUT_FILENO);
+         stay();
+       }},
+      {"breaks off",
+       [] {
+         say("{\"comma");
+         std::_Exit(0);
+       }},
+      {"leaves another",
+       [file] {
+         leave_another(file);
+         std::_Exit(0);
+       }},
+      {"late",
+       [] {
+         std::this_thread::sleep_for(std::chrono::seconds(2));
+         say_line(answer);
+       }},
+      {"nan", [] { say_line("{\"command\": [NaN, 0]}"); }},
+      {"infinite", [] { say_line("{\"command\": [0, 1e999]}"); }},
+      {"one", [] { say_line("{\"command\": [1]}"); }},
+      {"three", [] { say_line("{\"command\": [1, 2, 3]}"); }},
+      {"none", [] { say_line("{\"u\": 0.5}"); }},
+      {"trails", [] { say_line(std::string(answer) + " and more"); }},
+      {"empty", [] { say_line(""); }},
+      {"twice", [] { say_line(std::string(answer) + '\n' + answer); }},
+      {"gives up", [] { say_line("{\"error\": \"the plate is gone\"}"); }},
+      {"complains",
+       [] {
+         for (int i = 0; i < 40000; ++i) std::cerr << "this is line " << i << '\n';
+         say_line(answer);
+       }},
+      {"forks",
+       [file] {
+         leave_another(file);
+         say_line(answer);
+       }},
+  };
+
+  if (mode == "mute") stay();
+  if (mode == "dies at once") return 4;
+  if (mode == "leaves") {  // a process group to end with it
+    leave_another(file);
+    return 0;
+  }
+  for (std::string line; std::getline(std::cin, line);) {
+    if (line.find("\"protocol\":1") != std::string::npos) {
+      if (mode == "chatters") say_line("Welcome!");
+      if (mode == "another version") {
+        say_line("{\"protocol\": 2}");
+      } else if (mode == "resets") {
+        say_line("{\"protocol\": 1, \"reset\": true, \"columns\": {\"u\": \"rad\"}}");
+      } else {
+        say_line("{\"protocol\": 1}");
+      }
+      continue;
+    }
+    const auto deed = deeds.find(mode);
+    if (deed != deeds.end() && line.find("\"sample\":5,") != std::string::npos) {
+      deed->second();
+    } else {
+      say_line(answer);
+    }
+  }
+  if (mode == "goes on") stay();
+  return 0;
+}

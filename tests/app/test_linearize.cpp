@@ -1,0 +1,138 @@
+// bbsim linearize, and the files that it writes, read by who they are for where they are installed.
+#include <cstdlib>
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "catch.hpp"
+#include "process.hpp"
+#include "shell.hpp"
+
+using namespace bbsim_test;
+using nlohmann::json;
+
+namespace {
+
+bool contains(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
+
+}  // namespace
+
+TEST_CASE("linearize writes A, B, C, D, names and poles as JSON") {
+  const Folder folder;
+  const Result result =
+      bbsim({"linearize", config("fig2b.yaml"), "--plant", "-o", "plant.json"}, folder.path());
+  CAPTURE(result.err);
+  REQUIRE(result.exit_code == 0);
+  const json plant = json::parse(folder.read("plant.json"));
+  CHECK(plant["states"] == json({"x", "y", "vx", "vy", "phi", "theta", "phi_rate", "theta_rate"}));
+  CHECK(plant["inputs"] == json({"phi_command", "theta_command"}));
+  CHECK(plant["input_units"] == json({"rad", "rad"}));
+  CHECK(plant["outputs"] == json({"x", "y"}));
+  CHECK(plant["period"].is_null());
+  REQUIRE(plant["A"].size() == 8);
+  CHECK(plant["A"][0] == json({0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0}));
+  CHECK(plant["B"].size() == 8);
+  CHECK(plant["B"][6][0].get<double>() == Approx(100).epsilon(1e-15));  // omega_n^2
+  CHECK(plant["C"] ==
+        json({{1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0}, {0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0}}));
+  CHECK(plant["D"] == json({{0.0, 0.0}, {0.0, 0.0}}));
+  CHECK(plant["poles"].size() == 8);
+  CHECK(plant["zeros"].size() == 4);
+
+  const Result loop = bbsim({"linearize", config("rig.yaml"), "-o", "-"});
+  REQUIRE(loop.exit_code == 0);
+  const json sampled = json::parse(loop.out);
+  CHECK(sampled["period"] == 0.02);
+  CHECK(sampled["poles"].size() == sampled["states"].size());
+  CHECK(sampled["margins"]["phi_command"]["gain"].get<double>() > 1);
+  CHECK(sampled["bandwidth"].contains("x"));
+}
+
+TEST_CASE("linearize goes to a time of the run, and to an equilibrium") {
+  const Result at_time =
+      bbsim({"linearize", config("fig2b.yaml"), "--at", "2 s", "-o", "-", "--plant"});
+  REQUIRE(at_time.exit_code == 0);
+  const json moving = json::parse(at_time.out);
+  CHECK(moving["at"] == "t = 2 s");
+  CHECK(moving["states"].size() == 9);  // where the plane turns, the spin acts
+  const Result at_start =
+      bbsim({"linearize", config("rig.yaml"), "--at", "0", "-o", "-", "--sampled"});
+  REQUIRE(at_start.exit_code == 0);
+  const Result rest = bbsim({"linearize", config("step.yaml"), "--at", "equilibrium"});
+  CHECK(rest.exit_code == 0);
+  CHECK(contains(rest.out, "about equilibrium"));
+  CHECK(contains(rest.out, "margins"));
+
+  CHECK(bbsim({"linearize", config("fig2b.yaml"), "--at", "1000 s"}).exit_code == 2);
+  CHECK(bbsim({"linearize", config("fig2b.yaml"), "--at", "somewhere"}).exit_code == 2);
+  CHECK(bbsim({"linearize", config("fig2a.yaml"), "--loop"}).exit_code == 2);
+  CHECK(bbsim({"linearize", config("fig2b.yaml"), "--sampled"}).exit_code == 2);
+  CHECK(bbsim({"linearize", config("fig2b.yaml"), "--plant", "--loop"}).exit_code == 2);
+  CHECK(bbsim({"linearize", config("fig2b.yaml"), "-o", "plant.txt"}).exit_code == 2);
+  // The printed law blows up before.
+  CHECK(bbsim({"linearize", config("fig2b-literal.yaml"), "--at", "10"}).exit_code == 1);
+}
+
+TEST_CASE("linearize's files have what their readers expect") {
+  const Folder folder;
+  for (const char* name : {"loop.m", "loop.py", "loop.csv"}) {
+    REQUIRE(bbsim({"linearize", config("rig.yaml"), "-o", name}, folder.path()).exit_code == 0);
+  }
+  std::istringstream csv(folder.read("loop.csv"));
+  std::string header, first;
+  std::getline(csv, header);
+  std::getline(csv, first);
+  CHECK(header.starts_with("row,x,y,vx,vy,phi,theta,phi_rate,theta_rate,"));
+  CHECK(contains(header, ",x_reference,y_reference"));
+  CHECK(first.starts_with("x_next,"));
+  CHECK(contains(folder.read("loop.m"), "sys = ss(A, B, C, D, period);"));
+  CHECK(contains(folder.read("loop.py"), "control.ss(A, B, C, D, period)"));
+  // Python itself reads the module, with numpy's array in the place of numpy where that is missing.
+  const Result python = shell(
+      "command -v python3 >/dev/null || exit 0\n"
+      "python3 - <<'END'\n"
+      "import sys, types\n"
+      "try:\n"
+      "    import numpy\n"
+      "except ImportError:\n"
+      "    numpy = None\n"
+      "    sys.modules['numpy'] = types.SimpleNamespace(array=lambda rows: rows)\n"
+      "import loop\n"
+      "assert len(loop.A) == len(loop.states) == len(loop.B), len(loop.A)\n"
+      "assert len(loop.C) == len(loop.outputs) == 2\n"
+      "assert len(loop.D[0]) == len(loop.inputs)\n"
+      "assert loop.period == 0.02\n"
+      "if numpy:\n"
+      "    assert max(abs(numpy.linalg.eigvals(loop.A))) < 1\n"
+      "END\n",
+      folder.path());
+  CAPTURE(python.err);
+  CHECK(python.exit_code == 0);
+  const Result octave = shell(
+      "command -v octave-cli >/dev/null || exit 0\n"
+      "octave-cli --norc --eval 'loop; assert(max(abs(eig(A))) < 1); assert(size(B, 2) == "
+      "numel(inputs))'\n",
+      folder.path());
+  CAPTURE(octave.err);
+  CHECK(octave.exit_code == 0);
+}
+
+TEST_CASE("linearize writes over nothing that it reads") {
+  const Folder folder;
+  const Result same =
+      shell("cp " + config("fig2b.yaml") + " scene.csv; $BBSIM linearize scene.csv -o scene.csv",
+            folder.path());
+  CHECK(same.exit_code == 2);
+}
+
+TEST_CASE("check prints the margins of a stable loop") {
+  const Result stable = bbsim({"check", config("fig2b.yaml")});
+  CHECK(contains(stable.out, "margins"));
+  CHECK(contains(stable.out, "phase "));
+  CHECK(contains(stable.out, "bandwidth"));
+  CHECK_FALSE(contains(bbsim({"check", config("fig2b-literal.yaml")}).out, "margins"));
+  CHECK_FALSE(contains(bbsim({"check", config("fig2a.yaml")}).out, "margins"));
+}

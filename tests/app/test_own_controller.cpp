@@ -1,0 +1,161 @@
+// The controllers of examples/controllers against the built-in law; and those that are libraries.
+#include <algorithm>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "catch.hpp"
+#include "process.hpp"
+
+using namespace bbsim_test;
+
+namespace {
+
+bool contains(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
+
+std::string example(const std::string& name) {
+  return std::string(BBSIM_SOURCE_DIR) + "/examples/controllers/" + name;
+}
+
+constexpr const char* all_columns =
+    "output.columns=[t, x, y, vx, vy, spin, phi, theta, phi_rate, theta_rate, phi_command, "
+    "theta_command, x_measured, y_measured]";
+
+std::string csv_of(std::vector<std::string> words) {
+  words.insert(words.begin(), "run");
+  words.insert(words.end(), {"--set", all_columns, "-o", "-"});
+  const Result result = bbsim(words);
+  CAPTURE(result.err);
+  REQUIRE(result.exit_code == 0);
+  return result.out;
+}
+
+const std::string library = std::string("controller.library.file=") + BBSIM_EXAMPLE_LIBRARY;
+
+std::vector<std::string> with_misdeeds(const std::string& mode, const std::string& file = "") {
+  return {"run",   example("library.yaml"),
+          "--set", "controller.library.file=" + (file.empty() ? BBSIM_MISDEEDS : file),
+          "--set", "controller.library.parameters={mode: " + mode + "}",
+          "--set", "output.columns=[t, x, samples]",
+          "--set", "time.end=0.2",
+          "-o",    "-",
+          "-q"};
+}
+
+}  // namespace
+
+TEST_CASE("the library of the examples gives the built-in PID's trajectory, to the bit") {
+  CHECK(csv_of({example("library.yaml"), "--set", library}) == csv_of({config("step.yaml")}));
+}
+
+TEST_CASE("so does the sketch, where servos have steps") {
+  CHECK(csv_of({example("arduino.yaml"), "--set",
+                std::string("controller.program.command=[\"") + BBSIM_EXAMPLE_SKETCH + "\"]"}) ==
+        csv_of({config("step.yaml"), "--set", "controller.sampling.resolution=\"0.1 deg\""}));
+}
+
+#ifdef BBSIM_PYTHON
+TEST_CASE("so does the program in Python, with noise and dropouts too") {
+  CHECK(csv_of({example("python.yaml")}) == csv_of({config("step.yaml")}));
+  const std::vector<std::string> worse = {"--set", "controller.sensor.noise=\"0.5 mm\"",
+                                          "--set", "controller.sensor.dropout=0.2",
+                                          "--set", "ball.position=[-0.1, 0.03]"};
+  std::vector<std::string> own{example("python.yaml")}, built_in{config("step.yaml")},
+      in_c{example("library.yaml"), "--set", library};
+  for (std::vector<std::string>* words : {&own, &built_in, &in_c}) {
+    words->insert(words->end(), worse.begin(), worse.end());
+  }
+  const std::string wanted = csv_of(built_in);
+  CHECK(csv_of(own) == wanted);
+  CHECK(csv_of(in_c) == wanted);
+}
+
+TEST_CASE("parameters of a program are keys: they are set, and vary over a sweep") {
+  const Result sweep = bbsim({"sweep", example("python.yaml"), "--vary",
+                              "controller.program.parameters.ki=list:0.2,0.35", "--measure",
+                              "end_x,max_x_integral", "-o", "-", "-q"});
+  CAPTURE(sweep.err);
+  REQUIRE(sweep.exit_code == 0);
+  const Result built_in =
+      bbsim({"sweep", config("step.yaml"), "--vary", "controller.pid.ki.0.0=list:0.2,0.35",
+             "--measure", "end_x", "-o", "-", "-q"});
+  const auto end_x = [](const std::string& rows, std::size_t row) {
+    std::size_t at = 0;
+    for (std::size_t i = 0; i < row; ++i) at = rows.find('\n', at) + 1;
+    for (int i = 0; i < 5; ++i) at = rows.find(',', at) + 1;
+    return rows.substr(at, rows.find_first_of(",\n", at) - at);
+  };
+  // theta's ki differs between the two, and the ball stays on the x axis.
+  CHECK(end_x(sweep.out, 1) == end_x(built_in.out, 1));
+  CHECK(end_x(sweep.out, 2) == end_x(built_in.out, 2));
+  CHECK(end_x(sweep.out, 1) != end_x(sweep.out, 2));
+}
+#endif
+
+TEST_CASE("a library's file begins at the scenario's folder, and so does its name") {
+  const Folder folder;
+  std::filesystem::create_directory(folder / "scene");
+  std::filesystem::copy_file(BBSIM_EXAMPLE_LIBRARY, folder / "scene/libpid.so");
+  std::filesystem::copy_file(example("library.yaml"), folder / "scene/library.yaml");
+  for (const char* name : {"libpid.so", "./libpid.so"}) {
+    const Result result = bbsim(
+        {"check", "scene/library.yaml", "--set", std::string("controller.library.file=") + name},
+        folder.path());
+    CAPTURE(result.err);
+    CHECK(result.exit_code == 0);
+    CHECK(contains(result.out, "controller   the library opens, and makes a controller"));
+  }
+  const Result over = bbsim({"run", "library.yaml", "-o", "libpid.so"}, folder.path() / "scene");
+  CHECK(over.exit_code == 2);
+}
+
+TEST_CASE("what is wrong with a library is told with the key's place") {
+  struct Wrong {
+    std::vector<std::string> words;
+    std::string told;
+  };
+  const auto [words, told] = GENERATE(values<Wrong>({
+      {with_misdeeds("0", "/no/such/library.so"), "which cannot be opened: /no/such/library.so"},
+      {with_misdeeds("0", config("step.yaml")), "which cannot be opened"},
+      {with_misdeeds("0", BBSIM_MISDEEDS_VERSION),
+       "which is of version 99 of bbsim/controller.h; allowed: version 1: compile it anew"},
+      {with_misdeeds("0", BBSIM_MISDEEDS_LACK), "which has no function bbsim_controller_step"},
+      {with_misdeeds("1"), "which makes no controller for this scene: no such mode"},
+      {{"run", example("library.yaml"), "--set", library, "--set",
+        "controller.library.parameters.kd=1", "-o", "-"},
+       "it takes the parameters kp, kv and ki"},
+  }));
+  const Result result = bbsim(words);
+  CAPTURE(result.err);
+  CHECK(result.exit_code == 2);
+  CHECK(result.out.empty());
+  CHECK(contains(result.err, "controller.library"));
+  CHECK(contains(result.err, told));
+}
+
+TEST_CASE("a library that fails at a sample ends the run there") {
+  const auto [mode, told] = GENERATE(table<std::string, std::string>(
+      {{"2", "failed at sample 5 (t = 0.1 s): it returned 7: the plate is gone"},
+       {"3", "failed at sample 5 (t = 0.1 s): its command is [0.01, nan]; allowed: finite"}}));
+  const Result result = bbsim(with_misdeeds(mode));
+  CAPTURE(result.err);
+  CHECK(result.exit_code == 1);
+  CHECK(contains(result.err, told));
+  CHECK(std::count(result.out.begin(), result.out.end(), '\n') == 6);
+}
+
+TEST_CASE("a library begins each case of a sweep anew, whether it can reset or not") {
+  for (const char* mode : {"0", "4"}) {
+    std::vector<std::string> words = with_misdeeds(mode);
+    words[0] = "sweep";
+    words.insert(words.end(),
+                 {"--vary", "gravity=list:9,9.5,10", "--measure", "end_samples", "-j", "1"});
+    const Result result = bbsim(words);
+    CAPTURE(mode, result.err, result.out);
+    CHECK(result.exit_code == 0);
+    // The 11th sample is at the end.
+    CHECK(contains(result.out, "0,9,done,,0.2,11\n1,9.5,done,,0.2,11\n2,10,done,,0.2,11\n"));
+  }
+}

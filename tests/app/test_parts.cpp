@@ -1,0 +1,135 @@
+// A run split in two gives the bytes of one.
+#include <string>
+#include <vector>
+
+#include "catch.hpp"
+#include "process.hpp"
+
+using namespace bbsim_test;
+
+namespace {
+
+bool contains(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
+
+Result run(const Folder& folder, std::vector<std::string> arguments) {
+  arguments.insert(arguments.begin(), "run");
+  Result result = bbsim(std::move(arguments), folder.path());
+  CAPTURE(result.err);
+  CHECK(result.exit_code == 0);
+  return result;
+}
+
+// The rows without their header.
+std::string rows_of(const std::string& csv) {
+  return csv.substr(csv.find('\n') + 1);
+}
+
+}  // namespace
+
+TEST_CASE("the rows of two parts are those of one run, to the bit") {
+  struct Scene {
+    const char* name;
+    const char* until;
+    std::vector<std::string> more{};
+  };
+  // Smooth ones, of few steps and of many; stops of a table; a rig with noise and delays, between
+  // two samples and at one; limits that switch; events that are noted.
+  const Scene scene =
+      GENERATE(Scene{"fig2a", "5"}, Scene{"fig2b", "7.05"}, Scene{"recorded", "2"},
+               Scene{"rig", "10.01", {"--set", "time.step=\"10 ms\""}}, Scene{"rig", "20 s"},
+               Scene{"step", "600 ms"}, Scene{"catch", "1"},
+               Scene{"fig2a", "9.99", {"--set", "output.columns=[t, gamma, spin, torque_phi]"}});
+  CAPTURE(scene.name, scene.until);
+  const Folder folder;
+  const auto with = [&](std::vector<std::string> arguments) {
+    arguments.insert(arguments.begin(), config(std::string(scene.name) + ".yaml"));
+    arguments.insert(arguments.end(), scene.more.begin(), scene.more.end());
+    return arguments;
+  };
+  run(folder, with({"-o", "whole.csv"}));
+  const Result first = run(
+      folder, with({"-o", "first.csv", "--save-state", "middle.state", "--until", scene.until}));
+  CHECK(contains(first.err, "middle.state: the state at t = "));
+  run(folder, with({"-o", "second.csv", "--from-state", "middle.state"}));
+  const std::string a = folder.read("first.csv"), b = rows_of(folder.read("second.csv"));
+  CHECK(b.size() > 20);
+  CHECK(a + b == folder.read("whole.csv"));
+}
+
+TEST_CASE("a run may go on for longer than it was meant to") {
+  const Folder folder;
+  const std::string rig = config("rig.yaml");
+  run(folder, {rig, "-o", "whole.csv", "--set", "time.end=9"});
+  run(folder, {rig, "-o", "a.csv", "--set", "time.end=3", "--save-state", "a.state"});
+  run(folder, {rig, "-o", "b.csv", "--set", "time.end=6", "--from-state", "a.state", "--save-state",
+               "b.state"});
+  run(folder, {rig, "-o", "c.csv", "--set", "time.end=9", "--from-state", "b.state"});
+  CHECK(folder.read("a.csv") + rows_of(folder.read("b.csv")) + rows_of(folder.read("c.csv")) ==
+        folder.read("whole.csv"));
+
+  // Fig. 2(a) takes four steps in all, which are fitted to its end.
+  const std::string smooth = config("fig2a.yaml");
+  run(folder, {smooth, "-o", "d.csv", "--set", "time.end=5", "--save-state", "d.state"});
+  const Result refused =
+      bbsim({"run", smooth, "-o", "e.csv", "--from-state", "d.state"}, folder.path());
+  CHECK(refused.exit_code == 2);
+  CHECK(contains(refused.err, "--until"));
+  run(folder, {smooth, "-o", "e.csv", "--from-state", "d.state", "--set", "time.end=100"});
+  run(folder, {smooth, "-o", "f.csv", "--set", "time.end=100"});
+  CHECK(folder.read("d.csv") + rows_of(folder.read("e.csv")) == folder.read("f.csv"));
+}
+
+TEST_CASE("a state is refused where bytes could not be those of one run") {
+  const Folder folder;
+  const std::string rig = config("rig.yaml");
+  run(folder, {rig, "-o", "a.csv", "--save-state", "a.state", "--until", "1"});
+  const auto refusal = [&](std::vector<std::string> arguments) {
+    arguments.insert(arguments.begin(), {"run", "-o", "b.csv"});
+    const Result result = bbsim(std::move(arguments), folder.path());
+    CHECK(result.exit_code == 2);
+    return result.err;
+  };
+  CHECK(contains(refusal({config("step.yaml"), "--from-state", "a.state"}), "another scenario"));
+  CHECK(contains(refusal({rig, "--from-state", "a.state", "--set", "ball.mass=1"}),
+                 "another scenario"));
+  CHECK(contains(refusal({rig, "--from-state", "a.state", "--set", "time.end=50"}), "time.end"));
+  CHECK(contains(refusal({rig, "--from-state", "a.csv"}), "no state of a run"));
+  CHECK(contains(refusal({rig, "--from-state", "none.state"}), "cannot read"));
+  CHECK(contains(refusal({rig, "--save-state", "c.state", "--set", "solver.method=bdf"}), "radau"));
+  CHECK(contains(refusal({rig, "--save-state", "c.state", "--error", "1 um"}), "solver.error"));
+  CHECK(contains(refusal({rig, "--until", "3"}), "--save-state"));
+  CHECK(contains(refusal({rig, "--save-state", "c.state", "--until", "50"}), "--until"));
+  CHECK(refusal({rig, "--from-state", "a.state", "--save-state", "a.state", "--until", "3"}) != "");
+  CHECK(
+      contains(refusal({rig, "--from-state", "a.state", "--save-state", "c.state", "--until", "1"}),
+               "an end after that"));
+  CHECK(contains(refusal({rig, "--from-state", "a.state", "--set", "output.columns=[t, ball_qw]"}),
+                 "gamma"));
+  std::string damaged = folder.read("a.state");
+  damaged[damaged.size() / 2] = static_cast<char>(damaged[damaged.size() / 2] ^ 1);
+  folder.write("damaged.state", damaged);
+  CHECK(contains(refusal({rig, "--from-state", "damaged.state"}), "damaged"));
+  folder.write("short.state", folder.read("a.state").substr(0, 1000));
+  CHECK(contains(refusal({rig, "--from-state", "short.state"}), "damaged"));
+  CHECK(folder.files() ==
+        std::vector<std::string>{"a.csv", "a.state", "damaged.state", "short.state"});
+}
+
+TEST_CASE("events are told of by the part that they happen in") {
+  // A ball that falls off has nothing to go on from.
+  const Folder folder;
+  const Result falls =
+      bbsim({"run", config("falls.yaml"), "-o", "a.csv", "--save-state", "a.state"}, folder.path());
+  CHECK(falls.exit_code == 1);
+  CHECK(contains(falls.err, "a.state: not written"));
+  CHECK(folder.files() == std::vector<std::string>{"a.csv"});
+  // Before it does, it has.
+  run(folder, {config("falls.yaml"), "-o", "b.csv", "--save-state", "b.state", "--until", "0.5"});
+  const Result rest =
+      bbsim({"run", config("falls.yaml"), "-o", "c.csv", "--from-state", "b.state"}, folder.path());
+  CHECK(rest.exit_code == 1);
+  CHECK(contains(rest.err, "left the plate"));
+  CHECK(folder.read("b.csv") + rows_of(folder.read("c.csv")) == folder.read("a.csv"));
+}

@@ -1,0 +1,171 @@
+// The lines that bbsim and a program say to each other.
+#include <cmath>
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "base/noise.hpp"
+#include "catch.hpp"
+#include "controller/protocol.hpp"
+
+using namespace bbsim;
+using controller::read_answer;
+using nlohmann::json;
+
+namespace {
+
+std::string sample_line(const model::ControllerSample& sample,
+                        controller::Fields wanted = controller::Fields().set()) {
+  char line[controller::longest_sample];
+  return {line, controller::write_sample(sample, wanted, line)};
+}
+
+struct Read {
+  std::string fault;
+  Pair command{};
+  std::vector<double> own;
+};
+
+Read read(const std::string& line, const std::vector<std::string>& names = {}) {
+  Read read;
+  read.own.resize(names.size());
+  read.fault = read_answer(line, names, read.command, read.own.data());
+  return read;
+}
+
+}  // namespace
+
+TEST_CASE("a sample's numbers read back to the same double, and none to an integer") {
+  Noise noise(5);
+  for (int i = 0; i < 1000; ++i) {
+    const auto number = [&noise] { return noise.normal() * std::pow(10, 40 * noise.normal()); };
+    const std::optional<Pair> seen{{number(), number()}};
+    const double servo[4] = {number(), number(), number(), number()};
+    const std::array<model::Jet<double>, 2> reference{
+        {{number(), number(), number()}, {number(), number(), number()}}};
+    const double t = std::abs(number());
+    const json read = json::parse(sample_line({7, t, seen, servo, reference}));
+    CHECK(read.at("sample") == 7);
+    CHECK(read.at("t").get<double>() == t);
+    CHECK(read.at("ball") == json{(*seen)[0], (*seen)[1]});
+    CHECK(read.at("reference") == json{reference[0].value, reference[1].value});
+    CHECK(read.at("reference_rate") == json{reference[0].rate, reference[1].rate});
+    CHECK(read.at("reference_acceleration") ==
+          json{reference[0].acceleration, reference[1].acceleration});
+    CHECK(read.at("servo") == json{servo[0], servo[1]});
+    CHECK(read.at("servo_rate") == json{servo[2], servo[3]});
+    CHECK(read.size() == 8);
+  }
+}
+
+TEST_CASE("the longest sample fits its line; zeros keep their sign; what was not seen is null") {
+  constexpr double longest = -2.2250738585072014e-308;
+  const double servo[4] = {longest, longest, longest, longest};
+  const std::array<model::Jet<double>, 2> reference{
+      {{longest, longest, longest}, {longest, longest, longest}}};
+  const std::optional<Pair> seen{{longest, longest}};
+  const std::size_t most = std::numeric_limits<std::size_t>::max();
+  CHECK(sample_line({most, longest, seen, servo, reference}).size() < controller::longest_sample);
+
+  const double zeros[4] = {0.0, -0.0, 1, 1e22};
+  const std::string line = sample_line({0, 0, std::nullopt, zeros, {}});
+  CHECK(
+      line ==
+      "{\"sample\":0,\"t\":0.0,\"ball\":null,\"reference\":[0.0,0.0],\"reference_rate\":[0.0,0.0],"
+      "\"reference_acceleration\":[0.0,0.0],\"servo\":[0.0,-0.0],\"servo_rate\":[1.0,1e+22]}\n");
+}
+
+TEST_CASE("a controller is told those fields alone that it asks for") {
+  const controller::Ready ready =
+      controller::read_ready("{\"protocol\": 1, \"fields\": [\"servo\", \"ball\", \"sample\"]}");
+  CHECK(ready.fault.empty());
+  const double servo[4] = {1, 2, 3, 4};
+  CHECK(sample_line({3, 0.06, std::nullopt, servo, {}}, ready.fields) ==
+        "{\"sample\":3,\"ball\":null,\"servo\":[1.0,2.0]}\n");
+  const std::optional<Pair> seen{{0.5, -0.25}};
+  CHECK(sample_line({3, 0.06, seen, servo, {}}, ready.fields) ==
+        "{\"sample\":3,\"ball\":[0.5,-0.25],\"servo\":[1.0,2.0]}\n");
+  CHECK(sample_line({3, 0.06, seen, servo, {}}, {}) == "{\"sample\":3}\n");
+  const std::string wrong =
+      controller::read_ready("{\"protocol\": 1, \"fields\": [\"bal\"]}").fault;
+  CHECK(wrong.find("found a field \"bal\"; allowed: those of the hello") != std::string::npos);
+}
+
+TEST_CASE("an answer may be written as libraries write it") {
+  for (const char* line : {"{\"command\": [0.5, -1e-3]}", "{\"command\":[0.5,-0.001]}",
+                           " { \"command\" : [ 0.5 , -0.001 ] } \r",
+                           "{\"u\": 3, \"command\": [0.5, -0.001], \"v\": NaN}"}) {
+    CAPTURE(line);
+    const Read answer = read(line);
+    CHECK(answer.fault.empty());
+    CHECK(answer.command == Pair{0.5, -0.001});
+  }
+  const Read named = read("{\"b\": 2, \"command\": [0, 1], \"a\": -1.5e3, \"c\": 9}", {"a", "b"});
+  CHECK(named.fault.empty());
+  CHECK(named.own == std::vector<double>{-1500, 2});
+}
+
+TEST_CASE("what is wrong with an answer is told with the answer") {
+  struct Wrong {
+    std::string line, told;
+  };
+  const auto [line, told] = GENERATE(values<Wrong>({
+      {"", "its answer was nothing: allowed: {\"command\": [PHI, THETA]}"},
+      {"0.1 0.2", "its answer was \"0.1 0.2\": allowed"},
+      {"[0.1, 0.2]", "allowed"},
+      {"{\"command\": [0.1, 0.2]", "allowed"},
+      {"{\"command\": [0.1 0.2]}", "found a command that is not two numbers"},
+      {"{\"command\": [\"0.1\", 0.2]}", "found a command that is not two numbers"},
+      {"{\"command\": [.1, 0.2]}", "found a command that is not two numbers"},
+      {"{\"command\": [inf, 0.2]}", "found a command that is not two numbers"},
+      {"{\"command\": [-Infinity, 0.2]}", "found a command that is no finite number"},
+      {"{\"command\": [null, 0.2]}", "found a command that is not two numbers"},
+      {"{\"command\": [0, 0], \"u\": \"a\"}", "found \"u\" that is no number"},
+      {"{\"command\": [0, 0], \"a\": NaN}", "found \"a\" that is no finite number"},
+      {"{\"command\": [0, 0]}", "found no \"a\", which output.columns asks for"},
+      {"{\"command\": [0, 0], \"a\": 1}}", "allowed"},
+      {"{\"command\": [0, 0], \"a\\", "allowed"},
+      {"{\"a\": 1}", "found no command"},
+      {"{\"error\": \"no \\\"kp\\\"\"}", "it gave up: \"no \"kp\"\""},
+  }));
+  CAPTURE(line);
+  const Read answer = read(line, {"a"});
+  CHECK(answer.fault.find(told) != std::string::npos);
+}
+
+TEST_CASE("a hello says what the run is like, and its answer what the controller can") {
+  controller::Setup setup;
+  setup.period = 0.02;
+  setup.limit = std::numeric_limits<double>::infinity();
+  setup.parameters = {{"kp", 0.7}, {"ki", 0.1}};
+  setup.columns = {"u"};
+  const std::string line = controller::hello_line(setup);
+  CHECK(line.find('\n') == line.size() - 1);
+  const json hello = json::parse(line);
+  CHECK(hello.at("protocol") == 1);
+  CHECK(hello.at("period") == 0.02);
+  CHECK(hello.at("limit").is_null());
+  CHECK(hello.at("parameters") == json{{"kp", 0.7}, {"ki", 0.1}});
+  CHECK(hello.at("columns") == json::array({"u"}));
+  // All that a sample has, with its unit, and no more.
+  const double servo[4] = {};
+  const json sample = json::parse(sample_line({0, 0, std::nullopt, servo, {}}));
+  CHECK(hello.at("fields").size() == sample.size());
+  for (const auto& [name, unit] : hello.at("fields").items()) CHECK(sample.contains(name));
+
+  CHECK(controller::read_ready("{\"protocol\": 1}").fault.empty());
+  const controller::Ready ready =
+      controller::read_ready("{\"protocol\": 1, \"reset\": true, \"columns\": {\"u\": \"rad\"}}");
+  CHECK(ready.fault.empty());
+  CHECK(ready.reset);
+  REQUIRE(ready.columns);
+  CHECK(ready.columns->front() == std::pair<std::string, std::string>("u", "rad"));
+  for (const char* wrong :
+       {"", "hello", "[]", "{}", "{\"protocol\": 2}", "{\"protocol\": \"1\"}",
+        "{\"protocol\": 1, \"reset\": 1}", "{\"protocol\": 1, \"columns\": [\"u\"]}",
+        "{\"protocol\": 1, \"columns\": {\"u\": 1}}", "{\"protocol\": 1, \"rest\": true}"}) {
+    CAPTURE(wrong);
+    CHECK_FALSE(controller::read_ready(wrong).fault.empty());
+  }
+}

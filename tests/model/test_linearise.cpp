@@ -1,0 +1,400 @@
+// Scenes as linear systems: against differences in quad precision, closed forms, and the poles that
+// the loop has otherwise.
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <numbers>
+#include <random>
+
+#include "base/error.hpp"
+#include "base/quad.hpp"
+#include "catch.hpp"
+#include "model/assemble_rig.hpp"
+#include "model/control/linearise.hpp"
+#include "model/control/sampled_cycle.hpp"
+#include "model/control/transmission_zeros.hpp"
+#include "model/systems/jacobian.hpp"
+#include "support/scenes.hpp"
+
+using namespace bbsim;
+using namespace bbsim_test;
+using Eigen::MatrixXd;
+using model::Linearisation;
+using model::LinearKind;
+using Complex = std::complex<double>;
+
+namespace {
+
+// A position servo and a PD law about the origin, on the paper's gimbal.
+Scenario pd_scene() {
+  Scenario scene = fig2b();
+  scene.ball.radius = 0.02;
+  scene.gimbal.servo = Servo{30, 0.8};
+  scene.controller->kp = {{{0.4, 0}, {0, -0.4}}};
+  scene.controller->kv = {{{0.35, 0}, {0, -0.35}}};
+  scene.controller->reference = PointReference{};
+  return scene;
+}
+
+Scenario sampled_scene() {
+  Scenario scene = pd_scene();
+  scene.controller->sampling = Sampling{0.02, 0.013, 0, 0.03};
+  scene.controller->sensor = Sensor{};
+  scene.controller->sensor->delay = 0.055;
+  return scene;
+}
+
+// Nothing about it is symmetrical.
+Scenario crooked_scene() {
+  Scenario scene = pd_scene();
+  scene.ball.inertia_factor = 0.6;
+  scene.gimbal.mounting = {0.03, 0.01, -0.02, 0.04, 0.1, 0.02};
+  scene.controller->kp[0][1] = 0.05;
+  return scene;
+}
+
+Linearisation linear(const Scenario& scene, LinearKind kind,
+                     const model::LinearPoint& at = model::home_point()) {
+  return model::linearise(scene, model::assemble(scene, false), kind, at);
+}
+
+// The largest distance from a value to the nearest of the others, relative to 1 + its size.
+double distance(const model::Eigenvalues& values, model::Eigenvalues others) {
+  REQUIRE(values.size() == others.size());
+  double worst = 0;
+  for (const Complex& value : values) {
+    const auto nearest = std::min_element(
+        others.begin(), others.end(),
+        [&](const auto& p, const auto& q) { return std::abs(p - value) < std::abs(q - value); });
+    worst = std::max(worst, std::abs(*nearest - value) / (1 + std::abs(value)));
+    others.erase(nearest);
+  }
+  return worst;
+}
+
+model::LinearPoint somewhere() {
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> number(-0.5, 0.5);
+  model::LinearPoint at;
+  for (double& one : at.state) one = number(random);
+  for (double& one : at.command) one = number(random);
+  for (auto& one : at.reference) one = {number(random), number(random), number(random)};
+  return at;
+}
+
+}  // namespace
+
+TEST_CASE("poles of a linear loop are those that check prints") {
+  Scenario scene = pd_scene();
+  SECTION("PD") {}
+  SECTION("PD of accelerations, unstable") {
+    scene = fig2b_literal();
+  }
+  SECTION("planar") {
+    scene.ball.position = {0.05, 0};
+    scene.controller->kp[1] = scene.controller->kv[1] = {0, 0};
+  }
+  SECTION("PID") {
+    scene.controller->law = Law::pid;
+    scene.controller->ki = {{{0.1, 0}, {0, 0}}};
+  }
+  SECTION("LQR") {
+    scene.controller->law = Law::lqr;
+    scene.controller->weights = {100, 1, 0, 0, 1};
+  }
+  SECTION("crooked") {
+    scene = crooked_scene();
+  }
+  SECTION("gravity compensation, whose reference is not home") {
+    scene.controller->law = Law::gravity_compensation;
+    scene.controller->kp = {{{4, 0}, {0, 4}}};
+    scene.controller->kv = {{{3, 0}, {0, 3}}};
+    scene.controller->reference = CircleReference{0.1, 2, 0, {0, 0}};
+  }
+  const model::Model model = model::assemble(scene, false);
+  const Linearisation made = linear(scene, LinearKind::loop);
+  // Rounding of a non-symmetric matrix's eigenvalues, of two ways to the same matrix.
+  CHECK(distance(made.poles, model::closed_loop_poles(model)) < 1e-10);
+  CHECK_FALSE(made.system.period);
+}
+
+TEST_CASE("poles of a sampled loop are those that check prints") {
+  Scenario scene = sampled_scene();
+  SECTION("PD") {}
+  SECTION("PID with a servo of first order, no delay") {
+    scene.controller->law = Law::pid;
+    scene.controller->ki = {{{0.1, 0}, {0, -0.1}}};
+    scene.controller->sampling->delay = 0;
+    scene.controller->sensor->delay = 0;
+    scene.gimbal.servo = Servo{};
+    scene.gimbal.servo->time_constant = 0.05;
+  }
+  const model::Model model = model::assemble(scene, false);
+  const Linearisation made = linear(scene, LinearKind::loop);
+  CHECK(made.system.period == 0.02);
+  // Poles at zero of the delays are defective: rounding moves them by its root of their number.
+  const auto large = [](model::Eigenvalues poles) {
+    std::erase_if(poles, [](const Complex& pole) { return std::abs(pole) < 0.05; });
+    return poles;
+  };
+  const auto poles = model::sampled_poles(std::get<model::RigLoop<>>(model.system), *model.rig);
+  CHECK(made.poles.size() == poles.size());
+  CHECK(distance(large(made.poles), large(poles)) < 1e-9);
+}
+
+TEST_CASE("A and B of a plant are its differences in quad precision") {
+  const Scenario scene = crooked_scene();
+  const model::LinearPoint at = somewhere();
+  const Linearisation made = linear(scene, LinearKind::plant, at);
+  const auto built = model::assemble_rig<false>(scene, {});
+  model::RigLoop<> held(built.loop.radius(), built.loop.gravity(), built.loop.rolling(), {},
+                        built.loop.servo(), {}, built.loop.mode);
+  constexpr int n = model::RigLoop<>::size;
+  REQUIRE(made.system.a.rows() == n);  // with the spin, which acts on others where the plane turns
+  const auto rates = [&](int state, double step, int command, double push) {
+    Quad z[n], dz[n];
+    for (int i = 0; i < n; ++i) z[i] = Quad(at.state[static_cast<std::size_t>(i)]);
+    if (state >= 0) z[state] += step;
+    for (int i = 0; i < 2; ++i) held.mode.command[i] = at.command[static_cast<std::size_t>(i)];
+    if (command >= 0) held.mode.command[command] += push;
+    held.derivative_of(std::array<model::Jet<Quad>, 2>{}, z, dz);
+    return std::vector<Quad>(dz, dz + n);
+  };
+  // Central differences leave out the square of the step times the third derivative, some 1e3.
+  const double step = std::ldexp(1.0, -40);
+  for (int j = 0; j < n; ++j) {
+    const auto more = rates(j, step, -1, 0), less = rates(j, -step, -1, 0);
+    for (int i = 0; i < n; ++i) {
+      const auto k = static_cast<std::size_t>(i);
+      const double difference = plain((more[k] - less[k]) / Quad(2 * step));
+      CAPTURE(i, j);
+      CHECK(std::abs(made.system.a(i, j) - difference) <= 1e-12 * (1 + std::abs(difference)));
+    }
+  }
+  // The command enters linearly; the step is so large that the doubles it is added to are exact.
+  for (int j = 0; j < 2; ++j) {
+    const auto more = rates(-1, 0, j, 1), less = rates(-1, 0, j, 0);
+    const double push =
+        (at.command[static_cast<std::size_t>(j)] + 1) - at.command[static_cast<std::size_t>(j)];
+    for (int i = 0; i < n; ++i) {
+      const auto k = static_cast<std::size_t>(i);
+      const double difference = plain((more[k] - less[k]) / Quad(push));
+      CAPTURE(i, j);
+      CHECK(std::abs(made.system.b(i, j) - difference) <= 1e-12 * (1 + std::abs(difference)));
+    }
+  }
+}
+
+TEST_CASE("A and B of a loop are its differences in quad precision") {
+  Scenario scene = crooked_scene();
+  const bool compensates = GENERATE(false, true);
+  if (compensates) {
+    scene.controller->law = Law::gravity_compensation;
+    scene.controller->kp = {{{0.4, 0}, {0, 0.4}}};
+    scene.controller->kv = {{{0.3, 0}, {0, 0.3}}};
+  }
+  const model::LinearPoint at = somewhere();
+  const Linearisation made = linear(scene, LinearKind::loop, at);
+  const auto loop = model::assemble_rig<false>(scene, {}).loop;
+  constexpr int n = model::RigLoop<>::size;
+  REQUIRE(made.system.a.rows() == n);
+  CHECK(made.system.inputs.size() == (compensates ? 6 : 4));
+  const auto rates = [&](int place, double step) {
+    Quad z[n], dz[n];
+    for (int i = 0; i < n; ++i) z[i] = Quad(at.state[static_cast<std::size_t>(i)]);
+    std::array<model::Jet<Quad>, 2> reference;
+    for (std::size_t i = 0; i < 2; ++i) {
+      reference[i] = {Quad(at.reference[i].value), Quad(at.reference[i].rate),
+                      Quad(at.reference[i].acceleration)};
+    }
+    if (place < n) {
+      z[place] += step;
+    } else {
+      auto& jet = reference[static_cast<std::size_t>((place - n) % 2)];
+      const int order = (place - n) / 2;
+      (order == 0 ? jet.value : order == 1 ? jet.rate : jet.acceleration) += step;
+    }
+    loop.derivative_of(reference, z, dz);
+    return std::vector<Quad>(dz, dz + n);
+  };
+  const double step = std::ldexp(1.0, -40);
+  for (int j = 0; j < n + static_cast<int>(made.system.inputs.size()); ++j) {
+    const auto more = rates(j, step), less = rates(j, -step);
+    for (int i = 0; i < n; ++i) {
+      const auto k = static_cast<std::size_t>(i);
+      const double difference = plain((more[k] - less[k]) / Quad(2 * step));
+      const double found = j < n ? made.system.a(i, j) : made.system.b(i, j - n);
+      CAPTURE(compensates, i, j);
+      CHECK(std::abs(found - difference) <= 1e-12 * (1 + std::abs(difference)));
+    }
+  }
+}
+
+TEST_CASE("margins are those of the closed form (M13)") {
+  const Scenario scene = pd_scene();
+  const Linearisation made = linear(scene, LinearKind::loop);
+  // s^2 (s^2 + P s + Q) + (Kv s + Kp)(a - r s^2), K = Q k.
+  const double r = 0.02, a = 5 * scene.gravity / 7, wn = 30, zeta = 0.8;
+  const double p = 2 * zeta * wn, q = wn * wn, kp = q * 0.4, kv = q * 0.35;
+  // Where a factor on both gains makes a3 a2 a1 = a1^2 + a3^2 a0: its square cancels.
+  const double gain = p * (q * kv - p * kp) / (kv * (kv * (q * r + a) - p * r * kp));
+  const double at = std::sqrt(gain * a * kv / (p - gain * r * kv));
+  REQUIRE(made.margins.size() == 2);
+  for (const model::LoopMargins& loop : made.margins) {
+    const model::Margins& margins = loop.margins;
+    CAPTURE(loop.command);
+    CHECK(margins.gain == Approx(gain).epsilon(1e-11));
+    CHECK(margins.gain_at == Approx(at).epsilon(1e-11));
+    CHECK(margins.reduction == 0);
+    const double w = margins.phase_at, w2 = w * w;
+    const double numerator = (kv * kv * w2 + kp * kp) * (a + r * w2) * (a + r * w2);
+    const double denominator = w2 * w2 * ((q - w2) * (q - w2) + p * p * w2);
+    CHECK(numerator == Approx(denominator).epsilon(1e-11));
+    const double phase = std::atan2(kv * w, kp) - std::atan2(p * w, q - w2);  // and pi of 1/s^2
+    CHECK(margins.phase == Approx(phase).epsilon(1e-11));
+    CHECK(margins.delay == Approx(phase / w).epsilon(1e-11));
+  }
+  // The border is where they say: the loop with that gain has poles on the axis.
+  Scenario border = scene;
+  for (auto* matrix : {&border.controller->kp, &border.controller->kv}) {
+    for (auto& row : *matrix) {
+      for (double& one : row) one *= made.margins[0].margins.gain;
+    }
+  }
+  CHECK(std::abs(linear(border, LinearKind::loop).poles.front().real()) < 1e-10);
+
+  // |T| = 1 / sqrt 2, T = L / (1 + L).
+  REQUIRE(made.bandwidths.size() == 2);
+  const Complex s(0, made.bandwidths[0].value);
+  const Complex l = (kv * s + kp) * (a - r * s * s) / (s * s * (s * s + p * s + q));
+  CHECK(std::abs(l / (1.0 + l)) == Approx(1 / std::numbers::sqrt2).epsilon(1e-11));
+}
+
+TEST_CASE("zeros of plant and loop are those of equation (27) about home") {
+  const Scenario scene = pd_scene();
+  const double beyond = std::sqrt(5 * scene.gravity / 7 / 0.02);  // a = r s^2
+  const model::Eigenvalues plant = linear(scene, LinearKind::plant).zeros;
+  // Two alike, which rounding may part by its root.
+  CHECK(distance(plant, {beyond, beyond, -beyond, -beyond}) < 1e-7);
+  const double law = -0.4 / 0.35;
+  const model::Eigenvalues loop = linear(scene, LinearKind::loop).zeros;
+  CHECK(distance(loop, {beyond, beyond, -beyond, -beyond, law, law}) < 1e-7);
+  // No number of zeros is an accident: one output without, one with a direct term.
+  MatrixXd a(2, 2), b(2, 1), c(1, 2);
+  a << 0, 1, -2, -3;
+  b << 0, 1;
+  c << 5, 1;
+  CHECK(distance(model::transmission_zeros(a, b, c, MatrixXd::Zero(1, 1)), {-5}) < 1e-13);
+  c << 1, 0;
+  CHECK(model::transmission_zeros(a, b, c, MatrixXd::Zero(1, 1)).empty());
+  // s^2 + 3 s + 2 + 1 over the same.
+  CHECK(distance(model::transmission_zeros(a, b, c, MatrixXd::Ones(1, 1)),
+                 {Complex(-1.5, std::sqrt(0.75)), Complex(-1.5, -std::sqrt(0.75))}) < 1e-13);
+}
+
+TEST_CASE("a sampled loop's margins are those of its lifted matrix") {
+  const Scenario scene = sampled_scene();
+  const Linearisation made = linear(scene, LinearKind::loop);
+  REQUIRE(made.margins.size() == 2);
+  const model::Margins& margins = made.margins[0].margins;
+  REQUIRE(std::isfinite(margins.gain));
+  REQUIRE(margins.gain > 1);
+  const auto largest_with = [&](double factor) {
+    Scenario changed = scene;
+    for (auto* matrix : {&changed.controller->kp, &changed.controller->kv}) {
+      for (double& one : (*matrix)[0]) one *= factor;  // of phi's loop alone
+    }
+    return std::abs(linear(changed, LinearKind::loop).poles.front());
+  };
+  CHECK(largest_with(margins.gain) == Approx(1).epsilon(1e-10));
+  CHECK(largest_with(0.99 * margins.gain) < 1);
+
+  // The plant under a held command, and the law's own polynomial of z.
+  const Linearisation plant = linear(scene, LinearKind::sampled);
+  CHECK(plant.system.outputs[0].name == "x_measured");
+  const model::FrequencyResponse response(plant.system.a, plant.system.b, plant.system.c,
+                                          plant.system.d, 0.02);
+  const Complex z = std::polar(1.0, margins.phase_at * 0.02);
+  const double keep = 0.03 / 0.05;
+  const Complex law = 0.4 + 0.35 * (1 - keep) / 0.02 * (z - 1.0) / (z - keep);
+  const Complex l = law * response.at(margins.phase_at, 0, 0);
+  CHECK(std::abs(l) == Approx(1).epsilon(1e-11));
+  CHECK(std::arg(-l) == Approx(margins.phase).epsilon(1e-11));
+}
+
+TEST_CASE("a plant under a held command is the plant's exponential, delayed") {
+  const Scenario scene = sampled_scene();
+  const Linearisation plant = linear(scene, LinearKind::plant);
+  const Linearisation sampled = linear(scene, LinearKind::sampled);
+  // At low frequency the two differ by delays and half a period of the hold alone.
+  const double w = 0.05;
+  const model::FrequencyResponse slow(plant.system.a, plant.system.b, plant.system.c,
+                                      plant.system.d, 0);
+  const model::FrequencyResponse held(sampled.system.a, sampled.system.b, sampled.system.c,
+                                      sampled.system.d, 0.02);
+  const Complex ratio = held.at(w, 0, 0) / slow.at(w, 0, 0);
+  // The next term of the hold's series is (w T)^2 / 24.
+  CHECK(std::abs(ratio) == Approx(1).epsilon(1e-6));
+  CHECK(std::arg(ratio) == Approx(-w * (0.013 + 0.055 + 0.01)).epsilon(1e-6));
+  // Poles: the plant's over a period, and those of the delays at zero.
+  for (const Complex& pole : plant.poles) {
+    const Complex expected = std::exp(pole * 0.02);
+    const double nearest =
+        std::abs(*std::min_element(sampled.poles.begin(), sampled.poles.end(),
+                                   [&](const auto& a, const auto& b) {
+                                     return std::abs(a - expected) < std::abs(b - expected);
+                                   }) -
+                 expected);
+    CHECK(nearest < 1e-6);  // the plant's four at zero are two double ones
+  }
+}
+
+TEST_CASE("about an equilibrium everything rests") {
+  Scenario scene = crooked_scene();
+  scene.controller->reference = PointReference{{0.04, -0.03}};
+  const auto law = GENERATE(Law::pd, Law::pid, Law::gravity_compensation);
+  scene.controller->law = law;
+  if (law == Law::pid) scene.controller->ki = {{{0.1, 0}, {0, -0.1}}};
+  if (law == Law::gravity_compensation) {
+    scene.controller->kp = {{{4, 0}, {0, 4}}};
+    scene.controller->kv = {{{3, 0}, {0, 3}}};
+  }
+  const model::LinearPoint at = model::equilibrium(scene);
+  const model::Model model = model::assemble(scene, false);
+  std::visit(
+      [&](const auto& system) {
+        std::vector<double> rates(static_cast<std::size_t>(system.size));
+        system.derivative(0.0, at.state.data(), rates.data());
+        // Newton's last step leaves rounding, which the servo multiplies by 900 1/s^2.
+        for (const double one : rates) CHECK(std::abs(one) < 1e-12);
+      },
+      model.system);
+  if (law == Law::pid) {
+    CHECK(at.state[0] == Approx(0.04).epsilon(1e-14));
+  } else {
+    CHECK(std::abs(at.state[0] - 0.04) > 1e-3);  // its offsets drive the ball away
+  }
+  CHECK(linear(scene, LinearKind::loop, at).poles.size() ==
+        linear(scene, LinearKind::loop).poles.size());
+}
+
+TEST_CASE("what a scene does not have cannot be linear") {
+  Scenario scene = fig2a();
+  CHECK_THROWS_AS(linear(scene, LinearKind::loop), InputError);
+  CHECK_THROWS_AS(linear(scene, LinearKind::sampled), InputError);
+  const Linearisation plant = linear(scene, LinearKind::plant);
+  CHECK(plant.system.inputs[0].name == "phi_acceleration");
+  CHECK(plant.system.states.size() == 8);
+  CHECK_THROWS_AS(linear(pd_scene(), LinearKind::sampled), InputError);
+  Scenario first_order = sampled_scene();
+  first_order.gimbal.servo = Servo{};
+  first_order.gimbal.servo->time_constant = 0.05;
+  CHECK_THROWS_AS(linear(first_order, LinearKind::plant), InputError);
+  // No angles level a plane whose base stands upright.
+  Scenario upright = crooked_scene();
+  upright.gimbal.mounting.base_tilt = std::numbers::pi / 2;
+  upright.gimbal.mounting.skew = 0;
+  upright.gravity = 0;
+  CHECK_NOTHROW(model::equilibrium(upright));
+}

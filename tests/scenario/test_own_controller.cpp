@@ -1,0 +1,107 @@
+// Keys of a controller that is not built in.
+#include "catch.hpp"
+#include "scenario/columns.hpp"
+#include "support/reading.hpp"
+
+using namespace bbsim;
+using namespace bbsim::test;
+
+namespace {
+
+std::string scene(const std::string& controller, const std::string& rest = "") {
+  return "ball: {radius: 0.02}\n"
+         "gimbal: {servo: {natural_frequency: \"5 Hz\", damping: 0.8}}\n"
+         "controller:\n"
+         "  " +
+         controller +
+         "\n"
+         "  drives: angle\n"
+         "  reference: {point: [0, 0]}\n"
+         "  sampling: {period: 0.02}\n"
+         "time: {end: 1, step: 0.1}\n" +
+         rest;
+}
+
+const std::string program = "program: {command: [python3, pid.py]}";
+
+bool contains(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
+
+}  // namespace
+
+TEST_CASE("a program and a library are read, with their parameters") {
+  const Scenario with_program = parse(
+      scene("program: {command: [python3, -u, \"my pid.py\", 5], parameters: {kp: 0.7, n_2: -3}, "
+            "timeout: \"20 ms\"}"),
+      {"controller.program.parameters.kp=0.8", "controller.program.parameters.new=1"});
+  CHECK(with_program.controller->law == Law::own);
+  const OwnController& own = *with_program.controller->own;
+  const auto& read = std::get<ControllerProgram>(own.by);
+  CHECK(read.command == std::vector<std::string>{"python3", "-u", "my pid.py", "5"});
+  CHECK(read.timeout == 0.02);
+  CHECK(read.start_timeout == 5);
+  REQUIRE(own.parameters.size() == 3);
+  CHECK(own.parameters[0].name == "kp");
+  CHECK(own.parameters[0].value == 0.8);
+  CHECK(own.parameters[1].value == -3);
+  CHECK(own.parameters[2].name == "new");
+
+  const Scenario slow = parse(scene("program: {command: [a], timeout: \"1 min\"}"));
+  CHECK(std::get<ControllerProgram>(slow.controller->own->by).start_timeout == 60);
+
+  const Scenario with_library = parse_scenario(
+      scene("library: {file: ./libpid.so, parameters: {kp: 1}}"), "some/folder/scenario.yaml");
+  CHECK(std::get<ControllerLibrary>(with_library.controller->own->by).file == "./libpid.so");
+  CHECK(with_library.controller->own->folder == "some/folder");
+}
+
+TEST_CASE("columns of other names are the controller's, where it is one's own") {
+  const Scenario own = parse(scene(program, "output: {columns: [t, u_integral, x, V2]}"));
+  CHECK(scenario::own_columns(own) == std::vector<std::string>{"u_integral", "V2"});
+  CHECK(scenario::find_column("u_integral")->needs == scenario::Needs::own);
+  // Known by now, and still not for scenes without such a controller.
+  const std::string built_in =
+      scene("pd: {kv: 1, kp: 1}", "output: {columns: [t, u_integral, phi_comand]}");
+  CHECK(contains(errors(built_in), "output.columns.1: found u_integral; allowed: one of t, x"));
+  CHECK(contains(errors(built_in), "did you mean phi_command?"));
+  CHECK(contains(errors(scene(program, "output: {columns: [t, 2u]}")), "output.columns.1"));
+  CHECK(contains(errors(scene(program, "output: {columns: [t, u v]}")), "output.columns.1"));
+  CHECK(contains(errors(scene(program, "output: {columns: [t, u, u]}")), "found u again"));
+}
+
+TEST_CASE("what a controller of one's own cannot be is refused at its key") {
+  struct Wrong {
+    std::string text, told;
+  };
+  const auto [text, told] = GENERATE(values<Wrong>({
+      {"program: {}", "controller.program.command: missing"},
+      {"program: {command: python3 pid.py}",
+       "controller.program.command: found python3 pid.py; allowed: a list of 1 to 1000 words, "
+       "such as [python3, pid.py]"},
+      {"program: {command: []}", "controller.program.command: found an empty list"},
+      {"program: {command: [a], timeout: 0}", "controller.program.timeout: found 0"},
+      {"program: {command: [a], timout: 1}", "did you mean controller.program.timeout?"},
+      {"program: {command: [a], parameters: [1]}",
+       "controller.program.parameters: found a list of 1; allowed: a mapping of names to numbers"},
+      {"program: {command: [a], parameters: {kp: high}}",
+       "controller.program.parameters.kp: found high"},
+      {"program: {command: [a], parameters: {kp: 1, kp: 2}}", "controller.program.parameters.kp"},
+      {"program: {command: [a], parameters: {\"k p\": 1}}", "letters, digits and underscores"},
+      {"library: {}", "controller.library.file: missing"},
+      {"program: {command: [a]}\n  pd: {kv: 1, kp: 1}", "allowed: one law"},
+      {"program: {command: [a]}\n  library: {file: b}", "allowed: one law"},
+  }));
+  CAPTURE(text);
+  const std::string found = errors(scene(text));
+  CAPTURE(found);
+  CHECK(contains(found, told));
+}
+
+TEST_CASE("a controller of one's own needs samples") {
+  std::string text = scene(program);
+  text.replace(text.find("  sampling"), std::string("  sampling: {period: 0.02}\n").size(), "");
+  CHECK(errors(text) ==
+        "scenario.yaml:4:3: controller.program: found without controller.sampling; allowed: only "
+        "with it, since it is asked once a sample");
+}
