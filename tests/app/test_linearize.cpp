@@ -136,3 +136,15 @@ TEST_CASE("check prints the margins of a stable loop") {
   CHECK_FALSE(contains(bbsim({"check", config("fig2b-literal.yaml")}).out, "margins"));
   CHECK_FALSE(contains(bbsim({"check", config("fig2a.yaml")}).out, "margins"));
 }
+
+TEST_CASE("what linearize does not know is refused, with what it does") {
+  const Result losses = bbsim({"linearize", config("slides.yaml")});
+  CHECK(losses.exit_code == 2);
+  CHECK(contains(losses.err, "losses, sliding or torques"));
+  const std::string own = BBSIM_SOURCE_DIR "/examples/controllers/python.yaml";
+  const Result law = bbsim({"linearize", own, "--loop"});
+  CHECK(law.exit_code == 2);
+  CHECK(contains(law.err, "--sampled"));
+  CHECK(bbsim({"linearize", own}).exit_code == 0);
+  CHECK_FALSE(contains(bbsim({"check", config("torque-lqr.yaml")}).out, "margins"));
+}

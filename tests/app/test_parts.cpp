@@ -99,6 +99,10 @@ TEST_CASE("a state is refused where bytes could not be those of one run") {
   CHECK(contains(refusal({rig, "--from-state", "none.state"}), "cannot read"));
   CHECK(contains(refusal({rig, "--save-state", "c.state", "--set", "solver.method=bdf"}), "radau"));
   CHECK(contains(refusal({rig, "--save-state", "c.state", "--error", "1 um"}), "solver.error"));
+  CHECK(contains(refusal({config("slides.yaml"), "--save-state", "c.state"}), "sliding"));
+  CHECK(contains(
+      refusal({BBSIM_SOURCE_DIR "/examples/controllers/python.yaml", "--save-state", "c.state"}),
+      "a controller of one's own"));
   CHECK(contains(refusal({rig, "--until", "3"}), "--save-state"));
   CHECK(contains(refusal({rig, "--save-state", "c.state", "--until", "50"}), "--until"));
   CHECK(refusal({rig, "--from-state", "a.state", "--save-state", "a.state", "--until", "3"}) != "");
