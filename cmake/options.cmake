@@ -29,5 +29,6 @@ endif()
 function(bbsim_spare_from_sanitizers)
   if(BBSIM_SANITIZE)
     set_property(SOURCE ${ARGN} APPEND PROPERTY COMPILE_OPTIONS -fno-sanitize=all)
+    set_property(SOURCE ${ARGN} PROPERTY SKIP_PRECOMPILE_HEADERS ON) # which are instrumented
   endif()
 endfunction()

@@ -348,7 +348,7 @@ CycleParts cycle_parts_about(const Scenario& scene, const LinearPoint& at,
   const ControlLaw& law = rig.sampled->law;
   Feedback<double> fed{};
   for (int i = 0; i < 2; ++i) {
-    const auto state = [&](int place) { return at.state[static_cast<std::size_t>(place + i)]; };
+    const auto state = [&](int place) { return (at.state.data() + place)[i]; };
     fed.position[i] = state(0);
     fed.velocity[i] = state(2);
     fed.angle[i] = state(angle);
@@ -504,8 +504,8 @@ void place_ball(const ControlLaw& law, LinearPoint& point) {
     Feedback<double> fed{};
     for (int j = 0; j < 2; ++j) {
       fed.position[j] = point.state[static_cast<std::size_t>(j)];
-      fed.angle[j] = point.state[static_cast<std::size_t>(angle + j)];
-      fed.integral[j] = point.state[static_cast<std::size_t>(integral + j)];
+      fed.angle[j] = (point.state.data() + angle)[j];
+      fed.integral[j] = (point.state.data() + integral)[j];
     }
     const auto plain = [](int, double raw) { return raw; };
     const Command<double> u = command(law, fed, point.reference, plain);
