@@ -127,9 +127,10 @@ ExitCode command_line(int argc, char** argv) {
        [&](CLI::App& command) { add_accuracy(command, options, chosen); }},
   };
   // Options are made of those that are named: all of them take longer than many a run.
+  char** const words = argv + std::min(argc, 1);
   for (const auto& [name, description, add_options] : commands) {
     CLI::App* const command = app.add_subcommand(name, description);
-    if (std::find(argv + 1, argv + argc, std::string_view(name)) != argv + argc) {
+    if (std::find(words, argv + argc, std::string_view(name)) != argv + argc) {
       add_options(*command);
     }
   }

@@ -92,6 +92,10 @@ void ChebyshevPoints::slopes(const double* values, double* into) const {
   }
 }
 
+double ChebyshevPoints::overshoot() const {
+  return std::log(static_cast<double>(size())) / std::numbers::pi;
+}
+
 // With T_N = +-1 at the points and T_(N-1) = T_N cos(angle), cos(angle) = 1 - 2 s.
 double ChebyshevPoints::tail(const double* values) const {
   double last = 0, before = 0;

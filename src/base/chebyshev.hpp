@@ -26,6 +26,9 @@ class ChebyshevPoints {
   // The polynomial between points i and i + 1: at the point between them of twice as many
   // intervals.
   [[nodiscard]] double between(const double* values, std::size_t i) const;
+  // How far beyond its values at the points the polynomial may go, as a part of their range:
+  // (L - 1) / 2 of the Lebesgue constant L <= 1 + 2 / pi log(n + 1) of n intervals.
+  [[nodiscard]] double overshoot() const;
   // The sizes of its last two Chebyshev coefficients, added: what more points would change is of
   // this size, unless it is all of the function.
   [[nodiscard]] double tail(const double* values) const;

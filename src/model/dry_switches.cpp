@@ -208,37 +208,35 @@ void DrySwitches::settle(Model& model, double t, double* z) const {
       ContactMode contact;
       MotorMode motors[2];
     } best;
-    const auto signs = [](bool at_zero) { return at_zero ? 3 : 1; };
     constexpr double sign[3] = {0, 1, -1};
-    const auto try_all = [&] {
-      for (int slide = 0; slide < (zero.slip ? 2 : 1); ++slide) {
-        for (int moves = 0; moves < (zero.roll ? 2 : 1); ++moves) {
-          for (int spin = 0; spin < signs(zero.spin); ++spin) {
-            for (int phi = 0; phi < signs(zero.axis[0]); ++phi) {
-              for (int theta = 0; theta < signs(zero.axis[1]); ++theta) {
-                if (zero.spin) {
-                  contact.held = spin == 0;
-                  contact.turns = sign[spin];
-                }
-                const int axis[2] = {phi, theta};
-                for (int i = 0; i < 2; ++i) {
-                  if (!zero.axis[i]) continue;
-                  scene.motors[i].free = axis[i] == 0 ? 0 : 1;
-                  scene.motors[i].opposed = sign[axis[i]];
-                }
-                const int wrong = faults(scene, t, z, zero, slide == 1, moves == 0);
-                if (wrong >= best.faults) continue;
-                best.faults = wrong;
-                best.contact = contact;
-                if (scene.motors != nullptr) std::copy_n(scene.motors, 2, best.motors);
-                if (wrong == 0) return;
-              }
-            }
-          }
-        }
+    // In the number of a choice each that is at zero has a digit, the last one counting fastest.
+    const int digits[] = {zero.slip ? 2 : 1, zero.roll ? 2 : 1, zero.spin ? 3 : 1,
+                          zero.axis[0] ? 3 : 1, zero.axis[1] ? 3 : 1};
+    int choices = 1;
+    for (const int digit : digits) choices *= digit;
+    for (int choice = 0; choice < choices && best.faults > 0; ++choice) {
+      int digit[5], rest = choice;
+      for (int d = 4; d >= 0; --d) {
+        digit[d] = rest % digits[d];
+        rest /= digits[d];
       }
-    };
-    try_all();
+      const auto [slides, rolls, turns, phi, theta] = digit;
+      if (zero.spin) {
+        contact.held = turns == 0;
+        contact.turns = sign[turns];
+      }
+      const int axis[2] = {phi, theta};
+      for (int i = 0; i < 2; ++i) {
+        if (!zero.axis[i]) continue;
+        scene.motors[i].free = axis[i] == 0 ? 0 : 1;
+        scene.motors[i].opposed = sign[axis[i]];
+      }
+      const int wrong = faults(scene, t, z, zero, slides == 1, rolls == 0);
+      if (wrong >= best.faults) continue;
+      best.faults = wrong;
+      best.contact = contact;
+      if (scene.motors != nullptr) std::copy_n(scene.motors, 2, best.motors);
+    }
     contact = best.contact;
     if (scene.motors != nullptr) std::copy_n(best.motors, 2, scene.motors);
   });

@@ -33,7 +33,10 @@ class BothPieces : public solve::PieceSink {
 class BothSinks : public solve::StateSink {
  public:
   BothSinks(solve::StateSink& one, solve::StateSink& other)
-      : one_(one), other_(other), pieces_(one.pieces(), other.pieces()) {}
+      : BothSinks(one, other, other.pieces()) {}
+  // `others_pieces`: who is told of the motion for the other one, null for nobody.
+  BothSinks(solve::StateSink& one, solve::StateSink& other, solve::PieceSink* others_pieces)
+      : one_(one), other_(other), pieces_(one.pieces(), others_pieces) {}
   void accept(std::size_t first, std::size_t count, const double* values) override {
     one_.accept(first, count, values);
     other_.accept(first, count, values);

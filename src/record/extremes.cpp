@@ -71,10 +71,8 @@ void Extremes::sample(const solve::Piece& piece, const ChebyshevPoints& points) 
   }
 }
 
-// A polynomial is nowhere further above the values at its Chebyshev points than a part of their
-// range: (L - 1) / 2, of the Lebesgue constant L <= 1 + 2 / pi log(129) up to degree 128.
-bool Extremes::may_matter(std::size_t i, std::size_t count) const {
-  constexpr double beyond = 1.55;
+bool Extremes::may_matter(std::size_t i, const ChebyshevPoints& points) const {
+  const std::size_t count = points.size();
   const double* const values = &values_[i * count];
   double least = values[0], most = values[0];
   for (std::size_t p = 1; p < count; ++p) {
@@ -82,7 +80,7 @@ bool Extremes::may_matter(std::size_t i, std::size_t count) const {
     most = std::max(most, values[p]);
   }
   // Where there is no number too.
-  return !(most + beyond * (most - least) <= greatest_[i].value);
+  return !(most + points.overshoot() * (most - least) <= greatest_[i].value);
 }
 
 // Overflows, and what is no number, more points would not show either.
@@ -123,7 +121,7 @@ void Extremes::accept(const solve::Piece& piece) {
     sample(piece, points);
     matter_.clear();
     for (std::size_t i = 0; i < size(); ++i) {
-      if (may_matter(i, points.size())) matter_.push_back(i);
+      if (may_matter(i, points)) matter_.push_back(i);
     }
     const auto shows = [&](std::size_t i) { return is_shown(i, points); };
     if (2 * parts > most_parts || std::all_of(matter_.begin(), matter_.end(), shows)) break;

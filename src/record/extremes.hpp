@@ -45,7 +45,7 @@ class Extremes : public solve::PieceSink {
 
  private:
   void sample(const solve::Piece& piece, const ChebyshevPoints& points);
-  [[nodiscard]] bool may_matter(std::size_t i, std::size_t count) const;
+  [[nodiscard]] bool may_matter(std::size_t i, const ChebyshevPoints& points) const;
   [[nodiscard]] bool is_shown(std::size_t i, const ChebyshevPoints& points) const;
   void take(std::size_t i, double value, double t);
   void climb_within(std::size_t i, const solve::Piece& piece, const ChebyshevPoints& points);

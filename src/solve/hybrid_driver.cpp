@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <string>
 #include <utility>
 
@@ -308,14 +307,11 @@ class HybridIntegration {
     return guard.value + guard.slope * meet <= 0;
   }
 
-  // Whether no guard falls within the step, by its values at Chebyshev points: the polynomial
-  // through them is nowhere further below them than (L - 1) / 2 of their range, with the Lebesgue
-  // constant L <= 1 + 2 / pi log(2 n + 1) of n intervals. Guards that are not finite are left to
-  // scan().
+  // Whether no guard falls within the step, by its values at Chebyshev points and how far below
+  // them the polynomial may go. Guards that are not finite are left to scan().
   bool all_stay_up(double from, double to) {
     const ChebyshevPoints& points = tables_.points(stepper_->parts());
     const std::size_t count = points.size();
-    const double beyond = std::log(2.0 * static_cast<double>(count) - 1) / std::numbers::pi;
     planned_times_.resize(count);
     for (std::size_t p = 0; p < count; ++p) planned_times_[p] = from + (to - from) * points[p];
     planned_times_.back() = to;
@@ -334,7 +330,7 @@ class HybridIntegration {
     }
     for (std::size_t i = 0; i < guards_.size(); ++i) {
       if (std::isinf(least_[i]) && least_[i] > 0) continue;  // not looked out for
-      if (!(least_[i] - beyond * (most_[i] - least_[i]) > 0)) return false;
+      if (!(least_[i] - points.overshoot() * (most_[i] - least_[i]) > 0)) return false;
     }
     for (std::size_t i = 0; i < guards_.size(); ++i) guards_[i].value = now_[i];
     return true;

@@ -11,6 +11,7 @@
 #include "base/error.hpp"
 #include "controller/host.hpp"
 #include "model/model.hpp"
+#include "record/both_sinks.hpp"
 #include "record/meter.hpp"
 #include "record/recorder.hpp"
 #include "solve/choose.hpp"
@@ -39,21 +40,6 @@ CaseStatus status_of(const solve::Outcome& outcome) {
   }
   return {};
 }
-
-// Passes rows on to two sinks, and to the first of them the motion between.
-class Both : public solve::StateSink {
- public:
-  Both(solve::StateSink& one, solve::StateSink& other) : one_(one), other_(other) {}
-  void accept(std::size_t first, std::size_t count, const double* values) override {
-    one_.accept(first, count, values);
-    other_.accept(first, count, values);
-  }
-  [[nodiscard]] solve::PieceSink* pieces() override { return one_.pieces(); }
-
- private:
-  solve::StateSink& one_;
-  solve::StateSink& other_;
-};
 
 // Where a Recorder puts the columns of one case: its place among the results.
 class SeriesWriter : public file::TableWriter {
@@ -125,7 +111,8 @@ class SingleRunner : public CaseRunner {
       meter_.begin(model, constants, grid);
       SeriesWriter series(into.series, place * task_.series_rows);
       record::Recorder recorder(model, constants, grid, task_.series, series);
-      Both both(meter_, recorder);
+      // Peaks of the motors are asked for by nobody: the recorder gets rows alone.
+      record::BothSinks both(meter_, recorder, nullptr);
       solve::StateSink& sink = task_.series.empty() ? static_cast<solve::StateSink&>(meter_) : both;
       const solve::Watch watch{&stop, {}};
       solve::Outcome outcome;

@@ -345,7 +345,6 @@ CycleParts cycle_parts_about(const Scenario& scene, const LinearPoint& at,
   parts.jump = jump(states, Eigen::all);
 
   const Rig rig = assemble_rig<false>(scene, {}).rig;
-  const ControlLaw& law = rig.sampled->law;
   Feedback<double> fed{};
   for (int i = 0; i < 2; ++i) {
     const auto state = [&](int place) { return (at.state.data() + place)[i]; };
@@ -355,13 +354,7 @@ CycleParts cycle_parts_about(const Scenario& scene, const LinearPoint& at,
     fed.rate[i] = state(rate);
     fed.integral[i] = state(integral);
   }
-  const LinearLaw linear = linear_law(law, fed, at.reference);
-  parts.of_feedback = linear.of_feedback;
-  parts.of_reference = linear.of_reference;
-  parts.sampling = rig.sampled->sampling;
-  parts.sensor = rig.sampled->sensor;
-  parts.integrates = law.integrates();
-  parts.time_constant = rig.time_constant;
+  parts.take_controller(rig, linear_law(rig.sampled->law, fed, at.reference));
   return parts;
 }
 

@@ -67,6 +67,15 @@ struct SampledCycle::Parts {
   Vector2 position, velocity, integral, held;
 };
 
+void CycleParts::take_controller(const Rig& rig, const LinearLaw& law) {
+  of_feedback = law.of_feedback;
+  of_reference = law.of_reference;
+  sampling = rig.sampled->sampling;
+  sensor = rig.sampled->sensor;
+  integrates = rig.sampled->law.integrates();
+  time_constant = rig.time_constant;
+}
+
 SampledCycle::SampledCycle(CycleParts parts) : parts_(std::move(parts)) {
   const double period = parts_.sampling.period;
   const auto split = [period](double delay, double* whole) {
@@ -258,7 +267,6 @@ namespace {
 // The plant's first eight states are those of LinearPlant, and `loop` kicks the ball as it does.
 template <bool integrates>
 CycleParts parts_of(const LinearPlant& plant, const RigLoop<integrates>& loop, const Rig& rig) {
-  const LinearLaw law = linear_law(rig.sampled->law, {}, {});
   CycleParts parts;
   parts.a = plant.a;
   parts.b = plant.b;
@@ -268,12 +276,7 @@ CycleParts parts_of(const LinearPlant& plant, const RigLoop<integrates>& loop, c
     const auto kick = loop.impulse(home, i == 0 ? 1 : 0, i == 0 ? 0 : 1);
     parts.jump.col(i).head<8>() << 0, 0, kick[0], kick[1], 0, 0, i == 0 ? 1 : 0, i == 0 ? 0 : 1;
   }
-  parts.of_feedback = law.of_feedback;
-  parts.of_reference = law.of_reference;
-  parts.sampling = rig.sampled->sampling;
-  parts.sensor = rig.sampled->sensor;
-  parts.integrates = rig.sampled->law.integrates();
-  parts.time_constant = rig.time_constant;
+  parts.take_controller(rig, linear_law(rig.sampled->law, {}, {}));
   return parts;
 }
 

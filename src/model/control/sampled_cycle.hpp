@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "model/control/linear_law.hpp"
 #include "model/control/linear_system.hpp"
 #include "model/spectrum.hpp"
 #include "model/systems/rig.hpp"
@@ -47,6 +48,9 @@ struct CycleParts {
   Sensor sensor;
   bool integrates = false;
   std::optional<double> time_constant{};  // of a servo of first order, s
+
+  // All but the plant: the rig's controller, whose law is near this one.
+  void take_controller(const Rig& rig, const LinearLaw& law);
 };
 
 // One period of a sampled loop, linear: from one sample to the next. Of its state, in this order:

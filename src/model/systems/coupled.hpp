@@ -90,6 +90,20 @@ void look_at_contact(const ContactMode& mode, const Ball& ball, const Real* slip
   direction(mode.slip, s[0], s[1], along.slip);
 }
 
+// What both kinds have of states alike: the ball, its slip, and the energies.
+template <class Layout, class Real>
+void put_rates(const Balance<Real>& now, const Real* z, Real* dz) {
+  dz[0] = z[2];
+  dz[1] = z[3];
+  dz[2] = now.answer.x;
+  dz[3] = now.answer.y;
+  dz[4] = now.answer.u;
+  dz[Layout::slip] = now.answer.slip[0];
+  dz[Layout::slip + 1] = now.answer.slip[1];
+  dz[Layout::lost] = now.lost_power;
+  dz[Layout::work] = now.work_power;
+}
+
 struct CoupledGivenLayout : BallLayout<Shape::full> {
   static constexpr int slip = BallLayout<Shape::full>::size, lost = slip + 2, work = lost + 1;
   static constexpr int states = work + 1;
@@ -126,16 +140,7 @@ class CoupledGiven {
 
   template <class Time, class Real>
   void derivative_of(const std::array<Jet<Time>, 2>& in, const Real* z, Real* dz) const {
-    const Balance<Real> now = balance(in, z);
-    dz[0] = z[2];
-    dz[1] = z[3];
-    dz[2] = now.answer.x;
-    dz[3] = now.answer.y;
-    dz[4] = now.answer.u;
-    dz[Layout::slip] = now.answer.slip[0];
-    dz[Layout::slip + 1] = now.answer.slip[1];
-    dz[Layout::lost] = now.lost_power;
-    dz[Layout::work] = now.work_power;
+    put_rates<Layout>(balance(in, z), z, dz);
   }
 
   template <class Time, class Real>
@@ -183,15 +188,13 @@ class CoupledGiven {
 
   [[nodiscard]] Sample sample(double t, const double* z, const CoupledExtras& with) const {
     const RigExtras& rig = with.rig;
-    return {t,
-            ball_motion<Shape::full>(Layout::unpack(z), parts.ball.r),
-            0,
-            {rig.angle[0], rig.angle[1], rig.rate[0], rig.rate[1], rig.acceleration[0],
-             rig.acceleration[1]},
-            {0, 0},
-            {0, 0},
-            {0, 0},
-            with.motion};
+    Sample sample;
+    sample.t = t;
+    sample.ball = ball_motion<Shape::full>(Layout::unpack(z), parts.ball.r);
+    sample.gimbal = {rig.angle[0], rig.angle[1],        rig.rate[0],
+                     rig.rate[1],  rig.acceleration[0], rig.acceleration[1]};
+    sample.coupled = with.motion;
+    return sample;
   }
   [[nodiscard]] Sample sample(double t, const double* z, Detail = Detail::all) const {
     return sample(t, z, extras(t, z));
@@ -272,11 +275,7 @@ class CoupledLoop {
   void derivative_of(const std::array<Jet<Time>, 2>& in, const Real* z, Real* dz) const {
     Real command[2];
     const Balance<Real> now = balance(in, z, command);
-    dz[0] = z[2];
-    dz[1] = z[3];
-    dz[2] = now.answer.x;
-    dz[3] = now.answer.y;
-    dz[4] = now.answer.u;
+    put_rates<Layout>(now, z, dz);
     for (int i = 0; i < 2; ++i) {
       const AxisMode& of = loop.mode.axis[i];
       dz[Layout::angle + i] = z[Layout::rate + i];
@@ -285,10 +284,7 @@ class CoupledLoop {
           of.integrate * (integrates_ * (Real(in[static_cast<std::size_t>(i)].value) - z[i]));
       dz[Layout::motor + i] = (motor.from_integral != 0 ? motors[i].integrate : 0.0) *
                               (command[i] - z[Layout::angle + i]);
-      dz[Layout::slip + i] = now.answer.slip[i];
     }
-    dz[Layout::lost] = now.lost_power;
-    dz[Layout::work] = now.work_power;
   }
 
   template <class Time, class Real>
