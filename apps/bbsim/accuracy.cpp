@@ -19,7 +19,6 @@
 #include "gnuplot.hpp"
 #include "model/model.hpp"
 #include "progress.hpp"
-#include "record/recorder.hpp"
 #include "scenario/reader.hpp"
 #include "signals.hpp"
 #include "solve/choose.hpp"

@@ -6,7 +6,6 @@
 #include <string>
 
 #include "base/error.hpp"
-#include "record/recorder.hpp"
 #include "scenario/look_up.hpp"
 #include "terminal.hpp"
 

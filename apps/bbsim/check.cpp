@@ -14,7 +14,6 @@
 #include "linear_report.hpp"
 #include "model/control/sampled_cycle.hpp"
 #include "model/explain.hpp"
-#include "record/recorder.hpp"
 #include "scenario/coupled.hpp"
 #include "scenario/family.hpp"
 #include "scenario/reader.hpp"

@@ -12,7 +12,6 @@
 #include "file/format.hpp"
 #include "file/memory_table.hpp"
 #include "plot/read_result.hpp"
-#include "record/recorder.hpp"
 #include "replay/log.hpp"
 #include "replay/sources.hpp"
 #include "replay_file.hpp"
@@ -138,7 +137,7 @@ replay::Run run_scenario(const Source& source, const Options& options, ExitCode&
   const solve::OutputGrid grid(scenario.time);
   file::MemoryTable table(scenario::names_of(columns));
   const Simulation made =
-      simulate(scenario, model, grid, columns, asked.size(), table, options.quiet);
+      simulate(scenario, model, grid, {columns, asked.size()}, table, options.quiet);
   host.finish();
   tell(made, options.quiet);
   if (code == ExitCode::done || made.code == ExitCode::interrupted) code = made.code;

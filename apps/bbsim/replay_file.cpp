@@ -10,7 +10,6 @@
 #include "check.hpp"
 #include "commands.hpp"
 #include "file/format.hpp"
-#include "record/recorder.hpp"
 #include "replay/gltf.hpp"
 #include "replay/page.hpp"
 #include "replay/sources.hpp"

@@ -14,7 +14,6 @@
 #include "file/outputs.hpp"
 #include "measure_text.hpp"
 #include "model/model.hpp"
-#include "record/recorder.hpp"
 #include "replay_file.hpp"
 #include "run_part.hpp"
 #include "scenario/reader.hpp"
@@ -100,12 +99,9 @@ ExitCode run(const RunArguments& arguments, const Options& options) {
   std::optional<file::MemoryTable> pictured;
   if (replay) pictured.emplace(scenario::names_of(columns), writer.get(), asked.size());
 
-  std::optional<record::Meter> meter;
-  if (!measures.empty()) meter.emplace(measures);
-  Simulation made =
-      simulate(scenario, model, grid, columns, asked.size(),
-               pictured ? static_cast<file::TableWriter&>(*pictured) : *writer, options.quiet,
-               meter ? &*meter : nullptr, part ? &part->part() : nullptr);
+  Simulation made = simulate(scenario, model, grid, {columns, asked.size(), measures},
+                             pictured ? static_cast<file::TableWriter&>(*pictured) : *writer,
+                             options.quiet, part ? &part->part() : nullptr);
   record::RunSummary& summary = made.summary;
   summary.output = output;
   for (std::size_t m = 0; m < measures.size(); ++m) {

@@ -7,7 +7,6 @@
 #include "describe.hpp"
 #include "model/explain.hpp"
 #include "progress.hpp"
-#include "record/both_sinks.hpp"
 #include "record/edge_note.hpp"
 #include "record/recorder.hpp"
 #include "signals.hpp"
@@ -149,21 +148,17 @@ record::RunSummary summarise(const Scenario& scenario, const model::Model& model
 }  // namespace
 
 Simulation simulate(const Scenario& scenario, const model::Model& model,
-                    const solve::OutputGrid& grid,
-                    const std::vector<const scenario::Column*>& columns, std::size_t asked,
-                    file::TableWriter& writer, bool quiet, record::Meter* meter,
-                    solve::Part* part) {
+                    const solve::OutputGrid& grid, const RowsAndMeasures& wanted,
+                    file::TableWriter& writer, bool quiet, solve::Part* part) {
   const model::BallConstants constants = model::constants_of(scenario);
-  record::Recorder recorder(model, constants, grid, columns, writer);
+  record::Recorder recorder({wanted.columns, wanted.measures, true});
+  // A sweep takes them in this manner too: its numbers are these.
+  const bool quick = part == nullptr && !scenario.solver.error &&
+                     solve::choose_method(scenario.solver.method) == Method::radau;
+  recorder.begin(model, constants, grid, &writer, {quick});
   std::optional<record::EdgeNote> edge;
   if (record::EdgeNote::wanted(scenario)) edge.emplace(model, scenario.plate, grid, recorder);
-  solve::StateSink& rows = edge ? static_cast<solve::StateSink&>(*edge) : recorder;
-  std::optional<record::BothSinks> both;
-  if (meter != nullptr) {
-    meter->begin(model, constants, grid);
-    both.emplace(rows, *meter);
-  }
-  solve::StateSink& sink = both ? static_cast<solve::StateSink&>(*both) : rows;
+  solve::StateSink& sink = edge ? static_cast<solve::StateSink&>(*edge) : recorder;
 
   Progress progress(scenario.source.file, quiet);
   const solve::Watch watch{&watch_signals(),
@@ -172,7 +167,7 @@ Simulation simulate(const Scenario& scenario, const model::Model& model,
   progress.clear();
 
   std::string reason = shortfall(scenario, model, made);
-  const std::string not_finite = recorder.why_not_finite(asked);
+  const std::string not_finite = recorder.why_not_finite(wanted.finite_columns);
   if (reason.empty() && !not_finite.empty()) {
     reason = "the motion was found to its end, but " + not_finite +
              ".\n  There it is beyond the range of doubles, or not defined.";
@@ -183,10 +178,8 @@ Simulation simulate(const Scenario& scenario, const model::Model& model,
   Simulation simulation;
   simulation.summary = summarise(scenario, model, made, reason, warnings, recorder.peaks());
   simulation.noted = noted_text(made.outcome.occurrences);
-  if (meter != nullptr) {
-    simulation.measures.resize(meter->size());
-    meter->finish(made.outcome, simulation.measures.data());
-  }
+  simulation.measures.resize(wanted.measures.size());
+  recorder.finish(made.outcome, simulation.measures.data());
   simulation.row_estimates = std::move(made.row_estimates);
   simulation.code = exit_code(made.outcome.ending);
   const bool whole = made.within_error && not_finite.empty();

@@ -8,9 +8,9 @@
 #include "base/error.hpp"
 #include "file/table_writer.hpp"
 #include "model/model.hpp"
-#include "record/meter.hpp"
 #include "record/summary.hpp"
 #include "scenario/columns.hpp"
+#include "scenario/measures.hpp"
 #include "scenario/scenario.hpp"
 #include "solve/output_grid.hpp"
 #include "solve/part.hpp"
@@ -22,20 +22,23 @@ struct Simulation {
   record::RunSummary summary;
   // The error of each row, in a run with an error estimate, m.
   std::vector<double> row_estimates;
-  std::vector<double> measures;  // of the meter
-  std::string noted;             // how often each thing was noted; empty if nothing was
+  std::vector<double> measures;
+  std::string noted;  // how often each thing was noted; empty if nothing was
   ExitCode code = ExitCode::done;
 };
 
-// Integrates the model, which these columns need, and hands the rows to `writer`, which is left to
-// be finished. Of the columns the first `asked` have to be finite numbers; the others are for a
-// picture beside. A meter, if there is one, takes its measures;
-// a part of a run, if it is one, has what came of it.
+struct RowsAndMeasures {
+  std::vector<const scenario::Column*> columns;
+  std::size_t finite_columns;  // the first ones, which have to be; the others are for a picture
+  std::vector<scenario::Measure> measures{};
+};
+
+// Integrates the model, which what is wanted needs, and hands the rows to `writer`, which is left
+// to be finished. A part of a run, if it is one, has what came of it.
 [[nodiscard]] Simulation simulate(const Scenario& scenario, const model::Model& model,
-                                  const solve::OutputGrid& grid,
-                                  const std::vector<const scenario::Column*>& columns,
-                                  std::size_t asked, file::TableWriter& writer, bool quiet,
-                                  record::Meter* meter = nullptr, solve::Part* part = nullptr);
+                                  const solve::OutputGrid& grid, const RowsAndMeasures& wanted,
+                                  file::TableWriter& writer, bool quiet,
+                                  solve::Part* part = nullptr);
 
 // Says why the run ended early, and, unless it is to be quiet, warnings and what was noted.
 void tell(const Simulation& made, bool quiet);

@@ -6,47 +6,155 @@
 #include <utility>
 
 #include "base/error.hpp"
+#include "record/instants.hpp"
 
 namespace bbsim::record {
 
-Recorder::Recorder(const model::Model& model, const model::BallConstants& constants,
-                   const solve::OutputGrid& grid, std::vector<const scenario::Column*> columns,
-                   file::TableWriter& writer)
-    : model_(model),
-      constants_(constants),
-      grid_(grid),
-      rows_(std::move(columns)),
-      writer_(writer),
-      with_plate_(std::any_of(constants.plate_inertia.begin(), constants.plate_inertia.end(),
-                              [](double moment) { return moment > 0; })),
-      gaps_(rows_.columns().size()) {
-  rows_.begin(model_, constants_);
-  if (!rows_.need_dynamics() && !with_plate_) return;
-  std::vector<Extremes::Sought> sought;
-  for (const char* name : {"motor_torque_phi", "motor_torque_theta", "motor_power"}) {
-    const scenario::Column* const load = scenario::find_column(name);
-    sought.push_back({load});
-    sought.push_back({load, true});
+using scenario::Column;
+using scenario::Measure;
+using Kind = Measure::Kind;
+
+namespace {
+
+constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
+
+template <class Wanted>
+std::vector<std::size_t> those(const std::vector<Measure>& measures, Wanted wanted) {
+  std::vector<std::size_t> found;
+  for (std::size_t m = 0; m < measures.size(); ++m) {
+    if (wanted(measures[m].kind)) found.push_back(m);
   }
-  loads_.emplace(std::move(sought));
-  loads_->begin(model_, constants_);
+  return found;
 }
 
-solve::PieceSink* Recorder::pieces() {
-  return loads_ ? &*loads_ : nullptr;
+// Columns, and behind them those of some measures.
+std::vector<const Column*> with_columns_of(std::vector<const Column*> columns,
+                                           const std::vector<Measure>& measures,
+                                           const std::vector<std::size_t>& which) {
+  for (const std::size_t m : which) columns.push_back(measures[m].column);
+  return columns;
+}
+
+// Each once, and those that instants are told by.
+std::vector<const Column*> traced_by(const std::vector<Measure>& measures,
+                                     const std::vector<std::size_t>& which) {
+  std::vector<const Column*> columns;
+  for (const std::size_t m : which) {
+    for (const Column* column : {measures[m].column, measures[m].instant.column}) {
+      if (column != nullptr && std::ranges::find(columns, column) == columns.end()) {
+        columns.push_back(column);
+      }
+    }
+  }
+  return columns;
+}
+
+std::vector<Extremes::Sought> sought_by(const std::vector<Measure>& measures,
+                                        const std::vector<std::size_t>& which) {
+  std::vector<Extremes::Sought> sought;
+  for (const std::size_t m : which) {
+    sought.push_back({measures[m].column, measures[m].kind == Kind::least});
+  }
+  return sought;
+}
+
+}  // namespace
+
+Recorder::Recorder(Asked asked)
+    : asked_(std::move(asked)),
+      at_end_(those(asked_.measures, [](Kind kind) { return kind == Kind::end; })),
+      of_motion_(those(asked_.measures,
+                       [](Kind kind) { return kind == Kind::greatest || kind == Kind::least; })),
+      of_rows_(those(asked_.measures, [](Kind kind) { return kind == Kind::rms; })),
+      of_curves_(those(asked_.measures,
+                       [](Kind kind) {
+                         return kind == Kind::step || kind == Kind::when || kind == Kind::find;
+                       })),
+      rows_(with_columns_of(asked_.columns, asked_.measures, of_rows_)),
+      end_(with_columns_of({}, asked_.measures, at_end_)),
+      extremes_(sought_by(asked_.measures, of_motion_)),
+      traces_(traced_by(asked_.measures, of_curves_)),
+      traces_end_(traces_.columns()) {
+  if (!asked_.measures.empty() && are_track_measures(asked_.measures)) {
+    track_.emplace(asked_.measures);
+  }
+  if (asked_.peaks) loads_.emplace();
+}
+
+void Recorder::begin(const model::Model& model, const model::BallConstants& constants,
+                     const solve::OutputGrid& grid, file::TableWriter* table,
+                     const Manner& manner) {
+  model_ = &model;
+  grid_ = &grid;
+  table_ = table;
+  quick_ = manner.quick && track_ && has_track(model);
+  with_loads_ = loads_ && (scenario::need_dynamics(asked_.columns) || has_plate_inertia(constants));
+  gaps_.assign(asked_.columns.size(), {});
+  sums_.assign(of_rows_.size(), {});
+  if (!asked_.columns.empty() || !quick_) rows_.begin(model, constants);
+  fan_.clear();
+  if (with_loads_) {
+    loads_->begin(model, constants);
+    fan_.add(loads_->extremes());
+  }
+  if (quick_) {
+    track_->begin(model, constants, grid, manner.same_signals);
+    fan_.add(*track_);
+    return;
+  }
+  last_time_ = 0;
+  last_ = model.initial;
+  last_.resize(model.row_size());
+  end_.begin(model, constants);
+  extremes_.begin(model, constants);
+  traces_.begin(model, constants);
+  traces_end_.begin(model, constants);
+  if (!of_motion_.empty()) fan_.add(extremes_);
+  if (!of_curves_.empty()) fan_.add(traces_);
+}
+
+bool Recorder::wants_positions_only() const {
+  return quick_ && asked_.columns.empty() && !with_loads_ && track_->wants_positions_only(*model_);
+}
+
+bool Recorder::wants_rows() const {
+  return !quick_ || !asked_.columns.empty() || with_loads_ || track_->wants_rows();
 }
 
 void Recorder::accept(std::size_t first, std::size_t count, const double* values) {
-  // A run may end before its first step.
-  if (first == 0 && count > 0 && loads_) loads_->note(grid_[0], values);
+  if (count == 0) return;
   times_.resize(count);
-  for (std::size_t i = 0; i < count; ++i) times_[i] = grid_[first + i];
-  rows_.evaluate(times_.data(), values, count);
-  look_for_gaps(count);
+  for (std::size_t i = 0; i < count; ++i) times_[i] = (*grid_)[first + i];
+  // A run may end before its first step.
+  if (first == 0 && with_loads_) loads_->extremes().note(times_[0], values);
+  if (quick_) {
+    track_->accept(first, count, values);
+    if (!asked_.columns.empty()) take_rows(count, values);
+    return;
+  }
+  if (first == 0 && !of_motion_.empty()) extremes_.note(times_[0], values);
+  last_time_ = times_.back();
+  const double* const last = values + (count - 1) * model_->row_size();
+  last_.assign(last, last + model_->row_size());
+  if (!rows_.columns().empty()) take_rows(count, values);
+}
 
-  std::vector<const double*> columns;
-  for (std::size_t c = 0; c < rows_.columns().size(); ++c) columns.push_back(rows_[c]);
-  writer_.append(columns, count);
+void Recorder::take_rows(std::size_t count, const double* values) {
+  rows_.evaluate(times_.data(), values, count);
+  const std::size_t columns = asked_.columns.size();
+  for (std::size_t k = 0; k < sums_.size(); ++k) {
+    for (std::size_t i = 0; i < count; ++i) {
+      const double value = rows_[columns + k][i];
+      if (std::isnan(value)) continue;
+      sums_[k].squares.add(value);
+      ++sums_[k].rows;
+    }
+  }
+  if (columns == 0) return;
+  look_for_gaps(count);
+  block_.resize(columns);
+  for (std::size_t c = 0; c < columns; ++c) block_[c] = rows_[c];
+  table_->append(block_, count);
 }
 
 void Recorder::look_for_gaps(std::size_t count) {
@@ -58,6 +166,41 @@ void Recorder::look_for_gaps(std::size_t count) {
   }
 }
 
+void Recorder::finish(const solve::Outcome& outcome, double* results) {
+  if (quick_) {
+    track_->finish(results);
+  } else if (outcome.rows == 0) {  // it ended before it began
+    std::fill_n(results, asked_.measures.size(), nothing);
+  } else {
+    finish_each(outcome, results);
+  }
+}
+
+void Recorder::finish_each(const solve::Outcome& outcome, double* results) {
+  const bool stopped = outcome.ending == solve::Ending::stopped;
+  for (Rows* const end : {&end_, &traces_end_}) {
+    if (stopped) {
+      const model::Occurrence& at = outcome.occurrences.back();
+      model::Sample last = at.sample;
+      if (!at.own.empty()) last.own = at.own.data();
+      end->evaluate(last);
+    } else {
+      end->evaluate(&last_time_, last_.data(), 1);
+    }
+  }
+  for (std::size_t k = 0; k < at_end_.size(); ++k) results[at_end_[k]] = end_[k][0];
+  for (std::size_t k = 0; k < of_rows_.size(); ++k) {
+    results[of_rows_[k]] = sums_[k].rows == 0 ? nothing : sums_[k].squares.root_mean(sums_[k].rows);
+  }
+  for (std::size_t k = 0; k < of_motion_.size(); ++k) results[of_motion_[k]] = extremes_[k].value;
+  if (of_curves_.empty()) return;
+  traces_.finish(stopped ? outcome.occurrences.back().t : last_time_, traces_end_);
+  const CurveOf curve_of = [this](const Column& column) -> const Curve& {
+    return traces_.of(column);
+  };
+  for (const std::size_t m : of_curves_) results[m] = measured(asked_.measures[m], curve_of);
+}
+
 std::string Recorder::why_not_finite(std::size_t columns) const {
   std::string text;
   for (std::size_t c = 0; c < std::min(columns, gaps_.size()); ++c) {
@@ -65,18 +208,14 @@ std::string Recorder::why_not_finite(std::size_t columns) const {
     char line[120];
     std::snprintf(line, sizeof line, " is no finite number in %zu rows, the first at t = %.6g s",
                   gaps_[c].rows, gaps_[c].from);
-    text += (text.empty() ? "" : "; ") + std::string(rows_.columns()[c]->name) + line;
+    text += (text.empty() ? "" : "; ") + std::string(asked_.columns[c]->name) + line;
   }
   return text;
 }
 
 std::optional<MotorPeaks> Recorder::peaks() const {
-  if (!loads_) return {};
-  const auto peak = [this](std::size_t load) {
-    const Extremes::Extreme most = (*loads_)[2 * load], least = (*loads_)[2 * load + 1];
-    return -least.value > most.value ? Peak{least.t, -least.value} : Peak{most.t, most.value};
-  };
-  return MotorPeaks{peak(0), peak(1), peak(2), with_plate_};
+  if (!with_loads_) return {};
+  return loads_->peaks();
 }
 
 }  // namespace bbsim::record

@@ -1,4 +1,4 @@
-// Trajectory -> file: turns the rows of a run into the columns that the scenario asks for.
+// Run -> columns of its rows, in a table, and measures of its motion (scenario/measures.hpp).
 #pragma once
 
 #include <cstddef>
@@ -10,21 +10,62 @@
 #include "file/table_writer.hpp"
 #include "model/model.hpp"
 #include "record/extremes.hpp"
+#include "record/motor_loads.hpp"
+#include "record/piece_fan.hpp"
 #include "record/rows.hpp"
-#include "record/summary.hpp"
+#include "record/square_sum.hpp"
+#include "record/traces.hpp"
+#include "record/track/track_measures.hpp"
+#include "scenario/measures.hpp"
 #include "solve/outcome.hpp"
 #include "solve/output_grid.hpp"
 
 namespace bbsim::record {
 
+// What is asked of each run.
+struct Asked {
+  std::vector<const scenario::Column*> columns{};  // of its rows, for a table
+  std::vector<scenario::Measure> measures{};
+  // The peaks of the motors' loads, if a column needs the forces or the plate's inertia is known.
+  bool peaks = false;
+};
+
+// How a run is looked at.
+struct Manner {
+  // The usual measures of a smooth model by TrackMeasures, which looks at many instants at a time:
+  // the same numbers but for their rounding.
+  bool quick = false;
+  // The motion or reference, and the grid, are those of the run before.
+  bool same_signals = false;
+};
+
+// Records one run after another. A measure leaves out values that are no number, but for `end`; one
+// without a value is no number.
 class Recorder : public solve::StateSink {
  public:
-  Recorder(const model::Model& model, const model::BallConstants& constants,
-           const solve::OutputGrid& grid, std::vector<const scenario::Column*> columns,
-           file::TableWriter& writer);
+  explicit Recorder(Asked asked);
+  Recorder(const Recorder&) = delete;  // fan_ looks at this one's
+  Recorder& operator=(const Recorder&) = delete;
 
-  // The peaks of the run so far; nothing unless a column needs the forces, or the plate's inertia
-  // is known.
+  // Begins a run; all outlive it. `table` gets the columns, and is null if there are none.
+  void begin(const model::Model& model, const model::BallConstants& constants,
+             const solve::OutputGrid& grid, file::TableWriter* table = nullptr,
+             const Manner& manner = {});
+
+  // Whether this run is looked at in the quick manner.
+  [[nodiscard]] bool is_quick() const { return quick_; }
+  // Whether no more than positions is looked at.
+  [[nodiscard]] bool wants_positions_only() const;
+
+  // Throws OutputError.
+  void accept(std::size_t first, std::size_t count, const double* values) override;
+  [[nodiscard]] solve::PieceSink* pieces() override { return fan_.sink(); }
+  [[nodiscard]] bool wants_rows() const override;
+
+  // Writes the run's measures, one after the other.
+  void finish(const solve::Outcome& outcome, double* results);
+
+  // The peaks of the run so far.
   [[nodiscard]] std::optional<MotorPeaks> peaks() const;
 
   // Why some of the rows so far hold a number that is not finite, in the first `columns` columns;
@@ -32,26 +73,41 @@ class Recorder : public solve::StateSink {
   [[nodiscard]] std::string why_not_finite(
       std::size_t columns = std::numeric_limits<std::size_t>::max()) const;
 
-  // Throws OutputError.
-  void accept(std::size_t first, std::size_t count, const double* values) override;
-  [[nodiscard]] solve::PieceSink* pieces() override;
-
  private:
+  void take_rows(std::size_t count, const double* values);
   void look_for_gaps(std::size_t count);
+  void finish_each(const solve::Outcome& outcome, double* results);
 
-  const model::Model& model_;
-  model::BallConstants constants_;
-  const solve::OutputGrid& grid_;
-  Rows rows_;
-  file::TableWriter& writer_;
-  bool with_plate_;
-  std::optional<Extremes> loads_;  // of the motors: the greatest and the least of each
+  Asked asked_;
+  // Which of the measures: extremes, means, and step metrics and instants (record/instants.hpp).
+  std::vector<std::size_t> at_end_, of_motion_, of_rows_, of_curves_;
+  Rows rows_, end_;  // columns of the table, then of means; columns of measures at the end
+  Extremes extremes_;
+  Traces traces_;
+  Rows traces_end_;
+  std::optional<TrackMeasures> track_;  // takes the place of all these, if it can
+  std::optional<MotorLoads> loads_;
+  PieceFan fan_;
+
+  const model::Model* model_ = nullptr;
+  const solve::OutputGrid* grid_ = nullptr;
+  file::TableWriter* table_ = nullptr;
+  bool quick_ = false, with_loads_ = false;
+
+  struct Sum {
+    std::size_t rows = 0;
+    SquareSum squares{};
+  };
+  std::vector<Sum> sums_;  // of of_rows_
   struct Gaps {
     std::size_t rows = 0;  // that are no finite number
     double from = 0;       // the time of the first, s
   };
-  std::vector<Gaps> gaps_;     // of each column
-  std::vector<double> times_;  // of a block of rows
+  std::vector<Gaps> gaps_;            // of each column of the table
+  std::vector<const double*> block_;  // columns of a block of rows
+  std::vector<double> times_;         // of them
+  double last_time_ = 0;              // s
+  std::vector<double> last_;          // row
 };
 
 }  // namespace bbsim::record

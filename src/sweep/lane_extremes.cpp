@@ -54,7 +54,7 @@ void LaneExtremes::look_closer(const solve::rosenbrock::GroupStep& step, int loo
     sizes_[i] = size(look, lane, i);
     greatest = std::max(greatest, sizes_[i]);
   }
-  greatest = search_.greatest_within(parts, sizes_.data(), Spacing::close, greatest);
+  greatest = search_.greatest_within(parts, sizes_.data(), record::Spacing::close, greatest);
 }
 
 double LaneExtremes::size(int look, std::size_t lane, std::size_t point) const {
@@ -77,13 +77,13 @@ double LaneExtremes::size(int look, std::size_t lane, std::size_t point) const {
   }
 }
 
-std::optional<TrackExtremes> LaneExtremes::of(std::size_t lane) const {
+std::optional<record::TrackExtremes> LaneExtremes::of(std::size_t lane) const {
   const double distance = looks_.greatest[Look::distance_squared][lane];
   const double error = looks_.greatest[Look::error_squared][lane];
-  if (!is_square(distance) || !is_square(error)) return {};
-  return TrackExtremes{looks_.greatest[Look::versine][lane],
-                       looks_.greatest[Look::rate_squared][lane], std::sqrt(distance),
-                       std::sqrt(error)};
+  if (!record::is_square(distance) || !record::is_square(error)) return {};
+  return record::TrackExtremes{looks_.greatest[Look::versine][lane],
+                               looks_.greatest[Look::rate_squared][lane], std::sqrt(distance),
+                               std::sqrt(error)};
 }
 
 }  // namespace bbsim::sweep

@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "model/signals/signal_pair.hpp"
+#include "record/track/spans.hpp"
+#include "record/track/track_measures.hpp"
 #include "solve/rosenbrock/loop_lanes.hpp"
-#include "sweep/spans.hpp"
-#include "sweep/track_meter.hpp"
 
 namespace bbsim::sweep {
 
@@ -22,7 +22,7 @@ class LaneExtremes : public solve::rosenbrock::StepSink {
 
   // What a lane's case was greatest at. Nothing of a case that is for another runner, since a
   // square overflowed or vanished.
-  [[nodiscard]] std::optional<TrackExtremes> of(std::size_t lane) const;
+  [[nodiscard]] std::optional<record::TrackExtremes> of(std::size_t lane) const;
 
  private:
   using Look = solve::rosenbrock::Look;
@@ -31,13 +31,13 @@ class LaneExtremes : public solve::rosenbrock::StepSink {
   void look_closer(const solve::rosenbrock::GroupStep& step, int look, std::size_t lane);
   [[nodiscard]] double size(int look, std::size_t lane, std::size_t point) const;
 
-  SpanSearch search_;
+  record::SpanSearch search_;
   const ChebyshevPoints& points_;  // at which squares of the states show all that they do
   std::vector<const model::SignalPair*> references_;
   solve::rosenbrock::Looks looks_{};
   bool evaluated_ = false;  // rows_ are of the present step
   std::vector<double> times_, sizes_;
-  PaddedRows rows_;
+  record::PaddedRows rows_;
 };
 
 }  // namespace bbsim::sweep

@@ -9,12 +9,12 @@
 #include <variant>
 
 #include "model/model.hpp"
+#include "record/track/track_measures.hpp"
 #include "solve/choose.hpp"
 #include "solve/rosenbrock/loop_lanes.hpp"
 #include "sweep/case_scenario.hpp"
 #include "sweep/lane_extremes.hpp"
 #include "sweep/single.hpp"
-#include "sweep/track_meter.hpp"
 #include "sweep/verdict.hpp"
 
 namespace bbsim::sweep {
@@ -82,7 +82,7 @@ class LaneRunner : public CaseRunner {
         scenario_(task),
         track_(task.measures),
         single_(single_runner(task)),
-        same_signals_(shares_signals(task.plan)) {
+        same_signals_(task.plan.shares_signals()) {
     grid_.emplace(first_.time);
     lanes_.emplace(first_.controller->drives,
                    solve::Tolerances{first_.solver.rtol, first_.solver.atol}, *grid_);
@@ -119,11 +119,11 @@ class LaneRunner : public CaseRunner {
       task_.plan.values(first + i, values);
       const Scenario& scenario = scenario_.at(first + i, values);
       model::Model model = model::assemble(scenario, false, model::Symmetry::ignored);
-      loops[cases.size()] = loop_case(scenario, model, signals_of(model).view());
+      loops[cases.size()] = loop_case(scenario, model, record::signals_of(model).view());
       cases.push_back({i, std::move(model), model::constants_of(scenario)});
     }
     std::vector<const model::SignalPair*> references;
-    for (const LaneCase& one : cases) references.push_back(&signals_of(one.model));
+    for (const LaneCase& one : cases) references.push_back(&record::signals_of(one.model));
     extremes_.begin(references);
     const auto carried =
         lanes_->integrate(loops.data(), static_cast<int>(cases.size()), &extremes_);
@@ -154,7 +154,7 @@ class LaneRunner : public CaseRunner {
   const SweepTask& task_;
   const Scenario first_;  // like which all are, but for their numbers
   CaseScenario scenario_;
-  TrackMeter track_;
+  record::TrackMeasures track_;
   LaneExtremes extremes_;
   std::unique_ptr<CaseRunner> single_;
   bool same_signals_;
@@ -168,7 +168,8 @@ class LaneRunner : public CaseRunner {
 }  // namespace
 
 bool can_use_lanes(const SweepTask& task) {
-  if (!task.series.empty() || !are_track_measures(task.measures) || !task.plan.independent()) {
+  if (!task.series.empty() || !record::are_track_measures(task.measures) ||
+      !task.plan.independent()) {
     return false;
   }
   // Planar cases among others are carried as these are; a sweep of planar ones alone has less to
@@ -177,7 +178,7 @@ bool can_use_lanes(const SweepTask& task) {
   return scenario.controller && !scenario.solver.error &&
          solve::choose_method(scenario.solver.method) == Method::radau &&
          has_single_harmonic(scenario.controller->reference) &&
-         has_track(model::assemble(scenario, false)) &&
+         record::has_track(model::assemble(scenario, false)) &&
          scenario.solver.rtol >= least_rtol_of_stiff &&
          (scenario.solver.rtol >= least_rtol || are_stiff(task));
 }

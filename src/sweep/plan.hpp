@@ -49,6 +49,9 @@ class SweepPlan {
   // Whether no rule relates the number at any of the varied keys to another key.
   [[nodiscard]] bool independent() const { return axes_.front().independent; }
 
+  // Whether all cases have one motion or reference, at the same times.
+  [[nodiscard]] bool shares_signals() const;
+
   // The number of each axis in a case, or the position of its text in the list.
   void values(std::size_t number, double* values) const;
 

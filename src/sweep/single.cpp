@@ -11,15 +11,12 @@
 #include "base/error.hpp"
 #include "controller/host.hpp"
 #include "model/model.hpp"
-#include "record/both_sinks.hpp"
-#include "record/meter.hpp"
 #include "record/recorder.hpp"
 #include "solve/choose.hpp"
 #include "solve/integrate.hpp"
 #include "solve/radau/radau.hpp"
 #include "study/error_control.hpp"
 #include "sweep/case_scenario.hpp"
-#include "sweep/track_meter.hpp"
 #include "sweep/verdict.hpp"
 
 namespace bbsim::sweep {
@@ -65,11 +62,9 @@ class SingleRunner : public CaseRunner {
   explicit SingleRunner(const SweepTask& task)
       : task_(task),
         scenario_(task),
-        meter_(task.measures),
-        track_(task.measures),
+        recorder_({task.series, task.measures}),
         kernels_(solve::radau::choose_kernels()),
-        quick_(task.series.empty() && are_track_measures(task.measures)),
-        same_signals_(shares_signals(task.plan)) {
+        same_signals_(task.plan.shares_signals()) {
     for (const Axis& axis : task.plan.axes()) {
       if (axis.key.starts_with("solver")) same_tolerances_ = false;
     }
@@ -104,21 +99,17 @@ class SingleRunner : public CaseRunner {
       const model::BallConstants constants = model::constants_of(scenario);
       const solve::OutputGrid grid(scenario.time);
       const Solver& solver = scenario.solver;
-      if (quick_ && !solver.error && solve::choose_method(solver.method) == Method::radau &&
-          has_track(model)) {
-        return run_quickly(scenario, model, constants, grid, stop, numbers, status);
-      }
-      meter_.begin(model, constants, grid);
       SeriesWriter series(into.series, place * task_.series_rows);
-      record::Recorder recorder(model, constants, grid, task_.series, series);
-      // Peaks of the motors are asked for by nobody: the recorder gets rows alone.
-      record::BothSinks both(meter_, recorder, nullptr);
-      solve::StateSink& sink = task_.series.empty() ? static_cast<solve::StateSink&>(meter_) : both;
+      const bool by_radau = !solver.error && solve::choose_method(solver.method) == Method::radau;
+      recorder_.begin(model, constants, grid, &series, {by_radau, same_signals_});
       const solve::Watch watch{&stop, {}};
       solve::Outcome outcome;
-      if (solver.error) {
+      if (recorder_.is_quick()) {
+        outcome = run_quickly(scenario.solver, model, grid, watch);
+        status = status_of(outcome);
+      } else if (solver.error) {
         const study::ErrorControlled run =
-            study::integrate_to_error(model, solver.method, *solver.error, grid, sink, watch);
+            study::integrate_to_error(model, solver.method, *solver.error, grid, recorder_, watch);
         status = status_of(run.outcome);
         if (run.outcome.ending == solve::Ending::done && !run.met) {
           char text[80];
@@ -128,13 +119,13 @@ class SingleRunner : public CaseRunner {
         }
         outcome = run.outcome;
       } else {
-        outcome =
-            solve::integrate(model, solver.method, {solver.rtol, solver.atol}, grid, sink, watch);
+        outcome = solve::integrate(model, solver.method, {solver.rtol, solver.atol}, grid,
+                                   recorder_, watch);
         status = status_of(outcome);
       }
       if (outcome.ending == solve::Ending::interrupted) return false;
       numbers[0] = outcome.reached;
-      meter_.finish(outcome, numbers + 1);
+      recorder_.finish(outcome, numbers + 1);
       judge(task_, scenario, numbers + 1, status);
     } catch (const InputError& error) {  // there is no gain of an LQR, say
       std::fill_n(numbers, 1 + task_.measures.size(), nothing);
@@ -143,36 +134,27 @@ class SingleRunner : public CaseRunner {
     return true;
   }
 
-  // What solve::integrate does with a smooth model, without looking at each row by itself.
-  bool run_quickly(const Scenario& scenario, const model::Model& model,
-                   const model::BallConstants& constants, const solve::OutputGrid& grid,
-                   const std::atomic<bool>& stop, double* numbers, CaseStatus& status) {
-    const solve::Tolerances tolerances{scenario.solver.rtol, scenario.solver.atol};
-    track_.begin(model, constants, grid, same_signals_);
+  // What solve::integrate does with a smooth model, in the memory of the case before.
+  solve::Outcome run_quickly(const Solver& solver, const model::Model& model,
+                             const solve::OutputGrid& grid, const solve::Watch& watch) {
+    const solve::Tolerances tolerances{solver.rtol, solver.atol};
     if (stepper_ && same_tolerances_) {
       stepper_->renew(model, grid.end());
     } else {
       stepper_.emplace(model, kernels_, solve::radau::choose_stages(tolerances.rtol), tolerances,
                        grid.end());
     }
-    stepper_->leave_out_velocities(track_.wants_positions_only(model));
-    const solve::Outcome outcome = solve::run_through(*stepper_, model, grid, track_, {&stop, {}});
-    if (outcome.ending == solve::Ending::interrupted) return false;
-    numbers[0] = outcome.reached;
-    track_.finish(numbers + 1);
-    status = status_of(outcome);
-    judge(task_, scenario, numbers + 1, status);
-    return true;
+    stepper_->leave_out_velocities(recorder_.wants_positions_only());
+    return solve::run_through(*stepper_, model, grid, recorder_, watch);
   }
 
   const SweepTask& task_;
   CaseScenario scenario_;
-  record::Meter meter_;
-  TrackMeter track_;
+  record::Recorder recorder_;
   const solve::radau::StepKernels& kernels_;
   std::optional<controller::Host> controllers_;        // of cases that have one of their own
   std::optional<solve::radau::RadauStepper> stepper_;  // its memory, from case to case
-  bool quick_, same_signals_, same_tolerances_ = true;
+  bool same_signals_, same_tolerances_ = true;
   bool gamma_ = false;
 };
 

@@ -10,14 +10,14 @@
 #include <utility>
 #include <variant>
 
+#include "record/track/gimbal_extremes.hpp"
+#include "record/track/kernels/track_kernels.hpp"
+#include "record/track/padded_rows.hpp"
+#include "record/track/spans.hpp"
 #include "solve/choose.hpp"
 #include "solve/radau/radau.hpp"
 #include "sweep/case_scenario.hpp"
-#include "sweep/gimbal_extremes.hpp"
-#include "sweep/kernels/sweep_kernels.hpp"
-#include "sweep/padded_rows.hpp"
 #include "sweep/recorded_motion.hpp"
-#include "sweep/spans.hpp"
 #include "sweep/verdict.hpp"
 
 namespace bbsim::sweep {
@@ -67,13 +67,13 @@ constexpr int most_halvings = 12;
 struct Superposed {
   struct Term {
     const Part* part;  // null: what does not vary
-    PaddedRows x, y;
+    record::PaddedRows x, y;
   };
   std::vector<Term> terms;
-  std::vector<Span> stretches;
+  std::vector<record::Span> stretches;
   std::size_t points = 0;
   double end = 0;
-  GimbalExtremes::Greatest gimbal;
+  record::GimbalExtremes::Greatest gimbal;
 };
 
 namespace {
@@ -228,7 +228,7 @@ std::shared_ptr<const Superposed> solve_superposed(const SweepTask& task) {
   }
   fill(*solutions, motions, fewest_points(motions, model, grid.end()));
   // The tilt is that of the motion, whatever the ball does.
-  solutions->gimbal = GimbalExtremes().of(motion, grid.end());
+  solutions->gimbal = record::GimbalExtremes().of(motion, grid.end());
   return solutions;
 }
 
@@ -240,7 +240,7 @@ class SuperpositionRunner : public CaseRunner {
       : task_(task),
         scenario_(task),
         solutions_(std::move(solutions)),
-        kernels_(choose_sweep_kernels()),
+        kernels_(record::choose_track_kernels()),
         factors_(solutions_->terms.size()) {
     squares_.resize(solutions_->points);
     for (const Superposed::Term& term : solutions_->terms) {
@@ -287,10 +287,10 @@ class SuperpositionRunner : public CaseRunner {
   }
 
   [[nodiscard]] double farthest() {
-    const Superposition motion{solutions_->points, factors_.size(), x_.data(), y_.data()};
+    const record::Superposition motion{solutions_->points, factors_.size(), x_.data(), y_.data()};
     double squared = kernels_.superpose(motion, factors_.data(), squares_.data());
     int exponent = 0;
-    if (!is_square(squared)) {
+    if (!record::is_square(squared)) {
       // All of it smaller, or larger, by a power of two.
       double size = 0;
       for (std::size_t i = 0; i < motion.rows; ++i) {
@@ -302,8 +302,8 @@ class SuperpositionRunner : public CaseRunner {
       squared = kernels_.superpose(motion, factors_.data(), squares_.data());
       for (double& factor : factors_) factor = std::scalbn(factor, exponent);
     }
-    squared =
-        search_.greatest_between(solutions_->stretches, squares_.data(), Spacing::close, squared);
+    squared = search_.greatest_between(solutions_->stretches, squares_.data(),
+                                       record::Spacing::close, squared);
     return std::scalbn(std::sqrt(squared), exponent);
   }
 
@@ -320,11 +320,11 @@ class SuperpositionRunner : public CaseRunner {
   const SweepTask& task_;
   CaseScenario scenario_;
   std::shared_ptr<const Superposed> solutions_;
-  const SweepKernels& kernels_;
+  const record::TrackKernels& kernels_;
   std::vector<const double*> x_, y_;  // of each term
   std::vector<double> factors_;
-  PaddedRows squares_;
-  SpanSearch search_;
+  record::PaddedRows squares_;
+  record::SpanSearch search_;
   bool far_ = false;
 };
 

@@ -36,7 +36,9 @@ file::TableData run(const std::string& name, const std::string& overrides_column
   const model::Model model = model::assemble(scene, scenario::need_gamma(columns));
   const solve::OutputGrid grid(scene.time);
   file::MemoryTable table(scenario::names_of(columns));
-  record::Recorder recorder(model, model::constants_of(scene), grid, columns, table);
+  const model::BallConstants constants = model::constants_of(scene);
+  record::Recorder recorder({columns});
+  recorder.begin(model, constants, grid, &table);
   const solve::Outcome outcome = solve::integrate(
       model, scene.solver.method, {scene.solver.rtol, scene.solver.atol}, grid, recorder, {});
   REQUIRE(outcome.ending == solve::Ending::done);

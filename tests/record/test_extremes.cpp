@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "catch.hpp"
-#include "record/meter.hpp"
 #include "record/recorder.hpp"
 #include "scenario/reader.hpp"
 #include "solve/integrate.hpp"
@@ -33,20 +32,20 @@ Measured measure(const Scenario& scene, const std::vector<std::string>& names,
   const model::Model model = model::assemble(scene, false);
   const model::BallConstants constants = model::constants_of(scene);
   const solve::OutputGrid grid(scene.time);
-  record::Meter meter(measures);
-  meter.begin(model, constants, grid);
+  record::Recorder recorder({{}, measures});
+  recorder.begin(model, constants, grid);
   Measured measured;
-  measured.outcome = integrate(model, grid, meter);
+  measured.outcome = integrate(model, grid, recorder);
   std::vector<double> results(names.size());
-  meter.finish(measured.outcome, results.data());
+  recorder.finish(measured.outcome, results.data());
   for (std::size_t i = 0; i < names.size(); ++i) measured.of[names[i]] = results[i];
   return measured;
 }
 
 Measured measure(const Scenario& scene, const std::vector<std::string>& names,
                  Method method = Method::automatic, solve::Tolerances tolerances = {1e-10, 1e-12}) {
-  return measure(scene, names, [&](const auto& model, const auto& grid, auto& meter) {
-    return solve::integrate(model, method, tolerances, grid, meter);
+  return measure(scene, names, [&](const auto& model, const auto& grid, auto& recorder) {
+    return solve::integrate(model, method, tolerances, grid, recorder);
   });
 }
 
@@ -104,17 +103,12 @@ class Loads : public solve::StateSink, public solve::PieceSink {
   const model::BallConstants& constants_;
 };
 
-class NoFile : public file::TableWriter {
- public:
-  void append(std::span<const double* const>, std::size_t) override {}
-  void finish(const file::Attributes&) override {}
-};
-
 record::MotorPeaks peaks_of(const Scenario& scene, solve::Tolerances tolerances) {
   const model::Model model = model::assemble(scene, false);
   const solve::OutputGrid grid(scene.time);
-  NoFile file;
-  record::Recorder recorder(model, model::constants_of(scene), grid, {}, file);
+  const model::BallConstants constants = model::constants_of(scene);
+  record::Recorder recorder({{}, {}, true});
+  recorder.begin(model, constants, grid);
   const solve::Outcome outcome =
       solve::integrate(model, Method::automatic, tolerances, grid, recorder);
   CHECK(outcome.ending == solve::Ending::done);
@@ -282,8 +276,8 @@ TEST_CASE("under a bound on the error extremes are those of the run that is give
   const std::vector<std::string> names{"max_tilt_rate", "max_distance", "min_y", "end_x"};
   study::ErrorControlled controlled;
   const Measured measured =
-      measure(scene, names, [&](const auto& model, const auto& grid, auto& meter) {
-        controlled = study::integrate_to_error(model, Method::automatic, bound, grid, meter);
+      measure(scene, names, [&](const auto& model, const auto& grid, auto& recorder) {
+        controlled = study::integrate_to_error(model, Method::automatic, bound, grid, recorder);
         return controlled.outcome;
       });
   REQUIRE(controlled.outcome.ending == solve::Ending::done);
@@ -297,8 +291,8 @@ TEST_CASE("a bound that is out of reach gives the extremes of the best run too")
   const std::vector<std::string> names{"max_x", "min_y", "end_x"};
   study::ErrorControlled controlled;
   const Measured measured =
-      measure(scene, names, [&](const auto& model, const auto& grid, auto& meter) {
-        controlled = study::integrate_to_error(model, Method::automatic, 1e-14, grid, meter);
+      measure(scene, names, [&](const auto& model, const auto& grid, auto& recorder) {
+        controlled = study::integrate_to_error(model, Method::automatic, 1e-14, grid, recorder);
         return controlled.outcome;
       });
   CHECK_FALSE(controlled.met);

@@ -9,7 +9,7 @@
 #include "record/curve.hpp"
 #include "record/instants.hpp"
 #include "record/measure_rows.hpp"
-#include "record/meter.hpp"
+#include "record/recorder.hpp"
 #include "scenario/reader.hpp"
 #include "solve/integrate.hpp"
 
@@ -47,12 +47,12 @@ std::vector<double> measure_run(const Scenario& scene, const std::vector<std::st
   const model::Model model = model::assemble(scene, false);
   const model::BallConstants constants = model::constants_of(scene);
   const solve::OutputGrid grid(scene.time);
-  Meter meter(measures);
-  meter.begin(model, constants, grid);
-  const auto outcome = solve::integrate(model, Method::automatic, tolerances, grid, meter);
+  Recorder recorder({{}, measures});
+  recorder.begin(model, constants, grid);
+  const auto outcome = solve::integrate(model, Method::automatic, tolerances, grid, recorder);
   REQUIRE(outcome.ending == solve::Ending::done);
   std::vector<double> values(measures.size());
-  meter.finish(outcome, values.data());
+  recorder.finish(outcome, values.data());
   return values;
 }
 

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "catch.hpp"
-#include "record/meter.hpp"
+#include "record/recorder.hpp"
 #include "solve/integrate.hpp"
 #include "support/largest.hpp"
 #include "sweep/single.hpp"
@@ -78,8 +78,8 @@ double largest_difference(const CaseResults& a, const CaseResults& b) {
   return largest;
 }
 
-// By record::Meter, which looks at every row by itself, from the rows of solve::integrate.
-CaseResults one_by_one(const SweepTask& task) {
+// From the rows of solve::integrate; unless the manner is quick, by looking at every row by itself.
+CaseResults one_by_one(const SweepTask& task, const record::Manner& manner = {}) {
   CaseResults results;
   results.resize(task.plan.cases(), task);
   const std::size_t numbers = 1 + task.measures.size();
@@ -88,17 +88,27 @@ CaseResults one_by_one(const SweepTask& task) {
     const model::Model model = model::assemble(scenario, false);
     const model::BallConstants constants = model::constants_of(scenario);
     const solve::OutputGrid grid(scenario.time);
-    record::Meter meter(task.measures);
-    meter.begin(model, constants, grid);
-    const solve::Outcome outcome = solve::integrate(
-        model, scenario.solver.method, {scenario.solver.rtol, scenario.solver.atol}, grid, meter);
+    record::Recorder recorder({{}, task.measures});
+    recorder.begin(model, constants, grid, nullptr, manner);
+    const solve::Outcome outcome =
+        solve::integrate(model, scenario.solver.method,
+                         {scenario.solver.rtol, scenario.solver.atol}, grid, recorder);
     results.numbers[i * numbers] = outcome.reached;
-    meter.finish(outcome, &results.numbers[i * numbers + 1]);
+    recorder.finish(outcome, &results.numbers[i * numbers + 1]);
   }
   return results;
 }
 
 }  // namespace
+
+TEST_CASE("a case of a sweep has the measures of a run, to the bit") {
+  const auto [scene, key] = GENERATE(table<std::string, std::string>(
+      {{"configs/fig2a.yaml", "ball.position.0"}, {"configs/fig2b.yaml", "ball.position.0"}}));
+  const Setup setup(scene, {{key, "uniform:-0.1:0.1"}}, {"solver.rtol=1e-9"},
+                    scene == "configs/fig2a.yaml" ? open_measures : loop_measures, 5);
+  const CaseResults results = run_all(*single_runner(setup.task), 5);
+  CHECK(results.numbers == one_by_one(setup.task, {true}).numbers);
+}
 
 TEST_CASE("many rows at a time give the measures of each row by itself") {
   SECTION("under a given motion") {

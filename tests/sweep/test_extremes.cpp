@@ -11,7 +11,7 @@
 #include "record/rows.hpp"
 #include "solve/integrate.hpp"
 #include "study/reference.hpp"
-#include "sweep/gimbal_extremes.hpp"
+#include "support/greatest_of.hpp"
 #include "sweep/lanes.hpp"
 #include "sweep/single.hpp"
 #include "sweep/superposition.hpp"
@@ -19,6 +19,7 @@
 
 using namespace bbsim;
 using namespace bbsim::sweep;
+using bbsim_test::greatest_of;
 
 namespace {
 
@@ -56,29 +57,6 @@ CaseResults run_all(CaseRunner& runner, const SweepTask& task) {
   CaseResults results;
   REQUIRE(runner.run(0, task.plan.cases(), results, goes_on) == task.plan.cases());
   return results;
-}
-
-// The greatest of equidistant values, and of the polynomial through the seven about it.
-double greatest_of(const std::vector<double>& values) {
-  const auto most = std::max_element(values.begin(), values.end());
-  if (values.end() - most <= 3 || most - values.begin() < 3) return *most;
-  const auto at = [&](double u) {  // Lagrange's
-    double sum = 0;
-    for (int k = -3; k <= 3; ++k) {
-      double factor = most[k];
-      for (int other = -3; other <= 3; ++other) {
-        if (other != k) factor *= (u - other) / (k - other);
-      }
-      sum += factor;
-    }
-    return sum;
-  };
-  double from = -1, to = 1;
-  for (int i = 0; i < 60; ++i) {
-    const double a = from + 0.382 * (to - from), b = from + 0.618 * (to - from);
-    (at(a) < at(b) ? from : to) = at(a) < at(b) ? a : b;
-  }
-  return std::max(*most, at(from));
 }
 
 // The measures of case `number`, from many rows at the finest tolerance.
@@ -156,7 +134,7 @@ TEST_CASE("maxima between rows a second apart, by single runs") {
                       {"time.step=1", "solver.rtol=1e-11", "solver.atol=1e-13"}, extremes, 8);
     CHECK(error_of(run_all(*single_runner(setup.task), setup.task), setup.task) < 1e-9);
   }
-  SECTION("of what only record::Meter measures") {
+  SECTION("of what is looked at in no hurry") {
     const Setup setup("configs/fig2b.yaml", {{"controller.pd.kv.0.0", "uniform:0.8:1.2"}},
                       {"time.step=1", "solver.rtol=1e-11", "solver.atol=1e-13"},
                       {"max_x", "max_friction_force", "max_phi_rate", "max_spin", "max_power"}, 3);
@@ -281,90 +259,4 @@ TEST_CASE("extremes agree with a solution in quad precision") {
   }
   CHECK(results.numbers[1] == Approx(greatest_of(distances)).epsilon(1e-11));
   CHECK(results.numbers[2] == Approx(greatest_of(errors)).epsilon(1e-11));
-}
-
-namespace {
-
-// The greatest tilt and rate at so many times.
-GimbalExtremes::Greatest at_many_times(const model::SignalPair& motion, double end) {
-  constexpr std::size_t times = 400000;
-  std::vector<double> tilts, rates;
-  for (std::size_t i = 0; i <= times; ++i) {
-    const auto [phi, theta] = motion.at(end * static_cast<double>(i) / times);
-    const double cos_phi = std::cos(phi.value), cos_theta = std::cos(theta.value);
-    tilts.push_back(std::atan2(std::hypot(std::sin(phi.value), cos_phi * std::sin(theta.value)),
-                               cos_phi * cos_theta));
-    rates.push_back(std::hypot(phi.rate, theta.rate));
-  }
-  return {greatest_of(tilts), greatest_of(rates)};
-}
-
-void check_gimbal(const model::SignalPair& motion, double end) {
-  const GimbalExtremes::Greatest found = GimbalExtremes().of(motion, end);
-  const GimbalExtremes::Greatest expected = at_many_times(motion, end);
-  CHECK(found.tilt == Approx(expected.tilt).epsilon(1e-10));
-  CHECK(found.rate == Approx(expected.rate).epsilon(1e-10));
-}
-
-}  // namespace
-
-TEST_CASE("a given motion's greatest tilt and rate are those at many times") {
-  model::SignalPair motion;
-  SECTION("at rest") {
-    motion.add_constant(0, 0.2);
-    const GimbalExtremes::Greatest found = GimbalExtremes().of(motion, 5);
-    CHECK(found.tilt == Approx(0.2).epsilon(1e-14));
-    CHECK(found.rate == 0);
-  }
-  SECTION("one frequency, a part of a turn or many") {
-    const double end = GENERATE(0.1, 1.0, 2.5, 40.0);
-    const double level = GENERATE(0.0, 0.1);
-    const double size = GENERATE(0.01, 1.2);
-    motion.add_constant(0, level);
-    motion.add_sinusoid(0, size, 1.3, 0.4);
-    motion.add_sinusoid(1, 0.7 * size, 1.3, 2);
-    check_gimbal(motion, end);
-  }
-  SECTION("several frequencies and a ramp") {
-    motion.add_sinusoid(0, 0.2, 1.3, 0.4);
-    motion.add_sinusoid(0, 0.05, 17, 1);
-    motion.add_sinusoid(1, 0.1, 3.1, 2);
-    motion.add_ramp(1, 0.1, 0.02);
-    check_gimbal(motion, 20);
-  }
-  SECTION("over and over") {
-    motion.add_ramp(0, 0, 3);
-    motion.add_constant(1, 0.3);
-    const GimbalExtremes::Greatest found = GimbalExtremes().of(motion, 20);
-    // The normal is furthest from the vertical where phi is half a turn.
-    CHECK(found.tilt == Approx(M_PI - 0.3).epsilon(1e-10));
-    CHECK(found.rate == Approx(3).epsilon(1e-14));
-  }
-  SECTION("tables") {
-    std::vector<double> times, values;
-    std::mt19937 random(3);
-    std::uniform_real_distribution<double> uniform(-0.3, 0.3);
-    for (int i = 0; i < 40; ++i) {
-      times.push_back(0.25 * i);
-      values.push_back(uniform(random));
-    }
-    motion.add_table(0, model::Spline(times, values));
-    motion.add_sinusoid(1, 0.2, 2, 0);
-    check_gimbal(motion, 9.3);
-  }
-}
-
-TEST_CASE("what was evaluated for one motion does not stay for another") {
-  GimbalExtremes gimbal;
-  std::mt19937 random(4);
-  std::uniform_real_distribution<double> uniform(0.1, 1);
-  for (int i = 0; i < 20; ++i) {
-    model::SignalPair motion;
-    motion.add_sinusoid(0, uniform(random), i % 3 == 0 ? 2 * uniform(random) : 1, uniform(random));
-    motion.add_sinusoid(1, uniform(random), i % 2 == 0 ? 1 : 3 * uniform(random), uniform(random));
-    const GimbalExtremes::Greatest found = gimbal.of(motion, 10),
-                                   fresh = GimbalExtremes().of(motion, 10);
-    CHECK(found.tilt == fresh.tilt);
-    CHECK(found.rate == fresh.rate);
-  }
 }

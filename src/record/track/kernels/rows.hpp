@@ -1,12 +1,12 @@
-// The sweep's kernels, for one instruction set.
+// The kernels, for one instruction set.
 #pragma once
 
 #include <type_traits>
 
+#include "record/track/kernels/track_kernels.hpp"
 #include "simd/pack.hpp"
-#include "sweep/kernels/sweep_kernels.hpp"
 
-namespace bbsim::sweep {
+namespace bbsim::record {
 
 template <class Isa>
 struct RowKernels {
@@ -172,8 +172,8 @@ struct RowKernels {
     return largest(most);
   }
 
-  static constexpr SweepKernels kernels{&gimbal, &distances, &sum_of,   &above,
+  static constexpr TrackKernels kernels{&gimbal, &distances, &sum_of,   &above,
                                         &wave,   &signals,   &superpose};
 };
 
-}  // namespace bbsim::sweep
+}  // namespace bbsim::record

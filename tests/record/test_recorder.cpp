@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "catch.hpp"
-#include "record/meter.hpp"
+#include "record/recorder.hpp"
 #include "record/square_sum.hpp"
 #include "scenario/reader.hpp"
 #include "solve/integrate.hpp"
@@ -49,11 +49,11 @@ TEST_CASE("rms_ of a motion of 1e234 m is a number") {
   const model::Model model = model::assemble(scene, false);
   const model::BallConstants constants = model::constants_of(scene);
   const solve::OutputGrid grid(scene.time);
-  Meter meter({*find_measure("rms_x")});
-  meter.begin(model, constants, grid);
-  const auto outcome = solve::integrate(model, Method::automatic, {1e-8, 1e-10}, grid, meter);
+  Recorder recorder({{}, {*find_measure("rms_x")}});
+  recorder.begin(model, constants, grid);
+  const auto outcome = solve::integrate(model, Method::automatic, {1e-8, 1e-10}, grid, recorder);
   double rms = 0;
-  meter.finish(outcome, &rms);
+  recorder.finish(outcome, &rms);
   CHECK(rms == Approx(1e234).epsilon(1e-15));
 }
 

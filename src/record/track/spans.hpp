@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "base/chebyshev.hpp"
-#include "sweep/kernels/sweep_kernels.hpp"
+#include "record/track/kernels/track_kernels.hpp"
 
-namespace bbsim::sweep {
+namespace bbsim::record {
 
 // One stretch: the points of so many intervals, from place `first` on.
 struct Span {
@@ -27,7 +27,7 @@ enum class Spacing { close, wide };
 // The greatest values of polynomials through values that are not negative.
 class SpanSearch {
  public:
-  SpanSearch() : kernels_(choose_sweep_kernels()) {}
+  SpanSearch() : kernels_(choose_track_kernels()) {}
 
   [[nodiscard]] const ChebyshevPoints& points(std::size_t parts) { return tables_.points(parts); }
 
@@ -40,10 +40,10 @@ class SpanSearch {
                                        double greatest);
 
  private:
-  const SweepKernels& kernels_;
+  const TrackKernels& kernels_;
   ChebyshevTables tables_;
   std::vector<unsigned char> above_;
   std::vector<double> finer_;
 };
 
-}  // namespace bbsim::sweep
+}  // namespace bbsim::record

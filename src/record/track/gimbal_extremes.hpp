@@ -7,12 +7,12 @@
 
 #include "base/chebyshev.hpp"
 #include "model/signals/signal_pair.hpp"
-#include "sweep/kernels/sweep_kernels.hpp"
-#include "sweep/padded_rows.hpp"
-#include "sweep/signal_rows.hpp"
-#include "sweep/spans.hpp"
+#include "record/track/kernels/track_kernels.hpp"
+#include "record/track/padded_rows.hpp"
+#include "record/track/signal_rows.hpp"
+#include "record/track/spans.hpp"
 
-namespace bbsim::sweep {
+namespace bbsim::record {
 
 // The tilt whose versine, 1 - cos(tilt), this is, rad.
 [[nodiscard]] double tilt_of(double versine);
@@ -34,7 +34,7 @@ class GimbalExtremes {
   void cover(const model::SignalPair& motion, double from, double to);
   void look(const model::SignalPair& motion);
 
-  const SweepKernels& kernels_;
+  const TrackKernels& kernels_;
   SpanSearch search_;
   const ChebyshevPoints& points_;
   std::vector<Span> spans_;  // that have not been looked at yet
@@ -44,4 +44,4 @@ class GimbalExtremes {
   double versine_most_ = 0, rate_squared_most_ = 0;
 };
 
-}  // namespace bbsim::sweep
+}  // namespace bbsim::record

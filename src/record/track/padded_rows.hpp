@@ -1,11 +1,11 @@
-// Doubles aligned and padded as the sweep's kernels want them.
+// Doubles aligned and padded as kernels want them.
 #pragma once
 
 #include <cstddef>
 #include <memory>
 #include <new>
 
-namespace bbsim::sweep {
+namespace bbsim::record {
 
 class PaddedRows {
  public:
@@ -24,4 +24,4 @@ class PaddedRows {
   std::size_t room_ = 0;
 };
 
-}  // namespace bbsim::sweep
+}  // namespace bbsim::record

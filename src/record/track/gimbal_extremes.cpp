@@ -1,11 +1,11 @@
-#include "sweep/gimbal_extremes.hpp"
+#include "record/track/gimbal_extremes.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
 
-namespace bbsim::sweep {
+namespace bbsim::record {
 namespace {
 
 // Over half a stretch of so many radians, the first coefficient that a polynomial of this degree
@@ -35,7 +35,7 @@ double tilt_of(double versine) {
 }
 
 GimbalExtremes::GimbalExtremes()
-    : kernels_(choose_sweep_kernels()), points_(search_.points(parts)) {}
+    : kernels_(choose_track_kernels()), points_(search_.points(parts)) {}
 
 GimbalExtremes::Greatest GimbalExtremes::of(const model::SignalPair& motion, double end) {
   versine_most_ = rate_squared_most_ = 0;
@@ -86,4 +86,4 @@ void GimbalExtremes::look(const model::SignalPair& motion) {
   count_ = 0;
 }
 
-}  // namespace bbsim::sweep
+}  // namespace bbsim::record

@@ -1,8 +1,8 @@
-#include "sweep/signal_rows.hpp"
+#include "record/track/signal_rows.hpp"
 
 #include <algorithm>
 
-namespace bbsim::sweep {
+namespace bbsim::record {
 
 double* SignalRows::times(std::size_t count) {
   times_.resize(count);
@@ -60,4 +60,4 @@ void SignalRows::evaluate_waves(const model::SignalView& signals, std::size_t co
   }
 }
 
-}  // namespace bbsim::sweep
+}  // namespace bbsim::record

@@ -7,29 +7,25 @@
 
 #include "model/model.hpp"
 #include "record/rows.hpp"
+#include "record/track/gimbal_extremes.hpp"
+#include "record/track/kernels/track_kernels.hpp"
+#include "record/track/padded_rows.hpp"
+#include "record/track/signal_rows.hpp"
+#include "record/track/spans.hpp"
 #include "scenario/measures.hpp"
 #include "solve/outcome.hpp"
 #include "solve/output_grid.hpp"
 #include "solve/piece.hpp"
-#include "sweep/gimbal_extremes.hpp"
-#include "sweep/kernels/sweep_kernels.hpp"
-#include "sweep/padded_rows.hpp"
-#include "sweep/plan.hpp"
-#include "sweep/signal_rows.hpp"
-#include "sweep/spans.hpp"
 
-namespace bbsim::sweep {
+namespace bbsim::record {
 
-// Whether all of them can be taken by a TrackMeter: of any column at the end; the greatest tilt,
+// Whether all of them can be taken by a TrackMeasures: of any column at the end; the greatest tilt,
 // tilt_rate and distance; the greatest and the root mean square of tracking_error.
 [[nodiscard]] bool are_track_measures(const std::vector<scenario::Measure>& measures);
 
-// Whether a TrackMeter understands the model's rows: a ball anywhere on the plane under equation
+// Whether a TrackMeasures understands the model's rows: a ball anywhere on the plane under equation
 // (27), with a given motion or equation (31).
 [[nodiscard]] bool has_track(const model::Model& model);
-
-// Whether all cases of a plan have one motion or reference, at the same times.
-[[nodiscard]] bool shares_signals(const SweepPlan& plan);
 
 // The motion of the model's gimbal, or the reference of its loop. The model has a track.
 [[nodiscard]] const model::SignalPair& signals_of(const model::Model& model);
@@ -42,14 +38,14 @@ struct TrackExtremes {
   double error = 0;         // distance from the reference, m
 };
 
-// Takes the measures of one run after another, as record::Meter does. Squares of the states are
-// polynomials over each step of the integrator, and what else it looks at is as smooth: their
-// extremes are those of polynomials through values at as many points as they need.
-class TrackMeter : public solve::StateSink, public solve::PieceSink {
+// Takes the measures of one run after another, as a Recorder does of any measures. Squares of the
+// states are polynomials over each step of the integrator, and what else it looks at is as smooth:
+// their extremes are those of polynomials through values at as many points as they need.
+class TrackMeasures : public solve::PieceSink {
  public:
-  explicit TrackMeter(std::vector<scenario::Measure> measures);
-  TrackMeter(const TrackMeter&) = delete;
-  TrackMeter& operator=(const TrackMeter&) = delete;
+  explicit TrackMeasures(std::vector<scenario::Measure> measures);
+  TrackMeasures(const TrackMeasures&) = delete;
+  TrackMeasures& operator=(const TrackMeasures&) = delete;
 
   // Whether it looks at positions alone.
   [[nodiscard]] bool wants_positions_only(const model::Model& model) const;
@@ -59,13 +55,13 @@ class TrackMeter : public solve::StateSink, public solve::PieceSink {
   void begin(const model::Model& model, const model::BallConstants& constants,
              const solve::OutputGrid& grid, bool same_signals);
 
-  void accept(std::size_t first, std::size_t count, const double* values) override;
-  [[nodiscard]] solve::PieceSink* pieces() override { return this; }
-  [[nodiscard]] bool wants_rows() const override { return wants_rms_; }
+  // Rows of the run as a StateSink gets them, if they are wanted.
+  void accept(std::size_t first, std::size_t count, const double* values);
+  [[nodiscard]] bool wants_rows() const { return wants_rms_; }
   void begin_run() override;
   void accept(const solve::Piece& piece) override;
 
-  // Takes the place of the two accept(): a loop's rows, which may lie apart, and what it was
+  // Takes the place of both accept(): a loop's rows, which may lie apart, and what it was
   // greatest at. State s of row i is values[i * row_stride + s * stride].
   void take(std::size_t count, const double* values, std::size_t row_stride, std::size_t stride,
             const TrackExtremes& greatest);
@@ -84,7 +80,7 @@ class TrackMeter : public solve::StateSink, public solve::PieceSink {
   [[nodiscard]] double rms_error();
 
   std::vector<scenario::Measure> measures_;
-  const SweepKernels& kernels_;
+  const TrackKernels& kernels_;
   const model::Model* model_ = nullptr;
   const solve::OutputGrid* grid_ = nullptr;
   const model::SignalPair* signals_ = nullptr;
@@ -113,7 +109,7 @@ class TrackMeter : public solve::StateSink, public solve::PieceSink {
   std::optional<solve::OutputGrid> timed_;  // whose times those are
   bool has_row_reference_ = false;
   std::vector<double> last_;  // row
-  record::Rows end_;          // the columns that are wanted of it
+  Rows end_;                  // the columns that are wanted of it
 };
 
-}  // namespace bbsim::sweep
+}  // namespace bbsim::record

@@ -1,4 +1,4 @@
-#include "sweep/track_meter.hpp"
+#include "record/track/track_measures.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -9,7 +9,7 @@
 
 #include "record/square_sum.hpp"
 
-namespace bbsim::sweep {
+namespace bbsim::record {
 namespace {
 
 using Kind = scenario::Measure::Kind;
@@ -71,22 +71,15 @@ bool has_track(const model::Model& model) {
   return has;
 }
 
-bool shares_signals(const SweepPlan& plan) {
-  return std::all_of(plan.axes().begin(), plan.axes().end(), [](const Axis& axis) {
-    return axis.independent && !axis.key.starts_with("gimbal.motion") &&
-           !axis.key.starts_with("controller.reference");
-  });
-}
-
 const model::SignalPair& signals_of(const model::Model& model) {
   const model::SignalPair* found = nullptr;
   with_track(model, [&](const model::SignalPair& signals, bool) { found = &signals; });
   return *found;
 }
 
-TrackMeter::TrackMeter(std::vector<scenario::Measure> measures)
+TrackMeasures::TrackMeasures(std::vector<scenario::Measure> measures)
     : measures_(std::move(measures)),
-      kernels_(choose_sweep_kernels()),
+      kernels_(choose_track_kernels()),
       end_(end_columns(measures_)) {
   for (const scenario::Measure& measure : measures_) {
     if (measure.kind == Kind::end) continue;
@@ -98,15 +91,15 @@ TrackMeter::TrackMeter(std::vector<scenario::Measure> measures)
   }
 }
 
-bool TrackMeter::wants_positions_only(const model::Model& model) const {
+bool TrackMeasures::wants_positions_only(const model::Model& model) const {
   if (model.closed_loop()) return false;
   return std::all_of(measures_.begin(), measures_.end(), [](const scenario::Measure& measure) {
     return measure.kind != Kind::end || measure.column->name == "x" || measure.column->name == "y";
   });
 }
 
-void TrackMeter::begin(const model::Model& model, const model::BallConstants& constants,
-                       const solve::OutputGrid& grid, bool same_signals) {
+void TrackMeasures::begin(const model::Model& model, const model::BallConstants& constants,
+                          const solve::OutputGrid& grid, bool same_signals) {
   model_ = &model;
   end_.begin(model, constants);
   grid_ = &grid;
@@ -128,7 +121,7 @@ void TrackMeter::begin(const model::Model& model, const model::BallConstants& co
 }
 
 // The start is a point of no piece: a run may end there.
-void TrackMeter::begin_run() {
+void TrackMeasures::begin_run() {
   greatest_ = {};
   reached_ = 0;
   rows_ = 1;
@@ -139,7 +132,7 @@ void TrackMeter::begin_run() {
   copy_points(last_.data(), 1);
 }
 
-void TrackMeter::accept(const solve::Piece& piece) {
+void TrackMeasures::accept(const solve::Piece& piece) {
   const bool looks = wants_distance_ || (closed_ && (wants_gimbal_ || wants_error_));
   const std::size_t parts = piece.parts(), count = looks ? parts + 1 : 0;
   if (points_ + count > together) look();
@@ -172,7 +165,7 @@ void TrackMeter::accept(const solve::Piece& piece) {
 
 // States of a ball anywhere on the plane: x, y, x', y', u; then, of a loop, the gimbal's phi,
 // theta, phi', theta'.
-void TrackMeter::copy_points(const double* rows, std::size_t count) {
+void TrackMeasures::copy_points(const double* rows, std::size_t count) {
   const std::size_t row = model_->row_size();
   const auto copy = [&](std::size_t state, PaddedRows& to) {
     double* const column = to.data() + points_;
@@ -189,19 +182,19 @@ void TrackMeter::copy_points(const double* rows, std::size_t count) {
   points_ += count;
 }
 
-void TrackMeter::accept(std::size_t first, std::size_t count, const double* values) {
+void TrackMeasures::accept(std::size_t first, std::size_t count, const double* values) {
   if (wants_rms_) copy_rows(first, count, values, model_->row_size(), 1);
 }
 
-void TrackMeter::take(std::size_t count, const double* values, std::size_t row_stride,
-                      std::size_t stride, const TrackExtremes& greatest) {
+void TrackMeasures::take(std::size_t count, const double* values, std::size_t row_stride,
+                         std::size_t stride, const TrackExtremes& greatest) {
   copy_rows(0, count, values, row_stride, stride);
   points_ = 0;
   greatest_ = greatest;
 }
 
-void TrackMeter::copy_rows(std::size_t first, std::size_t count, const double* values,
-                           std::size_t row_stride, std::size_t stride) {
+void TrackMeasures::copy_rows(std::size_t first, std::size_t count, const double* values,
+                              std::size_t row_stride, std::size_t stride) {
   if (wants_rms_) {
     row_x_.resize(grid_->size());
     row_y_.resize(grid_->size());
@@ -216,7 +209,7 @@ void TrackMeter::copy_rows(std::size_t first, std::size_t count, const double* v
 }
 
 // Takes what is greatest from the pieces so far.
-void TrackMeter::look() {
+void TrackMeasures::look() {
   if (points_ == 0) return;
   if (closed_ && wants_gimbal_) {
     for (PaddedRows* const column : {&phi_, &theta_, &phi_rate_, &theta_rate_}) {
@@ -241,7 +234,7 @@ void TrackMeter::look() {
 }
 
 // The distances are those of x_ and y_, which are left as they are but for what underflows.
-void TrackMeter::look_at_distances(double& greatest) {
+void TrackMeasures::look_at_distances(double& greatest) {
   x_.pad(points_);
   y_.pad(points_);
   double squared = kernels_.distances(x_.data(), y_.data(), points_, sizes_.data());
@@ -267,7 +260,7 @@ void TrackMeter::look_at_distances(double& greatest) {
   if (exponent != 0) rescale(exponent);
 }
 
-void TrackMeter::rescale(int exponent) {
+void TrackMeasures::rescale(int exponent) {
   for (PaddedRows* const column : {&x_, &y_}) {
     for (std::size_t i = 0; i < points_; ++i) {
       column->data()[i] = std::scalbn(column->data()[i], exponent);
@@ -276,7 +269,7 @@ void TrackMeter::rescale(int exponent) {
   }
 }
 
-double TrackMeter::rms_error() {
+double TrackMeasures::rms_error() {
   if (timed_ != *grid_) {
     timed_ = *grid_;
     has_row_reference_ = false;
@@ -292,14 +285,14 @@ double TrackMeter::rms_error() {
   static_cast<void>(kernels_.distances(row_x_.data(), row_y_.data(), rows_, row_squares_.data()));
   const double sum = kernels_.sum(row_squares_.data(), rows_);
   if (is_square(sum)) return std::sqrt(sum / static_cast<double>(rows_));
-  record::SquareSum squares;
+  SquareSum squares;
   for (std::size_t i = 0; i < rows_; ++i) {
     squares.add(std::hypot(row_x_.data()[i], row_y_.data()[i]));
   }
   return squares.root_mean(rows_);
 }
 
-void TrackMeter::finish(double* results) {
+void TrackMeasures::finish(double* results) {
   look();
   GimbalExtremes::Greatest gimbal{tilt_of(greatest_.versine), std::sqrt(greatest_.rate_squared)};
   if (!closed_ && wants_gimbal_) gimbal = motion_extremes();
@@ -325,7 +318,7 @@ void TrackMeter::finish(double* results) {
 }
 
 // The motion is a given one, and may be that of the run before.
-GimbalExtremes::Greatest TrackMeter::motion_extremes() {
+GimbalExtremes::Greatest TrackMeasures::motion_extremes() {
   if (!motion_ || motion_until_ != reached_) {
     motion_ = gimbal_.of(*signals_, reached_);
     motion_until_ = reached_;
@@ -333,4 +326,4 @@ GimbalExtremes::Greatest TrackMeter::motion_extremes() {
   return *motion_;
 }
 
-}  // namespace bbsim::sweep
+}  // namespace bbsim::record

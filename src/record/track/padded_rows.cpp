@@ -1,8 +1,8 @@
-#include "sweep/padded_rows.hpp"
+#include "record/track/padded_rows.hpp"
 
-#include "sweep/kernels/sweep_kernels.hpp"
+#include "record/track/kernels/track_kernels.hpp"
 
-namespace bbsim::sweep {
+namespace bbsim::record {
 
 void PaddedRows::resize(std::size_t rows) {
   const std::size_t room = (rows + row_padding - 1) / row_padding * row_padding;
@@ -16,4 +16,4 @@ void PaddedRows::pad(std::size_t rows) {
   for (std::size_t i = rows; i % row_padding != 0; ++i) values[i] = values[rows - 1];
 }
 
-}  // namespace bbsim::sweep
+}  // namespace bbsim::record

@@ -5,14 +5,14 @@
 #include <vector>
 
 #include "model/signals/signal_pair.hpp"
-#include "sweep/kernels/sweep_kernels.hpp"
-#include "sweep/padded_rows.hpp"
+#include "record/track/kernels/track_kernels.hpp"
+#include "record/track/padded_rows.hpp"
 
-namespace bbsim::sweep {
+namespace bbsim::record {
 
 class SignalRows {
  public:
-  SignalRows() : kernels_(choose_sweep_kernels()) {}
+  SignalRows() : kernels_(choose_track_kernels()) {}
 
   // Where the times are to be put, s; those that were there stay where there was room for them.
   [[nodiscard]] double* times(std::size_t count);
@@ -35,11 +35,11 @@ class SignalRows {
     PaddedRows sines, cosines;
   };
 
-  const SweepKernels& kernels_;
+  const TrackKernels& kernels_;
   PaddedRows times_, values_[2], rates_[2];
   std::vector<Sampled> sampled_;  // at timed_
   std::vector<double> timed_;
   std::vector<Wave> waves_;
 };
 
-}  // namespace bbsim::sweep
+}  // namespace bbsim::record

@@ -1,10 +1,10 @@
-#include "sweep/spans.hpp"
+#include "record/track/spans.hpp"
 
 #include <algorithm>
 
 #include "base/greatest.hpp"
 
-namespace bbsim::sweep {
+namespace bbsim::record {
 namespace {
 
 // A maximum's value needs its place to the square root of what it is to be good to.
@@ -53,4 +53,4 @@ double SpanSearch::greatest_within(std::size_t parts, const double* values, Spac
   return greatest;
 }
 
-}  // namespace bbsim::sweep
+}  // namespace bbsim::record

@@ -1,4 +1,4 @@
-// Measures of many instants at a time, in SIMD lanes: what a sweep sees of the kernels, whatever
+// Measures of many instants at a time, in SIMD lanes: what is seen of the kernels, whatever
 // the instruction set.
 //
 // Plain data and pointers to functions only; nothing here may become code that two instruction
@@ -9,7 +9,7 @@
 
 #include "model/signals/signal_pair.hpp"
 
-namespace bbsim::sweep {
+namespace bbsim::record {
 
 // Arrays are aligned to 64 bytes and padded to a multiple of this; what lies beyond the last value
 // repeats it.
@@ -39,7 +39,7 @@ struct Wave {
 
 // Functions that fill an array of sizes return the greatest of them; no number may come of one that
 // is none.
-struct SweepKernels {
+struct TrackKernels {
   // The greatest of both sizes.
   void (*gimbal)(const GimbalTrack& track, std::size_t rows, const GimbalSizes& sizes,
                  double* versine, double* rate_squared);
@@ -58,6 +58,6 @@ struct SweepKernels {
 };
 
 // Those of the instruction set that was chosen. Throws InputError if there is none such.
-[[nodiscard]] const SweepKernels& choose_sweep_kernels();
+[[nodiscard]] const TrackKernels& choose_track_kernels();
 
-}  // namespace bbsim::sweep
+}  // namespace bbsim::record
