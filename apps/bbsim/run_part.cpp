@@ -9,7 +9,9 @@
 
 #include "base/error.hpp"
 #include "base/number_text.hpp"
+#include "controller/host.hpp"
 #include "describe.hpp"
+#include "model/control/external_controller.hpp"
 #include "scenario/coupled.hpp"
 #include "simd/instruction_set.hpp"
 #include "solve/choose.hpp"
@@ -17,6 +19,12 @@
 
 namespace bbsim::app {
 namespace {
+
+std::string read_bytes(const std::string& file, const char* what) {
+  std::ifstream stream(file, std::ios::binary);
+  if (!stream) throw InputError(what + (": cannot read " + file));
+  return {std::istreambuf_iterator<char>(stream), {}};
+}
 
 // All that a run depends on but its end, and what it shows.
 std::string identity_of(const Scenario& scenario, const std::vector<file::InputTable>& inputs) {
@@ -32,13 +40,15 @@ std::string identity_of(const Scenario& scenario, const std::vector<file::InputT
       for (const double value : table.data->columns[c]) identity += ' ' + number_text(value);
     }
   }
+  // What a controller of one's own is made of, and which numbers it is asked for.
+  for (const scenario::Column* column : scenario::columns_named(scenario.output.columns)) {
+    if (column->needs == scenario::Needs::own) identity += "\n" + std::string(column->name);
+  }
+  for (const std::string& file : controller::files_of(scenario)) {
+    identity +=
+        "\n" + file + ' ' + std::to_string(record::check_sum(read_bytes(file, "controller")));
+  }
   return identity;
-}
-
-std::string read_bytes(const std::string& file) {
-  std::ifstream stream(file, std::ios::binary);
-  if (!stream) throw InputError("--from-state: cannot read " + file);
-  return {std::istreambuf_iterator<char>(stream), {}};
 }
 
 }  // namespace
@@ -75,18 +85,13 @@ RunPart::RunPart(const PartArguments& arguments, const Scenario& scenario,
                      std::string(solve::method_name(method)) +
                      ", which keeps its history to itself; allowed: radau");
   }
-  if (scenario.controller && scenario.controller->own) {
-    throw InputError(
-        "--save-state, --from-state: found with a controller of one's own, whose state only it "
-        "knows; allowed: with a law that is built in");
-  }
   if (scenario::is_coupled(scenario)) {
     throw InputError(
         "--save-state, --from-state: found with losses, sliding or torques, whose switches are not "
         "kept; allowed: without");
   }
   if (!arguments_.from.empty()) {
-    from_ = record::state_of(read_bytes(arguments_.from), arguments_.from);
+    from_ = record::state_of(read_bytes(arguments_.from, "--from-state"), arguments_.from);
   }
   part_.keeps_state = !arguments_.save.empty();
   choose_rows();
@@ -126,6 +131,13 @@ void RunPart::choose_rows() {
 
 void RunPart::check(const model::Model& model,
                     const std::vector<const scenario::Column*>& columns) const {
+  if (model.rig && model.rig->sampled && model.rig->sampled->external &&
+      !model.rig->sampled->external->can_save()) {
+    throw InputError(
+        "--save-state, --from-state: found with a controller that does not say what it remembers; "
+        "allowed: a program that answers its hello with \"save\": true, or a library with "
+        "bbsim_controller_save and bbsim_controller_restore");
+  }
   if (!from_) return;
   const std::string& file = arguments_.from;
   const record::RunState& state = *from_;
@@ -136,9 +148,10 @@ void RunPart::check(const model::Model& model,
                      " (BBSIM_SIMD chooses another)");
   }
   if (state.identity != identity_) {
-    throw InputError(file +
-                     ": is of another scenario; allowed: the same text, --set and tables, but for "
-                     "time.end and output.columns");
+    throw InputError(
+        file +
+        ": is of another scenario; allowed: the same text, --set, tables and files of a "
+        "controller, but for time.end and output.columns");
   }
   if (state.gamma != model.gamma) {
     throw InputError(file + ": is of a run " + (state.gamma ? "with" : "without") +

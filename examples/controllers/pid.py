@@ -20,6 +20,12 @@ class Axis:
         self.position = None  # not seen yet
         self.velocity = self.integral = 0.0
 
+    def save(self):
+        return [self.position, self.velocity, self.integral]
+
+    def restore(self, state):
+        self.position, self.velocity, self.integral = state
+
     def command(self, seen, reference, reference_rate, elapsed):
         keep = self.filter / (self.filter + elapsed)
         difference = 0.0 if self.position is None else (seen - self.position) / elapsed
@@ -44,12 +50,19 @@ def main():
             x, y = Axis(message), Axis(message)
             elapsed = period
             command = [0.0, 0.0]
+            if "state" in message:  # it goes on from where another one was
+                states, elapsed, command = message["state"]
+                x.restore(states[0])
+                y.restore(states[1])
             answer = {
                 "protocol": 1,
                 "reset": True,
+                "save": True,
                 "columns": {"x_integral": "m s", "y_integral": "m s"},
                 "fields": ["ball", "reference", "reference_rate"],
             }
+        elif "save" in message:
+            answer = {"state": [[x.save(), y.save()], elapsed, command]}
         else:
             if message["ball"] is None:  # the sensor missed it: the command stays
                 elapsed += period

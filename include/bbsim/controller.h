@@ -9,7 +9,8 @@
  *       sampling: {period: "20 ms"}
  *
  * bbsim opens it, asks for its version, creates a controller, and has it step once a sample: time
- * stands still meanwhile. A library defines the functions below, five of the six; C99 is enough.
+ * stands still meanwhile. A library defines the functions below, three of which may be left out;
+ * C99 is enough.
  * Build it with, say,
  *
  *     cc -std=c99 -O2 -fPIC -shared -I PREFIX/include pid.c -o libpid.so
@@ -95,6 +96,17 @@ BBSIM_CONTROLLER_EXPORT int bbsim_controller_step(void *controller, const bbsim_
  * created. Returns 0 if it is; otherwise bbsim destroys it and creates another. This function may
  * be left out, and then is as if it never could. */
 BBSIM_CONTROLLER_EXPORT int bbsim_controller_reset(void *controller, const bbsim_setup *setup);
+
+/* Writes what the controller remembers into `bytes`, if there is room for it, and returns how many
+ * bytes it takes; 0: that cannot be said, as bbsim_controller_last_error() tells. A call with a room
+ * of 0 only asks how many. For `bbsim run --save-state`; may be left out, with the next. */
+BBSIM_CONTROLLER_EXPORT size_t bbsim_controller_save(const void *controller, void *bytes,
+                                                     size_t room);
+
+/* A run goes on: the controller, just created or reset, is to remember what another one of the same
+ * setup has written so. Returns 0; any other number ends the run, as it does for a step. */
+BBSIM_CONTROLLER_EXPORT int bbsim_controller_restore(void *controller, const void *bytes,
+                                                     size_t size);
 
 /* The controller is no longer needed. */
 BBSIM_CONTROLLER_EXPORT void bbsim_controller_destroy(void *controller);

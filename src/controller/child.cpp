@@ -25,6 +25,9 @@ namespace bbsim::controller {
 namespace {
 
 constexpr std::size_t longest_line = 65536, longest_complaint = 4096, longest_shown = 200;
+// Looks for an answer, some 50 us of them, before it is waited for: to be woken takes longer than
+// many a program thinks. As long as they succeed, and now and then again.
+constexpr int most_patience = 200;
 constexpr int slice = 100;    // ms: how soon a request to end is heard, at most
 constexpr int parting = 300;  // ms: within which who closes a stream has ended, if it ends over it
 constexpr int farewell = 1000;  // ms, for it to end by itself
@@ -95,10 +98,14 @@ std::string_view Child::ask(std::string_view line, double timeout) {
   timeout_ = timeout;
   deadline_ = now() + timeout;
   send(line);
-  for (;;) {
+  if (asked_++ % 64 == 0) patience_ = most_patience;
+  for (int looks = 0;; ++looks) {
     receive();
-    if (answer_ > 0) return {buffer_.data(), answer_ - 1};
-    wait(0);
+    if (answer_ > 0) {
+      patience_ = looks < patience_ ? most_patience : 0;
+      return {buffer_.data(), answer_ - 1};
+    }
+    if (looks >= patience_) wait(0);
   }
 }
 
@@ -159,8 +166,12 @@ void Child::receive() {
 // Until there is something to read, or to write if that is asked for; or its end, or a slice of the
 // time has passed.
 void Child::wait(short for_output) {
-  if (stop_ != nullptr && stop_->load(std::memory_order_relaxed)) throw ChildInterrupted();
-  const double left = deadline_ - now();
+  const double time = now(), left = deadline_ - time;
+  // Who answers soon is waited for: it may be asked yet what it remembers.
+  if (stop_ != nullptr && stop_->load(std::memory_order_relaxed) &&
+      time - (deadline_ - timeout_) > slice / 1e3) {
+    throw ChildInterrupted();
+  }
   if (left <= 0) fail_by_silence();
   std::array<pollfd, 4> events{{{output_.get(), POLLIN, 0},
                                 {error_.get(), POLLIN, 0},

@@ -70,6 +70,8 @@ class Child {
   std::size_t size_ = 0, answer_ = 0;  // of what is in it; of the last answer and its break
   std::string complaint_;              // on its standard error, not yet told
   double timeout_ = 0, deadline_ = 0;  // s
+  int patience_ = 0;                   // looks for an answer before it is waited for
+  std::size_t asked_ = 0;
 };
 
 }  // namespace bbsim::controller

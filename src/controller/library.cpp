@@ -21,6 +21,8 @@ struct LibraryFunctions {
   decltype(&bbsim_controller_reset) reset = nullptr;  // may be missing
   decltype(&bbsim_controller_destroy) destroy = nullptr;
   decltype(&bbsim_controller_last_error) last_error = nullptr;
+  decltype(&bbsim_controller_save) save = nullptr;  // these two may be missing
+  decltype(&bbsim_controller_restore) restore = nullptr;
 };
 
 namespace {
@@ -63,6 +65,8 @@ std::shared_ptr<const LibraryFunctions> open(const std::string& path) {
   require("bbsim_controller_destroy", functions->destroy);
   require("bbsim_controller_last_error", functions->last_error);
   static_cast<void>(find(library, "bbsim_controller_reset", functions->reset));
+  static_cast<void>(find(library, "bbsim_controller_save", functions->save));
+  static_cast<void>(find(library, "bbsim_controller_restore", functions->restore));
   return functions;
 }
 
@@ -137,6 +141,32 @@ void Library::begin() {
   fresh_ = false;
 }
 
+model::ControllerFault Library::fault_of(const std::string& when, const std::string& why) const {
+  return model::ControllerFault("the controller (" + shown(path_, uncut) + ") failed " + when +
+                                ": " + why);
+}
+
+bool Library::can_save() const {
+  return functions_->save != nullptr && functions_->restore != nullptr;
+}
+
+std::string Library::save() {
+  std::string memory(functions_->save(controller_, nullptr, 0), '\0');
+  if (memory.empty() ||
+      functions_->save(controller_, memory.data(), memory.size()) != memory.size()) {
+    throw fault_of("to save its state", last_error(controller_));
+  }
+  return memory;
+}
+
+void Library::restore(const std::string& memory) {
+  begin();
+  const int code = functions_->restore(controller_, memory.data(), memory.size());
+  if (code == 0) return;
+  throw fault_of("to go on from a state",
+                 "it returned " + std::to_string(code) + ": " + last_error(controller_));
+}
+
 Pair Library::command(const model::ControllerSample& sample, double* own) {
   const auto& [x, y] = sample.reference;
   const Pair ball = sample.seen.value_or(Pair{0, 0});
@@ -150,9 +180,9 @@ Pair Library::command(const model::ControllerSample& sample, double* own) {
                            {sample.servo[0], sample.servo[1]},
                            {sample.servo[2], sample.servo[3]}};
   const auto fail = [&](const std::string& why) {
-    return model::ControllerFault("the controller (" + shown(path_, uncut) + ") failed at sample " +
-                                  std::to_string(sample.number) + " (t = " + number_text(sample.t) +
-                                  " s): " + why);
+    return fault_of(
+        "at sample " + std::to_string(sample.number) + " (t = " + number_text(sample.t) + " s)",
+        why);
   };
   Pair command{std::nan(""), std::nan("")};
   const int code = functions_->step(controller_, &given, command.data(), own);

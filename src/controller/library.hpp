@@ -22,6 +22,9 @@ class Library : public model::ExternalController {
 
   void begin() override;
   Pair command(const model::ControllerSample& sample, double* own) override;
+  [[nodiscard]] bool can_save() const override;
+  [[nodiscard]] std::string save() override;
+  void restore(const std::string& memory) override;
 
   // The next run is of that setup. Throws KeyError.
   void renew(const Setup& setup);
@@ -32,6 +35,8 @@ class Library : public model::ExternalController {
 
  private:
   void create();
+  [[nodiscard]] model::ControllerFault fault_of(const std::string& when,
+                                                const std::string& why) const;
   [[nodiscard]] std::string last_error(const void* controller) const;
 
   std::string path_;

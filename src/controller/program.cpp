@@ -43,7 +43,7 @@ model::ControllerFault Program::fault_of(const std::string& when, const ChildFau
                                 when + ": " + fault.what());
 }
 
-void Program::start() {
+void Program::start(const std::string& memory) {
   try {
     child_.reset();
     child_ = std::make_unique<Child>(program_.command, folder_, tell_, stop_);
@@ -53,15 +53,15 @@ void Program::start() {
                        ", which cannot be started: " + file::error_text(error.code().value()) +
                        "; allowed: a program, by its name or its path");
   }
-  say_hello();
+  say_hello(memory);
 }
 
 // Keeps what is wrong for begin().
-void Program::say_hello() {
+void Program::say_hello(const std::string& memory) {
   fault_.reset();
   ready_ = {};
   try {
-    ready_ = read_ready(child_->ask(hello_line(setup_), program_.start_timeout));
+    ready_ = read_ready(child_->ask(hello_line(setup_, memory), program_.start_timeout));
     if (!ready_.fault.empty()) throw child_->refuse(ready_.fault);
   } catch (const ChildFault& fault) {
     fault_ = fault_of("to begin", fault);
@@ -72,13 +72,13 @@ void Program::say_hello() {
   fresh_ = true;
 }
 
-void Program::renew(const Setup& setup) {
+void Program::renew(const Setup& setup, const std::string& memory) {
   setup_ = setup;
   if (child_ && ready_.reset) {
-    say_hello();
+    say_hello(memory);
   } else {
     if (child_) child_->finish();
-    start();
+    start(memory);
   }
 }
 
@@ -88,23 +88,43 @@ void Program::begin() {
   if (fault_) throw model::ControllerFault(*fault_);
 }
 
-Pair Program::command(const model::ControllerSample& sample, double* own) {
+void Program::restore(const std::string& memory) {
+  renew(setup_, memory);
+  begin();
+}
+
+// `read` takes the answer, and returns what is wrong with it; `when` says when it was asked for.
+template <class When, class Read>
+void Program::ask(std::string_view line, When when, Read read) {
   if (!child_) throw model::ControllerFault("the controller has ended before");
   try {
-    char line[longest_sample];
-    const std::size_t size = write_sample(sample, ready_.fields, line);
-    const std::string_view answer = child_->ask({line, size}, program_.timeout);
-    Pair command{};
-    const std::string wrong = read_answer(answer, setup_.columns, command, own);
+    const std::string wrong = read(child_->ask(line, program_.timeout));
     if (!wrong.empty()) throw child_->refuse(wrong);
-    return command;
   } catch (const ChildFault& fault) {
     child_.reset();
-    throw fault_of(at_sample(sample), fault);
+    throw fault_of(when(), fault);
   } catch (const ChildInterrupted&) {
     child_.reset();
     throw model::ControllerFault("interrupted", true);
   }
+}
+
+Pair Program::command(const model::ControllerSample& sample, double* own) {
+  char line[longest_sample];
+  const std::size_t size = write_sample(sample, ready_.fields, line);
+  Pair command{};
+  ask(
+      {line, size}, [&] { return at_sample(sample); },
+      [&](std::string_view answer) { return read_answer(answer, setup_.columns, command, own); });
+  return command;
+}
+
+std::string Program::save() {
+  std::string memory;
+  ask(
+      save_line, [] { return "to save its state"; },
+      [&](std::string_view answer) { return read_memory(answer, memory); });
+  return memory;
 }
 
 void Program::finish() {

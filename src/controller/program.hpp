@@ -18,9 +18,14 @@ class Program : public model::ExternalController {
 
   void begin() override;
   Pair command(const model::ControllerSample& sample, double* own) override;
+  // One that is at fault can, until begin() or restore() says what is wrong.
+  [[nodiscard]] bool can_save() const override { return fault_ || ready_.save; }
+  [[nodiscard]] std::string save() override;
+  void restore(const std::string& memory) override;
 
-  // The next run is of that setup, by a new process unless this one can reset.
-  void renew(const Setup& setup);
+  // The next run is of that setup, by a new process unless this one can reset; it begins with that
+  // memory, if there is one.
+  void renew(const Setup& setup, const std::string& memory = {});
 
   // What begin() would throw.
   [[nodiscard]] const std::optional<model::ControllerFault>& fault() const { return fault_; }
@@ -32,8 +37,10 @@ class Program : public model::ExternalController {
   void finish();
 
  private:
-  void start();
-  void say_hello();
+  void start(const std::string& memory = {});
+  void say_hello(const std::string& memory);
+  template <class When, class Read>
+  void ask(std::string_view line, When when, Read read);
   [[nodiscard]] model::ControllerFault fault_of(const std::string& when,
                                                 const ChildFault& fault) const;
 

@@ -131,7 +131,7 @@ std::string refusal(std::string_view line, const std::string& why) {
 
 }  // namespace
 
-std::string hello_line(const Setup& setup) {
+std::string hello_line(const Setup& setup, const std::string& memory) {
   const bool angle = setup.drives == Drives::angle;
   Json hello = Json::object();
   hello["protocol"] = protocol_version;
@@ -152,6 +152,7 @@ std::string hello_line(const Setup& setup) {
   hello["fields"]["sample"] = "1";
   for (const Field& field : fields) hello["fields"][std::string(field.name)] = field.unit;
   hello["command"] = angle ? "rad" : "rad/s^2";
+  if (!memory.empty()) hello["state"] = Json::parse(memory);
   return hello.dump() + '\n';
 }
 
@@ -163,7 +164,8 @@ Ready read_ready(std::string_view line) {
   };
   const std::string wanted = "allowed: {\"protocol\": " + std::to_string(protocol_version) +
                              "}, and beside it \"reset\": " +
-                             "true, \"columns\": {\"NAME\": \"UNIT\"}, \"fields\": [\"NAME\"]";
+                             "true, \"save\": true, \"columns\": {\"NAME\": \"UNIT\"}, \"fields\": "
+                             "[\"NAME\"]";
   const Json answer = Json::parse(line, nullptr, false);
   if (!answer.is_object() || !answer.contains("protocol")) return refuse(wanted);
   for (const auto& [key, value] : answer.items()) {
@@ -172,9 +174,11 @@ Ready read_ready(std::string_view line) {
         return refuse("found a protocol of another version; allowed: " +
                       std::to_string(protocol_version));
       }
-    } else if (key == "reset") {
-      if (!value.is_boolean()) return refuse("found a reset that is neither true nor false");
-      ready.reset = value.get<bool>();
+    } else if (key == "reset" || key == "save") {
+      if (!value.is_boolean()) {
+        return refuse("found a " + key + " that is neither true nor false");
+      }
+      (key == "reset" ? ready.reset : ready.save) = value.get<bool>();
     } else if (key == "fields") {
       ready.fields.reset();
       for (const Json& name : value) {
@@ -198,6 +202,15 @@ Ready read_ready(std::string_view line) {
     }
   }
   return ready;
+}
+
+std::string read_memory(std::string_view line, std::string& memory) {
+  const Json answer = Json::parse(line, nullptr, false);
+  if (!answer.is_object() || answer.size() != 1 || !answer.contains("state")) {
+    return refusal(line, "allowed: {\"state\": ANYTHING}");
+  }
+  memory = answer["state"].dump();
+  return "";
 }
 
 std::size_t write_sample(const model::ControllerSample& sample, Fields wanted,

@@ -2,7 +2,7 @@
 // sample (docs/controllers.md).
 //
 //     bbsim       {"protocol":1,"bbsim":"0.2.0","period":0.02,...,"parameters":{"kp":0.7},...}
-//     controller  {"protocol": 1, "reset": true, "columns": {"x_integral": "m s"}}
+//     controller  {"protocol": 1, "reset": true, "save": true, "columns": {"x_integral": "m s"}}
 //     bbsim       {"sample":0,"t":0.0,"ball":[-0.03,0.0],"reference":[0.03,0.0],...}
 //     controller  {"command": [0.042, 0.0], "x_integral": 0.0012}
 //
@@ -27,8 +27,9 @@ namespace bbsim::controller {
 
 inline constexpr int protocol_version = 1;
 
-// The line that begins a run, with its line break.
-[[nodiscard]] std::string hello_line(const Setup& setup);
+// The line that begins a run, with its line break; one that goes on has what a controller answered
+// to the save_line.
+[[nodiscard]] std::string hello_line(const Setup& setup, const std::string& memory = {});
 
 // What a sample has beside its number, each with its unit.
 struct Field {
@@ -48,6 +49,7 @@ using Fields = std::bitset<fields.size()>;  // some of them
 // What the controller says of itself.
 struct Ready {
   bool reset = false;  // another hello begins another run
+  bool save = false;   // it answers the save_line
   // The numbers that it gives beside its commands, with their units, if it names them.
   std::optional<std::vector<std::pair<std::string, std::string>>> columns{};
   Fields fields = Fields().set();  // those that it wants to be told
@@ -56,6 +58,13 @@ struct Ready {
 
 // Reads the answer to a hello, a line without its break.
 [[nodiscard]] Ready read_ready(std::string_view line);
+
+// Asks for what the controller remembers.
+inline constexpr std::string_view save_line = "{\"save\":true}\n";
+
+// Reads the answer to that, a line without its break. Returns what is wrong with it; empty if
+// nothing is.
+[[nodiscard]] std::string read_memory(std::string_view line, std::string& memory);
 
 // No line of a sample is longer.
 inline constexpr std::size_t longest_sample = 1024;

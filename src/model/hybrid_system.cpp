@@ -119,6 +119,10 @@ void HybridSystem::expose(const double* z) {
   sampled_->seen.push_back(sampled_->sensor.read({z[0], z[1]}));
 }
 
+ExternalController* HybridSystem::controller() const {
+  return model_.rig && model_.rig->sampled ? model_.rig->sampled->external.get() : nullptr;
+}
+
 void HybridSystem::take_sample(double t, const double* z) {
   const double number = sampled_->sample.number++;
   const std::optional<Pair> seen = sampled_->seen.front();
@@ -126,8 +130,7 @@ void HybridSystem::take_sample(double t, const double* z) {
   const double servo[4] = {z[angle], z[angle + 1], z[rate], z[rate + 1]};
   const auto reference = with_loop([t](const auto& loop) { return loop.reference().at(t); });
   SampledController& controller = sampled_->controller;
-  ExternalController* const external = model_.rig->sampled->external.get();
-  if (external != nullptr) {
+  if (ExternalController* const external = this->controller()) {
     if (number == 0) external->begin();
     const ControllerSample sample{static_cast<std::size_t>(number), t, seen, servo, reference};
     sampled_->commands.push_back(
@@ -319,7 +322,7 @@ void HybridSystem::archive(Archive& archive) {
   if (!sampled_) return;
   Sampled& of = *sampled_;
   archive(of.sensor, of.controller, of.expose.number, of.sample.number, of.apply.number, of.seen,
-          of.commands, of.measured);
+          of.commands, of.measured, of.own);
 }
 
 template void HybridSystem::archive(StateWriter&);

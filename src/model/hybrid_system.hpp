@@ -65,7 +65,11 @@ class HybridSystem {
 
   [[nodiscard]] const std::vector<Occurrence>& occurrences() const { return occurrences_; }
 
-  // All that changes over a run (base/archive.hpp), but what has occurred.
+  // Who is asked at samples; null where the law is built in.
+  [[nodiscard]] ExternalController* controller() const;
+
+  // All that changes over a run (base/archive.hpp), but what has occurred and what controller()
+  // remembers.
   template <class Archive>
   void archive(Archive& archive);
 

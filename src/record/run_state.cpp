@@ -1,8 +1,5 @@
 #include "record/run_state.hpp"
 
-#include <cstdint>
-#include <string_view>
-
 #include "base/archive.hpp"
 #include "base/error.hpp"
 
@@ -11,13 +8,6 @@ namespace {
 
 constexpr std::string_view magic = "bbsim run state 1\n";
 
-// FNV-1a, 64 bits: against damage, not against malice.
-std::uint64_t check_sum(std::string_view bytes) {
-  std::uint64_t sum = 0xcbf29ce484222325;
-  for (const char c : bytes) sum = (sum ^ static_cast<unsigned char>(c)) * 0x100000001b3;
-  return sum;
-}
-
 template <class Archive>
 void archive_of(Archive& archive, RunState& state) {
   archive(state.version, state.instruction_set, state.identity, state.gamma, state.endless,
@@ -25,6 +15,13 @@ void archive_of(Archive& archive, RunState& state) {
 }
 
 }  // namespace
+
+// FNV-1a, 64 bits.
+std::uint64_t check_sum(std::string_view bytes) {
+  std::uint64_t sum = 0xcbf29ce484222325;
+  for (const char c : bytes) sum = (sum ^ static_cast<unsigned char>(c)) * 0x100000001b3;
+  return sum;
+}
 
 std::string to_bytes(RunState state) {
   StateWriter writer;

@@ -2,7 +2,9 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <string>
+#include <string_view>
 
 namespace bbsim::record {
 
@@ -19,6 +21,9 @@ struct RunState {
   std::size_t next_row = 0;
   std::string state;  // solve::Part::state
 };
+
+// Of any bytes: against damage, not against malice.
+[[nodiscard]] std::uint64_t check_sum(std::string_view bytes);
 
 [[nodiscard]] std::string to_bytes(RunState state);
 

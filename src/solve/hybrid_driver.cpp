@@ -39,6 +39,7 @@ class HybridIntegration {
         pace_(grid.end()),
         pieces_(sink.pieces()),
         stepper_(make_stepper(run_.model())),
+        controller_(run_.controller()),
         guards_(run_.guards()),
         values_(run_.guards()),
         now_(run_.guards()),
@@ -71,6 +72,11 @@ class HybridIntegration {
     if (part_ != nullptr && !part_->from.empty()) {
       StateReader from(part_->from);
       archive(from);
+      if (controller_ != nullptr) {
+        std::string memory;
+        from(memory);
+        controller_->restore(memory);
+      }
       stepper_->restore(from);
       next_row_ = part_->first_row;
       begun_ = grid_[next_row_ - 1];
@@ -93,7 +99,8 @@ class HybridIntegration {
     for (std::size_t steps = 1;; ++steps) {
       const double from = stepper_->time(), due = run_.next_time_event();
       const double limit = std::min(due, end);
-      if (part_ != nullptr && part_->keeps_state) keep_state();
+      if (part_ != nullptr && part_->keeps_state) keep_state(limit);
+      if (is_stopped()) return ended(Ending::interrupted, from);
       if (const char* reason = stepper_->step(limit)) return failed(from, reason);
       const double to = stepper_->time();
       double at = to;
@@ -127,9 +134,6 @@ class HybridIntegration {
         if (end - at <= slack(at)) return ended(Ending::done, grid_.end());
         if (!guards_.empty()) arm(at, z.data());
       }
-      if (watch_.stop != nullptr && watch_.stop->load(std::memory_order_relaxed)) {
-        return ended(Ending::interrupted, at);
-      }
       if (at < limit && pace_.creeps(at, [&] { return stopped_at(at); })) {
         Outcome outcome = failed(at, pace_.reason());
         state_at(at, outcome.last_state);
@@ -149,11 +153,22 @@ class HybridIntegration {
     archive(run_, pace_, guards_, asked_, asked_time_, last_switch_, still_);
   }
 
-  void keep_state() {
+  // Before a step up to `limit`. What a controller of one's own remembers is asked for only where
+  // the part may end within the step, or ends now.
+  void keep_state(double limit) {
     part_->state.clear();
     StateWriter into;
     archive(into);
+    if (controller_ != nullptr) {
+      if (limit + slack(limit) < cut_ && !is_stopped()) return;
+      std::string memory = controller_->save();
+      into(memory);
+    }
     if (stepper_->save(into)) part_->state = into.bytes();
+  }
+
+  [[nodiscard]] bool is_stopped() const {
+    return watch_.stop != nullptr && watch_.stop->load(std::memory_order_relaxed);
   }
 
   // Times nearer than this are one: i * step and n * period are rounded each their own way.
@@ -495,6 +510,7 @@ class HybridIntegration {
   Pace pace_;
   PieceSink* pieces_;
   std::unique_ptr<Stepper> stepper_;
+  model::ExternalController* controller_;  // null if the law is built in
   std::vector<Guard> guards_;
   ChebyshevTables tables_;
   std::vector<double> values_, now_, near_, least_, most_, look_, row_, planned_times_,

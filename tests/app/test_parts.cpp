@@ -1,4 +1,5 @@
 // A run split in two gives the bytes of one.
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -20,6 +21,16 @@ Result run(const Folder& folder, std::vector<std::string> arguments) {
   CHECK(result.exit_code == 0);
   return result;
 }
+
+std::string example(const std::string& name) {
+  return BBSIM_SOURCE_DIR "/examples/controllers/" + name;
+}
+
+#ifdef BBSIM_PYTHON
+constexpr bool has_python = true;
+#else
+constexpr bool has_python = false;
+#endif
 
 // The rows without their header.
 std::string rows_of(const std::string& csv) {
@@ -56,6 +67,57 @@ TEST_CASE("the rows of two parts are those of one run, to the bit") {
   const std::string a = folder.read("first.csv"), b = rows_of(folder.read("second.csv"));
   CHECK(b.size() > 20);
   CHECK(a + b == folder.read("whole.csv"));
+}
+
+TEST_CASE("so are those of a controller of one's own, a library or a program") {
+  struct Part {
+    const char *until, *step;
+  };
+  // At a sample, between two, and as a command comes.
+  const Part part =
+      GENERATE(Part{"600 ms", "20 ms"}, Part{"604 ms", "4 ms"}, Part{"1.21", "10 ms"});
+  const bool program = GENERATE(false, true);
+  if (program && !has_python) return;
+  std::vector<std::string> rig{example(program ? "python.yaml" : "library.yaml")};
+  if (!program) {
+    rig.insert(rig.end(), {"--set", "controller.library.file=\"" BBSIM_EXAMPLE_LIBRARY "\""});
+  }
+  CAPTURE(rig[0], part.until);
+  for (const char* set :
+       {"controller.sensor.noise=\"0.5 mm\"", "controller.sensor.dropout=0.2", "time.end=4"}) {
+    rig.insert(rig.end(), {"--set", set});
+  }
+  rig.insert(rig.end(), {"--set", std::string("time.step=\"") + part.step + '"'});
+  const Folder folder;
+  const auto with = [&](std::vector<std::string> arguments) {
+    arguments.insert(arguments.begin(), rig.begin(), rig.end());
+    return arguments;
+  };
+  run(folder, with({"-o", "whole.csv"}));
+  run(folder, with({"-o", "first.csv", "--save-state", "middle.state", "--until", part.until}));
+  run(folder, with({"-o", "second.csv", "--from-state", "middle.state"}));
+  const std::string a = folder.read("first.csv"), b = rows_of(folder.read("second.csv"));
+  CHECK(b.size() > 20);
+  CHECK(a + b == folder.read("whole.csv"));
+}
+
+TEST_CASE("a state is one of the controller that made it, and of what it was asked for") {
+  const Folder folder;
+  if (!has_python) return;
+  for (const char* name : {"pid.py", "python.yaml"}) {
+    std::filesystem::copy(example(name), folder.path() / name);
+  }
+  run(folder, {"python.yaml", "-o", "a.csv", "--save-state", "a.state", "--until", "1"});
+  const auto refusal = [&](const char* columns) {
+    const Result result = bbsim({"run", "python.yaml", "-o", "b.csv", "--from-state", "a.state",
+                                 "--set", std::string("output.columns=") + columns},
+                                folder.path());
+    CHECK(result.exit_code == 2);
+    return result.err;
+  };
+  CHECK(contains(refusal("[t, x_integral, y_integral]"), "another scenario"));
+  folder.write("pid.py", "# changed\n" + folder.read("pid.py"));
+  CHECK(contains(refusal("[t, x, x_integral]"), "files of a controller"));
 }
 
 TEST_CASE("a run may go on for longer than it was meant to") {
@@ -100,9 +162,10 @@ TEST_CASE("a state is refused where bytes could not be those of one run") {
   CHECK(contains(refusal({rig, "--save-state", "c.state", "--set", "solver.method=bdf"}), "radau"));
   CHECK(contains(refusal({rig, "--save-state", "c.state", "--error", "1 um"}), "solver.error"));
   CHECK(contains(refusal({config("slides.yaml"), "--save-state", "c.state"}), "sliding"));
-  CHECK(contains(
-      refusal({BBSIM_SOURCE_DIR "/examples/controllers/python.yaml", "--save-state", "c.state"}),
-      "a controller of one's own"));
+  CHECK(contains(refusal({example("python.yaml"), "--save-state", "c.state", "--set",
+                          std::string("controller.program.command=[\"") + BBSIM_TEST_CHILD + "\"]",
+                          "--set", "controller.program.parameters={}"}),
+                 "does not say what it remembers"));
   CHECK(contains(refusal({rig, "--until", "3"}), "--save-state"));
   CHECK(contains(refusal({rig, "--save-state", "c.state", "--until", "50"}), "--until"));
   CHECK(refusal({rig, "--from-state", "a.state", "--save-state", "a.state", "--until", "3"}) != "");

@@ -1,5 +1,6 @@
 // Runs whose controller is not built in: when it is asked, what it is told, and what its faults do.
 #include <algorithm>
+#include <atomic>
 #include <limits>
 #include <memory>
 #include <stdexcept>
@@ -7,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/archive.hpp"
 #include "catch.hpp"
 #include "model/control/external_controller.hpp"
 #include "model/control/sampled_controller.hpp"
@@ -52,14 +54,28 @@ class BuiltIn : public model::ExternalController {
     ++runs;
   }
   Pair command(const model::ControllerSample& sample, double* own) override {
+    if (sample.number == stops_at) stop = true;
     if (sample.number == fails_at) throw model::ControllerFault("it fails", interrupts);
     times.push_back(sample.t);
     if (own != nullptr && numbers) *own = double(sample.number);
     return controller_.command(sample.seen, sample.servo, sample.reference);
   }
+  [[nodiscard]] bool can_save() const override { return true; }
+  [[nodiscard]] std::string save() override {
+    ++saves;
+    StateWriter into;
+    controller_.archive(into);
+    return into.bytes();
+  }
+  void restore(const std::string& memory) override {
+    StateReader from(memory);
+    controller_.archive(from);
+  }
 
   std::size_t fails_at = std::numeric_limits<std::size_t>::max();
-  int runs = 0;
+  std::size_t stops_at = std::numeric_limits<std::size_t>::max();
+  std::atomic<bool> stop = false;
+  int runs = 0, saves = 0;
   bool interrupts = false, numbers = false;
   std::vector<double> times;
 
@@ -73,10 +89,11 @@ struct Made {
   std::vector<std::vector<double>> rows;
 };
 
-Made run(const model::Model& model, const Scenario& scene) {
+Made run(const model::Model& model, const Scenario& scene, const solve::Watch& watch = {},
+         solve::Part* part = nullptr) {
   solve::Trajectory rows(model.row_size());
   const solve::OutputGrid grid(scene.time);
-  Made made{solve::integrate(model, Method::automatic, {1e-9, 1e-11}, grid, rows), {}};
+  Made made{solve::integrate(model, Method::automatic, {1e-9, 1e-11}, grid, rows, watch, part), {}};
   for (std::size_t i = 0; i < rows.rows(); ++i) {
     made.rows.emplace_back(rows.row(i), rows.row(i) + model.row_size());
   }
@@ -151,6 +168,43 @@ TEST_CASE("a controller that fails ends the run at its sample, with the rows bef
       CHECK(made.outcome.rows == sample);
       CHECK(std::equal(made.rows.begin(), made.rows.end(), whole.rows.begin()));
     }
+  }
+}
+
+TEST_CASE("a run that is interrupted goes on with what its controller remembers") {
+  const Scenario scene = step();
+  model::Model model = model::assemble(with_own(scene), true);
+  const auto begin = [&] {
+    auto controller = std::make_shared<BuiltIn>(scene);
+    model.rig->sampled->external = controller;
+    return controller;
+  };
+  begin();
+  const Made whole = run(model, scene);
+  for (const std::size_t sample : {std::size_t{0}, std::size_t{1}, std::size_t{70}}) {
+    CAPTURE(sample);
+    const auto stopped = begin();
+    stopped->stops_at = sample;
+    solve::Part first;
+    first.end_row = whole.rows.size();
+    first.keeps_state = true;
+    const Made before = run(model, scene, {&stopped->stop, {}}, &first);
+    REQUIRE(before.outcome.ending == solve::Ending::interrupted);
+    REQUIRE(before.rows.size() == sample + 1);
+    REQUIRE(first.next_row == sample + 1);
+    CHECK(stopped->saves == 1);
+    const auto other = begin();
+    solve::Part second;
+    second.first_row = first.next_row;
+    second.end_row = whole.rows.size();
+    second.from = first.state;
+    const Made after = run(model, scene, {}, &second);
+    CHECK(after.outcome.ending == solve::Ending::done);
+    CHECK(other->runs == 0);
+    CHECK(other->times.size() + stopped->times.size() == 151);
+    REQUIRE(before.rows.size() + after.rows.size() == whole.rows.size());
+    CHECK(std::equal(before.rows.begin(), before.rows.end(), whole.rows.begin()));
+    CHECK(std::equal(after.rows.rbegin(), after.rows.rend(), whole.rows.rbegin()));
   }
 }
 

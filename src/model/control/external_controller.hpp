@@ -44,6 +44,13 @@ class ExternalController {
   // The commands for phi and theta, rad or rad/s^2, both finite; and into `own` the numbers that
   // SampledLoop::own_columns names. Throws ControllerFault.
   virtual Pair command(const ControllerSample& sample, double* own) = 0;
+
+  // Whether it can tell what it remembers, and go on from there.
+  [[nodiscard]] virtual bool can_save() const = 0;
+  // What it remembers, for another one's restore(). Throws ControllerFault.
+  [[nodiscard]] virtual std::string save() = 0;
+  // In place of begin(), in a run that goes on. Throws ControllerFault.
+  virtual void restore(const std::string& memory) = 0;
 };
 
 }  // namespace bbsim::model
