@@ -3,19 +3,32 @@
 
 #include <array>
 #include <functional>
+#include <optional>
 #include <vector>
 
 namespace crosscheck {
+
+// A gimbal that torques move, and what they move.
+struct Driven {
+  std::array<double, 3> plate_inertia{};                // about the gimbal's centre, kg m^2
+  double plate_mass = 0, centre_of_mass = 0;            // kg; m along the normal
+  double ring_inertia = 0, rotor_inertia = 0;           // kg m^2
+  double viscous = 0;                                   // N m s
+  std::array<double, 2> angles{}, rates{};              // at the start, rad, rad/s
+  std::function<double(double time, int axis)> torque;  // of the motors of phi and theta, N m
+};
 
 struct Rig {
   double radius = 0, mass = 1, gravity = 0;      // m, kg, m/s^2
   std::array<double, 2> position{}, velocity{};  // of the contact point in the plane, m, m/s
   double spin = 0;                               // rad/s
   // Value (order 0), rate (1) or acceleration (2) of phi (axis 0) or theta (1) at a time.
-  std::function<double(double time, int axis, int order)> angle;
+  std::function<double(double time, int axis, int order)> angle{};
+  std::optional<Driven> driven{};  // in the place of that
 };
 
-// The contact point (x, y) at each of the times, which start at 0.
-std::vector<std::array<double, 2>> simulate(const Rig& rig, const std::vector<double>& times);
+// The contact point and the gimbal's angles (x, y, phi, theta) at each of the times, which start
+// at 0.
+std::vector<std::array<double, 4>> simulate(const Rig& rig, const std::vector<double>& times);
 
 }  // namespace crosscheck
