@@ -33,6 +33,10 @@ enum class Place {
   forces,
   torques,
   motor_torques,
+  given_torques,
+  currents,
+  voltages,
+  slip,
   power,
   energy,
   singularity,
@@ -62,8 +66,18 @@ std::string_view common_name(Place place) {
       return "torque";
     case Place::motor_torques:
       return "motor torque";
+    case Place::given_torques:
+      return "motors' torque";
+    case Place::currents:
+      return "motors' current";
+    case Place::voltages:
+      return "motors' voltage";
+    case Place::slip:
+      return "slip";
     case Place::power:
       return "power";
+    case Place::energy:
+      return "energy";
     default:
       return "";
   }
@@ -103,9 +117,24 @@ constexpr std::array known_columns = {
     Known{"torque_theta", "torque θ", Place::torques, Role::main, "θ"},
     Known{"motor_torque_phi", "motor torque φ", Place::motor_torques, Role::main, "φ"},
     Known{"motor_torque_theta", "motor torque θ", Place::motor_torques, Role::main, "θ"},
+    Known{"phi_torque", "φ motor's torque", Place::given_torques, Role::main, "φ"},
+    Known{"phi_torque_asked", "φ torque asked", Place::given_torques, Role::command},
+    Known{"theta_torque", "θ motor's torque", Place::given_torques, Role::main, "θ"},
+    Known{"theta_torque_asked", "θ torque asked", Place::given_torques, Role::command},
+    Known{"phi_current", "φ motor's current", Place::currents, Role::main, "φ"},
+    Known{"theta_current", "θ motor's current", Place::currents, Role::main, "θ"},
+    Known{"phi_voltage", "φ motor's voltage", Place::voltages, Role::main, "φ"},
+    Known{"theta_voltage", "θ motor's voltage", Place::voltages, Role::main, "θ"},
+    Known{"slip_x", "slip x", Place::slip, Role::main, "x"},
+    Known{"slip_y", "slip y", Place::slip, Role::main, "y"},
     Known{"motor_power", "motor power", Place::power, Role::main, "motors, with plate"},
     Known{"power", "power", Place::power, Role::main, "motors, ball only"},
-    Known{"energy", "energy", Place::energy},
+    Known{"electrical_power", "electrical power", Place::power, Role::main, "electrical"},
+    Known{"loss_power", "power lost", Place::power, Role::main, "lost"},
+    Known{"energy", "energy", Place::energy, Role::main, "ball"},
+    Known{"total_energy", "total energy", Place::energy, Role::main, "total"},
+    Known{"energy_lost", "energy lost", Place::energy, Role::main, "lost"},
+    Known{"motor_work", "motors' work", Place::energy, Role::main, "motors' work"},
     Known{"singularity_distance", "singularity distance", Place::singularity},
 };
 
@@ -118,8 +147,35 @@ bool is_command(std::string_view column) {
   return column == "phi_command" || column == "theta_command";
 }
 
-Unit drawn_unit(std::string_view column, bool accelerations) {
-  return is_command(column) && accelerations ? unit_of("phi_acceleration") : unit_of(column);
+Unit drawn_unit(std::string_view column, Drives driven) {
+  if (!is_command(column)) return unit_of(column);
+  switch (driven) {
+    case Drives::acceleration:
+      return unit_of("phi_acceleration");
+    case Drives::torque:
+      return unit_of("phi_torque");
+    case Drives::voltage:
+      return unit_of("phi_voltage");
+    case Drives::angle:
+      break;
+  }
+  return unit_of(column);
+}
+
+// Commands stand beside what they command.
+Place place_of(const Known& known, Drives driven) {
+  if (!is_command(known.column)) return known.place;
+  switch (driven) {
+    case Drives::acceleration:
+      return Place::accelerations;
+    case Drives::torque:
+      return Place::given_torques;
+    case Drives::voltage:
+      return Place::voltages;
+    case Drives::angle:
+      break;
+  }
+  return known.place;
 }
 
 PlannedLine line_of(std::string_view column) {
@@ -301,10 +357,8 @@ Unit unit_of(std::string_view column) {
   return {std::string(found->unit)};
 }
 
-bool drives_acceleration(const Result& run) {
-  if (run.scenario && run.scenario->controller) {
-    return run.scenario->controller->drives != Drives::angle;
-  }
+Drives driven_quantity(const Result& run) {
+  if (run.scenario && run.scenario->controller) return run.scenario->controller->drives;
   const Column* const t = run.find("t");
   double as_angle = 0, as_acceleration = 0;
   for (const char* axis : {"phi", "theta"}) {
@@ -314,20 +368,20 @@ bool drives_acceleration(const Result& run) {
     as_angle += misfit(t->numbers, command->numbers, angle->numbers, false);
     as_acceleration += misfit(t->numbers, command->numbers, angle->numbers, true);
   }
-  return as_acceleration < as_angle;
+  return as_acceleration < as_angle ? Drives::acceleration : Drives::angle;
 }
 
 std::vector<PlannedPanel> plan_panels(const std::vector<Result>& runs) {
-  const bool accelerations = drives_acceleration(runs.front());
+  const Drives driven = driven_quantity(runs.front());
   std::vector<PlannedPanel> panels;
   constexpr auto places = static_cast<int>(Place::singularity) + 1;
   for (int place = 0; place < places; ++place) {
     PlannedPanel panel;
     for (const Known& known : known_columns) {
-      const Place drawn_at =
-          is_command(known.column) && accelerations ? Place::accelerations : known.place;
-      if (static_cast<int>(drawn_at) != place || !any_draws(runs, known.column)) continue;
-      panel.unit = drawn_unit(known.column, accelerations);
+      if (static_cast<int>(place_of(known, driven)) != place || !any_draws(runs, known.column)) {
+        continue;
+      }
+      panel.unit = drawn_unit(known.column, driven);
       panel.lines.push_back(line_of(known.column));
     }
     if (panel.lines.empty()) continue;
@@ -359,7 +413,7 @@ std::vector<PlannedPanel> plan_panels(const std::vector<Result>& runs) {
 
 std::vector<PlannedPanel> plan_panels(const std::vector<Result>& runs,
                                       const std::vector<std::vector<std::string>>& asked) {
-  const bool accelerations = drives_acceleration(runs.front());
+  const Drives driven = driven_quantity(runs.front());
   std::vector<PlannedPanel> panels;
   for (const std::vector<std::string>& names : asked) {
     PlannedPanel panel;
@@ -372,7 +426,7 @@ std::vector<PlannedPanel> plan_panels(const std::vector<Result>& runs,
                          names_of(runs) + ", and path is their picture in the plane");
       }
       if (!any_draws(runs, name)) throw InputError(found + ", which holds no finite number");
-      const Unit unit = drawn_unit(name, accelerations);
+      const Unit unit = drawn_unit(name, driven);
       if (!panel.lines.empty() && !(unit == panel.unit)) {
         throw InputError(found + " in a panel with " + panel.lines.front().column +
                          ", which has another unit; a semicolon begins another panel");

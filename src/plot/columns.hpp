@@ -39,8 +39,8 @@ struct PlannedPanel {
 // The unit in which a column of runs is drawn.
 [[nodiscard]] Unit unit_of(std::string_view column);
 
-// Whether the command columns are accelerations: as the scenario says, or if there is none, by
-// whether the commands resemble them more than they do angles.
-[[nodiscard]] bool drives_acceleration(const Result& run);
+// What the command columns are: as the scenario says, or if there is none, angles or accelerations,
+// whichever the commands resemble more.
+[[nodiscard]] Drives driven_quantity(const Result& run);
 
 }  // namespace bbsim::plot

@@ -46,6 +46,13 @@ TEST_CASE("what belongs together shares a panel") {
                                              "normal_force", "friction_force"})})) ==
         "forces: normal_force friction_force | torque φ: torque_phi | "
         "motor torque: motor_torque_phi motor_torque_theta");
+  CHECK(text_of(plot::plan_panels({run_with(
+            {"phi_torque", "theta_torque", "slip_x", "slip_y", "total_energy", "energy_lost"})})) ==
+        "motors' torque: phi_torque theta_torque | slip: slip_x slip_y | "
+        "energy: total_energy energy_lost");
+  CHECK(
+      text_of(plot::plan_panels({run_with({"phi_torque", "phi_torque_asked", "theta_torque"})})) ==
+      "φ motor's torque: phi_torque phi_torque_asked | θ motor's torque: theta_torque");
 }
 
 TEST_CASE("a run without y, or without any column that is known, is drawn") {
@@ -68,16 +75,20 @@ TEST_CASE("commands stand beside what they command: angles, or accelerations") {
   const Function acceleration = [](double t) { return -0.9 * std::sin(3 * t); };
   const plot::Result driven =
       run_of({{"phi", angle}, {"phi_command", acceleration}, {"phi_acceleration", acceleration}});
-  CHECK(plot::drives_acceleration(driven));
+  CHECK(plot::driven_quantity(driven) == Drives::acceleration);
   CHECK(text_of(plot::plan_panels({driven})) == "φ: phi | φ'': phi_command phi_acceleration");
   const plot::Result servo = run_of({{"phi", angle}, {"phi_command", angle}});
-  CHECK_FALSE(plot::drives_acceleration(servo));
+  CHECK(plot::driven_quantity(servo) == Drives::angle);
 
   // The scenario knows.
   plot::Result told = servo;
   told.scenario.emplace();
   told.scenario->controller.emplace().drives = Drives::acceleration;
-  CHECK(plot::drives_acceleration(told));
+  CHECK(plot::driven_quantity(told) == Drives::acceleration);
+  told.scenario->controller->drives = Drives::torque;
+  const auto panels = plot::plan_panels({told});
+  CHECK(text_of(panels) == "φ: phi | φ command: phi_command");
+  CHECK(panels[1].unit == plot::unit_of("phi_torque"));
 
   const plot::Result both = run_of({{"phi_acceleration", acceleration},
                                     {"theta_acceleration", acceleration},
