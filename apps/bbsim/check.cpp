@@ -42,10 +42,15 @@ class Report {
 // The rows of an LQR's gain K, of u = K (reference - z): what the weights came to.
 void tell_gain(Report& report, const Scenario& scenario, const model::Model& model) {
   if (!scenario.controller || scenario.controller->law != Law::lqr) return;
-  const auto* const coupled = std::get_if<model::CoupledLoop<>>(&model.system);
-  const model::ControlLaw law = model.rig->sampled ? model.rig->sampled->law
-                                : coupled          ? coupled->law()
-                                          : std::get<model::RigLoop<false>>(model.system).law();
+  const model::ControlLaw law = model.rig->sampled
+                                    ? model.rig->sampled->law
+                                    : std::visit(
+                                          [](const auto& any) -> model::ControlLaw {
+                                            if constexpr (requires { any.law().gain; })
+                                              return any.law();
+                                            return {};
+                                          },
+                                          model.system);
   const auto row = [](const double(&gain)[8]) {
     std::string text;
     for (const double value : gain) {

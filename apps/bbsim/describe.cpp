@@ -154,6 +154,7 @@ std::string occurrence_text(const model::Occurrence& occurrence) {
       {"rest", "rolling resistance has brought the ball to rest"},
       {"stick_phi", "friction of its motor holds phi"},
       {"stick_theta", "friction of its motor holds theta"},
+      {"dead_point", "what links a servo to the plane is at a dead point, or where its curve ends"},
       {"singularity", "no accelerations of the gimbal give the ball the one wanted any more"},
   };
   std::string text = occurrence.name;
@@ -179,6 +180,10 @@ std::string stopping_text(const Scenario& scenario, const std::string& event) {
   if (event == "lift_off" && !events.lift_off) {
     return "So it is by default where friction depends on the normal force; events.lift_off: note "
            "would let it run on.";
+  }
+  if (event == "dead_point") {
+    return "There is no motion beyond it. bbsim check tells between which angles the servos may "
+           "turn; gimbal.servo.angle_limit or controller.limit keeps them there.";
   }
   if (event.starts_with("stick")) {
     return "That is what the scene asks for: events.stick is stop; note would let it run on.";

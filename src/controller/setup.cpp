@@ -1,5 +1,7 @@
 #include "controller/setup.hpp"
 
+#include <algorithm>
+#include <cstddef>
 #include <limits>
 
 #include "scenario/columns.hpp"
@@ -15,7 +17,11 @@ Setup setup_of(const Scenario& scenario) {
   setup.delay = sampling.delay;
   setup.resolution = sampling.resolution;
   setup.derivative_filter = sampling.derivative_filter;
-  setup.limit = controller.limit.value_or(std::numeric_limits<double>::infinity());
+  // The tighter one, where the axes' differ.
+  setup.limit = std::numeric_limits<double>::infinity();
+  for (const std::size_t axis : {0U, 1U}) {
+    setup.limit = std::min(setup.limit, controller.limit_of(axis).value_or(setup.limit));
+  }
   setup.end = scenario.time.end;
   setup.parameters = controller.own->parameters;
   setup.columns = scenario::own_columns(scenario);

@@ -6,11 +6,17 @@
 #include "model/assemble_coupled.hpp"
 #include "model/assemble_rig.hpp"
 #include "model/model.hpp"
+#include "model/servo/linkages.hpp"
 #include "model/signals/reference_path.hpp"
 #include "scenario/coupled.hpp"
 
 namespace bbsim::model {
 namespace {
+
+// Whether one of the systems of coupled.hpp runs the scene.
+bool needs_coupled(const Scenario& scene) {
+  return scenario::is_coupled(scene) || is_linked(scene);
+}
 
 bool zero_row(const Controller& controller, std::size_t row) {
   const auto zero = [row](const Matrix2& gain) { return gain[row] == Pair{0, 0}; };
@@ -29,7 +35,7 @@ bool stays_level(const Scenario& scene, const SignalPair& input, std::size_t axi
 // The symmetries of docs/model.md, section 3: theta, y and spin stay zero together, or phi, x
 // and spin.
 Shape choose_shape(const Scenario& scene, const SignalPair& input) {
-  if (needs_rig(scene) || scenario::is_coupled(scene) || !is_the_papers(scene)) return Shape::full;
+  if (needs_rig(scene) || needs_coupled(scene) || !is_the_papers(scene)) return Shape::full;
   const Ball& ball = scene.ball;
   const auto at_rest = [&ball](std::size_t axis) {
     return ball.position[axis] == 0 && ball.velocity[axis] == 0;
@@ -80,7 +86,7 @@ System open_loop(Shape shape, const Scenario& scene, SignalPair motion) {
 }
 
 std::vector<double> initial_state(const Scenario& scene, Shape shape) {
-  if (scenario::is_coupled(scene)) return initial_coupled_state(scene);
+  if (needs_coupled(scene)) return initial_coupled_state(scene);
   const Ball& ball = scene.ball;
   const GimbalStart& start = scene.gimbal.start;
   std::vector<double> z;
@@ -136,14 +142,20 @@ Model assemble(const Scenario& scenario, bool gamma, Symmetry symmetry) {
     input.add(0, scenario.gimbal.torque->phi);
     input.add(1, scenario.gimbal.torque->theta);
   }
-  std::vector<double> stops = stops_at(input.knots(), scenario.time.end);
+  std::vector<double> knots = input.knots();
+  if (scenario.ball.push) {
+    const std::vector<double> more = push_knots(scenario);
+    knots.insert(knots.end(), more.begin(), more.end());
+    std::ranges::sort(knots);
+  }
+  std::vector<double> stops = stops_at(knots, scenario.time.end);
   const Shape shape = symmetry == Symmetry::used ? choose_shape(scenario, input) : Shape::full;
 
   std::optional<Rig> rig;
   std::optional<DryParts> dry;
   const auto system = [&]() -> System {
     const double r = scenario.ball.radius, g = scenario.gravity;
-    if (scenario::is_coupled(scenario)) {
+    if (needs_coupled(scenario)) {
       CoupledScene coupled = assemble_coupled(scenario, std::move(input));
       rig = coupled.rig;
       dry = coupled.dry;

@@ -1,6 +1,7 @@
 #include "model/assemble_coupled.hpp"
 
 #include <algorithm>
+#include <type_traits>
 #include <utility>
 
 #include "model/assemble_rig.hpp"
@@ -78,37 +79,94 @@ CoupledBall coupled_ball(const Scenario& scene) {
   return coupled;
 }
 
-CoupledScene assemble_coupled(const Scenario& scene, SignalPair input) {
-  const CoupledParts parts = coupled_parts(scene);
-  const DryParts dry = dry_parts(scene);
-  CoupledScene result{CoupledGiven<>(parts, {}), {}, {}};
-  if (dry.switches()) result.dry = dry;
-  if (scene.gimbal.motion) {
-    result.system = CoupledGiven<>(parts, std::move(input));
-    return result;
+namespace {
+
+SignalPair push_on(const Scenario& scene) {
+  SignalPair push;
+  if (scene.ball.push) {
+    push.add(0, scene.ball.push->x);
+    push.add(1, scene.ball.push->y);
   }
+  return push;
+}
+
+// The loop under given torques.
+template <class Link>
+RigLoop<true, SignalPair, Link> torque_loop(const Scenario& scene, const CoupledParts& parts,
+                                            SignalPair input) {
+  const Mounting& mounting = scene.gimbal.mounting;
+  const double offset[2] = {mounting.phi_offset, mounting.theta_offset};
+  RigMode mode;
+  Link link;
+  for (int i = 0; i < 2; ++i) {
+    if constexpr (std::is_same_v<Link, Linkages>) {
+      link.of[i].set_offsets(offset[i], 0);
+    } else {
+      mode.axis[i].offset = offset[i];
+    }
+  }
+  return {
+      scene.ball.radius, scene.gravity, parts.ball.rolling, {}, {}, std::move(input), mode, link};
+}
+
+template <class Link>
+CoupledScene coupled_loop(const Scenario& scene, const CoupledParts& parts, SignalPair input) {
+  using Loop = CoupledLoop<SignalPair, Link>;
+  CoupledScene result{CoupledGiven<>(parts, {}), {}, {}};
+  const auto put = [&](Loop loop) {
+    if constexpr (Loop::pushes) loop.push.on = push_on(scene);
+    result.system = std::move(loop);
+  };
   const bool torques = scenario::moved_by_torques(scene);
-  if (!scene.controller) {
-    RigMode mode;
-    mode.axis[0].offset = scene.gimbal.mounting.phi_offset;
-    mode.axis[1].offset = scene.gimbal.mounting.theta_offset;
-    const RigLoop<true> control(scene.ball.radius, scene.gravity, parts.ball.rolling, {}, {},
-                                std::move(input), mode);
-    result.system = CoupledLoop<>(parts, GimbalBy::given_torques, motor_law(scene), control);
-    return result;
+  if constexpr (Link::servos == 2) {
+    if (!scene.controller) {
+      put({parts, GimbalBy::given_torques, motor_law(scene),
+           torque_loop<Link>(scene, parts, std::move(input))});
+      return result;
+    }
   }
   const GimbalBy by = torques ? GimbalBy::torques : GimbalBy::servos;
   const MotorLaw motor = torques ? motor_law(scene) : MotorLaw{};
-  const auto plant = [&](const ServoResponse& servo) {
+  // Whatever links servos to the plane, a gain is one of the plane's angles.
+  const auto plant = [&](const ServoResponses& servo) {
     const RigLoop<true> held(scene.ball.radius, scene.gravity, parts.ball.rolling, {}, servo, {});
     return linear_plant(CoupledLoop<>(parts, by, motor, held));
   };
-  AssembledRig<true> assembled = assemble_rig<true>(scene, std::move(input), plant);
-  CoupledLoop<> loop(parts, by, motor, assembled.loop);
+  AssembledRig<true, Link> assembled = assemble_rig<true, Link>(scene, std::move(input), plant);
+  Loop loop(parts, by, motor, assembled.loop);
   loop.integrate_error(integrates_error(scene));
-  result.system = std::move(loop);
+  put(std::move(loop));
   result.rig = assembled.rig;
   return result;
+}
+
+}  // namespace
+
+CoupledScene assemble_coupled(const Scenario& scene, SignalPair input) {
+  const CoupledParts parts = coupled_parts(scene);
+  const DryParts dry = dry_parts(scene);
+  const auto with_dry = [&dry](CoupledScene result) {
+    if (dry.switches()) result.dry = dry;
+    return result;
+  };
+  if (scene.gimbal.motion) {
+    if (scene.ball.push) {
+      return with_dry(
+          {CoupledGiven<SignalPair, true>(parts, std::move(input), {push_on(scene)}), {}, {}});
+    }
+    return with_dry({CoupledGiven<>(parts, std::move(input)), {}, {}});
+  }
+  if (scene.gimbal.three_servos) {
+    return with_dry(coupled_loop<ThreeServos>(scene, parts, std::move(input)));
+  }
+  if (scene.ball.push || is_linked(scene)) {
+    return with_dry(coupled_loop<Linkages>(scene, parts, std::move(input)));
+  }
+  return with_dry(coupled_loop<Direct>(scene, parts, std::move(input)));
+}
+
+std::vector<double> push_knots(const Scenario& scene) {
+  return push_on(scene).knots();
 }
 
 std::vector<double> initial_coupled_state(const Scenario& scene) {
@@ -119,9 +177,15 @@ std::vector<double> initial_coupled_state(const Scenario& scene) {
   std::size_t slip = CoupledGivenLayout::slip, size = CoupledGivenLayout::states;
   if (!scene.gimbal.motion) {
     const GimbalStart& start = scene.gimbal.start;
-    z.insert(z.end(), {start.phi, start.theta, start.phi_rate, start.theta_rate});
-    slip = CoupledLoopLayout::slip;
-    size = CoupledLoopLayout::states;
+    if (scene.gimbal.three_servos) {
+      z.insert(z.end(), 6, 0.0);  // at home
+      slip = CoupledLayout<3>::slip;
+      size = CoupledLayout<3>::states;
+    } else {
+      z.insert(z.end(), {start.phi, start.theta, start.phi_rate, start.theta_rate});
+      slip = CoupledLoopLayout::slip;
+      size = CoupledLoopLayout::states;
+    }
   }
   z.resize(size, 0.0);
   if (ball.rotation) {

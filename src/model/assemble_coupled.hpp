@@ -16,9 +16,12 @@ struct CoupledScene {
   std::optional<DryParts> dry{};  // where something of it switches
 };
 
-// The scene is one for which scenario::is_coupled() holds; `input` is the given motion or torque,
-// or what the controller follows. Throws InputError where no LQR gain stabilises it.
+// The scene is one for which scenario::is_coupled() or is_linked() holds; `input` is the given
+// motion or torque, or what the controller follows. Throws InputError as assemble_rig() does.
 [[nodiscard]] CoupledScene assemble_coupled(const Scenario& scene, SignalPair input);
+
+// Times at which derivatives of the push on the ball jump, s.
+[[nodiscard]] std::vector<double> push_knots(const Scenario& scene);
 
 // The states at the start.
 [[nodiscard]] std::vector<double> initial_coupled_state(const Scenario& scene);

@@ -6,20 +6,27 @@
 #include <utility>
 
 #include "model/control/sampled_cycle.hpp"
+#include "model/servo/linkages.hpp"
 #include "scenario/columns.hpp"
 
 namespace bbsim::model {
 namespace {
 
-ServoResponse servo_response(const Scenario& scene) {
-  if (!scene.gimbal.servo) return {};
-  const Servo& servo = *scene.gimbal.servo;
+ServoResponse response_of(const Servo& servo) {
   if (servo.time_constant) return {0, 0, 1 / *servo.time_constant};
   const double w = servo.natural_frequency;
   return {w * w, w * w, 2 * servo.damping * w};
 }
 
-ControlLaw control_law(const Scenario& scene, const ServoResponse& servo, const PlantOf& plant_of) {
+ServoResponses servo_responses(const Scenario& scene) {
+  if (!scene.gimbal.servo) return {};
+  ServoResponses all(response_of(*scene.gimbal.servo));
+  all.of[1] = response_of(scene.gimbal.servo_of(1));
+  return all;
+}
+
+ControlLaw control_law(const Scenario& scene, const ServoResponses& servo,
+                       const PlantOf& plant_of) {
   const Controller& controller = *scene.controller;
   ControlLaw law;
   law.kind = LawKind::linear;
@@ -61,27 +68,50 @@ ControlLaw control_law(const Scenario& scene, const ServoResponse& servo, const 
   return law;
 }
 
+RigServo rig_servo(const Servo& servo) {
+  RigServo rig;
+  rig.angle_limit = servo.angle_limit.value_or(unlimited);
+  rig.rate_limit = servo.rate_limit.value_or(unlimited);
+  rig.acceleration_limit = servo.acceleration_limit.value_or(unlimited);
+  rig.dead_band = servo.dead_band;
+  rig.backlash = servo.backlash;
+  rig.time_constant = servo.time_constant;
+  return rig;
+}
+
 Rig build_rig(const Scenario& scene, const ControlLaw& law) {
   const Controller& controller = *scene.controller;
   Rig rig;
-  rig.offset = {scene.gimbal.mounting.phi_offset, scene.gimbal.mounting.theta_offset};
-  if (scene.gimbal.servo) {
-    const Servo& servo = *scene.gimbal.servo;
-    rig.angle_limit = servo.angle_limit.value_or(unlimited);
-    rig.rate_limit = servo.rate_limit.value_or(unlimited);
-    rig.acceleration_limit = servo.acceleration_limit.value_or(unlimited);
-    rig.dead_band = servo.dead_band;
-    rig.backlash = servo.backlash;
-    rig.time_constant = servo.time_constant;
+  rig.between = between_of(scene);
+  if (rig.between.three) rig.servos = 3;
+  const Mounting& mounting = scene.gimbal.mounting;
+  for (int i = 0; i < rig.servos; ++i) {
+    RigServo& servo = rig.servo[i];
+    if (scene.gimbal.servo) servo = rig_servo(scene.gimbal.servo_of(i == 1 ? 1 : 0));
+    // What links a servo to the plane has the plane's offset; the servo's horn has none.
+    if (rig.between.none()) servo.offset = i == 0 ? mounting.phi_offset : mounting.theta_offset;
   }
-  const bool compensates = law.kind == LawKind::gravity_compensation;
-  const double limit = command_limit(controller).value_or(unlimited);
+  CommandRange limits[2];
+  for (int i = 0; i < 2; ++i) {
+    const CommandRange reach = rig.between.reach(i);
+    limits[i] = CommandRange::within(
+        command_limit(controller, static_cast<std::size_t>(i)).value_or(unlimited));
+    limits[i] = {std::max(limits[i].low, reach.low), std::min(limits[i].high, reach.high)};
+  }
   if (controller.sampling) {
-    rig.sampled =
-        SampledLoop{*controller.sampling, controller.sensor.value_or(Sensor{}), law, limit};
+    rig.sampled.emplace(SampledLoop{*controller.sampling,
+                                    controller.sensor.value_or(Sensor{}),
+                                    law,
+                                    {limits[0], limits[1]},
+                                    rig.between});
     if (controller.own) rig.sampled->own_columns = scenario::own_columns(scene);
   } else {
-    rig.command_limit = compensates ? std::sin(limit) : limit;
+    for (int i = 0; i < 2; ++i) {
+      rig.command_limit[i] = limits[i];
+      if (law.kind == LawKind::gravity_compensation) {
+        rig.command_limit[i] = {std::sin(limits[i].low), std::sin(limits[i].high)};
+      }
+    }
   }
   return rig;
 }
@@ -91,12 +121,14 @@ Rig build_rig(const Scenario& scene, const ControlLaw& law) {
 bool needs_rig(const Scenario& scene) {
   if (!scene.controller) return false;
   const Controller& controller = *scene.controller;
-  return controller.law != Law::pd || controller.limit || controller.sampling ||
+  return controller.law != Law::pd || controller.limit || controller.axis_limits ||
+         controller.sampling || scene.gimbal.theta_servo ||
          (scene.gimbal.servo && !scene.gimbal.servo->plain()) || !is_the_papers(scene);
 }
 
-std::optional<double> command_limit(const Controller& controller) {
-  if (controller.limit || controller.law != Law::gravity_compensation) return controller.limit;
+std::optional<double> command_limit(const Controller& controller, std::size_t axis) {
+  const std::optional<double> limit = controller.limit_of(axis);
+  if (limit || controller.law != Law::gravity_compensation) return limit;
   return std::numbers::pi / 4;  // beyond it the sine that is inverted soon has nothing left to give
 }
 
@@ -104,25 +136,55 @@ bool integrates_error(const Scenario& scene) {
   return scene.controller && scene.controller->law == Law::pid && !scene.controller->sampling;
 }
 
-template <bool integrates>
-AssembledRig<integrates> assemble_rig(const Scenario& scene, SignalPair reference,
-                                      const PlantOf& plant) {
-  const ServoResponse servo = servo_response(scene);
-  const PlantOf ideal = [&scene](const ServoResponse& behind) {
+namespace {
+
+// Of what stands in the rig, and of servos that move the plane themselves.
+void take_link(const Rig&, Direct&) {}
+void take_link(const Rig& rig, Linkages& link) {
+  link = rig.between.at_home();
+  // Of nothing between them, the plane's own offset.
+  for (int i = 0; rig.between.none() && i < 2; ++i) {
+    link.of[i].set_offsets(rig.servo[i].offset, 0);
+  }
+}
+void take_link(const Rig& rig, ThreeServos& link) {
+  link = *rig.between.three;
+}
+
+}  // namespace
+
+template <bool integrates, class Link>
+AssembledRig<integrates, Link> assemble_rig(const Scenario& scene, SignalPair reference,
+                                            const PlantOf& plant) {
+  const ServoResponses servo = servo_responses(scene);
+  const PlantOf ideal = [&scene](const ServoResponses& behind) {
     return linear_plant(
         RigLoop<>(scene.ball.radius, scene.gravity, general_rolling(scene), {}, behind, {}));
   };
   const ControlLaw law = control_law(scene, servo, plant ? plant : ideal);
   Rig rig = build_rig(scene, law);
   const ControlLaw continuous = rig.sampled ? ControlLaw{} : law;
+  Link link;
+  take_link(rig, link);
   RigMode mode;
-  for (std::size_t i = 0; i < 2; ++i) mode.axis[i].offset = rig.offset[i];
-  return {RigLoop<integrates>(scene.ball.radius, scene.gravity, general_rolling(scene), continuous,
-                              servo, std::move(reference), mode),
+  for (int i = 0; i < 2; ++i) {
+    if (!Link::direct) rig.servo[i].offset = 0;  // the link has it
+    mode.axis[i].offset = rig.servo[i].offset;
+  }
+  return {RigLoop<integrates, SignalPair, Link>(scene.ball.radius, scene.gravity,
+                                                general_rolling(scene), continuous, servo,
+                                                std::move(reference), mode, link),
           rig};
 }
 
 template AssembledRig<false> assemble_rig<false>(const Scenario&, SignalPair, const PlantOf&);
 template AssembledRig<true> assemble_rig<true>(const Scenario&, SignalPair, const PlantOf&);
+template AssembledRig<false, Linkages> assemble_rig<false, Linkages>(const Scenario&, SignalPair,
+                                                                     const PlantOf&);
+template AssembledRig<true, Linkages> assemble_rig<true, Linkages>(const Scenario&, SignalPair,
+                                                                   const PlantOf&);
+template AssembledRig<true, ThreeServos> assemble_rig<true, ThreeServos>(const Scenario&,
+                                                                         SignalPair,
+                                                                         const PlantOf&);
 
 }  // namespace bbsim::model

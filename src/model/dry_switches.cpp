@@ -4,6 +4,9 @@
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <stdexcept>
+#include <type_traits>
+#include <utility>
 #include <variant>
 
 namespace bbsim::model {
@@ -41,20 +44,25 @@ struct DrySwitches::BasicScene {
 
   template <class AnyModel, class Use>
   static auto of(AnyModel& model, Use use) {
-    if (auto* given = std::get_if<CoupledGiven<>>(&model.system)) {
-      BasicScene scene{&given->parts.contact, &given->parts.ball, nullptr,
-                       CoupledGivenLayout::slip};
-      scene.balance = [given](double t, const double* z) {
-        return given->balance(given->inputs(t), z);
-      };
-      return use(scene);
-    }
-    auto& loop = std::get<CoupledLoop<>>(model.system);
-    BasicScene scene{&loop.parts.contact, &loop.parts.ball,
-                     loop.by == GimbalBy::servos ? nullptr : loop.motors, CoupledLoopLayout::slip,
-                     CoupledLoopLayout::rate};
-    scene.balance = [&loop](double t, const double* z) { return loop.balance(loop.inputs(t), z); };
-    return use(scene);
+    using Result = decltype(use(std::declval<BasicScene&>()));
+    return std::visit(
+        [&](auto& any) -> Result {
+          using Any = std::decay_t<decltype(any)>;
+          if constexpr (is_coupled<Any>) {
+            BasicScene scene{&any.parts.contact, &any.parts.ball, nullptr, Any::Layout::slip};
+            if constexpr (is_coupled_loop<Any>) {
+              if (any.by != GimbalBy::servos) scene.motors = any.motors;
+              scene.rate = Any::Layout::rate;
+            }
+            scene.balance = [&any](double t, const double* z) {
+              return any.balance(any.inputs(t), z);
+            };
+            return use(scene);
+          } else {
+            throw std::logic_error("dry switches of a scene without them");
+          }
+        },
+        model.system);
   }
 };
 

@@ -1,6 +1,7 @@
 #include "model/explain.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <numbers>
 #include <string>
@@ -8,6 +9,7 @@
 #include <variant>
 
 #include "model/assemble_rig.hpp"
+#include "model/servo/linkages.hpp"
 #include "scenario/coupled.hpp"
 
 namespace bbsim::model {
@@ -83,12 +85,16 @@ std::string gimbal_note(const Scenario& scene) {
                : "angles and rates are states: the controller drives their "
                  "accelerations, equation (31)";
   }
-  const Servo& servo = *scene.gimbal.servo;
-  return std::string("angles and rates are states: ") + (servo.time_constant ? "first" : "second") +
-         "-order servos follow the controller's angles";
+  const bool first = scene.gimbal.servo->time_constant.has_value();
+  const bool mixed = first != scene.gimbal.servo_of(1).time_constant.has_value();
+  return std::string("angles and rates are states: ") +
+         (mixed   ? "a first-order and a second"
+          : first ? "first"
+                  : "second") +
+         "-order servo" + (mixed ? " follow" : "s follow") + " the controller's angles";
 }
 
-std::string limits_note(const Servo& servo) {
+std::string limits_of(const Servo& servo) {
   List list;
   if (servo.angle_limit) list.add("stops at " + degrees(*servo.angle_limit));
   if (servo.rate_limit) list.add("at most " + degrees(*servo.rate_limit) + "/s");
@@ -97,6 +103,71 @@ std::string limits_note(const Servo& servo) {
   list.add_if(servo.dead_band > 0, "dead band " + degrees(servo.dead_band));
   list.add_if(servo.backlash > 0, "backlash " + degrees(servo.backlash));
   return list.text();
+}
+
+std::string speed_of(const Servo& servo) {
+  if (servo.time_constant) return "time constant " + milliseconds(*servo.time_constant);
+  return "natural frequency " + number(servo.natural_frequency) + " rad/s, damping " +
+         number(servo.damping);
+}
+
+std::string limits_note(const Gimbal& gimbal) {
+  if (!gimbal.theta_servo) return limits_of(*gimbal.servo);
+  std::string text;
+  for (std::size_t i = 0; i < 2; ++i) {
+    const Servo& servo = gimbal.servo_of(i);
+    const std::string limits = limits_of(servo);
+    text +=
+        (i == 0 ? "phi: " : "; theta: ") + speed_of(servo) + (limits.empty() ? "" : ", " + limits);
+  }
+  return text;
+}
+
+std::string assumes_note(const Scenario& scene) {
+  if (scene.controller->own) return "; the controller commands the servos as it sees fit";
+  return scene.controller->assumes.value_or(Assumes::ratio) == Assumes::exact
+             ? "; the controller inverts the curve"
+             : "; the controller takes it for a ratio, that of home";
+}
+
+// Whether a stop lets a servo turn beyond where its curve ends.
+std::string beyond_note(const Linkage& linkage, const Servo& servo) {
+  const double stop = servo.angle_limit.value_or(unlimited);
+  if (stop == unlimited || (linkage.curve.high > stop && linkage.curve.low < -stop)) return "";
+  return "; WARNING: its stops at " + degrees(stop) + " lie beyond that";
+}
+
+std::string linkage_note(const Scenario& scene) {
+  if (!is_linked(scene)) return "";
+  const Between between = between_of(scene);
+  if (between.three) {
+    const ThreeServos& three = *between.three;
+    const double tilt = greatest_tilt(three);
+    return "three servos, two tilts and a height, (M58) to (M61); all legs reach a tilt of " +
+           degrees(tilt) + "; without the wander of the plate's centre, at most " +
+           number(1e3 * three.plate / 2 * (1 - std::cos(tilt))) + " mm there, and " +
+           number(1e3 * three.plate / 2 * (1 - std::cos(0.1))) + " mm at 0.1 rad" +
+           assumes_note(scene);
+  }
+  std::string text;
+  for (std::size_t i = 0; i < 2; ++i) {
+    const Linkage& linkage = between.linkages[i];
+    text += i == 0 ? "phi: " : "; theta: ";
+    if (linkage.curve.kind == LinkCurve::Kind::ideal) {
+      text += "none";
+      continue;
+    }
+    text += (linkage.table ? "measured curve, slope " : "push rod, (M54) to (M56), slope ") +
+            number(linkage.curve.slope) + " at home";
+    const double home = linkage.angle(0);
+    if (std::abs(home) > 1e-12) text += ", where the plane is at " + degrees(home);
+    if (linkage.curve.high < unlimited) {
+      text += ", from " + degrees(linkage.curve.low) + " (" + linkage.low_end + ") to " +
+              degrees(linkage.curve.high) + " (" + linkage.high_end + ") of the servo" +
+              beyond_note(linkage, scene.gimbal.servo_of(i));
+    }
+  }
+  return text + assumes_note(scene);
 }
 
 std::string losses_note(const Losses& losses) {
@@ -178,11 +249,16 @@ std::string law_note(const Controller& controller) {
       text = own_law(*controller.own);
       break;
   }
-  const std::optional<double> limit = command_limit(controller);
-  if (limit) {
-    text += "; command within " + (controller.drives == Drives::angle
-                                       ? degrees(*limit)
-                                       : number(*limit) + command_unit(controller.drives));
+  const auto shown = [&](const std::optional<double>& limit) {
+    if (!limit) return std::string("any");
+    return controller.drives == Drives::angle ? degrees(*limit)
+                                              : number(*limit) + command_unit(controller.drives);
+  };
+  const auto phi = command_limit(controller, 0), theta = command_limit(controller, 1);
+  if (phi != theta) {
+    text += "; command of phi within " + shown(phi) + ", of theta within " + shown(theta);
+  } else if (phi) {
+    text += "; command within " + shown(phi);
   }
   return text;
 }
@@ -190,6 +266,13 @@ std::string law_note(const Controller& controller) {
 std::string sampling_note(const Sampling& sampling, bool own) {
   List list;
   list.add("a command every " + milliseconds(sampling.period) + ", held between");
+  if (sampling.jitter > 0) {
+    list.add("periods that jitter by " + milliseconds(sampling.jitter) +
+             " (the poles are those of the nominal period)");
+  } else if (!sampling.periods.empty()) {
+    list.add(std::to_string(sampling.periods.size()) + " measured periods of " +
+             sampling.periods_file + ", again and again (the poles are those of the nominal one)");
+  }
   list.add_if(sampling.delay > 0, milliseconds(sampling.delay) + " late");
   list.add_if(sampling.resolution > 0, "in steps of " + degrees(sampling.resolution));
   if (own) return list.text();
@@ -201,6 +284,16 @@ std::string sampling_note(const Sampling& sampling, bool own) {
 
 std::string sensor_note(const Sensor& sensor) {
   List list;
+  if (sensor.period) {
+    list.add("frames every " + milliseconds(*sensor.period) +
+             (sensor.phase > 0 ? " from " + milliseconds(sensor.phase) + " on" : "") +
+             ", of which a sample sees the last (the poles are those of a frame for each sample)");
+  }
+  list.add_if(sensor.rotation != 0, "turned by " + degrees(sensor.rotation));
+  list.add_if(sensor.scale != Pair{1, 1},
+              "scaled by " + number(sensor.scale[0]) + ", " + number(sensor.scale[1]));
+  list.add_if(sensor.offset != Pair{0, 0}, "off by " + number(1e3 * sensor.offset[0]) + ", " +
+                                               number(1e3 * sensor.offset[1]) + " mm");
   list.add_if(sensor.resolution > 0, "resolution " + number(1e3 * sensor.resolution) + " mm");
   list.add_if(sensor.noise > 0, "noise " + number(1e3 * sensor.noise) + " mm (seed " +
                                     std::to_string(sensor.seed) + ")");
@@ -249,7 +342,7 @@ std::string without(const Scenario& scene) {
   const bool torques = scenario::moved_by_torques(scene);
   const Controller* controller = scene.controller ? &*scene.controller : nullptr;
   if (controller != nullptr) {
-    list.add_if(!torques && (servo == nullptr || limits_note(*servo).empty()),
+    list.add_if(!torques && (servo == nullptr || limits_note(scene.gimbal).empty()),
                 "servo limits, dead band and backlash");
     list.add_if(!controller->sampling, "sampling");
     list.add_if(!controller->sensor, "sensor errors");
@@ -282,7 +375,9 @@ std::vector<Note> explain(const Scenario& scene, const Model& model) {
   } else {
     note("gamma", "a quadrature of the spin, beside the states");
   }
-  if (scene.gimbal.servo) note("servo", limits_note(*scene.gimbal.servo));
+  if (scene.gimbal.servo) note("servo", limits_note(scene.gimbal));
+  note("linkage", linkage_note(scene));
+  if (scene.ball.push) note("push", "a force on the ball's centre, along the plane's axes");
   if (scene.gimbal.motor) note("motors", motor_note(*scene.gimbal.motor));
   note("losses", losses_note(scene.ball.losses));
   if (scene.events.slip && scene.events.slip->sliding) {
@@ -304,7 +399,7 @@ std::vector<Note> explain(const Scenario& scene, const Model& model) {
   note("events", events_note(scene));
   note("without", without(scene));
   if (stops > 0) {
-    const std::string of = scene.controller ? "the reference path" : "tables";
+    const std::string of = scene.controller && !scene.ball.push ? "the reference path" : "tables";
     note("stops", std::to_string(stops) + " knots of " + of + ", none stepped over");
   }
   return notes;

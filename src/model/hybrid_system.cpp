@@ -15,43 +15,88 @@ namespace {
 // Instants of different clocks that are nearer than this, relative to the period, are one.
 constexpr double one_instant = 1e-9;
 
-constexpr int angle = RigLayout::angle, rate = RigLayout::rate;  // of phi, among the states
+constexpr int angle = RigLayout::angle;  // of the first servo, among the states
 
 }  // namespace
 
 template <class Use>
 auto HybridSystem::with_loop(Use use) const {
-  if (const auto* plain = std::get_if<RigLoop<false>>(&model_.system)) return use(*plain);
-  if (const auto* coupled = std::get_if<CoupledLoop<>>(&model_.system)) return use(coupled->loop);
-  return use(std::get<RigLoop<true>>(model_.system));
+  using Result = decltype(use(std::declval<const RigLoop<>&>()));
+  return std::visit(
+      [&](const auto& any) -> Result {
+        using Any = std::decay_t<decltype(any)>;
+        if constexpr (is_rig<Any>) {
+          return use(any);
+        } else if constexpr (is_coupled_loop<Any>) {
+          return use(any.loop);
+        } else {
+          throw std::logic_error("a rig of a scene without a controller");
+        }
+      },
+      model_.system);
 }
 
 RigMode& HybridSystem::mode() {
-  if (auto* plain = std::get_if<RigLoop<false>>(&model_.system)) return plain->mode;
-  if (auto* coupled = std::get_if<CoupledLoop<>>(&model_.system)) return coupled->loop.mode;
-  return std::get<RigLoop<true>>(model_.system).mode;
+  return std::visit(
+      [](auto& any) -> RigMode& {
+        using Any = std::decay_t<decltype(any)>;
+        if constexpr (is_rig<Any>) {
+          return any.mode;
+        } else if constexpr (is_coupled_loop<Any>) {
+          return any.loop.mode;
+        } else {
+          throw std::logic_error("a rig of a scene without a controller");
+        }
+      },
+      model_.system);
 }
 
-RigAxes<double> HybridSystem::axes(double t, const double* z) const {
-  return with_loop([&](const auto& loop) { return loop.axes(loop.inputs(t), z); });
+HybridSystem::Wanted HybridSystem::axes(double t, const double* z) const {
+  return with_loop([&](const auto& loop) {
+    const auto all = loop.axes(loop.inputs(t), z);
+    Wanted wanted{{all.command.raw[0], all.command.raw[1]},
+                  {all.command.value[0], all.command.value[1]},
+                  {},
+                  {}};
+    for (int i = 0; i < std::decay_t<decltype(loop)>::servos; ++i) {
+      wanted.told[i] = loop.told(all, i);
+      wanted.demand[i] = all.demand[i];
+    }
+    return wanted;
+  });
+}
+
+std::array<double, 2> HybridSystem::plane_rates(const double* z) const {
+  return with_loop([z](const auto& loop) { return loop.plane_rates(z); });
 }
 
 HybridSystem::HybridSystem(const Model& model, double resolution) : model_(model) {
   if (model_.rig) {
     const Rig& rig = *model_.rig;
-    // With backlash the plane rests in mid-gap, whatever the servo's rate.
-    if (rig.backlash > 0) {
-      for (AxisMode& axis : mode().axis) axis.ratio = 0;
+    rate_ = angle + rig.servos;
+    const ServoResponses servo = with_loop([](const auto& loop) { return loop.servo(); });
+    for (int i = 0; i < rig.servos; ++i) {
+      // With backlash the plane rests in mid-gap, whatever the servo's rate.
+      if (rig.servo[i].backlash > 0) mode().axis[i].ratio = 0;
+      servos_.emplace_back(rig.servo[i], servo.of[i]);
     }
-    const ServoResponse servo = with_loop([](const auto& loop) { return loop.servo(); });
-    for (const double offset : rig.offset) servos_.emplace_back(rig, servo, offset);
     if (rig.switches()) {
-      for (int i = 0; i < 2; ++i) {
+      for (int i = 0; i < rig.servos; ++i) {
         double scales[axis_guards];
         servos_[static_cast<std::size_t>(i)].scales(scales);
-        scales[axis_guards - 2] = scales[axis_guards - 1] =
-            rig.command_limit < unlimited ? rig.command_limit : 1.0;
+        const auto scale = [](double limit) {
+          return std::abs(limit) < unlimited && limit != 0 ? std::abs(limit) : 1.0;
+        };
+        scales[axis_guards - 2] = i < 2 ? scale(rig.command_limit[i].high) : 1.0;
+        scales[axis_guards - 1] = i < 2 ? scale(rig.command_limit[i].low) : 1.0;
         guard_scales_.insert(guard_scales_.end(), scales, scales + axis_guards);
+      }
+      if (rig.between.has_pieces()) {
+        guard_scales_.insert(guard_scales_.end(), std::size_t{2} * piece_guards, 1.0);
+        for (std::size_t i = 0; i < 2; ++i) {
+          const Linkage& linkage = rig.between.linkages[i];
+          if (linkage.table) pieces_[i] = command_pieces_[i] = linkage.piece_at(0, 0, 1);
+        }
       }
     }
     if (rig.sampled) {
@@ -59,11 +104,22 @@ HybridSystem::HybridSystem(const Model& model, double resolution) : model_(model
       const Sensor& sensor = rig.sampled->sensor;
       sampled_.emplace(Sampled{BallSensor(sensor),
                                SampledController(*rig.sampled),
-                               {of.period, -sensor.delay},
-                               {of.period, 0},
-                               {of.period, of.delay},
+                               SampleTimes(of, sensor.seed),
+                               {sensor.period ? sensor.phase : -sensor.delay},
+                               {0},
+                               {of.delay},
+                               {},
+                               {},
                                {},
                                {}});
+      if (sensor.period) {
+        // The last frame that has come at t = 0, or the one before.
+        sampled_->expose.number = std::floor((-sensor.delay - sensor.phase) / *sensor.period) - 1;
+      }
+      for (Clock* clock : {&sampled_->expose, &sampled_->sample, &sampled_->apply}) {
+        --clock->number;
+        go_on(*clock);
+      }
       if (rig.sampled->law.kind == LawKind::held && !rig.sampled->external) {
         throw std::logic_error("a run of a scene whose controller nobody has attached");
       }
@@ -82,21 +138,33 @@ HybridSystem::HybridSystem(const Model& model, double resolution) : model_(model
 double HybridSystem::next_time_event() const {
   double next = next_stop_ < model_.stops.size() ? model_.stops[next_stop_] : unlimited;
   if (sampled_) {
-    next =
-        std::min({next, sampled_->expose.next(), sampled_->sample.next(), sampled_->apply.next()});
+    next = std::min({next, sampled_->expose.next, sampled_->sample.next, sampled_->apply.next});
   }
   return next;
 }
 
 double HybridSystem::rounding(double t) const {
   // What the sensor sees at t is of the sample at t + delay.
-  return rounding_of(sampled_ ? t - sampled_->expose.shift : t);
+  return rounding_of(sampled_ ? t + model_.rig->sampled->sensor.delay : t);
+}
+
+bool HybridSystem::has_frames() const {
+  return model_.rig->sampled->sensor.period.has_value();
+}
+
+void HybridSystem::go_on(Clock& clock) {
+  ++clock.number;
+  if (&clock == &sampled_->expose && has_frames()) {
+    clock.next = clock.number * *model_.rig->sampled->sensor.period + clock.shift;
+  } else {
+    clock.next = sampled_->times.at(clock.number) + clock.shift;
+  }
 }
 
 // Until when instants are one with t: a run of no length between them is none.
 double HybridSystem::instant_end(double t) const {
-  return t +
-         (sampled_ ? std::max(rounding(t), one_instant * sampled_->sample.period) : rounding(t));
+  return t + (sampled_ ? std::max(rounding(t), one_instant * model_.rig->sampled->sampling.period)
+                       : rounding(t));
 }
 
 bool HybridSystem::is_due(double t) const {
@@ -107,15 +175,18 @@ void HybridSystem::handle_time_event(double t, double* z) {
   const double now = instant_end(t);
   while (next_stop_ < model_.stops.size() && model_.stops[next_stop_] <= now) ++next_stop_;
   if (sampled_) {
-    while (sampled_->expose.next() <= now) expose(z);
-    while (sampled_->sample.next() <= now) take_sample(t, z);
-    while (sampled_->apply.next() <= now) apply_command();
+    while (sampled_->expose.next <= now) expose(z);
+    while (sampled_->sample.next <= now) take_sample(t, z);
+    while (sampled_->apply.next <= now) apply_command();
+    const double last = std::min(sampled_->sample.number, sampled_->apply.number);
+    sampled_->times.forget_before(has_frames() ? last : std::min(last, sampled_->expose.number));
   }
   settle(t, z);
 }
 
 void HybridSystem::expose(const double* z) {
-  ++sampled_->expose.number;
+  if (has_frames()) sampled_->seen_at.push_back(sampled_->expose.next);
+  go_on(sampled_->expose);
   sampled_->seen.push_back(sampled_->sensor.read({z[0], z[1]}));
 }
 
@@ -123,13 +194,30 @@ ExternalController* HybridSystem::controller() const {
   return model_.rig && model_.rig->sampled ? model_.rig->sampled->external.get() : nullptr;
 }
 
+// What the sensor has to say at a sample: of the exposure for it, or the last frame that has come.
+std::optional<Pair> HybridSystem::seen_at(double t) {
+  Sampled& of = *sampled_;
+  if (!has_frames()) {
+    const std::optional<Pair> seen = of.seen.front();
+    of.seen.erase(of.seen.begin());
+    return seen;
+  }
+  const double now = instant_end(t), delay = model_.rig->sampled->sensor.delay;
+  while (!of.seen.empty() && of.seen_at.front() + delay <= now) {
+    of.frame = of.seen.front();
+    of.seen.erase(of.seen.begin());
+    of.seen_at.erase(of.seen_at.begin());
+  }
+  return of.frame;
+}
+
 void HybridSystem::take_sample(double t, const double* z) {
-  const double number = sampled_->sample.number++;
-  const std::optional<Pair> seen = sampled_->seen.front();
-  sampled_->seen.erase(sampled_->seen.begin());
-  const double servo[4] = {z[angle], z[angle + 1], z[rate], z[rate + 1]};
+  const double number = sampled_->sample.number;
+  go_on(sampled_->sample);
+  const std::optional<Pair> seen = seen_at(t);
   const auto reference = with_loop([t](const auto& loop) { return loop.reference().at(t); });
   SampledController& controller = sampled_->controller;
+  double servo[4] = {z[angle], z[angle + 1], z[rate_], z[rate_ + 1]};
   if (ExternalController* const external = this->controller()) {
     if (number == 0) external->begin();
     const ControllerSample sample{static_cast<std::size_t>(number), t, seen, servo, reference};
@@ -138,29 +226,33 @@ void HybridSystem::take_sample(double t, const double* z) {
     if (seen) sampled_->measured = *seen;
     return;
   }
+  const Between& between = model_.rig->between;
+  if (!between.none()) between.believed(z + angle, z + rate_, servo);
   sampled_->commands.push_back(controller.command(seen, servo, reference));
   sampled_->measured = controller.last_seen();
 }
 
 void HybridSystem::apply_command() {
-  ++sampled_->apply.number;
+  go_on(sampled_->apply);
   const Pair command = sampled_->commands.front();
   sampled_->commands.erase(sampled_->commands.begin());
-  for (std::size_t i = 0; i < 2; ++i) {
-    mode().command[i] = servos_[i].follow(command[i]);
+  const std::array<double, 3> told = sampled_->controller.told(command);
+  for (std::size_t i = 0; i < servos_.size(); ++i) {
+    mode().command[i] = servos_[i].follow(told[i]);
   }
+  for (std::size_t i = 0; i < 2; ++i) mode().wanted[i] = command[i];
 }
 
 // Whether a continuous law's command is at its limit.
 void HybridSystem::settle_commands(double t, const double* z) {
-  const double limit = model_.rig->command_limit;
   RigMode& present = mode();
-  for (int i = 0; i < 2; ++i) {
-    const double raw = axes(t, z).command.raw[i];
+  for (std::size_t i = 0; i < 2; ++i) {
+    const CommandRange& limit = model_.rig->command_limit[i];
+    const double raw = axes(t, z).raw[i];
     AxisMode& axis = present.axis[i];
-    const bool within = std::abs(raw) <= limit;
+    const bool within = raw >= limit.low && raw <= limit.high;
     axis.command_factor = within ? 1 : 0;
-    axis.set_command = within ? 0 : std::copysign(limit, raw);
+    axis.set_command = within ? 0 : raw > limit.high ? limit.high : limit.low;
   }
   // The integral of the error in each coordinate waits while a command that it acts on is at its
   // limit.
@@ -174,8 +266,60 @@ void HybridSystem::settle_commands(double t, const double* z) {
   }
 }
 
-AxisState HybridSystem::axis_state(int i, const RigAxes<double>& wanted, const double* z) const {
-  return {z[angle + i], z[rate + i], wanted.demand[i], wanted.command.value[i]};
+AxisState HybridSystem::axis_state(int i, const Wanted& wanted, const double* z) const {
+  return {z[angle + i], z[rate_ + i], wanted.demand[i], wanted.told[i]};
+}
+
+LinkCurve& HybridSystem::curve(std::size_t axis) {
+  return std::get<CoupledLoop<SignalPair, Linkages>>(model_.system).loop.link.of[axis];
+}
+
+// Measured curves are looked at one piece at a time, so that the right-hand side is smooth.
+void HybridSystem::put_pieces() {
+  for (std::size_t i = 0; i < 2; ++i) {
+    const Linkage& linkage = model_.rig->between.linkages[i];
+    if (!linkage.table) continue;
+    curve(i).piece = linkage.table->view().pieces[pieces_[i]];
+    curve(i).command_piece = linkage.table->view().pieces[command_pieces_[i]];
+  }
+}
+
+void HybridSystem::settle_pieces(double t, const double* z) {
+  const Wanted wanted = axes(t, z);
+  for (std::size_t i = 0; i < 2; ++i) {
+    const Linkage& linkage = model_.rig->between.linkages[i];
+    if (!linkage.table) continue;
+    const AxisMode& axis = mode().axis[i];
+    const double horn = axis.ratio * z[static_cast<std::size_t>(angle) + i] + axis.offset;
+    pieces_[i] =
+        linkage.piece_at(pieces_[i], horn, axis.ratio * z[static_cast<std::size_t>(rate_) + i]);
+    if (!model_.rig->sampled && linkage.curve.assumed == Assumed::exact) {
+      command_pieces_[i] = linkage.command_piece_at(command_pieces_[i], wanted.command[i]);
+    }
+  }
+  put_pieces();
+}
+
+void HybridSystem::evaluate_pieces(const Wanted& wanted, const double* z, double* values) const {
+  std::fill(values, values + 2 * piece_guards, unlimited);
+  for (std::size_t i = 0; i < 2; ++i, values += piece_guards) {
+    const Linkage& linkage = model_.rig->between.linkages[i];
+    if (!linkage.table) continue;
+    const AxisMode axis = with_loop([i](const auto& loop) { return loop.mode.axis[i]; });
+    const double horn = axis.ratio * z[static_cast<std::size_t>(angle) + i] + axis.offset;
+    const std::size_t last = linkage.table->knots().size() - 2;
+    const CommandRange holds = linkage.piece_range(pieces_[i]);
+    // The ends of the whole are a dead point's matter.
+    if (pieces_[i] < last) values[0] = holds.high - horn;
+    if (pieces_[i] > 0) values[1] = horn - holds.low;
+    if (model_.rig->sampled || linkage.curve.assumed != Assumed::exact) continue;
+    const CommandRange command = linkage.command_piece_range(command_pieces_[i]);
+    const bool rises = linkage.curve.slope > 0;
+    const bool at_first = command_pieces_[i] == 0, at_last = command_pieces_[i] == last;
+    const double wants = wanted.command[i] + linkage.curve.shift;
+    if (!(rises ? at_last : at_first)) values[2] = command.high - wants;
+    if (!(rises ? at_first : at_last)) values[3] = wants - command.low;
+  }
 }
 
 void HybridSystem::settle(double t, double* z) {
@@ -187,28 +331,29 @@ void HybridSystem::settle_rig(double t, double* z) {
   // A stop's kick may take the command to its limit, and that the servo from where it was: a few
   // rounds, of which the second mostly finds nothing to do.
   for (int round = 0; round < 4; ++round) {
-    if (model_.rig->command_limit < unlimited) settle_commands(t, z);
+    if (model_.rig->limits_commands()) settle_commands(t, z);
+    const bool has_pieces = model_.rig->between.has_pieces();
+    if (has_pieces) settle_pieces(t, z);
     if (!settle_servos(t, z)) return;
+    if (has_pieces) settle_pieces(t, z);  // with the rates that it has now
   }
 }
 
 // Whether a servo was taken from where it was, or a rate of the plane jumped.
 bool HybridSystem::settle_servos(double t, double* z) {
-  const RigAxes<double> wanted = axes(t, z);
-  double rate_before[2], jump[2];
-  bool jumps = false, moved = false;
-  for (int i = 0; i < 2; ++i) rate_before[i] = mode().axis[i].ratio * z[rate + i];
-  for (int i = 0; i < 2; ++i) {
+  const Wanted wanted = axes(t, z);
+  const std::array<double, 2> rate_before = plane_rates(z);
+  bool moved = false;
+  for (int i = 0; i < model_.rig->servos; ++i) {
     AxisState state = axis_state(i, wanted, z);
-    AxisMode& axis = mode().axis[i];
-    servos_[static_cast<std::size_t>(i)].settle(state, axis);
-    moved = moved || state.angle != z[angle + i] || state.rate != z[rate + i];
+    servos_[static_cast<std::size_t>(i)].settle(state, mode().axis[i]);
+    moved = moved || state.angle != z[angle + i] || state.rate != z[rate_ + i];
     z[angle + i] = state.angle;
-    z[rate + i] = state.rate;
-    jump[i] = axis.ratio * z[rate + i] - rate_before[i];
-    jumps = jumps || jump[i] != 0;
+    z[rate_ + i] = state.rate;
   }
-  if (!jumps) return moved;
+  const std::array<double, 2> rate_now = plane_rates(z);
+  const double jump[2] = {rate_now[0] - rate_before[0], rate_now[1] - rate_before[1]};
+  if (jump[0] == 0 && jump[1] == 0) return moved;
   const auto kick = with_loop([&](const auto& loop) { return loop.impulse(z, jump[0], jump[1]); });
   for (int i = 0; i < 3; ++i) z[2 + i] += kick[static_cast<std::size_t>(i)];
   return true;
@@ -220,20 +365,29 @@ Sample HybridSystem::sample(double t, const double* z, Detail detail) const {
 
 void HybridSystem::evaluate_guards(double t, const double* z, double* values) const {
   if (model_.rig && model_.rig->switches()) {
-    const RigAxes<double> wanted = axes(t, z);
+    const Wanted wanted = axes(t, z);
     const RigMode present = with_loop([](const auto& loop) { return loop.mode; });
-    const double limit = model_.rig->command_limit;
-    for (int i = 0; i < 2; ++i, values += axis_guards) {
+    for (int i = 0; i < model_.rig->servos; ++i, values += axis_guards) {
       servos_[static_cast<std::size_t>(i)].evaluate(axis_state(i, wanted, z), values);
       double* const command = values + ServoAxis::guards;
+      command[0] = command[1] = unlimited;
+      if (i >= 2 || !model_.rig->command_limit[i].binds()) continue;
+      const CommandRange& limit = model_.rig->command_limit[i];
       const AxisMode& axis = present.axis[i];
-      const double raw = wanted.command.raw[i];
-      const bool free = axis.command_factor != 0;
-      command[0] = limit == unlimited ? unlimited : free ? limit - raw : unlimited;
-      command[1] = limit == unlimited ? unlimited : free ? limit + raw : unlimited;
+      const double raw = wanted.raw[static_cast<std::size_t>(i)];
       // A command at a limit is watched at that one alone: it can pass to the other in no time.
-      if (!free && axis.set_command > 0) command[0] = raw - limit;
-      if (!free && axis.set_command < 0) command[1] = -raw - limit;
+      if (axis.command_factor != 0) {
+        command[0] = limit.high - raw;
+        command[1] = raw - limit.low;
+      } else if (axis.set_command == limit.high) {
+        command[0] = raw - limit.high;
+      } else {
+        command[1] = limit.low - raw;
+      }
+    }
+    if (model_.rig->between.has_pieces()) {
+      evaluate_pieces(wanted, z, values);
+      values += std::ptrdiff_t{2} * piece_guards;
     }
   }
   if (dry_) {
@@ -319,10 +473,15 @@ void HybridSystem::archive(Archive& archive) {
   if (model_.rig) archive(mode());
   archive(next_stop_, happening_);
   for (ServoAxis& servo : servos_) archive(servo);
+  if (model_.rig && model_.rig->between.has_pieces()) {
+    archive(pieces_, command_pieces_);
+    put_pieces();
+  }
   if (!sampled_) return;
   Sampled& of = *sampled_;
-  archive(of.sensor, of.controller, of.expose.number, of.sample.number, of.apply.number, of.seen,
-          of.commands, of.measured, of.own);
+  archive(of.sensor, of.controller, of.times, of.seen, of.seen_at, of.frame, of.commands,
+          of.measured, of.own);
+  for (Clock* clock : {&of.expose, &of.sample, &of.apply}) archive(clock->number, clock->next);
 }
 
 template void HybridSystem::archive(StateWriter&);

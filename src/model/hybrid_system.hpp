@@ -2,11 +2,13 @@
 // happens then. Whoever integrates knows no more of a rig than this class says.
 #pragma once
 
+#include <array>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "model/control/external_controller.hpp"
+#include "model/control/sample_times.hpp"
 #include "model/control/sampled_controller.hpp"
 #include "model/dry_switches.hpp"
 #include "model/events/occurrence.hpp"
@@ -76,13 +78,26 @@ class HybridSystem {
  private:
   static constexpr int axis_guards = ServoAxis::guards + 2;  // and two of the command's limit
 
+  static constexpr int piece_guards = 4;  // of an axis with a measured curve
+
+  // What law and servos ask for, of a rig with any servos.
+  struct Wanted {
+    Pair raw, command;                              // of the law, before its limit and behind
+    double told[most_servos], demand[most_servos];  // of the servos, rad and rad/s^2
+  };
+
   // Calls `use` with the RigLoop, of a model that has one.
   template <class Use>
   auto with_loop(Use use) const;
   [[nodiscard]] RigMode& mode();
-  [[nodiscard]] RigAxes<double> axes(double t, const double* z) const;
+  [[nodiscard]] Wanted axes(double t, const double* z) const;
+  [[nodiscard]] std::array<double, 2> plane_rates(const double* z) const;
   [[nodiscard]] Sample sample(double t, const double* z, Detail detail) const;
-  [[nodiscard]] AxisState axis_state(int i, const RigAxes<double>& wanted, const double* z) const;
+  [[nodiscard]] AxisState axis_state(int i, const Wanted& wanted, const double* z) const;
+  [[nodiscard]] LinkCurve& curve(std::size_t axis);
+  void put_pieces();
+  void settle_pieces(double t, const double* z);
+  void evaluate_pieces(const Wanted& wanted, const double* z, double* values) const;
   void settle(double t, double* z);
   void settle_rig(double t, double* z);
   Effect note_dry(double t, const double* z);
@@ -91,20 +106,25 @@ class HybridSystem {
   [[nodiscard]] double instant_end(double t) const;
   void settle_commands(double t, const double* z);
   void expose(const double* z);
+  [[nodiscard]] std::optional<Pair> seen_at(double t);
   void take_sample(double t, const double* z);
   void apply_command();
   Effect occur(std::size_t monitor, double t, const double* z);
 
-  // An instant that recurs: number * period + shift.
+  // An instant that recurs: of the sample of that number, or of a frame, and so much later.
   struct Clock {
-    double period, shift;
+    double shift;
     double number = 0;
-    [[nodiscard]] double next() const { return number * period + shift; }
+    double next = 0;  // s
   };
+  void go_on(Clock& clock);
+  [[nodiscard]] bool has_frames() const;
 
   Model model_;
   std::size_t next_stop_ = 0;
   std::vector<ServoAxis> servos_;
+  int rate_ = RigLayout::rate;                             // among the states, of the first servo
+  std::size_t pieces_[2]{0, 0}, command_pieces_[2]{0, 0};  // of measured curves
   std::vector<double> guard_scales_;
   std::vector<char> happening_;  // for each monitor
   std::optional<DrySwitches> dry_;
@@ -113,8 +133,11 @@ class HybridSystem {
   struct Sampled {
     BallSensor sensor;
     SampledController controller;
+    SampleTimes times;
     Clock expose, sample, apply;
     std::vector<std::optional<Pair>> seen;  // exposed, not yet sampled: a queue
+    std::vector<double> seen_at{};          // when, of frames
+    std::optional<Pair> frame{};            // the last one that has come
     std::vector<Pair> commands;             // computed, not yet applied: a queue
     Pair measured{0, 0};
     std::vector<double> own{};  // the last numbers of one's own controller

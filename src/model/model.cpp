@@ -46,27 +46,26 @@ double Model::gamma_not_integrated() const {
 
 std::vector<std::string> Model::state_names() const {
   return std::visit(
-      [](const auto& any) -> std::vector<std::string> {
+      [this](const auto& any) -> std::vector<std::string> {
         using Any = std::decay_t<decltype(any)>;
         std::vector<std::string> names(Any::Layout::names.begin(), Any::Layout::names.end());
         if constexpr (is_coupled_loop<Any>) {
-          return {"x",
-                  "y",
-                  "vx",
-                  "vy",
-                  "r*spin",
-                  "phi",
-                  "theta",
-                  "phi_rate",
-                  "theta_rate",
-                  "x_integral",
-                  "y_integral",
-                  "phi_integral",
-                  "theta_integral",
-                  "slip_x",
-                  "slip_y",
-                  "energy_lost",
-                  "motor_work"};
+          std::vector<std::string> loop{"x", "y", "vx", "vy", "r*spin"};
+          if constexpr (Any::servos == 3) {
+            for (const char* suffix : {"", "_rate"}) {
+              for (const char* one : {"servo_phi", "servo_theta", "servo_third"}) {
+                loop.push_back(std::string(one) + suffix);
+              }
+            }
+          } else {
+            const bool own = rig && !rig->between.none();  // angles, which are not the plane's
+            for (const char* one : {"phi", "theta", "phi_rate", "theta_rate"}) {
+              loop.push_back(std::string(own ? "servo_" : "") + one);
+            }
+          }
+          loop.insert(loop.end(), {"x_integral", "y_integral", "phi_integral", "theta_integral",
+                                   "slip_x", "slip_y", "energy_lost", "motor_work"});
+          return loop;
         } else if constexpr (is_coupled<Any>) {
           return {"x", "y", "vx", "vy", "r*spin", "slip_x", "slip_y", "energy_lost", "motor_work"};
         }

@@ -1,6 +1,8 @@
 // One instant of a run in the symbols of the paper: what the columns are computed from.
 #pragma once
 
+#include <array>
+#include <limits>
 #include <optional>
 
 #include "scenario/scenario.hpp"
@@ -45,6 +47,11 @@ struct Sample {
   Pair reference{0, 0};  // m; (0, 0) in open loop
   Pair command{0, 0};    // what the gimbal is told, rad or rad/s^2; (0, 0) in open loop
   Pair measured{0, 0};   // where the controller last saw the ball, m
+  // Of the servos, rad: phi's and theta's, or three; 0 where there are none.
+  std::array<double, 3> servo{0, 0, 0};
+  Pair push{0, 0};  // on the ball's centre, along the plane's axes, N
+  // How far what is between the servos and the plane is from where it ends; negative beyond.
+  double to_dead_point = std::numeric_limits<double>::infinity();
   std::optional<CoupledMotion> coupled{};
   // What one's own controller gave beside its last command, in the order of
   // SampledLoop::own_columns; stands in the row, and is null where there is none.

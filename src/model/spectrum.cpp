@@ -5,6 +5,7 @@
 #include <limits>
 #include <type_traits>
 
+#include "model/control/sampled_cycle.hpp"
 #include "model/eigenvalues.hpp"
 #include "model/systems/jacobian.hpp"
 
@@ -17,6 +18,14 @@ Loop level(Loop loop) {
   if constexpr (is_rig<Loop>) loop.mode = {};
   if constexpr (is_coupled_loop<Loop>) {
     loop.loop.mode = {};
+    using Link = std::decay_t<decltype(loop.loop.link)>;
+    if constexpr (std::is_same_v<Link, Linkages>) loop.loop.link = levelled(loop.loop.link);
+    if constexpr (std::is_same_v<Link, ThreeServos>) {
+      for (int i = 0; i < 2; ++i) {
+        loop.loop.link.cos_offset[i] = 1;
+        loop.loop.link.sin_offset[i] = 0;
+      }
+    }
     loop.parts.contact = {};
     for (MotorMode& motor : loop.motors) motor = {};
   }
@@ -47,18 +56,20 @@ Eigenvalues closed_loop_poles(const Model& model) {
         } else {
           const double home[Loop::size] = {};
           // Where the reference is, is no matter of home.
-          const auto full = jacobian_under(level(loop), std::array<Jet<double>, 2>{}, home);
+          const auto full = jacobian_under(level(loop), decltype(loop.inputs(0.0)){}, home);
           constexpr int spin = spin_index<Loop>;
           if constexpr (is_coupled_loop<Loop>) {
             if (loop.law().kind == LawKind::held && loop.by != GimbalBy::given_torques) return {};
-            std::vector<int> rest{0, 1, 2, 3, 5, 6, 7, 8};
+            using Layout = typename Loop::Layout;
+            std::vector<int> rest{0, 1, 2, 3};
+            for (int i = Layout::angle; i < Layout::integral; ++i) rest.push_back(i);
             for (int j = 0; j < 2; ++j) {
               if (loop.law().integral[0][j] != 0 || loop.law().integral[1][j] != 0) {
-                rest.push_back(CoupledLoopLayout::integral + j);
+                rest.push_back(Layout::integral + j);
               }
             }
             if (loop.motor.from_integral != 0) {
-              rest.insert(rest.end(), {CoupledLoopLayout::motor, CoupledLoopLayout::motor + 1});
+              rest.insert(rest.end(), {Layout::motor, Layout::motor + 1});
             }
             return sorted_eigenvalues(full(rest, rest));
           } else if constexpr (is_rig<Loop>) {

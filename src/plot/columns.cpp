@@ -25,6 +25,7 @@ enum class Place {
   orientation,
   phi,
   theta,
+  servos,
   rates,
   accelerations,
   tilt,
@@ -56,6 +57,8 @@ std::string_view common_name(Place place) {
       return "ball's orientation";
     case Place::velocity:
       return "velocity";
+    case Place::servos:
+      return "servos";
     case Place::rates:
       return "rates";
     case Place::accelerations:
@@ -104,6 +107,9 @@ constexpr std::array known_columns = {
     Known{"phi_command", "φ command", Place::phi, Role::command},
     Known{"theta", "θ", Place::theta},
     Known{"theta_command", "θ command", Place::theta, Role::command},
+    Known{"servo_phi", "servo φ", Place::servos, Role::main, "φ"},
+    Known{"servo_theta", "servo θ", Place::servos, Role::main, "θ"},
+    Known{"servo_third", "third servo", Place::servos, Role::main, "third"},
     Known{"phi_rate", "φ'", Place::rates},
     Known{"theta_rate", "θ'", Place::rates},
     Known{"phi_acceleration", "φ''", Place::accelerations},

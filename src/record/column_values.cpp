@@ -56,6 +56,11 @@ constexpr std::array values = {
     Entry{"theta_rate", [](R row) { return row.sample.gimbal.theta_dot; }},
     Entry{"phi_acceleration", [](R row) { return row.sample.gimbal.phi_ddot; }},
     Entry{"theta_acceleration", [](R row) { return row.sample.gimbal.theta_ddot; }},
+    Entry{"servo_phi", [](R row) { return row.sample.servo[0]; }},
+    Entry{"servo_theta", [](R row) { return row.sample.servo[1]; }},
+    Entry{"servo_third", [](R row) { return row.sample.servo[2]; }},
+    Entry{"push_x", [](R row) { return row.sample.push[0]; }},
+    Entry{"push_y", [](R row) { return row.sample.push[1]; }},
     Entry{"x_reference", [](R row) { return row.sample.reference[0]; }},
     Entry{"y_reference", [](R row) { return row.sample.reference[1]; }},
     Entry{"tracking_error",
@@ -95,6 +100,7 @@ constexpr std::array values = {
             return row.dynamics->torque_phi * gimbal.phi_dot +
                    row.dynamics->torque_theta * gimbal.theta_dot;
           }},
+    Entry{"push_power", [](R row) { return row.dynamics->push_power; }},
     Entry{"total_energy", [](R row) { return row.dynamics->energy + row.dynamics->gimbal_energy; }},
     Entry{"slip_x", [](R row) { return row.dynamics->coupled.slip[0]; }},
     Entry{"slip_y", [](R row) { return row.dynamics->coupled.slip[1]; }},

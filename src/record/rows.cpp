@@ -17,6 +17,8 @@ Detail detail_for(Needs needs) {
     case Needs::own:
       return Detail::ball;
     case Needs::gimbal:
+    case Needs::servos:
+    case Needs::third_servo:
       return Detail::gimbal;
     case Needs::accelerations:
     case Needs::dynamics:
@@ -24,6 +26,7 @@ Detail detail_for(Needs needs) {
     case Needs::torques:
     case Needs::armature:
     case Needs::coupled:
+    case Needs::pushed:
       return Detail::motion;
     case Needs::controller:
     case Needs::samples:

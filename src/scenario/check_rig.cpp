@@ -29,6 +29,8 @@ class Checks {
   void all() {
     controller();
     servo();
+    linkage();
+    push();
     events();
     losses();
     sliding();
@@ -55,12 +57,14 @@ class Checks {
     }
     // The keys, not their values: a rig may be tried with its noise at 0.
     if (!find_at(keys_, {"controller", "sensor", "noise"}) &&
-        !find_at(keys_, {"controller", "sensor", "dropout"})) {
+        !find_at(keys_, {"controller", "sensor", "dropout"}) &&
+        !find_at(keys_, {"controller", "sampling", "jitter"})) {
       refuse(
           {"controller", "sensor", "seed"},
-          "found, but neither noise nor dropout, which are all that is drawn; allowed: only with "
-          "one of them");
+          "found, but neither noise nor dropout, nor sampling.jitter, which are all that is drawn; "
+          "allowed: only with one of them");
     }
+    frames(controller);
     if (controller.law == Law::own && !controller.sampling) {
       for (const char* key : {"program", "library"}) {
         refuse({"controller", key},
@@ -87,7 +91,7 @@ class Checks {
                "found, but gravity is 0, without which a tilted plane does not move the ball; "
                "allowed: only where there is gravity");
       }
-      if (scene_.gimbal.servo && scene_.gimbal.servo->time_constant) {
+      if (any_servo([](const Servo& servo) { return servo.time_constant.has_value(); })) {
         refuse({"controller", "lqr"},
                "found with a servo of first order (time_constant); allowed: one with "
                "natural_frequency and damping, whose state the regulator feeds back");
@@ -103,7 +107,7 @@ class Checks {
         refuse({"controller", "gravity_compensation"},
                "found, but gravity is 0; allowed: only where there is gravity");
       }
-      if (controller.limit && *controller.limit > 1.4) {
+      if (controller.limit_of(0).value_or(0) > 1.4 || controller.limit_of(1).value_or(0) > 1.4) {
         refuse({"controller", "limit"},
                "found more than 1.4 rad (80 deg), next to which the sine of gravity_compensation "
                "cannot be inverted; allowed: at most that");
@@ -133,43 +137,162 @@ class Checks {
     }
   }
 
+  // Frames that are not the controller's samples.
+  void frames(const Controller& controller) {
+    if (!controller.sensor) return;
+    const Sensor& sensor = *controller.sensor;
+    if (!sensor.period) {
+      refuse({"controller", "sensor", "phase"},
+             "found without sensor.period; allowed: only with it, since without frames of its own "
+             "the sensor looks where the controller samples");
+      return;
+    }
+    if (scene_.time.end / *sensor.period > 1e8) {
+      refuse({"controller", "sensor", "period"},
+             "found more than 1e8 frames until time.end; allowed: a longer period");
+    }
+    if (sensor.phase >= *sensor.period) {
+      refuse({"controller", "sensor", "phase"},
+             "found a phase of a whole sensor.period or more; allowed: less than that");
+    }
+    if (sensor.delay > most_periods * *sensor.period) {
+      refuse({"controller", "sensor", "delay"},
+             "found more than 100 frames of sensor.period; allowed: a shorter delay, or a longer "
+             "period");
+    }
+  }
+
+  // The keys of an axis' servo, where it has some of its own.
+  void refuse_of_servo(std::size_t axis, std::string_view key, const std::string& why) {
+    const char* const name = axis == 0 ? "phi" : "theta";
+    if (find_at(keys_, {"gimbal", "servo", name, key})) {
+      refuse({"gimbal", "servo", name, key}, why);
+    } else if (axis == 0 || scene_.gimbal.theta_servo) {
+      refuse({"gimbal", "servo", key}, why);
+    }
+  }
+
+  template <class Holds>
+  [[nodiscard]] bool any_servo(Holds holds) const {
+    const Gimbal& gimbal = scene_.gimbal;
+    return gimbal.servo &&
+           (holds(*gimbal.servo) || (gimbal.theta_servo && holds(*gimbal.theta_servo)));
+  }
+
   void servo() {
     if (!scene_.controller || !scene_.gimbal.servo) return;
-    const Servo& servo = *scene_.gimbal.servo;
+    for (std::size_t axis = 0; axis < (scene_.gimbal.theta_servo ? 2U : 1U); ++axis) servo(axis);
+    const GimbalStart& start = scene_.gimbal.start;
+    const Servo &phi = scene_.gimbal.servo_of(0), &theta = scene_.gimbal.servo_of(1);
+    const auto within = [&](double angle, const std::optional<double>& limit) {
+      return !limit || std::abs(angle) <= *limit;
+    };
+    const auto check = [&](bool fine, const char* what) {
+      if (fine) return;
+      refuse({"gimbal", "start"}, std::string("found beyond gimbal.servo.") + what +
+                                      "; allowed: a start within the servo's limits");
+    };
+    check(within(start.phi, phi.angle_limit) && within(start.theta, theta.angle_limit),
+          "angle_limit");
+    check(within(start.phi_rate, phi.rate_limit) && within(start.theta_rate, theta.rate_limit),
+          "rate_limit");
+  }
+
+  void servo(std::size_t axis) {
+    const Servo& servo = scene_.gimbal.servo_of(axis);
     if (servo.time_constant) {
       if (!scene_.controller->sampling) {
-        refuse({"gimbal", "servo", "time_constant"},
-               "found without controller.sampling; allowed: only with it. A servo of first order "
-               "turns at a rate that follows its command at once, so a command without steps would "
-               "have to be differentiated");
+        refuse_of_servo(
+            axis, "time_constant",
+            "found without controller.sampling; allowed: only with it. A servo of first order "
+            "turns at a rate that follows its command at once, so a command without steps would "
+            "have to be differentiated");
       }
       if (servo.acceleration_limit) {
-        refuse({"gimbal", "servo", "acceleration_limit"},
-               "found with time_constant: a servo of first order changes its rate at once; "
-               "allowed: only with natural_frequency and damping");
+        refuse_of_servo(axis, "acceleration_limit",
+                        "found with time_constant: a servo of first order changes its rate at "
+                        "once; allowed: only with natural_frequency and damping");
       }
       const GimbalStart& start = scene_.gimbal.start;
-      if (start.phi_rate != 0 || start.theta_rate != 0) {
+      const bool other = scene_.gimbal.theta_servo.has_value();
+      const double rate = axis == 0 ? start.phi_rate : start.theta_rate;
+      if (other ? rate != 0 : start.phi_rate != 0 || start.theta_rate != 0) {
         refuse({"gimbal", "start"},
                "found a rate, but a servo of first order (time_constant) has none of its own; "
                "allowed: phi and theta");
       }
     }
     if (servo.dead_band > 0 && !scene_.controller->sampling) {
-      refuse({"gimbal", "servo", "dead_band"},
-             "found without controller.sampling; allowed: only with it, since a dead band tells "
-             "commands apart, one after another");
+      refuse_of_servo(axis, "dead_band",
+                      "found without controller.sampling; allowed: only with it, since a dead band "
+                      "tells commands apart, one after another");
     }
-    const auto within = [&](const std::optional<double>& limit, double phi, double theta,
-                            const char* what) {
-      if (limit && (std::abs(phi) > *limit || std::abs(theta) > *limit)) {
-        refuse({"gimbal", "start"}, std::string("found beyond gimbal.servo.") + what +
-                                        "; allowed: a start within the servo's limits");
-      }
-    };
-    const GimbalStart& start = scene_.gimbal.start;
-    within(servo.angle_limit, start.phi, start.theta, "angle_limit");
-    within(servo.rate_limit, start.phi_rate, start.theta_rate, "rate_limit");
+  }
+
+  void linkage() {
+    const Gimbal& gimbal = scene_.gimbal;
+    const bool linked = find_at(keys_, {"gimbal", "linkage"}).has_value();
+    const bool three = gimbal.three_servos.has_value();
+    if (!linked && !three) {
+      refuse({"controller", "assumes"},
+             "found, but nothing is between servos and plane; allowed: only with gimbal.linkage or "
+             "gimbal.three_servos");
+      return;
+    }
+    const char* const key = linked ? "linkage" : "three_servos";
+    if (linked && three) {
+      refuse({"gimbal", "three_servos"},
+             "found beside gimbal.linkage; allowed: one of them: three servos are a linkage of "
+             "their own");
+    }
+    if (!scene_.controller) {
+      refuse({"gimbal", key},
+             "found without a controller, and no servo moves it; allowed: only with a controller "
+             "that drives angle");
+      return;
+    }
+    if (scene_.controller->drives != Drives::angle || gimbal.motor) {
+      refuse({"gimbal", key},
+             std::string("found, but ") +
+                 (gimbal.motor ? "gimbal.motor moves the axes themselves"
+                               : "controller.drives is not angle, and no servo moves it") +
+                 "; allowed: only with drives: angle and gimbal.servo");
+    }
+    if (scene_.controller->own) {
+      refuse({"controller", "assumes"},
+             "found with a controller of one's own, which commands the servos as it sees fit; "
+             "allowed: only with a law that is built in");
+    }
+    if (!three) return;
+    if (gimbal.theta_servo) {
+      refuse({"gimbal", "servo"},
+             "found keys for phi and theta beside gimbal.three_servos, none of which is phi's or "
+             "theta's; allowed: keys of all three, alike");
+    }
+    if (gimbal.start.phi != 0 || gimbal.start.theta != 0 || gimbal.start.phi_rate != 0 ||
+        gimbal.start.theta_rate != 0) {
+      refuse({"gimbal", "start"},
+             "found beside gimbal.three_servos, which start at home; allowed: no start");
+    }
+    if (scene_.controller->own) {
+      refuse({"gimbal", "three_servos"},
+             "found with a controller of one's own, which has two commands; allowed: a law that is "
+             "built in");
+    }
+  }
+
+  void push() {
+    if (!scene_.ball.push) return;
+    if (!find_at(keys_, {"ball", "mass"})) {
+      refuse({"ball", "push"},
+             "found, but no ball.mass, and a lighter ball goes farther; allowed: only with "
+             "ball.mass given");
+    }
+    if (inverts()) {
+      refuse({"ball", "push"},
+             "found beside feedback_linearisation, which inverts equations without it; allowed: "
+             "any other law");
+    }
   }
 
   void events() {
@@ -231,8 +354,9 @@ class Checks {
           "found slide beside feedback_linearisation, which inverts the equations of a ball that "
           "rolls; allowed: stop or note, or any other law");
     }
-    const std::optional<Servo>& servo = scene_.gimbal.servo;
-    if (servo && (servo->time_constant || servo->angle_limit || servo->backlash > 0)) {
+    if (any_servo([](const Servo& servo) {
+          return servo.time_constant || servo.angle_limit || servo.backlash > 0;
+        })) {
       refuse({"events", "slip", "action"},
              "found slide with a servo that jolts the plate (time_constant, angle_limit or "
              "backlash), for which sliding friction has no answer; allowed: stop or note");

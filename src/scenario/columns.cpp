@@ -96,6 +96,13 @@ Missing missing(const Column& column, const Scenario& scenario) {
     case Needs::controller:
       if (scenario.controller) return {};
       return {"there is no controller", "columns of an open loop, such as x"};
+    case Needs::servos:
+      if (scenario.gimbal.servo) return {};
+      return {"no servo moves the gimbal", "other columns, such as phi; or give gimbal.servo"};
+    case Needs::third_servo:
+      if (scenario.gimbal.three_servos) return {};
+      return {"there are no three servos",
+              "servo_phi and servo_theta; or give gimbal.three_servos"};
     case Needs::samples:
       if (scenario.controller && scenario.controller->sampling) return {};
       return {"the controller takes no samples", "other columns; or give controller.sampling"};
@@ -116,6 +123,9 @@ Missing missing(const Column& column, const Scenario& scenario) {
       if (is_coupled(scenario)) return {};
       return {"nothing is lost: the ball rolls without losses",
               "other columns, such as energy; or give ball.losses, or slip with action: slide"};
+    case Needs::pushed:
+      if (scenario.ball.push) return {};
+      return {"nothing pushes the ball", "other columns, such as energy; or give ball.push"};
     case Needs::own:
       if (scenario.controller && scenario.controller->own) return {};
       return {"the scene has no controller of its own that gives it",

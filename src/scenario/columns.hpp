@@ -14,16 +14,19 @@ namespace bbsim::scenario {
 
 // What a column is computed from, those that need the dynamics last: the ball's motion; its angle
 // gamma, and of all rows so far its orientation; the gimbal's angles and rates, and its
-// accelerations; what is there with a controller, and with one in discrete time; a number that
-// one's own controller gives beside its commands; forces; forces where the plate's inertia is
-// known, where torques move the gimbal, where DC motors do; and `coupled` where the ball has losses
-// or may slide, or torques move the gimbal.
+// accelerations; the angles of servos, and of a third one; what is there with a controller, and
+// with one in discrete time; a number that one's own controller gives beside its commands; forces;
+// forces where the plate's inertia is known, where torques move the gimbal, where DC motors do; and
+// `coupled` where the ball has losses or may slide, or torques move the gimbal, `pushed` where
+// something pushes it.
 enum class Needs {
   ball,
   gamma,
   orientation,
   gimbal,
   accelerations,
+  servos,
+  third_servo,
   controller,
   samples,
   own,
@@ -31,7 +34,8 @@ enum class Needs {
   plate,
   torques,
   armature,
-  coupled
+  coupled,
+  pushed
 };
 
 struct Column {
@@ -66,6 +70,14 @@ inline constexpr std::array catalogue = {
     Column{"theta_rate", "rad/s", "rate of theta", Needs::gimbal},
     Column{"phi_acceleration", "rad/s^2", "acceleration of phi", Needs::accelerations},
     Column{"theta_acceleration", "rad/s^2", "acceleration of theta", Needs::accelerations},
+    Column{"servo_phi", "rad",
+           "angle of phi's servo, before its backlash and what links it to the plane; of the first "
+           "of three",
+           Needs::servos},
+    Column{"servo_theta", "rad", "angle of theta's servo; of the second of three", Needs::servos},
+    Column{"servo_third", "rad", "angle of the third of three servos", Needs::third_servo},
+    Column{"push_x", "N", "push on the ball's centre along the plane's x axis", Needs::pushed},
+    Column{"push_y", "N", "push on the ball's centre along the plane's y axis", Needs::pushed},
     Column{"x_reference", "m", "where the controller wants x", Needs::controller},
     Column{"y_reference", "m", "where the controller wants y", Needs::controller},
     Column{"tracking_error", "m",
@@ -112,6 +124,7 @@ inline constexpr std::array catalogue = {
         "power of the two motor torques that carry the ball; the rate of change of energy, but for "
         "losses",
         Needs::dynamics},
+    Column{"push_power", "W", "power of the push on the ball", Needs::pushed},
     Column{"total_energy", "J",
            "kinetic and potential energy of ball, plate, ring and the motors' rotors",
            Needs::dynamics},

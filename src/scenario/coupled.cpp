@@ -15,7 +15,7 @@ bool has_dry_losses(const Scenario& scene) {
 }
 
 bool is_coupled(const Scenario& scene) {
-  return has_dry_losses(scene) || scene.ball.losses.viscous > 0 ||
+  return scene.ball.push || has_dry_losses(scene) || scene.ball.losses.viscous > 0 ||
          (scene.events.slip && scene.events.slip->sliding) || moved_by_torques(scene);
 }
 

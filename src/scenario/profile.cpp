@@ -28,6 +28,13 @@ struct OfTorque {
   static constexpr std::string_view term =
       "a torque in N m, such as 0.01, or one of sinusoid, ramp, table";
 };
+struct OfForce {
+  static constexpr yaml::Dimension value = yaml::Dimension::number;
+  static constexpr yaml::Dimension rate = yaml::Dimension::number;
+  static constexpr std::string_view noun = "force";
+  static constexpr std::string_view term =
+      "a force in N, such as 0.01, or one of sinusoid, ramp, table";
+};
 
 template <class Of>
 void read_sinusoid(yaml::Keys& keys, Sinusoid& sinusoid) {
@@ -87,12 +94,16 @@ bool read_term(const yaml::Value& value, Profile& into) {
 }  // namespace
 
 std::string ProfileRule::allowed() const {
-  return std::string(of_torque ? OfTorque::term : OfAngle::term) +
-         ", or a list of these: their sum";
+  const std::string_view term = of == ProfileOf::torque  ? OfTorque::term
+                                : of == ProfileOf::force ? OfForce::term
+                                                         : OfAngle::term;
+  return std::string(term) + ", or a list of these: their sum";
 }
 
 bool ProfileRule::read(const yaml::Value& value, Profile& into) const {
-  const auto term = of_torque ? read_term<OfTorque> : read_term<OfAngle>;
+  const auto term = of == ProfileOf::torque  ? read_term<OfTorque>
+                    : of == ProfileOf::force ? read_term<OfForce>
+                                             : read_term<OfAngle>;
   if (value.node->kind == yaml::Node::Kind::null) return value.refuse("", allowed());
   if (value.node->kind != yaml::Node::Kind::sequence) return term(value, into);
   const std::size_t count = value.node->items.size();

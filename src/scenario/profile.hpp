@@ -1,5 +1,5 @@
-// A profile of a gimbal angle, or of a motor's torque: a number, one of sinusoid, ramp and table,
-// or a list: their sum.
+// A profile of a gimbal angle, of a motor's torque or of a force: a number, one of sinusoid, ramp
+// and table, or a list: their sum.
 #pragma once
 
 #include <string>
@@ -9,8 +9,10 @@
 
 namespace bbsim::scenario {
 
+enum class ProfileOf { angle, torque, force };
+
 struct ProfileRule {
-  bool of_torque = false;
+  ProfileOf of = ProfileOf::angle;
   [[nodiscard]] std::string allowed() const;
   bool read(const yaml::Value& value, Profile& into) const;
 };

@@ -1,3 +1,4 @@
+#include "scenario/profile.hpp"
 #include "scenario/sections.hpp"
 #include "yaml/rules.hpp"
 
@@ -15,6 +16,11 @@ void read_losses(yaml::Keys& keys, Losses& losses) {
                 losses.pivoting);
 }
 
+void read_push(yaml::Keys& keys, BallPush& push) {
+  keys.optional("x", ProfileRule{ProfileOf::force}, push.x);
+  keys.optional("y", ProfileRule{ProfileOf::force}, push.y);
+}
+
 }  // namespace
 
 void read_ball(yaml::Keys& keys, Ball& ball) {
@@ -28,6 +34,7 @@ void read_ball(yaml::Keys& keys, Ball& ball) {
   keys.optional("inertia_factor", factor, ball.inertia_factor);
   keys.section("losses", read_losses, ball.losses);
   keys.optional("rotation", yaml::PairOf{yaml::Dimension::angular_rate}, ball.rotation);
+  keys.optional("push", yaml::MappingOf(read_push), ball.push);
 }
 
 void read_plate(yaml::Keys& keys, Plate& plate) {

@@ -4,6 +4,7 @@
 
 #include "scenario/columns.hpp"
 #include "scenario/sections.hpp"
+#include "scenario/table_rows.hpp"
 #include "yaml/rules.hpp"
 
 namespace bbsim::scenario {
@@ -126,13 +127,67 @@ void read_law(yaml::Keys& keys, Controller& controller) {
   keys.section(given[0]->key, given[0]->read, controller);
 }
 
+// A period's standard deviation, or a file of measured periods.
+struct Jitter {
+  [[nodiscard]] static std::string allowed() {
+    return number().allowed() + ", or {file: periods.csv, period: column}";
+  }
+  [[nodiscard]] static yaml::Number number() {
+    return {yaml::Dimension::time, {.at_least = 0}, "\"1 ms\""};
+  }
+  static void read_file(yaml::Keys& keys, Sampling& sampling) {
+    std::vector<std::vector<double>> columns;
+    if (!read_columns(keys, {"period"}, "time", sampling.periods_file, columns)) return;
+    sampling.periods = std::move(columns[0]);
+    if (sampling.periods.empty()) {
+      keys.mapping().report(yaml::shown(sampling.periods_file) +
+                            ": found no rows; allowed: at least one period");
+    }
+    for (std::size_t i = 0; i < sampling.periods.size(); ++i) {
+      if (sampling.periods[i] > 0) continue;
+      keys.mapping().report(yaml::shown(sampling.periods_file) + ": found the period " +
+                            number_text(sampling.periods[i]) + " in row " + std::to_string(i + 1) +
+                            " below the header; allowed: periods greater than 0, in s");
+      return;
+    }
+  }
+  static bool read(const yaml::Value& value, Sampling& into) {
+    if (value.node->kind == yaml::Node::Kind::mapping) {
+      return yaml::MappingOf(read_file).read(value, into);
+    }
+    if (value.node->kind != yaml::Node::Kind::scalar) return value.refuse("", allowed());
+    return number().read(value, into.jitter);
+  }
+};
+
 void read_sampling(yaml::Keys& keys, Sampling& sampling) {
   const yaml::Number time{yaml::Dimension::time, {.at_least = 0}};
   keys.required("period", yaml::Number{yaml::Dimension::time, {.above = 0}}, sampling.period);
   keys.optional("delay", time, sampling.delay);
   keys.optional("resolution", yaml::AngleLimit{{.at_least = 0}}, sampling.resolution);
   keys.optional("derivative_filter", time, sampling.derivative_filter);
+  keys.optional("jitter", Jitter{}, sampling);
 }
+
+// A factor, or one for each axis.
+struct Scale {
+  [[nodiscard]] static std::string allowed() {
+    return "a number greater than 0, such as 1.02, or two of them, [x, y]";
+  }
+  static bool read(const yaml::Value& value, Pair& into) {
+    const yaml::Number factor{yaml::Dimension::number, {.above = 0}, "1.02"};
+    if (value.node->kind == yaml::Node::Kind::sequence) {
+      if (value.node->items.size() != 2) return value.refuse("", allowed());
+      const bool first = factor.read(value.item(0), into[0]);
+      return factor.read(value.item(1), into[1]) && first;
+    }
+    if (value.node->kind != yaml::Node::Kind::scalar) return value.refuse("", allowed());
+    double both = 1;
+    if (!factor.read(value, both)) return false;
+    into = {both, both};
+    return true;
+  }
+};
 
 void read_sensor(yaml::Keys& keys, Sensor& sensor) {
   const yaml::Number length{yaml::Dimension::length, {.at_least = 0}};
@@ -151,7 +206,45 @@ void read_sensor(yaml::Keys& keys, Sensor& sensor) {
                 yaml::Number{yaml::Dimension::number, {.at_least = 0, .at_most = 1}, "0.05"},
                 sensor.dropout);
   keys.optional("area", yaml::SidesOf{}, sensor.area);
+  keys.optional("rotation", yaml::Number{yaml::Dimension::angle}, sensor.rotation);
+  keys.optional("offset", yaml::PairOf{yaml::Dimension::length}, sensor.offset);
+  keys.optional("scale", Scale{}, sensor.scale);
+  keys.optional("period", yaml::Number{yaml::Dimension::time, {.above = 0}}, sensor.period);
+  keys.optional("phase", yaml::Number{yaml::Dimension::time, {.at_least = 0}}, sensor.phase);
 }
+
+// Of both axes, or of each.
+struct CommandLimit {
+  bool of_angle;
+
+  [[nodiscard]] std::string allowed() const { return one() + ", or {phi: ..., theta: ...}"; }
+  [[nodiscard]] std::string one() const {
+    return of_angle ? yaml::AngleLimit{{.above = 0}}.allowed() : number().allowed();
+  }
+  [[nodiscard]] static yaml::Number number() {
+    return {yaml::Dimension::number, {.above = 0}, "5"};
+  }
+  bool read_one(const yaml::Value& value, double& into) const {
+    return of_angle ? yaml::AngleLimit{{.above = 0}}.read(value, into) : number().read(value, into);
+  }
+  bool read(const yaml::Value& value, Controller& into) const {
+    if (value.node->kind != yaml::Node::Kind::mapping) {
+      return read_one(value, into.limit.emplace());
+    }
+    yaml::Keys keys(value);
+    auto& limits = into.axis_limits.emplace();
+    bool fine = true;
+    constexpr std::string_view names[] = {"phi", "theta"};
+    for (std::size_t i = 0; i < 2; ++i) {
+      if (const auto given = keys.find(names[i])) {
+        fine = read_one(*given, limits[i].emplace()) && fine;
+      }
+    }
+    if (!limits[0] && !limits[1]) fine = value.refuse("", allowed());
+    keys.finish();
+    return fine;
+  }
+};
 
 }  // namespace
 
@@ -164,12 +257,10 @@ void read_controller(yaml::Keys& keys, Controller& controller) {
                                       {Drives::voltage, "voltage"}}},
                 controller.drives);
   keys.section("reference", read_reference, controller.reference);
-  if (controller.drives == Drives::angle) {
-    keys.optional("limit", yaml::AngleLimit{{.above = 0}}, controller.limit);
-  } else {
-    keys.optional("limit", yaml::Number{yaml::Dimension::number, {.above = 0}, "5"},
-                  controller.limit);
-  }
+  keys.optional("limit", CommandLimit{controller.drives == Drives::angle}, controller);
+  keys.optional("assumes",
+                yaml::NameOf<Assumes>{{{Assumes::exact, "exact"}, {Assumes::ratio, "ratio"}}},
+                controller.assumes);
   keys.optional("sampling", yaml::MappingOf(read_sampling), controller.sampling);
   keys.optional("sensor", yaml::MappingOf(read_sensor), controller.sensor);
 }

@@ -1,5 +1,10 @@
+#include <string>
+#include <utility>
+
+#include "base/number_text.hpp"
 #include "scenario/profile.hpp"
 #include "scenario/sections.hpp"
+#include "scenario/table_rows.hpp"
 #include "yaml/rules.hpp"
 
 namespace bbsim::scenario {
@@ -11,8 +16,8 @@ void read_motion(yaml::Keys& keys, GimbalMotion& motion) {
 }
 
 void read_torque(yaml::Keys& keys, GimbalMotion& torque) {
-  keys.optional("phi", ProfileRule{true}, torque.phi);
-  keys.optional("theta", ProfileRule{true}, torque.theta);
+  keys.optional("phi", ProfileRule{ProfileOf::torque}, torque.phi);
+  keys.optional("theta", ProfileRule{ProfileOf::torque}, torque.theta);
 }
 
 void read_dc(yaml::Keys& keys, DcMotor& dc) {
@@ -48,12 +53,14 @@ void read_start(yaml::Keys& keys, GimbalStart& start) {
   keys.optional("theta_rate", yaml::Number{yaml::Dimension::angular_rate}, start.theta_rate);
 }
 
-void read_servo(yaml::Keys& keys, Servo& servo) {
+// What these keys say of a servo, over what `servo` is already; nothing of what is missing.
+void read_servo_keys(yaml::Keys& keys, Servo& servo) {
   const yaml::Number time{yaml::Dimension::time, {.above = 0}};
-  keys.optional("time_constant", time, servo.time_constant);
   const yaml::Number frequency{yaml::Dimension::angular_rate, {.above = 0}};
   const yaml::Number damping{yaml::Dimension::number, {.at_least = 0}};
+  keys.optional("time_constant", time, servo.time_constant);
   if (keys.find("time_constant")) {
+    servo.natural_frequency = servo.damping = 0;
     for (const char* other : {"natural_frequency", "damping"}) {
       if (const auto given = keys.find(other)) {
         given->report(
@@ -62,8 +69,10 @@ void read_servo(yaml::Keys& keys, Servo& servo) {
       }
     }
   } else {
-    keys.required("natural_frequency", frequency, servo.natural_frequency);
-    keys.required("damping", damping, servo.damping);
+    // Of second order, whatever both axes' common keys say.
+    if (keys.find("natural_frequency")) servo.time_constant.reset();
+    keys.optional("natural_frequency", frequency, servo.natural_frequency);
+    keys.optional("damping", damping, servo.damping);
   }
   keys.optional("angle_limit", yaml::AngleLimit{{.above = 0}}, servo.angle_limit);
   keys.optional("rate_limit", yaml::Number{yaml::Dimension::angular_rate, {.above = 0}},
@@ -77,6 +86,118 @@ void read_servo(yaml::Keys& keys, Servo& servo) {
       servo.backlash > 0 && servo.backlash < least_backlash) {
     keys.find("backlash")->refuse("", "0, or an angle of at least 1e-6 rad");
   }
+}
+
+struct BothServos {
+  Servo phi;
+  std::optional<Servo> theta{};
+};
+
+// Keys of both axes, and of each under its name, which take the place of the common ones.
+void read_servo(yaml::Keys& keys, BothServos& both) {
+  const auto require = [](yaml::Keys& at, std::string_view key, auto given) {
+    const auto allowed = key == "natural_frequency"
+                             ? yaml::Number{yaml::Dimension::angular_rate, {.above = 0}}.allowed()
+                             : yaml::Number{yaml::Dimension::number, {.at_least = 0}}.allowed();
+    if (!at.find("time_constant") && !given(key)) at.missing(key, allowed);
+  };
+  Servo common;
+  read_servo_keys(keys, common);
+  const auto phi = keys.find("phi"), theta = keys.find("theta");
+  const auto in_common = [&](std::string_view key) { return keys.find(key).has_value(); };
+  if (!phi || !theta) {
+    for (const char* key : {"natural_frequency", "damping"}) require(keys, key, in_common);
+  }
+  both.phi = common;
+  if (phi || theta) both.theta = common;
+  const auto read_one = [&](const std::optional<yaml::Value>& one, Servo& servo) {
+    if (!one) return;
+    if (one->node->kind != yaml::Node::Kind::mapping) {
+      one->refuse("", yaml::MappingOf(read_servo_keys).allowed());
+      return;
+    }
+    yaml::Keys own(*one);
+    read_servo_keys(own, servo);
+    const bool first_order = servo.time_constant.has_value();
+    for (const char* key : {"natural_frequency", "damping"}) {
+      if (!first_order) {
+        require(own, key, [&](std::string_view of) { return own.find(of) || in_common(of); });
+      }
+    }
+    own.finish();
+  };
+  read_one(phi, both.phi);
+  if (both.theta) read_one(theta, *both.theta);
+}
+
+// [servo's angle, plane's angle] of a curve.
+void read_curve(yaml::Keys& keys, CurveLinkage& curve) {
+  std::vector<std::vector<double>> columns;
+  if (!read_columns(keys, {"servo", "plate"}, "angle", curve.file, columns)) return;
+  curve.servo = std::move(columns[0]);
+  curve.plate = std::move(columns[1]);
+  constexpr std::size_t fewest = 4;  // of a C2 interpolant without end conditions to invent
+  if (curve.servo.size() < fewest) {
+    keys.mapping().report(yaml::shown(curve.file) + ": found " +
+                          std::to_string(curve.servo.size()) + " rows; allowed: at least 4");
+    curve = {};
+    return;
+  }
+  for (std::size_t i = 1; i < curve.servo.size(); ++i) {
+    if (curve.servo[i] > curve.servo[i - 1]) continue;
+    keys.mapping().report(yaml::shown(curve.file) + ": found the servo's angle " +
+                          number_text(curve.servo[i]) + " in row " + std::to_string(i + 1) +
+                          " below the header, after " + number_text(curve.servo[i - 1]) +
+                          "; allowed: strictly increasing angles");
+    curve = {};
+    return;
+  }
+}
+
+void read_rods(yaml::Keys& keys, RodLinkage& rods) {
+  const yaml::Number length{yaml::Dimension::length, {.above = 0}};
+  keys.required("horn", length, rods.horn);
+  keys.required("arm", length, rods.arm);
+  keys.optional("rod", length, rods.rod);
+  keys.required("offset", yaml::PairOf{yaml::Dimension::length}, rods.offset);
+}
+
+void read_table_linkage(yaml::Keys& keys, CurveLinkage& curve) {
+  keys.required("table", yaml::MappingOf(read_curve), curve);
+}
+
+void read_axis_linkage(yaml::Keys& keys, std::optional<AxisLinkage>& linkage) {
+  if (keys.find("table")) {
+    CurveLinkage curve;
+    read_table_linkage(keys, curve);
+    if (!curve.servo.empty()) linkage = std::move(curve);
+    return;
+  }
+  RodLinkage rods;
+  read_rods(keys, rods);
+  linkage = rods;
+}
+
+using BothLinkages = std::array<std::optional<AxisLinkage>, 2>;
+
+void read_linkage(yaml::Keys& keys, BothLinkages& both) {
+  const auto phi = keys.find("phi"), theta = keys.find("theta");
+  if (!phi && !theta) {
+    read_axis_linkage(keys, both[0]);
+    both[1] = both[0];
+    return;
+  }
+  if (phi) yaml::MappingOf(read_axis_linkage).read(*phi, both[0]);
+  if (theta) yaml::MappingOf(read_axis_linkage).read(*theta, both[1]);
+}
+
+void read_three_servos(yaml::Keys& keys, ThreeServoPlate& plate) {
+  const yaml::Number length{yaml::Dimension::length, {.above = 0}};
+  keys.required("radius_base", length, plate.radius_base);
+  keys.required("radius_plate", length, plate.radius_plate);
+  keys.required("horn", length, plate.horn);
+  keys.required("rod", length, plate.rod);
+  keys.required("height", length, plate.height);
 }
 
 void read_mounting(yaml::Keys& keys, Mounting& mounting) {
@@ -96,7 +217,16 @@ void read_gimbal(yaml::Keys& keys, Gimbal& gimbal) {
   keys.optional("motion", yaml::MappingOf(read_motion), gimbal.motion);
   keys.optional("torque", yaml::MappingOf(read_torque), gimbal.torque);
   keys.optional("start", yaml::MappingOf(read_start), gimbal.start);
-  keys.optional("servo", yaml::MappingOf(read_servo), gimbal.servo);
+  std::optional<BothServos> servos;
+  keys.optional("servo", yaml::MappingOf(read_servo), servos);
+  if (servos) {
+    gimbal.servo = servos->phi;
+    gimbal.theta_servo = servos->theta;
+  }
+  if (const auto linkage = keys.find("linkage")) {
+    yaml::MappingOf(read_linkage).read(*linkage, gimbal.linkage);
+  }
+  keys.optional("three_servos", yaml::MappingOf(read_three_servos), gimbal.three_servos);
   keys.optional("ring_inertia", yaml::Number{yaml::Dimension::number, {.at_least = 0}, "1e-3"},
                 gimbal.ring_inertia);
   keys.optional("motor", yaml::MappingOf(read_motor), gimbal.motor);

@@ -13,13 +13,14 @@ namespace scenario {
 
 using namespace yaml;
 
-// `time` stands before `gimbal`, whose tables must cover the run.
+// `time` is read before `ball` and `gimbal`, whose tables must cover the run.
 void read_sections(Keys& keys, Scenario& scenario) {
   keys.optional("title", Text{"a text", true}, scenario.title);
   keys.optional("gravity", Number{Dimension::acceleration, {.at_least = 0}}, scenario.gravity);
+  for (const char* in_order : {"ball", "plate"}) static_cast<void>(keys.find(in_order));
+  keys.section("time", read_time, scenario.time);
   keys.section("ball", read_ball, scenario.ball);
   keys.section("plate", read_plate, scenario.plate);
-  keys.section("time", read_time, scenario.time);
   keys.section("gimbal", read_gimbal, scenario.gimbal);
   keys.optional("controller", MappingOf(read_controller), scenario.controller);
   keys.section("events", read_events, scenario.events);
@@ -91,7 +92,22 @@ std::vector<std::string> table_files(const Scenario& scenario) {
       }
     }
   }
+  if (const auto& push = scenario.ball.push) {
+    for (const Profile* profile : {&push->x, &push->y}) {
+      for (const ProfileTerm& term : *profile) {
+        if (const Table* table = std::get_if<Table>(&term)) files.push_back(folder / table->file);
+      }
+    }
+  }
+  for (const auto& linkage : scenario.gimbal.linkage) {
+    const auto* curve = linkage ? std::get_if<CurveLinkage>(&*linkage) : nullptr;
+    if (curve != nullptr) files.push_back(folder / curve->file);
+  }
   if (scenario.controller) {
+    const auto& sampling = scenario.controller->sampling;
+    if (sampling && !sampling->periods_file.empty()) {
+      files.push_back(folder / sampling->periods_file);
+    }
     const auto* table = std::get_if<TableReference>(&scenario.controller->reference);
     if (table != nullptr) files.push_back(folder / table->file);
   }

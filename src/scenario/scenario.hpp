@@ -21,30 +21,6 @@ struct Losses {
   friend bool operator==(const Losses&, const Losses&) = default;
 };
 
-struct Ball {
-  double radius = 0;            // m, > 0, required
-  double mass = 1;              // kg, > 0; only where forces are asked for, or move something
-  Pair position{0, 0};          // contact point in the plane frame, m
-  Pair velocity{0, 0};          // of the contact point in the plane frame, m/s
-  double spin = 0;              // about the plane normal, relative to the plane, rad/s
-  double inertia_factor = 0.4;  // moment of inertia over m r^2: 2/5 solid, 2/3 a thin shell
-  Losses losses{};
-  // Rate of turn about the plane's axes x, y, relative to the plane, rad/s; what rolling gives if
-  // it is not there.
-  std::optional<Pair> rotation{};
-};
-
-// The plate that the ball rolls on, where a scene needs to know: a rectangle or a disc about the
-// plane's origin.
-struct Plate {
-  std::optional<Pair> size{};        // along x and y, m
-  std::optional<double> diameter{};  // m
-  // Moments of inertia about the gimbal's centre along the plane's axes x, y, normal, kg m^2.
-  std::optional<std::array<double, 3>> inertia{};
-  double mass = 0;            // kg
-  double centre_of_mass = 0;  // its height above the gimbal's centre, along the normal, m
-};
-
 // offset + amplitude sin(frequency t + phase)
 struct Sinusoid {
   double amplitude = 0;  // rad
@@ -66,8 +42,39 @@ struct Table {
   std::vector<double> values;  // rad
 };
 
+// Of an angle; where it is of a torque or of a force, in N m or N.
 using ProfileTerm = std::variant<double, Sinusoid, Ramp, Table>;  // a number is a constant
 using Profile = std::vector<ProfileTerm>;                         // their sum; empty is zero
+
+// A force on the ball's centre along the plane's axes, N.
+struct BallPush {
+  Profile x, y;
+};
+
+struct Ball {
+  double radius = 0;            // m, > 0, required
+  double mass = 1;              // kg, > 0; only where forces are asked for, or move something
+  Pair position{0, 0};          // contact point in the plane frame, m
+  Pair velocity{0, 0};          // of the contact point in the plane frame, m/s
+  double spin = 0;              // about the plane normal, relative to the plane, rad/s
+  double inertia_factor = 0.4;  // moment of inertia over m r^2: 2/5 solid, 2/3 a thin shell
+  Losses losses{};
+  // Rate of turn about the plane's axes x, y, relative to the plane, rad/s; what rolling gives if
+  // it is not there.
+  std::optional<Pair> rotation{};
+  std::optional<BallPush> push{};
+};
+
+// The plate that the ball rolls on, where a scene needs to know: a rectangle or a disc about the
+// plane's origin.
+struct Plate {
+  std::optional<Pair> size{};        // along x and y, m
+  std::optional<double> diameter{};  // m
+  // Moments of inertia about the gimbal's centre along the plane's axes x, y, normal, kg m^2.
+  std::optional<std::array<double, 3>> inertia{};
+  double mass = 0;            // kg
+  double centre_of_mass = 0;  // its height above the gimbal's centre, along the normal, m
+};
 
 struct GimbalMotion {
   Profile phi, theta;
@@ -94,6 +101,30 @@ struct Servo {
     return !time_constant && !angle_limit && !rate_limit && !acceleration_limit && dead_band == 0 &&
            backlash == 0;
   }
+};
+
+// A servo's horn moves an arm on the plate through a rod. In the plane of the three the servo's
+// axis is at (0, 0); both bars are along +x where their angles are zero.
+struct RodLinkage {
+  double horn = 0, arm = 0;     // m, > 0
+  std::optional<double> rod{};  // m; what home needs, if it is not there
+  Pair offset{0, 0};            // of the gimbal's axis, m
+};
+
+// A curve that was measured: a C2 interpolant through (servo, plate).
+struct CurveLinkage {
+  std::string file;
+  std::vector<double> servo;  // rad, strictly increasing, at least four
+  std::vector<double> plate;  // rad
+};
+
+using AxisLinkage = std::variant<RodLinkage, CurveLinkage>;
+
+// Three servos on a circle below the plate, each with a horn, a rod, and a ball joint: 3-RRS.
+struct ThreeServoPlate {
+  double radius_base = 0, radius_plate = 0;  // of the servos' axes and of the joints, m, > 0
+  double horn = 0, rod = 0;                  // m, > 0
+  double height = 0;  // of the joints above the servos' axes where the plate is level, m, > 0
 };
 
 // How the plane sits on the gimbal, where not as in the paper.
@@ -139,7 +170,16 @@ struct Gimbal {
   std::optional<Motor> motor{};
   GimbalStart start;
   std::optional<Servo> servo{};  // there exactly when the controller drives angle
+  // Of theta, where it is another one; `servo` is phi's then.
+  std::optional<Servo> theta_servo{};
+  std::array<std::optional<AxisLinkage>, 2> linkage{};  // between servos and plane: phi, theta
+  std::optional<ThreeServoPlate> three_servos{};
   Mounting mounting;
+
+  // Of phi (0), theta (1). There is a servo.
+  [[nodiscard]] const Servo& servo_of(std::size_t axis) const {
+    return axis == 1 && theta_servo ? *theta_servo : *servo;
+  }
 };
 
 struct PointReference {
@@ -199,20 +239,36 @@ struct LqrWeights {
 
 // A controller in discrete time, which holds its command between samples.
 struct Sampling {
-  double period = 0;             // s, > 0
-  double delay = 0;              // from a sample to its command, s
-  double resolution = 0;         // of the command, rad; 0: none
-  double derivative_filter = 0;  // time constant of the filter of differences, s
+  double period = 0;              // s, > 0
+  double delay = 0;               // from a sample to its command, s
+  double resolution = 0;          // of the command, rad; 0: none
+  double derivative_filter = 0;   // time constant of the filter of differences, s
+  double jitter = 0;              // standard deviation of a period, s
+  std::string periods_file{};     // of measured periods, instead of `jitter`
+  std::vector<double> periods{};  // s; after the last one they begin anew
+
+  [[nodiscard]] bool is_even() const { return jitter == 0 && periods.empty(); }
 };
 
 // What the controller sees of the ball, at its samples.
 struct Sensor {
   double resolution = 0;       // m; 0: none
   double noise = 0;            // standard deviation of each coordinate, m
-  unsigned long seed = 1;      // of noise and dropouts
+  unsigned long seed = 1;      // of noise, dropouts and the sampling's jitter
   double delay = 0;            // from what is seen to the sample, s
   double dropout = 0;          // probability that a sample sees nothing
   std::optional<Pair> area{};  // sides of the rectangle in which it sees the ball, m
+  // What it says of a ball at p, before noise: scale R(rotation) p + offset.
+  double rotation = 0;  // rad
+  Pair scale{1, 1};
+  Pair offset{0, 0};  // m
+  // Of frames of its own, at phase + n period; without, it looks where the controller samples.
+  std::optional<double> period{};  // s, > 0
+  double phase = 0;                // s
+
+  [[nodiscard]] bool is_aligned() const {
+    return rotation == 0 && scale == Pair{1, 1} && offset == Pair{0, 0};
+  }
 };
 
 // A number that one's own controller is given.
@@ -240,6 +296,10 @@ struct OwnController {
   std::string folder;  // the scenario's: names of files begin there, and the program runs there
 };
 
+// What a controller of a linked gimbal takes the linkage for: a line with its slope at home, or the
+// curve itself.
+enum class Assumes { ratio, exact };
+
 // e = reference - (x, y).
 struct Controller {
   Law law = Law::pd;
@@ -250,8 +310,15 @@ struct Controller {
   Drives drives = Drives::acceleration;
   Reference reference;
   std::optional<double> limit{};  // of the command, rad or rad/s^2
+  // Of phi's and theta's, where they differ, instead of `limit`.
+  std::optional<std::array<std::optional<double>, 2>> axis_limits{};
+  std::optional<Assumes> assumes{};  // only with a linkage or three servos
   std::optional<Sampling> sampling{};
   std::optional<Sensor> sensor{};  // only with sampling
+
+  [[nodiscard]] std::optional<double> limit_of(std::size_t axis) const {
+    return axis_limits ? (*axis_limits)[axis] : limit;
+  }
 };
 
 enum class OnEvent { stop, note };

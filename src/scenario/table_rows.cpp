@@ -90,6 +90,37 @@ std::string cover_fault(const TableRows& table, double end) {
 
 }  // namespace
 
+bool read_columns(yaml::Keys& keys, const std::vector<std::string_view>& column_keys,
+                  std::string_view noun, std::string& file,
+                  std::vector<std::vector<double>>& columns) {
+  std::vector<std::string> names(column_keys.size());
+  bool named = keys.required("file", yaml::Text{"the name of a CSV file"}, file);
+  for (std::size_t k = 0; k < names.size(); ++k) {
+    named =
+        keys.required(column_keys[k], yaml::Text{"the name of a column of the file"}, names[k]) &&
+        named;
+  }
+  if (!named) return false;
+  const file::TableData* data = load(*keys.find("file"), file);
+  if (data == nullptr) return false;
+  columns.clear();
+  for (std::size_t k = 0; k < names.size(); ++k) {
+    const std::vector<double>* found = find_column(*keys.find(column_keys[k]), names[k], *data);
+    if (found != nullptr) columns.push_back(*found);
+  }
+  if (columns.size() < names.size()) return false;
+  for (std::size_t k = 0; k < columns.size(); ++k) {
+    for (std::size_t i = 0; i < columns[k].size(); ++i) {
+      if (std::isfinite(columns[k][i])) continue;
+      return keys.mapping().report(yaml::shown(file) + ": found the " +
+                                   std::string(column_keys[k]) + ' ' + number_text(columns[k][i]) +
+                                   " in row " + std::to_string(i + 1) +
+                                   " below the header; allowed: a finite " + std::string(noun));
+    }
+  }
+  return true;
+}
+
 void read_table_rows(yaml::Keys& keys, const std::vector<std::string_view>& value_keys,
                      std::string_view noun, TableRows& into) {
   constexpr yaml::Text column{"the name of a column of the file"};

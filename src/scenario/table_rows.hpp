@@ -21,4 +21,10 @@ struct TableRows {
 void read_table_rows(yaml::Keys& keys, const std::vector<std::string_view>& value_keys,
                      std::string_view noun, TableRows& into);
 
+// Reads the columns that the keys name of the file that `file` names, whole and finite; false after
+// reporting what is wrong. `noun` as above.
+bool read_columns(yaml::Keys& keys, const std::vector<std::string_view>& column_keys,
+                  std::string_view noun, std::string& file,
+                  std::vector<std::vector<double>>& columns);
+
 }  // namespace bbsim::scenario

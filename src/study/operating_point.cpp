@@ -50,6 +50,12 @@ model::LinearPoint point_of(const model::Model& model, double time, const double
         }
         // Angles of the servos, which are not those of the plane.
         if constexpr (model::is_rig<Any>) std::copy_n(row, Any::size, point.state.begin());
+        if constexpr (model::is_coupled_loop<Any>) {
+          // Of a linkage; a scene that is coupled besides is refused.
+          if constexpr (Any::servos == 2) {
+            std::copy_n(row, point.state.size(), point.state.begin());
+          }
+        }
       },
       model.system);
   return point;

@@ -172,6 +172,44 @@ TEST_CASE("check has the poles of plate, ball and motors, and says what they lea
   CHECK(contains(given.out, "given functions of time"));
 }
 
+TEST_CASE("check tells of linkages, clocks and frames, and of stops beyond a dead point") {
+  const Result result = bbsim({"check", config("pushrod.yaml")});
+  CHECK(result.exit_code == 0);
+  CHECK(contains(result.out, "servo_phi"));
+  CHECK(contains(result.out, "push rod, (M54) to (M56), slope "));
+  CHECK(contains(result.out, "the controller takes it for a ratio, that of home"));
+  CHECK(contains(result.out, "(the poles are those of the nominal period)"));
+  CHECK(contains(result.out, "frames every 33.3 ms from 7 ms on"));
+  CHECK(contains(result.out, "turned by 1.5 deg"));
+  CHECK(contains(result.out, "dead_point (stops the run)"));
+  CHECK_FALSE(contains(result.out, "lie beyond that"));
+  const Result beyond =
+      bbsim({"check", config("pushrod.yaml"), "--set", "gimbal.servo.angle_limit=3"});
+  CHECK(contains(beyond.out, "WARNING: its stops at 171.887 deg lie beyond that"));
+  const Result open = bbsim({"check", config("pushrod.yaml"), "--set", "gimbal.linkage.rod=1"});
+  CHECK(open.exit_code == 2);
+  CHECK(contains(open.err, "pushrod.yaml:"));
+  CHECK(contains(open.err, "gimbal.linkage: found a rod of 1 m, with which the linkage does not"));
+
+  const Result three = bbsim({"check", config("three-servos.yaml")});
+  CHECK(three.exit_code == 0);
+  CHECK(contains(three.out, "three servos, two tilts and a height"));
+  CHECK(contains(three.out, "without the wander of the plate's centre"));
+}
+
+TEST_CASE("scenes with linkages and three servos run, and can be gone on with") {
+  for (const std::string name : {"pushrod", "three-servos"}) {
+    const Result whole =
+        bbsim({"run", config(name + ".yaml"), "-q", "-o", "-", "--set", "time.end=4"});
+    CHECK(whole.exit_code == 0);
+    const auto columns = csv(whole.out);
+    CHECK(columns.at("servo_phi").size() == 201);
+    double turned = 0;
+    for (const double one : columns.at("servo_theta")) turned = std::max(turned, std::abs(one));
+    CHECK(turned > 0.02);
+  }
+}
+
 TEST_CASE("a run of a ball that slides tells where it rolls, and where it rests") {
   const Result result = bbsim({"run", config("slides.yaml"), "-o", "-"});
   CHECK(contains(result.err, "noted: roll, once at t = 0.533974 s: the ball rolls again"));

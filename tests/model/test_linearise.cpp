@@ -143,6 +143,83 @@ TEST_CASE("poles of a sampled loop are those that check prints") {
   CHECK(distance(large(made.poles), large(poles)) < 1e-9);
 }
 
+namespace {
+
+model::Eigenvalues large_ones(model::Eigenvalues poles) {
+  std::erase_if(poles, [](const Complex& pole) { return std::abs(pole) < 0.05; });
+  return poles;
+}
+
+}  // namespace
+
+TEST_CASE(
+    "about home a linkage that the controller knows, or its ratio, is as if it were not there") {
+  const bool sampled = GENERATE(false, true), feeds_back = GENERATE(false, true);
+  const Assumes assumes = GENERATE(Assumes::exact, Assumes::ratio);
+  Scenario ideal = sampled ? sampled_scene() : pd_scene();
+  if (sampled) ideal.controller->sensor->delay = 0.005;
+  if (feeds_back) {
+    ideal.controller->law = Law::lqr;
+    ideal.controller->weights = {100, 1, 1, 0.1, 1};
+  }
+  Scenario linked = ideal, three = ideal;
+  linked.controller->assumes = three.controller->assumes = assumes;
+  linked.gimbal.linkage = {RodLinkage{0.025, 0.08, {}, {0.06, 0.09}},
+                           RodLinkage{0.03, 0.06, 0.07, {0.02, 0.06}}};
+  three.gimbal.three_servos = ThreeServoPlate{0.06, 0.09, 0.04, 0.1, 0.11};
+  const auto poles_of = [&](const Scenario& scene) {
+    const model::Model model = model::assemble(scene, false);
+    return large_ones(sampled ? model::sampled_poles(model) : model::closed_loop_poles(model));
+  };
+  const auto expected = poles_of(ideal);
+  // theta's home is not its curve's zero, and a ratio is that of home: 1e-9 is of eigenvalues.
+  CHECK(distance(poles_of(linked), expected) < 1e-7);
+  CHECK(distance(large_ones(linear(linked, LinearKind::loop).poles), expected) < 1e-7);
+  CHECK(distance(large_ones(linear(three, LinearKind::loop).poles), expected) < 1e-7);
+  // The three have a heave of their own: twice the servo's poles, once more.
+  auto of_three = poles_of(three);
+  if (!sampled) CHECK(of_three.size() == expected.size() + 2);
+}
+
+TEST_CASE("behind a linkage A is the derivative of the system, where it rests too") {
+  Scenario scene = pd_scene();
+  scene.gimbal.linkage = {RodLinkage{0.025, 0.08, {}, {0.06, 0.09}},
+                          RodLinkage{0.03, 0.06, 0.07, {0.02, 0.06}}};
+  scene.gimbal.mounting.phi_offset = 0.04;
+  scene.controller->assumes = GENERATE(Assumes::exact, Assumes::ratio);
+  const model::LinearPoint at = model::equilibrium(scene);
+  const model::Model model = model::assemble(scene, false);
+  const auto& system =
+      std::get<model::CoupledLoop<model::SignalPair, model::Linkages>>(model.system);
+  double z[model::CoupledLoopLayout::states] = {};
+  std::copy(at.state.begin(), at.state.end(), z);
+  double rates[model::CoupledLoopLayout::states];
+  system.derivative(0.0, z, rates);
+  for (int i = 0; i < 9; ++i) CHECK(std::abs(rates[i]) < 1e-10);  // it rests
+  const auto full = model::jacobian(system, 0.0, z);
+  const std::vector<int> states{0, 1, 2, 3, 5, 6, 7, 8};
+  const Linearisation made = linear(scene, LinearKind::loop, at);
+  REQUIRE(made.system.a.rows() == 8);
+  CHECK((made.system.a - full(states, states)).cwiseAbs().maxCoeff() <
+        1e-9 * full.cwiseAbs().maxCoeff());
+}
+
+TEST_CASE("a turned sensor is in the poles, and in where the ball comes to rest") {
+  Scenario scene = sampled_scene();
+  scene.controller->sensor->delay = 0.005;
+  const auto straight = model::sampled_poles(model::assemble(scene, false));
+  scene.controller->sensor->rotation = 0.4;
+  scene.controller->sensor->offset = {0.003, 0};
+  const model::Model model = model::assemble(scene, false);
+  const auto turned = model::sampled_poles(model);
+  CHECK(std::abs(turned.front()) > std::abs(straight.front()) + 1e-3);
+  CHECK(distance(large_ones(linear(scene, LinearKind::loop).poles), large_ones(turned)) < 1e-9);
+  const model::LinearPoint at = model::equilibrium(scene);
+  // R(0.4) p + offset = reference, which is the origin.
+  CHECK(at.state[0] == Approx(-0.003 * std::cos(0.4)).epsilon(1e-9));
+  CHECK(at.state[1] == Approx(0.003 * std::sin(0.4)).epsilon(1e-9));
+}
+
 TEST_CASE("A and B of a plant are its differences in quad precision") {
   const Scenario scene = crooked_scene();
   const model::LinearPoint at = somewhere();

@@ -33,6 +33,7 @@ struct Instant {
       : constants(with),
         gimbal(sample.gimbal),
         ball(sample.ball),
+        push(sample.push[0], sample.push[1], 0),
         coupled(sample.coupled ? &*sample.coupled : nullptr) {
     const double r = constants.radius;
     const auto [sin_phi, cos_phi] = sin_cos(gimbal.phi);
@@ -69,7 +70,7 @@ struct Instant {
         coupled ? Vector3d(coupled->x_ddot, coupled->y_ddot, 0) : relative(phi, theta);
     const Vector3d centre_acceleration = in_plane + 2 * omega.cross(velocity) +
                                          omega_dot.cross(centre) + omega.cross(omega.cross(centre));
-    return constants.mass * (centre_acceleration + constants.gravity * up);
+    return constants.mass * (centre_acceleration + constants.gravity * up) - push;
   }
 
   // What the ball asks of the gimbal, about its centre.
@@ -100,6 +101,7 @@ struct Instant {
   const BallConstants& constants;
   const GimbalState& gimbal;
   const BallMotion& ball;
+  Vector3d push;                 // on the ball's centre, N
   const CoupledMotion* coupled;  // null where the ball rolls without losses
   Axis<double> phi, theta;
   Vector3d theta_axis, phi_axis, up;   // up: against gravity
@@ -134,6 +136,7 @@ Dynamics dynamics(const Sample& sample, const BallConstants& constants) {
                   constants.rolling.k / 2 * m * r * r * ball_omega.squaredNorm() +
                   m * g * now.centre.dot(now.up);
 
+  result.push_power = now.push.dot(centre_velocity);
   result.plate_torque_phi = now.plate_torque_phi();
   result.plate_torque_theta = now.plate_torque_theta();
   const Vector3d inertia(constants.plate_inertia.data());

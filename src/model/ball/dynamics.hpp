@@ -31,6 +31,7 @@ struct Dynamics {
   double plate_torque_phi = 0;    // motor torque that turns the plate itself, N m
   double plate_torque_theta = 0;  // N m
   double gimbal_energy = 0;       // of plate, ring and rotors, kinetic and potential, J
+  double push_power = 0;          // of the push on the ball, W
   CoupledMotion coupled{};        // all 0 where the ball rolls without losses
   Pair current{0, 0}, voltage{0, 0};  // of the motors, A and V
   [[nodiscard]] double normal_force() const { return force.z(); }

@@ -12,6 +12,7 @@
 #include "model/control/sampled_cycle.hpp"
 #include "model/control/transmission_zeros.hpp"
 #include "model/eigenvalues.hpp"
+#include "model/servo/linkages.hpp"
 #include "model/signals/reference_path.hpp"
 #include "scenario/coupled.hpp"
 #include "simd/gradient.hpp"
@@ -26,18 +27,48 @@ constexpr int angle = RigLayout::angle, rate = RigLayout::rate, integral = RigLa
 constexpr int spin = 4;
 constexpr int plant_size = RigLoop<>::size;
 
+// What links the servos to the plane, in the pieces that hold at a point; levelled, where home is.
+// Three servos are two ideal ones, as long as they are alike and follow what they are told.
+Linkages linkages_at(const Between& between, const LinearPoint& at) {
+  Linkages link = between.at_home();
+  for (std::size_t i = 0; i < between.linkages.size(); ++i) {
+    const Linkage& linkage = between.linkages[i];
+    if (!linkage.table) continue;
+    const auto piece = [&](double servo) {
+      return linkage.table->view().pieces[linkage.piece_at(0, servo, 1)];
+    };
+    link.of[i].piece = piece((at.state.data() + angle)[i]);
+    link.of[i].command_piece = piece(at.command[i]);
+  }
+  return at.home ? levelled(link) : link;
+}
+
+bool has_linkages(const Scenario& scene) {
+  return scene.gimbal.linkage[0] || scene.gimbal.linkage[1];
+}
+
 // The gimbal and the ball without a controller's law, whatever moves the gimbal: a law that hands
 // on its reference, u = reference - position.
-RigLoop<> plant_of(const Scenario& scene, bool level) {
-  ServoResponse servo;
+template <class Link>
+RigLoop<false, SignalPair, Link> plant_of(const Scenario& scene, const LinearPoint& at) {
+  bool level = at.home;
+  ServoResponses servo;
   RigMode mode;
+  Link link;
   if (scene.controller) {
     // As the loop has them.
     Scenario plain = scene;
     plain.controller->law = Law::pd;
-    const RigLoop<> loop = assemble_rig<false>(plain, {}).loop;
-    servo = loop.servo();
-    mode = loop.mode;
+    const auto built = assemble_rig<false, Link>(plain, {});
+    servo = built.loop.servo();
+    mode = built.loop.mode;
+    link = built.loop.link;
+    if constexpr (!Link::direct) {
+      link = linkages_at(built.rig.between, at);
+      for (LinkCurve& one : link.of) one.assumed = Assumed::none;
+    } else if (built.rig.between.three) {
+      for (int i = 0; i < 2; ++i) mode.axis[i].offset = built.rig.between.three->offset[i];
+    }
   } else {
     // A motion that is prescribed has the offsets in its angles.
     level = true;
@@ -46,7 +77,7 @@ RigLoop<> plant_of(const Scenario& scene, bool level) {
   ControlLaw law;
   law.kind = LawKind::linear;
   law.gain[0][0] = law.gain[1][1] = 1;
-  return {scene.ball.radius, scene.gravity, general_rolling(scene), law, servo, {}, mode};
+  return {scene.ball.radius, scene.gravity, general_rolling(scene), law, servo, {}, mode, link};
 }
 
 // Rates at a point, and what states and commands add to them.
@@ -55,7 +86,9 @@ struct PlantDerivatives {
   MatrixXd of_state, of_command;
 };
 
-PlantDerivatives differentiate_plant(const RigLoop<>& plant, const LinearPoint& at) {
+template <class Link>
+PlantDerivatives differentiate_plant(const RigLoop<false, SignalPair, Link>& plant,
+                                     const LinearPoint& at) {
   using Number = simd::WithGradient<plant_size + 2>;
   Number z[plant_size], dz[plant_size];
   for (int i = 0; i < plant_size; ++i) {
@@ -78,15 +111,27 @@ PlantDerivatives differentiate_plant(const RigLoop<>& plant, const LinearPoint& 
   return found;
 }
 
+PlantDerivatives differentiate_plant(const Scenario& scene, const LinearPoint& at) {
+  return has_linkages(scene) ? differentiate_plant(plant_of<Linkages>(scene, at), at)
+                             : differentiate_plant(plant_of<Direct>(scene, at), at);
+}
+
 // Of a loop in continuous time: what states and reference add to the rates, and states to the
 // commands. The reference's values, rates and accelerations, two of each.
 struct LoopDerivatives {
   MatrixXd of_state, of_reference, command_of_state;
 };
 
-template <bool integrates>
-LoopDerivatives differentiate_loop(const Scenario& scene, const LinearPoint& at) {
-  RigLoop<integrates> loop = assemble_rig<integrates>(scene, {}).loop;
+template <bool integrates, class Link>
+LoopDerivatives differentiate_loop_with(const Scenario& scene, const LinearPoint& at) {
+  const auto built = assemble_rig<integrates, Link>(scene, {});
+  auto loop = built.loop;
+  if constexpr (!Link::direct) loop.link = linkages_at(built.rig.between, at);
+  if constexpr (Link::direct) {
+    if (built.rig.between.three) {
+      for (int i = 0; i < 2; ++i) loop.mode.axis[i].offset = built.rig.between.three->offset[i];
+    }
+  }
   if (at.home) loop.mode = {};
   constexpr int n = RigLoop<integrates>::size;
   using Number = simd::WithGradient<n + 6>;
@@ -107,9 +152,15 @@ LoopDerivatives differentiate_loop(const Scenario& scene, const LinearPoint& at)
     found.of_reference.row(i) = dz[i].gradient.template tail<6>().transpose();
   }
   for (int i = 0; i < 2; ++i) {
-    found.command_of_state.row(i) = axes.command.value[i].gradient.template head<n>().transpose();
+    found.command_of_state.row(i) = loop.told(axes, i).gradient.template head<n>().transpose();
   }
   return found;
+}
+
+template <bool integrates>
+LoopDerivatives differentiate_loop(const Scenario& scene, const LinearPoint& at) {
+  return has_linkages(scene) ? differentiate_loop_with<integrates, Linkages>(scene, at)
+                             : differentiate_loop_with<integrates, Direct>(scene, at);
 }
 
 // The coordinates that move: by symmetry x goes with phi, and y with theta.
@@ -208,13 +259,14 @@ MatrixXd positions_of(Eigen::Index outputs, Eigen::Index states) {
 }
 
 Linearisation plant_about(const Scenario& scene, const Model& model, const LinearPoint& at) {
-  if (scene.gimbal.servo && scene.gimbal.servo->time_constant) {
+  if (scene.gimbal.servo &&
+      (scene.gimbal.servo->time_constant || scene.gimbal.servo_of(1).time_constant)) {
     throw InputError(
         "linearize: found --plant and a servo of first order (gimbal.servo.time_constant), whose "
         "rate jumps with its command; allowed: --sampled, or --loop");
   }
   const std::vector<int> axes = axes_of(model);
-  const PlantDerivatives plant = differentiate_plant(plant_of(scene, at.home), at);
+  const PlantDerivatives plant = differentiate_plant(scene, at);
   const std::vector<int> states = states_of(plant.of_state, axes);
   Linearisation made;
   LinearSystem& system = made.system;
@@ -277,7 +329,7 @@ Linearisation continuous_loop_about(const Scenario& scene, const Model& model,
   const bool integrates = integrates_error(scene);
   const LoopDerivatives loop =
       integrates ? differentiate_loop<true>(scene, at) : differentiate_loop<false>(scene, at);
-  const PlantDerivatives plant = differentiate_plant(plant_of(scene, at.home), at);
+  const PlantDerivatives plant = differentiate_plant(scene, at);
   std::vector<int> states = states_of(loop.of_state, axes);
   for (const int axis : axes) {
     // Without an integral that nothing feels.
@@ -328,23 +380,8 @@ std::vector<int> cycle_states(const MatrixXd& of_state) {
   return states;
 }
 
-CycleParts cycle_parts_about(const Scenario& scene, const LinearPoint& at,
-                             std::vector<int>& states) {
-  const RigLoop<> loop = plant_of(scene, at.home);
-  const PlantDerivatives plant = differentiate_plant(loop, at);
-  states = cycle_states(plant.of_state);
-  CycleParts parts;
-  parts.a = plant.of_state(states, states);
-  parts.b = plant.of_command(states, Eigen::all);
-  MatrixXd jump = MatrixXd::Zero(plant_size, 2);
-  for (int i = 0; i < 2; ++i) {
-    const auto kick = loop.impulse(at.state.data(), i == 0 ? 1 : 0, i == 0 ? 0 : 1);
-    for (int j = 0; j < 3; ++j) jump(2 + j, i) = kick[static_cast<std::size_t>(j)];
-    jump(rate + i, i) = 1;
-  }
-  parts.jump = jump(states, Eigen::all);
-
-  const Rig rig = assemble_rig<false>(scene, {}).rig;
+// What the law has to do with, at a point: what is fed back, as the controller knows it.
+Feedback<double> feedback_at(const Rig& rig, const LinearPoint& at) {
   Feedback<double> fed{};
   for (int i = 0; i < 2; ++i) {
     const auto state = [&](int place) { return (at.state.data() + place)[i]; };
@@ -354,8 +391,70 @@ CycleParts cycle_parts_about(const Scenario& scene, const LinearPoint& at,
     fed.rate[i] = state(rate);
     fed.integral[i] = state(integral);
   }
-  parts.take_controller(rig, linear_law(rig.sampled->law, fed, at.reference));
+  if (rig.sampled && !rig.sampled->sensor.is_aligned()) {
+    const Sensor& sensor = rig.sampled->sensor;
+    const Eigen::Vector2d p = seen_matrix(sensor) * Eigen::Vector2d(fed.position),
+                          v = seen_matrix(sensor) * Eigen::Vector2d(fed.velocity);
+    for (int i = 0; i < 2; ++i) {
+      fed.position[i] = p[i] + sensor.offset[static_cast<std::size_t>(i)];
+      fed.velocity[i] = v[i];
+    }
+  }
+  if (!at.home && !rig.between.linkages.empty()) {
+    double known[4];
+    rig.between.believed(fed.angle, fed.rate, known);
+    std::copy_n(known, 2, fed.angle);
+    std::copy_n(known + 2, 2, fed.rate);
+  }
+  return fed;
+}
+
+template <class Link>
+CycleParts cycle_parts_with(const Scenario& scene, const LinearPoint& at,
+                            std::vector<int>& states) {
+  const auto loop = plant_of<Link>(scene, at);
+  const PlantDerivatives plant = differentiate_plant(loop, at);
+  states = cycle_states(plant.of_state);
+  CycleParts parts;
+  parts.a = plant.of_state(states, states);
+  parts.b = plant.of_command(states, Eigen::all);
+  MatrixXd jump = MatrixXd::Zero(plant_size, 2);
+  for (int i = 0; i < 2; ++i) {
+    std::array<double, RigLoop<true>::size> kicked = at.state;
+    for (int j = 0; j < 2; ++j) (kicked.data() + rate)[j] = i == j ? 1 : 0;
+    const auto rates = loop.plane_rates(kicked.data());
+    const auto kick = loop.impulse(at.state.data(), rates[0], rates[1]);
+    for (int j = 0; j < 3; ++j) jump(2 + j, i) = kick[static_cast<std::size_t>(j)];
+    jump(rate + i, i) = 1;
+  }
+  parts.jump = jump(states, Eigen::all);
+
+  const Rig rig = assemble_rig<false, Link>(scene, {}).rig;
+  parts.take_controller(rig, linear_law(rig.sampled->law, feedback_at(rig, at), at.reference));
+  if constexpr (!Link::direct) {
+    double of_command[2], of_angle[2];
+    for (int i = 0; i < 2; ++i) {
+      const LinkCurve& curve = loop.link.of[i];
+      const bool exact =
+          rig.between.linkages[static_cast<std::size_t>(i)].curve.assumed == Assumed::exact;
+      LinkCurve commanded = curve;
+      commanded.piece = curve.command_piece;
+      of_command[i] =
+          exact ? commanded.plain_turn(at.command[static_cast<std::size_t>(i)]).slope : curve.slope;
+      of_angle[i] = exact ? curve.plain_turn((at.state.data() + angle)[i]).slope : curve.slope;
+      if (rig.between.linkages[static_cast<std::size_t>(i)].curve.kind == LinkCurve::Kind::ideal) {
+        of_command[i] = of_angle[i] = 1;
+      }
+    }
+    parts.link_controller(of_command, of_angle);
+  }
   return parts;
+}
+
+CycleParts cycle_parts_about(const Scenario& scene, const LinearPoint& at,
+                             std::vector<int>& states) {
+  return has_linkages(scene) ? cycle_parts_with<Linkages>(scene, at, states)
+                             : cycle_parts_with<Direct>(scene, at, states);
 }
 
 std::vector<LinearSignal> signals_of_cycle(const Scenario& scene, const std::vector<int>& states,
@@ -460,11 +559,10 @@ Pair resting_command(const Scenario& scene, const LinearPoint& at) {
 
 // Turns the gimbal to where the plane is level.
 void turn_level(const Scenario& scene, LinearPoint& point) {
-  const RigLoop<> plant = plant_of(scene, false);
   const bool by_angle = scene.controller && scene.controller->drives == Drives::angle;
   for (int i = 0; i < 50; ++i) {
     point.command = resting_command(scene, point);
-    const PlantDerivatives at = differentiate_plant(plant, point);
+    const PlantDerivatives at = differentiate_plant(scene, point);
     const Eigen::Vector2d fall = at.rates.segment<2>(2);
     if (fall.norm() <= 1e-15 * scene.gravity) return;
     Eigen::Matrix2d slope = at.of_state.block<2, 2>(2, angle);
@@ -484,7 +582,18 @@ void turn_level(const Scenario& scene, LinearPoint& point) {
 }
 
 // Where the law's command is the one under which the gimbal rests: position, and integrals.
-void place_ball(const ControlLaw& law, LinearPoint& point) {
+void place_ball(const Rig& rig, const ControlLaw& law, LinearPoint& point) {
+  // The law's own command for that, where a linkage is between.
+  Pair asked = point.command;
+  if (!rig.between.linkages.empty()) {
+    const double none[2] = {0, 0};
+    double known[4];
+    rig.between.believed(point.command.data(), none, known);
+    asked = {known[0], known[1]};
+  }
+  Eigen::Matrix2d seen = Eigen::Matrix2d::Identity();
+  if (rig.sampled) seen = seen_matrix(rig.sampled->sensor);
+
   std::vector<int> unknowns{0, 1};
   std::vector<int> integrated;
   for (int j = 0; j < 2; ++j) {
@@ -494,24 +603,21 @@ void place_ball(const ControlLaw& law, LinearPoint& point) {
   }
   const Eigen::Index n = std::ssize(unknowns);
   for (int i = 0; i < 50; ++i) {
-    Feedback<double> fed{};
-    for (int j = 0; j < 2; ++j) {
-      fed.position[j] = point.state[static_cast<std::size_t>(j)];
-      fed.angle[j] = (point.state.data() + angle)[j];
-      fed.integral[j] = (point.state.data() + integral)[j];
-    }
+    Feedback<double> fed = feedback_at(rig, point);
+    for (int j = 0; j < 2; ++j) fed.velocity[j] = fed.rate[j] = 0;
     const auto plain = [](int, double raw) { return raw; };
     const Command<double> u = command(law, fed, point.reference, plain);
     const LinearLaw linear = linear_law(law, fed, point.reference);
     VectorXd left = VectorXd::Zero(n);
     MatrixXd slope = MatrixXd::Zero(n, n);
-    for (int j = 0; j < 2; ++j) left[j] = u.value[j] - point.command[static_cast<std::size_t>(j)];
+    for (int j = 0; j < 2; ++j) left[j] = u.value[j] - asked[static_cast<std::size_t>(j)];
     slope.topRows(2) = linear.of_feedback(Eigen::all, unknowns);
+    slope.topLeftCorner(2, 2) = (slope.topLeftCorner(2, 2) * seen).eval();
     for (std::size_t k = 0; k < integrated.size(); ++k) {
       const auto row = static_cast<Eigen::Index>(2 + k);
       left[row] = fed.position[integrated[k]] -
                   point.reference[static_cast<std::size_t>(integrated[k])].value;
-      slope(row, integrated[k]) = 1;
+      slope.row(row).head<2>() = seen.row(integrated[k]);
     }
     const Eigen::FullPivLU<MatrixXd> factors(slope);
     if (!factors.isInvertible()) break;
@@ -531,8 +637,8 @@ void place_ball(const ControlLaw& law, LinearPoint& point) {
 void require_known(const Scenario& scene) {
   if (!scenario::is_coupled(scene)) return;
   throw InputError(
-      "linearize: found losses, sliding or torques, whose equations it does not differentiate; "
-      "allowed: scenes without them. bbsim check shows the poles of these");
+      "linearize: found losses, sliding, a push or torques, whose equations it does not "
+      "differentiate; allowed: scenes without them. bbsim check shows the poles of these");
 }
 
 }  // namespace
@@ -559,10 +665,15 @@ LinearPoint equilibrium(const Scenario& scene) {
   }
   const AssembledRig<false> built = assemble_rig<false>(scene, {});
   const ControlLaw& law = built.rig.sampled ? built.rig.sampled->law : built.loop.law();
-  place_ball(law, point);
-  const double limit = command_limit(*scene.controller).value_or(unlimited);
-  for (const double command : point.command) {
-    if (std::abs(command) > limit) {
+  place_ball(built.rig, law, point);
+  double asked[4] = {point.command[0], point.command[1], 0, 0};
+  if (!built.rig.between.linkages.empty()) {
+    const double none[2] = {0, 0};
+    built.rig.between.believed(point.command.data(), none, asked);
+  }
+  for (std::size_t i = 0; i < 2; ++i) {
+    const double limit = command_limit(*scene.controller, i).value_or(unlimited);
+    if (std::abs(asked[i]) > limit) {
       throw InputError(
           "linearize: there is no equilibrium: the command that keeps the plane level is beyond "
           "controller.limit");

@@ -14,6 +14,11 @@ double rounded_to(double value, double resolution) {
 
 std::optional<Pair> BallSensor::read(Pair position) {
   Pair seen = position;
+  if (!sensor_.is_aligned()) {
+    const double c = std::cos(sensor_.rotation), s = std::sin(sensor_.rotation);
+    seen = {sensor_.scale[0] * (c * position[0] - s * position[1]) + sensor_.offset[0],
+            sensor_.scale[1] * (s * position[0] + c * position[1]) + sensor_.offset[1]};
+  }
   bool missed = false;
   // Each sample draws alike, whatever it sees, so that runs with one seed have one noise.
   if (sensor_.noise > 0) {
@@ -50,8 +55,10 @@ Pair SampledController::law_output(const double (&servo)[4],
                                {servo[2], servo[3]},
                                {integral_[0], integral_[1]}};
   const bool of_sine = loop_.law.kind == LawKind::gravity_compensation;
-  const double highest = of_sine ? std::sin(loop_.limit) : unlimited;
-  const auto limited = [highest](int, double raw) { return std::clamp(raw, -highest, highest); };
+  const auto limited = [&](int i, double raw) {
+    if (!of_sine) return raw;
+    return std::clamp(raw, std::sin(loop_.limit[i].low), std::sin(loop_.limit[i].high));
+  };
   const Command<double> u = model::command(loop_.law, state, reference, limited);
   return {u.value[0], u.value[1]};
 }
@@ -73,7 +80,9 @@ Pair SampledController::command(const std::optional<Pair>& seen, const double (&
     for (std::size_t i = 0; i < 2; ++i) {
       const double push = loop_.law.integral[i][j] * e;
       integrates = integrates || loop_.law.integral[i][j] != 0;
-      grows_beyond = grows_beyond || (std::abs(before[i]) > loop_.limit && push * before[i] > 0);
+      const CommandRange& limit = loop_.limit[i];
+      const bool beyond = before[i] > limit.high || before[i] < limit.low;
+      grows_beyond = grows_beyond || (beyond && push * before[i] > 0);
     }
     if (!grows_beyond) integral_[j] += e * elapsed;
   }
@@ -82,13 +91,32 @@ Pair SampledController::command(const std::optional<Pair>& seen, const double (&
 }
 
 Pair SampledController::within_limits(Pair command) const {
-  // The largest step of the command that the limit lets through.
+  for (std::size_t i = 0; i < 2; ++i) {
+    command[i] = std::clamp(command[i], loop_.limit[i].low, loop_.limit[i].high);
+  }
+  return loop_.between.none() ? in_steps(command, loop_.limit) : command;
+}
+
+// The nearest multiple of the resolution that is within the range; the largest one that the range
+// lets through, where that is beyond.
+Pair SampledController::in_steps(Pair command, const CommandRange (&within)[2]) const {
   const double step = loop_.sampling.resolution;
-  const double most = step > 0 && loop_.limit < unlimited
-                          ? std::floor(loop_.limit / step * (1 + 1e-12)) * step
-                          : loop_.limit;
-  for (double& one : command) one = rounded_to(std::clamp(one, -most, most), step);
+  if (!(step > 0)) return command;
+  for (std::size_t i = 0; i < 2; ++i) {
+    const auto inward = [step](double limit) {
+      return limit < unlimited ? std::floor(limit / step * (1 + 1e-12)) * step : limit;
+    };
+    const double most = inward(within[i].high), least = -inward(-within[i].low);
+    command[i] = rounded_to(std::clamp(command[i], least, most), step);
+  }
   return command;
+}
+
+std::array<double, 3> SampledController::told(Pair command) const {
+  if (loop_.between.none()) return {command[0], command[1], 0};
+  std::array<double, 3> servo = loop_.between.told(command);
+  for (double& one : servo) one = rounded_to(one, loop_.sampling.resolution);
+  return servo;
 }
 
 }  // namespace bbsim::model

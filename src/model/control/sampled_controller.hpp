@@ -14,7 +14,7 @@ class BallSensor {
  public:
   explicit BallSensor(const Sensor& sensor) : sensor_(sensor), noise_(sensor.seed) {}
 
-  // What it says of a ball at (x, y), m; nothing if it misses it.
+  // What it says of a ball at (x, y), m, from where it stands; nothing if it misses it.
   [[nodiscard]] std::optional<Pair> read(Pair position);
 
   // What of it changes over a run (base/archive.hpp): how far its noise is drawn.
@@ -44,6 +44,10 @@ class SampledController {
   // What is left of a command: the nearest multiple of its resolution, within its limit.
   [[nodiscard]] Pair within_limits(Pair command) const;
 
+  // What the servos are told for such a command: itself, or what the linkage makes of it, in steps
+  // of the resolution. Two, or three.
+  [[nodiscard]] std::array<double, 3> told(Pair command) const;
+
   // What it saw last; before the first sample, (0, 0).
   [[nodiscard]] Pair last_seen() const { return position_; }
 
@@ -54,6 +58,7 @@ class SampledController {
   }
 
  private:
+  [[nodiscard]] Pair in_steps(Pair command, const CommandRange (&within)[2]) const;
   void estimate_velocity(Pair seen, double elapsed);
   [[nodiscard]] Pair law_output(const double (&servo)[4],
                                 const std::array<Jet<double>, 2>& reference) const;

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <deque>
 #include <tuple>
+#include <type_traits>
 #include <unsupported/Eigen/MatrixFunctions>
 #include <utility>
 
@@ -25,6 +26,17 @@ constexpr std::array places{0, 1, 2, 3, 5, 6, 7, 8};
 
 template <bool integrates>
 RigLoop<integrates> held(const RigLoop<integrates>& loop) {
+  return {loop.radius(), loop.gravity(), loop.rolling(), ControlLaw{}, loop.servo(), {}};
+}
+
+// With a plane that is level at home, where a linkage's own angle may not be 0.
+RigLoop<true, SignalPair, Linkages> held(const RigLoop<true, SignalPair, Linkages>& loop) {
+  return {loop.radius(),      loop.gravity(), loop.rolling(), ControlLaw{}, loop.servo(), {}, {},
+          levelled(loop.link)};
+}
+
+// Three servos, about home, are two ideal ones.
+RigLoop<true> held(const RigLoop<true, SignalPair, ThreeServos>& loop) {
   return {loop.radius(), loop.gravity(), loop.rolling(), ControlLaw{}, loop.servo(), {}};
 }
 
@@ -73,7 +85,7 @@ void CycleParts::take_controller(const Rig& rig, const LinearLaw& law) {
   sampling = rig.sampled->sampling;
   sensor = rig.sampled->sensor;
   integrates = rig.sampled->law.integrates();
-  time_constant = rig.time_constant;
+  for (int i = 0; i < 2; ++i) time_constant[i] = rig.servo[i].time_constant;
 }
 
 SampledCycle::SampledCycle(CycleParts parts) : parts_(std::move(parts)) {
@@ -169,15 +181,23 @@ void SampledCycle::advance(Parts& of, int i) const {
 }
 
 void SampledCycle::expose(Parts& of) const {
-  of.exposures.emplace_back(of.plant.head<2>());
+  const Vector2 at = of.plant.head<2>();
+  if (parts_.sensor.is_aligned()) {
+    of.exposures.push_back(at);
+  } else {
+    of.exposures.emplace_back(seen_matrix(parts_.sensor) * at);
+  }
 }
 
 void SampledCycle::apply(Parts& of) const {
   of.held = of.commands.front();
   of.commands.pop_front();
-  if (!parts_.time_constant) return;
-  const Vector2 rate = (of.held - of.plant.segment<2>(4)) / *parts_.time_constant;
-  of.plant += (parts_.jump * (rate - of.plant.segment<2>(6))).eval();
+  Vector2 jump = Vector2::Zero();
+  for (Eigen::Index i = 0; i < 2; ++i) {
+    if (!parts_.time_constant[i]) continue;
+    jump[i] = (of.held[i] - of.plant[4 + i]) / *parts_.time_constant[i] - of.plant[6 + i];
+  }
+  if (parts_.time_constant[0] || parts_.time_constant[1]) of.plant += (parts_.jump * jump).eval();
 }
 
 SampledCycle::Output SampledCycle::run(const VectorXd& state, const Input& input) const {
@@ -228,15 +248,48 @@ LinearPlant linear_plant(const RigLoop<>& loop) {
   return about_home(plain, plain.mode, {places.begin(), places.end()});
 }
 
-LinearPlant linear_plant(const CoupledLoop<>& loop) {
+namespace {
+
+template <class Link, class Held>
+LinearPlant coupled_plant(const CoupledLoop<SignalPair, Link>& loop, Held held_loop) {
   CoupledParts parts = loop.parts;
   parts.contact = {};
-  CoupledLoop<> plain(parts, loop.by, loop.motor, held(loop.loop));
+  CoupledLoop plain(parts, loop.by, loop.motor, std::move(held_loop));
   std::vector<int> of(places.begin(), places.end());
   if (loop.motor.from_integral != 0) {
     of.insert(of.end(), {CoupledLoopLayout::motor, CoupledLoopLayout::motor + 1});
   }
   return about_home(plain, plain.loop.mode, of);
+}
+
+}  // namespace
+
+LinearPlant linear_plant(const CoupledLoop<>& loop) {
+  return coupled_plant(loop, held(loop.loop));
+}
+
+LinearPlant linear_plant(const CoupledLoop<SignalPair, Linkages>& loop) {
+  return coupled_plant(loop, held(loop.loop));
+}
+
+LinearPlant linear_plant(const CoupledLoop<SignalPair, ThreeServos>& loop) {
+  return coupled_plant(loop, held(loop.loop));
+}
+
+Eigen::Matrix2d seen_matrix(const Sensor& sensor) {
+  const double c = std::cos(sensor.rotation), s = std::sin(sensor.rotation);
+  Eigen::Matrix2d matrix;
+  matrix << sensor.scale[0] * c, -sensor.scale[0] * s, sensor.scale[1] * s, sensor.scale[1] * c;
+  return matrix;
+}
+
+Linkages levelled(const Linkages& link) {
+  Linkages level = link;
+  for (LinkCurve& one : level.of) {
+    const Turn<double> home = one.plain_turn(0.0);
+    one.set_offsets(0, std::atan2(home.sin, home.cos));
+  }
+  return level;
 }
 
 LinearPlant after(const LinearPlant& plant, double time) {
@@ -265,22 +318,44 @@ Eigen::Matrix<double, 2, 8> lqr_gain(const LinearPlant& plant, const LqrWeights&
 namespace {
 
 // The plant's first eight states are those of LinearPlant, and `loop` kicks the ball as it does.
-template <bool integrates>
-CycleParts parts_of(const LinearPlant& plant, const RigLoop<integrates>& loop, const Rig& rig) {
+template <bool integrates, class Link>
+CycleParts parts_of(const LinearPlant& plant, const RigLoop<integrates, SignalPair, Link>& loop,
+                    const Rig& rig) {
+  using Loop = RigLoop<integrates, SignalPair, Link>;
   CycleParts parts;
   parts.a = plant.a;
   parts.b = plant.b;
   parts.jump = MatrixXd::Zero(plant.a.rows(), 2);
-  const double home[RigLoop<integrates>::size] = {};
   for (int i = 0; i < 2; ++i) {
-    const auto kick = loop.impulse(home, i == 0 ? 1 : 0, i == 0 ? 0 : 1);
-    parts.jump.col(i).head<8>() << 0, 0, kick[0], kick[1], 0, 0, i == 0 ? 1 : 0, i == 0 ? 0 : 1;
+    double home[Loop::size] = {};
+    home[Loop::Layout::rate + i] = 1;
+    const auto rates = loop.plane_rates(home);
+    home[Loop::Layout::rate + i] = 0;
+    const auto kick = loop.impulse(home, rates[0], rates[1]);
+    parts.jump.col(i).template head<8>() << 0, 0, kick[0], kick[1], 0, 0, i == 0 ? 1 : 0,
+        i == 0 ? 0 : 1;
   }
   parts.take_controller(rig, linear_law(rig.sampled->law, {}, {}));
+  if constexpr (std::is_same_v<Link, Linkages>) {
+    double slope[2];
+    for (int i = 0; i < 2; ++i) slope[i] = loop.link.of[i].slope;
+    parts.link_controller(slope, slope);
+  }
   return parts;
 }
 
 }  // namespace
+
+void CycleParts::link_controller(const double (&of_command)[2], const double (&of_angle)[2]) {
+  for (int i = 0; i < 2; ++i) {
+    of_feedback.col(4 + i) *= of_angle[i];
+    of_feedback.col(6 + i) *= of_angle[i];
+  }
+  for (int i = 0; i < 2; ++i) {
+    of_feedback.row(i) /= of_command[i];
+    of_reference.row(i) /= of_command[i];
+  }
+}
 
 CycleParts cycle_parts(const RigLoop<>& loop, const Rig& rig) {
   const RigLoop<> plain = held(loop);
@@ -293,24 +368,33 @@ Eigenvalues sampled_poles(const RigLoop<>& loop, const Rig& rig) {
 }
 
 Eigenvalues sampled_poles(const Model& model) {
-  if (const auto* loop = std::get_if<CoupledLoop<>>(&model.system)) {
-    if (model.rig->sampled->law.kind == LawKind::held) return {};
-    return poles_of_period(
-        SampledCycle(parts_of(linear_plant(*loop), held(loop->loop), *model.rig)).map());
-  }
-  return sampled_poles(std::get<RigLoop<>>(model.system), *model.rig);
+  return std::visit(
+      [&](const auto& any) -> Eigenvalues {
+        using Any = std::decay_t<decltype(any)>;
+        if constexpr (is_coupled_loop<Any>) {
+          if (model.rig->sampled->law.kind == LawKind::held) return {};
+          return poles_of_period(
+              SampledCycle(parts_of(linear_plant(any), held(any.loop), *model.rig)).map());
+        } else if constexpr (std::is_same_v<Any, RigLoop<>>) {
+          return sampled_poles(any, *model.rig);
+        } else {
+          return {};
+        }
+      },
+      model.system);
 }
 
 Eigenvalues plant_poles(const Model& model) {
-  const auto* const coupled = std::get_if<CoupledLoop<>>(&model.system);
-  Eigenvalues poles =
-      eigenvalues_of((coupled != nullptr ? linear_plant(*coupled)
-                                         : linear_plant(std::get<RigLoop<>>(model.system)))
-                         .a);
-  std::sort(poles.begin(), poles.end(), [](const auto& a, const auto& b) {
-    return a.real() != b.real() ? a.real() > b.real() : a.imag() > b.imag();
-  });
-  return poles;
+  return std::visit(
+      [](const auto& any) -> Eigenvalues {
+        using Any = std::decay_t<decltype(any)>;
+        if constexpr (is_coupled_loop<Any> || std::is_same_v<Any, RigLoop<>>) {
+          return sorted_eigenvalues(linear_plant(any).a);
+        } else {
+          return {};
+        }
+      },
+      model.system);
 }
 
 Eigenvalues poles_of_period(const MatrixXd& map) {

@@ -22,8 +22,12 @@ struct LinearPlant {
 };
 
 [[nodiscard]] LinearPlant linear_plant(const RigLoop<>& loop);
-// Without what is dry.
+// Without what is dry, and under the servos' commands.
 [[nodiscard]] LinearPlant linear_plant(const CoupledLoop<>& loop);
+[[nodiscard]] LinearPlant linear_plant(const CoupledLoop<SignalPair, Linkages>& loop);
+// Of three servos together, which about home do what two ideal ones would: under commands of phi
+// and theta.
+[[nodiscard]] LinearPlant linear_plant(const CoupledLoop<SignalPair, ThreeServos>& loop);
 
 // z and u after `time` (s) under a constant command: z(time) = a z + b u.
 [[nodiscard]] LinearPlant after(const LinearPlant& plant, double time);
@@ -44,14 +48,23 @@ struct CycleParts {
   // and of the reference's values, rates and accelerations.
   Eigen::Matrix<double, 2, 10> of_feedback = Eigen::Matrix<double, 2, 10>::Zero();
   Eigen::Matrix<double, 2, 6> of_reference = Eigen::Matrix<double, 2, 6>::Zero();
-  Sampling sampling;
-  Sensor sensor;
+  Sampling sampling;  // whose period is the nominal one
+  Sensor sensor;      // which looks for each sample, whatever its frames
   bool integrates = false;
-  std::optional<double> time_constant{};  // of a servo of first order, s
+  std::optional<double> time_constant[2]{};  // of servos of first order, s
 
   // All but the plant: the rig's controller, whose law is near this one.
   void take_controller(const Rig& rig, const LinearLaw& law);
+  // The law's commands are of the plane's angles, and what it feeds back are: such slopes of the
+  // plane's angles over the servos' has a linkage where it is commanded, and where it is.
+  void link_controller(const double (&of_command)[2], const double (&of_angle)[2]);
 };
+
+// What a sensor says of a position, as a matrix; without its offset.
+[[nodiscard]] Eigen::Matrix2d seen_matrix(const Sensor& sensor);
+
+// A linkage under a plane that is level at home.
+[[nodiscard]] Linkages levelled(const Linkages& link);
 
 // One period of a sampled loop, linear: from one sample to the next. Of its state, in this order:
 // the plant's; what was seen and not yet sampled; the position and velocity that the controller

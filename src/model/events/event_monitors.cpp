@@ -5,6 +5,7 @@
 #include <limits>
 #include <numbers>
 
+#include "model/servo/linkages.hpp"
 #include "scenario/coupled.hpp"
 
 namespace bbsim::model {
@@ -21,6 +22,8 @@ const char* Monitor::name() const {
       return "tilt";
     case Kind::singularity:
       return "singularity";
+    case Kind::dead_point:
+      return "dead_point";
   }
   return "";
 }
@@ -70,6 +73,9 @@ void EventMonitors::margins(const Sample& sample, double* values) const {
       case Kind::singularity:
         value = singularity_distance(sample, constants) - monitor.limit;
         break;
+      case Kind::dead_point:
+        value = sample.to_dead_point;
+        break;
     }
   }
 }
@@ -99,6 +105,8 @@ EventMonitors event_monitors(const Scenario& scene) {
     const SingularityEvent guard = events.singularity.value_or(SingularityEvent{});
     list.monitors.push_back({Kind::singularity, guard.action, guard.distance});
   }
+  // There is no motion beyond it.
+  if (is_linked(scene)) list.monitors.push_back({Kind::dead_point, OnEvent::stop});
   return list;
 }
 

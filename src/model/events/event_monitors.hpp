@@ -11,7 +11,7 @@ namespace bbsim::model {
 
 // Something that is watched: `margin` falls through zero when it happens.
 struct Monitor {
-  enum class Kind { edge, slip, lift_off, tilt, singularity };
+  enum class Kind { edge, slip, lift_off, tilt, singularity, dead_point };
   Kind kind;
   OnEvent action;
   double limit = 0;  // friction coefficient, angle, or distance
@@ -33,6 +33,8 @@ struct EventMonitors {
   [[nodiscard]] double edge_margin(const Sample& sample) const;
 };
 
+// Those that the scene asks for, and those that it has to have. A linkage that has dead points is
+// watched for them.
 [[nodiscard]] EventMonitors event_monitors(const Scenario& scene);
 
 }  // namespace bbsim::model

@@ -17,8 +17,9 @@ class ServoAxis {
  public:
   static constexpr int guards = 8;
 
-  ServoAxis(const Rig& rig, const ServoResponse& response, double offset)
-      : rig_(&rig), response_(response), offset_(offset) {}
+  // The offset of `servo` is where the plane, or the horn, is at its zero.
+  ServoAxis(const RigServo& servo, const ServoResponse& response)
+      : rig_(&servo), response_(response), offset_(servo.offset) {}
 
   // The command that the servo follows after it got this one: nearer to the last one than the dead
   // band it is not followed.
@@ -58,7 +59,7 @@ class ServoAxis {
   // order, what the rate would be beyond the present one.
   [[nodiscard]] double push(const AxisState& state) const;
 
-  const Rig* rig_;
+  const RigServo* rig_;
   ServoResponse response_;
   double offset_;
   Motion motion_ = Motion::free;

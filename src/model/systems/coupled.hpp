@@ -6,6 +6,7 @@
 #include <cstring>
 
 #include "model/ball/newton_euler.hpp"
+#include "model/servo/three_servos.hpp"
 #include "model/systems/rig_loop.hpp"
 
 namespace bbsim::model {
@@ -29,7 +30,7 @@ struct MotorLaw {
 // What a coupled scene does at an instant, in full.
 template <class Real>
 struct Balance {
-  Real acceleration[2];  // of the axes, rad/s^2
+  Real acceleration[most_servos];  // of the axes, or of the servos, rad/s^2
   Answer<Real> answer;
   Real p[2], slip[2];       // velocities, m/s
   Real asked[2], given[2];  // of the motors, N m; of a gimbal that no torques move, what it takes
@@ -104,14 +105,59 @@ void put_rates(const Balance<Real>& now, const Real* z, Real* dz) {
   dz[Layout::work] = now.work_power;
 }
 
+// What a scene with a push on the ball has from outside: the gimbal's part, and the push, N.
+template <class Time>
+struct PushedInputs {
+  std::array<Jet<Time>, 2> of;
+  Time push[2];
+};
+
+template <class Time>
+[[nodiscard]] const std::array<Jet<Time>, 2>& of_gimbal(const std::array<Jet<Time>, 2>& in) {
+  return in;
+}
+template <class Time>
+[[nodiscard]] const std::array<Jet<Time>, 2>& of_gimbal(const PushedInputs<Time>& in) {
+  return in.of;
+}
+
+// Nothing pushes: no time is spent on it.
+struct NoPush {
+  static constexpr bool pushes = false;
+};
+template <class Signals>
+struct Push {
+  static constexpr bool pushes = true;
+  Signals on{};  // along the plane's axes, N
+
+  template <class Time>
+  [[nodiscard]] PushedInputs<Time> with(const std::array<Jet<Time>, 2>& of, const Time& t) const {
+    const auto now = on.at(t);
+    return {of, {now[0].value, now[1].value}};
+  }
+};
+
+// A push on the ball's centre is a cause like gravity: the contact gives what else it takes.
+template <class Real, class In>
+void add_push(const CoupledBall& ball, const In& in, Cause<Real>& cause) {
+  if constexpr (requires { in.push; }) {
+    for (int i = 0; i < 2; ++i) {
+      cause.rest[i] = cause.rest[i] - Real((1 / ball.m) * in.push[i]);
+    }
+  }
+}
+
 struct CoupledGivenLayout : BallLayout<Shape::full> {
   static constexpr int slip = BallLayout<Shape::full>::size, lost = slip + 2, work = lost + 1;
   static constexpr int states = work + 1;
 };
 
 // The gimbal follows a given motion.
-template <class Signals = SignalPair>
+template <class Signals = SignalPair, bool pushes = false>
 class CoupledGiven {
+  template <class Of>
+  using PushOf = std::conditional_t<pushes, Push<Of>, NoPush>;
+
  public:
   using Layout = CoupledGivenLayout;
   static constexpr Shape moves = Shape::full;
@@ -122,13 +168,19 @@ class CoupledGiven {
   static constexpr auto motions =
       Motions<7>{{{0, 2}, {1, 3}, {-1, 4}, {-1, 5}, {-1, 6}, {-1, 7}, {-1, 8}}};
 
-  CoupledGiven(const CoupledParts& of, Signals motion) : parts(of), motion_(std::move(motion)) {}
+  CoupledGiven(const CoupledParts& of, Signals motion, PushOf<Signals> pushed = {})
+      : parts(of), push(std::move(pushed)), motion_(std::move(motion)) {}
 
   CoupledParts parts;
+  [[no_unique_address]] PushOf<Signals> push;
 
   template <class Time>
-  [[nodiscard]] std::array<Jet<Time>, 2> inputs(const Time& t) const {
-    return motion_.at(t);
+  [[nodiscard]] auto inputs(const Time& t) const {
+    if constexpr (pushes) {
+      return push.with(motion_.at(t), t);
+    } else {
+      return motion_.at(t);
+    }
   }
 
   template <class Time, class Real>
@@ -136,15 +188,23 @@ class CoupledGiven {
     derivative_of(inputs(t), z, dz);
   }
 
-  [[nodiscard]] CoupledGiven<SignalView> view() const { return {parts, motion_.view()}; }
+  [[nodiscard]] CoupledGiven<SignalView, pushes> view() const {
+    if constexpr (pushes) {
+      return {parts, motion_.view(), {push.on.view()}};
+    } else {
+      return {parts, motion_.view()};
+    }
+  }
 
-  template <class Time, class Real>
-  void derivative_of(const std::array<Jet<Time>, 2>& in, const Real* z, Real* dz) const {
+  template <class In, class Real>
+  void derivative_of(const In& in, const Real* z, Real* dz) const {
     put_rates<Layout>(balance(in, z), z, dz);
   }
 
-  template <class Time, class Real>
-  [[nodiscard]] Balance<Real> balance(const std::array<Jet<Time>, 2>& in, const Real* z) const {
+  template <class In, class Real>
+  [[nodiscard]] Balance<Real> balance(const In& inputs, const Real* z) const {
+    const auto& in = of_gimbal(inputs);
+    using Time = std::decay_t<decltype(in[0].value)>;
     const CoupledBall& of = parts.ball;
     const auto ball = Layout::unpack(z);
     Axis<Real> axis[2];
@@ -157,6 +217,7 @@ class CoupledGiven {
     Directions<Real> along;
     look_at_contact(parts.contact, ball, z + Layout::slip, now.p, now.slip, along);
     Cause<Real> cause = of.cause(plane, ball, now.p);
+    add_push(of, inputs, cause);
     for (int i = 0; i < 3; ++i) {
       cause.omega_dot[i] = cause.omega_dot[i] + plane.phi_axis[i] * axis[0].acceleration +
                            plane.theta_axis[i] * axis[1].acceleration;
@@ -182,7 +243,7 @@ class CoupledGiven {
       extras.rig.rate[i] = in[i].rate;
       extras.rig.acceleration[i] = in[i].acceleration;
     }
-    extras.motion = coupled_motion(balance(in, z), parts, z[Layout::lost], z[Layout::work]);
+    extras.motion = coupled_motion(balance(inputs(t), z), parts, z[Layout::lost], z[Layout::work]);
     return extras;
   }
 
@@ -190,6 +251,10 @@ class CoupledGiven {
     const RigExtras& rig = with.rig;
     Sample sample;
     sample.t = t;
+    if constexpr (pushes) {
+      const auto now = push.on.at(t);
+      sample.push = {now[0].value, now[1].value};
+    }
     sample.ball = ball_motion<Shape::full>(Layout::unpack(z), parts.ball.r);
     sample.gimbal = {rig.angle[0], rig.angle[1],        rig.rate[0],
                      rig.rate[1],  rig.acceleration[0], rig.acceleration[1]};
@@ -206,11 +271,13 @@ class CoupledGiven {
   Signals motion_;
 };
 
-struct CoupledLoopLayout : RigLayout {
-  static constexpr int motor = RigLayout::integral + 2, slip = motor + 2, lost = slip + 2,
+template <int servos>
+struct CoupledLayout : ServoLayout<servos> {
+  static constexpr int motor = ServoLayout<servos>::integral + 2, slip = motor + 2, lost = slip + 2,
                        work = lost + 1;
   static constexpr int states = work + 1;
 };
+using CoupledLoopLayout = CoupledLayout<2>;
 
 // How the gimbal of a CoupledLoop moves.
 enum class GimbalBy {
@@ -219,43 +286,50 @@ enum class GimbalBy {
   given_torques  // of motors, functions of time
 };
 
-// The gimbal moves under a controller, or by torques.
-template <class Signals = SignalPair>
+// The gimbal moves under a controller, or by torques. With anything between the servos and the
+// plane, or a push on the ball, it is one of those with a Link, which has both.
+template <class Signals = SignalPair, class Link = Direct>
 class CoupledLoop {
  public:
-  using Layout = CoupledLoopLayout;
+  static constexpr bool pushes = !Link::direct;
+  static constexpr int servos = Link::servos;
+  using Layout = CoupledLayout<servos>;
+  template <class Of>
+  using PushOf = std::conditional_t<pushes, Push<Of>, NoPush>;
   static constexpr Shape moves = Shape::full;
   static constexpr int size = Layout::states;
   static constexpr bool open_loop = false;
   static constexpr bool papers_rig = false;
   static constexpr bool steep = true;  // next to rest, where directions turn
-  static constexpr auto motions = Motions<13>{{{0, 2},
-                                               {1, 3},
-                                               {5, 7},
-                                               {6, 8},
-                                               {-1, 4},
-                                               {-1, 9},
-                                               {-1, 10},
-                                               {-1, 11},
-                                               {-1, 12},
-                                               {-1, 13},
-                                               {-1, 14},
-                                               {-1, 15},
-                                               {-1, 16}}};
+  static constexpr auto motions = [] {
+    Motions<11 + servos> all{};
+    int next = 0;
+    for (const Motion& one : {Motion{0, 2}, Motion{1, 3}}) all.of[next++] = one;
+    for (int i = 0; i < servos; ++i) all.of[next++] = {Layout::angle + i, Layout::rate + i};
+    all.of[next++] = {-1, 4};
+    for (int i = Layout::integral; i < size; ++i) all.of[next++] = {-1, i};
+    return all;
+  }();
 
   CoupledLoop(const CoupledParts& of, GimbalBy moved_by, const MotorLaw& law,
-              const RigLoop<true, Signals>& control)
-      : parts(of), by(moved_by), motor(law), loop(control) {}
+              const RigLoop<true, Signals, Link>& control, PushOf<Signals> pushed = {})
+      : parts(of), by(moved_by), motor(law), loop(control), push(std::move(pushed)) {}
 
   CoupledParts parts;
   GimbalBy by;
   MotorLaw motor;
   MotorMode motors[2]{};
-  RigLoop<true, Signals> loop;  // the law, and servos; torques, where it has none of the latter
+  RigLoop<true, Signals, Link>
+      loop;  // the law, and servos; torques, where it has none of the latter
+  [[no_unique_address]] PushOf<Signals> push;
 
   template <class Time>
-  [[nodiscard]] std::array<Jet<Time>, 2> inputs(const Time& t) const {
-    return loop.inputs(t);
+  [[nodiscard]] auto inputs(const Time& t) const {
+    if constexpr (pushes) {
+      return push.with(loop.inputs(t), t);
+    } else {
+      return loop.inputs(t);
+    }
   }
 
   template <class Time, class Real>
@@ -263,23 +337,28 @@ class CoupledLoop {
     derivative_of(inputs(t), z, dz);
   }
 
-  [[nodiscard]] CoupledLoop<SignalView> view() const {
-    CoupledLoop<SignalView> view{parts, by, motor, loop.view()};
+  [[nodiscard]] CoupledLoop<SignalView, Link> view() const {
+    typename CoupledLoop<SignalView, Link>::template PushOf<SignalView> pushed;
+    if constexpr (pushes) pushed.on = push.on.view();
+    CoupledLoop<SignalView, Link> view{parts, by, motor, loop.view(), pushed};
     view.motors[0] = motors[0];
     view.motors[1] = motors[1];
     view.integrates_ = integrates_;
     return view;
   }
 
-  template <class Time, class Real>
-  void derivative_of(const std::array<Jet<Time>, 2>& in, const Real* z, Real* dz) const {
+  template <class In, class Real>
+  void derivative_of(const In& inputs, const Real* z, Real* dz) const {
+    const auto& in = of_gimbal(inputs);
     Real command[2];
-    const Balance<Real> now = balance(in, z, command);
+    const Balance<Real> now = balance(inputs, z, command);
     put_rates<Layout>(now, z, dz);
-    for (int i = 0; i < 2; ++i) {
-      const AxisMode& of = loop.mode.axis[i];
+    for (int i = 0; i < servos; ++i) {
       dz[Layout::angle + i] = z[Layout::rate + i];
       dz[Layout::rate + i] = now.acceleration[i];
+    }
+    for (int i = 0; i < 2; ++i) {
+      const AxisMode& of = loop.mode.axis[i];
       dz[Layout::integral + i] =
           of.integrate * (integrates_ * (Real(in[static_cast<std::size_t>(i)].value) - z[i]));
       dz[Layout::motor + i] = (motor.from_integral != 0 ? motors[i].integrate : 0.0) *
@@ -287,16 +366,18 @@ class CoupledLoop {
     }
   }
 
-  template <class Time, class Real>
-  [[nodiscard]] Balance<Real> balance(const std::array<Jet<Time>, 2>& in, const Real* z) const {
+  template <class In, class Real>
+  [[nodiscard]] Balance<Real> balance(const In& in, const Real* z) const {
     Real command[2];
     return balance(in, z, command);
   }
 
   // The inertia that the motors feel at the present mode, H of equation (M47), kg m^2.
   [[nodiscard]] std::array<std::array<double, 2>, 2> inertia(const double* z) const {
-    const auto axes = plane_axes(z, Real2<double>{{0, 0}});
-    const PlaneMotion<double> plane = parts.ball.plane(axes.of[0], axes.of[1]);
+    const double none[servos] = {};
+    Axis<double> axes[2];
+    loop.planes(z, none, axes);
+    const PlaneMotion<double> plane = parts.ball.plane(axes[0], axes[1]);
     const auto ball = Layout::unpack(z);
     double p[2], s[2];
     Directions<double> along;
@@ -309,14 +390,12 @@ class CoupledLoop {
   }
 
   [[nodiscard]] CoupledExtras extras(double t, const double* z) const {
-    double command[2];
-    const Balance<double> now = balance(loop.reference().at(t), z, command);
+    double command[2], acceleration[servos];
+    const Balance<double> now = balance(all_inputs(t), z, command);
     CoupledExtras extras{};
+    std::copy_n(now.acceleration, servos, acceleration);
+    loop.fill(z, acceleration, extras.rig);
     for (int i = 0; i < 2; ++i) {
-      const AxisMode& of = loop.mode.axis[i];
-      extras.rig.angle[i] = of.ratio * z[Layout::angle + i] + of.offset;
-      extras.rig.rate[i] = of.ratio * z[Layout::rate + i];
-      extras.rig.acceleration[i] = of.ratio * now.acceleration[i];
       extras.rig.command[i] = by == GimbalBy::given_torques ? 0 : command[i];
     }
     extras.motion = coupled_motion(now, parts, z[Layout::lost], z[Layout::work]);
@@ -327,6 +406,13 @@ class CoupledLoop {
     Sample sample = loop.sample(t, z, with.rig);
     if (by == GimbalBy::given_torques) sample.reference = {0, 0};
     sample.coupled = with.motion;
+    if constexpr (pushes) {
+      const auto now = push.on.at(t);
+      sample.push = {now[0].value, now[1].value};
+      double horn[servos];
+      loop.horns(z, horn);
+      sample.to_dead_point = loop.link.margin(horn);
+    }
     return sample;
   }
   [[nodiscard]] Sample sample(double t, const double* z, Detail = Detail::all) const {
@@ -338,21 +424,13 @@ class CoupledLoop {
   void integrate_error(bool yes) { integrates_ = yes ? 1 : 0; }
 
  private:
-  template <class Real>
-  struct Real2 {
-    Real of[2];
-  };
-
-  template <class Real>
-  [[nodiscard]] Real2<Axis<Real>> plane_axes(const Real* z, const Real2<Real>& acceleration) const {
-    Real2<Axis<Real>> axes;
-    for (int i = 0; i < 2; ++i) {
-      const AxisMode& of = loop.mode.axis[i];
-      const SinCos<Real> wave = sin_cos(Real(of.ratio * z[Layout::angle + i] + Real(of.offset)));
-      axes.of[i] = {wave.sin, wave.cos, of.ratio * z[Layout::rate + i],
-                    of.ratio * acceleration.of[i]};
+  // With the reference, which the law does not ask for where its command is held.
+  [[nodiscard]] auto all_inputs(double t) const {
+    if constexpr (pushes) {
+      return push.with(loop.reference().at(t), t);
+    } else {
+      return loop.reference().at(t);
     }
-    return axes;
   }
 
   // Columns of H, each the moments that an axis' acceleration alone asks for.
@@ -371,32 +449,36 @@ class CoupledLoop {
     }
   }
 
-  template <class Time, class Real>
-  [[nodiscard]] Balance<Real> balance(const std::array<Jet<Time>, 2>& in, const Real* z,
-                                      Real (&command)[2]) const {
+  template <class In, class Real>
+  [[nodiscard]] Balance<Real> balance(const In& inputs, const Real* z, Real (&command)[2]) const {
+    const auto& in = of_gimbal(inputs);
     const CoupledBall& of = parts.ball;
     const auto ball = Layout::unpack(z);
     Balance<Real> now;
     Directions<Real> along;
     look_at_contact(parts.contact, ball, z + Layout::slip, now.p, now.slip, along);
 
-    Real2<Real> demand;
+    Real demand[servos];
     if (by == GimbalBy::given_torques) {
       for (std::size_t i = 0; i < 2; ++i) command[i] = Real(in[i].value);
     } else {
-      const RigAxes<Real> wanted = loop.axes(in, z);
-      for (int i = 0; i < 2; ++i) {
+      const RigAxes<Real, servos> wanted = loop.axes(in, z);
+      for (int i = 0; i < servos; ++i) {
         const AxisMode& mode = loop.mode.axis[i];
-        command[i] = wanted.command.value[i];
-        demand.of[i] = mode.demand_factor * wanted.demand[i] + Real(mode.set_acceleration);
+        demand[i] = mode.demand_factor * wanted.demand[i] + Real(mode.set_acceleration);
       }
+      for (int i = 0; i < 2; ++i) command[i] = loop.shown(wanted, i);
     }
     const bool driven = by != GimbalBy::servos;
-    if (driven) demand.of[0] = demand.of[1] = Real(0.0);
+    if (driven) {
+      for (Real& one : demand) one = Real(0.0);
+    }
 
-    const auto axes = plane_axes(z, demand);
-    const PlaneMotion<Real> plane = of.plane(axes.of[0], axes.of[1]);
+    Axis<Real> axes[2];
+    loop.planes(z, demand, axes);
+    const PlaneMotion<Real> plane = of.plane(axes[0], axes[1]);
     Cause<Real> cause = of.cause(plane, ball, now.p);
+    add_push(of, inputs, cause);
     Real own[2];
     for (int i = 0; i < 2; ++i) {
       own[i] = of.own_moment(i == 0 ? plane.phi_axis : plane.theta_axis, plane);
@@ -430,15 +512,17 @@ class CoupledLoop {
         now.needed[i] = h[i][0] * now.acceleration[0] + h[i][1] * now.acceleration[1] - left[i];
       }
     } else {
-      for (int i = 0; i < 2; ++i) {
-        now.acceleration[i] = demand.of[i];
-        now.asked[i] = now.needed[i] = Real(0.0);
-      }
+      for (int i = 0; i < servos; ++i) now.acceleration[i] = demand[i];
+      for (int i = 0; i < 2; ++i) now.asked[i] = now.needed[i] = Real(0.0);
+    }
+    Real turned[2];
+    for (int i = 0; i < 2; ++i) {
+      turned[i] = Link::direct || driven ? Real(loop.mode.axis[i].ratio * now.acceleration[i])
+                                         : axes[i].acceleration;
     }
     for (int i = 0; i < 3; ++i) {
-      cause.omega_dot[i] = cause.omega_dot[i] +
-                           plane.phi_axis[i] * (loop.mode.axis[0].ratio * now.acceleration[0]) +
-                           plane.theta_axis[i] * (loop.mode.axis[1].ratio * now.acceleration[1]);
+      cause.omega_dot[i] =
+          cause.omega_dot[i] + plane.phi_axis[i] * turned[0] + plane.theta_axis[i] * turned[1];
     }
     now.answer = of.answer(parts.contact, along, ball, cause);
     now.lost_power = of.lost_power(parts.contact, now.answer, ball, now.p, now.slip);
@@ -447,26 +531,26 @@ class CoupledLoop {
       const auto& about = i == 0 ? plane.phi_axis : plane.theta_axis;
       if (!driven) now.given[i] = of.moment(about, cause, now.answer, ball) + own[i];
       now.lost_power = now.lost_power + motors[i].free * (friction[i] * z[Layout::rate + i]);
-      now.work_power = now.work_power + motors[i].free * (now.given[i] * axes.of[i].rate);
+      now.work_power = now.work_power + motors[i].free * (now.given[i] * axes[i].rate);
     }
     return now;
   }
 
   double integrates_ = 0;
-  template <class Other>
+  template <class Other, class Any>
   friend class CoupledLoop;
 };
 
 template <class Any>
 inline constexpr bool is_coupled = false;
-template <class Signals>
-inline constexpr bool is_coupled<CoupledGiven<Signals>> = true;
-template <class Signals>
-inline constexpr bool is_coupled<CoupledLoop<Signals>> = true;
+template <class Signals, bool pushes>
+inline constexpr bool is_coupled<CoupledGiven<Signals, pushes>> = true;
+template <class Signals, class Link>
+inline constexpr bool is_coupled<CoupledLoop<Signals, Link>> = true;
 
 template <class Any>
 inline constexpr bool is_coupled_loop = false;
-template <class Signals>
-inline constexpr bool is_coupled_loop<CoupledLoop<Signals>> = true;
+template <class Signals, class Link>
+inline constexpr bool is_coupled_loop<CoupledLoop<Signals, Link>> = true;
 
 }  // namespace bbsim::model

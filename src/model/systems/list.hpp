@@ -25,7 +25,10 @@ using SystemList = std::variant<OpenLoop<Shape::full, Signals>,     //
                                 RigLoop<false, Signals>,                         //
                                 RigLoop<true, Signals>,                          //
                                 CoupledGiven<Signals>,                           //
-                                CoupledLoop<Signals>>;
+                                CoupledLoop<Signals>,                            //
+                                CoupledGiven<Signals, true>,                     //
+                                CoupledLoop<Signals, Linkages>,                  //
+                                CoupledLoop<Signals, ThreeServos>>;
 
 using System = SystemList<SignalPair>;
 using SystemViews = SystemList<SignalView>;

@@ -11,15 +11,19 @@
 
 #include "model/ball/general_rolling.hpp"
 #include "model/control/law.hpp"
+#include "model/servo/linkage.hpp"
 #include "model/systems/system.hpp"
 
 namespace bbsim::model {
 
-// What holds for one axis between two switches.
+// As many servos as a gimbal has at most.
+inline constexpr int most_servos = 3;
+
+// What holds for one axis, or one servo, between two switches.
 struct AxisMode {
   // Acceleration of the servo = demand_factor * demand + set_acceleration, rad/s^2.
   double demand_factor = 1, set_acceleration = 0;
-  // Angle of the plane = ratio * angle of the servo + offset, rad.
+  // Angle of the plane, or of the horn that moves it, = ratio * angle of the servo + offset, rad.
   double ratio = 1, offset = 0;
   // Command behind its limit = command_factor * command + set_command.
   double command_factor = 1, set_command = 0;
@@ -27,8 +31,9 @@ struct AxisMode {
 };
 
 struct RigMode {
-  AxisMode axis[2];         // phi, theta
-  double command[2]{0, 0};  // of a controller that holds it, rad or rad/s^2
+  AxisMode axis[most_servos];            // phi, theta; or of each servo, where there are three
+  double command[most_servos]{0, 0, 0};  // of a controller that holds it, rad or rad/s^2
+  double wanted[2]{0, 0};                // the same before it became three servos', rad
 };
 
 // A servo's acceleration in free motion: from_command u - from_angle q - from_rate q'.
@@ -36,16 +41,29 @@ struct ServoResponse {
   double from_command = 1, from_angle = 0, from_rate = 0;
 };
 
-template <class Real>
+// Of each servo.
+struct ServoResponses {
+  ServoResponse of[most_servos];
+
+  ServoResponses() = default;
+  // NOLINTNEXTLINE(google-explicit-constructor): all alike
+  ServoResponses(const ServoResponse& all) : of{all, all, all} {}
+};
+
+template <class Real, int servos = 2>
 struct RigAxes {
-  Command<Real> command;
-  Real demand[2];  // acceleration that the servo would have in free motion, rad/s^2
+  Command<Real> command;  // of the law
+  Real told[servos];      // to the servos, where something is between them and the plane, rad
+  Real demand[servos];    // acceleration that the servo would have in free motion, rad/s^2
 };
 
 // Where a rig's states are, after the ball's five: of phi, and next to it of theta.
-struct RigLayout : BallLayout<Shape::full> {
-  static constexpr int angle = BallLayout<Shape::full>::size, rate = angle + 2, integral = rate + 2;
+template <int servos>
+struct ServoLayout : BallLayout<Shape::full> {
+  static constexpr int angle = BallLayout<Shape::full>::size, rate = angle + servos,
+                       integral = rate + servos;
 };
+using RigLayout = ServoLayout<2>;
 
 // What a row of output needs beside the states, since it changes with the mode: of the plane, phi
 // and theta; the commands; and, of a sampled loop, where the ball was seen last.
@@ -63,41 +81,46 @@ struct RigExtras {
 static_assert(sizeof(RigExtras) == RigExtras::size * sizeof(double));
 
 // States: the ball's five, the servos' angles and rates; and the integrals of the error, of a law
-// in continuous time that has them.
-template <bool integrates = false, class Signals = SignalPair>
+// in continuous time that has them. Link is what stands between the servos and the plane.
+template <bool integrates = false, class Signals = SignalPair, class Link = Direct>
 class RigLoop {
  public:
-  using Layout = RigLayout;
+  static constexpr int servos = Link::servos;
+  using Layout = ServoLayout<servos>;
+  template <class Real>
+  using Axes = RigAxes<Real, servos>;
   static constexpr Shape moves = Shape::full;
   static constexpr int size = Layout::integral + (integrates ? 2 : 0);
   static constexpr bool open_loop = false;
   static constexpr bool papers_rig = false;
   static constexpr auto motions = [] {
-    constexpr int angle = Layout::angle, rate = Layout::rate, integral = Layout::integral;
-    if constexpr (integrates) {
-      return Motions<7>{{{0, 2},
-                         {1, 3},
-                         {angle, rate},
-                         {angle + 1, rate + 1},
-                         {-1, 4},
-                         {-1, integral},
-                         {-1, integral + 1}}};
-    } else {
-      return Motions<5>{{{0, 2}, {1, 3}, {angle, rate}, {angle + 1, rate + 1}, {-1, 4}}};
-    }
+    Motions<3 + servos + (integrates ? 2 : 0)> all{};
+    int next = 0;
+    for (const Motion& one : {Motion{0, 2}, Motion{1, 3}}) all.of[next++] = one;
+    for (int i = 0; i < servos; ++i) all.of[next++] = {Layout::angle + i, Layout::rate + i};
+    all.of[next++] = {-1, 4};
+    for (int i = Layout::integral; i < size; ++i) all.of[next++] = {-1, i};
+    return all;
   }();
 
   RigLoop(double radius, double gravity, const GeneralRolling& rolling, const ControlLaw& law,
-          const ServoResponse& servo, Signals reference, const RigMode& present = {})
+          const ServoResponses& servo, Signals reference, const RigMode& present = {},
+          const Link& between = {})
       : mode(present),
+        link(between),
         r_(radius),
         g_(gravity),
         rolling_(rolling),
         law_(law),
         servo_(servo),
-        reference_(std::move(reference)) {}
+        reference_(std::move(reference)) {
+    for (const auto& row : law_.gain) {
+      for (int j = 4; j < 8; ++j) feeds_servos_back_ = feeds_servos_back_ || row[j] != 0;
+    }
+  }
 
   RigMode mode;
+  [[no_unique_address]] Link link;
 
   // The reference, but where the command is held: nothing asks for it then.
   template <class Time>
@@ -116,23 +139,26 @@ class RigLoop {
     derivative_of(inputs(t), z, dz);
   }
 
-  [[nodiscard]] RigLoop<integrates, SignalView> view() const {
-    return {r_, g_, rolling_, law_, servo_, reference_.view(), mode};
+  [[nodiscard]] RigLoop<integrates, SignalView, Link> view() const {
+    return {r_, g_, rolling_, law_, servo_, reference_.view(), mode, link};
   }
 
   template <class Time, class Real>
   void derivative_of(const std::array<Jet<Time>, 2>& reference, const Real* z, Real* dz) const {
-    const RigAxes<Real> loop = axes(reference, z);
+    const Axes<Real> loop = axes(reference, z);
     Axis<Real> plane[2];
-    for (int i = 0; i < 2; ++i) {
+    Real acceleration[servos];
+    for (int i = 0; i < servos; ++i) {
       const AxisMode& of = mode.axis[i];
-      const Real acceleration = of.demand_factor * loop.demand[i] + Real(of.set_acceleration);
-      plane[i] = plane_axis(i, z, of.ratio * acceleration);
+      acceleration[i] = of.demand_factor * loop.demand[i] + Real(of.set_acceleration);
       dz[Layout::angle + i] = z[Layout::rate + i];
-      dz[Layout::rate + i] = acceleration;
-      if constexpr (integrates) {
+      dz[Layout::rate + i] = acceleration[i];
+    }
+    planes(z, acceleration, plane);
+    if constexpr (integrates) {
+      for (int i = 0; i < 2; ++i) {
         dz[Layout::integral + i] =
-            of.integrate * (reference[static_cast<std::size_t>(i)].value - z[i]);
+            mode.axis[i].integrate * (reference[static_cast<std::size_t>(i)].value - z[i]);
       }
     }
     Layout::derivative(rolling_, plane[0], plane[1], Layout::unpack(z), r_, g_, dz);
@@ -140,24 +166,79 @@ class RigLoop {
 
   // What law and servo ask for at a state.
   template <class Time, class Real>
-  [[nodiscard]] RigAxes<Real> axes(const std::array<Jet<Time>, 2>& reference, const Real* z) const {
-    RigAxes<Real> loop;
+  [[nodiscard]] Axes<Real> axes(const std::array<Jet<Time>, 2>& reference, const Real* z) const {
+    Axes<Real> loop;
     if (law_.kind == LawKind::held) {
       for (int i = 0; i < 2; ++i) {
         loop.command.raw[i] = loop.command.value[i] = Real(mode.command[i]);
       }
-    } else if (law_.kind == LawKind::feedback_linearisation) {
-      loop.command = linearise(reference, z);
+      if constexpr (!Link::direct) {
+        for (int i = 0; i < servos; ++i) loop.told[i] = Real(mode.command[i]);
+      }
     } else {
-      loop.command = model::command(law_, feedback(z), reference,
-                                    [this](int i, const Real& raw) { return limited(i, raw); });
+      if (law_.kind == LawKind::feedback_linearisation) {
+        loop.command = linearise(reference, z);
+      } else {
+        loop.command = model::command(law_, feedback(z), reference,
+                                      [this](int i, const Real& raw) { return limited(i, raw); });
+      }
+      if constexpr (!Link::direct) link.told(loop.command.value, loop.told);
     }
-    for (int i = 0; i < 2; ++i) {
-      loop.demand[i] = servo_.from_command * loop.command.value[i] -
-                       servo_.from_angle * z[Layout::angle + i] -
-                       servo_.from_rate * z[Layout::rate + i];
+    for (int i = 0; i < servos; ++i) {
+      const ServoResponse& servo = servo_.of[i];
+      loop.demand[i] = servo.from_command * told(loop, i) -
+                       servo.from_angle * z[Layout::angle + i] -
+                       servo.from_rate * z[Layout::rate + i];
     }
     return loop;
+  }
+
+  // The command that servo i follows.
+  template <class Real>
+  [[nodiscard]] static const Real& told(const Axes<Real>& loop, int i) {
+    if constexpr (Link::direct) {
+      return loop.command.value[i];
+    } else {
+      return loop.told[i];
+    }
+  }
+
+  // The plane's axes where the servos have these accelerations, rad/s^2.
+  template <class Real>
+  void planes(const Real* z, const Real (&acceleration)[servos], Axis<Real> (&axis)[2]) const {
+    if constexpr (Link::direct) {
+      for (int i = 0; i < 2; ++i) {
+        axis[i] = plane_axis(i, z, mode.axis[i].ratio * acceleration[i]);
+      }
+    } else {
+      Real horn[servos], rate[servos], acting[servos];
+      for (int i = 0; i < servos; ++i) {
+        const AxisMode& of = mode.axis[i];
+        horn[i] = of.ratio * z[Layout::angle + i] + Real(of.offset);
+        rate[i] = of.ratio * z[Layout::rate + i];
+        acting[i] = of.ratio * acceleration[i];
+      }
+      link.planes(horn, rate, acting, axis);
+    }
+  }
+
+  // The rates of phi and theta, rad/s.
+  [[nodiscard]] std::array<double, 2> plane_rates(const double* z) const {
+    if constexpr (Link::direct) {
+      return {mode.axis[0].ratio * z[Layout::rate], mode.axis[1].ratio * z[Layout::rate + 1]};
+    } else {
+      const double none[servos] = {};
+      Axis<double> axis[2];
+      planes(z, none, axis);
+      return {axis[0].rate, axis[1].rate};
+    }
+  }
+
+  // Angles of the horns, behind backlash, rad.
+  void horns(const double* z, double (&horn)[servos]) const {
+    for (int i = 0; i < servos; ++i) {
+      horn[i] = mode.axis[i].ratio * z[Layout::angle + i] + mode.axis[i].offset;
+    }
   }
 
   // The jump of (x', y', u) when the rates of phi and theta jump by (phi, theta), rad/s: what
@@ -173,16 +254,48 @@ class RigLoop {
 
   // All but what was measured, at the present mode.
   [[nodiscard]] RigExtras extras(double t, const double* z) const {
-    const RigAxes<double> loop = axes(inputs(t), z);
+    const Axes<double> loop = axes(inputs(t), z);
     RigExtras extras{};
-    for (int i = 0; i < 2; ++i) {
+    double acceleration[servos];
+    for (int i = 0; i < servos; ++i) {
       const AxisMode& of = mode.axis[i];
-      extras.angle[i] = of.ratio * z[Layout::angle + i] + of.offset;
-      extras.rate[i] = of.ratio * z[Layout::rate + i];
-      extras.acceleration[i] = of.ratio * (of.demand_factor * loop.demand[i] + of.set_acceleration);
-      extras.command[i] = loop.command.value[i];
+      acceleration[i] = of.demand_factor * loop.demand[i] + of.set_acceleration;
     }
+    fill(z, acceleration, extras);
+    for (int i = 0; i < 2; ++i) extras.command[i] = shown(loop, i);
     return extras;
+  }
+
+  // The plane's motion where the servos have these accelerations.
+  void fill(const double* z, const double (&acceleration)[servos], RigExtras& extras) const {
+    if constexpr (Link::direct) {
+      for (int i = 0; i < 2; ++i) {
+        const AxisMode& of = mode.axis[i];
+        extras.angle[i] = of.ratio * z[Layout::angle + i] + of.offset;
+        extras.rate[i] = of.ratio * z[Layout::rate + i];
+        extras.acceleration[i] = of.ratio * acceleration[i];
+      }
+    } else {
+      Axis<double> axis[2];
+      planes(z, acceleration, axis);
+      double horn[servos];
+      horns(z, horn);
+      link.angles(horn, extras.angle);
+      for (int i = 0; i < 2; ++i) {
+        extras.rate[i] = axis[i].rate;
+        extras.acceleration[i] = axis[i].acceleration;
+      }
+    }
+  }
+
+  // The command of an axis: its servo's; where there are three, the plane's.
+  template <class Real>
+  [[nodiscard]] Real shown(const Axes<Real>& loop, int i) const {
+    if constexpr (servos == 2) {
+      return told(loop, i);
+    } else {
+      return law_.kind == LawKind::held ? Real(mode.wanted[i]) : loop.command.value[i];
+    }
   }
 
   [[nodiscard]] Sample sample(double t, const double* z, const RigExtras& with,
@@ -192,6 +305,9 @@ class RigLoop {
     sample.ball = ball_motion<Shape::full>(Layout::unpack(z), r_);
     sample.gimbal = {with.angle[0], with.angle[1],        with.rate[0],
                      with.rate[1],  with.acceleration[0], with.acceleration[1]};
+    for (int i = 0; i < servos; ++i) {
+      sample.servo[static_cast<std::size_t>(i)] = z[Layout::angle + i];
+    }
     if (detail != Detail::all) return sample;
     const auto reference = reference_.at(t);
     sample.reference = {reference[0].value, reference[1].value};
@@ -207,7 +323,7 @@ class RigLoop {
 
   [[nodiscard]] const Signals& reference() const { return reference_; }
   [[nodiscard]] const ControlLaw& law() const { return law_; }
-  [[nodiscard]] const ServoResponse& servo() const { return servo_; }
+  [[nodiscard]] const ServoResponses& servo() const { return servo_; }
   [[nodiscard]] const GeneralRolling& rolling() const { return rolling_; }
   [[nodiscard]] double radius() const { return r_; }
   [[nodiscard]] double gravity() const { return g_; }
@@ -228,8 +344,18 @@ class RigLoop {
   template <class Real>
   [[nodiscard]] GeneralRolling::Rates<Real> rates_under(const Real* z, double phi,
                                                         double theta) const {
-    return rolling_.rates<Real>(plane_axis(0, z, Real(phi)), plane_axis(1, z, Real(theta)),
-                                Layout::unpack(z), r_, g_);
+    if constexpr (Link::direct) {
+      return rolling_.rates<Real>(plane_axis(0, z, Real(phi)), plane_axis(1, z, Real(theta)),
+                                  Layout::unpack(z), r_, g_);
+    } else {
+      Real none[servos];
+      for (Real& one : none) one = Real(0.0);
+      Axis<Real> axis[2];
+      planes(z, none, axis);
+      axis[0].acceleration = Real(phi);
+      axis[1].acceleration = Real(theta);
+      return rolling_.rates<Real>(axis[0], axis[1], Layout::unpack(z), r_, g_);
+    }
   }
 
   template <class Real>
@@ -247,7 +373,7 @@ class RigLoop {
   }
 
   template <class Real>
-  [[nodiscard]] static auto feedback(const Real* z) {
+  [[nodiscard]] auto feedback(const Real* z) const {
     using Integral = std::conditional_t<integrates, Real, Zero>;
     Feedback<Real, Integral> state;
     for (int i = 0; i < 2; ++i) {
@@ -256,6 +382,11 @@ class RigLoop {
       state.angle[i] = z[Layout::angle + i];
       state.rate[i] = z[Layout::rate + i];
       if constexpr (integrates) state.integral[i] = z[Layout::integral + i];
+    }
+    if constexpr (!Link::direct) {
+      if (feeds_servos_back_) {
+        link.believed(z + Layout::angle, z + Layout::rate, state.angle, state.rate);
+      }
     }
     return state;
   }
@@ -280,13 +411,14 @@ class RigLoop {
   double r_, g_;
   GeneralRolling rolling_;
   ControlLaw law_;
-  ServoResponse servo_;
+  ServoResponses servo_;
   Signals reference_;
+  bool feeds_servos_back_ = false;
 };
 
 template <class Any>
 inline constexpr bool is_rig = false;
-template <bool integrates, class Signals>
-inline constexpr bool is_rig<RigLoop<integrates, Signals>> = true;
+template <bool integrates, class Signals, class Link>
+inline constexpr bool is_rig<RigLoop<integrates, Signals, Link>> = true;
 
 }  // namespace bbsim::model

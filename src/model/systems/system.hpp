@@ -310,6 +310,7 @@ class ClosedLoop {
       sample.gimbal.theta = angles[axes - 1];
       sample.gimbal.theta_dot = angles[2 * axes - 1];
     }
+    sample.servo = {sample.gimbal.phi, sample.gimbal.theta, 0};
     if (detail < Detail::motion) return sample;
     const auto reference = reference_.at(t);
     sample.reference = {reference[0].value, reference[1].value};

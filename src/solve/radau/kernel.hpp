@@ -49,7 +49,7 @@ struct Kernel {
 };
 
 // One for each system of model/systems/list.hpp, in its order.
-inline constexpr int system_count = 14;
+inline constexpr int system_count = 17;
 
 struct StepKernels {
   // Of a system that only the baseline has kernels for, without functions.

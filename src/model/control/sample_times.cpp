@@ -1,0 +1,39 @@
+#include "model/control/sample_times.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace bbsim::model {
+namespace {
+
+// A sequence of its own for each seed: what noise and dropouts draw is what it was without jitter.
+constexpr unsigned long other_sequence = 0x9e3779b97f4a7c15UL;
+// No period is shorter than this part of the nominal one.
+constexpr double shortest = 0.1;
+
+}  // namespace
+
+SampleTimes::SampleTimes(const Sampling& sampling, unsigned long seed)
+    : sampling_(sampling), noise_(seed + other_sequence) {}
+
+double SampleTimes::at(double n) {
+  if (sampling_.is_even()) return n * sampling_.period;
+  while (first_ + static_cast<double>(times_.size()) <= n) {
+    double period = sampling_.period;
+    if (sampling_.periods.empty()) {
+      period = std::max(shortest * period, period + sampling_.jitter * noise_.normal());
+    } else {
+      const double last = first_ + static_cast<double>(times_.size()) - 1;
+      const auto count = static_cast<double>(sampling_.periods.size());
+      period = sampling_.periods[static_cast<std::size_t>(std::fmod(last, count))];
+    }
+    times_.push_back(times_.back() + period);
+  }
+  return times_[static_cast<std::size_t>(n - first_)];
+}
+
+void SampleTimes::forget_before(double n) {
+  for (; first_ < n && times_.size() > 1; ++first_) times_.pop_front();
+}
+
+}  // namespace bbsim::model

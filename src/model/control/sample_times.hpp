@@ -1,0 +1,36 @@
+// When a sampled controller samples: every period, or as its clock jitters.
+#pragma once
+
+#include <cstddef>
+#include <deque>
+
+#include "base/noise.hpp"
+#include "scenario/scenario.hpp"
+
+namespace bbsim::model {
+
+class SampleTimes {
+ public:
+  // `seed` is that of the sensor's noise, of which this one's is another sequence.
+  SampleTimes(const Sampling& sampling, unsigned long seed);
+
+  // The time of the n-th sample, s, n = 0, 1, ...: of none before those that have been forgotten.
+  [[nodiscard]] double at(double n);
+
+  // Nobody asks for samples before the n-th any more.
+  void forget_before(double n);
+
+  // How far they are drawn (base/archive.hpp).
+  template <class Archive>
+  void archive(Archive& archive) {
+    archive(noise_, times_, first_);
+  }
+
+ private:
+  Sampling sampling_;
+  Noise noise_;
+  std::deque<double> times_{0.0};  // from the `first_` sample on; of a clock that jitters
+  double first_ = 0;
+};
+
+}  // namespace bbsim::model

@@ -1,0 +1,225 @@
+// What stands between a servo and the plane: a horn, a push rod and an arm, or a curve that
+// somebody measured (docs/model.md, section 11). Plain data and templates for every number type;
+// how they come from a scenario is linkages.hpp's matter.
+#pragma once
+
+#include <cmath>
+#include <cstddef>
+
+#include "base/real.hpp"
+#include "model/ball/rolling.hpp"
+#include "model/signals/spline.hpp"
+
+namespace bbsim::model {
+
+// Servos turn the plane themselves: nothing is between.
+struct Direct {
+  static constexpr bool direct = true;
+  static constexpr int servos = 2;
+};
+
+// How an angle follows from a servo's: its sine and cosine, and its two derivatives with respect to
+// the servo's angle.
+template <class Real>
+struct Turn {
+  Real sin, cos, slope, bend;
+};
+
+// The angle of a direction. Each step of the iteration leaves a sixth of the error's cube.
+template <class Real>
+[[nodiscard]] Real angle_of(const Real& sine, const Real& cosine) {
+  Real angle = sine;
+  for (int i = 0; i < 9; ++i) {
+    const SinCos<Real> at = sin_cos(angle);
+    angle = angle + (sine * at.cos - cosine * at.sin);
+  }
+  return angle;
+}
+[[nodiscard]] inline double angle_of(double sine, double cosine) {
+  return std::atan2(sine, cosine);
+}
+
+// Two bars that turn about axes of their own, joined by a rod between their ends. Lengths in m; the
+// servo's axis is at (0, 0). Each side says which of two positions the other bar has.
+struct Rods {
+  double horn = 0, arm = 0, rod = 0;
+  double x = 0, z = 0;  // of the gimbal's axis
+  double arm_side = 1, horn_side = 1;
+
+  // Equations (M54) to (M56).
+  template <class Real>
+  [[nodiscard]] Turn<Real> arm_at(const Real& servo) const {
+    const SinCos<Real> h = sin_cos(servo);
+    const Real vx = horn * h.cos - Real(x), vz = horn * h.sin - Real(z);
+    const Real v2 = vx * vx + vz * vz;
+    const Real k = (0.5 / arm) * (v2 + Real(arm * arm - rod * rod));
+    const Real root = root_along(v2 - k * k, Real(arm_side));
+    Turn<Real> turn;
+    turn.cos = (k * vx - root * vz) / v2;
+    turn.sin = (k * vz + root * vx) / v2;
+    // Along the rod, and what both its ends do across their bars.
+    const Real px = arm * turn.cos - vx, pz = arm * turn.sin - vz;
+    const Real by_arm = arm * (pz * turn.cos - px * turn.sin);
+    turn.slope = (horn * (pz * h.cos - px * h.sin)) / by_arm;
+    const Real qx = horn * h.sin - arm * (turn.sin * turn.slope);
+    const Real qz = arm * (turn.cos * turn.slope) - horn * h.cos;
+    const Real square = turn.slope * turn.slope;
+    const Real ax = horn * h.cos - arm * (turn.cos * square);
+    const Real az = horn * h.sin - arm * (turn.sin * square);
+    turn.bend = -((qx * qx + qz * qz + px * ax + pz * az) / by_arm);
+    return turn;
+  }
+
+  // The servo's angle under which the arm has this one.
+  template <class Real>
+  [[nodiscard]] Real horn_at(const Real& angle) const {
+    const SinCos<Real> a = sin_cos(angle);
+    const Real vx = Real(x) + arm * a.cos, vz = Real(z) + arm * a.sin;
+    const Real v2 = vx * vx + vz * vz;
+    const Real k = (0.5 / horn) * (v2 + Real(horn * horn - rod * rod));
+    const Real root = root_along(v2 - k * k, Real(horn_side));
+    return angle_of((k * vz + root * vx) / v2, (k * vx - root * vz) / v2);
+  }
+};
+
+// What a controller takes the curve for: nothing, since its commands are the servo's; the curve
+// itself; or a line with its slope at home.
+enum class Assumed { none, exact, ratio };
+
+// One axis' curve, from the servo's angle to the plane's.
+struct LinkCurve {
+  enum class Kind { ideal, rods, table };
+  Kind kind = Kind::ideal;
+  Assumed assumed = Assumed::none;
+  Rods rods{};
+  // The pieces of a measured curve that hold at present: for the servo, and for its command.
+  SplineView::Piece piece{}, command_piece{};
+  double shift = 0;                         // taken from the curve, where home is to be level, rad
+  double offset = 0;                        // of the plane, which the controller does not know, rad
+  double cos_offset = 1, sin_offset = 0;    // of offset - shift
+  double slope = 1;                         // at home
+  double low = -HUGE_VAL, high = HUGE_VAL;  // servo's angles between which there is a curve, rad
+
+  // Plane and curve are that much apart.
+  void set_offsets(double of_plane, double of_curve) {
+    offset = of_plane;
+    shift = of_curve;
+    cos_offset = std::cos(offset - shift);
+    sin_offset = std::sin(offset - shift);
+  }
+
+  template <class Real>
+  static Turn<Real> along(const SplineView::Piece& p, const Real& servo, Real* value) {
+    const Real s = servo - Real(p.start);
+    *value = Real(p.c0) + s * (Real(p.c1) + s * (Real(p.c2) + p.c3 * s));
+    const SinCos<Real> wave = sin_cos(*value);
+    return {wave.sin, wave.cos, Real(p.c1) + s * (Real(2 * p.c2) + (3 * p.c3) * s),
+            Real(2 * p.c2) + (6 * p.c3) * s};
+  }
+
+  // Without shift and offset.
+  template <class Real>
+  [[nodiscard]] Turn<Real> plain_turn(const Real& servo) const {
+    if (kind == Kind::rods) return rods.arm_at(servo);
+    if (kind == Kind::table) {
+      Real value;
+      return along(piece, servo, &value);
+    }
+    const SinCos<Real> wave = sin_cos(servo);
+    return {wave.sin, wave.cos, Real(1.0), Real(0.0)};
+  }
+
+  // Of the plane.
+  template <class Real>
+  [[nodiscard]] Turn<Real> turn(const Real& servo) const {
+    const Turn<Real> plain = plain_turn(servo);
+    return {cos_offset * plain.sin + sin_offset * plain.cos,
+            cos_offset * plain.cos - sin_offset * plain.sin, plain.slope, plain.bend};
+  }
+
+  // The curve's angle, without the plane's offset.
+  template <class Real>
+  [[nodiscard]] Real angle(const Real& servo) const {
+    if (kind == Kind::ideal) return servo;
+    Real value;
+    if (kind == Kind::table) {
+      along(piece, servo, &value);
+    } else {
+      const Turn<Real> turn = rods.arm_at(servo);
+      value = angle_of(turn.sin, turn.cos);
+    }
+    return value - Real(shift);
+  }
+
+  // What the servo is told where the controller wants this angle of the plane.
+  template <class Real>
+  [[nodiscard]] Real told(const Real& wanted) const {
+    if (assumed == Assumed::none || kind == Kind::ideal) return wanted;
+    if (assumed == Assumed::ratio) return (1 / slope) * wanted;
+    const Real angle = wanted + Real(shift);
+    if (kind == Kind::rods) return rods.horn_at(angle);
+    const SplineView::Piece& p = command_piece;
+    Real servo = Real(p.start) + (1 / p.c1) * (angle - Real(p.c0));
+    for (int i = 0; i < 6; ++i) {
+      Real value;
+      const Turn<Real> at = along(p, servo, &value);
+      servo = servo - (value - angle) / at.slope;
+    }
+    return servo;
+  }
+
+  // The angle and rate of the plane that the controller takes the servo's for.
+  template <class Real>
+  void believed(const Real& servo, const Real& rate, Real* angle_there, Real* rate_there) const {
+    if (assumed == Assumed::none || kind == Kind::ideal) {
+      *angle_there = servo;
+      *rate_there = rate;
+    } else if (assumed == Assumed::ratio) {
+      *angle_there = slope * servo;
+      *rate_there = slope * rate;
+    } else {
+      *angle_there = angle(servo);
+      *rate_there = plain_turn(servo).slope * rate;
+    }
+  }
+};
+
+// Between two servos and the two axes of the gimbal.
+struct Linkages {
+  static constexpr bool direct = false;
+  static constexpr int servos = 2;
+  LinkCurve of[2];
+
+  // The plane's axes, of horns with these angles, rates and accelerations.
+  template <class Real>
+  void planes(const Real (&horn)[2], const Real (&rate)[2], const Real (&acceleration)[2],
+              Axis<Real> (&axis)[2]) const {
+    for (int i = 0; i < 2; ++i) {
+      const Turn<Real> turn = of[i].turn(horn[i]);
+      axis[i] = {turn.sin, turn.cos, turn.slope * rate[i],
+                 turn.slope * acceleration[i] + turn.bend * (rate[i] * rate[i])};
+    }
+  }
+  void angles(const double (&horn)[2], double (&plane)[2]) const {
+    for (int i = 0; i < 2; ++i) plane[i] = of[i].angle(horn[i]) + of[i].offset;
+  }
+  template <class Real>
+  void told(const Real (&wanted)[2], Real (&servo)[2]) const {
+    for (int i = 0; i < 2; ++i) servo[i] = of[i].told(wanted[i]);
+  }
+  template <class Real>
+  void believed(const Real* servo, const Real* rate, Real (&angle)[2],
+                Real (&angle_rate)[2]) const {
+    for (int i = 0; i < 2; ++i) of[i].believed(servo[i], rate[i], &angle[i], &angle_rate[i]);
+  }
+  // How far the horns are from where the curves end: negative beyond.
+  [[nodiscard]] double margin(const double (&horn)[2]) const {
+    double least = HUGE_VAL;
+    for (int i = 0; i < 2; ++i) {
+      least = std::fmin(least, std::fmin(horn[i] - of[i].low, of[i].high - horn[i]));
+    }
+    return least;
+  }
+};
+
+}  // namespace bbsim::model

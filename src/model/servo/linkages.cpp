@@ -1,0 +1,424 @@
+#include "model/servo/linkages.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+#include "base/error.hpp"
+#include "base/number_text.hpp"
+
+namespace bbsim::model {
+namespace {
+
+constexpr double pi = std::numbers::pi;
+// So far a command stays from where a curve ends, rad: next to it the inverse is infinitely steep.
+constexpr double inside = 1e-9;
+// A run ends so far before rod and arm are in line, where the plane's rate and acceleration are
+// infinite, rad.
+constexpr double before_infinity = 1e-9;
+
+// Where two of three bars are in line, and what the servo's and the arm's angles then are.
+struct DeadPoint {
+  double servo, arm;
+  const char* why;
+  double before = 0;  // so far from it the curve ends, rad
+};
+
+// Both angles whose cosine, from `from` on, is this; none if there is no such angle.
+std::vector<double> angles_with(double cosine, double from) {
+  if (!(std::abs(cosine) <= 1)) return {};
+  const double away = std::acos(cosine);
+  return {from + away, from - away};
+}
+
+// Of both branches.
+std::vector<DeadPoint> dead_points(const Rods& of) {
+  std::vector<DeadPoint> found;
+  const double distance = std::hypot(of.x, of.z), direction = std::atan2(of.z, of.x);
+  if (distance == 0) return found;  // the rod is carried round, whole
+  const double d2 = distance * distance;
+  for (const double sign : {1.0, -1.0}) {
+    const double to_horn = of.rod + sign * of.arm;
+    const double c = (of.horn * of.horn + d2 - to_horn * to_horn) / (2 * of.horn * distance);
+    for (const double servo : angles_with(c, direction)) {
+      const double vx = of.horn * std::cos(servo) - of.x, vz = of.horn * std::sin(servo) - of.z;
+      const double k = vx * vx + vz * vz + of.arm * of.arm - of.rod * of.rod;
+      found.push_back({servo, std::atan2(std::copysign(vz, vz * k), std::copysign(vx, vx * k)),
+                       "rod and arm are in line", before_infinity});
+    }
+    const double to_arm = of.horn + sign * of.rod;
+    if (to_arm == 0) continue;
+    const double a = (to_arm * to_arm - d2 - of.arm * of.arm) / (2 * of.arm * distance);
+    for (const double arm : angles_with(a, direction)) {
+      const double bx = of.x + of.arm * std::cos(arm), bz = of.z + of.arm * std::sin(arm);
+      const double servo = std::atan2(bz / to_arm, bx / to_arm);
+      // On this branch, and not on the other one.
+      const Turn<double> turn = of.arm_at(servo);
+      if (std::hypot(turn.cos - std::cos(arm), turn.sin - std::sin(arm)) < 1e-6) {
+        found.push_back(
+            {servo, std::atan2(std::sin(arm), std::cos(arm)), "horn and rod are in line"});
+      }
+    }
+  }
+  return found;
+}
+
+double turned_within(double angle, double from) {
+  return angle - 2 * pi * std::floor((angle - from) / (2 * pi));
+}
+
+[[noreturn]] void refuse(const std::string& message) {
+  throw KeyError("gimbal.linkage", message);
+}
+
+std::string metres(double length) {
+  return number_text(length) + " m";
+}
+
+}  // namespace
+
+Linkage make_linkage(const RodLinkage& of, Assumed assumed) {
+  Rods rods;
+  rods.horn = of.horn;
+  rods.arm = of.arm;
+  rods.x = of.offset[0];
+  rods.z = of.offset[1];
+  rods.rod = of.rod.value_or(std::hypot(rods.x + rods.arm - rods.horn, rods.z));
+  const double vx = rods.horn - rods.x, vz = -rods.z, v = std::hypot(vx, vz);
+  const double least = std::abs(v - rods.arm), most = v + rods.arm;
+  if (!(rods.rod > 0)) {
+    refuse(
+        "found horn and arm whose ends meet at home, with a rod of no length between; allowed: "
+        "an offset that keeps them apart");
+  }
+  if (rods.rod < least || rods.rod > most) {
+    refuse("found a rod of " + metres(rods.rod) +
+           ", with which the linkage does not close at home; allowed: " + metres(least) + " to " +
+           metres(most) + ", from the horn's end to where the arm's can be");
+  }
+  const double k = (v * v + rods.arm * rods.arm - rods.rod * rods.rod) / (2 * rods.arm);
+  const double square = v * v - k * k;
+  double home = 0;
+  if (square > 1e-12 * v * v) {
+    // The position of the arm that is nearer to home's.
+    double least_angle = unlimited;
+    for (const double side : {1.0, -1.0}) {
+      rods.arm_side = side;
+      const Turn<double> turn = rods.arm_at(0.0);
+      const double angle = std::atan2(turn.sin, turn.cos);
+      if (std::abs(angle) >= least_angle) continue;
+      least_angle = std::abs(angle);
+      home = angle;
+    }
+    rods.arm_side = -vz * std::cos(home) + vx * std::sin(home) > 0 ? 1 : -1;
+  }
+  const double bz = rods.z + rods.arm * std::sin(home);
+  const double at_rod =
+      (bz * std::cos(home) - (rods.x + rods.arm * std::cos(home) - rods.horn) * std::sin(home)) /
+      rods.rod;
+  if (!(square > 1e-12 * v * v) || std::abs(at_rod) < 1e-6) {
+    refuse(
+        "found rod and arm in line at home, where the servo cannot turn the plate; allowed: an "
+        "offset that has the rod at an angle to both, such as [0, 0.05]");
+  }
+  if (std::abs(bz) < 1e-6 * rods.rod) {
+    refuse(
+        "found horn and rod in line at home, where the servo does not move the plate; allowed: "
+        "an offset that has the rod at an angle to both, such as [0, 0.05]");
+  }
+  rods.horn_side = bz > 0 ? -1 : 1;
+
+  Linkage linkage;
+  LinkCurve& curve = linkage.curve;
+  curve.kind = LinkCurve::Kind::rods;
+  curve.assumed = assumed;
+  curve.rods = rods;
+  curve.slope = rods.arm_at(0.0).slope;
+  double at_low = -unlimited, at_high = unlimited;  // the arm's angles there
+  for (const DeadPoint& point : dead_points(rods)) {
+    const double there = turned_within(point.servo, 0);
+    const double up = there - point.before, down = there - 2 * pi + point.before;
+    if (up < curve.high) {
+      curve.high = up;
+      at_high = point.arm;
+      linkage.high_end = point.why;
+    }
+    if (down > curve.low) {
+      curve.low = down;
+      at_low = point.arm;
+      linkage.low_end = point.why;
+    }
+  }
+  linkage.reach = {std::min(at_low, at_high), std::max(at_low, at_high)};
+  return linkage;
+}
+
+Linkage make_linkage(const CurveLinkage& of, Assumed assumed) {
+  Linkage linkage;
+  linkage.table.emplace(of.servo, of.plate);
+  const SplineView view = linkage.table->view();
+  LinkCurve& curve = linkage.curve;
+  curve.kind = LinkCurve::Kind::table;
+  curve.assumed = assumed;
+  curve.low = of.servo.front();
+  curve.high = of.servo.back();
+  linkage.low_end = linkage.high_end = "the measured curve ends";
+  if (!(curve.low < 0 && curve.high > 0)) {
+    refuse("found a measured curve from " + number_text(curve.low) + " to " +
+           number_text(curve.high) +
+           " rad of the servo; allowed: one that has home, 0, between its ends");
+  }
+  const std::size_t home = linkage.piece_at(0, 0, 1);
+  curve.piece = curve.command_piece = view.pieces[home];
+  double value = 0;
+  curve.slope = LinkCurve::along(curve.piece, 0.0, &value).slope;
+  for (std::size_t i = 0; i < view.count; ++i) {
+    const SplineView::Piece& p = view.pieces[i];
+    const double length = of.servo[i + 1] - of.servo[i];
+    // Where its slope is least and greatest.
+    const double turn = p.c3 != 0 ? std::clamp(-p.c2 / (3 * p.c3), 0.0, length) : 0.0;
+    for (const double s : {0.0, turn, length}) {
+      const double slope = p.c1 + s * (2 * p.c2 + s * 3 * p.c3);
+      if (slope * curve.slope > 0) continue;
+      refuse("found a measured curve that turns back, or stands still, at a servo's angle of " +
+             number_text(p.start + s) +
+             " rad; allowed: one that rises throughout, or falls throughout");
+    }
+  }
+  linkage.reach = {std::min(of.plate.front(), of.plate.back()),
+                   std::max(of.plate.front(), of.plate.back())};
+  return linkage;
+}
+
+double Linkage::angle(double servo) const {
+  if (table) return table->at(servo).value - curve.shift;
+  return curve.angle(servo);
+}
+
+double Linkage::servo_for(double angle) const {
+  if (curve.kind == LinkCurve::Kind::ideal) return angle;
+  const double within =
+      reach.binds() ? std::clamp(angle + curve.shift, reach.low + inside, reach.high - inside)
+                    : angle + curve.shift;
+  if (!table) return curve.rods.horn_at(within);
+  // Newton's iteration, and a half where it leaves what is known to hold the answer.
+  double low = curve.low, high = curve.high;
+  const double sign = curve.slope > 0 ? 1 : -1;
+  double servo = std::clamp(within / curve.slope, low, high);
+  for (int i = 0; i < 200; ++i) {
+    const Jet<double> at = table->at(servo);
+    const double off = sign * (at.value - within);
+    (off > 0 ? high : low) = servo;
+    double next = servo - (at.value - within) / at.rate;
+    if (!(next > low && next < high)) next = low + (high - low) / 2;
+    if (std::abs(next - servo) <= 1e-16 * (1 + std::abs(servo))) return next;
+    servo = next;
+  }
+  return servo;
+}
+
+double Linkage::told(double wanted) const {
+  return curve.assumed == Assumed::exact ? servo_for(wanted) : curve.told(wanted);
+}
+
+std::size_t Linkage::piece_at(std::size_t present, double servo, double direction) const {
+  const std::vector<double>& knots = table->knots();
+  const std::size_t last = knots.size() - 2;
+  const double near = 1e-11 * (knots.back() - knots.front());
+  const auto above = static_cast<std::size_t>(
+      std::upper_bound(knots.begin() + 1, knots.end() - 1, servo) - knots.begin());
+  const std::size_t piece = std::min(above - 1, last);
+  // On a knot, the one that it goes to.
+  for (const std::size_t knot : {piece, piece + 1}) {
+    if (knot == 0 || knot > last || std::abs(servo - knots[knot]) > near) continue;
+    if (direction == 0) return present == knot || present + 1 == knot ? present : piece;
+    return direction > 0 ? knot : knot - 1;
+  }
+  return piece;
+}
+
+std::size_t Linkage::command_piece_at(std::size_t present, double wanted) const {
+  const CommandRange holds = command_piece_range(present);
+  const std::size_t last = table->knots().size() - 2;
+  const double near = 1e-11 * (reach.high - reach.low);
+  // On the end of the present one, the next.
+  const bool rises = curve.slope > 0;
+  const double angle = wanted + curve.shift;
+  if (std::abs(angle - holds.high) <= near) {
+    return rises ? std::min(present + 1, last) : present - (present > 0 ? 1 : 0);
+  }
+  if (std::abs(angle - holds.low) <= near) {
+    return rises ? present - (present > 0 ? 1 : 0) : std::min(present + 1, last);
+  }
+  return piece_at(present, servo_for(wanted), 1);
+}
+
+CommandRange Linkage::piece_range(std::size_t piece) const {
+  const std::vector<double>& knots = table->knots();
+  return {knots[piece], knots[piece + 1]};
+}
+
+CommandRange Linkage::command_piece_range(std::size_t piece) const {
+  const CommandRange of = piece_range(piece);
+  const double a = table->at(of.low).value, b = table->at(of.high).value;
+  return {std::min(a, b), std::max(a, b)};
+}
+
+bool Between::has_pieces() const {
+  return std::any_of(linkages.begin(), linkages.end(),
+                     [](const Linkage& one) { return one.table.has_value(); });
+}
+
+std::array<double, 3> Between::told(Pair wanted) const {
+  if (three) {
+    const double of[2] = {wanted[0], wanted[1]};
+    double servo[3];
+    three->told(of, servo);
+    return {servo[0], servo[1], servo[2]};
+  }
+  if (linkages.empty()) return {wanted[0], wanted[1], 0};
+  return {linkages[0].told(wanted[0]), linkages[1].told(wanted[1]), 0};
+}
+
+void Between::believed(const double* servo, const double* rate, double (&into)[4]) const {
+  double angle[2] = {servo[0], servo[1]}, angle_rate[2] = {rate[0], rate[1]};
+  if (three) three->believed(servo, rate, angle, angle_rate);
+  for (std::size_t i = 0; i < linkages.size(); ++i) {
+    LinkCurve curve = linkages[i].curve;
+    if (linkages[i].table) {
+      curve.piece = linkages[i].table->view().pieces[linkages[i].piece_at(0, servo[i], 1)];
+    }
+    curve.believed(servo[i], rate[i], &angle[i], &angle_rate[i]);
+  }
+  for (int i = 0; i < 2; ++i) {
+    into[i] = angle[i];
+    into[2 + i] = angle_rate[i];
+  }
+}
+
+CommandRange Between::reach(int axis) const {
+  if (three && three->assumed == Assumed::exact) {
+    // Of two tilts of this size together, none is beyond what the legs reach.
+    return CommandRange::within(std::acos(std::sqrt(std::cos(greatest_tilt(*three)))));
+  }
+  if (linkages.empty()) return {};
+  const Linkage& of = linkages[static_cast<std::size_t>(axis)];
+  if (of.curve.assumed != Assumed::exact || !of.reach.binds()) return {};
+  return {of.reach.low + inside - of.curve.shift, of.reach.high - inside - of.curve.shift};
+}
+
+Linkages Between::at_home() const {
+  Linkages both;
+  for (std::size_t i = 0; i < linkages.size(); ++i) both.of[i] = linkages[i].curve;
+  return both;
+}
+
+bool is_linked(const Scenario& scene) {
+  const Gimbal& gimbal = scene.gimbal;
+  return gimbal.linkage[0] || gimbal.linkage[1] || gimbal.three_servos;
+}
+
+Between between_of(const Scenario& scene) {
+  Between between;
+  if (!is_linked(scene) || !scene.controller) return between;
+  const Controller& controller = *scene.controller;
+  const Assumed assumed = controller.own ? Assumed::none
+                          : controller.assumes.value_or(Assumes::ratio) == Assumes::exact
+                              ? Assumed::exact
+                              : Assumed::ratio;
+  const Mounting& mounting = scene.gimbal.mounting;
+  const double offset[2] = {mounting.phi_offset, mounting.theta_offset};
+  if (scene.gimbal.three_servos) {
+    ThreeServos three = make_three_servos(*scene.gimbal.three_servos, assumed);
+    for (int i = 0; i < 2; ++i) {
+      three.offset[i] = offset[i];
+      three.cos_offset[i] = std::cos(offset[i]);
+      three.sin_offset[i] = std::sin(offset[i]);
+    }
+    between.three = three;
+    return between;
+  }
+  for (std::size_t i = 0; i < 2; ++i) {
+    Linkage& one = between.linkages.emplace_back();
+    if (const auto& given = scene.gimbal.linkage[i]) {
+      one = std::visit([&](const auto& of) { return make_linkage(of, assumed); }, *given);
+    }
+    one.curve.set_offsets(offset[i], 0);
+  }
+  return between;
+}
+
+ThreeServos make_three_servos(const ThreeServoPlate& of, Assumed assumed) {
+  ThreeServos three;
+  three.base = of.radius_base;
+  three.plate = of.radius_plate;
+  three.horn = of.horn;
+  three.rod = of.rod;
+  three.height = of.height;
+  const double x = of.radius_plate - of.radius_base, to_joint = std::hypot(x, of.height);
+  const double least = std::abs(of.horn - of.rod), most = of.horn + of.rod;
+  if (!(to_joint > least && to_joint < most)) {
+    throw KeyError("gimbal.three_servos",
+                   "found legs that do not close at home: from a servo's axis to its joint under "
+                   "the plate it is " +
+                       metres(to_joint) + "; allowed: more than " + metres(least) +
+                       " and less than " + metres(most) + ", horn and rod folded and stretched");
+  }
+  // Of both positions of the knee, the one farther out.
+  three.side = of.height > 0 ? -1 : 1;
+  const double k = (to_joint * to_joint + of.horn * of.horn - of.rod * of.rod) / (2 * of.horn);
+  const double root = three.side * std::sqrt(to_joint * to_joint - k * k);
+  three.sin_home = (k * of.height + root * x) / (to_joint * to_joint);
+  three.cos_home = (k * x - root * of.height) / (to_joint * to_joint);
+  three.assumed = assumed;
+  const ThreeServos::Pose<double> home{0, 0, of.height};
+  ThreeServos::Slopes<double> m[3];
+  for (int i = 0; i < 3; ++i) {
+    m[i] = three.slopes(i, home, three.sin_home, three.cos_home);
+    // p is phi, and q is -theta.
+    three.slope[i][0] = -m[i].of[0] / m[i].of_horn;
+    three.slope[i][1] = m[i].of[1] / m[i].of_horn;
+  }
+  const double none[3] = {0, 0, 0};
+  double unused[3];
+  three.determinant = ThreeServos::solve(m, none, unused);
+  const double scale = of.radius_plate * of.radius_plate * of.rod * of.rod * of.rod;
+  if (!(std::abs(three.determinant) > 1e-9 * scale)) {
+    throw KeyError("gimbal.three_servos",
+                   "found rods that are level at home, and do not hold the plate up; allowed: "
+                   "another height");
+  }
+  return three;
+}
+
+double greatest_tilt(const ThreeServos& three) {
+  // Whether all legs reach a tilt in any direction; by symmetry, those of a third of a turn.
+  const auto reached = [&](double tilt) {
+    constexpr int directions = 60;
+    for (int j = 0; j <= directions; ++j) {
+      const double azimuth = 2 * pi / 3 * j / directions;
+      const ThreeServos::Pose<double> at{std::sin(tilt) * std::cos(azimuth),
+                                         std::sin(tilt) * std::sin(azimuth), three.height};
+      for (int i = 0; i < 3; ++i) {
+        const auto to = three.joint(i, at, [](double value) { return value; });
+        const double length = std::hypot(to.x, to.z);
+        if (!(length > std::abs(three.horn - three.rod) * (1 + 1e-9) &&
+              length < (three.horn + three.rod) * (1 - 1e-9))) {
+          return false;
+        }
+      }
+    }
+    return true;
+  };
+  double low = 0, high = 1.4;
+  if (reached(high)) return high;
+  while (high - low > 1e-12) {
+    const double middle = low + (high - low) / 2;
+    (reached(middle) ? low : high) = middle;
+  }
+  constexpr double between_those = 0.999;  // of the directions that were looked at
+  return between_those * low;
+}
+
+}  // namespace bbsim::model

@@ -1,0 +1,361 @@
+// What stands between servos and plane: push rods, measured curves, three servos.
+#include <cmath>
+#include <numbers>
+#include <random>
+#include <vector>
+
+#include "base/error.hpp"
+#include "catch.hpp"
+#include "model/servo/linkages.hpp"
+#include "simd/gradient.hpp"
+
+using namespace bbsim;
+using namespace bbsim::model;
+using Catch::Matchers::Contains;
+
+namespace {
+
+// Horn, arm and rod of a rig on a desk, each different.
+RodLinkage desk() {
+  return {0.025, 0.08, {}, {0.06, 0.09}};
+}
+
+// Linkages that close and are well away from a dead point at home.
+std::vector<RodLinkage> some_linkages() {
+  std::mt19937_64 draw(12);
+  std::uniform_real_distribution<double> unit(0, 1);
+  std::vector<RodLinkage> found;
+  while (found.size() < 200) {
+    RodLinkage one{0.01 + 0.05 * unit(draw),
+                   0.02 + 0.1 * unit(draw),
+                   {},
+                   {0.2 * unit(draw) - 0.1, 0.3 * unit(draw) - 0.15}};
+    if (std::abs(one.offset[1]) < 0.02) continue;
+    found.push_back(one);
+  }
+  return found;
+}
+
+double rod_between(const Rods& rods, double servo, double arm) {
+  return std::hypot(rods.x + rods.arm * std::cos(arm) - rods.horn * std::cos(servo),
+                    rods.z + rods.arm * std::sin(arm) - rods.horn * std::sin(servo));
+}
+
+// Some angles within the curve, none next to its ends.
+std::vector<double> angles_within(const LinkCurve& curve) {
+  std::vector<double> angles;
+  const double low = std::max(curve.low, -1.5), high = std::min(curve.high, 1.5);
+  for (int i = 1; i < 20; ++i) angles.push_back(low + (high - low) * i / 20);
+  return angles;
+}
+
+}  // namespace
+
+TEST_CASE("a push rod keeps its length, and home is where both angles are zero") {
+  for (const RodLinkage& one : some_linkages()) {
+    const Linkage linkage = make_linkage(one, Assumed::exact);
+    const Rods& rods = linkage.curve.rods;
+    CHECK(std::abs(linkage.angle(0)) < 1e-15);
+    for (const double servo : angles_within(linkage.curve)) {
+      // Rounding of sums of lengths of at most 0.4 m.
+      CHECK(std::abs(rod_between(rods, servo, linkage.angle(servo)) - rods.rod) < 2e-15);
+    }
+  }
+}
+
+TEST_CASE("the inverse of a push rod is its inverse, to 1e-13") {
+  for (const RodLinkage& one : some_linkages()) {
+    const Linkage linkage = make_linkage(one, Assumed::exact);
+    for (const double servo : angles_within(linkage.curve)) {
+      const double slope = linkage.curve.plain_turn(servo).slope;
+      // What rounds the plane's angle is magnified by the inverse's slope.
+      CHECK(std::abs(linkage.servo_for(linkage.angle(servo)) - servo) <
+            1e-13 * std::max(1.0, 0.05 / std::abs(slope)));
+      // The same for any number type.
+      const simd::WithGradient<1> wanted(linkage.angle(servo), simd::WithGradient<1>::Gradient(1));
+      const auto told = linkage.curve.told(wanted);
+      CHECK(std::abs(told.value - servo) < 1e-13 * std::max(1.0, 0.05 / std::abs(slope)));
+      CHECK(told.gradient[0] * slope == Approx(1).epsilon(1e-9));
+    }
+  }
+}
+
+TEST_CASE("slope and bend of a push rod are its derivatives") {
+  using Number = simd::WithGradient<1>;
+  for (const RodLinkage& one : some_linkages()) {
+    const LinkCurve curve = make_linkage(one, Assumed::exact).curve;
+    for (const double servo : angles_within(curve)) {
+      const Turn<Number> turn = curve.turn(Number::variable(servo, 0));
+      const double slope = turn.slope.value;
+      // d sin(beta) = cos(beta) beta', and so on: exact, but for rounding.
+      const double size = 1 + std::abs(slope) + std::abs(turn.bend.value);
+      CHECK(std::abs(turn.sin.gradient[0] - turn.cos.value * slope) < 1e-11 * size);
+      CHECK(std::abs(turn.slope.gradient[0] - turn.bend.value) < 1e-10 * size * size);
+      // Differences of the angle itself, of the fourth order: h^4 times the fifth derivative, which
+      // next to a dead point is large, and rounding over h.
+      if (servo < curve.low + 0.3 || servo > curve.high - 0.3) continue;
+      const double h = 1e-3;
+      const auto angle = [&](double at) { return curve.angle(at); };
+      const double difference = (8 * (angle(servo + h) - angle(servo - h)) -
+                                 (angle(servo + 2 * h) - angle(servo - 2 * h))) /
+                                (12 * h);
+      CHECK(std::abs(difference - slope) < 1e-7 * size);
+    }
+  }
+}
+
+TEST_CASE("with a long upright rod it is Quanser's: sin(plate) = (horn / arm) sin(servo)") {
+  // The distance falls as one over the rod's length.
+  const double horn = 0.0254, arm = 0.1375;
+  double last = 0;
+  for (const double rod : {1.0, 10.0, 100.0, 1000.0}) {
+    const Linkage linkage =
+        make_linkage(RodLinkage{horn, arm, {}, {horn - arm, rod}}, Assumed::exact);
+    double worst = 0;
+    for (double servo = -1.4; servo <= 1.4; servo += 0.1) {
+      worst =
+          std::max(worst, std::abs(std::sin(linkage.angle(servo)) - horn / arm * std::sin(servo)));
+    }
+    if (last > 0) CHECK(worst == Approx(last / 10).epsilon(0.05));
+    last = worst;
+  }
+  CHECK(last < 1e-5);
+}
+
+TEST_CASE("a curve ends where two of the three bars are in line, to rounding") {
+  int ends = 0;
+  for (const RodLinkage& one : some_linkages()) {
+    const Linkage linkage = make_linkage(one, Assumed::exact);
+    const Rods& rods = linkage.curve.rods;
+    for (const bool up : {true, false}) {
+      const double end = up ? linkage.curve.high : linkage.curve.low;
+      if (!std::isfinite(end)) continue;
+      ++ends;
+      // A little before it, where all is well, the angle in question is small: as the root of the
+      // distance for rod and arm, in proportion to it for horn and rod.
+      const double near = end + (up ? -1e-8 : 1e-8);
+      const Turn<double> turn = rods.arm_at(near);
+      const double px = rods.x + rods.arm * turn.cos - rods.horn * std::cos(near),
+                   pz = rods.z + rods.arm * turn.sin - rods.horn * std::sin(near);
+      const bool of_arm = (up ? linkage.high_end : linkage.low_end) == "rod and arm are in line";
+      const double across =
+          of_arm ? px * turn.sin - pz * turn.cos : px * std::sin(near) - pz * std::cos(near);
+      CHECK(std::abs(across) / rods.rod < 3e-3);
+      CHECK(linkage.curve.low < 0);
+      CHECK(linkage.curve.high > 0);
+    }
+  }
+  CHECK(ends > 300);
+}
+
+TEST_CASE("a linkage that cannot close, or is in line at home, is refused") {
+  const auto message = [](const RodLinkage& one) {
+    try {
+      static_cast<void>(make_linkage(one, Assumed::exact));
+      return std::string();
+    } catch (const KeyError& error) {
+      return std::string(error.what());
+    }
+  };
+  RodLinkage one = desk();
+  CHECK(message(one).empty());
+  one.rod = 0.5;
+  CHECK_THAT(message(one), Contains("gimbal.linkage: found a rod of 0.5 m, with which the linkage "
+                                    "does not close at home"));
+  one.rod = 0.001;
+  CHECK_THAT(message(one), Contains("does not close at home"));
+  CHECK_THAT(message({0.02, 0.05, {}, {0.06, 0}}), Contains("in line at home"));
+  CHECK_THAT(message({0.02, 0.02, {}, {0, 0}}), Contains("a rod of no length"));
+}
+
+TEST_CASE("a rod that home does not need puts the plate at an angle there") {
+  RodLinkage one = desk();
+  const double needed = make_linkage(one, Assumed::exact).curve.rods.rod;
+  one.rod = needed + 0.002;
+  const Linkage linkage = make_linkage(one, Assumed::exact);
+  const double home = linkage.angle(0);
+  CHECK(std::abs(home) > 0.01);
+  CHECK(std::abs(home) < 0.1);
+  CHECK(std::abs(rod_between(linkage.curve.rods, 0, home) - *one.rod) < 1e-15);
+  CHECK(std::abs(linkage.servo_for(home)) < 1e-14);
+}
+
+namespace {
+
+CurveLinkage measured(const RodLinkage& of, int rows, double from, double to) {
+  const Linkage exact = make_linkage(of, Assumed::exact);
+  CurveLinkage curve;
+  for (int i = 0; i < rows; ++i) {
+    curve.servo.push_back(from + (to - from) * i / (rows - 1));
+    curve.plate.push_back(exact.angle(curve.servo.back()));
+  }
+  return curve;
+}
+
+}  // namespace
+
+TEST_CASE("a measured curve is smooth, inverted exactly, and nears what was measured") {
+  const Linkage exact = make_linkage(desk(), Assumed::exact);
+  double last = 0;
+  for (const int rows : {11, 21, 41}) {
+    const Linkage curve = make_linkage(measured(desk(), rows, -0.9, 0.9), Assumed::exact);
+    double worst = 0;
+    for (double servo = -0.85; servo < 0.86; servo += 0.0371) {
+      worst = std::max(worst, std::abs(curve.angle(servo) - exact.angle(servo)));
+      CHECK(std::abs(curve.servo_for(curve.angle(servo)) - servo) < 1e-13);
+      // The piece that a mode holds says the same.
+      LinkCurve at = curve.curve;
+      const std::size_t piece = curve.piece_at(0, servo, 1);
+      at.piece = at.command_piece = curve.table->view().pieces[piece];
+      CHECK(at.angle(servo) == curve.angle(servo));
+      CHECK(std::abs(at.told(curve.angle(servo)) - servo) < 1e-13);
+      CHECK(std::abs(at.plain_turn(servo).slope - curve.table->at(servo).rate) < 1e-15);
+    }
+    if (last > 0) CHECK(worst < last / 8);  // the fourth order, and a half of it next to the ends
+    last = worst;
+  }
+  CHECK(last < 1e-7);
+}
+
+TEST_CASE("a measured curve that turns back, or has no home, is refused") {
+  CHECK_THROWS_WITH(
+      make_linkage(CurveLinkage{"", {-1, -0.5, 0.5, 1}, {0, -0.2, 0.1, 0.3}}, Assumed::exact),
+      Contains("turns back"));
+  CHECK_THROWS_WITH(
+      make_linkage(CurveLinkage{"", {0.1, 0.2, 0.3, 0.4}, {0, 0.1, 0.2, 0.3}}, Assumed::exact),
+      Contains("home, 0, between its ends"));
+}
+
+TEST_CASE("a knot belongs to the piece that the servo goes to") {
+  const Linkage curve = make_linkage(measured(desk(), 19, -0.9, 0.9), Assumed::exact);
+  const double knot = curve.table->knots()[5];
+  CHECK(curve.piece_at(4, knot, 1) == 5);
+  CHECK(curve.piece_at(5, knot, -1) == 4);
+  CHECK(curve.piece_at(4, knot, 0) == 4);
+  CHECK(curve.piece_at(5, knot, 0) == 5);
+  CHECK(curve.piece_at(9, -2, -1) == 0);
+  CHECK(curve.piece_at(9, 2, 1) == 17);
+}
+
+namespace {
+
+ThreeServoPlate hobby_plate() {
+  return {0.06, 0.09, 0.04, 0.1, 0.11};
+}
+
+}  // namespace
+
+TEST_CASE(
+    "three servos: what the inverse says, the closed chain gives, over all of the workspace") {
+  const ThreeServos three = make_three_servos(hobby_plate(), Assumed::exact);
+  const double most = greatest_tilt(three);
+  CHECK(most > 0.2);
+  int poses = 0;
+  for (int i = -10; i <= 10; ++i) {
+    for (int j = -10; j <= 10; ++j) {
+      const double wanted[2] = {0.099 * i * most, 0.099 * j * most};
+      if (std::cos(wanted[0]) * std::cos(wanted[1]) < std::cos(0.98 * most)) continue;
+      double servo[3], plane[2];
+      three.told(wanted, servo);
+      three.angles(servo, plane);
+      ++poses;
+      // Rounding, magnified where a leg is nearly stretched: by 1/sine of the knee's angle.
+      CHECK(std::abs(plane[0] - wanted[0]) < 1e-13);
+      CHECK(std::abs(plane[1] - wanted[1]) < 1e-13);
+      CHECK(three.margin(servo) > 0);
+    }
+  }
+  CHECK(poses > 200);
+  const double level[2] = {0, 0};
+  double servo[3];
+  three.told(level, servo);
+  for (const double one : servo) CHECK(std::abs(one) < 1e-15);
+}
+
+TEST_CASE("three servos: a leg's ends stay apart by the rod's length, in its own plane") {
+  const ThreeServos three = make_three_servos(hobby_plate(), Assumed::exact);
+  const double servo[3] = {0.3, -0.25, 0.1};
+  double sine[3], cosine[3];
+  three.directions(servo, sine, cosine);
+  const auto at = three.pose(sine, cosine);
+  // The joints in space, by the rotation that takes the vertical to the normal the shortest way.
+  const double n[3] = {at.p, at.q, std::sqrt(1 - at.p * at.p - at.q * at.q)};
+  const double w = 1 / (1 + n[2]);
+  const double wander[2] = {three.plate / 2 * w * (n[1] * n[1] - n[0] * n[0]),
+                            three.plate * w * n[0] * n[1]};
+  for (int i = 0; i < 3; ++i) {
+    const double e[2] = {ThreeServos::direction[i][0], ThreeServos::direction[i][1]};
+    const double along = e[0] * n[0] + e[1] * n[1];
+    double joint[3];
+    for (int k = 0; k < 2; ++k) {
+      joint[k] = wander[k] + three.plate * (e[k] - w * along * n[k]);
+    }
+    joint[2] = at.z - three.plate * along;
+    CHECK(std::abs(joint[1] * e[0] - joint[0] * e[1]) < 1e-16);  // in the leg's plane
+    const double out = joint[0] * e[0] + joint[1] * e[1];
+    CHECK(std::hypot(out - three.base - three.horn * cosine[i], joint[2] - three.horn * sine[i]) ==
+          Approx(three.rod).epsilon(1e-14));
+  }
+}
+
+TEST_CASE("three servos: rates and accelerations of the plane are derivatives of its angles") {
+  const ThreeServos three = make_three_servos(hobby_plate(), Assumed::exact);
+  const auto servo_at = [](double t, double(&servo)[3]) {
+    servo[0] = 0.2 + 0.3 * t + 0.5 * t * t;
+    servo[1] = -0.1 + 0.7 * t - 0.2 * t * t;
+    servo[2] = 0.05 - 0.4 * t + 0.9 * t * t;
+  };
+  const double rate[3] = {0.3, 0.7, -0.4}, acceleration[3] = {1.0, -0.4, 1.8};
+  double servo[3];
+  servo_at(0, servo);
+  Axis<double> axis[2];
+  three.planes(servo, rate, acceleration, axis);
+  const double h = 1e-3;
+  double plane[5][2];
+  for (int k = -2; k <= 2; ++k) {
+    double at[3];
+    servo_at(k * h, at);
+    three.angles(at, plane[k + 2]);
+  }
+  for (int i = 0; i < 2; ++i) {
+    CHECK(std::abs(std::atan2(axis[i].sin, axis[i].cos) - plane[2][i]) < 1e-15);
+    const double first = (8 * (plane[3][i] - plane[1][i]) - (plane[4][i] - plane[0][i])) / (12 * h);
+    const double second =
+        (16 * (plane[3][i] + plane[1][i]) - (plane[4][i] + plane[0][i]) - 30 * plane[2][i]) /
+        (12 * h * h);
+    CHECK(axis[i].rate == Approx(first).epsilon(1e-9));
+    CHECK(axis[i].acceleration == Approx(second).epsilon(1e-6));
+  }
+}
+
+TEST_CASE("three servos: the edge of the workspace is where a leg is stretched or folded") {
+  const ThreeServos three = make_three_servos(hobby_plate(), Assumed::exact);
+  // Down on the first leg's side until the margin is nothing.
+  double low = 0, high = 1.2;
+  for (int k = 0; k < 60; ++k) {
+    const double middle = (low + high) / 2;
+    const double servo[3] = {-middle, 0, 0};
+    (three.margin(servo) > 0 ? low : high) = middle;
+  }
+  CHECK(low > 0.2);
+  CHECK(low < 1.2);
+  CHECK_THROWS_WITH(make_three_servos({0.06, 0.09, 0.04, 0.02, 0.11}, Assumed::exact),
+                    Contains("legs that do not close at home"));
+}
+
+TEST_CASE("three servos: a ratio is the inverse's slope at home") {
+  const ThreeServos exact = make_three_servos(hobby_plate(), Assumed::exact);
+  const ThreeServos ratio = make_three_servos(hobby_plate(), Assumed::ratio);
+  const double h = 1e-5;
+  for (const auto& direction : {std::pair{1.0, 0.0}, std::pair{0.0, 1.0}, std::pair{0.6, -0.8}}) {
+    const double wanted[2] = {h * direction.first, h * direction.second};
+    double a[3], b[3], angle[2], rate[2];
+    exact.told(wanted, a);
+    ratio.told(wanted, b);
+    for (int i = 0; i < 3; ++i) CHECK(std::abs(a[i] - b[i]) < 100 * h * h);
+    const double none[3] = {0, 0, 0};
+    ratio.believed(b, none, angle, rate);
+    CHECK(angle[0] == Approx(wanted[0]).margin(1e-18));
+    CHECK(angle[1] == Approx(wanted[1]).margin(1e-18));
+  }
+}

@@ -1,0 +1,180 @@
+// Keys of linkages, three servos, servos by axis, clocks, frames and pushes: what they read as, and
+// what is refused.
+#include "catch.hpp"
+#include "support/reading.hpp"
+
+using namespace bbsim;
+using namespace bbsim::test;
+using Catch::Matchers::Contains;
+
+namespace {
+
+const std::string base =
+    "ball: {radius: 0.02, mass: 0.05}\n"
+    "gimbal: {servo: {natural_frequency: \"5 Hz\", damping: 0.8}}\n"
+    "controller:\n"
+    "  pd: {kv: 1, kp: 1}\n"
+    "  drives: angle\n"
+    "  reference: {point: [0, 0]}\n"
+    "time: {end: 1, step: 0.1}\n";
+
+const std::string rods = "{horn: \"2.5 cm\", arm: \"8 cm\", offset: [\"6 cm\", 0.09]}";
+const std::string three =
+    "{radius_base: 0.06, radius_plate: 0.09, horn: 0.04, rod: 0.1, height: 0.11}";
+
+}  // namespace
+
+TEST_CASE("a linkage is read for both axes, or for each") {
+  const Scenario both = parse(base, {"gimbal.linkage=" + rods, "controller.assumes=exact"});
+  for (const auto& one : both.gimbal.linkage) {
+    REQUIRE(one);
+    const RodLinkage& of = std::get<RodLinkage>(*one);
+    CHECK(of.horn == 0.025);
+    CHECK(of.arm == 0.08);
+    CHECK_FALSE(of.rod);
+    CHECK(of.offset == Pair{0.06, 0.09});
+  }
+  CHECK(both.controller->assumes == Assumes::exact);
+
+  TemporaryFolder folder;
+  const std::string table = folder.write("curve.csv", "a,b\n-1,-0.3\n-0.4,-0.1\n0.4,0.1\n1,0.3\n");
+  const Scenario apart =
+      parse(base, {"gimbal.linkage={phi: {horn: 0.02, arm: 0.05, rod: 0.1, offset: [0, 0.1]}, "
+                   "theta: {table: {file: " +
+                   table + ", servo: a, plate: b}}}"});
+  CHECK(*std::get<RodLinkage>(*apart.gimbal.linkage[0]).rod == 0.1);
+  CHECK(std::get<CurveLinkage>(*apart.gimbal.linkage[1]).plate ==
+        std::vector<double>{-0.3, -0.1, 0.1, 0.3});
+  CHECK(table_files(apart) == std::vector<std::string>{table});
+  const Scenario one = parse(base, {"gimbal.linkage={phi: " + rods + "}"});
+  CHECK_FALSE(one.gimbal.linkage[1]);
+
+  const Scenario of_three = parse(base, {"gimbal.three_servos=" + three});
+  CHECK(of_three.gimbal.three_servos->radius_plate == 0.09);
+}
+
+TEST_CASE("what a servo has in common, an axis may have of its own") {
+  const Scenario scene =
+      parse(base, {"gimbal.servo={natural_frequency: 30, damping: 0.8, rate_limit: 5, theta: "
+                   "{natural_frequency: 20, angle_limit: 0.4}}"});
+  CHECK(scene.gimbal.servo_of(0).natural_frequency == 30);
+  CHECK_FALSE(scene.gimbal.servo_of(0).angle_limit);
+  const Servo& theta = scene.gimbal.servo_of(1);
+  CHECK(theta.natural_frequency == 20);
+  CHECK(theta.damping == 0.8);
+  CHECK(*theta.rate_limit == 5);
+  CHECK(*theta.angle_limit == 0.4);
+  // All apart.
+  const Scenario apart = parse(base, {"gimbal.servo={phi: {natural_frequency: 30, damping: 1}, "
+                                      "theta: {natural_frequency: 20, damping: 0.7}}"});
+  CHECK(apart.gimbal.servo_of(0).damping == 1);
+  CHECK(apart.gimbal.servo_of(1).damping == 0.7);
+  CHECK_THAT(errors(base, {"gimbal.servo={phi: {natural_frequency: 30, damping: 1}, theta: "
+                           "{natural_frequency: 20}}"}),
+             Contains("gimbal.servo.theta.damping: missing"));
+  CHECK_THAT(errors(base, {"gimbal.servo={damping: 1, phi: {natural_frequency: 30}}"}),
+             Contains("gimbal.servo.natural_frequency: missing"));
+  CHECK_THAT(errors(base, {"gimbal.servo.theta={dead_band: 0.01}"}),
+             Contains("gimbal.servo.theta.dead_band: found without controller.sampling"));
+  CHECK_THAT(errors(base, {"gimbal.servo.phi={rate_limits: 5}"}),
+             Contains("gimbal.servo.phi.rate_limits: unknown key"));
+  CHECK_THAT(errors(base, {"gimbal.servo.theta={angle_limit: 0.1}", "gimbal.start.theta=0.2"}),
+             Contains("gimbal.start: found beyond gimbal.servo.angle_limit"));
+  CHECK(errors(base, {"gimbal.servo.theta={angle_limit: 0.1}", "gimbal.start.phi=0.2"}).empty());
+}
+
+TEST_CASE("a command's limit may differ by axis") {
+  const Scenario scene = parse(base, {"controller.limit={phi: \"10 deg\", theta: 0.2}"});
+  CHECK(*scene.controller->limit_of(0) == Approx(0.17453292519943295).epsilon(1e-15));
+  CHECK(*scene.controller->limit_of(1) == 0.2);
+  const Scenario one = parse(base, {"controller.limit={theta: 0.2}"});
+  CHECK_FALSE(one.controller->limit_of(0));
+  CHECK_THAT(errors(base, {"controller.limit={x: 0.2}"}), Contains("controller.limit"));
+  CHECK_THAT(errors(base, {"controller.limit={phi: -1}"}),
+             Contains("controller.limit.phi: found -1"));
+}
+
+TEST_CASE("clocks, frames and sensors are read in SI units") {
+  TemporaryFolder folder;
+  const std::string periods = folder.write("periods.csv", "dt\n0.02\n0.021\n");
+  const Scenario scene = parse(
+      base, {"controller.sampling={period: 0.02, jitter: {file: " + periods + ", period: dt}}",
+             "controller.sensor={rotation: \"2 deg\", offset: [\"1 mm\", 0], scale: 1.02, period: "
+             "\"33 ms\", phase: 0.005}"});
+  CHECK(scene.controller->sampling->periods == std::vector<double>{0.02, 0.021});
+  const Sensor& sensor = *scene.controller->sensor;
+  CHECK(sensor.rotation == Approx(0.03490658503988659).epsilon(1e-15));
+  CHECK(sensor.offset == Pair{1e-3, 0});
+  CHECK(sensor.scale == Pair{1.02, 1.02});
+  CHECK(*sensor.period == 0.033);
+  CHECK(sensor.phase == 0.005);
+  const Scenario drawn = parse(base, {"controller.sampling={period: 0.02, jitter: \"1 ms\"}",
+                                      "controller.sensor={seed: 3, scale: [1.1, 0.9]}"});
+  CHECK(drawn.controller->sampling->jitter == 0.001);
+  CHECK(drawn.controller->sensor->scale == Pair{1.1, 0.9});
+  const Scenario pushed = parse(base, {"ball.push={x: 0.01, y: {sinusoid: {amplitude: 0.1, "
+                                       "frequency: 1}}}"});
+  CHECK(std::get<double>(pushed.ball.push->x[0]) == 0.01);
+}
+
+TEST_CASE("what makes no sense of these keys is refused, with why") {
+  struct Case {
+    std::vector<std::string> overrides;
+    const char* expected;
+  };
+  const std::string with_rods = "gimbal.linkage=" + rods;
+  const Case cases[] = {
+      {{"gimbal.linkage={horn: 0.02, arm: 0.05}"}, "gimbal.linkage.offset: missing"},
+      {{"gimbal.linkage={horn: 0, arm: 0.05, offset: [0, 1]}"}, "gimbal.linkage.horn: found 0"},
+      {{"gimbal.linkage={horn: 0.02, arm: 0.05, offset: [0, 1], rods: 1}"},
+       "gimbal.linkage.rods: unknown key"},
+      {{"gimbal.linkage={table: {file: none.csv, servo: a, plate: b}}"}, "none.csv"},
+      {{"gimbal.linkage={phi: 3}"}, "gimbal.linkage.phi: found 3"},
+      {{"controller.assumes=exact"},
+       "controller.assumes: found, but nothing is between servos and plane"},
+      {{with_rods, "controller.assumes=perfect"}, "controller.assumes: found \"perfect\""},
+      {{with_rods, "gimbal.three_servos=" + three},
+       "gimbal.three_servos: found beside gimbal.linkage"},
+      {{"gimbal.three_servos=" + three, "gimbal.start.phi=0.1"},
+       "gimbal.start: found beside gimbal.three_servos"},
+      {{"gimbal.three_servos=" + three, "gimbal.servo.theta={damping: 1}"},
+       "gimbal.servo: found keys for phi and theta beside gimbal.three_servos"},
+      {{with_rods, "gimbal.servo.time_constant=0.1"}, "gimbal.servo.natural_frequency: given"},
+      {{"controller.sampling={period: 0.02}", "controller.sensor={phase: 0.01}"},
+       "controller.sensor.phase: found without sensor.period"},
+      {{"controller.sampling={period: 0.02}", "controller.sensor={period: 0.01, phase: 0.01}"},
+       "controller.sensor.phase: found a phase of a whole sensor.period or more"},
+      {{"controller.sampling={period: 0.02, jitter: -1}"}, "controller.sampling.jitter: found -1"},
+      {{"controller.sampling={period: 0.02}", "controller.sensor={scale: 0}"},
+       "controller.sensor.scale: found 0"},
+      {{"controller.sampling={period: 0.02}", "controller.sensor={seed: 2}"},
+       "controller.sensor.seed: found, but neither noise nor dropout, nor sampling.jitter"},
+      {{"output.columns=[t, push_x]"}, "but nothing pushes the ball"},
+      {{"output.columns=[t, servo_third]"}, "but there are no three servos"},
+  };
+  for (const Case& one : cases) {
+    INFO(one.expected);
+    CHECK_THAT(errors(base, one.overrides), Contains(one.expected));
+  }
+  const std::string prescribed =
+      "ball: {radius: 0.02}\n"
+      "gimbal: {motion: {phi: 0.1}}\n"
+      "time: {end: 1, step: 0.1}\n";
+  CHECK_THAT(errors(prescribed, {with_rods}),
+             Contains("gimbal.linkage: found without a controller"));
+  CHECK_THAT(errors(prescribed, {"ball.push={x: 1}"}),
+             Contains("ball.push: found, but no ball.mass"));
+  CHECK_THAT(errors(prescribed, {"output.columns=[t, servo_phi]"}),
+             Contains("but no servo moves the gimbal"));
+  CHECK_THAT(errors("ball: {radius: 0.02}\n"
+                    "controller: {pd: {kv: 1, kp: 1}, reference: {point: [0, 0]}}\n"
+                    "time: {end: 1, step: 0.1}\n",
+                    {with_rods}),
+             Contains("gimbal.linkage: found, but controller.drives is not angle"));
+  CHECK_THAT(errors("ball: {radius: 0.02, mass: 1}\n"
+                    "controller: {feedback_linearisation: {kv: 1, kp: 1}, reference: {point: [0, "
+                    "0]}}\n"
+                    "time: {end: 1, step: 0.1}\n",
+                    {"ball.push={x: 1}"}),
+             Contains("ball.push: found beside feedback_linearisation"));
+}

@@ -1,0 +1,242 @@
+// Runs of gimbals whose servos turn the plane through something.
+#include <cmath>
+#include <limits>
+
+#include "catch.hpp"
+#include "model/servo/linkages.hpp"
+#include "support/energy_balance.hpp"
+#include "support/run_in_memory.hpp"
+#include "support/scenes.hpp"
+
+using namespace bbsim;
+using namespace bbsim_test;
+
+namespace {
+
+constexpr double most_double = std::numeric_limits<double>::infinity();
+
+RodLinkage desk() {
+  return {0.025, 0.08, {}, {0.06, 0.09}};
+}
+
+Scenario linked() {
+  Scenario scene = fig2b();
+  scene.ball.radius = 0.02;
+  scene.ball.mass = 0.05;
+  scene.gimbal.servo = Servo{30, 0.8};
+  scene.gimbal.linkage = {desk(), desk()};
+  scene.controller->kp = {{{0.7, 0}, {0, -0.7}}};
+  scene.controller->kv = {{{0.6, 0}, {0, -0.6}}};
+  scene.controller->assumes = Assumes::exact;
+  scene.time = {4, 0.05};
+  return scene;
+}
+
+Run run_of(const Scenario& scene, Method method = Method::automatic) {
+  Run run = run_in_memory(scene, method, {1e-10, 1e-12});
+  REQUIRE(run.outcome.ending == solve::Ending::done);
+  return run;
+}
+
+double distance(const Run& a, const Run& b) {
+  REQUIRE(a.samples.size() == b.samples.size());
+  double most = 0;
+  for (std::size_t i = 0; i < a.samples.size(); ++i) {
+    const model::Sample &p = a.samples[i], &q = b.samples[i];
+    most = std::max({most, std::abs(p.ball.x - q.ball.x), std::abs(p.ball.y - q.ball.y),
+                     std::abs(p.gimbal.phi - q.gimbal.phi),
+                     std::abs(p.gimbal.theta - q.gimbal.theta)});
+  }
+  return most;
+}
+
+}  // namespace
+
+TEST_CASE("behind a push rod the plane is where the curve puts it, with its rates") {
+  const Method method = GENERATE(Method::radau, Method::bdf, Method::adams);
+  const Scenario scene = linked();
+  const model::Linkage linkage = make_linkage(desk(), model::Assumed::exact);
+  const Run run = run_of(scene, method);
+  double tilted = 0, last = 0, momentum = 0;
+  for (const model::Sample& now : run.samples) {
+    CHECK(std::abs(linkage.angle(now.servo[0]) - now.gimbal.phi) < 1e-15);
+    CHECK(std::abs(linkage.angle(now.servo[1]) - now.gimbal.theta) < 1e-15);
+    tilted = std::max(tilted, std::abs(now.gimbal.phi));
+    last = now.gimbal.phi;
+    momentum += now.gimbal.phi_dot * scene.time.step;
+  }
+  CHECK(tilted > 0.005);
+  // The rates' sum is the angle, as well as the trapezoidal rule knows.
+  CHECK(std::abs(momentum - last) < 0.01);
+}
+
+TEST_CASE("the integrators agree on linked scenes") {
+  const Scenario scene = linked();
+  CHECK(distance(run_of(scene), run_of(scene, Method::bdf)) < 1e-8);
+}
+
+TEST_CASE("a parallelogram is no linkage at all") {
+  // Horn and arm alike and side by side: the plate's angle is the servo's.
+  Scenario parallel = linked(), ideal = linked();
+  parallel.gimbal.linkage = {RodLinkage{0.03, 0.03, {}, {0.02, 0.05}},
+                             RodLinkage{0.03, 0.03, {}, {0.02, 0.05}}};
+  ideal.gimbal.linkage = {};
+  ideal.controller->assumes.reset();
+  const Run without = run_of(ideal);
+  for (const Assumes assumes : {Assumes::exact, Assumes::ratio}) {
+    parallel.controller->assumes = assumes;
+    // The tolerance, over four seconds.
+    CHECK(distance(run_of(parallel), without) < 1e-8);
+  }
+  parallel.controller->sampling = ideal.controller->sampling = Sampling{0.02, 0.01, 0.0, 0.03};
+  CHECK(distance(run_of(parallel), run_of(ideal)) < 1e-8);
+}
+
+TEST_CASE("a measured curve runs as what was measured, the better the more rows it has") {
+  const model::Linkage exact = make_linkage(desk(), model::Assumed::exact);
+  const bool sampled = GENERATE(false, true);
+  Scenario scene = linked();
+  if (sampled) scene.controller->sampling = Sampling{0.02, 0.01, 0.0, 0.03};
+  const Run rods = run_of(scene);
+  double last = most_double;
+  for (const int rows : {9, 17, 33}) {
+    CurveLinkage curve;
+    for (int i = 0; i < rows; ++i) {
+      curve.servo.push_back(-0.8 + 1.6 * i / (rows - 1));
+      curve.plate.push_back(exact.angle(curve.servo.back()));
+    }
+    scene.gimbal.linkage = {curve, curve};
+    const double off = distance(run_of(scene), rods);
+    CHECK(off < last / 4);
+    last = off;
+  }
+  CHECK(last < 1e-6);
+}
+
+TEST_CASE("a controller that inverts the curve sees ideal servos, but for their dynamics") {
+  // Slow commands: a servo that is far faster than the law leaves the same motion.
+  Scenario ideal = linked();
+  ideal.gimbal.linkage = {};
+  ideal.controller->assumes.reset();
+  ideal.gimbal.servo = Servo{2000, 1};
+  Scenario exact = linked(), ratio = linked();
+  exact.gimbal.servo = ratio.gimbal.servo = Servo{2000, 1};
+  ratio.controller->assumes = Assumes::ratio;
+  for (Scenario* one : {&ideal, &exact, &ratio}) one->ball.position = {0.15, 0.1};
+  const Run wanted = run_of(ideal);
+  const double of_exact = distance(run_of(exact), wanted);
+  const double of_ratio = distance(run_of(ratio), wanted);
+  CHECK(of_exact < 1e-4);
+  CHECK(of_ratio > 5 * of_exact);
+}
+
+TEST_CASE("a dead point ends the run, at its time to rounding") {
+  // A command beyond it under a servo at its rate limit: the horn turns at 2 rad/s.
+  const bool up = GENERATE(true, false);
+  Scenario scene = linked();
+  scene.gimbal.linkage[1].reset();
+  const model::Linkage linkage = make_linkage(desk(), model::Assumed::ratio);
+  const double dead = up ? linkage.curve.high : linkage.curve.low;
+  REQUIRE(std::abs(dead) < 3);
+  const double rate = up ? 2 : -2;
+  scene.gimbal.start.phi = dead - rate * 0.5;
+  scene.gimbal.start.phi_rate = rate;
+  scene.gimbal.servo = Servo{30, 0.8};
+  scene.gimbal.servo->rate_limit = 2;
+  scene.controller->assumes = Assumes::ratio;
+  scene.controller->kp = {{{0, 0}, {0, 0}}};
+  scene.controller->kv = {{{0, 0}, {0, 0}}};
+  // A constant command: feedback of nothing but a reference far away.
+  scene.controller->kp[0][0] = up ? 1 : -1;
+  scene.controller->reference = PointReference{{1000, 0}};
+  const Run run = run_in_memory(scene, Method::automatic, {1e-9, 1e-11});
+  REQUIRE(run.outcome.ending == solve::Ending::stopped);
+  REQUIRE(run.outcome.occurrences.size() == 1);
+  const model::Occurrence& end = run.outcome.occurrences[0];
+  CHECK(end.name == "dead_point");
+  INFO((up ? linkage.high_end : linkage.low_end));
+  CHECK(std::abs(end.t - 0.5) < 1e-13);
+}
+
+TEST_CASE("stops and backlash are the servo's, not the plane's") {
+  Scenario scene = linked();
+  scene.gimbal.servo->angle_limit = 0.05;
+  scene.gimbal.servo->backlash = 0.01;
+  scene.ball.position = {0.3, 0};
+  const model::Linkage linkage = make_linkage(desk(), model::Assumed::exact);
+  const Run run = run_of(scene);
+  double most = 0, play = 0;
+  for (const model::Sample& now : run.samples) {
+    most = std::max(most, std::abs(now.servo[0]));
+    play = std::max(play, std::abs(linkage.servo_for(now.gimbal.phi) - now.servo[0]));
+  }
+  CHECK(most == 0.05);
+  CHECK(play == Approx(0.005).epsilon(1e-9));
+}
+
+TEST_CASE("energy balances behind linkages, with losses") {
+  Scenario scene = linked();
+  scene.ball.losses = {0.002, 1e-6, 1e-5};
+  scene.plate.inertia = {1e-3, 2e-3, 3e-3};
+  CHECK(energy_gap(scene, run_of(scene)) < 1e-9);
+}
+
+TEST_CASE("three servos lead the ball as two ideal ones do, with fast servos") {
+  Scenario ideal = linked();
+  ideal.gimbal.linkage = {};
+  ideal.controller->assumes.reset();
+  Scenario three = ideal;
+  three.gimbal.three_servos = ThreeServoPlate{0.06, 0.09, 0.04, 0.1, 0.11};
+  three.controller->assumes = Assumes::exact;
+  const bool sampled = GENERATE(false, true);
+  if (sampled) {
+    ideal.controller->sampling = three.controller->sampling = Sampling{0.02, 0.01, 0.0, 0.03};
+  }
+  ideal.gimbal.servo = three.gimbal.servo = Servo{1000, 1};
+  // What a servo's dynamics leave: its lag is the same, but not along the same curve.
+  CHECK(distance(run_of(ideal), run_of(three)) < 1e-5);
+  // About home they are the same, whatever the servos: the smaller the tilt, the more so.
+  ideal.gimbal.servo = three.gimbal.servo = Servo{30, 0.8};
+  double last = 0;
+  for (const double size : {1.0, 0.1}) {
+    for (Scenario* one : {&ideal, &three}) {
+      one->ball.position = {0.1 * size, 0};
+      one->controller->reference = PointReference{{0, 0}};
+    }
+    const double off = distance(run_of(ideal), run_of(three));
+    if (last > 0) CHECK(off < last / 50);
+    last = off;
+  }
+}
+
+TEST_CASE("an axis may have a servo and limits of its own") {
+  Scenario scene = linked();
+  scene.gimbal.linkage = {};
+  scene.controller->assumes.reset();
+  scene.gimbal.theta_servo = Servo{12, 1.1};
+  scene.gimbal.theta_servo->rate_limit = 0.3;
+  scene.controller->axis_limits = {{{0.02}, {0.03}}};
+  scene.ball.position = {0.2, 0.2};
+  const Run run = run_of(scene);
+  double command[2] = {0, 0}, rate[2] = {0, 0};
+  for (const model::Sample& now : run.samples) {
+    for (std::size_t i = 0; i < 2; ++i) command[i] = std::max(command[i], std::abs(now.command[i]));
+    rate[0] = std::max(rate[0], std::abs(now.gimbal.phi_dot));
+    rate[1] = std::max(rate[1], std::abs(now.gimbal.theta_dot));
+  }
+  CHECK(command[0] == 0.02);
+  CHECK(command[1] == 0.03);
+  CHECK(rate[0] > 0.25);
+  CHECK(rate[1] <= 0.3);
+
+  // Both alike, written one by one, are both alike.
+  Scenario alike = linked();
+  alike.gimbal.linkage = {};
+  alike.controller->assumes.reset();
+  alike.controller->limit = 0.1;
+  Scenario apart = alike;
+  apart.gimbal.theta_servo = apart.gimbal.servo;
+  apart.controller->limit.reset();
+  apart.controller->axis_limits = {{{0.1}, {0.1}}};
+  CHECK(distance(run_of(alike), run_of(apart)) == 0);
+}

@@ -1,0 +1,166 @@
+// Clocks that jitter, frames of a camera, and sensors that are not aligned.
+#include <cmath>
+
+#include "catch.hpp"
+#include "model/control/sample_times.hpp"
+#include "support/run_in_memory.hpp"
+#include "support/scenes.hpp"
+
+using namespace bbsim;
+using namespace bbsim_test;
+
+namespace {
+
+// A ball that rolls over a level plate, and a controller that only looks: x = 0.1 t.
+Scenario onlooker() {
+  Scenario scene = fig2b();
+  scene.ball.radius = 0.02;
+  scene.ball.position = {0, 0};
+  scene.ball.velocity = {0.1, 0};
+  scene.gimbal.servo = Servo{30, 0.8};
+  scene.controller->kp = scene.controller->kv = {};
+  scene.controller->sampling = Sampling{0.02, 0, 0, 0};
+  scene.controller->sensor = Sensor{};
+  scene.time = {1, 0.0031};
+  return scene;
+}
+
+Run run_of(const Scenario& scene) {
+  Run run = run_in_memory(scene, Method::automatic, {1e-10, 1e-12});
+  REQUIRE(run.outcome.ending == solve::Ending::done);
+  return run;
+}
+
+}  // namespace
+
+TEST_CASE("measured periods follow one another, and begin anew after the last") {
+  Scenario scene = onlooker();
+  scene.controller->sampling->periods = {0.02, 0.03, 0.013};
+  for (const model::Sample& now : run_of(scene).samples) {
+    double sampled = 0;
+    for (std::size_t i = 0;; ++i) {
+      const double next = sampled + std::array{0.02, 0.03, 0.013}[i % 3];
+      if (next > now.t) break;
+      sampled = next;
+    }
+    CHECK(std::abs(now.measured[0] - 0.1 * sampled) < 1e-12);
+  }
+}
+
+TEST_CASE("a clock that jitters has the mean and deviation asked for, and repeats to the bit") {
+  Sampling sampling{0.02, 0, 0, 0};
+  sampling.jitter = 0.001;
+  model::SampleTimes one(sampling, 7), again(sampling, 7), other(sampling, 8);
+  const int n = 20000;
+  double sum = 0, square = 0;
+  bool differs = false;
+  for (int i = 1; i <= n; ++i) {
+    const double from = one.at(i - 1), to = one.at(i);
+    CHECK(to == again.at(i));
+    differs = differs || to != other.at(i);
+    sum += to - from;
+    square += (to - from - 0.02) * (to - from - 0.02);
+    one.forget_before(i - 2);
+  }
+  CHECK(differs);
+  // Four standard deviations of either.
+  CHECK(std::abs(sum / n - 0.02) < 4 * 0.001 / std::sqrt(n));
+  CHECK(std::abs(std::sqrt(square / n) - 0.001) < 4 * 0.001 / std::sqrt(2.0 * n));
+  // However large the deviation, time goes on.
+  sampling.jitter = 1;
+  model::SampleTimes wild(sampling, 7);
+  for (int i = 1; i < 100; ++i) CHECK(wild.at(i) - wild.at(i - 1) >= 0.0019);
+}
+
+TEST_CASE("jitter draws from a sequence of its own: noise is what it was") {
+  Scenario scene = onlooker();
+  scene.ball.velocity = {0, 0};
+  scene.controller->sensor->noise = 1e-3;
+  scene.time = {0.5, 0.02};
+  Scenario jittered = scene;
+  jittered.controller->sampling->jitter = 1e-5;
+  const Run a = run_of(scene), b = run_of(jittered), c = run_of(jittered);
+  // The ball rests, so that a sample is its noise alone; the n-th of both, 10 ms after it was due.
+  Scenario later = scene;
+  for (std::size_t i = 0; i + 1 < a.samples.size(); ++i) {
+    CHECK(b.samples[i].measured == c.samples[i].measured);
+    // A row at a sample's nominal time may be before the jittered one.
+    const bool same = b.samples[i].measured == a.samples[i].measured;
+    const bool last = i > 0 && b.samples[i].measured == a.samples[i - 1].measured;
+    CHECK((same || last));
+  }
+}
+
+TEST_CASE("a jittered run does not depend on the output step, nor on where it is cut") {
+  Scenario scene = onlooker();
+  scene.controller->kp = {{{0.7, 0}, {0, -0.7}}};
+  scene.controller->kv = {{{0.6, 0}, {0, -0.6}}};
+  scene.controller->sampling->jitter = 2e-3;
+  scene.controller->sampling->delay = 0.013;
+  scene.controller->sensor->delay = 0.007;
+  scene.controller->sensor->period = 0.033;
+  scene.time = {2, 0.25};
+  Scenario fine = scene;
+  fine.time.step = 0.125;
+  const Run a = run_of(scene), b = run_of(fine);
+  for (std::size_t i = 0; i < a.samples.size(); ++i) {
+    CHECK(a.samples[i].ball.x == b.samples[2 * i].ball.x);
+    CHECK(a.samples[i].command == b.samples[2 * i].command);
+  }
+}
+
+TEST_CASE("of a camera's frames a sample sees the last that has come") {
+  Scenario scene = onlooker();
+  scene.controller->sensor->period = 0.033;
+  scene.controller->sensor->phase = 0.005;
+  scene.controller->sensor->delay = 0.012;
+  for (const model::Sample& now : run_of(scene).samples) {
+    const double sampled = 0.02 * std::floor(now.t / 0.02 + 1e-9);
+    const double frame = 0.005 + 0.033 * std::floor((sampled - 0.012 - 0.005) / 0.033 + 1e-9);
+    CHECK(std::abs(now.measured[0] - 0.1 * std::max(frame, 0.0)) < 1e-12);
+  }
+}
+
+TEST_CASE("frames at the samples are the samples, to the bit") {
+  Scenario scene = onlooker();
+  scene.controller->kp = {{{0.7, 0}, {0, -0.7}}};
+  scene.controller->kv = {{{0.6, 0}, {0, -0.6}}};
+  Scenario frames = scene;
+  frames.controller->sensor->period = 0.02;
+  const Run a = run_of(scene), b = run_of(frames);
+  for (std::size_t i = 0; i < a.samples.size(); ++i) {
+    CHECK(a.samples[i].ball.x == b.samples[i].ball.x);
+    CHECK(a.samples[i].measured == b.samples[i].measured);
+  }
+}
+
+TEST_CASE("a sensor that is turned, scaled and off says scale R(rotation) p + offset") {
+  Scenario scene = onlooker();
+  scene.ball.velocity = {0.1, -0.2};
+  Sensor& sensor = *scene.controller->sensor;
+  sensor.rotation = 0.3;
+  sensor.scale = {1.1, 0.9};
+  sensor.offset = {0.01, -0.02};
+  for (const model::Sample& now : run_of(scene).samples) {
+    const double at = 0.02 * std::floor(now.t / 0.02 + 1e-9);
+    const double x = 0.1 * at, y = -0.2 * at, c = std::cos(0.3), s = std::sin(0.3);
+    CHECK(std::abs(now.measured[0] - (1.1 * (c * x - s * y) + 0.01)) < 1e-12);
+    CHECK(std::abs(now.measured[1] - (0.9 * (s * x + c * y) - 0.02)) < 1e-12);
+  }
+}
+
+TEST_CASE("where an offset sensor leads the ball, it says that the target is") {
+  Scenario scene = onlooker();
+  scene.ball.velocity = {0, 0};
+  scene.controller->kp = {{{0.7, 0}, {0, -0.7}}};
+  scene.controller->kv = {{{0.6, 0}, {0, -0.6}}};
+  scene.controller->reference = PointReference{{0.03, 0.02}};
+  scene.controller->sensor->rotation = 0.1;
+  scene.controller->sensor->offset = {0.005, 0.002};
+  scene.controller->sampling->derivative_filter = 0.03;
+  scene.time = {30, 1};
+  const model::Sample last = run_of(scene).samples.back();
+  const double x = 0.03 - 0.005, y = 0.02 - 0.002, c = std::cos(0.1), s = std::sin(0.1);
+  CHECK(last.ball.x == Approx(c * x + s * y).epsilon(1e-4));
+  CHECK(last.ball.y == Approx(c * y - s * x).epsilon(1e-4));
+}
