@@ -1,5 +1,5 @@
-// A profile of a gimbal angle, of a motor's torque or of a force: a number, one of sinusoid, ramp
-// and table, or a list: their sum.
+// A profile of a gimbal angle, of a motor's torque or of a force: a number, one of the shapes of a
+// ProfileTerm, or a list: their sum.
 #pragma once
 
 #include <string>

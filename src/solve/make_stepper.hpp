@@ -9,9 +9,9 @@
 
 namespace bbsim::solve {
 
-// Makes a stepper for runs of the model with rows at the times of the grid. The method is radau,
-// bdf or adams: which one `automatic` stands for is choose_method()'s to say. The stepper keeps a
-// reference to the model. Throws InputError if the environment variable BBSIM_SIMD names no
+// Makes a stepper for runs of the model with rows at the times of the grid, by any method but
+// `automatic`: what that stands for is choose_method()'s to say. The stepper keeps a reference to
+// the model. Throws InputError if the environment variable BBSIM_SIMD names no
 // instruction set of this processor.
 [[nodiscard]] std::unique_ptr<Stepper> make_stepper(const model::Model& model, Method method,
                                                     Tolerances tolerances, const OutputGrid& grid);
