@@ -85,7 +85,9 @@ RunPart::RunPart(const PartArguments& arguments, const Scenario& scenario,
                      std::string(solve::method_name(method)) +
                      ", which keeps its history to itself; allowed: radau");
   }
-  if (scenario::is_coupled(scenario)) {
+  Scenario without_push = scenario;  // which switches nothing
+  without_push.ball.push.reset();
+  if (scenario::is_coupled(without_push)) {
     throw InputError(
         "--save-state, --from-state: found with losses, sliding or torques, whose switches are not "
         "kept; allowed: without");

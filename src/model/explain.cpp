@@ -125,7 +125,7 @@ std::string limits_note(const Gimbal& gimbal) {
 
 std::string assumes_note(const Scenario& scene) {
   if (scene.controller->own) return "; the controller commands the servos as it sees fit";
-  return scene.controller->assumes.value_or(Assumes::ratio) == Assumes::exact
+  return assumes_of(scene) == Assumes::exact
              ? "; the controller inverts the curve"
              : "; the controller takes it for a ratio, that of home";
 }

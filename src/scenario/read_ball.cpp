@@ -34,7 +34,13 @@ void read_ball(yaml::Keys& keys, Ball& ball) {
   keys.optional("inertia_factor", factor, ball.inertia_factor);
   keys.section("losses", read_losses, ball.losses);
   keys.optional("rotation", yaml::PairOf{yaml::Dimension::angular_rate}, ball.rotation);
-  keys.optional("push", yaml::MappingOf(read_push), ball.push);
+  static_cast<void>(keys.find("push"));  // which read_ball_push() reads
+}
+
+void read_ball_push(yaml::Keys& scenario, Ball& ball) {
+  const auto keys = scenario.find("ball");
+  if (!keys || keys->node->kind != yaml::Node::Kind::mapping) return;
+  yaml::Keys(*keys).optional("push", yaml::MappingOf(read_push), ball.push);
 }
 
 void read_plate(yaml::Keys& keys, Plate& plate) {

@@ -13,14 +13,14 @@ namespace scenario {
 
 using namespace yaml;
 
-// `time` is read before `ball` and `gimbal`, whose tables must cover the run.
+// `time` stands before `gimbal` and what pushes the ball, whose tables must cover the run.
 void read_sections(Keys& keys, Scenario& scenario) {
   keys.optional("title", Text{"a text", true}, scenario.title);
   keys.optional("gravity", Number{Dimension::acceleration, {.at_least = 0}}, scenario.gravity);
-  for (const char* in_order : {"ball", "plate"}) static_cast<void>(keys.find(in_order));
-  keys.section("time", read_time, scenario.time);
   keys.section("ball", read_ball, scenario.ball);
   keys.section("plate", read_plate, scenario.plate);
+  keys.section("time", read_time, scenario.time);
+  read_ball_push(keys, scenario.ball);
   keys.section("gimbal", read_gimbal, scenario.gimbal);
   keys.optional("controller", MappingOf(read_controller), scenario.controller);
   keys.section("events", read_events, scenario.events);

@@ -7,6 +7,8 @@
 namespace bbsim::scenario {
 
 void read_ball(yaml::Keys& keys, Ball& ball);
+// Of the scenario's keys, after read_ball and read_time.
+void read_ball_push(yaml::Keys& scenario, Ball& ball);
 void read_plate(yaml::Keys& keys, Plate& plate);
 void read_events(yaml::Keys& keys, Events& events);
 void read_time(yaml::Keys& keys, OutputTimes& time);

@@ -197,16 +197,31 @@ TEST_CASE("check tells of linkages, clocks and frames, and of stops beyond a dea
   CHECK(contains(three.out, "without the wander of the plate's centre"));
 }
 
-TEST_CASE("scenes with linkages and three servos run, and can be gone on with") {
-  for (const std::string name : {"pushrod", "three-servos"}) {
-    const Result whole =
-        bbsim({"run", config(name + ".yaml"), "-q", "-o", "-", "--set", "time.end=4"});
-    CHECK(whole.exit_code == 0);
-    const auto columns = csv(whole.out);
+TEST_CASE("scenes with linkages and three servos run, in parts too, to the byte") {
+  for (const std::string name : {"pushrod", "three-servos", "pushed"}) {
+    const Folder folder;
+    std::vector<std::string> run{"run", config((name == "pushed" ? "pushrod" : name) + ".yaml"),
+                                 "-q", "--set", "time.end=4"};
+    if (name == "pushed") {
+      run.insert(run.end(),
+                 {"--set", "ball.push={x: {sinusoid: {amplitude: 0.01, frequency: 3}}}"});
+    }
+    const auto made = [&](std::vector<std::string> more) {
+      more.insert(more.begin(), run.begin(), run.end());
+      const Result result = bbsim(more);
+      CHECK(result.exit_code == 0);
+      return result.out;
+    };
+    const std::string whole = made({"-o", "-"});
+    const auto columns = csv(whole);
     CHECK(columns.at("servo_phi").size() == 201);
     double turned = 0;
     for (const double one : columns.at("servo_theta")) turned = std::max(turned, std::abs(one));
     CHECK(turned > 0.02);
+    const std::string state = folder / "run.state";
+    const std::string first = made({"-o", "-", "--until", "2 s", "--save-state", state});
+    const std::string second = made({"-o", "-", "--from-state", state});
+    CHECK(first + second.substr(second.find('\n') + 1) == whole);
   }
 }
 

@@ -165,7 +165,7 @@ TEST_CASE(
   Scenario linked = ideal, three = ideal;
   linked.controller->assumes = three.controller->assumes = assumes;
   linked.gimbal.linkage = {RodLinkage{0.025, 0.08, {}, {0.06, 0.09}},
-                           RodLinkage{0.03, 0.06, 0.07, {0.02, 0.06}}};
+                           RodLinkage{0.03, 0.06, 0.08, {0.02, 0.06}}};
   three.gimbal.three_servos = ThreeServoPlate{0.06, 0.09, 0.04, 0.1, 0.11};
   const auto poles_of = [&](const Scenario& scene) {
     const model::Model model = model::assemble(scene, false);
@@ -184,7 +184,7 @@ TEST_CASE(
 TEST_CASE("behind a linkage A is the derivative of the system, where it rests too") {
   Scenario scene = pd_scene();
   scene.gimbal.linkage = {RodLinkage{0.025, 0.08, {}, {0.06, 0.09}},
-                          RodLinkage{0.03, 0.06, 0.07, {0.02, 0.06}}};
+                          RodLinkage{0.03, 0.06, 0.08, {0.02, 0.06}}};
   scene.gimbal.mounting.phi_offset = 0.04;
   scene.controller->assumes = GENERATE(Assumes::exact, Assumes::ratio);
   const model::LinearPoint at = model::equilibrium(scene);

@@ -30,7 +30,7 @@ TEST_CASE("an unknown key like no other lists the known ones") {
                "time: {end: 1, step: 1}\n"
                "gimbal: {motion: {}}\n") ==
         "scenario.yaml:1:22: ball.colour: unknown key; known keys here: radius, mass, position, "
-        "velocity, spin, inertia_factor, losses, rotation");
+        "velocity, spin, inertia_factor, losses, rotation, push");
 }
 
 TEST_CASE("a missing key is reported at the mapping that lacks it") {
@@ -66,7 +66,7 @@ TEST_CASE("a repeated key names the line of the first") {
 TEST_CASE("a wrong type") {
   CHECK(errors("ball: 3\ntime: {end: 1, step: 1}\ngimbal: {motion: {}}\n") ==
         "scenario.yaml:1:7: ball: found 3; allowed: a mapping with radius, mass, position, "
-        "velocity, spin, inertia_factor, losses, rotation");
+        "velocity, spin, inertia_factor, losses, rotation, push");
   CHECK(errors("ball: {radius: [1, 2, 3], position: [1], velocity: {}, mass: , spin: fast}\n"
                "time: {end: 1, step: 1}\ngimbal: {motion: {}}\n") ==
         "scenario.yaml:1:16: ball.radius: found a list of 3; allowed: a length greater than 0, "

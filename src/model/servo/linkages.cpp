@@ -68,6 +68,21 @@ double turned_within(double angle, double from) {
   return angle - 2 * pi * std::floor((angle - from) / (2 * pi));
 }
 
+// The arm's angle, whole turns and all, where the servo has gone from home to `servo`, at which it
+// is `arm` but for them.
+double arm_followed(const Rods& rods, double servo, double arm) {
+  const Turn<double> home = rods.arm_at(0.0);
+  double angle = std::atan2(home.sin, home.cos);
+  const auto go_to = [&angle](double next) { angle = turned_within(next, angle - pi); };
+  constexpr int steps = 256;
+  for (int i = 1; i < steps; ++i) {
+    const Turn<double> turn = rods.arm_at(servo * i / steps);
+    go_to(std::atan2(turn.sin, turn.cos));
+  }
+  go_to(arm);
+  return angle;
+}
+
 [[noreturn]] void refuse(const std::string& message) {
   throw KeyError("gimbal.linkage", message);
 }
@@ -150,7 +165,11 @@ Linkage make_linkage(const RodLinkage& of, Assumed assumed) {
       linkage.low_end = point.why;
     }
   }
-  linkage.reach = {std::min(at_low, at_high), std::max(at_low, at_high)};
+  if (curve.high < unlimited) {
+    at_low = arm_followed(rods, curve.low, at_low);
+    at_high = arm_followed(rods, curve.high, at_high);
+    linkage.reach = {std::min(at_low, at_high), std::max(at_low, at_high)};
+  }
   return linkage;
 }
 
@@ -198,9 +217,17 @@ double Linkage::angle(double servo) const {
 
 double Linkage::servo_for(double angle) const {
   if (curve.kind == LinkCurve::Kind::ideal) return angle;
-  const double within =
-      reach.binds() ? std::clamp(angle + curve.shift, reach.low + inside, reach.high - inside)
-                    : angle + curve.shift;
+  double within = angle + curve.shift;
+  if (reach.binds()) {
+    // A turn more or less is the same direction.
+    const double low = reach.low + inside, high = reach.high - inside;
+    for (const double turn : {2 * pi, -2 * pi}) {
+      if ((within < low || within > high) && within + turn >= low && within + turn <= high) {
+        within += turn;
+      }
+    }
+    within = std::clamp(within, low, high);
+  }
   if (!table) return curve.rods.horn_at(within);
   // Newton's iteration, and a half where it leaves what is known to hold the answer.
   double low = curve.low, high = curve.high;
@@ -319,14 +346,18 @@ bool is_linked(const Scenario& scene) {
   return gimbal.linkage[0] || gimbal.linkage[1] || gimbal.three_servos;
 }
 
+Assumes assumes_of(const Scenario& scene) {
+  return scene.controller->assumes.value_or(scene.gimbal.three_servos ? Assumes::exact
+                                                                      : Assumes::ratio);
+}
+
 Between between_of(const Scenario& scene) {
   Between between;
   if (!is_linked(scene) || !scene.controller) return between;
   const Controller& controller = *scene.controller;
-  const Assumed assumed = controller.own ? Assumed::none
-                          : controller.assumes.value_or(Assumes::ratio) == Assumes::exact
-                              ? Assumed::exact
-                              : Assumed::ratio;
+  const Assumed assumed = controller.own                        ? Assumed::none
+                          : assumes_of(scene) == Assumes::exact ? Assumed::exact
+                                                                : Assumed::ratio;
   const Mounting& mounting = scene.gimbal.mounting;
   const double offset[2] = {mounting.phi_offset, mounting.theta_offset};
   if (scene.gimbal.three_servos) {

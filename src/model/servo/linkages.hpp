@@ -73,6 +73,10 @@ struct Between {
 [[nodiscard]] Linkage make_linkage(const CurveLinkage& of, Assumed assumed);
 [[nodiscard]] ThreeServos make_three_servos(const ThreeServoPlate& of, Assumed assumed);
 
+// What the scene's controller takes it for: a ratio, as most firmware does, unless it says
+// otherwise; but nobody moves three servos without inverse kinematics.
+[[nodiscard]] Assumes assumes_of(const Scenario& scene);
+
 [[nodiscard]] Between between_of(const Scenario& scene);
 
 // The greatest tilt, in any direction, that all three legs reach at the height of home, rad.

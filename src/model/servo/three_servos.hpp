@@ -66,12 +66,13 @@ struct ThreeServos {
     T x, z;
   };
 
-  static constexpr double direction[3][2] = {
-      {1, 0}, {-0.5, 0.8660254037844386}, {-0.5, -0.8660254037844386}};
+  // Cosine and sine of the legs' azimuths, 0, 120 and 240 degrees, are written out where they are
+  // used: kernels share no data.
 
   template <class T, class Number>
   [[nodiscard]] Joint<T> joint(int i, const Pose<T>& at, const Number& number) const {
-    const double ex = direction[i][0], ey = direction[i][1];
+    const double across = 0.8660254037844386;
+    const double ex = i == 0 ? 1.0 : -0.5, ey = i == 0 ? 0.0 : i == 1 ? across : -across;
     const T pp = at.p * at.p, qq = at.q * at.q;
     const T one = number(1.0);
     const T w = one / (one + root_along(one - pp - qq, one));
@@ -94,7 +95,8 @@ struct ThreeServos {
   template <class Real>
   [[nodiscard]] Slopes<Real> slopes(int i, const Pose<Real>& at, const Real& sine,
                                     const Real& cosine) const {
-    const double ex = direction[i][0], ey = direction[i][1];
+    const double across = 0.8660254037844386;
+    const double ex = i == 0 ? 1.0 : -0.5, ey = i == 0 ? 0.0 : i == 1 ? across : -across;
     const Real& p = at.p;
     const Real& q = at.q;
     const Real one = Real(1.0);
