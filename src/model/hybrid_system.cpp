@@ -136,11 +136,19 @@ HybridSystem::HybridSystem(const Model& model, double resolution) : model_(model
 }
 
 double HybridSystem::next_time_event() const {
-  double next = next_stop_ < model_.stops.size() ? model_.stops[next_stop_] : unlimited;
+  double next = next_stop();
   if (sampled_) {
     next = std::min({next, sampled_->expose.next, sampled_->sample.next, sampled_->apply.next});
   }
   return next;
+}
+
+double HybridSystem::next_stop() const {
+  return next_stop_ < model_.stops.size() ? model_.stops[next_stop_] : unlimited;
+}
+
+double HybridSystem::next_change() const {
+  return sampled_ ? std::min(next_stop(), sampled_->apply.next) : next_stop();
 }
 
 double HybridSystem::rounding(double t) const {
@@ -173,6 +181,8 @@ bool HybridSystem::is_due(double t) const {
 
 void HybridSystem::handle_time_event(double t, double* z) {
   const double now = instant_end(t);
+  // What a sampled loop only sees changes nothing.
+  touched_ = !sampled_ || dry_ || !std::holds_alternative<RigLoop<false>>(model_.system) || t == 0;
   while (next_stop_ < model_.stops.size() && model_.stops[next_stop_] <= now) ++next_stop_;
   if (sampled_) {
     while (sampled_->expose.next <= now) expose(z);
@@ -181,7 +191,7 @@ void HybridSystem::handle_time_event(double t, double* z) {
     const double last = std::min(sampled_->sample.number, sampled_->apply.number);
     sampled_->times.forget_before(has_frames() ? last : std::min(last, sampled_->expose.number));
   }
-  settle(t, z);
+  if (touched_) settle(t, z);
 }
 
 void HybridSystem::expose(const double* z) {
@@ -238,7 +248,9 @@ void HybridSystem::apply_command() {
   sampled_->commands.erase(sampled_->commands.begin());
   const std::array<double, 3> told = sampled_->controller.told(command);
   for (std::size_t i = 0; i < servos_.size(); ++i) {
-    mode().command[i] = servos_[i].follow(told[i]);
+    const double follows = servos_[i].follow(told[i]);
+    touched_ = touched_ || follows != mode().command[i];
+    mode().command[i] = follows;
   }
   for (std::size_t i = 0; i < 2; ++i) mode().wanted[i] = command[i];
 }
@@ -401,6 +413,26 @@ void HybridSystem::evaluate_guards(double t, const double* z, double* values) co
   }
 }
 
+HybridSystem::Fall HybridSystem::next_fall(double t, const double* z, double end) const {
+  Fall first;
+  if (!model_.rig || !model_.rig->switches()) return first;
+  const auto& [present, response] = with_loop([](const auto& loop) {
+    return std::pair<const RigMode&, const ServoResponses&>(loop.mode, loop.servo());
+  });
+  for (std::size_t i = 0; i < 2; ++i) {
+    const double command = present.command[i];
+    const HeldMotion motion =
+        held_motion(response.of[i], present.axis[i], command, z[angle + i], z[rate_ + i]);
+    const ServoAxis::Fall fall =
+        servos_[i].first_fall(motion, command, t, std::min(end, first.time) - t);
+    // Rounded up: what falls has then fallen, however short the time is beside t.
+    double at = t + fall.after;
+    if (at - t < fall.after) at = std::nextafter(at, unlimited);
+    if (at < first.time) first = {at, i * axis_guards + static_cast<std::size_t>(fall.guard)};
+  }
+  return first;
+}
+
 HybridSystem::Effect HybridSystem::occur(std::size_t monitor, double t, const double* z) {
   happening_[monitor] = 1;
   const Monitor& what = model_.events->monitors[monitor];
@@ -459,9 +491,10 @@ bool HybridSystem::stops(std::size_t i) const {
 HybridSystem::Effect HybridSystem::check_events(double t, const double* z) {
   if (note_dry(t, z) == Effect::stop) return Effect::stop;
   if (happening_.empty()) return Effect::none;
-  const Sample now = sample(t, z, Detail::motion);
+  std::vector<double> margins(happening_.size());
+  model_.events->margins(sample(t, z, Detail::motion), margins.data());
   for (std::size_t m = 0; m < happening_.size(); ++m) {
-    const bool beyond = model_.events->margin(model_.events->monitors[m], now) < 0;
+    const bool beyond = margins[m] < 0;
     if (beyond && happening_[m] == 0 && occur(m, t, z) == Effect::stop) return Effect::stop;
     if (!beyond) happening_[m] = 0;
   }

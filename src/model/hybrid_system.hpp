@@ -42,10 +42,30 @@ class HybridSystem {
   // Throws ControllerFault where a controller that is not built in does not do its part.
   void handle_time_event(double t, double* z);
 
+  // Whether the last call may have changed how the model moves from there on.
+  [[nodiscard]] bool touched() const { return touched_; }
+
+  // The first of those times at which the motion may change: others only see it.
+  [[nodiscard]] double next_change() const;
+
   // What is looked out for between: each guard is positive until something happens.
   [[nodiscard]] std::size_t guards() const { return guard_scales_.size(); }
   [[nodiscard]] const std::vector<double>& guard_scales() const { return guard_scales_; }
   void evaluate_guards(double t, const double* z, double* values) const;
+
+  // The first `first_monitor()` guards are those of servos and of what is dry.
+  [[nodiscard]] std::size_t first_monitor() const { return guards() - happening_.size(); }
+  // Of each monitor after them, whether it is on the other side of zero at present.
+  [[nodiscard]] const std::vector<char>& happening() const { return happening_; }
+
+  // A guard that falls.
+  struct Fall {
+    double time = unlimited;  // s; infinite if none does
+    std::size_t guard = 0;
+  };
+  // The first guard of a servo that falls after t, within (t, end], of one that moves in closed
+  // form from the states z on: as long as the mode is the present one, and its command is held.
+  [[nodiscard]] Fall next_fall(double t, const double* z, double end) const;
 
   // Whether guard i stops the run once it has fallen to zero.
   [[nodiscard]] bool stops(std::size_t i) const;
@@ -89,6 +109,7 @@ class HybridSystem {
   // Calls `use` with the RigLoop, of a model that has one.
   template <class Use>
   auto with_loop(Use use) const;
+  [[nodiscard]] double next_stop() const;
   [[nodiscard]] RigMode& mode();
   [[nodiscard]] Wanted axes(double t, const double* z) const;
   [[nodiscard]] std::array<double, 2> plane_rates(const double* z) const;
@@ -122,6 +143,7 @@ class HybridSystem {
 
   Model model_;
   std::size_t next_stop_ = 0;
+  bool touched_ = true;
   std::vector<ServoAxis> servos_;
   int rate_ = RigLayout::rate;                             // among the states, of the first servo
   std::size_t pieces_[2]{0, 0}, command_pieces_[2]{0, 0};  // of measured curves

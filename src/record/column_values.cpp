@@ -93,7 +93,7 @@ constexpr std::array values = {
             return (d.torque_phi + d.plate_torque_phi) * gimbal.phi_dot +
                    (d.torque_theta + d.plate_torque_theta) * gimbal.theta_dot;
           }},
-    Entry{"energy", [](R row) { return row.dynamics->energy; }},
+    Entry{"energy", [](R row) { return row.dynamics->energy(); }},
     Entry{"power",
           [](R row) {
             const model::GimbalState& gimbal = row.sample.gimbal;
@@ -101,7 +101,7 @@ constexpr std::array values = {
                    row.dynamics->torque_theta * gimbal.theta_dot;
           }},
     Entry{"push_power", [](R row) { return row.dynamics->push_power; }},
-    Entry{"total_energy", [](R row) { return row.dynamics->energy + row.dynamics->gimbal_energy; }},
+    Entry{"total_energy", [](R row) { return row.dynamics->energy() + row.dynamics->gimbal_energy; }},
     Entry{"slip_x", [](R row) { return row.dynamics->coupled.slip[0]; }},
     Entry{"slip_y", [](R row) { return row.dynamics->coupled.slip[1]; }},
     Entry{"loss_power", [](R row) { return row.dynamics->coupled.lost_power; }},

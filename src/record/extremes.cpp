@@ -22,16 +22,29 @@ std::vector<const scenario::Column*> columns_of(const std::vector<Extremes::Soug
   return columns;
 }
 
+std::optional<solve::Load> load_of(const scenario::Column& column) {
+  if (column.name == "motor_torque_phi") return solve::Load::motor_torque_phi;
+  if (column.name == "motor_torque_theta") return solve::Load::motor_torque_theta;
+  if (column.name == "motor_power") return solve::Load::motor_power;
+  return {};
+}
+
 }  // namespace
 
 Extremes::Extremes(std::vector<Sought> sought)
     : columns_(columns_of(sought)), greatest_(sought.size()) {
-  for (const Sought& one : sought) signs_.push_back(one.least ? -1 : 1);
+  for (const Sought& one : sought) {
+    signs_.push_back(one.least ? -1 : 1);
+    loads_.push_back(load_of(*one.column));
+  }
+  loads_alone_ =
+      std::all_of(loads_.begin(), loads_.end(), [](const auto& load) { return load.has_value(); });
   begin_run();
 }
 
 void Extremes::begin(const model::Model& model, const model::BallConstants& constants) {
   model_ = &model;
+  constants_ = &constants;
   columns_.begin(model, constants);
   begin_run();
 }
@@ -114,7 +127,33 @@ void Extremes::climb_within(std::size_t i, const solve::Piece& piece,
   }
 }
 
+bool Extremes::may_exceed(std::size_t i, const std::optional<solve::Bounds>& bounds) const {
+  if (!bounds) return true;
+  return !(std::max(signs_[i] * bounds->least, signs_[i] * bounds->most) <= greatest_[i].value);
+}
+
+// Whether nothing within the piece is greater than it was before, by what the integrator says
+// without being asked for a row.
+bool Extremes::matters_not(const solve::Piece& piece) const {
+  if (!loads_alone_) return false;
+  // The greatest and the least of one load stand next to each other.
+  std::optional<solve::Bounds> bounds;
+  bool close = false;
+  for (std::size_t i = 0; i < size(); ++i) {
+    const auto exceeds = [&](bool closely) {
+      bounds = piece.bounds(*loads_[i], *constants_, closely);
+      close = closely;
+      return may_exceed(i, bounds);
+    };
+    const bool known = i > 0 && loads_[i] == loads_[i - 1];
+    if (!(known ? may_exceed(i, bounds) : exceeds(false))) continue;
+    if (!bounds || close || exceeds(true)) return false;
+  }
+  return true;
+}
+
 void Extremes::accept(const solve::Piece& piece) {
+  if (matters_not(piece)) return;
   std::size_t parts = piece.parts();
   for (;; parts *= 2) {
     const ChebyshevPoints& points = tables_.points(parts);

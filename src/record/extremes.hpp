@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <vector>
 
 #include "base/chebyshev.hpp"
@@ -45,14 +46,19 @@ class Extremes : public solve::PieceSink {
 
  private:
   void sample(const solve::Piece& piece, const ChebyshevPoints& points);
+  [[nodiscard]] bool may_exceed(std::size_t i, const std::optional<solve::Bounds>& bounds) const;
+  [[nodiscard]] bool matters_not(const solve::Piece& piece) const;
   [[nodiscard]] bool may_matter(std::size_t i, const ChebyshevPoints& points) const;
   [[nodiscard]] bool is_shown(std::size_t i, const ChebyshevPoints& points) const;
   void take(std::size_t i, double value, double t);
   void climb_within(std::size_t i, const solve::Piece& piece, const ChebyshevPoints& points);
 
   Rows columns_;
+  std::vector<std::optional<solve::Load>> loads_;  // of each column, if it is one
+  bool loads_alone_ = false;                       // whether all are
   std::vector<double> signs_;  // -1 where the least value is the greatest of the column turned over
   const model::Model* model_ = nullptr;
+  const model::BallConstants* constants_ = nullptr;
   std::vector<Extreme> greatest_;
   ChebyshevTables tables_;
   std::vector<double> times_, rows_;

@@ -57,8 +57,9 @@ void Rows::begin(const model::Model& model, const model::BallConstants& constant
 
 void Rows::evaluate(const double* times, const double* rows, std::size_t count) {
   samples_.resize(count);
+  const std::size_t row_size = model_->row_size();
   for (std::size_t i = 0; i < count; ++i) {
-    samples_[i] = model_->sample(times[i], rows + i * model_->row_size(), detail_);
+    samples_[i] = model_->sample(times[i], rows + i * row_size, detail_);
   }
   fill();
 }

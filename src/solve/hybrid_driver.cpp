@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <string>
 #include <utility>
 
@@ -40,6 +41,8 @@ class HybridIntegration {
         pieces_(sink.pieces()),
         stepper_(make_stepper(run_.model())),
         controller_(run_.controller()),
+        foresees_(stepper_->knows_servos()),
+        first_guard_(foresees_ ? run_.first_monitor() : 0),
         guards_(run_.guards()),
         values_(run_.guards()),
         now_(run_.guards()),
@@ -89,23 +92,40 @@ class HybridIntegration {
     finish_row(0, first);
     if (look(0, z, 0) == Effect::stop) return ended(Ending::stopped, 0);
     stepper_->start(0, z.data());
-    if (!guards_.empty()) arm(0, z.data());
+    if (foresees_) {
+      foresee(0, z, false);
+    } else if (!guards_.empty()) {
+      arm(0, z.data());
+    }
     return go_on(z);
   }
 
   // From step to step, from a state that the stepper has; z is room for one.
   Outcome go_on(std::vector<double>& z) {
     const double end = step_limit(part_, grid_.end());
+    double from = stepper_->time(), limit = from;
     for (std::size_t steps = 1;; ++steps) {
-      const double from = stepper_->time(), due = run_.next_time_event();
-      const double limit = std::min(due, end);
-      if (part_ != nullptr && part_->keeps_state) keep_state(limit);
-      if (is_stopped()) return ended(Ending::interrupted, from);
-      if (const char* reason = stepper_->step(limit)) return failed(from, reason);
-      const double to = stepper_->time();
+      if (from >= stepper_->time()) {
+        // Servos that are foreseen are not cut where a sample is only taken, nor by the run's end:
+        // a longer run has the same steps.
+        limit = foresees_ ? std::min(run_.next_change(), fall_.time)
+                          : std::min(run_.next_time_event(), end);
+        if (part_ != nullptr && part_->keeps_state) keep_state(limit);
+        if (is_stopped()) return ended(Ending::interrupted, from);
+        quiet_ = false;
+        if (const char* reason = stepper_->step(limit)) {
+          if (unlooked_ && look(from, stepper_->state(), turned_) == Effect::stop) {
+            return ended(Ending::stopped, from);
+          }
+          return failed(from, reason);
+        }
+      }
+      const double due = run_.next_time_event();
+      const double to = std::min({stepper_->time(), due, end});
       double at = to;
       told_ = from;
-      const Effect effect = scan(from, to, at, z);
+      Effect effect = scan(from, to, at, z);
+      if (effect == Effect::none && to >= fall_.time) effect = fall(to, z);
       const bool switches = effect == Effect::restart || (effect == Effect::none && to >= due);
       const bool ends = effect == Effect::none && !switches && to >= end;
       if (effect == Effect::none) tell(to, switches);
@@ -117,24 +137,39 @@ class HybridIntegration {
         if (effect == Effect::none) state_at(at, z);
         const double turned = row_.back();
         asked_at_ = at;
-        if (run_.is_due(at)) run_.handle_time_event(at, z.data());
+        // In the same mode, from the same state.
+        bool goes_on = foresees_ && effect == Effect::none;
+        if (run_.is_due(at)) {
+          run_.handle_time_event(at, z.data());
+          goes_on = goes_on && !run_.touched();
+        }
         if (!progressed(at)) {
           Outcome outcome = ended(Ending::failed, at);
           outcome.reason = "the rig switches without end at one instant";
           return outcome;  // with no states: they are those of the switch, not of the stepper
         }
-        if (run_.model().rig || run_.model().dry) {
+        if (goes_on) {
+          // A sample that changed nothing.
+        } else if (run_.model().rig || run_.model().dry) {
           stepper_->start(at, z.data());
         } else {
           stepper_->jump();  // of the input alone: a run that is watched is one that is not
         }
         write_row_at(at, z, turned);
         if (part_ends()) return ended(Ending::done, cut_);
-        if (look(at, z, turned) == Effect::stop) return ended(Ending::stopped, at);
-        if (end - at <= slack(at)) return ended(Ending::done, grid_.end());
-        if (!guards_.empty()) arm(at, z.data());
+        const bool over = end - at <= slack(at);
+        if (foresees_ && !over) {
+          if (!goes_on) turned_ = turned;
+          if (!goes_on || foreseen_ < run_.next_change()) foresee(at, z, !goes_on);
+        } else if (look(at, z, turned) == Effect::stop) {
+          return ended(Ending::stopped, at);
+        }
+        if (over) return ended(Ending::done, grid_.end());
+        if (!foresees_ && !guards_.empty()) arm(at, z.data());
       }
-      if (at < limit && pace_.creeps(at, [&] { return stopped_at(at); })) {
+      from = at;
+      if (at < limit && at >= stepper_->time() &&
+          pace_.creeps(at, [&] { return stopped_at(at); })) {
         Outcome outcome = failed(at, pace_.reason());
         state_at(at, outcome.last_state);
         return outcome;
@@ -150,7 +185,8 @@ class HybridIntegration {
 
   template <class Archive>
   void archive(Archive& archive) {
-    archive(run_, pace_, guards_, asked_, asked_time_, last_switch_, still_);
+    archive(run_, pace_, guards_, asked_, asked_time_, last_switch_, still_, fall_, foreseen_,
+            unlooked_, unarmed_, turned_);
   }
 
   // Before a step up to `limit`. What a controller of one's own remembers is asked for only where
@@ -184,6 +220,7 @@ class HybridIntegration {
 
   // A guard that begins at zero, where the last one fell, fires once it is clearly below.
   void arm(double t, const double* z) {
+    unarmed_ = false;
     run_.evaluate_guards(t, z, values_.data());
     for (std::size_t i = 0; i < guards_.size(); ++i) {
       guards_[i].value = values_[i];
@@ -198,6 +235,25 @@ class HybridIntegration {
     z.assign(row_.begin(), row_.begin() + static_cast<std::ptrdiff_t>(size_));
   }
 
+  // From a switch on, where servos move in closed form: when the next one falls; and monitors are
+  // looked at with the step, which mostly settles what the switch did to them too.
+  void foresee(double t, const std::vector<double>& z, bool switched) {
+    foreseen_ = run_.next_change();
+    fall_ = run_.next_fall(t, z.data(), foreseen_);
+    unarmed_ = first_guard_ < guards_.size();
+    unlooked_ = unlooked_ || (switched && unarmed_);
+  }
+
+  // The servo's guard falls that was foreseen, at the end of the last step.
+  Effect fall(double at, std::vector<double>& z) {
+    write_rows(at, false);  // in the mode that they belong to
+    tell(at, true);
+    state_at(at, z);
+    const Effect effect = run_.handle_state_event(fall_.guard, at, z.data());
+    run_.note_turned(row_.back());
+    return effect;
+  }
+
   // After a switch; `turned` is the integral of u.
   Effect look(double t, const std::vector<double>& z, double turned) {
     const Effect effect = run_.check_events(t, z.data());
@@ -209,6 +265,10 @@ class HybridIntegration {
   double stopped_at(double t) {
     double soonest = std::numeric_limits<double>::infinity();
     asked_.resize(guards_.size());
+    if (unarmed_) {
+      state_at(t, look_);
+      arm(t, look_.data());
+    }
     for (std::size_t i = 0; i < guards_.size(); ++i) {
       const double value = guards_[i].value, fallen = asked_[i] - value;
       if (run_.stops(i) && fallen > 0) {
@@ -332,18 +392,18 @@ class HybridIntegration {
     planned_times_.back() = to;
     planned_rows_.resize(count * plain_size_);
     stepper_->evaluate(planned_times_.data(), count, planned_rows_.data());
-    for (std::size_t i = 0; i < guards_.size(); ++i) {
+    for (std::size_t i = first_guard_; i < guards_.size(); ++i) {
       if (guards_[i].threshold != 0) return false;  // it starts at zero
       least_[i] = most_[i] = guards_[i].value;
     }
     for (std::size_t p = 0; p < count; ++p) {
       run_.evaluate_guards(planned_times_[p], &planned_rows_[p * plain_size_], now_.data());
-      for (std::size_t i = 0; i < guards_.size(); ++i) {
+      for (std::size_t i = first_guard_; i < guards_.size(); ++i) {
         least_[i] = std::min(least_[i], now_[i]);
         most_[i] = std::max(most_[i], now_[i]);
       }
     }
-    for (std::size_t i = 0; i < guards_.size(); ++i) {
+    for (std::size_t i = first_guard_; i < guards_.size(); ++i) {
       if (std::isinf(least_[i]) && least_[i] > 0) continue;  // not looked out for
       if (!(least_[i] - points.overshoot() * (most_[i] - least_[i]) > 0)) return false;
     }
@@ -351,10 +411,35 @@ class HybridIntegration {
     return true;
   }
 
+  // Whether the stepper tells that nothing it was not told of happens within the step. If it does
+  // not, guards are armed where the step begins; `stops` is set where something stops the run
+  // there.
+  bool settled(double from, std::vector<double>& z, bool& stops) {
+    if (first_guard_ == guards_.size() || quiet_) return true;
+    quiet_ = stepper_->nothing_happens(run_.happening());
+    if (quiet_) {
+      unlooked_ = false;
+      unarmed_ = true;
+      return true;
+    }
+    if (!unarmed_) return false;
+    state_at(from, z);
+    stops = unlooked_ && look(from, z, row_.back()) == Effect::stop;
+    unlooked_ = false;
+    arm(from, z.data());
+    return false;
+  }
+
   // Looks along the step for guards that fall. Occurrences that change nothing are noted on the
   // way; at the first that does, `at` and z are set.
   Effect scan(double from, double to, double& at, std::vector<double>& z) {
-    if (guards_.empty() || all_stay_up(from, to)) return Effect::none;
+    bool stops = false;
+    if (guards_.empty() || (foresees_ && settled(from, z, stops))) return Effect::none;
+    if (stops) {
+      at = from;
+      return Effect::stop;
+    }
+    if (all_stay_up(from, to)) return Effect::none;
     const std::size_t points = stepper_->detail();
     look_ahead(points, from, to);
     double last = from;  // looked at
@@ -367,14 +452,14 @@ class HybridIntegration {
       }
       // Slopes at both ends by differences, good to some parts in 1e4.
       look_at(last + nudge, near_);
-      for (std::size_t i = 0; i < guards_.size(); ++i) {
+      for (std::size_t i = first_guard_; i < guards_.size(); ++i) {
         guards_[i].slope = (near_[i] - guards_[i].value) / nudge;
       }
       look_at(here - nudge, near_);
       look_at(here, now_);
       std::size_t first = guards_.size();
       double first_time = here;
-      for (std::size_t i = 0; i < guards_.size(); ++i) {
+      for (std::size_t i = first_guard_; i < guards_.size(); ++i) {
         // Infinite: not looked out for. No number: the motion overflows, which is for the stepper
         // to say.
         if (!std::isfinite(now_[i])) continue;
@@ -448,6 +533,10 @@ class HybridIntegration {
     void evaluate(const double* times, std::size_t count, double* rows) const override {
       of_.evaluate_rows(times, count, rows);
     }
+    [[nodiscard]] std::optional<Bounds> bounds(Load load, const model::BallConstants& constants,
+                                               bool closely) const override {
+      return of_.stepper_->bounds(load, constants, closely);
+    }
 
    private:
     HybridIntegration& of_;
@@ -511,6 +600,13 @@ class HybridIntegration {
   PieceSink* pieces_;
   std::unique_ptr<Stepper> stepper_;
   model::ExternalController* controller_;  // null if the law is built in
+  bool foresees_;            // the stepper knows servos, of which run_ tells when they switch
+  std::size_t first_guard_;  // that is looked at
+  model::HybridSystem::Fall fall_;
+  double foreseen_ = 0;                      // until when, s
+  bool quiet_ = false;                       // nothing happens in the last step
+  bool unarmed_ = false, unlooked_ = false;  // guards since the last step; monitors since a switch
+  double turned_ = 0;                        // integral of u at that switch, m
   std::vector<Guard> guards_;
   ChebyshevTables tables_;
   std::vector<double> values_, now_, near_, least_, most_, look_, row_, planned_times_,

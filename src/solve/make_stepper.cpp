@@ -6,6 +6,7 @@
 #include <variant>
 
 #include "solve/cvode/cvode.hpp"
+#include "solve/held/held.hpp"
 #include "solve/radau/radau.hpp"
 
 namespace bbsim::solve {
@@ -34,6 +35,9 @@ std::unique_ptr<Stepper> make_stepper(const model::Model& model, Method method,
   tolerances = of_each_step(model, method, tolerances);
   switch (method) {
     case Method::radau:
+      if (held::knows(model)) {
+        return std::make_unique<held::HeldStepper>(model, held::choose_kernels(), tolerances);
+      }
       return std::make_unique<radau::RadauStepper>(model, radau::choose_kernels(),
                                                    radau::choose_stages(tolerances.rtol),
                                                    tolerances, grid.end());

@@ -2,8 +2,18 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
+
+#include "model/ball/dynamics.hpp"
 
 namespace bbsim::solve {
+
+// What the motors give, in the columns of those names.
+enum class Load { motor_torque_phi, motor_torque_theta, motor_power };
+
+struct Bounds {
+  double least, most;
+};
 
 // A step of the integrator, or the part of one before something switched. To be looked at before
 // the run goes on.
@@ -20,6 +30,14 @@ class Piece {
   [[nodiscard]] std::size_t parts() const { return parts_; }
   // Rows as a StateSink gets them, at times within the piece, ends included.
   virtual void evaluate(const double* times, std::size_t count, double* rows) const = 0;
+  // Between which numbers a load stays over the piece, at the least: wider than it does, but told
+  // at once; `closely` takes a little longer. Nothing where that is not known without evaluating
+  // rows.
+  [[nodiscard]] virtual std::optional<Bounds> bounds(Load /*load*/,
+                                                     const model::BallConstants& /*constants*/,
+                                                     bool /*closely*/) const {
+    return {};
+  }
 
  private:
   double from_, to_;

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "base/archive.hpp"
@@ -10,6 +11,7 @@
 #include "solve/outcome.hpp"
 #include "solve/output_grid.hpp"
 #include "solve/part.hpp"
+#include "solve/piece.hpp"
 
 namespace bbsim::solve {
 
@@ -43,6 +45,22 @@ class Stepper {
   // Chebyshev points of so many intervals show what a smooth function of the states, and of the
   // time, does over the last step. A step shorter than the tolerance allows needs fewer.
   [[nodiscard]] virtual std::size_t parts() const = 0;
+
+  // Whether it moves servos in closed form. Then HybridSystem tells when one switches, and no step
+  // goes beyond.
+  [[nodiscard]] virtual bool knows_servos() const { return false; }
+  // Whether, for sure, no monitor of the scene's events changes its side within the last step,
+  // start and end included: `happening` says of each which one it is on. To be called before the
+  // next step.
+  [[nodiscard]] virtual bool nothing_happens(const std::vector<char>& /*happening*/) {
+    return false;
+  }
+  // Of the last step, as Piece::bounds().
+  [[nodiscard]] virtual std::optional<Bounds> bounds(Load /*load*/,
+                                                     const model::BallConstants& /*constants*/,
+                                                     bool /*closely*/) {
+    return {};
+  }
 
   // All that it remembers, for another stepper of this model, method and tolerances: its steps are
   // then those that this one would have made, to the bit. False if the integrator does not give it

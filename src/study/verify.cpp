@@ -207,8 +207,8 @@ std::vector<Instant> energies(const Run& made, const Scenario& scene) {
   std::vector<Instant> list;
   for (const Sample& sample : made.samples) {
     const model::Dynamics at = model::dynamics(sample, constants);
-    list.push_back({at.energy, at.torque_phi * sample.gimbal.phi_dot +
-                                   at.torque_theta * sample.gimbal.theta_dot});
+    list.push_back({at.energy(), at.torque_phi * sample.gimbal.phi_dot +
+                                     at.torque_theta * sample.gimbal.theta_dot});
   }
   return list;
 }

@@ -149,7 +149,7 @@ Check balance(const char* name, const Scenario& scene, const solve::Watch& watch
   double error = made.allowance < infinity ? 0 : infinity, first = 0;
   for (std::size_t i = 0; i < made.samples.size(); ++i) {
     const model::Dynamics now = model::dynamics(made.samples[i], constants);
-    const double sum = now.energy + now.gimbal_energy + now.coupled.lost - now.coupled.work;
+    const double sum = now.energy() + now.gimbal_energy + now.coupled.lost - now.coupled.work;
     if (i == 0) first = sum;
     error = std::max(error, std::abs(sum - first));
   }

@@ -140,7 +140,7 @@ TEST_CASE("check prints the margins of a stable loop") {
 TEST_CASE("what linearize does not know is refused, with what it does") {
   const Result losses = bbsim({"linearize", config("slides.yaml")});
   CHECK(losses.exit_code == 2);
-  CHECK(contains(losses.err, "losses, sliding or torques"));
+  CHECK(contains(losses.err, "losses, sliding, a push or torques"));
   const std::string own = BBSIM_SOURCE_DIR "/examples/controllers/python.yaml";
   const Result law = bbsim({"linearize", own, "--loop"});
   CHECK(law.exit_code == 2);

@@ -46,7 +46,7 @@ TEST_CASE("a ball at rest on a level plane weighs m g and needs no friction") {
   // Carrying m g at x = 5 cm: positive phi lowers x, so the motor holds against it.
   CHECK(near(d.torque_phi, -0.05 * 0.2 * 9.81));
   CHECK(d.torque_theta == 0);
-  CHECK(near(d.energy, 0.2 * 9.81 * 0.01));
+  CHECK(near(d.energy(), 0.2 * 9.81 * 0.01));
 }
 
 TEST_CASE("on a fixed incline friction carries 2/7 of the weight along it") {
@@ -69,7 +69,7 @@ TEST_CASE("the energy changes by the power of the motor torques") {
     for (double& value : z) value = random.uniform(-0.3, 0.3);
     const double t = random.uniform(0, 5);
     const auto energy_after = [&](double h) {
-      return dynamics(system.sample(t + h, step(system, t, z, h).data()), constants).energy;
+      return dynamics(system.sample(t + h, step(system, t, z, h).data()), constants).energy();
     };
     // Central differences at h and h / 2, extrapolated: error O(h^4), and rounding eps E / h.
     const double h = 1e-3;

@@ -119,7 +119,7 @@ TEST_CASE("on any rig the motors' power is the rate of the energy") {
     };
     const double h = 1e-5;
     const double rate =
-        (dynamics(sample_at(h), constants).energy - dynamics(sample_at(-h), constants).energy) /
+        (dynamics(sample_at(h), constants).energy() - dynamics(sample_at(-h), constants).energy()) /
         (2 * h);
     const Dynamics now = dynamics(sample_at(0), constants);
     const double power = now.torque_phi * q.phi_dot + now.torque_theta * q.theta_dot;

@@ -35,7 +35,7 @@ double work_gap(const Scenario& scene, const Run& run) {
   for (std::size_t i = 0; i < run.samples.size(); ++i) {
     const model::Dynamics now = model::dynamics(run.samples[i], constants);
     power.push_back(now.push_power);
-    const double energy = now.energy + now.gimbal_energy + now.coupled.lost - now.coupled.work;
+    const double energy = now.energy() + now.gimbal_energy + now.coupled.lost - now.coupled.work;
     if (i == 0) first = energy;
     if (i >= 2 && i % 2 == 0) {
       work += scene.time.step / 3 * (power[i - 2] + 4 * power[i - 1] + power[i]);

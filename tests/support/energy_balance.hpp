@@ -16,7 +16,7 @@ inline double energy_gap(const bbsim::Scenario& scene, const Run& run) {
   double first = 0, gap = 0, size = 0;
   for (std::size_t i = 0; i < run.samples.size(); ++i) {
     const bbsim::model::Dynamics now = bbsim::model::dynamics(run.samples[i], constants);
-    const double whole = now.energy + now.gimbal_energy;
+    const double whole = now.energy() + now.gimbal_energy;
     const double sum = whole + now.coupled.lost - now.coupled.work;
     if (i == 0) first = sum;
     gap = largest_finite(gap, {std::abs(sum - first)});

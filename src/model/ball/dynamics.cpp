@@ -25,7 +25,19 @@ BallConstants constants_of(const Scenario& scene) {
   return constants;
 }
 
+Turned turned_by_motors(const BallConstants& constants) {
+  const auto& inertia = constants.plate_inertia;
+  return {{inertia[0], inertia[1], inertia[2]},
+          constants.plate_imbalance,
+          constants.ring_inertia + constants.rotor_inertia,
+          constants.rotor_inertia};
+}
+
 namespace {
+
+Vector3d packed(const Vector3<double>& a) {
+  return {a.x, a.y, a.z};
+}
 
 // What forces, torques and energy are computed from. All vectors in the plane frame.
 struct Instant {
@@ -35,20 +47,17 @@ struct Instant {
         ball(sample.ball),
         push(sample.push[0], sample.push[1], 0),
         coupled(sample.coupled ? &*sample.coupled : nullptr) {
-    const double r = constants.radius;
     const auto [sin_phi, cos_phi] = sin_cos(gimbal.phi);
     const auto [s, c] = sin_cos(gimbal.theta);
     phi = {sin_phi, cos_phi, gimbal.phi_dot, gimbal.phi_ddot};
     theta = {s, c, gimbal.theta_dot, gimbal.theta_ddot};
-    const auto plane = constants.rolling.kinematics(phi, theta);
+    plane = moving_plane(constants.rolling, phi, theta);
     theta_axis = Vector3d(plane.theta_axis[0], plane.theta_axis[1], 0);
-    phi_axis = Vector3d(plane.phi_axis);
-    up = Vector3d(plane.up);
-    omega = theta_axis * theta.rate + phi_axis * phi.rate;
-    omega_dot = theta_axis * theta.acceleration + phi_axis * phi.acceleration +
-                Vector3d(plane.phi_axis_slope) * (phi.rate * theta.rate);
+    phi_axis = packed(plane.phi_axis);
+    up = packed(plane.up);
+    omega = packed(plane.omega);
     contact = Vector3d(ball.x, ball.y, constants.rolling.height);
-    centre = Vector3d(ball.x, ball.y, constants.rolling.height + r);
+    centre = Vector3d(ball.x, ball.y, constants.rolling.height + constants.radius);
     velocity = Vector3d(ball.x_dot, ball.y_dot, 0);
   }
 
@@ -68,9 +77,10 @@ struct Instant {
   [[nodiscard]] Vector3d force() const {
     const Vector3d in_plane =
         coupled ? Vector3d(coupled->x_ddot, coupled->y_ddot, 0) : relative(phi, theta);
-    const Vector3d centre_acceleration = in_plane + 2 * omega.cross(velocity) +
-                                         omega_dot.cross(centre) + omega.cross(omega.cross(centre));
-    return constants.mass * (centre_acceleration + constants.gravity * up) - push;
+    return constants.mass * packed(force_by_mass(plane, ball, in_plane.x(), in_plane.y(),
+                                                 constants.rolling.height, constants.radius,
+                                                 constants.gravity)) -
+           push;
   }
 
   // What the ball asks of the gimbal, about its centre.
@@ -79,23 +89,9 @@ struct Instant {
     return coupled != nullptr ? Vector3d(moment + Vector3d(coupled->couple)) : moment;
   }
 
-  // What turns the plate itself, about the gimbal's centre.
-  [[nodiscard]] Vector3d plate_moment() const {
-    const Vector3d inertia(constants.plate_inertia.data());
-    Vector3d moment = inertia.cwiseProduct(omega_dot) + omega.cross(inertia.cwiseProduct(omega));
-    if (constants.plate_imbalance != 0) {
-      moment += constants.plate_imbalance * constants.gravity * Vector3d(-up.y(), up.x(), 0);
-    }
-    return moment;
-  }
-
-  // The same about phi's axis and about theta's, with what else the motors turn.
-  [[nodiscard]] double plate_torque_phi() const {
-    return phi_axis.dot(plate_moment()) +
-           (constants.ring_inertia + constants.rotor_inertia) * gimbal.phi_ddot;
-  }
-  [[nodiscard]] double plate_torque_theta() const {
-    return theta_axis.dot(plate_moment()) + constants.rotor_inertia * gimbal.theta_ddot;
+  // What turns the plate itself, with what else the motors turn.
+  [[nodiscard]] Torques<double> of_plate() const {
+    return plate_torques(plane, phi, theta, turned_by_motors(constants), constants.gravity);
   }
 
   const BallConstants& constants;
@@ -104,8 +100,9 @@ struct Instant {
   Vector3d push;                 // on the ball's centre, N
   const CoupledMotion* coupled;  // null where the ball rolls without losses
   Axis<double> phi, theta;
+  MovingPlane<double> plane;
   Vector3d theta_axis, phi_axis, up;   // up: against gravity
-  Vector3d omega, omega_dot;           // of the plane
+  Vector3d omega;                      // of the plane
   Vector3d contact, centre, velocity;  // of the ball; velocity in the plane
 };
 
@@ -132,13 +129,14 @@ Dynamics dynamics(const Sample& sample, const BallConstants& constants) {
   const Vector3d moment = now.ball_moment(result.force);
   result.torque_phi = now.phi_axis.dot(moment);
   result.torque_theta = now.theta_axis.dot(moment);
-  result.energy = m * centre_velocity.squaredNorm() / 2 +
-                  constants.rolling.k / 2 * m * r * r * ball_omega.squaredNorm() +
-                  m * g * now.centre.dot(now.up);
+  result.kinetic_energy = m * centre_velocity.squaredNorm() / 2 +
+                          constants.rolling.k / 2 * m * r * r * ball_omega.squaredNorm();
+  result.potential_energy = m * g * now.centre.dot(now.up);
 
   result.push_power = now.push.dot(centre_velocity);
-  result.plate_torque_phi = now.plate_torque_phi();
-  result.plate_torque_theta = now.plate_torque_theta();
+  const Torques<double> of_plate = now.of_plate();
+  result.plate_torque_phi = of_plate.phi;
+  result.plate_torque_theta = of_plate.theta;
   const Vector3d inertia(constants.plate_inertia.data());
   const double phi_rate = now.gimbal.phi_dot, theta_rate = now.gimbal.theta_dot;
   result.gimbal_energy =

@@ -3,7 +3,7 @@
 
 #include <Eigen/Core>
 
-#include "model/ball/general_rolling.hpp"
+#include "model/ball/contact_force.hpp"
 #include "model/sample.hpp"
 
 namespace bbsim::model {
@@ -22,18 +22,21 @@ struct BallConstants {
 
 [[nodiscard]] BallConstants constants_of(const Scenario& scene);
 
+[[nodiscard]] Turned turned_by_motors(const BallConstants& constants);
+
 struct Dynamics {
   // Of the plane on the ball in the plane's frame, N; z is the normal force.
   Eigen::Vector3d force{0, 0, 0};
-  double torque_phi = 0;          // motor torque that carries the ball, N m
-  double torque_theta = 0;        // N m
-  double energy = 0;              // kinetic and potential, J; potential zero at the gimbal's centre
-  double plate_torque_phi = 0;    // motor torque that turns the plate itself, N m
-  double plate_torque_theta = 0;  // N m
-  double gimbal_energy = 0;       // of plate, ring and rotors, kinetic and potential, J
-  double push_power = 0;          // of the push on the ball, W
-  CoupledMotion coupled{};        // all 0 where the ball rolls without losses
+  double torque_phi = 0;                            // motor torque that carries the ball, N m
+  double torque_theta = 0;                          // N m
+  double kinetic_energy = 0, potential_energy = 0;  // J; the latter zero at the gimbal's centre
+  double plate_torque_phi = 0;                      // motor torque that turns the plate itself, N m
+  double plate_torque_theta = 0;                    // N m
+  double gimbal_energy = 0;           // of plate, ring and rotors, kinetic and potential, J
+  double push_power = 0;              // of the push on the ball, W
+  CoupledMotion coupled{};            // all 0 where the ball rolls without losses
   Pair current{0, 0}, voltage{0, 0};  // of the motors, A and V
+  [[nodiscard]] double energy() const { return kinetic_energy + potential_energy; }
   [[nodiscard]] double normal_force() const { return force.z(); }
   [[nodiscard]] double friction_force() const { return force.head<2>().norm(); }
 };

@@ -26,6 +26,8 @@ struct GeneralRolling {
   double cos_turn = 1, sin_turn = 0;  // of yaw - skew
   double cos_base = 1, sin_base = 0;
 
+  bool operator==(const GeneralRolling&) const = default;
+
   template <class Phi, class Theta>
   [[nodiscard]] auto kinematics(const Phi& phi, const Theta& theta) const {
     using T = std::decay_t<decltype(theta.cos)>;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 
 #include "base/real.hpp"
 #include "model/signals/spline.hpp"
@@ -59,7 +60,11 @@ struct Command {
   Real value[2];  // behind its limit, rad, or rad/s^2 where accelerations are driven
 };
 
-// asin(s) for |s| below 0.99, of any number type, with its derivatives: Newton's iteration.
+[[nodiscard]] inline double arcsine(double s) {
+  return std::asin(s);
+}
+
+// asin(s) for |s| below 0.99, of any other number type, with its derivatives: Newton's iteration.
 template <class Real>
 [[nodiscard]] Real arcsine(const Real& s) {
   const Real s2 = s * s;

@@ -40,13 +40,6 @@ double EventMonitors::edge_margin(const Sample& sample) const {
   return left;
 }
 
-double EventMonitors::margin(const Monitor& monitor, const Sample& sample) const {
-  const EventMonitors alone{{monitor}, plate, constants};
-  double value = std::numeric_limits<double>::infinity();
-  alone.margins(sample, &value);
-  return value;
-}
-
 void EventMonitors::margins(const Sample& sample, double* values) const {
   using Kind = Monitor::Kind;
   const bool asks_for_force =

@@ -27,7 +27,6 @@ struct EventMonitors {
 
   // Tells how far each monitor is from happening: negative once it does.
   void margins(const Sample& sample, double* values) const;
-  [[nodiscard]] double margin(const Monitor& monitor, const Sample& sample) const;
 
  private:
   [[nodiscard]] double edge_margin(const Sample& sample) const;

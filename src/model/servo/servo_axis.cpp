@@ -16,9 +16,27 @@ double ServoAxis::follow(double command) {
   return target_;
 }
 
-double ServoAxis::push(const AxisState& state) const {
-  if (!rig_->time_constant) return state.demand;
-  return (state.command - state.angle) / *rig_->time_constant - state.rate;
+AxisMargin ServoAxis::push() const {
+  AxisMargin push{0};
+  if (!rig_->time_constant) {
+    push.by_demand = 1;
+    return push;
+  }
+  push.by_command = 1 / *rig_->time_constant;
+  push.by_angle = -push.by_command;
+  push.by_rate = -1;
+  return push;
+}
+
+AxisMargin ServoAxis::push_at_stop() const {
+  AxisMargin push{0};
+  if (rig_->time_constant) {
+    push.by_command = 1;
+    push.by_angle = -1;
+  } else {
+    push.by_demand = 1;
+  }
+  return push;
 }
 
 ServoAxis::Motion ServoAxis::choose(AxisState& state) const {
@@ -32,14 +50,14 @@ ServoAxis::Motion ServoAxis::choose(AxisState& state) const {
     AxisState halted = state;
     halted.rate = 0;
     halted.demand += response_.from_rate * state.rate;
-    const double pushing = rig_->time_constant ? halted.command - halted.angle : halted.demand;
+    const double pushing = push_at_stop().at(halted);
     if (sign * pushing < 0 && state.rate == 0) continue;
     halted.angle = sign * stop;
     state = halted;
     if (sign * pushing >= 0) return sign > 0 ? Motion::stop_up : Motion::stop_down;
   }
   for (const int sign : {1, -1}) {
-    if (sign * state.rate >= fastest * at_limit && sign * push(state) > 0) {
+    if (sign * state.rate >= fastest * at_limit && sign * push().at(state) > 0) {
       state.rate = sign * fastest;
       return sign > 0 ? Motion::rate_up : Motion::rate_down;
     }
@@ -96,59 +114,87 @@ void ServoAxis::settle(AxisState& state, AxisMode& mode) {
   settle_backlash(state, mode);
 }
 
-void ServoAxis::evaluate(const AxisState& state, double* values) const {
-  std::fill(values, values + guards, unlimited);
-  const double a = state.demand, most = rig_->acceleration_limit;
-  const double stop = rig_->angle_limit, fastest = rig_->rate_limit;
+template <class Use>
+void ServoAxis::for_each_margin(Use use) const {
+  // Below `most` in both directions, of the part of the state that `by` says.
+  const auto below = [&](int guard, double most, double AxisMargin::*by, double offset = 0) {
+    if (most == unlimited) return;
+    for (const int sign : {1, -1}) {
+      AxisMargin margin{most - sign * offset};
+      margin.*by = -sign;
+      use(sign > 0 ? guard : guard + 1, margin);
+    }
+  };
+  const auto turned = [](const AxisMargin& margin) {
+    return AxisMargin{-margin.constant, -margin.by_angle, -margin.by_rate, -margin.by_demand,
+                      -margin.by_command};
+  };
+  const double most = rig_->acceleration_limit;
   switch (motion_) {
     case Motion::free:
-      values[0] = rig_->time_constant ? unlimited : most - a;
-      values[1] = rig_->time_constant ? unlimited : most + a;
+      if (!rig_->time_constant) below(0, most, &AxisMargin::by_demand);
       break;
     case Motion::accelerating_up:
-      values[0] = a - most;
+      use(0, AxisMargin{-most, 0, 0, 1, 0});
       break;
     case Motion::accelerating_down:
-      values[1] = -a - most;
+      use(1, AxisMargin{-most, 0, 0, -1, 0});
       break;
     case Motion::rate_up:
-      values[2] = push(state);
+      use(2, push());
       break;
     case Motion::rate_down:
-      values[3] = -push(state);
+      use(3, turned(push()));
       break;
     case Motion::stop_up:
-      values[4] = rig_->time_constant ? state.command - state.angle : a;
+      use(4, push_at_stop());
       break;
     case Motion::stop_down:
-      values[5] = rig_->time_constant ? state.angle - state.command : -a;
+      use(5, turned(push_at_stop()));
       break;
   }
   const bool limited = motion_ == Motion::rate_up || motion_ == Motion::rate_down;
   const bool halted = motion_ == Motion::stop_up || motion_ == Motion::stop_down;
-  if (!limited && !halted) {
-    values[2] = fastest - state.rate;
-    values[3] = fastest + state.rate;
-  }
-  if (!halted) {
-    values[4] = stop - state.angle;
-    values[5] = stop + state.angle;
-  }
-  const double half = rig_->backlash / 2;
+  if (!limited && !halted) below(2, rig_->rate_limit, &AxisMargin::by_rate);
+  if (!halted) below(4, rig_->angle_limit, &AxisMargin::by_angle);
   switch (play_) {
     case Play::none:
       break;
     case Play::up:
-      values[6] = state.rate;
+      use(6, AxisMargin{0, 0, 1, 0, 0});
       break;
     case Play::down:
-      values[6] = -state.rate;
+      use(6, AxisMargin{0, 0, -1, 0, 0});
       break;
     case Play::gap:
-      values[6] = half - (state.angle + offset_ - plane_);
-      values[7] = half + (state.angle + offset_ - plane_);
+      below(6, rig_->backlash / 2, &AxisMargin::by_angle, offset_ - plane_);
       break;
   }
+}
+
+void ServoAxis::evaluate(const AxisState& state, double* values) const {
+  std::fill(values, values + guards, unlimited);
+  for_each_margin([&](int guard, const AxisMargin& margin) { values[guard] = margin.at(state); });
+}
+
+ServoAxis::Fall ServoAxis::first_fall(const HeldMotion& motion, double command, double start,
+                                      double end) const {
+  Fall first;
+  const MotionReach reached = reach(motion, end);
+  for_each_margin([&](int guard, const AxisMargin& margin) {
+    const MotionLine line{
+        margin.constant + (margin.by_command + margin.by_demand * response_.from_command) * command,
+        margin.by_angle - margin.by_demand * response_.from_angle,
+        margin.by_rate - margin.by_demand * response_.from_rate};
+    if (reached.least(line) > 1e-12 * std::abs(line.constant)) return;  // mostly
+    double sizes[guards];
+    scales(sizes);
+    // As for guards that an integrator looks at.
+    const double after =
+        model::first_fall(line, motion, 1e-12 * sizes[guard], start, std::min(end, first.after));
+    if (after < first.after) first = {after, guard};
+  });
+  return first;
 }
 
 void ServoAxis::scales(double* values) const {

@@ -2,6 +2,7 @@
 // switches it is an AxisMode; each switch is where one of the guards falls through zero.
 #pragma once
 
+#include "model/servo/held_motion.hpp"
 #include "model/systems/rig.hpp"
 
 namespace bbsim::model {
@@ -11,6 +12,16 @@ struct AxisState {
   double angle = 0, rate = 0;  // of the servo, rad and rad/s
   double demand = 0;           // acceleration in free motion, rad/s^2
   double command = 0;          // rad
+};
+
+// What is positive until something switches: a sum of parts of an AxisState.
+struct AxisMargin {
+  double constant = 0, by_angle = 0, by_rate = 0, by_demand = 0, by_command = 0;
+
+  [[nodiscard]] double at(const AxisState& state) const {
+    return constant + by_angle * state.angle + by_rate * state.rate + by_demand * state.demand +
+           by_command * state.command;
+  }
 };
 
 class ServoAxis {
@@ -31,6 +42,15 @@ class ServoAxis {
 
   // Positive as long as nothing switches; `guards` numbers.
   void evaluate(const AxisState& state, double* values) const;
+
+  // The first guard that falls in a motion under a held command, within (0, end]; times count from
+  // `start`, s.
+  struct Fall {
+    double after = unlimited;  // s; infinite if none does
+    int guard = 0;
+  };
+  [[nodiscard]] Fall first_fall(const HeldMotion& motion, double command, double start,
+                                double end) const;
 
   // The size of each guard's quantity.
   void scales(double* values) const;
@@ -53,11 +73,16 @@ class ServoAxis {
   };
   enum class Play { none, up, down, gap };
 
+  // Calls use(guard, margin) for each that is looked out for.
+  template <class Use>
+  void for_each_margin(Use use) const;
   [[nodiscard]] Motion choose(AxisState& state) const;
   void settle_backlash(const AxisState& state, AxisMode& mode);
-  // What pushes a servo at its rate limit, or at a stop, further: an acceleration, or, of first
-  // order, what the rate would be beyond the present one.
-  [[nodiscard]] double push(const AxisState& state) const;
+  // What pushes a servo at its rate limit further: an acceleration, or, of first order, what the
+  // rate would be beyond the present one.
+  [[nodiscard]] AxisMargin push() const;
+  // What pushes it against a stop: an acceleration, or how far the command is beyond.
+  [[nodiscard]] AxisMargin push_at_stop() const;
 
   const RigServo* rig_;
   ServoResponse response_;

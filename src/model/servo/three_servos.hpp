@@ -31,12 +31,12 @@ struct Motion2 {
   }
   friend Motion2 operator*(double a, const Motion2& b) { return {a * b.v, a * b.d, a * b.dd}; }
   friend Motion2 operator/(const Motion2& a, const Motion2& b) {
-    const Real v = a.v / b.v, d = (a.d - v * b.d) / b.v;
-    return {v, d, (a.dd - 2.0 * (d * b.d) - v * b.dd) / b.v};
+    const Real value = a.v / b.v, rate = (a.d - value * b.d) / b.v;
+    return {value, rate, (a.dd - 2.0 * (rate * b.d) - value * b.dd) / b.v};
   }
   friend Motion2 root_along(const Motion2& square, const Motion2& along) {
-    const Real v = root_along(square.v, along.v), d = square.d / (2.0 * v);
-    return {v, d, (square.dd - 2.0 * (d * d)) / (2.0 * v)};
+    const Real value = root_along(square.v, along.v), rate = square.d / (2.0 * value);
+    return {value, rate, (square.dd - 2.0 * (rate * rate)) / (2.0 * value)};
   }
 };
 

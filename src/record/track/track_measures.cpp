@@ -129,6 +129,7 @@ void TrackMeasures::begin_run() {
   points_ = 0;
   reference_.times(together)[0] = 0;
   last_ = model_->initial;
+  last_.resize(model_->row_size());
   copy_points(last_.data(), 1);
 }
 

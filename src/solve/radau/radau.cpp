@@ -8,6 +8,8 @@
 #include <type_traits>
 #include <variant>
 
+#include "solve/step_growth.hpp"
+
 namespace bbsim::solve::radau {
 namespace {
 
@@ -54,8 +56,6 @@ const Kernel& find_kernel(const StepKernels& kernels, int stages, const model::M
   return kernels_for(simd::InstructionSet::baseline).kernels[order][model.system.index()];
 }
 
-constexpr double safety = 0.9;
-
 // The size of the greatest state; infinite if one is no number.
 double size_of(const std::vector<double>& state) {
   double size = 0;
@@ -64,13 +64,6 @@ double size_of(const std::vector<double>& state) {
     size = std::max(size, std::abs(value));
   }
   return size;
-}
-
-// The size of the next step relative to one whose error was `error`.
-double growth(double error, int stages) {
-  constexpr double least = 0.1, most = 8;
-  if (!(error > 0)) return error == 0 ? most : least;
-  return std::clamp(safety * std::pow(error, -1.0 / (stages + 1)), least, most);
 }
 
 }  // namespace
@@ -220,7 +213,7 @@ const char* RadauStepper::step(double limit) {
     const bool converged = attempt.verdict == Verdict::converged;
     if (converged) worst_state_ = static_cast<std::size_t>(attempt.worst_state);
     if (!converged || !(attempt.error <= 1)) {
-      next_step_ = step * (converged ? std::min(0.9, growth(attempt.error, stages))
+      next_step_ = step * (converged ? std::min(0.9, step_growth(attempt.error, stages))
                            : attempt.verdict == Verdict::not_finite ? 0.1
                                                                     : 0.4);
       rejected = true;
@@ -231,17 +224,18 @@ const char* RadauStepper::step(double limit) {
     attempted_ = true;
     time_ = arrives ? limit : t + step;
     ++statistics_.steps;
-    const double factor = growth(attempt.error, stages);
+    const double factor = step_growth(attempt.error, stages);
     h = step * (rejected ? std::min(factor, 1.0) : factor);
     // Where steps shrink, the error has grown from step to step by more than their sizes say, and
     // will again (Gustafsson's predictive control; Hairer and Wanner, IV.8): rejections fewer.
     if (shrinking_ >= 2 && attempt.error > 0) {
-      const double trend = growth(attempt.error / last_error_, stages) / growth(1, stages);
+      const double trend =
+          step_growth(attempt.error / last_error_, stages) / step_growth(1, stages);
       h = std::min(h, step * factor * shrank_by_ * trend);
     }
     last_error_ = std::max(attempt.error, 1e-3);
     accepted_step_ = step;
-    fill_ = std::min(1.0, safety / factor);
+    fill_ = std::min(1.0, step_safety / factor);
     // A step that the limit cut short says little of how long the next may be.
     next_step_ = arrives && !rejected ? std::max(h, next_step_) : h;
     return nullptr;

@@ -1,0 +1,105 @@
+// The force of the plane on a ball that rolls without losses, and what it and the plate ask of the
+// motors, for every number type (docs/model.md, section 5). All vectors in the plane's own frame.
+#pragma once
+
+#include "model/ball/general_rolling.hpp"
+
+namespace bbsim::model {
+
+template <class Real>
+struct Vector3 {
+  Real x, y, z;
+};
+
+template <class Real>
+[[nodiscard]] inline Vector3<Real> cross(const Vector3<Real>& a, const Vector3<Real>& b) {
+  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+
+template <class Real>
+[[nodiscard]] inline Real dot(const Vector3<Real>& a, const Vector3<Real>& b) {
+  return a.x * b.x + a.y * b.y + a.z * b.z;
+}
+
+// How the plane moves: the axes about which theta and phi turn it, the upward vertical, its angular
+// velocity and acceleration.
+template <class Real>
+struct MovingPlane {
+  double theta_axis[2];  // z: 0
+  Vector3<Real> phi_axis, up, omega, omega_dot;
+};
+
+template <class Real>
+[[nodiscard]] inline MovingPlane<Real> moving_plane(const GeneralRolling& rolling,
+                                                    const Axis<Real>& phi,
+                                                    const Axis<Real>& theta) {
+  const auto plane = rolling.kinematics(phi, theta);
+  const auto& a = plane.theta_axis;
+  const auto& b = plane.phi_axis;
+  const auto& slope = plane.phi_axis_slope;
+  const Real both = phi.rate * theta.rate;
+  MovingPlane<Real> motion{
+      {a[0], a[1]}, {b[0], b[1], b[2]}, {plane.up[0], plane.up[1], plane.up[2]}, {}, {}};
+  motion.omega = {a[0] * theta.rate + b[0] * phi.rate, a[1] * theta.rate + b[1] * phi.rate,
+                  b[2] * phi.rate};
+  motion.omega_dot = {a[0] * theta.acceleration + b[0] * phi.acceleration + slope[0] * both,
+                      a[1] * theta.acceleration + b[1] * phi.acceleration + slope[1] * both,
+                      b[2] * phi.acceleration + slope[2] * both};
+  return motion;
+}
+
+// The force over the ball's mass, m/s^2: its centre's acceleration and gravity. The ball is at
+// (x, y) in the plane, with the velocity and the acceleration there that `ball` and the last two
+// arguments say; r and the rig's height as in GeneralRolling.
+template <class Real, class Ball>
+[[nodiscard]] inline Vector3<Real> force_by_mass(const MovingPlane<Real>& plane, const Ball& ball,
+                                                 const Real& x_ddot, const Real& y_ddot,
+                                                 double height, double r, double g) {
+  const Vector3<Real> centre{ball.x, ball.y, Real(height + r)};
+  const Vector3<Real>& omega = plane.omega;
+  const Vector3<Real> turned = cross(omega, cross(omega, centre));
+  const Vector3<Real> swung = cross(plane.omega_dot, centre);
+  return {x_ddot - 2 * (omega.z * ball.y_dot) + swung.x + turned.x + g * plane.up.x,
+          y_ddot + 2 * (omega.z * ball.x_dot) + swung.y + turned.y + g * plane.up.y,
+          2 * (omega.x * ball.y_dot - omega.y * ball.x_dot) + swung.z + turned.z + g * plane.up.z};
+}
+
+// What the motors turn beside the ball.
+struct Turned {
+  double inertia[3];            // of the plate about x, y and the normal, kg m^2
+  double imbalance;             // its mass times the height of its centre, kg m
+  double with_phi, with_theta;  // moments of inertia of ring and rotors, kg m^2
+};
+
+template <class Real>
+struct Torques {
+  Real phi, theta;  // N m
+};
+
+// Of a moment about the gimbal's centre, what turns about phi's axis and about theta's.
+template <class Real>
+[[nodiscard]] inline Torques<Real> about_axes(const MovingPlane<Real>& plane,
+                                              const Vector3<Real>& moment) {
+  return {dot(plane.phi_axis, moment),
+          plane.theta_axis[0] * moment.x + plane.theta_axis[1] * moment.y};
+}
+
+// What turns the plate itself, and what turns with it.
+template <class Real>
+[[nodiscard]] inline Torques<Real> plate_torques(const MovingPlane<Real>& plane,
+                                                 const Axis<Real>& phi, const Axis<Real>& theta,
+                                                 const Turned& of, double g) {
+  const auto by_inertia = [&of](const Vector3<Real>& a) {
+    return Vector3<Real>{of.inertia[0] * a.x, of.inertia[1] * a.y, of.inertia[2] * a.z};
+  };
+  const Vector3<Real> steady = by_inertia(plane.omega_dot);
+  const Vector3<Real> gyral = cross(plane.omega, by_inertia(plane.omega));
+  const double weight = of.imbalance * g;
+  const Vector3<Real> moment{steady.x + gyral.x - weight * plane.up.y,
+                             steady.y + gyral.y + weight * plane.up.x, steady.z + gyral.z};
+  const Torques<Real> torques = about_axes(plane, moment);
+  return {torques.phi + of.with_phi * phi.acceleration,
+          torques.theta + of.with_theta * theta.acceleration};
+}
+
+}  // namespace bbsim::model

@@ -1,0 +1,199 @@
+#include "model/servo/held_motion.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+namespace bbsim::model {
+namespace {
+
+constexpr double never = std::numeric_limits<double>::infinity();
+
+constexpr int most_terms = 40;
+
+// 1, 1, 1/2, 1/3, ...: products are cheaper than quotients.
+struct Parts {
+  double of[most_terms + 3]{1};
+  constexpr Parts() {
+    for (int n = 1; n < most_terms + 3; ++n) of[n] = 1.0 / n;
+  }
+};
+constexpr Parts parts;
+
+// By the power series of h: without a sine or an exponential, and without a difference of numbers
+// that are nearly one. For times that are short beside those of the law.
+ImpulseAnswer by_series(const HeldLaw& law, double t) {
+  const double d = law.damping * t, k = law.stiffness * t * t;
+  // h = t (c_0 + c_1 + ...), of which c_n = -(d c_(n-1) + k c_(n-2) / n) / (n + 1).
+  double last = 1, before = 0;
+  double value = 1, slope = 1, integral = 0.5;
+  for (int n = 1; n <= most_terms; ++n) {
+    const double next = -(d * last + k * before * parts.of[n]) * parts.of[n + 1];
+    before = last;
+    last = next;
+    value += next;
+    slope += (n + 1) * next;
+    integral += next * parts.of[n + 2];
+    if (std::abs(next) + std::abs(before) < 1e-18) break;
+  }
+  return {t * t * integral, t * value, slope};
+}
+
+// Half the damping; and the rate at which the two exponentials of h part, or at which it turns.
+struct Spectrum {
+  explicit Spectrum(const HeldLaw& law)
+      : decay(law.damping / 2), discriminant(decay * decay - law.stiffness) {}
+  double decay, discriminant;
+};
+
+}  // namespace
+
+ImpulseAnswer answer(const HeldLaw& law, double t) {
+  if (law.damping * t <= 1 && law.stiffness * t * t <= 1) return by_series(law, t);
+  const Spectrum of(law);
+  double value = 0, slope = 0;
+  if (of.discriminant < 0) {
+    const double turn = std::sqrt(-of.discriminant), left = std::exp(-of.decay * t);
+    const double small = turn * t;
+    value = left * t * (small < 1e-4 ? 1 - small * small / 6 : std::sin(small) / small);
+    slope = left * std::cos(small) - of.decay * value;
+  } else {
+    const double part = std::sqrt(of.discriminant), fast = of.decay + part;
+    const double slow = law.stiffness / fast;
+    const double left = std::exp(-slow * t), gone = std::exp(-2 * part * t);
+    value = left * (part * t < 1e-8 ? t : -std::expm1(-2 * part * t) / (2 * part));
+    slope = part * t > 0.5 ? left * (fast * gone - slow) / (2 * part)
+                           : left * (1 + gone) / 2 - of.decay * value;
+  }
+  const double integral = law.stiffness * t * t > 1
+                              ? (1 - slope - law.damping * value) / law.stiffness
+                          : law.stiffness == 0 ? (t - value) / law.damping
+                                               : never;
+  if (integral < never) return {integral, value, slope};
+  // A soft spring behind strong damping: the steps of the series would not end, and both quotients
+  // lose digits. Half the time, twice: h and its integral of a sum of times.
+  const ImpulseAnswer half = answer(law, t / 2);
+  const double turned = half.slope + law.damping * half.value;
+  return {half.integral + turned * half.integral + half.value * half.value, value, slope};
+}
+
+HeldMotion held_motion(const ServoResponse& servo, const AxisMode& mode, double command,
+                       double angle, double rate) {
+  const double free = mode.demand_factor;
+  HeldMotion motion{{free * servo.from_angle, free * servo.from_rate}, angle, rate, 0};
+  motion.acceleration =
+      free * (servo.from_command * command - servo.from_angle * angle - servo.from_rate * rate) +
+      mode.set_acceleration;
+  return motion;
+}
+
+// An oscillator's energy does not grow, and a servo without a spring changes its rate by no more
+// than its first acceleration says.
+MotionReach reach(const HeldMotion& motion, double end) {
+  const double k = motion.law.stiffness;
+  if (k > 0) {
+    const double spring = (motion.acceleration + motion.law.damping * motion.rate) / k;
+    const double rate_most = std::sqrt(spring * spring * k + motion.rate * motion.rate);
+    return {motion.angle + spring, rate_most / std::sqrt(k), rate_most};
+  }
+  const double rate_most = std::abs(motion.rate) + std::abs(motion.acceleration) * end;
+  return {motion.angle, end * rate_most, rate_most};
+}
+
+namespace {
+
+// The times at which the line's slope, a h'(t) + b h(t), is zero, in turn.
+class Turns {
+ public:
+  Turns(const MotionLine& line, const HeldMotion& motion) {
+    const HeldLaw& law = motion.law;
+    const Spectrum of(law);
+    const double a = line.by_angle * motion.rate + line.by_rate * motion.acceleration;
+    const double b = line.by_angle * (motion.acceleration + law.damping * motion.rate) -
+                     line.by_rate * law.stiffness * motion.rate;
+    const double with = a * of.decay - b;  // a (h'/h + decay) = with
+    if (of.discriminant < 0) {
+      const double turn = std::sqrt(-of.discriminant);
+      if (a == 0 && b == 0) return;
+      double phase = std::atan2(a * turn, with);  // tan(turn t)
+      if (phase <= 0) phase += std::numbers::pi;
+      next_ = phase / turn;
+      period_ = std::numbers::pi / turn;
+      return;
+    }
+    const double when = a / with;  // where both exponentials are one
+    if (!(when > 0)) return;
+    const double part = std::sqrt(of.discriminant) * when;
+    next_ = part < 1e-5 ? when * (1 + part * part / 3)
+            : part < 1  ? std::atanh(part) / part * when
+                        : never;
+  }
+
+  [[nodiscard]] double next() const { return next_; }
+  void pass() { next_ = next_ + period_; }
+
+ private:
+  double next_ = never, period_ = never;
+};
+
+// The first time in (from, to] at which a falling function is not positive; it is at `from`, and is
+// not at `to`. Regula falsi, and a bisection after each of its steps that does not halve.
+template <class Function>
+double root(Function above, double start, double from, double f_from, double to, double f_to) {
+  bool halve = false;
+  for (int k = 0; k < 200; ++k) {
+    const double width = to - from;
+    if (width <= std::numeric_limits<double>::epsilon() * (start + to)) break;
+    double middle = from + width * (f_from / (f_from - f_to));
+    if (halve || !(middle > from && middle < to)) middle = from + width / 2;
+    if (middle <= from || middle >= to) break;
+    const double f = above(middle);
+    if (f > 0) {
+      from = middle;
+      f_from = f;
+    } else {
+      to = middle;
+      f_to = f;
+    }
+    halve = to - from > width / 2;
+  }
+  return to;
+}
+
+}  // namespace
+
+double first_fall(const MotionLine& line, const HeldMotion& motion, double clearly, double start,
+                  double end) {
+  if (reach(motion, end).least(line) > clearly) return never;
+  const auto value_at = [&](double t) {
+    const HeldMotion::Instant at = motion.after(t);
+    return line.at(at.angle, at.rate);
+  };
+  const auto goes_on = [&](double t) {
+    const HeldMotion::Instant at = motion.after(t);
+    return HeldMotion{motion.law, at.angle, at.rate, at.acceleration};
+  };
+  Turns turns(line, motion);
+  double from = 0, value = line.at(motion.angle, motion.rate);
+  double threshold = value > clearly ? 0 : std::min(0.0, value) - clearly;
+  // From turn to turn the line goes one way.
+  while (from < end) {
+    const double to = std::min(turns.next(), end);
+    turns.pass();
+    if (to <= from) continue;
+    const double reached = value_at(to);
+    if (!(reached > threshold)) {
+      if (!std::isfinite(reached)) return never;
+      return root([&](double t) { return value_at(t) - threshold; }, start, from, value - threshold,
+                  to, reached - threshold);
+    }
+    from = to;
+    value = reached;
+    if (value > clearly) threshold = 0;
+    if (from < end && reach(goes_on(from), end - from).least(line) > clearly) return never;
+  }
+  return never;
+}
+
+}  // namespace bbsim::model

@@ -1,0 +1,75 @@
+// A number that is affine in a few others: its value where they are zero, and what each adds.
+//
+// Given to an equation that is linear in the state, in place of the state's numbers, it takes the
+// equation's coefficients from the one place where the equation stands. Only what keeps it affine
+// is there: products are with plain numbers.
+#pragma once
+
+#include "simd/pack.hpp"
+
+namespace bbsim::simd {
+
+template <class P, int n>
+struct Affine {
+  P value;
+  P by[n];
+
+  BBSIM_INLINE Affine() {}  // NOLINT(modernize-use-equals-default): uninitialised on purpose
+  BBSIM_INLINE Affine(P constant) : value(constant) {  // NOLINT(google-explicit-constructor)
+#pragma GCC unroll 8
+    for (int i = 0; i < n; ++i) by[i] = P(0.0);
+  }
+  // The number that all are affine in, of place i.
+  BBSIM_INLINE static Affine variable(int i) {
+    Affine one(P(0.0));
+    one.by[i] = P(1.0);
+    return one;
+  }
+
+  // Its value where the numbers are these.
+  BBSIM_INLINE P at(const P* numbers) const {
+    P sum = value;
+#pragma GCC unroll 8
+    for (int i = 0; i < n; ++i) sum += by[i] * numbers[i];
+    return sum;
+  }
+
+  BBSIM_INLINE friend Affine operator+(const Affine& a, const Affine& b) {
+    Affine sum;
+    sum.value = a.value + b.value;
+#pragma GCC unroll 8
+    for (int i = 0; i < n; ++i) sum.by[i] = a.by[i] + b.by[i];
+    return sum;
+  }
+  BBSIM_INLINE friend Affine operator-(const Affine& a) {
+    return a * P(-1.0);
+  }
+  BBSIM_INLINE friend Affine operator-(const Affine& a, const Affine& b) {
+    Affine rest;
+    rest.value = a.value - b.value;
+#pragma GCC unroll 8
+    for (int i = 0; i < n; ++i) rest.by[i] = a.by[i] - b.by[i];
+    return rest;
+  }
+  BBSIM_INLINE friend Affine operator*(const Affine& a, P b) {
+    Affine product;
+    product.value = a.value * b;
+#pragma GCC unroll 8
+    for (int i = 0; i < n; ++i) product.by[i] = a.by[i] * b;
+    return product;
+  }
+  BBSIM_INLINE friend Affine operator*(P a, const Affine& b) {
+    return b * a;
+  }
+  BBSIM_INLINE friend Affine operator*(double a, const Affine& b) {
+    return b * P(a);
+  }
+  BBSIM_INLINE friend Affine operator*(int a, const Affine& b) {
+    return b * P(a);
+  }
+  BBSIM_INLINE friend Affine operator/(const Affine& a, int b) {
+    return a * P(1.0 / b);
+  }
+};
+
+}  // namespace bbsim::simd

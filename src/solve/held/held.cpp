@@ -1,0 +1,361 @@
+#include "solve/held/held.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "base/instant.hpp"
+#include "solve/step_growth.hpp"
+
+namespace bbsim::solve::held {
+namespace {
+
+constexpr std::size_t angle = model::RigLayout::angle, rate = model::RigLayout::rate;
+
+// What is left of a time by whole periods, s.
+double between(double time, double period) {
+  return time - std::floor(time / period) * period;
+}
+
+// How long a command is held, and until the first one comes.
+std::array<double, 2> lengths_between(const model::SampledLoop& loop) {
+  const Sampling& sampling = loop.sampling;
+  return {sampling.period, between(sampling.delay, sampling.period)};
+}
+
+}  // namespace
+
+bool knows(const model::Model& model) {
+  if (!model.rig || !model.rig->sampled || model.dry) return false;
+  // Pieces of a few lengths, whose tables are made once.
+  return model.rig->sampled->sampling.is_even() &&
+         std::holds_alternative<model::RigLoop<false>>(model.system);
+}
+
+HeldStepper::HeldStepper(const model::Model& model, const Kernels& kernels, Tolerances tolerances)
+    : model_(&model), kernels_(kernels) {
+  const Loop& of = loop();
+  kernel_ = of.rolling() == model::GeneralRolling{} ? kernels.papers : kernels.general;
+  scene_.radius = of.radius();
+  scene_.gravity = of.gravity();
+  scene_.rolling = of.rolling();
+  scene_.rtol = tolerances.rtol;
+  scene_.atol = tolerances.atol;
+  scene_.gamma = model.gamma;
+  if (model.events) {
+    for (const model::Monitor& monitor : model.events->monitors) {
+      using Kind = model::Monitor::Kind;
+      if (monitor.kind == Kind::slip) scene_.friction = monitor.limit;
+      if (monitor.kind == Kind::slip || monitor.kind == Kind::lift_off) scene_.force = true;
+    }
+  }
+  lengths_ = lengths_between(*model.rig->sampled);
+  sampled_[0].after = lengths_[0] - lengths_[1];  // a sample, after a command
+  sampled_[1].after = between(-model.rig->sampled->sensor.delay - lengths_[1], lengths_[0]);
+  tempo_ = of.reference().highest_frequency();
+  piece_.contraction = 1e-2;
+}
+
+// The answer to an impulse, kept for the instants within a piece at which samples are taken.
+const model::ImpulseAnswer& HeldStepper::answer(const model::HeldLaw& law, double after) {
+  const double rounding = 2 * rounding_of(time_ + after);
+  for (Sampled& one : sampled_) {
+    if (std::abs(one.after - after) > rounding) continue;
+    if (!one.known || !(one.law == law))
+      one = {one.after, true, law, model::answer(law, one.after)};
+    return one.answer;
+  }
+  if (!other_.known || other_.after != after || !(other_.law == law)) {
+    other_ = {after, true, law, model::answer(law, after)};
+  }
+  return other_.answer;
+}
+
+// Instants n * period differ by roundings of the time. Pieces between them get the length that they
+// are meant to have: one table serves all, and the lengths add up to the times themselves.
+double HeldStepper::nominal(double length) const {
+  const double rounding = 2 * rounding_of(time_ + length);
+  for (const double one : lengths_) {
+    if (std::abs(one - length) <= rounding && one > 0) return one;
+  }
+  return length;
+}
+
+void HeldStepper::take_modes() {
+  const model::RigMode& mode = loop().mode;
+  for (std::size_t i = 0; i < 2; ++i) {
+    servo_[i] = model::held_motion(loop().servo().of[i], mode.axis[i], mode.command[i],
+                                   reached_[angle + i], reached_[rate + i]);
+    piece_.axis[i].ratio = mode.axis[i].ratio;
+    piece_.axis[i].offset = mode.axis[i].offset;
+  }
+}
+
+void HeldStepper::start(double t, const double* z) {
+  if (attempted_) {
+    if (model_->gamma && t != time_) {
+      double row[size + 1];
+      evaluate(&t, 1, row);
+      turned_ = row[size];
+    }
+    for (int i = 0; i < 3; ++i) piece_.guess[i] = piece_.acceleration_at[i][nodes - 1];
+  }
+  attempted_ = false;
+  looked_ = false;
+  time_ = t;
+  std::copy_n(z, size, reached_.begin());
+  take_modes();
+  settle();
+}
+
+// Makes what was reached the present state.
+void HeldStepper::settle() {
+  if (attempted_) {
+    for (int i = 0; i < 3; ++i) piece_.guess[i] = piece_.acceleration_at[i][nodes - 1];
+    for (std::size_t i = 0; i < 2; ++i) {
+      const model::HeldMotion& was = servo_[i];
+      const MotionTable& table = *piece_.axis[i].table;
+      constexpr auto row = MotionTable::acceleration;
+      servo_[i] = {was.law, reached_[angle + i], reached_[rate + i],
+                   table.by_rate[row][nodes - 1] * was.rate +
+                       table.by_acceleration[row][nodes - 1] * was.acceleration};
+    }
+  }
+  attempted_ = false;
+  piece_.position[0] = reached_[0];
+  piece_.position[1] = reached_[1];
+  piece_.position[2] = turned_;
+  for (std::size_t i = 0; i < 3; ++i) piece_.velocity[i] = reached_[2 + i];
+}
+
+void HeldStepper::prepare(double length) {
+  piece_.length = length;
+  for (std::size_t i = 0; i < 2; ++i) {
+    const model::HeldMotion& servo = servo_[i];
+    Axis& axis = piece_.axis[i];
+    // Both servos mostly move by one law.
+    axis.table = i == 1 && servo.law == servo_[0].law ? piece_.axis[0].table
+                                                      : &tables_.of(servo.law, length);
+    axis.angle = servo.angle;
+    axis.rate = servo.rate;
+    axis.acceleration = servo.acceleration;
+  }
+}
+
+const char* HeldStepper::step(double limit) {
+  settle();
+  began_ = time_;
+  looked_ = false;
+  const double left = limit - time_;
+  // Two guards may fall at one instant, but for a time that is lost beside it: nothing moves.
+  if (!(left > 0)) return nullptr;
+  bool rejected = false;
+  for (;;) {
+    // The steps to the limit are alike, as they are in radau.
+    const double pieces = left <= next_step_ ? 1 : std::ceil(left / next_step_ * (1 - 1e-3));
+    const bool arrives = pieces <= 1;
+    const double step = arrives ? left : pieces < 4 ? left / pieces : next_step_;
+    if (!(step > 4 * std::numeric_limits<double>::epsilon() * time_) && !arrives) {
+      return "the step shrank to the rounding of the time itself";
+    }
+    prepare(nominal(step));
+    Attempt attempt;
+    kernel_.attempt(piece_, scene_, attempt);
+    statistics_.nonlinear_iterations += static_cast<std::size_t>(attempt.iterations);
+    statistics_.rhs_evaluations += nodes * static_cast<std::size_t>(attempt.iterations + 1);
+    if (attempt.converged) worst_state_ = static_cast<std::size_t>(attempt.worst_state);
+    if (!attempt.converged || !(attempt.error <= 1)) {
+      next_step_ =
+          step * (attempt.converged ? std::min(0.9, step_growth(attempt.error, nodes)) : 0.2);
+      rejected = true;
+      ++statistics_.error_test_failures;
+      continue;
+    }
+    time_ = arrives ? limit : time_ + step;
+    last_error_ = attempt.error;
+    ++statistics_.steps;
+    constexpr double most_growth = 8;
+    // A step that the limit cut short says little of how long the next may be.
+    if (!arrives || rejected || next_step_ < most_growth * step) {
+      const double factor = step_growth(attempt.error, nodes);
+      const double next = step * (rejected ? std::min(factor, 1.0) : factor);
+      next_step_ = arrives && !rejected ? std::max(next, next_step_) : next;
+    }
+    finish();
+    return nullptr;
+  }
+}
+
+// Takes over where the step ended.
+void HeldStepper::finish() {
+  attempted_ = true;
+  reached_[0] = piece_.position_end[0];
+  reached_[1] = piece_.position_end[1];
+  turned_ = piece_.position_end[2];
+  for (std::size_t i = 0; i < 3; ++i) reached_[2 + i] = piece_.velocity_end[i];
+  for (std::size_t i = 0; i < 2; ++i) {
+    const Axis& axis = piece_.axis[i];
+    const auto row = [&](MotionTable::Row of) {
+      return axis.table->by_rate[of][nodes - 1] * axis.rate +
+             axis.table->by_acceleration[of][nodes - 1] * axis.acceleration;
+    };
+    reached_[angle + i] = axis.angle + row(MotionTable::angle);
+    reached_[rate + i] = row(MotionTable::rate);
+  }
+}
+
+void HeldStepper::evaluate(const double* times, std::size_t count, double* rows) {
+  constexpr std::size_t together = 16;
+  const std::size_t row = size + (model_->gamma ? 1 : 0);
+  for (std::size_t first = 0; first < count; first += together) {
+    evaluate_some(times + first, std::min(together, count - first), rows + first * row);
+  }
+}
+
+void HeldStepper::evaluate_some(const double* times, std::size_t count, double* rows) {
+  double after[16], ball[16][6];
+  bool within = false;
+  for (std::size_t i = 0; i < count; ++i) {
+    after[i] = times[i] - began_;
+    within = within || times[i] != time_;
+  }
+  if (within) kernels_.evaluate(piece_, after, count, ball);
+  for (std::size_t i = 0; i < count; ++i) {
+    double* const row = rows + i * (size + (model_->gamma ? 1 : 0));
+    if (times[i] == time_) {  // a row at an instant is the state there, whoever asks
+      std::copy(reached_.begin(), reached_.end(), row);
+      if (model_->gamma) row[size] = turned_;
+      continue;
+    }
+    std::copy_n(ball[i], 5, row);
+    if (model_->gamma) row[size] = ball[i][5];
+    for (std::size_t k = 0; k < 2; ++k) {
+      const model::HeldMotion& servo = servo_[k];
+      const model::HeldMotion::Instant at = servo.after(answer(servo.law, after[i]));
+      row[angle + k] = at.angle;
+      row[rate + k] = at.rate;
+    }
+  }
+}
+
+std::vector<double> HeldStepper::state() const {
+  return {reached_.begin(), reached_.end()};
+}
+
+// As for radau, of what 8 nodes just show; mostly half of them would do.
+std::size_t HeldStepper::parts() const {
+  constexpr double least = 8, of_products = 2, a_radian = 3, most = 128;
+  const double parts = std::max(last_error_ < 1e-3 ? least : of_products * nodes,
+                                least + a_radian * std::abs(tempo_ * (time_ - began_)));
+  return static_cast<std::size_t>(std::clamp(std::ceil(parts), least, most));
+}
+
+const Range& HeldStepper::range(Look of) {
+  if (!looked_) kernel_.look(piece_, scene_, ranges_.data(), at_points_);
+  looked_ = true;
+  return ranges_[static_cast<std::size_t>(of)];
+}
+
+namespace {
+
+// What a smooth number takes at most, and at least.
+Range widened(const Range& at_nodes) {
+  const double beyond = overshoot * (at_nodes.most - at_nodes.least);
+  return {at_nodes.least - beyond, at_nodes.most + beyond};
+}
+
+// Whether the numbers are all above the limit, or, if `below`, all below.
+bool beyond(const Range& range, double limit, bool below) {
+  return below ? range.most < limit : range.least > limit;
+}
+
+}  // namespace
+
+bool HeldStepper::keeps_its_side(const model::Monitor& monitor, bool happening) {
+  using Kind = model::Monitor::Kind;
+  switch (monitor.kind) {
+    case Kind::edge: {
+      bool within = true, off = false;
+      const auto look = [&](const Range& range, double least, double most) {
+        within = within && range.least > least && range.most < most;
+        off = off || range.least > most || range.most < least;
+      };
+      const Plate& plate = model_->events->plate;
+      if (plate.size) {
+        for (int i = 0; i < 2; ++i) {
+          const double most = (*plate.size)[static_cast<std::size_t>(i)] / 2;
+          look(widened(range(i == 0 ? Look::x : Look::y)), -most, most);
+        }
+      }
+      if (plate.diameter) {
+        const double most = *plate.diameter * *plate.diameter / 4;
+        look(widened(range(Look::distance_squared)), -most, most);
+      }
+      return happening ? off : within;
+    }
+    case Kind::slip:
+      // Where nothing presses, the square says nothing.
+      return beyond(widened(range(Look::grip)), 0, happening) &&
+             beyond(widened(range(Look::normal)), 0, false);
+    case Kind::lift_off:
+      return beyond(widened(range(Look::normal)), 0, happening);
+    case Kind::tilt:
+      return beyond(widened(range(Look::up)), std::cos(monitor.limit), happening);
+    case Kind::singularity:
+    case Kind::dead_point:
+      break;
+  }
+  return false;
+}
+
+bool HeldStepper::nothing_happens(const std::vector<char>& happening) {
+  if (!attempted_) return false;
+  for (std::size_t m = 0; m < happening.size(); ++m) {
+    if (!keeps_its_side(model_->events->monitors[m], happening[m] != 0)) return false;
+  }
+  return true;
+}
+
+std::optional<Bounds> HeldStepper::bounds(Load load, const model::BallConstants& constants,
+                                          bool closely) {
+  if (!attempted_) return {};
+  if (loads_of_ != &constants) {
+    loads_of_ = &constants;
+    scene_.loads = true;
+    scene_.mass = constants.mass;
+    scene_.turned = model::turned_by_motors(constants);
+    looked_ = false;
+  }
+  const auto place = static_cast<std::size_t>(load);
+  const Range wide = widened(range(static_cast<Look>(Look::torque_phi + place)));
+  if (!closely) return Bounds{wide.least, wide.most};
+  if (closely_ != began_) kernels_.look_closely(at_points_, close_.data());
+  closely_ = began_;
+  const Range& close = close_[place];
+  const double beyond = close_overshoot * (close.most - close.least);
+  return Bounds{close.least - beyond, close.most + beyond};
+}
+
+template <class Archive>
+void HeldStepper::archive(Archive& archive) {
+  archive(reached_, turned_, servo_, time_, next_step_, last_error_, piece_.guess,
+          piece_.contraction, worst_state_, statistics_);
+}
+
+bool HeldStepper::save(StateWriter& into) {
+  settle();
+  archive(into);
+  return true;
+}
+
+void HeldStepper::restore(StateReader& from) {
+  archive(from);
+  const model::RigMode& mode = loop().mode;
+  for (std::size_t i = 0; i < 2; ++i) {
+    piece_.axis[i].ratio = mode.axis[i].ratio;
+    piece_.axis[i].offset = mode.axis[i].offset;
+  }
+  settle();
+}
+
+}  // namespace bbsim::solve::held

@@ -1,0 +1,102 @@
+// Rigs whose controller samples: from one instant to the next in one piece, servos in closed form.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <limits>
+#include <optional>
+#include <vector>
+
+#include "model/model.hpp"
+#include "solve/held/kernel.hpp"
+#include "solve/held/motion_tables.hpp"
+#include "solve/outcome.hpp"
+#include "solve/stepper.hpp"
+
+namespace bbsim::solve::held {
+
+// Those of the instruction set that was chosen. Throws InputError if the environment variable
+// BBSIM_SIMD names none of this processor.
+[[nodiscard]] const Kernels& choose_kernels();
+
+// Whether all modes of the model are such: its command is held, and its servos move by themselves.
+[[nodiscard]] bool knows(const model::Model& model);
+
+// For models that knows() says yes to. A step goes as far as its limit, mostly: pieces are short.
+// Where the ball's motion has more detail than 8 nodes show, as after a jump of a stiff servo,
+// steps are as long as the tolerance allows. Of when a servo switches it knows nothing; limits are
+// where it does, at the latest. Allocates nothing once its tables are made.
+class HeldStepper : public Stepper {
+ public:
+  HeldStepper(const model::Model& model, const Kernels& kernels, Tolerances tolerances);
+
+  void start(double t, const double* z) override;
+  const char* step(double limit) override;
+  void evaluate(const double* times, std::size_t count, double* rows) override;
+  void jump() override {}
+  [[nodiscard]] double time() const override { return time_; }
+  [[nodiscard]] std::vector<double> state() const override;
+  [[nodiscard]] std::size_t worst_state() const override { return worst_state_; }
+  [[nodiscard]] Statistics statistics() const override { return statistics_; }
+  [[nodiscard]] std::size_t detail() const override { return nodes; }
+  [[nodiscard]] std::size_t parts() const override;
+  [[nodiscard]] bool save(StateWriter& into) override;
+  void restore(StateReader& from) override;
+
+  [[nodiscard]] bool knows_servos() const override { return true; }
+  [[nodiscard]] bool nothing_happens(const std::vector<char>& happening) override;
+  [[nodiscard]] std::optional<Bounds> bounds(Load load, const model::BallConstants& constants,
+                                             bool closely) override;
+
+ private:
+  using Loop = model::RigLoop<false>;
+  static constexpr std::size_t size = Loop::size;
+
+  template <class Archive>
+  void archive(Archive& archive);
+
+  [[nodiscard]] const Loop& loop() const { return std::get<Loop>(model_->system); }
+  void take_modes();
+  void settle();
+  void prepare(double length);
+  void finish();
+  [[nodiscard]] const model::ImpulseAnswer& answer(const model::HeldLaw& law, double after);
+  void evaluate_some(const double* times, std::size_t count, double* rows);
+  [[nodiscard]] double nominal(double length) const;
+  const Range& range(Look of);
+  [[nodiscard]] bool keeps_its_side(const model::Monitor& monitor, bool happening);
+
+  const model::Model* model_;
+  const Kernels& kernels_;
+  Kernels::Of kernel_;
+  Scene scene_{};
+  Piece piece_{};
+  MotionTables tables_;
+  struct Sampled {
+    double after = -1;  // the piece's start, s
+    bool known = false;
+    model::HeldLaw law{};
+    model::ImpulseAnswer answer{};
+  };
+  std::array<Sampled, 2> sampled_{};
+  Sampled other_{};
+  std::array<double, 2> lengths_{};           // of pieces from command to command, s
+  std::array<model::HeldMotion, 2> servo_{};  // from the start of the last step on
+  std::array<double, size> reached_{};        // states at its end
+  std::array<Range, looks> ranges_{};         // of the last step
+  Loads at_points_{};
+  std::array<Range, 3> close_{};
+  double closely_ = -1;  // looked at the loads of the step that began there, s
+  bool looked_ = false;
+  const model::BallConstants* loads_of_ = nullptr;
+  double began_ = 0, time_ = 0;                                 // the last step, s
+  double next_step_ = std::numeric_limits<double>::infinity();  // s
+  double last_error_ = 0;
+  double tempo_ = 0;        // of the reference, rad/s
+  bool attempted_ = false;  // a step was made, and is not yet the present state
+  double turned_ = 0;       // integral of u at the step's end, m
+  std::size_t worst_state_ = 0;
+  Statistics statistics_;
+};
+
+}  // namespace bbsim::solve::held

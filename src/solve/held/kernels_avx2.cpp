@@ -1,0 +1,12 @@
+#include "solve/held/piece.hpp"
+
+namespace bbsim::solve::held {
+
+struct Avx2 {
+  static constexpr int lanes = 4;
+};
+
+extern const Kernels kernels_avx2;
+constinit const Kernels kernels_avx2 = Kernel<Avx2>::kernels;
+
+}  // namespace bbsim::solve::held

@@ -1,0 +1,568 @@
+// A rig between two instants, for one instruction set.
+//
+// Under a held command the servos move in closed form (model/servo/held_motion.hpp), the gimbal's
+// motion is therefore given, and the ball's equation linear in its five states. At the nodes of
+// Radau IIA, which lie in the lanes, it is
+//     k = f + A (x, y, x', y', u)
+// with coefficients that are computed once, all nodes together. What is left is
+//     v = v(0) + h A1 k,    q = q(0) + c h v(0) + h^2 A2 k
+// and substitution solves it: over so short a time it contracts by hundreds or thousands at each
+// turn. The fall of the Legendre coefficients of k tells the error, as it does for radau/step.hpp,
+// of which this is the special case without a Jacobian, a system, or a state of the servos.
+#pragma once
+
+#include "model/systems/system.hpp"
+#include "simd/affine.hpp"
+#include "solve/held/kernel.hpp"
+#include "solve/radau/tables.hpp"
+
+namespace bbsim::solve::held {
+
+// A number that the compiler knows.
+template <int i>
+struct Index {
+  // NOLINTNEXTLINE(google-explicit-constructor): it is that number
+  [[gnu::always_inline]] constexpr operator int() const { return i; }
+};
+
+// Calls f(0), f(1), ... with such numbers.
+template <int count, int from = 0, class F>
+BBSIM_INLINE void for_each(F f) {
+  if constexpr (from < count) {
+    f(Index<from>{});
+    for_each<count, from + 1>(f);
+  }
+}
+
+template <class Isa>
+struct Kernel {
+  static constexpr int lanes = Isa::lanes;
+  static constexpr int packs = nodes / lanes;
+  using P = simd::Pack<Isa, lanes>;
+  using Vector = typename P::Vector;
+  using Mask = typename P::Mask;
+  using Ball = simd::Affine<P, 5>;  // x, y, x', y', u
+  using Rule = radau::RadauTable<nodes>;
+
+  struct alignas(64) Tables {
+    double c[nodes]{}, a[nodes][nodes]{}, a_squared[nodes][nodes]{}, legendre[nodes][nodes]{};
+    consteval Tables() {
+      for (int i = 0; i < nodes; ++i) {
+        c[i] = Rule::c[i];
+        for (int j = 0; j < nodes; ++j) {
+          a[j][i] = Rule::a[j][i];
+          a_squared[j][i] = Rule::a_squared[j][i];
+          legendre[j][i] = Rule::legendre[j][i];
+        }
+      }
+    }
+  };
+  static constexpr Tables table{};
+
+  // From values at the start and the nodes but the first to those at Chebyshev points.
+  struct alignas(64) CloseTable {
+    double share[nodes][close_points]{};
+    consteval CloseTable() {
+      // (1 - cos((2 k + 1) pi / 64)) / 2
+      constexpr double first_half[close_points / 2] = {
+          0.0006022718974137975, 0.005411745017609493, 0.014984373402728013, 0.029227967408489597,
+          0.04800535343827833,   0.07113569499986394,  0.09839623425967753,  0.12952443732252045,
+          0.16422052257649083,   0.20215034775378327,  0.24294862790338917,  0.2862224532848589,
+          0.33155507330389,      0.378509910048368,    0.42663476277231915,  0.47546616283629095};
+      for (int k = 0; k < close_points; ++k) {
+        const double s =
+            k < close_points / 2 ? first_half[k] : 1 - first_half[close_points - 1 - k];
+        for (int j = 0; j < nodes; ++j) {
+          share[j][k] = 1;
+          for (int i = 0; i < nodes; ++i) {
+            if (i != j) share[j][k] *= (s - point(i)) / (point(j) - point(i));
+          }
+        }
+      }
+    }
+    static consteval double point(int i) { return i == 0 ? 0.0 : Rule::c[i]; }
+  };
+  static constexpr CloseTable close_table{};
+
+  BBSIM_INLINE static P magnitude(P a) {
+    const Mask sign_bit = (1LL << 63) - Mask{};
+    return P::of((Vector)((Mask)a.v & ~sign_bit));
+  }
+  BBSIM_INLINE static double magnitude(double a) { return __builtin_fabs(a); }
+  BBSIM_INLINE static P larger(P a, P b) { return P::of(a.v > b.v ? a.v : b.v); }
+  BBSIM_INLINE static P smaller(P a, P b) { return P::of(a.v < b.v ? a.v : b.v); }
+  BBSIM_INLINE static double larger(double a, double b) { return a > b ? a : b; }
+  BBSIM_INLINE static double smaller(double a, double b) { return a < b ? a : b; }
+
+  // The greatest lane, or the least, by halves.
+  template <class Choose>
+  BBSIM_INLINE static double reduced(P a, Choose choose) {
+    if constexpr (lanes == 8) {
+      using Half = simd::Pack<Isa, 4>;
+      const Half low = Half::of(__builtin_shufflevector(a.v, a.v, 0, 1, 2, 3));
+      const Half high = Half::of(__builtin_shufflevector(a.v, a.v, 4, 5, 6, 7));
+      return reduced_four(choose(low, high), choose);
+    } else if constexpr (lanes == 4) {
+      return reduced_four(a, choose);
+    } else {
+      const double first = a.v[0], second = a.v[1];
+      return choose(first, second);
+    }
+  }
+  template <class Four, class Choose>
+  BBSIM_INLINE static double reduced_four(Four a, Choose choose) {
+    using Half = simd::Pack<Isa, 2>;
+    const Half two = choose(Half::of(__builtin_shufflevector(a.v, a.v, 0, 1)),
+                            Half::of(__builtin_shufflevector(a.v, a.v, 2, 3)));
+    const double first = two.v[0], second = two.v[1];
+    return choose(first, second);
+  }
+  struct Larger {
+    template <class N>
+    BBSIM_INLINE N operator()(N a, N b) const {
+      if constexpr (requires { a.v; }) {
+        return N::of(a.v > b.v ? a.v : b.v);
+      } else {
+        return a > b ? a : b;
+      }
+    }
+  };
+  struct Smaller {
+    template <class N>
+    BBSIM_INLINE N operator()(N a, N b) const {
+      if constexpr (requires { a.v; }) {
+        return N::of(a.v < b.v ? a.v : b.v);
+      } else {
+        return a < b ? a : b;
+      }
+    }
+  };
+
+  BBSIM_INLINE static Mask first_lane() {
+    Mask mask{};
+    mask[0] = -1;
+    return mask;
+  }
+
+  // Whether the bits are those of a finite number: comparisons are compiled as if all were.
+  BBSIM_INLINE static bool is_finite(double a) {
+    return (__builtin_bit_cast(unsigned long long, a) >> 52 & 0x7ff) != 0x7ff;
+  }
+
+  // sin and cos of angles within a quarter of pi: the polynomials of simd/pack.hpp alone.
+  BBSIM_INLINE static SinCos<P> sin_cos_of_small(P angle) {
+    using T = simd::SineTable;
+    const Vector r = angle.v, u = r * r, u2 = u * u;
+    const Vector p = (T::sine[0] + u * T::sine[1]) +
+                     u2 * ((T::sine[2] + u * T::sine[3]) + u2 * (T::sine[4] + u * T::sine[5]));
+    const Vector q =
+        (T::cosine[0] + u * T::cosine[1]) +
+        u2 * ((T::cosine[2] + u * T::cosine[3]) + u2 * (T::cosine[4] + u * T::cosine[5]));
+    return {P::of(r + (r * u) * p), P::of(1.0 + (u * -0.5 + u2 * q))};
+  }
+
+  // The plane's axis at the nodes of a pack.
+  BBSIM_INLINE static model::Axis<P> plane_axis(const Axis& axis, int p, bool small) {
+    const MotionTable& motion = *axis.table;
+    const auto row = [&](MotionTable::Row of) __attribute__((always_inline)) {
+      return P::load(motion.by_rate[of] + p * lanes) * P(axis.rate) +
+             P::load(motion.by_acceleration[of] + p * lanes) * P(axis.acceleration);
+    };
+    const P ratio(axis.ratio);
+    const P angle = P(axis.ratio * axis.angle + axis.offset) + ratio * row(MotionTable::angle);
+    const SinCos<P> wave = small ? sin_cos_of_small(angle) : sin_cos(angle);
+    return {wave.sin, wave.cos, ratio * row(MotionTable::rate),
+            ratio * row(MotionTable::acceleration)};
+  }
+
+  // Whether the plane's angle stays within a quarter of pi.
+  BBSIM_INLINE static bool is_small(const Axis& axis) {
+    const double moves = axis.table->most_by_rate * magnitude(axis.rate) +
+                         axis.table->most_by_acceleration * magnitude(axis.acceleration);
+    return magnitude(axis.ratio * axis.angle + axis.offset) + magnitude(axis.ratio) * moves < 0.785;
+  }
+
+  struct Rates {
+    Ball of[3];  // x'', y'', u'
+  };
+
+  // The equation's coefficients at the nodes of a pack.
+  template <bool papers>
+  BBSIM_INLINE static Rates coefficients(const model::Axis<P>& phi, const model::Axis<P>& theta,
+                                         const Scene& scene) {
+    const model::RollingState<Ball, Ball, Ball> ball{Ball::variable(0), Ball::variable(1),
+                                                     Ball::variable(2), Ball::variable(3),
+                                                     Ball::variable(4)};
+    Rates rates;
+    if constexpr (papers) {
+      const P r(scene.radius), g(scene.gravity);
+      rates.of[0] = model::x_acceleration<Ball>(phi, theta, ball, r, g);
+      rates.of[1] = model::y_acceleration<Ball>(phi, theta, ball, r, g);
+      rates.of[2] = model::u_acceleration<Ball>(phi, theta, ball, r);
+    } else {
+      const auto all =
+          scene.rolling.template rates<Ball>(phi, theta, ball, scene.radius, scene.gravity);
+      rates.of[0] = all.x;
+      rates.of[1] = all.y;
+      rates.of[2] = all.u;
+    }
+    return rates;
+  }
+
+  static constexpr int most_iterations = 25;
+
+  // Flat: a coefficient that the equation does not have is known to be zero where it is all in one.
+  template <bool papers>
+  [[gnu::flatten]] static void attempt(Piece& piece, const Scene& scene, Attempt& result) {
+    const double h = piece.length;
+    const bool small = is_small(piece.axis[0]) && is_small(piece.axis[1]);
+    Rates rates[packs];
+    for_each<packs>([&](auto p) __attribute__((always_inline)) {
+      model::Axis<P> axis[2];
+#pragma GCC unroll 2
+      for (int i = 0; i < 2; ++i) {
+        axis[i] = plane_axis(piece.axis[i], p, small);
+        Piece::Plane& into = piece.plane[i];
+        axis[i].sin.store(into.sin + p * lanes);
+        axis[i].cos.store(into.cos + p * lanes);
+        axis[i].rate.store(into.rate + p * lanes);
+        axis[i].acceleration.store(into.acceleration + p * lanes);
+      }
+      rates[p] = coefficients<papers>(axis[0], axis[1], scene);
+    });
+
+    double weight[3];
+    for (int i = 0; i < 3; ++i) {
+      weight[i] = larger(1, h) / (scene.rtol * magnitude(piece.velocity[i]) + scene.atol);
+    }
+    // Accelerations times h at the nodes: at first those of a ball that goes on as it did.
+    alignas(64) double k[3][nodes];
+    P now[packs][3];
+    for_each<packs>([&](auto p) __attribute__((always_inline)) {
+      const P time = P(h) * P::load(table.c + p * lanes);
+      const P half_square = P(0.5) * time * time;
+      P z[5];
+#pragma GCC unroll 3
+      for (int i = 0; i < 3; ++i) {
+        z[2 + i] = P(piece.velocity[i]) + time * P(piece.guess[i]);
+        if (i < 2) {
+          z[i] =
+              P(piece.position[i]) + time * P(piece.velocity[i]) + half_square * P(piece.guess[i]);
+        }
+      }
+#pragma GCC unroll 3
+      for (int i = 0; i < 3; ++i) {
+        now[p][i] = P(h) * rates[p].of[i].at(z);
+        now[p][i].store(k[i] + p * lanes);
+      }
+    });
+    result = {false, 0, 0, 0};
+    constexpr double enough = 1e-3, rounding = 30 * 2.2e-16;
+    const double floor = rounding / scene.rtol;
+    double last = 0, contraction = piece.contraction;
+    for (;;) {
+      double change = 0;
+      P changes[3] = {P(0.0), P(0.0), P(0.0)};
+      P next[packs][3];
+      for_each<packs>([&](auto p) __attribute__((always_inline)) {
+        P v[3] = {P(0.0), P(0.0), P(0.0)}, q[2] = {P(0.0), P(0.0)};
+#pragma GCC unroll 8
+        for (int j = 0; j < nodes; ++j) {
+          const P once = P::load(table.a[j] + p * lanes);
+          const P twice = P::load(table.a_squared[j] + p * lanes);
+#pragma GCC unroll 3
+          for (int i = 0; i < 3; ++i) {
+            v[i] += once * P(k[i][j]);
+            if (i < 2) q[i] += twice * P(k[i][j]);
+          }
+        }
+        const P time = P(h) * P::load(table.c + p * lanes);
+        P z[5];
+#pragma GCC unroll 3
+        for (int i = 0; i < 3; ++i) {
+          z[2 + i] = P(piece.velocity[i]) + v[i];
+          z[2 + i].store(piece.velocity_at[i] + p * lanes);
+          if (i == 2) continue;
+          z[i] = P(piece.position[i]) + (time * P(piece.velocity[i]) + P(h) * q[i]);
+          z[i].store(piece.position_at[i] + p * lanes);
+        }
+#pragma GCC unroll 3
+        for (int i = 0; i < 3; ++i) {
+          next[p][i] = P(h) * rates[p].of[i].at(z);
+          changes[i] = larger(changes[i], magnitude(next[p][i] - now[p][i]));
+        }
+      });
+      for_each<packs>([&](auto p) __attribute__((always_inline)) {
+#pragma GCC unroll 3
+        for (int i = 0; i < 3; ++i) {
+          now[p][i] = next[p][i];
+          now[p][i].store(k[i] + p * lanes);
+        }
+      });
+      const P weighted = larger(larger(changes[0] * P(weight[0]), changes[1] * P(weight[1])),
+                                changes[2] * P(weight[2]));
+      change = reduced(weighted, Larger{});
+      ++result.iterations;
+      if (!is_finite(change)) return;
+      if (result.iterations > 1) contraction = change / last;
+      if (change <= floor || change * contraction <= enough * (1 - contraction)) break;
+      if (result.iterations >= most_iterations || (result.iterations > 2 && contraction > 0.3)) {
+        piece.contraction = 1;
+        return;
+      }
+      last = change;
+    }
+    result.converged = true;
+    piece.contraction =
+        result.iterations > 1 ? larger(0.3 * piece.contraction, contraction) : contraction;
+
+    for_each<packs>([&](auto p) __attribute__((always_inline)) {
+      P sum[3] = {P(0.0), P(0.0), P(0.0)};
+#pragma GCC unroll 8
+      for (int j = 0; j < nodes; ++j) {
+        const P row = P::load(table.legendre[j] + p * lanes);
+#pragma GCC unroll 3
+        for (int i = 0; i < 3; ++i) sum[i] += row * P(k[i][j]);
+      }
+#pragma GCC unroll 3
+      for (int i = 0; i < 3; ++i) {
+        sum[i].store(piece.series[i] + p * lanes);
+        (now[p][i] * P(1 / h)).store(piece.acceleration_at[i] + p * lanes);
+      }
+    });
+#pragma GCC unroll 3
+    for (int i = 0; i < 3; ++i) {
+      const double* const series = piece.series[i];
+      piece.velocity_end[i] = piece.velocity[i] + series[0];
+      piece.position_end[i] =
+          piece.position[i] + h * (piece.velocity[i] + (series[0] - series[1] / 3) / 2);
+    }
+    estimate(piece, scene, result);
+  }
+
+  // What a servo that jumps faster than the first node shows makes of the ball's acceleration, at
+  // most: a gimbal's acceleration acts at the ball's height above its axes, and by the sine of the
+  // tilt at its distance.
+  BBSIM_INLINE static double missed(const Piece& piece, const Scene& scene) {
+    double acceleration = 0;
+    for (int i = 0; i < 2; ++i) {
+      const Axis& axis = piece.axis[i];
+      acceleration +=
+          magnitude(axis.ratio * (axis.table->missed_by_rate * axis.rate +
+                                  axis.table->missed_by_acceleration * axis.acceleration));
+    }
+    const double tilt = magnitude(piece.plane[0].sin[nodes - 1]) +
+                        magnitude(piece.plane[1].sin[nodes - 1]) +
+                        magnitude(scene.rolling.sin_skew) + magnitude(scene.rolling.sin_base);
+    return acceleration * (scene.radius + magnitude(scene.rolling.height) +
+                           tilt * (magnitude(piece.position[0]) + magnitude(piece.position[1])));
+  }
+
+  // The error from the fall of the last Legendre coefficients, as in radau/step.hpp: the first one
+  // left out, integrated once for a velocity, twice for a position.
+  BBSIM_INLINE static void estimate(const Piece& piece, const Scene& scene, Attempt& result) {
+    constexpr double once = 1.0 / (2 * nodes + 1);
+    // It is over by then, and in the mean has half of that.
+    const double unseen = Rule::c[0] / 2 * piece.length * missed(piece, scene);
+    result.error =
+        unseen / (scene.rtol * smaller(magnitude(piece.velocity[0]), magnitude(piece.velocity[1])) +
+                  scene.atol);
+    result.worst_state = 2;
+    for (int i = 0; i < 3; ++i) {
+      const double* const k = piece.series[i];
+      const double tail = larger(magnitude(k[nodes - 1]), magnitude(k[nodes - 2]));
+      const bool moves = i < 2 || scene.gamma;
+      // Mostly it is nothing beside the tolerance, and needs no closer look.
+      const double most = once * tail * (moves ? larger(1, once * piece.length) : 1.0);
+      if (most <= 1e-3 * scene.atol) {
+        result.error = larger(result.error, most / scene.atol);
+        continue;
+      }
+      const double before = larger(magnitude(k[nodes - 3]), magnitude(k[nodes - 4]));
+      const double left_out = tail < before ? tail * __builtin_sqrt(tail / before) : tail;
+      const double v_scale =
+          scene.rtol * larger(magnitude(piece.velocity[i]), magnitude(piece.velocity_end[i])) +
+          scene.atol;
+      const double v_error = once * left_out / v_scale;
+      if (!(v_error <= result.error)) {
+        result.error = v_error;
+        result.worst_state = 2 + i;
+      }
+      if (!moves) continue;
+      const double reached = i < 2 ? piece.position_end[i] : 0.0;
+      const double start = i < 2 ? piece.position[i] : 0.0;
+      const double q_scale = scene.rtol * larger(magnitude(start), magnitude(reached)) + scene.atol;
+      const double q_error = once * once * piece.length * left_out / q_scale;
+      if (q_error > result.error) {
+        result.error = q_error;
+        result.worst_state = i < 2 ? i : 4;
+      }
+    }
+    if (!is_finite(result.error)) result.converged = false;
+  }
+
+  template <bool papers>
+  [[gnu::flatten]] static void look(const Piece& piece, const Scene& scene, Range* ranges,
+                                    Loads& loads) {
+    P least[looks], most[looks];
+#pragma GCC unroll 16
+    for (int i = 0; i < looks; ++i) least[i] = most[i] = P(0.0);
+    const bool force = scene.force || scene.loads;
+    // At the start, by the polynomial of the accelerations, and by the servos.
+    double started[2];
+    Vector angles{};
+#pragma GCC unroll 2
+    for (int i = 0; i < 2; ++i) {
+      const double* const k = piece.series[i];
+      started[i] = ((k[0] - k[1]) + (k[2] - k[3]) + ((k[4] - k[5]) + (k[6] - k[7]))) / piece.length;
+      angles[i] = piece.axis[i].ratio * piece.axis[i].angle + piece.axis[i].offset;
+    }
+    const SinCos<P> waves = is_small(piece.axis[0]) && is_small(piece.axis[1])
+                                ? sin_cos_of_small(P::of(angles))
+                                : sin_cos(P::of(angles));
+    const model::GeneralRolling papers_rig{};
+    const model::GeneralRolling& rolling = papers ? papers_rig : scene.rolling;
+    for_each<packs>([&](auto p) __attribute__((always_inline)) {
+      const auto take = [&](int i, P value) __attribute__((always_inline)) {
+        least[i] = p == 0 ? value : smaller(least[i], value);
+        most[i] = p == 0 ? value : larger(most[i], value);
+      };
+      // The start in place of the first node.
+      const auto at = [&](const double* values, double start) __attribute__((always_inline)) {
+        const P all = P::load(values + p * lanes);
+        return p == 0 ? P::of(first_lane() ? P(start).v : all.v) : all;
+      };
+      const model::RollingState<P, P, P> ball{
+          at(piece.position_at[0], piece.position[0]), at(piece.position_at[1], piece.position[1]),
+          at(piece.velocity_at[0], piece.velocity[0]), at(piece.velocity_at[1], piece.velocity[1]),
+          at(piece.velocity_at[2], piece.velocity[2])};
+      take(Look::x, ball.x);
+      take(Look::y, ball.y);
+      take(Look::distance_squared, ball.x * ball.x + ball.y * ball.y);
+      model::Axis<P> axis[2];
+#pragma GCC unroll 2
+      for (int i = 0; i < 2; ++i) {
+        const Piece::Plane& of = piece.plane[i];
+        const Axis& start = piece.axis[i];
+        axis[i] = {at(of.sin, waves.sin[i]), at(of.cos, waves.cos[i]),
+                   at(of.rate, start.ratio * start.rate),
+                   at(of.acceleration, start.ratio * start.acceleration)};
+      }
+      const model::MovingPlane<P> plane = model::moving_plane(rolling, axis[0], axis[1]);
+      take(Look::up, plane.up.z);
+      if (!force) return;
+      const model::Vector3<P> by_mass = model::force_by_mass(
+          plane, ball, at(piece.acceleration_at[0], started[0]),
+          at(piece.acceleration_at[1], started[1]), rolling.height, scene.radius, scene.gravity);
+      take(Look::normal, by_mass.z);
+      const P held = P(scene.friction) * by_mass.z;
+      take(Look::grip, held * held - (by_mass.x * by_mass.x + by_mass.y * by_mass.y));
+      if (!scene.loads) return;
+      const model::Vector3<P> contact{ball.x, ball.y, P(rolling.height)};
+      const auto of_ball = model::about_axes(plane, model::cross(contact, by_mass));
+      const auto of_plate =
+          model::plate_torques(plane, axis[0], axis[1], scene.turned, scene.gravity);
+      const P phi = P(scene.mass) * of_ball.phi + of_plate.phi;
+      const P theta = P(scene.mass) * of_ball.theta + of_plate.theta;
+      take(Look::torque_phi, phi);
+      take(Look::torque_theta, theta);
+      const P power = phi * axis[0].rate + theta * axis[1].rate;
+      take(Look::power, power);
+      phi.store(loads.at[0] + p * lanes);
+      theta.store(loads.at[1] + p * lanes);
+      power.store(loads.at[2] + p * lanes);
+    });
+    const int asked = scene.loads ? looks : force ? Look::grip + 1 : Look::up + 1;
+#pragma GCC unroll 16
+    for (int i = 0; i < looks; ++i) {
+      if (i >= asked) break;
+      ranges[i] = {reduced(least[i], Smaller{}), reduced(most[i], Larger{})};
+    }
+  }
+
+  static void look_closely(const Loads& loads, Range* ranges) {
+    for (int i = 0; i < 3; ++i) {
+      P least, most;
+      for (int k = 0; k < close_points; k += lanes) {
+        P value(0.0);
+#pragma GCC unroll 8
+        for (int j = 0; j < nodes; ++j) {
+          value += P::load(close_table.share[j] + k) * P(loads.at[i][j]);
+        }
+        least = k == 0 ? value : smaller(least, value);
+        most = k == 0 ? value : larger(most, value);
+      }
+      ranges[i] = {reduced(least, Smaller{}), reduced(most, Larger{})};
+    }
+  }
+
+  // 1, 1/3, 1/5, ...: products are cheaper than quotients.
+  struct OddParts {
+    double of[nodes + 3]{};
+    consteval OddParts() {
+      for (int m = 0; m < nodes + 3; ++m) of[m] = 1.0 / (2 * m + 1);
+    }
+  };
+  static constexpr OddParts odd_parts{};
+
+  // (h/2) times the integral from -1 of a Legendre series, plus its value there; `length` terms.
+  template <int length>
+  BBSIM_INLINE static void integrate(const double* k, double half, double from, double* out) {
+    out[0] = from + half * (k[0] - k[1] * odd_parts.of[1]);
+#pragma GCC unroll 16
+    for (int m = 1; m <= length; ++m) {
+      const double next = m + 1 < length ? k[m + 1] * odd_parts.of[m + 1] : 0.0;
+      out[m] = half * (k[m - 1] * odd_parts.of[m - 1] - next);
+    }
+  }
+
+  // Times lie in the lanes; each is evaluated alike, whatever is asked for beside it.
+  static void evaluate(const Piece& piece, const double* times, std::size_t count,
+                       double (*ball)[6]) {
+    double velocity[3][nodes + 1], position[3][nodes + 2];
+    for (int i = 0; i < 3; ++i) {
+      // The series are those of the accelerations times the length.
+      integrate<nodes>(piece.series[i], 0.5, piece.velocity[i], velocity[i]);
+      integrate<nodes + 1>(velocity[i], 0.5 * piece.length, piece.position[i], position[i]);
+    }
+    for (std::size_t first = 0; first < count; first += lanes) {
+      const int used = count - first < lanes ? static_cast<int>(count - first) : lanes;
+      alignas(64) double at[lanes];
+      for (int l = 0; l < lanes; ++l)
+        at[l] = times[first + static_cast<std::size_t>(l < used ? l : 0)];
+      const P s = P(2 / piece.length) * P::load(at) - P(1.0);
+      P before(1.0), now = s, v[3], q[3];
+#pragma GCC unroll 3
+      for (int i = 0; i < 3; ++i) {
+        v[i] = P(velocity[i][0]) + P(velocity[i][1]) * s;
+        q[i] = P(position[i][0]) + P(position[i][1]) * s;
+      }
+#pragma GCC unroll 16
+      for (int m = 1; m <= nodes; ++m) {
+        // P_(m+1) = ((2 m + 1) s P_m - m P_(m-1)) / (m + 1)
+        const P next =
+            P((2.0 * m + 1) / (m + 1)) * s * now - rounded(P(double(m) / (m + 1)) * before);
+        before = now;
+        now = next;
+#pragma GCC unroll 3
+        for (int i = 0; i < 3; ++i) {
+          if (m < nodes) v[i] += P(velocity[i][m + 1]) * now;
+          q[i] += P(position[i][m + 1]) * now;
+        }
+      }
+      for (int l = 0; l < used; ++l) {
+        double* const row = ball[first + static_cast<std::size_t>(l)];
+        row[0] = q[0][l];
+        row[1] = q[1][l];
+#pragma GCC unroll 3
+        for (int i = 0; i < 3; ++i) row[2 + i] = v[i][l];
+        row[5] = q[2][l];
+      }
+    }
+  }
+
+  static constexpr Kernels kernels{
+      {&attempt<true>, &look<true>}, {&attempt<false>, &look<false>}, &look_closely, &evaluate};
+};
+
+}  // namespace bbsim::solve::held

@@ -1,0 +1,143 @@
+// Servos under a held command in closed form: the motion itself, and when a line in it falls.
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "catch.hpp"
+#include "model/servo/held_motion.hpp"
+
+using namespace bbsim::model;
+
+namespace {
+
+// Springs and dampers from none to stiff, under-, over- and critically damped.
+const std::vector<HeldLaw> laws{
+    {0, 0},       {0, 1e-7},   {0, 20},     {0, 1e4},      {1e-8, 0},     {1e-8, 10},
+    {100, 0},     {100, 10},   {100, 20},   {100, 20.001}, {100, 19.999}, {100, 500},
+    {986.96, 50}, {4e6, 4000}, {4e6, 3200}, {4e6, 1e5},    {1e-3, 1000}};
+
+// h, h' and the integral of h after t, in 64 bits: a series to where it is short, then doubled.
+struct Doubled {
+  long double integral, value, slope;
+};
+Doubled by_doubling(const HeldLaw& law, double time) {
+  const long double d = law.damping, k = law.stiffness;
+  int doublings = 0;
+  long double t = time;
+  const auto size = [&] { return std::max(d * t, std::sqrt(k) * t); };
+  while (size() > 1) {
+    t /= 2;
+    ++doublings;
+  }
+  // h'' = -d h' - k h, term by term.
+  Doubled at{0, 0, 0};
+  long double before = 0, now = 1;
+  for (int n = 1; n < 60; ++n) {
+    at.slope += n * now;
+    at.value += now * t;
+    at.integral += now * t * t / (n + 1);
+    const long double next = -(d * t * n * now + k * t * t * before) / ((n + 1.0L) * n);
+    before = now;
+    now = next;
+  }
+  for (int i = 0; i < doublings; ++i) {
+    const long double whole = at.slope + d * at.value;
+    at = {at.integral + whole * at.integral + at.value * at.value, at.value * (at.slope + whole),
+          at.slope * at.slope - k * at.value * at.value};
+  }
+  return at;
+}
+
+}  // namespace
+
+TEST_CASE("the answer of a held servo to an impulse, for any spring and damper") {
+  for (const HeldLaw& law : laws) {
+    for (const double t : {1e-9, 1e-5, 1e-3, 0.01, 0.0173, 0.3, 2.0}) {
+      INFO(law.stiffness << " " << law.damping << " " << t);
+      const ImpulseAnswer found = answer(law, t);
+      const Doubled wanted = by_doubling(law, t);
+      // Doubling loses some digits where the motion turns many times; 64 bits of them are there.
+      const double turns = 1 + std::sqrt(law.stiffness) * t;
+      const double rounding = 20 * 2.2e-16 * turns;
+      const double time = std::min({t, law.stiffness > 0 ? 1 / std::sqrt(law.stiffness) : t,
+                                    law.damping > 0 ? 1 / law.damping : t});
+      CHECK(std::abs(found.slope - double(wanted.slope)) <= rounding);
+      CHECK(std::abs(found.value - double(wanted.value)) <=
+            rounding * std::max(time, std::abs(found.value)));
+      CHECK(std::abs(found.integral - double(wanted.integral)) <=
+            rounding * std::max(time * time, 4 * std::abs(found.integral)));
+    }
+  }
+}
+
+TEST_CASE("a held servo moves as its equation says, from mode to mode") {
+  const ServoResponse servo{986.96, 986.96, 50.27};
+  AxisMode free, pushed, at_rate;
+  pushed.demand_factor = at_rate.demand_factor = 0;
+  pushed.set_acceleration = -12;
+  for (const AxisMode& mode : {free, pushed, at_rate}) {
+    const HeldMotion motion = held_motion(servo, mode, 0.2, 0.05, -1.3);
+    for (const double t : {0.0, 0.004, 0.02, 0.11}) {
+      const HeldMotion::Instant at = motion.after(t);
+      const double demand = 986.96 * (0.2 - at.angle) - 50.27 * at.rate;
+      CHECK(at.acceleration ==
+            Approx(mode.demand_factor * demand + mode.set_acceleration).margin(1e-10));
+    }
+  }
+  // A ramp and a parabola.
+  CHECK(held_motion(servo, at_rate, 0.2, 0.05, -1.3).after(0.1).angle == Approx(-0.08));
+  CHECK(held_motion(servo, pushed, 0.2, 0.05, -1.3).after(0.1).angle == Approx(-0.14));
+}
+
+TEST_CASE("the first fall of a line in a held motion is found wherever it is") {
+  const auto value = [](const MotionLine& line, const HeldMotion& motion, double t) {
+    const HeldMotion::Instant at = motion.after(t);
+    return line.at(at.angle, at.rate);
+  };
+  int falls = 0, dips = 0;
+  for (const HeldLaw& law : laws) {
+    for (const double rate : {-2.0, 0.0, 0.7}) {
+      for (const double acceleration : {-30.0, 0.0, 8.0}) {
+        const HeldMotion motion{law, 0.1, rate, acceleration};
+        for (const MotionLine& line :
+             {MotionLine{0.14, -1, 0}, MotionLine{0.2, 1, 0}, MotionLine{0.9, 0, -1},
+              MotionLine{2.05, 0, 1}, MotionLine{5, -20, -1}, MotionLine{1, 3, 0.2}}) {
+          constexpr double end = 0.8;
+          const double at = first_fall(line, motion, 1e-12, 0, end);
+          INFO(law.stiffness << " " << law.damping << ": " << rate << " " << acceleration << ": "
+                             << line.constant << " " << line.by_angle << " " << line.by_rate);
+          // Never below before, by a look from close by.
+          const double until = std::min(at, end);
+          constexpr int looks = 4000;
+          double least = std::numeric_limits<double>::infinity();
+          for (int i = 0; i < looks; ++i)
+            least = std::min(least, value(line, motion, until * i / looks));
+          CHECK(least >= -1e-9);
+          if (at > end) continue;
+          ++falls;
+          CHECK(std::abs(value(line, motion, at)) <= 1e-9);
+          CHECK(value(line, motion, at * (1 + 1e-9) + 1e-12) <= 0);
+          dips += value(line, motion, end) > 0 ? 1 : 0;
+        }
+      }
+    }
+  }
+  CHECK(falls > 100);
+  CHECK(dips > 10);  // those that are above again at the end
+}
+
+TEST_CASE("a line that starts where it fell waits until it was clearly above, or is below") {
+  // Free from a rate limit: the rate falls off at once.
+  const HeldMotion slows{{100, 20}, 0, 1, -3};
+  const MotionLine at_limit{1, 0, -1};
+  CHECK(std::isinf(first_fall(at_limit, slows, 1e-12, 0, 1)));
+  // A rate that grows has fallen by what is clear.
+  const HeldMotion grows{{0, 0}, 0, 1, 3};
+  CHECK(first_fall(at_limit, grows, 1e-12, 0, 1) == Approx(1e-12 / 3).epsilon(1e-3));
+  // Up first, and then back: it falls where it passes zero again.
+  const HeldMotion returns{{0, 0}, 0, 1, -4};
+  const MotionLine angle{0, 1, 0};
+  CHECK(first_fall(angle, returns, 1e-12, 0, 1) == Approx(0.5).epsilon(1e-14));
+  // Times count from the piece's start: it is found to the rounding of the time itself.
+  CHECK(first_fall({0.25, -1, 0}, {{0, 0}, 0, 1, 0}, 1e-12, 1e6, 1) == Approx(0.25).epsilon(1e-9));
+}

@@ -1,0 +1,304 @@
+// Sampled rigs by pieces between instants, beside the general way: radau's steps, guards looked at.
+#include <cmath>
+#include <filesystem>
+#include <memory>
+
+#include "catch.hpp"
+#include "record/recorder.hpp"
+#include "solve/held/held.hpp"
+#include "solve/hybrid_driver.hpp"
+#include "solve/make_stepper.hpp"
+#include "solve/radau/radau.hpp"
+#include "support/run_in_memory.hpp"
+
+using namespace bbsim;
+using namespace bbsim_test;
+
+namespace {
+
+constexpr solve::Tolerances tight{1e-11, 1e-13};
+
+Scenario scene_of(const std::string& text) {
+  return parse_scenario(text, "rig.yaml");
+}
+
+solve::MakeStepper generally(const solve::OutputGrid& grid) {
+  return [&grid](const model::Model& model) {
+    return std::make_unique<solve::radau::RadauStepper>(model, solve::radau::choose_kernels(), 12,
+                                                        tight, grid.end());
+  };
+}
+
+solve::MakeStepper by_pieces(const solve::OutputGrid&, solve::Tolerances tolerances = tight) {
+  return [tolerances](const model::Model& model) {
+    return std::make_unique<solve::held::HeldStepper>(model, solve::held::choose_kernels(),
+                                                      tolerances);
+  };
+}
+
+struct Both {
+  solve::Outcome outcome;
+  solve::Trajectory rows;
+  explicit Both(std::size_t row_size) : rows(row_size) {}
+};
+
+Both run_of(const model::Model& model, const solve::OutputGrid& grid,
+            const solve::MakeStepper& stepper) {
+  Both run(model.row_size());
+  run.outcome = solve::integrate_hybrid(model, stepper, tight, grid, run.rows, {});
+  return run;
+}
+
+// The largest difference of any number of any row, in units of the number's size.
+double largest_difference(const model::Model& model, const Both& a, const Both& b) {
+  REQUIRE(a.rows.rows() == b.rows.rows());
+  std::vector<double> size(model.row_size(), 1e-3);
+  for (std::size_t i = 0; i < a.rows.rows(); ++i) {
+    for (std::size_t k = 0; k < size.size(); ++k) {
+      size[k] = std::max(size[k], std::abs(a.rows.row(i)[k]));
+    }
+  }
+  double largest = 0;
+  for (std::size_t i = 0; i < a.rows.rows(); ++i) {
+    for (std::size_t k = 0; k < size.size(); ++k) {
+      largest = std::max(largest, std::abs(a.rows.row(i)[k] - b.rows.row(i)[k]) / size[k]);
+    }
+  }
+  return largest;
+}
+
+// Of every kind of servo, with every limit; of every law and drive; rigs beyond the paper's.
+struct Case {
+  const char* what;
+  const char* servo;       // and mounting
+  const char* controller;  // but its sampling
+  const char* more = "";
+};
+
+const Case cases[] = {
+    {"a hobby servo", "{servo: {natural_frequency: 31.4, damping: 0.8}}",
+     "gravity_compensation: {kp: 10, kv: 8}, drives: angle, limit: 0.2"},
+    {"rate limit", "{servo: {natural_frequency: 31.4, damping: 0.8, rate_limit: 0.6}}",
+     "gravity_compensation: {kp: 10, kv: 8}, drives: angle, limit: 0.2"},
+    {"acceleration limit",
+     "{servo: {natural_frequency: 31.4, damping: 0.4, acceleration_limit: 20, rate_limit: 1}}",
+     "gravity_compensation: {kp: 10, kv: 8}, drives: angle, limit: 0.2"},
+    {"stops", "{servo: {natural_frequency: 31.4, damping: 0.2, angle_limit: 0.05}}",
+     "gravity_compensation: {kp: 10, kv: 8}, drives: angle, limit: 0.2"},
+    {"backlash and a dead band",
+     "{servo: {natural_frequency: 31.4, damping: 0.6, backlash: 0.01, dead_band: 0.002}}",
+     "gravity_compensation: {kp: 8, kv: 6}, drives: angle, limit: 0.2"},
+    {"first order, all limits",
+     "{servo: {time_constant: 0.03, angle_limit: 0.06, rate_limit: 1.5, backlash: 0.004}}",
+     "gravity_compensation: {kp: 10, kv: 8}, drives: angle, limit: 0.2"},
+    {"over-damped, all limits",
+     "{servo: {natural_frequency: 60, damping: 2.5, angle_limit: 0.05, rate_limit: 0.5, "
+     "acceleration_limit: 40, backlash: 0.004}}",
+     "gravity_compensation: {kp: 10, kv: 8}, drives: angle, limit: 0.2"},
+    {"stiff", "{servo: {natural_frequency: 2000, damping: 0.7}}",
+     "gravity_compensation: {kp: 6, kv: 5}, drives: angle, limit: 0.2"},
+    {"accelerations driven", "{start: {phi: 0.01}}",
+     "lqr: {position: 20, velocity: 1, command: 0.1}, drives: acceleration, limit: 30"},
+    {"a mounting that is not the paper's",
+     "{servo: {natural_frequency: 31.4, damping: 0.8, rate_limit: 2}, mounting: {height: 0.02, "
+     "phi_offset: 0.01, skew: 0.02, yaw: 0.1, base_tilt: 0.01}}",
+     "gravity_compensation: {kp: 8, kv: 6}, drives: angle, limit: 0.2"},
+    {"servos fed back", "{servo: {natural_frequency: 40, damping: 1}}",
+     "lqr: {position: 20, velocity: 1, angle: 1, rate: 0.01, command: 1}, drives: angle, limit: "
+     "0.2"},
+};
+
+std::string text_of(const Case& one, const std::string& sampling, const std::string& columns) {
+  return std::string(
+             "gravity: 9.81\n"
+             "ball: {radius: 0.02, mass: 0.033, position: [0.05, 0.01], spin: 1}\n"
+             "plate: {size: [0.32, 0.24], inertia: [4e-3, 6e-3, 1e-2]}\n"
+             "gimbal: ") +
+         one.servo + "\ncontroller: {" + one.controller +
+         ", reference: {circle: {radius: 0.05, rate: -0.5}}, " + sampling +
+         "}\n"
+         "events: {edge: stop, slip: {friction: 0.2, action: note}, lift_off: stop}\n"
+         "time: {end: 3, step: 0.013}\noutput: {columns: [" +
+         columns + "]}\n" + one.more;
+}
+
+// No quantisation: what switches a command by its least step would turn rounding into a difference.
+const char* const sampling =
+    "sampling: {period: 0.02, delay: 0.006, derivative_filter: 0.03}, "
+    "sensor: {delay: 0.011, noise: 2e-4, seed: 3, dropout: 0.1}";
+
+}  // namespace
+
+TEST_CASE("a rig by pieces is the rig in general, whatever its servos, law and mounting") {
+  for (const Case& one : cases) {
+    INFO(one.what);
+    const Scenario scene = scene_of(text_of(one, sampling, "t, x, gamma"));
+    const model::Model model = model::assemble(scene, true);
+    REQUIRE(solve::held::knows(model));
+    const solve::OutputGrid grid(scene.time);
+    const Both general = run_of(model, grid, generally(grid));
+    const Both pieces = run_of(model, grid, by_pieces(grid));
+    CHECK(pieces.outcome.ending == general.outcome.ending);
+    CHECK(std::abs(pieces.outcome.reached - general.outcome.reached) < 1e-9);
+    CHECK(largest_difference(model, general, pieces) < 2e-8);
+    const auto &a = general.outcome.occurrences, &b = pieces.outcome.occurrences;
+    REQUIRE(a.size() == b.size());
+    for (std::size_t i = 0; i < a.size(); ++i) {
+      CHECK(a[i].name == b[i].name);
+      CHECK(std::abs(a[i].t - b[i].t) < 1e-8);
+      CHECK(std::abs(a[i].sample.ball.x - b[i].sample.ball.x) < 1e-8);
+    }
+  }
+}
+
+TEST_CASE("integrate() takes sampled rigs by pieces, and leaves others alone") {
+  const Scenario scene = scene_of(text_of(cases[0], sampling, "t, x"));
+  const model::Model sampled = model::assemble(scene, false);
+  const solve::OutputGrid grid(scene.time);
+  const auto stepper = solve::make_stepper(sampled, Method::radau, tight, grid);
+  CHECK(stepper->knows_servos());
+  CHECK_FALSE(solve::make_stepper(sampled, Method::bdf, tight, grid)->knows_servos());
+  Scenario continuous = scene;
+  continuous.controller->sampling.reset();
+  continuous.controller->sensor.reset();
+  CHECK_FALSE(solve::held::knows(model::assemble(continuous, false)));
+}
+
+TEST_CASE("pieces that are longer than their tolerance allows are cut") {
+  // Four commands in eight seconds, and a stiff servo that jumps at each.
+  const Scenario scene = scene_of(text_of(
+      cases[7], "sampling: {period: 0.8, delay: 0.1, derivative_filter: 1}", "t, x, gamma"));
+  const model::Model model = model::assemble(scene, true);
+  const solve::OutputGrid grid(scene.time);
+  const Both general = run_of(model, grid, generally(grid));
+  const Both pieces = run_of(model, grid, by_pieces(grid));
+  CHECK(pieces.outcome.ending == general.outcome.ending);
+  CHECK(largest_difference(model, general, pieces) < 1e-8);
+  CHECK(pieces.outcome.statistics.error_test_failures > 0);
+  // A looser tolerance is kept to, with fewer steps.
+  Both loose(model.row_size());
+  loose.outcome = solve::integrate_hybrid(model, by_pieces(grid, {1e-6, 1e-8}), {1e-6, 1e-8}, grid,
+                                          loose.rows, {});
+  CHECK(largest_difference(model, general, loose) < 1e-4);
+  CHECK(loose.outcome.statistics.steps < pieces.outcome.statistics.steps);
+}
+
+TEST_CASE("events of a rig by pieces are found where they lie, between instants and at them") {
+  // The ball leaves the plate, slips on the way, and a jump of the command makes it slip at once.
+  struct Watched {
+    const char* what;
+    const char* servo;
+    const char* controller;
+    const char* events;
+  };
+  const Watched watched[] = {
+      {"off the edge", "{servo: {natural_frequency: 31.4, damping: 0.8}}",
+       "pd: {kp: [[-2, 0], [0, 2]], kv: 0}, drives: angle, limit: 0.2", "{edge: stop}"},
+      {"noted at the edge, and goes on", "{servo: {natural_frequency: 31.4, damping: 0.8}}",
+       "pd: {kp: [[-2, 0], [0, 2]], kv: 0}, drives: angle, limit: 0.2", "{edge: note}"},
+      {"slips when the command jumps", "{}",
+       "pd: {kp: [[600, 0], [0, -600]], kv: [[40, 0], [0, -40]]}, drives: acceleration, limit: 60",
+       "{slip: {friction: 0.08, action: note}, lift_off: note}"},
+      {"tilts", "{servo: {natural_frequency: 20, damping: 0.3}}",
+       "pd: {kp: [[5, 0], [0, -5]], kv: [[1, 0], [0, -1]]}, drives: angle, limit: 0.2",
+       "{tilt: {limit: 0.15, action: note}, edge: note}"},
+  };
+  for (const Watched& one : watched) {
+    INFO(one.what);
+    const Scenario scene =
+        scene_of(std::string("gravity: 9.81\nball: {radius: 0.02, position: [0.05, 0.01]}\n"
+                             "plate: {size: [0.32, 0.24]}\ngimbal: ") +
+                 one.servo + "\ncontroller: {" + one.controller +
+                 ", reference: {point: [0, 0]}, sampling: {period: 0.02, delay: 0.006}}\nevents: " +
+                 one.events + "\ntime: {end: 1.5, step: 0.01}\noutput: {columns: [t, x]}\n");
+    const model::Model model = model::assemble(scene, false);
+    const solve::OutputGrid grid(scene.time);
+    const Both general = run_of(model, grid, generally(grid));
+    const Both pieces = run_of(model, grid, by_pieces(grid));
+    REQUIRE_FALSE(general.outcome.occurrences.empty());
+    CHECK(pieces.outcome.ending == general.outcome.ending);
+    REQUIRE(pieces.outcome.occurrences.size() == general.outcome.occurrences.size());
+    for (std::size_t i = 0; i < general.outcome.occurrences.size(); ++i) {
+      const model::Occurrence &a = general.outcome.occurrences[i],
+                              &b = pieces.outcome.occurrences[i];
+      CHECK(a.name == b.name);
+      CHECK(a.stopped == b.stopped);
+      CHECK(std::abs(a.t - b.t) < 1e-8);
+    }
+    CHECK(largest_difference(model, general, pieces) < 1e-6);
+  }
+}
+
+TEST_CASE("bounds of a piece hold what the motors give within it") {
+  struct Looks : solve::PieceSink {
+    const model::Model& model;
+    const model::BallConstants& constants;
+    record::Rows rows{{scenario::find_column("motor_torque_phi"),
+                       scenario::find_column("motor_torque_theta"),
+                       scenario::find_column("motor_power")}};
+    std::size_t pieces = 0, wide = 0;
+    Looks(const model::Model& m, const model::BallConstants& c) : model(m), constants(c) {
+      rows.begin(m, c);
+    }
+    void begin_run() override {}
+    void accept(const solve::Piece& piece) override {
+      ++pieces;
+      std::vector<double> row(model.row_size());
+      for (int load = 0; load < 3; ++load) {
+        const auto bounds = piece.bounds(static_cast<solve::Load>(load), constants, false);
+        const auto close = piece.bounds(static_cast<solve::Load>(load), constants, true);
+        REQUIRE(bounds);
+        REQUIRE(close);
+        double least = 1e99, most = -1e99;
+        for (int i = 0; i <= 20; ++i) {
+          const double t =
+              i == 20 ? piece.to() : piece.from() + (piece.to() - piece.from()) * i / 20.0;
+          piece.evaluate(&t, 1, row.data());
+          rows.evaluate(&t, row.data(), 1);
+          least = std::min(least, rows[static_cast<std::size_t>(load)][0]);
+          most = std::max(most, rows[static_cast<std::size_t>(load)][0]);
+        }
+        const double rounding = 1e-12;
+        CHECK(least >= bounds->least - rounding);
+        CHECK(most <= bounds->most + rounding);
+        CHECK(least >= close->least - rounding);
+        CHECK(most <= close->most + rounding);
+        if (close->most - close->least > bounds->most - bounds->least + rounding) ++wide;
+      }
+    }
+  };
+  for (const Case& one : cases) {
+    INFO(one.what);
+    Scenario scene = scene_of(text_of(one, sampling, "t, x"));
+    scene.time.end = 0.5;
+    const model::Model model = model::assemble(scene, false);
+    const model::BallConstants constants = model::constants_of(scene);
+    const solve::OutputGrid grid(scene.time);
+    Looks looks(model, constants);
+    solve::Trajectory rows(model.row_size(), &looks);
+    static_cast<void>(solve::integrate_hybrid(model, by_pieces(grid), tight, grid, rows, {}));
+    CHECK(looks.pieces > 5);
+    CHECK(looks.wide == 0);  // a close look is of use
+  }
+}
+
+TEST_CASE(
+    "configs/rig.yaml without noise is within 1e-10 m of its solution, at its own tolerance") {
+  Scenario scene = read_scenario(std::string(BBSIM_SOURCE_DIR) + "/configs/rig.yaml");
+  scene.controller->sensor->noise = 0;
+  const model::Model model = model::assemble(scene, false);
+  const solve::OutputGrid grid(scene.time);
+  const Both exact = run_of(model, grid, by_pieces(grid, {1e-13, 1e-15}));
+  const Both general = run_of(model, grid, generally(grid));
+  const Both own = run_of(model, grid, by_pieces(grid, {1e-8, 1e-10}));
+  REQUIRE(own.outcome.ending == solve::Ending::done);
+  double by_own = 0, by_general = 0;
+  for (std::size_t i = 0; i < grid.size(); ++i) {
+    for (std::size_t k = 0; k < 2; ++k) {
+      by_own = std::max(by_own, std::abs(own.rows.row(i)[k] - exact.rows.row(i)[k]));
+      by_general = std::max(by_general, std::abs(general.rows.row(i)[k] - exact.rows.row(i)[k]));
+    }
+  }
+  CHECK(by_own < 1e-10);
+  CHECK(by_general < 1e-9);
+}
