@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "sweep/lanes.hpp"
+#include "sweep/rig_lanes.hpp"
 #include "sweep/single.hpp"
 #include "sweep/superposition.hpp"
 
@@ -158,6 +159,9 @@ Engine choose_engine(const SweepTask& task) {
   }
   if (can_use_lanes(task)) {
     return {"lanes", task, lane_group(), [&task] { return lane_runner(task); }};
+  }
+  if (can_use_rig_lanes(task)) {
+    return {"rig lanes", task, rig_group(), [&task] { return rig_lane_runner(task); }};
   }
   return {"single runs", task, 1, [&task] { return single_runner(task); }};
 }

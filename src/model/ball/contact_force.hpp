@@ -51,10 +51,11 @@ template <class Real>
 // The force over the ball's mass, m/s^2: its centre's acceleration and gravity. The ball is at
 // (x, y) in the plane, with the velocity and the acceleration there that `ball` and the last two
 // arguments say; r and the rig's height as in GeneralRolling.
-template <class Real, class Ball>
+template <class Real, class Ball, class Scalar>
 [[nodiscard]] inline Vector3<Real> force_by_mass(const MovingPlane<Real>& plane, const Ball& ball,
                                                  const Real& x_ddot, const Real& y_ddot,
-                                                 double height, double r, double g) {
+                                                 const Scalar& height, const Scalar& r,
+                                                 const Scalar& g) {
   const Vector3<Real> centre{ball.x, ball.y, Real(height + r)};
   const Vector3<Real>& omega = plane.omega;
   const Vector3<Real> turned = cross(omega, cross(omega, centre));

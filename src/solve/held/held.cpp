@@ -4,24 +4,13 @@
 #include <cmath>
 #include <limits>
 
-#include "base/instant.hpp"
+#include "solve/held/sides.hpp"
 #include "solve/step_growth.hpp"
 
 namespace bbsim::solve::held {
 namespace {
 
 constexpr std::size_t angle = model::RigLayout::angle, rate = model::RigLayout::rate;
-
-// What is left of a time by whole periods, s.
-double between(double time, double period) {
-  return time - std::floor(time / period) * period;
-}
-
-// How long a command is held, and until the first one comes.
-std::array<double, 2> lengths_between(const model::SampledLoop& loop) {
-  const Sampling& sampling = loop.sampling;
-  return {sampling.period, between(sampling.delay, sampling.period)};
-}
 
 }  // namespace
 
@@ -33,7 +22,7 @@ bool knows(const model::Model& model) {
 }
 
 HeldStepper::HeldStepper(const model::Model& model, const Kernels& kernels, Tolerances tolerances)
-    : model_(&model), kernels_(kernels) {
+    : model_(&model), kernels_(kernels), instants_(*model.rig->sampled) {
   const Loop& of = loop();
   kernel_ = of.rolling() == model::GeneralRolling{} ? kernels.papers : kernels.general;
   scene_.radius = of.radius();
@@ -49,36 +38,8 @@ HeldStepper::HeldStepper(const model::Model& model, const Kernels& kernels, Tole
       if (monitor.kind == Kind::slip || monitor.kind == Kind::lift_off) scene_.force = true;
     }
   }
-  lengths_ = lengths_between(*model.rig->sampled);
-  sampled_[0].after = lengths_[0] - lengths_[1];  // a sample, after a command
-  sampled_[1].after = between(-model.rig->sampled->sensor.delay - lengths_[1], lengths_[0]);
   tempo_ = of.reference().highest_frequency();
   piece_.contraction = 1e-2;
-}
-
-// The answer to an impulse, kept for the instants within a piece at which samples are taken.
-const model::ImpulseAnswer& HeldStepper::answer(const model::HeldLaw& law, double after) {
-  const double rounding = 2 * rounding_of(time_ + after);
-  for (Sampled& one : sampled_) {
-    if (std::abs(one.after - after) > rounding) continue;
-    if (!one.known || !(one.law == law))
-      one = {one.after, true, law, model::answer(law, one.after)};
-    return one.answer;
-  }
-  if (!other_.known || other_.after != after || !(other_.law == law)) {
-    other_ = {after, true, law, model::answer(law, after)};
-  }
-  return other_.answer;
-}
-
-// Instants n * period differ by roundings of the time. Pieces between them get the length that they
-// are meant to have: one table serves all, and the lengths add up to the times themselves.
-double HeldStepper::nominal(double length) const {
-  const double rounding = 2 * rounding_of(time_ + length);
-  for (const double one : lengths_) {
-    if (std::abs(one - length) <= rounding && one > 0) return one;
-  }
-  return length;
 }
 
 void HeldStepper::take_modes() {
@@ -158,7 +119,7 @@ const char* HeldStepper::step(double limit) {
     if (!(step > 4 * std::numeric_limits<double>::epsilon() * time_) && !arrives) {
       return "the step shrank to the rounding of the time itself";
     }
-    prepare(nominal(step));
+    prepare(instants_.nominal(time_, step));
     Attempt attempt;
     kernel_.attempt(piece_, scene_, attempt);
     statistics_.nonlinear_iterations += static_cast<std::size_t>(attempt.iterations);
@@ -231,7 +192,8 @@ void HeldStepper::evaluate_some(const double* times, std::size_t count, double* 
     if (model_->gamma) row[size] = ball[i][5];
     for (std::size_t k = 0; k < 2; ++k) {
       const model::HeldMotion& servo = servo_[k];
-      const model::HeldMotion::Instant at = servo.after(answer(servo.law, after[i]));
+      const model::HeldMotion::Instant at =
+          servo.after(instants_.answer(servo.law, time_, after[i]));
       row[angle + k] = at.angle;
       row[rate + k] = at.rate;
     }
@@ -256,62 +218,14 @@ const Range& HeldStepper::range(Look of) {
   return ranges_[static_cast<std::size_t>(of)];
 }
 
-namespace {
-
-// What a smooth number takes at most, and at least.
-Range widened(const Range& at_nodes) {
-  const double beyond = overshoot * (at_nodes.most - at_nodes.least);
-  return {at_nodes.least - beyond, at_nodes.most + beyond};
-}
-
-// Whether the numbers are all above the limit, or, if `below`, all below.
-bool beyond(const Range& range, double limit, bool below) {
-  return below ? range.most < limit : range.least > limit;
-}
-
-}  // namespace
-
-bool HeldStepper::keeps_its_side(const model::Monitor& monitor, bool happening) {
-  using Kind = model::Monitor::Kind;
-  switch (monitor.kind) {
-    case Kind::edge: {
-      bool within = true, off = false;
-      const auto look = [&](const Range& range, double least, double most) {
-        within = within && range.least > least && range.most < most;
-        off = off || range.least > most || range.most < least;
-      };
-      const Plate& plate = model_->events->plate;
-      if (plate.size) {
-        for (int i = 0; i < 2; ++i) {
-          const double most = (*plate.size)[static_cast<std::size_t>(i)] / 2;
-          look(widened(range(i == 0 ? Look::x : Look::y)), -most, most);
-        }
-      }
-      if (plate.diameter) {
-        const double most = *plate.diameter * *plate.diameter / 4;
-        look(widened(range(Look::distance_squared)), -most, most);
-      }
-      return happening ? off : within;
-    }
-    case Kind::slip:
-      // Where nothing presses, the square says nothing.
-      return beyond(widened(range(Look::grip)), 0, happening) &&
-             beyond(widened(range(Look::normal)), 0, false);
-    case Kind::lift_off:
-      return beyond(widened(range(Look::normal)), 0, happening);
-    case Kind::tilt:
-      return beyond(widened(range(Look::up)), std::cos(monitor.limit), happening);
-    case Kind::singularity:
-    case Kind::dead_point:
-      break;
-  }
-  return false;
-}
-
 bool HeldStepper::nothing_happens(const std::vector<char>& happening) {
   if (!attempted_) return false;
   for (std::size_t m = 0; m < happening.size(); ++m) {
-    if (!keeps_its_side(model_->events->monitors[m], happening[m] != 0)) return false;
+    const auto range_of = [this](Look look) { return range(look); };
+    if (!keeps_its_side(model_->events->monitors[m], model_->events->plate, happening[m] != 0,
+                        range_of)) {
+      return false;
+    }
   }
   return true;
 }

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "model/model.hpp"
+#include "solve/held/instants.hpp"
 #include "solve/held/kernel.hpp"
 #include "solve/held/motion_tables.hpp"
 #include "solve/outcome.hpp"
@@ -60,11 +61,8 @@ class HeldStepper : public Stepper {
   void settle();
   void prepare(double length);
   void finish();
-  [[nodiscard]] const model::ImpulseAnswer& answer(const model::HeldLaw& law, double after);
   void evaluate_some(const double* times, std::size_t count, double* rows);
-  [[nodiscard]] double nominal(double length) const;
   const Range& range(Look of);
-  [[nodiscard]] bool keeps_its_side(const model::Monitor& monitor, bool happening);
 
   const model::Model* model_;
   const Kernels& kernels_;
@@ -72,15 +70,7 @@ class HeldStepper : public Stepper {
   Scene scene_{};
   Piece piece_{};
   MotionTables tables_;
-  struct Sampled {
-    double after = -1;  // the piece's start, s
-    bool known = false;
-    model::HeldLaw law{};
-    model::ImpulseAnswer answer{};
-  };
-  std::array<Sampled, 2> sampled_{};
-  Sampled other_{};
-  std::array<double, 2> lengths_{};           // of pieces from command to command, s
+  Instants instants_;
   std::array<model::HeldMotion, 2> servo_{};  // from the start of the last step on
   std::array<double, size> reached_{};        // states at its end
   std::array<Range, looks> ranges_{};         // of the last step

@@ -1,12 +1,16 @@
 #include "simd/instruction_set.hpp"
 #include "solve/held/held.hpp"
+#include "solve/held/lane_kernel.hpp"
 
 namespace bbsim::solve::held {
 
 extern const Kernels kernels_baseline;
+extern const LaneKernels lane_kernels_baseline;
 #ifdef BBSIM_X86_KERNELS
 extern const Kernels kernels_avx2;
 extern const Kernels kernels_avx512;
+extern const LaneKernels lane_kernels_avx2;
+extern const LaneKernels lane_kernels_avx512;
 #endif
 
 const Kernels& choose_kernels() {
@@ -14,6 +18,15 @@ const Kernels& choose_kernels() {
   return simd::pick(simd::chosen_instruction_set(), kernels_baseline, kernels_avx2, kernels_avx512);
 #else
   return kernels_baseline;
+#endif
+}
+
+const LaneKernels& choose_lane_kernels() {
+#ifdef BBSIM_X86_KERNELS
+  return simd::pick(simd::chosen_instruction_set(), lane_kernels_baseline, lane_kernels_avx2,
+                    lane_kernels_avx512);
+#else
+  return lane_kernels_baseline;
 #endif
 }
 

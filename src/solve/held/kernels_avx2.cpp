@@ -1,4 +1,4 @@
-#include "solve/held/piece.hpp"
+#include "solve/held/lane_piece.hpp"
 
 namespace bbsim::solve::held {
 
@@ -8,5 +8,7 @@ struct Avx2 {
 
 extern const Kernels kernels_avx2;
 constinit const Kernels kernels_avx2 = Kernel<Avx2>::kernels;
+extern const LaneKernels lane_kernels_avx2;
+constinit const LaneKernels lane_kernels_avx2 = LaneKernel<Avx2>::kernels;
 
 }  // namespace bbsim::solve::held

@@ -1,4 +1,4 @@
-#include "solve/held/piece.hpp"
+#include "solve/held/lane_piece.hpp"
 
 namespace bbsim::solve::held {
 
@@ -8,5 +8,7 @@ struct Avx512 {
 
 extern const Kernels kernels_avx512;
 constinit const Kernels kernels_avx512 = Kernel<Avx512>::kernels;
+extern const LaneKernels lane_kernels_avx512;
+constinit const LaneKernels lane_kernels_avx512 = LaneKernel<Avx512>::kernels;
 
 }  // namespace bbsim::solve::held

@@ -1,5 +1,5 @@
 // For every processor: pairs of lanes, which are SSE2 on x86-64 and Neon on 64-bit ARM.
-#include "solve/held/piece.hpp"
+#include "solve/held/lane_piece.hpp"
 
 namespace bbsim::solve::held {
 
@@ -9,5 +9,7 @@ struct Baseline {
 
 extern const Kernels kernels_baseline;
 constinit const Kernels kernels_baseline = Kernel<Baseline>::kernels;
+extern const LaneKernels lane_kernels_baseline;
+constinit const LaneKernels lane_kernels_baseline = LaneKernel<Baseline>::kernels;
 
 }  // namespace bbsim::solve::held

@@ -1,0 +1,47 @@
+#include "solve/held/instants.hpp"
+
+#include <cmath>
+
+#include "base/instant.hpp"
+
+namespace bbsim::solve::held {
+namespace {
+
+// What is left of a time by whole periods, s.
+double between(double time, double period) {
+  return time - std::floor(time / period) * period;
+}
+
+}  // namespace
+
+Instants::Instants(const model::SampledLoop& loop) {
+  const Sampling& sampling = loop.sampling;
+  // A command is held for a period; and until the first one comes.
+  lengths_ = {sampling.period, between(sampling.delay, sampling.period)};
+  samples_[0].after = lengths_[0] - lengths_[1];  // a sample, after a command
+  samples_[1].after = between(-loop.sensor.delay - lengths_[1], lengths_[0]);
+}
+
+double Instants::nominal(double time, double length) const {
+  const double rounding = 2 * rounding_of(time + length);
+  for (const double one : lengths_) {
+    if (std::abs(one - length) <= rounding && one > 0) return one;
+  }
+  return length;
+}
+
+const model::ImpulseAnswer& Instants::answer(const model::HeldLaw& law, double time, double after) {
+  const double rounding = 2 * rounding_of(time + after);
+  for (Kept& one : samples_) {
+    if (std::abs(one.after - after) > rounding) continue;
+    if (!one.known || !(one.law == law))
+      one = {one.after, true, law, model::answer(law, one.after)};
+    return one.answer;
+  }
+  if (!other_.known || other_.after != after || !(other_.law == law)) {
+    other_ = {after, true, law, model::answer(law, after)};
+  }
+  return other_.answer;
+}
+
+}  // namespace bbsim::solve::held

@@ -1,0 +1,86 @@
+// Rigs between two instants, another one in each lane: what their driver sees of them, whatever the
+// instruction set.
+//
+// Plain data and pointers to functions only; nothing here may become code that two instruction
+// sets share.
+#pragma once
+
+#include "solve/held/kernel.hpp"
+
+namespace bbsim::solve::held {
+
+// Rigs that go together; the same on every processor, so that each case of a sweep has the same
+// companions everywhere.
+inline constexpr int group = 8;
+
+// One axis of each: its servo at the start, how it moves (MotionTable), and the plane at the nodes.
+struct alignas(64) LaneAxis {
+  double angle[group], rate[group], acceleration[group];
+  double ratio[group], offset[group];
+  double by_rate[MotionTable::rows][nodes][group], by_acceleration[MotionTable::rows][nodes][group];
+  double most_by_rate[group], most_by_acceleration[group];
+  double missed_by_rate[group], missed_by_acceleration[group];
+  double plane_sin[nodes][group], plane_cos[nodes][group];
+  double plane_rate[nodes][group], plane_acceleration[nodes][group];
+};
+
+// The last piece of each rig, as Piece has it of one. A lane without a piece has no length, and
+// what is said of it means nothing.
+struct alignas(64) LanePieces {
+  double length[group];                           // s
+  double position[2][group], velocity[3][group];  // at the start
+  double guess[3][group];  // of the accelerations: those that the last piece ended with
+  LaneAxis axis[2];
+  double velocity_at[3][nodes][group], position_at[2][nodes][group];
+  double acceleration_at[3][nodes][group];
+  double series[3][nodes][group];
+  double position_end[2][group], velocity_end[3][group];
+  double contraction[group];  // of the last pieces' iterations
+  // Estimates in the tolerance's weights, at most 1 if good; not finite or huge where substitution
+  // came to nothing. The larger ones are none before closer_error() was asked.
+  double error[group];
+  int iterations;  // of the last attempt, in all packs
+};
+
+struct alignas(64) LaneScene {
+  double radius[group], gravity[group], friction[group];
+  double rtol, atol;
+  // What is looked at: the contact's force, the plane's tilt and rate, the distance from the
+  // reference.
+  bool force, gimbal, reference;
+};
+
+// Things that are looked at: those of Look up to the grip, and after them these.
+enum LaneLook : int {
+  versine = Look::grip + 1,  // 1 - cos(tilt)
+  rate_squared,              // of the plane's angular velocity, (rad/s)^2
+  error_squared,             // of the distance from the reference, m^2
+  lane_looks
+};
+
+// At the start and at the nodes but the first.
+struct alignas(64) LaneRanges {
+  double least[lane_looks][group], most[lane_looks][group];
+};
+struct alignas(64) LaneReference {
+  double at[2][nodes][group];
+};
+
+// Beyond this an estimate has to be made anew, by closer_error().
+inline constexpr double clearly_good = 1e-3;
+
+struct LaneKernels {
+  // Solves for the balls over the pieces, from their starts, lengths and axes.
+  void (*attempt)(LanePieces& pieces, const LaneScene& scene);
+  double (*closer_error)(const LanePieces& pieces, const LaneScene& scene, int lane);
+  void (*look)(const LanePieces& pieces, const LaneScene& scene, const LaneReference& reference,
+               LaneRanges& ranges);
+  // x, y, x', y' and u of each at a time of its own after the piece's start.
+  void (*evaluate)(const LanePieces& pieces, const double* times, double (*ball)[group]);
+};
+
+// Those of the instruction set that was chosen. Throws InputError if the environment variable
+// BBSIM_SIMD names none of this processor.
+[[nodiscard]] const LaneKernels& choose_lane_kernels();
+
+}  // namespace bbsim::solve::held

@@ -1,0 +1,422 @@
+// Rigs between two instants, another one in each lane, for one instruction set: as piece.hpp, whose
+// nodes lie in the lanes, but for what follows from that. A case that is alone in a register leaves
+// no lane without work, and sums over nodes need no shuffles.
+#pragma once
+
+#include "solve/held/lane_kernel.hpp"
+#include "solve/held/piece.hpp"
+
+namespace bbsim::solve::held {
+
+template <class Isa>
+struct LaneKernel {
+  using One = Kernel<Isa>;
+  using P = typename One::P;
+  using Ball = typename One::Ball;
+  using Vector = typename P::Vector;
+  static constexpr int lanes = Isa::lanes;
+  static constexpr auto& table = One::table;
+
+  // What of x, y, x', y', u the paper's x'', y'' and u' depend on.
+  static constexpr bool depends[3][5] = {{true, true, false, true, true},
+                                         {true, true, true, false, true},
+                                         {false, false, true, true, false}};
+
+  // The accelerations at a node, as they depend on the state.
+  struct Rates {
+    P value[3], by[3][5];
+
+    BBSIM_INLINE P at(int i, const P* z) const {
+      P sum = value[i];
+#pragma GCC unroll 5
+      for (int s = 0; s < 5; ++s) {
+        if (depends[i][s]) sum += by[i][s] * z[s];
+      }
+      return sum;
+    }
+  };
+
+  BBSIM_INLINE static bool all_small(const LanePieces& pieces, int first) {
+    bool small = true;
+    for (int i = 0; i < 2; ++i) {
+      const LaneAxis& axis = pieces.axis[i];
+      const auto size = [&](const double* of) __attribute__((always_inline)) {
+        return One::magnitude(P::load(of + first));
+      };
+      const P moves = P::load(axis.most_by_rate + first) * size(axis.rate) +
+                      P::load(axis.most_by_acceleration + first) * size(axis.acceleration);
+      const P start = One::magnitude(P::load(axis.ratio + first) * P::load(axis.angle + first) +
+                                     P::load(axis.offset + first));
+      small =
+          small && One::reduced(start + size(axis.ratio) * moves, typename One::Larger{}) < 0.785;
+    }
+    return small;
+  }
+
+  // The plane's axis at a node, kept for those who look.
+  BBSIM_INLINE static model::Axis<P> plane_axis(LaneAxis& axis, int node, int first, bool small) {
+    const P start_rate = P::load(axis.rate + first);
+    const P start_acceleration = P::load(axis.acceleration + first);
+    const P ratio = P::load(axis.ratio + first);
+    const auto row = [&](MotionTable::Row of) __attribute__((always_inline)) {
+      return P::load(axis.by_rate[of][node] + first) * start_rate +
+             P::load(axis.by_acceleration[of][node] + first) * start_acceleration;
+    };
+    const P angle = ratio * (P::load(axis.angle + first) + row(MotionTable::angle)) +
+                    P::load(axis.offset + first);
+    const SinCos<P> wave = small ? One::sin_cos_of_small(angle) : sin_cos(angle);
+    const model::Axis<P> at{wave.sin, wave.cos, ratio * row(MotionTable::rate),
+                            ratio * row(MotionTable::acceleration)};
+    at.sin.store(axis.plane_sin[node] + first);
+    at.cos.store(axis.plane_cos[node] + first);
+    at.rate.store(axis.plane_rate[node] + first);
+    at.acceleration.store(axis.plane_acceleration[node] + first);
+    return at;
+  }
+
+  [[gnu::flatten]] static void attempt_some(LanePieces& pieces, const LaneScene& scene, int first) {
+    const P h = P::load(pieces.length + first);
+    const P r = P::load(scene.radius + first), g = P::load(scene.gravity + first);
+    const bool small = all_small(pieces, first);
+    Rates rates[nodes];
+#pragma GCC unroll 1
+    for (int n = 0; n < nodes; ++n) {
+      const model::Axis<P> phi = plane_axis(pieces.axis[0], n, first, small);
+      const model::Axis<P> theta = plane_axis(pieces.axis[1], n, first, small);
+      const model::RollingState<Ball, Ball, Ball> ball{Ball::variable(0), Ball::variable(1),
+                                                       Ball::variable(2), Ball::variable(3),
+                                                       Ball::variable(4)};
+      const Ball of[3] = {model::x_acceleration<Ball>(phi, theta, ball, r, g),
+                          model::y_acceleration<Ball>(phi, theta, ball, r, g),
+                          model::u_acceleration<Ball>(phi, theta, ball, r)};
+#pragma GCC unroll 3
+      for (int i = 0; i < 3; ++i) {
+        // With the length, so that a node's k is its acceleration times that.
+        rates[n].value[i] = h * of[i].value;
+#pragma GCC unroll 5
+        for (int s = 0; s < 5; ++s) {
+          if (depends[i][s]) rates[n].by[i][s] = h * of[i].by[s];
+        }
+      }
+    }
+
+    P velocity[3], position[2], weight[3];
+    for (int i = 0; i < 3; ++i) {
+      velocity[i] = P::load(pieces.velocity[i] + first);
+      if (i < 2) position[i] = P::load(pieces.position[i] + first);
+      weight[i] =
+          One::larger(P(1.0), h) / (P(scene.rtol) * One::magnitude(velocity[i]) + P(scene.atol));
+    }
+    // Accelerations times h at the nodes: at first those of a ball that goes on as it did.
+    P k[nodes][3];
+#pragma GCC unroll 1
+    for (int n = 0; n < nodes; ++n) {
+      const P time = h * P(table.c[n]);
+      P z[5];
+      for (int i = 0; i < 3; ++i) {
+        const P guess = P::load(pieces.guess[i] + first);
+        z[2 + i] = velocity[i] + time * guess;
+        if (i < 2) z[i] = position[i] + time * (velocity[i] + P(0.5) * time * guess);
+      }
+      for (int i = 0; i < 3; ++i) k[n][i] = rates[n].at(i, z);
+    }
+
+    constexpr int most_iterations = 25;
+    constexpr double enough = 1e-3, rounding = 30 * 2.2e-16;
+    const double floor = rounding / scene.rtol;
+    double last = 0, contraction = pieces.contraction[first];
+    double bound = 0;
+    P weighted;
+    int iterations = 0;
+    for (;;) {
+      P next[nodes][3];
+      weighted = P(0.0);
+#pragma GCC unroll 1
+      for (int n = 0; n < nodes; ++n) {
+        P v[3] = {P(0.0), P(0.0), P(0.0)}, q[2] = {P(0.0), P(0.0)};
+#pragma GCC unroll 8
+        for (int j = 0; j < nodes; ++j) {
+          const P once(table.a[j][n]), twice(table.a_squared[j][n]);
+#pragma GCC unroll 3
+          for (int i = 0; i < 3; ++i) {
+            v[i] += once * k[j][i];
+            if (i < 2) q[i] += twice * k[j][i];
+          }
+        }
+        const P time = h * P(table.c[n]);
+        P z[5];
+#pragma GCC unroll 3
+        for (int i = 0; i < 3; ++i) {
+          z[2 + i] = velocity[i] + v[i];
+          z[2 + i].store(pieces.velocity_at[i][n] + first);
+          if (i == 2) continue;
+          z[i] = position[i] + (time * velocity[i] + h * q[i]);
+          z[i].store(pieces.position_at[i][n] + first);
+        }
+#pragma GCC unroll 3
+        for (int i = 0; i < 3; ++i) {
+          next[n][i] = rates[n].at(i, z);
+          weighted = One::larger(weighted, One::magnitude(next[n][i] - k[n][i]) * weight[i]);
+        }
+      }
+#pragma GCC unroll 1
+      for (int n = 0; n < nodes; ++n) {
+#pragma GCC unroll 3
+        for (int i = 0; i < 3; ++i) k[n][i] = next[n][i];
+      }
+      const double change = One::reduced(weighted, typename One::Larger{});
+      ++iterations;
+      if (iterations > 1) contraction = change / last;
+      bound = One::larger(floor, enough * (1 - contraction) / One::larger(contraction, 1e-30));
+      if (!One::is_finite(change) || change <= bound || iterations >= most_iterations ||
+          (iterations > 2 && contraction > 0.3)) {
+        break;
+      }
+      last = change;
+    }
+    pieces.iterations += iterations;
+    const double known =
+        iterations > 1 ? One::larger(0.3 * pieces.contraction[first], contraction) : contraction;
+    for (int l = 0; l < lanes; ++l) pieces.contraction[first + l] = known < 0.1 ? known : 0.1;
+
+    const Vector no_length = Vector{};
+    const P inverse = P(1.0) / P::of(h.v > no_length ? h.v : P(1.0).v);
+    P tail[3];
+#pragma GCC unroll 1
+    for (int m = 0; m < nodes; ++m) {
+      P sum[3] = {P(0.0), P(0.0), P(0.0)};
+#pragma GCC unroll 8
+      for (int j = 0; j < nodes; ++j) {
+        const P share(table.legendre[j][m]);
+#pragma GCC unroll 3
+        for (int i = 0; i < 3; ++i) sum[i] += share * k[j][i];
+      }
+#pragma GCC unroll 3
+      for (int i = 0; i < 3; ++i) {
+        sum[i].store(pieces.series[i][m] + first);
+        (k[m][i] * inverse).store(pieces.acceleration_at[i][m] + first);
+        tail[i] =
+            m == nodes - 1 ? One::larger(tail[i], One::magnitude(sum[i])) : One::magnitude(sum[i]);
+      }
+    }
+    P finite(0.0);
+#pragma GCC unroll 3
+    for (int i = 0; i < 3; ++i) {
+      const P mean = P::load(pieces.series[i][0] + first);
+      const P end = velocity[i] + mean;
+      end.store(pieces.velocity_end[i] + first);
+      finite += end;
+      if (i == 2) continue;
+      const P slope = P::load(pieces.series[i][1] + first);
+      const P reached = position[i] + h * (velocity[i] + P(0.5) * (mean - slope * P(1.0 / 3)));
+      reached.store(pieces.position_end[i] + first);
+      finite += reached;
+    }
+    estimate(pieces, scene, first, tail).store(pieces.error + first);
+    for (int l = 0; l < lanes; ++l) {
+      constexpr double hopeless = 1e300;
+      const double left = weighted[l];
+      const bool solved = One::is_finite(finite[l]) && One::is_finite(left) && left <= bound;
+      if (!solved) pieces.error[first + l] = hopeless;
+    }
+  }
+
+  // Not less than what Kernel::estimate() says.
+  BBSIM_INLINE static P estimate(const LanePieces& pieces, const LaneScene& scene, int first,
+                                 const P (&tail)[3]) {
+    constexpr double once = 1.0 / (2 * nodes + 1);
+    const P h = P::load(pieces.length + first);
+    P most = tail[2];
+    const P of_position = One::larger(P(1.0), P(once) * h);
+#pragma GCC unroll 2
+    for (int i = 0; i < 2; ++i) most = One::larger(most, tail[i] * of_position);
+    P acceleration(0.0), tilt(0.0), distance(0.0);
+#pragma GCC unroll 2
+    for (int i = 0; i < 2; ++i) {
+      const LaneAxis& axis = pieces.axis[i];
+      const auto of = [&](const double* values) __attribute__((always_inline)) {
+        return P::load(values + first);
+      };
+      acceleration += One::magnitude(of(axis.ratio) *
+                                     (of(axis.missed_by_rate) * of(axis.rate) +
+                                      of(axis.missed_by_acceleration) * of(axis.acceleration)));
+      tilt += One::magnitude(of(axis.plane_sin[nodes - 1]));
+      distance += One::magnitude(of(pieces.position[i]));
+    }
+    const P missed = acceleration * (P::load(scene.radius + first) + tilt * distance);
+    const P unseen = P(One::Rule::c[0] / 2) * h * missed;
+    return One::larger(P(once) * most, unseen) * P(1 / scene.atol);
+  }
+
+  static void attempt(LanePieces& pieces, const LaneScene& scene) {
+    pieces.iterations = 0;
+    for (int first = 0; first < group; first += lanes) attempt_some(pieces, scene, first);
+  }
+
+  static double closer_error(const LanePieces& pieces, const LaneScene& scene, int lane) {
+    Piece piece{};
+    MotionTable tables[2]{};
+    Scene of{};
+    of.radius = scene.radius[lane];
+    of.rtol = scene.rtol;
+    of.atol = scene.atol;
+    piece.length = pieces.length[lane];
+    for (int i = 0; i < 3; ++i) {
+      for (int n = 0; n < nodes; ++n) piece.series[i][n] = pieces.series[i][n][lane];
+      piece.velocity[i] = pieces.velocity[i][lane];
+      piece.velocity_end[i] = pieces.velocity_end[i][lane];
+      if (i == 2) continue;
+      piece.position[i] = pieces.position[i][lane];
+      piece.position_end[i] = pieces.position_end[i][lane];
+      const LaneAxis& axis = pieces.axis[i];
+      tables[i].missed_by_rate = axis.missed_by_rate[lane];
+      tables[i].missed_by_acceleration = axis.missed_by_acceleration[lane];
+      piece.axis[i] = {&tables[i],       axis.angle[lane], axis.rate[lane], axis.acceleration[lane],
+                       axis.ratio[lane], axis.offset[lane]};
+      piece.plane[i].sin[nodes - 1] = axis.plane_sin[nodes - 1][lane];
+    }
+    Attempt result{true, 0, 0, 0};
+    One::estimate(piece, of, result);
+    return result.error;
+  }
+
+  [[gnu::flatten]] static void look_at_some(const LanePieces& pieces, const LaneScene& scene,
+                                            const LaneReference& reference, LaneRanges& ranges,
+                                            int first) {
+    const auto of = [first](const double* values) __attribute__((always_inline)) {
+      return P::load(values + first);
+    };
+    const P h = of(pieces.length);
+    const P inverse = P(1.0) / P::of(h.v > Vector{} ? h.v : P(1.0).v);
+    const bool small = all_small(pieces, first);
+    const model::GeneralRolling papers_rig{};
+    P least[lane_looks], most[lane_looks];
+#pragma GCC unroll 1
+    for (int n = 0; n < nodes; ++n) {
+      const bool start = n == 0;
+      const auto take = [&](int i, P value) __attribute__((always_inline)) {
+        least[i] = start ? value : One::smaller(least[i], value);
+        most[i] = start ? value : One::larger(most[i], value);
+      };
+      model::RollingState<P, P, P> ball;
+      P acceleration[2];
+      model::Axis<P> axis[2];
+      if (start) {
+        ball = {of(pieces.position[0]), of(pieces.position[1]), of(pieces.velocity[0]),
+                of(pieces.velocity[1]), of(pieces.velocity[2])};
+        for (int i = 0; i < 2; ++i) {
+          P sum = of(pieces.series[i][0]);
+          for (int m = 1; m < nodes; ++m) {
+            sum += m % 2 == 0 ? of(pieces.series[i][m]) : -of(pieces.series[i][m]);
+          }
+          acceleration[i] = sum * inverse;
+          const LaneAxis& from = pieces.axis[i];
+          const P angle = of(from.ratio) * of(from.angle) + of(from.offset);
+          const SinCos<P> wave = small ? One::sin_cos_of_small(angle) : sin_cos(angle);
+          axis[i] = {wave.sin, wave.cos, of(from.ratio) * of(from.rate),
+                     of(from.ratio) * of(from.acceleration)};
+        }
+      } else {
+        ball = {of(pieces.position_at[0][n]), of(pieces.position_at[1][n]),
+                of(pieces.velocity_at[0][n]), of(pieces.velocity_at[1][n]),
+                of(pieces.velocity_at[2][n])};
+        for (int i = 0; i < 2; ++i) {
+          acceleration[i] = of(pieces.acceleration_at[i][n]);
+          const LaneAxis& from = pieces.axis[i];
+          axis[i] = {of(from.plane_sin[n]), of(from.plane_cos[n]), of(from.plane_rate[n]),
+                     of(from.plane_acceleration[n])};
+        }
+      }
+      take(Look::x, ball.x);
+      take(Look::y, ball.y);
+      take(Look::distance_squared, ball.x * ball.x + ball.y * ball.y);
+      const model::MovingPlane<P> plane = model::moving_plane(papers_rig, axis[0], axis[1]);
+      take(Look::up, plane.up.z);
+      if (scene.gimbal) {
+        // 1 - cos a cos b = A + B - A B of the versines, each sin^2 / (1 + cos).
+        const P a = axis[0].sin * axis[0].sin / (P(1.0) + axis[0].cos);
+        const P b = axis[1].sin * axis[1].sin / (P(1.0) + axis[1].cos);
+        take(LaneLook::versine, small ? a + b - a * b : P(1.0) - plane.up.z);
+        take(LaneLook::rate_squared, axis[0].rate * axis[0].rate + axis[1].rate * axis[1].rate);
+      }
+      if (scene.reference) {
+        const P x = ball.x - of(reference.at[0][n]), y = ball.y - of(reference.at[1][n]);
+        take(LaneLook::error_squared, x * x + y * y);
+      }
+      if (!scene.force) continue;
+      const model::Vector3<P> by_mass =
+          model::force_by_mass(plane, ball, acceleration[0], acceleration[1], P(0.0),
+                               of(scene.radius), of(scene.gravity));
+      take(Look::normal, by_mass.z);
+      const P held = of(scene.friction) * by_mass.z;
+      take(Look::grip, held * held - (by_mass.x * by_mass.x + by_mass.y * by_mass.y));
+    }
+    for (int i = 0; i < lane_looks; ++i) {
+      const bool asked = i == Look::normal || i == Look::grip                    ? scene.force
+                         : i == LaneLook::versine || i == LaneLook::rate_squared ? scene.gimbal
+                         : i == LaneLook::error_squared                          ? scene.reference
+                                                                                 : i <= Look::up;
+      if (!asked) continue;
+      least[i].store(ranges.least[i] + first);
+      most[i].store(ranges.most[i] + first);
+    }
+  }
+
+  static void look(const LanePieces& pieces, const LaneScene& scene, const LaneReference& reference,
+                   LaneRanges& ranges) {
+    for (int first = 0; first < group; first += lanes) {
+      look_at_some(pieces, scene, reference, ranges, first);
+    }
+  }
+
+  [[gnu::flatten]] static void evaluate(const LanePieces& pieces, const double* times,
+                                        double (*ball)[group]) {
+    for (int first = 0; first < group; first += lanes) {
+      const auto of = [first](const double* values) __attribute__((always_inline)) {
+        return P::load(values + first);
+      };
+      const P h = of(pieces.length);
+      const P whole = P::of(h.v > Vector{} ? h.v : P(1.0).v);
+      const P s = P(2.0) * of(times) / whole - P(1.0);
+      // Legendre polynomials at s, to the degree of the positions.
+      P legendre[nodes + 2];
+      legendre[0] = P(1.0);
+      legendre[1] = s;
+#pragma GCC unroll 16
+      for (int m = 1; m <= nodes; ++m) {
+        legendre[m + 1] =
+            P((2.0 * m + 1) / (m + 1)) * s * legendre[m] - P(double(m) / (m + 1)) * legendre[m - 1];
+      }
+#pragma GCC unroll 1
+      for (int i = 0; i < 3; ++i) {
+        P k[nodes + 2], v[nodes + 2];
+#pragma GCC unroll 16
+        for (int m = 0; m < nodes; ++m) k[m] = of(pieces.series[i][m]);
+        k[nodes] = k[nodes + 1] = v[nodes + 1] = P(0.0);
+        // (1/2) times the integral from -1, plus the value there.
+        v[0] = of(pieces.velocity[i]) + P(0.5) * (k[0] - k[1] * P(One::odd_parts.of[1]));
+        P sum = v[0];
+#pragma GCC unroll 16
+        for (int m = 1; m <= nodes; ++m) {
+          v[m] = P(0.5) *
+                 (k[m - 1] * P(One::odd_parts.of[m - 1]) - k[m + 1] * P(One::odd_parts.of[m + 1]));
+          sum += v[m] * legendre[m];
+        }
+        sum.store(ball[2 + i] + first);
+        if (i == 2) continue;
+        const P half = P(0.5) * h;
+        P place = of(pieces.position[i]) + half * (v[0] - v[1] * P(One::odd_parts.of[1]));
+#pragma GCC unroll 16
+        for (int m = 1; m <= nodes + 1; ++m) {
+          const P next = m + 1 <= nodes ? v[m + 1] * P(One::odd_parts.of[m + 1]) : P(0.0);
+          place += half * (v[m - 1] * P(One::odd_parts.of[m - 1]) - next) * legendre[m];
+        }
+        place.store(ball[i] + first);
+      }
+    }
+  }
+
+  static constexpr LaneKernels kernels{&attempt, &closer_error, &look, &evaluate};
+};
+
+}  // namespace bbsim::solve::held

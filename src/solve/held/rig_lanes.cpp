@@ -1,0 +1,413 @@
+#include "solve/held/rig_lanes.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "model/model.hpp"
+#include "solve/held/sides.hpp"
+#include "solve/radau/tables.hpp"
+#include "solve/step_growth.hpp"
+
+namespace bbsim::solve::held {
+namespace {
+
+constexpr auto angle = static_cast<std::size_t>(model::RigLayout::angle);
+constexpr auto rate = static_cast<std::size_t>(model::RigLayout::rate);
+
+// A piece that is cut so often is for who runs one by one, and can say why it fails.
+constexpr int most_rejections = 40;
+
+const model::RigLoop<false>& loop_of(const model::Model& model) {
+  return std::get<model::RigLoop<false>>(model.system);
+}
+
+bool same_instants(const Sampling& a, const Sampling& b) {
+  return a.period == b.period && a.delay == b.delay;
+}
+
+}  // namespace
+
+bool carries(const model::Model& model) {
+  return knows(model) && !model.rig->sampled->external &&
+         model.rig->sampled->law.kind != model::LawKind::held && !model.gamma &&
+         loop_of(model).rolling() == model::GeneralRolling{};
+}
+
+bool go_together(const model::Model& one, const model::Model& other) {
+  const model::SampledLoop &a = *one.rig->sampled, &b = *other.rig->sampled;
+  return same_instants(a.sampling, b.sampling) && a.sensor.delay == b.sensor.delay &&
+         a.sensor.period == b.sensor.period && a.sensor.phase == b.sensor.phase &&
+         one.stops == other.stops;
+}
+
+void LaneStep::evaluate(std::size_t lane, const double* times, std::size_t count,
+                        Track* track) const {
+  const LanePieces& of = *pieces_;
+  Piece piece;
+  for (int i = 0; i < 3; ++i) {
+    for (int n = 0; n < nodes; ++n) piece.series[i][n] = of.series[i][n][lane];
+    piece.velocity[i] = of.velocity[i][lane];
+    piece.position[i] = i < 2 ? of.position[i][lane] : 0;
+  }
+  piece.length = of.length[lane];
+  constexpr std::size_t together = 16;
+  double after[together], ball[together][6];
+  for (std::size_t first = 0; first < count; first += together) {
+    const std::size_t some = std::min(together, count - first);
+    for (std::size_t i = 0; i < some; ++i) after[i] = times[first + i] - from_[lane];
+    kernels_->evaluate(piece, after, some, ball);
+    for (std::size_t i = 0; i < some; ++i) {
+      Track& at = track[first + i];
+      at.x = ball[i][0];
+      at.y = ball[i][1];
+      double plane[2], turns[2];
+      const model::ImpulseAnswer answer = model::answer(servo_[lane][0].law, after[i]);
+      for (std::size_t k = 0; k < 2; ++k) {
+        const model::HeldMotion& servo = servo_[lane][k];
+        const bool alike = servo.law == servo_[lane][0].law;
+        const model::HeldMotion::Instant now = alike ? servo.after(answer) : servo.after(after[i]);
+        const LaneAxis& axis = of.axis[k];
+        plane[k] = axis.ratio[lane] * now.angle + axis.offset[lane];
+        turns[k] = axis.ratio[lane] * now.rate;
+      }
+      at.phi = plane[0];
+      at.theta = plane[1];
+      at.phi_rate = turns[0];
+      at.theta_rate = turns[1];
+    }
+  }
+}
+
+RigLanes::RigLanes(Tolerances tolerances, const OutputGrid& grid, const LaneAsked& asked)
+    : tolerances_(tolerances),
+      grid_(grid),
+      asked_(asked),
+      kernels_(choose_lane_kernels()),
+      pieces_(std::make_unique<LanePieces>()),
+      reference_(std::make_unique<LaneReference>()) {
+  scene_.rtol = tolerances.rtol;
+  scene_.atol = tolerances.atol;
+  scene_.gimbal = asked.gimbal;
+  scene_.reference = asked.reference;
+  step_.pieces_ = pieces_.get();
+  step_.kernels_ = &choose_kernels();
+}
+
+void RigLanes::begin(std::size_t l, const model::Model& model, LaneSink& sink) {
+  Lane& lane = lanes_[l];
+  lane.run.emplace(model, tolerances_.atol);
+  lane.instants.emplace(*model.rig->sampled);
+  std::copy(model.initial.begin(), model.initial.end(), lane.z.begin());
+  lane.time = 0;
+  lane.next_step = std::numeric_limits<double>::infinity();
+  lane.next_row = 1;
+  lane.rejections = 0;
+  lane.run->handle_time_event(0, lane.z.data());
+  const std::vector<char>& happening = lane.run->happening();
+  lane.alive = lane.run->check_events(0, lane.z.data()) == model::HybridSystem::Effect::none &&
+               std::find(happening.begin(), happening.end(), 1) == happening.end();
+  scene_.radius[l] = model.radius;
+  scene_.gravity[l] = loop_of(model).gravity();
+  scene_.friction[l] = 0;
+  if (model.events) {
+    for (const model::Monitor& monitor : model.events->monitors) {
+      using Kind = model::Monitor::Kind;
+      if (monitor.kind == Kind::slip) scene_.friction[l] = monitor.limit;
+      if (monitor.kind == Kind::slip || monitor.kind == Kind::lift_off) scene_.force = true;
+    }
+  }
+  for (auto& guess : pieces_->guess) guess[l] = 0;
+  pieces_->contraction[l] = 1e-2;
+  sink.accept_row(l, 0, lane.z[0], lane.z[1]);
+  refresh(l);
+  foresee(lane);
+}
+
+// Puts a lane's state where its next piece begins.
+void RigLanes::refresh(std::size_t l) {
+  Lane& lane = lanes_[l];
+  const Loop& loop = loop_of(lane.run->model());
+  for (std::size_t i = 0; i < 3; ++i) {
+    pieces_->velocity[i][l] = lane.z[2 + i];
+    if (i < 2) pieces_->position[i][l] = lane.z[i];
+  }
+  for (std::size_t i = 0; i < 2; ++i) {
+    const model::AxisMode& mode = loop.mode.axis[i];
+    const model::HeldMotion motion = model::held_motion(
+        loop.servo().of[i], mode, loop.mode.command[i], lane.z[angle + i], lane.z[rate + i]);
+    step_.servo_[l][i] = motion;
+    LaneAxis& axis = pieces_->axis[i];
+    axis.angle[l] = motion.angle;
+    axis.rate[l] = motion.rate;
+    axis.acceleration[l] = motion.acceleration;
+    axis.ratio[l] = mode.ratio;
+    axis.offset[l] = mode.offset;
+  }
+}
+
+void RigLanes::foresee(Lane& lane) {
+  lane.foreseen = lane.run->next_change();
+  lane.fall = lane.run->next_fall(lane.time, lane.z.data(), lane.foreseen);
+}
+
+void RigLanes::load_table(std::size_t l, std::size_t i, double length) {
+  const model::HeldLaw& law = step_.servo_[l][i].law;
+  Loaded& loaded = loaded_[l][i];
+  if (loaded.length == length && loaded.law == law) return;
+  loaded = {law, length};
+  const MotionTable& table = lanes_[l].tables.of(law, length);
+  LaneAxis& axis = pieces_->axis[i];
+  for (int row = 0; row < MotionTable::rows; ++row) {
+    for (int n = 0; n < nodes; ++n) {
+      axis.by_rate[row][n][l] = table.by_rate[row][n];
+      axis.by_acceleration[row][n][l] = table.by_acceleration[row][n];
+    }
+  }
+  axis.most_by_rate[l] = table.most_by_rate;
+  axis.most_by_acceleration[l] = table.most_by_acceleration;
+  axis.missed_by_rate[l] = table.missed_by_rate;
+  axis.missed_by_acceleration[l] = table.missed_by_acceleration;
+}
+
+// Gives a piece to each lane that is not ahead of the others. False once none is left.
+bool RigLanes::plan() {
+  double target = std::numeric_limits<double>::infinity();
+  for (const Lane& lane : lanes_) {
+    if (lane.alive) target = std::min(target, lane.run->next_change());
+  }
+  bool any = false;
+  for (std::size_t l = 0; l < group; ++l) {
+    Lane& lane = lanes_[l];
+    any = any || lane.alive;
+    lane.moved = lane.alive && lane.run->next_change() <= target;
+    lane.restarts = lane.settled = false;
+    pieces_->length[l] = 0;
+    if (!lane.moved) continue;
+    const double limit = std::min(lane.run->next_change(), lane.fall.time);
+    const double left = limit - lane.time;
+    if (!(left > 0)) {  // two guards at one instant: nothing moves
+      lane.until = lane.time;
+      if (++lane.rejections > most_rejections) lane.alive = lane.moved = false;
+      continue;
+    }
+    // The steps to the limit are alike, as HeldStepper's are.
+    const double pieces =
+        left <= lane.next_step ? 1 : std::ceil(left / lane.next_step * (1 - 1e-3));
+    const bool arrives = pieces <= 1;
+    lane.step = arrives ? left : pieces < 4 ? left / pieces : lane.next_step;
+    lane.until = arrives ? limit : lane.time + lane.step;
+    pieces_->length[l] = lane.instants->nominal(lane.time, lane.step);
+    for (std::size_t i = 0; i < 2; ++i) load_table(l, i, pieces_->length[l]);
+  }
+  return any;
+}
+
+// Keeps the pieces that are exact enough, and shortens the others.
+void RigLanes::judge() {
+  for (std::size_t l = 0; l < group; ++l) {
+    Lane& lane = lanes_[l];
+    step_.has_[l] = lane.moved && pieces_->length[l] > 0;
+    if (!step_.has_[l]) continue;
+    double error = pieces_->error[l];
+    const bool solved = error < 1e299;
+    if (solved && error > clearly_good) {
+      error = kernels_.closer_error(*pieces_, scene_, static_cast<int>(l));
+    }
+    if (!solved || !(error <= 1)) {
+      lane.next_step = lane.step * (solved ? std::min(0.9, step_growth(error, nodes)) : 0.2);
+      lane.moved = step_.has_[l] = false;
+      if (++lane.rejections > most_rejections) lane.alive = false;
+      continue;
+    }
+    const bool arrives = lane.until >= std::min(lane.run->next_change(), lane.fall.time);
+    constexpr double most_growth = 8;
+    if (!arrives || lane.rejections > 0 || lane.next_step < most_growth * lane.step) {
+      const double factor = step_growth(error, nodes);
+      const double next = lane.step * (lane.rejections > 0 ? std::min(factor, 1.0) : factor);
+      lane.next_step = arrives && lane.rejections == 0 ? std::max(next, lane.next_step) : next;
+    }
+    lane.rejections = 0;
+    step_.from_[l] = lane.time;
+    step_.whole_[l] = lane.until <= grid_.end();
+    step_.to_[l] = std::min(lane.until, grid_.end());
+  }
+}
+
+// The reference where it is looked at: the start and the nodes but the first.
+void RigLanes::fill_reference() {
+  double from = -1, length = -1;
+  std::array<std::array<double, nodes>, 2> at{};
+  for (std::size_t l = 0; l < group; ++l) {
+    if (!step_.has_[l]) continue;
+    if (step_.from_[l] != from || pieces_->length[l] != length) {
+      from = step_.from_[l];
+      length = pieces_->length[l];
+      const Loop& loop = loop_of(lanes_[l].run->model());
+      for (std::size_t n = 0; n < nodes; ++n) {
+        const double c = n == 0 ? 0 : radau::RadauTable<nodes>::c[n];
+        const auto reference = loop.reference().at(from + c * length);
+        for (std::size_t i = 0; i < 2; ++i) at[i][n] = reference[i].value;
+      }
+    }
+    for (std::size_t i = 0; i < 2; ++i) {
+      for (std::size_t n = 0; n < nodes; ++n) reference_->at[i][n][l] = at[i][n];
+    }
+  }
+}
+
+bool RigLanes::nothing_happens(std::size_t l) const {
+  const model::Model& model = lanes_[l].run->model();
+  if (!model.events) return true;
+  return std::all_of(model.events->monitors.begin(), model.events->monitors.end(),
+                     [&](const model::Monitor& monitor) {
+                       return keeps_its_side(monitor, model.events->plate, false,
+                                             [&](Look look) { return step_.at_nodes(look, l); });
+                     });
+}
+
+void RigLanes::look() {
+  if (asked_.reference) fill_reference();
+  kernels_.look(*pieces_, scene_, *reference_, step_.ranges_);
+  for (std::size_t l = 0; l < group; ++l) {
+    if (!step_.has_[l] || nothing_happens(l)) continue;
+    lanes_[l].alive = lanes_[l].moved = step_.has_[l] = false;
+  }
+}
+
+// The state within a lane's piece, or at its end; what `ball` holds is of that time.
+void RigLanes::state_at(std::size_t l, double t, const double (*ball)[group], bool servos) {
+  Lane& lane = lanes_[l];
+  if (pieces_->length[l] == 0) return;  // it is the one that it was
+  const bool at_end = t >= lane.until;
+  for (std::size_t i = 0; i < 3; ++i) {
+    lane.z[2 + i] = at_end ? pieces_->velocity_end[i][l] : ball[2 + i][l];
+    if (i < 2) lane.z[i] = at_end ? pieces_->position_end[i][l] : ball[i][l];
+  }
+  if (!servos) return;
+  for (std::size_t i = 0; i < 2; ++i) {
+    const LaneAxis& axis = pieces_->axis[i];
+    if (at_end) {
+      const auto row = [&](MotionTable::Row of) {
+        return axis.by_rate[of][nodes - 1][l] * axis.rate[l] +
+               axis.by_acceleration[of][nodes - 1][l] * axis.acceleration[l];
+      };
+      lane.z[angle + i] = axis.angle[l] + row(MotionTable::angle);
+      lane.z[rate + i] = row(MotionTable::rate);
+    } else {
+      const model::HeldMotion& servo = step_.servo_[l][i];
+      const model::HeldMotion::Instant at =
+          servo.after(lane.instants->answer(servo.law, lane.until, t - lane.time));
+      lane.z[angle + i] = at.angle;
+      lane.z[rate + i] = at.rate;
+    }
+  }
+}
+
+void RigLanes::end_lane(std::size_t l, double t, LaneSink& sink) {
+  Lane& lane = lanes_[l];
+  std::vector<double> row(lane.run->model().row_size());
+  std::copy(lane.z.begin(), lane.z.end(), row.begin());
+  lane.run->write_extras(t, lane.z.data(), row.data() + size);
+  sink.accept_end(l, t, row);
+  lane.alive = false;
+}
+
+// Takes samples, applies commands and tells of rows, each at its time, up to the pieces' ends.
+void RigLanes::pass_instants(LaneSink& sink) {
+  alignas(64) double after[group], ball[5][group];
+  double when[group];
+  bool is_event[group];
+  for (;;) {
+    bool any = false, within = false;
+    for (std::size_t l = 0; l < group; ++l) {
+      Lane& lane = lanes_[l];
+      after[l] = 0;
+      if (!lane.moved || lane.settled) continue;
+      const double due = lane.run->next_time_event(), row = grid_[lane.next_row];
+      is_event[l] = !(row < due - lane.run->rounding(due));
+      when[l] = is_event[l] ? due : row;
+      const double last = lane.until + (is_event[l] ? 0 : lane.run->rounding(lane.until));
+      if (when[l] > last) {
+        lane.settled = true;
+        continue;
+      }
+      any = true;
+      if (when[l] >= lane.until) continue;
+      after[l] = when[l] - lane.time;
+      within = true;
+    }
+    if (!any) return;
+    if (within) kernels_.evaluate(*pieces_, after, ball);
+    for (std::size_t l = 0; l < group; ++l) {
+      Lane& lane = lanes_[l];
+      if (!lane.moved || lane.settled) continue;
+      const double t = when[l];
+      const bool last = lane.next_row + 1 == grid_.size();
+      state_at(l, t, ball, is_event[l] || last);
+      if (is_event[l]) {
+        lane.run->handle_time_event(t, lane.z.data());
+        lane.restarts = lane.settled = lane.run->touched();
+      }
+      while (lane.next_row < grid_.size() &&
+             grid_[lane.next_row] - t <= (is_event[l] ? lane.run->rounding(t) : 0)) {
+        sink.accept_row(l, lane.next_row++, lane.z[0], lane.z[1]);
+      }
+      if (lane.next_row == grid_.size()) {
+        end_lane(l, grid_.end(), sink);
+        lane.moved = false;
+      } else if (lane.restarts) {
+        lane.until = t;
+      }
+    }
+  }
+}
+
+// From the end of its piece.
+void RigLanes::go_on(std::size_t l) {
+  Lane& lane = lanes_[l];
+  if (pieces_->length[l] > 0) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      pieces_->guess[i][l] = pieces_->acceleration_at[i][nodes - 1][l];
+    }
+  }
+  if (!lane.restarts) {
+    state_at(l, lane.until, nullptr, true);
+    if (lane.until >= lane.fall.time) {
+      lane.run->handle_state_event(lane.fall.guard, lane.until, lane.z.data());
+      lane.restarts = true;
+    }
+  }
+  lane.time = lane.until;
+  refresh(l);
+  if (lane.restarts || lane.foreseen < lane.run->next_change()) foresee(lane);
+}
+
+std::array<bool, group> RigLanes::integrate(const model::Model* const* models, std::size_t count,
+                                            LaneSink& sink) {
+  scene_.force = false;
+  for (std::size_t l = 0; l < group; ++l) {
+    if (l < count) {
+      begin(l, *models[l], sink);
+    } else {
+      lanes_[l].alive = lanes_[l].moved = false;
+    }
+  }
+  while (plan()) {
+    kernels_.attempt(*pieces_, scene_);
+    judge();
+    look();
+    sink.accept(step_);
+    pass_instants(sink);
+    for (std::size_t l = 0; l < group; ++l) {
+      if (lanes_[l].moved) go_on(l);
+    }
+  }
+  std::array<bool, group> carried{};
+  for (std::size_t l = 0; l < count; ++l) {
+    carried[l] = lanes_[l].next_row == grid_.size();
+  }
+  return carried;
+}
+
+}  // namespace bbsim::solve::held

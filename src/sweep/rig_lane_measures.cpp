@@ -1,0 +1,173 @@
+#include "sweep/rig_lane_measures.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <string_view>
+
+#include "record/track/gimbal_extremes.hpp"
+#include "solve/held/sides.hpp"
+
+namespace bbsim::sweep {
+namespace {
+
+using Kind = scenario::Measure::Kind;
+using solve::held::LaneStep;
+using solve::held::Range;
+
+// Polynomials of degree 9 and their squares, and a servo's sines, over a piece or a part of one.
+constexpr std::size_t parts = 16;
+
+// What promises less than this part more is about as great.
+constexpr double worth = 1e-9;
+
+std::vector<const scenario::Column*> end_columns(const std::vector<scenario::Measure>& measures) {
+  std::vector<const scenario::Column*> columns;
+  for (const scenario::Measure& measure : measures) {
+    if (measure.kind == Kind::end) columns.push_back(measure.column);
+  }
+  return columns;
+}
+
+}  // namespace
+
+RigLaneMeasures::RigLaneMeasures(const std::vector<scenario::Measure>& measures,
+                                 const solve::OutputGrid& grid)
+    : measures_(measures),
+      grid_(grid),
+      end_(end_columns(measures)),
+      points_(search_.points(parts)),
+      times_(parts + 1),
+      values_(parts + 1),
+      track_(parts + 1) {
+  for (const scenario::Measure& measure : measures_) {
+    if (measure.kind == Kind::end) continue;
+    const std::string_view name = measure.column->name;
+    if (measure.kind == Kind::rms) {
+      wants_rms_ = true;
+    } else {
+      wants_[name == "tilt"        ? versine
+             : name == "tilt_rate" ? rate_squared
+             : name == "distance"  ? distance_squared
+                                   : error_squared] = true;
+    }
+  }
+}
+
+solve::held::LaneAsked RigLaneMeasures::asks_for() const {
+  return {wants_[versine] || wants_[rate_squared], wants_[error_squared]};
+}
+
+void RigLaneMeasures::begin(const model::SignalPair& reference) {
+  reference_ = &reference;
+  for (auto& greatest : greatest_) greatest.fill(0);
+  squares_.fill({});
+  if (!wants_rms_ || !at_rows_.empty()) return;
+  at_rows_.resize(grid_.size());
+  for (std::size_t i = 0; i < grid_.size(); ++i) {
+    const auto at = reference.at(grid_[i]);
+    at_rows_[i] = {at[0].value, at[1].value};
+  }
+}
+
+Range RigLaneMeasures::at_nodes(const LaneStep& step, Size size, std::size_t lane) const {
+  using solve::held::LaneLook;
+  switch (size) {
+    case versine:
+      return step.at_nodes(LaneLook::versine, lane);
+    case rate_squared:
+      return step.at_nodes(LaneLook::rate_squared, lane);
+    case distance_squared:
+      return step.at_nodes(solve::held::Look::distance_squared, lane);
+    default:
+      return step.at_nodes(LaneLook::error_squared, lane);
+  }
+}
+
+void RigLaneMeasures::accept(const LaneStep& step) {
+  for (std::size_t lane = 0; lane < group; ++lane) {
+    if (!step.has(lane)) continue;
+    track_of_ = group;
+    for (std::size_t i = 0; i < sizes; ++i) {
+      const auto size = static_cast<Size>(i);
+      if (!wants_[i]) continue;
+      const Range range = at_nodes(step, size, lane);
+      double& greatest = greatest_[i][lane];
+      if (step.is_whole(lane)) greatest = std::max(greatest, range.most);
+      if (solve::held::widened(range).most > (1 + worth) * greatest) look_closer(step, size, lane);
+    }
+  }
+}
+
+double RigLaneMeasures::size_at(Size size, std::size_t point) const {
+  const LaneStep::Track& at = track_[point];
+  const auto square = [](double value) { return value * value; };
+  switch (size) {
+    case versine: {
+      const double a = square(std::sin(at.phi / 2)), b = square(std::sin(at.theta / 2));
+      return 2 * (a + b) - 4 * a * b;
+    }
+    case rate_squared:
+      return square(at.phi_rate) + square(at.theta_rate);
+    case distance_squared:
+      return square(at.x) + square(at.y);
+    default: {
+      const auto [x, y] = reference_->at(times_[point]);
+      return square(at.x - x.value) + square(at.y - y.value);
+    }
+  }
+}
+
+void RigLaneMeasures::look_closer(const LaneStep& step, Size size, std::size_t lane) {
+  if (track_of_ != lane) {
+    for (std::size_t i = 0; i < times_.size(); ++i) {
+      times_[i] = step.from(lane) + (step.to(lane) - step.from(lane)) * points_[i];
+    }
+    step.evaluate(lane, times_.data(), times_.size(), track_.data());
+    track_of_ = lane;
+  }
+  double& greatest = greatest_[size][lane];
+  for (std::size_t i = 0; i < values_.size(); ++i) {
+    values_[i] = size_at(size, i);
+    greatest = std::max(greatest, values_[i]);
+  }
+  greatest = search_.greatest_within(parts, values_.data(), record::Spacing::close, greatest);
+}
+
+void RigLaneMeasures::accept_row(std::size_t lane, std::size_t row, double x, double y) {
+  if (!wants_rms_) return;
+  const std::array<double, 2>& reference = at_rows_[row];
+  squares_[lane].add(x - reference[0]);
+  squares_[lane].add(y - reference[1]);
+}
+
+void RigLaneMeasures::accept_end(std::size_t lane, double t, std::span<const double> row) {
+  last_time_[lane] = t;
+  last_row_[lane].assign(row.begin(), row.end());
+}
+
+bool RigLaneMeasures::finish(std::size_t lane, const model::Model& model,
+                             const model::BallConstants& constants, double* results) {
+  for (const Size size : {distance_squared, error_squared}) {
+    if (wants_[size] && !record::is_square(greatest_[size][lane])) return false;
+  }
+  end_.begin(model, constants);
+  if (!end_.columns().empty()) end_.evaluate(&last_time_[lane], last_row_[lane].data(), 1);
+  std::size_t at_end = 0;
+  for (std::size_t m = 0; m < measures_.size(); ++m) {
+    const std::string_view name = measures_[m].column->name;
+    const auto greatest = [&](Size size) { return greatest_[size][lane]; };
+    if (measures_[m].kind == Kind::end) {
+      results[m] = end_[at_end++][0];
+    } else if (measures_[m].kind == Kind::rms) {
+      results[m] = squares_[lane].root_mean(grid_.size());
+    } else {
+      results[m] = name == "tilt"        ? record::tilt_of(greatest(versine))
+                   : name == "tilt_rate" ? std::sqrt(greatest(rate_squared))
+                   : name == "distance"  ? std::sqrt(greatest(distance_squared))
+                                         : std::sqrt(greatest(error_squared));
+    }
+  }
+  return true;
+}
+
+}  // namespace bbsim::sweep

@@ -1,0 +1,65 @@
+// Measures of sampled rigs that go together, a case in each lane.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "record/rows.hpp"
+#include "record/square_sum.hpp"
+#include "record/track/spans.hpp"
+#include "scenario/measures.hpp"
+#include "solve/held/rig_lanes.hpp"
+
+namespace bbsim::sweep {
+
+class RigLaneMeasures : public solve::held::LaneSink {
+ public:
+  // Of measures that record::are_track_measures() says yes to.
+  RigLaneMeasures(const std::vector<scenario::Measure>& measures, const solve::OutputGrid& grid);
+
+  [[nodiscard]] solve::held::LaneAsked asks_for() const;
+
+  // Begins a group whose cases have this reference, which outlives it; all groups have the same.
+  void begin(const model::SignalPair& reference);
+
+  void accept(const solve::held::LaneStep& step) override;
+  void accept_row(std::size_t lane, std::size_t row, double x, double y) override;
+  void accept_end(std::size_t lane, double t, std::span<const double> row) override;
+
+  // Writes a lane's measures, one after the other. False for a case that is for another runner,
+  // since a square overflowed or vanished.
+  [[nodiscard]] bool finish(std::size_t lane, const model::Model& model,
+                            const model::BallConstants& constants, double* results);
+
+ private:
+  static constexpr std::size_t group = solve::held::group;
+  enum Size { versine, rate_squared, distance_squared, error_squared, sizes };
+
+  [[nodiscard]] solve::held::Range at_nodes(const solve::held::LaneStep& step, Size size,
+                                            std::size_t lane) const;
+  void look_closer(const solve::held::LaneStep& step, Size size, std::size_t lane);
+  [[nodiscard]] double size_at(Size size, std::size_t point) const;
+
+  std::vector<scenario::Measure> measures_;
+  const solve::OutputGrid& grid_;
+  std::array<bool, sizes> wants_{};
+  bool wants_rms_ = false;
+  record::Rows end_;  // the columns that are wanted of the last row
+
+  const model::SignalPair* reference_ = nullptr;
+  std::vector<std::array<double, 2>> at_rows_;  // the reference there, m
+  std::array<std::array<double, group>, sizes> greatest_{};
+  std::array<record::SquareSum, group> squares_{};
+  std::array<std::vector<double>, group> last_row_;
+  std::array<double, group> last_time_{};
+
+  record::SpanSearch search_;
+  const ChebyshevPoints& points_;
+  std::vector<double> times_, values_;
+  std::vector<solve::held::LaneStep::Track> track_;  // at them
+  std::size_t track_of_ = group;                     // the lane, in the present step
+};
+
+}  // namespace bbsim::sweep
