@@ -22,6 +22,8 @@ constexpr int angle = RigLayout::angle;  // of the first servo, among the states
 template <class Use>
 auto HybridSystem::with_loop(Use use) const {
   using Result = decltype(use(std::declval<const RigLoop<>&>()));
+  // The rig of nearly everybody, asked for several times a sample.
+  if (const auto* const plain = std::get_if<RigLoop<>>(&model_.system)) return use(*plain);
   return std::visit(
       [&](const auto& any) -> Result {
         using Any = std::decay_t<decltype(any)>;
@@ -37,6 +39,7 @@ auto HybridSystem::with_loop(Use use) const {
 }
 
 RigMode& HybridSystem::mode() {
+  if (auto* const plain = std::get_if<RigLoop<>>(&model_.system)) return plain->mode;
   return std::visit(
       [](auto& any) -> RigMode& {
         using Any = std::decay_t<decltype(any)>;

@@ -13,12 +13,20 @@ namespace {
 using Kind = scenario::Measure::Kind;
 using solve::held::LaneStep;
 using solve::held::Range;
+using solve::held::Size;
 
 // Polynomials of degree 9 and their squares, and a servo's sines, over a piece or a part of one.
 constexpr std::size_t parts = 16;
 
 // What promises less than this part more is about as great.
 constexpr double worth = 1e-9;
+
+Size size_of(std::string_view column) {
+  return column == "tilt"        ? Size::versine
+         : column == "tilt_rate" ? Size::rate_squared
+         : column == "distance"  ? Size::distance_squared
+                                 : Size::error_squared;
+}
 
 std::vector<const scenario::Column*> end_columns(const std::vector<scenario::Measure>& measures) {
   std::vector<const scenario::Column*> columns;
@@ -45,16 +53,13 @@ RigLaneMeasures::RigLaneMeasures(const std::vector<scenario::Measure>& measures,
     if (measure.kind == Kind::rms) {
       wants_rms_ = true;
     } else {
-      wants_[name == "tilt"        ? versine
-             : name == "tilt_rate" ? rate_squared
-             : name == "distance"  ? distance_squared
-                                   : error_squared] = true;
+      wants_[static_cast<std::size_t>(size_of(name))] = true;
     }
   }
 }
 
 solve::held::LaneAsked RigLaneMeasures::asks_for() const {
-  return {wants_[versine] || wants_[rate_squared], wants_[error_squared]};
+  return {wants(Size::versine) || wants(Size::rate_squared), wants(Size::error_squared)};
 }
 
 void RigLaneMeasures::begin(const model::SignalPair& reference) {
@@ -69,20 +74,6 @@ void RigLaneMeasures::begin(const model::SignalPair& reference) {
   }
 }
 
-Range RigLaneMeasures::at_nodes(const LaneStep& step, Size size, std::size_t lane) const {
-  using solve::held::LaneLook;
-  switch (size) {
-    case versine:
-      return step.at_nodes(LaneLook::versine, lane);
-    case rate_squared:
-      return step.at_nodes(LaneLook::rate_squared, lane);
-    case distance_squared:
-      return step.at_nodes(solve::held::Look::distance_squared, lane);
-    default:
-      return step.at_nodes(LaneLook::error_squared, lane);
-  }
-}
-
 void RigLaneMeasures::accept(const LaneStep& step) {
   for (std::size_t lane = 0; lane < group; ++lane) {
     if (!step.has(lane)) continue;
@@ -90,10 +81,13 @@ void RigLaneMeasures::accept(const LaneStep& step) {
     for (std::size_t i = 0; i < sizes; ++i) {
       const auto size = static_cast<Size>(i);
       if (!wants_[i]) continue;
-      const Range range = at_nodes(step, size, lane);
+      const Range range = step.at_nodes(size, lane);
       double& greatest = greatest_[i][lane];
       if (step.is_whole(lane)) greatest = std::max(greatest, range.most);
-      if (solve::held::widened(range).most > (1 + worth) * greatest) look_closer(step, size, lane);
+      const double promises = (1 + worth) * greatest;
+      if (solve::held::widened(range).most > promises && step.bounds(size, lane).most > promises) {
+        look_closer(step, size, lane);
+      }
     }
   }
 }
@@ -102,13 +96,13 @@ double RigLaneMeasures::size_at(Size size, std::size_t point) const {
   const LaneStep::Track& at = track_[point];
   const auto square = [](double value) { return value * value; };
   switch (size) {
-    case versine: {
+    case Size::versine: {
       const double a = square(std::sin(at.phi / 2)), b = square(std::sin(at.theta / 2));
       return 2 * (a + b) - 4 * a * b;
     }
-    case rate_squared:
+    case Size::rate_squared:
       return square(at.phi_rate) + square(at.theta_rate);
-    case distance_squared:
+    case Size::distance_squared:
       return square(at.x) + square(at.y);
     default: {
       const auto [x, y] = reference_->at(times_[point]);
@@ -125,12 +119,12 @@ void RigLaneMeasures::look_closer(const LaneStep& step, Size size, std::size_t l
     step.evaluate(lane, times_.data(), times_.size(), track_.data());
     track_of_ = lane;
   }
-  double& greatest = greatest_[size][lane];
+  double& most = greatest(size, lane);
   for (std::size_t i = 0; i < values_.size(); ++i) {
     values_[i] = size_at(size, i);
-    greatest = std::max(greatest, values_[i]);
+    most = std::max(most, values_[i]);
   }
-  greatest = search_.greatest_within(parts, values_.data(), record::Spacing::close, greatest);
+  most = search_.greatest_within(parts, values_.data(), record::Spacing::close, most);
 }
 
 void RigLaneMeasures::accept_row(std::size_t lane, std::size_t row, double x, double y) {
@@ -147,24 +141,22 @@ void RigLaneMeasures::accept_end(std::size_t lane, double t, std::span<const dou
 
 bool RigLaneMeasures::finish(std::size_t lane, const model::Model& model,
                              const model::BallConstants& constants, double* results) {
-  for (const Size size : {distance_squared, error_squared}) {
-    if (wants_[size] && !record::is_square(greatest_[size][lane])) return false;
+  for (const Size size : {Size::distance_squared, Size::error_squared}) {
+    if (wants(size) && !record::is_square(greatest(size, lane))) return false;
   }
   end_.begin(model, constants);
   if (!end_.columns().empty()) end_.evaluate(&last_time_[lane], last_row_[lane].data(), 1);
   std::size_t at_end = 0;
   for (std::size_t m = 0; m < measures_.size(); ++m) {
     const std::string_view name = measures_[m].column->name;
-    const auto greatest = [&](Size size) { return greatest_[size][lane]; };
     if (measures_[m].kind == Kind::end) {
       results[m] = end_[at_end++][0];
     } else if (measures_[m].kind == Kind::rms) {
       results[m] = squares_[lane].root_mean(grid_.size());
     } else {
-      results[m] = name == "tilt"        ? record::tilt_of(greatest(versine))
-                   : name == "tilt_rate" ? std::sqrt(greatest(rate_squared))
-                   : name == "distance"  ? std::sqrt(greatest(distance_squared))
-                                         : std::sqrt(greatest(error_squared));
+      const Size size = size_of(name);
+      const double most = greatest(size, lane);
+      results[m] = size == Size::versine ? record::tilt_of(most) : std::sqrt(most);
     }
   }
   return true;

@@ -35,11 +35,14 @@ class RigLaneMeasures : public solve::held::LaneSink {
 
  private:
   static constexpr std::size_t group = solve::held::group;
-  enum Size { versine, rate_squared, distance_squared, error_squared, sizes };
+  using Size = solve::held::Size;
+  static constexpr std::size_t sizes = solve::held::sizes;
 
-  [[nodiscard]] solve::held::Range at_nodes(const solve::held::LaneStep& step, Size size,
-                                            std::size_t lane) const;
   void look_closer(const solve::held::LaneStep& step, Size size, std::size_t lane);
+  [[nodiscard]] double& greatest(Size size, std::size_t lane) {
+    return greatest_[static_cast<std::size_t>(size)][lane];
+  }
+  [[nodiscard]] bool wants(Size size) const { return wants_[static_cast<std::size_t>(size)]; }
   [[nodiscard]] double size_at(Size size, std::size_t point) const;
 
   std::vector<scenario::Measure> measures_;

@@ -35,6 +35,17 @@ std::optional<Pair> BallSensor::read(Pair position) {
   return seen;
 }
 
+SampledController::SampledController(const SampledLoop& loop) : loop_(loop) {
+  const double step = loop.sampling.resolution;
+  const auto inward = [step](double limit) {
+    return step > 0 && limit < unlimited ? std::floor(limit / step * (1 + 1e-12)) * step : limit;
+  };
+  for (std::size_t i = 0; i < 2; ++i) {
+    reached_[i].high = inward(loop.limit[i].high);
+    reached_[i].low = -inward(-loop.limit[i].low);
+  }
+}
+
 void SampledController::estimate_velocity(Pair seen, double elapsed) {
   const double filter = loop_.sampling.derivative_filter;
   const double keep = filter / (filter + elapsed);
@@ -94,20 +105,16 @@ Pair SampledController::within_limits(Pair command) const {
   for (std::size_t i = 0; i < 2; ++i) {
     command[i] = std::clamp(command[i], loop_.limit[i].low, loop_.limit[i].high);
   }
-  return loop_.between.none() ? in_steps(command, loop_.limit) : command;
+  return loop_.between.none() ? in_steps(command) : command;
 }
 
 // The nearest multiple of the resolution that is within the range; the largest one that the range
 // lets through, where that is beyond.
-Pair SampledController::in_steps(Pair command, const CommandRange (&within)[2]) const {
+Pair SampledController::in_steps(Pair command) const {
   const double step = loop_.sampling.resolution;
   if (!(step > 0)) return command;
   for (std::size_t i = 0; i < 2; ++i) {
-    const auto inward = [step](double limit) {
-      return limit < unlimited ? std::floor(limit / step * (1 + 1e-12)) * step : limit;
-    };
-    const double most = inward(within[i].high), least = -inward(-within[i].low);
-    command[i] = rounded_to(std::clamp(command[i], least, most), step);
+    command[i] = rounded_to(std::clamp(command[i], reached_[i].low, reached_[i].high), step);
   }
   return command;
 }

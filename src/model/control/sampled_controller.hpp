@@ -33,7 +33,7 @@ class BallSensor {
 // limit, or while the error brings it back there.
 class SampledController {
  public:
-  explicit SampledController(const SampledLoop& loop) : loop_(loop) {}
+  explicit SampledController(const SampledLoop& loop);
 
   // The command after a sample: rad, or rad/s^2 where accelerations are driven. `servo` is the
   // servos' angles (rad) and rates (rad/s), for laws that feed them back. A sample that saw
@@ -58,12 +58,13 @@ class SampledController {
   }
 
  private:
-  [[nodiscard]] Pair in_steps(Pair command, const CommandRange (&within)[2]) const;
+  [[nodiscard]] Pair in_steps(Pair command) const;
   void estimate_velocity(Pair seen, double elapsed);
   [[nodiscard]] Pair law_output(const double (&servo)[4],
                                 const std::array<Jet<double>, 2>& reference) const;
 
   SampledLoop loop_;
+  CommandRange reached_[2];  // by multiples of the command's resolution, within its limit
   bool seen_any_ = false;
   int unseen_ = 0;  // samples since it saw the ball
   Pair position_{0, 0}, velocity_{0, 0}, integral_{0, 0}, command_{0, 0};

@@ -71,6 +71,15 @@ struct MotionReach {
   }
 };
 [[nodiscard]] MotionReach reach(const HeldMotion& motion, double end);
+// The same of a servo with a spring, without taking a root, and up to 1.42 times wider. `root` is
+// that of the stiffness.
+[[nodiscard]] inline MotionReach reach_about(const HeldMotion& motion, double root) {
+  const double inverse = 1 / root;
+  const double spring =
+      (motion.acceleration + motion.law.damping * motion.rate) * inverse * inverse;
+  const double most = std::abs(spring) + std::abs(motion.rate) * inverse;
+  return {motion.angle + spring, most, most * root};
+}
 
 // The first time within (0, end] at which the line falls to zero, s; infinite if it does not. If it
 // starts no more than `clearly` above zero, it has to fall clearly below, or to have risen clearly

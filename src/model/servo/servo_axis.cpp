@@ -180,7 +180,8 @@ void ServoAxis::evaluate(const AxisState& state, double* values) const {
 ServoAxis::Fall ServoAxis::first_fall(const HeldMotion& motion, double command, double start,
                                       double end) const {
   Fall first;
-  const MotionReach reached = reach(motion, end);
+  const bool springs = root_ > 0 && motion.law.stiffness == response_.from_angle;
+  const MotionReach reached = springs ? reach_about(motion, root_) : reach(motion, end);
   for_each_margin([&](int guard, const AxisMargin& margin) {
     const MotionLine line{
         margin.constant + (margin.by_command + margin.by_demand * response_.from_command) * command,

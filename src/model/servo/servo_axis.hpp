@@ -30,7 +30,10 @@ class ServoAxis {
 
   // The offset of `servo` is where the plane, or the horn, is at its zero.
   ServoAxis(const RigServo& servo, const ServoResponse& response)
-      : rig_(&servo), response_(response), offset_(servo.offset) {}
+      : rig_(&servo),
+        response_(response),
+        root_(std::sqrt(response.from_angle)),
+        offset_(servo.offset) {}
 
   // The command that the servo follows after it got this one: nearer to the last one than the dead
   // band it is not followed.
@@ -86,6 +89,7 @@ class ServoAxis {
 
   const RigServo* rig_;
   ServoResponse response_;
+  double root_;  // of the stiffness, in free motion
   double offset_;
   Motion motion_ = Motion::free;
   Play play_ = Play::none;

@@ -5,6 +5,7 @@
 // sets share.
 #pragma once
 
+#include "model/signals/signal_pair.hpp"
 #include "solve/held/kernel.hpp"
 
 namespace bbsim::solve::held {
@@ -36,8 +37,8 @@ struct alignas(64) LanePieces {
   double series[3][nodes][group];
   double position_end[2][group], velocity_end[3][group];
   double contraction[group];  // of the last pieces' iterations
-  // Estimates in the tolerance's weights, at most 1 if good; not finite or huge where substitution
-  // came to nothing. The larger ones are none before closer_error() was asked.
+  // Bounds of the estimates in the tolerance's weights, at most 1 if good; closer_error() tells the
+  // estimate. Not finite or huge where substitution came to nothing.
   double error[group];
   int iterations;  // of the last attempt, in all packs
 };
@@ -50,31 +51,35 @@ struct alignas(64) LaneScene {
   bool force, gimbal, reference;
 };
 
-// Things that are looked at: those of Look up to the grip, and after them these.
-enum LaneLook : int {
-  versine = Look::grip + 1,  // 1 - cos(tilt)
-  rate_squared,              // of the plane's angular velocity, (rad/s)^2
-  error_squared,             // of the distance from the reference, m^2
-  lane_looks
+// What is greatest over a run: smooth numbers, squares in place of roots.
+enum class Size : int {
+  versine,           // 1 - cos(tilt)
+  rate_squared,      // of the plane's angular velocity, (rad/s)^2
+  distance_squared,  // m^2
+  error_squared      // of the distance from the reference, m^2
 };
+inline constexpr int sizes = 4;
 
-// At the start and at the nodes but the first.
-struct alignas(64) LaneRanges {
-  double least[lane_looks][group], most[lane_looks][group];
+// What a look finds, at the start and at the nodes but the first: ranges of those of Look up to
+// the grip, and sizes, each of them and the largest.
+struct alignas(64) LaneLooks {
+  double least[Look::grip + 1][group], most[Look::grip + 1][group];
+  double size[sizes][nodes][group], least_size[sizes][group], most_size[sizes][group];
 };
 struct alignas(64) LaneReference {
   double at[2][nodes][group];
 };
-
-// Beyond this an estimate has to be made anew, by closer_error().
-inline constexpr double clearly_good = 1e-3;
 
 struct LaneKernels {
   // Solves for the balls over the pieces, from their starts, lengths and axes.
   void (*attempt)(LanePieces& pieces, const LaneScene& scene);
   double (*closer_error)(const LanePieces& pieces, const LaneScene& scene, int lane);
   void (*look)(const LanePieces& pieces, const LaneScene& scene, const LaneReference& reference,
-               LaneRanges& ranges);
+               LaneLooks& looks);
+  // The range of a lane's size over Chebyshev points (close_overshoot).
+  Range (*look_closely)(const LaneLooks& looks, Size size, int lane);
+  // The values of a reference, x and y, at the start and at the nodes but the first of a piece.
+  void (*reference)(const model::SignalView& of, double from, double length, double (*at)[nodes]);
   // x, y, x', y' and u of each at a time of its own after the piece's start.
   void (*evaluate)(const LanePieces& pieces, const double* times, double (*ball)[group]);
 };

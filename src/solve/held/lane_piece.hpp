@@ -281,7 +281,7 @@ struct LaneKernel {
   }
 
   [[gnu::flatten]] static void look_at_some(const LanePieces& pieces, const LaneScene& scene,
-                                            const LaneReference& reference, LaneRanges& ranges,
+                                            const LaneReference& reference, LaneLooks& looks,
                                             int first) {
     const auto of = [first](const double* values) __attribute__((always_inline)) {
       return P::load(values + first);
@@ -290,13 +290,20 @@ struct LaneKernel {
     const P inverse = P(1.0) / P::of(h.v > Vector{} ? h.v : P(1.0).v);
     const bool small = all_small(pieces, first);
     const model::GeneralRolling papers_rig{};
-    P least[lane_looks], most[lane_looks];
+    constexpr int ranges = Look::grip + 1;
+    P least[ranges], most[ranges], least_size[sizes], most_size[sizes];
 #pragma GCC unroll 1
     for (int n = 0; n < nodes; ++n) {
       const bool start = n == 0;
       const auto take = [&](int i, P value) __attribute__((always_inline)) {
         least[i] = start ? value : One::smaller(least[i], value);
         most[i] = start ? value : One::larger(most[i], value);
+      };
+      const auto take_size = [&](Size size, P value) __attribute__((always_inline)) {
+        const int i = static_cast<int>(size);
+        value.store(looks.size[i][n] + first);
+        least_size[i] = start ? value : One::smaller(least_size[i], value);
+        most_size[i] = start ? value : One::larger(most_size[i], value);
       };
       model::RollingState<P, P, P> ball;
       P acceleration[2];
@@ -329,19 +336,21 @@ struct LaneKernel {
       }
       take(Look::x, ball.x);
       take(Look::y, ball.y);
-      take(Look::distance_squared, ball.x * ball.x + ball.y * ball.y);
+      const P distance_squared = ball.x * ball.x + ball.y * ball.y;
+      take(Look::distance_squared, distance_squared);
+      take_size(Size::distance_squared, distance_squared);
       const model::MovingPlane<P> plane = model::moving_plane(papers_rig, axis[0], axis[1]);
       take(Look::up, plane.up.z);
       if (scene.gimbal) {
         // 1 - cos a cos b = A + B - A B of the versines, each sin^2 / (1 + cos).
         const P a = axis[0].sin * axis[0].sin / (P(1.0) + axis[0].cos);
         const P b = axis[1].sin * axis[1].sin / (P(1.0) + axis[1].cos);
-        take(LaneLook::versine, small ? a + b - a * b : P(1.0) - plane.up.z);
-        take(LaneLook::rate_squared, axis[0].rate * axis[0].rate + axis[1].rate * axis[1].rate);
+        take_size(Size::versine, small ? a + b - a * b : P(1.0) - plane.up.z);
+        take_size(Size::rate_squared, axis[0].rate * axis[0].rate + axis[1].rate * axis[1].rate);
       }
       if (scene.reference) {
         const P x = ball.x - of(reference.at[0][n]), y = ball.y - of(reference.at[1][n]);
-        take(LaneLook::error_squared, x * x + y * y);
+        take_size(Size::error_squared, x * x + y * y);
       }
       if (!scene.force) continue;
       const model::Vector3<P> by_mass =
@@ -351,21 +360,51 @@ struct LaneKernel {
       const P held = of(scene.friction) * by_mass.z;
       take(Look::grip, held * held - (by_mass.x * by_mass.x + by_mass.y * by_mass.y));
     }
-    for (int i = 0; i < lane_looks; ++i) {
-      const bool asked = i == Look::normal || i == Look::grip                    ? scene.force
-                         : i == LaneLook::versine || i == LaneLook::rate_squared ? scene.gimbal
-                         : i == LaneLook::error_squared                          ? scene.reference
-                                                                                 : i <= Look::up;
-      if (!asked) continue;
-      least[i].store(ranges.least[i] + first);
-      most[i].store(ranges.most[i] + first);
+    const int asked = scene.force ? ranges : Look::up + 1;
+    for (int i = 0; i < asked; ++i) {
+      least[i].store(looks.least[i] + first);
+      most[i].store(looks.most[i] + first);
+    }
+    for (int i = 0; i < sizes; ++i) {
+      const auto size = static_cast<Size>(i);
+      const bool of_gimbal = size == Size::versine || size == Size::rate_squared;
+      if (of_gimbal ? !scene.gimbal : size == Size::error_squared && !scene.reference) continue;
+      least_size[i].store(looks.least_size[i] + first);
+      most_size[i].store(looks.most_size[i] + first);
     }
   }
 
   static void look(const LanePieces& pieces, const LaneScene& scene, const LaneReference& reference,
-                   LaneRanges& ranges) {
+                   LaneLooks& looks) {
     for (int first = 0; first < group; first += lanes) {
-      look_at_some(pieces, scene, reference, ranges, first);
+      look_at_some(pieces, scene, reference, looks, first);
+    }
+  }
+
+  static Range look_closely(const LaneLooks& looks, Size size, int lane) {
+    const auto& at = looks.size[static_cast<int>(size)];
+    P least, most;
+    for (int k = 0; k < close_points; k += lanes) {
+      P value(0.0);
+#pragma GCC unroll 8
+      for (int j = 0; j < nodes; ++j) {
+        value += P::load(One::close_table.share[j] + k) * P(at[j][lane]);
+      }
+      least = k == 0 ? value : One::smaller(least, value);
+      most = k == 0 ? value : One::larger(most, value);
+    }
+    return {One::reduced(least, typename One::Smaller{}),
+            One::reduced(most, typename One::Larger{})};
+  }
+
+  static void reference(const model::SignalView& of, double from, double length,
+                        double (*at)[nodes]) {
+    for (int first = 0; first < nodes; first += lanes) {
+      P c = P::load(table.c + first);
+      if (first == 0) c = P::of(One::first_lane() ? P(0.0).v : c.v);
+      const auto values = of.at(P(from) + P(length) * c);
+#pragma GCC unroll 2
+      for (std::size_t i = 0; i < 2; ++i) values[i].value.store(at[i] + first);
     }
   }
 
@@ -416,7 +455,8 @@ struct LaneKernel {
     }
   }
 
-  static constexpr LaneKernels kernels{&attempt, &closer_error, &look, &evaluate};
+  static constexpr LaneKernels kernels{&attempt,      &closer_error, &look,
+                                       &look_closely, &reference,    &evaluate};
 };
 
 }  // namespace bbsim::solve::held

@@ -6,7 +6,6 @@
 
 #include "model/model.hpp"
 #include "solve/held/sides.hpp"
-#include "solve/radau/tables.hpp"
 #include "solve/step_growth.hpp"
 
 namespace bbsim::solve::held {
@@ -39,6 +38,12 @@ bool go_together(const model::Model& one, const model::Model& other) {
   return same_instants(a.sampling, b.sampling) && a.sensor.delay == b.sensor.delay &&
          a.sensor.period == b.sensor.period && a.sensor.phase == b.sensor.phase &&
          one.stops == other.stops;
+}
+
+Range LaneStep::bounds(Size size, std::size_t lane) const {
+  const Range range = lane_kernels_->look_closely(looks_, size, static_cast<int>(lane));
+  const double beyond = close_overshoot * (range.most - range.least);
+  return {range.least - beyond, range.most + beyond};
 }
 
 void LaneStep::evaluate(std::size_t lane, const double* times, std::size_t count,
@@ -92,6 +97,7 @@ RigLanes::RigLanes(Tolerances tolerances, const OutputGrid& grid, const LaneAske
   scene_.reference = asked.reference;
   step_.pieces_ = pieces_.get();
   step_.kernels_ = &choose_kernels();
+  step_.lane_kernels_ = &kernels_;
 }
 
 void RigLanes::begin(std::size_t l, const model::Model& model, LaneSink& sink) {
@@ -209,9 +215,13 @@ void RigLanes::judge() {
     Lane& lane = lanes_[l];
     step_.has_[l] = lane.moved && pieces_->length[l] > 0;
     if (!step_.has_[l]) continue;
+    constexpr double most_growth = 8;
     double error = pieces_->error[l];
     const bool solved = error < 1e299;
-    if (solved && error > clearly_good) {
+    const bool arrives = lane.until >= std::min(lane.run->next_change(), lane.fall.time);
+    // A step that its limit cut short says little of how long the next may be.
+    const bool tells = !arrives || lane.rejections > 0 || lane.next_step < most_growth * lane.step;
+    if (solved && (error > 1 || tells)) {
       error = kernels_.closer_error(*pieces_, scene_, static_cast<int>(l));
     }
     if (!solved || !(error <= 1)) {
@@ -220,9 +230,7 @@ void RigLanes::judge() {
       if (++lane.rejections > most_rejections) lane.alive = false;
       continue;
     }
-    const bool arrives = lane.until >= std::min(lane.run->next_change(), lane.fall.time);
-    constexpr double most_growth = 8;
-    if (!arrives || lane.rejections > 0 || lane.next_step < most_growth * lane.step) {
+    if (tells) {
       const double factor = step_growth(error, nodes);
       const double next = lane.step * (lane.rejections > 0 ? std::min(factor, 1.0) : factor);
       lane.next_step = arrives && lane.rejections == 0 ? std::max(next, lane.next_step) : next;
@@ -237,18 +245,13 @@ void RigLanes::judge() {
 // The reference where it is looked at: the start and the nodes but the first.
 void RigLanes::fill_reference() {
   double from = -1, length = -1;
-  std::array<std::array<double, nodes>, 2> at{};
+  alignas(64) double at[2][nodes];
   for (std::size_t l = 0; l < group; ++l) {
     if (!step_.has_[l]) continue;
     if (step_.from_[l] != from || pieces_->length[l] != length) {
       from = step_.from_[l];
       length = pieces_->length[l];
-      const Loop& loop = loop_of(lanes_[l].run->model());
-      for (std::size_t n = 0; n < nodes; ++n) {
-        const double c = n == 0 ? 0 : radau::RadauTable<nodes>::c[n];
-        const auto reference = loop.reference().at(from + c * length);
-        for (std::size_t i = 0; i < 2; ++i) at[i][n] = reference[i].value;
-      }
+      kernels_.reference(loop_of(lanes_[l].run->model()).reference().view(), from, length, at);
     }
     for (std::size_t i = 0; i < 2; ++i) {
       for (std::size_t n = 0; n < nodes; ++n) reference_->at[i][n][l] = at[i][n];
@@ -259,16 +262,17 @@ void RigLanes::fill_reference() {
 bool RigLanes::nothing_happens(std::size_t l) const {
   const model::Model& model = lanes_[l].run->model();
   if (!model.events) return true;
+  const LaneLooks& looks = step_.looks_;
+  const auto range = [&](Look look) { return Range{looks.least[look][l], looks.most[look][l]}; };
   return std::all_of(model.events->monitors.begin(), model.events->monitors.end(),
                      [&](const model::Monitor& monitor) {
-                       return keeps_its_side(monitor, model.events->plate, false,
-                                             [&](Look look) { return step_.at_nodes(look, l); });
+                       return keeps_its_side(monitor, model.events->plate, false, range);
                      });
 }
 
 void RigLanes::look() {
   if (asked_.reference) fill_reference();
-  kernels_.look(*pieces_, scene_, *reference_, step_.ranges_);
+  kernels_.look(*pieces_, scene_, *reference_, step_.looks_);
   for (std::size_t l = 0; l < group; ++l) {
     if (!step_.has_[l] || nothing_happens(l)) continue;
     lanes_[l].alive = lanes_[l].moved = step_.has_[l] = false;

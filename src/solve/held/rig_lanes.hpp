@@ -32,20 +32,19 @@ class LaneStep {
     double x, y, phi, theta, phi_rate, theta_rate;
   };
 
-  // Whether the lane has a piece, and its times (s). The last one ends with the run, though its
-  // ranges go on.
+  // Whether the lane has a piece, and its times (s). The last one ends with the run, though what
+  // is looked at goes on.
   [[nodiscard]] bool has(std::size_t lane) const { return has_[lane]; }
   [[nodiscard]] double from(std::size_t lane) const { return from_[lane]; }
   [[nodiscard]] double to(std::size_t lane) const { return to_[lane]; }
   [[nodiscard]] bool is_whole(std::size_t lane) const { return whole_[lane]; }
 
-  // Of the lane's start and nodes: values that its motion has, and what it may have between.
-  [[nodiscard]] Range at_nodes(LaneLook look, std::size_t lane) const {
-    return {ranges_.least[look][lane], ranges_.most[look][lane]};
+  // What a size is at the lane's start and nodes, and what it is there and between.
+  [[nodiscard]] Range at_nodes(Size size, std::size_t lane) const {
+    const auto i = static_cast<std::size_t>(size);
+    return {looks_.least_size[i][lane], looks_.most_size[i][lane]};
   }
-  [[nodiscard]] Range at_nodes(Look look, std::size_t lane) const {
-    return {ranges_.least[look][lane], ranges_.most[look][lane]};
-  }
+  [[nodiscard]] Range bounds(Size size, std::size_t lane) const;
 
   // At `count` times (s) within a lane's piece.
   void evaluate(std::size_t lane, const double* times, std::size_t count, Track* track) const;
@@ -55,7 +54,8 @@ class LaneStep {
 
   const LanePieces* pieces_ = nullptr;
   const Kernels* kernels_ = nullptr;
-  LaneRanges ranges_{};
+  const LaneKernels* lane_kernels_ = nullptr;
+  LaneLooks looks_{};
   std::array<std::array<model::HeldMotion, 2>, group> servo_{};
   std::array<bool, group> has_{}, whole_{};
   std::array<double, group> from_{}, to_{};
