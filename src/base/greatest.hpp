@@ -27,20 +27,25 @@ enum class Between { smooth, kinks };
 
 // Values at the points of twice as many intervals, for points that are so few to a wave that a
 // maximum may hide between them: those of the polynomial, where it may be greater than `best`; the
-// lower one of the two beside, where it may not.
+// lower one of the two beside, where it may not. If it may be at an end, all are the polynomial's:
+// whether a maximum lies within is told by the slope there, which takes them all.
 inline void refine(const ChebyshevPoints& points, const double* values, double best,
                    std::vector<double>& finer) {
   const std::size_t last = points.size() - 1;
   finer.resize(2 * last + 1);
   finer[2 * last] = values[last];
-  for (std::size_t i = 0; i < last; ++i) {
+  const auto may_exceed = [&](std::size_t i) {
     const double here = values[i], next = values[i + 1];
     const double before = values[i == 0 ? i : i - 1], after = values[i + 1 == last ? last : i + 2];
     const double most = std::max({before, here, next, after});
     const double least = std::min({before, here, next, after});
-    finer[2 * i] = here;
+    return most + (most - least) > best;
+  };
+  const bool at_end = may_exceed(0) || may_exceed(last - 1);
+  for (std::size_t i = 0; i < last; ++i) {
+    finer[2 * i] = values[i];
     finer[2 * i + 1] =
-        most + (most - least) > best ? points.between(values, i) : std::min(here, next);
+        at_end || may_exceed(i) ? points.between(values, i) : std::min(values[i], values[i + 1]);
   }
 }
 

@@ -142,3 +142,19 @@ TEST_CASE("what is no number at a point hides no maximum elsewhere") {
   });
   CHECK(greatest == Approx(1).epsilon(1e-13));
 }
+
+TEST_CASE("a maximum next to an end is found through values that were refined") {
+  // As a servo's rate has it a moment before its command changes: 1e-6 above the end.
+  const double place = GENERATE(0.999, 0.001);
+  const auto function = [place](double s) { return -(s - place) * (s - place); };
+  const ChebyshevPoints points(8), twice(16);
+  std::vector<double> values(points.size()), finer;
+  for (std::size_t i = 0; i < points.size(); ++i) values[i] = function(points[i]);
+  double greatest = *std::max_element(values.begin(), values.end());
+  REQUIRE(greatest == Approx(-1e-6));
+  refine(points, values.data(), greatest, finer);
+  for_each_bracket(twice, finer.data(), greatest, Between::smooth, [&](const Bracket& bracket) {
+    greatest = std::max(greatest, climb(bracket, 1e-9, function).value);
+  });
+  CHECK(std::abs(greatest) < 1e-16);
+}

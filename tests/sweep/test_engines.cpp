@@ -432,3 +432,119 @@ TEST_CASE("a measure beyond the range of doubles has its reason, whatever the en
     CHECK(results.status[1].reason == "end_normal_force is infinite");
   }
 }
+
+namespace {
+
+const std::vector<Variation> gains_and_seeds{{"controller.gravity_compensation.kp", "uniform:6:14"},
+                                             {"controller.gravity_compensation.kv", "uniform:5:10"},
+                                             {"controller.sensor.seed", "list:1,2,3"}};
+
+// Substitution leaves a thousandth of the tolerance of 1e-10, and a loop that holds the ball loses
+// what it was off by: 1e-10 after thousands of pieces.
+void check_rig_lanes(const Setup& setup, double bound = 1e-10) {
+  const Engine engine = choose_engine(setup.task);
+  REQUIRE(engine.name == "rig lanes");
+  const std::size_t cases = setup.plan.cases();
+  const CaseResults lanes = run_all(*engine.runner(), cases);
+  const CaseResults alone = run_all(*single_runner(setup.task), cases);
+  CHECK(largest_difference(lanes, alone) < bound);
+  for (std::size_t i = 0; i < cases; ++i) {
+    CHECK(lanes.status[i].word == alone.status[i].word);
+    CHECK(lanes.status[i].reason == alone.status[i].reason);
+  }
+}
+
+}  // namespace
+
+TEST_CASE("rigs in lanes are those of single runs") {
+  SECTION("with noise, events and all limits of configs/rig.yaml") {
+    check_rig_lanes(Setup("configs/rig.yaml", gains_and_seeds, {"time.end=10"}, loop_measures, 7));
+  }
+  SECTION("that switch, each at times of its own") {
+    const std::string servo = GENERATE(
+        "{natural_frequency: 5 Hz, damping: 0.8, rate_limit: 20 deg/s, angle_limit: 4 deg}",
+        "{natural_frequency: 5 Hz, damping: 0.3, acceleration_limit: 20}",
+        "{natural_frequency: 5 Hz, damping: 0.8, backlash: 0.5 deg, dead_band: 0.2 deg}",
+        "{time_constant: 40 ms, rate_limit: 30 deg/s}");
+    CAPTURE(servo);
+    // Off its circle, so that the limits are reached.
+    check_rig_lanes(Setup("configs/rig.yaml",
+                          {{"controller.gravity_compensation.kp", "uniform:6:14"},
+                           {"ball.position.1", "uniform:-6 cm:6 cm"}},
+                          {"time.end=5", "gimbal.servo=" + servo}, loop_measures, 20));
+  }
+  SECTION("with servos and balls that differ") {
+    check_rig_lanes(Setup("configs/rig.yaml",
+                          {{"gimbal.servo.natural_frequency", "uniform:25:60"},
+                           {"gimbal.servo.damping", "uniform:0.5:1.2"},
+                           {"ball.radius", "uniform:1 cm:3 cm"},
+                           {"gravity", "uniform:9.7:9.9"}},
+                          {"time.end=5"}, loop_measures, 20));
+  }
+  SECTION("whose servos are too fast for one piece a period") {
+    check_rig_lanes(Setup("configs/rig.yaml",
+                          {{"controller.gravity_compensation.kp", "uniform:6:14"}},
+                          {"time.end=2", "gimbal.servo.natural_frequency=400 Hz",
+                           "gimbal.servo.rate_limit=100 rad/s"},
+                          loop_measures, 12));
+  }
+  SECTION("with what a controller commands at the end") {
+    check_rig_lanes(Setup("configs/rig.yaml", gains_and_seeds, {"time.end=2.005"},
+                          {"end_phi_command", "end_x_measured", "end_vx", "end_phi", "x_end"}, 5));
+  }
+}
+
+TEST_CASE("a rig that does not fit among the others of its group is run by itself") {
+  SECTION("whose ball falls off the plate") {
+    const Setup setup("configs/rig.yaml", {{"ball.velocity.0", "list:0,0,0.01,2,0,0,0,-3,0,0.02"}},
+                      {"time.end=3"}, loop_measures);
+    check_rig_lanes(setup);
+    const CaseResults lanes = run_all(*choose_engine(setup.task).runner(), 10);
+    CHECK(lanes.status[3].reason == "edge");
+    CHECK(lanes.status[7].reason == "edge");
+  }
+  SECTION("whose instants are others") {
+    check_rig_lanes(Setup("configs/rig.yaml",
+                          {{"controller.sampling.delay", "list:10 ms,10 ms,10 ms,5 ms,10 ms"}},
+                          {"time.end=3"}, loop_measures));
+  }
+  SECTION("that cannot be") {
+    const Setup setup("configs/rig.yaml",
+                      {{"gimbal.servo",
+                        "list:{natural_frequency: 5 Hz, damping: 0.8},"
+                        "{natural_frequency: 5 Hz, damping: 0.9},"
+                        "{natural_frequency: 5 Hz, damping: 0.9, backlash: 1 deg}"}},
+                      {"time.end=3"}, loop_measures);
+    check_rig_lanes(setup);
+  }
+}
+
+TEST_CASE("rigs in lanes do not depend on how their groups are handed out") {
+  const Setup setup("configs/rig.yaml", gains_and_seeds, {"time.end=2"}, loop_measures, 7);
+  const Engine engine = choose_engine(setup.task);
+  REQUIRE(engine.name == "rig lanes");
+  const std::size_t cases = setup.plan.cases(), width = 1 + setup.task.measures.size();
+  const CaseResults all = run_all(*engine.runner(), cases);
+  // The groups in turn from the last, by one runner that remembers the others.
+  const auto runner = engine.runner();
+  for (std::size_t first = cases / engine.group * engine.group;; first -= engine.group) {
+    CaseResults some;
+    REQUIRE(runner->run(first, std::min(engine.group, cases - first), some, goes_on));
+    for (std::size_t i = 0; i < some.numbers.size(); ++i) {
+      CHECK(some.numbers[i] == all.numbers[first * width + i]);
+    }
+    if (first == 0) break;
+  }
+}
+
+TEST_CASE("rigs whose reference varies, or that are watched for more, are run one by one") {
+  CHECK(choose_engine(Setup("configs/rig.yaml",
+                            {{"controller.reference.circle.radius", "list:4 cm,5 cm"}},
+                            {"time.end=1"}, loop_measures)
+                          .task)
+            .name == "single runs");
+  CHECK(choose_engine(
+            Setup("configs/rig.yaml", gains_and_seeds, {"time.end=1"}, {"max_motor_torque_phi"}, 2)
+                .task)
+            .name == "single runs");
+}

@@ -76,6 +76,7 @@ class ServoAxis {
   };
   enum class Play { none, up, down, gap };
 
+  [[nodiscard]] bool clears_limits(const MotionReach& reached) const;
   // Calls use(guard, margin) for each that is looked out for.
   template <class Use>
   void for_each_margin(Use use) const;

@@ -36,12 +36,14 @@ struct alignas(64) LanePieces {
   double acceleration_at[3][nodes][group];
   double series[3][nodes][group];
   double position_end[2][group], velocity_end[3][group];
-  double contraction[group];  // of the last pieces' iterations
+  double contraction[group];  // of its iterations
   // Bounds of the estimates in the tolerance's weights, at most 1 if good; closer_error() tells the
-  // estimate. Not finite or huge where substitution came to nothing.
+  // estimate. `hopeless` where substitution came to nothing.
   double error[group];
   int iterations;  // of the last attempt, in all packs
 };
+
+inline constexpr double hopeless = 1e300;
 
 struct alignas(64) LaneScene {
   double radius[group], gravity[group], friction[group];

@@ -36,6 +36,19 @@ struct LaneKernel {
     }
   };
 
+  using Mask = typename P::Mask;
+
+  // By the bits: comparisons are compiled as if all numbers were finite.
+  BBSIM_INLINE static Mask finite(P a) {
+    const Mask exponent = ((Mask)a.v >> 52) & 0x7ff;
+    return exponent != 0x7ff;
+  }
+  BBSIM_INLINE static bool all(Mask mask) {
+    long long every = mask[0];
+    for (int i = 1; i < lanes; ++i) every &= mask[i];
+    return every != 0;
+  }
+
   BBSIM_INLINE static bool all_small(const LanePieces& pieces, int first) {
     bool small = true;
     for (int i = 0; i < 2; ++i) {
@@ -124,13 +137,14 @@ struct LaneKernel {
     constexpr int most_iterations = 25;
     constexpr double enough = 1e-3, rounding = 30 * 2.2e-16;
     const double floor = rounding / scene.rtol;
-    double last = 0, contraction = pieces.contraction[first];
-    double bound = 0;
-    P weighted;
+    // Each lane has its own contraction, and is done once what is left is small enough or will not
+    // get there: one that goes wild does not touch the others.
+    P contraction = P::load(pieces.contraction + first), last(0.0);
+    Mask solved{};
     int iterations = 0;
     for (;;) {
       P next[nodes][3];
-      weighted = P(0.0);
+      P weighted(0.0);
 #pragma GCC unroll 1
       for (int n = 0; n < nodes; ++n) {
         P v[3] = {P(0.0), P(0.0), P(0.0)}, q[2] = {P(0.0), P(0.0)};
@@ -164,20 +178,21 @@ struct LaneKernel {
 #pragma GCC unroll 3
         for (int i = 0; i < 3; ++i) k[n][i] = next[n][i];
       }
-      const double change = One::reduced(weighted, typename One::Larger{});
       ++iterations;
-      if (iterations > 1) contraction = change / last;
-      bound = One::larger(floor, enough * (1 - contraction) / One::larger(contraction, 1e-30));
-      if (!One::is_finite(change) || change <= bound || iterations >= most_iterations ||
-          (iterations > 2 && contraction > 0.3)) {
-        break;
-      }
-      last = change;
+      if (iterations > 1) contraction = P::of(weighted.v / (last.v > 0.0 ? last.v : P(1.0).v));
+      solved = (weighted.v <= floor) |
+               ((weighted * contraction).v <= (P(enough) * (P(1.0) - contraction)).v);
+      Mask settled = solved | ~finite(weighted);
+      if (iterations > 2) settled |= contraction.v > 0.3;
+      if (all(settled) || iterations >= most_iterations) break;
+      last = weighted;
     }
     pieces.iterations += iterations;
-    const double known =
-        iterations > 1 ? One::larger(0.3 * pieces.contraction[first], contraction) : contraction;
-    for (int l = 0; l < lanes; ++l) pieces.contraction[first + l] = known < 0.1 ? known : 0.1;
+    const P before = P::load(pieces.contraction + first);
+    const P known = iterations > 1 ? One::larger(P(0.3) * before, contraction) : contraction;
+    const P kept =
+        One::larger(P::of(finite(known) ? known.v : P(1.0).v), P(One::least_contraction));
+    One::smaller(kept, P(0.1)).store(pieces.contraction + first);
 
     const Vector no_length = Vector{};
     const P inverse = P(1.0) / P::of(h.v > no_length ? h.v : P(1.0).v);
@@ -199,26 +214,22 @@ struct LaneKernel {
             m == nodes - 1 ? One::larger(tail[i], One::magnitude(sum[i])) : One::magnitude(sum[i]);
       }
     }
-    P finite(0.0);
+    P all_ends(0.0);
 #pragma GCC unroll 3
     for (int i = 0; i < 3; ++i) {
       const P mean = P::load(pieces.series[i][0] + first);
       const P end = velocity[i] + mean;
       end.store(pieces.velocity_end[i] + first);
-      finite += end;
+      all_ends += end;
       if (i == 2) continue;
       const P slope = P::load(pieces.series[i][1] + first);
       const P reached = position[i] + h * (velocity[i] + P(0.5) * (mean - slope * P(1.0 / 3)));
       reached.store(pieces.position_end[i] + first);
-      finite += reached;
+      all_ends += reached;
     }
-    estimate(pieces, scene, first, tail).store(pieces.error + first);
-    for (int l = 0; l < lanes; ++l) {
-      constexpr double hopeless = 1e300;
-      const double left = weighted[l];
-      const bool solved = One::is_finite(finite[l]) && One::is_finite(left) && left <= bound;
-      if (!solved) pieces.error[first + l] = hopeless;
-    }
+    const P error = estimate(pieces, scene, first, tail);
+    const Mask good = solved & finite(all_ends) & finite(error);
+    P::of(good ? error.v : P(hopeless).v).store(pieces.error + first);
   }
 
   // Not less than what Kernel::estimate() says.

@@ -210,6 +210,8 @@ struct Kernel {
   }
 
   static constexpr int most_iterations = 25;
+  // That a plane stood still, within backlash, says nothing of the piece in which it is moved.
+  static constexpr double least_contraction = 1e-2;
 
   // Flat: a coefficient that the equation does not have is known to be zero where it is all in one.
   template <bool papers>
@@ -314,7 +316,8 @@ struct Kernel {
     }
     result.converged = true;
     piece.contraction =
-        result.iterations > 1 ? larger(0.3 * piece.contraction, contraction) : contraction;
+        larger(result.iterations > 1 ? larger(0.3 * piece.contraction, contraction) : contraction,
+               least_contraction);
 
     for_each<packs>([&](auto p) __attribute__((always_inline)) {
       P sum[3] = {P(0.0), P(0.0), P(0.0)};

@@ -123,11 +123,22 @@ void RigLanes::begin(std::size_t l, const model::Model& model, LaneSink& sink) {
       if (monitor.kind == Kind::slip || monitor.kind == Kind::lift_off) scene_.force = true;
     }
   }
-  for (auto& guess : pieces_->guess) guess[l] = 0;
-  pieces_->contraction[l] = 1e-2;
+  clear(l);
   sink.accept_row(l, 0, lane.z[0], lane.z[1]);
   refresh(l);
   foresee(lane);
+}
+
+// A lane without a rig, or with one that was given up, holds numbers that do no harm.
+void RigLanes::clear(std::size_t l) {
+  for (std::size_t i = 0; i < 3; ++i) {
+    pieces_->velocity[i][l] = pieces_->guess[i][l] = 0;
+    if (i == 2) continue;
+    LaneAxis& axis = pieces_->axis[i];
+    pieces_->position[i][l] = axis.angle[l] = axis.rate[l] = axis.acceleration[l] = 0;
+    axis.ratio[l] = axis.offset[l] = 0;
+  }
+  pieces_->contraction[l] = 1e-2;
 }
 
 // Puts a lane's state where its next piece begins.
@@ -189,6 +200,7 @@ bool RigLanes::plan() {
     lane.moved = lane.alive && lane.run->next_change() <= target;
     lane.restarts = lane.settled = false;
     pieces_->length[l] = 0;
+    if (!lane.alive) clear(l);
     if (!lane.moved) continue;
     const double limit = std::min(lane.run->next_change(), lane.fall.time);
     const double left = limit - lane.time;
@@ -217,7 +229,7 @@ void RigLanes::judge() {
     if (!step_.has_[l]) continue;
     constexpr double most_growth = 8;
     double error = pieces_->error[l];
-    const bool solved = error < 1e299;
+    const bool solved = error < hopeless;
     const bool arrives = lane.until >= std::min(lane.run->next_change(), lane.fall.time);
     // A step that its limit cut short says little of how long the next may be.
     const bool tells = !arrives || lane.rejections > 0 || lane.next_step < most_growth * lane.step;

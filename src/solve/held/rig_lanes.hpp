@@ -120,6 +120,7 @@ class RigLanes {
   };
 
   void begin(std::size_t lane, const model::Model& model, LaneSink& sink);
+  void clear(std::size_t lane);
   void refresh(std::size_t lane);
   void foresee(Lane& lane);
   bool plan();
