@@ -137,26 +137,30 @@ class Turns {
   double next_ = never, period_ = never;
 };
 
+// A function and its slope.
+struct Fall {
+  double value, slope;
+};
+
 // The first time in (from, to] at which a falling function is not positive; it is at `from`, and is
-// not at `to`. Regula falsi, and a bisection after each of its steps that does not halve.
+// not at `to`. Newton's iteration, which goes a rounding beyond where it has come, so that the root
+// is enclosed; and a bisection after two steps that do not halve.
 template <class Function>
-double root(Function above, double start, double from, double f_from, double to, double f_to) {
-  bool halve = false;
+double root(Function function, double start, double from, double to) {
+  double t = from + (to - from) / 2;
+  int slow = 0;
   for (int k = 0; k < 200; ++k) {
     const double width = to - from;
-    if (width <= std::numeric_limits<double>::epsilon() * (start + to)) break;
-    double middle = from + width * (f_from / (f_from - f_to));
-    if (halve || !(middle > from && middle < to)) middle = from + width / 2;
-    if (middle <= from || middle >= to) break;
-    const double f = above(middle);
-    if (f > 0) {
-      from = middle;
-      f_from = f;
-    } else {
-      to = middle;
-      f_to = f;
-    }
-    halve = to - from > width / 2;
+    const double rounding = std::numeric_limits<double>::epsilon() * (start + to);
+    if (width <= rounding) break;
+    if (!(t > from && t < to)) t = from + width / 2;
+    if (t <= from || t >= to) break;
+    const Fall at = function(t);
+    (at.value > 0 ? from : to) = t;
+    slow = to - from > width / 2 ? slow + 1 : 0;
+    const double step = -at.value / at.slope;
+    const double beyond = std::copysign(rounding / 2 + std::abs(step) / 64, at.value);
+    t = slow < 2 && at.slope < 0 ? t + step + beyond : from;
   }
   return to;
 }
@@ -185,8 +189,13 @@ double first_fall(const MotionLine& line, const HeldMotion& motion, double clear
     const double reached = value_at(to);
     if (!(reached > threshold)) {
       if (!std::isfinite(reached)) return never;
-      return root([&](double t) { return value_at(t) - threshold; }, start, from, value - threshold,
-                  to, reached - threshold);
+      return root(
+          [&](double t) {
+            const HeldMotion::Instant at = motion.after(t);
+            return Fall{line.at(at.angle, at.rate) - threshold,
+                        line.by_angle * at.rate + line.by_rate * at.acceleration};
+          },
+          start, from, to);
     }
     from = to;
     value = reached;

@@ -22,7 +22,7 @@ bool knows(const model::Model& model) {
 }
 
 HeldStepper::HeldStepper(const model::Model& model, const Kernels& kernels, Tolerances tolerances)
-    : model_(&model), kernels_(kernels), instants_(*model.rig->sampled) {
+    : model_(&model), kernels_(kernels), tables_(kernels), instants_(*model.rig->sampled) {
   const Loop& of = loop();
   kernel_ = of.rolling() == model::GeneralRolling{} ? kernels.papers : kernels.general;
   scene_.radius = of.radius();

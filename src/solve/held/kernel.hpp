@@ -100,6 +100,11 @@ struct alignas(64) Loads {
 inline constexpr int close_points = 32;
 inline constexpr double close_overshoot = 0.0313;
 
+// What a servo answers to an impulse (model/servo/held_motion.hpp), at the nodes of a piece.
+struct alignas(64) NodeAnswers {
+  double integral[nodes], value[nodes], slope[nodes];
+};
+
 struct Kernels {
   // For the paper's rig, and for any.
   struct Of {
@@ -108,6 +113,8 @@ struct Kernels {
     // The ranges over start and nodes; those that nobody asks for are left as they are.
     void (*look)(const Piece& piece, const Scene& scene, Range* ranges, Loads& loads);
   } papers, general;
+  // By power series: for pieces of which damping * length and stiffness * length^2 are at most 1.
+  void (*answers)(double damping, double stiffness, double length, NodeAnswers& answers);
   // The ranges of the three loads over the Chebyshev points.
   void (*look_closely)(const Loads& loads, Range* ranges);
   // Positions and velocities of the ball at `count` times after the piece's start, by its

@@ -22,7 +22,21 @@ struct AtStart {
   }
 };
 
-void fill(MotionTable& table, const model::HeldLaw& law, double length) {
+void answer_at_nodes(const Kernels& kernels, const model::HeldLaw& law, double length,
+                     NodeAnswers& answers) {
+  if (law.damping * length <= 1 && law.stiffness * length * length <= 1) {
+    kernels.answers(law.damping, law.stiffness, length, answers);
+    return;
+  }
+  for (int i = 0; i < nodes; ++i) {
+    const model::ImpulseAnswer at = model::answer(law, radau::RadauTable<nodes>::c[i] * length);
+    answers.integral[i] = at.integral;
+    answers.value[i] = at.value;
+    answers.slope[i] = at.slope;
+  }
+}
+
+void fill(MotionTable& table, const Kernels& kernels, const model::HeldLaw& law, double length) {
   const model::HeldMotion by_rate{law, 0, 1, 0}, by_acceleration{law, 0, 0, 1};
   const auto put = [](double(&rows)[MotionTable::rows][nodes], int i,
                       const model::HeldMotion::Instant& at) {
@@ -30,9 +44,11 @@ void fill(MotionTable& table, const model::HeldLaw& law, double length) {
     rows[MotionTable::rate][i] = at.rate;
     rows[MotionTable::acceleration][i] = at.acceleration;
   };
+  NodeAnswers answers;
+  answer_at_nodes(kernels, law, length, answers);
   table.most_by_rate = table.most_by_acceleration = 0;
   for (int i = 0; i < nodes; ++i) {
-    const model::ImpulseAnswer at = model::answer(law, radau::RadauTable<nodes>::c[i] * length);
+    const model::ImpulseAnswer at{answers.integral[i], answers.value[i], answers.slope[i]};
     put(table.by_rate, i, by_rate.after(at));
     put(table.by_acceleration, i, by_acceleration.after(at));
     table.most_by_rate =
@@ -67,7 +83,7 @@ const MotionTable& MotionTables::of(const model::HeldLaw& law, double length) {
   oldest.law = law;
   oldest.length = length;
   oldest.used = asked_;
-  fill(oldest.table, law, length);
+  fill(oldest.table, kernels_, law, length);
   return oldest.table;
 }
 

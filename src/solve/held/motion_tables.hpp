@@ -10,6 +10,8 @@ namespace bbsim::solve::held {
 
 class MotionTables {
  public:
+  explicit MotionTables(const Kernels& kernels) : kernels_(kernels) {}
+
   // Valid until two others were asked for.
   [[nodiscard]] const MotionTable& of(const model::HeldLaw& law, double length);
 
@@ -24,6 +26,7 @@ class MotionTables {
     long used = 0;  // when it was asked for last
     MotionTable table;
   };
+  const Kernels& kernels_;
   std::vector<Entry> entries_;
   long asked_ = 0;
 };

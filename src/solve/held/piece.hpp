@@ -499,6 +499,37 @@ struct Kernel {
     }
   }
 
+  // 1, 1, 1/2, 1/3, ...
+  static constexpr int most_terms = 40;
+  struct Parts {
+    double of[most_terms + 3]{1};
+    consteval Parts() {
+      for (int n = 1; n < most_terms + 3; ++n) of[n] = 1.0 / n;
+    }
+  };
+  static constexpr Parts parts{};
+
+  // The terms of model::answer()'s series, all nodes together.
+  static void answers(double damping, double stiffness, double length, NodeAnswers& answers) {
+    for_each<packs>([&](auto p) __attribute__((always_inline)) {
+      const P t = P(length) * P::load(table.c + p * lanes);
+      const P d = P(damping) * t, k = P(stiffness) * t * t;
+      P last(1.0), before(0.0), value(1.0), slope(1.0), integral(0.5);
+      for (int n = 1; n <= most_terms; ++n) {
+        const P next = -(d * last + k * before * P(parts.of[n])) * P(parts.of[n + 1]);
+        before = last;
+        last = next;
+        value += next;
+        slope += P(n + 1.0) * next;
+        integral += next * P(parts.of[n + 2]);
+        if (reduced(magnitude(next) + magnitude(before), Larger{}) < 1e-18) break;
+      }
+      (t * t * integral).store(answers.integral + p * lanes);
+      (t * value).store(answers.value + p * lanes);
+      slope.store(answers.slope + p * lanes);
+    });
+  }
+
   // 1, 1/3, 1/5, ...: products are cheaper than quotients.
   struct OddParts {
     double of[nodes + 3]{};
@@ -564,8 +595,11 @@ struct Kernel {
     }
   }
 
-  static constexpr Kernels kernels{
-      {&attempt<true>, &look<true>}, {&attempt<false>, &look<false>}, &look_closely, &evaluate};
+  static constexpr Kernels kernels{{&attempt<true>, &look<true>},
+                                   {&attempt<false>, &look<false>},
+                                   &answers,
+                                   &look_closely,
+                                   &evaluate};
 };
 
 }  // namespace bbsim::solve::held

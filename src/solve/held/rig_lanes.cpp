@@ -187,17 +187,13 @@ void RigLanes::load_table(std::size_t l, std::size_t i, double length) {
   axis.missed_by_acceleration[l] = table.missed_by_acceleration;
 }
 
-// Gives a piece to each lane that is not ahead of the others. False once none is left.
+// Gives a piece to each lane. False once none is left.
 bool RigLanes::plan() {
-  double target = std::numeric_limits<double>::infinity();
-  for (const Lane& lane : lanes_) {
-    if (lane.alive) target = std::min(target, lane.run->next_change());
-  }
   bool any = false;
   for (std::size_t l = 0; l < group; ++l) {
     Lane& lane = lanes_[l];
     any = any || lane.alive;
-    lane.moved = lane.alive && lane.run->next_change() <= target;
+    lane.moved = lane.alive;
     lane.restarts = lane.settled = false;
     pieces_->length[l] = 0;
     if (!lane.alive) clear(l);

@@ -78,8 +78,9 @@ struct LaneAsked {
 };
 
 // Integrates groups of rigs from t = 0 over an output grid. Each has its HybridSystem, and so its
-// own sensor, controller, servos and limits; between two switches of any the balls go together, as
-// HeldStepper takes one. What switches in one lane alone cuts its piece alone: the others wait.
+// own sensor, controller, servos and limits; between its switches the balls go together, as
+// HeldStepper takes one. What switches in one lane cuts its piece alone, and it is behind the
+// others from there on: nobody waits.
 //
 // A rig in which an event occurs, or may occur as far as the bounds tell, is given up: it is for
 // whoever runs one by one. A rig's rows depend, within the tolerance, on its companions, and on
@@ -100,7 +101,7 @@ class RigLanes {
   struct Lane {
     std::optional<model::HybridSystem> run;
     std::optional<Instants> instants;
-    MotionTables tables;
+    MotionTables tables{choose_kernels()};
     std::array<double, size> z{};  // at `time`
     double time = 0;               // s
     double until = 0;              // the end of the present piece
