@@ -8,6 +8,7 @@
 
 #include "base/number_text.hpp"
 #include "base/shown.hpp"
+#include "yaml/nearest.hpp"
 
 namespace bbsim::controller {
 namespace {
@@ -112,6 +113,25 @@ std::string not_understood(std::string_view line, const std::string& why) {
   return "its answer was " + bbsim::quoted(line, longest_shown) + ": " + why;
 }
 
+// " (did you mean command?)", where one of the names is near; otherwise nothing.
+std::string hint(std::string_view found, std::span<const std::string_view> names) {
+  const std::string_view nearest = yaml::nearest_name(found, names);
+  return nearest.empty() ? "" : " (did you mean " + std::string(nearest) + "?)";
+}
+
+// Of an answer that lacks a name, what it has in its place, if that is near: ", but "comand" (did
+// you mean command?)".
+std::string misspelt(std::string_view line, const std::string& lacks) {
+  const Json answer = Json::parse(line, nullptr, false);
+  if (!answer.is_object()) return "";
+  const std::string_view wanted[] = {lacks};
+  for (const auto& [name, value] : answer.items()) {
+    const std::string meant = name == "command" ? "" : hint(name, wanted);
+    if (!meant.empty()) return ", but " + bbsim::quoted(name) + meant;
+  }
+  return "";
+}
+
 constexpr const char* form = "allowed: {\"command\": [PHI, THETA]}, and beside it \"NAME\": NUMBER";
 
 // The text of {"error": "..."}, if it is that.
@@ -167,7 +187,10 @@ Ready read_ready(std::string_view line) {
                              "true, \"save\": true, \"columns\": {\"NAME\": \"UNIT\"}, \"fields\": "
                              "[\"NAME\"]";
   const Json answer = Json::parse(line, nullptr, false);
-  if (!answer.is_object() || !answer.contains("protocol")) return refuse(wanted);
+  if (!answer.is_object()) return refuse(wanted);
+  if (!answer.contains("protocol")) {
+    return refuse("found no protocol" + misspelt(line, "protocol") + "; " + wanted);
+  }
   for (const auto& [key, value] : answer.items()) {
     if (key == "protocol") {
       if (value != Json(protocol_version)) {
@@ -187,7 +210,10 @@ Ready read_ready(std::string_view line) {
         if (field != fields.end()) {
           ready.fields.set(static_cast<std::size_t>(field - fields.begin()));
         } else if (name != Json("sample")) {
-          return refuse("found a field " + name.dump() + "; allowed: those of the hello");
+          std::vector<std::string_view> known{"sample"};
+          for (const Field& one : fields) known.push_back(one.name);
+          const std::string meant = name.is_string() ? hint(name.get<std::string>(), known) : "";
+          return refuse("found a field " + name.dump() + meant + "; allowed: those of the hello");
         }
       }
     } else if (key == "columns") {
@@ -198,7 +224,8 @@ Ready read_ready(std::string_view line) {
         ready.columns->emplace_back(name, unit.get<std::string>());
       }
     } else {
-      return refuse("found " + bbsim::quoted(key) + "; " + wanted);
+      constexpr std::string_view known[] = {"protocol", "reset", "save", "columns", "fields"};
+      return refuse("found " + bbsim::quoted(key) + hint(key, known) + "; " + wanted);
     }
   }
   return ready;
@@ -260,7 +287,11 @@ std::string read_answer(std::string_view line, std::span<const std::string> name
     } else {
       double number = 0;
       if (!reader.take_number(number)) {
-        return refuse("found " + bbsim::quoted(name) + " that is no number; " + form);
+        std::vector<std::string_view> known{"command", "error"};
+        known.insert(known.end(), names.begin(), names.end());
+        const std::string meant = hint(name, known);
+        return refuse("found " + bbsim::quoted(name) +
+                      (meant.empty() ? " that is no number" : meant) + "; " + form);
       }
       const auto wanted = std::ranges::find(names, name);
       if (wanted == names.end()) continue;
@@ -271,13 +302,14 @@ std::string read_answer(std::string_view line, std::span<const std::string> name
     }
   } while (reader.take(','));
   if (!reader.take('}') || !reader.at_end()) return refuse(form);
-  if (!commanded) return refuse("found no command; " + std::string(form));
+  if (!commanded) return refuse("found no command" + misspelt(line, "command") + "; " + form);
   if (!std::isfinite(command[0]) || !std::isfinite(command[1])) {
     return refuse("found a command that is no finite number");
   }
   for (std::size_t i = 0; i < names.size(); ++i) {
     if (std::isnan(own[i])) {
-      return refuse("found no " + bbsim::quoted(names[i]) + ", which output.columns asks for");
+      return refuse("found no " + bbsim::quoted(names[i]) + ", which output.columns asks for" +
+                    misspelt(line, names[i]));
     }
   }
   return {};

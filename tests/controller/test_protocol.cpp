@@ -89,7 +89,8 @@ TEST_CASE("a controller is told those fields alone that it asks for") {
   CHECK(sample_line({3, 0.06, seen, servo, {}}, {}) == "{\"sample\":3}\n");
   const std::string wrong =
       controller::read_ready("{\"protocol\": 1, \"fields\": [\"bal\"]}").fault;
-  CHECK(wrong.find("found a field \"bal\"; allowed: those of the hello") != std::string::npos);
+  CHECK(wrong.find("found a field \"bal\" (did you mean ball?); allowed: those of the hello") !=
+        std::string::npos);
 }
 
 TEST_CASE("an answer may be written as libraries write it") {
@@ -127,11 +128,34 @@ TEST_CASE("what is wrong with an answer is told with the answer") {
       {"{\"command\": [0, 0], \"a\": 1}}", "allowed"},
       {"{\"command\": [0, 0], \"a\\", "allowed"},
       {"{\"a\": 1}", "found no command"},
+      {"{\"comand\": [0.1, 0.2]}", "found \"comand\" (did you mean command?); allowed"},
+      {"{\"command\": [0, 0], \"aa\": [1]}", "found \"aa\" that is no number; allowed"},
+      {"{\"Command\": 1, \"a\": 1}",
+       "found no command, but \"Command\" (did you mean command?); allowed"},
       {"{\"error\": \"no \\\"kp\\\"\"}", "it gave up: \"no \"kp\"\""},
   }));
   CAPTURE(line);
   const Read answer = read(line, {"a"});
   CHECK(answer.fault.find(told) != std::string::npos);
+}
+
+TEST_CASE("a misspelt name in an answer is told with the one that was meant") {
+  const auto said = [](const std::string& fault, const std::string& what) {
+    CAPTURE(fault);
+    return fault.find(what) != std::string::npos;
+  };
+  const Read number = read("{\"command\": [0, 0], \"x_integal\": 1}", {"x_integral"});
+  CHECK(said(number.fault,
+             "found no \"x_integral\", which output.columns asks for, but "
+             "\"x_integal\" (did you mean x_integral?)"));
+  CHECK(said(controller::read_ready("{\"protocol\": 1, \"rest\": true}").fault,
+             "found \"rest\" (did you mean reset?); allowed"));
+  CHECK(said(controller::read_ready("{\"protocoll\": 1}").fault,
+             "found no protocol, but \"protocoll\" (did you mean protocol?); allowed"));
+  CHECK(said(controller::read_ready("{\"protocol\": 1, \"fields\": [\"refrence\"]}").fault,
+             "found a field \"refrence\" (did you mean reference?); allowed"));
+  // What is near nothing is not guessed at.
+  CHECK_FALSE(said(read("{\"motor\": [0, 0]}").fault, "did you mean"));
 }
 
 TEST_CASE("a hello says what the run is like, and its answer what the controller can") {
