@@ -15,7 +15,7 @@ namespace {
 
 // Whether one of the systems of coupled.hpp runs the scene.
 bool needs_coupled(const Scenario& scene) {
-  return scenario::is_coupled(scene) || is_linked(scene);
+  return scenario::is_coupled(scene) || scenario::is_linked(scene);
 }
 
 bool zero_row(const Controller& controller, std::size_t row) {

@@ -159,7 +159,7 @@ CoupledScene assemble_coupled(const Scenario& scene, SignalPair input) {
   if (scene.gimbal.three_servos) {
     return with_dry(coupled_loop<ThreeServos>(scene, parts, std::move(input)));
   }
-  if (scene.ball.push || is_linked(scene)) {
+  if (scene.ball.push || scenario::is_linked(scene)) {
     return with_dry(coupled_loop<Linkages>(scene, parts, std::move(input)));
   }
   return with_dry(coupled_loop<Direct>(scene, parts, std::move(input)));

@@ -16,8 +16,8 @@ struct CoupledScene {
   std::optional<DryParts> dry{};  // where something of it switches
 };
 
-// The scene is one for which scenario::is_coupled() or is_linked() holds; `input` is the given
-// motion or torque, or what the controller follows. Throws InputError as assemble_rig() does.
+// The scene is one for which scenario::is_coupled() or scenario::is_linked() holds; `input` is the
+// given motion or torque, or what the controller follows. Throws InputError as assemble_rig() does.
 [[nodiscard]] CoupledScene assemble_coupled(const Scenario& scene, SignalPair input);
 
 // Times at which derivatives of the push on the ball jump, s.

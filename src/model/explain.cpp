@@ -138,7 +138,7 @@ std::string beyond_note(const Linkage& linkage, const Servo& servo) {
 }
 
 std::string linkage_note(const Scenario& scene) {
-  if (!is_linked(scene)) return "";
+  if (!scenario::is_linked(scene)) return "";
   const Between between = between_of(scene);
   if (between.three) {
     const ThreeServos& three = *between.three;

@@ -8,6 +8,7 @@
 
 #include "base/archive.hpp"
 #include "base/instant.hpp"
+#include "model/ball/dynamics.hpp"
 
 namespace bbsim::model {
 namespace {
@@ -16,6 +17,20 @@ namespace {
 constexpr double one_instant = 1e-9;
 
 constexpr int angle = RigLayout::angle;  // of the first servo, among the states
+
+// Kinetic and potential energy of a ball that rolls and of what turns with the plane, (M51), J.
+double energy_of(const CoupledBall& ball, const double* z, const RigExtras& plane) {
+  BallConstants constants{ball.r, ball.m, ball.g, false, ball.rolling};
+  std::copy_n(ball.body.plate, 3, constants.plate_inertia.begin());
+  constants.plate_imbalance = ball.body.imbalance;
+  constants.ring_inertia = ball.body.ring;
+  constants.rotor_inertia = ball.body.rotor;
+  Sample sample;
+  sample.ball = ball_motion<Shape::full>(RigLayout::unpack(z), ball.r);
+  sample.gimbal = {plane.angle[0], plane.angle[1], plane.rate[0], plane.rate[1], 0, 0};
+  const Dynamics now = dynamics(sample, constants);
+  return now.energy() + now.gimbal_energy;
+}
 
 }  // namespace
 
@@ -69,8 +84,14 @@ HybridSystem::Wanted HybridSystem::axes(double t, const double* z) const {
   });
 }
 
-std::array<double, 2> HybridSystem::plane_rates(const double* z) const {
-  return with_loop([z](const auto& loop) { return loop.plane_rates(z); });
+// Of the plane, its angles and rates.
+RigExtras HybridSystem::plane(const double* z) const {
+  return with_loop([z](const auto& loop) {
+    const double none[std::decay_t<decltype(loop)>::servos] = {};
+    RigExtras plane{};
+    loop.fill(z, none, plane);
+    return plane;
+  });
 }
 
 HybridSystem::HybridSystem(const Model& model, double resolution) : model_(model) {
@@ -357,7 +378,8 @@ void HybridSystem::settle_rig(double t, double* z) {
 // Whether a servo was taken from where it was, or a rate of the plane jumped.
 bool HybridSystem::settle_servos(double t, double* z) {
   const Wanted wanted = axes(t, z);
-  const std::array<double, 2> rate_before = plane_rates(z);
+  const RigExtras before = plane(z);
+  const std::array<double, 5> ball_before{z[0], z[1], z[2], z[3], z[4]};
   bool moved = false;
   for (int i = 0; i < model_.rig->servos; ++i) {
     AxisState state = axis_state(i, wanted, z);
@@ -366,11 +388,22 @@ bool HybridSystem::settle_servos(double t, double* z) {
     z[angle + i] = state.angle;
     z[rate_ + i] = state.rate;
   }
-  const std::array<double, 2> rate_now = plane_rates(z);
-  const double jump[2] = {rate_now[0] - rate_before[0], rate_now[1] - rate_before[1]};
+  const RigExtras now = plane(z);
+  const double jump[2] = {now.rate[0] - before.rate[0], now.rate[1] - before.rate[1]};
   if (jump[0] == 0 && jump[1] == 0) return moved;
   const auto kick = with_loop([&](const auto& loop) { return loop.impulse(z, jump[0], jump[1]); });
   for (int i = 0; i < 3; ++i) z[2 + i] += kick[static_cast<std::size_t>(i)];
+  // The servos do that, whatever it takes: what it adds to the energy is their work.
+  std::visit(
+      [&](const auto& any) {
+        using Any = std::decay_t<decltype(any)>;
+        if constexpr (is_coupled_loop<Any>) {
+          const CoupledBall& ball = any.parts.ball;
+          z[Any::Layout::work] +=
+              energy_of(ball, z, now) - energy_of(ball, ball_before.data(), before);
+        }
+      },
+      model_.system);
   return true;
 }
 

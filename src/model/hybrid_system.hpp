@@ -112,7 +112,7 @@ class HybridSystem {
   [[nodiscard]] double next_stop() const;
   [[nodiscard]] RigMode& mode();
   [[nodiscard]] Wanted axes(double t, const double* z) const;
-  [[nodiscard]] std::array<double, 2> plane_rates(const double* z) const;
+  [[nodiscard]] RigExtras plane(const double* z) const;
   [[nodiscard]] Sample sample(double t, const double* z, Detail detail) const;
   [[nodiscard]] AxisState axis_state(int i, const Wanted& wanted, const double* z) const;
   [[nodiscard]] LinkCurve& curve(std::size_t axis);

@@ -120,7 +120,7 @@ Missing missing(const Column& column, const Scenario& scenario) {
       return {"gimbal.motor.dc is not known",
               "columns of the torque, such as phi_torque; or give gimbal.motor.dc"};
     case Needs::coupled:
-      if (is_coupled(scenario)) return {};
+      if (is_coupled(scenario) || is_linked(scenario)) return {};
       return {"nothing is lost: the ball rolls without losses",
               "other columns, such as energy; or give ball.losses, or slip with action: slide"};
     case Needs::pushed:

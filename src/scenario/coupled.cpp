@@ -19,4 +19,9 @@ bool is_coupled(const Scenario& scene) {
          (scene.events.slip && scene.events.slip->sliding) || moved_by_torques(scene);
 }
 
+bool is_linked(const Scenario& scene) {
+  const Gimbal& gimbal = scene.gimbal;
+  return gimbal.linkage[0] || gimbal.linkage[1] || gimbal.three_servos;
+}
+
 }  // namespace bbsim::scenario

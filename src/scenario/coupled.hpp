@@ -14,4 +14,7 @@ namespace bbsim::scenario {
 // Whether any loss does, the ball may slide, or torques move the gimbal.
 [[nodiscard]] bool is_coupled(const Scenario& scene);
 
+// Whether push rods, measured curves or three servos stand between the servos and the plane.
+[[nodiscard]] bool is_linked(const Scenario& scene);
+
 }  // namespace bbsim::scenario

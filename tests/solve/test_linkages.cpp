@@ -194,6 +194,13 @@ TEST_CASE("energy balances behind linkages, with losses") {
   scene.ball.losses = {0.002, 1e-6, 1e-5};
   scene.plate.inertia = {1e-3, 2e-3, 3e-3};
   CHECK(energy_gap(scene, run_of(scene)) < 1e-9);
+  // Gears that engage give plate and ball a blow, by which the energy changes at once.
+  scene.gimbal.servo->backlash = 0.02;
+  CHECK(energy_gap(scene, run_of(scene)) < 1e-9);
+  // So do stops.
+  scene.gimbal.servo->angle_limit = 0.03;
+  scene.ball.position = {0.3, 0};
+  CHECK(energy_gap(scene, run_of(scene)) < 1e-9);
 }
 
 TEST_CASE("three servos lead the ball as two ideal ones do, with fast servos") {

@@ -5,7 +5,6 @@
 #include <limits>
 #include <numbers>
 
-#include "model/servo/linkages.hpp"
 #include "scenario/coupled.hpp"
 
 namespace bbsim::model {
@@ -99,7 +98,7 @@ EventMonitors event_monitors(const Scenario& scene) {
     list.monitors.push_back({Kind::singularity, guard.action, guard.distance});
   }
   // There is no motion beyond it.
-  if (is_linked(scene)) list.monitors.push_back({Kind::dead_point, OnEvent::stop});
+  if (scenario::is_linked(scene)) list.monitors.push_back({Kind::dead_point, OnEvent::stop});
   return list;
 }
 

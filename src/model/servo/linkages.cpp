@@ -7,6 +7,7 @@
 
 #include "base/error.hpp"
 #include "base/number_text.hpp"
+#include "scenario/coupled.hpp"
 
 namespace bbsim::model {
 namespace {
@@ -341,11 +342,6 @@ Linkages Between::at_home() const {
   return both;
 }
 
-bool is_linked(const Scenario& scene) {
-  const Gimbal& gimbal = scene.gimbal;
-  return gimbal.linkage[0] || gimbal.linkage[1] || gimbal.three_servos;
-}
-
 Assumes assumes_of(const Scenario& scene) {
   return scene.controller->assumes.value_or(scene.gimbal.three_servos ? Assumes::exact
                                                                       : Assumes::ratio);
@@ -353,7 +349,7 @@ Assumes assumes_of(const Scenario& scene) {
 
 Between between_of(const Scenario& scene) {
   Between between;
-  if (!is_linked(scene) || !scene.controller) return between;
+  if (!scenario::is_linked(scene) || !scene.controller) return between;
   const Controller& controller = *scene.controller;
   const Assumed assumed = controller.own                        ? Assumed::none
                           : assumes_of(scene) == Assumes::exact ? Assumed::exact

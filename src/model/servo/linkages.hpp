@@ -64,9 +64,6 @@ struct Between {
   [[nodiscard]] Linkages at_home() const;
 };
 
-// Whether anything of this kind is in the scene.
-[[nodiscard]] bool is_linked(const Scenario& scene);
-
 // Throws InputError for a linkage that does not close at home, or is at a dead point there, and for
 // a measured curve that turns back.
 [[nodiscard]] Linkage make_linkage(const RodLinkage& of, Assumed assumed);
