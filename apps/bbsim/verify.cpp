@@ -59,10 +59,11 @@ std::string table_of(const study::Verification& verification) {
     width = std::max(width, check.name.size());
   }
   const int columns = static_cast<int>(width);
-  std::string text = formatted("%-*s  %9s  %9s     verdict\n", columns, "check", "error", "bound");
+  std::string text =
+      formatted("%-*s  %9s  %9s        verdict\n", columns, "check", "error", "bound");
   std::size_t holding = 0;
   for (const study::Check& check : verification.checks) {
-    text += formatted("%-*s  %9.1e  %9.1e %-2s  %s\n", columns, check.name.c_str(), check.error,
+    text += formatted("%-*s  %9.1e  %9.1e %-5s  %s\n", columns, check.name.c_str(), check.error,
                       check.bound, check.unit.c_str(), check.holds() ? "holds" : "FAILS");
     if (check.holds()) ++holding;
   }

@@ -26,6 +26,7 @@
 #include "solve/integrate.hpp"
 #include "solve/output_grid.hpp"
 #include "study/verify_coupled.hpp"
+#include "study/verify_linkages.hpp"
 #include "study/verify_references.hpp"
 
 namespace bbsim::study {
@@ -309,6 +310,7 @@ Verification verify(const solve::Watch& watch) {
       [&] { return energy_balance(watch); },
   };
   std::ranges::copy(coupled_checks(watch), std::back_inserter(all));
+  std::ranges::copy(linkage_checks(), std::back_inserter(all));
   for (const ReferenceScene& reference : reference_scenes) {
     all.emplace_back([&] { return against_reference(reference, watch); });
   }

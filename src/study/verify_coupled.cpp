@@ -8,6 +8,7 @@
 
 #include "model/ball/dynamics.hpp"
 #include "model/model.hpp"
+#include "model/servo/linkages.hpp"
 #include "solve/integrate.hpp"
 #include "solve/output_grid.hpp"
 
@@ -183,6 +184,57 @@ Check rocks(const solve::Watch& watch) {
   return balance("sliding and rolling by turns: energy, work and losses balance", scene, watch);
 }
 
+// That of configs/pushrod.yaml.
+RodLinkage push_rod() {
+  return {0.024, 0.06, {}, {-0.016, 0.07}};
+}
+
+Scenario linked_plate() {
+  Scenario scene = level_plate();
+  scene.gimbal.motion.reset();
+  scene.gimbal.linkage = {push_rod(), push_rod()};
+  scene.gimbal.servo = Servo{30, 0.8};
+  Controller controller;
+  controller.drives = Drives::angle;
+  controller.assumes = Assumes::exact;
+  scene.controller = controller;
+  return scene;
+}
+
+// A servo of first order that is told 0 comes from its start at its highest rate, and from where
+// that is the rate which its time constant gives, exponentially.
+Check ramps_behind_a_rod(const solve::Watch& watch) {
+  const double start = 0.5, fastest = 0.8, constant = 0.05;
+  Scenario scene = linked_plate();
+  scene.gimbal.servo = Servo{};
+  scene.gimbal.servo->time_constant = constant;
+  scene.gimbal.servo->rate_limit = fastest;
+  scene.gimbal.start.phi = start;
+  scene.time = {1.5, 0.01};
+  const Run made = run(scene, watch);
+  const model::Linkage rod = make_linkage(push_rod(), model::Assumed::exact);
+  const double left = fastest * constant, at = (start - left) / fastest;
+  const double error = distance(
+      made, [](const Sample& s) { return s.gimbal.phi; },
+      [&](double t) {
+        return rod.angle(t < at ? start - fastest * t : left * std::exp(-(t - at) / constant));
+      });
+  return {"push rod: a servo's ramp, and its end, through the curve", error, made.allowance, "rad"};
+}
+
+// Gears that engage give plate and ball a blow, whose work is the servo's.
+Check strikes(const solve::Watch& watch) {
+  Scenario scene = linked_plate();
+  scene.ball.position = {0.05, -0.03};
+  scene.plate.inertia = {1e-3, 2e-3, 3e-3};
+  scene.gimbal.servo->backlash = 0.02;
+  scene.controller->kp = {{{1, 0}, {0, -1}}};
+  scene.controller->kv = {{{0.8, 0}, {0, -0.8}}};
+  scene.controller->reference = CircleReference{0.05, 1.5, 0};
+  scene.time = {3, 0.02};
+  return balance("push rods with backlash: energy and the servos' work balance", scene, watch);
+}
+
 }  // namespace
 
 std::vector<std::function<Check()>> coupled_checks(const solve::Watch& watch) {
@@ -193,7 +245,9 @@ std::vector<std::function<Check()>> coupled_checks(const solve::Watch& watch) {
           [&] { return slides_to_roll(0, watch); },
           [&] { return slides_to_roll(-40, watch); },
           [&] { return swings(watch); },
-          [&] { return rocks(watch); }};
+          [&] { return rocks(watch); },
+          [&] { return ramps_behind_a_rod(watch); },
+          [&] { return strikes(watch); }};
 }
 
 }  // namespace bbsim::study

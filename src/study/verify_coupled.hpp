@@ -1,4 +1,5 @@
-// Checks of losses, sliding and torques against closed forms, and of their balance of energy.
+// Checks of losses, sliding, torques and linked servos against closed forms, and of their balance
+// of energy.
 #pragma once
 
 #include <functional>

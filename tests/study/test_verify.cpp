@@ -40,6 +40,13 @@ TEST_CASE("all checks of this build hold, and none is vacuous") {
   }
   CHECK(made.holds());
   CHECK(names.size() == made.checks.size());
+  // Of linked servos, whose geometry and whose blows a wrong sign would show.
+  for (const char* part : {"Quanser", "push rod: inverse", "push rod: slope", "servo's ramp",
+                           "with backlash: energy", "over the workspace", "three servos: rates"}) {
+    CAPTURE(part);
+    CHECK(std::ranges::any_of(
+        names, [part](const std::string& name) { return name.find(part) != std::string::npos; }));
+  }
   for (const std::string scene :
        {"fig2a", "fig2b", "fast", "small-ball", "spin", "stiff-servo", "tumble"}) {
     CHECK(names.count(scene + ": quad-precision reference") == 1);
