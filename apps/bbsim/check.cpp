@@ -14,7 +14,6 @@
 #include "linear_report.hpp"
 #include "model/control/sampled_cycle.hpp"
 #include "model/explain.hpp"
-#include "scenario/coupled.hpp"
 #include "scenario/family.hpp"
 #include "scenario/reader.hpp"
 #include "solve/choose.hpp"
@@ -90,7 +89,7 @@ void tell_sampled_loop(Report& report, const Scenario& scenario, const model::Mo
                         " a period, with a time constant of " +
                         short_number(-period / std::log(size)) + " s");
     report.line("", "without noise, dropouts, rounding, limits, dead band and backlash");
-    if (!scenario::is_coupled(scenario)) tell_margins(report, scenario, model);
+    if (model::why_not_linear(scenario).empty()) tell_margins(report, scenario, model);
   } else {
     report.line("WARNING", warning);
   }
@@ -118,7 +117,7 @@ void tell_closed_loop(Report& report, const Scenario& scenario, const model::Mod
               std::to_string(poles.size()) + " poles about home (1/s): " + poles_line(poles));
   if (warning.empty()) {
     report.line("", model.dry ? "stable, without dry friction and limits" : "stable");
-    if (!scenario::is_coupled(scenario)) tell_margins(report, scenario, model);
+    if (model::why_not_linear(scenario).empty()) tell_margins(report, scenario, model);
   } else {
     report.line("WARNING", warning);
   }

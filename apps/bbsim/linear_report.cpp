@@ -1,5 +1,6 @@
 #include "linear_report.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -51,12 +52,31 @@ std::vector<LabelledLine> margin_lines(const model::Linearisation& made) {
   for (const model::LoopMargins& loop : made.margins) {
     lines.push_back({"  " + loop.command.substr(0, loop.command.find('_')), text_of(loop.margins)});
   }
-  std::string text;
-  for (const model::Bandwidth& one : made.bandwidths) {
-    text += (text.empty() ? "" : ", ") + one.output + " " +
-            (std::isfinite(one.value) ? short_number(one.value) + " rad/s" : "unlimited");
+  const auto bandwidths = [&made](double model::Bandwidth::*of) {
+    std::string text;
+    for (const model::Bandwidth& one : made.bandwidths) {
+      text += (text.empty() ? "" : ", ") + one.output + " " +
+              (std::isfinite(one.*of) ? short_number(one.*of) + " rad/s" : "none");
+    }
+    return text;
+  };
+  const auto all_end = [&made](double model::Bandwidth::*of) {
+    return std::ranges::all_of(made.bandwidths,
+                               [of](const auto& one) { return std::isfinite(one.*of); });
+  };
+  if (made.bandwidths.empty()) return lines;
+  if (all_end(&model::Bandwidth::value)) {
+    lines.push_back({"  bandwidth", bandwidths(&model::Bandwidth::value)});
+  } else if (all_end(&model::Bandwidth::of_feedback)) {
+    lines.push_back(
+        {"  bandwidth", bandwidths(&model::Bandwidth::of_feedback) +
+                            ", of the feedback: with the reference's accelerations, "
+                            "which the law is told, the response does not fall by 3 dB"});
+  } else {
+    lines.push_back({"  bandwidth",
+                     bandwidths(&model::Bandwidth::value) + ": the response does not fall by 3 dB" +
+                         (made.system.period ? " up to half the rate of the samples" : "")});
   }
-  if (!text.empty()) lines.push_back({"  bandwidth", text});
   return lines;
 }
 

@@ -128,11 +128,13 @@ std::string to_json(const LinearReport& report) {
       all[loop.command] = one;
     }
     json["margins"] = all;
-    Json bandwidths = Json::object();
+    Json bandwidths = Json::object(), of_feedback = Json::object();
     for (const model::Bandwidth& one : made.bandwidths) {
       bandwidths[one.output] = number_or_null(one.value);
+      of_feedback[one.output] = number_or_null(one.of_feedback);
     }
     json["bandwidth"] = bandwidths;
+    json["feedback_bandwidth"] = of_feedback;
   }
   return json.dump(1, ' ', false, Json::error_handler_t::replace) + '\n';
 }

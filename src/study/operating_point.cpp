@@ -40,6 +40,7 @@ model::LinearPoint point_of(const model::Model& model, double time, const double
                  gimbal.phi_dot,
                  gimbal.theta_dot};
   point.command = sample.command;
+  point.time = time;
   std::visit(
       [&](const auto& system) {
         using Any = std::decay_t<decltype(system)>;
@@ -51,10 +52,15 @@ model::LinearPoint point_of(const model::Model& model, double time, const double
         // Angles of the servos, which are not those of the plane.
         if constexpr (model::is_rig<Any>) std::copy_n(row, Any::size, point.state.begin());
         if constexpr (model::is_coupled_loop<Any>) {
-          // Of a linkage; a scene that is coupled besides is refused.
+          point.own.assign(row, row + Any::size);
           if constexpr (Any::servos == 2) {
             std::copy_n(row, point.state.size(), point.state.begin());
           }
+          if (system.by == model::GimbalBy::given_torques) {
+            for (std::size_t i = 0; i < 2; ++i) point.command[i] = point.reference[i].value;
+          }
+        } else if constexpr (model::is_coupled<Any>) {
+          point.command = {gimbal.phi_ddot, gimbal.theta_ddot};
         }
       },
       model.system);

@@ -48,7 +48,8 @@ TEST_CASE("linearize writes A, B, C, D, names and poles as JSON") {
   CHECK(sampled["period"] == 0.02);
   CHECK(sampled["poles"].size() == sampled["states"].size());
   CHECK(sampled["margins"]["phi_command"]["gain"].get<double>() > 1);
-  CHECK(sampled["bandwidth"].contains("x"));
+  CHECK(sampled["bandwidth"]["x"].is_null());  // the law is told the reference's accelerations
+  CHECK(sampled["feedback_bandwidth"]["x"].is_number());
 }
 
 TEST_CASE("linearize goes to a time of the run, and to an equilibrium") {
@@ -137,14 +138,40 @@ TEST_CASE("check prints the margins of a stable loop") {
   CHECK_FALSE(contains(bbsim({"check", config("fig2a.yaml")}).out, "margins"));
 }
 
+TEST_CASE("check tells the bandwidth of the feedback where the reference leads the ball besides") {
+  const Result led = bbsim({"check", config("rig.yaml")});
+  CHECK(contains(led.out, "rad/s, of the feedback: with the reference's accelerations"));
+  CHECK_FALSE(contains(led.out, "unlimited"));
+  CHECK_FALSE(contains(bbsim({"check", config("fig2b.yaml")}).out, "of the feedback"));
+}
+
+TEST_CASE("linearize knows torques, losses without friction, pushes and three servos") {
+  const Result regulator =
+      bbsim({"linearize", config("torque-lqr.yaml"), "--plant", "--at", "0.5 s", "-o", "-"});
+  CHECK(regulator.exit_code == 0);
+  const json plant = json::parse(regulator.out);
+  CHECK(plant["inputs"] == json::array({"phi_command", "theta_command"}));
+  CHECK(plant["input_units"] == json::array({"N m", "N m"}));
+  CHECK(contains(bbsim({"check", config("torque-lqr.yaml")}).out, "margins"));
+  const Result legs =
+      bbsim({"linearize", config("three-servos.yaml"), "--sampled", "--at", "2 s", "-o", "-"});
+  CHECK(legs.exit_code == 0);
+  CHECK(json::parse(legs.out)["states"][6] == "servo_third");
+  const Result pushed = bbsim({"linearize", config("fig2b.yaml"), "--at", "equilibrium", "--set",
+                               "ball.push={x: 0.01}", "--set", "ball.mass=0.1", "-o", "-"});
+  CAPTURE(pushed.err);
+  CHECK(pushed.exit_code == 0);
+}
+
 TEST_CASE("what linearize does not know is refused, with what it does") {
   const Result losses = bbsim({"linearize", config("slides.yaml")});
   CHECK(losses.exit_code == 2);
-  CHECK(contains(losses.err, "losses, sliding, a push or torques"));
+  CHECK(contains(losses.err, "linearize: found ball.losses.rolling, which is dry"));
+  CHECK(contains(losses.err, "allowed: ball.losses.viscous alone"));
   const std::string own = BBSIM_SOURCE_DIR "/examples/controllers/python.yaml";
   const Result law = bbsim({"linearize", own, "--loop"});
   CHECK(law.exit_code == 2);
   CHECK(contains(law.err, "--sampled"));
   CHECK(bbsim({"linearize", own}).exit_code == 0);
-  CHECK_FALSE(contains(bbsim({"check", config("torque-lqr.yaml")}).out, "margins"));
+  CHECK_FALSE(contains(bbsim({"check", config("sags.yaml")}).out, "margins"));
 }

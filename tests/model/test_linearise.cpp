@@ -15,6 +15,7 @@
 #include "model/control/sampled_cycle.hpp"
 #include "model/control/transmission_zeros.hpp"
 #include "model/systems/jacobian.hpp"
+#include "support/reading.hpp"
 #include "support/scenes.hpp"
 
 using namespace bbsim;
@@ -348,6 +349,29 @@ TEST_CASE("margins are those of the closed form (M13)") {
   CHECK(std::abs(l / (1.0 + l)) == Approx(1 / std::numbers::sqrt2).epsilon(1e-11));
 }
 
+TEST_CASE("a law that is told accelerations has the bandwidth of its feedback") {
+  Scenario scene = pd_scene();
+  scene.controller->law = Law::gravity_compensation;
+  scene.controller->kp = {{{4, 0}, {0, 4}}};
+  scene.controller->kv = {{{3, 0}, {0, 3}}};
+  const Linearisation made = linear(scene, LinearKind::loop);
+  const double r = 0.02, a = 5 * scene.gravity / 7, wn = 30, zeta = 0.8;
+  const auto response = [&](double w, double told) {
+    const Complex s(0, w);
+    const Complex ball = wn * wn / a * (a - r * s * s) / (s * s + 2 * zeta * wn * s + wn * wn);
+    return (told * s * s + 3.0 * s + 4.0) * ball / (s * s + (3.0 * s + 4.0) * ball);
+  };
+  REQUIRE(made.bandwidths.size() == 2);
+  for (const model::Bandwidth& one : made.bandwidths) {
+    // The plane's own accelerations throw the ball: at high frequencies by r wn^2 / a.
+    CHECK(std::isinf(one.value));
+    CHECK(std::abs(response(1e4, 1)) > 1);
+    CHECK(std::abs(response(one.of_feedback, 0)) == Approx(1 / std::numbers::sqrt2).epsilon(1e-11));
+  }
+  const Linearisation plain = linear(pd_scene(), LinearKind::loop);
+  CHECK(plain.bandwidths[0].of_feedback == plain.bandwidths[0].value);
+}
+
 TEST_CASE("zeros of plant and loop are those of equation (27) about home") {
   const Scenario scene = pd_scene();
   const double beyond = std::sqrt(5 * scene.gravity / 7 / 0.02);  // a = r s^2
@@ -474,4 +498,247 @@ TEST_CASE("what a scene does not have cannot be linear") {
   upright.gimbal.mounting.skew = 0;
   upright.gravity = 0;
   CHECK_NOTHROW(model::equilibrium(upright));
+}
+
+namespace {
+
+// A gimbal that motors move, and a ball that loses by its speed.
+const std::string body =
+    "gravity: 9.81\n"
+    "ball: {radius: 0.02, mass: 0.05, position: [0.06, -0.04], losses: {viscous: 4e-6}}\n"
+    "plate: {inertia: [4e-3, 6e-3, 1e-2], mass: 0.5, centre_of_mass: -0.01}\n"
+    "time: {end: 2, step: 0.1}\n";
+const std::string motor =
+    "gimbal: {ring_inertia: 2e-3, motor: {rotor_inertia: 1e-3, viscous: 0.02}}\n";
+
+std::string torque_lqr(const std::string& beside = "") {
+  return body + motor +
+         "controller: {lqr: {position: 400, velocity: 20, angle: 1, rate: 0.1, command: 20}, "
+         "drives: torque, reference: {point: [0.01, 0.02]}" +
+         beside + "}\n";
+}
+
+// Three servos under a law without samples.
+std::string three_legs(const std::string& beside = "") {
+  return "gravity: 9.81\n"
+         "ball: {radius: 0.02, mass: 0.0027, inertia_factor: 0.667, position: [0.05, 0.02]}\n"
+         "time: {end: 2, step: 0.1}\n"
+         "gimbal: {servo: {natural_frequency: 40, damping: 0.9}, three_servos: {radius_base: 0.06, "
+         "radius_plate: 0.09, horn: 0.04, rod: 0.1, height: 0.11}}\n"
+         "controller: {gravity_compensation: {kp: 6, kv: 5}, drives: angle, reference: {point: "
+         "[0, 0]}" +
+         beside + "}\n";
+}
+
+// The states of the scene's own system at random, near home.
+template <class Loop>
+model::LinearPoint somewhere_of(int seed, double size) {
+  std::mt19937 random(static_cast<unsigned>(seed));
+  std::uniform_real_distribution<double> number(-size, size);
+  model::LinearPoint at;
+  at.own.assign(Loop::size, 0);
+  for (int i = 0; i < Loop::Layout::integral; ++i) {
+    at.own[static_cast<std::size_t>(i)] = number(random);
+  }
+  std::copy_n(at.own.begin(), at.state.size(), at.state.begin());
+  for (double& one : at.command) one = number(random);
+  return at;
+}
+
+// A of a loop against the system's own derivative, of the states that it has by name.
+template <class Loop>
+void check_loop(const Scenario& scene, model::LinearPoint at, const std::vector<int>& states) {
+  const model::Model model = model::assemble(scene, false);
+  const auto& loop = std::get<Loop>(model.system);
+  at.reference = loop.reference().at(0.0);
+  const auto full = model::jacobian(loop, 0.0, at.own.data());
+  const Linearisation made = model::linearise(scene, model, LinearKind::loop, at);
+  REQUIRE(made.system.a.rows() == std::ssize(states));
+  CHECK((made.system.a - full(states, states)).cwiseAbs().maxCoeff() <
+        1e-13 * full.cwiseAbs().maxCoeff());
+}
+
+}  // namespace
+
+TEST_CASE("three servos off home are what their closed chain makes of them") {
+  using Loop = model::CoupledLoop<model::SignalPair, model::ThreeServos>;
+  const Scenario scene = test::parse(three_legs());
+  const model::LinearPoint at = somewhere_of<Loop>(3, 0.2);
+  check_loop<Loop>(scene, at, {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10});
+  const Linearisation away = linear(scene, LinearKind::loop, at);
+  CHECK(away.system.states[5].name == "servo_phi");
+  CHECK(away.system.states[10].name == "servo_third_rate");
+  // Where the plate is level and everything rests, all six states of the servos have the poles of
+  // two ideal ones, and of the height, which nothing feels.
+  model::LinearPoint rest = model::equilibrium(scene);
+  for (const double one : rest.own) CHECK(std::abs(one) < 1e-12);
+  model::Eigenvalues expected = linear(scene, LinearKind::loop).poles;
+  for (const int sign : {1, -1}) {
+    expected.emplace_back(-0.9 * 40, sign * 40 * std::sqrt(1 - 0.9 * 0.9));
+  }
+  CHECK(distance(linear(scene, LinearKind::loop, rest).poles, expected) < 1e-6);
+  // Off it they are others: the slowest one is.
+  rest.own[6] = 0.3;
+  const auto tilted = linear(scene, LinearKind::loop, rest).poles;
+  CHECK(std::abs(tilted.front() - linear(scene, LinearKind::loop).poles.front()) > 1e-3);
+}
+
+TEST_CASE("three servos under samples have the poles of two, where they rest") {
+  const Scenario scene =
+      test::parse(three_legs(", sampling: {period: 0.02, delay: 0.005}, sensor: {delay: 0.01}"));
+  const auto poles = linear(scene, LinearKind::loop, model::equilibrium(scene)).poles;
+  // Two states more than at home: of the plate's height.
+  CHECK(poles.size() == linear(scene, LinearKind::loop).poles.size() + 2);
+  CHECK(std::abs(poles.front() - linear(scene, LinearKind::loop).poles.front()) < 1e-9);
+  // First-order servos kick the ball as they do.
+  Scenario kicks = scene;
+  kicks.gimbal.servo = Servo{};
+  kicks.gimbal.servo->time_constant = 0.04;
+  const auto kicked = linear(kicks, LinearKind::loop, model::equilibrium(kicks)).poles;
+  CHECK(std::abs(kicked.front() - linear(kicks, LinearKind::loop).poles.front()) < 1e-9);
+}
+
+TEST_CASE("a gimbal under torques is linear with the ball's losses and the plate's weight") {
+  using Loop = model::CoupledLoop<>;
+  const Scenario scene = test::parse(torque_lqr());
+  check_loop<Loop>(scene, somewhere_of<Loop>(5, 0.4), {0, 1, 2, 3, 4, 5, 6, 7, 8});
+  const model::Model model = model::assemble(scene, false);
+  CHECK(distance(linear(scene, LinearKind::loop).poles, model::closed_loop_poles(model)) < 1e-9);
+  const Linearisation plant = linear(scene, LinearKind::plant);
+  CHECK(distance(plant.poles, model::plant_poles(model)) < 1e-9);
+  CHECK(plant.system.inputs[0].name == "phi_command");
+  CHECK(plant.system.inputs[0].unit == "N m");
+  const Linearisation loop = linear(scene, LinearKind::loop);
+  REQUIRE(loop.margins.size() == 2);
+  // A regulator of LQR bears half the gain and 60 degrees.
+  for (const model::LoopMargins& one : loop.margins) {
+    CHECK(one.margins.reduction < 0.5);
+    CHECK(std::abs(one.margins.phase) > std::numbers::pi / 3 - 1e-6);
+  }
+}
+
+TEST_CASE("what torques and commands of three servos add to the rates is their difference") {
+  const auto check = [](const Scenario& scene, auto loop, const model::LinearPoint& at) {
+    const Linearisation made = linear(scene, LinearKind::plant, at);
+    // Under a held command the system is the plant; what it tells three servos is the law's matter.
+    const double step = 1e-5;
+    for (int j = 0; j < 2; ++j) {
+      std::vector<double> more(at.own.size()), less(at.own.size());
+      for (const double side : {step, -step}) {
+        double command[2] = {at.command[0], at.command[1]};
+        command[j] += side;
+        auto& mode = loop.loop.mode;
+        if constexpr (decltype(loop)::servos == 3) {
+          double told[3];
+          loop.loop.link.told(command, told);
+          std::copy_n(told, 3, mode.command);
+        } else {
+          std::copy_n(command, 2, mode.command);
+        }
+        loop.derivative(0.0, at.own.data(), (side > 0 ? more : less).data());
+      }
+      for (int i = 0; i < made.system.b.rows(); ++i) {
+        const auto k = static_cast<std::size_t>(i);  // all states are there, in their order
+        const double difference = (more[k] - less[k]) / (2 * step);
+        CAPTURE(i, j);
+        // The step's square, and rounding of rates of up to 1e3 over the step.
+        CHECK(std::abs(made.system.b(i, j) - difference) < 1e-6 * (1 + std::abs(difference)));
+      }
+    }
+  };
+  const auto held = [](const auto& of) {
+    using Rig = std::decay_t<decltype(of.loop)>;
+    return std::decay_t<decltype(of)>(of.parts, of.by, of.motor,
+                                      Rig(of.loop.radius(), of.loop.gravity(), of.loop.rolling(),
+                                          {}, of.loop.servo(), {}, of.loop.mode, of.loop.link),
+                                      of.push);
+  };
+  using Motors = model::CoupledLoop<>;
+  const Scenario torques = test::parse(torque_lqr());
+  check(torques, held(std::get<Motors>(model::assemble(torques, false).system)),
+        somewhere_of<Motors>(8, 0.4));
+  using Legs = model::CoupledLoop<model::SignalPair, model::ThreeServos>;
+  const Scenario legs = test::parse(three_legs());
+  check(legs, held(std::get<Legs>(model::assemble(legs, false).system)),
+        somewhere_of<Legs>(9, 0.15));
+}
+
+TEST_CASE("a motor's own integral, and what samples make of torques, are in the poles") {
+  const Scenario holds = test::parse(
+      body +
+      "gimbal: {motor: {rotor_inertia: 1e-3, viscous: 0.02, position_loop: {kp: 4, kd: 0.3, ki: "
+      "2}}}\n"
+      "controller: {pd: {kv: [[0.6, 0], [0, -0.6]], kp: [[0.7, 0], [0, -0.7]]}, drives: angle, "
+      "reference: {point: [0, 0]}}\n");
+  const Linearisation made = linear(holds, LinearKind::loop);
+  CHECK(made.system.states.back().name == "theta_integral");
+  CHECK(distance(made.poles, model::closed_loop_poles(model::assemble(holds, false))) < 1e-9);
+  const Scenario sampled = test::parse(torque_lqr(", sampling: {period: 0.01, delay: 0.003}"));
+  CHECK(distance(large_ones(linear(sampled, LinearKind::loop).poles),
+                 large_ones(model::sampled_poles(model::assemble(sampled, false)))) < 1e-9);
+  CHECK(linear(sampled, LinearKind::sampled).system.inputs[0].unit == "N m");
+}
+
+TEST_CASE("a plant that loses by its speed has that for a pole") {
+  Scenario scene = fig2a();
+  scene.ball.mass = 0.05;
+  scene.ball.losses.viscous = 4e-6;
+  const Linearisation plant = linear(scene, LinearKind::plant);
+  CHECK(plant.system.inputs[0].name == "phi_acceleration");
+  REQUIRE(plant.system.a.rows() == 8);
+  const double rate = 4e-6 / (1.4 * 0.05 * 0.01 * 0.01);
+  for (const int i : {2, 3}) CHECK(plant.system.a(i, i) == Approx(-rate).epsilon(1e-14));
+  CHECK(plant.system.a(2, 4) == Approx(5.0 / 7 * scene.gravity).epsilon(1e-14));
+}
+
+TEST_CASE("where a push and the plate's weight are balanced everything rests") {
+  const std::string text =
+      GENERATE(torque_lqr(),
+               body +
+                   "gimbal: {servo: {natural_frequency: 30, damping: 0.8}}\n"
+                   "controller: {gravity_compensation: {kp: 6, kv: 5}, drives: angle, "
+                   "reference: {point: [0.01, 0]}}\n",
+               three_legs());
+  Scenario scene = test::parse(text);
+  const bool pushed = GENERATE(false, true);
+  if (pushed) scene.ball.push = BallPush{{0.004}, {-0.003}};
+  CAPTURE(text, pushed);
+  const model::LinearPoint at = model::equilibrium(scene);
+  const model::Model model = model::assemble(scene, false);
+  std::visit(
+      [&](const auto& system) {
+        std::vector<double> rates(static_cast<std::size_t>(system.size));
+        if (at.own.empty()) {
+          system.derivative(0.0, at.state.data(), rates.data());
+        } else {
+          system.derivative(0.0, at.own.data(), rates.data());
+        }
+        // Newton's last step leaves rounding, which servos multiply by 1600 1/s^2.
+        for (const double one : rates) CHECK(std::abs(one) < 1e-11);
+      },
+      model.system);
+  if (pushed) CHECK(std::abs(at.state[5]) + std::abs(at.own.empty() ? 0 : at.own[5]) > 1e-4);
+}
+
+TEST_CASE("what is dry is not linear, and says why") {
+  const auto refusal = [](const Scenario& scene) -> std::string {
+    try {
+      static_cast<void>(linear(scene, LinearKind::plant));
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "";
+  };
+  Scenario scene = fig2a();
+  scene.ball.mass = 0.05;
+  scene.ball.losses.rolling = 0.01;
+  CHECK_THAT(refusal(scene), Catch::Contains("found ball.losses.rolling, which is dry"));
+  scene.ball.losses = {};
+  scene.ball.losses.pivoting = 1e-4;
+  CHECK_THAT(refusal(scene), Catch::Contains("found ball.losses.pivoting, which is dry"));
+  scene.ball.losses = {};
+  scene.events.slip = SlipEvent{0.3, OnEvent::note, 0.2};
+  CHECK_THAT(refusal(scene), Catch::Contains("found events.slip with action: slide"));
+  CHECK_THAT(refusal(test::parse(torque_lqr(), {"gimbal.motor.friction=0.01"})),
+             Catch::Contains("found gimbal.motor.friction, which is dry"));
 }

@@ -3,12 +3,15 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <string>
 #include <type_traits>
 #include <utility>
 
 #include "base/error.hpp"
 #include "model/assemble_rig.hpp"
 #include "model/control/linear_law.hpp"
+#include "model/control/linear_parts.hpp"
 #include "model/control/sampled_cycle.hpp"
 #include "model/control/transmission_zeros.hpp"
 #include "model/eigenvalues.hpp"
@@ -18,17 +21,7 @@
 #include "simd/gradient.hpp"
 
 namespace bbsim::model {
-namespace {
 
-using Eigen::MatrixXd;
-using Eigen::VectorXd;
-
-constexpr int angle = RigLayout::angle, rate = RigLayout::rate, integral = RigLayout::integral;
-constexpr int spin = 4;
-constexpr int plant_size = RigLoop<>::size;
-
-// What links the servos to the plane, in the pieces that hold at a point; levelled, where home is.
-// Three servos are two ideal ones, as long as they are alike and follow what they are told.
 Linkages linkages_at(const Between& between, const LinearPoint& at) {
   Linkages link = between.at_home();
   for (std::size_t i = 0; i < between.linkages.size(); ++i) {
@@ -37,10 +30,79 @@ Linkages linkages_at(const Between& between, const LinearPoint& at) {
     const auto piece = [&](double servo) {
       return linkage.table->view().pieces[linkage.piece_at(0, servo, 1)];
     };
-    link.of[i].piece = piece((at.state.data() + angle)[i]);
+    link.of[i].piece = piece((at.state.data() + RigLayout::angle)[i]);
     link.of[i].command_piece = piece(at.command[i]);
   }
   return at.home ? levelled(link) : link;
+}
+
+namespace {
+
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+constexpr int angle = RigLayout::angle, rate = RigLayout::rate, integral = RigLayout::integral;
+
+}  // namespace
+
+Feedback<double> feedback_at(const Rig& rig, const LinearPoint& at) {
+  Feedback<double> fed{};
+  for (int i = 0; i < 2; ++i) {
+    const auto state = [&](int place) { return (at.state.data() + place)[i]; };
+    fed.position[i] = state(0);
+    fed.velocity[i] = state(2);
+    fed.angle[i] = state(angle);
+    fed.rate[i] = state(rate);
+    fed.integral[i] = state(integral);
+  }
+  if (rig.sampled && !rig.sampled->sensor.is_aligned()) {
+    const Sensor& sensor = rig.sampled->sensor;
+    const Eigen::Vector2d p = seen_matrix(sensor) * Eigen::Vector2d(fed.position),
+                          v = seen_matrix(sensor) * Eigen::Vector2d(fed.velocity);
+    for (int i = 0; i < 2; ++i) {
+      fed.position[i] = p[i] + sensor.offset[static_cast<std::size_t>(i)];
+      fed.velocity[i] = v[i];
+    }
+  }
+  if (!at.home && !rig.between.none()) {
+    double known[4];
+    if (rig.between.three) {
+      rig.between.believed(at.own.data() + angle, at.own.data() + angle + rig.servos, known);
+    } else {
+      rig.between.believed(fed.angle, fed.rate, known);
+    }
+    std::copy_n(known, 2, fed.angle);
+    std::copy_n(known + 2, 2, fed.rate);
+  }
+  return fed;
+}
+
+void link_controller(CycleParts& parts, const Linkages& link, const Rig& rig,
+                     const LinearPoint& at) {
+  double of_command[2], of_angle[2];
+  for (int i = 0; i < 2; ++i) {
+    const auto axis = static_cast<std::size_t>(i);
+    const LinkCurve& curve = link.of[i];
+    const LinkCurve& known = rig.between.linkages[axis].curve;
+    const bool exact = known.assumed == Assumed::exact;
+    LinkCurve commanded = curve;
+    commanded.piece = curve.command_piece;
+    of_command[i] = exact ? commanded.plain_turn(at.command[axis]).slope : curve.slope;
+    of_angle[i] = exact ? curve.plain_turn((at.state.data() + angle)[i]).slope : curve.slope;
+    if (known.kind == LinkCurve::Kind::ideal) of_command[i] = of_angle[i] = 1;
+  }
+  parts.link_controller(of_command, of_angle);
+}
+
+namespace {
+
+constexpr int spin = 4;
+constexpr int plant_size = RigLoop<>::size;
+
+// Whether the scene's own system is differentiated (linear_coupled.cpp). Others are RigLoops: at
+// home three servos, which are alike and follow what they are told, are two ideal ones.
+bool in_full(const Scenario& scene, const LinearPoint& at) {
+  return scenario::is_coupled(scene) || (scene.gimbal.three_servos && !at.home);
 }
 
 bool has_linkages(const Scenario& scene) {
@@ -66,8 +128,6 @@ RigLoop<false, SignalPair, Link> plant_of(const Scenario& scene, const LinearPoi
     if constexpr (!Link::direct) {
       link = linkages_at(built.rig.between, at);
       for (LinkCurve& one : link.of) one.assumed = Assumed::none;
-    } else if (built.rig.between.three) {
-      for (int i = 0; i < 2; ++i) mode.axis[i].offset = built.rig.between.three->offset[i];
     }
   } else {
     // A motion that is prescribed has the offsets in its angles.
@@ -79,12 +139,6 @@ RigLoop<false, SignalPair, Link> plant_of(const Scenario& scene, const LinearPoi
   law.gain[0][0] = law.gain[1][1] = 1;
   return {scene.ball.radius, scene.gravity, general_rolling(scene), law, servo, {}, mode, link};
 }
-
-// Rates at a point, and what states and commands add to them.
-struct PlantDerivatives {
-  VectorXd rates;
-  MatrixXd of_state, of_command;
-};
 
 template <class Link>
 PlantDerivatives differentiate_plant(const RigLoop<false, SignalPair, Link>& plant,
@@ -111,27 +165,16 @@ PlantDerivatives differentiate_plant(const RigLoop<false, SignalPair, Link>& pla
   return found;
 }
 
-PlantDerivatives differentiate_plant(const Scenario& scene, const LinearPoint& at) {
+PlantDerivatives differentiate_rig(const Scenario& scene, const LinearPoint& at) {
   return has_linkages(scene) ? differentiate_plant(plant_of<Linkages>(scene, at), at)
                              : differentiate_plant(plant_of<Direct>(scene, at), at);
 }
-
-// Of a loop in continuous time: what states and reference add to the rates, and states to the
-// commands. The reference's values, rates and accelerations, two of each.
-struct LoopDerivatives {
-  MatrixXd of_state, of_reference, command_of_state;
-};
 
 template <bool integrates, class Link>
 LoopDerivatives differentiate_loop_with(const Scenario& scene, const LinearPoint& at) {
   const auto built = assemble_rig<integrates, Link>(scene, {});
   auto loop = built.loop;
   if constexpr (!Link::direct) loop.link = linkages_at(built.rig.between, at);
-  if constexpr (Link::direct) {
-    if (built.rig.between.three) {
-      for (int i = 0; i < 2; ++i) loop.mode.axis[i].offset = built.rig.between.three->offset[i];
-    }
-  }
   if (at.home) loop.mode = {};
   constexpr int n = RigLoop<integrates>::size;
   using Number = simd::WithGradient<n + 6>;
@@ -183,34 +226,52 @@ const char* angle_name(int axis) {
   return axis == 0 ? "phi" : "theta";
 }
 
-std::vector<LinearSignal> signals_of_states(const std::vector<int>& states) {
-  const LinearSignal all[] = {{"x", "m"},
-                              {"y", "m"},
-                              {"vx", "m/s"},
-                              {"vy", "m/s"},
-                              {"r*spin", "m/s"},
-                              {"phi", "rad"},
-                              {"theta", "rad"},
-                              {"phi_rate", "rad/s"},
-                              {"theta_rate", "rad/s"},
-                              {"x_integral", "m s"},
-                              {"y_integral", "m s"}};
+std::vector<LinearSignal> signals_of(const std::vector<LinearSignal>& all,
+                                     const std::vector<int>& states) {
   std::vector<LinearSignal> signals;
   signals.reserve(states.size());
-  for (const int i : states) signals.push_back(all[i]);
+  for (const int i : states) signals.push_back(all[static_cast<std::size_t>(i)]);
   return signals;
 }
 
+// Of the states of a RigLoop.
+std::vector<LinearSignal> rig_signals() {
+  return {{"x", "m"},
+          {"y", "m"},
+          {"vx", "m/s"},
+          {"vy", "m/s"},
+          {"r*spin", "m/s"},
+          {"phi", "rad"},
+          {"theta", "rad"},
+          {"phi_rate", "rad/s"},
+          {"theta_rate", "rad/s"},
+          {"x_integral", "m s"},
+          {"y_integral", "m s"}};
+}
+
 std::string command_unit(const Scenario& scene) {
-  return scene.controller && scene.controller->drives == Drives::angle ? "rad" : "rad/s^2";
+  if (scene.gimbal.torque) return "N m";
+  if (!scene.controller) return "rad/s^2";
+  switch (scene.controller->drives) {
+    case Drives::angle:
+      return "rad";
+    case Drives::acceleration:
+      return "rad/s^2";
+    case Drives::torque:
+      return "N m";
+    case Drives::voltage:
+      return "V";
+  }
+  return "";
 }
 
 std::vector<LinearSignal> signals_of_commands(const Scenario& scene, const std::vector<int>& axes) {
   std::vector<LinearSignal> signals;
   for (const int axis : axes) {
-    signals.push_back(
-        {std::string(angle_name(axis)) + (scene.controller ? "_command" : "_acceleration"),
-         command_unit(scene)});
+    const char* const suffix = scene.controller      ? "_command"
+                               : scene.gimbal.torque ? "_torque"
+                                                     : "_acceleration";
+    signals.push_back({std::string(angle_name(axis)) + suffix, command_unit(scene)});
   }
   return signals;
 }
@@ -266,11 +327,13 @@ Linearisation plant_about(const Scenario& scene, const Model& model, const Linea
         "rate jumps with its command; allowed: --sampled, or --loop");
   }
   const std::vector<int> axes = axes_of(model);
-  const PlantDerivatives plant = differentiate_plant(scene, at);
-  const std::vector<int> states = states_of(plant.of_state, axes);
+  const bool full = in_full(scene, at);
+  const PlantDerivatives plant = full ? coupled_plant_at(model, at) : differentiate_rig(scene, at);
+  const std::vector<int> states =
+      full ? coupled_states(model, plant.of_state) : states_of(plant.of_state, axes);
   Linearisation made;
   LinearSystem& system = made.system;
-  system.states = signals_of_states(states);
+  system.states = signals_of(full ? coupled_signals(model) : rig_signals(), states);
   system.inputs = signals_of_commands(scene, axes);
   system.outputs = signals_of_positions(axes, "");
   system.a = plant.of_state(states, states);
@@ -304,9 +367,17 @@ void add_bandwidths(Linearisation& made, const std::vector<int>& columns,
   const double period = system.period.value_or(0);
   const FrequencyResponse response(system.a, system.b, system.c, system.d, period);
   const std::vector<double> frequencies = frequencies_to_look_at(made.poles, period);
+  // A law that is told the reference's accelerations may follow it at any frequency, by the plant's
+  // own inverse: what its feedback does is seen without them.
+  std::vector<int> fed_back;
+  std::ranges::copy_if(columns, std::back_inserter(fed_back), [](int j) { return j / 2 < 2; });
   for (const int axis : axes) {
+    const auto width = [&](const std::vector<int>& of) {
+      return bandwidth_of(tracking(response, of, axes, axis), frequencies);
+    };
+    const double whole = width(columns);
     made.bandwidths.push_back(
-        {coordinate(axis), bandwidth_of(tracking(response, columns, axes, axis), frequencies)});
+        {coordinate(axis), whole, fed_back.size() == columns.size() ? whole : width(fed_back)});
   }
 }
 
@@ -326,20 +397,21 @@ void add_margins(Linearisation& made, int axis, const MatrixXd& a, const VectorX
 Linearisation continuous_loop_about(const Scenario& scene, const Model& model,
                                     const LinearPoint& at) {
   const std::vector<int> axes = axes_of(model);
-  const bool integrates = integrates_error(scene);
-  const LoopDerivatives loop =
-      integrates ? differentiate_loop<true>(scene, at) : differentiate_loop<false>(scene, at);
-  const PlantDerivatives plant = differentiate_plant(scene, at);
-  std::vector<int> states = states_of(loop.of_state, axes);
+  const bool integrates = integrates_error(scene), full = in_full(scene, at);
+  const LoopDerivatives loop = full         ? coupled_loop_at(model, at)
+                               : integrates ? differentiate_loop<true>(scene, at)
+                                            : differentiate_loop<false>(scene, at);
+  const PlantDerivatives plant = full ? coupled_plant_at(model, at) : differentiate_rig(scene, at);
+  std::vector<int> states =
+      full ? coupled_states(model, loop.of_state) : states_of(loop.of_state, axes);
   for (const int axis : axes) {
     // Without an integral that nothing feels.
-    if (integrates && !loop.command_of_state.col(integral + axis).isZero(0)) {
-      states.push_back(integral + axis);
-    }
+    const int place = (full ? coupled_integral(model) : integral) + axis;
+    if (integrates && !loop.command_of_state.col(place).isZero(0)) states.push_back(place);
   }
   Linearisation made;
   LinearSystem& system = made.system;
-  system.states = signals_of_states(states);
+  system.states = signals_of(full ? coupled_signals(model) : rig_signals(), states);
   const std::vector<int> columns = reference_inputs(loop.of_reference, axes, system.inputs);
   system.outputs = signals_of_positions(axes, "");
   system.a = loop.of_state(states, states);
@@ -361,7 +433,7 @@ Linearisation continuous_loop_about(const Scenario& scene, const Model& model,
       transmission_zeros(system.a, of_order(0) + system.a * once, system.c, system.c * once);
 
   MatrixXd of_command = MatrixXd::Zero(loop.of_state.rows(), 2);
-  of_command.topRows(plant_size) = plant.of_command;
+  of_command.topRows(plant.of_command.rows()) = plant.of_command;
   for (const int axis : axes) {
     const VectorXd b = of_command(states, axis);
     const Eigen::RowVectorXd c = loop.command_of_state(axis, states);
@@ -378,35 +450,6 @@ std::vector<int> cycle_states(const MatrixXd& of_state) {
   acts[spin] = 0;
   if (!acts.isZero(0)) states.push_back(spin);
   return states;
-}
-
-// What the law has to do with, at a point: what is fed back, as the controller knows it.
-Feedback<double> feedback_at(const Rig& rig, const LinearPoint& at) {
-  Feedback<double> fed{};
-  for (int i = 0; i < 2; ++i) {
-    const auto state = [&](int place) { return (at.state.data() + place)[i]; };
-    fed.position[i] = state(0);
-    fed.velocity[i] = state(2);
-    fed.angle[i] = state(angle);
-    fed.rate[i] = state(rate);
-    fed.integral[i] = state(integral);
-  }
-  if (rig.sampled && !rig.sampled->sensor.is_aligned()) {
-    const Sensor& sensor = rig.sampled->sensor;
-    const Eigen::Vector2d p = seen_matrix(sensor) * Eigen::Vector2d(fed.position),
-                          v = seen_matrix(sensor) * Eigen::Vector2d(fed.velocity);
-    for (int i = 0; i < 2; ++i) {
-      fed.position[i] = p[i] + sensor.offset[static_cast<std::size_t>(i)];
-      fed.velocity[i] = v[i];
-    }
-  }
-  if (!at.home && !rig.between.linkages.empty()) {
-    double known[4];
-    rig.between.believed(fed.angle, fed.rate, known);
-    std::copy_n(known, 2, fed.angle);
-    std::copy_n(known + 2, 2, fed.rate);
-  }
-  return fed;
 }
 
 template <class Link>
@@ -431,45 +474,32 @@ CycleParts cycle_parts_with(const Scenario& scene, const LinearPoint& at,
 
   const Rig rig = assemble_rig<false, Link>(scene, {}).rig;
   parts.take_controller(rig, linear_law(rig.sampled->law, feedback_at(rig, at), at.reference));
-  if constexpr (!Link::direct) {
-    double of_command[2], of_angle[2];
-    for (int i = 0; i < 2; ++i) {
-      const LinkCurve& curve = loop.link.of[i];
-      const bool exact =
-          rig.between.linkages[static_cast<std::size_t>(i)].curve.assumed == Assumed::exact;
-      LinkCurve commanded = curve;
-      commanded.piece = curve.command_piece;
-      of_command[i] =
-          exact ? commanded.plain_turn(at.command[static_cast<std::size_t>(i)]).slope : curve.slope;
-      of_angle[i] = exact ? curve.plain_turn((at.state.data() + angle)[i]).slope : curve.slope;
-      if (rig.between.linkages[static_cast<std::size_t>(i)].curve.kind == LinkCurve::Kind::ideal) {
-        of_command[i] = of_angle[i] = 1;
-      }
-    }
-    parts.link_controller(of_command, of_angle);
-  }
+  if constexpr (!Link::direct) link_controller(parts, loop.link, rig, at);
   return parts;
 }
 
-CycleParts cycle_parts_about(const Scenario& scene, const LinearPoint& at,
+CycleParts cycle_parts_about(const Scenario& scene, const Model& model, const LinearPoint& at,
                              std::vector<int>& states) {
+  if (in_full(scene, at)) return coupled_cycle_at(model, at, states);
   return has_linkages(scene) ? cycle_parts_with<Linkages>(scene, at, states)
                              : cycle_parts_with<Direct>(scene, at, states);
 }
 
-std::vector<LinearSignal> signals_of_cycle(const Scenario& scene, const std::vector<int>& states,
+std::vector<LinearSignal> signals_of_cycle(const Scenario& scene, const Model& model,
+                                           const LinearPoint& at, const std::vector<int>& states,
                                            const SampledCycle& cycle) {
-  std::vector<LinearSignal> signals = signals_of_states(states);
+  std::vector<LinearSignal> signals =
+      signals_of(in_full(scene, at) ? coupled_signals(model) : rig_signals(), states);
   for (LinearSignal& signal : cycle.memory(command_unit(scene))) {
     signals.push_back(std::move(signal));
   }
   return signals;
 }
 
-Linearisation sampled_loop_about(const Scenario& scene, const LinearPoint& at) {
+Linearisation sampled_loop_about(const Scenario& scene, const Model& model, const LinearPoint& at) {
   const std::vector<int> axes{0, 1};
   std::vector<int> states;
-  const SampledCycle cycle(cycle_parts_about(scene, at, states));
+  const SampledCycle cycle(cycle_parts_about(scene, model, at, states));
   const int n = cycle.size();
   const VectorXd none = VectorXd::Zero(n);
   MatrixXd of_reference(n, 6);
@@ -480,7 +510,7 @@ Linearisation sampled_loop_about(const Scenario& scene, const LinearPoint& at) {
   }
   Linearisation made;
   LinearSystem& system = made.system;
-  system.states = signals_of_cycle(scene, states, cycle);
+  system.states = signals_of_cycle(scene, model, at, states, cycle);
   const std::vector<int> columns = reference_inputs(of_reference, axes, system.inputs);
   system.outputs = signals_of_positions(axes, "");
   system.a = cycle.map();
@@ -508,15 +538,16 @@ Linearisation sampled_loop_about(const Scenario& scene, const LinearPoint& at) {
   return made;
 }
 
-Linearisation sampled_plant_about(const Scenario& scene, const LinearPoint& at) {
+Linearisation sampled_plant_about(const Scenario& scene, const Model& model,
+                                  const LinearPoint& at) {
   if (!scene.controller || !scene.controller->sampling) {
     throw InputError(
         "linearize: found --sampled, but the scene has no controller.sampling, whose period and "
         "delays it shows; allowed: --plant, or --loop");
   }
   std::vector<int> states;
-  const SampledCycle cycle(cycle_parts_about(scene, at, states));
-  const std::vector<LinearSignal> signals = signals_of_cycle(scene, states, cycle);
+  const SampledCycle cycle(cycle_parts_about(scene, model, at, states));
+  const std::vector<LinearSignal> signals = signals_of_cycle(scene, model, at, states, cycle);
   const int n = cycle.size(), first = cycle.controller_at();
   // What the controller remembers is no part of the plant.
   std::vector<int> kept;
@@ -562,7 +593,7 @@ void turn_level(const Scenario& scene, LinearPoint& point) {
   const bool by_angle = scene.controller && scene.controller->drives == Drives::angle;
   for (int i = 0; i < 50; ++i) {
     point.command = resting_command(scene, point);
-    const PlantDerivatives at = differentiate_plant(scene, point);
+    const PlantDerivatives at = differentiate_rig(scene, point);
     const Eigen::Vector2d fall = at.rates.segment<2>(2);
     if (fall.norm() <= 1e-15 * scene.gravity) return;
     Eigen::Matrix2d slope = at.of_state.block<2, 2>(2, angle);
@@ -634,14 +665,31 @@ void place_ball(const Rig& rig, const ControlLaw& law, LinearPoint& point) {
       "keeps the plane level");
 }
 
-void require_known(const Scenario& scene) {
-  if (!scenario::is_coupled(scene)) return;
-  throw InputError(
-      "linearize: found losses, sliding, a push or torques, whose equations it does not "
-      "differentiate; allowed: scenes without them. bbsim check shows the poles of these");
+void require_linear(const Scenario& scene) {
+  const std::string why = why_not_linear(scene);
+  if (!why.empty()) throw InputError("linearize: " + why);
 }
 
 }  // namespace
+
+std::string why_not_linear(const Scenario& scene) {
+  const auto dry = [](const std::string& what) {
+    return "found " + what +
+           ", which is dry: how it acts depends on which way things move, and at rest it holds "
+           "them, so that no linear equations come near it; allowed: ";
+  };
+  const Losses& losses = scene.ball.losses;
+  const char* const viscous = "ball.losses.viscous alone";
+  if (losses.rolling > 0) return dry("ball.losses.rolling") + viscous;
+  if (losses.pivoting > 0) return dry("ball.losses.pivoting") + viscous;
+  if (scene.events.slip && scene.events.slip->sliding) {
+    return dry("events.slip with action: slide") + "stop or note, with which the ball rolls";
+  }
+  if (scenario::moved_by_torques(scene) && scene.gimbal.motor && scene.gimbal.motor->friction > 0) {
+    return dry("gimbal.motor.friction") + "gimbal.motor.viscous alone";
+  }
+  return "";
+}
 
 LinearPoint home_point() {
   LinearPoint point;
@@ -650,8 +698,9 @@ LinearPoint home_point() {
 }
 
 LinearPoint equilibrium(const Scenario& scene) {
-  require_known(scene);
+  require_linear(scene);
   LinearPoint point;
+  if (in_full(scene, point)) return coupled_equilibrium(scene, assemble(scene, false));
   Pair position = scene.ball.position;
   if (scene.controller) {
     const auto path = reference_path(scene.controller->reference).at(0.0);
@@ -689,12 +738,12 @@ LinearKind usual_kind(const Scenario& scene) {
 
 Linearisation linearise(const Scenario& scene, const Model& model, LinearKind kind,
                         const LinearPoint& at) {
-  require_known(scene);
+  require_linear(scene);
   switch (kind) {
     case LinearKind::plant:
       break;
     case LinearKind::sampled:
-      return sampled_plant_about(scene, at);
+      return sampled_plant_about(scene, model, at);
     case LinearKind::loop:
       if (!scene.controller) {
         throw InputError(
@@ -705,7 +754,7 @@ Linearisation linearise(const Scenario& scene, const Model& model, LinearKind ki
             "linearize: found --loop and a controller of one's own, whose law only it knows; "
             "allowed: --plant, --sampled");
       }
-      return scene.controller->sampling ? sampled_loop_about(scene, at)
+      return scene.controller->sampling ? sampled_loop_about(scene, model, at)
                                         : continuous_loop_about(scene, model, at);
   }
   return plant_about(scene, model, at);

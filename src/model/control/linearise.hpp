@@ -20,6 +20,9 @@ enum class LinearKind { plant, loop, sampled };
 
 struct LinearPoint {
   std::array<double, RigLoop<true>::size> state{};  // as RigLoop<true> packs it
+  // All states, as a CoupledLoop of the scene packs them; if there are none, they are `state`.
+  std::vector<double> own{};
+  double time = 0;     // of the push on the ball, s
   Pair command{0, 0};  // rad; rad/s^2 where accelerations are driven, or prescribed
   std::array<Jet<double>, 2> reference{};
   bool home = false;  // all are zero, and the plane is level there, whatever its offsets
@@ -27,8 +30,9 @@ struct LinearPoint {
 
 [[nodiscard]] LinearPoint home_point();
 
-// At rest: the plane level, the ball where the controller leads it under the reference of t = 0, or
-// without a controller where it starts. Throws InputError if there is no such point.
+// At rest: the plane level, or as a push on the ball asks for; the ball where the controller leads
+// it under the reference of t = 0, or without a controller where it starts. Throws InputError if
+// there is no such point.
 [[nodiscard]] LinearPoint equilibrium(const Scenario& scene);
 
 // What one command's loop bears, the other one closed.
@@ -40,6 +44,7 @@ struct LoopMargins {
 struct Bandwidth {
   std::string output;  // x, of the response to x_reference
   double value;        // rad/s, infinite if there is none
+  double of_feedback;  // of a controller that is not told the reference's accelerations
 };
 
 struct Linearisation {
@@ -48,6 +53,9 @@ struct Linearisation {
   std::vector<LoopMargins> margins;   // of a loop
   std::vector<Bandwidth> bandwidths;  // of a loop
 };
+
+// Why a scene has no linear equations, of which dry friction has none; empty if it has.
+[[nodiscard]] std::string why_not_linear(const Scenario& scene);
 
 // Without limits, dead band, backlash, rounding and noise. The spin is a state where it acts on
 // others, and an integral where the law has it. The scene is one of `model`, which says what

@@ -85,7 +85,7 @@ void CycleParts::take_controller(const Rig& rig, const LinearLaw& law) {
   sampling = rig.sampled->sampling;
   sensor = rig.sampled->sensor;
   integrates = rig.sampled->law.integrates();
-  for (int i = 0; i < 2; ++i) time_constant[i] = rig.servo[i].time_constant;
+  for (int i = 0; i < servos; ++i) time_constant[i] = rig.servo[i].time_constant;
 }
 
 SampledCycle::SampledCycle(CycleParts parts) : parts_(std::move(parts)) {
@@ -192,12 +192,15 @@ void SampledCycle::expose(Parts& of) const {
 void SampledCycle::apply(Parts& of) const {
   of.held = of.commands.front();
   of.commands.pop_front();
-  Vector2 jump = Vector2::Zero();
-  for (Eigen::Index i = 0; i < 2; ++i) {
+  VectorXd told = of.held;
+  if (parts_.told.size() > 0) told = (parts_.told * of.held).eval();
+  VectorXd jump = VectorXd::Zero(parts_.servos);
+  for (int i = 0; i < parts_.servos; ++i) {
     if (!parts_.time_constant[i]) continue;
-    jump[i] = (of.held[i] - of.plant[4 + i]) / *parts_.time_constant[i] - of.plant[6 + i];
+    jump[i] =
+        (told[i] - of.plant[4 + i]) / *parts_.time_constant[i] - of.plant[4 + parts_.servos + i];
   }
-  if (parts_.time_constant[0] || parts_.time_constant[1]) of.plant += (parts_.jump * jump).eval();
+  if (!jump.isZero(0)) of.plant += (parts_.jump * jump).eval();
 }
 
 SampledCycle::Output SampledCycle::run(const VectorXd& state, const Input& input) const {
@@ -214,6 +217,7 @@ SampledCycle::Output SampledCycle::run(const VectorXd& state, const Input& input
   if (parts_.integrates) of.integral += period * (input.reference.head<2>() - output.seen);
   Eigen::Matrix<double, 10, 1> known;
   known << of.position, of.velocity, of.plant.segment<4>(4), of.integral;
+  if (parts_.fed.size() > 0) known.segment<4>(4) = parts_.fed * of.plant;
   output.law = parts_.of_feedback * known + parts_.of_reference * input.reference;
   Vector2 command = output.law;
   for (int i = 0; i < 2; ++i) {

@@ -37,13 +37,17 @@ struct LinearPlant {
 [[nodiscard]] Eigen::Matrix<double, 2, 8> lqr_gain(const LinearPlant& plant,
                                                    const LqrWeights& weights, double period);
 
-// What a sampled loop is made of, about any point. The first eight states of the plant are those of
-// LinearPlant; the spin may follow.
+// What a sampled loop is made of, about any point. The first states of the plant are x, y, x', y',
+// the servos' angles and their rates; others may follow.
 struct CycleParts {
+  int servos = 2;
   Eigen::MatrixXd a, b;
-  // What the states get when the rates of phi and theta jump by 1 rad/s: two columns. A servo of
-  // first order takes its new rate at once, and kicks the ball.
+  // What the states get when a servo's rate jumps by 1 rad/s: a column of each. A servo of first
+  // order takes its new rate at once, and kicks the ball.
   Eigen::MatrixXd jump;
+  // Where servos are not of phi and theta: what the controller takes their states for, phi, theta
+  // and their rates, of the plant's states; and what servos are told of a command.
+  Eigen::MatrixXd fed{}, told{};
   // The law's commands: of the position, velocity, angles, rates and integrals fed back, two each;
   // and of the reference's values, rates and accelerations.
   Eigen::Matrix<double, 2, 10> of_feedback = Eigen::Matrix<double, 2, 10>::Zero();
@@ -51,7 +55,7 @@ struct CycleParts {
   Sampling sampling;  // whose period is the nominal one
   Sensor sensor;      // which looks for each sample, whatever its frames
   bool integrates = false;
-  std::optional<double> time_constant[2]{};  // of servos of first order, s
+  std::optional<double> time_constant[most_servos]{};  // of servos of first order, s
 
   // All but the plant: the rig's controller, whose law is near this one.
   void take_controller(const Rig& rig, const LinearLaw& law);
