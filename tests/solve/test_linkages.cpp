@@ -173,6 +173,43 @@ TEST_CASE("a dead point ends the run, at its time to rounding") {
   CHECK(std::abs(end.t - 0.1) < 1e-14);
 }
 
+TEST_CASE(
+    "next to a dead point, where the plane turns without bound, it goes where the curve says") {
+  // The arm is shorter than the horn: where it is in line with the rod a servo's angle e away has
+  // turned the plane by a root of e, and by e its rate grows as one over that root.
+  const RodLinkage rods{0.05, 0.02, {}, {0.03, 0.06}};
+  const model::Linkage linkage = make_linkage(rods, model::Assumed::exact);
+  REQUIRE(linkage.high_end == "rod and arm are in line");
+  const double away = GENERATE(1e-2, 1e-4, 1e-6);
+  const Method method = GENERATE(Method::radau, Method::bdf, Method::adams);
+  CAPTURE(away, static_cast<int>(method));
+  // A servo of first order comes from there at its highest rate, whatever the curve.
+  Scenario scene = linked();
+  scene.gimbal.linkage = {rods, rods};
+  scene.gimbal.servo = Servo{};
+  scene.gimbal.servo->time_constant = 0.05;
+  scene.gimbal.servo->rate_limit = 0.5;
+  scene.gimbal.start.phi = linkage.curve.high - away;
+  scene.controller->kp = scene.controller->kv = {};
+  scene.ball.position = {0, 0};
+  scene.time = {0.3, 0.01};
+  const Run run = run_of(scene, method);
+  REQUIRE(run.samples.size() == 31);
+  for (const model::Sample& now : run.samples) {
+    const double servo = scene.gimbal.start.phi - 0.5 * now.t;
+    CHECK(std::abs(now.servo[0] - servo) < 1e-11);
+    // The servo's rounding, magnified by the slope.
+    const double slope = std::abs(linkage.curve.plain_turn(servo).slope);
+    CHECK(std::abs(now.gimbal.phi - linkage.angle(servo)) < 1e-11 * (1 + slope));
+    CHECK(
+        now.gimbal.phi_dot ==
+        Approx(-0.5 * linkage.curve.plain_turn(servo).slope).epsilon(1e-10 * (1 + slope * slope)));
+  }
+  if (method != Method::radau) return;
+  CHECK(std::abs(run.samples.front().gimbal.phi_dot) > 0.2 / std::sqrt(away));
+  CHECK(energy_gap(scene, run) < 1e-9);
+}
+
 TEST_CASE("stops and backlash are the servo's, not the plane's") {
   Scenario scene = linked();
   scene.gimbal.servo->angle_limit = 0.05;

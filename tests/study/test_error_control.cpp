@@ -24,7 +24,7 @@ Asked ask(const std::string& name, double bound) {
   const Scenario scene = scenario_named(name);
   const model::Model model = model::assemble(scene, false);
   const solve::OutputGrid grid(scene.time);
-  solve::Trajectory rows(model.size());
+  solve::Trajectory rows(model.row_size());
   Asked asked;
   asked.result = study::integrate_to_error(model, Method::automatic, bound, grid, rows);
   const QuadReference reference(name);
@@ -77,6 +77,18 @@ Asked ask(const model::Model& model, const solve::OutputGrid& grid, const Positi
 }
 
 }  // namespace
+
+TEST_CASE("errors asked for are met with losses and under torques") {
+  const std::string name = GENERATE("losses", "torque-open", "torque-loop");
+  for (const double bound : {1e-5, 1e-7, 1e-9, 1e-11}) {
+    const Asked asked = ask(name, bound);
+    CAPTURE(name, bound, asked.error, asked.result.estimate);
+    CHECK(asked.result.met);
+    CHECK(asked.extent > 1e-3);
+    CHECK(asked.error <= bound);
+    CHECK(asked.error <= asked.result.estimate);
+  }
+}
 
 TEST_CASE("where stops dictate the steps the estimate is honest too") {
   // Tables, samples, a path past points, and what is watched for. Steps are as long as the pieces
