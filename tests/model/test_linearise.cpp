@@ -720,6 +720,22 @@ TEST_CASE("where a push and the plate's weight are balanced everything rests") {
   if (pushed) CHECK(std::abs(at.state[5]) + std::abs(at.own.empty() ? 0 : at.own[5]) > 1e-4);
 }
 
+TEST_CASE("a loss of next to nothing, by other equations, leaves every pole where it was") {
+  // The one is differentiated as a rig, the other as a scene with forces.
+  const std::string name = GENERATE("pushrod", "hold", "step", "rig");
+  const bool rests = GENERATE(false, true);
+  const Scenario scene = read_scenario(BBSIM_SOURCE_DIR "/configs/" + name + ".yaml");
+  Scenario loses = scene;
+  loses.ball.losses.viscous = 1e-13 * scene.ball.mass;
+  const auto poles = [&](const Scenario& of) {
+    return large_ones(
+        linear(of, LinearKind::loop, rests ? model::equilibrium(of) : model::home_point()).poles);
+  };
+  CAPTURE(name, rests);
+  // Double poles, of two axes that are alike, are apart by a root of rounding.
+  CHECK(distance(poles(loses), poles(scene)) < 1e-6);
+}
+
 TEST_CASE("what is dry is not linear, and says why") {
   const auto refusal = [](const Scenario& scene) -> std::string {
     try {
