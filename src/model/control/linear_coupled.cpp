@@ -185,18 +185,17 @@ LoopDerivatives differentiate_loop(const Loop& loop, const LinearPoint& at) {
   return found;
 }
 
+// Where states are that not all loops have.
 struct Places {
   int servos, integral, motor;
-  bool motor_integrates, own_angles, torques;
+  bool motor_integrates;
 };
 
 Places places_of(const Model& model) {
   return with_loop_at(model, home_point(), [&](const auto& loop) -> Places {
     using Loop = std::decay_t<decltype(loop)>;
     using Layout = typename Loop::Layout;
-    return {Loop::servos,      Layout::integral,
-            Layout::motor,     loop.motor.from_integral != 0,
-            Loop::servos == 3, loop.by != GimbalBy::servos};
+    return {Loop::servos, Layout::integral, Layout::motor, loop.motor.from_integral != 0};
   });
 }
 
