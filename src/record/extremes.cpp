@@ -108,13 +108,18 @@ void Extremes::climb_within(std::size_t i, const solve::Piece& piece,
   const double* const values = &values_[i * points.size()];
   const double length = piece.to() - piece.from();
   for (std::size_t p = 0; p < points.size(); ++p) take(i, values[p], times_[p]);
-  const auto climb_there = [&](const Bracket& bracket) {
-    const Peak peak = climb(bracket, place * (bracket.to.at - bracket.from.at), [&](double s) {
-      const double t = std::min(piece.from() + length * s, piece.to());
-      piece.evaluate(&t, 1, rows_.data());
-      columns_.evaluate(&t, rows_.data(), 1);
-      return signs_[i] * columns_[i][0];
-    });
+  const auto value_at = [&](double s) {
+    const double t = std::min(piece.from() + length * s, piece.to());
+    piece.evaluate(&t, 1, rows_.data());
+    columns_.evaluate(&t, rows_.data(), 1);
+    return signs_[i] * columns_[i][0];
+  };
+  const auto climb_there = [&](Bracket bracket) {
+    // Values that were refined are the polynomial's, good to `shown` alone.
+    for (Peak* const peak : {&bracket.from, &bracket.best, &bracket.to}) {
+      peak->value = value_at(peak->at);
+    }
+    const Peak peak = climb(bracket, place * (bracket.to.at - bracket.from.at), value_at);
     take(i, peak.value, piece.from() + length * peak.at);
   };
   const double& greatest = greatest_[i].value;

@@ -160,6 +160,26 @@ TEST_CASE("a small motion that is fast is followed, though the ball hardly feels
   CHECK(measured.of.at("max_phi_rate") == Approx(4e-5).epsilon(1e-10));
 }
 
+TEST_CASE("a maximum is one of the motion, not of what was guessed between points") {
+  // Long steps, and a tilt that is all but level about its maximum.
+  Scenario scene;
+  scene.ball.radius = 0.01;
+  scene.ball.position = {0, -0.1};
+  const double amplitude = 0.009326285977811374, phase = 1.4898792017531681;
+  scene.gimbal.motion = {{Sinusoid{amplitude, 1, std::acos(-1.0) / 2, 0}},
+                         {Sinusoid{-0.01, 1, phase, 0}}};
+  scene.time = {10, 0.1};
+  double most = 0;
+  for (double t = 0; t <= 10; t += 1e-3) {
+    const double phi = amplitude * std::cos(t), theta = -0.01 * std::sin(t + phase);
+    const double a = std::pow(std::sin(phi / 2), 2), b = std::pow(std::sin(theta / 2), 2);
+    most = std::max(most, 2 * std::asin(std::sqrt(a + b - 2 * a * b)));
+  }
+  const auto measured = measure(scene, {"max_tilt", "max_x"}, Method::radau, {1e-13, 1e-15});
+  // From one of these times to the next the tilt changes by less than 0.01 (1e-3)^2.
+  CHECK(std::abs(measured.of.at("max_tilt") - most) < 1e-8);
+}
+
 TEST_CASE("a corner of a column is found as well") {
   const Method method = every_method();
   const double aside = GENERATE(0.25, 1e-3, 0.0);
