@@ -46,7 +46,7 @@ const std::vector<Job> jobs{
       {"gimbal.motion.theta.sinusoid.phase", "uniform:0:3"}},
      1e-9,
      "dopri5",
-     8},
+     35},
     {"fig2b: gains",
      "fig2b",
      {{"controller.pd.kv.0.0", "uniform:0.7:1.3"}, {"controller.pd.kv.1.1", "uniform:-1.3:-0.7"}},

@@ -7,6 +7,7 @@
 #include "model/assemble_rig.hpp"
 #include "model/model.hpp"
 #include "model/servo/linkages.hpp"
+#include "model/signals/given_motion.hpp"
 #include "model/signals/reference_path.hpp"
 #include "scenario/coupled.hpp"
 
@@ -134,10 +135,7 @@ Model assemble(const Scenario& scenario, bool gamma, Symmetry symmetry) {
   if (scenario.controller) {
     input = reference_path(scenario.controller->reference);
   } else if (scenario.gimbal.motion) {
-    input.add(0, scenario.gimbal.motion->phi);
-    input.add(1, scenario.gimbal.motion->theta);
-    input.add_constant(0, scenario.gimbal.mounting.phi_offset);
-    input.add_constant(1, scenario.gimbal.mounting.theta_offset);
+    input = given_motion(scenario);
   } else if (scenario.gimbal.torque) {
     input.add(0, scenario.gimbal.torque->phi);
     input.add(1, scenario.gimbal.torque->theta);

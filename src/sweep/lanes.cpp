@@ -2,8 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
-#include <numbers>
 #include <optional>
 #include <utility>
 #include <variant>
@@ -14,6 +12,7 @@
 #include "solve/rosenbrock/loop_lanes.hpp"
 #include "sweep/case_scenario.hpp"
 #include "sweep/lane_extremes.hpp"
+#include "sweep/sample_cases.hpp"
 #include "sweep/single.hpp"
 #include "sweep/verdict.hpp"
 
@@ -59,15 +58,13 @@ LoopCase loop_case(const Scenario& scenario, const model::Model& model,
   return loop;
 }
 
-// Whether most of the cases are, as far as some from all over the sweep tell: those at multiples of
-// the golden ratio, which no grid has in step with its keys.
+// Whether most of the cases are, as far as some from all over the sweep tell.
 bool are_stiff(const SweepTask& task) {
   constexpr int looked_at = 16;
   int found = 0;
   for (int i = 0; i < looked_at; ++i) {
-    const double whole = i / std::numbers::phi, part = whole - std::floor(whole);
-    const auto number = static_cast<std::size_t>(part * static_cast<double>(task.plan.cases()));
-    const Scenario scenario = task.family.read(task.plan.settings(number));
+    const Scenario scenario =
+        task.family.read(task.plan.settings(sample_case(i, task.plan.cases())));
     const model::Model model = model::assemble(scenario, false, model::Symmetry::ignored);
     if (solve::decays_over_scene(model, scenario.time.end) > stiff) ++found;
   }

@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "sweep/lanes.hpp"
+#include "sweep/open_lanes.hpp"
 #include "sweep/rig_lanes.hpp"
 #include "sweep/single.hpp"
 #include "sweep/superposition.hpp"
@@ -155,6 +156,12 @@ Engine choose_engine(const SweepTask& task) {
       return {"superposition", task, 1, [&task, solutions = std::move(solutions)] {
                 return superposition_runner(task, solutions);
               }};
+    }
+  }
+  if (can_use_open_lanes(task)) {
+    if (const auto pace = open_lane_pace(task)) {
+      return {"open lanes", task, open_lane_group(),
+              [&task, pace = *pace] { return open_lane_runner(task, pace); }};
     }
   }
   if (can_use_lanes(task)) {

@@ -22,8 +22,8 @@ struct Engine {
 };
 
 // The fastest that serves the task, which outlives it: superposition where start, radius and
-// gravity vary under one prescribed motion; SIMD lanes for loops at tolerances where they are
-// ahead; and single runs for all else.
+// gravity vary under one prescribed motion; SIMD lanes where the motion varies too, and for loops
+// at tolerances where they are ahead; and single runs for all else.
 [[nodiscard]] Engine choose_engine(const SweepTask& task);
 
 // Cases first ... last - 1.

@@ -38,7 +38,7 @@ std::vector<std::string> sweep(const std::string& scenario, std::vector<std::str
 // Slow enough to be interrupted, with rows that differ.
 const std::vector<std::string> long_sweep{
     "--vary",    "gimbal.motion.phi.sinusoid.phase=uniform:0:3",
-    "--samples", "20000",
+    "--samples", "100000",
     "--vary",    "ball.position.0=list:0,0.1"};
 
 std::vector<std::string> with(std::vector<std::string> one, const std::vector<std::string>& more) {
@@ -375,7 +375,7 @@ TEST_CASE("a sweep of tied keys that was interrupted goes on to the same bytes")
       "--vary",
       "gimbal.motion.phi.sinusoid.phase,-gimbal.motion.theta.sinusoid.phase=uniform:0:3",
       "--samples",
-      "40000",
+      "200000",
       "-j",
       "1"};
   const Result cut = bbsim(

@@ -1,0 +1,11 @@
+// The gimbal's angles where a scene gives them.
+#pragma once
+
+#include "model/signals/signal_pair.hpp"
+
+namespace bbsim::model {
+
+// phi and theta of a scene with gimbal.motion, the mounting's offsets added.
+[[nodiscard]] SignalPair given_motion(const Scenario& scenario);
+
+}  // namespace bbsim::model

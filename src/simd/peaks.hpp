@@ -1,0 +1,158 @@
+// The greatest value of a function of one variable, another function in each lane.
+#pragma once
+
+#include <type_traits>
+
+#include "simd/pack.hpp"
+
+namespace bbsim::simd {
+
+// A function's value and slope at a place.
+template <class P>
+struct Looked {
+  P at, value, slope;
+};
+
+template <class P>
+BBSIM_INLINE P choose(typename P::Mask mask, P yes, P no) {
+  return P::of(mask ? yes.v : no.v);
+}
+
+template <class P>
+BBSIM_INLINE P larger_of(P a, P b) {
+  return P::of(a.v > b.v ? a.v : b.v);
+}
+
+template <class P>
+BBSIM_INLINE P smaller_of(P a, P b) {
+  return P::of(a.v < b.v ? a.v : b.v);
+}
+
+template <class P>
+BBSIM_INLINE P size_of(P a) {
+  const typename P::Mask sign_bit = (1LL << 63) - typename P::Mask{};
+  return P::of((typename P::Vector)((typename P::Mask)a.v & ~sign_bit));
+}
+
+template <class P>
+BBSIM_INLINE P root_of(P a) {
+  for (int l = 0; l < P::size; ++l) a.v[l] = __builtin_sqrt(a.v[l]);
+  return a;
+}
+
+// Whether any lane is set. Narrow lanes are fewer to ask.
+template <class P>
+BBSIM_INLINE bool any_of(typename P::Mask mask) {
+  if constexpr (P::size == 2) {
+    return (mask[0] | mask[1]) != 0;
+  } else {
+    typedef std::conditional_t<P::size == 4, int, short> Narrow
+        __attribute__((vector_size(16), aligned(16)));
+    const auto halves = (typename Vectors<2>::Mask) __builtin_convertvector(mask, Narrow);
+    return (halves[0] | halves[1]) != 0;
+  }
+}
+
+// What the function may reach between two places, by the cubic through values and slopes at both.
+// Where both slopes go the way that the values do, and neither is more than three times as steep,
+// it goes one way (Fritsch and Carlson, SIAM Journal on Numerical Analysis 17:238, 1980). Otherwise
+// it is above the ends by no more than 4/27 of the change that its slopes there would give; what is
+// of a higher degree is allowed for.
+template <class P>
+BBSIM_INLINE P promise_between(const Looked<P>& from, const Looked<P>& to) {
+  using Mask = typename P::Mask;
+  constexpr double beyond = 0.25;
+  const P width = to.at - from.at, change = to.value - from.value;
+  const P s0 = width * from.slope, s1 = width * to.slope;
+  const P steepest = P(3.0) * size_of(change);
+  const Mask one_way = (Mask)((s0 * change).v >= 0) & (Mask)((s1 * change).v >= 0) &
+                       (Mask)(size_of(s0).v <= steepest.v) & (Mask)(size_of(s1).v <= steepest.v);
+  const P more = P(beyond) * (larger_of(s0, P(0.0)) + larger_of(-s1, P(0.0)));
+  return larger_of(from.value, to.value) + choose(one_way, P(0.0), more);
+}
+
+// Follows the function to its top between two places, by one cubic after another, and raises
+// `greatest` to each value on the way. Lanes that are not wanted do not hold up the others.
+template <class P, class Evaluate>
+BBSIM_INLINE void climb(Looked<P> from, Looked<P> to, typename P::Mask wanted, P& greatest,
+                        Evaluate evaluate) {
+  using Mask = typename P::Mask;
+  constexpr int most_steps = 8;
+  constexpr double close = 1e-12, edge = 1e-3;
+#pragma GCC unroll 1
+  for (int step = 0; step < most_steps; ++step) {
+    const P width = to.at - from.at, change = to.value - from.value;
+    const P s0 = width * from.slope, s1 = width * to.slope;
+    // The cubic's slope is s0 + 2 b u + 3 a u^2; its top is where that falls through zero.
+    const P a = s0 + s1 - P(2.0) * change, b = P(3.0) * change - P(2.0) * s0 - s1;
+    const P root = root_of(larger_of(b * b - P(3.0) * a * s0, P(0.0)));
+    const P under = root - b;
+    const Mask inside = (Mask)(under.v > 0) & (Mask)(s0.v > 0) & (Mask)(s0.v < under.v);
+    const P part = choose(inside, s0 / choose(inside, under, P(1.0)), P(0.5));
+    Looked<P> next;
+    next.at = from.at + width * larger_of(P(edge), smaller_of(part, P(1 - edge)));
+    evaluate(next.at, next.value, next.slope);
+    greatest = larger_of(greatest, next.value);
+    // What is left to gain, of a parabola as curved as the slopes at both ends say.
+    const P bend = from.slope - to.slope;
+    const P left = next.slope * next.slope * width;
+    const Mask open = (Mask)(left.v > (P(close) * greatest * bend).v) & wanted;
+    if (!any_of<P>(open)) return;
+    const Mask rising = next.slope.v > 0;
+    from = {choose(rising, next.at, from.at), choose(rising, next.value, from.value),
+            choose(rising, next.slope, from.slope)};
+    to = {choose(rising, to.at, next.at), choose(rising, to.value, next.value),
+          choose(rising, to.slope, next.slope)};
+  }
+}
+
+// Raises `greatest` to what a function reaches over `count` places in their order, at most `most`,
+// and between them; evaluate(at, value, slope) tells what it is at others.
+template <int most, class P, class Evaluate>
+BBSIM_INLINE void raise_to_peak(const Looked<P>* places, int count, P& greatest,
+                                Evaluate evaluate) {
+  using Mask = typename P::Mask;
+  constexpr double worth = 1 + 1e-9;  // what promises less is about as great
+  P promise[most];
+  greatest = larger_of(greatest, places[0].value);
+#pragma GCC unroll 1
+  for (int i = 0; i + 1 < count; ++i) {
+    greatest = larger_of(greatest, places[i + 1].value);
+    promise[i] = promise_between(places[i], places[i + 1]);
+  }
+  // Mostly that is a few intervals, if any.
+  int promising[most], left = 0;
+  const P enough = P(worth) * greatest;
+#pragma GCC unroll 1
+  for (int i = 0; i + 1 < count; ++i) {
+    promising[left] = i;
+    left += any_of<P>((Mask)(promise[i].v > enough.v)) ? 1 : 0;
+  }
+  // Each lane looks into the one that promises most to it.
+#pragma GCC unroll 1
+  for (int round = 0; round < left; ++round) {
+    P best = P(worth) * greatest, number(-1.0);
+    Looked<P> from = places[promising[0]], to = places[promising[0] + 1];
+#pragma GCC unroll 1
+    for (int k = 0; k < left; ++k) {
+      const int i = promising[k];
+      const Mask better = promise[i].v > best.v;
+      best = choose(better, promise[i], best);
+      number = choose(better, P(double(i)), number);
+      from = {choose(better, places[i].at, from.at), choose(better, places[i].value, from.value),
+              choose(better, places[i].slope, from.slope)};
+      to = {choose(better, places[i + 1].at, to.at), choose(better, places[i + 1].value, to.value),
+            choose(better, places[i + 1].slope, to.slope)};
+    }
+    const Mask found = number.v >= 0;
+    if (!any_of<P>(found)) return;
+    climb(from, to, found, greatest, evaluate);
+#pragma GCC unroll 1
+    for (int k = 0; k < left; ++k) {
+      P& of = promise[promising[k]];
+      of = choose((Mask)(number.v == P(double(promising[k])).v), P(0.0), of);
+    }
+  }
+}
+
+}  // namespace bbsim::simd

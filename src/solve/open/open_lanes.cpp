@@ -1,0 +1,298 @@
+#include "solve/open/open_lanes.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <new>
+#include <numbers>
+#include <utility>
+
+#include "solve/step_growth.hpp"
+
+namespace bbsim::solve::open {
+namespace {
+
+constexpr std::align_val_t alignment{64};
+
+// What takes more is for another integrator.
+constexpr std::size_t most_attempts = 100'000;
+// From one second to the rounding of its time takes 50 halvings of the step.
+constexpr int most_rejections = 60;
+// Errors fall with the step to the power of the nodes and more: a lane whose error is so much more
+// than the median's needs a step a quarter as long or shorter. What is lost without need is run
+// again alone, and only costs time.
+constexpr double holding_back = 1e8;
+constexpr int most_held = 4;
+
+// How long half a stretch of the plane's motion is between two looks, rad: at its tempo, the cubics
+// of simd/peaks.hpp then tell where it is greatest.
+constexpr double look_angle = 0.9;
+// A gimbal that turns so often has been everywhere that it goes to.
+constexpr double most_looks = 1e6;
+
+const Kernel& kernel_of(const Kernels& kernels, int nodes) {
+  for (const Kernel* one : {&kernels.few, &kernels.some}) {
+    if (one->nodes == nodes) return *one;
+  }
+  return kernels.many;
+}
+
+// What a step costs: sums over nodes, and coefficients at each.
+double step_cost(int nodes) {
+  return nodes * (nodes + 15.0);
+}
+
+}  // namespace
+
+void OpenLanes::Free::operator()(void* memory) const {
+  ::operator delete(memory, alignment);
+}
+
+OpenLanes::OpenLanes(Tolerances tolerances, double end, std::vector<double> stops, Pace pace)
+    : kernels_(choose_kernels()),
+      tolerances_(tolerances),
+      end_(end),
+      stops_(std::move(stops)),
+      pace_(pace) {
+  kernel_ = &kernel_of(kernels_, pace.nodes);
+  workspace_.reset(::operator new(kernel_->workspace, alignment));
+  stops_.push_back(end);
+}
+
+// Unused lanes repeat the last case.
+void OpenLanes::load(const OpenCase* cases, int count) {
+  scenes_.harmonic_count = 0;
+  double most = 0;  // angle
+  for (int lane = 0; lane < count; ++lane) {
+    const model::SignalView motion = cases[lane].motion.view();
+    scenes_.harmonic_count =
+        std::max(scenes_.harmonic_count, static_cast<int>(motion.harmonic_count));
+    for (int i = 0; i < 2; ++i) {
+      double angle = std::abs(motion.start[i]) + std::abs(motion.rate[i]) * end_;
+      for (std::size_t k = 0; k < motion.harmonic_count; ++k) {
+        angle += std::abs(motion.harmonics[k].sine[i]) + std::abs(motion.harmonics[k].cosine[i]);
+      }
+      most = std::max(most, angle);
+    }
+  }
+  const model::SignalView first = cases[0].motion.view();
+  scenes_.tables = first.tables;
+  scenes_.table_count = first.table_count;
+  scenes_.small = most < 0.785 && first.table_count == 0;
+  for (int lane = 0; lane < group; ++lane) {
+    const OpenCase& one = cases[std::min(lane, count - 1)];
+    const model::SignalView motion = one.motion.view();
+    scenes_.radius[lane] = one.radius;
+    scenes_.gravity[lane] = one.gravity;
+    for (int i = 0; i < states; ++i) scenes_.initial[i][lane] = one.initial[i];
+    for (int i = 0; i < 2; ++i) {
+      scenes_.start[i][lane] = motion.start[i];
+      scenes_.rate[i][lane] = motion.rate[i];
+    }
+    for (int k = 0; k < scenes_.harmonic_count; ++k) {
+      const bool there = static_cast<std::size_t>(k) < motion.harmonic_count;
+      const model::Harmonic from = there ? motion.harmonics[k] : model::Harmonic{};
+      Scenes::Harmonic& to = scenes_.harmonics[k];
+      to.frequency[lane] = from.frequency;
+      for (int i = 0; i < 2; ++i) {
+        to.sine[i][lane] = from.sine[i];
+        to.cosine[i][lane] = from.cosine[i];
+      }
+    }
+  }
+  kernel_->start(workspace_.get(), scenes_, tolerances_.rtol, tolerances_.atol);
+}
+
+// The highest frequency of a motion, and how fast its angles go at most, rad/s.
+struct OpenLanes::Tempo {
+  explicit Tempo(const model::SignalView& motion) {
+    rate = std::abs(motion.rate[0]) + std::abs(motion.rate[1]);
+    for (std::size_t k = 0; k < motion.harmonic_count; ++k) {
+      const model::Harmonic& one = motion.harmonics[k];
+      const double of = std::abs(one.frequency);
+      frequency = std::max(frequency, of);
+      for (int i = 0; i < 2; ++i) rate += of * (std::abs(one.sine[i]) + std::abs(one.cosine[i]));
+    }
+  }
+  double frequency = 0, rate;
+};
+
+// How fast what the gimbal does to the ball changes in the fastest of the lanes, rad/s: sinusoids
+// and, where angles are large, sinusoids of these.
+double OpenLanes::tempo(const OpenCase* cases, int count) {
+  double fastest = 0;
+  for (int lane = 0; lane < count; ++lane) {
+    const Tempo one(cases[lane].motion.view());
+    fastest = std::max(fastest, one.frequency + one.rate);
+  }
+  return fastest;
+}
+
+// Lanes that were given up go on as twins of the first that was not: their numbers stay finite and
+// cost nothing.
+void OpenLanes::replace_lost() {
+  const auto healthy = std::find(lost_.begin(), lost_.end(), false);
+  if (healthy == lost_.end()) return;
+  for (std::size_t lane = 0; lane < group; ++lane) {
+    if (!lost_[lane]) continue;
+    kernel_->twin(workspace_.get(), static_cast<int>(lane),
+                  static_cast<int>(healthy - lost_.begin()));
+  }
+}
+
+// The largest error of the lanes that are carried on; gives up those that cannot be. Returns
+// whether any was given up.
+bool OpenLanes::judge(const Attempt& attempt, bool at_limit, double& worst) {
+  constexpr double infinite = std::numeric_limits<double>::infinity();
+  std::array<double, group> errors, sorted;
+  std::ptrdiff_t alive = 0;
+  for (std::size_t lane = 0; lane < group; ++lane) {
+    const double squared = attempt.error_squared[lane];
+    errors[lane] = std::isfinite(squared) ? std::sqrt(squared) : infinite;
+    if (!lost_[lane]) sorted[static_cast<std::size_t>(alive++)] = errors[lane];
+  }
+  worst = 0;
+  bool changed = false;
+  const bool fine =
+      std::all_of(sorted.begin(), sorted.begin() + alive, [](double error) { return error <= 1; });
+  double middle = infinite;
+  if (!fine && alive > 0) {
+    std::nth_element(sorted.begin(), sorted.begin() + alive / 2, sorted.begin() + alive);
+    middle = sorted[static_cast<std::size_t>(alive / 2)];
+  }
+  for (std::size_t lane = 0; lane < group; ++lane) {
+    if (lost_[lane]) continue;
+    const double error = errors[lane];
+    if (error > 1 && error > holding_back * middle) ++held_[lane];
+    if ((at_limit && (error > 1 || !attempt.converged)) || held_[lane] > most_held) {
+      lost_[lane] = changed = true;
+    } else {
+      worst = std::max(worst, error);
+    }
+  }
+  return changed;
+}
+
+// Over a stretch of time in which no input has a corner; whether any lane arrived.
+bool OpenLanes::go(double from, double to) {
+  double t = from;
+  int rejections = 0;
+  while (t < to) {
+    if (std::find(lost_.begin(), lost_.end(), false) == lost_.end()) return false;
+    // The steps to the end are alike.
+    const double left = to - t;
+    const double pieces = std::ceil(left / next_ * (1 - 1e-3));
+    const bool arrives = !(pieces > 1);
+    const double h = arrives ? left : pieces < 10 ? left / pieces : next_;
+    const bool at_limit =
+        rejections >= most_rejections || !(h > 4 * std::numeric_limits<double>::epsilon() * t);
+    Attempt attempt;
+    kernel_->attempt(workspace_.get(), t, h, attempt);
+    statistics_.nonlinear_iterations += static_cast<std::size_t>(attempt.iterations);
+    if (statistics_.steps + statistics_.error_test_failures > most_attempts) lost_.fill(true);
+    double worst = 0;
+    const bool changed = judge(attempt, at_limit, worst);
+    if (worst <= 1 && attempt.converged) {
+      t = arrives ? to : t + h;
+      kernel_->accept(workspace_.get());
+      ++statistics_.steps;
+      // A step that went well is as good for the next stretch, and one that a stop cut short tells
+      // nothing about longer ones.
+      if (!arrives || h >= next_) {
+        const double factor = std::max(1.0, step_growth(worst, kernel_->nodes));
+        next_ = rejections > 0 ? h : h * factor;
+      }
+      rejections = 0;
+    } else {
+      next_ = h * (attempt.converged ? std::min(0.8, step_growth(worst, kernel_->nodes)) : 0.5);
+      ++statistics_.error_test_failures;
+      ++rejections;
+    }
+    if (changed) replace_lost();
+  }
+  return true;
+}
+
+// What comes after `until` repeats what was before: a sinusoid of both angles has all of its sizes
+// in one period, and in half of one if the plane is level in the mean.
+void OpenLanes::turn(const OpenCase* cases, int count) {
+  alignas(64) double until[group];
+  double most = 1;
+  for (int lane = 0; lane < group; ++lane) {
+    const model::SignalView view = cases[std::min(lane, count - 1)].motion.view();
+    const Tempo tempo(view);
+    until[lane] = end_;
+    if (view.rate[0] == 0 && view.rate[1] == 0 && view.harmonic_count == 1) {
+      const bool level = view.start[0] == 0 && view.start[1] == 0;
+      const double repeats =
+          (level ? 1 : 2) * std::numbers::pi / std::abs(view.harmonics[0].frequency);
+      until[lane] = std::min(end_, repeats);
+    }
+    most = std::max(most, until[lane] * (2 * tempo.frequency + tempo.rate) / look_angle);
+  }
+  kernels_.turning(scenes_, until, static_cast<int>(std::ceil(std::min(most, most_looks))),
+                   turning_);
+}
+
+std::array<bool, group> OpenLanes::integrate(const OpenCase* cases, int count) {
+  load(cases, count);
+  held_.fill(0);
+  lost_.fill(false);
+  statistics_ = {};
+  const double fastest = tempo(cases, count);
+  next_ = fastest > 0 ? pace_.angle / fastest : end_;
+  if (!(next_ > 0)) lost_.fill(true);
+  double from = 0;
+  for (const double stop : stops_) {
+    if (!go(from, stop)) break;
+    from = stop;
+  }
+  kernel_->read(workspace_.get(), state_, distance_squared_);
+  if (scenes_.table_count == 0) turn(cases, count);
+  std::array<bool, group> carried;
+  for (std::size_t lane = 0; lane < group; ++lane) {
+    carried[lane] = !lost_[lane] && lane < static_cast<std::size_t>(count);
+  }
+  return carried;
+}
+
+Reached OpenLanes::reached(int lane) const {
+  Reached one{};
+  for (int i = 0; i < states; ++i) one.state[i] = state_[i][lane];
+  one.distance_squared = distance_squared_[lane];
+  one.versine = turning_.versine[lane];
+  one.rate_squared = turning_.rate_squared[lane];
+  return one;
+}
+
+std::optional<OpenLanes::Measured> OpenLanes::measure(const OpenCase* cases, int count) {
+  const Pace before = pace_;
+  std::optional<Measured> found;
+  const double fastest = tempo(cases, count);
+  const auto try_steps = [&](double steps) {
+    pace_.angle = fastest > 0 ? fastest * end_ / steps : 1;
+    const auto carried = integrate(cases, count);
+    return std::any_of(carried.begin(), carried.end(), [](bool one) { return one; });
+  };
+  if (try_steps(4)) {
+    // With what the last try needed, and then with as few as do.
+    double steps = static_cast<double>(statistics_.steps);
+    for (bool better = true; better && steps >= 1;) {
+      static_cast<void>(try_steps(steps));
+      better = statistics_.error_test_failures == 0;
+      const double needed = static_cast<double>(statistics_.steps);
+      if (better) {
+        found = {{pace_.nodes, pace_.angle}, needed * step_cost(pace_.nodes)};
+        steps = std::min(steps, needed) - 1;
+      } else if (!found) {
+        found = {{pace_.nodes, pace_.angle}, needed * step_cost(pace_.nodes)};
+        better = needed > steps;
+        steps = needed;
+      }
+    }
+  }
+  pace_ = before;
+  return found;
+}
+
+}  // namespace bbsim::solve::open

@@ -1,0 +1,560 @@
+// A step of a group of balls under given motions, for one instruction set.
+//
+// The gimbal's motion is given, and the ball's equation therefore linear in its five states:
+//     k = f + A (x, y, x', y', u)
+// with coefficients that are computed once a step, at the nodes of Radau IIA; another case in each
+// lane, the nodes in a loop. What is left is
+//     v = v(0) + h A1 k,    q = q(0) + c h v(0) + h^2 A2 k
+// and substitution solves it. An integral is about the sum of what came before, so a turn that goes
+// from node to node and takes what is new at once contracts much faster than one that waits for all
+// nodes: steps of some radians of the motion take three or four turns. The fall of the Legendre
+// coefficients of k tells the error, as it does for radau/step.hpp.
+#pragma once
+
+#include "model/systems/system.hpp"
+#include "simd/affine.hpp"
+#include "simd/peaks.hpp"
+#include "solve/open/kernel.hpp"
+#include "solve/radau/tables.hpp"
+
+namespace bbsim::solve::open {
+
+using simd::Looked;
+
+// What does not depend on the number of nodes.
+template <class Isa>
+struct Lanes {
+  static constexpr int lanes = Isa::lanes;
+  static constexpr int packs = group / lanes;
+  using P = simd::Pack<Isa, lanes>;
+  using Vector = typename P::Vector;
+  using Mask = typename P::Mask;
+  using Signals = model::BasicSignalView<P>;
+
+  BBSIM_INLINE static P lane(const double* values, int p) { return P::load(values + p * lanes); }
+
+  // The motions of one pack.
+  struct Motion {
+    model::BasicHarmonic<P> harmonics[most_harmonics];
+    Signals signals;
+
+    BBSIM_INLINE Motion(const Scenes& from, int p) {
+#pragma GCC unroll 1
+      for (int k = 0; k < from.harmonic_count; ++k) {
+        const Scenes::Harmonic& one = from.harmonics[k];
+        harmonics[k] = {lane(one.frequency, p),
+                        {lane(one.sine[0], p), lane(one.sine[1], p)},
+                        {lane(one.cosine[0], p), lane(one.cosine[1], p)}};
+      }
+      signals.harmonics = harmonics;
+      signals.harmonic_count = static_cast<std::size_t>(from.harmonic_count);
+      signals.tables = from.tables;
+      signals.table_count = from.table_count;
+      for (int i = 0; i < 2; ++i) {
+        signals.start[i] = lane(from.start[i], p);
+        signals.rate[i] = lane(from.rate[i], p);
+      }
+    }
+  };
+
+  // sin and cos of angles within a quarter of pi: the polynomials of simd/pack.hpp alone.
+  BBSIM_INLINE static SinCos<P> sin_cos_of_small(P angle) {
+    using T = simd::SineTable;
+    const Vector r = angle.v, u = r * r, u2 = u * u;
+    const Vector p = (T::sine[0] + u * T::sine[1]) +
+                     u2 * ((T::sine[2] + u * T::sine[3]) + u2 * (T::sine[4] + u * T::sine[5]));
+    const Vector q =
+        (T::cosine[0] + u * T::cosine[1]) +
+        u2 * ((T::cosine[2] + u * T::cosine[3]) + u2 * (T::cosine[4] + u * T::cosine[5]));
+    return {P::of(r + (r * u) * p), P::of(1.0 + (u * -0.5 + u2 * q))};
+  }
+
+  BBSIM_INLINE static SinCos<P> direction(P angle, bool small) {
+    return small ? sin_cos_of_small(angle) : sin_cos(angle);
+  }
+
+  // 1 - cos(tilt) without what is lost by the difference, and its slope.
+  BBSIM_INLINE static void tilt(const std::array<model::Jet<P>, 2>& angles, bool small, P& versine,
+                                P& slope) {
+    const SinCos<P> half_phi = direction(P(0.5) * angles[0].value, small);
+    const SinCos<P> half_theta = direction(P(0.5) * angles[1].value, small);
+    const P a = half_phi.sin * half_phi.sin, b = half_theta.sin * half_theta.sin;
+    const P cos_phi = P(1.0) - P(2.0) * a, cos_theta = P(1.0) - P(2.0) * b;
+    versine = P(2.0) * (a + b) - P(4.0) * (a * b);
+    slope = P(2.0) * (angles[0].rate * (half_phi.sin * half_phi.cos) * cos_theta +
+                      angles[1].rate * (half_theta.sin * half_theta.cos) * cos_phi);
+  }
+
+  BBSIM_INLINE static void rate(const std::array<model::Jet<P>, 2>& angles, P& squared, P& slope) {
+    squared = angles[0].rate * angles[0].rate + angles[1].rate * angles[1].rate;
+    slope = P(2.0) *
+            (angles[0].rate * angles[0].acceleration + angles[1].rate * angles[1].acceleration);
+  }
+
+  static constexpr int together = 16;  // intervals that are looked at in one go
+
+  [[gnu::flatten]] static void turn_pack(const Scenes& scenes, int p, const double* until,
+                                         int intervals, Turning& greatest) {
+    const Motion motion(scenes, p);
+    const bool small = scenes.small;
+    const P part = lane(until, p) * P(1.0 / intervals);
+    P versine(0.0), squared(0.0);
+#pragma GCC unroll 1
+    for (int first = 0; first < intervals; first += together) {
+      const int count = (intervals - first < together ? intervals - first : together) + 1;
+      Looked<P> tilts[together + 1], rates[together + 1];
+#pragma GCC unroll 1
+      for (int i = 0; i < count; ++i) {
+        const P t = P(double(first + i)) * part;
+        const auto angles = motion.signals.at(t);
+        tilts[i].at = rates[i].at = t;
+        tilt(angles, small, tilts[i].value, tilts[i].slope);
+        rate(angles, rates[i].value, rates[i].slope);
+      }
+      simd::raise_to_peak<together>(tilts, count, versine, [&](P t, P& value, P& slope) {
+        tilt(motion.signals.at(t), small, value, slope);
+      });
+      simd::raise_to_peak<together>(rates, count, squared, [&](P t, P& value, P& slope) {
+        rate(motion.signals.at(t), value, slope);
+      });
+    }
+    versine.store(greatest.versine + p * lanes);
+    squared.store(greatest.rate_squared + p * lanes);
+  }
+
+  static void turning(const Scenes& scenes, const double* until, int intervals, Turning& greatest) {
+    for (int p = 0; p < packs; ++p) turn_pack(scenes, p, until, intervals, greatest);
+  }
+};
+
+template <class Isa, int s>
+struct Step : Lanes<Isa> {
+  using Base = Lanes<Isa>;
+  using Base::lane, Base::lanes, Base::packs;
+  using typename Base::Mask, typename Base::Motion, typename Base::P, typename Base::Vector;
+  using Ball = simd::Affine<P, states>;
+  using Rule = radau::RadauTable<s>;
+  static constexpr int nv = 3, nq = 2;  // x', y', u; x, y
+
+  // The tables by rows: what one node takes from all.
+  struct alignas(64) Rows {
+    double a[s][s]{}, a_squared[s][s]{};
+    consteval Rows() {
+      for (int i = 0; i < s; ++i) {
+        for (int j = 0; j < s; ++j) {
+          a[i][j] = Rule::a[j][i];
+          a_squared[i][j] = Rule::a_squared[j][i];
+        }
+      }
+    }
+  };
+  static constexpr Rows rows{};
+
+  // Equation (27) at a node, times h: x'' has no part of x', y'' none of y', and u' none of x, y,
+  // u.
+  struct Coefficients {
+    P value[nv], x_by[4], y_by[4], u_by[2];
+
+    BBSIM_INLINE void take(const Ball& x, const Ball& y, const Ball& u, P h) {
+      value[0] = h * x.value;
+      value[1] = h * y.value;
+      value[2] = h * u.value;
+      x_by[0] = h * x.by[0], x_by[1] = h * x.by[1], x_by[2] = h * x.by[3], x_by[3] = h * x.by[4];
+      y_by[0] = h * y.by[0], y_by[1] = h * y.by[1], y_by[2] = h * y.by[2], y_by[3] = h * y.by[4];
+      u_by[0] = h * u.by[2], u_by[1] = h * u.by[3];
+    }
+    BBSIM_INLINE void at(const P (&q)[nq], const P (&v)[nv], P (&k)[nv]) const {
+      k[0] = (value[0] + x_by[0] * q[0] + x_by[1] * q[1]) + (x_by[2] * v[1] + x_by[3] * v[2]);
+      k[1] = (value[1] + y_by[0] * q[0] + y_by[1] * q[1]) + (y_by[2] * v[0] + y_by[3] * v[2]);
+      k[2] = value[2] + u_by[0] * v[0] + u_by[1] * v[1];
+    }
+  };
+
+  struct Pack {
+    P q[nq], v[nv];          // the present state
+    P q_end[nq], v_end[nv];  // the end of the last attempt
+    P k[s][nv];              // accelerations times h, at the nodes
+    P q_at[s][nq], v_at[s][nv];
+    P weight, q_weight[nq], v_weight[nv];  // one over the tolerances
+    P distance_squared;                    // the greatest so far
+  };
+
+  struct alignas(64) Workspace {
+    Scenes scenes;
+    double rtol, atol;
+    double t, h;  // of the last attempt
+    Coefficients at[s];
+    Pack of[packs];
+  };
+
+  // The bits tell, since comparisons are compiled as if all numbers were finite.
+  BBSIM_INLINE static Mask is_finite(P a) {
+    const Mask exponent = (0x7ffLL << 52) - Mask{};
+    return ((Mask)a.v & exponent) != exponent;
+  }
+  BBSIM_INLINE static bool is_finite(double a) {
+    return (__builtin_bit_cast(unsigned long long, a) >> 52 & 0x7ff) != 0x7ff;
+  }
+
+  BBSIM_INLINE static double largest(P a) {
+    double most = a[0];
+    for (int l = 1; l < lanes; ++l) most = a[l] > most ? a[l] : most;
+    return most;
+  }
+
+  [[gnu::flatten]] static void take_coefficients(Workspace& w, int p) {
+    const Motion motion(w.scenes, p);
+    const P r = lane(w.scenes.radius, p), g = lane(w.scenes.gravity, p), h(w.h);
+    const bool small = w.scenes.small;
+    const model::RollingState<Ball, Ball, Ball> ball{Ball::variable(0), Ball::variable(1),
+                                                     Ball::variable(2), Ball::variable(3),
+                                                     Ball::variable(4)};
+#pragma GCC unroll 1
+    for (int i = 0; i < s; ++i) {
+      const auto angles = motion.signals.at(P(w.t + Rule::c[i] * w.h));
+      model::Axis<P> axis[2];
+#pragma GCC unroll 2
+      for (int n = 0; n < 2; ++n) {
+        const SinCos<P> direction = Base::direction(angles[n].value, small);
+        axis[n] = {direction.sin, direction.cos, angles[n].rate, angles[n].acceleration};
+      }
+      w.at[i].take(model::x_acceleration<Ball>(axis[0], axis[1], ball, r, g),
+                   model::y_acceleration<Ball>(axis[0], axis[1], ball, r, g),
+                   model::u_acceleration<Ball>(axis[0], axis[1], ball, r), h);
+    }
+  }
+
+  // The state that the integrals from the start to some nodes make: rows of tables, one a node.
+  template <int count>
+  BBSIM_INLINE static void integrate(const Pack& of, P h, int first, P (&q)[count][nq],
+                                     P (&v)[count][nv]) {
+    P once[count][nv], twice[count][nq];
+#pragma GCC unroll 4
+    for (int n = 0; n < count; ++n) {
+#pragma GCC unroll 3
+      for (int i = 0; i < nv; ++i) once[n][i] = P(0.0);
+#pragma GCC unroll 3
+      for (int i = 0; i < nq; ++i) twice[n][i] = P(0.0);
+    }
+    const auto add = [&](int j) __attribute__((always_inline)) {
+#pragma GCC unroll 4
+      for (int n = 0; n < count; ++n) {
+        const P a(rows.a[first + n][j]), b(rows.a_squared[first + n][j]);
+#pragma GCC unroll 3
+        for (int i = 0; i < nv; ++i) {
+          once[n][i] += a * of.k[j][i];
+          if (i < nq) twice[n][i] += b * of.k[j][i];
+        }
+      }
+    };
+      // Last what was computed last, which nobody then waits for.
+#pragma GCC unroll 2
+    for (int j = first; j < s; ++j) add(j);
+#pragma GCC unroll 2
+    for (int j = 0; j < first; ++j) add(j);
+#pragma GCC unroll 4
+    for (int n = 0; n < count; ++n) {
+      const P time = P(Rule::c[first + n]) * h;
+#pragma GCC unroll 3
+      for (int i = 0; i < nv; ++i) {
+        v[n][i] = of.v[i] + once[n][i];
+        if (i < nq) q[n][i] = of.q[i] + (time * of.v[i] + h * twice[n][i]);
+      }
+    }
+  }
+
+  // The tolerance over the step, by how far the states get in it.
+  BBSIM_INLINE static void weigh(const Workspace& w, Pack& of) {
+    const P rtol(w.rtol), atol(w.atol);
+    P q_size(0.0), v_size(0.0);
+#pragma GCC unroll 3
+    for (int i = 0; i < nv; ++i) {
+      P v = simd::size_of(of.v[i]), q(0.0);
+#pragma GCC unroll 1
+      for (int j = 0; j < s; ++j) {
+        v = simd::larger_of(v, simd::size_of(of.v_at[j][i]));
+        if (i < nq) q = simd::larger_of(q, simd::size_of(of.q_at[j][i]));
+      }
+      of.v_weight[i] = P(1.0) / (rtol * v + atol);
+      v_size = simd::larger_of(v_size, v);
+      if (i == nq) continue;
+      q = simd::larger_of(q, simd::size_of(of.q[i]));
+      of.q_weight[i] = P(1.0) / (rtol * q + atol);
+      q_size = simd::larger_of(q_size, q);
+    }
+    of.weight = simd::larger_of(P(1.0) / (rtol * v_size + atol), P(w.h) / (rtol * q_size + atol));
+  }
+
+  static constexpr int most_iterations = 15;
+
+  // One pack; returns whether substitution came to rest.
+  [[gnu::flatten]] static bool solve(Workspace& w, int p, int& iterations) {
+    Pack& of = w.of[p];
+    const P h(w.h);
+    // At first a ball that goes on as it did.
+#pragma GCC unroll 1
+    for (int i = 0; i < s; ++i) {
+      const P time(w.h * Rule::c[i]);
+      const P q[nq] = {of.q[0] + time * of.v[0], of.q[1] + time * of.v[1]};
+      w.at[i].at(q, of.v, of.k[i]);
+    }
+    constexpr double enough = 1e-2, rounding = 30 * 2.2e-16;
+    const double floor = rounding / w.rtol;
+    double last = 0;
+    for (iterations = 1;; ++iterations) {
+      P change[nv] = {P(0.0), P(0.0), P(0.0)};
+      constexpr int together = 2;
+      static_assert(s % together == 0);
+#pragma GCC unroll 1
+      for (int first = 0; first < s; first += together) {
+        P q[together][nq], v[together][nv];
+        integrate<together>(of, h, first, q, v);
+#pragma GCC unroll 4
+        for (int n = 0; n < together; ++n) {
+          P k[nv];
+          w.at[first + n].at(q[n], v[n], k);
+#pragma GCC unroll 3
+          for (int i = 0; i < nv; ++i) {
+            change[i] = simd::larger_of(change[i], simd::size_of(k[i] - of.k[first + n][i]));
+            of.k[first + n][i] = k[i];
+            of.v_at[first + n][i] = v[n][i];
+            if (i < nq) of.q_at[first + n][i] = q[n][i];
+          }
+        }
+      }
+      if (iterations == 1) weigh(w, of);
+      const P most = simd::larger_of(simd::larger_of(change[0], change[1]), change[2]);
+      const double now = largest(most * of.weight);
+      if (!is_finite(now)) return true;  // the states tell
+      const double contraction = iterations > 1 ? now / last : 1;
+      if (now <= floor || now * contraction <= enough * (1 - contraction)) return true;
+      if (iterations >= most_iterations || (iterations > 3 && contraction > 0.5)) return false;
+      last = now;
+    }
+  }
+
+  // The error from the fall of the last Legendre coefficients, as in radau/step.hpp: the first one
+  // left out, integrated once for a velocity, twice for a position. Squared, so that no root is
+  // taken.
+  [[gnu::flatten]] static P estimate(const Workspace& w, int p) {
+    const Pack& of = w.of[p];
+    constexpr double once = 1.0 / (2 * s + 1);
+    const double twice = once * once * w.h;
+    P series[4][nv];
+#pragma GCC unroll 4
+    for (int m = 0; m < 4; ++m) {
+#pragma GCC unroll 3
+      for (int i = 0; i < nv; ++i) series[m][i] = P(0.0);
+    }
+#pragma GCC unroll 1
+    for (int j = 0; j < s; ++j) {
+#pragma GCC unroll 4
+      for (int m = 0; m < 4; ++m) {
+        const P part(Rule::legendre[j][s - 4 + m]);
+#pragma GCC unroll 3
+        for (int i = 0; i < nv; ++i) series[m][i] += part * of.k[j][i];
+      }
+    }
+    P error(0.0);
+    Mask finite = ~Mask{};
+#pragma GCC unroll 3
+    for (int i = 0; i < nv; ++i) {
+      const P before = simd::larger_of(simd::size_of(series[0][i]), simd::size_of(series[1][i]));
+      const P tail = simd::larger_of(simd::size_of(series[2][i]), simd::size_of(series[3][i]));
+      const P fall = simd::smaller_of(P(1.0), tail / (before + P(1e-300)));
+      finite &= is_finite(of.v_end[i]);
+      P weight = P(once) * of.v_weight[i];
+      if (i < nq) {
+        finite &= is_finite(of.q_end[i]);
+        weight = simd::larger_of(weight, P(twice) * of.q_weight[i]);
+      }
+      const P weighted = tail * weight;
+      error = simd::larger_of(error, weighted * weighted * fall);
+    }
+    return P::of((Vector)((Mask)error.v | ~finite));  // all bits: no number
+  }
+
+  static void start(void* workspace, const Scenes& scenes, double rtol, double atol) {
+    Workspace& w = *static_cast<Workspace*>(workspace);
+    w.scenes = scenes;
+    w.rtol = rtol;
+    w.atol = atol;
+    w.t = w.h = 0;
+    for (int p = 0; p < packs; ++p) {
+      Pack& of = w.of[p];
+      for (int i = 0; i < nq; ++i) of.q[i] = lane(scenes.initial[i], p);
+      for (int i = 0; i < nv; ++i) of.v[i] = lane(scenes.initial[nq + i], p);
+      of.distance_squared = P(0.0);
+    }
+  }
+
+  static void attempt(void* workspace, double t, double h, Attempt& result) {
+    Workspace& w = *static_cast<Workspace*>(workspace);
+    w.t = t;
+    w.h = h;
+    result.converged = true;
+    result.iterations = 0;
+    for (int p = 0; p < packs; ++p) {
+      int iterations = 0;
+      take_coefficients(w, p);
+      result.converged = solve(w, p, iterations) && result.converged;
+      result.iterations = iterations > result.iterations ? iterations : result.iterations;
+      Pack& of = w.of[p];
+      P q[1][nq], v[1][nv];
+      integrate<1>(of, P(h), s - 1, q, v);
+      for (int i = 0; i < nv; ++i) of.v_end[i] = v[0][i];
+      for (int i = 0; i < nq; ++i) of.q_end[i] = q[0][i];
+      estimate(w, p).store(result.error_squared + p * lanes);
+    }
+  }
+
+  // The ball's path over a step, by Legendre series.
+  struct Path {
+    P v[nq][s + 1], q[nq][s + 2];
+    bool made = false;
+
+    BBSIM_INLINE void make(const Pack& of, P h) {
+      made = true;
+      constexpr int together = 4;
+      static_assert(s % together == 0);
+      P k[nq][s];
+#pragma GCC unroll 1
+      for (int first = 0; first < s; first += together) {
+        P sum[together][nq];
+#pragma GCC unroll 4
+        for (int m = 0; m < together; ++m) sum[m][0] = sum[m][1] = P(0.0);
+#pragma GCC unroll 2
+        for (int j = 0; j < s; ++j) {
+#pragma GCC unroll 4
+          for (int m = 0; m < together; ++m) {
+            const P part(Rule::legendre[j][first + m]);
+            sum[m][0] += part * of.k[j][0];
+            sum[m][1] += part * of.k[j][1];
+          }
+        }
+#pragma GCC unroll 4
+        for (int m = 0; m < together; ++m) {
+          k[0][first + m] = sum[m][0];
+          k[1][first + m] = sum[m][1];
+        }
+      }
+#pragma GCC unroll 2
+      for (int i = 0; i < nq; ++i) {
+        integrate_series<s>(k[i], P(0.5), of.v[i], v[i]);
+        integrate_series<s + 1>(v[i], P(0.5) * h, of.q[i], q[i]);
+      }
+    }
+
+    // Half times the integral from -1 of a Legendre series of so many terms, plus its value there.
+    template <int length>
+    BBSIM_INLINE static void integrate_series(const P* k, P half, P from, P* out) {
+      out[0] = from + half * (k[0] - k[1] * P(1.0 / 3));
+#pragma GCC unroll 1
+      for (int m = 1; m <= length; ++m) {
+        const P next = m + 1 < length ? k[m + 1] * P(1.0 / (2 * m + 3)) : P(0.0);
+        out[m] = half * (k[m - 1] * P(1.0 / (2 * m - 1)) - next);
+      }
+    }
+
+    // The square of the distance at a part of the step, and its slope by that part.
+    BBSIM_INLINE void distance(P part, P h, P& value, P& slope) const {
+      const P x = P(2.0) * part - P(1.0);
+      P before(1.0), now = x, at[nq], moving[nq];
+#pragma GCC unroll 2
+      for (int i = 0; i < nq; ++i) {
+        at[i] = q[i][0] + q[i][1] * x;
+        moving[i] = v[i][0] + v[i][1] * x;
+      }
+#pragma GCC unroll 1
+      for (int m = 1; m <= s; ++m) {
+        // P_(m+1) = ((2 m + 1) x P_m - m P_(m-1)) / (m + 1)
+        const P next =
+            P((2.0 * m + 1) / (m + 1)) * x * now - rounded(P(double(m) / (m + 1)) * before);
+        before = now;
+        now = next;
+#pragma GCC unroll 2
+        for (int i = 0; i < nq; ++i) {
+          at[i] += q[i][m + 1] * now;
+          if (m < s) moving[i] += v[i][m + 1] * now;
+        }
+      }
+      value = at[0] * at[0] + at[1] * at[1];
+      slope = P(2.0) * h * (at[0] * moving[0] + at[1] * moving[1]);
+    }
+  };
+
+  [[gnu::flatten]] static void look(Workspace& w, int p) {
+    Pack& of = w.of[p];
+    const P h(w.h);
+    Looked<P> places[s + 1];
+    const auto put = [&](Looked<P> & place, P part, const P(&q)[nq], const P(&v)[nv])
+        __attribute__((always_inline)) {
+      place.at = part;
+      place.value = q[0] * q[0] + q[1] * q[1];
+      place.slope = P(2.0) * h * (q[0] * v[0] + q[1] * v[1]);
+    };
+    put(places[0], P(0.0), of.q, of.v);
+#pragma GCC unroll 1
+    for (int i = 0; i + 1 < s; ++i) put(places[i + 1], P(Rule::c[i]), of.q_at[i], of.v_at[i]);
+    put(places[s], P(1.0), of.q_end, of.v_end);
+    Path path;
+    simd::raise_to_peak<s>(places, s + 1, of.distance_squared, [&](P part, P& value, P& slope) {
+      if (!path.made) path.make(of, h);
+      path.distance(part, h, value, slope);
+    });
+  }
+
+  static void accept(void* workspace) {
+    Workspace& w = *static_cast<Workspace*>(workspace);
+    for (int p = 0; p < packs; ++p) {
+      look(w, p);
+      Pack& of = w.of[p];
+      for (int i = 0; i < nq; ++i) of.q[i] = of.q_end[i];
+      for (int i = 0; i < nv; ++i) of.v[i] = of.v_end[i];
+    }
+  }
+
+  static void read(const void* workspace, double (*state)[group], double* distance_squared) {
+    const Workspace& w = *static_cast<const Workspace*>(workspace);
+    for (int p = 0; p < packs; ++p) {
+      const Pack& of = w.of[p];
+      for (int i = 0; i < nq; ++i) of.q[i].store(state[i] + p * lanes);
+      for (int i = 0; i < nv; ++i) of.v[i].store(state[nq + i] + p * lanes);
+      of.distance_squared.store(distance_squared + p * lanes);
+    }
+  }
+
+  static void twin(void* workspace, int to, int from) {
+    Workspace& w = *static_cast<Workspace*>(workspace);
+    const auto copy = [&](double* values) { values[to] = values[from]; };
+    Scenes& scenes = w.scenes;
+    copy(scenes.radius);
+    copy(scenes.gravity);
+    for (int i = 0; i < 2; ++i) {
+      copy(scenes.start[i]);
+      copy(scenes.rate[i]);
+    }
+    for (int k = 0; k < scenes.harmonic_count; ++k) {
+      Scenes::Harmonic& one = scenes.harmonics[k];
+      copy(one.frequency);
+      for (int i = 0; i < 2; ++i) {
+        copy(one.sine[i]);
+        copy(one.cosine[i]);
+      }
+    }
+    const auto copy_lane = [&](auto value) {
+      value(w.of[to / lanes]).v[to % lanes] = value(w.of[from / lanes]).v[from % lanes];
+    };
+    for (int i = 0; i < nq; ++i) copy_lane([i](Pack& of) -> P& { return of.q[i]; });
+    for (int i = 0; i < nv; ++i) copy_lane([i](Pack& of) -> P& { return of.v[i]; });
+    copy_lane([](Pack& of) -> P& { return of.distance_squared; });
+  }
+
+  static constexpr Kernel kernel{s, sizeof(Workspace), start, attempt, accept, read, twin};
+};
+
+template <class Isa>
+inline constexpr Kernels kernels_of{Step<Isa, 8>::kernel, Step<Isa, 12>::kernel,
+                                    Step<Isa, 16>::kernel, Lanes<Isa>::turning};
+
+}  // namespace bbsim::solve::open

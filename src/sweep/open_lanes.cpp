@@ -1,0 +1,237 @@
+#include "sweep/open_lanes.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <variant>
+
+#include "model/model.hpp"
+#include "model/signals/given_motion.hpp"
+#include "record/rows.hpp"
+#include "record/track/gimbal_extremes.hpp"
+#include "record/track/track_measures.hpp"
+#include "solve/choose.hpp"
+#include "sweep/case_scenario.hpp"
+#include "sweep/sample_cases.hpp"
+#include "sweep/single.hpp"
+#include "sweep/verdict.hpp"
+
+namespace bbsim::sweep {
+namespace {
+
+using solve::open::OpenCase, solve::open::OpenLanes, solve::open::Reached;
+using Kind = scenario::Measure::Kind;
+constexpr std::size_t group = solve::open::group;
+
+// A small sweep would spend more on measuring its pace than on its cases.
+constexpr std::size_t worth_it = 32;
+
+model::Model model_of(const Scenario& scenario) {
+  return model::assemble(scenario, false, model::Symmetry::ignored);
+}
+
+// The case in the numbers that a lane has.
+void set(OpenCase& one, const Scenario& scenario) {
+  const Ball& ball = scenario.ball;
+  one.radius = ball.radius;
+  one.gravity = scenario.gravity;
+  const double initial[] = {ball.position[0], ball.position[1], ball.velocity[0], ball.velocity[1],
+                            ball.radius * ball.spin};
+  std::copy(std::begin(initial), std::end(initial), one.initial);
+  one.motion = model::given_motion(scenario);
+}
+
+std::size_t sinusoids(const Profile& profile) {
+  return static_cast<std::size_t>(std::count_if(
+      profile.begin(), profile.end(),
+      [](const ProfileTerm& term) { return std::holds_alternative<Sinusoid>(term); }));
+}
+
+std::vector<const scenario::Column*> columns_at_end(const SweepTask& task) {
+  std::vector<const scenario::Column*> columns;
+  for (const scenario::Measure& measure : task.measures) {
+    if (measure.kind == Kind::end) columns.push_back(measure.column);
+  }
+  return columns;
+}
+
+class OpenLaneRunner : public CaseRunner {
+ public:
+  OpenLaneRunner(const SweepTask& task, const solve::open::Pace& pace)
+      : task_(task),
+        first_(task.family.read(task.plan.settings(0))),
+        scenario_(task),
+        lanes_({first_.solver.rtol, first_.solver.atol}, first_.time.end, model_of(first_).stops,
+               pace),
+        single_(single_runner(task)),
+        end_(columns_at_end(task)),
+        same_signals_(task.plan.shares_signals()) {
+    for (const scenario::Measure& measure : task.measures) take_.push_back(way_to(measure));
+    needs_model_ = std::count(take_.begin(), take_.end(), Take::column) > 0;
+    wants_turning_ = std::count(take_.begin(), take_.end(), Take::tilt) > 0 ||
+                     std::count(take_.begin(), take_.end(), Take::tilt_rate) > 0;
+  }
+
+  std::size_t run(std::size_t first, std::size_t count, CaseResults& into,
+                  const std::atomic<bool>& stop) override {
+    into.first = first;
+    into.resize(count, task_);
+    for (std::size_t i = 0; i < count; i += group) {
+      if (stop.load(std::memory_order_relaxed)) return i;
+      if (!run_group(first, i, std::min(group, count - i), into, stop)) return i;
+    }
+    return count;
+  }
+
+ private:
+  enum class Take { x, y, column, distance, tilt, tilt_rate };
+
+  static Take way_to(const scenario::Measure& measure) {
+    const std::string_view name = measure.column->name;
+    if (measure.kind == Kind::end)
+      return name == "x" ? Take::x : name == "y" ? Take::y : Take::column;
+    return name == "distance" ? Take::distance : name == "tilt" ? Take::tilt : Take::tilt_rate;
+  }
+
+  bool run_group(std::size_t first, std::size_t place, std::size_t count, CaseResults& into,
+                 const std::atomic<bool>& stop) {
+    const std::size_t axes = task_.plan.axes().size(), numbers = 1 + task_.measures.size();
+    for (std::size_t i = 0; i < count; ++i) {
+      double* const values = &into.values[(place + i) * axes];
+      task_.plan.values(first + place + i, values);
+      set(cases_[i], scenario_.at(first + place + i, values));
+    }
+    const auto carried = lanes_.integrate(cases_.data(), static_cast<int>(count));
+    for (std::size_t i = 0; i < count; ++i) {
+      const std::size_t at = place + i;
+      double* const results = &into.numbers[at * numbers];
+      if (carried[i] && take(i, first + at, &into.values[at * axes], results)) {
+        into.status[at] = {};
+        judge(task_, first_, results + 1, into.status[at]);
+        continue;
+      }
+      if (single_->run(first + at, 1, one_, stop) == 0) return false;
+      std::copy(one_.numbers.begin(), one_.numbers.end(), results);
+      into.status[at] = one_.status[0];
+    }
+    return true;
+  }
+
+  // The measures of a lane's case; false of one whose squares overflow or vanish.
+  bool take(std::size_t lane, std::size_t number, const double* values, double* results) {
+    const Reached reached = lanes_.reached(static_cast<int>(lane));
+    if (!record::is_square(reached.distance_squared)) return false;
+    const double end = first_.time.end;
+    record::GimbalExtremes::Greatest turned;
+    if (wants_turning_) turned = turning(cases_[lane].motion, reached);
+    if (needs_model_) {
+      const Scenario& scenario = scenario_.at(number, values);
+      const model::Model model = model_of(scenario);
+      const model::BallConstants constants = model::constants_of(scenario);
+      end_.begin(model, constants);
+      end_.evaluate(&end, reached.state, 1);
+    }
+    results[0] = end;
+    std::size_t column = 0;
+    for (std::size_t m = 0; m < take_.size(); ++m) {
+      double& result = results[1 + m];
+      switch (take_[m]) {
+        case Take::x:
+          result = reached.state[0];
+          break;
+        case Take::y:
+          result = reached.state[1];
+          break;
+        case Take::column:
+          result = end_[column][0];
+          break;
+        case Take::distance:
+          result = std::sqrt(reached.distance_squared);
+          break;
+        case Take::tilt:
+          result = turned.tilt;
+          break;
+        case Take::tilt_rate:
+          result = turned.rate;
+          break;
+      }
+      if (task_.measures[m].kind == Kind::end) ++column;
+    }
+    return true;
+  }
+
+  // Of motions with tables, which are not looked at in lanes, or of one that all cases have.
+  record::GimbalExtremes::Greatest turning(const model::SignalPair& motion,
+                                           const Reached& reached) {
+    if (motion.view().table_count == 0) {
+      return {record::tilt_of(reached.versine), std::sqrt(reached.rate_squared)};
+    }
+    if (!turned_ || !same_signals_) turned_ = gimbal_.of(motion, first_.time.end);
+    return *turned_;
+  }
+
+  const SweepTask& task_;
+  const Scenario first_;  // like which all are, but for their numbers
+  CaseScenario scenario_;
+  OpenLanes lanes_;
+  std::unique_ptr<CaseRunner> single_;
+  std::vector<Take> take_;
+  record::Rows end_;
+  record::GimbalExtremes gimbal_;
+  std::optional<record::GimbalExtremes::Greatest> turned_;
+  bool needs_model_ = false, wants_turning_ = false, same_signals_;
+  std::array<OpenCase, group> cases_;
+  CaseResults one_;
+};
+
+}  // namespace
+
+bool can_use_open_lanes(const SweepTask& task) {
+  if (!task.series.empty() || task.plan.cases() < worth_it || !task.plan.independent() ||
+      !record::are_track_measures(task.measures)) {
+    return false;
+  }
+  // Planar cases are carried like the others. Whatever is asked here is the same in all cases.
+  const Scenario scenario = task.family.read(task.plan.settings(0));
+  return scenario.gimbal.motion && !scenario.solver.error &&
+         solve::choose_method(scenario.solver.method) == Method::radau &&
+         sinusoids(scenario.gimbal.motion->phi) + sinusoids(scenario.gimbal.motion->theta) <=
+             solve::open::most_harmonics &&
+         record::has_track(model_of(scenario));
+}
+
+std::optional<solve::open::Pace> open_lane_pace(const SweepTask& task) {
+  constexpr int groups = 4;
+  const Scenario first = task.family.read(task.plan.settings(0));
+  const std::vector<double> stops = model_of(first).stops;
+  std::optional<OpenLanes::Measured> best;
+  for (const int nodes : {8, 12, 16}) {
+    OpenLanes lanes({first.solver.rtol, first.solver.atol}, first.time.end, stops, {nodes});
+    std::optional<OpenLanes::Measured> slowest;
+    for (int g = 0; g < groups; ++g) {
+      std::array<OpenCase, group> cases;
+      for (std::size_t i = 0; i < group; ++i) {
+        const int sample = g * static_cast<int>(group) + static_cast<int>(i);
+        set(cases[i], task.family.read(task.plan.settings(sample_case(sample, task.plan.cases()))));
+      }
+      const auto measured = lanes.measure(cases.data(), static_cast<int>(group));
+      if (!measured) continue;
+      if (!slowest) slowest = measured;
+      slowest->pace.angle = std::min(slowest->pace.angle, measured->pace.angle);
+      slowest->cost = std::max(slowest->cost, measured->cost);
+    }
+    if (slowest && (!best || slowest->cost < best->cost)) best = slowest;
+  }
+  if (!best) return {};
+  return best->pace;
+}
+
+std::size_t open_lane_group() {
+  return group;
+}
+
+std::unique_ptr<CaseRunner> open_lane_runner(const SweepTask& task, const solve::open::Pace& pace) {
+  return std::make_unique<OpenLaneRunner>(task, pace);
+}
+
+}  // namespace bbsim::sweep

@@ -1,0 +1,226 @@
+// Sweeps of given motions in lanes, held against single runs.
+#include <atomic>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "catch.hpp"
+#include "support/largest.hpp"
+#include "sweep/open_lanes.hpp"
+#include "sweep/single.hpp"
+#include "sweep/sweep.hpp"
+
+using namespace bbsim;
+using namespace bbsim::sweep;
+
+namespace {
+
+const std::atomic<bool> goes_on{false};
+const std::vector<std::string> usual{"x_end", "y_end", "max_distance", "max_tilt", "max_tilt_rate"};
+const std::vector<std::string> fine{"solver.rtol=1e-12", "solver.atol=1e-14"};
+const Variation amplitude{"gimbal.motion.phi.sinusoid.amplitude", "uniform:0.005:0.015"};
+const Variation phase{"gimbal.motion.theta.sinusoid.phase", "uniform:0:3"};
+
+struct Setup {
+  Setup(const std::string& scene, std::vector<Variation> vary, const std::vector<std::string>& set,
+        const std::vector<std::string>& names = usual, double samples = 43)
+      : family(BBSIM_SOURCE_DIR "/" + scene, set),
+        plan(family, sweep(std::move(vary), samples)),
+        task{family, plan, measures(names)} {}
+
+  static Sweep sweep(std::vector<Variation> vary, double samples) {
+    Sweep made;
+    made.vary = std::move(vary);
+    made.samples = samples;
+    return made;
+  }
+  static std::vector<scenario::Measure> measures(const std::vector<std::string>& names) {
+    std::vector<scenario::Measure> found;
+    for (const std::string& name : names) found.push_back(*scenario::find_measure(name));
+    return found;
+  }
+
+  ScenarioFamily family;
+  SweepPlan plan;
+  SweepTask task;
+};
+
+std::vector<std::string> with(std::vector<std::string> set, const std::string& more) {
+  set.push_back(more);
+  return set;
+}
+
+CaseResults run_all(CaseRunner& runner, const SweepTask& task) {
+  CaseResults results;
+  REQUIRE(runner.run(0, task.plan.cases(), results, goes_on) == task.plan.cases());
+  return results;
+}
+
+// The largest difference from single runs, of numbers above 1 relative to them.
+double difference_from_single(const Setup& setup) {
+  const Engine engine = choose_engine(setup.task);
+  REQUIRE(engine.name == "open lanes");
+  const CaseResults lanes = run_all(*engine.runner(), setup.task);
+  const CaseResults runs = run_all(*single_runner(setup.task), setup.task);
+  double largest = 0;
+  for (std::size_t i = 0; i < lanes.numbers.size(); ++i) {
+    const double size = std::max(1.0, std::abs(runs.numbers[i]));
+    largest =
+        bbsim_test::largest_finite(largest, {std::abs(lanes.numbers[i] - runs.numbers[i]) / size});
+  }
+  CHECK(lanes.values == runs.values);
+  for (std::size_t i = 0; i < setup.plan.cases(); ++i) {
+    CHECK(lanes.status[i].word == runs.status[i].word);
+    CHECK(lanes.status[i].reason == runs.status[i].reason);
+  }
+  return largest;
+}
+
+}  // namespace
+
+TEST_CASE("given motions in lanes agree with single runs") {
+  // Both are at a tolerance of 1e-12, over distances up to some metres.
+  constexpr double agree = 2e-11;
+  SECTION("amplitude and phase") {
+    CHECK(difference_from_single(Setup("configs/fig2a.yaml", {amplitude, phase}, fine)) < agree);
+  }
+  SECTION("frequencies, which share no sine") {
+    CHECK(
+        difference_from_single(Setup("configs/fig2a.yaml",
+                                     {{"gimbal.motion.phi.sinusoid.frequency", "uniform:0.3:4"},
+                                      {"gimbal.motion.theta.sinusoid.frequency", "uniform:0.3:4"}},
+                                     fine)) < agree);
+  }
+  SECTION("large angles, and all that a ball starts with") {
+    CHECK(difference_from_single(Setup("configs/fig2a.yaml",
+                                       {{"gimbal.motion.phi.sinusoid.amplitude", "uniform:-2:2"},
+                                        {"ball.velocity.0", "uniform:-0.2:0.2"},
+                                        {"ball.spin", "uniform:-20:20"},
+                                        {"ball.radius", "uniform:0.005:0.05"},
+                                        {"gravity", "uniform:1:20"}},
+                                       with(fine, "time.end=3"))) < agree);
+  }
+  SECTION("offsets, ramps and more than one sinusoid") {
+    CHECK(difference_from_single(
+              Setup("configs/fig2a.yaml",
+                    {{"gimbal.motion.phi.0.sinusoid.offset", "uniform:-0.002:0.002"},
+                     {"gimbal.motion.phi.1.sinusoid.amplitude", "uniform:0:0.01"},
+                     {"gimbal.motion.theta.0.ramp.rate", "uniform:-0.001:0.001"},
+                     {"gimbal.motion.theta.1", "uniform:-0.001:0.001"}},
+                    with(fine,
+                         "gimbal.motion={phi: [{sinusoid: {amplitude: 0.01, frequency: 1}}, "
+                         "{sinusoid: {amplitude: 0.01, frequency: 2.5}}], theta: [{ramp: {start: "
+                         "0, rate: 0.001}}, 0.001]}"))) < agree);
+  }
+  SECTION("scenes that are planar, all or some") {
+    const std::string still = GENERATE("uniform:0:0.05", "list:0,0.05");
+    CHECK(difference_from_single(Setup(
+              "configs/incline.yaml",
+              {{"gimbal.motion.phi.ramp.rate", "uniform:0.01:0.02"}, {"ball.position.1", still}},
+              with(with(fine, "gimbal.motion.phi={ramp: {start: 0, rate: 0.01}}"), "time.end=2"))) <
+          agree);
+  }
+  SECTION("any column at the end") {
+    CHECK(difference_from_single(Setup("configs/fig2a.yaml", {amplitude, phase}, fine,
+                                       {"end_vx", "end_spin", "end_normal_force", "end_phi",
+                                        "x_end", "end_energy", "max_tilt"})) < agree);
+  }
+}
+
+TEST_CASE("given motions with tables go in lanes between the tables' knots") {
+  // Tables beside a sinusoid that varies.
+  const Setup setup("configs/recorded.yaml",
+                    {{"ball.spin", "uniform:-3:3"},
+                     {"gimbal.motion.theta.1.sinusoid.amplitude", "uniform:0.001:0.002"}},
+                    fine,
+                    {"x_end", "y_end", "end_vx", "max_distance", "max_tilt", "max_tilt_rate"});
+  CHECK(difference_from_single(setup) < 2e-11);
+}
+
+TEST_CASE("coarse tolerances hold in lanes as in single runs") {
+  for (const double rtol : {1e-4, 1e-6, 1e-9}) {
+    char set[2][40];
+    std::snprintf(set[0], sizeof set[0], "solver.rtol=%g", rtol);
+    std::snprintf(set[1], sizeof set[1], "solver.atol=%g", rtol / 100);
+    const Setup coarse("configs/fig2a.yaml", {amplitude, phase}, {set[0], set[1]});
+    const Setup exact("configs/fig2a.yaml", {amplitude, phase}, fine);
+    const Engine engine = choose_engine(coarse.task);
+    REQUIRE(engine.name == "open lanes");
+    const CaseResults lanes = run_all(*engine.runner(), coarse.task);
+    const CaseResults runs = run_all(*single_runner(exact.task), exact.task);
+    for (std::size_t i = 0; i < lanes.numbers.size(); ++i) {
+      CHECK(std::abs(lanes.numbers[i] - runs.numbers[i]) < rtol);
+    }
+  }
+}
+
+TEST_CASE("what lanes of given motions cannot do goes another way") {
+  const auto engine = [](const std::string& scene, Variation vary,
+                         const std::vector<std::string>& set, const std::vector<std::string>& names,
+                         double samples = 100) {
+    const Setup setup(scene, {std::move(vary)}, set, names, samples);
+    return choose_engine(setup.task).name;
+  };
+  const std::string open = "configs/fig2a.yaml";
+  CHECK(engine(open, phase, {}, usual) == "open lanes");
+  CHECK(engine(open, phase, {"solver.rtol=1e-13"}, usual) == "open lanes");
+  CHECK(engine(open, phase, {}, usual, 31) == "single runs");  // too few to measure a pace
+  CHECK(engine(open, phase, {}, {"min_x"}) == "single runs");
+  CHECK(engine(open, phase, {}, {"end_gamma"}) == "single runs");
+  CHECK(engine(open, phase, {"ball.inertia_factor=0.5"}, usual) == "single runs");
+  CHECK(engine(open, phase, {"events.lift_off=note"}, usual) == "single runs");
+  CHECK(engine(open, phase, {"solver.method=bdf"}, usual) == "single runs");
+  CHECK(engine(open, phase, {"solver.error=1e-6"}, usual) == "single runs");
+  CHECK(engine(open, {"gimbal.mounting.height", "uniform:0:0.01"}, {}, usual) == "single runs");
+  CHECK(engine(open, {"gravity", "uniform:1:2"}, {}, usual) == "superposition");
+  CHECK(engine("configs/fig2b.yaml", {"gravity", "uniform:1:2"}, {}, {"x_end"}) != "open lanes");
+}
+
+TEST_CASE("results in lanes do not depend on threads or on the cut into parts") {
+  const Setup setup("configs/fig2a.yaml",
+                    {amplitude, {"gimbal.motion.theta.sinusoid.frequency", "uniform:0.2:6"}}, {},
+                    usual, 403);
+  const Engine engine = choose_engine(setup.task);
+  REQUIRE(engine.name == "open lanes");
+  const CaseResults whole = run_all(*engine.runner(), setup.task);
+  for (const std::size_t threads : {1, 2, 3}) {
+    for (const std::size_t shards : {1, 3}) {
+      std::vector<double> numbers;
+      for (std::size_t k = 1; k <= shards; ++k) {
+        // Chosen anew, as by another process.
+        const Engine again = choose_engine(setup.task);
+        REQUIRE(run_sweep(
+            again, shard_range(setup.plan.cases(), again.group, k, shards), threads, goes_on,
+            [](CaseResults&) {},
+            [&](const CaseResults& some) {
+              numbers.insert(numbers.end(), some.numbers.begin(), some.numbers.end());
+            }));
+      }
+      CHECK(numbers == whole.numbers);
+    }
+  }
+}
+
+TEST_CASE("cases that explode under a given motion are run by themselves") {
+  // At 60 rad/s and more the plane throws the ball beyond the range of doubles, at some time.
+  const Setup setup(
+      "configs/fig2a.yaml",
+      {{"gimbal.motion.phi.ramp.rate", "list:0.01,0.02,200"}, {"ball.mass", "uniform:1:2"}},
+      {"gimbal.motion.phi={ramp: {start: 0, rate: 0.01}}"}, usual, 15);
+  const Engine engine = choose_engine(setup.task);
+  REQUIRE(engine.name == "open lanes");
+  const CaseResults lanes = run_all(*engine.runner(), setup.task);
+  const CaseResults runs = run_all(*single_runner(setup.task), setup.task);
+  const std::size_t numbers = 1 + usual.size();
+  int failed = 0;
+  for (std::size_t i = 0; i < setup.plan.cases(); ++i) {
+    CHECK(lanes.status[i].word == runs.status[i].word);
+    CHECK(lanes.status[i].reason == runs.status[i].reason);
+    if (runs.status[i].word == "done") continue;
+    ++failed;
+    for (std::size_t n = 0; n < numbers; ++n) {
+      CHECK(lanes.numbers[i * numbers + n] == runs.numbers[i * numbers + n]);
+    }
+  }
+  CHECK(failed == 15);
+}
