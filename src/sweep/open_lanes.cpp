@@ -19,7 +19,7 @@
 namespace bbsim::sweep {
 namespace {
 
-using solve::open::OpenCase, solve::open::OpenLanes, solve::open::Reached;
+using solve::open::GivenMotion, solve::open::OpenCase, solve::open::OpenLanes, solve::open::Reached;
 using Kind = scenario::Measure::Kind;
 constexpr std::size_t group = solve::open::group;
 
@@ -30,15 +30,37 @@ model::Model model_of(const Scenario& scenario) {
   return model::assemble(scenario, false, model::Symmetry::ignored);
 }
 
-// The case in the numbers that a lane has.
-void set(OpenCase& one, const Scenario& scenario) {
+void add(GivenMotion& motion, int component, const Profile& profile) {
+  for (const ProfileTerm& term : profile) {
+    if (const auto* const constant = std::get_if<double>(&term)) {
+      motion.add_constant(component, *constant);
+    } else if (const auto* const wave = std::get_if<Sinusoid>(&term)) {
+      motion.add_constant(component, wave->offset);
+      motion.add_sinusoid(component, wave->amplitude, wave->frequency, wave->phase);
+    } else if (const auto* const ramp = std::get_if<Ramp>(&term)) {
+      motion.add_ramp(component, ramp->start, ramp->rate);
+    }
+  }
+}
+
+// The case in the numbers that a lane has. Tables do not vary, and are those of `tables`.
+void set(OpenCase& one, const Scenario& scenario, const model::SignalView& tables) {
   const Ball& ball = scenario.ball;
   one.radius = ball.radius;
   one.gravity = scenario.gravity;
   const double initial[] = {ball.position[0], ball.position[1], ball.velocity[0], ball.velocity[1],
                             ball.radius * ball.spin};
   std::copy(std::begin(initial), std::end(initial), one.initial);
-  one.motion = model::given_motion(scenario);
+  const Gimbal& gimbal = scenario.gimbal;
+  GivenMotion& motion = one.motion;
+  for (int i = 0; i < 2; ++i) motion.start[i] = motion.rate[i] = 0;
+  motion.wave_count = 0;
+  motion.tables = tables.tables;
+  motion.table_count = tables.table_count;
+  add(motion, 0, gimbal.motion->phi);
+  add(motion, 1, gimbal.motion->theta);
+  motion.add_constant(0, gimbal.mounting.phi_offset);
+  motion.add_constant(1, gimbal.mounting.theta_offset);
 }
 
 std::size_t sinusoids(const Profile& profile) {
@@ -60,13 +82,17 @@ class OpenLaneRunner : public CaseRunner {
   OpenLaneRunner(const SweepTask& task, const solve::open::Pace& pace)
       : task_(task),
         first_(task.family.read(task.plan.settings(0))),
+        motion_(model::given_motion(first_)),
         scenario_(task),
         lanes_({first_.solver.rtol, first_.solver.atol}, first_.time.end, model_of(first_).stops,
                pace),
         single_(single_runner(task)),
         end_(columns_at_end(task)),
         same_signals_(task.plan.shares_signals()) {
-    for (const scenario::Measure& measure : task.measures) take_.push_back(way_to(measure));
+    for (const scenario::Measure& measure : task.measures) {
+      take_.push_back(way_to(measure));
+      has_all_ = has_all_ && !scenario::missing(measure, first_);
+    }
     needs_model_ = std::count(take_.begin(), take_.end(), Take::column) > 0;
     wants_turning_ = std::count(take_.begin(), take_.end(), Take::tilt) > 0 ||
                      std::count(take_.begin(), take_.end(), Take::tilt_rate) > 0;
@@ -99,15 +125,16 @@ class OpenLaneRunner : public CaseRunner {
     for (std::size_t i = 0; i < count; ++i) {
       double* const values = &into.values[(place + i) * axes];
       task_.plan.values(first + place + i, values);
-      set(cases_[i], scenario_.at(first + place + i, values));
+      set(cases_[i], scenario_.at(first + place + i, values), motion_.view());
     }
     const auto carried = lanes_.integrate(cases_.data(), static_cast<int>(count));
     for (std::size_t i = 0; i < count; ++i) {
       const std::size_t at = place + i;
       double* const results = &into.numbers[at * numbers];
       if (carried[i] && take(i, first + at, &into.values[at * axes], results)) {
-        into.status[at] = {};
-        judge(task_, first_, results + 1, into.status[at]);
+        CaseStatus& status = into.status[at];
+        if (status.word != "done" || !status.reason.empty()) status = {};
+        if (!is_plain(results + 1)) judge(task_, first_, results + 1, status);
         continue;
       }
       if (single_->run(first + at, 1, one_, stop) == 0) return false;
@@ -117,13 +144,19 @@ class OpenLaneRunner : public CaseRunner {
     return true;
   }
 
+  // Whether there is nothing to say about the measures.
+  [[nodiscard]] bool is_plain(const double* measures) const {
+    return has_all_ && std::all_of(measures, measures + take_.size(),
+                                   [](double value) { return std::isfinite(value); });
+  }
+
   // The measures of a lane's case; false of one whose squares overflow or vanish.
   bool take(std::size_t lane, std::size_t number, const double* values, double* results) {
     const Reached reached = lanes_.reached(static_cast<int>(lane));
     if (!record::is_square(reached.distance_squared)) return false;
     const double end = first_.time.end;
     record::GimbalExtremes::Greatest turned;
-    if (wants_turning_) turned = turning(cases_[lane].motion, reached);
+    if (wants_turning_) turned = turning(number, values, reached);
     if (needs_model_) {
       const Scenario& scenario = scenario_.at(number, values);
       const model::Model model = model_of(scenario);
@@ -161,17 +194,20 @@ class OpenLaneRunner : public CaseRunner {
   }
 
   // Of motions with tables, which are not looked at in lanes, or of one that all cases have.
-  record::GimbalExtremes::Greatest turning(const model::SignalPair& motion,
+  record::GimbalExtremes::Greatest turning(std::size_t number, const double* values,
                                            const Reached& reached) {
-    if (motion.view().table_count == 0) {
+    if (motion_.view().table_count == 0) {
       return {record::tilt_of(reached.versine), std::sqrt(reached.rate_squared)};
     }
-    if (!turned_ || !same_signals_) turned_ = gimbal_.of(motion, first_.time.end);
+    if (!turned_ || !same_signals_) {
+      turned_ = gimbal_.of(model::given_motion(scenario_.at(number, values)), first_.time.end);
+    }
     return *turned_;
   }
 
   const SweepTask& task_;
-  const Scenario first_;  // like which all are, but for their numbers
+  const Scenario first_;            // like which all are, but for their numbers
+  const model::SignalPair motion_;  // whose tables are those of all
   CaseScenario scenario_;
   OpenLanes lanes_;
   std::unique_ptr<CaseRunner> single_;
@@ -179,6 +215,7 @@ class OpenLaneRunner : public CaseRunner {
   record::Rows end_;
   record::GimbalExtremes gimbal_;
   std::optional<record::GimbalExtremes::Greatest> turned_;
+  bool has_all_ = true;  // columns that the measures are of
   bool needs_model_ = false, wants_turning_ = false, same_signals_;
   std::array<OpenCase, group> cases_;
   CaseResults one_;
@@ -204,6 +241,7 @@ std::optional<solve::open::Pace> open_lane_pace(const SweepTask& task) {
   constexpr int groups = 4;
   const Scenario first = task.family.read(task.plan.settings(0));
   const std::vector<double> stops = model_of(first).stops;
+  const model::SignalPair motion = model::given_motion(first);
   std::optional<OpenLanes::Measured> best;
   for (const int nodes : {8, 12, 16}) {
     OpenLanes lanes({first.solver.rtol, first.solver.atol}, first.time.end, stops, {nodes});
@@ -212,7 +250,8 @@ std::optional<solve::open::Pace> open_lane_pace(const SweepTask& task) {
       std::array<OpenCase, group> cases;
       for (std::size_t i = 0; i < group; ++i) {
         const int sample = g * static_cast<int>(group) + static_cast<int>(i);
-        set(cases[i], task.family.read(task.plan.settings(sample_case(sample, task.plan.cases()))));
+        set(cases[i], task.family.read(task.plan.settings(sample_case(sample, task.plan.cases()))),
+            motion.view());
       }
       const auto measured = lanes.measure(cases.data(), static_cast<int>(group));
       if (!measured) continue;

@@ -4,8 +4,7 @@
 #include <numbers>
 
 #include "catch.hpp"
-#include "model/signals/given_motion.hpp"
-#include "scenario/scenario.hpp"
+#include "model/signals/signal_pair.hpp"
 #include "solve/open/open_lanes.hpp"
 #include "study/reference_table.hpp"
 
@@ -137,7 +136,18 @@ TEST_CASE("a lane that cannot go on is given up, and spoils nothing of the other
 
 TEST_CASE("the greatest tilt and rate are those of the motion, whatever it is made of") {
   const int which = GENERATE(range(0, 4));
-  model::SignalPair motion;
+  struct Both {
+    model::SignalPair pair;
+    GivenMotion given;
+    void add_sinusoid(std::size_t i, double amplitude, double frequency, double phase) {
+      pair.add_sinusoid(i, amplitude, frequency, phase);
+      given.add_sinusoid(static_cast<int>(i), amplitude, frequency, phase);
+    }
+    void add_ramp(std::size_t i, double start, double rate) {
+      pair.add_ramp(i, start, rate);
+      given.add_ramp(static_cast<int>(i), start, rate);
+    }
+  } motion;
   if (which < 3) motion.add_sinusoid(0, 0.7, 1.3, 0.2);
   if (which == 1) motion.add_sinusoid(1, 0.4, 2.1, 1.0);
   if (which == 2) motion.add_ramp(1, 0.2, -0.05);
@@ -146,13 +156,13 @@ TEST_CASE("the greatest tilt and rate are those of the motion, whatever it is ma
     motion.add_sinusoid(1, 0.5, 3, std::numbers::pi / 2);
   }
   OpenCase one = fig2a();
-  one.motion = motion;
+  one.motion = motion.given;
   OpenLanes lanes({1e-9, 1e-11}, end, {}, {});
   REQUIRE(lanes.integrate(&one, 1)[0]);
   double versine = 0, rate = 0;
   constexpr int looks = 1'000'000;
   for (int i = 0; i <= looks; ++i) {
-    const auto angles = motion.at(end * i / looks);
+    const auto angles = motion.pair.at(end * i / looks);
     const double a = std::sin(angles[0].value / 2), b = std::sin(angles[1].value / 2);
     versine = std::max(versine, 2 * (a * a + b * b) - 4 * a * a * b * b);
     rate = std::max(rate, angles[0].rate * angles[0].rate + angles[1].rate * angles[1].rate);

@@ -67,6 +67,8 @@ struct Kernel {
 
 struct Kernels {
   Kernel few, some, many;  // by the number of nodes
+  // sin and cos of an angle in each lane.
+  void (*directions)(const double* angles, double* sines, double* cosines);
   // What the planes, without tables, are greatest at from t = 0 until a time of each lane, s, which
   // is cut into so many intervals.
   void (*turning)(const Scenes& scenes, const double* until, int intervals, Turning& greatest);

@@ -61,57 +61,69 @@ OpenLanes::OpenLanes(Tolerances tolerances, double end, std::vector<double> stop
 
 // Unused lanes repeat the last case.
 void OpenLanes::load(const OpenCase* cases, int count) {
-  scenes_.harmonic_count = 0;
   double most = 0;  // angle
-  for (int lane = 0; lane < count; ++lane) {
-    const model::SignalView motion = cases[lane].motion.view();
-    scenes_.harmonic_count =
-        std::max(scenes_.harmonic_count, static_cast<int>(motion.harmonic_count));
-    for (int i = 0; i < 2; ++i) {
-      double angle = std::abs(motion.start[i]) + std::abs(motion.rate[i]) * end_;
-      for (std::size_t k = 0; k < motion.harmonic_count; ++k) {
-        angle += std::abs(motion.harmonics[k].sine[i]) + std::abs(motion.harmonics[k].cosine[i]);
-      }
-      most = std::max(most, angle);
-    }
-  }
-  const model::SignalView first = cases[0].motion.view();
-  scenes_.tables = first.tables;
-  scenes_.table_count = first.table_count;
-  scenes_.small = most < 0.785 && first.table_count == 0;
   for (int lane = 0; lane < group; ++lane) {
     const OpenCase& one = cases[std::min(lane, count - 1)];
-    const model::SignalView motion = one.motion.view();
+    const GivenMotion& motion = one.motion;
     scenes_.radius[lane] = one.radius;
     scenes_.gravity[lane] = one.gravity;
     for (int i = 0; i < states; ++i) scenes_.initial[i][lane] = one.initial[i];
+    double angle = 0;
     for (int i = 0; i < 2; ++i) {
       scenes_.start[i][lane] = motion.start[i];
       scenes_.rate[i][lane] = motion.rate[i];
+      angle += std::abs(motion.start[i]) + std::abs(motion.rate[i]) * end_;
     }
-    for (int k = 0; k < scenes_.harmonic_count; ++k) {
-      const bool there = static_cast<std::size_t>(k) < motion.harmonic_count;
-      const model::Harmonic from = there ? motion.harmonics[k] : model::Harmonic{};
-      Scenes::Harmonic& to = scenes_.harmonics[k];
-      to.frequency[lane] = from.frequency;
-      for (int i = 0; i < 2; ++i) {
-        to.sine[i][lane] = from.sine[i];
-        to.cosine[i][lane] = from.cosine[i];
-      }
+    for (int k = 0; k < motion.wave_count; ++k) angle += std::abs(motion.waves[k].amplitude);
+    most = std::max(most, angle);
+  }
+  scenes_.tables = cases[0].motion.tables;
+  scenes_.table_count = cases[0].motion.table_count;
+  scenes_.small = most < 0.785 && scenes_.table_count == 0;
+  load_waves(cases, count);
+  kernel_->start(workspace_.get(), scenes_, tolerances_.rtol, tolerances_.atol);
+}
+
+// A sine costs more than the rest of the equation, so waves of one frequency, whichever it is in
+// each lane, share one: a sin(w t + p) = a cos p sin w t + a sin p cos w t.
+void OpenLanes::load_waves(const OpenCase* cases, int count) {
+  scenes_.harmonic_count = 0;
+  for (int k = 0; k < cases[0].motion.wave_count; ++k) {
+    alignas(64) double frequency[group], phase[group], sine[group], cosine[group];
+    const auto wave = [&](int lane) -> const GivenMotion::Wave& {
+      return cases[std::min(lane, count - 1)].motion.waves[k];
+    };
+    for (int lane = 0; lane < group; ++lane) {
+      frequency[lane] = wave(lane).frequency;
+      phase[lane] = wave(lane).phase;
+    }
+    Scenes::Harmonic* const end = scenes_.harmonics + scenes_.harmonic_count;
+    Scenes::Harmonic* const to =
+        std::find_if(scenes_.harmonics, end, [&](const Scenes::Harmonic& one) {
+          return std::equal(frequency, frequency + group, one.frequency);
+        });
+    if (to == end) {
+      *to = {};
+      std::copy(frequency, frequency + group, to->frequency);
+      ++scenes_.harmonic_count;
+    }
+    kernels_.directions(phase, sine, cosine);
+    const int component = cases[0].motion.waves[k].component;
+    for (int lane = 0; lane < group; ++lane) {
+      to->sine[component][lane] += wave(lane).amplitude * cosine[lane];
+      to->cosine[component][lane] += wave(lane).amplitude * sine[lane];
     }
   }
-  kernel_->start(workspace_.get(), scenes_, tolerances_.rtol, tolerances_.atol);
 }
 
 // The highest frequency of a motion, and how fast its angles go at most, rad/s.
 struct OpenLanes::Tempo {
-  explicit Tempo(const model::SignalView& motion) {
+  explicit Tempo(const GivenMotion& motion) {
     rate = std::abs(motion.rate[0]) + std::abs(motion.rate[1]);
-    for (std::size_t k = 0; k < motion.harmonic_count; ++k) {
-      const model::Harmonic& one = motion.harmonics[k];
-      const double of = std::abs(one.frequency);
+    for (int k = 0; k < motion.wave_count; ++k) {
+      const double of = std::abs(motion.waves[k].frequency);
       frequency = std::max(frequency, of);
-      for (int i = 0; i < 2; ++i) rate += of * (std::abs(one.sine[i]) + std::abs(one.cosine[i]));
+      rate += of * std::abs(motion.waves[k].amplitude);
     }
   }
   double frequency = 0, rate;
@@ -122,7 +134,7 @@ struct OpenLanes::Tempo {
 double OpenLanes::tempo(const OpenCase* cases, int count) {
   double fastest = 0;
   for (int lane = 0; lane < count; ++lane) {
-    const Tempo one(cases[lane].motion.view());
+    const Tempo one(cases[lane].motion);
     fastest = std::max(fastest, one.frequency + one.rate);
   }
   return fastest;
@@ -219,14 +231,12 @@ void OpenLanes::turn(const OpenCase* cases, int count) {
   alignas(64) double until[group];
   double most = 1;
   for (int lane = 0; lane < group; ++lane) {
-    const model::SignalView view = cases[std::min(lane, count - 1)].motion.view();
-    const Tempo tempo(view);
+    const GivenMotion& motion = cases[std::min(lane, count - 1)].motion;
+    const Tempo tempo(motion);
     until[lane] = end_;
-    if (view.rate[0] == 0 && view.rate[1] == 0 && view.harmonic_count == 1) {
-      const bool level = view.start[0] == 0 && view.start[1] == 0;
-      const double repeats =
-          (level ? 1 : 2) * std::numbers::pi / std::abs(view.harmonics[0].frequency);
-      until[lane] = std::min(end_, repeats);
+    if (motion.rate[0] == 0 && motion.rate[1] == 0 && scenes_.harmonic_count == 1) {
+      const bool level = motion.start[0] == 0 && motion.start[1] == 0;
+      until[lane] = std::min(end_, (level ? 1 : 2) * std::numbers::pi / tempo.frequency);
     }
     most = std::max(most, until[lane] * (2 * tempo.frequency + tempo.rate) / look_angle);
   }

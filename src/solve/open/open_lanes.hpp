@@ -13,11 +13,35 @@
 
 namespace bbsim::solve::open {
 
-// One case, in SI: model::OpenLoop<Shape::full>. Tables are those of all cases.
+// The gimbal's angles as functions of time: start + rate t + sums of amplitude sin(frequency t +
+// phase), plus tables that are those of all cases; phi, theta.
+struct GivenMotion {
+  struct Wave {
+    int component;
+    double amplitude, frequency, phase;
+  };
+  double start[2] = {0, 0}, rate[2] = {0, 0};
+  Wave waves[most_harmonics];
+  int wave_count = 0;  // in all cases of a group, with the same components
+  const model::Tabulated* tables = nullptr;
+  std::size_t table_count = 0;
+
+  void add_constant(int component, double value) { start[component] += value; }
+  void add_ramp(int component, double from, double slope) {
+    start[component] += from;
+    rate[component] += slope;
+  }
+  // No more than there is place for.
+  void add_sinusoid(int component, double amplitude, double frequency, double phase) {
+    waves[wave_count++] = {component, amplitude, frequency, phase};
+  }
+};
+
+// One case, in SI: model::OpenLoop<Shape::full>.
 struct OpenCase {
   double radius = 0, gravity = 0;
   double initial[states] = {};  // x, y, x', y', u
-  model::SignalPair motion;     // of phi and theta
+  GivenMotion motion;
 };
 
 // How long steps are at first. Both numbers cost time alone if they do not suit.
@@ -46,11 +70,6 @@ class OpenLanes {
   // InputError as choose_kernels() does.
   OpenLanes(Tolerances tolerances, double end, std::vector<double> stops, Pace pace);
 
-  // Whether lanes can take a motion: it has not more sinusoids than they have place for.
-  [[nodiscard]] static bool knows(const model::SignalPair& motion) {
-    return motion.view().harmonic_count <= most_harmonics;
-  }
-
   // The first `count` cases, 1 <= count <= group. Whether each was carried to the end; one that was
   // not, for values that are not finite, for a step that shrank to nothing, for too many steps, or
   // because it would hold the others back, is for another integrator.
@@ -74,6 +93,7 @@ class OpenLanes {
   };
 
   void load(const OpenCase* cases, int count);
+  void load_waves(const OpenCase* cases, int count);
   struct Tempo;
   [[nodiscard]] static double tempo(const OpenCase* cases, int count);
   [[nodiscard]] bool go(double from, double to);

@@ -91,6 +91,26 @@ struct Lanes {
             (angles[0].rate * angles[0].acceleration + angles[1].rate * angles[1].acceleration);
   }
 
+  // The greatest rate of one sinusoid of both angles, over half a period and more: the greater
+  // eigenvalue of the quadratic form that its square is in sin and cos.
+  BBSIM_INLINE static P greatest_rate(const model::BasicHarmonic<P>& of) {
+    const P(&a)[2] = of.sine, (&b)[2] = of.cosine;
+    const P sines = a[0] * a[0] + a[1] * a[1], cosines = b[0] * b[0] + b[1] * b[1];
+    const P mixed = a[0] * b[0] + a[1] * b[1], half = P(0.5) * (sines - cosines);
+    const P most = P(0.5) * (sines + cosines) + simd::root_of(half * half + mixed * mixed);
+    return of.frequency * of.frequency * most;
+  }
+
+  // Whether a sinusoid is all that the rates have in every lane, for half a period at least.
+  BBSIM_INLINE static bool is_one_wave(const Motion& motion, P until) {
+    if (motion.signals.harmonic_count != 1) return false;
+    const P half_period = P(3.141592653589793 * (1 - 1e-15)) /
+                          simd::larger_of(simd::size_of(motion.harmonics[0].frequency), P(1e-300));
+    const Mask no = (Mask)(motion.signals.rate[0].v != 0) | (Mask)(motion.signals.rate[1].v != 0) |
+                    (Mask)(until.v < half_period.v);
+    return !simd::any_of<P>(no);
+  }
+
   static constexpr int together = 16;  // intervals that are looked at in one go
 
   [[gnu::flatten]] static void turn_pack(const Scenes& scenes, int p, const double* until,
@@ -99,6 +119,8 @@ struct Lanes {
     const bool small = scenes.small;
     const P part = lane(until, p) * P(1.0 / intervals);
     P versine(0.0), squared(0.0);
+    const bool one_wave = is_one_wave(motion, lane(until, p));
+    if (one_wave) squared = greatest_rate(motion.harmonics[0]);
 #pragma GCC unroll 1
     for (int first = 0; first < intervals; first += together) {
       const int count = (intervals - first < together ? intervals - first : together) + 1;
@@ -109,17 +131,26 @@ struct Lanes {
         const auto angles = motion.signals.at(t);
         tilts[i].at = rates[i].at = t;
         tilt(angles, small, tilts[i].value, tilts[i].slope);
-        rate(angles, rates[i].value, rates[i].slope);
+        if (!one_wave) rate(angles, rates[i].value, rates[i].slope);
       }
       simd::raise_to_peak<together>(tilts, count, versine, [&](P t, P& value, P& slope) {
         tilt(motion.signals.at(t), small, value, slope);
       });
+      if (one_wave) continue;
       simd::raise_to_peak<together>(rates, count, squared, [&](P t, P& value, P& slope) {
         rate(motion.signals.at(t), value, slope);
       });
     }
     versine.store(greatest.versine + p * lanes);
     squared.store(greatest.rate_squared + p * lanes);
+  }
+
+  static void directions(const double* angles, double* sines, double* cosines) {
+    for (int p = 0; p < packs; ++p) {
+      const SinCos<P> both = sin_cos(lane(angles, p));
+      both.sin.store(sines + p * lanes);
+      both.cos.store(cosines + p * lanes);
+    }
   }
 
   static void turning(const Scenes& scenes, const double* until, int intervals, Turning& greatest) {
@@ -555,6 +586,7 @@ struct Step : Lanes<Isa> {
 
 template <class Isa>
 inline constexpr Kernels kernels_of{Step<Isa, 8>::kernel, Step<Isa, 12>::kernel,
-                                    Step<Isa, 16>::kernel, Lanes<Isa>::turning};
+                                    Step<Isa, 16>::kernel, Lanes<Isa>::directions,
+                                    Lanes<Isa>::turning};
 
 }  // namespace bbsim::solve::open
