@@ -269,6 +269,18 @@ TEST_CASE("a loop that cannot be carried to the end is given up, and the others 
   }
 }
 
+TEST_CASE("a loop that explodes is given up long before its steps are nothing") {
+  // Near such an instant each step is a twentieth shorter than the one before: 600 of them, from
+  // start to rounding.
+  const double gain = GENERATE(-10.0, -1.0, -0.1);
+  Scenario scene = scenario_named("fig2b");
+  scene.controller->kv[0][0] = gain;
+  const std::vector<LoopCase> cases = cases_of(std::vector<Scenario>(group, scene));
+  LoopLanes lanes(Drives::angle, {1e-6, 1e-9}, solve::OutputGrid(scene.time));
+  CHECK(count_of(lanes.integrate(cases.data(), group)) == 0);
+  CHECK(lanes.statistics().steps < 200);
+}
+
 TEST_CASE("a loop of no numbers is given up, and the others are not") {
   const Scenario scene = scenario_named("fig2b");
   const std::vector<Scenario> scenes = with_other_gains(scene, group);

@@ -24,6 +24,12 @@ constexpr int most_rejections = 40;
 constexpr double holding_back = 1e5;
 constexpr int most_held = 16;
 
+// Steps that have become so short a part of the longest one, so many in a row, are mostly on the
+// way to an instant beyond which there is no motion. Loops that ask for them are given up: another
+// integrator comes nearer to it in fewer steps.
+constexpr double by_far = 0.03, asking = 1e-2;
+constexpr int long_since = 8;
+
 // The size of the next step relative to one whose error was `error`.
 double growth(double error) {
   constexpr double safety = 0.9, least = 0.1, most = 8;
@@ -34,6 +40,21 @@ double growth(double error) {
 double finite_or_infinite(double error) {
   return std::isfinite(error) ? error : std::numeric_limits<double>::infinity();
 }
+
+// How steps shrink after the longest one.
+class Shrinking {
+ public:
+  // To be told of each step that is accepted; whether they have been short for long.
+  bool lasts(double h) {
+    longest_ = std::max(longest_, h);
+    short_ = h < by_far * longest_ ? short_ + 1 : 0;
+    return short_ >= long_since;
+  }
+
+ private:
+  double longest_ = 0;
+  int short_ = 0;
+};
 
 template <class T>
 T* allocate(std::size_t bytes) {
@@ -117,6 +138,13 @@ double LoopLanes::judge(const double* errors, bool at_limit) {
   return worst;
 }
 
+// Gives up those with such an error and more.
+void LoopLanes::give_up(const double* errors, double least) {
+  for (std::size_t lane = 0; lane < group; ++lane) {
+    if (errors[lane] >= least) lost_[lane] = true;
+  }
+}
+
 // The rows up to the end of the last attempt.
 void LoopLanes::record(double arrived) {
   const std::size_t first = recorded_;
@@ -153,6 +181,7 @@ std::array<bool, group> LoopLanes::integrate(const LoopCase* cases, int count, S
 
   double t = 0;
   int rejections = 0;
+  Shrinking shrinking;
   auto lost_before = lost_;
   while (t < end && std::find(lost_.begin(), lost_.end(), false) != lost_.end()) {
     // The steps to the end are alike.
@@ -173,6 +202,7 @@ std::array<bool, group> LoopLanes::integrate(const LoopCase* cases, int count, S
       if (steps != nullptr) steps->accept({*kernel_, workspace_.get(), from, t});
       kernel_->accept(workspace_.get());
       ++statistics_.steps;
+      if (!arrives && shrinking.lasts(h)) give_up(errors.data(), asking * worst);
       const double factor = growth(worst);
       next = h * (rejections > 0 ? std::min(factor, 1.0) : factor);
       rejections = 0;

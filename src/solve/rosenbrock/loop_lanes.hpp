@@ -70,9 +70,9 @@ class LoopLanes {
   LoopLanes(Drives drives, solve::Tolerances tolerances, const solve::OutputGrid& grid);
 
   // The first `count` cases, 1 <= count <= group. Whether each was carried to the end; one that was
-  // not, for values that are not finite, for a step that shrank to nothing, for too many steps, or
-  // because it would hold the others back, is for another integrator. `steps`, which may be null,
-  // is told of the motion between rows.
+  // not, for values that are not finite, for steps that shrank to nothing or were about to, for too
+  // many steps, or because it would hold the others back, is for another integrator. `steps`, which
+  // may be null, is told of the motion between rows.
   std::array<bool, group> integrate(const LoopCase* cases, int count, StepSink* steps = nullptr);
 
   // The last group's states, [row][state][lane], a row for each time of the grid; aligned to 64.
@@ -90,6 +90,7 @@ class LoopLanes {
   void load(const LoopCase* cases, int count);
   double fastest(const LoopCase* cases, int count);
   double judge(const double* errors, bool at_limit);
+  void give_up(const double* errors, double least);
   void record(double arrived);
   void replace_lost();
 
