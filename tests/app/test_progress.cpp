@@ -120,7 +120,7 @@ TEST_CASE("rates have three digits") {
   const Folder folder;
   const std::string drawn =
       on_terminal({"sweep", config("fig2a.yaml"), "--vary",
-                   "gimbal.motion.phi.sinusoid.phase=linear:0:1:4000000", "-j", "1", "-o", "s.csv"},
+                   "gimbal.motion.phi.sinusoid.phase=linear:0:1:400000", "-j", "1", "-o", "s.csv"},
                   120, folder.path(), 2);
   const std::size_t at = drawn.find(" cases/s");
   REQUIRE(at != std::string::npos);
