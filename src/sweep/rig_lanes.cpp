@@ -2,8 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
-#include <numbers>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -15,6 +13,7 @@
 #include "solve/held/rig_lanes.hpp"
 #include "sweep/case_scenario.hpp"
 #include "sweep/rig_lane_measures.hpp"
+#include "sweep/sample_cases.hpp"
 #include "sweep/single.hpp"
 #include "sweep/verdict.hpp"
 
@@ -141,14 +140,12 @@ bool can_use_rig_lanes(const SweepTask& task) {
       !share_reference(task.plan)) {
     return false;
   }
-  // Those at multiples of the golden ratio, which no grid has in step with its keys.
   constexpr int looked_at = 16;
   int found = 0;
   for (int i = 0; i < looked_at; ++i) {
-    const double whole = i / std::numbers::phi, part = whole - std::floor(whole);
-    const auto number = static_cast<std::size_t>(part * static_cast<double>(task.plan.cases()));
     try {
-      const Scenario scenario = task.family.read(task.plan.settings(number));
+      const Scenario scenario =
+          task.family.read(task.plan.settings(sample_case(i, task.plan.cases())));
       if (!scenario.controller) return false;
       if (is_carried(scenario, model::assemble(scenario, false))) ++found;
     } catch (const InputError&) {  // refused when its turn comes
