@@ -93,6 +93,21 @@ struct Pack {
   }
 };
 
+// Of angles within a quarter of pi: the polynomials alone, below.
+template <class Isa, int lanes>
+BBSIM_INLINE SinCos<Pack<Isa, lanes>> sin_cos_of_small(Pack<Isa, lanes> angle) {
+  using P = Pack<Isa, lanes>;
+  using T = SineTable;
+  const typename P::Vector r = angle.v, u = r * r, u2 = u * u;
+  const typename P::Vector p =
+      (T::sine[0] + u * T::sine[1]) +
+      u2 * ((T::sine[2] + u * T::sine[3]) + u2 * (T::sine[4] + u * T::sine[5]));
+  const typename P::Vector q =
+      (T::cosine[0] + u * T::cosine[1]) +
+      u2 * ((T::cosine[2] + u * T::cosine[3]) + u2 * (T::cosine[4] + u * T::cosine[5]));
+  return {P::of(r + (r * u) * p), P::of(1.0 + (u * -0.5 + u2 * q))};
+}
+
 // The result is within 1 ulp or so of the true value up to 10^5: reduction by multiples of pi/2
 // after Cody and Waite, then minimax polynomials. Beyond, that reduction loses digits.
 template <class Isa, int lanes>
@@ -108,15 +123,8 @@ BBSIM_INLINE SinCos<Pack<Isa, lanes>> sin_cos_of_moderate(Pack<Isa, lanes> angle
   const Mask quadrant = (Mask)shifted;
   const Vector r =
       ((angle.v - turns * T::half_pi[0]) - turns * T::half_pi[1]) - turns * T::half_pi[2];
-  const Vector u = r * r;
-  const Vector u2 = u * u;
-  const Vector p = (T::sine[0] + u * T::sine[1]) +
-                   u2 * ((T::sine[2] + u * T::sine[3]) + u2 * (T::sine[4] + u * T::sine[5]));
-  const Vector q =
-      (T::cosine[0] + u * T::cosine[1]) +
-      u2 * ((T::cosine[2] + u * T::cosine[3]) + u2 * (T::cosine[4] + u * T::cosine[5]));
-  const Vector s = r + (r * u) * p;
-  const Vector c = 1.0 + (u * -0.5 + u2 * q);
+  const SinCos<P> within = sin_cos_of_small(P::of(r));
+  const Vector s = within.sin.v, c = within.cos.v;
   const Mask odd = -(quadrant & 1);
   const Mask sign_bit = (1LL << 63) - Mask{};
   const Mask sine_sign = (quadrant << 62) & sign_bit;

@@ -136,8 +136,9 @@ class RigLaneRunner : public CaseRunner {
 }  // namespace
 
 bool can_use_rig_lanes(const SweepTask& task) {
-  if (!task.series.empty() || !record::are_track_measures(task.measures) ||
-      !share_reference(task.plan)) {
+  // Fewer would leave lanes empty, and are those of `bbsim run` to the bit.
+  if (task.plan.cases() < group || !task.series.empty() ||
+      !record::are_track_measures(task.measures) || !share_reference(task.plan)) {
     return false;
   }
   constexpr int looked_at = 16;

@@ -504,11 +504,12 @@ TEST_CASE("a rig that does not fit among the others of its group is run by itsel
     CHECK(lanes.status[7].reason == "edge");
   }
   SECTION("whose instants are others") {
-    check_rig_lanes(Setup("configs/rig.yaml",
-                          {{"controller.sampling.delay", "list:10 ms,10 ms,10 ms,5 ms,10 ms"}},
-                          {"time.end=3"}, loop_measures));
+    check_rig_lanes(Setup(
+        "configs/rig.yaml",
+        {{"controller.sampling.delay", "list:10 ms,10 ms,10 ms,5 ms,10 ms,10 ms,5 ms,10 ms,10 ms"}},
+        {"time.end=3"}, loop_measures));
   }
-  SECTION("that cannot be") {
+  SECTION("whose servos are of another kind") {
     const Setup setup("configs/rig.yaml",
                       {{"gimbal.servo",
                         "list:{natural_frequency: 5 Hz, damping: 0.8},"
@@ -537,14 +538,19 @@ TEST_CASE("rigs in lanes do not depend on how their groups are handed out") {
   }
 }
 
-TEST_CASE("rigs whose reference varies, or that are watched for more, are run one by one") {
+TEST_CASE(
+    "few rigs, ones whose reference varies and ones that are watched for more are run singly") {
+  CHECK(choose_engine(Setup("configs/rig.yaml", {{"controller.sensor.seed", "list:1,2,3,4,5,6,7"}},
+                            {"time.end=1"}, loop_measures)
+                          .task)
+            .name == "single runs");
   CHECK(choose_engine(Setup("configs/rig.yaml",
-                            {{"controller.reference.circle.radius", "list:4 cm,5 cm"}},
+                            {{"controller.reference.circle.radius", "linear:4 cm:5 cm:8"}},
                             {"time.end=1"}, loop_measures)
                           .task)
             .name == "single runs");
   CHECK(choose_engine(
-            Setup("configs/rig.yaml", gains_and_seeds, {"time.end=1"}, {"max_motor_torque_phi"}, 2)
+            Setup("configs/rig.yaml", gains_and_seeds, {"time.end=1"}, {"max_motor_torque_phi"}, 3)
                 .task)
             .name == "single runs");
 }

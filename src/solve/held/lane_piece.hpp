@@ -77,7 +77,7 @@ struct LaneKernel {
     };
     const P angle = ratio * (P::load(axis.angle + first) + row(MotionTable::angle)) +
                     P::load(axis.offset + first);
-    const SinCos<P> wave = small ? One::sin_cos_of_small(angle) : sin_cos(angle);
+    const SinCos<P> wave = small ? simd::sin_cos_of_small(angle) : sin_cos(angle);
     const model::Axis<P> at{wave.sin, wave.cos, ratio * row(MotionTable::rate),
                             ratio * row(MotionTable::acceleration)};
     at.sin.store(axis.plane_sin[node] + first);
@@ -330,7 +330,7 @@ struct LaneKernel {
           acceleration[i] = sum * inverse;
           const LaneAxis& from = pieces.axis[i];
           const P angle = of(from.ratio) * of(from.angle) + of(from.offset);
-          const SinCos<P> wave = small ? One::sin_cos_of_small(angle) : sin_cos(angle);
+          const SinCos<P> wave = small ? simd::sin_cos_of_small(angle) : sin_cos(angle);
           axis[i] = {wave.sin, wave.cos, of(from.ratio) * of(from.rate),
                      of(from.ratio) * of(from.acceleration)};
         }

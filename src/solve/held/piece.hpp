@@ -149,18 +149,6 @@ struct Kernel {
     return (__builtin_bit_cast(unsigned long long, a) >> 52 & 0x7ff) != 0x7ff;
   }
 
-  // sin and cos of angles within a quarter of pi: the polynomials of simd/pack.hpp alone.
-  BBSIM_INLINE static SinCos<P> sin_cos_of_small(P angle) {
-    using T = simd::SineTable;
-    const Vector r = angle.v, u = r * r, u2 = u * u;
-    const Vector p = (T::sine[0] + u * T::sine[1]) +
-                     u2 * ((T::sine[2] + u * T::sine[3]) + u2 * (T::sine[4] + u * T::sine[5]));
-    const Vector q =
-        (T::cosine[0] + u * T::cosine[1]) +
-        u2 * ((T::cosine[2] + u * T::cosine[3]) + u2 * (T::cosine[4] + u * T::cosine[5]));
-    return {P::of(r + (r * u) * p), P::of(1.0 + (u * -0.5 + u2 * q))};
-  }
-
   // The plane's axis at the nodes of a pack.
   BBSIM_INLINE static model::Axis<P> plane_axis(const Axis& axis, int p, bool small) {
     const MotionTable& motion = *axis.table;
@@ -170,7 +158,7 @@ struct Kernel {
     };
     const P ratio(axis.ratio);
     const P angle = P(axis.ratio * axis.angle + axis.offset) + ratio * row(MotionTable::angle);
-    const SinCos<P> wave = small ? sin_cos_of_small(angle) : sin_cos(angle);
+    const SinCos<P> wave = small ? simd::sin_cos_of_small(angle) : sin_cos(angle);
     return {wave.sin, wave.cos, ratio * row(MotionTable::rate),
             ratio * row(MotionTable::acceleration)};
   }
@@ -421,7 +409,7 @@ struct Kernel {
       angles[i] = piece.axis[i].ratio * piece.axis[i].angle + piece.axis[i].offset;
     }
     const SinCos<P> waves = is_small(piece.axis[0]) && is_small(piece.axis[1])
-                                ? sin_cos_of_small(P::of(angles))
+                                ? simd::sin_cos_of_small(P::of(angles))
                                 : sin_cos(P::of(angles));
     const model::GeneralRolling papers_rig{};
     const model::GeneralRolling& rolling = papers ? papers_rig : scene.rolling;

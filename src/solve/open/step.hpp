@@ -57,20 +57,8 @@ struct Lanes {
     }
   };
 
-  // sin and cos of angles within a quarter of pi: the polynomials of simd/pack.hpp alone.
-  BBSIM_INLINE static SinCos<P> sin_cos_of_small(P angle) {
-    using T = simd::SineTable;
-    const Vector r = angle.v, u = r * r, u2 = u * u;
-    const Vector p = (T::sine[0] + u * T::sine[1]) +
-                     u2 * ((T::sine[2] + u * T::sine[3]) + u2 * (T::sine[4] + u * T::sine[5]));
-    const Vector q =
-        (T::cosine[0] + u * T::cosine[1]) +
-        u2 * ((T::cosine[2] + u * T::cosine[3]) + u2 * (T::cosine[4] + u * T::cosine[5]));
-    return {P::of(r + (r * u) * p), P::of(1.0 + (u * -0.5 + u2 * q))};
-  }
-
   BBSIM_INLINE static SinCos<P> direction(P angle, bool small) {
-    return small ? sin_cos_of_small(angle) : sin_cos(angle);
+    return small ? simd::sin_cos_of_small(angle) : sin_cos(angle);
   }
 
   // 1 - cos(tilt) without what is lost by the difference, and its slope.
@@ -167,12 +155,14 @@ struct Step : Lanes<Isa> {
   using Rule = radau::RadauTable<s>;
   static constexpr int nv = 3, nq = 2;  // x', y', u; x, y
 
-  // The tables by rows: what one node takes from all.
+  // The tables by rows: what one node takes from all. A copy of each instruction set's own.
   struct alignas(64) Rows {
-    double a[s][s]{}, a_squared[s][s]{};
+    double c[s]{}, a[s][s]{}, a_squared[s][s]{}, legendre[s][s]{};
     consteval Rows() {
       for (int i = 0; i < s; ++i) {
+        c[i] = Rule::c[i];
         for (int j = 0; j < s; ++j) {
+          legendre[i][j] = Rule::legendre[i][j];
           a[i][j] = Rule::a[j][i];
           a_squared[i][j] = Rule::a_squared[j][i];
         }
@@ -242,7 +232,7 @@ struct Step : Lanes<Isa> {
                                                      Ball::variable(4)};
 #pragma GCC unroll 1
     for (int i = 0; i < s; ++i) {
-      const auto angles = motion.signals.at(P(w.t + Rule::c[i] * w.h));
+      const auto angles = motion.signals.at(P(w.t + rows.c[i] * w.h));
       model::Axis<P> axis[2];
 #pragma GCC unroll 2
       for (int n = 0; n < 2; ++n) {
@@ -285,7 +275,7 @@ struct Step : Lanes<Isa> {
     for (int j = 0; j < first; ++j) add(j);
 #pragma GCC unroll 4
     for (int n = 0; n < count; ++n) {
-      const P time = P(Rule::c[first + n]) * h;
+      const P time = P(rows.c[first + n]) * h;
 #pragma GCC unroll 3
       for (int i = 0; i < nv; ++i) {
         v[n][i] = of.v[i] + once[n][i];
@@ -325,7 +315,7 @@ struct Step : Lanes<Isa> {
     // At first a ball that goes on as it did.
 #pragma GCC unroll 1
     for (int i = 0; i < s; ++i) {
-      const P time(w.h * Rule::c[i]);
+      const P time(w.h * rows.c[i]);
       const P q[nq] = {of.q[0] + time * of.v[0], of.q[1] + time * of.v[1]};
       w.at[i].at(q, of.v, of.k[i]);
     }
@@ -381,7 +371,7 @@ struct Step : Lanes<Isa> {
     for (int j = 0; j < s; ++j) {
 #pragma GCC unroll 4
       for (int m = 0; m < 4; ++m) {
-        const P part(Rule::legendre[j][s - 4 + m]);
+        const P part(rows.legendre[j][s - 4 + m]);
 #pragma GCC unroll 3
         for (int i = 0; i < nv; ++i) series[m][i] += part * of.k[j][i];
       }
@@ -458,7 +448,7 @@ struct Step : Lanes<Isa> {
         for (int j = 0; j < s; ++j) {
 #pragma GCC unroll 4
           for (int m = 0; m < together; ++m) {
-            const P part(Rule::legendre[j][first + m]);
+            const P part(rows.legendre[j][first + m]);
             sum[m][0] += part * of.k[j][0];
             sum[m][1] += part * of.k[j][1];
           }
@@ -526,7 +516,7 @@ struct Step : Lanes<Isa> {
     };
     put(places[0], P(0.0), of.q, of.v);
 #pragma GCC unroll 1
-    for (int i = 0; i + 1 < s; ++i) put(places[i + 1], P(Rule::c[i]), of.q_at[i], of.v_at[i]);
+    for (int i = 0; i + 1 < s; ++i) put(places[i + 1], P(rows.c[i]), of.q_at[i], of.v_at[i]);
     put(places[s], P(1.0), of.q_end, of.v_end);
     Path path;
     simd::raise_to_peak<s>(places, s + 1, of.distance_squared, [&](P part, P& value, P& slope) {
