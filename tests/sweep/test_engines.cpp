@@ -514,7 +514,8 @@ TEST_CASE("a rig that does not fit among the others of its group is run by itsel
                       {{"gimbal.servo",
                         "list:{natural_frequency: 5 Hz, damping: 0.8},"
                         "{natural_frequency: 5 Hz, damping: 0.9},"
-                        "{natural_frequency: 5 Hz, damping: 0.9, backlash: 1 deg}"}},
+                        "{natural_frequency: 5 Hz, damping: 0.9, backlash: 1 deg}"},
+                       {"ball.position.0", "list:5 cm,5.1 cm,5.2 cm"}},
                       {"time.end=3"}, loop_measures);
     check_rig_lanes(setup);
   }
