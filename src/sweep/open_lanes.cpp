@@ -23,8 +23,10 @@ using solve::open::GivenMotion, solve::open::OpenCase, solve::open::OpenLanes, s
 using Kind = scenario::Measure::Kind;
 constexpr std::size_t group = solve::open::group;
 
-// A small sweep would spend more on measuring its pace than on its cases.
+// A small sweep would spend more on measuring its pace than on its cases; and where a case goes on
+// for so many radians of its motion, the first one would be long in coming.
 constexpr std::size_t worth_it = 32;
+constexpr double longest = 3000;  // rad
 
 model::Model model_of(const Scenario& scenario) {
   return model::assemble(scenario, false, model::Symmetry::ignored);
@@ -250,8 +252,12 @@ std::optional<solve::open::Pace> open_lane_pace(const SweepTask& task) {
       std::array<OpenCase, group> cases;
       for (std::size_t i = 0; i < group; ++i) {
         const int sample = g * static_cast<int>(group) + static_cast<int>(i);
-        set(cases[i], task.family.read(task.plan.settings(sample_case(sample, task.plan.cases()))),
-            motion.view());
+        const Scenario scenario =
+            task.family.read(task.plan.settings(sample_case(sample, task.plan.cases())));
+        if (model::given_motion(scenario).highest_frequency() * scenario.time.end > longest) {
+          return {};
+        }
+        set(cases[i], scenario, motion.view());
       }
       const auto measured = lanes.measure(cases.data(), static_cast<int>(group));
       if (!measured) continue;

@@ -224,3 +224,9 @@ TEST_CASE("cases that explode under a given motion are run by themselves") {
   }
   CHECK(failed == 15);
 }
+
+TEST_CASE("a sweep of cases that go on for long is run one by one, and so begins at once") {
+  const Setup setup("configs/fig2a.yaml", {amplitude},
+                    {"gimbal.motion.theta.sinusoid.frequency=400"}, usual, 40);
+  CHECK(choose_engine(setup.task).name == "single runs");
+}
