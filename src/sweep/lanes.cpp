@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <optional>
 #include <utility>
 #include <variant>
 
@@ -11,10 +10,9 @@
 #include "solve/choose.hpp"
 #include "solve/rosenbrock/loop_lanes.hpp"
 #include "sweep/case_scenario.hpp"
+#include "sweep/group_runner.hpp"
 #include "sweep/lane_extremes.hpp"
 #include "sweep/sample_cases.hpp"
-#include "sweep/single.hpp"
-#include "sweep/verdict.hpp"
 
 namespace bbsim::sweep {
 namespace {
@@ -71,95 +69,52 @@ bool are_stiff(const SweepTask& task) {
   return 2 * found > looked_at;
 }
 
-class LaneRunner : public CaseRunner {
+class LoopCarrier : public GroupCarrier {
  public:
-  explicit LaneRunner(const SweepTask& task)
-      : task_(task),
-        first_(task.family.read(task.plan.settings(0))),
-        scenario_(task),
+  LoopCarrier(const SweepTask& task, const Scenario& first)
+      : scenario_(task),
         track_(task.measures),
-        single_(single_runner(task)),
-        same_signals_(task.plan.shares_signals()) {
-    grid_.emplace(first_.time);
-    lanes_.emplace(first_.controller->drives,
-                   solve::Tolerances{first_.solver.rtol, first_.solver.atol}, *grid_);
-  }
+        grid_(first.time),
+        lanes_(first.controller->drives, {first.solver.rtol, first.solver.atol}, grid_),
+        same_signals_(task.plan.shares_signals()) {}
 
-  std::size_t run(std::size_t first, std::size_t count, CaseResults& into,
-                  const std::atomic<bool>& stop) override {
-    into.first = first;
-    into.resize(count, task_);
-    for (std::size_t i = 0; i < count; i += group) {
-      if (stop.load(std::memory_order_relaxed)) return i;
-      if (!run_group(first, i, std::min(group, count - i), into, stop)) return i;
+  void carry(std::span<GroupCase> cases) override {
+    std::array<LoopCase, group> loops;
+    loops_.clear();
+    for (const GroupCase& one : cases) {
+      const Scenario& scenario = scenario_.at(one.number, one.values);
+      model::Model model = model::assemble(scenario, false, model::Symmetry::ignored);
+      loops[loops_.size()] = loop_case(scenario, model, record::signals_of(model).view());
+      loops_.push_back({std::move(model), model::constants_of(scenario)});
     }
-    return count;
+    std::vector<const model::SignalPair*> references;
+    for (const Loop& one : loops_) references.push_back(&record::signals_of(one.model));
+    extremes_.begin(references);
+    const auto carried = lanes_.integrate(loops.data(), static_cast<int>(cases.size()), &extremes_);
+    for (std::size_t lane = 0; lane < cases.size(); ++lane) {
+      const auto greatest = extremes_.of(lane);
+      if (!carried[lane] || !greatest) continue;
+      track_.begin(loops_[lane].model, loops_[lane].constants, grid_, same_signals_);
+      track_.take(grid_.size(), lanes_.rows() + lane, solve::rosenbrock::states * group, group,
+                  *greatest);
+      track_.finish(cases[lane].measures);
+      cases[lane].carried = true;
+    }
   }
 
  private:
-  // A case on its way through a lane.
-  struct LaneCase {
-    std::size_t place;  // among the results
+  struct Loop {
     model::Model model;
     model::BallConstants constants;
   };
 
-  bool run_group(std::size_t first, std::size_t place, std::size_t count, CaseResults& into,
-                 const std::atomic<bool>& stop) {
-    const std::size_t axes = task_.plan.axes().size(), numbers = 1 + task_.measures.size();
-    std::array<LoopCase, group> loops;
-    std::vector<LaneCase>& cases = cases_;
-    cases.clear();
-    alone_.clear();
-    for (std::size_t i = place; i < place + count; ++i) {
-      double* const values = &into.values[i * axes];
-      task_.plan.values(first + i, values);
-      const Scenario& scenario = scenario_.at(first + i, values);
-      model::Model model = model::assemble(scenario, false, model::Symmetry::ignored);
-      loops[cases.size()] = loop_case(scenario, model, record::signals_of(model).view());
-      cases.push_back({i, std::move(model), model::constants_of(scenario)});
-    }
-    std::vector<const model::SignalPair*> references;
-    for (const LaneCase& one : cases) references.push_back(&record::signals_of(one.model));
-    extremes_.begin(references);
-    const auto carried =
-        lanes_->integrate(loops.data(), static_cast<int>(cases.size()), &extremes_);
-    for (std::size_t lane = 0; lane < cases.size(); ++lane) {
-      const LaneCase& one = cases[lane];
-      const auto greatest = extremes_.of(lane);
-      if (!carried[lane] || !greatest) {
-        alone_.push_back(one.place);
-        continue;
-      }
-      track_.begin(one.model, one.constants, *grid_, same_signals_);
-      track_.take(grid_->size(), lanes_->rows() + lane, solve::rosenbrock::states * group, group,
-                  *greatest);
-      double* const results = &into.numbers[one.place * numbers];
-      results[0] = grid_->end();
-      track_.finish(results + 1);
-      into.status[one.place] = {};
-      judge(task_, first_, results + 1, into.status[one.place]);
-    }
-    for (const std::size_t i : alone_) {
-      if (single_->run(first + i, 1, one_, stop) == 0) return false;
-      std::copy(one_.numbers.begin(), one_.numbers.end(), &into.numbers[i * numbers]);
-      into.status[i] = one_.status[0];
-    }
-    return true;
-  }
-
-  const SweepTask& task_;
-  const Scenario first_;  // like which all are, but for their numbers
   CaseScenario scenario_;
   record::TrackMeasures track_;
   LaneExtremes extremes_;
-  std::unique_ptr<CaseRunner> single_;
+  solve::OutputGrid grid_;
+  solve::rosenbrock::LoopLanes lanes_;
   bool same_signals_;
-  std::optional<solve::OutputGrid> grid_;
-  std::optional<solve::rosenbrock::LoopLanes> lanes_;
-  std::vector<LaneCase> cases_;
-  std::vector<std::size_t> alone_;
-  CaseResults one_;
+  std::vector<Loop> loops_;  // of the group, a lane each
 };
 
 }  // namespace
@@ -185,7 +140,8 @@ std::size_t lane_group() {
 }
 
 std::unique_ptr<CaseRunner> lane_runner(const SweepTask& task) {
-  return std::make_unique<LaneRunner>(task);
+  const Scenario first = task.family.read(task.plan.settings(0));
+  return group_runner(task, first, group, std::make_unique<LoopCarrier>(task, first));
 }
 
 }  // namespace bbsim::sweep

@@ -12,9 +12,8 @@
 #include "record/track/track_measures.hpp"
 #include "solve/choose.hpp"
 #include "sweep/case_scenario.hpp"
+#include "sweep/group_runner.hpp"
 #include "sweep/sample_cases.hpp"
-#include "sweep/single.hpp"
-#include "sweep/verdict.hpp"
 
 namespace bbsim::sweep {
 namespace {
@@ -79,36 +78,30 @@ std::vector<const scenario::Column*> columns_at_end(const SweepTask& task) {
   return columns;
 }
 
-class OpenLaneRunner : public CaseRunner {
+class OpenCarrier : public GroupCarrier {
  public:
-  OpenLaneRunner(const SweepTask& task, const solve::open::Pace& pace)
+  OpenCarrier(const SweepTask& task, const Scenario& first, const solve::open::Pace& pace)
       : task_(task),
-        first_(task.family.read(task.plan.settings(0))),
-        motion_(model::given_motion(first_)),
+        end_time_(first.time.end),
+        motion_(model::given_motion(first)),
         scenario_(task),
-        lanes_({first_.solver.rtol, first_.solver.atol}, first_.time.end, model_of(first_).stops,
-               pace),
-        single_(single_runner(task)),
+        lanes_({first.solver.rtol, first.solver.atol}, end_time_, model_of(first).stops, pace),
         end_(columns_at_end(task)),
         same_signals_(task.plan.shares_signals()) {
-    for (const scenario::Measure& measure : task.measures) {
-      take_.push_back(way_to(measure));
-      has_all_ = has_all_ && !scenario::missing(measure, first_);
-    }
+    for (const scenario::Measure& measure : task.measures) take_.push_back(way_to(measure));
     needs_model_ = std::count(take_.begin(), take_.end(), Take::column) > 0;
     wants_turning_ = std::count(take_.begin(), take_.end(), Take::tilt) > 0 ||
                      std::count(take_.begin(), take_.end(), Take::tilt_rate) > 0;
   }
 
-  std::size_t run(std::size_t first, std::size_t count, CaseResults& into,
-                  const std::atomic<bool>& stop) override {
-    into.first = first;
-    into.resize(count, task_);
-    for (std::size_t i = 0; i < count; i += group) {
-      if (stop.load(std::memory_order_relaxed)) return i;
-      if (!run_group(first, i, std::min(group, count - i), into, stop)) return i;
+  void carry(std::span<GroupCase> cases) override {
+    for (std::size_t i = 0; i < cases.size(); ++i) {
+      set(cases_[i], scenario_.at(cases[i].number, cases[i].values), motion_.view());
     }
-    return count;
+    const auto carried = lanes_.integrate(cases_.data(), static_cast<int>(cases.size()));
+    for (std::size_t i = 0; i < cases.size(); ++i) {
+      cases[i].carried = carried[i] && take(i, cases[i]);
+    }
   }
 
  private:
@@ -121,55 +114,22 @@ class OpenLaneRunner : public CaseRunner {
     return name == "distance" ? Take::distance : name == "tilt" ? Take::tilt : Take::tilt_rate;
   }
 
-  bool run_group(std::size_t first, std::size_t place, std::size_t count, CaseResults& into,
-                 const std::atomic<bool>& stop) {
-    const std::size_t axes = task_.plan.axes().size(), numbers = 1 + task_.measures.size();
-    for (std::size_t i = 0; i < count; ++i) {
-      double* const values = &into.values[(place + i) * axes];
-      task_.plan.values(first + place + i, values);
-      set(cases_[i], scenario_.at(first + place + i, values), motion_.view());
-    }
-    const auto carried = lanes_.integrate(cases_.data(), static_cast<int>(count));
-    for (std::size_t i = 0; i < count; ++i) {
-      const std::size_t at = place + i;
-      double* const results = &into.numbers[at * numbers];
-      if (carried[i] && take(i, first + at, &into.values[at * axes], results)) {
-        CaseStatus& status = into.status[at];
-        if (status.word != "done" || !status.reason.empty()) status = {};
-        if (!is_plain(results + 1)) judge(task_, first_, results + 1, status);
-        continue;
-      }
-      if (single_->run(first + at, 1, one_, stop) == 0) return false;
-      std::copy(one_.numbers.begin(), one_.numbers.end(), results);
-      into.status[at] = one_.status[0];
-    }
-    return true;
-  }
-
-  // Whether there is nothing to say about the measures.
-  [[nodiscard]] bool is_plain(const double* measures) const {
-    return has_all_ && std::all_of(measures, measures + take_.size(),
-                                   [](double value) { return std::isfinite(value); });
-  }
-
   // The measures of a lane's case; false of one whose squares overflow or vanish.
-  bool take(std::size_t lane, std::size_t number, const double* values, double* results) {
+  bool take(std::size_t lane, const GroupCase& one) {
     const Reached reached = lanes_.reached(static_cast<int>(lane));
     if (!record::is_square(reached.distance_squared)) return false;
-    const double end = first_.time.end;
     record::GimbalExtremes::Greatest turned;
-    if (wants_turning_) turned = turning(number, values, reached);
+    if (wants_turning_) turned = turning(one, reached);
     if (needs_model_) {
-      const Scenario& scenario = scenario_.at(number, values);
+      const Scenario& scenario = scenario_.at(one.number, one.values);
       const model::Model model = model_of(scenario);
       const model::BallConstants constants = model::constants_of(scenario);
       end_.begin(model, constants);
-      end_.evaluate(&end, reached.state, 1);
+      end_.evaluate(&end_time_, reached.state, 1);
     }
-    results[0] = end;
     std::size_t column = 0;
     for (std::size_t m = 0; m < take_.size(); ++m) {
-      double& result = results[1 + m];
+      double& result = one.measures[m];
       switch (take_[m]) {
         case Take::x:
           result = reached.state[0];
@@ -196,31 +156,27 @@ class OpenLaneRunner : public CaseRunner {
   }
 
   // Of motions with tables, which are not looked at in lanes, or of one that all cases have.
-  record::GimbalExtremes::Greatest turning(std::size_t number, const double* values,
-                                           const Reached& reached) {
+  record::GimbalExtremes::Greatest turning(const GroupCase& one, const Reached& reached) {
     if (motion_.view().table_count == 0) {
       return {record::tilt_of(reached.versine), std::sqrt(reached.rate_squared)};
     }
     if (!turned_ || !same_signals_) {
-      turned_ = gimbal_.of(model::given_motion(scenario_.at(number, values)), first_.time.end);
+      turned_ = gimbal_.of(model::given_motion(scenario_.at(one.number, one.values)), end_time_);
     }
     return *turned_;
   }
 
   const SweepTask& task_;
-  const Scenario first_;            // like which all are, but for their numbers
+  const double end_time_;           // s
   const model::SignalPair motion_;  // whose tables are those of all
   CaseScenario scenario_;
   OpenLanes lanes_;
-  std::unique_ptr<CaseRunner> single_;
   std::vector<Take> take_;
   record::Rows end_;
   record::GimbalExtremes gimbal_;
   std::optional<record::GimbalExtremes::Greatest> turned_;
-  bool has_all_ = true;  // columns that the measures are of
   bool needs_model_ = false, wants_turning_ = false, same_signals_;
   std::array<OpenCase, group> cases_;
-  CaseResults one_;
 };
 
 }  // namespace
@@ -276,7 +232,8 @@ std::size_t open_lane_group() {
 }
 
 std::unique_ptr<CaseRunner> open_lane_runner(const SweepTask& task, const solve::open::Pace& pace) {
-  return std::make_unique<OpenLaneRunner>(task, pace);
+  const Scenario first = task.family.read(task.plan.settings(0));
+  return group_runner(task, first, group, std::make_unique<OpenCarrier>(task, first, pace));
 }
 
 }  // namespace bbsim::sweep

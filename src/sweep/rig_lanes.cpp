@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <optional>
 #include <utility>
 #include <vector>
 
@@ -12,10 +11,9 @@
 #include "solve/choose.hpp"
 #include "solve/held/rig_lanes.hpp"
 #include "sweep/case_scenario.hpp"
+#include "sweep/group_runner.hpp"
 #include "sweep/rig_lane_measures.hpp"
 #include "sweep/sample_cases.hpp"
-#include "sweep/single.hpp"
-#include "sweep/verdict.hpp"
 
 namespace bbsim::sweep {
 namespace {
@@ -37,100 +35,59 @@ bool share_reference(const SweepPlan& plan) {
   });
 }
 
-class RigLaneRunner : public CaseRunner {
+class RigCarrier : public GroupCarrier {
  public:
-  explicit RigLaneRunner(const SweepTask& task)
-      : task_(task),
-        first_(task.family.read(task.plan.settings(0))),
-        scenario_(task),
-        grid_(first_.time),
-        tolerances_{first_.solver.rtol, first_.solver.atol},
+  RigCarrier(const SweepTask& task, const Scenario& first)
+      : scenario_(task),
+        grid_(first.time),
+        tolerances_{first.solver.rtol, first.solver.atol},
         measures_(task.measures, grid_),
-        lanes_(tolerances_, grid_, measures_.asks_for()),
-        single_(single_runner(task)) {}
+        lanes_(tolerances_, grid_, measures_.asks_for()) {}
 
-  std::size_t run(std::size_t first, std::size_t count, CaseResults& into,
-                  const std::atomic<bool>& stop) override {
-    into.first = first;
-    into.resize(count, task_);
-    for (std::size_t i = 0; i < count; i += group) {
-      if (stop.load(std::memory_order_relaxed)) return i;
-      if (!run_group(first, i, std::min(group, count - i), into, stop)) return i;
+  void carry(std::span<GroupCase> cases) override {
+    rigs_.clear();
+    for (GroupCase& one : cases) take(one);
+    if (rigs_.empty()) return;
+    std::array<const model::Model*, group> models{};
+    for (std::size_t lane = 0; lane < rigs_.size(); ++lane) models[lane] = &rigs_[lane].model;
+    measures_.begin(reference_of(rigs_.front().model));
+    const auto carried = lanes_.integrate(models.data(), rigs_.size(), measures_);
+    for (std::size_t lane = 0; lane < rigs_.size(); ++lane) {
+      const Rig& rig = rigs_[lane];
+      rig.of->carried =
+          carried[lane] && measures_.finish(lane, rig.model, rig.constants, rig.of->measures);
     }
-    return count;
   }
 
  private:
   // A case on its way through a lane.
-  struct LaneCase {
-    std::size_t place;  // among the results
+  struct Rig {
+    GroupCase* of;
     model::Model model;
     model::BallConstants constants;
   };
 
-  // Whether the case can be carried among those of its group.
-  bool take(std::size_t number, std::size_t place, const double* values) {
+  // Gives the case a lane, if it can be carried among those of its group.
+  void take(GroupCase& one) {
     try {
-      const Scenario& scenario = scenario_.at(number, values);
+      const Scenario& scenario = scenario_.at(one.number, one.values);
       model::Model model = model::assemble(scenario, false);
       if (!is_carried(scenario, model) || solve::OutputGrid(scenario.time) != grid_ ||
           scenario.solver.rtol != tolerances_.rtol || scenario.solver.atol != tolerances_.atol ||
-          (!cases_.empty() && !solve::held::go_together(cases_.front().model, model))) {
-        return false;
+          (!rigs_.empty() && !solve::held::go_together(rigs_.front().model, model))) {
+        return;
       }
-      cases_.push_back({place, std::move(model), model::constants_of(scenario)});
+      rigs_.push_back({&one, std::move(model), model::constants_of(scenario)});
     } catch (const InputError&) {  // which whoever runs it alone tells of
-      return false;
     }
-    return true;
   }
 
-  bool run_group(std::size_t first, std::size_t place, std::size_t count, CaseResults& into,
-                 const std::atomic<bool>& stop) {
-    const std::size_t axes = task_.plan.axes().size(), numbers = 1 + task_.measures.size();
-    cases_.clear();
-    alone_.clear();
-    for (std::size_t i = place; i < place + count; ++i) {
-      double* const values = &into.values[i * axes];
-      task_.plan.values(first + i, values);
-      if (!take(first + i, i, values)) alone_.push_back(i);
-    }
-    if (!cases_.empty()) {
-      std::array<const model::Model*, group> models{};
-      for (std::size_t lane = 0; lane < cases_.size(); ++lane) models[lane] = &cases_[lane].model;
-      measures_.begin(reference_of(cases_.front().model));
-      const auto carried = lanes_.integrate(models.data(), cases_.size(), measures_);
-      for (std::size_t lane = 0; lane < cases_.size(); ++lane) {
-        const LaneCase& one = cases_[lane];
-        double* const results = &into.numbers[one.place * numbers];
-        if (!carried[lane] || !measures_.finish(lane, one.model, one.constants, results + 1)) {
-          alone_.push_back(one.place);
-          continue;
-        }
-        results[0] = grid_.end();
-        into.status[one.place] = {};
-        judge(task_, first_, results + 1, into.status[one.place]);
-      }
-    }
-    for (const std::size_t i : alone_) {
-      if (single_->run(first + i, 1, one_, stop) == 0) return false;
-      std::copy(one_.numbers.begin(), one_.numbers.end(), &into.numbers[i * numbers]);
-      into.status[i] = one_.status[0];
-    }
-    return true;
-  }
-
-  const SweepTask& task_;
-  const Scenario first_;  // like which all are, but for what varies
   CaseScenario scenario_;
   solve::OutputGrid grid_;
   solve::Tolerances tolerances_;
   RigLaneMeasures measures_;
   solve::held::RigLanes lanes_;
-  std::unique_ptr<CaseRunner> single_;
-  std::vector<LaneCase> cases_;
-  std::vector<std::size_t> alone_;
-  CaseResults one_;
+  std::vector<Rig> rigs_;
 };
 
 }  // namespace
@@ -161,7 +118,8 @@ std::size_t rig_group() {
 }
 
 std::unique_ptr<CaseRunner> rig_lane_runner(const SweepTask& task) {
-  return std::make_unique<RigLaneRunner>(task);
+  const Scenario first = task.family.read(task.plan.settings(0));
+  return group_runner(task, first, group, std::make_unique<RigCarrier>(task, first));
 }
 
 }  // namespace bbsim::sweep

@@ -1,0 +1,34 @@
+// Cases that go together in lanes, a group at a time, and those that do not fit by themselves.
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <span>
+
+#include "scenario/scenario.hpp"
+#include "sweep/task.hpp"
+
+namespace bbsim::sweep {
+
+struct GroupCase {
+  std::size_t number;    // in the sweep
+  const double* values;  // of the axes
+  double* measures;      // where they go
+  bool carried = false;  // to the end, and the measures are there
+};
+
+// What carries a group of cases in lanes.
+class GroupCarrier {
+ public:
+  virtual ~GroupCarrier() = default;
+  // One group, or fewer at the sweep's end. Cases that are not marked as carried are run alone.
+  virtual void carry(std::span<GroupCase> cases) = 0;
+};
+
+// `first` is the sweep's first case: in the others the same measures have a meaning, and those that
+// are carried end at the same time. The task outlives the runner.
+[[nodiscard]] std::unique_ptr<CaseRunner> group_runner(const SweepTask& task, const Scenario& first,
+                                                       std::size_t group,
+                                                       std::unique_ptr<GroupCarrier> carrier);
+
+}  // namespace bbsim::sweep
