@@ -2,28 +2,23 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <optional>
 #include <utility>
 #include <variant>
 
 #include "model/model.hpp"
 #include "record/track/track_measures.hpp"
 #include "solve/choose.hpp"
-#include "solve/rosenbrock/loop_lanes.hpp"
+#include "solve/loop/loop_lanes.hpp"
 #include "sweep/case_scenario.hpp"
 #include "sweep/group_runner.hpp"
-#include "sweep/lane_extremes.hpp"
-#include "sweep/sample_cases.hpp"
 
 namespace bbsim::sweep {
 namespace {
 
-using solve::rosenbrock::LoopCase;
-constexpr std::size_t group = solve::rosenbrock::group;
-
-// From here up the Rosenbrock method in lanes takes less time at the same error than radau case by
-// case (docs/sweeps.md): its order is 5, but what is stiff costs it less.
-constexpr double least_rtol = 1e-7, least_rtol_of_stiff = 1e-9;
-constexpr double stiff = 1000;  // decays over the scene
+using solve::loop::LoopCase;
+constexpr std::size_t group = solve::loop::group;
 
 bool has_single_harmonic(const Reference& reference) {
   return std::holds_alternative<PointReference>(reference) ||
@@ -56,27 +51,17 @@ LoopCase loop_case(const Scenario& scenario, const model::Model& model,
   return loop;
 }
 
-// Whether most of the cases are, as far as some from all over the sweep tell.
-bool are_stiff(const SweepTask& task) {
-  constexpr int looked_at = 16;
-  int found = 0;
-  for (int i = 0; i < looked_at; ++i) {
-    const Scenario scenario =
-        task.family.read(task.plan.settings(sample_case(i, task.plan.cases())));
-    const model::Model model = model::assemble(scenario, false, model::Symmetry::ignored);
-    if (solve::decays_over_scene(model, scenario.time.end) > stiff) ++found;
-  }
-  return 2 * found > looked_at;
-}
-
 class LoopCarrier : public GroupCarrier {
  public:
   LoopCarrier(const SweepTask& task, const Scenario& first)
       : scenario_(task),
         track_(task.measures),
         grid_(first.time),
-        lanes_(first.controller->drives, {first.solver.rtol, first.solver.atol}, grid_),
-        same_signals_(task.plan.shares_signals()) {}
+        lanes_(first.controller->drives, solve::loop::choose_nodes(first.solver.rtol),
+               {first.solver.rtol, first.solver.atol}, grid_),
+        same_signals_(task.plan.shares_signals()) {
+    lanes_.leave_out_all_but_places();
+  }
 
   void carry(std::span<GroupCase> cases) override {
     std::array<LoopCase, group> loops;
@@ -87,15 +72,12 @@ class LoopCarrier : public GroupCarrier {
       loops[loops_.size()] = loop_case(scenario, model, record::signals_of(model).view());
       loops_.push_back({std::move(model), model::constants_of(scenario)});
     }
-    std::vector<const model::SignalPair*> references;
-    for (const Loop& one : loops_) references.push_back(&record::signals_of(one.model));
-    extremes_.begin(references);
-    const auto carried = lanes_.integrate(loops.data(), static_cast<int>(cases.size()), &extremes_);
+    const auto carried = lanes_.integrate(loops.data(), static_cast<int>(cases.size()));
     for (std::size_t lane = 0; lane < cases.size(); ++lane) {
-      const auto greatest = extremes_.of(lane);
+      const auto greatest = extremes(lane);
       if (!carried[lane] || !greatest) continue;
       track_.begin(loops_[lane].model, loops_[lane].constants, grid_, same_signals_);
-      track_.take(grid_.size(), lanes_.rows() + lane, solve::rosenbrock::states * group, group,
+      track_.take(grid_.size(), lanes_.rows() + lane, solve::loop::states * group, group,
                   *greatest);
       track_.finish(cases[lane].measures);
       cases[lane].carried = true;
@@ -103,6 +85,17 @@ class LoopCarrier : public GroupCarrier {
   }
 
  private:
+  // None where squares were too large or too small for a double.
+  [[nodiscard]] std::optional<record::TrackExtremes> extremes(std::size_t lane) const {
+    const auto& of = lanes_.greatest().of;
+    const double distance = of[solve::loop::distance_squared][lane];
+    const double error = of[solve::loop::error_squared][lane];
+    if (!record::is_square(distance) || !record::is_square(error)) return {};
+    return record::TrackExtremes{of[solve::loop::versine][lane],
+                                 of[solve::loop::rate_squared][lane], std::sqrt(distance),
+                                 std::sqrt(error)};
+  }
+
   struct Loop {
     model::Model model;
     model::BallConstants constants;
@@ -110,9 +103,8 @@ class LoopCarrier : public GroupCarrier {
 
   CaseScenario scenario_;
   record::TrackMeasures track_;
-  LaneExtremes extremes_;
   solve::OutputGrid grid_;
-  solve::rosenbrock::LoopLanes lanes_;
+  solve::loop::LoopLanes lanes_;
   bool same_signals_;
   std::vector<Loop> loops_;  // of the group, a lane each
 };
@@ -130,9 +122,7 @@ bool can_use_lanes(const SweepTask& task) {
   return scenario.controller && !scenario.solver.error &&
          solve::choose_method(scenario.solver.method) == Method::radau &&
          has_single_harmonic(scenario.controller->reference) &&
-         record::has_track(model::assemble(scenario, false)) &&
-         scenario.solver.rtol >= least_rtol_of_stiff &&
-         (scenario.solver.rtol >= least_rtol || are_stiff(task));
+         record::has_track(model::assemble(scenario, false));
 }
 
 std::size_t lane_group() {

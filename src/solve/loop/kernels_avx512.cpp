@@ -1,0 +1,12 @@
+#include "solve/loop/step.hpp"
+
+namespace bbsim::solve::loop {
+
+struct Avx512 {
+  static constexpr int lanes = 8;
+};
+
+extern const Kernels kernels_avx512;
+constinit const Kernels kernels_avx512 = kernels_of<Avx512>;
+
+}  // namespace bbsim::solve::loop

@@ -1,0 +1,13 @@
+// For every processor: pairs of lanes, which are SSE2 on x86-64 and Neon on 64-bit ARM.
+#include "solve/loop/step.hpp"
+
+namespace bbsim::solve::loop {
+
+struct Baseline {
+  static constexpr int lanes = 2;
+};
+
+extern const Kernels kernels_baseline;
+constinit const Kernels kernels_baseline = kernels_of<Baseline>;
+
+}  // namespace bbsim::solve::loop
