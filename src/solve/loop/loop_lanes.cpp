@@ -13,16 +13,15 @@ namespace bbsim::solve::loop {
 namespace {
 
 constexpr std::align_val_t alignment{64};
+constexpr double infinite = std::numeric_limits<double>::infinity();
 
 // What takes more is for another integrator.
 constexpr std::size_t most_attempts = 100'000;
 // From one second to the rounding of its time takes 50 halvings of the step.
 constexpr int most_rejections = 60;
 // Errors fall with the step to the power of the nodes and more: a lane whose error is so much more
-// than the median's needs a step a quarter as long or shorter. What is lost without need is run
-// again alone, and only costs time.
-constexpr double holding_back = 1e8;
-constexpr int most_held = 4;
+// than the median's needs a step a quarter as long or shorter.
+constexpr LostLanes<group>::Patience patience{.notable = 1, .holding_back = 1e8, .most_held = 4};
 // What a step that Newton's iteration does not solve counts as: one that needs to be half as long.
 constexpr double unsolved = 1e6;
 
@@ -53,10 +52,14 @@ const Kernel& kernel_of(Drives drives, int nodes) {
   return of.few.nodes == nodes ? of.few : of.many;
 }
 
-double error_of(const Attempt& attempt, std::size_t lane) {
-  const double squared = attempt.error_squared[lane];
-  if (!std::isfinite(squared)) return std::numeric_limits<double>::infinity();
-  return std::max(std::sqrt(squared), attempt.converged[lane] ? 0.0 : unsolved);
+// Errors in the tolerances' weights; no numbers where a step is not finite.
+std::array<double, group> errors_of(const Attempt& attempt) {
+  std::array<double, group> errors;
+  for (std::size_t lane = 0; lane < group; ++lane) {
+    errors[lane] = std::sqrt(attempt.error_squared[lane]);
+    if (!attempt.converged[lane]) errors[lane] = std::max(errors[lane], unsolved);
+  }
+  return errors;
 }
 
 template <class T>
@@ -80,7 +83,8 @@ LoopLanes::LoopLanes(Drives drives, int nodes, Tolerances tolerances, const Outp
       tolerances_(tolerances),
       times_(grid.size()),
       rows_(allocate<double>(grid.size() * states * group * sizeof(double))),
-      workspace_(allocate<void>(kernel_->workspace)) {
+      workspace_(allocate<void>(kernel_->workspace)),
+      lost_(patience) {
   for (std::size_t i = 0; i < grid.size(); ++i) times_[i] = grid[i];
 }
 
@@ -109,53 +113,6 @@ void LoopLanes::load(const LoopCase* cases, int count) {
   }
   kernel_->start(workspace_.get(), loops, initial, tolerances_.rtol, tolerances_.atol);
   std::memcpy(rows_.get(), initial, sizeof(initial));
-}
-
-// Lanes that were given up go on as twins of the first that was not: their numbers stay finite and
-// cost nothing.
-void LoopLanes::replace_lost() {
-  const auto healthy = std::find(lost_.begin(), lost_.end(), false);
-  if (healthy == lost_.end()) return;
-  for (std::size_t lane = 0; lane < group; ++lane) {
-    if (!lost_[lane]) continue;
-    kernel_->twin(workspace_.get(), static_cast<int>(lane),
-                  static_cast<int>(healthy - lost_.begin()));
-  }
-}
-
-// The largest error of the lanes that are carried on; gives up those that cannot be.
-double LoopLanes::judge(const Attempt& attempt, bool at_limit) {
-  std::array<double, group> errors, sorted;
-  std::ptrdiff_t alive = 0;
-  double most = 0;
-  for (std::size_t lane = 0; lane < group; ++lane) {
-    errors[lane] = error_of(attempt, lane);
-    if (lost_[lane]) continue;
-    sorted[static_cast<std::size_t>(alive++)] = errors[lane];
-    most = std::max(most, errors[lane]);
-  }
-  if (most <= 1) return most;
-  const auto middle = sorted.begin() + alive / 2;
-  if (alive > 0) std::nth_element(sorted.begin(), middle, sorted.begin() + alive);
-  double worst = 0;
-  for (std::size_t lane = 0; lane < group; ++lane) {
-    if (lost_[lane]) continue;
-    const double error = errors[lane];
-    if (error > 1 && error > holding_back * *middle) ++held_[lane];
-    if ((at_limit && error > 1) || held_[lane] > most_held) {
-      lost_[lane] = true;
-    } else {
-      worst = std::max(worst, error);
-    }
-  }
-  return worst;
-}
-
-// Gives up those with such an error and more.
-void LoopLanes::give_up(const Attempt& attempt, double least) {
-  for (std::size_t lane = 0; lane < group; ++lane) {
-    if (error_of(attempt, lane) >= least) lost_[lane] = true;
-  }
 }
 
 // The rows up to the end of the last attempt.
@@ -188,30 +145,32 @@ double LoopLanes::fastest(const LoopCase* cases, int count) {
   for (int lane = 0; lane < group; ++lane) {
     const double own =
         fastest_of(couplings, lane) + std::abs(cases[std::min(lane, count - 1)].frequency);
-    const bool lost = !std::isfinite(own);
-    lost_[static_cast<std::size_t>(lane)] = lost;
-    if (!lost) rate = std::max(rate, own);
+    if (std::isfinite(own)) {
+      rate = std::max(rate, own);
+    } else {
+      lost_.give_up(static_cast<std::size_t>(lane));
+    }
   }
   return rate;
 }
 
 std::array<bool, group> LoopLanes::integrate(const LoopCase* cases, int count) {
   load(cases, count);
-  held_.fill(0);
+  lost_.begin();
   greatest_ = {};
   statistics_ = {};
   recorded_ = 1;
   const double end = times_.back();
   const double rate = fastest(cases, count);
-  replace_lost();
+  const auto twin = [&](int lane, int of) { kernel_->twin(workspace_.get(), lane, of); };
+  lost_.replace(twin);
   double next = rate > 0 ? std::pow(tolerances_.rtol, 1.0 / kernel_->nodes) / rate : end;
   if (!(next > 0)) next = end * 1e-6;
 
   double t = 0;
   int rejections = 0;
   Shrinking shrinking;
-  auto lost_before = lost_;
-  while (t < end && std::find(lost_.begin(), lost_.end(), false) != lost_.end()) {
+  while (t < end && !lost_.all()) {
     // The steps to the end are alike.
     const double left = end - t;
     const double pieces = std::ceil(left / next * (1 - 1e-3));
@@ -222,8 +181,9 @@ std::array<bool, group> LoopLanes::integrate(const LoopCase* cases, int count) {
     Attempt attempt;
     kernel_->attempt(workspace_.get(), t, h, attempt);
     statistics_.nonlinear_iterations += static_cast<std::size_t>(attempt.iterations);
-    if (++statistics_.jacobian_evaluations > most_attempts) lost_.fill(true);
-    const double worst = judge(attempt, at_limit);
+    if (++statistics_.jacobian_evaluations > most_attempts) lost_.give_up_all();
+    const auto errors = errors_of(attempt);
+    const double worst = lost_.judge(errors.data(), at_limit ? 1 : infinite);
     // The first step is a guess.
     const double most = statistics_.steps < 3 ? 30 : 8;
     const double growth = step_growth(worst, kernel_->nodes, most);
@@ -233,7 +193,11 @@ std::array<bool, group> LoopLanes::integrate(const LoopCase* cases, int count) {
       kernel_->look(workspace_.get(), greatest_);
       kernel_->accept(workspace_.get());
       ++statistics_.steps;
-      if (!arrives && shrinking.lasts(h)) give_up(attempt, asking * worst);
+      if (!arrives && shrinking.lasts(h)) {
+        for (std::size_t lane = 0; lane < group; ++lane) {
+          if (errors[lane] >= asking * worst) lost_.give_up(lane);
+        }
+      }
       next = h * (rejections > 0 ? std::min(growth, 1.0) : growth);
       rejections = 0;
     } else {
@@ -241,18 +205,13 @@ std::array<bool, group> LoopLanes::integrate(const LoopCase* cases, int count) {
       ++statistics_.error_test_failures;
       ++rejections;
     }
-    if (lost_ != lost_before) replace_lost();
-    lost_before = lost_;
+    lost_.replace(twin);
   }
   if (places_only_) {
     kernel_->read(workspace_.get(), reinterpret_cast<double(*)[group]>(
                                         rows_.get() + (times_.size() - 1) * states * group));
   }
-  std::array<bool, group> carried;
-  for (std::size_t lane = 0; lane < group; ++lane) {
-    carried[lane] = !lost_[lane] && lane < static_cast<std::size_t>(count);
-  }
-  return carried;
+  return lost_.carried(count);
 }
 
 }  // namespace bbsim::solve::loop

@@ -8,6 +8,7 @@
 
 #include "scenario/scenario.hpp"
 #include "solve/loop/kernel.hpp"
+#include "solve/lost_lanes.hpp"
 #include "solve/outcome.hpp"
 #include "solve/output_grid.hpp"
 
@@ -68,10 +69,7 @@ class LoopLanes {
 
   void load(const LoopCase* cases, int count);
   double fastest(const LoopCase* cases, int count);
-  double judge(const Attempt& attempt, bool at_limit);
-  void give_up(const Attempt& attempt, double least);
   void record(double arrived);
-  void replace_lost();
 
   const Kernel* kernel_;
   Tolerances tolerances_;
@@ -80,8 +78,7 @@ class LoopLanes {
   std::unique_ptr<double, Free> rows_;
   std::unique_ptr<void, Free> workspace_;
   Greatest greatest_{};
-  std::array<bool, group> lost_{};
-  std::array<int, group> held_{};  // attempts in which a lane alone needed a far shorter step
+  LostLanes<group> lost_;
   std::size_t recorded_ = 0;
   Statistics statistics_;
 };

@@ -50,7 +50,8 @@ struct Step {
   static_assert(motions.of[phi].position == 5 && motions.of[theta].position == 6);
   static_assert(nq == 4);
   using Reference = std::array<model::Jet<P>, 2>;
-  using Courses = LaneCourses<P, s, nq>;
+  using Courses = LaneCourses<P, s, 2>;
+  enum Half : int { places, angles };  // of the positions, and their velocities
 
   // The tables by rows: what one node takes from all. A copy of each instruction set's own.
   struct alignas(64) Rows {
@@ -100,14 +101,14 @@ struct Step {
     Reference reference[s];
     Complex matrix[pairs][nq][nq], transformed[pairs][nq];
     P q_weight[nq], v_weight[nv];  // one over the tolerances
-    Courses courses;               // of the last attempt
+    Courses courses[2];            // of the last attempt, by halves
   };
 
   struct alignas(64) Workspace {
     Loops loops;
     double rtol, atol;
-    double t, h;   // of the last attempt
-    bool courses;  // whether they are those of it
+    double t, h;      // of the last attempt
+    bool courses[2];  // whether they are those of it
     Pack of[packs];
   };
 
@@ -393,16 +394,19 @@ struct Step {
       for (int j = 0; j < together; ++j) {
         const P time(rows.c[first + j] * h);
         P moved[nv];
+        // Every other node tells enough: what is left is a polynomial over the step.
+        const bool counts = j == together - 1;
 #pragma GCC unroll 8
         for (int i = 0; i < nv; ++i) {
           const P v = of.v[i] + P(h) * once[j][i];
-          moved[i] = v - of.v_at[first + j][i];
+          if (counts) moved[i] = v - of.v_at[first + j][i];
           of.v_at[first + j][i] = v;
           if (i >= nq) continue;
           const P q = of.q[i] + (time * of.v[i] + P(h * h) * twice[j][i]);
-          change.q[i] = larger_of(change.q[i], size_of(q - of.q_at[first + j][i]));
+          if (counts) change.q[i] = larger_of(change.q[i], size_of(q - of.q_at[first + j][i]));
           of.q_at[first + j][i] = q;
         }
+        if (!counts) continue;
         without_servos(loop, moved);
 #pragma GCC unroll 8
         for (int i = 0; i < nv; ++i) change.v[i] = larger_of(change.v[i], size_of(moved[i]));
@@ -584,7 +588,7 @@ struct Step {
     w.rtol = rtol;
     w.atol = atol;
     w.t = w.h = 0;
-    w.courses = false;
+    w.courses[places] = w.courses[angles] = false;
     for (int p = 0; p < packs; ++p) {
       Pack& of = w.of[p];
       for (int i = 0; i < nv; ++i) {
@@ -629,7 +633,7 @@ struct Step {
     Workspace& w = *static_cast<Workspace*>(workspace);
     w.t = t;
     w.h = h;
-    w.courses = false;
+    w.courses[places] = w.courses[angles] = false;
     result.iterations = 0;
     for (int p = 0; p < packs; ++p) {
       int iterations = 0;
@@ -640,16 +644,18 @@ struct Step {
     }
   }
 
+  template <Half half>
   [[gnu::flatten]] static void make_courses(Workspace& w) {
-    if (w.courses) return;
-    w.courses = true;
+    if (w.courses[half]) return;
+    w.courses[half] = true;
+    constexpr int first = 2 * half;
     for (int p = 0; p < packs; ++p) {
       Pack& of = w.of[p];
-      of.courses.make(
-          rows.legendre,
-          P(w.h), [&](int j, int i) __attribute__((always_inline)) { return P(w.h) * of.k[j][i]; },
-          [&](int i) __attribute__((always_inline)) { return of.q[i]; },
-          [&](int i) __attribute__((always_inline)) { return of.v[i]; });
+      of.courses[half].make(
+          rows.legendre, P(w.h),
+          [&](int j, int i) __attribute__((always_inline)) { return P(w.h) * of.k[j][first + i]; },
+          [&](int i) __attribute__((always_inline)) { return of.q[first + i]; },
+          [&](int i) __attribute__((always_inline)) { return of.v[first + i]; });
     }
   }
 
@@ -667,7 +673,7 @@ struct Step {
     for (int first = 0; first < used; first += together) {
 #pragma GCC unroll 1
       for (int p = 0; p < packs; ++p) {
-        const Courses& of = w.of[p].courses;
+        const Courses* const of = w.of[p].courses;
         P q[together][coordinates], v[together][coordinates];
 #pragma GCC unroll 4
         for (int l = 0; l < together; ++l) {
@@ -681,8 +687,8 @@ struct Step {
             const P value(polynomial[m][first + l]);
 #pragma GCC unroll 4
             for (int i = 0; i < coordinates; ++i) {
-              q[l][i] += of.q[i][m] * value;
-              if (coordinates == nq && m <= s) v[l][i] += of.v[i][m] * value;
+              q[l][i] += of[i / 2].q[i % 2][m] * value;
+              if (coordinates == nq && m <= s) v[l][i] += of[i / 2].v[i % 2][m] * value;
             }
           }
         }
@@ -718,7 +724,8 @@ struct Step {
   [[gnu::flatten]] static void evaluate(void* workspace, const double* times, std::size_t count,
                                         bool places_only, double* to) {
     Workspace& w = *static_cast<Workspace*>(workspace);
-    make_courses(w);
+    make_courses<places>(w);
+    if (!places_only) make_courses<angles>(w);
     for (std::size_t first = 0; first < count; first += lanes) {
       const int used = count - first < lanes ? static_cast<int>(count - first) : lanes;
       alignas(64) double parts[lanes];
@@ -772,8 +779,10 @@ struct Step {
   template <int which>
   BBSIM_INLINE static void between(Workspace& w, int p, const Loop& loop, P part, P& size,
                                    P& slope) {
-    make_courses(w);
-    const Courses& courses = w.of[p].courses;
+    constexpr Half half = which == versine || which == rate_squared ? angles : places;
+    constexpr int first = 2 * half;
+    make_courses<half>(w);
+    const Courses& courses = w.of[p].courses[half];
     Instant at;
     Reference reference{};
     const P h(w.h);
@@ -794,9 +803,8 @@ struct Step {
       at.k[phi] = at.k[phi] / h;
       at.k[theta] = at.k[theta] / h;
     } else {
-      constexpr int first = which == versine ? phi : x;
       P position[2], velocity[2];
-      courses.template at<first>(part, position, velocity);
+      courses.template at<0>(part, position, velocity);
 #pragma GCC unroll 2
       for (int i = 0; i < 2; ++i) {
         at.q[first + i] = position[i];
@@ -821,12 +829,14 @@ struct Step {
     for (int i = 0; i < nq; ++i) k[i] = P(0.0);
     if constexpr (which == rate_squared) {
       // The polynomial's own slope: it starts at no node.
-      make_courses(w);
+      make_courses<angles>(w);
 #pragma GCC unroll 2
-      for (int i = phi; i <= theta; ++i) {
+      for (int i = 0; i < 2; ++i) {
         P sum(0.0);
-        for (int m = 0; m < s; ++m) sum += (m % 2 == 0 ? P(1.0) : P(-1.0)) * of.courses.k[i][m];
-        k[i] = sum / h;
+        for (int m = 0; m < s; ++m) {
+          sum += (m % 2 == 0 ? P(1.0) : P(-1.0)) * of.courses[angles].k[i][m];
+        }
+        k[phi + i] = sum / h;
       }
     }
     look_at<which>(of.q, of.v, k, reference, h, places[0].value, places[0].slope);

@@ -19,10 +19,8 @@ constexpr std::size_t most_attempts = 100'000;
 // From one second to the rounding of its time takes 50 halvings of the step.
 constexpr int most_rejections = 60;
 // Errors fall with the step to the power of the nodes and more: a lane whose error is so much more
-// than the median's needs a step a quarter as long or shorter. What is lost without need is run
-// again alone, and only costs time.
-constexpr double holding_back = 1e8;
-constexpr int most_held = 4;
+// than the median's needs a step a quarter as long or shorter.
+constexpr LostLanes<group>::Patience patience{.notable = 1, .holding_back = 1e8, .most_held = 4};
 
 // How long half a stretch of the plane's motion is between two looks, rad: at its tempo, the cubics
 // of simd/peaks.hpp then tell where it is greatest.
@@ -53,7 +51,8 @@ OpenLanes::OpenLanes(Tolerances tolerances, double end, std::vector<double> stop
       tolerances_(tolerances),
       end_(end),
       stops_(std::move(stops)),
-      pace_(pace) {
+      pace_(pace),
+      lost_(patience) {
   kernel_ = &kernel_of(kernels_, pace.nodes);
   workspace_.reset(::operator new(kernel_->workspace, alignment));
   stops_.push_back(end);
@@ -140,49 +139,15 @@ double OpenLanes::tempo(const OpenCase* cases, int count) {
   return fastest;
 }
 
-// Lanes that were given up go on as twins of the first that was not: their numbers stay finite and
-// cost nothing.
-void OpenLanes::replace_lost() {
-  const auto healthy = std::find(lost_.begin(), lost_.end(), false);
-  if (healthy == lost_.end()) return;
-  for (std::size_t lane = 0; lane < group; ++lane) {
-    if (!lost_[lane]) continue;
-    kernel_->twin(workspace_.get(), static_cast<int>(lane),
-                  static_cast<int>(healthy - lost_.begin()));
-  }
-}
-
-// The largest error of the lanes that are carried on; gives up those that cannot be. Returns
-// whether any was given up.
-bool OpenLanes::judge(const Attempt& attempt, bool at_limit, double& worst) {
+// The largest error of the lanes that are carried on.
+double OpenLanes::judge(const Attempt& attempt, bool at_limit) {
   constexpr double infinite = std::numeric_limits<double>::infinity();
-  std::array<double, group> errors, sorted;
-  std::ptrdiff_t alive = 0;
+  std::array<double, group> errors;
   for (std::size_t lane = 0; lane < group; ++lane) {
-    const double squared = attempt.error_squared[lane];
-    errors[lane] = std::isfinite(squared) ? std::sqrt(squared) : infinite;
-    if (!lost_[lane]) sorted[static_cast<std::size_t>(alive++)] = errors[lane];
+    errors[lane] = std::sqrt(attempt.error_squared[lane]);
   }
-  worst = 0;
-  bool changed = false;
-  const bool fine =
-      std::all_of(sorted.begin(), sorted.begin() + alive, [](double error) { return error <= 1; });
-  double middle = infinite;
-  if (!fine && alive > 0) {
-    std::nth_element(sorted.begin(), sorted.begin() + alive / 2, sorted.begin() + alive);
-    middle = sorted[static_cast<std::size_t>(alive / 2)];
-  }
-  for (std::size_t lane = 0; lane < group; ++lane) {
-    if (lost_[lane]) continue;
-    const double error = errors[lane];
-    if (error > 1 && error > holding_back * middle) ++held_[lane];
-    if ((at_limit && (error > 1 || !attempt.converged)) || held_[lane] > most_held) {
-      lost_[lane] = changed = true;
-    } else {
-      worst = std::max(worst, error);
-    }
-  }
-  return changed;
+  if (!at_limit) return lost_.judge(errors.data(), infinite);
+  return lost_.judge(errors.data(), attempt.converged ? 1 : -infinite);
 }
 
 // Over a stretch of time in which no input has a corner; whether any lane arrived.
@@ -190,7 +155,7 @@ bool OpenLanes::go(double from, double to) {
   double t = from;
   int rejections = 0;
   while (t < to) {
-    if (std::find(lost_.begin(), lost_.end(), false) == lost_.end()) return false;
+    if (lost_.all()) return false;
     // The steps to the end are alike.
     const double left = to - t;
     const double pieces = std::ceil(left / next_ * (1 - 1e-3));
@@ -201,9 +166,8 @@ bool OpenLanes::go(double from, double to) {
     Attempt attempt;
     kernel_->attempt(workspace_.get(), t, h, attempt);
     statistics_.nonlinear_iterations += static_cast<std::size_t>(attempt.iterations);
-    if (statistics_.steps + statistics_.error_test_failures > most_attempts) lost_.fill(true);
-    double worst = 0;
-    const bool changed = judge(attempt, at_limit, worst);
+    if (statistics_.steps + statistics_.error_test_failures > most_attempts) lost_.give_up_all();
+    const double worst = judge(attempt, at_limit);
     if (worst <= 1 && attempt.converged) {
       t = arrives ? to : t + h;
       kernel_->accept(workspace_.get());
@@ -220,7 +184,7 @@ bool OpenLanes::go(double from, double to) {
       ++statistics_.error_test_failures;
       ++rejections;
     }
-    if (changed) replace_lost();
+    lost_.replace([&](int lane, int of) { kernel_->twin(workspace_.get(), lane, of); });
   }
   return true;
 }
@@ -246,12 +210,11 @@ void OpenLanes::turn(const OpenCase* cases, int count) {
 
 std::array<bool, group> OpenLanes::integrate(const OpenCase* cases, int count) {
   load(cases, count);
-  held_.fill(0);
-  lost_.fill(false);
+  lost_.begin();
   statistics_ = {};
   const double fastest = tempo(cases, count);
   next_ = fastest > 0 ? pace_.angle / fastest : end_;
-  if (!(next_ > 0)) lost_.fill(true);
+  if (!(next_ > 0)) lost_.give_up_all();
   double from = 0;
   for (const double stop : stops_) {
     if (!go(from, stop)) break;
@@ -259,11 +222,7 @@ std::array<bool, group> OpenLanes::integrate(const OpenCase* cases, int count) {
   }
   kernel_->read(workspace_.get(), state_, distance_squared_);
   if (scenes_.table_count == 0) turn(cases, count);
-  std::array<bool, group> carried;
-  for (std::size_t lane = 0; lane < group; ++lane) {
-    carried[lane] = !lost_[lane] && lane < static_cast<std::size_t>(count);
-  }
-  return carried;
+  return lost_.carried(count);
 }
 
 Reached OpenLanes::reached(int lane) const {

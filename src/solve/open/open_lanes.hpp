@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "model/signals/signal_pair.hpp"
+#include "solve/lost_lanes.hpp"
 #include "solve/open/kernel.hpp"
 #include "solve/outcome.hpp"
 
@@ -97,8 +98,7 @@ class OpenLanes {
   struct Tempo;
   [[nodiscard]] static double tempo(const OpenCase* cases, int count);
   [[nodiscard]] bool go(double from, double to);
-  bool judge(const Attempt& attempt, bool at_limit, double& worst);
-  void replace_lost();
+  double judge(const Attempt& attempt, bool at_limit);
   void turn(const OpenCase* cases, int count);
 
   const Kernel* kernel_;
@@ -109,9 +109,8 @@ class OpenLanes {
   Pace pace_;
   std::unique_ptr<void, Free> workspace_;
   Scenes scenes_{};
-  std::array<bool, group> lost_{};
-  std::array<int, group> held_{};  // attempts in which a lane alone needed a far shorter step
-  double next_ = 0;                // step, s
+  LostLanes<group> lost_;
+  double next_ = 0;  // step, s
   Statistics statistics_;
   alignas(64) double state_[states][group]{};
   alignas(64) double distance_squared_[group]{};
