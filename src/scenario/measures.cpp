@@ -273,6 +273,14 @@ std::vector<std::string> default_measures(bool closed_loop) {
   return names;
 }
 
+std::vector<const Column*> end_columns(const std::vector<Measure>& measures) {
+  std::vector<const Column*> columns;
+  for (const Measure& measure : measures) {
+    if (measure.kind == Measure::Kind::end) columns.push_back(measure.column);
+  }
+  return columns;
+}
+
 bool any_needs(const std::vector<Measure>& measures, Needs what) {
   return std::any_of(measures.begin(), measures.end(), [what](const Measure& measure) {
     const Column* const watched = measure.instant.column;

@@ -92,6 +92,9 @@ using FindColumn = std::function<const Column*(std::string_view name)>;
 // max_tracking_error.
 [[nodiscard]] std::vector<std::string> default_measures(bool closed_loop);
 
+// The columns of those that are taken at the end, in their order.
+[[nodiscard]] std::vector<const Column*> end_columns(const std::vector<Measure>& measures);
+
 // What the columns of these measures are computed from.
 [[nodiscard]] bool any_needs(const std::vector<Measure>& measures, Needs what);
 

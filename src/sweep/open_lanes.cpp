@@ -70,14 +70,6 @@ std::size_t sinusoids(const Profile& profile) {
       [](const ProfileTerm& term) { return std::holds_alternative<Sinusoid>(term); }));
 }
 
-std::vector<const scenario::Column*> columns_at_end(const SweepTask& task) {
-  std::vector<const scenario::Column*> columns;
-  for (const scenario::Measure& measure : task.measures) {
-    if (measure.kind == Kind::end) columns.push_back(measure.column);
-  }
-  return columns;
-}
-
 class OpenCarrier : public GroupCarrier {
  public:
   OpenCarrier(const SweepTask& task, const Scenario& first, const solve::open::Pace& pace)
@@ -86,7 +78,7 @@ class OpenCarrier : public GroupCarrier {
         motion_(model::given_motion(first)),
         scenario_(task),
         lanes_({first.solver.rtol, first.solver.atol}, end_time_, model_of(first).stops, pace),
-        end_(columns_at_end(task)),
+        end_(scenario::end_columns(task.measures)),
         same_signals_(task.plan.shares_signals()) {
     for (const scenario::Measure& measure : task.measures) take_.push_back(way_to(measure));
     needs_model_ = std::count(take_.begin(), take_.end(), Take::column) > 0;

@@ -28,21 +28,13 @@ Size size_of(std::string_view column) {
                                  : Size::error_squared;
 }
 
-std::vector<const scenario::Column*> end_columns(const std::vector<scenario::Measure>& measures) {
-  std::vector<const scenario::Column*> columns;
-  for (const scenario::Measure& measure : measures) {
-    if (measure.kind == Kind::end) columns.push_back(measure.column);
-  }
-  return columns;
-}
-
 }  // namespace
 
 RigLaneMeasures::RigLaneMeasures(const std::vector<scenario::Measure>& measures,
                                  const solve::OutputGrid& grid)
     : measures_(measures),
       grid_(grid),
-      end_(end_columns(measures)),
+      end_(scenario::end_columns(measures)),
       points_(search_.points(parts)),
       times_(parts + 1),
       values_(parts + 1),

@@ -44,14 +44,6 @@ bool is_track_measure(const scenario::Measure& measure) {
 // Points of pieces that are looked at in one go; a piece has fewer.
 constexpr std::size_t together = 1024;
 
-std::vector<const scenario::Column*> end_columns(const std::vector<scenario::Measure>& measures) {
-  std::vector<const scenario::Column*> columns;
-  for (const scenario::Measure& measure : measures) {
-    if (measure.kind == Kind::end) columns.push_back(measure.column);
-  }
-  return columns;
-}
-
 void subtract(const SignalRows& signals, std::size_t count, PaddedRows& x, PaddedRows& y) {
   for (std::size_t i = 0; i < count; ++i) {
     x.data()[i] -= signals.value(0)[i];
@@ -80,7 +72,7 @@ const model::SignalPair& signals_of(const model::Model& model) {
 TrackMeasures::TrackMeasures(std::vector<scenario::Measure> measures)
     : measures_(std::move(measures)),
       kernels_(choose_track_kernels()),
-      end_(end_columns(measures_)) {
+      end_(scenario::end_columns(measures_)) {
   for (const scenario::Measure& measure : measures_) {
     if (measure.kind == Kind::end) continue;
     const std::string_view name = measure.column->name;
