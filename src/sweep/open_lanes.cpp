@@ -6,6 +6,7 @@
 #include <variant>
 
 #include "model/model.hpp"
+#include "model/signals/add_profile.hpp"
 #include "model/signals/given_motion.hpp"
 #include "record/rows.hpp"
 #include "record/track/gimbal_extremes.hpp"
@@ -31,19 +32,6 @@ model::Model model_of(const Scenario& scenario) {
   return model::assemble(scenario, false, model::Symmetry::ignored);
 }
 
-void add(GivenMotion& motion, int component, const Profile& profile) {
-  for (const ProfileTerm& term : profile) {
-    if (const auto* const constant = std::get_if<double>(&term)) {
-      motion.add_constant(component, *constant);
-    } else if (const auto* const wave = std::get_if<Sinusoid>(&term)) {
-      motion.add_constant(component, wave->offset);
-      motion.add_sinusoid(component, wave->amplitude, wave->frequency, wave->phase);
-    } else if (const auto* const ramp = std::get_if<Ramp>(&term)) {
-      motion.add_ramp(component, ramp->start, ramp->rate);
-    }
-  }
-}
-
 // The case in the numbers that a lane has. Tables do not vary, and are those of `tables`.
 void set(OpenCase& one, const Scenario& scenario, const model::SignalView& tables) {
   const Ball& ball = scenario.ball;
@@ -58,8 +46,9 @@ void set(OpenCase& one, const Scenario& scenario, const model::SignalView& table
   motion.wave_count = 0;
   motion.tables = tables.tables;
   motion.table_count = tables.table_count;
-  add(motion, 0, gimbal.motion->phi);
-  add(motion, 1, gimbal.motion->theta);
+  const auto no_table = [](const Table&) {};
+  model::add_profile(gimbal.motion->phi, 0, motion, no_table);
+  model::add_profile(gimbal.motion->theta, 1, motion, no_table);
   motion.add_constant(0, gimbal.mounting.phi_offset);
   motion.add_constant(1, gimbal.mounting.theta_offset);
 }

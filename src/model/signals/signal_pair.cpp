@@ -2,8 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <type_traits>
 #include <utility>
+
+#include "model/signals/add_profile.hpp"
 
 namespace bbsim::model {
 
@@ -34,26 +35,12 @@ void SignalPair::add_table(std::size_t component, Spline spline) {
 }
 
 void SignalPair::add(std::size_t component, const Profile& profile) {
-  for (const ProfileTerm& term : profile) {
-    std::visit(
-        [&](const auto& part) {
-          using Part = std::decay_t<decltype(part)>;
-          if constexpr (std::is_same_v<Part, double>) {
-            add_constant(component, part);
-          } else if constexpr (std::is_same_v<Part, Sinusoid>) {
-            add_constant(component, part.offset);
-            add_sinusoid(component, part.amplitude, part.frequency, part.phase);
-          } else if constexpr (std::is_same_v<Part, Ramp>) {
-            add_ramp(component, part.start, part.rate);
-          } else {
-            const auto zero = [](double value) { return value == 0; };
-            if (!std::all_of(part.values.begin(), part.values.end(), zero)) {
-              add_table(component, Spline(part.times, part.values));
-            }
-          }
-        },
-        term);
-  }
+  add_profile(profile, component, *this, [&](const Table& table) {
+    const auto zero = [](double value) { return value == 0; };
+    if (!std::all_of(table.values.begin(), table.values.end(), zero)) {
+      add_table(component, Spline(table.times, table.values));
+    }
+  });
 }
 
 bool SignalPair::is_zero(std::size_t component) const {

@@ -1,0 +1,34 @@
+// What a profile says, to whatever adds signals up.
+#pragma once
+
+#include <type_traits>
+#include <variant>
+
+#include "scenario/scenario.hpp"
+
+namespace bbsim::model {
+
+// Gives a profile's constants, sinusoids and ramps to add_constant(component, ...) and its like of
+// `to`, and its tables to add_table(table).
+template <class Signals, class Component, class AddTable>
+void add_profile(const Profile& profile, Component component, Signals& to, AddTable add_table) {
+  for (const ProfileTerm& term : profile) {
+    std::visit(
+        [&](const auto& part) {
+          using Part = std::decay_t<decltype(part)>;
+          if constexpr (std::is_same_v<Part, double>) {
+            to.add_constant(component, part);
+          } else if constexpr (std::is_same_v<Part, Sinusoid>) {
+            to.add_constant(component, part.offset);
+            to.add_sinusoid(component, part.amplitude, part.frequency, part.phase);
+          } else if constexpr (std::is_same_v<Part, Ramp>) {
+            to.add_ramp(component, part.start, part.rate);
+          } else {
+            add_table(part);
+          }
+        },
+        term);
+  }
+}
+
+}  // namespace bbsim::model
