@@ -69,4 +69,19 @@ struct WithGradient {
   }
 };
 
+// What variables first ... first + count - 1 add to each of some numbers, a row each.
+template <int rows, int n>
+[[nodiscard]] Eigen::MatrixXd gradients(const WithGradient<n> (&of)[rows], int first, int count) {
+  Eigen::MatrixXd found(rows, count);
+  for (int i = 0; i < rows; ++i) found.row(i) = of[i].gradient.segment(first, count).transpose();
+  return found;
+}
+
+template <int rows, int n>
+[[nodiscard]] Eigen::VectorXd values(const WithGradient<n> (&of)[rows]) {
+  Eigen::VectorXd found(rows);
+  for (int i = 0; i < rows; ++i) found[i] = of[i].value;
+  return found;
+}
+
 }  // namespace bbsim::simd

@@ -133,19 +133,8 @@ PlantDerivatives differentiate_plant(const Loop& loop, const LinearPoint& at) {
   using Number = simd::WithGradient<n + 2>;
   Number z[n], dz[n];
   put_states<n + 2, Loop>(at, z);
-  std::array<Jet<Number>, 2> reference;
-  for (int i = 0; i < 2; ++i) {
-    const auto axis = static_cast<std::size_t>(i);
-    reference[axis] = {z[i] + Number::variable(at.command[axis], n + i), Number(0.0), Number(0.0)};
-  }
-  rates_under(plant_of(loop), reference, at.time, z, dz);
-  PlantDerivatives found{VectorXd(n), MatrixXd(n, n), MatrixXd(n, 2)};
-  for (int i = 0; i < n; ++i) {
-    found.rates[i] = dz[i].value;
-    found.of_state.row(i) = dz[i].gradient.template head<n>().transpose();
-    found.of_command.row(i) = dz[i].gradient.template tail<2>().transpose();
-  }
-  return found;
+  rates_under(plant_of(loop), reference_for(at.command, z, n), at.time, z, dz);
+  return plant_derivatives<n>(dz);
 }
 
 // What the law says of an axis: to its servo; where there are three, of the plane.
@@ -164,25 +153,11 @@ LoopDerivatives differentiate_loop(const Loop& loop, const LinearPoint& at) {
   using Number = simd::WithGradient<n + 6>;
   Number z[n], dz[n];
   put_states<n + 6, Loop>(at, z);
-  std::array<Jet<Number>, 2> reference;
-  for (std::size_t i = 0; i < 2; ++i) {
-    const int first = n + static_cast<int>(i);
-    reference[i] = {Number::variable(at.reference[i].value, first),
-                    Number::variable(at.reference[i].rate, first + 2),
-                    Number::variable(at.reference[i].acceleration, first + 4)};
-  }
+  const auto reference = varied<Number>(at.reference, n);
   rates_under(loop, reference, at.time, z, dz);
   const auto axes = loop.loop.axes(reference, z);
-  LoopDerivatives found{MatrixXd(n, n), MatrixXd(n, 6), MatrixXd(2, n)};
-  for (int i = 0; i < n; ++i) {
-    found.of_state.row(i) = dz[i].gradient.template head<n>().transpose();
-    found.of_reference.row(i) = dz[i].gradient.template tail<6>().transpose();
-  }
-  for (int i = 0; i < 2; ++i) {
-    found.command_of_state.row(i) =
-        command_of<Loop>(axes, i).gradient.template head<n>().transpose();
-  }
-  return found;
+  const Number commands[2] = {command_of<Loop>(axes, 0), command_of<Loop>(axes, 1)};
+  return loop_derivatives<n>(dz, commands);
 }
 
 // Where states are that not all loops have.
@@ -289,17 +264,14 @@ CycleParts coupled_cycle_at(const Model& model, const LinearPoint& at, std::vect
       }
       loop.loop.link.believed(servo, moving, known, known_rate);
       parts.fed = MatrixXd::Zero(4, std::ssize(states));
-      for (int i = 0; i < 2; ++i) {
-        parts.fed.row(i).segment<6>(4) = known[i].gradient.transpose();
-        parts.fed.row(2 + i).segment<6>(4) = known_rate[i].gradient.transpose();
-      }
+      parts.fed.block<2, 6>(0, 4) = simd::gradients(known, 0, 6);
+      parts.fed.block<2, 6>(2, 4) = simd::gradients(known_rate, 0, 6);
       using Pushed = simd::WithGradient<2>;
       const Pushed wanted[2] = {Pushed::variable(at.command[0], 0),
                                 Pushed::variable(at.command[1], 1)};
       Pushed told[3];
       loop.loop.link.told(wanted, told);
-      parts.told.resize(3, 2);
-      for (int i = 0; i < 3; ++i) parts.told.row(i) = told[i].gradient.transpose();
+      parts.told = simd::gradients(told, 0, 2);
     }
     return parts;
   });
@@ -334,6 +306,19 @@ Rest rest_of(const Places& places, const ControlLaw& law, bool has_law) {
   return rest;
 }
 
+// Laws ask for reference - seen, and are given reference - position: moves the reference by what
+// the sensor, if there is one, sees otherwise.
+template <class Number>
+void see_by(const Sensor* sensor, const Number* z, std::array<Jet<Number>, 2>& reference) {
+  if (sensor == nullptr || sensor->is_aligned()) return;
+  const Eigen::Matrix2d seen = seen_matrix(*sensor);
+  for (std::size_t i = 0; i < 2; ++i) {
+    const auto row = static_cast<Eigen::Index>(i);
+    Number& value = reference[i].value;
+    value = value + z[i] - (seen(row, 0) * z[0] + seen(row, 1) * z[1]) - sensor->offset[i];
+  }
+}
+
 // Rates of a loop whose controller sees the ball by its sensor, and what states add to them.
 template <class Loop>
 PlantDerivatives differentiate_seen(const Loop& loop, const Sensor* sensor, const LinearPoint& at) {
@@ -343,22 +328,9 @@ PlantDerivatives differentiate_seen(const Loop& loop, const Sensor* sensor, cons
   put_states<n, Loop>(at, z);
   std::array<Jet<Number>, 2> reference;
   for (std::size_t i = 0; i < 2; ++i) reference[i] = {at.reference[i].value, 0.0, 0.0};
-  if (sensor != nullptr && !sensor->is_aligned()) {
-    // Laws ask for reference - seen, and are given reference - position.
-    const Eigen::Matrix2d seen = seen_matrix(*sensor);
-    for (int i = 0; i < 2; ++i) {
-      Number& value = reference[static_cast<std::size_t>(i)].value;
-      value = value + z[i] - (seen(i, 0) * z[0] + seen(i, 1) * z[1]) -
-              sensor->offset[static_cast<std::size_t>(i)];
-    }
-  }
+  see_by(sensor, z, reference);
   rates_under(loop, reference, at.time, z, dz);
-  PlantDerivatives found{VectorXd(n), MatrixXd(n, n), MatrixXd::Zero(n, 2)};
-  for (int i = 0; i < n; ++i) {
-    found.rates[i] = dz[i].value;
-    found.of_state.row(i) = dz[i].gradient.transpose();
-  }
-  return found;
+  return {simd::values(dz), simd::gradients(dz, 0, n), MatrixXd::Zero(n, 2)};
 }
 
 // The law's command at a point: to the servos or of the plane, and before what links them.
@@ -366,13 +338,7 @@ template <class Loop>
 std::pair<Pair, Pair> commands_at(const Loop& loop, const Sensor* sensor, const LinearPoint& at) {
   const VectorXd z = states_at<Loop>(at);
   std::array<Jet<double>, 2> reference = at.reference;
-  if (sensor != nullptr && !sensor->is_aligned()) {
-    const Eigen::Vector2d seen = seen_matrix(*sensor) * z.head<2>();
-    for (std::size_t i = 0; i < 2; ++i) {
-      const auto k = static_cast<Eigen::Index>(i);
-      reference[i].value += z[k] - seen[k] - sensor->offset[i];
-    }
-  }
+  see_by(sensor, z.data(), reference);
   const auto axes = loop.loop.axes(reference, z.data());
   return {{command_of<Loop>(axes, 0), command_of<Loop>(axes, 1)},
           {axes.command.value[0], axes.command.value[1]}};

@@ -1,5 +1,6 @@
 #include "model/control/linear_law.hpp"
 
+#include "model/control/linear_parts.hpp"
 #include "simd/gradient.hpp"
 
 namespace bbsim::model {
@@ -21,19 +22,11 @@ LinearLaw linear_law(const ControlLaw& law, const Feedback<double>& at,
   variables(at.angle, state.angle);
   variables(at.rate, state.rate);
   variables(at.integral, state.integral);
-  std::array<Jet<Number>, 2> path;
-  for (std::size_t i = 0; i < 2; ++i) {
-    const int first = next + static_cast<int>(i);
-    path[i] = {Number::variable(reference[i].value, first),
-               Number::variable(reference[i].rate, first + 2),
-               Number::variable(reference[i].acceleration, first + 4)};
-  }
+  const auto path = varied<Number>(reference, next);
   const auto unlimited_command = [](int, const Number& raw) { return raw; };
   const Command<Number> u = command(law, state, path, unlimited_command);
-  for (int i = 0; i < 2; ++i) {
-    linear.of_feedback.row(i) = u.value[i].gradient.head<10>().transpose();
-    linear.of_reference.row(i) = u.value[i].gradient.tail<6>().transpose();
-  }
+  linear.of_feedback = simd::gradients(u.value, 0, 10);
+  linear.of_reference = simd::gradients(u.value, 10, 6);
   return linear;
 }
 

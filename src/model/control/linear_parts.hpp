@@ -6,6 +6,7 @@
 
 #include "model/control/linearise.hpp"
 #include "model/control/sampled_cycle.hpp"
+#include "simd/gradient.hpp"
 
 namespace bbsim::model {
 
@@ -21,6 +22,47 @@ struct PlantDerivatives {
 struct LoopDerivatives {
   Eigen::MatrixXd of_state, of_reference, command_of_state;
 };
+
+// From rates that states, then commands, are the variables of.
+template <int n>
+[[nodiscard]] PlantDerivatives plant_derivatives(const simd::WithGradient<n + 2> (&rates)[n]) {
+  return {simd::values(rates), simd::gradients(rates, 0, n), simd::gradients(rates, n, 2)};
+}
+
+// The same with a reference, and of the commands.
+template <int n>
+[[nodiscard]] LoopDerivatives loop_derivatives(const simd::WithGradient<n + 6> (&rates)[n],
+                                               const simd::WithGradient<n + 6> (&commands)[2]) {
+  return {simd::gradients(rates, 0, n), simd::gradients(rates, n, 6),
+          simd::gradients(commands, 0, n)};
+}
+
+// A reference whose values, rates and accelerations are variables from number `first` on.
+template <class Number>
+[[nodiscard]] std::array<Jet<Number>, 2> varied(const std::array<Jet<double>, 2>& reference,
+                                                int first) {
+  std::array<Jet<Number>, 2> jets;
+  for (std::size_t i = 0; i < 2; ++i) {
+    const int number = first + static_cast<int>(i);
+    jets[i] = {Number::variable(reference[i].value, number),
+               Number::variable(reference[i].rate, number + 2),
+               Number::variable(reference[i].acceleration, number + 4)};
+  }
+  return jets;
+}
+
+// What a law that hands on its reference, u = reference - position, makes such commands of:
+// variables from number `first` on.
+template <class Number>
+[[nodiscard]] std::array<Jet<Number>, 2> reference_for(const Pair& command, const Number* position,
+                                                       int first) {
+  std::array<Jet<Number>, 2> jets;
+  for (std::size_t i = 0; i < 2; ++i) {
+    const Number wanted = Number::variable(command[i], first + static_cast<int>(i));
+    jets[i] = {position[i] + wanted, Number(0.0), Number(0.0)};
+  }
+  return jets;
+}
 
 // Measured curves are of the pieces that hold at a point; levelled, where home is.
 [[nodiscard]] Linkages linkages_at(const Between& between, const LinearPoint& at);

@@ -148,21 +148,8 @@ PlantDerivatives differentiate_plant(const RigLoop<false, SignalPair, Link>& pla
   for (int i = 0; i < plant_size; ++i) {
     z[i] = Number::variable(at.state[static_cast<std::size_t>(i)], i);
   }
-  std::array<Jet<Number>, 2> reference;
-  for (int i = 0; i < 2; ++i) {
-    const auto axis = static_cast<std::size_t>(i);
-    const Number command = Number::variable(at.command[axis], plant_size + i);
-    reference[axis] = {z[i] + command, Number(0.0), Number(0.0)};
-  }
-  plant.derivative_of(reference, z, dz);
-  PlantDerivatives found{VectorXd(plant_size), MatrixXd(plant_size, plant_size),
-                         MatrixXd(plant_size, 2)};
-  for (int i = 0; i < plant_size; ++i) {
-    found.rates[i] = dz[i].value;
-    found.of_state.row(i) = dz[i].gradient.head<plant_size>().transpose();
-    found.of_command.row(i) = dz[i].gradient.tail<2>().transpose();
-  }
-  return found;
+  plant.derivative_of(reference_for(at.command, z, plant_size), z, dz);
+  return plant_derivatives<plant_size>(dz);
 }
 
 PlantDerivatives differentiate_rig(const Scenario& scene, const LinearPoint& at) {
@@ -180,24 +167,11 @@ LoopDerivatives differentiate_loop_with(const Scenario& scene, const LinearPoint
   using Number = simd::WithGradient<n + 6>;
   Number z[n], dz[n];
   for (int i = 0; i < n; ++i) z[i] = Number::variable(at.state[static_cast<std::size_t>(i)], i);
-  std::array<Jet<Number>, 2> reference;
-  for (std::size_t i = 0; i < 2; ++i) {
-    const int first = n + static_cast<int>(i);
-    reference[i] = {Number::variable(at.reference[i].value, first),
-                    Number::variable(at.reference[i].rate, first + 2),
-                    Number::variable(at.reference[i].acceleration, first + 4)};
-  }
+  const auto reference = varied<Number>(at.reference, n);
   loop.derivative_of(reference, z, dz);
   const RigAxes<Number> axes = loop.axes(reference, z);
-  LoopDerivatives found{MatrixXd(n, n), MatrixXd(n, 6), MatrixXd(2, n)};
-  for (int i = 0; i < n; ++i) {
-    found.of_state.row(i) = dz[i].gradient.template head<n>().transpose();
-    found.of_reference.row(i) = dz[i].gradient.template tail<6>().transpose();
-  }
-  for (int i = 0; i < 2; ++i) {
-    found.command_of_state.row(i) = loop.told(axes, i).gradient.template head<n>().transpose();
-  }
-  return found;
+  const Number commands[2] = {loop.told(axes, 0), loop.told(axes, 1)};
+  return loop_derivatives<n>(dz, commands);
 }
 
 template <bool integrates>
