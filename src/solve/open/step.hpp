@@ -14,6 +14,7 @@
 #include "model/systems/system.hpp"
 #include "simd/affine.hpp"
 #include "simd/peaks.hpp"
+#include "solve/lane_courses.hpp"
 #include "solve/open/kernel.hpp"
 #include "solve/radau/tables.hpp"
 
@@ -429,81 +430,6 @@ struct Step : Lanes<Isa> {
     }
   }
 
-  // The ball's path over a step, by Legendre series.
-  struct Path {
-    P v[nq][s + 1], q[nq][s + 2];
-    bool made = false;
-
-    BBSIM_INLINE void make(const Pack& of, P h) {
-      made = true;
-      constexpr int together = 4;
-      static_assert(s % together == 0);
-      P k[nq][s];
-#pragma GCC unroll 1
-      for (int first = 0; first < s; first += together) {
-        P sum[together][nq];
-#pragma GCC unroll 4
-        for (int m = 0; m < together; ++m) sum[m][0] = sum[m][1] = P(0.0);
-#pragma GCC unroll 2
-        for (int j = 0; j < s; ++j) {
-#pragma GCC unroll 4
-          for (int m = 0; m < together; ++m) {
-            const P part(rows.legendre[j][first + m]);
-            sum[m][0] += part * of.k[j][0];
-            sum[m][1] += part * of.k[j][1];
-          }
-        }
-#pragma GCC unroll 4
-        for (int m = 0; m < together; ++m) {
-          k[0][first + m] = sum[m][0];
-          k[1][first + m] = sum[m][1];
-        }
-      }
-#pragma GCC unroll 2
-      for (int i = 0; i < nq; ++i) {
-        integrate_series<s>(k[i], P(0.5), of.v[i], v[i]);
-        integrate_series<s + 1>(v[i], P(0.5) * h, of.q[i], q[i]);
-      }
-    }
-
-    // Half times the integral from -1 of a Legendre series of so many terms, plus its value there.
-    template <int length>
-    BBSIM_INLINE static void integrate_series(const P* k, P half, P from, P* out) {
-      out[0] = from + half * (k[0] - k[1] * P(1.0 / 3));
-#pragma GCC unroll 1
-      for (int m = 1; m <= length; ++m) {
-        const P next = m + 1 < length ? k[m + 1] * P(1.0 / (2 * m + 3)) : P(0.0);
-        out[m] = half * (k[m - 1] * P(1.0 / (2 * m - 1)) - next);
-      }
-    }
-
-    // The square of the distance at a part of the step, and its slope by that part.
-    BBSIM_INLINE void distance(P part, P h, P& value, P& slope) const {
-      const P x = P(2.0) * part - P(1.0);
-      P before(1.0), now = x, at[nq], moving[nq];
-#pragma GCC unroll 2
-      for (int i = 0; i < nq; ++i) {
-        at[i] = q[i][0] + q[i][1] * x;
-        moving[i] = v[i][0] + v[i][1] * x;
-      }
-#pragma GCC unroll 1
-      for (int m = 1; m <= s; ++m) {
-        // P_(m+1) = ((2 m + 1) x P_m - m P_(m-1)) / (m + 1)
-        const P next =
-            P((2.0 * m + 1) / (m + 1)) * x * now - rounded(P(double(m) / (m + 1)) * before);
-        before = now;
-        now = next;
-#pragma GCC unroll 2
-        for (int i = 0; i < nq; ++i) {
-          at[i] += q[i][m + 1] * now;
-          if (m < s) moving[i] += v[i][m + 1] * now;
-        }
-      }
-      value = at[0] * at[0] + at[1] * at[1];
-      slope = P(2.0) * h * (at[0] * moving[0] + at[1] * moving[1]);
-    }
-  };
-
   [[gnu::flatten]] static void look(Workspace& w, int p) {
     Pack& of = w.of[p];
     const P h(w.h);
@@ -518,10 +444,21 @@ struct Step : Lanes<Isa> {
 #pragma GCC unroll 1
     for (int i = 0; i + 1 < s; ++i) put(places[i + 1], P(rows.c[i]), of.q_at[i], of.v_at[i]);
     put(places[s], P(1.0), of.q_end, of.v_end);
-    Path path;
+    LaneCourses<P, s, nq> path;
+    bool made = false;
     simd::raise_to_peak<s>(places, s + 1, of.distance_squared, [&](P part, P& value, P& slope) {
-      if (!path.made) path.make(of, h);
-      path.distance(part, h, value, slope);
+      if (!made) {
+        path.make(
+            rows.legendre,
+            h, [&](int j, int i) __attribute__((always_inline)) { return of.k[j][i]; },
+            [&](int i) __attribute__((always_inline)) { return of.q[i]; },
+            [&](int i) __attribute__((always_inline)) { return of.v[i]; });
+        made = true;
+      }
+      P q[nq], v[nq];
+      path.template at<0>(part, q, v);
+      value = q[0] * q[0] + q[1] * q[1];
+      slope = P(2.0) * h * (q[0] * v[0] + q[1] * v[1]);
     });
   }
 
