@@ -38,28 +38,17 @@ struct LaneKernel {
 
   using Mask = typename P::Mask;
 
-  // By the bits: comparisons are compiled as if all numbers were finite.
-  BBSIM_INLINE static Mask finite(P a) {
-    const Mask exponent = ((Mask)a.v >> 52) & 0x7ff;
-    return exponent != 0x7ff;
-  }
-  BBSIM_INLINE static bool all(Mask mask) {
-    long long every = mask[0];
-    for (int i = 1; i < lanes; ++i) every &= mask[i];
-    return every != 0;
-  }
-
   BBSIM_INLINE static bool all_small(const LanePieces& pieces, int first) {
     bool small = true;
     for (int i = 0; i < 2; ++i) {
       const LaneAxis& axis = pieces.axis[i];
       const auto size = [&](const double* of) __attribute__((always_inline)) {
-        return One::magnitude(P::load(of + first));
+        return size_of(P::load(of + first));
       };
       const P moves = P::load(axis.most_by_rate + first) * size(axis.rate) +
                       P::load(axis.most_by_acceleration + first) * size(axis.acceleration);
-      const P start = One::magnitude(P::load(axis.ratio + first) * P::load(axis.angle + first) +
-                                     P::load(axis.offset + first));
+      const P start = size_of(P::load(axis.ratio + first) * P::load(axis.angle + first) +
+                              P::load(axis.offset + first));
       small =
           small && One::reduced(start + size(axis.ratio) * moves, typename One::Larger{}) < 0.785;
     }
@@ -117,8 +106,7 @@ struct LaneKernel {
     for (int i = 0; i < 3; ++i) {
       velocity[i] = P::load(pieces.velocity[i] + first);
       if (i < 2) position[i] = P::load(pieces.position[i] + first);
-      weight[i] =
-          One::larger(P(1.0), h) / (P(scene.rtol) * One::magnitude(velocity[i]) + P(scene.atol));
+      weight[i] = larger_of(P(1.0), h) / (P(scene.rtol) * size_of(velocity[i]) + P(scene.atol));
     }
     // Accelerations times h at the nodes: at first those of a ball that goes on as it did.
     P k[nodes][3];
@@ -170,7 +158,7 @@ struct LaneKernel {
 #pragma GCC unroll 3
         for (int i = 0; i < 3; ++i) {
           next[n][i] = rates[n].at(i, z);
-          weighted = One::larger(weighted, One::magnitude(next[n][i] - k[n][i]) * weight[i]);
+          weighted = larger_of(weighted, size_of(next[n][i] - k[n][i]) * weight[i]);
         }
       }
 #pragma GCC unroll 1
@@ -182,17 +170,17 @@ struct LaneKernel {
       if (iterations > 1) contraction = P::of(weighted.v / (last.v > 0.0 ? last.v : P(1.0).v));
       solved = (weighted.v <= floor) |
                ((weighted * contraction).v <= (P(enough) * (P(1.0) - contraction)).v);
-      Mask settled = solved | ~finite(weighted);
+      Mask settled = solved | ~is_finite(weighted);
       if (iterations > 2) settled |= contraction.v > 0.3;
-      if (all(settled) || iterations >= most_iterations) break;
+      if (simd::all_of<P>(settled) || iterations >= most_iterations) break;
       last = weighted;
     }
     pieces.iterations += iterations;
     const P before = P::load(pieces.contraction + first);
-    const P known = iterations > 1 ? One::larger(P(0.3) * before, contraction) : contraction;
+    const P known = iterations > 1 ? larger_of(P(0.3) * before, contraction) : contraction;
     const P kept =
-        One::larger(P::of(finite(known) ? known.v : P(1.0).v), P(One::least_contraction));
-    One::smaller(kept, P(0.1)).store(pieces.contraction + first);
+        larger_of(P::of(is_finite(known) ? known.v : P(1.0).v), P(One::least_contraction));
+    smaller_of(kept, P(0.1)).store(pieces.contraction + first);
 
     const Vector no_length = Vector{};
     const P inverse = P(1.0) / P::of(h.v > no_length ? h.v : P(1.0).v);
@@ -210,8 +198,7 @@ struct LaneKernel {
       for (int i = 0; i < 3; ++i) {
         sum[i].store(pieces.series[i][m] + first);
         (k[m][i] * inverse).store(pieces.acceleration_at[i][m] + first);
-        tail[i] =
-            m == nodes - 1 ? One::larger(tail[i], One::magnitude(sum[i])) : One::magnitude(sum[i]);
+        tail[i] = m == nodes - 1 ? larger_of(tail[i], size_of(sum[i])) : size_of(sum[i]);
       }
     }
     P all_ends(0.0);
@@ -228,7 +215,7 @@ struct LaneKernel {
       all_ends += reached;
     }
     const P error = estimate(pieces, scene, first, tail);
-    const Mask good = solved & finite(all_ends) & finite(error);
+    const Mask good = solved & is_finite(all_ends) & is_finite(error);
     P::of(good ? error.v : P(hopeless).v).store(pieces.error + first);
   }
 
@@ -238,9 +225,9 @@ struct LaneKernel {
     constexpr double once = 1.0 / (2 * nodes + 1);
     const P h = P::load(pieces.length + first);
     P most = tail[2];
-    const P of_position = One::larger(P(1.0), P(once) * h);
+    const P of_position = larger_of(P(1.0), P(once) * h);
 #pragma GCC unroll 2
-    for (int i = 0; i < 2; ++i) most = One::larger(most, tail[i] * of_position);
+    for (int i = 0; i < 2; ++i) most = larger_of(most, tail[i] * of_position);
     P acceleration(0.0), tilt(0.0), distance(0.0);
 #pragma GCC unroll 2
     for (int i = 0; i < 2; ++i) {
@@ -248,15 +235,15 @@ struct LaneKernel {
       const auto of = [&](const double* values) __attribute__((always_inline)) {
         return P::load(values + first);
       };
-      acceleration += One::magnitude(of(axis.ratio) *
-                                     (of(axis.missed_by_rate) * of(axis.rate) +
-                                      of(axis.missed_by_acceleration) * of(axis.acceleration)));
-      tilt += One::magnitude(of(axis.plane_sin[nodes - 1]));
-      distance += One::magnitude(of(pieces.position[i]));
+      acceleration +=
+          size_of(of(axis.ratio) * (of(axis.missed_by_rate) * of(axis.rate) +
+                                    of(axis.missed_by_acceleration) * of(axis.acceleration)));
+      tilt += size_of(of(axis.plane_sin[nodes - 1]));
+      distance += size_of(of(pieces.position[i]));
     }
     const P missed = acceleration * (P::load(scene.radius + first) + tilt * distance);
     const P unseen = P(One::Rule::c[0] / 2) * h * missed;
-    return One::larger(P(once) * most, unseen) * P(1 / scene.atol);
+    return larger_of(P(once) * most, unseen) * P(1 / scene.atol);
   }
 
   static void attempt(LanePieces& pieces, const LaneScene& scene) {
@@ -307,14 +294,14 @@ struct LaneKernel {
     for (int n = 0; n < nodes; ++n) {
       const bool start = n == 0;
       const auto take = [&](int i, P value) __attribute__((always_inline)) {
-        least[i] = start ? value : One::smaller(least[i], value);
-        most[i] = start ? value : One::larger(most[i], value);
+        least[i] = start ? value : smaller_of(least[i], value);
+        most[i] = start ? value : larger_of(most[i], value);
       };
       const auto take_size = [&](Size size, P value) __attribute__((always_inline)) {
         const int i = static_cast<int>(size);
         value.store(looks.size[i][n] + first);
-        least_size[i] = start ? value : One::smaller(least_size[i], value);
-        most_size[i] = start ? value : One::larger(most_size[i], value);
+        least_size[i] = start ? value : smaller_of(least_size[i], value);
+        most_size[i] = start ? value : larger_of(most_size[i], value);
       };
       model::RollingState<P, P, P> ball;
       P acceleration[2];
@@ -401,8 +388,8 @@ struct LaneKernel {
       for (int j = 0; j < nodes; ++j) {
         value += P::load(One::close_table.share[j] + k) * P(at[j][lane]);
       }
-      least = k == 0 ? value : One::smaller(least, value);
-      most = k == 0 ? value : One::larger(most, value);
+      least = k == 0 ? value : smaller_of(least, value);
+      most = k == 0 ? value : larger_of(most, value);
     }
     return {One::reduced(least, typename One::Smaller{}),
             One::reduced(most, typename One::Larger{})};

@@ -13,10 +13,13 @@
 
 #include "model/systems/system.hpp"
 #include "simd/affine.hpp"
+#include "simd/compare.hpp"
 #include "solve/held/kernel.hpp"
 #include "solve/radau/tables.hpp"
 
 namespace bbsim::solve::held {
+
+using simd::is_finite, simd::larger_of, simd::size_of, simd::smaller_of;
 
 // A number that the compiler knows.
 template <int i>
@@ -84,16 +87,6 @@ struct Kernel {
   };
   static constexpr CloseTable close_table{};
 
-  BBSIM_INLINE static P magnitude(P a) {
-    const Mask sign_bit = (1LL << 63) - Mask{};
-    return P::of((Vector)((Mask)a.v & ~sign_bit));
-  }
-  BBSIM_INLINE static double magnitude(double a) { return __builtin_fabs(a); }
-  BBSIM_INLINE static P larger(P a, P b) { return P::of(a.v > b.v ? a.v : b.v); }
-  BBSIM_INLINE static P smaller(P a, P b) { return P::of(a.v < b.v ? a.v : b.v); }
-  BBSIM_INLINE static double larger(double a, double b) { return a > b ? a : b; }
-  BBSIM_INLINE static double smaller(double a, double b) { return a < b ? a : b; }
-
   // The greatest lane, or the least, by halves.
   template <class Choose>
   BBSIM_INLINE static double reduced(P a, Choose choose) {
@@ -120,21 +113,13 @@ struct Kernel {
   struct Larger {
     template <class N>
     BBSIM_INLINE N operator()(N a, N b) const {
-      if constexpr (requires { a.v; }) {
-        return N::of(a.v > b.v ? a.v : b.v);
-      } else {
-        return a > b ? a : b;
-      }
+      return larger_of(a, b);
     }
   };
   struct Smaller {
     template <class N>
     BBSIM_INLINE N operator()(N a, N b) const {
-      if constexpr (requires { a.v; }) {
-        return N::of(a.v < b.v ? a.v : b.v);
-      } else {
-        return a < b ? a : b;
-      }
+      return smaller_of(a, b);
     }
   };
 
@@ -142,11 +127,6 @@ struct Kernel {
     Mask mask{};
     mask[0] = -1;
     return mask;
-  }
-
-  // Whether the bits are those of a finite number: comparisons are compiled as if all were.
-  BBSIM_INLINE static bool is_finite(double a) {
-    return (__builtin_bit_cast(unsigned long long, a) >> 52 & 0x7ff) != 0x7ff;
   }
 
   // The plane's axis at the nodes of a pack.
@@ -165,9 +145,9 @@ struct Kernel {
 
   // Whether the plane's angle stays within a quarter of pi.
   BBSIM_INLINE static bool is_small(const Axis& axis) {
-    const double moves = axis.table->most_by_rate * magnitude(axis.rate) +
-                         axis.table->most_by_acceleration * magnitude(axis.acceleration);
-    return magnitude(axis.ratio * axis.angle + axis.offset) + magnitude(axis.ratio) * moves < 0.785;
+    const double moves = axis.table->most_by_rate * size_of(axis.rate) +
+                         axis.table->most_by_acceleration * size_of(axis.acceleration);
+    return size_of(axis.ratio * axis.angle + axis.offset) + size_of(axis.ratio) * moves < 0.785;
   }
 
   struct Rates {
@@ -223,7 +203,7 @@ struct Kernel {
 
     double weight[3];
     for (int i = 0; i < 3; ++i) {
-      weight[i] = larger(1, h) / (scene.rtol * magnitude(piece.velocity[i]) + scene.atol);
+      weight[i] = larger_of(1, h) / (scene.rtol * size_of(piece.velocity[i]) + scene.atol);
     }
     // Accelerations times h at the nodes: at first those of a ball that goes on as it did.
     alignas(64) double k[3][nodes];
@@ -279,7 +259,7 @@ struct Kernel {
 #pragma GCC unroll 3
         for (int i = 0; i < 3; ++i) {
           next[p][i] = P(h) * rates[p].of[i].at(z);
-          changes[i] = larger(changes[i], magnitude(next[p][i] - now[p][i]));
+          changes[i] = larger_of(changes[i], size_of(next[p][i] - now[p][i]));
         }
       });
       for_each<packs>([&](auto p) __attribute__((always_inline)) {
@@ -289,8 +269,8 @@ struct Kernel {
           now[p][i].store(k[i] + p * lanes);
         }
       });
-      const P weighted = larger(larger(changes[0] * P(weight[0]), changes[1] * P(weight[1])),
-                                changes[2] * P(weight[2]));
+      const P weighted = larger_of(larger_of(changes[0] * P(weight[0]), changes[1] * P(weight[1])),
+                                   changes[2] * P(weight[2]));
       change = reduced(weighted, Larger{});
       ++result.iterations;
       if (!is_finite(change)) return;
@@ -303,9 +283,9 @@ struct Kernel {
       last = change;
     }
     result.converged = true;
-    piece.contraction =
-        larger(result.iterations > 1 ? larger(0.3 * piece.contraction, contraction) : contraction,
-               least_contraction);
+    piece.contraction = larger_of(
+        result.iterations > 1 ? larger_of(0.3 * piece.contraction, contraction) : contraction,
+        least_contraction);
 
     for_each<packs>([&](auto p) __attribute__((always_inline)) {
       P sum[3] = {P(0.0), P(0.0), P(0.0)};
@@ -339,14 +319,14 @@ struct Kernel {
     for (int i = 0; i < 2; ++i) {
       const Axis& axis = piece.axis[i];
       acceleration +=
-          magnitude(axis.ratio * (axis.table->missed_by_rate * axis.rate +
-                                  axis.table->missed_by_acceleration * axis.acceleration));
+          size_of(axis.ratio * (axis.table->missed_by_rate * axis.rate +
+                                axis.table->missed_by_acceleration * axis.acceleration));
     }
-    const double tilt = magnitude(piece.plane[0].sin[nodes - 1]) +
-                        magnitude(piece.plane[1].sin[nodes - 1]) +
-                        magnitude(scene.rolling.sin_skew) + magnitude(scene.rolling.sin_base);
-    return acceleration * (scene.radius + magnitude(scene.rolling.height) +
-                           tilt * (magnitude(piece.position[0]) + magnitude(piece.position[1])));
+    const double tilt = size_of(piece.plane[0].sin[nodes - 1]) +
+                        size_of(piece.plane[1].sin[nodes - 1]) + size_of(scene.rolling.sin_skew) +
+                        size_of(scene.rolling.sin_base);
+    return acceleration * (scene.radius + size_of(scene.rolling.height) +
+                           tilt * (size_of(piece.position[0]) + size_of(piece.position[1])));
   }
 
   // The error from the fall of the last Legendre coefficients, as in radau/step.hpp: the first one
@@ -356,23 +336,23 @@ struct Kernel {
     // It is over by then, and in the mean has half of that.
     const double unseen = Rule::c[0] / 2 * piece.length * missed(piece, scene);
     result.error =
-        unseen / (scene.rtol * smaller(magnitude(piece.velocity[0]), magnitude(piece.velocity[1])) +
+        unseen / (scene.rtol * smaller_of(size_of(piece.velocity[0]), size_of(piece.velocity[1])) +
                   scene.atol);
     result.worst_state = 2;
     for (int i = 0; i < 3; ++i) {
       const double* const k = piece.series[i];
-      const double tail = larger(magnitude(k[nodes - 1]), magnitude(k[nodes - 2]));
+      const double tail = larger_of(size_of(k[nodes - 1]), size_of(k[nodes - 2]));
       const bool moves = i < 2 || scene.gamma;
       // Mostly it is nothing beside the tolerance, and needs no closer look.
-      const double most = once * tail * (moves ? larger(1, once * piece.length) : 1.0);
+      const double most = once * tail * (moves ? larger_of(1, once * piece.length) : 1.0);
       if (most <= 1e-3 * scene.atol) {
-        result.error = larger(result.error, most / scene.atol);
+        result.error = larger_of(result.error, most / scene.atol);
         continue;
       }
-      const double before = larger(magnitude(k[nodes - 3]), magnitude(k[nodes - 4]));
+      const double before = larger_of(size_of(k[nodes - 3]), size_of(k[nodes - 4]));
       const double left_out = tail < before ? tail * __builtin_sqrt(tail / before) : tail;
       const double v_scale =
-          scene.rtol * larger(magnitude(piece.velocity[i]), magnitude(piece.velocity_end[i])) +
+          scene.rtol * larger_of(size_of(piece.velocity[i]), size_of(piece.velocity_end[i])) +
           scene.atol;
       const double v_error = once * left_out / v_scale;
       if (!(v_error <= result.error)) {
@@ -382,7 +362,7 @@ struct Kernel {
       if (!moves) continue;
       const double reached = i < 2 ? piece.position_end[i] : 0.0;
       const double start = i < 2 ? piece.position[i] : 0.0;
-      const double q_scale = scene.rtol * larger(magnitude(start), magnitude(reached)) + scene.atol;
+      const double q_scale = scene.rtol * larger_of(size_of(start), size_of(reached)) + scene.atol;
       const double q_error = once * once * piece.length * left_out / q_scale;
       if (q_error > result.error) {
         result.error = q_error;
@@ -415,8 +395,8 @@ struct Kernel {
     const model::GeneralRolling& rolling = papers ? papers_rig : scene.rolling;
     for_each<packs>([&](auto p) __attribute__((always_inline)) {
       const auto take = [&](int i, P value) __attribute__((always_inline)) {
-        least[i] = p == 0 ? value : smaller(least[i], value);
-        most[i] = p == 0 ? value : larger(most[i], value);
+        least[i] = p == 0 ? value : smaller_of(least[i], value);
+        most[i] = p == 0 ? value : larger_of(most[i], value);
       };
       // The start in place of the first node.
       const auto at = [&](const double* values, double start) __attribute__((always_inline)) {
@@ -480,8 +460,8 @@ struct Kernel {
         for (int j = 0; j < nodes; ++j) {
           value += P::load(close_table.share[j] + k) * P(loads.at[i][j]);
         }
-        least = k == 0 ? value : smaller(least, value);
-        most = k == 0 ? value : larger(most, value);
+        least = k == 0 ? value : smaller_of(least, value);
+        most = k == 0 ? value : larger_of(most, value);
       }
       ranges[i] = {reduced(least, Smaller{}), reduced(most, Larger{})};
     }
@@ -510,7 +490,7 @@ struct Kernel {
         value += next;
         slope += P(n + 1.0) * next;
         integral += next * P(parts.of[n + 2]);
-        if (reduced(magnitude(next) + magnitude(before), Larger{}) < 1e-18) break;
+        if (reduced(size_of(next) + size_of(before), Larger{}) < 1e-18) break;
       }
       (t * t * integral).store(answers.integral + p * lanes);
       (t * value).store(answers.value + p * lanes);

@@ -209,21 +209,6 @@ struct Step : Lanes<Isa> {
     Pack of[packs];
   };
 
-  // The bits tell, since comparisons are compiled as if all numbers were finite.
-  BBSIM_INLINE static Mask is_finite(P a) {
-    const Mask exponent = (0x7ffLL << 52) - Mask{};
-    return ((Mask)a.v & exponent) != exponent;
-  }
-  BBSIM_INLINE static bool is_finite(double a) {
-    return (__builtin_bit_cast(unsigned long long, a) >> 52 & 0x7ff) != 0x7ff;
-  }
-
-  BBSIM_INLINE static double largest(P a) {
-    double most = a[0];
-    for (int l = 1; l < lanes; ++l) most = a[l] > most ? a[l] : most;
-    return most;
-  }
-
   [[gnu::flatten]] static void take_coefficients(Workspace& w, int p) {
     const Motion motion(w.scenes, p);
     const P r = lane(w.scenes.radius, p), g = lane(w.scenes.gravity, p), h(w.h);
@@ -346,8 +331,8 @@ struct Step : Lanes<Isa> {
       }
       if (iterations == 1) weigh(w, of);
       const P most = simd::larger_of(simd::larger_of(change[0], change[1]), change[2]);
-      const double now = largest(most * of.weight);
-      if (!is_finite(now)) return true;  // the states tell
+      const double now = simd::largest_of(most * of.weight);
+      if (!simd::is_finite(now)) return true;  // the states tell
       const double contraction = iterations > 1 ? now / last : 1;
       if (now <= floor || now * contraction <= enough * (1 - contraction)) return true;
       if (iterations >= most_iterations || (iterations > 3 && contraction > 0.5)) return false;
@@ -384,10 +369,10 @@ struct Step : Lanes<Isa> {
       const P before = simd::larger_of(simd::size_of(series[0][i]), simd::size_of(series[1][i]));
       const P tail = simd::larger_of(simd::size_of(series[2][i]), simd::size_of(series[3][i]));
       const P fall = simd::smaller_of(P(1.0), tail / (before + P(1e-300)));
-      finite &= is_finite(of.v_end[i]);
+      finite &= simd::is_finite(of.v_end[i]);
       P weight = P(once) * of.v_weight[i];
       if (i < nq) {
-        finite &= is_finite(of.q_end[i]);
+        finite &= simd::is_finite(of.q_end[i]);
         weight = simd::larger_of(weight, P(twice) * of.q_weight[i]);
       }
       const P weighted = tail * weight;

@@ -1,0 +1,80 @@
+// What is larger, what is finite, and in which lanes. Numbers alone are told in the same words.
+//
+// Like pack.hpp included only by the kernels, most of which are compiled as if all numbers were
+// finite: bits tell whether one is.
+#pragma once
+
+#include <type_traits>
+
+#include "simd/pack.hpp"
+
+namespace bbsim::simd {
+
+template <class P>
+BBSIM_INLINE P choose(typename P::Mask mask, P yes, P no) {
+  return P::of(mask ? yes.v : no.v);
+}
+
+template <class P>
+BBSIM_INLINE P larger_of(P a, P b) {
+  return P::of(a.v > b.v ? a.v : b.v);
+}
+BBSIM_INLINE double larger_of(double a, double b) {
+  return a > b ? a : b;
+}
+
+template <class P>
+BBSIM_INLINE P smaller_of(P a, P b) {
+  return P::of(a.v < b.v ? a.v : b.v);
+}
+BBSIM_INLINE double smaller_of(double a, double b) {
+  return a < b ? a : b;
+}
+
+template <class P>
+BBSIM_INLINE P size_of(P a) {
+  const typename P::Mask sign_bit = (1LL << 63) - typename P::Mask{};
+  return P::of((typename P::Vector)((typename P::Mask)a.v & ~sign_bit));
+}
+BBSIM_INLINE double size_of(double a) {
+  return __builtin_fabs(a);
+}
+
+template <class P>
+BBSIM_INLINE typename P::Mask is_finite(P a) {
+  const typename P::Mask exponent = (0x7ffLL << 52) - typename P::Mask{};
+  return ((typename P::Mask)a.v & exponent) != exponent;
+}
+BBSIM_INLINE bool is_finite(double a) {
+  return (__builtin_bit_cast(unsigned long long, a) >> 52 & 0x7ff) != 0x7ff;
+}
+
+// The largest of the lanes.
+template <class P>
+BBSIM_INLINE double largest_of(P a) {
+  double most = a[0];
+  for (int l = 1; l < P::size; ++l) most = larger_of(a[l], most);
+  return most;
+}
+
+// Whether any lane is set. Narrow lanes are fewer to ask.
+template <class P>
+BBSIM_INLINE bool any_of(typename P::Mask mask) {
+  if constexpr (P::size == 2) {
+    return (mask[0] | mask[1]) != 0;
+  } else {
+    typedef std::conditional_t<P::size == 4, int, short> Narrow
+        __attribute__((vector_size(16), aligned(16)));
+    const auto halves = (typename Vectors<2>::Mask) __builtin_convertvector(mask, Narrow);
+    return (halves[0] | halves[1]) != 0;
+  }
+}
+
+template <class P>
+BBSIM_INLINE bool all_of(typename P::Mask mask) {
+  long long every = mask[0];
+  for (int l = 1; l < P::size; ++l) every &= mask[l];
+  return every != 0;
+}
+
+}  // namespace bbsim::simd
