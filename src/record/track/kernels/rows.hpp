@@ -1,10 +1,8 @@
 // The kernels, for one instruction set.
 #pragma once
 
-#include <type_traits>
-
 #include "record/track/kernels/track_kernels.hpp"
-#include "simd/pack.hpp"
+#include "simd/compare.hpp"
 
 namespace bbsim::record {
 
@@ -16,14 +14,6 @@ struct RowKernels {
 
   static constexpr std::size_t padded(std::size_t rows) {
     return (rows + row_padding - 1) / row_padding * row_padding;
-  }
-
-  BBSIM_INLINE static P larger(P a, P b) { return P::of(a.v > b.v ? a.v : b.v); }
-  BBSIM_INLINE static P magnitude(P a) { return P::of(a.v < 0 ? -a.v : a.v); }
-  BBSIM_INLINE static double largest(P a) {
-    double most = a[0];
-    for (int i = 1; i < lanes; ++i) most = a[i] > most ? a[i] : most;
-    return most;
   }
 
   // The polynomial holds for |angle| <= pi/4.
@@ -44,10 +34,11 @@ struct RowKernels {
   BBSIM_INLINE static double largest_angle(const GimbalTrack& track, std::size_t end) {
     P most = P(0.0);
     for (std::size_t i = 0; i < end; i += lanes) {
-      const P phi = magnitude(P::load(track.phi + i)), theta = magnitude(P::load(track.theta + i));
-      most = larger(larger(phi, theta), most);
+      const P phi = simd::size_of(P::load(track.phi + i)),
+              theta = simd::size_of(P::load(track.theta + i));
+      most = simd::larger_of(simd::larger_of(phi, theta), most);
     }
-    return largest(most);
+    return simd::largest_of(most);
   }
 
   static void gimbal(const GimbalTrack& track, std::size_t rows, const GimbalSizes& sizes,
@@ -60,14 +51,14 @@ struct RowKernels {
       const P tilted =
           small ? versine(sine(phi), sine(theta)) : versine(sin_cos(phi).sin, sin_cos(theta).sin);
       tilted.store(sizes.versine + i);
-      versines = larger(tilted, versines);
+      versines = simd::larger_of(tilted, versines);
       const P phi_rate = P::load(track.phi_rate + i), theta_rate = P::load(track.theta_rate + i);
       const P squared = phi_rate * phi_rate + theta_rate * theta_rate;
       squared.store(sizes.rate_squared + i);
-      rates = larger(squared, rates);
+      rates = simd::larger_of(squared, rates);
     }
-    *versine_most = largest(versines);
-    *rate_squared_most = largest(rates);
+    *versine_most = simd::largest_of(versines);
+    *rate_squared_most = simd::largest_of(rates);
   }
 
   static double distances(const double* x, const double* y, std::size_t rows, double* squares) {
@@ -77,9 +68,9 @@ struct RowKernels {
       const P dx = P::load(x + i), dy = P::load(y + i);
       const P squared = dx * dx + dy * dy;
       squared.store(squares + i);
-      most = larger(squared, most);
+      most = simd::larger_of(squared, most);
     }
-    return largest(most);
+    return simd::largest_of(most);
   }
 
   static double sum_of(const double* values, std::size_t rows) {
@@ -91,18 +82,6 @@ struct RowKernels {
     return all;
   }
 
-  // Whether any lane is set. Narrow lanes are fewer to ask.
-  BBSIM_INLINE static bool any(typename P::Mask mask) {
-    if constexpr (lanes == 2) {
-      return (mask[0] | mask[1]) != 0;
-    } else {
-      typedef std::conditional_t<lanes == 4, int, short> Narrow
-          __attribute__((vector_size(16), aligned(16)));
-      const auto halves = (typename simd::Vectors<2>::Mask) __builtin_convertvector(mask, Narrow);
-      return (halves[0] | halves[1]) != 0;
-    }
-  }
-
   static void above(const double* values, std::size_t rows, double limit, unsigned char* marks) {
     static_assert(row_padding % lanes == 0);
     const std::size_t end = padded(rows);
@@ -111,7 +90,7 @@ struct RowKernels {
       for (std::size_t k = lanes; k < row_padding; k += lanes) {
         more |= P::load(values + i + k).v > limit;
       }
-      marks[i / row_padding] = any(more) ? 1 : 0;
+      marks[i / row_padding] = simd::any_of<P>(more) ? 1 : 0;
     }
   }
 
@@ -166,10 +145,10 @@ struct RowKernels {
         if (i + p * lanes >= end) break;
         const P squared = x[p] * x[p] + y[p] * y[p];
         squared.store(squares + i + p * lanes);
-        most = larger(squared, most);
+        most = simd::larger_of(squared, most);
       }
     }
-    return largest(most);
+    return simd::largest_of(most);
   }
 
   static constexpr TrackKernels kernels{&gimbal, &distances, &sum_of,   &above,
