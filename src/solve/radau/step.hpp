@@ -11,11 +11,14 @@
 //     (I - h l_k Jv - h^2 l_k^2 Jq) y_k = (T^-1 residual)_k,   k = 1 ... s/2, complex.
 #pragma once
 
+#include "simd/compare.hpp"
 #include "simd/dual.hpp"
 #include "solve/radau/kernel.hpp"
 #include "solve/radau/tables.hpp"
 
 namespace bbsim::solve::radau {
+
+using simd::larger_of, simd::size_of;
 
 template <class T>
 const T& instance();  // for its type only
@@ -368,17 +371,10 @@ struct Step {
     }
   }
 
-  BBSIM_INLINE static double magnitude(double x) {
-    return __builtin_fabs(x);
-  }
-  BBSIM_INLINE static double larger(double a, double b) {
-    return a < b ? b : a;
-  }
-
   static void weigh(Workspace& w) {
     for (int i = 0; i < nv; ++i) {
-      w.v_weight[i] = 1 / (w.rtol * magnitude(w.v[i]) + w.atol);
-      w.q_weight[i] = 1 / (w.rtol * magnitude(w.q[i]) + w.atol);
+      w.v_weight[i] = 1 / (w.rtol * size_of(w.v[i]) + w.atol);
+      w.q_weight[i] = 1 / (w.rtol * size_of(w.q[i]) + w.atol);
     }
   }
 
@@ -410,12 +406,12 @@ struct Step {
     double jv = 0, jq = 0;
     for (int i = 0; i < nv; ++i) {
       double row_v = 0, row_q = 0;
-      for (int j = 0; j < nv; ++j) row_v += magnitude(w.jv[i][j]);
-      for (int j = 0; j < nq; ++j) row_q += magnitude(w.jq[i][j]);
-      jv = larger(jv, row_v);
-      jq = larger(jq, row_q);
+      for (int j = 0; j < nv; ++j) row_v += size_of(w.jv[i][j]);
+      for (int j = 0; j < nq; ++j) row_q += size_of(w.jq[i][j]);
+      jv = larger_of(row_v, jv);
+      jq = larger_of(row_q, jq);
     }
-    return larger(jv, __builtin_sqrt(jq));
+    return larger_of(__builtin_sqrt(jq), jv);
   }
 
   static constexpr int most_iterations = 25;
@@ -504,7 +500,7 @@ struct Step {
       }
     }
     a.verdict = Verdict::converged;
-    w.contraction = larger(0.3 * w.contraction, contraction);
+    w.contraction = larger_of(contraction, 0.3 * w.contraction);
     w.has_guess = true;
     w.accepted = false;
     apply<nv, s, Table::stages, P>(
@@ -525,26 +521,26 @@ struct Step {
     if (!w.newton || i >= nq) return 0;
     double from_rates = 0;
     for (int j = 0; j < nv; ++j) {
-      from_rates += magnitude(w.jv[i][j] * w.v[j]);
-      if (j < nq) from_rates += magnitude(w.jq[i][j] * w.q[j]);
+      from_rates += size_of(w.jv[i][j] * w.v[j]);
+      if (j < nq) from_rates += size_of(w.jq[i][j] * w.q[j]);
     }
     const double twice = (s * s) / w.h;
-    const double from_position = twice * twice * (magnitude(w.q[i]) + magnitude(w.h * w.v[i]));
+    const double from_position = twice * twice * (size_of(w.q[i]) + size_of(w.h * w.v[i]));
     return 2.2e-16 * (from_rates < from_position ? from_rates : from_position);
   }
 
   // The error from the fall of the last Legendre coefficients of the accelerations: the first one
   // left out, integrated once for a velocity, twice for a position.
   static void estimate(Workspace& w, Attempt& a) {
-    const double once = magnitude(w.h) / (2 * s + 1);
+    const double once = size_of(w.h) / (2 * s + 1);
     for (int i = 0; i < nv; ++i) {
       const double* const k = w.series.of[i];
-      const double tail = larger(magnitude(k[s - 1]), magnitude(k[s - 2]));
-      const double before = larger(magnitude(k[s - 3]), magnitude(k[s - 4]));
+      const double tail = larger_of(size_of(k[s - 2]), size_of(k[s - 1]));
+      const double before = larger_of(size_of(k[s - 4]), size_of(k[s - 3]));
       double left_out = tail < before ? tail * __builtin_sqrt(tail / before) : tail;
-      left_out = larger(0, left_out - noise(w, i));
+      left_out = larger_of(left_out - noise(w, i), 0);
       const double v_scale =
-          w.rtol * larger(magnitude(w.v[i]), magnitude(w.v_stage.of[i][s - 1])) + w.atol;
+          w.rtol * larger_of(size_of(w.v_stage.of[i][s - 1]), size_of(w.v[i])) + w.atol;
       const double v_error = once * left_out / v_scale;
       if (!(v_error <= a.error)) {
         a.error = v_error;
@@ -552,7 +548,7 @@ struct Step {
       }
       if (i < nq || turns(w, i)) {
         const double reached = i < nq ? w.q_stage.of[i][s - 1] : 0.0;
-        const double q_scale = w.rtol * larger(magnitude(w.q[i]), magnitude(reached)) + w.atol;
+        const double q_scale = w.rtol * larger_of(size_of(reached), size_of(w.q[i])) + w.atol;
         const double q_error = once * once * left_out / q_scale;
         if (q_error > a.error) {
           a.error = q_error;
