@@ -75,19 +75,35 @@ struct LaneCourses {
     }
   }
 
-  // Coordinates from `first` on and their velocities at a part of the step, 0 to 1.
-  template <int first, int count>
-  BBSIM_INLINE void at(P part, P (&position)[count], P (&velocity)[count]) const {
+  // The coordinates and their velocities at a part of the step, 0 to 1.
+  BBSIM_INLINE void at(P part, P (&position)[coordinates], P (&velocity)[coordinates]) const {
 #pragma GCC unroll 4
-    for (int i = 0; i < count; ++i) {
-      position[i] = q[first + i][0];
-      velocity[i] = v[first + i][0];
+    for (int i = 0; i < coordinates; ++i) {
+      position[i] = q[i][0];
+      velocity[i] = v[i][0];
     }
     polynomials(
         P(2.0) * part - P(1.0), [&](int m, P value) __attribute__((always_inline)) {
-          for (int i = 0; i < count; ++i) {
-            position[i] += q[first + i][m] * value;
-            if (m <= s) velocity[i] += v[first + i][m] * value;
+          for (int i = 0; i < coordinates; ++i) {
+            position[i] += q[i][m] * value;
+            if (m <= s) velocity[i] += v[i][m] * value;
+          }
+        });
+  }
+
+  // Velocities and accelerations times h.
+  BBSIM_INLINE void rates_at(P part, P (&velocity)[coordinates],
+                             P (&acceleration)[coordinates]) const {
+#pragma GCC unroll 4
+    for (int i = 0; i < coordinates; ++i) {
+      velocity[i] = v[i][0];
+      acceleration[i] = k[i][0];
+    }
+    polynomials(
+        P(2.0) * part - P(1.0), [&](int m, P value) __attribute__((always_inline)) {
+          for (int i = 0; i < coordinates; ++i) {
+            if (m <= s) velocity[i] += v[i][m] * value;
+            if (m < s) acceleration[i] += k[i][m] * value;
           }
         });
   }

@@ -27,7 +27,7 @@
 
 namespace bbsim::solve::loop {
 
-using simd::larger_of, simd::size_of, simd::Looked;
+using simd::is_finite, simd::larger_of, simd::Looked, simd::size_of;
 
 template <class Isa, Drives drives, int s>
 struct Step {
@@ -111,12 +111,6 @@ struct Step {
     bool courses[2];  // whether they are those of it
     Pack of[packs];
   };
-
-  // The bits tell, since comparisons are compiled as if all numbers were finite.
-  BBSIM_INLINE static Mask is_finite(P a) {
-    const Mask exponent = (0x7ffLL << 52) - Mask{};
-    return ((Mask)a.v & exponent) != exponent;
-  }
 
   // The loops of one pack.
   struct Loop {
@@ -453,7 +447,7 @@ struct Step {
     for (int j = 0; j < s; ++j) {
       most = larger_of(most, larger_of(size_of(of.q_at[j][phi]), size_of(of.q_at[j][theta])));
     }
-    return !any_of((Mask)(most.v > 0.785));
+    return !simd::any_of<P>((Mask)(most.v > 0.785));
   }
 
   template <bool small>
@@ -523,17 +517,13 @@ struct Step {
       resting = (Mask)(now.v <= P(enough).v) | (Mask)(now.v <= floor.v) | ~is_finite(now);
       if (iterations > 1) {
         resting |= (Mask)((now * now).v <= (P(enough) * (last - now)).v);
-        if (iterations > 2 && any_of(~resting & (Mask)(now.v > (P(slow) * last).v))) {
+        if (iterations > 2 && simd::any_of<P>(~resting & (Mask)(now.v > (P(slow) * last).v))) {
           return resting;
         }
       }
-      if (!any_of(~resting) || iterations >= most_iterations) return resting;
+      if (!simd::any_of<P>(~resting) || iterations >= most_iterations) return resting;
       last = now;
     }
-  }
-
-  BBSIM_INLINE static bool any_of(Mask mask) {
-    return simd::any_of<P>(mask);
   }
 
   // The error from the fall of the last Legendre coefficients, as in radau/step.hpp: the first one
@@ -771,48 +761,30 @@ struct Step {
     }
   }
 
-  // The states at a part of the step.
-  struct Instant {
-    P q[nq], v[nq], k[nq];
-  };
-
   template <int which>
   BBSIM_INLINE static void between(Workspace& w, int p, const Loop& loop, P part, P& size,
                                    P& slope) {
     constexpr Half half = which == versine || which == rate_squared ? angles : places;
-    constexpr int first = 2 * half;
     make_courses<half>(w);
     const Courses& courses = w.of[p].courses[half];
-    Instant at;
-    Reference reference{};
     const P h(w.h);
+    P q[nq], v[nv], k[nv], first[2], second[2];
+    Reference reference{};
     if constexpr (which == rate_squared) {
-      // The rates and their own slopes.
-#pragma GCC unroll 2
-      for (int i = phi; i <= theta; ++i) {
-        at.v[i] = courses.v[i][0];
-        at.k[i] = courses.k[i][0];
-      }
-      Courses::polynomials(
-          P(2.0) * part - P(1.0), [&](int m, P value) __attribute__((always_inline)) {
-            for (int i = phi; i <= theta; ++i) {
-              if (m <= s) at.v[i] += courses.v[i][m] * value;
-              if (m < s) at.k[i] += courses.k[i][m] * value;
-            }
-          });
-      at.k[phi] = at.k[phi] / h;
-      at.k[theta] = at.k[theta] / h;
+      courses.rates_at(part, first, second);
+      v[phi] = first[0];
+      v[theta] = first[1];
+      k[phi] = second[0] / h;
+      k[theta] = second[1] / h;
     } else {
-      P position[2], velocity[2];
-      courses.template at<0>(part, position, velocity);
-#pragma GCC unroll 2
-      for (int i = 0; i < 2; ++i) {
-        at.q[first + i] = position[i];
-        at.v[first + i] = velocity[i];
-      }
+      courses.at(part, first, second);
+      q[2 * half] = first[0];
+      q[2 * half + 1] = first[1];
+      v[2 * half] = second[0];
+      v[2 * half + 1] = second[1];
       if constexpr (which == error_squared) reference = loop.reference(P(w.t) + h * part);
     }
-    look_at<which>(at.q, at.v, at.k, reference, h, size, slope);
+    look_at<which>(q, v, k, reference, h, size, slope);
   }
 
   template <int which>
@@ -824,9 +796,7 @@ struct Step {
     Reference reference{};
     if constexpr (which == error_squared) reference = loop.reference(P(w.t));
     places[0].at = P(0.0);
-    P k[nq];
-#pragma GCC unroll 4
-    for (int i = 0; i < nq; ++i) k[i] = P(0.0);
+    P k[nv];
     if constexpr (which == rate_squared) {
       // The polynomial's own slope: it starts at no node.
       make_courses<angles>(w);
@@ -918,7 +888,7 @@ struct Step {
   template <int which>
   BBSIM_INLINE static void look_if_worth(Workspace& w, int p, const P (&bounds)[looks],
                                          Greatest& greatest) {
-    if (any_of((Mask)(bounds[which].v > P::load(greatest.of[which] + p * lanes).v))) {
+    if (simd::any_of<P>((Mask)(bounds[which].v > P::load(greatest.of[which] + p * lanes).v))) {
       look_pack<which>(w, p, greatest.of[which]);
     }
   }

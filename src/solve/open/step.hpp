@@ -441,7 +441,7 @@ struct Step : Lanes<Isa> {
         made = true;
       }
       P q[nq], v[nq];
-      path.template at<0>(part, q, v);
+      path.at(part, q, v);
       value = q[0] * q[0] + q[1] * q[1];
       slope = P(2.0) * h * (q[0] * v[0] + q[1] * v[1]);
     });
