@@ -257,6 +257,12 @@ class ClosedLoop {
     }
     return all;
   }();
+  // Where those of the gimbal's axes are among them.
+  static constexpr int first_axis = [] {
+    int first = 0;
+    while (motions.of[first].position < Layout::size) ++first;
+    return first;
+  }();
 
   ClosedLoop(Scalar radius, Scalar gravity, const BasicGains<Scalar>& gains,
              BasicServoLaw<Scalar> servo, Signals reference)
@@ -287,13 +293,25 @@ class ClosedLoop {
   void derivative_of(const std::array<Jet<Time>, 2>& reference, const Real* z, Real* dz) const {
     const auto ball = Layout::unpack(z);
     const Real* angles = z + Layout::size;  // [phi, theta,] then their rates
-    Real* angles_dot = dz + Layout::size;
     const auto phi = axis<0, Real>(ball, reference, angles);
     const auto theta = axis<1, Real>(ball, reference, angles);
     Layout::template derivative<Real>(equation_, phi, theta, ball, r_, g_, dz);
-    for (int i = 0; i < axes; ++i) angles_dot[i] = angles[axes + i];
-    if constexpr (phi_moves(shape)) angles_dot[axes] = phi.acceleration;
-    if constexpr (theta_moves(shape)) angles_dot[2 * axes - 1] = theta.acceleration;
+    put_axes(phi, theta, angles, dz);
+  }
+
+  // The same, but the ball's accelerations are those on a gimbal that turns with the accelerations
+  // `turning` of its axes, rad/s^2, whatever its servos do: for integrators that have these as
+  // unknowns. What a stiff servo does at a state is a difference of large numbers.
+  template <class Time, class Real>
+  void derivative_of(const std::array<Jet<Time>, 2>& reference, const Real* z, const Real* turning,
+                     Real* dz) const {
+    const auto ball = Layout::unpack(z);
+    const Real* angles = z + Layout::size;
+    const auto phi = axis<0, Real>(ball, reference, angles);
+    const auto theta = axis<1, Real>(ball, reference, angles);
+    Layout::template derivative<Real>(equation_, turned<0>(phi, turning), turned<1>(theta, turning),
+                                      ball, r_, g_, dz);
+    put_axes(phi, theta, angles, dz);
   }
 
   [[nodiscard]] Sample sample(double t, const double* z, Detail detail = Detail::all) const {
@@ -341,6 +359,23 @@ class ClosedLoop {
                         servo_.template acceleration<drives, Real>(u, angle, rate)};
     } else {
       return LockedAxis{};
+    }
+  }
+
+  template <class Phi, class Theta, class Real>
+  static void put_axes(const Phi& phi, const Theta& theta, const Real* angles, Real* dz) {
+    Real* const angles_dot = dz + Layout::size;
+    for (int i = 0; i < axes; ++i) angles_dot[i] = angles[axes + i];
+    if constexpr (phi_moves(shape)) angles_dot[axes] = phi.acceleration;
+    if constexpr (theta_moves(shape)) angles_dot[2 * axes - 1] = theta.acceleration;
+  }
+
+  template <std::size_t row, class Axis, class Real>
+  static auto turned(const Axis& of, const Real* turning) {
+    if constexpr (std::is_same_v<Axis, LockedAxis>) {
+      return of;
+    } else {
+      return Axis{of.sin, of.cos, of.rate, turning[row == 0 ? 0 : axes - 1]};
     }
   }
 

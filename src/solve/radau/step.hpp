@@ -6,9 +6,12 @@
 //     v_i = v + h sum_j A_ij k_j,     q_i = q + h c_i v + h^2 sum_j (A A)_ij k_j,
 // which halves the linear systems. A velocity without a position (the spin) has no q.
 //
+// Of a loop with servos a is a(t, q, q', k): the ball's accelerations are taken where the gimbal's
+// are the unknowns, which leaves nothing that is stiff but what is linear.
+//
 // The stages lie in SIMD lanes: one evaluation of the right-hand side serves several stages. The
 // Newton systems, made block diagonal by the eigenvectors of A, lie in lanes too:
-//     (I - h l_k Jv - h^2 l_k^2 Jq) y_k = (T^-1 residual)_k,   k = 1 ... s/2, complex.
+//     (I - Jk - h l_k Jv - h^2 l_k^2 Jq) y_k = (T^-1 residual)_k,   k = 1 ... s/2, complex.
 #pragma once
 
 #include "simd/compare.hpp"
@@ -80,6 +83,16 @@ struct Step {
   using E = simd::Pack<Isa, Table::eigen_lanes>;
   using Inputs = decltype(instance<System>().inputs(P()));
 
+  // Of accelerations that are unknowns to the system: how many, and which is the first.
+  static constexpr int turning = [] {
+    if constexpr (requires { System::first_axis; }) return System::axes;
+    return 0;
+  }();
+  static constexpr int first_turning = [] {
+    if constexpr (requires { System::first_axis; }) return System::first_axis;
+    return 0;
+  }();
+
   // One value a stage, for each velocity or position.
   template <int rows>
   struct alignas(64) Stages {
@@ -101,7 +114,7 @@ struct Step {
     Stages<nv> k, f, v_stage, series;  // series: Legendre coefficients of k
     Stages<nv> q_stage;
     Inputs inputs[packs];
-    double jv[nv][nv], jq[nv][nv];
+    double jv[nv][nv], jq[nv][nv], jk[nv][turning + 1];
     E m_re[eigen_packs][nv][nv], m_im[eigen_packs][nv][nv];
     alignas(64) double r_re[nv][Table::pairs], r_im[nv][Table::pairs];
     double q_series[nv][s + 2], v_series[nv][s + 1];
@@ -143,16 +156,27 @@ struct Step {
     }
   }
 
+  template <class Inputs, class Real>
+  BBSIM_INLINE static void derivative_of(const Workspace& w, const Inputs& in, const Real (&z)[n],
+                                         const Real (&given)[turning + 1], Real (&dz)[n]) {
+    if constexpr (turning > 0) {
+      w.system->derivative_of(in, z, given, dz);
+    } else {
+      w.system->derivative_of(in, z, dz);
+    }
+  }
+
   BBSIM_INLINE static void evaluate_rates(Workspace& w) {
 #pragma GCC unroll 1
     for (int p = 0; p < packs; ++p) {
-      P z[n], dz[n];
+      P z[n], dz[n], given[turning + 1];
 #pragma GCC unroll 8
       for (int i = 0; i < nv; ++i) {
         z[motions.of[i].velocity] = P::load(&w.v_stage.of[i][p * lanes]);
         if (i < nq) z[motions.of[i].position] = P::load(&w.q_stage.of[i][p * lanes]);
+        if (i < turning) given[i] = P::load(&w.k.of[first_turning + i][p * lanes]);
       }
-      w.system->derivative_of(w.inputs[p], z, dz);
+      derivative_of(w, w.inputs[p], z, given, dz);
 #pragma GCC unroll 8
       for (int i = 0; i < nv; ++i) dz[motions.of[i].velocity].store(&w.f.of[i][p * lanes]);
     }
@@ -186,30 +210,34 @@ struct Step {
     return sum((change[0] + change[1]) + (change[2] + change[3])) / Table::stages;
   }
 
-  // d k_i / d v_j and d k_i / d q_j at (t, q, v), exactly.
-  static void differentiate(Workspace& w, double t, const double* q, const double* v) {
+  // d k_i / d v_j, d k_i / d q_j and, of those that are given, d k_i / d k_j, at (t, q, v, k),
+  // exactly.
+  static void differentiate(Workspace& w, double t, const double* q, const double* v,
+                            const double* k) {
     using D = simd::Dual<P>;
     const auto in = w.system->inputs(P(t));
-    constexpr int directions = padded<n, lanes>;
+    constexpr int directions = padded<n + turning, lanes>;
     alignas(64) double slope[nv][directions];
     for (int first = 0; first < directions; first += lanes) {
-      D z[n], dz[n];
+      D z[n], dz[n], given[turning + 1];
       alignas(64) double seed[directions][lanes] = {};
       for (int l = 0; l < lanes; ++l) seed[first + l][l] = 1;
       for (int i = 0; i < nv; ++i) {
         z[motions.of[i].velocity] = D(P(v[i]), P::load(seed[i]));
         if (i < nq) z[motions.of[i].position] = D(P(q[i]), P::load(seed[nv + i]));
+        if (i < turning) given[i] = D(P(k[first_turning + i]), P::load(seed[n + i]));
       }
-      w.system->derivative_of(in, z, dz);
+      derivative_of(w, in, z, given, dz);
       for (int i = 0; i < nv; ++i) dz[motions.of[i].velocity].slope.store(&slope[i][first]);
     }
     for (int i = 0; i < nv; ++i) {
       for (int j = 0; j < nv; ++j) w.jv[i][j] = slope[i][j];
       for (int j = 0; j < nq; ++j) w.jq[i][j] = slope[i][nv + j];
+      for (int j = 0; j < turning; ++j) w.jk[i][j] = slope[i][n + j];
     }
   }
 
-  // The matrices I - h l Jv - h^2 l^2 Jq for all eigenvalues l, and their LU factors in place,
+  // The matrices I - Jk - h l Jv - h^2 l^2 Jq for all eigenvalues l, and their LU factors in place,
   // without pivoting; the diagonal holds its own inverse.
   static void factor(Workspace& w) {
     for (int e = 0; e < eigen_packs; ++e) {
@@ -224,6 +252,9 @@ struct Step {
 #pragma GCC unroll 8
         for (int j = 0; j < nv; ++j) {
           E x = E(i == j ? 1.0 : 0.0) - re * E(w.jv[i][j]);
+          if (j >= first_turning && j < first_turning + turning) {
+            x -= E(w.jk[i][j - first_turning]);
+          }
           E y = -(im * E(w.jv[i][j]));
           if (j < nq) {
             x -= re2 * E(w.jq[i][j]);
@@ -402,12 +433,21 @@ struct Step {
 
   static double rate(void* workspace, double t) {
     Workspace& w = *static_cast<Workspace*>(workspace);
-    differentiate(w, t, w.q, w.v);
+    constexpr double still[nv] = {};
+    differentiate(w, t, w.q, w.v, still);
     double jv = 0, jq = 0;
     for (int i = 0; i < nv; ++i) {
+      // With what comes by way of the gimbal's accelerations.
       double row_v = 0, row_q = 0;
-      for (int j = 0; j < nv; ++j) row_v += size_of(w.jv[i][j]);
-      for (int j = 0; j < nq; ++j) row_q += size_of(w.jq[i][j]);
+      for (int j = 0; j < nv; ++j) {
+        double by_v = w.jv[i][j], by_q = j < nq ? w.jq[i][j] : 0;
+        for (int m = 0; m < turning; ++m) {
+          by_v += w.jk[i][m] * w.jv[first_turning + m][j];
+          if (j < nq) by_q += w.jk[i][m] * w.jq[first_turning + m][j];
+        }
+        row_v += size_of(by_v);
+        row_q += size_of(by_q);
+      }
       jv = larger_of(row_v, jv);
       jq = larger_of(row_q, jq);
     }
@@ -436,12 +476,13 @@ struct Step {
       if (w.newton) {
         if (!factored) {
           // The Jacobian in mid-step.
-          double q[nv], v[nv];
+          double q[nv], v[nv], k[nv];
           for (int i = 0; i < nv; ++i) {
             v[i] = w.v_stage.of[i][s / 2];
+            k[i] = w.k.of[i][s / 2];
             if (i < nq) q[i] = w.q_stage.of[i][s / 2];
           }
-          differentiate(w, t + table.c[s / 2] * h, q, v);
+          differentiate(w, t + table.c[s / 2] * h, q, v, k);
           factor(w);
           factored = true;
           ++a.jacobians;
@@ -526,7 +567,13 @@ struct Step {
     }
     const double twice = (s * s) / w.h;
     const double from_position = twice * twice * (size_of(w.q[i]) + size_of(w.h * w.v[i]));
-    return 2.2e-16 * (from_rates < from_position ? from_rates : from_position);
+    double from_turning = 0;
+    if (i < first_turning) {
+      for (int m = 0; m < turning; ++m) {
+        from_turning += size_of(w.jk[i][m]) * noise(w, first_turning + m);
+      }
+    }
+    return 2.2e-16 * (from_rates < from_position ? from_rates : from_position) + from_turning;
   }
 
   // The error from the fall of the last Legendre coefficients of the accelerations: the first one
