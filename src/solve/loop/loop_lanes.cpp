@@ -25,25 +25,28 @@ constexpr LostLanes<group>::Patience patience{.notable = 1, .holding_back = 1e8,
 // What a step that Newton's iteration does not solve counts as: one that needs to be half as long.
 constexpr double unsolved = 1e6;
 
-// Steps that have become so short a part of the longest one, so many in a row, are mostly on the
+// Steps each of which is so much shorter than the one before, so many in a row, are mostly on the
 // way to an instant beyond which there is no motion. Loops that ask for them are given up: another
-// integrator comes nearer to it in fewer steps.
-constexpr double by_far = 0.03, asking = 1e-2;
-constexpr int long_since = 8;
+// integrator looks at them more closely, and says why they end.
+constexpr double shorter = 0.85, asking = 1e-2;
+constexpr int long_since = 4;
 
-// How steps shrink after the longest one.
+// How steps shrink.
 class Shrinking {
  public:
-  // To be told of each step that is accepted; whether they have been short for long.
-  bool lasts(double h) {
-    longest_ = std::max(longest_, h);
-    short_ = h < by_far * longest_ ? short_ + 1 : 0;
-    return short_ >= long_since;
+  // To be told of each step that is accepted.
+  void take(double h) {
+    ratio_ = last_ > 0 ? h / last_ : 1;
+    count_ = ratio_ < shorter ? count_ + 1 : 0;
+    last_ = h;
   }
+  [[nodiscard]] bool lasts() const { return count_ >= long_since; }
+  // How long the next one may be, relative to the last: what shrank twice goes on to.
+  [[nodiscard]] double most() const { return count_ >= 2 ? ratio_ : infinite; }
 
  private:
-  double longest_ = 0;
-  int short_ = 0;
+  double last_ = 0, ratio_ = 1;
+  int count_ = 0;
 };
 
 const Kernel& kernel_of(Drives drives, int nodes) {
@@ -193,12 +196,13 @@ std::array<bool, group> LoopLanes::integrate(const LoopCase* cases, int count) {
       kernel_->look(workspace_.get(), greatest_);
       kernel_->accept(workspace_.get());
       ++statistics_.steps;
-      if (!arrives && shrinking.lasts(h)) {
+      shrinking.take(h);
+      if (!arrives && shrinking.lasts()) {
         for (std::size_t lane = 0; lane < group; ++lane) {
           if (errors[lane] >= asking * worst) lost_.give_up(lane);
         }
       }
-      next = h * (rejections > 0 ? std::min(growth, 1.0) : growth);
+      next = h * std::min(rejections > 0 ? std::min(growth, 1.0) : growth, shrinking.most());
       rejections = 0;
     } else {
       next = h * std::min(0.8, growth);
