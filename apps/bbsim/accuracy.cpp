@@ -1,6 +1,5 @@
 #include "study/accuracy.hpp"
 
-#include <CLI/App.hpp>
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
@@ -157,7 +156,7 @@ ExitCode accuracy(const AccuracyArguments& arguments, const Options& options) {
 
 }  // namespace
 
-void add_accuracy(CLI::App& command, const Options& options, Chosen& chosen) {
+void add_accuracy(Command& command, const Options& options) {
   command.footer(
       "The error is the largest |dx| or |dy| over the output times, against a solution in quad "
       "precision; the time is the median processor time of repeated runs, files not counted. atol "
@@ -167,21 +166,17 @@ void add_accuracy(CLI::App& command, const Options& options, Chosen& chosen) {
       "jacobian_evaluations, status.");
   const auto arguments = std::make_shared<AccuracyArguments>();
   add_scenario(command, arguments->scenario);
-  command.add_option("--methods", arguments->methods, "methods to compare (default: all but auto)")
-      ->type_name("NAME,...")
-      ->delimiter(',')
-      ->allow_extra_args(false);
-  command.add_option("--rtol", arguments->rtols, "tolerances, a decade apart")
-      ->type_name("LOOSEST:TIGHTEST")
-      ->capture_default_str();
-  command
-      .add_option("--csv", arguments->csv, "write all points to this file; - is standard output")
-      ->type_name("FILE");
-  command.add_option("--plot", arguments->plot, "draw time over error, with gnuplot")
-      ->type_name("FILE.svg|FILE.png");
-  command.callback([arguments, &options, &chosen] {
-    chosen = [arguments, &options] { return accuracy(*arguments, options); };
-  });
+  command.option("--methods", arguments->methods, "methods to compare (default: all but auto)")
+      .takes("NAME,...")
+      .parted_by_commas();
+  command.option("--rtol", arguments->rtols, "tolerances, a decade apart")
+      .takes("LOOSEST:TIGHTEST")
+      .shows_default();
+  command.option("--csv", arguments->csv, "write all points to this file; - is standard output")
+      .takes("FILE");
+  command.option("--plot", arguments->plot, "draw time over error, with gnuplot")
+      .takes("FILE.svg|FILE.png");
+  command.does([arguments, &options] { return accuracy(*arguments, options); });
 }
 
 }  // namespace bbsim::app

@@ -1,6 +1,5 @@
 #include "check.hpp"
 
-#include <CLI/App.hpp>
 #include <cmath>
 #include <cstddef>
 #include <memory>
@@ -211,10 +210,10 @@ std::string check_report(const Scenario& scenario, bool sweep) {
   return report.text();
 }
 
-void add_check(CLI::App& command, Chosen& chosen) {
+void add_check(Command& command, const Options& /*it has nothing to be quiet about*/) {
   const auto arguments = std::make_shared<ScenarioArguments>();
   add_scenario(command, *arguments);
-  command.callback([arguments, &chosen] { chosen = [arguments] { return check(*arguments); }; });
+  command.does([arguments] { return check(*arguments); });
 }
 
 }  // namespace bbsim::app

@@ -33,8 +33,8 @@ ExitCode print_columns() {
 
 }  // namespace
 
-void add_columns(CLI::App& command, Chosen& chosen) {
-  command.callback([&chosen] { chosen = print_columns; });
+void add_columns(Command& command, const Options& /*it has nothing to be quiet about*/) {
+  command.does(print_columns);
 }
 
 }  // namespace bbsim::app

@@ -1,10 +1,14 @@
 #include "command_line.hpp"
 
+#include <CLI/CLI.hpp>  // all of it: some source has to
+#include <algorithm>
 #include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "help.hpp"
+#include "simd/instruction_set.hpp"
 #include "terminal.hpp"
 #include "yaml/nearest.hpp"
 
@@ -73,14 +77,14 @@ bool is_option(std::string_view word) {
   throw InputError(message + help);
 }
 
-}  // namespace
-
+// -q, before and after all commands that are added later.
 void add_quiet(CLI::App& app, Options& options) {
   app.fallthrough();  // which the commands take over, so that the flag may stand after them
   app.add_flag("-q,--quiet", options.quiet,
                "print no messages and no progress, only results and why a run ended");
 }
 
+// Prints help or the version, where that ended the parsing. Throws InputError for a mistake.
 ExitCode parsing_ended(const CLI::App& app, const CLI::ParseError& error) {
   if (dynamic_cast<const CLI::CallForHelp*>(&error) != nullptr) {
     print(app.help());
@@ -124,6 +128,64 @@ void add_help(CLI::App& app, Chosen& chosen) {
       refuse_command(app, *name);
     };
   });
+}
+
+std::string version() {
+  return std::string("bbsim " BBSIM_VERSION "\ninstruction set: ") +
+         simd::name_of(simd::chosen_instruction_set());
+}
+
+// Adds the commands. All of them and their options take longer to make than many a run: where the
+// first word names a command, only those are made that a word names; where it names none, all are,
+// for help and for what is said of a mistake. Options are made of those that are named.
+void add_commands(CLI::App& app, std::span<char* const> words,
+                  std::span<const NamedCommand> commands, const Options& options, Chosen& chosen) {
+  const auto is_named = [&](const NamedCommand& command) {
+    return std::ranges::find(words, std::string_view(command.name)) != words.end();
+  };
+  const auto first = std::ranges::find_if_not(
+      words, [](std::string_view word) { return word == "-q" || word == "--quiet"; });
+  const bool names_one =
+      first != words.end() &&
+      std::ranges::find(commands, std::string_view(*first), &NamedCommand::name) != commands.end();
+  for (const NamedCommand& command : commands) {
+    const bool named = is_named(command);
+    if (names_one && !named) continue;
+    CLI::App* const added = app.add_subcommand(command.name, command.description);
+    if (!named) continue;
+    Command its(*added, chosen);
+    command.add_options(its, options);
+  }
+  if (!names_one || std::ranges::find(words, std::string_view("help")) != words.end()) {
+    add_help(app, chosen);
+  }
+}
+
+}  // namespace
+
+ExitCode obey(int argc, char** argv, std::span<const NamedCommand> commands) {
+  CLI::App app("bbsim simulates a ball that rolls on a plane which a two-axis gimbal tips.",
+               "bbsim");
+  app.formatter(std::make_shared<HelpFormatter>());
+  app.set_help_flag("-h,--help", "print this help and exit");
+  app.set_version_flag("--version", version, "print the version and exit");
+  app.require_subcommand(1);
+  app.footer(
+      "A SCENARIO of - is read from standard input.\n"
+      "Exit codes: 0 done; 1 the run ended early or files differ; 2 the command line or the "
+      "scenario is at fault; 3 the output could not be written; 130 interrupted.");
+  Options options;
+  add_quiet(app, options);
+  Chosen chosen;
+  const std::span<char* const> words(argv, static_cast<std::size_t>(argc));
+  add_commands(app, words.subspan(std::min<std::size_t>(words.size(), 1)), commands, options,
+               chosen);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return parsing_ended(app, error);
+  }
+  return chosen();
 }
 
 }  // namespace bbsim::app

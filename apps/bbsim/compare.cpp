@@ -1,6 +1,5 @@
 #include "record/compare.hpp"
 
-#include <CLI/App.hpp>
 #include <memory>
 #include <optional>
 #include <string>
@@ -44,7 +43,7 @@ ExitCode run_compare(const CompareOptions& options) {
 
 }  // namespace
 
-void add_compare(CLI::App& command, Chosen& chosen) {
+void add_compare(Command& command, const Options& /*it has nothing to be quiet about*/) {
   command.footer(
       "Columns are compared by name, whatever their order, rows by position. Values a and b are "
       "alike if |a - b| <= atol + rtol max(|a|, |b|); NaN is like NaN, an infinity like the same "
@@ -55,25 +54,24 @@ void add_compare(CLI::App& command, Chosen& chosen) {
       "lacks a named column.");
   auto options = std::make_shared<CompareOptions>();
   command
-      .add_option("A", options->a,
-                  "a CSV file, an HDF5 file (.h5, .hdf5), or - for CSV on standard input")
-      ->required();
-  command.add_option("B", options->b, "what to compare it with")->required();
+      .option("A", options->a,
+              "a CSV file, an HDF5 file (.h5, .hdf5), or - for CSV on standard input")
+      .required();
+  command.option("B", options->b, "what to compare it with").required();
   command
-      .add_option("--rtol", options->rtol,
-                  "relative tolerance, of the larger value; default: see below")
-      ->type_name("R");
+      .option("--rtol", options->rtol,
+              "relative tolerance, of the larger value; default: see below")
+      .takes("R");
   command
-      .add_option("--atol", options->atol,
-                  "absolute tolerance, in the column's unit; default: see below")
-      ->type_name("A");
+      .option("--atol", options->atol,
+              "absolute tolerance, in the column's unit; default: see below")
+      .takes("A");
   command
-      .add_option("--columns", options->columns,
-                  "compare these only (default: all; one that a file lacks is a difference)")
-      ->type_name("NAME,...")
-      ->delimiter(',')
-      ->allow_extra_args(false);  // a file may follow
-  command.callback([options, &chosen] { chosen = [options] { return run_compare(*options); }; });
+      .option("--columns", options->columns,
+              "compare these only (default: all; one that a file lacks is a difference)")
+      .takes("NAME,...")
+      .parted_by_commas();  // a file may follow
+  command.does([options] { return run_compare(*options); });
 }
 
 }  // namespace bbsim::app

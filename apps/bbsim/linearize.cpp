@@ -1,4 +1,3 @@
-#include <CLI/App.hpp>
 #include <memory>
 #include <string>
 
@@ -117,7 +116,7 @@ ExitCode linearize(const LinearizeArguments& arguments) {
 
 }  // namespace
 
-void add_linearize(CLI::App& command, Chosen& chosen) {
+void add_linearize(Command& command, const Options& /*it has nothing to be quiet about*/) {
   command.footer(
       "Without -o the poles, zeros and margins are printed. The files hold A, B, C, D and names: "
       ".m for MATLAB and Octave, .py for numpy and python-control, .json and .csv for all else.\n"
@@ -129,29 +128,27 @@ void add_linearize(CLI::App& command, Chosen& chosen) {
   const auto arguments = std::make_shared<LinearizeArguments>();
   add_scenario(command, arguments->scenario);
   command
-      .add_option("--at", arguments->at,
-                  "home, all zero (default); equilibrium, at rest under the reference of t = 0; "
-                  "or a TIME of the run")
-      ->type_name("POINT");
-  CLI::Option* plant = command.add_flag(
+      .option("--at", arguments->at,
+              "home, all zero (default); equilibrium, at rest under the reference of t = 0; "
+              "or a TIME of the run")
+      .takes("POINT");
+  Option plant = command.flag(
       "--plant", arguments->plant,
       "from the gimbal's commands to the ball's position (default without a controller)");
-  CLI::Option* loop =
-      command.add_flag("--loop", arguments->loop,
-                       "the closed loop, from the reference to the position (default with a "
-                       "controller); of a sampled controller from sample to sample");
-  CLI::Option* sampled = command.add_flag(
+  Option loop = command.flag("--loop", arguments->loop,
+                             "the closed loop, from the reference to the position (default with a "
+                             "controller); of a sampled controller from sample to sample");
+  Option sampled = command.flag(
       "--sampled", arguments->sampled,
       "the plant under a command that is held between samples, with the delays of sensor and "
       "controller");
-  loop->excludes(plant);
-  sampled->excludes(plant)->excludes(loop);
+  loop.excludes(plant);
+  sampled.excludes(plant).excludes(loop);
   command
-      .add_option("-o,--output", arguments->output,
-                  "FILE.m, FILE.py, FILE.json or FILE.csv; - is JSON on standard output")
-      ->type_name("FILE");
-  command.callback(
-      [arguments, &chosen] { chosen = [arguments] { return linearize(*arguments); }; });
+      .option("-o,--output", arguments->output,
+              "FILE.m, FILE.py, FILE.json or FILE.csv; - is JSON on standard output")
+      .takes("FILE");
+  command.does([arguments] { return linearize(*arguments); });
 }
 
 }  // namespace bbsim::app

@@ -1,4 +1,3 @@
-#include <CLI/App.hpp>
 #include <memory>
 #include <string>
 #include <vector>
@@ -32,7 +31,7 @@ ExitCode measure(const MeasureArguments& arguments) {
 
 }  // namespace
 
-void add_measure(CLI::App& command, Chosen& chosen) {
+void add_measure(Command& command, const Options& /*it has nothing to be quiet about*/) {
   command.footer(
       "What lies between two rows is on the straight line from one to the other: `bbsim run "
       "--measure` has the motion itself.\n" +
@@ -42,11 +41,11 @@ void add_measure(CLI::App& command, Chosen& chosen) {
       "  bbsim measure rig.h5 --measure \"when tracking_error stays below 2 mm\"");
   const auto arguments = std::make_shared<MeasureArguments>();
   command
-      .add_option("FILE", arguments->file,
-                  "a result of a run: CSV, HDF5 (.h5, .hdf5), or - for CSV on standard input")
-      ->required();
-  add_measures(command, arguments->measures, "what to measure; may be given again")->required();
-  command.callback([arguments, &chosen] { chosen = [arguments] { return measure(*arguments); }; });
+      .option("FILE", arguments->file,
+              "a result of a run: CSV, HDF5 (.h5, .hdf5), or - for CSV on standard input")
+      .required();
+  add_measures(command, arguments->measures, "what to measure; may be given again").required();
+  command.does([arguments] { return measure(*arguments); });
 }
 
 }  // namespace bbsim::app

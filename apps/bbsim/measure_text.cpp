@@ -1,7 +1,6 @@
 #include "measure_text.hpp"
 
 #include "base/number_text.hpp"
-#include "commands.hpp"
 
 namespace bbsim::app {
 
@@ -14,11 +13,8 @@ std::string measure_text(const std::vector<scenario::Measure>& measures,
   return text;
 }
 
-CLI::Option* add_measures(CLI::App& command, std::vector<std::string>& lists,
-                          const std::string& what) {
-  CLI::Option* const option = command.add_option("--measure", lists, what)->type_name("NAME,...");
-  may_be_repeated(*option);
-  return option;
+Option add_measures(Command& command, std::vector<std::string>& lists, const std::string& what) {
+  return command.option("--measure", lists, what).takes("NAME,...").may_be_repeated();
 }
 
 std::string measures_footer() {

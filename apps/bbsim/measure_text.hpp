@@ -1,10 +1,10 @@
 // Measures as the commands that take them print them.
 #pragma once
 
-#include <CLI/App.hpp>
 #include <string>
 #include <vector>
 
+#include "command.hpp"
 #include "scenario/measures.hpp"
 
 namespace bbsim::app {
@@ -14,8 +14,7 @@ namespace bbsim::app {
                                        const std::vector<double>& values);
 
 // --measure NAME,...; may be given again.
-CLI::Option* add_measures(CLI::App& command, std::vector<std::string>& lists,
-                          const std::string& what);
+Option add_measures(Command& command, std::vector<std::string>& lists, const std::string& what);
 
 // What a measure's name may be, for a command's help.
 [[nodiscard]] std::string measures_footer();

@@ -1,6 +1,5 @@
 #include "sweep/merge.hpp"
 
-#include <CLI/App.hpp>
 #include <memory>
 #include <string>
 #include <vector>
@@ -43,17 +42,15 @@ ExitCode merge(const MergeArguments& arguments, const Options& options) {
 
 }  // namespace
 
-void add_merge(CLI::App& command, const Options& options, Chosen& chosen) {
+void add_merge(Command& command, const Options& options) {
   const auto arguments = std::make_shared<MergeArguments>();
-  command.add_option("PARTS", arguments->parts, "files of all shards, in any order")->required();
+  command.option("PARTS", arguments->parts, "files of all shards, in any order").required();
   command
-      .add_option("-o,--output", arguments->output,
-                  "FILE.csv or FILE.h5, as the parts; - for CSV on standard output")
-      ->type_name("FILE")
-      ->required();
-  command.callback([arguments, &options, &chosen] {
-    chosen = [arguments, &options] { return merge(*arguments, options); };
-  });
+      .option("-o,--output", arguments->output,
+              "FILE.csv or FILE.h5, as the parts; - for CSV on standard output")
+      .takes("FILE")
+      .required();
+  command.does([arguments, &options] { return merge(*arguments, options); });
 }
 
 }  // namespace bbsim::app

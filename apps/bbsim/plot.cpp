@@ -1,4 +1,3 @@
-#include <CLI/App.hpp>
 #include <algorithm>
 #include <array>
 #include <filesystem>
@@ -182,7 +181,7 @@ ExitCode plot_files(const PlotArguments& arguments, const Options& options) {
 
 }  // namespace
 
-void add_plot(CLI::App& command, const Options& options, Chosen& chosen) {
+void add_plot(Command& command, const Options& options) {
   command.footer(
       "A run: its path in the plane, and its columns over time; a sweep: its measures over the "
       "keys that vary. Title, plate, events and friction coefficient are in .h5 files; for a .csv "
@@ -196,29 +195,32 @@ void add_plot(CLI::App& command, const Options& options, Chosen& chosen) {
       "  bbsim plot fig2b-sweep.csv --columns x_end,max_tilt");
   const auto arguments = std::make_shared<PlotArguments>();
   command
-      .add_option("FILES", arguments->files,
-                  "CSV or HDF5 files of runs and sweeps; - is CSV on standard input")
-      ->required();
-  command.add_option("-o,--output", arguments->output,
-                     "FILE.svg, .png or .pdf, or - for standard output; default: FILE with .svg");
-  command.add_option("--format", arguments->format, "svg, png or pdf; default: as the ending says")
-      ->type_name("FORMAT");
-  command.add_flag("--overlay", arguments->overlay,
-                   "all files in one picture, to be compared; default name: FIRST-overlay.svg");
-  may_be_repeated(*command.add_option(
-      "--columns", arguments->columns,
-      "what to draw: columns of a panel parted by commas, panels by semicolons; path is the "
-      "picture in the plane. Of a sweep: measures"));
-  may_be_repeated(*command.add_option("--over", arguments->over,
-                                      "KEY[,KEY] of a sweep: what its measures are drawn over"));
-  command.add_option("--summary", arguments->beside.summary,
-                     "FILE.json that `bbsim run --summary` wrote of the run");
-  command.add_option("--scenario", arguments->beside.scenario, "FILE.yaml that was run");
-  may_be_repeated(*command.add_option("--set", arguments->beside.overrides,
-                                      "key.path=value that was set in it; may be given again"));
-  command.callback([arguments, &options, &chosen] {
-    chosen = [arguments, &options] { return plot_files(*arguments, options); };
-  });
+      .option("FILES", arguments->files,
+              "CSV or HDF5 files of runs and sweeps; - is CSV on standard input")
+      .required();
+  command.option("-o,--output", arguments->output,
+                 "FILE.svg, .png or .pdf, or - for standard output; default: FILE with .svg");
+  command.option("--format", arguments->format, "svg, png or pdf; default: as the ending says")
+      .takes("FORMAT");
+  command.flag("--overlay", arguments->overlay,
+               "all files in one picture, to be compared; default name: FIRST-overlay.svg");
+  command
+      .option(
+          "--columns", arguments->columns,
+          "what to draw: columns of a panel parted by commas, panels by semicolons; path is the "
+          "picture in the plane. Of a sweep: measures")
+      .may_be_repeated();
+  command
+      .option("--over", arguments->over, "KEY[,KEY] of a sweep: what its measures are drawn over")
+      .may_be_repeated();
+  command.option("--summary", arguments->beside.summary,
+                 "FILE.json that `bbsim run --summary` wrote of the run");
+  command.option("--scenario", arguments->beside.scenario, "FILE.yaml that was run");
+  command
+      .option("--set", arguments->beside.overrides,
+              "key.path=value that was set in it; may be given again")
+      .may_be_repeated();
+  command.does([arguments, &options] { return plot_files(*arguments, options); });
 }
 
 }  // namespace bbsim::app

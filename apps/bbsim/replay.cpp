@@ -1,4 +1,3 @@
-#include <CLI/App.hpp>
 #include <algorithm>
 #include <filesystem>
 #include <memory>
@@ -197,7 +196,7 @@ ExitCode replay_files(const ReplayArguments& arguments, const Options& options) 
 
 }  // namespace
 
-void add_replay(CLI::App& command, const Options& options, Chosen& chosen) {
+void add_replay(Command& command, const Options& options) {
   command.footer(
       "The page opens in any browser, offline: the rig in three dimensions, plots, what was run. "
       "Of several runs the first one leads and the others are its ghosts. A scenario is run first. "
@@ -212,37 +211,34 @@ void add_replay(CLI::App& command, const Options& options, Chosen& chosen) {
       "  bbsim replay fig2b-sweep.csv --scenario configs/fig2b.yaml\n"
       "  bbsim replay configs/fig2a.yaml -o fig2a.glb");
   const auto arguments = std::make_shared<ReplayArguments>();
-  command.add_option("FILES", arguments->files,
-                     "results (CSV, HDF5) of runs or sweeps, or scenarios; - is CSV on standard "
-                     "input");
+  command.option("FILES", arguments->files,
+                 "results (CSV, HDF5) of runs or sweeps, or scenarios; - is CSV on standard "
+                 "input");
   command
-      .add_option("-o,--output", arguments->output,
-                  "FILE.html, FILE.glb (glTF, for Blender and slides), or - for a page on "
-                  "standard output; default: the first file's name with .html")
-      ->type_name("FILE");
-  may_be_repeated(
-      *command
-           .add_option("--data", arguments->logs,
-                       "LOG.csv of a real rig, shown beside the runs; may be given again")
-           ->type_name("LOG"));
-  may_be_repeated(
-      *command
-           .add_option("--map", arguments->maps,
-                       "COLUMN=NAME[:UNIT],... which column of the log is which of bbsim columns, "
-                       "and its unit; default: the log's names are bbsim's, in SI units")
-           ->type_name("MAP"));
-  command.add_option("--title", arguments->title, "of the page; default: the scenario's")
-      ->type_name("TEXT");
+      .option("-o,--output", arguments->output,
+              "FILE.html, FILE.glb (glTF, for Blender and slides), or - for a page on "
+              "standard output; default: the first file's name with .html")
+      .takes("FILE");
   command
-      .add_option("--summary", arguments->beside.summary,
-                  "FILE.json that `bbsim run --summary` wrote of the result")
-      ->type_name("FILE");
-  command.add_option("--scenario", arguments->beside.scenario, "FILE.yaml that a result is of")
-      ->type_name("FILE");
+      .option("--data", arguments->logs,
+              "LOG.csv of a real rig, shown beside the runs; may be given again")
+      .takes("LOG")
+      .may_be_repeated();
+  command
+      .option("--map", arguments->maps,
+              "COLUMN=NAME[:UNIT],... which column of the log is which of bbsim columns, "
+              "and its unit; default: the log's names are bbsim's, in SI units")
+      .takes("MAP")
+      .may_be_repeated();
+  command.option("--title", arguments->title, "of the page; default: the scenario's").takes("TEXT");
+  command
+      .option("--summary", arguments->beside.summary,
+              "FILE.json that `bbsim run --summary` wrote of the result")
+      .takes("FILE");
+  command.option("--scenario", arguments->beside.scenario, "FILE.yaml that a result is of")
+      .takes("FILE");
   add_overrides(command, arguments->beside.overrides);
-  command.callback([arguments, &options, &chosen] {
-    chosen = [arguments, &options] { return replay_files(*arguments, options); };
-  });
+  command.does([arguments, &options] { return replay_files(*arguments, options); });
 }
 
 }  // namespace bbsim::app

@@ -1,4 +1,3 @@
-#include <CLI/App.hpp>
 #include <deque>
 #include <memory>
 #include <optional>
@@ -137,7 +136,7 @@ ExitCode run(const RunArguments& arguments, const Options& options) {
 
 }  // namespace
 
-void add_run(CLI::App& command, const Options& options, Chosen& chosen) {
+void add_run(Command& command, const Options& options) {
   command.footer(
       measures_footer() +
       "\n\nExamples:\n"
@@ -153,26 +152,24 @@ void add_run(CLI::App& command, const Options& options, Chosen& chosen) {
   const auto arguments = std::make_shared<RunArguments>();
   add_scenario(command, arguments->scenario);
   command
-      .add_option("-o,--output", arguments->output,
-                  "FILE.csv, FILE.h5, or - for CSV on standard output; default: the scenario's "
-                  "name with .csv, in the current folder (of standard input: -)")
-      ->type_name("FILE");
+      .option("-o,--output", arguments->output,
+              "FILE.csv, FILE.h5, or - for CSV on standard output; default: the scenario's "
+              "name with .csv, in the current folder (of standard input: -)")
+      .takes("FILE");
   add_error(command, arguments->error);
   add_measures(command, arguments->measures,
                "print measures of the motion as CSV, measure,value: see below; may be given again");
   command
-      .add_option("--summary", arguments->summary,
-                  "FILE.json, or - for standard output: how the run went, what was modelled, "
-                  "statistics")
-      ->type_name("FILE");
+      .option("--summary", arguments->summary,
+              "FILE.json, or - for standard output: how the run went, what was modelled, "
+              "statistics")
+      .takes("FILE");
   add_part(command, arguments->part);
   command
-      .add_option("--replay", arguments->replay,
-                  "FILE.html: also a page that shows the run, or FILE.glb; as of bbsim replay")
-      ->type_name("FILE");
-  command.callback([arguments, &options, &chosen] {
-    chosen = [arguments, &options] { return run(*arguments, options); };
-  });
+      .option("--replay", arguments->replay,
+              "FILE.html: also a page that shows the run, or FILE.glb; as of bbsim replay")
+      .takes("FILE");
+  command.does([arguments, &options] { return run(*arguments, options); });
 }
 
 }  // namespace bbsim::app

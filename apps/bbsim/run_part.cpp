@@ -53,22 +53,22 @@ std::string identity_of(const Scenario& scenario, const std::vector<file::InputT
 
 }  // namespace
 
-void add_part(CLI::App& command, PartArguments& arguments) {
+void add_part(Command& command, PartArguments& arguments) {
   command
-      .add_option("--save-state", arguments.save,
-                  "FILE: the state at the end of this run, or at --until, or where it is "
-                  "interrupted, to go on from")
-      ->type_name("FILE");
+      .option("--save-state", arguments.save,
+              "FILE: the state at the end of this run, or at --until, or where it is "
+              "interrupted, to go on from")
+      .takes("FILE");
   command
-      .add_option("--from-state", arguments.from,
-                  "go on from a state of the same scenario: the rows that follow, those of one run "
-                  "to the bit")
-      ->type_name("FILE");
+      .option("--from-state", arguments.from,
+              "go on from a state of the same scenario: the rows that follow, those of one run "
+              "to the bit")
+      .takes("FILE");
   command
-      .add_option("--until", arguments.until,
-                  "with --save-state: end this part of the run at that time; time.end stays the "
-                  "end of the whole")
-      ->type_name("TIME");
+      .option("--until", arguments.until,
+              "with --save-state: end this part of the run at that time; time.end stays the "
+              "end of the whole")
+      .takes("TIME");
 }
 
 RunPart::RunPart(const PartArguments& arguments, const Scenario& scenario,

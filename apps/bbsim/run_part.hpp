@@ -1,12 +1,12 @@
 // A run in parts: --save-state, --from-state and --until.
 #pragma once
 
-#include <CLI/App.hpp>
 #include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "command.hpp"
 #include "file/atomic_file.hpp"
 #include "file/outputs.hpp"
 #include "file/table_writer.hpp"
@@ -25,7 +25,7 @@ struct PartArguments {
   [[nodiscard]] bool any() const { return !save.empty() || !from.empty() || !until.empty(); }
 };
 
-void add_part(CLI::App& command, PartArguments& arguments);
+void add_part(Command& command, PartArguments& arguments);
 
 // Which part of its run a command does. Everything throws InputError where bytes could not be those
 // of one run.

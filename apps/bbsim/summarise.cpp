@@ -1,7 +1,5 @@
 #include "record/summarise.hpp"
 
-#include <CLI/App.hpp>
-#include <CLI/Validators.hpp>
 #include <memory>
 #include <string>
 #include <vector>
@@ -44,7 +42,7 @@ ExitCode summarise(const SummariseArguments& arguments) {
 
 }  // namespace
 
-void add_summarise(CLI::App& command, Chosen& chosen) {
+void add_summarise(Command& command, const Options& /*it has nothing to be quiet about*/) {
   command.footer(
       "Of each group the cases that are done count, with the measures that are finite numbers; "
       "`cases` is how many there are. The deviation is that of a sample.\n"
@@ -55,31 +53,27 @@ void add_summarise(CLI::App& command, Chosen& chosen) {
       "  bbsim summarise seeds.csv --by controller.gravity_compensation.kp");
   const auto arguments = std::make_shared<SummariseArguments>();
   command
-      .add_option("SWEEP", arguments->file,
-                  "a result of a sweep: CSV, HDF5 (.h5, .hdf5), or - for CSV on standard input")
-      ->required();
+      .option("SWEEP", arguments->file,
+              "a result of a sweep: CSV, HDF5 (.h5, .hdf5), or - for CSV on standard input")
+      .required();
   command
-      .add_option("--by", arguments->keys,
-                  "cases with one value of these keys are a group; without, all are one")
-      ->type_name("KEY,...")
-      ->delimiter(',')
-      ->allow_extra_args(false);
-  may_be_repeated(
-      *command
-           .add_option("--measure", arguments->measures, "these measures only; may be given again")
-           ->type_name("NAME,..."));
+      .option("--by", arguments->keys,
+              "cases with one value of these keys are a group; without, all are one")
+      .takes("KEY,...")
+      .parted_by_commas();
+  command.option("--measure", arguments->measures, "these measures only; may be given again")
+      .takes("NAME,...")
+      .may_be_repeated();
   command
-      .add_option("--quantiles", arguments->quantiles,
-                  "parts of the cases; default: 0.05,0.25,0.5,0.75,0.95")
-      ->type_name("Q,...")
-      ->delimiter(',')
-      ->allow_extra_args(false);
+      .option("--quantiles", arguments->quantiles,
+              "parts of the cases; default: 0.05,0.25,0.5,0.75,0.95")
+      .takes("Q,...")
+      .parted_by_commas();
   command
-      .add_option("-o,--output", arguments->output,
-                  "FILE.csv, or - for CSV on standard output (default)")
-      ->type_name("FILE");
-  command.callback(
-      [arguments, &chosen] { chosen = [arguments] { return summarise(*arguments); }; });
+      .option("-o,--output", arguments->output,
+              "FILE.csv, or - for CSV on standard output (default)")
+      .takes("FILE");
+  command.does([arguments] { return summarise(*arguments); });
 }
 
 }  // namespace bbsim::app

@@ -1,7 +1,5 @@
 #include "sweep/sweep.hpp"
 
-#include <CLI/App.hpp>
-#include <CLI/Validators.hpp>
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -237,7 +235,7 @@ ExitCode sweep(const SweepArguments& arguments, const Options& options) {
 
 }  // namespace
 
-void add_sweep(CLI::App& command, const Options& options, Chosen& chosen) {
+void add_sweep(Command& command, const Options& options) {
   command.footer(
       "SPEC is linear:FROM:TO:COUNT, log:FROM:TO:COUNT, list:A,B,C, uniform:FROM:TO or "
       "normal:MEAN:SD; values may have units. KEY may be several keys that are tied, each with a "
@@ -251,54 +249,54 @@ void add_sweep(CLI::App& command, const Options& options, Chosen& chosen) {
       "      --shard 2/8 --resume -o part-2of8.csv");
   const auto arguments = std::make_shared<SweepArguments>();
   add_scenario(command, arguments->scenario);
-  may_be_repeated(*command
-                       .add_option("--vary", arguments->vary,
-                                   "values for a key, or for several that are tied, see below; "
-                                   "may be given again; default: the scenario's sweep.vary")
-                       ->type_name("KEY=SPEC"));
   command
-      .add_option("--combine", arguments->combine,
-                  "grid: each value with each (default); zip: the first with the first")
-      ->type_name("HOW")
-      ->check(CLI::IsMember({"grid", "zip"}).description(""));
-  command.add_option("--samples", arguments->samples, "cases to draw for uniform and normal")
-      ->type_name("N")
-      ->check(whole_number(1));
-  command.add_option("--seed", arguments->seed, "of what is drawn; default: 1")
-      ->type_name("N")
-      ->check(whole_number(0));
-  may_be_repeated(*command
-                       .add_option("--measure", arguments->measure,
-                                   "instead of the default measures: min_, max_, rms_ or end_ "
-                                   "and one of bbsim columns but ball_q...; x.RiseTime, "
-                                   "y.Overshoot, ...; \"when x=0.05\" (docs/measures.md); may be "
-                                   "given again")
-                       ->type_name("NAME,..."));
+      .option("--vary", arguments->vary,
+              "values for a key, or for several that are tied, see below; "
+              "may be given again; default: the scenario's sweep.vary")
+      .takes("KEY=SPEC")
+      .may_be_repeated();
   command
-      .add_option("-o,--output", arguments->output,
-                  "FILE.csv, FILE.h5, or - for CSV on standard output; default: the scenario's "
-                  "name with -sweep.csv, in the current folder (of standard input: -)")
-      ->type_name("FILE");
+      .option("--combine", arguments->combine,
+              "grid: each value with each (default); zip: the first with the first")
+      .takes("HOW")
+      .takes_one_of({"grid", "zip"});
+  command.option("--samples", arguments->samples, "cases to draw for uniform and normal")
+      .takes("N")
+      .takes_whole(1);
+  command.option("--seed", arguments->seed, "of what is drawn; default: 1")
+      .takes("N")
+      .takes_whole(0);
   command
-      .add_option("--summary", arguments->summary,
-                  "what the sweep was, how its cases ended, the engine: JSON; - is standard output")
-      ->type_name("FILE");
+      .option("--measure", arguments->measure,
+              "instead of the default measures: min_, max_, rms_ or end_ "
+              "and one of bbsim columns but ball_q...; x.RiseTime, "
+              "y.Overshoot, ...; \"when x=0.05\" (docs/measures.md); may be "
+              "given again")
+      .takes("NAME,...")
+      .may_be_repeated();
   command
-      .add_option("-j,--threads", arguments->threads,
-                  "threads; default: as many as there are processors")
-      ->type_name("N")
-      ->check(whole_number(1, 1024));
+      .option("-o,--output", arguments->output,
+              "FILE.csv, FILE.h5, or - for CSV on standard output; default: the scenario's "
+              "name with -sweep.csv, in the current folder (of standard input: -)")
+      .takes("FILE");
   command
-      .add_option("--shard", arguments->shard,
-                  "only part K of N, from 1; `bbsim merge` puts the parts together")
-      ->type_name("K/N");
-  command.add_flag("--resume", arguments->resume, "go on with a sweep that did not end");
-  command.add_flag("--keep-trajectories", arguments->keep_trajectories,
-                   "keep the output rows of each case too (HDF5)");
+      .option("--summary", arguments->summary,
+              "what the sweep was, how its cases ended, the engine: JSON; - is standard output")
+      .takes("FILE");
+  command
+      .option("-j,--threads", arguments->threads,
+              "threads; default: as many as there are processors")
+      .takes("N")
+      .takes_whole(1, 1024);
+  command
+      .option("--shard", arguments->shard,
+              "only part K of N, from 1; `bbsim merge` puts the parts together")
+      .takes("K/N");
+  command.flag("--resume", arguments->resume, "go on with a sweep that did not end");
+  command.flag("--keep-trajectories", arguments->keep_trajectories,
+               "keep the output rows of each case too (HDF5)");
   add_error(command, arguments->error);
-  command.callback([arguments, &options, &chosen] {
-    chosen = [arguments, &options] { return sweep(*arguments, options); };
-  });
+  command.does([arguments, &options] { return sweep(*arguments, options); });
 }
 
 }  // namespace bbsim::app

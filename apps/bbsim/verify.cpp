@@ -1,6 +1,5 @@
 #include "study/verify.hpp"
 
-#include <CLI/App.hpp>
 #include <algorithm>
 #include <cstddef>
 #include <cstdio>
@@ -125,15 +124,13 @@ ExitCode verify(const VerifyArguments& arguments, const Options& options) {
 
 }  // namespace
 
-void add_verify(CLI::App& command, const Options& options, Chosen& chosen) {
+void add_verify(Command& command, const Options& options) {
   const auto arguments = std::make_shared<VerifyArguments>();
-  command.add_option("SCENARIO", arguments->scenario,
-                     "a YAML file to compare simpler models over, - is standard input; default: "
-                     "the paper's Fig. 2");
+  command.option("SCENARIO", arguments->scenario,
+                 "a YAML file to compare simpler models over, - is standard input; default: "
+                 "the paper's Fig. 2");
   add_overrides(command, arguments->overrides);
-  command.callback([arguments, &options, &chosen] {
-    chosen = [arguments, &options] { return verify(*arguments, options); };
-  });
+  command.does([arguments, &options] { return verify(*arguments, options); });
 }
 
 }  // namespace bbsim::app

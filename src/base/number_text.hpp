@@ -1,11 +1,8 @@
 // Numbers as text: the shortest form that reads back to the same double.
 #pragma once
 
-#include <charconv>
-#include <cmath>
 #include <cstddef>
 #include <string>
-#include <string_view>
 
 namespace bbsim {
 
@@ -14,13 +11,7 @@ inline constexpr std::size_t longest_number = 24;
 
 // Writes `value` at `to`, which has room for longest_number characters; returns the end of the
 // text. A NaN is "nan" whatever its sign and payload; infinities are "inf" and "-inf".
-inline char* write_number(char* to, double value) {
-  if (std::isnan(value)) {
-    constexpr std::string_view nan = "nan";
-    return to + nan.copy(to, nan.size());
-  }
-  return std::to_chars(to, to + longest_number, value).ptr;
-}
+char* write_number(char* to, double value);
 
 inline std::string number_text(double value) {
   char text[longest_number];

@@ -56,20 +56,30 @@ void Rows::begin(const model::Model& model, const model::BallConstants& constant
 }
 
 void Rows::evaluate(const double* times, const double* rows, std::size_t count) {
-  samples_.resize(count);
+  resize(count);
   const std::size_t row_size = model_->row_size();
-  for (std::size_t i = 0; i < count; ++i) {
-    samples_[i] = model_->sample(times[i], rows + i * row_size, detail_);
+  for (std::size_t first = 0; first < count; first += strip) {
+    const std::size_t many = std::min(strip, count - first);
+    samples_.resize(many);
+    for (std::size_t i = 0; i < many; ++i) {
+      samples_[i] = model_->sample(times[first + i], rows + (first + i) * row_size, detail_);
+    }
+    fill(first);
   }
-  fill();
 }
 
 void Rows::evaluate(const model::Sample& sample) {
+  resize(1);
   samples_.assign(1, sample);
-  fill();
+  fill(0);
 }
 
-void Rows::fill() {
+void Rows::resize(std::size_t count) {
+  count_ = count;
+  numbers_.resize(columns_.size() * count);
+}
+
+void Rows::fill(std::size_t first) {
   const std::size_t count = samples_.size();
   if (needs_dynamics_) {
     dynamics_.resize(count);
@@ -84,8 +94,9 @@ void Rows::fill() {
   const RowBlock block{count, samples_.data(), constants_,
                        needs_dynamics_ ? dynamics_.data() : nullptr,
                        turn_ ? orientations_.data() : nullptr};
-  numbers_.resize(columns_.size() * count);
-  for (std::size_t c = 0; c < columns_.size(); ++c) fills_[c](block, &numbers_[c * count]);
+  for (std::size_t c = 0; c < columns_.size(); ++c) {
+    fills_[c](block, &numbers_[c * count_ + first]);
+  }
 }
 
 }  // namespace bbsim::record

@@ -30,11 +30,17 @@ class Rows {
   [[nodiscard]] bool need_dynamics() const { return needs_dynamics_; }
   // A column of the rows that were evaluated last.
   [[nodiscard]] const double* operator[](std::size_t column) const {
-    return numbers_.data() + column * samples_.size();
+    return numbers_.data() + column * count_;
   }
 
  private:
-  void fill();
+  // Of a block so many rows are samples at a time: they stay in the processor's first cache, and
+  // take a start of the program little memory.
+  static constexpr std::size_t strip = 32;
+
+  void resize(std::size_t count);
+  // The columns of the rows that are samples, from row `first` of the block on.
+  void fill(std::size_t first);
 
   std::vector<const scenario::Column*> columns_;
   std::vector<FillColumn> fills_;
@@ -44,7 +50,8 @@ class Rows {
   const model::BallConstants* constants_ = nullptr;
   std::optional<BallTurn> turn_;
 
-  std::vector<model::Sample> samples_;
+  std::size_t count_ = 0;               // rows of the block
+  std::vector<model::Sample> samples_;  // of a strip of it, as what follows from them
   std::vector<model::Dynamics> dynamics_;
   std::vector<Quaternion> orientations_;
   std::vector<double> numbers_;  // column after column

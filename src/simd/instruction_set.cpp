@@ -6,6 +6,17 @@
 
 #include "base/error.hpp"
 
+#if defined(BBSIM_X86_KERNELS) && !defined(__clang__) && __has_include(<sys/platform/x86.h>)
+// What the C library found out when the program was started. The compiler's own
+// __builtin_cpu_supports would ask the processor anew at every start, which in a virtual machine
+// takes microseconds a question.
+// (Clang does not read the header: it has C's _Bool.)
+#include <sys/platform/x86.h>
+#define BBSIM_CPU_HAS(feature, name) CPU_FEATURE_ACTIVE(feature)
+#else
+#define BBSIM_CPU_HAS(feature, name) __builtin_cpu_supports(name)
+#endif
+
 namespace bbsim::simd {
 namespace {
 
@@ -20,12 +31,12 @@ const Candidate candidates[] = {
 #ifdef BBSIM_X86_KERNELS
     {InstructionSet::avx512, "avx512",
      [] {
-       return __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") &&
-              __builtin_cpu_supports("avx512vl") && __builtin_cpu_supports("avx2") &&
-              __builtin_cpu_supports("fma");
+       return BBSIM_CPU_HAS(AVX512F, "avx512f") && BBSIM_CPU_HAS(AVX512DQ, "avx512dq") &&
+              BBSIM_CPU_HAS(AVX512VL, "avx512vl") && BBSIM_CPU_HAS(AVX2, "avx2") &&
+              BBSIM_CPU_HAS(FMA, "fma");
      }},
     {InstructionSet::avx2, "avx2",
-     [] { return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma"); }},
+     [] { return BBSIM_CPU_HAS(AVX2, "avx2") && BBSIM_CPU_HAS(FMA, "fma"); }},
 #endif
 #ifdef __x86_64__
     {InstructionSet::baseline, "sse2", [] { return true; }},

@@ -99,8 +99,8 @@ TEST_CASE("after --resume the time left is told from what is done now") {
       "-j",    "1",   "-o",     "s.csv"};
   std::vector<std::string> resumed = sweep;
   resumed.emplace_back("--resume");
-  (void)on_terminal(sweep, 120, folder.path(), 4);
-  const std::string drawn = on_terminal(resumed, 120, folder.path(), 2);
+  (void)on_terminal(sweep, 120, folder.path(), 2);
+  const std::string drawn = on_terminal(resumed, 120, folder.path(), 3);
   // Seconds of "..., 123 cases/s, 12 s left" at the first look.
   std::size_t at = drawn.find(" left");
   REQUIRE(at != std::string::npos);

@@ -1,0 +1,98 @@
+#include "command.hpp"
+
+#include <CLI/App.hpp>
+#include <CLI/Validators.hpp>
+#include <charconv>
+#include <cmath>
+#include <system_error>
+#include <utility>
+
+#include "describe.hpp"
+
+namespace bbsim::app {
+
+Option& Option::takes(const std::string& type) {
+  option_->type_name(type);
+  return *this;
+}
+
+Option& Option::required() {
+  option_->required();
+  return *this;
+}
+
+Option& Option::shows_default() {
+  option_->capture_default_str();
+  return *this;
+}
+
+Option& Option::parted_by_commas() {
+  option_->delimiter(',')->allow_extra_args(false);
+  return *this;
+}
+
+Option& Option::may_be_repeated() {
+  option_->take_all()->expected(1)->allow_extra_args(false);
+  return *this;
+}
+
+Option& Option::takes_whole(double least, double most) {
+  const auto fault = [least, most](const std::string& text) -> std::string {
+    double value = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    const bool number = error == std::errc() && end == text.data() + text.size();
+    if (number && value >= least && value <= most && value == std::floor(value)) return "";
+    return "found " + text + "; allowed: a whole number from " + short_number(least) +
+           (most < largest_whole ? " to " + short_number(most) : " up");
+  };
+  // Without a description, which help would show for the option's type.
+  option_->check(CLI::Validator(fault, ""));
+  return *this;
+}
+
+Option& Option::takes_one_of(const std::vector<std::string>& words) {
+  option_->check(CLI::IsMember(words).description(""));
+  return *this;
+}
+
+Option& Option::excludes(const Option& other) {
+  option_->excludes(other.option_);
+  return *this;
+}
+
+void Command::footer(const std::string& text) {
+  app_->footer(text);
+}
+
+Option Command::option(const std::string& names, std::string& value, const std::string& what) {
+  return Option(*app_->add_option(names, value, what));
+}
+
+Option Command::option(const std::string& names, std::size_t& value, const std::string& what) {
+  return Option(*app_->add_option(names, value, what));
+}
+
+Option Command::option(const std::string& names, std::optional<double>& value,
+                       const std::string& what) {
+  return Option(*app_->add_option(names, value, what));
+}
+
+Option Command::option(const std::string& names, std::vector<std::string>& values,
+                       const std::string& what) {
+  return Option(*app_->add_option(names, values, what));
+}
+
+Option Command::option(const std::string& names, std::vector<double>& values,
+                       const std::string& what) {
+  return Option(*app_->add_option(names, values, what));
+}
+
+Option Command::flag(const std::string& names, bool& value, const std::string& what) {
+  return Option(*app_->add_flag(names, value, what));
+}
+
+void Command::does(Chosen what) {
+  app_->callback([&chosen = *chosen_, what = std::move(what)] { chosen = what; });
+}
+
+}  // namespace bbsim::app
