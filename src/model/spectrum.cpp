@@ -7,7 +7,7 @@
 
 #include "model/control/sampled_cycle.hpp"
 #include "model/eigenvalues.hpp"
-#include "model/systems/jacobian.hpp"
+#include "model/systems/any_jacobian.hpp"
 
 namespace bbsim::model {
 namespace {
@@ -43,8 +43,10 @@ Eigenvalues sorted_eigenvalues(const Eigen::MatrixXd& matrix) {
 }
 
 Eigenvalues eigenvalues(const Model& model, double t, const double* z) {
-  return std::visit([&](const auto& system) { return sorted_eigenvalues(jacobian(system, t, z)); },
-                    model.system);
+  const auto n = static_cast<Eigen::Index>(model.size());
+  Eigen::MatrixXd matrix(n, n);
+  jacobian(model.system, t, z, matrix.data());
+  return sorted_eigenvalues(matrix);
 }
 
 Eigenvalues closed_loop_poles(const Model& model) {
@@ -54,9 +56,9 @@ Eigenvalues closed_loop_poles(const Model& model) {
         if constexpr (Loop::open_loop || (is_coupled<Loop> && !is_coupled_loop<Loop>)) {
           return {};
         } else {
-          const double home[Loop::size] = {};
           // Where the reference is, is no matter of home.
-          const auto full = jacobian_under(level(loop), decltype(loop.inputs(0.0)){}, home);
+          Eigen::MatrixXd full(Loop::size, Loop::size);
+          jacobian_at_home(level(loop), full.data());
           constexpr int spin = spin_index<Loop>;
           if constexpr (is_coupled_loop<Loop>) {
             if (loop.law().kind == LawKind::held && loop.by != GimbalBy::given_torques) return {};

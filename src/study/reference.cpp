@@ -12,7 +12,7 @@
 
 #include "base/quad.hpp"
 #include "model/spectrum.hpp"
-#include "model/systems/jacobian.hpp"
+#include "model/systems/any_jacobian.hpp"
 #include "study/quad_step.hpp"
 
 namespace bbsim::study {
@@ -21,7 +21,7 @@ namespace {
 template <class System>
 class SystemEquation : public Equation {
  public:
-  explicit SystemEquation(const System& system) : system_(system) {}
+  SystemEquation(const System& system, const model::System& any) : system_(system), any_(any) {}
 
   [[nodiscard]] int size() const override { return System::size; }
   void derivative(double t, const double* z, double* dz) const override {
@@ -29,17 +29,21 @@ class SystemEquation : public Equation {
   }
   void derivative(Quad t, const Quad* z, Quad* dz) const override { system_.derivative(t, z, dz); }
   [[nodiscard]] Eigen::MatrixXd jacobian(double t, const double* z) const override {
-    return model::jacobian(system_, t, z);
+    Eigen::MatrixXd matrix(System::size, System::size);
+    model::jacobian(any_, t, z, matrix.data());
+    return matrix;
   }
 
  private:
   const System& system_;
+  const model::System& any_;  // which holds it
 };
 
 std::unique_ptr<Equation> make_equation(const model::Model& model) {
   return std::visit(
-      [](const auto& system) -> std::unique_ptr<Equation> {
-        return std::make_unique<SystemEquation<std::decay_t<decltype(system)>>>(system);
+      [&](const auto& system) -> std::unique_ptr<Equation> {
+        return std::make_unique<SystemEquation<std::decay_t<decltype(system)>>>(system,
+                                                                                model.system);
       },
       model.system);
 }

@@ -14,7 +14,7 @@
 #include "model/control/linearise.hpp"
 #include "model/control/sampled_cycle.hpp"
 #include "model/control/transmission_zeros.hpp"
-#include "model/systems/jacobian.hpp"
+#include "model/systems/any_jacobian.hpp"
 #include "support/reading.hpp"
 #include "support/scenes.hpp"
 
@@ -197,7 +197,9 @@ TEST_CASE("behind a linkage A is the derivative of the system, where it rests to
   double rates[model::CoupledLoopLayout::states];
   system.derivative(0.0, z, rates);
   for (int i = 0; i < 9; ++i) CHECK(std::abs(rates[i]) < 1e-10);  // it rests
-  const auto full = model::jacobian(system, 0.0, z);
+  constexpr int size = model::CoupledLoopLayout::states;
+  Eigen::Matrix<double, size, size> full;
+  model::jacobian(model.system, 0.0, z, full.data());
   const std::vector<int> states{0, 1, 2, 3, 5, 6, 7, 8};
   const Linearisation made = linear(scene, LinearKind::loop, at);
   REQUIRE(made.system.a.rows() == 8);
@@ -551,7 +553,8 @@ void check_loop(const Scenario& scene, model::LinearPoint at, const std::vector<
   const model::Model model = model::assemble(scene, false);
   const auto& loop = std::get<Loop>(model.system);
   at.reference = loop.reference().at(0.0);
-  const auto full = model::jacobian(loop, 0.0, at.own.data());
+  Eigen::Matrix<double, Loop::size, Loop::size> full;
+  model::jacobian(model.system, 0.0, at.own.data(), full.data());
   const Linearisation made = model::linearise(scene, model, LinearKind::loop, at);
   REQUIRE(made.system.a.rows() == std::ssize(states));
   CHECK((made.system.a - full(states, states)).cwiseAbs().maxCoeff() <

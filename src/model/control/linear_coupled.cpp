@@ -108,10 +108,15 @@ VectorXd states_at(const LinearPoint& at) {
   return z;
 }
 
-template <int n, class Loop>
-void put_states(const LinearPoint& at, simd::WithGradient<n> (&z)[Loop::size]) {
+// Of a loop's states, and of six more variables at most. Where there are fewer it is all the same:
+// a compiler takes ten seconds over a right-hand side with another number of them.
+template <class Loop>
+using NumberOf = simd::WithGradient<Loop::size + 6>;
+
+template <class Loop>
+void put_states(const LinearPoint& at, NumberOf<Loop> (&z)[Loop::size]) {
   const VectorXd values = states_at<Loop>(at);
-  for (int i = 0; i < Loop::size; ++i) z[i] = simd::WithGradient<n>::variable(values[i], i);
+  for (int i = 0; i < Loop::size; ++i) z[i] = NumberOf<Loop>::variable(values[i], i);
 }
 
 // Rates under a reference, and the push of that time.
@@ -130,9 +135,9 @@ void rates_under(const Loop& loop, const std::array<Jet<Number>, 2>& reference, 
 template <class Loop>
 PlantDerivatives differentiate_plant(const Loop& loop, const LinearPoint& at) {
   constexpr int n = Loop::size;
-  using Number = simd::WithGradient<n + 2>;
+  using Number = NumberOf<Loop>;
   Number z[n], dz[n];
-  put_states<n + 2, Loop>(at, z);
+  put_states<Loop>(at, z);
   rates_under(plant_of(loop), reference_for(at.command, z, n), at.time, z, dz);
   return plant_derivatives<n>(dz);
 }
@@ -150,9 +155,9 @@ auto command_of(const Axes& axes, int i) {
 template <class Loop>
 LoopDerivatives differentiate_loop(const Loop& loop, const LinearPoint& at) {
   constexpr int n = Loop::size;
-  using Number = simd::WithGradient<n + 6>;
+  using Number = NumberOf<Loop>;
   Number z[n], dz[n];
-  put_states<n + 6, Loop>(at, z);
+  put_states<Loop>(at, z);
   const auto reference = varied<Number>(at.reference, n);
   rates_under(loop, reference, at.time, z, dz);
   const auto axes = loop.loop.axes(reference, z);
@@ -323,9 +328,9 @@ void see_by(const Sensor* sensor, const Number* z, std::array<Jet<Number>, 2>& r
 template <class Loop>
 PlantDerivatives differentiate_seen(const Loop& loop, const Sensor* sensor, const LinearPoint& at) {
   constexpr int n = Loop::size;
-  using Number = simd::WithGradient<n>;
+  using Number = NumberOf<Loop>;
   Number z[n], dz[n];
-  put_states<n, Loop>(at, z);
+  put_states<Loop>(at, z);
   std::array<Jet<Number>, 2> reference;
   for (std::size_t i = 0; i < 2; ++i) reference[i] = {at.reference[i].value, 0.0, 0.0};
   see_by(sensor, z, reference);

@@ -23,9 +23,10 @@ struct LoopDerivatives {
   Eigen::MatrixXd of_state, of_reference, command_of_state;
 };
 
-// From rates that states, then commands, are the variables of.
-template <int n>
-[[nodiscard]] PlantDerivatives plant_derivatives(const simd::WithGradient<n + 2> (&rates)[n]) {
+// From rates whose variables are states, then commands, and whatever follows.
+template <int n, int variables>
+[[nodiscard]] PlantDerivatives plant_derivatives(const simd::WithGradient<variables> (&rates)[n]) {
+  static_assert(variables >= n + 2);
   return {simd::values(rates), simd::gradients(rates, 0, n), simd::gradients(rates, n, 2)};
 }
 

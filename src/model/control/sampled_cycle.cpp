@@ -12,7 +12,7 @@
 #include "model/control/linear_law.hpp"
 #include "model/control/riccati.hpp"
 #include "model/eigenvalues.hpp"
-#include "model/systems/jacobian.hpp"
+#include "model/systems/any_jacobian.hpp"
 
 namespace bbsim::model {
 namespace {
@@ -54,7 +54,8 @@ std::pair<MatrixXd, MatrixXd> advanced(const MatrixXd& a, const MatrixXd& b, dou
 template <class Loop>
 LinearPlant about_home(Loop& loop, RigMode& mode, const std::vector<int>& of) {
   const double home[Loop::size] = {};
-  const auto full = jacobian(loop, 0.0, home);
+  MatrixXd full(Loop::size, Loop::size);
+  jacobian(loop, 0.0, home, full.data());
   double none[Loop::size], one[Loop::size];
   loop.derivative(0.0, home, none);
   const auto n = static_cast<Eigen::Index>(of.size());

@@ -7,7 +7,7 @@
 #include <type_traits>
 #include <variant>
 
-#include "model/systems/jacobian.hpp"
+#include "model/systems/any_jacobian.hpp"
 #include "solve/cvode/sundials.hpp"
 
 namespace bbsim::solve {
@@ -19,30 +19,54 @@ using sundials::data;
 // CVODE's answer to "try again with a smaller step".
 constexpr int recoverable = 1;
 
+// What CVODE has to do with of a system, its type forgotten.
+struct Equations {
+  const model::System& any;
+  const void* system;  // the one in it
+  std::size_t size;
+  bool coupled;
+  CVRhsFn derivative;
+  CVQuadRhsFn quadrature;
+};
+
+const Equations& equations_in(const void* user_data) {
+  return *static_cast<const Equations*>(user_data);
+}
+
 // The C callbacks. The right-hand side neither allocates nor throws.
 template <class System>
-struct Callbacks {
-  static int derivative(sunrealtype t, N_Vector z, N_Vector dz, void* user_data) {
-    const auto& system = *static_cast<const System*>(user_data);
-    double* rate = N_VGetArrayPointer(dz);
-    system.derivative(t, N_VGetArrayPointer(z), rate);
-    const auto finite = [](double value) { return std::isfinite(value); };
-    return std::all_of(rate, rate + System::size, finite) ? 0 : recoverable;
-  }
+int derivative(sunrealtype t, N_Vector z, N_Vector dz, void* user_data) {
+  const auto& system = *static_cast<const System*>(equations_in(user_data).system);
+  double* rate = N_VGetArrayPointer(dz);
+  system.derivative(t, N_VGetArrayPointer(z), rate);
+  const auto finite = [](double value) { return std::isfinite(value); };
+  return std::all_of(rate, rate + System::size, finite) ? 0 : recoverable;
+}
 
-  static int jacobian(sunrealtype t, N_Vector z, N_Vector, SUNMatrix matrix, void* user_data,
-                      N_Vector, N_Vector, N_Vector) {
-    const auto& system = *static_cast<const System*>(user_data);
-    Eigen::Map<model::JacobianOf<System>> target(SUNDenseMatrix_Data(matrix));  // column-major both
-    target = model::jacobian(system, t, N_VGetArrayPointer(z));
-    return target.allFinite() ? 0 : recoverable;
-  }
+template <class System>
+int quadrature(sunrealtype, N_Vector z, N_Vector rate, void*) {
+  N_VGetArrayPointer(rate)[0] = N_VGetArrayPointer(z)[std::max(0, model::spin_index<System>)];
+  return 0;
+}
 
-  static int quadrature(sunrealtype, N_Vector z, N_Vector rate, void*) {
-    N_VGetArrayPointer(rate)[0] = N_VGetArrayPointer(z)[std::max(0, model::spin_index<System>)];
-    return 0;
-  }
-};
+int jacobian(sunrealtype t, N_Vector z, N_Vector, SUNMatrix matrix, void* user_data, N_Vector,
+             N_Vector, N_Vector) {
+  const Equations& equations = equations_in(user_data);
+  double* const target = SUNDenseMatrix_Data(matrix);
+  model::jacobian(equations.any, t, N_VGetArrayPointer(z), target);
+  const auto finite = [](double value) { return std::isfinite(value); };
+  return std::all_of(target, target + equations.size * equations.size, finite) ? 0 : recoverable;
+}
+
+Equations equations_of(const model::Model& model) {
+  return std::visit(
+      [&](const auto& system) -> Equations {
+        using System = std::decay_t<decltype(system)>;
+        return {model.system,       &system,           System::size, model::is_coupled<System>,
+                derivative<System>, quadrature<System>};
+      },
+      model.system);
+}
 
 const char* explain(int flag) {
   switch (flag) {
@@ -66,24 +90,23 @@ const char* explain(int flag) {
   }
 }
 
-template <class System>
 class CvodeStepper : public Stepper {
  public:
-  CvodeStepper(const System& system, const model::Model& model, Method method,
-               Tolerances tolerances)
+  CvodeStepper(const model::Model& model, Method method, Tolerances tolerances)
       : model_(model),
+        equations_(equations_of(model)),
         method_(method),
         context_(sundials::make_context()),
-        state_(sundials::make_vector(System::size, context_.get())),
-        at_output_(sundials::make_vector(System::size, context_.get())),
+        state_(sundials::make_vector(equations_.size, context_.get())),
+        at_output_(sundials::make_vector(equations_.size, context_.get())),
         cvode_(sundials::created(
             CVodeCreate(method == Method::bdf ? CV_BDF : CV_ADAMS, context_.get()))) {
     std::copy(model.initial.begin(), model.initial.end(), data(state_));
     sundials::silence(memory());
-    check(CVodeInit(memory(), Callbacks<System>::derivative, 0.0, state_.get()), "CVodeInit");
+    check(CVodeInit(memory(), equations_.derivative, 0.0, state_.get()), "CVodeInit");
     check(CVodeSStolerances(memory(), tolerances.rtol, tolerances.atol), "CVodeSStolerances");
     // The callbacks only read it.
-    check(CVodeSetUserData(memory(), const_cast<System*>(&system)), "CVodeSetUserData");
+    check(CVodeSetUserData(memory(), &equations_), "CVodeSetUserData");
     if (method == Method::bdf) {
       use_newton();
     } else {
@@ -95,10 +118,10 @@ class CvodeStepper : public Stepper {
   }
 
   void start(double t, const double* z) override {
-    std::copy(z, z + System::size, data(state_));
+    std::copy(z, z + equations_.size, data(state_));
     if (stepped_) {
       restart(t);
-    } else if (t != 0 || !std::equal(z, z + System::size, model_.initial.begin())) {
+    } else if (t != 0 || !std::equal(z, z + equations_.size, model_.initial.begin())) {
       check(CVodeReInit(memory(), t, state_.get()), "CVodeReInit");
     }
     time_ = t;
@@ -120,20 +143,20 @@ class CvodeStepper : public Stepper {
   }
 
   void evaluate(const double* times, std::size_t count, double* rows) override {
-    const std::size_t row_size = System::size + (model_.gamma ? 1 : 0);
+    const std::size_t row_size = equations_.size + (model_.gamma ? 1 : 0);
     for (std::size_t i = 0; i < count; ++i, rows += row_size) {
       check(CVodeGetDky(memory(), times[i], 0, at_output_.get()), "CVodeGetDky");
-      std::copy_n(data(at_output_), System::size, rows);
+      std::copy_n(data(at_output_), equations_.size, rows);
       if (!model_.gamma) continue;
       check(CVodeGetQuadDky(memory(), times[i], 0, turned_.get()), "CVodeGetQuadDky");
-      rows[System::size] = data(turned_)[0];
+      rows[equations_.size] = data(turned_)[0];
     }
   }
 
   [[nodiscard]] double time() const override { return time_; }
 
   [[nodiscard]] std::vector<double> state() const override {
-    return {data(state_), data(state_) + System::size};
+    return {data(state_), data(state_) + equations_.size};
   }
 
   [[nodiscard]] Statistics statistics() const override {
@@ -148,13 +171,13 @@ class CvodeStepper : public Stepper {
 
   // The state with the largest local error estimate in the solver's own weights.
   [[nodiscard]] std::size_t worst_state() const override {
-    const auto errors = sundials::make_vector(System::size, context_.get());
-    const auto weights = sundials::make_vector(System::size, context_.get());
+    const auto errors = sundials::make_vector(equations_.size, context_.get());
+    const auto weights = sundials::make_vector(equations_.size, context_.get());
     if (CVodeGetEstLocalErrors(memory(), errors.get()) < 0) return 0;
     if (CVodeGetErrWeights(memory(), weights.get()) < 0) return 0;
     std::size_t worst = 0;
     double largest = -1;
-    for (std::size_t i = 0; i < System::size; ++i) {
+    for (std::size_t i = 0; i < equations_.size; ++i) {
       const double weighted = std::abs(data(errors)[i] * data(weights)[i]);
       if (weighted > largest) {
         largest = weighted;
@@ -168,13 +191,13 @@ class CvodeStepper : public Stepper {
   [[nodiscard]] void* memory() const { return cvode_.get(); }
 
   void use_newton() {
-    matrix_ = sundials::DenseMatrix(
-        sundials::created(SUNDenseMatrix(System::size, System::size, context_.get())));
+    const auto n = static_cast<sunindextype>(equations_.size);
+    matrix_ = sundials::DenseMatrix(sundials::created(SUNDenseMatrix(n, n, context_.get())));
     linear_ = sundials::LinearSolver(
         sundials::created(SUNLinSol_Dense(state_.get(), matrix_.get(), context_.get())));
     check(CVodeSetLinearSolver(memory(), linear_.get(), matrix_.get()), "CVodeSetLinearSolver");
-    check(CVodeSetJacFn(memory(), Callbacks<System>::jacobian), "CVodeSetJacFn");
-    if constexpr (model::is_coupled<System>) {
+    check(CVodeSetJacFn(memory(), jacobian), "CVodeSetJacFn");
+    if (equations_.coupled) {
       // The direction of a friction turns as fast as the velocity is small: next to rest an old
       // Jacobian is wrong by decades, which CVODE takes for convergence.
       check(CVodeSetJacEvalFrequency(memory(), 1), "CVodeSetJacEvalFrequency");
@@ -191,7 +214,7 @@ class CvodeStepper : public Stepper {
   void integrate_spin() {
     turned_ = sundials::make_vector(1, context_.get());
     data(turned_)[0] = 0;
-    check(CVodeQuadInit(memory(), Callbacks<System>::quadrature, turned_.get()), "CVodeQuadInit");
+    check(CVodeQuadInit(memory(), equations_.quadrature, turned_.get()), "CVodeQuadInit");
     // No error control of its own: it is the integral of a state that has it. With it, CVODES 6
     // takes 45,000 steps instead of 600 over a stiff servo.
     check(CVodeSetQuadErrCon(memory(), 0), "CVodeSetQuadErrCon");
@@ -236,6 +259,7 @@ class CvodeStepper : public Stepper {
   }
 
   const model::Model& model_;
+  Equations equations_;
   Method method_;
   sundials::Context context_;  // outlives all that is made with it
   sundials::Vector state_, at_output_, turned_;
@@ -253,12 +277,7 @@ class CvodeStepper : public Stepper {
 
 std::unique_ptr<Stepper> make_cvode_stepper(const model::Model& model, Method method,
                                             Tolerances tolerances) {
-  return std::visit(
-      [&](const auto& system) -> std::unique_ptr<Stepper> {
-        using System = std::decay_t<decltype(system)>;
-        return std::make_unique<CvodeStepper<System>>(system, model, method, tolerances);
-      },
-      model.system);
+  return std::make_unique<CvodeStepper>(model, method, tolerances);
 }
 
 }  // namespace bbsim::solve
