@@ -68,30 +68,24 @@ struct alignas(64) PackedTable {
   }
 };
 
-template <class Isa, class System, int s>
-struct Step {
+// All of a step that is the same for systems whose states are alike: what works on numbers that are
+// there. The long parts are functions of their own, since it would take compilers twice as long to
+// see them again for each system. Those are in place that have sums of two products: which of the
+// two is fused may depend on what a compiler sees around them, and results are to stay as they are.
+//
+// The accelerations first_turning to first_turning + turning - 1 are unknowns to the system itself.
+template <class Isa, auto state_motions, int n, int first_turning, int turning, int s>
+struct Collocation {
   using Table = PackedTable<Isa, s>;
   static constexpr Table table{};
-  static constexpr int n = System::size;
-  static constexpr auto motions = System::motions;
-  static constexpr int nv = System::motions.count;
+  static constexpr auto motions = state_motions;
+  static constexpr int nv = motions.count;
   static constexpr int nq = n - nv;  // velocities with a position come first
   static constexpr int lanes = Isa::lanes;
   static constexpr int packs = Table::stages / lanes;
   static constexpr int eigen_packs = Table::pairs / Table::eigen_lanes;
   using P = simd::Pack<Isa, lanes>;
   using E = simd::Pack<Isa, Table::eigen_lanes>;
-  using Inputs = decltype(instance<System>().inputs(P()));
-
-  // Of accelerations that are unknowns to the system: how many, and which is the first.
-  static constexpr int turning = [] {
-    if constexpr (requires { System::first_axis; }) return System::axes;
-    return 0;
-  }();
-  static constexpr int first_turning = [] {
-    if constexpr (requires { System::first_axis; }) return System::first_axis;
-    return 0;
-  }();
 
   // One value a stage, for each velocity or position.
   template <int rows>
@@ -100,7 +94,6 @@ struct Step {
   };
 
   struct alignas(64) Workspace {
-    const System* system;
     double rtol, atol;
     bool gamma;
     bool positions_only;  // in rows
@@ -113,7 +106,6 @@ struct Step {
     double q_weight[nv], v_weight[nv];
     Stages<nv> k, f, v_stage, series;  // series: Legendre coefficients of k
     Stages<nv> q_stage;
-    Inputs inputs[packs];
     double jv[nv][nv], jq[nv][nv], jk[nv][turning + 1];
     E m_re[eigen_packs][nv][nv], m_im[eigen_packs][nv][nv];
     alignas(64) double r_re[nv][Table::pairs], r_im[nv][Table::pairs];
@@ -156,32 +148,6 @@ struct Step {
     }
   }
 
-  template <class Inputs, class Real>
-  BBSIM_INLINE static void derivative_of(const Workspace& w, const Inputs& in, const Real (&z)[n],
-                                         const Real (&given)[turning + 1], Real (&dz)[n]) {
-    if constexpr (turning > 0) {
-      w.system->derivative_of(in, z, given, dz);
-    } else {
-      w.system->derivative_of(in, z, dz);
-    }
-  }
-
-  BBSIM_INLINE static void evaluate_rates(Workspace& w) {
-#pragma GCC unroll 1
-    for (int p = 0; p < packs; ++p) {
-      P z[n], dz[n], given[turning + 1];
-#pragma GCC unroll 8
-      for (int i = 0; i < nv; ++i) {
-        z[motions.of[i].velocity] = P::load(&w.v_stage.of[i][p * lanes]);
-        if (i < nq) z[motions.of[i].position] = P::load(&w.q_stage.of[i][p * lanes]);
-        if (i < turning) given[i] = P::load(&w.k.of[first_turning + i][p * lanes]);
-      }
-      derivative_of(w, w.inputs[p], z, given, dz);
-#pragma GCC unroll 8
-      for (int i = 0; i < nv; ++i) dz[motions.of[i].velocity].store(&w.f.of[i][p * lanes]);
-    }
-  }
-
   // Takes k to the stages of v and q; returns the weighted mean square of their change.
   template <bool measured>
   BBSIM_INLINE static double integrate_stages(Workspace& w) {
@@ -210,36 +176,9 @@ struct Step {
     return sum((change[0] + change[1]) + (change[2] + change[3])) / Table::stages;
   }
 
-  // d k_i / d v_j, d k_i / d q_j and, of those that are given, d k_i / d k_j, at (t, q, v, k),
-  // exactly.
-  static void differentiate(Workspace& w, double t, const double* q, const double* v,
-                            const double* k) {
-    using D = simd::Dual<P>;
-    const auto in = w.system->inputs(P(t));
-    constexpr int directions = padded<n + turning, lanes>;
-    alignas(64) double slope[nv][directions];
-    for (int first = 0; first < directions; first += lanes) {
-      D z[n], dz[n], given[turning + 1];
-      alignas(64) double seed[directions][lanes] = {};
-      for (int l = 0; l < lanes; ++l) seed[first + l][l] = 1;
-      for (int i = 0; i < nv; ++i) {
-        z[motions.of[i].velocity] = D(P(v[i]), P::load(seed[i]));
-        if (i < nq) z[motions.of[i].position] = D(P(q[i]), P::load(seed[nv + i]));
-        if (i < turning) given[i] = D(P(k[first_turning + i]), P::load(seed[n + i]));
-      }
-      derivative_of(w, in, z, given, dz);
-      for (int i = 0; i < nv; ++i) dz[motions.of[i].velocity].slope.store(&slope[i][first]);
-    }
-    for (int i = 0; i < nv; ++i) {
-      for (int j = 0; j < nv; ++j) w.jv[i][j] = slope[i][j];
-      for (int j = 0; j < nq; ++j) w.jq[i][j] = slope[i][nv + j];
-      for (int j = 0; j < turning; ++j) w.jk[i][j] = slope[i][n + j];
-    }
-  }
-
   // The matrices I - Jk - h l Jv - h^2 l^2 Jq for all eigenvalues l, and their LU factors in place,
   // without pivoting; the diagonal holds its own inverse.
-  static void factor(Workspace& w) {
+  [[gnu::noinline]] static void factor(Workspace& w) {
     for (int e = 0; e < eigen_packs; ++e) {
       const E re = w.h * E::load(&table.lambda_re[e * E::size]);
       const E im = w.h * E::load(&table.lambda_im[e * E::size]);
@@ -286,7 +225,7 @@ struct Step {
   }
 
   // Adds the Newton correction to k; the residual f - k is formed in place of f.
-  BBSIM_INLINE static void correct(Workspace& w) {
+  [[gnu::noinline]] static void correct(Workspace& w) {
     for (int i = 0; i < nv; ++i) {
       for (int p = 0; p < packs; ++p) {
         double* const f = &w.f.of[i][p * lanes];
@@ -338,43 +277,8 @@ struct Step {
                                        });
   }
 
-  // Whether a Jacobian next to a state may be off by decades: that of a direction is, where the
-  // velocity is nearly none. Newton's corrections are then small for want of sense, not of error.
-  static constexpr bool steep = requires {
-    System::steep;
-  };
-
-  // The accelerations at (t, q, v) for all stages.
-  static void hold_accelerations(Workspace& w, double t) {
-    P z[n], dz[n];
-    for (int i = 0; i < nv; ++i) {
-      z[motions.of[i].velocity] = P(w.v[i]);
-      if (i < nq) z[motions.of[i].position] = P(w.q[i]);
-    }
-    w.system->derivative_of(w.system->inputs(P(t)), z, dz);
-    for (int i = 0; i < nv; ++i) {
-      for (int p = 0; p < packs; ++p) dz[motions.of[i].velocity].store(&w.k.of[i][p * lanes]);
-    }
-  }
-
-  // How far the stages are from solving their equations, as a velocity in the tolerance's weights.
-  static double residual(Workspace& w) {
-    evaluate_rates(w);
-    double square = 0;
-    for (int i = 0; i < nv; ++i) {
-      for (int j = 0; j < s; ++j) {
-        const double part = w.h * (w.f.of[i][j] - w.k.of[i][j]) * w.v_weight[i];
-        square += part * part;
-      }
-    }
-    return __builtin_sqrt(square / s);
-  }
-
   // First values of k over [t, t + h].
-  static void guess(Workspace& w, double t, double h) {
-    if constexpr (steep) {
-      if (!w.has_guess) return hold_accelerations(w, t);
-    }
+  [[gnu::noinline]] static void guess(Workspace& w, double t, double h) {
     if (!w.has_guess) {
       for (int i = 0; i < nv; ++i) {
         for (int p = 0; p < packs; ++p) P(0.0).store(&w.k.of[i][p * lanes]);
@@ -409,14 +313,12 @@ struct Step {
     }
   }
 
-  static void start(void* workspace, const Start& from) {
-    Workspace& w = *static_cast<Workspace*>(workspace);
-    w.system = static_cast<const System*>(from.system);
+  // From a state.
+  static void prepare(Workspace& w, const Start& from) {
     w.rtol = from.rtol;
     w.atol = from.atol;
     w.gamma = from.gamma;
     w.positions_only = from.positions_only;
-    w.newton = !System::open_loop;
     w.has_guess = false;
     w.accepted = false;
     w.contraction = 1;
@@ -429,125 +331,6 @@ struct Step {
       for (double& term : w.q_series[i]) term = 0;
     }
     weigh(w);
-  }
-
-  static double rate(void* workspace, double t) {
-    Workspace& w = *static_cast<Workspace*>(workspace);
-    constexpr double still[nv] = {};
-    differentiate(w, t, w.q, w.v, still);
-    double jv = 0, jq = 0;
-    for (int i = 0; i < nv; ++i) {
-      // With what comes by way of the gimbal's accelerations.
-      double row_v = 0, row_q = 0;
-      for (int j = 0; j < nv; ++j) {
-        double by_v = w.jv[i][j], by_q = j < nq ? w.jq[i][j] : 0;
-        for (int m = 0; m < turning; ++m) {
-          by_v += w.jk[i][m] * w.jv[first_turning + m][j];
-          if (j < nq) by_q += w.jk[i][m] * w.jq[first_turning + m][j];
-        }
-        row_v += size_of(by_v);
-        row_q += size_of(by_q);
-      }
-      jv = larger_of(row_v, jv);
-      jq = larger_of(row_q, jq);
-    }
-    return larger_of(__builtin_sqrt(jq), jv);
-  }
-
-  static constexpr int most_iterations = 25;
-
-  static void attempt(void* workspace, double t, double h, Attempt* result) {
-    Workspace& w = *static_cast<Workspace*>(workspace);
-    guess(w, t, h);
-    w.t = t;
-    w.h = h;
-    w.has_guess = false;
-    Attempt& a = *result;
-    a = {Verdict::diverged, 0, 0, 0, 0, 0};
-    for (int p = 0; p < packs; ++p) {
-      w.inputs[p] = w.system->inputs(P(t) + P(h) * P::load(&table.c[p * lanes]));
-    }
-    integrate_stages<false>(w);
-    bool factored = false;
-    double last = 0, contraction = w.contraction;
-    const double enough = 0.02, floor = 30 * 2.2e-16 / w.rtol;
-    for (;;) {
-      evaluate_rates(w);
-      if (w.newton) {
-        if (!factored) {
-          // The Jacobian in mid-step.
-          double q[nv], v[nv], k[nv];
-          for (int i = 0; i < nv; ++i) {
-            v[i] = w.v_stage.of[i][s / 2];
-            k[i] = w.k.of[i][s / 2];
-            if (i < nq) q[i] = w.q_stage.of[i][s / 2];
-          }
-          differentiate(w, t + table.c[s / 2] * h, q, v, k);
-          factor(w);
-          factored = true;
-          ++a.jacobians;
-        }
-        correct(w);
-      } else {
-        for (int i = 0; i < nv; ++i) {
-          for (int p = 0; p < packs; ++p) {
-            P::load(&w.f.of[i][p * lanes]).store(&w.k.of[i][p * lanes]);
-          }
-        }
-      }
-      const double change = __builtin_sqrt(integrate_stages<true>(w));
-      ++a.iterations;
-      a.right_hand_sides += s;
-      if (!(change < 1e300)) {
-        a.verdict = Verdict::not_finite;
-        w.contraction = 1;
-        return;
-      }
-      if (change == 0) {
-        contraction = 0;
-        break;
-      }
-      if (a.iterations > 1) {
-        contraction = change / last;
-        if (change > floor && contraction > (w.newton ? 0.9 : 0.3)) {
-          if (!w.newton) {
-            w.newton = true;
-            last = change;
-            continue;
-          }
-          if (a.iterations > 2) {
-            w.contraction = 1;
-            return;
-          }
-        }
-      }
-      last = change;
-      if (change <= floor || change <= enough) break;
-      if (a.iterations > 1 && contraction < 0.95 &&
-          change * contraction / (1 - contraction) <= enough) {
-        break;
-      }
-      if (a.iterations >= most_iterations) {
-        w.contraction = 1;
-        return;
-      }
-    }
-    if constexpr (steep) {
-      constexpr double hardly_solved = 30;  // stiff motors magnify what Newton's iteration leaves
-      a.right_hand_sides += s;
-      if (!(residual(w) <= hardly_solved)) {
-        w.contraction = 1;
-        return;
-      }
-    }
-    a.verdict = Verdict::converged;
-    w.contraction = larger_of(contraction, 0.3 * w.contraction);
-    w.has_guess = true;
-    w.accepted = false;
-    apply<nv, s, Table::stages, P>(
-        table.legendre, w.k.of[0], Table::stages,
-        [&](int i, int p, P sum) { sum.store(&w.series.of[i][p * lanes]); });
-    estimate(w, a);
   }
 
   // Whether gamma is wanted, and velocity i the spin: the first of those without a position.
@@ -576,9 +359,12 @@ struct Step {
     return 2.2e-16 * (from_rates < from_position ? from_rates : from_position) + from_turning;
   }
 
-  // The error from the fall of the last Legendre coefficients of the accelerations: the first one
-  // left out, integrated once for a velocity, twice for a position.
-  static void estimate(Workspace& w, Attempt& a) {
+  // Takes k to its Legendre coefficients, the series. The error is from the fall of the last of
+  // them: the first one left out, integrated once for a velocity, twice for a position.
+  [[gnu::noinline]] static void estimate(Workspace& w, Attempt& a) {
+    apply<nv, s, Table::stages, P>(
+        table.legendre, w.k.of[0], Table::stages,
+        [&](int i, int p, P sum) { sum.store(&w.series.of[i][p * lanes]); });
     const double once = size_of(w.h) / (2 * s + 1);
     for (int i = 0; i < nv; ++i) {
       const double* const k = w.series.of[i];
@@ -737,9 +523,294 @@ struct Step {
       if (i < nq) z[motions.of[i].position] = w.q[i];
     }
   }
+};
 
-  static constexpr Kernel kernel{s,        n,       sizeof(Workspace), &start, &rate,
-                                 &attempt, &accept, &evaluate,         &state};
+// What a system's rates are, and what its states add to them, whatever the number of stages.
+template <class Isa, class System>
+struct SystemRates {
+  static constexpr int n = System::size;
+  static constexpr auto motions = System::motions;
+  static constexpr int nv = motions.count;
+  static constexpr int nq = n - nv;
+  static constexpr int lanes = Isa::lanes;
+  using P = simd::Pack<Isa, lanes>;
+  using Inputs = decltype(instance<System>().inputs(P()));
+
+  // Of accelerations that are unknowns to the system: how many, and which is the first.
+  static constexpr int turning = [] {
+    if constexpr (requires { System::first_axis; }) return System::axes;
+    return 0;
+  }();
+  static constexpr int first_turning = [] {
+    if constexpr (requires { System::first_axis; }) return System::first_axis;
+    return 0;
+  }();
+  template <class Real>
+  using Given = Real[turning + 1];
+
+  // Whether a Jacobian next to a state may be off by decades: that of a direction is, where the
+  // velocity is nearly none. Newton's corrections are then small for want of sense, not of error.
+  static constexpr bool steep = requires { System::steep; };
+
+  template <class Real>
+  BBSIM_INLINE static void rates(const System& system, const Inputs& in, const Real* z,
+                                 const Given<Real>& given, Real* dz) {
+    if constexpr (turning > 0) {
+      system.derivative_of(in, z, given, dz);
+    } else if constexpr (steep) {
+      call_rates(system, in, z, dz);
+    } else {
+      system.derivative_of(in, z, dz);
+    }
+  }
+
+  // d k_i / d v_j, d k_i / d q_j and, of those that are given, d k_i / d k_j, at (t, q, v, k),
+  // exactly.
+  BBSIM_INLINE static void differentiate(const System& system, double t, const double* q,
+                                         const double* v, const double* k, double (&jv)[nv][nv],
+                                         double (&jq)[nv][nv], double (&jk)[nv][turning + 1]) {
+    if constexpr (steep) {
+      call_slopes(system, t, q, v, k, jv, jq, jk);
+    } else {
+      slopes(system, t, q, v, k, jv, jq, jk);
+    }
+  }
+
+ private:
+  // Long right-hand sides stand once.
+  [[gnu::noinline]] static void call_rates(const System& system, const Inputs& in, const P* z,
+                                           P* dz) {
+    system.derivative_of(in, z, dz);
+  }
+  [[gnu::noinline]] static void call_slopes(const System& system, double t, const double* q,
+                                            const double* v, const double* k, double (&jv)[nv][nv],
+                                            double (&jq)[nv][nv], double (&jk)[nv][turning + 1]) {
+    slopes(system, t, q, v, k, jv, jq, jk);
+  }
+
+  BBSIM_INLINE static void slopes(const System& system, double t, const double* q, const double* v,
+                                  const double* k, double (&jv)[nv][nv], double (&jq)[nv][nv],
+                                  double (&jk)[nv][turning + 1]) {
+    using D = simd::Dual<P>;
+    const auto in = system.inputs(P(t));
+    constexpr int directions = padded<n + turning, lanes>;
+    alignas(64) double slope[nv][directions];
+    for (int first = 0; first < directions; first += lanes) {
+      D z[n], dz[n], given[turning + 1];
+      alignas(64) double seed[directions][lanes] = {};
+      for (int l = 0; l < lanes; ++l) seed[first + l][l] = 1;
+      for (int i = 0; i < nv; ++i) {
+        z[motions.of[i].velocity] = D(P(v[i]), P::load(seed[i]));
+        if (i < nq) z[motions.of[i].position] = D(P(q[i]), P::load(seed[nv + i]));
+        if (i < turning) given[i] = D(P(k[first_turning + i]), P::load(seed[n + i]));
+      }
+      if constexpr (turning > 0) {
+        system.derivative_of(in, z, given, dz);
+      } else {
+        system.derivative_of(in, z, dz);
+      }
+      for (int i = 0; i < nv; ++i) dz[motions.of[i].velocity].slope.store(&slope[i][first]);
+    }
+    for (int i = 0; i < nv; ++i) {
+      for (int j = 0; j < nv; ++j) jv[i][j] = slope[i][j];
+      for (int j = 0; j < nq; ++j) jq[i][j] = slope[i][nv + j];
+      for (int j = 0; j < turning; ++j) jk[i][j] = slope[i][n + j];
+    }
+  }
+};
+
+template <class Isa, class System, int s>
+struct Step
+    : Collocation<Isa, System::motions, System::size, SystemRates<Isa, System>::first_turning,
+                  SystemRates<Isa, System>::turning, s> {
+  using Rates = SystemRates<Isa, System>;
+  static constexpr int turning = Rates::turning, first_turning = Rates::first_turning;
+  using Base = Collocation<Isa, System::motions, System::size, first_turning, turning, s>;
+  using Base::table, Base::motions, Base::nv, Base::nq, Base::lanes, Base::packs;
+  using typename Base::P, typename Base::Table;
+  static constexpr int n = System::size;
+  static constexpr bool steep = Rates::steep;
+
+  // Begins with what Collocation works on.
+  struct alignas(64) Workspace : Base::Workspace {
+    const System* system;
+    typename Rates::Inputs inputs[packs];
+  };
+
+  BBSIM_INLINE static void evaluate_rates(Workspace& w) {
+#pragma GCC unroll 1
+    for (int p = 0; p < packs; ++p) {
+      P z[n], dz[n], given[turning + 1];
+#pragma GCC unroll 8
+      for (int i = 0; i < nv; ++i) {
+        z[motions.of[i].velocity] = P::load(&w.v_stage.of[i][p * lanes]);
+        if (i < nq) z[motions.of[i].position] = P::load(&w.q_stage.of[i][p * lanes]);
+        if (i < turning) given[i] = P::load(&w.k.of[first_turning + i][p * lanes]);
+      }
+      Rates::rates(*w.system, w.inputs[p], z, given, dz);
+#pragma GCC unroll 8
+      for (int i = 0; i < nv; ++i) dz[motions.of[i].velocity].store(&w.f.of[i][p * lanes]);
+    }
+  }
+
+  // The accelerations at (t, q, v) for all stages.
+  static void hold_accelerations(Workspace& w, double t) {
+    static_assert(turning == 0);
+    P z[n], dz[n], given[1];
+    for (int i = 0; i < nv; ++i) {
+      z[motions.of[i].velocity] = P(w.v[i]);
+      if (i < nq) z[motions.of[i].position] = P(w.q[i]);
+    }
+    Rates::rates(*w.system, w.system->inputs(P(t)), z, given, dz);
+    for (int i = 0; i < nv; ++i) {
+      for (int p = 0; p < packs; ++p) dz[motions.of[i].velocity].store(&w.k.of[i][p * lanes]);
+    }
+  }
+
+  // How far the stages are from solving their equations, as a velocity in the tolerance's weights.
+  static double residual(Workspace& w) {
+    evaluate_rates(w);
+    double square = 0;
+    for (int i = 0; i < nv; ++i) {
+      for (int j = 0; j < s; ++j) {
+        const double part = w.h * (w.f.of[i][j] - w.k.of[i][j]) * w.v_weight[i];
+        square += part * part;
+      }
+    }
+    return __builtin_sqrt(square / s);
+  }
+
+  static void start(void* workspace, const Start& from) {
+    Workspace& w = *static_cast<Workspace*>(workspace);
+    w.system = static_cast<const System*>(from.system);
+    w.newton = !System::open_loop;
+    Base::prepare(w, from);
+  }
+
+  static double rate(void* workspace, double t) {
+    Workspace& w = *static_cast<Workspace*>(workspace);
+    constexpr double still[nv] = {};
+    Rates::differentiate(*w.system, t, w.q, w.v, still, w.jv, w.jq, w.jk);
+    double jv = 0, jq = 0;
+    for (int i = 0; i < nv; ++i) {
+      // With what comes by way of the gimbal's accelerations.
+      double row_v = 0, row_q = 0;
+      for (int j = 0; j < nv; ++j) {
+        double by_v = w.jv[i][j], by_q = j < nq ? w.jq[i][j] : 0;
+        for (int m = 0; m < turning; ++m) {
+          by_v += w.jk[i][m] * w.jv[first_turning + m][j];
+          if (j < nq) by_q += w.jk[i][m] * w.jq[first_turning + m][j];
+        }
+        row_v += size_of(by_v);
+        row_q += size_of(by_q);
+      }
+      jv = larger_of(row_v, jv);
+      jq = larger_of(row_q, jq);
+    }
+    return larger_of(__builtin_sqrt(jq), jv);
+  }
+
+  static constexpr int most_iterations = 25;
+
+  static void attempt(void* workspace, double t, double h, Attempt* result) {
+    Workspace& w = *static_cast<Workspace*>(workspace);
+    bool guessed = false;
+    if constexpr (steep) {
+      guessed = !w.has_guess;
+      if (guessed) hold_accelerations(w, t);
+    }
+    if (!guessed) Base::guess(w, t, h);
+    w.t = t;
+    w.h = h;
+    w.has_guess = false;
+    Attempt& a = *result;
+    a = {Verdict::diverged, 0, 0, 0, 0, 0};
+    for (int p = 0; p < packs; ++p) {
+      w.inputs[p] = w.system->inputs(P(t) + P(h) * P::load(&table.c[p * lanes]));
+    }
+    Base::template integrate_stages<false>(w);
+    bool factored = false;
+    double last = 0, contraction = w.contraction;
+    const double enough = 0.02, floor = 30 * 2.2e-16 / w.rtol;
+    for (;;) {
+      evaluate_rates(w);
+      if (w.newton) {
+        if (!factored) {
+          // The Jacobian in mid-step.
+          double q[nv], v[nv], k[nv];
+          for (int i = 0; i < nv; ++i) {
+            v[i] = w.v_stage.of[i][s / 2];
+            k[i] = w.k.of[i][s / 2];
+            if (i < nq) q[i] = w.q_stage.of[i][s / 2];
+          }
+          Rates::differentiate(*w.system, t + table.c[s / 2] * h, q, v, k, w.jv, w.jq, w.jk);
+          Base::factor(w);
+          factored = true;
+          ++a.jacobians;
+        }
+        Base::correct(w);
+      } else {
+        for (int i = 0; i < nv; ++i) {
+          for (int p = 0; p < packs; ++p) {
+            P::load(&w.f.of[i][p * lanes]).store(&w.k.of[i][p * lanes]);
+          }
+        }
+      }
+      const double change = __builtin_sqrt(Base::template integrate_stages<true>(w));
+      ++a.iterations;
+      a.right_hand_sides += s;
+      if (!(change < 1e300)) {
+        a.verdict = Verdict::not_finite;
+        w.contraction = 1;
+        return;
+      }
+      if (change == 0) {
+        contraction = 0;
+        break;
+      }
+      if (a.iterations > 1) {
+        contraction = change / last;
+        if (change > floor && contraction > (w.newton ? 0.9 : 0.3)) {
+          if (!w.newton) {
+            w.newton = true;
+            last = change;
+            continue;
+          }
+          if (a.iterations > 2) {
+            w.contraction = 1;
+            return;
+          }
+        }
+      }
+      last = change;
+      if (change <= floor || change <= enough) break;
+      if (a.iterations > 1 && contraction < 0.95 &&
+          change * contraction / (1 - contraction) <= enough) {
+        break;
+      }
+      if (a.iterations >= most_iterations) {
+        w.contraction = 1;
+        return;
+      }
+    }
+    if constexpr (steep) {
+      constexpr double hardly_solved = 30;  // stiff motors magnify what Newton's iteration leaves
+      a.right_hand_sides += s;
+      if (!(residual(w) <= hardly_solved)) {
+        w.contraction = 1;
+        return;
+      }
+    }
+    a.verdict = Verdict::converged;
+    w.contraction = larger_of(contraction, 0.3 * w.contraction);
+    w.has_guess = true;
+    w.accepted = false;
+    Base::estimate(w, a);
+  }
+
+  static constexpr Kernel kernel{s,           n,        sizeof(Workspace), &start,
+                                 &rate,       &attempt, &Base::accept,     &Base::evaluate,
+                                 &Base::state};
 };
 
 }  // namespace bbsim::solve::radau
