@@ -26,9 +26,9 @@ constexpr LostLanes<group>::Patience patience{.notable = 1, .holding_back = 1e8,
 constexpr double unsolved = 1e6;
 
 // Steps each of which is so much shorter than the one before, so many in a row, are mostly on the
-// way to an instant beyond which there is no motion. Loops that ask for them are given up: another
-// integrator looks at them more closely, and says why they end.
-constexpr double shorter = 0.85, asking = 1e-2;
+// way to an instant beyond which there is no motion. Loops that ask for them are given up, unless
+// they arrive before it: another integrator looks at them more closely, and says why they end.
+constexpr double shorter = 0.85, asking = 0.1;
 constexpr int long_since = 4;
 
 // How steps shrink.
@@ -40,9 +40,13 @@ class Shrinking {
     count_ = ratio_ < shorter ? count_ + 1 : 0;
     last_ = h;
   }
-  [[nodiscard]] bool lasts() const { return count_ >= long_since; }
-  // How long the next one may be, relative to the last: what shrank twice goes on to.
-  [[nodiscard]] double most() const { return count_ >= 2 ? ratio_ : infinite; }
+  // Whether they have shrunk for long, and would not get so far if they went on like that.
+  [[nodiscard]] bool ends_before(double left) const {
+    return count_ >= long_since && last_ * ratio_ < left * (1 - ratio_);
+  }
+  // How much longer than the last one the next may be, if its error alone would have it grow like
+  // that: what shrank twice is going to shrink as much again, which spares rejections.
+  [[nodiscard]] double bound(double growth) const { return count_ >= 2 ? ratio_ * growth : growth; }
 
  private:
   double last_ = 0, ratio_ = 1;
@@ -197,12 +201,14 @@ std::array<bool, group> LoopLanes::integrate(const LoopCase* cases, int count) {
       kernel_->accept(workspace_.get());
       ++statistics_.steps;
       shrinking.take(h);
-      if (!arrives && shrinking.lasts()) {
+      if (shrinking.ends_before(end - t)) {
         for (std::size_t lane = 0; lane < group; ++lane) {
           if (errors[lane] >= asking * worst) lost_.give_up(lane);
         }
+        shrinking = {};
       }
-      next = h * std::min(rejections > 0 ? std::min(growth, 1.0) : growth, shrinking.most());
+      const double bound = shrinking.bound(growth);
+      next = h * (rejections > 0 ? std::min(bound, 1.0) : bound);
       rejections = 0;
     } else {
       next = h * std::min(0.8, growth);
