@@ -70,8 +70,8 @@ struct alignas(64) PackedTable {
 
 // All of a step that is the same for systems whose states are alike: what works on numbers that are
 // there. The long parts are functions of their own, since it would take compilers twice as long to
-// see them again for each system. Those are in place that have sums of two products: which of the
-// two is fused may depend on what a compiler sees around them, and results are to stay as they are.
+// see them again for each system. Those are in place whose results would change: which product of a
+// sum of two is fused may depend on what a compiler sees around it.
 //
 // The accelerations first_turning to first_turning + turning - 1 are unknowns to the system itself.
 template <class Isa, auto state_motions, int n, int first_turning, int turning, int s>
