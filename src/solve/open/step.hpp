@@ -15,6 +15,7 @@
 #include "simd/affine.hpp"
 #include "simd/peaks.hpp"
 #include "solve/lane_courses.hpp"
+#include "solve/lane_error.hpp"
 #include "solve/open/kernel.hpp"
 #include "solve/radau/tables.hpp"
 
@@ -340,43 +341,23 @@ struct Step : Lanes<Isa> {
     }
   }
 
-  // The error from the fall of the last Legendre coefficients, as in radau/step.hpp: the first one
-  // left out, integrated once for a velocity, twice for a position. Squared, so that no root is
-  // taken.
+  // The first coefficient left out, integrated once for a velocity, twice for a position.
   [[gnu::flatten]] static P estimate(const Workspace& w, int p) {
     const Pack& of = w.of[p];
     constexpr double once = 1.0 / (2 * s + 1);
     const double twice = once * once * w.h;
-    P series[4][nv];
-#pragma GCC unroll 4
-    for (int m = 0; m < 4; ++m) {
-#pragma GCC unroll 3
-      for (int i = 0; i < nv; ++i) series[m][i] = P(0.0);
-    }
-#pragma GCC unroll 1
-    for (int j = 0; j < s; ++j) {
-#pragma GCC unroll 4
-      for (int m = 0; m < 4; ++m) {
-        const P part(rows.legendre[j][s - 4 + m]);
-#pragma GCC unroll 3
-        for (int i = 0; i < nv; ++i) series[m][i] += part * of.k[j][i];
-      }
-    }
+    const LastCoefficients<P, s, nv> series(rows.legendre, of.k);
     P error(0.0);
     Mask finite = ~Mask{};
 #pragma GCC unroll 3
     for (int i = 0; i < nv; ++i) {
-      const P before = simd::larger_of(simd::size_of(series[0][i]), simd::size_of(series[1][i]));
-      const P tail = simd::larger_of(simd::size_of(series[2][i]), simd::size_of(series[3][i]));
-      const P fall = simd::smaller_of(P(1.0), tail / (before + P(1e-300)));
       finite &= simd::is_finite(of.v_end[i]);
       P weight = P(once) * of.v_weight[i];
       if (i < nq) {
         finite &= simd::is_finite(of.q_end[i]);
         weight = simd::larger_of(weight, P(twice) * of.q_weight[i]);
       }
-      const P weighted = tail * weight;
-      error = simd::larger_of(error, weighted * weighted * fall);
+      error = simd::larger_of(error, series.left_out_squared(i, weight));
     }
     return P::of((Vector)((Mask)error.v | ~finite));  // all bits: no number
   }

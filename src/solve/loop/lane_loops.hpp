@@ -1,0 +1,167 @@
+// Eight closed loops, one in each lane of some packs: their equations, and these differentiated.
+//
+// Included only by the kernels; see simd/pack.hpp for why all is inlined or tagged.
+#pragma once
+
+#include <array>
+#include <utility>
+
+#include "model/systems/system.hpp"
+#include "simd/compare.hpp"
+#include "simd/dual.hpp"
+#include "solve/loop/kernel.hpp"
+
+namespace bbsim::solve::loop {
+
+using simd::is_finite, simd::larger_of, simd::size_of;
+
+template <class Isa, Drives drives>
+struct LaneLoops {
+  static constexpr int lanes = Isa::lanes;
+  static constexpr int packs = group / lanes;
+  using P = simd::Pack<Isa, lanes>;
+  using Vector = typename P::Vector;
+  using Mask = typename P::Mask;
+  // Of which come the layout of the states and what they are named.
+  using System = model::ClosedLoop<model::Shape::full, drives>;
+  static constexpr int n = System::size;
+  static constexpr auto motions = System::motions;
+  static constexpr int nv = System::motions.count;
+  static constexpr int nq = n - nv;  // velocities with a position come first
+  static_assert(n == states);
+  // Among the velocities.
+  static constexpr int x = 0, y = 1, phi = 2, theta = 3, spin = 4;
+  static_assert(motions.of[phi].position == 5 && motions.of[theta].position == 6);
+  static_assert(nq == 4);
+  using Reference = std::array<model::Jet<P>, 2>;
+
+  // The loops of one pack.
+  struct Loop {
+    P start[2], rate[2], frequency, sine[2], cosine[2];
+    P radius, gravity;
+    model::BasicGains<P> gains;
+    model::BasicServoLaw<P> servo;
+
+    BBSIM_INLINE Loop(const Loops& from, int p)
+        : start{lane(from.start[0], p), lane(from.start[1], p)},
+          rate{lane(from.rate[0], p), lane(from.rate[1], p)},
+          frequency(lane(from.frequency, p)),
+          sine{lane(from.sine[0], p), lane(from.sine[1], p)},
+          cosine{lane(from.cosine[0], p), lane(from.cosine[1], p)},
+          radius(lane(from.radius, p)),
+          gravity(lane(from.gravity, p)),
+          gains{{{lane(from.kv[0][0], p), lane(from.kv[0][1], p)},
+                 {lane(from.kv[1][0], p), lane(from.kv[1][1], p)}},
+                {{lane(from.kp[0][0], p), lane(from.kp[0][1], p)},
+                 {lane(from.kp[1][0], p), lane(from.kp[1][1], p)}}},
+          servo{lane(from.omega_n, p), lane(from.zeta, p)} {}
+
+    BBSIM_INLINE static P lane(const double* values, int p) { return P::load(values + p * lanes); }
+
+    BBSIM_INLINE Reference reference(P t) const {
+      const SinCos<P> wave = sin_cos(frequency * t);
+      Reference jets;
+#pragma GCC unroll 2
+      for (std::size_t i = 0; i < 2; ++i) {
+        jets[i].value = start[i] + rate[i] * t + (sine[i] * wave.sin + cosine[i] * wave.cos);
+        jets[i].rate = rate[i] + frequency * (sine[i] * wave.cos - cosine[i] * wave.sin);
+        jets[i].acceleration = P(0.0);  // no part of the loop
+      }
+      return jets;
+    }
+  };
+
+  template <class Real>
+  BBSIM_INLINE static model::RollingState<Real, Real, Real> ball_of(const Real (&q)[nq],
+                                                                    const Real (&v)[nv]) {
+    return {q[x], q[y], v[x], v[y], v[spin]};
+  }
+
+  // The gimbal's accelerations at a state.
+  template <class Real>
+  BBSIM_INLINE static void turn(const Loop& loop, const Reference& reference, const Real (&q)[nq],
+                                const Real (&v)[nv], Real (&turning)[2]) {
+    const auto ball = ball_of(q, v);
+#pragma GCC unroll 2
+    for (std::size_t row = 0; row < 2; ++row) {
+      const Real u = model::command<Real>(loop.gains, row, ball, reference);
+      turning[row] = loop.servo.template acceleration<drives, Real>(u, q[phi + row], v[phi + row]);
+    }
+  }
+
+  // The ball's accelerations x'', y'', u' at a state in which the gimbal's are given.
+  template <class Real>
+  BBSIM_INLINE static void roll(const Loop& loop, const Real (&q)[nq], const Real (&v)[nv],
+                                const Real (&turning)[2], Real (&k)[3]) {
+    roll(loop, sin_cos(q[phi]), sin_cos(q[theta]), q, v, turning, k);
+  }
+  template <class Real>
+  BBSIM_INLINE static void roll(const Loop& loop, const SinCos<Real>& phi_at,
+                                const SinCos<Real>& theta_at, const Real (&q)[nq],
+                                const Real (&v)[nv], const Real (&turning)[2], Real (&k)[3]) {
+    const auto ball = ball_of(q, v);
+    const model::Axis<Real> first{phi_at.sin, phi_at.cos, v[phi], turning[0]};
+    const model::Axis<Real> second{theta_at.sin, theta_at.cos, v[theta], turning[1]};
+    k[0] = model::x_acceleration<Real>(first, second, ball, loop.radius, loop.gravity);
+    k[1] = model::y_acceleration<Real>(first, second, ball, loop.radius, loop.gravity);
+    k[2] = model::u_acceleration<Real>(first, second, ball, loop.radius);
+  }
+
+  // Accelerations' derivatives, but for the spin's and by the spin: the gimbal's by the states, the
+  // ball's by these and by the gimbal's accelerations.
+  struct Jacobian {
+    P by_v[nq][nq], by_q[nq][nq], by_turning[2][2];
+  };
+
+  template <int direction>
+  BBSIM_INLINE static void differentiate_by(const Loop& loop, const Reference& reference,
+                                            const P (&q)[nq], const P (&v)[nv],
+                                            const P (&turning)[2], Jacobian& at) {
+    using D = simd::Dual<P, simd::Angles::moderate>;
+    D q_moving[nq], v_moving[nv], turning_moving[2], rolling[3];
+#pragma GCC unroll 8
+    for (int i = 0; i < nv; ++i) {
+      v_moving[i] = D(v[i], P(i == direction ? 1.0 : 0.0));
+      if (i < nq) q_moving[i] = D(q[i], P(nq + i == direction ? 1.0 : 0.0));
+      if (i < 2) turning_moving[i] = D(turning[i], P(2 * nq + i == direction ? 1.0 : 0.0));
+    }
+    roll(loop, q_moving, v_moving, turning_moving, rolling);
+    if constexpr (direction < 2 * nq) {
+      turn(loop, reference, q_moving, v_moving, turning_moving);
+      auto& by = direction < nq ? at.by_v : at.by_q;
+      constexpr int column = direction % nq;
+#pragma GCC unroll 2
+      for (int i = 0; i < 2; ++i) {
+        by[i][column] = rolling[i].slope;
+        by[phi + i][column] = turning_moving[i].slope;
+      }
+    } else {
+      for (int i = 0; i < 2; ++i) at.by_turning[i][direction - 2 * nq] = rolling[i].slope;
+    }
+  }
+
+  template <int... direction>
+  BBSIM_INLINE static void differentiate(const Loop& loop, const Reference& reference,
+                                         const P (&q)[nq], const P (&v)[nv], const P (&turning)[2],
+                                         Jacobian& at, std::integer_sequence<int, direction...>) {
+    (differentiate_by<direction>(loop, reference, q, v, turning, at), ...);
+  }
+
+  BBSIM_INLINE static void differentiate(const Loop& loop, const Reference& reference,
+                                         const P (&q)[nq], const P (&v)[nv], const P (&turning)[2],
+                                         Jacobian& at) {
+    differentiate(loop, reference, q, v, turning, at,
+                  std::make_integer_sequence<int, 2 * nq + 2>());
+  }
+
+  // What the tolerances count in place of the velocities: without what a servo's own motion gives
+  // the ball at once, -r phi'' and r theta'', by (27) near home.
+  BBSIM_INLINE static void without_servos(const Loop& loop, P (&v)[nv]) {
+    if constexpr (drives == Drives::angle) {
+      v[x] += loop.radius * v[phi];
+      v[y] -= loop.radius * v[theta];
+    }
+  }
+};
+
+}  // namespace bbsim::solve::loop

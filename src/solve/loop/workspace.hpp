@@ -1,0 +1,55 @@
+// What a group of closed loops has in memory from step to step, and its motion between the nodes.
+//
+// Included only by the kernels; see simd/pack.hpp for why all is inlined or tagged.
+#pragma once
+
+#include "solve/lane_courses.hpp"
+#include "solve/loop/newton.hpp"
+
+namespace bbsim::solve::loop {
+
+template <class Isa, Drives drives, int nodes>
+struct Work : Newton<Isa, drives, nodes> {
+  using Base = Newton<Isa, drives, nodes>;
+  using Base::nq, Base::nv, Base::packs, Base::rows;
+  using typename Base::P, typename Base::Matrices, typename Base::Reference;
+  static constexpr int s = nodes;
+  using Courses = LaneCourses<P, s, 2>;
+  enum Half : int { places, angles };  // of the positions, and their velocities
+
+  struct Pack {
+    P q[nq], v[nv];  // the present state
+    P k_end[nv];     // accelerations there
+    // At the nodes of the last attempt.
+    P k[s][nv], q_at[s][nq], v_at[s][nv], residual[s][nq];
+    Reference reference[s];
+    Matrices newton;
+    P q_weight[nq], v_weight[nv];  // one over the tolerances
+    Courses courses[2];            // of the last attempt, by halves
+  };
+
+  struct alignas(64) Workspace {
+    Loops loops;
+    double rtol, atol;
+    double t, h;      // of the last attempt
+    bool courses[2];  // whether they are those of it
+    Pack of[packs];
+  };
+
+  template <Half half>
+  [[gnu::flatten]] static void make_courses(Workspace& w) {
+    if (w.courses[half]) return;
+    w.courses[half] = true;
+    constexpr int first = 2 * half;
+    for (int p = 0; p < packs; ++p) {
+      Pack& of = w.of[p];
+      of.courses[half].make(
+          rows.legendre, P(w.h),
+          [&](int j, int i) __attribute__((always_inline)) { return P(w.h) * of.k[j][first + i]; },
+          [&](int i) __attribute__((always_inline)) { return of.q[first + i]; },
+          [&](int i) __attribute__((always_inline)) { return of.v[first + i]; });
+    }
+  }
+};
+
+}  // namespace bbsim::solve::loop
