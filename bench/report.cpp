@@ -64,7 +64,7 @@ std::string ratio(std::optional<double> own, std::optional<double> other,
 
 std::string ratio_table(const std::vector<Measured>& scenes, const std::string& kernels) {
   std::string table =
-      "scene         error (m)  radau us dopri5 us    BDF us  Adams us"
+      "scene         error (m)  radau us dopri5 us   by hand    BDF us  Adams us"
       "   radau/dopri5  (target)         radau/BDF  (target)\n";
   for (const Measured& measured : scenes) {
     for (const double error : {1e-6, 1e-9, 1e-12}) {
@@ -73,7 +73,7 @@ std::string ratio_table(const std::vector<Measured>& scenes, const std::string& 
       std::string line =
           measured.scene + std::string(14 - std::min<std::size_t>(13, measured.scene.size()), ' ');
       line += padded(text("%.0e", error), 9) + microseconds(own) + microseconds(dopri5) +
-              microseconds(bdf) + microseconds(time("adams"));
+              microseconds(time("by hand")) + microseconds(bdf) + microseconds(time("adams"));
       line += ratio(own, dopri5, target(measured.scene, "dopri5", error, kernels));
       line += "   " + ratio(own, bdf, target(measured.scene, "bdf", error, kernels));
       line.erase(line.find_last_not_of(' ') + 1);

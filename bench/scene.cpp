@@ -25,8 +25,14 @@ Scene load_scene(const std::string& folder, const std::string& name) {
   const std::string file = folder + "/reference/" + name + ".csv";
   const Scenario scenario = read_scenario(folder + "/scenarios/" + name + ".yaml");
   const file::TableData table = file::read_table(file);
-  Scene scene{name, model::assemble(scenario, false), solve::OutputGrid(scenario.time),
-              {},   column(table, "x", file),         column(table, "y", file)};
+  Scene scene{name,
+              model::assemble(scenario, false),
+              solve::OutputGrid(scenario.time),
+              {},
+              column(table, "x", file),
+              column(table, "y", file),
+              scenario.ball.radius,
+              scenario.gravity};
   for (std::size_t i = 0; i < scene.grid.size(); ++i) scene.times.push_back(scene.grid[i]);
   const std::vector<double>& times = column(table, "t", file);
   bool alike = times.size() == scene.times.size();

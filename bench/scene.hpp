@@ -35,6 +35,7 @@ struct Scene {
   solve::OutputGrid grid;
   std::vector<double> times;  // those of the grid, s
   std::vector<double> x, y;   // of the reference solution at the output times, m
+  double radius = 0, gravity = 0;
 };
 
 // NAME of FOLDER/scenarios/NAME.yaml, whose solution is FOLDER/reference/NAME.csv. Throws

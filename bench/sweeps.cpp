@@ -221,8 +221,14 @@ Candidate tool_point(const bench::Tool& tool, const Cases& cases, solve::Toleran
   bool fine = true;
   for (std::size_t i = 0; i < cases.count(); ++i) {
     const Scenario scenario = task.family.read(task.plan.settings(i));
-    bench::Scene& scene = scenes->emplace_back(bench::Scene{
-        "", model::assemble(scenario, false), solve::OutputGrid(scenario.time), {}, {}, {}});
+    bench::Scene& scene = scenes->emplace_back(bench::Scene{"",
+                                                            model::assemble(scenario, false),
+                                                            solve::OutputGrid(scenario.time),
+                                                            {},
+                                                            {},
+                                                            {},
+                                                            scenario.ball.radius,
+                                                            scenario.gravity});
     for (std::size_t k = 0; k < scene.grid.size(); ++k) scene.times.push_back(scene.grid[k]);
     bench::Rows rows(scene.grid.size(), scene.model.size());
     fine = fine && tool.run(scene, tolerances, rows);

@@ -283,7 +283,7 @@ TEST_CASE("a sweep's summary has its plan, its engine, and how the cases ended")
   const auto summary = nlohmann::json::parse(folder.read("s.json"));
   CHECK(summary.at("status") == "done");
   CHECK(summary.at("statuses") == nlohmann::json{{"done", 1}, {"failed", 1}});
-  CHECK(summary.at("engine") == "single runs");
+  CHECK(summary.at("engine") == "lanes");
   CHECK(summary.at("rows") == 2);
   CHECK(summary.at("cases") == 2);
   CHECK(summary.at("vary") == nlohmann::json{"controller.pd.kv=list:0.001,100"});

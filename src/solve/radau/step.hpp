@@ -94,6 +94,7 @@ struct Collocation {
   };
 
   struct alignas(64) Workspace {
+    const void* system;  // first, since it is no part of a state that is saved
     double rtol, atol;
     bool gamma;
     bool positions_only;  // in rows
@@ -633,9 +634,12 @@ struct Step
 
   // Begins with what Collocation works on.
   struct alignas(64) Workspace : Base::Workspace {
-    const System* system;
     typename Rates::Inputs inputs[packs];
   };
+
+  BBSIM_INLINE static const System& system_of(const Workspace& w) {
+    return *static_cast<const System*>(w.system);
+  }
 
   BBSIM_INLINE static void evaluate_rates(Workspace& w) {
 #pragma GCC unroll 1
@@ -647,7 +651,7 @@ struct Step
         if (i < nq) z[motions.of[i].position] = P::load(&w.q_stage.of[i][p * lanes]);
         if (i < turning) given[i] = P::load(&w.k.of[first_turning + i][p * lanes]);
       }
-      Rates::rates(*w.system, w.inputs[p], z, given, dz);
+      Rates::rates(system_of(w), w.inputs[p], z, given, dz);
 #pragma GCC unroll 8
       for (int i = 0; i < nv; ++i) dz[motions.of[i].velocity].store(&w.f.of[i][p * lanes]);
     }
@@ -661,7 +665,7 @@ struct Step
       z[motions.of[i].velocity] = P(w.v[i]);
       if (i < nq) z[motions.of[i].position] = P(w.q[i]);
     }
-    Rates::rates(*w.system, w.system->inputs(P(t)), z, given, dz);
+    Rates::rates(system_of(w), system_of(w).inputs(P(t)), z, given, dz);
     for (int i = 0; i < nv; ++i) {
       for (int p = 0; p < packs; ++p) dz[motions.of[i].velocity].store(&w.k.of[i][p * lanes]);
     }
@@ -682,7 +686,7 @@ struct Step
 
   static void start(void* workspace, const Start& from) {
     Workspace& w = *static_cast<Workspace*>(workspace);
-    w.system = static_cast<const System*>(from.system);
+    w.system = from.system;
     w.newton = !System::open_loop;
     Base::prepare(w, from);
   }
@@ -690,7 +694,7 @@ struct Step
   static double rate(void* workspace, double t) {
     Workspace& w = *static_cast<Workspace*>(workspace);
     constexpr double still[nv] = {};
-    Rates::differentiate(*w.system, t, w.q, w.v, still, w.jv, w.jq, w.jk);
+    Rates::differentiate(system_of(w), t, w.q, w.v, still, w.jv, w.jq, w.jk);
     double jv = 0, jq = 0;
     for (int i = 0; i < nv; ++i) {
       // With what comes by way of the gimbal's accelerations.
@@ -726,7 +730,7 @@ struct Step
     Attempt& a = *result;
     a = {Verdict::diverged, 0, 0, 0, 0, 0};
     for (int p = 0; p < packs; ++p) {
-      w.inputs[p] = w.system->inputs(P(t) + P(h) * P::load(&table.c[p * lanes]));
+      w.inputs[p] = system_of(w).inputs(P(t) + P(h) * P::load(&table.c[p * lanes]));
     }
     Base::template integrate_stages<false>(w);
     bool factored = false;
@@ -743,7 +747,7 @@ struct Step
             k[i] = w.k.of[i][s / 2];
             if (i < nq) q[i] = w.q_stage.of[i][s / 2];
           }
-          Rates::differentiate(*w.system, t + table.c[s / 2] * h, q, v, k, w.jv, w.jq, w.jk);
+          Rates::differentiate(system_of(w), t + table.c[s / 2] * h, q, v, k, w.jv, w.jq, w.jk);
           Base::factor(w);
           factored = true;
           ++a.jacobians;
