@@ -77,8 +77,7 @@ class LoopCarrier : public GroupCarrier {
       const auto greatest = extremes(lane);
       if (!carried[lane] || !greatest) continue;
       track_.begin(loops_[lane].model, loops_[lane].constants, grid_, same_signals_);
-      track_.take(grid_.size(), lanes_.rows() + lane, solve::loop::states * group, group,
-                  *greatest);
+      track_.take(grid_.size(), lanes_.rows() + lane, lanes_.row_size(), group, *greatest);
       track_.finish(cases[lane].measures);
       cases[lane].carried = true;
     }

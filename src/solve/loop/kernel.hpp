@@ -63,7 +63,7 @@ struct Kernel {
   // Attempts a step from the present states at t over h.
   void (*attempt)(void* workspace, double t, double h, Attempt& result);
   // The states at times within the last attempt, by its polynomial: [time][state][lane], aligned
-  // to 64; of x and y alone, if `places_only`. To be called before accept().
+  // to 64; if `places_only`, there are x and y alone. To be called before accept().
   void (*evaluate)(void* workspace, const double* times, std::size_t count, bool places_only,
                    double* rows);
   // Raises what is greatest to what it is at the start and over the last attempt. To be called

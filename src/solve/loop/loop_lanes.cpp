@@ -128,7 +128,7 @@ void LoopLanes::record(double arrived) {
   while (recorded_ < times_.size() && times_[recorded_] <= arrived) ++recorded_;
   if (recorded_ == first) return;
   kernel_->evaluate(workspace_.get(), &times_[first], recorded_ - first, places_only_,
-                    rows_.get() + first * states * group);
+                    rows_.get() + first * row_size());
 }
 
 // How fast a lane's loop moves, 1/s: each way round it from an acceleration to itself, by as many
@@ -219,7 +219,7 @@ std::array<bool, group> LoopLanes::integrate(const LoopCase* cases, int count) {
   }
   if (places_only_) {
     kernel_->read(workspace_.get(), reinterpret_cast<double(*)[group]>(
-                                        rows_.get() + (times_.size() - 1) * states * group));
+                                        rows_.get() + (times_.size() - 1) * row_size()));
   }
   return lost_.carried(count);
 }

@@ -44,7 +44,7 @@ class LoopLanes {
   // Throws InputError as choose_kernels() does. `nodes` is one of choose_nodes()'s.
   LoopLanes(Drives drives, int nodes, Tolerances tolerances, const OutputGrid& grid);
 
-  // Rows but the last one then have x and y alone; what else is in them means nothing.
+  // Rows but the last one then are of x and y alone.
   void leave_out_all_but_places() { places_only_ = true; }
 
   // The first `count` cases, 1 <= count <= group. Whether each was carried to the end; one that was
@@ -55,6 +55,10 @@ class LoopLanes {
   // The last group's states, [row][state][lane], a row for each time of the grid; aligned to 64.
   // Rows of a case that was given up, and of lanes beyond `count`, mean nothing.
   [[nodiscard]] const double* rows() const { return rows_.get(); }
+  // From row to row.
+  [[nodiscard]] std::size_t row_size() const {
+    return static_cast<std::size_t>(places_only_ ? 2 : states) * group;
+  }
 
   // What the last group's motion was greatest at, between rows as at them.
   [[nodiscard]] const Greatest& greatest() const { return greatest_; }

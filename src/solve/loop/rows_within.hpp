@@ -13,6 +13,9 @@ struct RowsWithin : Of {
   using Of::lanes, Of::motions, Of::n, Of::nq, Of::packs, Of::rows, Of::s, Of::spin;
   using typename Of::Courses, typename Of::P, typename Of::Pack, typename Of::Workspace;
 
+  template <int coordinates>
+  static constexpr int row_size = (coordinates == nq ? n : coordinates) * group;
+
   // Rows for as many times as a pack has lanes.
   template <int coordinates>
   BBSIM_INLINE static void put_rows(const Workspace& w, P parts, int used, double* to) {
@@ -47,7 +50,7 @@ struct RowsWithin : Of {
           }
         }
         for (int l = 0; l < together && first + l < used; ++l) {
-          double* const row = to + (first + l) * (n * group) + p * lanes;
+          double* const row = to + (first + l) * row_size<coordinates> + p * lanes;
 #pragma GCC unroll 4
           for (int i = 0; i < coordinates; ++i) {
             q[l][i].store(row + motions.of[i].position * group);
@@ -86,11 +89,10 @@ struct RowsWithin : Of {
       for (int l = 0; l < lanes; ++l) {
         parts[l] = (times[first + static_cast<std::size_t>(l < used ? l : 0)] - w.t) / w.h;
       }
-      double* const rows_of = to + first * (n * group);
       if (places_only) {
-        put_rows<2>(w, P::load(parts), used, rows_of);
+        put_rows<2>(w, P::load(parts), used, to + first * row_size<2>);
       } else {
-        put_rows<nq>(w, P::load(parts), used, rows_of);
+        put_rows<nq>(w, P::load(parts), used, to + first * row_size<nq>);
       }
     }
   }
