@@ -58,8 +58,16 @@ struct LaneLoops {
 
     BBSIM_INLINE static P lane(const double* values, int p) { return P::load(values + p * lanes); }
 
+    // Whether the waves until t are of no more than 10^5 rad: sines are the same then, and cost
+    // less.
+    BBSIM_INLINE bool moderate_until(P t) const {
+      return !simd::any_of<P>((Mask)(size_of(frequency * t).v >= 1e5));
+    }
+
+    template <bool moderate = false>
     BBSIM_INLINE Reference reference(P t) const {
-      const SinCos<P> wave = sin_cos(frequency * t);
+      const P angle = frequency * t;
+      const SinCos<P> wave = moderate ? sin_cos_of_moderate(angle) : sin_cos(angle);
       Reference jets;
 #pragma GCC unroll 2
       for (std::size_t i = 0; i < 2; ++i) {

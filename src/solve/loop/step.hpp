@@ -166,11 +166,13 @@ struct Step : Work<Isa, drives, s> {
   [[gnu::flatten]] static Mask solve(Workspace& w, int p, int& iterations) {
     Pack& of = w.of[p];
     const Loop loop(w.loops, p);
+    const bool moderate = loop.moderate_until(P(w.t + w.h));
     // At first accelerations that go on as they were.
 #pragma GCC unroll 1
     for (int j = 0; j < s; ++j) {
       const double time = rows.c[j] * w.h;
-      of.reference[j] = loop.reference(P(w.t + time));
+      const P at(w.t + time);
+      of.reference[j] = moderate ? loop.template reference<true>(at) : loop.reference(at);
 #pragma GCC unroll 8
       for (int i = 0; i < nv; ++i) {
         const P gain = P(time) * of.k_end[i];
