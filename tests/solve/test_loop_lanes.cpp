@@ -216,11 +216,13 @@ TEST_CASE("a stiff servo costs loops in lanes no order") {
   CHECK(steps_at(1e-4) < 25);
 }
 
-TEST_CASE("a loop's rows depend on what ran before not at all, and on its lane by rounding") {
+TEST_CASE(
+    "a loop's rows depend on what ran before not at all, and on its lane within the tolerance") {
   const Scenario scene = scenario_named("stiff-servo");
   std::vector<LoopCase> cases = cases_of(with_other_gains(scene, 2 * group));
   const solve::OutputGrid grid(scene.time);
-  LoopLanes lanes(Drives::angle, 8, {1e-5, 1e-7}, grid);
+  const solve::Tolerances tolerances{1e-5, 1e-7};
+  LoopLanes lanes(Drives::angle, 8, tolerances, grid);
   const int count = GENERATE(1, 3, 8);
   CAPTURE(count);
   const auto rows_of = [&] {
@@ -237,7 +239,7 @@ TEST_CASE("a loop's rows depend on what ran before not at all, and on its lane b
   std::reverse(reversed.begin(), reversed.end());
   for (std::size_t lane = 0; lane < before.size(); ++lane) {
     for (std::size_t i = 0; i < before[lane].size(); ++i) {
-      REQUIRE(reversed[lane][i] == Approx(before[lane][i]).epsilon(1e-9).margin(1e-13));
+      REQUIRE(reversed[lane][i] == Approx(before[lane][i]).margin(local_error(tolerances)));
     }
   }
 }
