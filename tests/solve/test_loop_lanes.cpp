@@ -216,8 +216,7 @@ TEST_CASE("a stiff servo costs loops in lanes no order") {
   CHECK(steps_at(1e-4) < 25);
 }
 
-TEST_CASE(
-    "a loop's rows depend on what ran before not at all, and on its lane within the tolerance") {
+TEST_CASE("a loop's rows depend neither on what ran before nor, in one pack, on its lane") {
   const Scenario scene = scenario_named("stiff-servo");
   std::vector<LoopCase> cases = cases_of(with_other_gains(scene, 2 * group));
   const solve::OutputGrid grid(scene.time);
@@ -237,6 +236,8 @@ TEST_CASE(
   std::reverse(cases.begin(), cases.begin() + count);
   auto reversed = rows_of();
   std::reverse(reversed.begin(), reversed.end());
+  // With narrower packs other loops are in a loop's own, and may ask for another turn.
+  if (solve::loop::choose_kernels().width == group) CHECK(reversed == before);
   for (std::size_t lane = 0; lane < before.size(); ++lane) {
     for (std::size_t i = 0; i < before[lane].size(); ++i) {
       REQUIRE(reversed[lane][i] == Approx(before[lane][i]).margin(local_error(tolerances)));

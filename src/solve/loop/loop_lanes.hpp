@@ -36,9 +36,10 @@ struct LoopCase {
 // motion, faster than 1 rad/s, its rates are followed to an absolute tolerance of atol omega_n, and
 // the ball's velocity to that times the radius. The ball's place and the angles are not concerned.
 //
-// A loop's rows depend, within the tolerance, on its companions in the group, and on nothing else:
-// the same group gives the same bits whichever thread and whatever ran before. Allocates nothing
-// once it is made; one for each thread.
+// A loop's rows depend, within the tolerance, on its companions in the group (their steps, and in
+// one pack their turns of Newton's iteration), and on nothing else: the same group gives the same
+// bits whichever thread and whatever ran before. Allocates nothing once it is made; one for each
+// thread.
 class LoopLanes {
  public:
   // Throws InputError as choose_kernels() does. `nodes` is one of choose_nodes()'s.
