@@ -17,27 +17,22 @@ BBSIM_INLINE P root_of(P a) {
   return a;
 }
 
-// What a function may reach that goes from v0 to v1, by the cubic with these slopes, times the way.
+// What the function may reach between two places, by the cubic through values and slopes at both.
 // Where both slopes go the way that the values do, and neither is more than three times as steep,
 // it goes one way (Fritsch and Carlson, SIAM Journal on Numerical Analysis 17:238, 1980). Otherwise
 // it is above the ends by no more than 4/27 of the change that its slopes there would give; what is
 // of a higher degree is allowed for.
 template <class P>
-BBSIM_INLINE P promise_of(P v0, P v1, P s0, P s1) {
+BBSIM_INLINE P promise_between(const Looked<P>& from, const Looked<P>& to) {
   using Mask = typename P::Mask;
   constexpr double beyond = 0.25;
-  const P change = v1 - v0, steepest = P(3.0) * size_of(change);
+  const P width = to.at - from.at, change = to.value - from.value;
+  const P s0 = width * from.slope, s1 = width * to.slope;
+  const P steepest = P(3.0) * size_of(change);
   const Mask one_way = (Mask)((s0 * change).v >= 0) & (Mask)((s1 * change).v >= 0) &
                        (Mask)(size_of(s0).v <= steepest.v) & (Mask)(size_of(s1).v <= steepest.v);
   const P more = P(beyond) * (larger_of(s0, P(0.0)) + larger_of(-s1, P(0.0)));
-  return larger_of(v0, v1) + choose(one_way, P(0.0), more);
-}
-
-// What it may reach between two places.
-template <class P>
-BBSIM_INLINE P promise_between(const Looked<P>& from, const Looked<P>& to) {
-  const P width = to.at - from.at;
-  return promise_of(from.value, to.value, width * from.slope, width * to.slope);
+  return larger_of(from.value, to.value) + choose(one_way, P(0.0), more);
 }
 
 // Follows the function to its top between two places, by one cubic after another, and raises

@@ -7,7 +7,6 @@
 #include <array>
 #include <sstream>
 
-#include "yaml/comments.hpp"
 #include "yaml/tree_builder.hpp"
 
 namespace bbsim::yaml {
@@ -69,7 +68,7 @@ const Node* parse_yaml(std::string_view text, int source, Nodes& nodes) {
   try {
     // The comment ends what is still open on the last line: without it, yaml-cpp overlooks a
     // missing closing quote there, and takes an unclosed list for a key.
-    std::istringstream stream{with_short_comments(text) + "\n#"};
+    std::istringstream stream{std::string(text) + "\n#"};
     YAML::Parser parser(stream);
     while (parser.HandleNextDocument(builder)) {
     }

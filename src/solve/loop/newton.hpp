@@ -6,8 +6,8 @@
 // Included only by the kernels; see simd/pack.hpp for why all is inlined or tagged.
 #pragma once
 
+#include "solve/lane_rule.hpp"
 #include "solve/loop/lane_loops.hpp"
-#include "solve/radau/tables.hpp"
 
 namespace bbsim::solve::loop {
 
@@ -19,30 +19,20 @@ struct Newton : LaneLoops<Isa, drives> {
   using Rule = radau::RadauTable<s>;
   static constexpr int pairs = s / 2;
 
-  // The tables by rows: what one node takes from all. A copy of each instruction set's own.
-  struct alignas(64) Rows {
-    double c[s]{}, a[s][s]{}, a_squared[s][s]{}, legendre[s][s]{};
+  struct alignas(64) Rows : LaneRule<Isa, s> {
     double lambda_re[pairs]{}, lambda_im[pairs]{};
     double forward_re[s][pairs]{}, forward_im[s][pairs]{};
     double back_re[s][pairs]{}, back_im[s][pairs]{};
     consteval Rows() {
-      for (int i = 0; i < s; ++i) {
-        c[i] = Rule::c[i];
-        for (int j = 0; j < s; ++j) {
-          legendre[i][j] = Rule::legendre[i][j];
-          a[i][j] = Rule::a[j][i];
-          a_squared[i][j] = Rule::a_squared[j][i];
-        }
-        for (int k = 0; k < pairs; ++k) {
+      for (int k = 0; k < pairs; ++k) {
+        lambda_re[k] = Rule::lambda_re[k];
+        lambda_im[k] = Rule::lambda_im[k];
+        for (int i = 0; i < s; ++i) {
           forward_re[i][k] = Rule::forward_re[i][k];
           forward_im[i][k] = Rule::forward_im[i][k];
           back_re[i][k] = Rule::back_re[k][i];
           back_im[i][k] = Rule::back_im[k][i];
         }
-      }
-      for (int k = 0; k < pairs; ++k) {
-        lambda_re[k] = Rule::lambda_re[k];
-        lambda_im[k] = Rule::lambda_im[k];
       }
     }
   };

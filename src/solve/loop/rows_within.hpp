@@ -81,8 +81,8 @@ struct RowsWithin : Of {
   [[gnu::flatten]] static void evaluate(void* workspace, const double* times, std::size_t count,
                                         bool places_only, double* to) {
     Workspace& w = *static_cast<Workspace*>(workspace);
-    Of::template make_courses<places>(w);
-    if (!places_only) Of::template make_courses<angles>(w);
+    Of::template make_courses<Of::places>(w);
+    if (!places_only) Of::template make_courses<Of::angles>(w);
     for (std::size_t first = 0; first < count; first += lanes) {
       const int used = count - first < lanes ? static_cast<int>(count - first) : lanes;
       alignas(64) double parts[lanes];

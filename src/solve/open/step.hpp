@@ -16,8 +16,8 @@
 #include "simd/peaks.hpp"
 #include "solve/lane_courses.hpp"
 #include "solve/lane_error.hpp"
+#include "solve/lane_rule.hpp"
 #include "solve/open/kernel.hpp"
-#include "solve/radau/tables.hpp"
 
 namespace bbsim::solve::open {
 
@@ -154,24 +154,9 @@ struct Step : Lanes<Isa> {
   using Base::lane, Base::lanes, Base::packs;
   using typename Base::Mask, typename Base::Motion, typename Base::P, typename Base::Vector;
   using Ball = simd::Affine<P, states>;
-  using Rule = radau::RadauTable<s>;
   static constexpr int nv = 3, nq = 2;  // x', y', u; x, y
 
-  // The tables by rows: what one node takes from all. A copy of each instruction set's own.
-  struct alignas(64) Rows {
-    double c[s]{}, a[s][s]{}, a_squared[s][s]{}, legendre[s][s]{};
-    consteval Rows() {
-      for (int i = 0; i < s; ++i) {
-        c[i] = Rule::c[i];
-        for (int j = 0; j < s; ++j) {
-          legendre[i][j] = Rule::legendre[i][j];
-          a[i][j] = Rule::a[j][i];
-          a_squared[i][j] = Rule::a_squared[j][i];
-        }
-      }
-    }
-  };
-  static constexpr Rows rows{};
+  static constexpr LaneRule<Isa, s> rows{};
 
   // Equation (27) at a node, times h: x'' has no part of x', y'' none of y', and u' none of x, y,
   // u.
