@@ -199,6 +199,10 @@ double HybridSystem::instant_end(double t) const {
                        : rounding(t));
 }
 
+bool HybridSystem::changes_at(double t) const {
+  return next_change() <= instant_end(t);
+}
+
 bool HybridSystem::is_due(double t) const {
   return next_time_event() <= instant_end(t);
 }
@@ -249,7 +253,11 @@ void HybridSystem::take_sample(double t, const double* z) {
   const double number = sampled_->sample.number;
   go_on(sampled_->sample);
   const std::optional<Pair> seen = seen_at(t);
-  const auto reference = with_loop([t](const auto& loop) { return loop.reference().at(t); });
+  if (known_->t != t) {
+    known_->t = t;
+    known_->value = with_loop([t](const auto& loop) { return loop.reference().at(t); });
+  }
+  const auto& reference = known_->value;
   SampledController& controller = sampled_->controller;
   double servo[4] = {z[angle], z[angle + 1], z[rate_], z[rate_ + 1]};
   if (ExternalController* const external = this->controller()) {
@@ -363,7 +371,19 @@ void HybridSystem::settle(double t, double* z) {
   if (dry_) dry_->settle(model_, t, z);
 }
 
+bool HybridSystem::stays_as_it_is(const double* z) const {
+  if (model_.rig->limits_commands() || model_.rig->between.has_pieces()) return false;
+  for (std::size_t i = 0; i < servos_.size(); ++i) {
+    if (!servos_[i].stays_free(z[static_cast<std::size_t>(angle) + i],
+                               z[static_cast<std::size_t>(rate_) + i])) {
+      return false;
+    }
+  }
+  return true;
+}
+
 void HybridSystem::settle_rig(double t, double* z) {
+  if (stays_as_it_is(z)) return;
   // A stop's kick may take the command to its limit, and that the servo from where it was: a few
   // rounds, of which the second mostly finds nothing to do.
   for (int round = 0; round < 4; ++round) {
@@ -449,18 +469,25 @@ void HybridSystem::evaluate_guards(double t, const double* z, double* values) co
   }
 }
 
-HybridSystem::Fall HybridSystem::next_fall(double t, const double* z, double end) const {
+std::array<HeldMotion, 2> HybridSystem::held_motions(const double* z) const {
+  return with_loop([&](const auto& loop) {
+    std::array<HeldMotion, 2> motions;
+    for (std::size_t i = 0; i < 2; ++i) {
+      motions[i] = held_motion(loop.servo().of[i], loop.mode.axis[i], loop.mode.command[i],
+                               z[angle + i], z[rate_ + i]);
+    }
+    return motions;
+  });
+}
+
+HybridSystem::Fall HybridSystem::next_fall(double t, const std::array<HeldMotion, 2>& motions,
+                                           double end) const {
   Fall first;
   if (!model_.rig || !model_.rig->switches()) return first;
-  const auto& [present, response] = with_loop([](const auto& loop) {
-    return std::pair<const RigMode&, const ServoResponses&>(loop.mode, loop.servo());
-  });
+  const RigMode& present = with_loop([](const auto& loop) -> const RigMode& { return loop.mode; });
   for (std::size_t i = 0; i < 2; ++i) {
-    const double command = present.command[i];
-    const HeldMotion motion =
-        held_motion(response.of[i], present.axis[i], command, z[angle + i], z[rate_ + i]);
     const ServoAxis::Fall fall =
-        servos_[i].first_fall(motion, command, t, std::min(end, first.time) - t);
+        servos_[i].first_fall(motions[i], present.command[i], t, std::min(end, first.time) - t);
     // Rounded up: what falls has then fallen, however short the time is beside t.
     double at = t + fall.after;
     if (at - t < fall.after) at = std::nextafter(at, unlimited);

@@ -47,6 +47,8 @@ class HybridSystem {
 
   // The first of those times at which the motion may change: others only see it.
   [[nodiscard]] double next_change() const;
+  // Whether that one is at t.
+  [[nodiscard]] bool changes_at(double t) const;
 
   // What is looked out for between: each guard is positive until something happens.
   [[nodiscard]] std::size_t guards() const { return guard_scales_.size(); }
@@ -63,9 +65,21 @@ class HybridSystem {
     double time = unlimited;  // s; infinite if none does
     std::size_t guard = 0;
   };
-  // The first guard of a servo that falls after t, within (t, end], of one that moves in closed
-  // form from the states z on: as long as the mode is the present one, and its command is held.
-  [[nodiscard]] Fall next_fall(double t, const double* z, double end) const;
+  // How the servos of phi and theta move from the states z on, in the present mode, as long as
+  // their commands are held: of a rig without linkages.
+  [[nodiscard]] std::array<HeldMotion, 2> held_motions(const double* z) const;
+  // The first guard of a servo that falls after t, within (t, end], of servos that move so from t
+  // on.
+  [[nodiscard]] Fall next_fall(double t, const std::array<HeldMotion, 2>& motions,
+                               double end) const;
+
+  // A reference at the time that it was last asked for.
+  struct KnownReference {
+    double t = -1;  // s
+    std::array<Jet<double>, 2> value{};
+  };
+  // Asks no more for what `known`, which outlives the run, says of the scene's reference.
+  void share_reference(KnownReference& known) { known_ = &known; }
 
   // Whether guard i stops the run once it has fallen to zero.
   [[nodiscard]] bool stops(std::size_t i) const;
@@ -120,6 +134,7 @@ class HybridSystem {
   void settle_pieces(double t, const double* z);
   void evaluate_pieces(const Wanted& wanted, const double* z, double* values) const;
   void settle(double t, double* z);
+  [[nodiscard]] bool stays_as_it_is(const double* z) const;
   void settle_rig(double t, double* z);
   Effect note_dry(double t, const double* z);
   Effect occur(std::string name, bool stops, double t, const double* z);
@@ -165,6 +180,7 @@ class HybridSystem {
     std::vector<double> own{};  // the last numbers of one's own controller
   };
   std::optional<Sampled> sampled_;
+  KnownReference own_reference_, *known_ = &own_reference_;
   std::vector<Occurrence> occurrences_;
   std::size_t with_gamma_ = 0;  // so many of them
 };

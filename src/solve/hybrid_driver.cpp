@@ -239,7 +239,7 @@ class HybridIntegration {
   // looked at with the step, which mostly settles what the switch did to them too.
   void foresee(double t, const std::vector<double>& z, bool switched) {
     foreseen_ = run_.next_change();
-    fall_ = run_.next_fall(t, z.data(), foreseen_);
+    fall_ = run_.next_fall(t, run_.held_motions(z.data()), foreseen_);
     unarmed_ = first_guard_ < guards_.size();
     unlooked_ = unlooked_ || (switched && unarmed_);
   }

@@ -41,6 +41,15 @@ struct ControlLaw {
   double kv[2][2] = {}, kp[2][2] = {};
   double scale = 0;  // (1 + k) / g, s^2/m, for gravity compensation
 
+  [[nodiscard]] bool feeds_servos_back() const {
+    for (const auto& row : gain) {
+      for (int j = 4; j < 8; ++j) {
+        if (row[j] != 0) return true;
+      }
+    }
+    return false;
+  }
+
   [[nodiscard]] bool integrates() const {
     return integral[0][0] != 0 || integral[0][1] != 0 || integral[1][0] != 0 || integral[1][1] != 0;
   }

@@ -6,8 +6,16 @@
 namespace bbsim::model {
 namespace {
 
+// The nearest integer, of two the even one. At 2^52 the spacing of doubles is one, so that the sum
+// rounds; the C library would have to be called for it.
+double nearest_integer(double value) {
+  constexpr double spaced_by_one = 0x1.8p52;
+  if (!(std::abs(value) < 0x1p51)) return value;
+  return std::copysign((value + spaced_by_one) - spaced_by_one, value);
+}
+
 double rounded_to(double value, double resolution) {
-  return resolution > 0 ? std::nearbyint(value / resolution) * resolution : value;
+  return resolution > 0 ? nearest_integer(value / resolution) * resolution : value;
 }
 
 }  // namespace
@@ -43,6 +51,7 @@ SampledController::SampledController(const SampledLoop& loop) : loop_(loop) {
   for (std::size_t i = 0; i < 2; ++i) {
     reached_[i].high = inward(loop.limit[i].high);
     reached_[i].low = -inward(-loop.limit[i].low);
+    sine_[i] = {std::sin(loop.limit[i].low), std::sin(loop.limit[i].high)};
   }
 }
 
@@ -68,7 +77,7 @@ Pair SampledController::law_output(const double (&servo)[4],
   const bool of_sine = loop_.law.kind == LawKind::gravity_compensation;
   const auto limited = [&](int i, double raw) {
     if (!of_sine) return raw;
-    return std::clamp(raw, std::sin(loop_.limit[i].low), std::sin(loop_.limit[i].high));
+    return std::clamp(raw, sine_[i].low, sine_[i].high);
   };
   const Command<double> u = model::command(loop_.law, state, reference, limited);
   return {u.value[0], u.value[1]};

@@ -65,6 +65,7 @@ class SampledController {
 
   SampledLoop loop_;
   CommandRange reached_[2];  // by multiples of the command's resolution, within its limit
+  CommandRange sine_[2];     // of the limit
   bool seen_any_ = false;
   int unseen_ = 0;  // samples since it saw the ball
   Pair position_{0, 0}, velocity_{0, 0}, integral_{0, 0}, command_{0, 0};

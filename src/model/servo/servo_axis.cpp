@@ -94,7 +94,14 @@ void ServoAxis::settle_backlash(const AxisState& state, AxisMode& mode) {
   mode.offset = play_ == Play::gap ? plane_ : offset_ + (play_ == Play::up ? -half : half);
 }
 
+bool ServoAxis::stays_free(double angle, double rate) const {
+  return settled_ && motion_ == Motion::free && play_ == Play::none && !rig_->time_constant &&
+         rig_->acceleration_limit == unlimited && std::abs(angle) < rig_->angle_limit * at_limit &&
+         std::abs(rate) < rig_->rate_limit * at_limit;
+}
+
 void ServoAxis::settle(AxisState& state, AxisMode& mode) {
+  settled_ = true;
   motion_ = choose(state);
   mode.demand_factor = 0;
   mode.set_acceleration = 0;

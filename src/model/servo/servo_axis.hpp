@@ -39,6 +39,10 @@ class ServoAxis {
   // band it is not followed.
   [[nodiscard]] double follow(double command);
 
+  // Whether settle() would find the servo as it left it, free and short of its limits, whatever it
+  // is told: mostly.
+  [[nodiscard]] bool stays_free(double angle, double rate) const;
+
   // Chooses what the servo does from here. May change its rate: a stop takes it, and a servo of
   // first order has it from its command.
   void settle(AxisState& state, AxisMode& mode);
@@ -61,7 +65,7 @@ class ServoAxis {
   // What it does at present (base/archive.hpp).
   template <class Archive>
   void archive(Archive& archive) {
-    archive(motion_, play_, started_, target_, plane_);
+    archive(motion_, play_, started_, settled_, target_, plane_);
   }
 
  private:
@@ -94,7 +98,7 @@ class ServoAxis {
   double offset_;
   Motion motion_ = Motion::free;
   Play play_ = Play::none;
-  bool started_ = false;
+  bool started_ = false, settled_ = false;
   double target_ = 0;  // the command that is followed
   double plane_ = 0;   // the plane's angle in the gap, rad
 };

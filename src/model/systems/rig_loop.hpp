@@ -113,11 +113,8 @@ class RigLoop {
         rolling_(rolling),
         law_(law),
         servo_(servo),
-        reference_(std::move(reference)) {
-    for (const auto& row : law_.gain) {
-      for (int j = 4; j < 8; ++j) feeds_servos_back_ = feeds_servos_back_ || row[j] != 0;
-    }
-  }
+        reference_(std::move(reference)),
+        feeds_servos_back_(law_.feeds_servos_back()) {}
 
   RigMode mode;
   [[no_unique_address]] Link link;
@@ -413,7 +410,7 @@ class RigLoop {
   ControlLaw law_;
   ServoResponses servo_;
   Signals reference_;
-  bool feeds_servos_back_ = false;
+  bool feeds_servos_back_;
 };
 
 template <class Any>

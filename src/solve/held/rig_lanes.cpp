@@ -103,6 +103,8 @@ RigLanes::RigLanes(Tolerances tolerances, const OutputGrid& grid, const LaneAske
 void RigLanes::begin(std::size_t l, const model::Model& model, LaneSink& sink) {
   Lane& lane = lanes_[l];
   lane.run.emplace(model, tolerances_.atol);
+  lane.run->share_reference(known_reference_);
+  lane.feeds_servos_back = model.rig->sampled->law.feeds_servos_back();
   lane.instants.emplace(*model.rig->sampled);
   std::copy(model.initial.begin(), model.initial.end(), lane.z.begin());
   lane.time = 0;
@@ -126,7 +128,7 @@ void RigLanes::begin(std::size_t l, const model::Model& model, LaneSink& sink) {
   clear(l);
   sink.accept_row(l, 0, lane.z[0], lane.z[1]);
   refresh(l);
-  foresee(lane);
+  foresee(l);
 }
 
 // A lane without a rig, or with one that was given up, holds numbers that do no harm.
@@ -144,28 +146,28 @@ void RigLanes::clear(std::size_t l) {
 // Puts a lane's state where its next piece begins.
 void RigLanes::refresh(std::size_t l) {
   Lane& lane = lanes_[l];
-  const Loop& loop = loop_of(lane.run->model());
+  const model::RigMode& mode = loop_of(lane.run->model()).mode;
   for (std::size_t i = 0; i < 3; ++i) {
     pieces_->velocity[i][l] = lane.z[2 + i];
     if (i < 2) pieces_->position[i][l] = lane.z[i];
   }
+  step_.servo_[l] = lane.run->held_motions(lane.z.data());
   for (std::size_t i = 0; i < 2; ++i) {
-    const model::AxisMode& mode = loop.mode.axis[i];
-    const model::HeldMotion motion = model::held_motion(
-        loop.servo().of[i], mode, loop.mode.command[i], lane.z[angle + i], lane.z[rate + i]);
-    step_.servo_[l][i] = motion;
+    const model::HeldMotion& motion = step_.servo_[l][i];
     LaneAxis& axis = pieces_->axis[i];
     axis.angle[l] = motion.angle;
     axis.rate[l] = motion.rate;
     axis.acceleration[l] = motion.acceleration;
-    axis.ratio[l] = mode.ratio;
-    axis.offset[l] = mode.offset;
+    axis.ratio[l] = mode.axis[i].ratio;
+    axis.offset[l] = mode.axis[i].offset;
   }
 }
 
-void RigLanes::foresee(Lane& lane) {
+// With the motions of refresh().
+void RigLanes::foresee(std::size_t l) {
+  Lane& lane = lanes_[l];
   lane.foreseen = lane.run->next_change();
-  lane.fall = lane.run->next_fall(lane.time, lane.z.data(), lane.foreseen);
+  lane.fall = lane.run->next_fall(lane.time, step_.servo_[l], lane.foreseen);
 }
 
 void RigLanes::load_table(std::size_t l, std::size_t i, double length) {
@@ -287,7 +289,8 @@ void RigLanes::look() {
   }
 }
 
-// The state within a lane's piece, or at its end; what `ball` holds is of that time.
+// The state within a lane's piece, or at its end, where servos have theirs in any case; what `ball`
+// holds is of that time.
 void RigLanes::state_at(std::size_t l, double t, const double (*ball)[group], bool servos) {
   Lane& lane = lanes_[l];
   if (pieces_->length[l] == 0) return;  // it is the one that it was
@@ -296,7 +299,7 @@ void RigLanes::state_at(std::size_t l, double t, const double (*ball)[group], bo
     lane.z[2 + i] = at_end ? pieces_->velocity_end[i][l] : ball[2 + i][l];
     if (i < 2) lane.z[i] = at_end ? pieces_->position_end[i][l] : ball[i][l];
   }
-  if (!servos) return;
+  if (!servos && !at_end) return;
   for (std::size_t i = 0; i < 2; ++i) {
     const LaneAxis& axis = pieces_->axis[i];
     if (at_end) {
@@ -339,6 +342,8 @@ void RigLanes::pass_instants(LaneSink& sink) {
       const double due = lane.run->next_time_event(), row = grid_[lane.next_row];
       is_event[l] = !(row < due - lane.run->rounding(due));
       when[l] = is_event[l] ? due : row;
+      // What is seen and what is applied at one instant differ by roundings.
+      if (is_event[l] && lane.run->changes_at(due)) when[l] = lane.run->next_change();
       const double last = lane.until + (is_event[l] ? 0 : lane.run->rounding(lane.until));
       if (when[l] > last) {
         lane.settled = true;
@@ -356,7 +361,7 @@ void RigLanes::pass_instants(LaneSink& sink) {
       if (!lane.moved || lane.settled) continue;
       const double t = when[l];
       const bool last = lane.next_row + 1 == grid_.size();
-      state_at(l, t, ball, is_event[l] || last);
+      state_at(l, t, ball, (is_event[l] && lane.feeds_servos_back) || last);
       if (is_event[l]) {
         lane.run->handle_time_event(t, lane.z.data());
         lane.restarts = lane.settled = lane.run->touched();
@@ -392,12 +397,13 @@ void RigLanes::go_on(std::size_t l) {
   }
   lane.time = lane.until;
   refresh(l);
-  if (lane.restarts || lane.foreseen < lane.run->next_change()) foresee(lane);
+  if (lane.restarts || lane.foreseen < lane.run->next_change()) foresee(l);
 }
 
 std::array<bool, group> RigLanes::integrate(const model::Model* const* models, std::size_t count,
                                             LaneSink& sink) {
   scene_.force = false;
+  known_reference_ = {};
   for (std::size_t l = 0; l < group; ++l) {
     if (l < count) {
       begin(l, *models[l], sink);

@@ -90,7 +90,7 @@ class RigLanes {
   RigLanes(Tolerances tolerances, const OutputGrid& grid, const LaneAsked& asked);
 
   // The first `count` models, 1 <= count <= group, which carries() says yes to and which go
-  // together; they have one reference if that is asked for. Whether each was carried to the end.
+  // together; they have one reference. Whether each was carried to the end.
   std::array<bool, group> integrate(const model::Model* const* models, std::size_t count,
                                     LaneSink& sink);
 
@@ -111,7 +111,7 @@ class RigLanes {
     double foreseen = 0;  // until when `fall` tells, s
     std::size_t next_row = 1;
     int rejections = 0;
-    bool alive = false;
+    bool alive = false, feeds_servos_back = false;
     bool moved = false, restarts = false, settled = false;  // with the last attempt
   };
   // Which table a column of pieces_ holds.
@@ -123,7 +123,7 @@ class RigLanes {
   void begin(std::size_t lane, const model::Model& model, LaneSink& sink);
   void clear(std::size_t lane);
   void refresh(std::size_t lane);
-  void foresee(Lane& lane);
+  void foresee(std::size_t lane);
   bool plan();
   void load_table(std::size_t lane, std::size_t axis, double length);
   void judge();
@@ -143,6 +143,7 @@ class RigLanes {
   std::unique_ptr<LaneReference> reference_;
   LaneScene scene_{};
   LaneStep step_;
+  model::HybridSystem::KnownReference known_reference_;
   std::array<Lane, group> lanes_;
   std::array<std::array<Loaded, 2>, group> loaded_{};
 };
