@@ -24,6 +24,22 @@ template <class Real>
   return std::copysign(std::sqrt(square), along);
 }
 
+// Whether a number exceeds another, and one of two by that: lane by lane, of a type with lanes.
+[[nodiscard]] inline bool exceeds(double a, double b) {
+  return a > b;
+}
+[[nodiscard]] inline double choose(bool which, double yes, double no) {
+  return which ? yes : no;
+}
+
+// The nearest integer, of two the even one. At 2^52 the spacing of doubles is one, so that the sum
+// rounds; the C library would have to be called for it.
+[[nodiscard]] inline double nearest_integer(double value) {
+  constexpr double spaced_by_one = 0x1.8p52;
+  if (!(std::abs(value) < 0x1p51)) return value;
+  return std::copysign((value + spaced_by_one) - spaced_by_one, value);
+}
+
 // The time as a plain double, to choose an interval by. Overloaded for other number types.
 [[nodiscard]] inline double plain(double t) {
   return t;

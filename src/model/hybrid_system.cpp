@@ -208,18 +208,54 @@ bool HybridSystem::is_due(double t) const {
 }
 
 void HybridSystem::handle_time_event(double t, double* z) {
+  see(t, z);
+  while (samples_at(t)) take_sample(t, z);
+  act(t, z);
+}
+
+void HybridSystem::see(double t, const double* z) {
   const double now = instant_end(t);
+  while (next_stop_ < model_.stops.size() && model_.stops[next_stop_] <= now) ++next_stop_;
+  if (!sampled_) return;
+  while (sampled_->expose.next <= now) expose(z);
+}
+
+bool HybridSystem::samples_at(double t) const {
+  return sampled_ && sampled_->sample.next <= instant_end(t);
+}
+
+std::optional<Pair> HybridSystem::begin_sample(double t) {
+  go_on(sampled_->sample);
+  return seen_at(t);
+}
+
+const std::array<Jet<double>, 2>& HybridSystem::reference_at(double t) {
+  if (known_->t != t) {
+    known_->t = t;
+    known_->value = with_loop([t](const auto& loop) { return loop.reference().at(t); });
+  }
+  return known_->value;
+}
+
+void HybridSystem::end_sample(const Pair& command, const Pair& measured) {
+  sampled_->commands.push_back(command);
+  sampled_->measured = measured;
+}
+
+void HybridSystem::act(double t, double* z) {
   // What a sampled loop only sees changes nothing.
   touched_ = !sampled_ || dry_ || !std::holds_alternative<RigLoop<false>>(model_.system) || t == 0;
-  while (next_stop_ < model_.stops.size() && model_.stops[next_stop_] <= now) ++next_stop_;
   if (sampled_) {
-    while (sampled_->expose.next <= now) expose(z);
-    while (sampled_->sample.next <= now) take_sample(t, z);
+    const double now = instant_end(t);
     while (sampled_->apply.next <= now) apply_command();
     const double last = std::min(sampled_->sample.number, sampled_->apply.number);
     sampled_->times.forget_before(has_frames() ? last : std::min(last, sampled_->expose.number));
   }
   if (touched_) settle(t, z);
+}
+
+const SampledController& HybridSystem::computer() const {
+  return sampled_->controller;
 }
 
 void HybridSystem::expose(const double* z) {
@@ -251,13 +287,8 @@ std::optional<Pair> HybridSystem::seen_at(double t) {
 
 void HybridSystem::take_sample(double t, const double* z) {
   const double number = sampled_->sample.number;
-  go_on(sampled_->sample);
-  const std::optional<Pair> seen = seen_at(t);
-  if (known_->t != t) {
-    known_->t = t;
-    known_->value = with_loop([t](const auto& loop) { return loop.reference().at(t); });
-  }
-  const auto& reference = known_->value;
+  const std::optional<Pair> seen = begin_sample(t);
+  const auto& reference = reference_at(t);
   SampledController& controller = sampled_->controller;
   double servo[4] = {z[angle], z[angle + 1], z[rate_], z[rate_ + 1]};
   if (ExternalController* const external = this->controller()) {
@@ -270,8 +301,8 @@ void HybridSystem::take_sample(double t, const double* z) {
   }
   const Between& between = model_.rig->between;
   if (!between.none()) between.believed(z + angle, z + rate_, servo);
-  sampled_->commands.push_back(controller.command(seen, servo, reference));
-  sampled_->measured = controller.last_seen();
+  const Pair command = controller.command(seen, servo, reference);
+  end_sample(command, controller.last_seen());
 }
 
 void HybridSystem::apply_command() {

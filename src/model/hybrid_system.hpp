@@ -42,6 +42,19 @@ class HybridSystem {
   // Throws ControllerFault where a controller that is not built in does not do its part.
   void handle_time_event(double t, double* z);
 
+  // The same step by step, for who computes the laws of several runs at once: see(); while
+  // samples_at(), a sample, whose command is end_sample()'s; act(). Of a sampled loop.
+  void see(double t, const double* z);
+  [[nodiscard]] bool samples_at(double t) const;
+  // What is seen of the ball, m; nothing if it is missed.
+  [[nodiscard]] std::optional<Pair> begin_sample(double t);
+  [[nodiscard]] const std::array<Jet<double>, 2>& reference_at(double t);
+  // `measured`: where the ball was seen last.
+  void end_sample(const Pair& command, const Pair& measured);
+  void act(double t, double* z);
+  // Who computes the law otherwise.
+  [[nodiscard]] const SampledController& computer() const;
+
   // Whether the last call may have changed how the model moves from there on.
   [[nodiscard]] bool touched() const { return touched_; }
 

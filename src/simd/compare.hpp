@@ -16,6 +16,11 @@ BBSIM_INLINE P choose(typename P::Mask mask, P yes, P no) {
 }
 
 template <class P>
+BBSIM_INLINE typename P::Mask exceeds(P a, P b) {
+  return a.v > b.v;
+}
+
+template <class P>
 BBSIM_INLINE P larger_of(P a, P b) {
   return P::of(a.v > b.v ? a.v : b.v);
 }
@@ -38,6 +43,13 @@ BBSIM_INLINE P size_of(P a) {
 }
 BBSIM_INLINE double size_of(double a) {
   return __builtin_fabs(a);
+}
+
+// As of doubles (base/real.hpp), but for the sign of a zero.
+template <class P>
+BBSIM_INLINE P nearest_integer(P a) {
+  const P spaced_by_one(0x1.8p52);
+  return choose(exceeds(P(0x1p51), size_of(a)), (a + spaced_by_one) - spaced_by_one, a);
 }
 
 template <class P>

@@ -34,12 +34,13 @@ enum class LawKind { held, linear, gravity_compensation, feedback_linearisation 
 //   linear                  u = gain (e, e', -q, -q') + integral (of e); q: the servos' angles
 //   gravity_compensation    angles on which gravity gives the ball x_d'' + kv e' + kp e
 //   feedback_linearisation  accelerations of the gimbal that give the ball the same
-struct ControlLaw {
+template <class Scalar>
+struct BasicControlLaw {
   LawKind kind = LawKind::held;
-  double gain[2][8] = {};
-  double integral[2][2] = {};
-  double kv[2][2] = {}, kp[2][2] = {};
-  double scale = 0;  // (1 + k) / g, s^2/m, for gravity compensation
+  Scalar gain[2][8] = {};
+  Scalar integral[2][2] = {};
+  Scalar kv[2][2] = {}, kp[2][2] = {};
+  Scalar scale = {};  // (1 + k) / g, s^2/m, for gravity compensation
 
   [[nodiscard]] bool feeds_servos_back() const {
     for (const auto& row : gain) {
@@ -54,6 +55,7 @@ struct ControlLaw {
     return integral[0][0] != 0 || integral[0][1] != 0 || integral[1][0] != 0 || integral[1][1] != 0;
   }
 };
+using ControlLaw = BasicControlLaw<double>;
 
 // What a law feeds back, SI. Integral is Zero where nothing is integrated.
 template <class Real, class Integral = Real>
@@ -87,8 +89,8 @@ template <class Real>
 }
 
 // The acceleration that the last two laws want of the ball in coordinate i, m/s^2.
-template <class Real, class Integral, class Time>
-[[nodiscard]] Real wanted_acceleration(const ControlLaw& law, std::size_t i,
+template <class Scalar, class Real, class Integral, class Time>
+[[nodiscard]] Real wanted_acceleration(const BasicControlLaw<Scalar>& law, std::size_t i,
                                        const Feedback<Real, Integral>& state,
                                        const std::array<Jet<Time>, 2>& reference) {
   Real wanted = Real(reference[i].acceleration);
@@ -101,8 +103,8 @@ template <class Real, class Integral, class Time>
 
 // `limited(i, raw)` is what the limit leaves of a command, and of a sine in gravity compensation.
 // Not for feedback linearisation, which asks for the plant's equations, nor for a held command.
-template <class Real, class Integral, class Time, class Limited>
-[[nodiscard]] Command<Real> command(const ControlLaw& law, const Feedback<Real, Integral>& state,
+template <class Scalar, class Real, class Integral, class Time, class Limited>
+[[nodiscard]] Command<Real> command(const BasicControlLaw<Scalar>& law, const Feedback<Real, Integral>& state,
                                     const std::array<Jet<Time>, 2>& reference,
                                     const Limited& limited) {
   Command<Real> u;

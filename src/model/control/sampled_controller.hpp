@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "base/noise.hpp"
+#include "model/control/sampled_law.hpp"
 #include "model/systems/rig.hpp"
 
 namespace bbsim::model {
@@ -28,9 +29,8 @@ class BallSensor {
   Noise noise_;
 };
 
-// The law of a sampled loop. It has no velocity sensor: velocities are differences of what it saw,
-// behind a filter of first order. The integral of a PID grows while its command is within the
-// limit, or while the error brings it back there.
+// The law of a sampled loop (sampled_law.hpp). It has no velocity sensor: velocities are
+// differences of what it saw, behind a filter of first order.
 class SampledController {
  public:
   explicit SampledController(const SampledLoop& loop);
@@ -49,26 +49,31 @@ class SampledController {
   [[nodiscard]] std::array<double, 3> told(Pair command) const;
 
   // What it saw last; before the first sample, (0, 0).
-  [[nodiscard]] Pair last_seen() const { return position_; }
+  [[nodiscard]] Pair last_seen() const { return {memory_.position[0], memory_.position[1]}; }
+
+  // For who computes for several at once: all that command() takes and leaves.
+  [[nodiscard]] const SampledLaw<double>& law() const { return law_; }
+  [[nodiscard]] const SampledMemory<double>& memory() const { return memory_; }
+  [[nodiscard]] Pair last_command() const { return command_; }
+  [[nodiscard]] bool seen_any() const { return seen_any_; }
+  [[nodiscard]] int unseen() const { return unseen_; }
 
   // What it remembers (base/archive.hpp).
   template <class Archive>
   void archive(Archive& archive) {
-    archive(seen_any_, unseen_, position_, velocity_, integral_, command_);
+    archive(seen_any_, unseen_, memory_, command_);
   }
 
  private:
-  [[nodiscard]] Pair in_steps(Pair command) const;
-  void estimate_velocity(Pair seen, double elapsed);
-  [[nodiscard]] Pair law_output(const double (&servo)[4],
-                                const std::array<Jet<double>, 2>& reference) const;
+  // From the last sample that saw the ball to this one, s; a period for the first one.
+  [[nodiscard]] double elapsed() const;
 
   SampledLoop loop_;
-  CommandRange reached_[2];  // by multiples of the command's resolution, within its limit
-  CommandRange sine_[2];     // of the limit
+  SampledLaw<double> law_;
+  SampledMemory<double> memory_{};
   bool seen_any_ = false;
   int unseen_ = 0;  // samples since it saw the ball
-  Pair position_{0, 0}, velocity_{0, 0}, integral_{0, 0}, command_{0, 0};
+  Pair command_{0, 0};
 };
 
 }  // namespace bbsim::model

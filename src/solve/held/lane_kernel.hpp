@@ -5,6 +5,7 @@
 // sets share.
 #pragma once
 
+#include "model/control/sampled_law.hpp"
 #include "model/signals/signal_pair.hpp"
 #include "solve/held/kernel.hpp"
 
@@ -72,6 +73,20 @@ struct alignas(64) LaneReference {
   double at[2][nodes][group];
 };
 
+// The controllers at a sample. One that sees nothing is left as it is.
+struct alignas(64) Lanes {
+  double of[group];
+};
+struct LaneControl {
+  model::SampledLaw<Lanes> law;
+  model::SampledMemory<Lanes> memory;
+  Lanes sees, is_first;              // 1 or 0
+  Lanes elapsed;                     // s
+  Lanes seen[2], servo[4];           // m; rad and rad/s
+  double reference[2][3];            // value, rate and acceleration
+  Lanes command[2];                  // the last one
+};
+
 struct LaneKernels {
   // Solves for the balls over the pieces, from their starts, lengths and axes.
   void (*attempt)(LanePieces& pieces, const LaneScene& scene);
@@ -82,6 +97,8 @@ struct LaneKernels {
   Range (*look_closely)(const LaneLooks& looks, Size size, int lane);
   // The values of a reference, x and y, at the start and at the nodes but the first of a piece.
   void (*reference)(const model::SignalView& of, double from, double length, double (*at)[nodes]);
+  // Takes a sample.
+  void (*control)(LaneControl& control);
   // x, y, x', y' and u of each at a time of its own after the piece's start.
   void (*evaluate)(const LanePieces& pieces, const double* times, double (*ball)[group]);
 };

@@ -3,6 +3,7 @@
 // no lane without work, and sums over nodes need no shuffles.
 #pragma once
 
+#include "solve/held/lane_control.hpp"
 #include "solve/held/lane_kernel.hpp"
 #include "solve/held/piece.hpp"
 
@@ -454,7 +455,7 @@ struct LaneKernel {
   }
 
   static constexpr LaneKernels kernels{&attempt,      &closer_error, &look,
-                                       &look_closely, &reference,    &evaluate};
+                                       &look_closely, &reference,    &control_lanes<P>, &evaluate};
 };
 
 }  // namespace bbsim::solve::held

@@ -111,6 +111,8 @@ class RigLanes {
     double foreseen = 0;  // until when `fall` tells, s
     std::size_t next_row = 1;
     int rejections = 0;
+    int unseen = 0;         // samples since its controller saw the ball
+    bool seen_any = false;  // that it ever did
     bool alive = false, feeds_servos_back = false;
     bool moved = false, restarts = false, settled = false;  // with the last attempt
   };
@@ -130,6 +132,8 @@ class RigLanes {
   void look();
   void fill_reference();
   [[nodiscard]] bool nothing_happens(std::size_t lane) const;
+  void load_controller(std::size_t lane);
+  void take_samples(const bool (&due)[group], const double (&when)[group]);
   void pass_instants(LaneSink& sink);
   void state_at(std::size_t lane, double t, const double (*ball)[group], bool servos);
   void go_on(std::size_t lane);
@@ -141,6 +145,7 @@ class RigLanes {
   const LaneKernels& kernels_;
   std::unique_ptr<LanePieces> pieces_;  // aligned
   std::unique_ptr<LaneReference> reference_;
+  std::unique_ptr<LaneControl> control_;
   LaneScene scene_{};
   LaneStep step_;
   model::HybridSystem::KnownReference known_reference_;

@@ -1,0 +1,102 @@
+// The arithmetic of a sampled controller, once, for every number type: a pack of doubles holds
+// another rig in each lane.
+#pragma once
+
+#include <array>
+
+#include "base/real.hpp"
+#include "model/control/law.hpp"
+
+namespace bbsim::model {
+
+// What stays the same over a run.
+template <class Scalar>
+struct SampledLaw {
+  struct Range {
+    Scalar low, high;
+  };
+
+  BasicControlLaw<Scalar> law;
+  bool integrates = false;  // law.integrates()
+  Range limit[2];   // of the command of phi and of theta, rad, or rad/s^2
+  Range sine[2];    // of the limit, for gravity compensation
+  Scalar resolution;        // of the command; 0: none
+  Range reached[2];  // by multiples of the resolution, within the limit
+  Scalar filter;            // time constant of the velocity's, s
+};
+
+// What it remembers from sample to sample: the ball's position as it saw it (m), its velocity, and
+// the integral of the error (m s).
+template <class Real>
+struct SampledMemory {
+  Real position[2], velocity[2], integral[2];
+};
+
+template <class Real>
+[[nodiscard]] Real clamped(const Real& value, const Real& low, const Real& high) {
+  return choose(exceeds(low, value), low, choose(exceeds(value, high), high, value));
+}
+
+// The nearest multiple of the resolution, if there is one.
+template <class Real>
+[[nodiscard]] Real in_steps(const Real& value, const Real& resolution) {
+  const auto steps = exceeds(resolution, Real(0.0));
+  const Real step = choose(steps, resolution, Real(1.0));
+  return choose(steps, nearest_integer(value / step) * step, value);
+}
+
+// What is left of a command within its limit: the nearest multiple of the resolution; the largest
+// one that the limit lets through, where that is beyond.
+template <class Real>
+void keep_within_limits(const SampledLaw<Real>& of, Real (&command)[2]) {
+  const auto steps = exceeds(of.resolution, Real(0.0));
+  for (int i = 0; i < 2; ++i) {
+    command[i] = clamped(command[i], of.limit[i].low, of.limit[i].high);
+    const Real reached = clamped(command[i], of.reached[i].low, of.reached[i].high);
+    command[i] = choose(steps, in_steps(reached, of.resolution), command[i]);
+  }
+}
+
+// A sample that saw the ball at `seen`, `elapsed` (s) after the last one that did; `first`: there was
+// none. `servo` are the servos' angles (rad) and rates (rad/s), for laws that feed them back. The
+// integral of a PID grows while its command is within the limit, or while the error brings it back
+// there.
+template <class Real, class Mask>
+void take_sample(const SampledLaw<Real>& of, SampledMemory<Real>& memory, const Real (&seen)[2],
+                 const Real& elapsed, const Mask& first, const Real (&servo)[4],
+                 const std::array<Jet<Real>, 2>& reference, Real (&commanded)[2]) {
+  const Real keep = of.filter / (of.filter + elapsed);
+  for (int i = 0; i < 2; ++i) {
+    const Real difference = choose(first, Real(0.0), (seen[i] - memory.position[i]) / elapsed);
+    memory.velocity[i] = keep * memory.velocity[i] + (Real(1.0) - keep) * difference;
+    memory.position[i] = seen[i];
+  }
+  const bool of_sine = of.law.kind == LawKind::gravity_compensation;
+  const auto output = [&] {
+    const Feedback<Real> state{{memory.position[0], memory.position[1]},
+                               {memory.velocity[0], memory.velocity[1]},
+                               {servo[0], servo[1]},
+                               {servo[2], servo[3]},
+                               {memory.integral[0], memory.integral[1]}};
+    return command(of.law, state, reference, [&](int i, const Real& raw) {
+      return of_sine ? clamped(raw, of.sine[i].low, of.sine[i].high) : raw;
+    });
+  };
+  Command<Real> u = output();
+  for (std::size_t j = 0; j < 2; ++j) {
+    const Real e = reference[j].value - memory.position[j];
+    Mask grows_beyond{};
+    for (std::size_t i = 0; i < 2; ++i) {
+      const Real push = of.law.integral[i][j] * e;
+      const auto beyond =
+          exceeds(u.value[i], of.limit[i].high) | exceeds(of.limit[i].low, u.value[i]);
+      grows_beyond = grows_beyond | (beyond & exceeds(push * u.value[i], Real(0.0)));
+    }
+    memory.integral[j] += choose(grows_beyond, Real(0.0), e * elapsed);
+  }
+  if (of.integrates) u = output();
+  for (int i = 0; i < 2; ++i) commanded[i] = u.value[i];
+  keep_within_limits(of, commanded);
+}
+
+}  // namespace bbsim::model

@@ -1,0 +1,102 @@
+// The controllers of rigs in lanes at a sample, for one instruction set.
+#pragma once
+
+#include "simd/compare.hpp"
+#include "solve/held/lane_kernel.hpp"
+
+namespace bbsim::simd {
+
+// Found beside the one for any number type (model/control/law.hpp), which knows less of the lanes.
+template <class Isa, int lanes>
+BBSIM_INLINE Pack<Isa, lanes> arcsine(Pack<Isa, lanes> s) {
+  using P = Pack<Isa, lanes>;
+  if (!all_of<P>(exceeds(P(0.9), size_of(s)))) {
+    P angle;
+    for (int l = 0; l < lanes; ++l) angle.v[l] = __builtin_asin(s.v[l]);
+    return angle;
+  }
+  const P s2 = s * s;
+  P angle = s * (P(1.0) + s2 * (P(1.0 / 6) + s2 * (P(3.0 / 40) + P(15.0 / 336) * s2)));
+  // Newton's iteration: what is left after a step is below the square of it.
+  for (int i = 0; i < 6; ++i) {
+    const SinCos<P> at = sin_cos(angle);
+    const P step = (at.sin - s) / at.cos;
+    angle = angle - step;
+    if (all_of<P>(exceeds(P(1e-9), size_of(step)))) break;
+  }
+  return angle;
+}
+
+}  // namespace bbsim::simd
+
+namespace bbsim::solve::held {
+
+template <class P>
+struct LaneLaw {
+  int first;
+
+  BBSIM_INLINE P one(const Lanes& from) const { return P::load(from.of + first); }
+  template <class To, class From, std::size_t count>
+  BBSIM_INLINE void each(To (&to)[count], const From (&from)[count]) const {
+    for (std::size_t i = 0; i < count; ++i) {
+      if constexpr (std::is_array_v<To>) {
+        each(to[i], from[i]);
+      } else if constexpr (std::is_same_v<To, P>) {
+        to[i] = one(from[i]);
+      } else {
+        to[i] = {one(from[i].low), one(from[i].high)};
+      }
+    }
+  }
+  BBSIM_INLINE model::SampledLaw<P> load(const model::SampledLaw<Lanes>& from) const {
+    model::SampledLaw<P> law;
+    law.law.kind = from.law.kind;
+    each(law.law.gain, from.law.gain);
+    each(law.law.integral, from.law.integral);
+    each(law.law.kv, from.law.kv);
+    each(law.law.kp, from.law.kp);
+    law.law.scale = one(from.law.scale);
+    law.integrates = from.integrates;
+    each(law.limit, from.limit);
+    each(law.sine, from.sine);
+    law.resolution = one(from.resolution);
+    each(law.reached, from.reached);
+    law.filter = one(from.filter);
+    return law;
+  }
+};
+
+template <class P>
+[[gnu::flatten]] void control_lanes(LaneControl& control) {
+  for (int first = 0; first < group; first += P::size) {
+    const LaneLaw<P> from{first};
+    const model::SampledLaw<P> law = from.load(control.law);
+    model::SampledMemory<P> memory;
+    from.each(memory.position, control.memory.position);
+    from.each(memory.velocity, control.memory.velocity);
+    from.each(memory.integral, control.memory.integral);
+    P seen[2], servo[4], command[2];
+    from.each(seen, control.seen);
+    from.each(servo, control.servo);
+    std::array<model::Jet<P>, 2> reference;
+    for (std::size_t i = 0; i < 2; ++i) {
+      const double* const at = control.reference[i];
+      reference[i] = {P(at[0]), P(at[1]), P(at[2])};
+    }
+    model::take_sample(law, memory, seen, from.one(control.elapsed),
+                       simd::exceeds(from.one(control.is_first), P(0.5)), servo, reference,
+                       command);
+    const auto sees = simd::exceeds(from.one(control.sees), P(0.5));
+    const auto keep = [&](Lanes (&to)[2], const P (&values)[2]) __attribute__((always_inline)) {
+      for (int i = 0; i < 2; ++i) {
+        simd::choose(sees, values[i], from.one(to[i])).store(to[i].of + first);
+      }
+    };
+    keep(control.memory.position, memory.position);
+    keep(control.memory.velocity, memory.velocity);
+    keep(control.memory.integral, memory.integral);
+    keep(control.command, command);
+  }
+}
+
+}  // namespace bbsim::solve::held
