@@ -13,9 +13,6 @@
 namespace bbsim::model {
 namespace {
 
-// Instants of different clocks that are nearer than this, relative to the period, are one.
-constexpr double one_instant = 1e-9;
-
 constexpr int angle = RigLayout::angle;  // of the first servo, among the states
 
 // Kinetic and potential energy of a ball that rolls and of what turns with the plane, (M51), J.
@@ -53,22 +50,6 @@ auto HybridSystem::with_loop(Use use) const {
       model_.system);
 }
 
-RigMode& HybridSystem::mode() {
-  if (auto* const plain = std::get_if<RigLoop<>>(&model_.system)) return plain->mode;
-  return std::visit(
-      [](auto& any) -> RigMode& {
-        using Any = std::decay_t<decltype(any)>;
-        if constexpr (is_rig<Any>) {
-          return any.mode;
-        } else if constexpr (is_coupled_loop<Any>) {
-          return any.loop.mode;
-        } else {
-          throw std::logic_error("a rig of a scene without a controller");
-        }
-      },
-      model_.system);
-}
-
 HybridSystem::Wanted HybridSystem::axes(double t, const double* z) const {
   return with_loop([&](const auto& loop) {
     const auto all = loop.axes(loop.inputs(t), z);
@@ -95,13 +76,23 @@ RigExtras HybridSystem::plane(const double* z) const {
 }
 
 HybridSystem::HybridSystem(const Model& model, double resolution) : model_(model) {
+  std::visit(
+      [this](auto& any) {
+        using Any = std::decay_t<decltype(any)>;
+        if constexpr (is_rig<Any>) {
+          mode_ = &any.mode;
+        } else if constexpr (is_coupled_loop<Any>) {
+          mode_ = &any.loop.mode;
+        }
+      },
+      model_.system);
   if (model_.rig) {
     const Rig& rig = *model_.rig;
     rate_ = angle + rig.servos;
     const ServoResponses servo = with_loop([](const auto& loop) { return loop.servo(); });
     for (int i = 0; i < rig.servos; ++i) {
       // With backlash the plane rests in mid-gap, whatever the servo's rate.
-      if (rig.servo[i].backlash > 0) mode().axis[i].ratio = 0;
+      if (rig.servo[i].backlash > 0) mode_->axis[i].ratio = 0;
       servos_.emplace_back(rig.servo[i], servo.of[i]);
     }
     if (rig.switches()) {
@@ -124,26 +115,8 @@ HybridSystem::HybridSystem(const Model& model, double resolution) : model_(model
       }
     }
     if (rig.sampled) {
-      const Sampling& of = rig.sampled->sampling;
-      const Sensor& sensor = rig.sampled->sensor;
-      sampled_.emplace(Sampled{BallSensor(sensor),
-                               SampledController(*rig.sampled),
-                               SampleTimes(of, sensor.seed),
-                               {sensor.period ? sensor.phase : -sensor.delay},
-                               {0},
-                               {of.delay},
-                               {},
-                               {},
-                               {},
-                               {}});
-      if (sensor.period) {
-        // The last frame that has come at t = 0, or the one before.
-        sampled_->expose.number = std::floor((-sensor.delay - sensor.phase) / *sensor.period) - 1;
-      }
-      for (Clock* clock : {&sampled_->expose, &sampled_->sample, &sampled_->apply}) {
-        --clock->number;
-        go_on(*clock);
-      }
+      sampled_.emplace(Sampled{SampleExchange(*rig.sampled), SampledController(*rig.sampled)});
+      only_commands_change_ = !model_.dry && std::holds_alternative<RigLoop<false>>(model_.system);
       if (rig.sampled->law.kind == LawKind::held && !rig.sampled->external) {
         throw std::logic_error("a run of a scene whose controller nobody has attached");
       }
@@ -159,54 +132,6 @@ HybridSystem::HybridSystem(const Model& model, double resolution) : model_(model
   happening_.assign(monitors, 0);
 }
 
-double HybridSystem::next_time_event() const {
-  double next = next_stop();
-  if (sampled_) {
-    next = std::min({next, sampled_->expose.next, sampled_->sample.next, sampled_->apply.next});
-  }
-  return next;
-}
-
-double HybridSystem::next_stop() const {
-  return next_stop_ < model_.stops.size() ? model_.stops[next_stop_] : unlimited;
-}
-
-double HybridSystem::next_change() const {
-  return sampled_ ? std::min(next_stop(), sampled_->apply.next) : next_stop();
-}
-
-double HybridSystem::rounding(double t) const {
-  // What the sensor sees at t is of the sample at t + delay.
-  return rounding_of(sampled_ ? t + model_.rig->sampled->sensor.delay : t);
-}
-
-bool HybridSystem::has_frames() const {
-  return model_.rig->sampled->sensor.period.has_value();
-}
-
-void HybridSystem::go_on(Clock& clock) {
-  ++clock.number;
-  if (&clock == &sampled_->expose && has_frames()) {
-    clock.next = clock.number * *model_.rig->sampled->sensor.period + clock.shift;
-  } else {
-    clock.next = sampled_->times.at(clock.number) + clock.shift;
-  }
-}
-
-// Until when instants are one with t: a run of no length between them is none.
-double HybridSystem::instant_end(double t) const {
-  return t + (sampled_ ? std::max(rounding(t), one_instant * model_.rig->sampled->sampling.period)
-                       : rounding(t));
-}
-
-bool HybridSystem::changes_at(double t) const {
-  return next_change() <= instant_end(t);
-}
-
-bool HybridSystem::is_due(double t) const {
-  return next_time_event() <= instant_end(t);
-}
-
 void HybridSystem::handle_time_event(double t, double* z) {
   see(t, z);
   while (samples_at(t)) take_sample(t, z);
@@ -217,16 +142,11 @@ void HybridSystem::see(double t, const double* z) {
   const double now = instant_end(t);
   while (next_stop_ < model_.stops.size() && model_.stops[next_stop_] <= now) ++next_stop_;
   if (!sampled_) return;
-  while (sampled_->expose.next <= now) expose(z);
-}
-
-bool HybridSystem::samples_at(double t) const {
-  return sampled_ && sampled_->sample.next <= instant_end(t);
+  while (sampled_->exchange.exposes_by(now)) sampled_->exchange.expose({z[0], z[1]});
 }
 
 std::optional<Pair> HybridSystem::begin_sample(double t) {
-  go_on(sampled_->sample);
-  return seen_at(t);
+  return sampled_->exchange.begin_sample(instant_end(t));
 }
 
 const std::array<Jet<double>, 2>& HybridSystem::reference_at(double t) {
@@ -238,55 +158,25 @@ const std::array<Jet<double>, 2>& HybridSystem::reference_at(double t) {
 }
 
 void HybridSystem::end_sample(const Pair& command, const Pair& measured) {
-  sampled_->commands.push_back(command);
+  sampled_->exchange.end_sample(command);
   sampled_->measured = measured;
 }
 
 void HybridSystem::act(double t, double* z) {
-  // What a sampled loop only sees changes nothing.
-  touched_ = !sampled_ || dry_ || !std::holds_alternative<RigLoop<false>>(model_.system) || t == 0;
+  touched_ = !only_commands_change_ || t == 0;
   if (sampled_) {
     const double now = instant_end(t);
-    while (sampled_->apply.next <= now) apply_command();
-    const double last = std::min(sampled_->sample.number, sampled_->apply.number);
-    sampled_->times.forget_before(has_frames() ? last : std::min(last, sampled_->expose.number));
+    while (sampled_->exchange.commands_by(now)) apply_command();
   }
   if (touched_) settle(t, z);
-}
-
-const SampledController& HybridSystem::computer() const {
-  return sampled_->controller;
-}
-
-void HybridSystem::expose(const double* z) {
-  if (has_frames()) sampled_->seen_at.push_back(sampled_->expose.next);
-  go_on(sampled_->expose);
-  sampled_->seen.push_back(sampled_->sensor.read({z[0], z[1]}));
 }
 
 ExternalController* HybridSystem::controller() const {
   return model_.rig && model_.rig->sampled ? model_.rig->sampled->external.get() : nullptr;
 }
 
-// What the sensor has to say at a sample: of the exposure for it, or the last frame that has come.
-std::optional<Pair> HybridSystem::seen_at(double t) {
-  Sampled& of = *sampled_;
-  if (!has_frames()) {
-    const std::optional<Pair> seen = of.seen.front();
-    of.seen.erase(of.seen.begin());
-    return seen;
-  }
-  const double now = instant_end(t), delay = model_.rig->sampled->sensor.delay;
-  while (!of.seen.empty() && of.seen_at.front() + delay <= now) {
-    of.frame = of.seen.front();
-    of.seen.erase(of.seen.begin());
-    of.seen_at.erase(of.seen_at.begin());
-  }
-  return of.frame;
-}
-
 void HybridSystem::take_sample(double t, const double* z) {
-  const double number = sampled_->sample.number;
+  const double number = sampled_->exchange.sample_number();
   const std::optional<Pair> seen = begin_sample(t);
   const auto& reference = reference_at(t);
   SampledController& controller = sampled_->controller;
@@ -294,9 +184,8 @@ void HybridSystem::take_sample(double t, const double* z) {
   if (ExternalController* const external = this->controller()) {
     if (number == 0) external->begin();
     const ControllerSample sample{static_cast<std::size_t>(number), t, seen, servo, reference};
-    sampled_->commands.push_back(
-        controller.within_limits(external->command(sample, sampled_->own.data())));
-    if (seen) sampled_->measured = *seen;
+    const Pair asked = external->command(sample, sampled_->own.data());
+    end_sample(controller.within_limits(asked), seen.value_or(sampled_->measured));
     return;
   }
   const Between& between = model_.rig->between;
@@ -306,21 +195,19 @@ void HybridSystem::take_sample(double t, const double* z) {
 }
 
 void HybridSystem::apply_command() {
-  go_on(sampled_->apply);
-  const Pair command = sampled_->commands.front();
-  sampled_->commands.erase(sampled_->commands.begin());
+  const Pair command = sampled_->exchange.take_command();
   const std::array<double, 3> told = sampled_->controller.told(command);
   for (std::size_t i = 0; i < servos_.size(); ++i) {
     const double follows = servos_[i].follow(told[i]);
-    touched_ = touched_ || follows != mode().command[i];
-    mode().command[i] = follows;
+    touched_ = touched_ || follows != mode_->command[i];
+    mode_->command[i] = follows;
   }
-  for (std::size_t i = 0; i < 2; ++i) mode().wanted[i] = command[i];
+  for (std::size_t i = 0; i < 2; ++i) mode_->wanted[i] = command[i];
 }
 
 // Whether a continuous law's command is at its limit.
 void HybridSystem::settle_commands(double t, const double* z) {
-  RigMode& present = mode();
+  RigMode& present = *mode_;
   for (std::size_t i = 0; i < 2; ++i) {
     const CommandRange& limit = model_.rig->command_limit[i];
     const double raw = axes(t, z).raw[i];
@@ -364,7 +251,7 @@ void HybridSystem::settle_pieces(double t, const double* z) {
   for (std::size_t i = 0; i < 2; ++i) {
     const Linkage& linkage = model_.rig->between.linkages[i];
     if (!linkage.table) continue;
-    const AxisMode& axis = mode().axis[i];
+    const AxisMode& axis = mode_->axis[i];
     const double horn = axis.ratio * z[static_cast<std::size_t>(angle) + i] + axis.offset;
     pieces_[i] =
         linkage.piece_at(pieces_[i], horn, axis.ratio * z[static_cast<std::size_t>(rate_) + i]);
@@ -434,7 +321,7 @@ bool HybridSystem::settle_servos(double t, double* z) {
   bool moved = false;
   for (int i = 0; i < model_.rig->servos; ++i) {
     AxisState state = axis_state(i, wanted, z);
-    servos_[static_cast<std::size_t>(i)].settle(state, mode().axis[i]);
+    servos_[static_cast<std::size_t>(i)].settle(state, mode_->axis[i]);
     moved = moved || state.angle != z[angle + i] || state.rate != z[rate_ + i];
     z[angle + i] = state.angle;
     z[rate_ + i] = state.rate;
@@ -597,7 +484,7 @@ HybridSystem::Effect HybridSystem::check_events(double t, const double* z) {
 
 template <class Archive>
 void HybridSystem::archive(Archive& archive) {
-  if (model_.rig) archive(mode());
+  if (model_.rig) archive(*mode_);
   archive(next_stop_, happening_);
   for (ServoAxis& servo : servos_) archive(servo);
   if (model_.rig && model_.rig->between.has_pieces()) {
@@ -606,9 +493,7 @@ void HybridSystem::archive(Archive& archive) {
   }
   if (!sampled_) return;
   Sampled& of = *sampled_;
-  archive(of.sensor, of.controller, of.times, of.seen, of.seen_at, of.frame, of.commands,
-          of.measured, of.own);
-  for (Clock* clock : {&of.expose, &of.sample, &of.apply}) archive(clock->number, clock->next);
+  archive(of.exchange, of.controller, of.measured, of.own);
 }
 
 template void HybridSystem::archive(StateWriter&);

@@ -2,13 +2,15 @@
 // happens then. Whoever integrates knows no more of a rig than this class says.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "base/instant.hpp"
 #include "model/control/external_controller.hpp"
-#include "model/control/sample_times.hpp"
+#include "model/control/sample_exchange.hpp"
 #include "model/control/sampled_controller.hpp"
 #include "model/dry_switches.hpp"
 #include "model/events/occurrence.hpp"
@@ -30,13 +32,17 @@ class HybridSystem {
 
   // The next time (s) at which something happens that does not depend on the state; infinite if
   // nothing does any more.
-  [[nodiscard]] double next_time_event() const;
+  [[nodiscard]] double next_time_event() const {
+    return sampled_ ? std::min(next_stop(), sampled_->exchange.next()) : next_stop();
+  }
 
   // Whether t is as good as next_time_event().
-  [[nodiscard]] bool is_due(double t) const;
+  [[nodiscard]] bool is_due(double t) const { return next_time_event() <= instant_end(t); }
 
   // Times nearer to t than this (s) are one with it but for their rounding.
-  [[nodiscard]] double rounding(double t) const;
+  [[nodiscard]] double rounding(double t) const {
+    return sampled_ ? sampled_->exchange.rounding(t) : rounding_of(t);
+  }
 
   // Does what is due at t, the time of the start or next_time_event(). May change the states z.
   // Throws ControllerFault where a controller that is not built in does not do its part.
@@ -45,7 +51,9 @@ class HybridSystem {
   // The same step by step, for who computes the laws of several runs at once: see(); while
   // samples_at(), a sample, whose command is end_sample()'s; act(). Of a sampled loop.
   void see(double t, const double* z);
-  [[nodiscard]] bool samples_at(double t) const;
+  [[nodiscard]] bool samples_at(double t) const {
+    return sampled_ && sampled_->exchange.samples_by(instant_end(t));
+  }
   // What is seen of the ball, m; nothing if it is missed.
   [[nodiscard]] std::optional<Pair> begin_sample(double t);
   [[nodiscard]] const std::array<Jet<double>, 2>& reference_at(double t);
@@ -53,15 +61,17 @@ class HybridSystem {
   void end_sample(const Pair& command, const Pair& measured);
   void act(double t, double* z);
   // Who computes the law otherwise.
-  [[nodiscard]] const SampledController& computer() const;
+  [[nodiscard]] const SampledController& computer() const { return sampled_->controller; }
 
   // Whether the last call may have changed how the model moves from there on.
   [[nodiscard]] bool touched() const { return touched_; }
 
   // The first of those times at which the motion may change: others only see it.
-  [[nodiscard]] double next_change() const;
+  [[nodiscard]] double next_change() const {
+    return sampled_ ? std::min(next_stop(), sampled_->exchange.next_command()) : next_stop();
+  }
   // Whether that one is at t.
-  [[nodiscard]] bool changes_at(double t) const;
+  [[nodiscard]] bool changes_at(double t) const { return next_change() <= instant_end(t); }
 
   // What is looked out for between: each guard is positive until something happens.
   [[nodiscard]] std::size_t guards() const { return guard_scales_.size(); }
@@ -136,8 +146,9 @@ class HybridSystem {
   // Calls `use` with the RigLoop, of a model that has one.
   template <class Use>
   auto with_loop(Use use) const;
-  [[nodiscard]] double next_stop() const;
-  [[nodiscard]] RigMode& mode();
+  [[nodiscard]] double next_stop() const {
+    return next_stop_ < model_.stops.size() ? model_.stops[next_stop_] : unlimited;
+  }
   [[nodiscard]] Wanted axes(double t, const double* z) const;
   [[nodiscard]] RigExtras plane(const double* z) const;
   [[nodiscard]] Sample sample(double t, const double* z, Detail detail) const;
@@ -152,24 +163,18 @@ class HybridSystem {
   Effect note_dry(double t, const double* z);
   Effect occur(std::string name, bool stops, double t, const double* z);
   bool settle_servos(double t, double* z);
-  [[nodiscard]] double instant_end(double t) const;
+  [[nodiscard]] double instant_end(double t) const {
+    return sampled_ ? sampled_->exchange.instant_end(t) : t + rounding_of(t);
+  }
   void settle_commands(double t, const double* z);
-  void expose(const double* z);
-  [[nodiscard]] std::optional<Pair> seen_at(double t);
   void take_sample(double t, const double* z);
   void apply_command();
   Effect occur(std::size_t monitor, double t, const double* z);
 
-  // An instant that recurs: of the sample of that number, or of a frame, and so much later.
-  struct Clock {
-    double shift;
-    double number = 0;
-    double next = 0;  // s
-  };
-  void go_on(Clock& clock);
-  [[nodiscard]] bool has_frames() const;
-
   Model model_;
+  RigMode* mode_ = nullptr;  // of its system, if that is a rig
+  // An instant changes the motion only by what it makes a servo follow.
+  bool only_commands_change_ = false;
   std::size_t next_stop_ = 0;
   bool touched_ = true;
   std::vector<ServoAxis> servos_;
@@ -181,14 +186,8 @@ class HybridSystem {
   DrySwitches::State dry_state_;  // that occurrences know of
 
   struct Sampled {
-    BallSensor sensor;
+    SampleExchange exchange;
     SampledController controller;
-    SampleTimes times;
-    Clock expose, sample, apply;
-    std::vector<std::optional<Pair>> seen;  // exposed, not yet sampled: a queue
-    std::vector<double> seen_at{};          // when, of frames
-    std::optional<Pair> frame{};            // the last one that has come
-    std::vector<Pair> commands;             // computed, not yet applied: a queue
     Pair measured{0, 0};
     std::vector<double> own{};  // the last numbers of one's own controller
   };

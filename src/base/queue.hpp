@@ -1,0 +1,44 @@
+// First in, first out, of a few: without a move of what is left, and without memory of its own once
+// it has held as many.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+namespace bbsim {
+
+template <class T>
+class Queue {
+ public:
+  [[nodiscard]] bool empty() const { return first_ == all_.size(); }
+  [[nodiscard]] const T& front() const { return all_[first_]; }
+  void push(const T& one) {
+    // Those that are gone make room before there are more of them than of the others.
+    if (first_ > 8 && 2 * first_ > all_.size()) {
+      all_.erase(all_.begin(), all_.begin() + static_cast<std::ptrdiff_t>(first_));
+      first_ = 0;
+    }
+    all_.push_back(one);
+  }
+  // Of a queue that is not empty.
+  T pop() {
+    T one = all_[first_++];
+    if (empty()) {
+      all_.clear();
+      first_ = 0;
+    }
+    return one;
+  }
+
+  // base/archive.hpp
+  template <class Archive>
+  void archive(Archive& archive) {
+    archive(all_, first_);
+  }
+
+ private:
+  std::vector<T> all_;
+  std::size_t first_ = 0;
+};
+
+}  // namespace bbsim

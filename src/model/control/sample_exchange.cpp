@@ -1,0 +1,57 @@
+#include "model/control/sample_exchange.hpp"
+
+#include <cmath>
+
+namespace bbsim::model {
+namespace {
+
+// Instants of different clocks that are nearer than this, relative to the period, are one.
+constexpr double one_instant = 1e-9;
+
+}  // namespace
+
+SampleExchange::SampleExchange(const SampledLoop& loop)
+    : sensor_(loop.sensor),
+      times_(loop.sampling, loop.sensor.seed),
+      frames_(loop.sensor.period),
+      sensor_delay_(loop.sensor.delay),
+      one_instant_(one_instant * loop.sampling.period),
+      even_(loop.sampling.is_even()),
+      expose_{frames_ ? loop.sensor.phase : -loop.sensor.delay},
+      sample_{0},
+      apply_{loop.sampling.delay} {
+  // The last frame that has come at t = 0, or the one before.
+  if (frames_) expose_.number = std::floor((-sensor_delay_ - expose_.shift) / *frames_) - 2;
+  go_on_exposing();
+  go_on(sample_);
+  go_on(apply_);
+}
+
+void SampleExchange::go_on_exposing() {
+  if (!frames_) return go_on(expose_);
+  ++expose_.number;
+  expose_.next = expose_.number * *frames_ + expose_.shift;
+}
+
+void SampleExchange::expose(Pair position) {
+  seen_.push({expose_.next, sensor_.read(position)});
+  go_on_exposing();
+}
+
+std::optional<Pair> SampleExchange::begin_sample(double now) {
+  go_on(sample_);
+  if (!frames_) return seen_.pop().position;
+  while (!seen_.empty() && seen_.front().at + sensor_delay_ <= now) frame_ = seen_.pop().position;
+  return frame_;
+}
+
+Pair SampleExchange::take_command() {
+  go_on(apply_);
+  if (!even_) {
+    const double last = std::min(sample_.number, apply_.number);
+    times_.forget_before(frames_ ? last : std::min(last, expose_.number));
+  }
+  return commands_.pop();
+}
+
+}  // namespace bbsim::model

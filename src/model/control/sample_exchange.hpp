@@ -1,0 +1,87 @@
+// What goes between a rig and its sampled controller, and when: what the sensor sees of the ball,
+// and the controller's commands, either of them on its way for some time.
+#pragma once
+
+#include <algorithm>
+#include <optional>
+
+#include "base/instant.hpp"
+#include "base/queue.hpp"
+#include "model/control/sample_times.hpp"
+#include "model/control/sampled_controller.hpp"
+
+namespace bbsim::model {
+
+// Instants of its three clocks, each known by its number: exposures, of a sample or of a camera's
+// frame; samples; and when a sample's command arrives. Each is asked for in turn.
+class SampleExchange {
+ public:
+  explicit SampleExchange(const SampledLoop& loop);
+
+  // The first instant that is left, and the first one at which a command arrives, s.
+  [[nodiscard]] double next() const {
+    return std::min({expose_.next, sample_.next, apply_.next});
+  }
+  [[nodiscard]] double next_command() const { return apply_.next; }
+
+  // Times nearer to t than this (s) are one with it but for their rounding: what the sensor sees at
+  // t is of the sample at t + delay.
+  [[nodiscard]] double rounding(double t) const { return rounding_of(t + sensor_delay_); }
+  // Until when instants are one with t: a run of no length between them is none.
+  [[nodiscard]] double instant_end(double t) const {
+    return t + std::max(rounding(t), one_instant_);
+  }
+
+  // Whether one is left up to `now`, which is due then; and what is to be done about it.
+  [[nodiscard]] bool exposes_by(double now) const { return expose_.next <= now; }
+  void expose(Pair position);
+  [[nodiscard]] bool samples_by(double now) const { return sample_.next <= now; }
+  [[nodiscard]] double sample_number() const { return sample_.number; }
+  // What the sensor has to say at the sample: of the exposure for it, or the last frame that has
+  // come by `now`; nothing if it missed the ball.
+  [[nodiscard]] std::optional<Pair> begin_sample(double now);
+  void end_sample(Pair command) { commands_.push(command); }
+  [[nodiscard]] bool commands_by(double now) const { return apply_.next <= now; }
+  [[nodiscard]] Pair take_command();
+
+  // What changes over a run (base/archive.hpp).
+  template <class Archive>
+  void archive(Archive& archive) {
+    archive(sensor_, times_, seen_, frame_, commands_, expose_, sample_, apply_);
+  }
+
+ private:
+  // An instant that recurs: of the sample of that number, or of a frame, and so much later.
+  struct Clock {
+    double shift;
+    double number = -1;
+    double next = 0;  // s
+
+    template <class Archive>
+    void archive(Archive& archive) {
+      archive(number, next);
+    }
+  };
+  struct Seen {
+    double at = 0;  // when, of frames, s
+    std::optional<Pair> position{};
+  };
+
+  void go_on(Clock& clock) {
+    ++clock.number;
+    clock.next = times_.at(clock.number) + clock.shift;
+  }
+  void go_on_exposing();
+
+  BallSensor sensor_;
+  SampleTimes times_;
+  std::optional<double> frames_;  // the period of a camera's, s
+  double sensor_delay_, one_instant_;
+  bool even_;
+  Clock expose_, sample_, apply_;
+  Queue<Seen> seen_;           // exposed, not yet sampled
+  std::optional<Pair> frame_;  // the last one that has come
+  Queue<Pair> commands_;       // computed, not yet applied
+};
+
+}  // namespace bbsim::model
