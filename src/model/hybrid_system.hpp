@@ -96,6 +96,11 @@ class HybridSystem {
   [[nodiscard]] Fall next_fall(double t, const std::array<HeldMotion, 2>& motions,
                                double end) const;
 
+  // What keeps the servo of phi or theta, in its present mode, from switching.
+  [[nodiscard]] ServoAxis::Clearance clearance(std::size_t axis) const {
+    return servos_[axis].clearance();
+  }
+
   // A reference at the time that it was last asked for.
   struct KnownReference {
     double t = -1;  // s

@@ -184,11 +184,14 @@ void ServoAxis::evaluate(const AxisState& state, double* values) const {
   for_each_margin([&](int guard, const AxisMargin& margin) { values[guard] = margin.at(state); });
 }
 
-// Of a free servo without backlash: that it reaches none of its limits. Mostly.
-bool ServoAxis::clears_limits(const MotionReach& reached) const {
+ServoAxis::Clearance ServoAxis::clearance() const {
   constexpr double clearly = 1 - 1e-12;
-  return rig_->acceleration_limit == unlimited && reached.rate_most < clearly * rig_->rate_limit &&
-         std::abs(reached.centre) + reached.angle_most < clearly * rig_->angle_limit;
+  if (!rig_->switches()) return {unlimited, unlimited, root_};
+  if (motion_ != Motion::free || play_ != Play::none || rig_->acceleration_limit < unlimited ||
+      !(root_ > 0)) {
+    return {0, 0, root_};
+  }
+  return {clearly * rig_->angle_limit, clearly * rig_->rate_limit, root_};
 }
 
 ServoAxis::Fall ServoAxis::first_fall(const HeldMotion& motion, double command, double start,
@@ -196,7 +199,13 @@ ServoAxis::Fall ServoAxis::first_fall(const HeldMotion& motion, double command, 
   Fall first;
   const bool springs = root_ > 0 && motion.law.stiffness == response_.from_angle;
   const MotionReach reached = springs ? reach_about(motion, root_) : reach(motion, end);
-  if (motion_ == Motion::free && play_ == Play::none && clears_limits(reached)) return first;
+  if (springs) {
+    const Clearance clear = clearance();
+    if (reached.rate_most < clear.rate &&
+        std::abs(reached.centre) + reached.angle_most < clear.angle) {
+      return first;
+    }
+  }
   for_each_margin([&](int guard, const AxisMargin& margin) {
     const MotionLine line{
         margin.constant + (margin.by_command + margin.by_demand * response_.from_command) * command,

@@ -59,6 +59,14 @@ class ServoAxis {
   [[nodiscard]] Fall first_fall(const HeldMotion& motion, double command, double start,
                                 double end) const;
 
+  // While a servo moves freely by a spring's law, what switches it no sooner than its angle or its
+  // rate reaches as much: (angle, rate) of which neither is positive if there is more to look at.
+  struct Clearance {
+    double angle, rate;  // rad, rad/s
+    double root;         // of the stiffness, rad/s
+  };
+  [[nodiscard]] Clearance clearance() const;
+
   // The size of each guard's quantity.
   void scales(double* values) const;
 
@@ -80,7 +88,6 @@ class ServoAxis {
   };
   enum class Play { none, up, down, gap };
 
-  [[nodiscard]] bool clears_limits(const MotionReach& reached) const;
   // Calls use(guard, margin) for each that is looked out for.
   template <class Use>
   void for_each_margin(Use use) const;

@@ -18,12 +18,14 @@ inline constexpr int group = 8;
 // One axis of each: its servo at the start, how it moves (MotionTable), and the plane at the nodes.
 struct alignas(64) LaneAxis {
   double angle[group], rate[group], acceleration[group];
+  double angle_end[group], rate_end[group];
   double ratio[group], offset[group];
-  double by_rate[MotionTable::rows][nodes][group], by_acceleration[MotionTable::rows][nodes][group];
   double most_by_rate[group], most_by_acceleration[group];
   double missed_by_rate[group], missed_by_acceleration[group];
+  double by_rate[MotionTable::rows][nodes][group], by_acceleration[MotionTable::rows][nodes][group];
   double plane_sin[nodes][group], plane_cos[nodes][group];
   double plane_rate[nodes][group], plane_acceleration[nodes][group];
+  const MotionTable* shared;  // where all move by one table; else null, and by_rate and so on tell
 };
 
 // The last piece of each rig, as Piece has it of one. A lane without a piece has no length, and
@@ -45,6 +47,20 @@ struct alignas(64) LanePieces {
 };
 
 inline constexpr double hopeless = 1e300;
+
+// What the servos of an axis do in their present modes (model::held_motion): their acceleration is
+// push + by_command u - stiffness q - damping q'.
+struct alignas(64) LaneServo {
+  double push[group], by_command[group], stiffness[group], damping[group];
+  double command[group];  // u
+  // What switches none as long as they stay within, the root of the stiffness, and its inverse
+  // (model::ServoAxis::Clearance).
+  double angle_most[group], rate_most[group], root[group], inverse_root[group];
+};
+struct alignas(64) LaneServos {
+  LaneServo of[2];
+  double clear[group];  // 1 where no servo switches as long as the commands are held, or 0: ask
+};
 
 struct alignas(64) LaneScene {
   double radius[group], gravity[group], friction[group];
@@ -88,6 +104,8 @@ struct LaneControl {
 };
 
 struct LaneKernels {
+  // Where pieces begin: the servos' accelerations, and whether they clear their limits.
+  void (*start)(LanePieces& pieces, LaneServos& servos);
   // Solves for the balls over the pieces, from their starts, lengths and axes.
   void (*attempt)(LanePieces& pieces, const LaneScene& scene);
   double (*closer_error)(const LanePieces& pieces, const LaneScene& scene, int lane);

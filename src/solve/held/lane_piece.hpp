@@ -56,20 +56,57 @@ struct LaneKernel {
     return small;
   }
 
+  static void start(LanePieces& pieces, LaneServos& servos) {
+    for (int first = 0; first < group; first += lanes) {
+      const auto of = [first](const double* values) __attribute__((always_inline)) {
+        return P::load(values + first);
+      };
+      Mask clear = Mask{} - 1;
+#pragma GCC unroll 2
+      for (int i = 0; i < 2; ++i) {
+        const LaneServo& servo = servos.of[i];
+        LaneAxis& axis = pieces.axis[i];
+        const P angle = of(axis.angle), rate = of(axis.rate), damped = of(servo.damping) * rate;
+        const P acceleration = of(servo.push) + (of(servo.by_command) * of(servo.command) -
+                                                 of(servo.stiffness) * angle - damped);
+        acceleration.store(axis.acceleration + first);
+        // As model::reach_about(): an oscillator's energy does not grow.
+        const P inverse = of(servo.inverse_root);
+        const P spring = (acceleration + damped) * inverse * inverse;
+        const P most = size_of(spring) + size_of(rate) * inverse;
+        clear &= simd::exceeds(of(servo.rate_most), most * of(servo.root)) &
+                 simd::exceeds(of(servo.angle_most), size_of(angle + spring) + most);
+      }
+      simd::choose(clear, P(1.0), P(0.0)).store(servos.clear + first);
+    }
+  }
+
   // The plane's axis at a node, kept for those who look.
   BBSIM_INLINE static model::Axis<P> plane_axis(LaneAxis& axis, int node, int first, bool small) {
     const P start_rate = P::load(axis.rate + first);
     const P start_acceleration = P::load(axis.acceleration + first);
     const P ratio = P::load(axis.ratio + first);
-    const auto row = [&](MotionTable::Row of) __attribute__((always_inline)) {
-      return P::load(axis.by_rate[of][node] + first) * start_rate +
-             P::load(axis.by_acceleration[of][node] + first) * start_acceleration;
-    };
-    const P angle = ratio * (P::load(axis.angle + first) + row(MotionTable::angle)) +
-                    P::load(axis.offset + first);
+    P row[MotionTable::rows];
+    if (axis.shared != nullptr) {
+      for (int of = 0; of < MotionTable::rows; ++of) {
+        row[of] = P(axis.shared->by_rate[of][node]) * start_rate +
+                  P(axis.shared->by_acceleration[of][node]) * start_acceleration;
+      }
+    } else {
+      for (int of = 0; of < MotionTable::rows; ++of) {
+        row[of] = P::load(axis.by_rate[of][node] + first) * start_rate +
+                  P::load(axis.by_acceleration[of][node] + first) * start_acceleration;
+      }
+    }
+    const P servo = P::load(axis.angle + first) + row[MotionTable::angle];
+    if (node == nodes - 1) {
+      servo.store(axis.angle_end + first);
+      row[MotionTable::rate].store(axis.rate_end + first);
+    }
+    const P angle = ratio * servo + P::load(axis.offset + first);
     const SinCos<P> wave = small ? simd::sin_cos_of_small(angle) : sin_cos(angle);
-    const model::Axis<P> at{wave.sin, wave.cos, ratio * row(MotionTable::rate),
-                            ratio * row(MotionTable::acceleration)};
+    const model::Axis<P> at{wave.sin, wave.cos, ratio * row[MotionTable::rate],
+                            ratio * row[MotionTable::acceleration]};
     at.sin.store(axis.plane_sin[node] + first);
     at.cos.store(axis.plane_cos[node] + first);
     at.rate.store(axis.plane_rate[node] + first);
@@ -454,7 +491,7 @@ struct LaneKernel {
     }
   }
 
-  static constexpr LaneKernels kernels{&attempt,      &closer_error, &look,
+  static constexpr LaneKernels kernels{&start, &attempt,      &closer_error, &look,
                                        &look_closely, &reference,    &control_lanes<P>, &evaluate};
 };
 

@@ -46,6 +46,16 @@ Range LaneStep::bounds(Size size, std::size_t lane) const {
   return {range.least - beyond, range.most + beyond};
 }
 
+// How it goes on from the piece's start.
+model::HeldMotion LaneStep::servo(std::size_t lane, std::size_t i) const {
+  const LaneServo& servo = servos_->of[i];
+  const LaneAxis& axis = pieces_->axis[i];
+  return {{servo.stiffness[lane], servo.damping[lane]},
+          axis.angle[lane],
+          axis.rate[lane],
+          axis.acceleration[lane]};
+}
+
 void LaneStep::evaluate(std::size_t lane, const double* times, std::size_t count,
                         Track* track) const {
   const LanePieces& of = *pieces_;
@@ -56,6 +66,7 @@ void LaneStep::evaluate(std::size_t lane, const double* times, std::size_t count
     piece.position[i] = i < 2 ? of.position[i][lane] : 0;
   }
   piece.length = of.length[lane];
+  const model::HeldMotion servos[2] = {servo(lane, 0), servo(lane, 1)};
   constexpr std::size_t together = 16;
   double after[together], ball[together][6];
   for (std::size_t first = 0; first < count; first += together) {
@@ -67,11 +78,11 @@ void LaneStep::evaluate(std::size_t lane, const double* times, std::size_t count
       at.x = ball[i][0];
       at.y = ball[i][1];
       double plane[2], turns[2];
-      const model::ImpulseAnswer answer = model::answer(servo_[lane][0].law, after[i]);
+      const model::ImpulseAnswer answer = model::answer(servos[0].law, after[i]);
       for (std::size_t k = 0; k < 2; ++k) {
-        const model::HeldMotion& servo = servo_[lane][k];
-        const bool alike = servo.law == servo_[lane][0].law;
-        const model::HeldMotion::Instant now = alike ? servo.after(answer) : servo.after(after[i]);
+        const bool alike = servos[k].law == servos[0].law;
+        const model::HeldMotion::Instant now =
+            alike ? servos[k].after(answer) : servos[k].after(after[i]);
         const LaneAxis& axis = of.axis[k];
         plane[k] = axis.ratio[lane] * now.angle + axis.offset[lane];
         turns[k] = axis.ratio[lane] * now.rate;
@@ -90,6 +101,7 @@ RigLanes::RigLanes(Tolerances tolerances, const OutputGrid& grid, const LaneAske
       asked_(asked),
       kernels_(choose_lane_kernels()),
       pieces_(std::make_unique<LanePieces>()),
+      servos_(std::make_unique<LaneServos>()),
       reference_(std::make_unique<LaneReference>()),
       control_(std::make_unique<LaneControl>()) {
   scene_.rtol = tolerances.rtol;
@@ -97,6 +109,7 @@ RigLanes::RigLanes(Tolerances tolerances, const OutputGrid& grid, const LaneAske
   scene_.gimbal = asked.gimbal;
   scene_.reference = asked.reference;
   step_.pieces_ = pieces_.get();
+  step_.servos_ = servos_.get();
   step_.kernels_ = &choose_kernels();
   step_.lane_kernels_ = &kernels_;
 }
@@ -129,8 +142,9 @@ void RigLanes::begin(std::size_t l, const model::Model& model, LaneSink& sink) {
   }
   clear(l);
   sink.accept_row(l, 0, lane.z[0], lane.z[1]);
-  refresh(l);
-  foresee(l);
+  take_mode(l);
+  put_start(l);
+  lane.unforeseen = true;
 }
 
 // From the run, which took the first sample.
@@ -176,59 +190,107 @@ void RigLanes::clear(std::size_t l) {
     LaneAxis& axis = pieces_->axis[i];
     pieces_->position[i][l] = axis.angle[l] = axis.rate[l] = axis.acceleration[l] = 0;
     axis.ratio[l] = axis.offset[l] = 0;
+    LaneServo& servo = servos_->of[i];
+    servo.push[l] = servo.by_command[l] = servo.stiffness[l] = servo.damping[l] = 0;
   }
   pieces_->contraction[l] = 1e-2;
 }
 
+// The lane's servos' part of the mode, which commands and switches change.
+void RigLanes::take_mode(std::size_t l) {
+  const model::HybridSystem& run = *lanes_[l].run;
+  const Loop& loop = loop_of(run.model());
+  for (std::size_t i = 0; i < 2; ++i) {
+    const model::AxisMode& mode = loop.mode.axis[i];
+    const model::ServoResponse& response = loop.servo().of[i];
+    LaneServo& servo = servos_->of[i];
+    const double free = mode.demand_factor;
+    servo.push[l] = mode.set_acceleration;
+    servo.by_command[l] = free * response.from_command;
+    servo.stiffness[l] = free * response.from_angle;
+    servo.damping[l] = free * response.from_rate;
+    servo.command[l] = loop.mode.command[i];
+    const model::ServoAxis::Clearance clear = run.clearance(i);
+    servo.angle_most[l] = clear.angle;
+    servo.rate_most[l] = clear.rate;
+    servo.root[l] = clear.root;
+    servo.inverse_root[l] = clear.root > 0 ? 1 / clear.root : 0;
+    pieces_->axis[i].ratio[l] = mode.ratio;
+    pieces_->axis[i].offset[l] = mode.offset;
+  }
+}
+
 // Puts a lane's state where its next piece begins.
-void RigLanes::refresh(std::size_t l) {
-  Lane& lane = lanes_[l];
-  const model::RigMode& mode = loop_of(lane.run->model()).mode;
+void RigLanes::put_start(std::size_t l) {
+  const Lane& lane = lanes_[l];
   for (std::size_t i = 0; i < 3; ++i) {
     pieces_->velocity[i][l] = lane.z[2 + i];
-    if (i < 2) pieces_->position[i][l] = lane.z[i];
-  }
-  step_.servo_[l] = lane.run->held_motions(lane.z.data());
-  for (std::size_t i = 0; i < 2; ++i) {
-    const model::HeldMotion& motion = step_.servo_[l][i];
-    LaneAxis& axis = pieces_->axis[i];
-    axis.angle[l] = motion.angle;
-    axis.rate[l] = motion.rate;
-    axis.acceleration[l] = motion.acceleration;
-    axis.ratio[l] = mode.axis[i].ratio;
-    axis.offset[l] = mode.axis[i].offset;
+    if (i == 2) continue;
+    pieces_->position[i][l] = lane.z[i];
+    pieces_->axis[i].angle[l] = lane.z[angle + i];
+    pieces_->axis[i].rate[l] = lane.z[rate + i];
   }
 }
 
-// With the motions of refresh().
 void RigLanes::foresee(std::size_t l) {
   Lane& lane = lanes_[l];
+  lane.unforeseen = false;
   lane.foreseen = lane.run->next_change();
-  lane.fall = lane.run->next_fall(lane.time, step_.servo_[l], lane.foreseen);
+  lane.fall = {};
+  if (servos_->clear[l] != 0) return;
+  lane.fall =
+      lane.run->next_fall(lane.time, {step_.servo(l, 0), step_.servo(l, 1)}, lane.foreseen);
 }
 
-void RigLanes::load_table(std::size_t l, std::size_t i, double length) {
-  const model::HeldLaw& law = step_.servo_[l][i].law;
-  Loaded& loaded = loaded_[l][i];
-  if (loaded.length == length && loaded.law == law) return;
-  loaded = {law, length};
-  const MotionTable& table = lanes_[l].tables.of(law, length);
+// Finds how the servos of an axis move over the pieces: mostly all alike.
+void RigLanes::load_tables(std::size_t i) {
+  const LaneServo& servo = servos_->of[i];
   LaneAxis& axis = pieces_->axis[i];
-  for (int row = 0; row < MotionTable::rows; ++row) {
-    for (int n = 0; n < nodes; ++n) {
-      axis.by_rate[row][n][l] = table.by_rate[row][n];
-      axis.by_acceleration[row][n][l] = table.by_acceleration[row][n];
+  std::size_t one = group;
+  bool alike = true;
+  for (std::size_t l = 0; l < group; ++l) {
+    if (!(pieces_->length[l] > 0)) continue;
+    if (one == group) one = l;
+    alike = alike && pieces_->length[l] == pieces_->length[one] &&
+            servo.stiffness[l] == servo.stiffness[one] && servo.damping[l] == servo.damping[one];
+  }
+  if (one == group) return;
+  const auto put = [&axis](const MotionTable& table, std::size_t l) {
+    axis.most_by_rate[l] = table.most_by_rate;
+    axis.most_by_acceleration[l] = table.most_by_acceleration;
+    axis.missed_by_rate[l] = table.missed_by_rate;
+    axis.missed_by_acceleration[l] = table.missed_by_acceleration;
+  };
+  if (alike) {
+    const Loaded asked{{servo.stiffness[one], servo.damping[one]}, pieces_->length[one]};
+    if (axis.shared != nullptr && shared_[i] == asked) return;
+    shared_[i] = asked;
+    shared_tables_[i] = lanes_[one].tables.of(asked.law, asked.length);
+    axis.shared = &shared_tables_[i];
+    for (std::size_t l = 0; l < group; ++l) put(shared_tables_[i], l);
+    return;
+  }
+  if (axis.shared != nullptr) loaded_[i].fill({});
+  axis.shared = nullptr;
+  for (std::size_t l = 0; l < group; ++l) {
+    const Loaded asked{{servo.stiffness[l], servo.damping[l]}, pieces_->length[l]};
+    if (!(asked.length > 0) || loaded_[i][l] == asked) continue;
+    loaded_[i][l] = asked;
+    const MotionTable& table = lanes_[l].tables.of(asked.law, asked.length);
+    put(table, l);
+    for (int row = 0; row < MotionTable::rows; ++row) {
+      for (int n = 0; n < nodes; ++n) {
+        axis.by_rate[row][n][l] = table.by_rate[row][n];
+        axis.by_acceleration[row][n][l] = table.by_acceleration[row][n];
+      }
     }
   }
-  axis.most_by_rate[l] = table.most_by_rate;
-  axis.most_by_acceleration[l] = table.most_by_acceleration;
-  axis.missed_by_rate[l] = table.missed_by_rate;
-  axis.missed_by_acceleration[l] = table.missed_by_acceleration;
 }
 
 // Gives a piece to each lane. False once none is left.
 bool RigLanes::plan() {
   bool any = false;
+  kernels_.start(*pieces_, *servos_);
   for (std::size_t l = 0; l < group; ++l) {
     Lane& lane = lanes_[l];
     any = any || lane.alive;
@@ -237,6 +299,7 @@ bool RigLanes::plan() {
     pieces_->length[l] = 0;
     if (!lane.alive) clear(l);
     if (!lane.moved) continue;
+    if (lane.unforeseen) foresee(l);
     const double limit = std::min(lane.run->next_change(), lane.fall.time);
     const double left = limit - lane.time;
     if (!(left > 0)) {  // two guards at one instant: nothing moves
@@ -251,8 +314,8 @@ bool RigLanes::plan() {
     lane.step = arrives ? left : pieces < 4 ? left / pieces : lane.next_step;
     lane.until = arrives ? limit : lane.time + lane.step;
     pieces_->length[l] = lane.instants->nominal(lane.time, lane.step);
-    for (std::size_t i = 0; i < 2; ++i) load_table(l, i, pieces_->length[l]);
   }
+  for (std::size_t i = 0; i < 2; ++i) load_tables(i);
   return any;
 }
 
@@ -340,14 +403,10 @@ void RigLanes::state_at(std::size_t l, double t, const double (*ball)[group], bo
   for (std::size_t i = 0; i < 2; ++i) {
     const LaneAxis& axis = pieces_->axis[i];
     if (at_end) {
-      const auto row = [&](MotionTable::Row of) {
-        return axis.by_rate[of][nodes - 1][l] * axis.rate[l] +
-               axis.by_acceleration[of][nodes - 1][l] * axis.acceleration[l];
-      };
-      lane.z[angle + i] = axis.angle[l] + row(MotionTable::angle);
-      lane.z[rate + i] = row(MotionTable::rate);
+      lane.z[angle + i] = axis.angle_end[l];
+      lane.z[rate + i] = axis.rate_end[l];
     } else {
-      const model::HeldMotion& servo = step_.servo_[l][i];
+      const model::HeldMotion servo = step_.servo(l, i);
       const model::HeldMotion::Instant at =
           servo.after(lane.instants->answer(servo.law, lane.until, t - lane.time));
       lane.z[angle + i] = at.angle;
@@ -496,8 +555,9 @@ void RigLanes::go_on(std::size_t l) {
     }
   }
   lane.time = lane.until;
-  refresh(l);
-  if (lane.restarts || lane.foreseen < lane.run->next_change()) foresee(l);
+  put_start(l);
+  if (lane.restarts) take_mode(l);
+  lane.unforeseen = lane.restarts || lane.foreseen < lane.run->next_change();
 }
 
 std::array<bool, group> RigLanes::integrate(const model::Model* const* models, std::size_t count,

@@ -52,11 +52,13 @@ class LaneStep {
  private:
   friend class RigLanes;
 
+  [[nodiscard]] model::HeldMotion servo(std::size_t lane, std::size_t axis) const;
+
   const LanePieces* pieces_ = nullptr;
+  const LaneServos* servos_ = nullptr;
   const Kernels* kernels_ = nullptr;
   const LaneKernels* lane_kernels_ = nullptr;
   LaneLooks looks_{};
-  std::array<std::array<model::HeldMotion, 2>, group> servo_{};
   std::array<bool, group> has_{}, whole_{};
   std::array<double, group> from_{}, to_{};
 };
@@ -115,19 +117,23 @@ class RigLanes {
     bool seen_any = false;  // that it ever did
     bool alive = false, feeds_servos_back = false;
     bool moved = false, restarts = false, settled = false;  // with the last attempt
+    bool unforeseen = false;
   };
-  // Which table a column of pieces_ holds.
+  // Which table an axis of pieces_ shares, or one of its columns holds.
   struct Loaded {
     model::HeldLaw law{};
     double length = -1;
+
+    bool operator==(const Loaded&) const = default;
   };
 
   void begin(std::size_t lane, const model::Model& model, LaneSink& sink);
   void clear(std::size_t lane);
-  void refresh(std::size_t lane);
+  void take_mode(std::size_t lane);
+  void put_start(std::size_t lane);
   void foresee(std::size_t lane);
   bool plan();
-  void load_table(std::size_t lane, std::size_t axis, double length);
+  void load_tables(std::size_t axis);
   void judge();
   void look();
   void fill_reference();
@@ -144,13 +150,16 @@ class RigLanes {
   LaneAsked asked_;
   const LaneKernels& kernels_;
   std::unique_ptr<LanePieces> pieces_;  // aligned
+  std::unique_ptr<LaneServos> servos_;
   std::unique_ptr<LaneReference> reference_;
   std::unique_ptr<LaneControl> control_;
   LaneScene scene_{};
   LaneStep step_;
   model::HybridSystem::KnownReference known_reference_;
   std::array<Lane, group> lanes_;
-  std::array<std::array<Loaded, 2>, group> loaded_{};
+  std::array<std::array<Loaded, group>, 2> loaded_{};
+  std::array<Loaded, 2> shared_{};
+  std::array<MotionTable, 2> shared_tables_{};
 };
 
 }  // namespace bbsim::solve::held
