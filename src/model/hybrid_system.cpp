@@ -164,6 +164,7 @@ void HybridSystem::end_sample(const Pair& command, const Pair& measured) {
 
 void HybridSystem::act(double t, double* z) {
   touched_ = !only_commands_change_ || t == 0;
+  settled_ = false;
   if (sampled_) {
     const double now = instant_end(t);
     while (sampled_->exchange.commands_by(now)) apply_command();
@@ -196,7 +197,9 @@ void HybridSystem::take_sample(double t, const double* z) {
 
 void HybridSystem::apply_command() {
   const Pair command = sampled_->exchange.take_command();
-  const std::array<double, 3> told = sampled_->controller.told(command);
+  const std::array<double, 3> told = model_.rig->between.none()
+                                         ? std::array<double, 3>{command[0], command[1], 0}
+                                         : sampled_->controller.told(command);
   for (std::size_t i = 0; i < servos_.size(); ++i) {
     const double follows = servos_[i].follow(told[i]);
     touched_ = touched_ || follows != mode_->command[i];
@@ -301,7 +304,8 @@ bool HybridSystem::stays_as_it_is(const double* z) const {
 }
 
 void HybridSystem::settle_rig(double t, double* z) {
-  if (stays_as_it_is(z)) return;
+  settled_ = !stays_as_it_is(z);
+  if (!settled_) return;
   // A stop's kick may take the command to its limit, and that the servo from where it was: a few
   // rounds, of which the second mostly finds nothing to do.
   for (int round = 0; round < 4; ++round) {

@@ -23,7 +23,7 @@ class HybridSystem {
  public:
   // `resolution`: what the integrator tells of a velocity from rest, m/s.
   HybridSystem(const Model& model, double resolution);
-  HybridSystem(const HybridSystem&) = delete;  // servos look at this one's rig
+  HybridSystem(const HybridSystem&) = delete;  // mode_ is of this one's model
   HybridSystem& operator=(const HybridSystem&) = delete;
 
   // The model in the present mode. Its system's right-hand side changes with handle_time_event()
@@ -65,6 +65,8 @@ class HybridSystem {
 
   // Whether the last call may have changed how the model moves from there on.
   [[nodiscard]] bool touched() const { return touched_; }
+  // Whether it did so by no more than what the servos follow.
+  [[nodiscard]] bool only_commanded() const { return !settled_; }
 
   // The first of those times at which the motion may change: others only see it.
   [[nodiscard]] double next_change() const {
@@ -181,7 +183,7 @@ class HybridSystem {
   // An instant changes the motion only by what it makes a servo follow.
   bool only_commands_change_ = false;
   std::size_t next_stop_ = 0;
-  bool touched_ = true;
+  bool touched_ = true, settled_ = true;
   std::vector<ServoAxis> servos_;
   int rate_ = RigLayout::rate;                             // among the states, of the first servo
   std::size_t pieces_[2]{0, 0}, command_pieces_[2]{0, 0};  // of measured curves

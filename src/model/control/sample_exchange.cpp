@@ -11,15 +11,16 @@ constexpr double one_instant = 1e-9;
 }  // namespace
 
 SampleExchange::SampleExchange(const SampledLoop& loop)
-    : sensor_(loop.sensor),
-      times_(loop.sampling, loop.sensor.seed),
-      frames_(loop.sensor.period),
+    : even_(loop.sampling.is_even()),
+      period_(loop.sampling.period),
       sensor_delay_(loop.sensor.delay),
-      one_instant_(one_instant * loop.sampling.period),
-      even_(loop.sampling.is_even()),
-      expose_{frames_ ? loop.sensor.phase : -loop.sensor.delay},
+      one_instant_(one_instant * period_),
+      expose_{loop.sensor.period ? loop.sensor.phase : -sensor_delay_},
       sample_{0},
-      apply_{loop.sampling.delay} {
+      apply_{loop.sampling.delay},
+      frames_(loop.sensor.period),
+      sensor_(loop.sensor),
+      times_(loop.sampling, loop.sensor.seed) {
   // The last frame that has come at t = 0, or the one before.
   if (frames_) expose_.number = std::floor((-sensor_delay_ - expose_.shift) / *frames_) - 2;
   go_on_exposing();

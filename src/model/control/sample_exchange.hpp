@@ -69,19 +69,21 @@ class SampleExchange {
 
   void go_on(Clock& clock) {
     ++clock.number;
-    clock.next = times_.at(clock.number) + clock.shift;
+    const double time = even_ ? clock.number * period_ : times_.at(clock.number);
+    clock.next = time + clock.shift;
   }
   void go_on_exposing();
 
-  BallSensor sensor_;
-  SampleTimes times_;
-  std::optional<double> frames_;  // the period of a camera's, s
-  double sensor_delay_, one_instant_;
+  // What every instant looks at is together.
   bool even_;
+  double period_, sensor_delay_, one_instant_;
   Clock expose_, sample_, apply_;
+  std::optional<double> frames_;  // the period of a camera's, s
   Queue<Seen> seen_;           // exposed, not yet sampled
   std::optional<Pair> frame_;  // the last one that has come
   Queue<Pair> commands_;       // computed, not yet applied
+  BallSensor sensor_;
+  SampleTimes times_;
 };
 
 }  // namespace bbsim::model

@@ -14,9 +14,10 @@ constexpr double shortest = 0.1;
 }  // namespace
 
 SampleTimes::SampleTimes(const Sampling& sampling, unsigned long seed)
-    : sampling_(sampling), even_(sampling.is_even()), noise_(seed + other_sequence) {}
+    : sampling_(sampling), noise_(seed + other_sequence) {}
 
-double SampleTimes::drawn_at(double n) {
+double SampleTimes::at(double n) {
+  if (sampling_.is_even()) return n * sampling_.period;
   while (first_ + static_cast<double>(times_.size()) <= n) {
     double period = sampling_.period;
     if (sampling_.periods.empty()) {
@@ -29,6 +30,10 @@ double SampleTimes::drawn_at(double n) {
     times_.push_back(times_.back() + period);
   }
   return times_[static_cast<std::size_t>(n - first_)];
+}
+
+void SampleTimes::forget_before(double n) {
+  for (; first_ < n && times_.size() > 1; ++first_) times_.pop_front();
 }
 
 }  // namespace bbsim::model

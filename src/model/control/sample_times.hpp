@@ -15,12 +15,10 @@ class SampleTimes {
   SampleTimes(const Sampling& sampling, unsigned long seed);
 
   // The time of the n-th sample, s, n = 0, 1, ...: of none before those that have been forgotten.
-  [[nodiscard]] double at(double n) { return even_ ? n * sampling_.period : drawn_at(n); }
+  [[nodiscard]] double at(double n);
 
   // Nobody asks for samples before the n-th any more.
-  void forget_before(double n) {
-    for (; first_ < n && times_.size() > 1; ++first_) times_.pop_front();
-  }
+  void forget_before(double n);
 
   // How far they are drawn (base/archive.hpp).
   template <class Archive>
@@ -29,10 +27,7 @@ class SampleTimes {
   }
 
  private:
-  [[nodiscard]] double drawn_at(double n);
-
   Sampling sampling_;
-  bool even_;
   Noise noise_;
   std::deque<double> times_{0.0};  // from the `first_` sample on; of a clock that jitters
   double first_ = 0;

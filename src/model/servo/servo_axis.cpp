@@ -4,25 +4,14 @@
 #include <cmath>
 
 namespace bbsim::model {
-namespace {
-
-// A guard that was found at zero is this near it.
-constexpr double at_limit = 1 - 1e-11;
-
-}  // namespace
-
-double ServoAxis::follow(double command) {
-  if (std::abs(command - target_) > rig_->dead_band) target_ = command;
-  return target_;
-}
 
 AxisMargin ServoAxis::push() const {
   AxisMargin push{0};
-  if (!rig_->time_constant) {
+  if (!rig_.time_constant) {
     push.by_demand = 1;
     return push;
   }
-  push.by_command = 1 / *rig_->time_constant;
+  push.by_command = 1 / *rig_.time_constant;
   push.by_angle = -push.by_command;
   push.by_rate = -1;
   return push;
@@ -30,7 +19,7 @@ AxisMargin ServoAxis::push() const {
 
 AxisMargin ServoAxis::push_at_stop() const {
   AxisMargin push{0};
-  if (rig_->time_constant) {
+  if (rig_.time_constant) {
     push.by_command = 1;
     push.by_angle = -1;
   } else {
@@ -40,10 +29,10 @@ AxisMargin ServoAxis::push_at_stop() const {
 }
 
 ServoAxis::Motion ServoAxis::choose(AxisState& state) const {
-  const double stop = rig_->angle_limit, fastest = rig_->rate_limit;
-  if (rig_->time_constant) {
+  const double stop = rig_.angle_limit, fastest = rig_.rate_limit;
+  if (rig_.time_constant) {
     state.rate =
-        std::clamp((state.command - state.angle) / *rig_->time_constant, -fastest, fastest);
+        std::clamp((state.command - state.angle) / *rig_.time_constant, -fastest, fastest);
   }
   for (const int sign : {1, -1}) {
     if (sign * state.angle < stop * at_limit || sign * state.rate < 0) continue;
@@ -62,15 +51,15 @@ ServoAxis::Motion ServoAxis::choose(AxisState& state) const {
       return sign > 0 ? Motion::rate_up : Motion::rate_down;
     }
   }
-  if (!rig_->time_constant) {
-    if (state.demand > rig_->acceleration_limit) return Motion::accelerating_up;
-    if (state.demand < -rig_->acceleration_limit) return Motion::accelerating_down;
+  if (!rig_.time_constant) {
+    if (state.demand > rig_.acceleration_limit) return Motion::accelerating_up;
+    if (state.demand < -rig_.acceleration_limit) return Motion::accelerating_down;
   }
   return Motion::free;
 }
 
 void ServoAxis::settle_backlash(const AxisState& state, AxisMode& mode) {
-  const double half = rig_->backlash / 2;
+  const double half = rig_.backlash / 2;
   if (half <= 0) {
     mode.ratio = 1;
     mode.offset = offset_;
@@ -94,12 +83,6 @@ void ServoAxis::settle_backlash(const AxisState& state, AxisMode& mode) {
   mode.offset = play_ == Play::gap ? plane_ : offset_ + (play_ == Play::up ? -half : half);
 }
 
-bool ServoAxis::stays_free(double angle, double rate) const {
-  return settled_ && motion_ == Motion::free && play_ == Play::none && !rig_->time_constant &&
-         rig_->acceleration_limit == unlimited && std::abs(angle) < rig_->angle_limit * at_limit &&
-         std::abs(rate) < rig_->rate_limit * at_limit;
-}
-
 void ServoAxis::settle(AxisState& state, AxisMode& mode) {
   settled_ = true;
   motion_ = choose(state);
@@ -110,10 +93,10 @@ void ServoAxis::settle(AxisState& state, AxisMode& mode) {
       mode.demand_factor = 1;
       break;
     case Motion::accelerating_up:
-      mode.set_acceleration = rig_->acceleration_limit;
+      mode.set_acceleration = rig_.acceleration_limit;
       break;
     case Motion::accelerating_down:
-      mode.set_acceleration = -rig_->acceleration_limit;
+      mode.set_acceleration = -rig_.acceleration_limit;
       break;
     default:
       break;
@@ -136,10 +119,10 @@ void ServoAxis::for_each_margin(Use use) const {
     return AxisMargin{-margin.constant, -margin.by_angle, -margin.by_rate, -margin.by_demand,
                       -margin.by_command};
   };
-  const double most = rig_->acceleration_limit;
+  const double most = rig_.acceleration_limit;
   switch (motion_) {
     case Motion::free:
-      if (!rig_->time_constant) below(0, most, &AxisMargin::by_demand);
+      if (!rig_.time_constant) below(0, most, &AxisMargin::by_demand);
       break;
     case Motion::accelerating_up:
       use(0, AxisMargin{-most, 0, 0, 1, 0});
@@ -162,8 +145,8 @@ void ServoAxis::for_each_margin(Use use) const {
   }
   const bool limited = motion_ == Motion::rate_up || motion_ == Motion::rate_down;
   const bool halted = motion_ == Motion::stop_up || motion_ == Motion::stop_down;
-  if (!limited && !halted) below(2, rig_->rate_limit, &AxisMargin::by_rate);
-  if (!halted) below(4, rig_->angle_limit, &AxisMargin::by_angle);
+  if (!limited && !halted) below(2, rig_.rate_limit, &AxisMargin::by_rate);
+  if (!halted) below(4, rig_.angle_limit, &AxisMargin::by_angle);
   switch (play_) {
     case Play::none:
       break;
@@ -174,7 +157,7 @@ void ServoAxis::for_each_margin(Use use) const {
       use(6, AxisMargin{0, 0, -1, 0, 0});
       break;
     case Play::gap:
-      below(6, rig_->backlash / 2, &AxisMargin::by_angle, offset_ - plane_);
+      below(6, rig_.backlash / 2, &AxisMargin::by_angle, offset_ - plane_);
       break;
   }
 }
@@ -186,12 +169,12 @@ void ServoAxis::evaluate(const AxisState& state, double* values) const {
 
 ServoAxis::Clearance ServoAxis::clearance() const {
   constexpr double clearly = 1 - 1e-12;
-  if (!rig_->switches()) return {unlimited, unlimited, root_};
-  if (motion_ != Motion::free || play_ != Play::none || rig_->acceleration_limit < unlimited ||
+  if (!rig_.switches()) return {unlimited, unlimited, root_};
+  if (motion_ != Motion::free || play_ != Play::none || rig_.acceleration_limit < unlimited ||
       !(root_ > 0)) {
     return {0, 0, root_};
   }
-  return {clearly * rig_->angle_limit, clearly * rig_->rate_limit, root_};
+  return {clearly * rig_.angle_limit, clearly * rig_.rate_limit, root_};
 }
 
 ServoAxis::Fall ServoAxis::first_fall(const HeldMotion& motion, double command, double start,
@@ -224,11 +207,11 @@ ServoAxis::Fall ServoAxis::first_fall(const HeldMotion& motion, double command, 
 
 void ServoAxis::scales(double* values) const {
   const auto finite = [](double value) { return value < unlimited ? value : 1.0; };
-  const double acceleration = finite(rig_->acceleration_limit);
+  const double acceleration = finite(rig_.acceleration_limit);
   values[0] = values[1] = acceleration;
-  values[2] = values[3] = finite(rig_->rate_limit);
-  values[4] = values[5] = finite(rig_->angle_limit);
-  values[6] = values[7] = rig_->backlash > 0 ? rig_->backlash : 1.0;
+  values[2] = values[3] = finite(rig_.rate_limit);
+  values[4] = values[5] = finite(rig_.angle_limit);
+  values[6] = values[7] = rig_.backlash > 0 ? rig_.backlash : 1.0;
 }
 
 }  // namespace bbsim::model

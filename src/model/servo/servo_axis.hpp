@@ -2,6 +2,8 @@
 // switches it is an AxisMode; each switch is where one of the guards falls through zero.
 #pragma once
 
+#include <cmath>
+
 #include "model/servo/held_motion.hpp"
 #include "model/systems/rig.hpp"
 
@@ -30,18 +32,25 @@ class ServoAxis {
 
   // The offset of `servo` is where the plane, or the horn, is at its zero.
   ServoAxis(const RigServo& servo, const ServoResponse& response)
-      : rig_(&servo),
+      : rig_(servo),
         response_(response),
         root_(std::sqrt(response.from_angle)),
         offset_(servo.offset) {}
 
   // The command that the servo follows after it got this one: nearer to the last one than the dead
   // band it is not followed.
-  [[nodiscard]] double follow(double command);
+  [[nodiscard]] double follow(double command) {
+    if (std::abs(command - target_) > rig_.dead_band) target_ = command;
+    return target_;
+  }
 
   // Whether settle() would find the servo as it left it, free and short of its limits, whatever it
   // is told: mostly.
-  [[nodiscard]] bool stays_free(double angle, double rate) const;
+  [[nodiscard]] bool stays_free(double angle, double rate) const {
+    return settled_ && motion_ == Motion::free && play_ == Play::none && !rig_.time_constant &&
+           rig_.acceleration_limit == unlimited && std::abs(angle) < rig_.angle_limit * at_limit &&
+           std::abs(rate) < rig_.rate_limit * at_limit;
+  }
 
   // Chooses what the servo does from here. May change its rate: a stop takes it, and a servo of
   // first order has it from its command.
@@ -99,7 +108,10 @@ class ServoAxis {
   // What pushes it against a stop: an acceleration, or how far the command is beyond.
   [[nodiscard]] AxisMargin push_at_stop() const;
 
-  const RigServo* rig_;
+  // A guard that was found at zero is this near it.
+  static constexpr double at_limit = 1 - 1e-11;
+
+  RigServo rig_;
   ServoResponse response_;
   double root_;  // of the stiffness, in free motion
   double offset_;

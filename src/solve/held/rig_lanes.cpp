@@ -196,8 +196,13 @@ void RigLanes::clear(std::size_t l) {
   pieces_->contraction[l] = 1e-2;
 }
 
-// The lane's servos' part of the mode, which commands and switches change.
+void RigLanes::take_commands(std::size_t l) {
+  const model::RigMode& mode = loop_of(lanes_[l].run->model()).mode;
+  for (std::size_t i = 0; i < 2; ++i) servos_->of[i].command[l] = mode.command[i];
+}
+
 void RigLanes::take_mode(std::size_t l) {
+  take_commands(l);
   const model::HybridSystem& run = *lanes_[l].run;
   const Loop& loop = loop_of(run.model());
   for (std::size_t i = 0; i < 2; ++i) {
@@ -209,7 +214,6 @@ void RigLanes::take_mode(std::size_t l) {
     servo.by_command[l] = free * response.from_command;
     servo.stiffness[l] = free * response.from_angle;
     servo.damping[l] = free * response.from_rate;
-    servo.command[l] = loop.mode.command[i];
     const model::ServoAxis::Clearance clear = run.clearance(i);
     servo.angle_most[l] = clear.angle;
     servo.rate_most[l] = clear.rate;
@@ -295,7 +299,7 @@ bool RigLanes::plan() {
     Lane& lane = lanes_[l];
     any = any || lane.alive;
     lane.moved = lane.alive;
-    lane.restarts = lane.settled = false;
+    lane.restarts = lane.switched = lane.settled = false;
     pieces_->length[l] = 0;
     if (!lane.alive) clear(l);
     if (!lane.moved) continue;
@@ -524,6 +528,7 @@ void RigLanes::pass_instants(LaneSink& sink) {
       if (is_event[l]) {
         lane.run->act(t, lane.z.data());
         lane.restarts = lane.settled = lane.run->touched();
+        lane.switched = lane.switched || !lane.run->only_commanded();
       }
       while (lane.next_row < grid_.size() &&
              grid_[lane.next_row] - t <= (is_event[l] ? lane.run->rounding(t) : 0)) {
@@ -551,12 +556,16 @@ void RigLanes::go_on(std::size_t l) {
     state_at(l, lane.until, nullptr, true);
     if (lane.until >= lane.fall.time) {
       lane.run->handle_state_event(lane.fall.guard, lane.until, lane.z.data());
-      lane.restarts = true;
+      lane.restarts = lane.switched = true;
     }
   }
   lane.time = lane.until;
   put_start(l);
-  if (lane.restarts) take_mode(l);
+  if (lane.switched) {
+    take_mode(l);
+  } else if (lane.restarts) {
+    take_commands(l);
+  }
   lane.unforeseen = lane.restarts || lane.foreseen < lane.run->next_change();
 }
 

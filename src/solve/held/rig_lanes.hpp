@@ -116,7 +116,8 @@ class RigLanes {
     int unseen = 0;         // samples since its controller saw the ball
     bool seen_any = false;  // that it ever did
     bool alive = false, feeds_servos_back = false;
-    bool moved = false, restarts = false, settled = false;  // with the last attempt
+    bool moved = false, settled = false;        // with the last attempt
+    bool restarts = false, switched = false;    // by a command, or by more than that
     bool unforeseen = false;
   };
   // Which table an axis of pieces_ shares, or one of its columns holds.
@@ -129,6 +130,7 @@ class RigLanes {
 
   void begin(std::size_t lane, const model::Model& model, LaneSink& sink);
   void clear(std::size_t lane);
+  void take_commands(std::size_t lane);
   void take_mode(std::size_t lane);
   void put_start(std::size_t lane);
   void foresee(std::size_t lane);
