@@ -163,13 +163,14 @@ struct LaneKernel {
     constexpr int most_iterations = 25;
     constexpr double enough = 1e-3, rounding = 30 * 2.2e-16;
     const double floor = rounding / scene.rtol;
+    // From node to node, each taking what is new at once: an integral is about the sum of what came
+    // before it.
     // Each lane has its own contraction, and is done once what is left is small enough or will not
     // get there: one that goes wild does not touch the others.
     P contraction = P::load(pieces.contraction + first), last(0.0);
     Mask solved{};
     int iterations = 0;
     for (;;) {
-      P next[nodes][3];
       P weighted(0.0);
 #pragma GCC unroll 1
       for (int n = 0; n < nodes; ++n) {
@@ -195,14 +196,10 @@ struct LaneKernel {
         }
 #pragma GCC unroll 3
         for (int i = 0; i < 3; ++i) {
-          next[n][i] = rates[n].at(i, z);
-          weighted = larger_of(weighted, size_of(next[n][i] - k[n][i]) * weight[i]);
+          const P next = rates[n].at(i, z);
+          weighted = larger_of(weighted, size_of(next - k[n][i]) * weight[i]);
+          k[n][i] = next;
         }
-      }
-#pragma GCC unroll 1
-      for (int n = 0; n < nodes; ++n) {
-#pragma GCC unroll 3
-        for (int i = 0; i < 3; ++i) k[n][i] = next[n][i];
       }
       ++iterations;
       if (iterations > 1) contraction = P::of(weighted.v / (last.v > 0.0 ? last.v : P(1.0).v));
