@@ -64,6 +64,8 @@ struct alignas(64) LaneServos {
 
 struct alignas(64) LaneScene {
   double radius[group], gravity[group], friction[group];
+  // Between which numbers each Look up to the grip has to stay, so that no event occurs.
+  double least[Look::grip + 1][group], most[Look::grip + 1][group];
   double rtol, atol;
   // What is looked at: the contact's force, the plane's tilt and rate, the distance from the
   // reference.
@@ -79,14 +81,16 @@ enum class Size : int {
 };
 inline constexpr int sizes = 4;
 
-// What a look finds, at the start and at the nodes but the first: ranges of those of Look up to
-// the grip, and sizes, each of them and the largest.
+// What a look finds, at the start and at the nodes but the first: whether a range of those of Look
+// may be left, and sizes, each of them and the largest.
 struct alignas(64) LaneLooks {
-  double least[Look::grip + 1][group], most[Look::grip + 1][group];
   double size[sizes][nodes][group], least_size[sizes][group], most_size[sizes][group];
+  double quiet[group];  // 1 where nothing happens, as far as that tells; else 0
 };
+// A reference, x and y, at the start and at the nodes but the first.
 struct alignas(64) LaneReference {
-  double at[2][nodes][group];
+  double one[2][nodes], at[2][nodes][group];
+  bool shared;  // it is `one`; or else each has its own
 };
 
 // The controllers at a sample. One that sees nothing is left as it is.

@@ -382,7 +382,14 @@ struct LaneKernel {
         take_size(Size::rate_squared, axis[0].rate * axis[0].rate + axis[1].rate * axis[1].rate);
       }
       if (scene.reference) {
-        const P x = ball.x - of(reference.at[0][n]), y = ball.y - of(reference.at[1][n]);
+        P x = ball.x, y = ball.y;
+        if (reference.shared) {
+          x -= P(reference.one[0][n]);
+          y -= P(reference.one[1][n]);
+        } else {
+          x -= of(reference.at[0][n]);
+          y -= of(reference.at[1][n]);
+        }
         take_size(Size::error_squared, x * x + y * y);
       }
       if (!scene.force) continue;
@@ -394,10 +401,13 @@ struct LaneKernel {
       take(Look::grip, held * held - (by_mass.x * by_mass.x + by_mass.y * by_mass.y));
     }
     const int asked = scene.force ? ranges : Look::up + 1;
+    Mask quiet = Mask{} - 1;
     for (int i = 0; i < asked; ++i) {
-      least[i].store(looks.least[i] + first);
-      most[i].store(looks.most[i] + first);
+      const P beyond = P(overshoot) * (most[i] - least[i]);
+      quiet &= simd::exceeds(least[i] - beyond, of(scene.least[i])) &
+               simd::exceeds(of(scene.most[i]), most[i] + beyond);
     }
+    simd::choose(quiet, P(1.0), P(0.0)).store(looks.quiet + first);
     for (int i = 0; i < sizes; ++i) {
       const auto size = static_cast<Size>(i);
       const bool of_gimbal = size == Size::versine || size == Size::rate_squared;

@@ -132,19 +132,34 @@ void RigLanes::begin(std::size_t l, const model::Model& model, LaneSink& sink) {
                std::find(happening.begin(), happening.end(), 1) == happening.end();
   scene_.radius[l] = model.radius;
   scene_.gravity[l] = loop_of(model).gravity();
-  scene_.friction[l] = 0;
-  if (model.events) {
-    for (const model::Monitor& monitor : model.events->monitors) {
-      using Kind = model::Monitor::Kind;
-      if (monitor.kind == Kind::slip) scene_.friction[l] = monitor.limit;
-      if (monitor.kind == Kind::slip || monitor.kind == Kind::lift_off) scene_.force = true;
-    }
-  }
+  take_monitors(l, model);
   clear(l);
   sink.accept_row(l, 0, lane.z[0], lane.z[1]);
   take_mode(l);
   put_start(l);
   lane.unforeseen = true;
+}
+
+void RigLanes::take_monitors(std::size_t l, const model::Model& model) {
+  scene_.friction[l] = 0;
+  for (std::size_t look = 0; look <= Look::grip; ++look) {
+    scene_.least[look][l] = -model::unlimited;
+    scene_.most[look][l] = model::unlimited;
+  }
+  if (!model.events) return;
+  for (const model::Monitor& monitor : model.events->monitors) {
+    using Kind = model::Monitor::Kind;
+    if (monitor.kind == Kind::slip) scene_.friction[l] = monitor.limit;
+    if (monitor.kind == Kind::slip || monitor.kind == Kind::lift_off) scene_.force = true;
+    const auto stays = [&](Look look, double least, double most) {
+      scene_.least[look][l] = std::max(scene_.least[look][l], least);
+      scene_.most[look][l] = std::min(scene_.most[look][l], most);
+    };
+    // Nothing stays below what is lowest.
+    if (!for_each_side(monitor, model.events->plate, stays)) {
+      stays(Look::x, model::unlimited, -model::unlimited);
+    }
+  }
 }
 
 // From the run, which took the first sample.
@@ -358,37 +373,39 @@ void RigLanes::judge() {
 
 // The reference where it is looked at: the start and the nodes but the first.
 void RigLanes::fill_reference() {
-  double from = -1, length = -1;
-  alignas(64) double at[2][nodes];
+  LaneReference& reference = *reference_;
+  std::size_t last = group;  // of whose piece reference.one is
+  reference.shared = true;
   for (std::size_t l = 0; l < group; ++l) {
     if (!step_.has_[l]) continue;
-    if (step_.from_[l] != from || pieces_->length[l] != length) {
-      from = step_.from_[l];
-      length = pieces_->length[l];
-      kernels_.reference(loop_of(lanes_[l].run->model()).reference().view(), from, length, at);
-    }
+    const bool known = last < group && step_.from_[l] == step_.from_[last] &&
+                       pieces_->length[l] == pieces_->length[last];
+    if (known) continue;
+    reference.shared = last == group;
+    if (!reference.shared) break;
+    take_reference(l);
+    last = l;
+  }
+  if (reference.shared) return;
+  for (std::size_t l = 0; l < group; ++l) {
+    if (!step_.has_[l]) continue;
+    take_reference(l);
     for (std::size_t i = 0; i < 2; ++i) {
-      for (std::size_t n = 0; n < nodes; ++n) reference_->at[i][n][l] = at[i][n];
+      for (std::size_t n = 0; n < nodes; ++n) reference.at[i][n][l] = reference.one[i][n];
     }
   }
 }
 
-bool RigLanes::nothing_happens(std::size_t l) const {
-  const model::Model& model = lanes_[l].run->model();
-  if (!model.events) return true;
-  const LaneLooks& looks = step_.looks_;
-  const auto range = [&](Look look) { return Range{looks.least[look][l], looks.most[look][l]}; };
-  return std::all_of(model.events->monitors.begin(), model.events->monitors.end(),
-                     [&](const model::Monitor& monitor) {
-                       return keeps_its_side(monitor, model.events->plate, false, range);
-                     });
+void RigLanes::take_reference(std::size_t l) {
+  const auto view = loop_of(lanes_[l].run->model()).reference().view();
+  kernels_.reference(view, step_.from_[l], pieces_->length[l], reference_->one);
 }
 
 void RigLanes::look() {
   if (asked_.reference) fill_reference();
   kernels_.look(*pieces_, scene_, *reference_, step_.looks_);
   for (std::size_t l = 0; l < group; ++l) {
-    if (!step_.has_[l] || nothing_happens(l)) continue;
+    if (!step_.has_[l] || step_.looks_.quiet[l] != 0) continue;
     lanes_[l].alive = lanes_[l].moved = step_.has_[l] = false;
   }
 }

@@ -139,7 +139,8 @@ class RigLanes {
   void judge();
   void look();
   void fill_reference();
-  [[nodiscard]] bool nothing_happens(std::size_t lane) const;
+  void take_reference(std::size_t lane);
+  void take_monitors(std::size_t lane, const model::Model& model);
   void load_controller(std::size_t lane);
   void take_samples(const bool (&due)[group], const double (&when)[group]);
   void pass_instants(LaneSink& sink);

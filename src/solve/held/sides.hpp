@@ -14,48 +14,58 @@ namespace bbsim::solve::held {
   return {at_nodes.least - beyond, at_nodes.most + beyond};
 }
 
-// Whether the numbers are all above the limit, or, if `below`, all below.
-[[nodiscard]] inline bool beyond(const Range& range, double limit, bool below) {
-  return below ? range.most < limit : range.least > limit;
+// What a monitor for which nothing happens is told by: use(Look, least, most), for each thing that is
+// looked at, says between which numbers it has to stay. Returns false for one that is not told by
+// such things.
+template <class Use>
+[[nodiscard]] bool for_each_side(const model::Monitor& monitor, const Plate& plate, Use use) {
+  constexpr double unlimited = model::unlimited;
+  using Kind = model::Monitor::Kind;
+  switch (monitor.kind) {
+    case Kind::edge:
+      if (plate.size) {
+        const double x = (*plate.size)[0] / 2, y = (*plate.size)[1] / 2;
+        use(Look::x, -x, x);
+        use(Look::y, -y, y);
+      }
+      if (plate.diameter) {
+        const double most = *plate.diameter * *plate.diameter / 4;
+        use(Look::distance_squared, -most, most);
+      }
+      return true;
+    case Kind::slip:
+      // Where nothing presses, the square says nothing.
+      use(Look::grip, 0, unlimited);
+      use(Look::normal, 0, unlimited);
+      return true;
+    case Kind::lift_off:
+      use(Look::normal, 0, unlimited);
+      return true;
+    case Kind::tilt:
+      use(Look::up, std::cos(monitor.limit), unlimited);
+      return true;
+    case Kind::singularity:
+    case Kind::dead_point:
+      break;
+  }
+  return false;
 }
 
 // `range(Look)` is the range at the start and the nodes. If it cannot be told, the answer is no.
 template <class RangeOf>
 [[nodiscard]] bool keeps_its_side(const model::Monitor& monitor, const Plate& plate, bool happening,
                                   RangeOf range) {
-  using Kind = model::Monitor::Kind;
-  switch (monitor.kind) {
-    case Kind::edge: {
-      bool within = true, off = false;
-      const auto look = [&](const Range& of, double least, double most) {
-        within = within && of.least > least && of.most < most;
-        off = off || of.least > most || of.most < least;
-      };
-      if (plate.size) {
-        for (int i = 0; i < 2; ++i) {
-          const double most = (*plate.size)[static_cast<std::size_t>(i)] / 2;
-          look(widened(range(i == 0 ? Look::x : Look::y)), -most, most);
-        }
-      }
-      if (plate.diameter) {
-        const double most = *plate.diameter * *plate.diameter / 4;
-        look(widened(range(Look::distance_squared)), -most, most);
-      }
-      return happening ? off : within;
+  bool within = true, beyond = false, presses = true;
+  const bool told = for_each_side(monitor, plate, [&](Look look, double least, double most) {
+    const Range of = widened(range(look));
+    within = within && of.least > least && of.most < most;
+    if (happening && look == Look::normal && monitor.kind == model::Monitor::Kind::slip) {
+      presses = of.least > least;
+    } else {
+      beyond = beyond || of.most < least || of.least > most;
     }
-    case Kind::slip:
-      // Where nothing presses, the square says nothing.
-      return beyond(widened(range(Look::grip)), 0, happening) &&
-             beyond(widened(range(Look::normal)), 0, false);
-    case Kind::lift_off:
-      return beyond(widened(range(Look::normal)), 0, happening);
-    case Kind::tilt:
-      return beyond(widened(range(Look::up)), std::cos(monitor.limit), happening);
-    case Kind::singularity:
-    case Kind::dead_point:
-      break;
-  }
-  return false;
+  });
+  return told && (happening ? beyond && presses : within);
 }
 
 }  // namespace bbsim::solve::held
