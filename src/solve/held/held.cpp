@@ -173,14 +173,54 @@ void HeldStepper::evaluate(const double* times, std::size_t count, double* rows)
   }
 }
 
+void HeldStepper::Shares::evaluate(const Piece& piece, double (&ball)[6]) const {
+  for (int i = 0; i < 3; ++i) {
+    double velocity = 0, position = 0;
+    for (int m = 0; m < nodes; ++m) {
+      velocity += of_velocity[m] * piece.series[i][m];
+      position += of_position[m] * piece.series[i][m];
+    }
+    ball[2 + i] = piece.velocity[i] + velocity;
+    ball[i < 2 ? i : 5] = piece.position[i] + (after * piece.velocity[i] + position);
+  }
+}
+
+// Of the last step, at an instant that comes again in each like it; null at others.
+const HeldStepper::Shares* HeldStepper::shares(double after) {
+  const std::optional<double> meant = instants_.recurring(time_, after, piece_.length);
+  if (!meant) return nullptr;
+  for (const Shares& one : shares_) {
+    if (one.after == *meant && one.length == piece_.length) return &one;
+  }
+  Shares& made = shares_[next_shares_];
+  next_shares_ = (next_shares_ + 1) % shares_.size();
+  made.after = *meant;
+  made.length = piece_.length;
+  for (int first = 0; first < nodes; first += 3) {
+    const int count = std::min(3, nodes - first);
+    Piece one{};  // whose series are single polynomials
+    one.length = piece_.length;
+    for (int i = 0; i < count; ++i) one.series[i][first + i] = 1;
+    double ball[1][6];
+    kernels_.evaluate(one, &made.after, 1, ball);
+    for (int i = 0; i < count; ++i) {
+      made.of_velocity[first + i] = ball[0][2 + i];
+      made.of_position[first + i] = ball[0][i < 2 ? i : 5];
+    }
+  }
+  return &made;
+}
+
 void HeldStepper::evaluate_some(const double* times, std::size_t count, double* rows) {
   double after[16], ball[16][6];
-  bool within = false;
+  const Shares* known[16];
+  bool others = false;
   for (std::size_t i = 0; i < count; ++i) {
     after[i] = times[i] - began_;
-    within = within || times[i] != time_;
+    known[i] = times[i] == time_ ? nullptr : shares(after[i]);
+    others = others || (times[i] != time_ && known[i] == nullptr);
   }
-  if (within) kernels_.evaluate(piece_, after, count, ball);
+  if (others) kernels_.evaluate(piece_, after, count, ball);
   for (std::size_t i = 0; i < count; ++i) {
     double* const row = rows + i * (size + (model_->gamma ? 1 : 0));
     if (times[i] == time_) {  // a row at an instant is the state there, whoever asks
@@ -188,12 +228,16 @@ void HeldStepper::evaluate_some(const double* times, std::size_t count, double* 
       if (model_->gamma) row[size] = turned_;
       continue;
     }
+    if (known[i] != nullptr) known[i]->evaluate(piece_, ball[i]);
     std::copy_n(ball[i], 5, row);
     if (model_->gamma) row[size] = ball[i][5];
+    const model::ImpulseAnswer* answer = nullptr;
     for (std::size_t k = 0; k < 2; ++k) {
       const model::HeldMotion& servo = servo_[k];
-      const model::HeldMotion::Instant at =
-          servo.after(instants_.answer(servo.law, time_, after[i]));
+      if (k == 0 || !(servo.law == servo_[0].law)) {
+        answer = &instants_.answer(servo.law, time_, after[i]);
+      }
+      const model::HeldMotion::Instant at = servo.after(*answer);
       row[angle + k] = at.angle;
       row[rate + k] = at.rate;
     }

@@ -53,6 +53,15 @@ class HeldStepper : public Stepper {
   using Loop = model::RigLoop<false>;
   static constexpr std::size_t size = Loop::size;
 
+  // What each coefficient of an acceleration's series adds to the velocity and to the position, so
+  // long after the beginning of a piece of that length, s.
+  struct Shares {
+    double after = -1, length = -1;
+    double of_velocity[nodes], of_position[nodes];
+
+    void evaluate(const Piece& piece, double (&ball)[6]) const;
+  };
+
   template <class Archive>
   void archive(Archive& archive);
 
@@ -62,6 +71,7 @@ class HeldStepper : public Stepper {
   void prepare(double length);
   void finish();
   void evaluate_some(const double* times, std::size_t count, double* rows);
+  [[nodiscard]] const Shares* shares(double after);
   const Range& range(Look of);
 
   const model::Model* model_;
@@ -71,6 +81,8 @@ class HeldStepper : public Stepper {
   Piece piece_{};
   MotionTables tables_;
   Instants instants_;
+  std::array<Shares, 4> shares_{};  // each of two lengths has two instants within
+  std::size_t next_shares_ = 0;
   std::array<model::HeldMotion, 2> servo_{};  // from the start of the last step on
   std::array<double, size> reached_{};        // states at its end
   std::array<Range, looks> ranges_{};         // of the last step

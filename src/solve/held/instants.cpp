@@ -30,6 +30,15 @@ double Instants::nominal(double time, double length) const {
   return length;
 }
 
+std::optional<double> Instants::recurring(double time, double after, double length) const {
+  if (length != lengths_[0] && length != lengths_[1]) return {};
+  const double rounding = 2 * rounding_of(time + after);
+  for (const Kept& one : samples_) {
+    if (std::abs(one.after - after) <= rounding) return one.after;
+  }
+  return {};
+}
+
 const model::ImpulseAnswer& Instants::answer(const model::HeldLaw& law, double time, double after) {
   const double rounding = 2 * rounding_of(time + after);
   for (Kept& one : samples_) {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 
 #include "model/servo/held_motion.hpp"
 #include "model/systems/rig.hpp"
@@ -18,6 +19,10 @@ class Instants {
   // that they are meant to have: one table serves all, and the lengths add up to the times
   // themselves.
   [[nodiscard]] double nominal(double time, double length) const;
+
+  // The time that is meant by `after` (s), after the beginning of a piece that ends at `time` or so
+  // and has that length, if both come again from period to period.
+  [[nodiscard]] std::optional<double> recurring(double time, double after, double length) const;
 
   // The answer to an impulse so long after a piece began at `time`, kept for the instants at which
   // samples are taken. Valid until the next call.
