@@ -22,8 +22,9 @@ struct GimbalState {
 };
 
 // How much of a sample is wanted: the ball alone; with the gimbal's angles and rates; with its
-// accelerations; or all. The rest is left as it is without a value.
-enum class Detail { ball, gimbal, motion, all };
+// accelerations; with commands and what was measured; or all, and so the reference too. The rest is
+// left as it is without a value.
+enum class Detail { ball, gimbal, motion, loop, all };
 
 // What a scene with couples, sliding or torques has beside that. All of them doubles.
 struct CoupledMotion {

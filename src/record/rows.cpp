@@ -28,8 +28,10 @@ Detail detail_for(Needs needs) {
     case Needs::coupled:
     case Needs::pushed:
       return Detail::motion;
-    case Needs::controller:
+    case Needs::commands:
     case Needs::samples:
+      return Detail::loop;
+    case Needs::controller:
       break;
   }
   return Detail::all;

@@ -425,7 +425,9 @@ class Checks {
       const Column* column = find_column(item.node->text);
       if (column == nullptr) continue;
       // Without motion and controller, that has been reported.
-      if (column->needs == Needs::controller && !scene_.gimbal.motion) continue;
+      const bool of_controller =
+          column->needs == Needs::controller || column->needs == Needs::commands;
+      if (of_controller && !scene_.gimbal.motion) continue;
       if (const Missing lacks = missing(*column, scene_)) {
         item.refuse(std::string(", but ") + lacks.why, lacks.instead);
       }

@@ -94,6 +94,7 @@ bool need_gamma(const std::vector<const Column*>& columns) {
 Missing missing(const Column& column, const Scenario& scenario) {
   switch (column.needs) {
     case Needs::controller:
+    case Needs::commands:
       if (scenario.controller) return {};
       return {"there is no controller", "columns of an open loop, such as x"};
     case Needs::servos:

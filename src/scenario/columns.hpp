@@ -14,8 +14,8 @@ namespace bbsim::scenario {
 
 // What a column is computed from, those that need the dynamics last: the ball's motion; its angle
 // gamma, and of all rows so far its orientation; the gimbal's angles and rates, and its
-// accelerations; the angles of servos, and of a third one; what is there with a controller, and
-// with one in discrete time; a number that one's own controller gives beside its commands; forces;
+// accelerations; the angles of servos, and of a third one; what is there with a controller, its
+// commands, and what is there with one in discrete time; a number that one's own controller gives beside its commands; forces;
 // forces where the plate's inertia is known, where torques move the gimbal, where DC motors do; and
 // `coupled` where the ball has losses or may slide, or torques move the gimbal, `pushed` where
 // something pushes it.
@@ -28,6 +28,7 @@ enum class Needs {
   servos,
   third_servo,
   controller,
+  commands,
   samples,
   own,
   dynamics,
@@ -86,12 +87,12 @@ inline constexpr std::array catalogue = {
         "phi_command", "rad",
         "command that the servo of phi follows (rad/s^2 if accelerations are driven, N m or V if "
         "torques or voltages are)",
-        Needs::controller},
+        Needs::commands},
     Column{
         "theta_command", "rad",
         "command that the servo of theta follows (rad/s^2 if accelerations are driven, N m or V if "
         "torques or voltages are)",
-        Needs::controller},
+        Needs::commands},
     Column{"x_measured", "m", "x as the sensor last saw it", Needs::samples},
     Column{"y_measured", "m", "y as the sensor last saw it", Needs::samples},
     Column{"tilt", "rad", "angle between the plane's normal and the vertical", Needs::gimbal},

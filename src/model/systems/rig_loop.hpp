@@ -305,11 +305,12 @@ class RigLoop {
     for (int i = 0; i < servos; ++i) {
       sample.servo[static_cast<std::size_t>(i)] = z[Layout::angle + i];
     }
-    if (detail != Detail::all) return sample;
-    const auto reference = reference_.at(t);
-    sample.reference = {reference[0].value, reference[1].value};
+    if (detail < Detail::loop) return sample;
     sample.command = {with.command[0], with.command[1]};
     sample.measured = {with.measured[0], with.measured[1]};
+    if (detail < Detail::all) return sample;
+    const auto reference = reference_.at(t);
+    sample.reference = {reference[0].value, reference[1].value};
     return sample;
   }
 

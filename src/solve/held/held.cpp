@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "base/instant.hpp"
 #include "solve/held/sides.hpp"
 #include "solve/step_growth.hpp"
 
@@ -215,15 +216,18 @@ void HeldStepper::evaluate_some(const double* times, std::size_t count, double* 
   double after[16], ball[16][6];
   const Shares* known[16];
   bool others = false;
+  const double rounding = 2 * rounding_of(time_);
+  const auto is_end = [&](std::size_t i) { return std::abs(times[i] - time_) <= rounding; };
   for (std::size_t i = 0; i < count; ++i) {
     after[i] = times[i] - began_;
-    known[i] = times[i] == time_ ? nullptr : shares(after[i]);
-    others = others || (times[i] != time_ && known[i] == nullptr);
+    if (is_end(i)) continue;
+    known[i] = shares(after[i]);
+    others = others || known[i] == nullptr;
   }
   if (others) kernels_.evaluate(piece_, after, count, ball);
   for (std::size_t i = 0; i < count; ++i) {
     double* const row = rows + i * (size + (model_->gamma ? 1 : 0));
-    if (times[i] == time_) {  // a row at an instant is the state there, whoever asks
+    if (is_end(i)) {  // a row at an instant is the state there, whoever asks
       std::copy(reached_.begin(), reached_.end(), row);
       if (model_->gamma) row[size] = turned_;
       continue;
