@@ -86,9 +86,12 @@ HybridSystem::HybridSystem(const Model& model, double resolution) : model_(model
         }
       },
       model_.system);
+  pass_stops(-unlimited);
   if (model_.rig) {
     const Rig& rig = *model_.rig;
     rate_ = angle + rig.servos;
+    is_direct_ = rig.between.none();
+    only_servos_settle_ = !rig.limits_commands() && !rig.between.has_pieces();
     const ServoResponses servo = with_loop([](const auto& loop) { return loop.servo(); });
     for (int i = 0; i < rig.servos; ++i) {
       // With backlash the plane rests in mid-gap, whatever the servo's rate.
@@ -115,7 +118,7 @@ HybridSystem::HybridSystem(const Model& model, double resolution) : model_(model
       }
     }
     if (rig.sampled) {
-      sampled_.emplace(Sampled{SampleExchange(*rig.sampled), SampledController(*rig.sampled)});
+      sampled_.emplace(Sampled{{0, 0}, SampleExchange(*rig.sampled), SampledController(*rig.sampled)});
       only_commands_change_ = !model_.dry && std::holds_alternative<RigLoop<false>>(model_.system);
       if (rig.sampled->law.kind == LawKind::held && !rig.sampled->external) {
         throw std::logic_error("a run of a scene whose controller nobody has attached");
@@ -138,9 +141,15 @@ void HybridSystem::handle_time_event(double t, double* z) {
   act(t, z);
 }
 
+void HybridSystem::pass_stops(double now) {
+  const std::vector<double>& stops = model_.stops;
+  while (next_stop_ < stops.size() && stops[next_stop_] <= now) ++next_stop_;
+  stop_ = next_stop_ < stops.size() ? stops[next_stop_] : unlimited;
+}
+
 void HybridSystem::see(double t, const double* z) {
   const double now = instant_end(t);
-  while (next_stop_ < model_.stops.size() && model_.stops[next_stop_] <= now) ++next_stop_;
+  if (stop_ <= now) pass_stops(now);
   if (!sampled_) return;
   while (sampled_->exchange.exposes_by(now)) sampled_->exchange.expose({z[0], z[1]});
 }
@@ -197,7 +206,7 @@ void HybridSystem::take_sample(double t, const double* z) {
 
 void HybridSystem::apply_command() {
   const Pair command = sampled_->exchange.take_command();
-  const std::array<double, 3> told = model_.rig->between.none()
+  const std::array<double, 3> told = is_direct_
                                          ? std::array<double, 3>{command[0], command[1], 0}
                                          : sampled_->controller.told(command);
   for (std::size_t i = 0; i < servos_.size(); ++i) {
@@ -293,7 +302,7 @@ void HybridSystem::settle(double t, double* z) {
 }
 
 bool HybridSystem::stays_as_it_is(const double* z) const {
-  if (model_.rig->limits_commands() || model_.rig->between.has_pieces()) return false;
+  if (!only_servos_settle_) return false;
   for (std::size_t i = 0; i < servos_.size(); ++i) {
     if (!servos_[i].stays_free(z[static_cast<std::size_t>(angle) + i],
                                z[static_cast<std::size_t>(rate_) + i])) {
@@ -489,7 +498,7 @@ HybridSystem::Effect HybridSystem::check_events(double t, const double* z) {
 template <class Archive>
 void HybridSystem::archive(Archive& archive) {
   if (model_.rig) archive(*mode_);
-  archive(next_stop_, happening_);
+  archive(next_stop_, stop_, happening_);
   for (ServoAxis& servo : servos_) archive(servo);
   if (model_.rig && model_.rig->between.has_pieces()) {
     archive(pieces_, command_pieces_);

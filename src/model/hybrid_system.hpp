@@ -33,7 +33,7 @@ class HybridSystem {
   // The next time (s) at which something happens that does not depend on the state; infinite if
   // nothing does any more.
   [[nodiscard]] double next_time_event() const {
-    return sampled_ ? std::min(next_stop(), sampled_->exchange.next()) : next_stop();
+    return sampled_ ? std::min(stop_, sampled_->exchange.next()) : stop_;
   }
 
   // Whether t is as good as next_time_event().
@@ -70,7 +70,7 @@ class HybridSystem {
 
   // The first of those times at which the motion may change: others only see it.
   [[nodiscard]] double next_change() const {
-    return sampled_ ? std::min(next_stop(), sampled_->exchange.next_command()) : next_stop();
+    return sampled_ ? std::min(stop_, sampled_->exchange.next_command()) : stop_;
   }
   // Whether that one is at t.
   [[nodiscard]] bool changes_at(double t) const { return next_change() <= instant_end(t); }
@@ -153,9 +153,7 @@ class HybridSystem {
   // Calls `use` with the RigLoop, of a model that has one.
   template <class Use>
   auto with_loop(Use use) const;
-  [[nodiscard]] double next_stop() const {
-    return next_stop_ < model_.stops.size() ? model_.stops[next_stop_] : unlimited;
-  }
+  void pass_stops(double now);
   [[nodiscard]] Wanted axes(double t, const double* z) const;
   [[nodiscard]] RigExtras plane(const double* z) const;
   [[nodiscard]] Sample sample(double t, const double* z, Detail detail) const;
@@ -179,13 +177,16 @@ class HybridSystem {
   Effect occur(std::size_t monitor, double t, const double* z);
 
   Model model_;
-  RigMode* mode_ = nullptr;  // of its system, if that is a rig
-  // An instant changes the motion only by what it makes a servo follow.
-  bool only_commands_change_ = false;
+  // What every instant looks at is together.
+  RigMode* mode_ = nullptr;  // of the model's system, if that is a rig
+  double stop_ = unlimited;  // the next one, s
   std::size_t next_stop_ = 0;
   bool touched_ = true, settled_ = true;
+  // An instant changes the motion only by what it makes a servo follow; what it makes them follow
+  // is the command itself; whether something else than servos may have to be settled.
+  bool only_commands_change_ = false, is_direct_ = false, only_servos_settle_ = false;
   std::vector<ServoAxis> servos_;
-  int rate_ = RigLayout::rate;                             // among the states, of the first servo
+  int rate_ = RigLayout::rate;  // among the states, of the first servo
   std::size_t pieces_[2]{0, 0}, command_pieces_[2]{0, 0};  // of measured curves
   std::vector<double> guard_scales_;
   std::vector<char> happening_;  // for each monitor
@@ -193,9 +194,9 @@ class HybridSystem {
   DrySwitches::State dry_state_;  // that occurrences know of
 
   struct Sampled {
+    Pair measured{0, 0};
     SampleExchange exchange;
     SampledController controller;
-    Pair measured{0, 0};
     std::vector<double> own{};  // the last numbers of one's own controller
   };
   std::optional<Sampled> sampled_;

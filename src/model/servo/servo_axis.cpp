@@ -84,7 +84,6 @@ void ServoAxis::settle_backlash(const AxisState& state, AxisMode& mode) {
 }
 
 void ServoAxis::settle(AxisState& state, AxisMode& mode) {
-  settled_ = true;
   motion_ = choose(state);
   mode.demand_factor = 0;
   mode.set_acceleration = 0;
@@ -102,6 +101,10 @@ void ServoAxis::settle(AxisState& state, AxisMode& mode) {
       break;
   }
   settle_backlash(state, mode);
+  const bool calm = motion_ == Motion::free && play_ == Play::none && !rig_.time_constant &&
+                    rig_.acceleration_limit == unlimited;
+  calm_angle_ = calm ? rig_.angle_limit * at_limit : 0;
+  calm_rate_ = calm ? rig_.rate_limit * at_limit : 0;
 }
 
 template <class Use>

@@ -32,7 +32,8 @@ class ServoAxis {
 
   // The offset of `servo` is where the plane, or the horn, is at its zero.
   ServoAxis(const RigServo& servo, const ServoResponse& response)
-      : rig_(servo),
+      : dead_band_(servo.dead_band),
+        rig_(servo),
         response_(response),
         root_(std::sqrt(response.from_angle)),
         offset_(servo.offset) {}
@@ -40,16 +41,14 @@ class ServoAxis {
   // The command that the servo follows after it got this one: nearer to the last one than the dead
   // band it is not followed.
   [[nodiscard]] double follow(double command) {
-    if (std::abs(command - target_) > rig_.dead_band) target_ = command;
+    if (std::abs(command - target_) > dead_band_) target_ = command;
     return target_;
   }
 
   // Whether settle() would find the servo as it left it, free and short of its limits, whatever it
   // is told: mostly.
   [[nodiscard]] bool stays_free(double angle, double rate) const {
-    return settled_ && motion_ == Motion::free && play_ == Play::none && !rig_.time_constant &&
-           rig_.acceleration_limit == unlimited && std::abs(angle) < rig_.angle_limit * at_limit &&
-           std::abs(rate) < rig_.rate_limit * at_limit;
+    return std::abs(angle) < calm_angle_ && std::abs(rate) < calm_rate_;
   }
 
   // Chooses what the servo does from here. May change its rate: a stop takes it, and a servo of
@@ -82,7 +81,7 @@ class ServoAxis {
   // What it does at present (base/archive.hpp).
   template <class Archive>
   void archive(Archive& archive) {
-    archive(motion_, play_, started_, settled_, target_, plane_);
+    archive(motion_, play_, started_, target_, plane_, calm_angle_, calm_rate_);
   }
 
  private:
@@ -111,14 +110,15 @@ class ServoAxis {
   // A guard that was found at zero is this near it.
   static constexpr double at_limit = 1 - 1e-11;
 
+  // What every command asks for: the one that is followed, and up to where stays_free().
+  double dead_band_, target_ = 0, calm_angle_ = 0, calm_rate_ = 0;
   RigServo rig_;
   ServoResponse response_;
   double root_;  // of the stiffness, in free motion
   double offset_;
   Motion motion_ = Motion::free;
   Play play_ = Play::none;
-  bool started_ = false, settled_ = false;
-  double target_ = 0;  // the command that is followed
+  bool started_ = false;
   double plane_ = 0;   // the plane's angle in the gap, rad
 };
 
