@@ -39,20 +39,10 @@ void SampleExchange::expose(Pair position) {
   go_on_exposing();
 }
 
-std::optional<Pair> SampleExchange::begin_sample(double now) {
-  go_on(sample_);
-  if (!frames_) return seen_.pop().position;
-  while (!seen_.empty() && seen_.front().at + sensor_delay_ <= now) frame_ = seen_.pop().position;
-  return frame_;
-}
-
-Pair SampleExchange::take_command() {
-  go_on(apply_);
-  if (!even_) {
-    const double last = std::min(sample_.number, apply_.number);
-    times_.forget_before(frames_ ? last : std::min(last, expose_.number));
-  }
-  return commands_.pop();
+// Of samples that nobody asks for any more.
+void SampleExchange::forget_times() {
+  const double last = std::min(sample_.number, apply_.number);
+  times_.forget_before(frames_ ? last : std::min(last, expose_.number));
 }
 
 }  // namespace bbsim::model

@@ -39,10 +39,19 @@ class SampleExchange {
   [[nodiscard]] double sample_number() const { return sample_.number; }
   // What the sensor has to say at the sample: of the exposure for it, or the last frame that has
   // come by `now`; nothing if it missed the ball.
-  [[nodiscard]] std::optional<Pair> begin_sample(double now);
-  void end_sample(Pair command) { commands_.push(command); }
+  [[nodiscard]] std::optional<Pair> begin_sample(double now) {
+    go_on(sample_);
+    if (!frames_) return seen_.pop().position;
+    while (!seen_.empty() && seen_.front().at + sensor_delay_ <= now) frame_ = seen_.pop().position;
+    return frame_;
+  }
+  void end_sample(const Pair& command) { commands_.push(command); }
   [[nodiscard]] bool commands_by(double now) const { return apply_.next <= now; }
-  [[nodiscard]] Pair take_command();
+  [[nodiscard]] Pair take_command() {
+    go_on(apply_);
+    if (!even_) forget_times();
+    return commands_.pop();
+  }
 
   // What changes over a run (base/archive.hpp).
   template <class Archive>
@@ -73,6 +82,7 @@ class SampleExchange {
     clock.next = time + clock.shift;
   }
   void go_on_exposing();
+  void forget_times();
 
   // What every instant looks at is together.
   bool even_;

@@ -52,14 +52,18 @@ struct LaneLaw {
   BBSIM_INLINE model::SampledLaw<P> load(const model::SampledLaw<Lanes>& from) const {
     model::SampledLaw<P> law;
     law.law.kind = from.law.kind;
-    each(law.law.gain, from.law.gain);
-    each(law.law.integral, from.law.integral);
-    each(law.law.kv, from.law.kv);
-    each(law.law.kp, from.law.kp);
-    law.law.scale = one(from.law.scale);
     law.integrates = from.integrates;
+    // What the law does not look at is left as it is.
+    if (from.law.kind == model::LawKind::gravity_compensation) {
+      each(law.law.kv, from.law.kv);
+      each(law.law.kp, from.law.kp);
+      law.law.scale = one(from.law.scale);
+      each(law.sine, from.sine);
+    } else {
+      each(law.law.gain, from.law.gain);
+    }
+    each(law.law.integral, from.law.integral);
     each(law.limit, from.limit);
-    each(law.sine, from.sine);
     law.resolution = one(from.resolution);
     each(law.reached, from.reached);
     law.filter = one(from.filter);
