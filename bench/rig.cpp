@@ -10,8 +10,8 @@
 #include <exception>
 #include <functional>
 #include <limits>
-#include <numeric>
 #include <memory>
+#include <numeric>
 #include <optional>
 #include <span>
 #include <string>
@@ -149,9 +149,9 @@ class Swept {
 struct Candidate {
   std::string name;
   std::function<void()> run;
-  std::function<double()> error;  // of the last run, m
-  double most = 0;                // of dopri5's time at rtol 1e-8; 0: nothing is asked
-  double cases = 1;               // of one call
+  std::function<double()> error;    // of the last run, m
+  double most = 0;                  // of dopri5's time at rtol 1e-8; 0: nothing is asked
+  double cases = 1;                 // of one call
   std::function<double()> least{};  // of all calls, s, if that is not the least call
   double seconds = std::numeric_limits<double>::infinity();
 };

@@ -35,8 +35,8 @@ template <class Real>
 // The nearest integer, of two the even one. At 2^52 the spacing of doubles is one, so that the sum
 // rounds; the C library would have to be called for it.
 [[nodiscard]] inline double nearest_integer(double value) {
-  constexpr double spaced_by_one = 0x1.8p52;
-  if (!(std::abs(value) < 0x1p51)) return value;
+  if (!(std::abs(value) < 0x1p52)) return value;
+  const double spaced_by_one = std::copysign(0x1p52, value);
   return std::copysign((value + spaced_by_one) - spaced_by_one, value);
 }
 

@@ -118,7 +118,8 @@ HybridSystem::HybridSystem(const Model& model, double resolution) : model_(model
       }
     }
     if (rig.sampled) {
-      sampled_.emplace(Sampled{{0, 0}, SampleExchange(*rig.sampled), SampledController(*rig.sampled)});
+      sampled_.emplace(
+          Sampled{{0, 0}, SampleExchange(*rig.sampled), SampledController(*rig.sampled)});
       only_commands_change_ = !model_.dry && std::holds_alternative<RigLoop<false>>(model_.system);
       if (rig.sampled->law.kind == LawKind::held && !rig.sampled->external) {
         throw std::logic_error("a run of a scene whose controller nobody has attached");
@@ -206,9 +207,8 @@ void HybridSystem::take_sample(double t, const double* z) {
 
 void HybridSystem::apply_command() {
   const Pair command = sampled_->exchange.take_command();
-  const std::array<double, 3> told = is_direct_
-                                         ? std::array<double, 3>{command[0], command[1], 0}
-                                         : sampled_->controller.told(command);
+  const std::array<double, 3> told = is_direct_ ? std::array<double, 3>{command[0], command[1], 0}
+                                                : sampled_->controller.told(command);
   for (std::size_t i = 0; i < servos_.size(); ++i) {
     const double follows = servos_[i].follow(told[i]);
     touched_ = touched_ || follows != mode_->command[i];

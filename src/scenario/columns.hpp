@@ -15,10 +15,10 @@ namespace bbsim::scenario {
 // What a column is computed from, those that need the dynamics last: the ball's motion; its angle
 // gamma, and of all rows so far its orientation; the gimbal's angles and rates, and its
 // accelerations; the angles of servos, and of a third one; what is there with a controller, its
-// commands, and what is there with one in discrete time; a number that one's own controller gives beside its commands; forces;
-// forces where the plate's inertia is known, where torques move the gimbal, where DC motors do; and
-// `coupled` where the ball has losses or may slide, or torques move the gimbal, `pushed` where
-// something pushes it.
+// commands, and what is there with one in discrete time; a number that one's own controller gives
+// beside its commands; forces; forces where the plate's inertia is known, where torques move the
+// gimbal, where DC motors do; and `coupled` where the ball has losses or may slide, or torques move
+// the gimbal, `pushed` where something pushes it.
 enum class Needs {
   ball,
   gamma,

@@ -48,8 +48,8 @@ BBSIM_INLINE double size_of(double a) {
 // As of doubles (base/real.hpp), but for the sign of a zero.
 template <class P>
 BBSIM_INLINE P nearest_integer(P a) {
-  const P spaced_by_one(0x1.8p52);
-  return choose(exceeds(P(0x1p51), size_of(a)), (a + spaced_by_one) - spaced_by_one, a);
+  const P spaced_by_one = choose(exceeds(P(0.0), a), P(-0x1p52), P(0x1p52));
+  return choose(exceeds(P(0x1p52), size_of(a)), (a + spaced_by_one) - spaced_by_one, a);
 }
 
 template <class P>

@@ -482,6 +482,31 @@ TEST_CASE("rigs in lanes are those of single runs") {
                            "gimbal.servo.rate_limit=100 rad/s"},
                           loop_measures, 12));
   }
+  SECTION("under any law, with integrals that wait at a limit and servos that are fed back") {
+    const std::string law = GENERATE(
+        "pid: {kp: [[0.7, 0], [0, -0.7]], kv: [[0.6, 0], [0, -0.6]], ki: [[0.35, 0], [0, -0.35]]}",
+        "lqr: {position: 60, velocity: 1, angle: 1, rate: 0.1, command: 20}",
+        "gravity_compensation: {kp: 10, kv: 8}");
+    // A limit that is reached, and one beyond which a sine is not sought by lanes alone.
+    const std::string limit = GENERATE("3 deg", "80 deg");
+    const std::string sampling = GENERATE("{period: 20 ms}", "{period: 20 ms, delay: 30 ms}");
+    CAPTURE(law, limit, sampling);
+    check_rig_lanes(Setup("configs/rig.yaml", {{"controller.sensor.seed", "linear:1:12:12"}},
+                          {"time.end=4", "controller={" + law + ", drives: angle, limit: " + limit +
+                                             ", reference: {point: [3 cm, 1 cm]}, sampling: " +
+                                             sampling + ", sensor: {noise: 0.2 mm}}"},
+                          loop_measures));
+  }
+  SECTION("with balls that are missed, and cameras that see them late") {
+    const std::string sensor =
+        GENERATE("{noise: 0.2 mm, dropout: 0.2, seed: 1}",
+                 "{noise: 0.2 mm, period: 33 ms, phase: 5 ms, delay: 21 ms, seed: 1}",
+                 "{resolution: 1 mm, area: [9 cm, 9 cm], delay: 35 ms}");
+    CAPTURE(sensor);
+    check_rig_lanes(Setup("configs/rig.yaml",
+                          {{"controller.gravity_compensation.kp", "uniform:6:14"}},
+                          {"time.end=5", "controller.sensor=" + sensor}, loop_measures, 14));
+  }
   SECTION("with what a controller commands at the end") {
     check_rig_lanes(Setup("configs/rig.yaml", gains_and_seeds, {"time.end=2.005"},
                           {"end_phi_command", "end_x_measured", "end_vx", "end_phi", "x_end"}, 5));

@@ -104,7 +104,8 @@ template <class Scalar, class Real, class Integral, class Time>
 // `limited(i, raw)` is what the limit leaves of a command, and of a sine in gravity compensation.
 // Not for feedback linearisation, which asks for the plant's equations, nor for a held command.
 template <class Scalar, class Real, class Integral, class Time, class Limited>
-[[nodiscard]] Command<Real> command(const BasicControlLaw<Scalar>& law, const Feedback<Real, Integral>& state,
+[[nodiscard]] Command<Real> command(const BasicControlLaw<Scalar>& law,
+                                    const Feedback<Real, Integral>& state,
                                     const std::array<Jet<Time>, 2>& reference,
                                     const Limited& limited) {
   Command<Real> u;

@@ -19,9 +19,7 @@ class SampleExchange {
   explicit SampleExchange(const SampledLoop& loop);
 
   // The first instant that is left, and the first one at which a command arrives, s.
-  [[nodiscard]] double next() const {
-    return std::min({expose_.next, sample_.next, apply_.next});
-  }
+  [[nodiscard]] double next() const { return std::min({expose_.next, sample_.next, apply_.next}); }
   [[nodiscard]] double next_command() const { return apply_.next; }
 
   // Times nearer to t than this (s) are one with it but for their rounding: what the sensor sees at
@@ -89,9 +87,9 @@ class SampleExchange {
   double period_, sensor_delay_, one_instant_;
   Clock expose_, sample_, apply_;
   std::optional<double> frames_;  // the period of a camera's, s
-  Queue<Seen> seen_;           // exposed, not yet sampled
-  std::optional<Pair> frame_;  // the last one that has come
-  Queue<Pair> commands_;       // computed, not yet applied
+  Queue<Seen> seen_;              // exposed, not yet sampled
+  std::optional<Pair> frame_;     // the last one that has come
+  Queue<Pair> commands_;          // computed, not yet applied
   BallSensor sensor_;
   SampleTimes times_;
 };

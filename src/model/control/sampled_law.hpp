@@ -18,10 +18,10 @@ struct SampledLaw {
 
   BasicControlLaw<Scalar> law;
   bool integrates = false;  // law.integrates()
-  Range limit[2];   // of the command of phi and of theta, rad, or rad/s^2
-  Range sine[2];    // of the limit, for gravity compensation
+  Range limit[2];           // of the command of phi and of theta, rad, or rad/s^2
+  Range sine[2];            // of the limit, for gravity compensation
   Scalar resolution;        // of the command; 0: none
-  Range reached[2];  // by multiples of the resolution, within the limit
+  Range reached[2];         // by multiples of the resolution, within the limit
   Scalar filter;            // time constant of the velocity's, s
 };
 
@@ -57,10 +57,10 @@ void keep_within_limits(const SampledLaw<Real>& of, Real (&command)[2]) {
   }
 }
 
-// A sample that saw the ball at `seen`, `elapsed` (s) after the last one that did; `first`: there was
-// none. `servo` are the servos' angles (rad) and rates (rad/s), for laws that feed them back. The
-// integral of a PID grows while its command is within the limit, or while the error brings it back
-// there.
+// A sample that saw the ball at `seen`, `elapsed` (s) after the last one that did; `first`: there
+// was none. `servo` are the servos' angles (rad) and rates (rad/s), for laws that feed them back.
+// The integral of a PID grows while its command is within the limit, or while the error brings it
+// back there.
 template <class Real, class Mask>
 void take_sample(const SampledLaw<Real>& of, SampledMemory<Real>& memory, const Real (&seen)[2],
                  const Real& elapsed, const Mask& first, const Real (&servo)[4],

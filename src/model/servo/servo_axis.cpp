@@ -31,8 +31,7 @@ AxisMargin ServoAxis::push_at_stop() const {
 ServoAxis::Motion ServoAxis::choose(AxisState& state) const {
   const double stop = rig_.angle_limit, fastest = rig_.rate_limit;
   if (rig_.time_constant) {
-    state.rate =
-        std::clamp((state.command - state.angle) / *rig_.time_constant, -fastest, fastest);
+    state.rate = std::clamp((state.command - state.angle) / *rig_.time_constant, -fastest, fastest);
   }
   for (const int sign : {1, -1}) {
     if (sign * state.angle < stop * at_limit || sign * state.rate < 0) continue;

@@ -119,7 +119,7 @@ class ServoAxis {
   Motion motion_ = Motion::free;
   Play play_ = Play::none;
   bool started_ = false;
-  double plane_ = 0;   // the plane's angle in the gap, rad
+  double plane_ = 0;  // the plane's angle in the gap, rad
 };
 
 }  // namespace bbsim::model

@@ -6,7 +6,8 @@
 
 namespace bbsim::simd {
 
-// Of a sine up to 0.7 by Newton's iteration, beyond by the C library. Found beside the one for any number type (model/control/law.hpp), which knows less of the lanes.
+// Of a sine up to 0.7 by Newton's iteration, beyond by the C library. Found beside the one for any
+// number type (model/control/law.hpp), which knows less of the lanes.
 template <class Isa, int lanes>
 BBSIM_INLINE Pack<Isa, lanes> arcsine(Pack<Isa, lanes> s) {
   using P = Pack<Isa, lanes>;
@@ -16,8 +17,8 @@ BBSIM_INLINE Pack<Isa, lanes> arcsine(Pack<Isa, lanes> s) {
     return angle;
   }
   const P s2 = s * s;
-  P angle = s * (P(1.0) + s2 * (P(1.0 / 6) + s2 * (P(3.0 / 40) +
-                                                   s2 * (P(15.0 / 336) + s2 * P(35.0 / 1152)))));
+  P angle = s * (P(1.0) + s2 * (P(1.0 / 6) +
+                                s2 * (P(3.0 / 40) + s2 * (P(15.0 / 336) + s2 * P(35.0 / 1152)))));
   // Newton's iteration: what is left after a step is below the square of it.
   for (int i = 0; i < 6; ++i) {
     const SinCos<P> at = sin_cos_of_small(angle);
@@ -92,7 +93,7 @@ template <class P>
                        simd::exceeds(from.one(control.is_first), P(0.5)), servo, reference,
                        command);
     const auto sees = simd::exceeds(from.one(control.sees), P(0.5));
-    const auto keep = [&](Lanes (&to)[2], const P (&values)[2]) __attribute__((always_inline)) {
+    const auto keep = [&](Lanes(&to)[2], const P(&values)[2]) __attribute__((always_inline)) {
       for (int i = 0; i < 2; ++i) {
         simd::choose(sees, values[i], from.one(to[i])).store(to[i].of + first);
       }

@@ -100,11 +100,11 @@ struct alignas(64) Lanes {
 struct LaneControl {
   model::SampledLaw<Lanes> law;
   model::SampledMemory<Lanes> memory;
-  Lanes sees, is_first;              // 1 or 0
-  Lanes elapsed;                     // s
-  Lanes seen[2], servo[4];           // m; rad and rad/s
-  double reference[2][3];            // value, rate and acceleration
-  Lanes command[2];                  // the last one
+  Lanes sees, is_first;     // 1 or 0
+  Lanes elapsed;            // s
+  Lanes seen[2], servo[4];  // m; rad and rad/s
+  double reference[2][3];   // value, rate and acceleration
+  Lanes command[2];         // the last one
 };
 
 struct LaneKernels {

@@ -498,8 +498,8 @@ struct LaneKernel {
     }
   }
 
-  static constexpr LaneKernels kernels{&start, &attempt,      &closer_error, &look,
-                                       &look_closely, &reference,    &control_lanes<P>, &evaluate};
+  static constexpr LaneKernels kernels{&start,        &attempt,   &closer_error,     &look,
+                                       &look_closely, &reference, &control_lanes<P>, &evaluate};
 };
 
 }  // namespace bbsim::solve::held

@@ -35,9 +35,9 @@ bool carries(const model::Model& model) {
 
 bool go_together(const model::Model& one, const model::Model& other) {
   const model::SampledLoop &a = *one.rig->sampled, &b = *other.rig->sampled;
-  return a.law.kind == b.law.kind && same_instants(a.sampling, b.sampling) && a.sensor.delay == b.sensor.delay &&
-         a.sensor.period == b.sensor.period && a.sensor.phase == b.sensor.phase &&
-         one.stops == other.stops;
+  return a.law.kind == b.law.kind && same_instants(a.sampling, b.sampling) &&
+         a.sensor.delay == b.sensor.delay && a.sensor.period == b.sensor.period &&
+         a.sensor.phase == b.sensor.phase && one.stops == other.stops;
 }
 
 Range LaneStep::bounds(Size size, std::size_t lane) const {
@@ -257,8 +257,7 @@ void RigLanes::foresee(std::size_t l) {
   lane.foreseen = lane.run->next_change();
   lane.fall = {};
   if (servos_->clear[l] != 0) return;
-  lane.fall =
-      lane.run->next_fall(lane.time, {step_.servo(l, 0), step_.servo(l, 1)}, lane.foreseen);
+  lane.fall = lane.run->next_fall(lane.time, {step_.servo(l, 0), step_.servo(l, 1)}, lane.foreseen);
 }
 
 // Finds how the servos of an axis move over the pieces: mostly all alike.

@@ -116,8 +116,8 @@ class RigLanes {
     int unseen = 0;         // samples since its controller saw the ball
     bool seen_any = false;  // that it ever did
     bool alive = false, feeds_servos_back = false;
-    bool moved = false, settled = false;        // with the last attempt
-    bool restarts = false, switched = false;    // by a command, or by more than that
+    bool moved = false, settled = false;      // with the last attempt
+    bool restarts = false, switched = false;  // by a command, or by more than that
     bool unforeseen = false;
   };
   // Which table an axis of pieces_ shares, or one of its columns holds.

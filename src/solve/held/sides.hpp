@@ -14,9 +14,9 @@ namespace bbsim::solve::held {
   return {at_nodes.least - beyond, at_nodes.most + beyond};
 }
 
-// What a monitor for which nothing happens is told by: use(Look, least, most), for each thing that is
-// looked at, says between which numbers it has to stay. Returns false for one that is not told by
-// such things.
+// What a monitor for which nothing happens is told by: use(Look, least, most), for each thing that
+// is looked at, says between which numbers it has to stay. Returns false for one that is not told
+// by such things.
 template <class Use>
 [[nodiscard]] bool for_each_side(const model::Monitor& monitor, const Plate& plate, Use use) {
   constexpr double unlimited = model::unlimited;

@@ -1,0 +1,27 @@
+// First in, first out.
+#include <deque>
+
+#include "base/queue.hpp"
+#include "catch.hpp"
+
+using namespace bbsim;
+
+TEST_CASE("a queue gives back what it got, in turn, however full it was") {
+  Queue<int> queue;
+  std::deque<int> same;
+  unsigned state = 1;
+  for (int i = 0; i < 10000; ++i) {
+    state = state * 1664525U + 1013904223U;
+    // Runs of pushes, then runs of pops.
+    const bool push = same.empty() || ((state >> 16U) % 8 < (i / 100 % 2 == 0 ? 6U : 2U));
+    if (push) {
+      queue.push(i);
+      same.push_back(i);
+    } else {
+      REQUIRE(queue.front() == same.front());
+      REQUIRE(queue.pop() == same.front());
+      same.pop_front();
+    }
+    REQUIRE(queue.empty() == same.empty());
+  }
+}
