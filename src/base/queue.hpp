@@ -12,13 +12,14 @@ class Queue {
  public:
   [[nodiscard]] bool empty() const { return first_ == all_.size(); }
   [[nodiscard]] const T& front() const { return all_[first_]; }
-  void push(const T& one) {
+  // One more, to be filled.
+  T& push() {
     // Those that are gone make room before there are more of them than of the others.
     if (first_ > 8 && 2 * first_ > all_.size()) {
       all_.erase(all_.begin(), all_.begin() + static_cast<std::ptrdiff_t>(first_));
       first_ = 0;
     }
-    all_.push_back(one);
+    return all_.emplace_back();
   }
   // Of a queue that is not empty.
   T pop() {

@@ -152,7 +152,7 @@ void HybridSystem::see(double t, const double* z) {
   const double now = instant_end(t);
   if (stop_ <= now) pass_stops(now);
   if (!sampled_) return;
-  while (sampled_->exchange.exposes_by(now)) sampled_->exchange.expose({z[0], z[1]});
+  while (sampled_->exchange.exposes_by(now)) sampled_->exchange.expose(z[0], z[1]);
 }
 
 std::optional<Pair> HybridSystem::begin_sample(double t) {
@@ -165,11 +165,6 @@ const std::array<Jet<double>, 2>& HybridSystem::reference_at(double t) {
     known_->value = with_loop([t](const auto& loop) { return loop.reference().at(t); });
   }
   return known_->value;
-}
-
-void HybridSystem::end_sample(const Pair& command, const Pair& measured) {
-  sampled_->exchange.end_sample(command);
-  sampled_->measured = measured;
 }
 
 void HybridSystem::act(double t, double* z) {

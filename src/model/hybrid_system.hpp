@@ -58,7 +58,10 @@ class HybridSystem {
   [[nodiscard]] std::optional<Pair> begin_sample(double t);
   [[nodiscard]] const std::array<Jet<double>, 2>& reference_at(double t);
   // `measured`: where the ball was seen last.
-  void end_sample(const Pair& command, const Pair& measured);
+  void end_sample(const Pair& command, const Pair& measured) {
+    sampled_->exchange.end_sample(command[0], command[1]);
+    sampled_->measured = measured;
+  }
   void act(double t, double* z);
   // Who computes the law otherwise.
   [[nodiscard]] const SampledController& computer() const { return sampled_->controller; }

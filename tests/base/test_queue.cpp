@@ -15,7 +15,7 @@ TEST_CASE("a queue gives back what it got, in turn, however full it was") {
     // Runs of pushes, then runs of pops.
     const bool push = same.empty() || ((state >> 16U) % 8 < (i / 100 % 2 == 0 ? 6U : 2U));
     if (push) {
-      queue.push(i);
+      queue.push() = i;
       same.push_back(i);
     } else {
       REQUIRE(queue.front() == same.front());

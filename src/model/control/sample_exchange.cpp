@@ -34,8 +34,10 @@ void SampleExchange::go_on_exposing() {
   expose_.next = expose_.number * *frames_ + expose_.shift;
 }
 
-void SampleExchange::expose(Pair position) {
-  seen_.push({expose_.next, sensor_.read(position)});
+void SampleExchange::expose(double x, double y) {
+  Seen& now = seen_.push();
+  now.at = expose_.next;
+  now.sees = sensor_.read(x, y, now.position);
   go_on_exposing();
 }
 

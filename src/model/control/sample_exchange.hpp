@@ -32,18 +32,18 @@ class SampleExchange {
 
   // Whether one is left up to `now`, which is due then; and what is to be done about it.
   [[nodiscard]] bool exposes_by(double now) const { return expose_.next <= now; }
-  void expose(Pair position);
+  void expose(double x, double y);  // of a ball there, m
   [[nodiscard]] bool samples_by(double now) const { return sample_.next <= now; }
   [[nodiscard]] double sample_number() const { return sample_.number; }
   // What the sensor has to say at the sample: of the exposure for it, or the last frame that has
   // come by `now`; nothing if it missed the ball.
   [[nodiscard]] std::optional<Pair> begin_sample(double now) {
     go_on(sample_);
-    if (!frames_) return seen_.pop().position;
-    while (!seen_.empty() && seen_.front().at + sensor_delay_ <= now) frame_ = seen_.pop().position;
+    if (!frames_) return seen_.pop().what();
+    while (!seen_.empty() && seen_.front().at + sensor_delay_ <= now) frame_ = seen_.pop().what();
     return frame_;
   }
-  void end_sample(const Pair& command) { commands_.push(command); }
+  void end_sample(double phi, double theta) { commands_.push() = {phi, theta}; }
   [[nodiscard]] bool commands_by(double now) const { return apply_.next <= now; }
   [[nodiscard]] Pair take_command() {
     go_on(apply_);
@@ -71,7 +71,12 @@ class SampleExchange {
   };
   struct Seen {
     double at = 0;  // when, of frames, s
-    std::optional<Pair> position{};
+    Pair position{};
+    bool sees = false;
+
+    [[nodiscard]] std::optional<Pair> what() const {
+      return sees ? std::optional(position) : std::nullopt;
+    }
   };
 
   void go_on(Clock& clock) {

@@ -5,27 +5,24 @@
 
 namespace bbsim::model {
 
-std::optional<Pair> BallSensor::read(Pair position) {
-  Pair seen = position;
+bool BallSensor::read(double x, double y, Pair& seen) {
+  double says[2] = {x, y};
   if (!sensor_.is_aligned()) {
     const double c = std::cos(sensor_.rotation), s = std::sin(sensor_.rotation);
-    seen = {sensor_.scale[0] * (c * position[0] - s * position[1]) + sensor_.offset[0],
-            sensor_.scale[1] * (s * position[0] + c * position[1]) + sensor_.offset[1]};
+    says[0] = sensor_.scale[0] * (c * x - s * y) + sensor_.offset[0];
+    says[1] = sensor_.scale[1] * (s * x + c * y) + sensor_.offset[1];
   }
   bool missed = false;
   // Each sample draws alike, whatever it sees, so that runs with one seed have one noise.
   if (sensor_.noise > 0) {
-    for (double& coordinate : seen) coordinate += sensor_.noise * noise_.normal();
+    for (double& coordinate : says) coordinate += sensor_.noise * noise_.normal();
   }
   if (sensor_.dropout > 0) missed = noise_.uniform() < sensor_.dropout;
   if (sensor_.area) {
-    for (std::size_t i = 0; i < 2; ++i) {
-      missed = missed || std::abs(position[i]) > (*sensor_.area)[i] / 2;
-    }
+    missed = missed || std::abs(x) > (*sensor_.area)[0] / 2 || std::abs(y) > (*sensor_.area)[1] / 2;
   }
-  if (missed) return {};
-  for (double& coordinate : seen) coordinate = in_steps(coordinate, sensor_.resolution);
-  return seen;
+  for (std::size_t i = 0; i < 2; ++i) seen[i] = in_steps(says[i], sensor_.resolution);
+  return !missed;
 }
 
 SampledController::SampledController(const SampledLoop& loop) : loop_(loop) {

@@ -15,8 +15,9 @@ class BallSensor {
  public:
   explicit BallSensor(const Sensor& sensor) : sensor_(sensor), noise_(sensor.seed) {}
 
-  // What it says of a ball at (x, y), m, from where it stands; nothing if it misses it.
-  [[nodiscard]] std::optional<Pair> read(Pair position);
+  // Whether it sees a ball at (x, y), m, from where it stands, and what it says of it. (Numbers one
+  // by one: a pair that was just written by halves is slow to be read as a whole.)
+  [[nodiscard]] bool read(double x, double y, Pair& seen);
 
   // What of it changes over a run (base/archive.hpp): how far its noise is drawn.
   template <class Archive>
