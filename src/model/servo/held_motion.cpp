@@ -50,7 +50,7 @@ struct Spectrum {
 }  // namespace
 
 ImpulseAnswer answer(const HeldLaw& law, double t) {
-  if (law.damping * t <= 1 && law.stiffness * t * t <= 1) return by_series(law, t);
+  if (suits_series(law, t)) return by_series(law, t);
   const Spectrum of(law);
   double value = 0, slope = 0;
   if (of.discriminant < 0) {
@@ -142,12 +142,30 @@ struct Fall {
   double value, slope;
 };
 
+// About where the cubic with these values and slopes at 0 and 1 passes zero.
+double guess(const Fall& first, const Fall& last) {
+  const double rise = last.value - first.value;
+  const double square = 3 * rise - 2 * first.slope - last.slope;
+  const double cube = first.slope + last.slope - 2 * rise;
+  double s = first.value / -rise;
+  for (int k = 0; k < 3; ++k) {
+    const double value = first.value + s * (first.slope + s * (square + s * cube));
+    const double slope = first.slope + s * (2 * square + 3 * s * cube);
+    if (!(slope < 0)) break;
+    s = std::clamp(s - value / slope, 0.0, 1.0);
+  }
+  return s;
+}
+
 // The first time in (from, to] at which a falling function is not positive; it is at `from`, and is
-// not at `to`. Newton's iteration, which goes a rounding beyond where it has come, so that the root
-// is enclosed; and a bisection after two steps that do not halve.
+// not at `to`, where it is `first` and `last`. Newton's iteration, which goes a rounding beyond where
+// it has come, so that the root is enclosed; and a bisection after two steps that do not halve.
 template <class Function>
-double root(Function function, double start, double from, double to) {
-  double t = from + (to - from) / 2;
+double root(Function function, double start, double from, Fall first, double to, Fall last) {
+  const double length = to - from;
+  first.slope *= length;
+  last.slope *= length;
+  double t = from + length * guess(first, last);
   int slow = 0;
   for (int k = 0; k < 200; ++k) {
     const double width = to - from;
@@ -170,37 +188,37 @@ double root(Function function, double start, double from, double to) {
 double first_fall(const MotionLine& line, const HeldMotion& motion, double clearly, double start,
                   double end) {
   if (reach(motion, end).least(line) > clearly) return never;
-  const auto value_at = [&](double t) {
-    const HeldMotion::Instant at = motion.after(t);
-    return line.at(at.angle, at.rate);
-  };
-  const auto goes_on = [&](double t) {
-    const HeldMotion::Instant at = motion.after(t);
-    return HeldMotion{motion.law, at.angle, at.rate, at.acceleration};
+  double threshold = 0;
+  const auto fall = [&](const HeldMotion::Instant& at) {
+    return Fall{line.at(at.angle, at.rate) - threshold,
+                line.by_angle * at.rate + line.by_rate * at.acceleration};
   };
   Turns turns(line, motion);
-  double from = 0, value = line.at(motion.angle, motion.rate);
-  double threshold = value > clearly ? 0 : std::min(0.0, value) - clearly;
+  double from = 0;
+  Fall now = fall({motion.angle, motion.rate, motion.acceleration});
+  if (!(now.value > clearly)) {
+    threshold = std::min(0.0, now.value) - clearly;
+    now.value -= threshold;
+  }
   // From turn to turn the line goes one way.
   while (from < end) {
     const double to = std::min(turns.next(), end);
     turns.pass();
     if (to <= from) continue;
-    const double reached = value_at(to);
-    if (!(reached > threshold)) {
-      if (!std::isfinite(reached)) return never;
-      return root(
-          [&](double t) {
-            const HeldMotion::Instant at = motion.after(t);
-            return Fall{line.at(at.angle, at.rate) - threshold,
-                        line.by_angle * at.rate + line.by_rate * at.acceleration};
-          },
-          start, from, to);
+    const HeldMotion::Instant at = motion.after(to);
+    const Fall reached = fall(at);
+    if (!(reached.value > 0)) {
+      if (!std::isfinite(reached.value)) return never;
+      return root([&](double t) { return fall(motion.after(t)); }, start, from, now, to, reached);
     }
     from = to;
-    value = reached;
-    if (value > clearly) threshold = 0;
-    if (from < end && reach(goes_on(from), end - from).least(line) > clearly) return never;
+    now = reached;
+    if (now.value + threshold > clearly) {
+      now.value += threshold;
+      threshold = 0;
+    }
+    const HeldMotion goes_on{motion.law, at.angle, at.rate, at.acceleration};
+    if (from < end && reach(goes_on, end - from).least(line) > clearly) return never;
   }
   return never;
 }

@@ -29,6 +29,12 @@ struct ImpulseAnswer {
   double integral = 0, value = 0, slope = 1;  // s^2, s, 1
 };
 
+// Whether the power series of the answer has at most some twenty terms at `time` (s), and none that
+// is much larger than their sum.
+[[nodiscard]] inline bool suits_series(const HeldLaw& law, double time) {
+  return law.damping * time <= 1.5 && law.stiffness * time * time <= 1;
+}
+
 // At `time` (s) after the impulse.
 [[nodiscard]] ImpulseAnswer answer(const HeldLaw& law, double time);
 

@@ -113,7 +113,7 @@ struct Kernels {
     // The ranges over start and nodes; those that nobody asks for are left as they are.
     void (*look)(const Piece& piece, const Scene& scene, Range* ranges, Loads& loads);
   } papers, general;
-  // By power series: for pieces of which damping * length and stiffness * length^2 are at most 1.
+  // By power series: for pieces whose length suits it (model::suits_series()).
   void (*answers)(double damping, double stiffness, double length, NodeAnswers& answers);
   // The ranges of the three loads over the Chebyshev points.
   void (*look_closely)(const Loads& loads, Range* ranges);

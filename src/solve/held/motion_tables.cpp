@@ -24,7 +24,7 @@ struct AtStart {
 
 void answer_at_nodes(const Kernels& kernels, const model::HeldLaw& law, double length,
                      NodeAnswers& answers) {
-  if (law.damping * length <= 1 && law.stiffness * length * length <= 1) {
+  if (model::suits_series(law, length)) {
     kernels.answers(law.damping, law.stiffness, length, answers);
     return;
   }
