@@ -158,8 +158,9 @@ double guess(const Fall& first, const Fall& last) {
 }
 
 // The first time in (from, to] at which a falling function is not positive; it is at `from`, and is
-// not at `to`, where it is `first` and `last`. Newton's iteration, which goes a rounding beyond where
-// it has come, so that the root is enclosed; and a bisection after two steps that do not halve.
+// not at `to`, where it is `first` and `last`. Newton's iteration, which goes a rounding beyond
+// where it has come, so that the root is enclosed; and a bisection after two steps that do not
+// halve.
 template <class Function>
 double root(Function function, double start, double from, Fall first, double to, Fall last) {
   const double length = to - from;

@@ -100,8 +100,7 @@ void ServoAxis::settle(AxisState& state, AxisMode& mode) {
       break;
   }
   settle_backlash(state, mode);
-  const bool calm = motion_ == Motion::free && play_ == Play::none && !rig_.time_constant &&
-                    rig_.acceleration_limit == unlimited;
+  const bool calm = motion_ == Motion::free && play_ == Play::none && !rig_.time_constant;
   calm_angle_ = calm ? rig_.angle_limit * at_limit : 0;
   calm_rate_ = calm ? rig_.rate_limit * at_limit : 0;
 }
@@ -171,12 +170,10 @@ void ServoAxis::evaluate(const AxisState& state, double* values) const {
 
 ServoAxis::Clearance ServoAxis::clearance() const {
   constexpr double clearly = 1 - 1e-12;
-  if (!rig_.switches()) return {unlimited, unlimited, root_};
-  if (motion_ != Motion::free || play_ != Play::none || rig_.acceleration_limit < unlimited ||
-      !(root_ > 0)) {
-    return {0, 0, root_};
-  }
-  return {clearly * rig_.angle_limit, clearly * rig_.rate_limit, root_};
+  if (!rig_.switches()) return {unlimited, unlimited, unlimited, root_};
+  if (motion_ != Motion::free || play_ != Play::none || !(root_ > 0)) return {0, 0, 0, root_};
+  return {clearly * rig_.angle_limit, clearly * rig_.rate_limit, clearly * rig_.acceleration_limit,
+          root_};
 }
 
 ServoAxis::Fall ServoAxis::first_fall(const HeldMotion& motion, double command, double start,
@@ -184,13 +181,7 @@ ServoAxis::Fall ServoAxis::first_fall(const HeldMotion& motion, double command, 
   Fall first;
   const bool springs = root_ > 0 && motion.law.stiffness == response_.from_angle;
   const MotionReach reached = springs ? reach_about(motion, root_) : reach(motion, end);
-  if (springs) {
-    const Clearance clear = clearance();
-    if (reached.rate_most < clear.rate &&
-        std::abs(reached.centre) + reached.angle_most < clear.angle) {
-      return first;
-    }
-  }
+  if (springs && clearance().holds(reached, motion.law)) return first;
   for_each_margin([&](int guard, const AxisMargin& margin) {
     const MotionLine line{
         margin.constant + (margin.by_command + margin.by_demand * response_.from_command) * command,

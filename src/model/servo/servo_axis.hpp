@@ -48,7 +48,11 @@ class ServoAxis {
   // Whether settle() would find the servo as it left it, free and short of its limits, whatever it
   // is told: mostly.
   [[nodiscard]] bool stays_free(double angle, double rate) const {
-    return std::abs(angle) < calm_angle_ && std::abs(rate) < calm_rate_;
+    if (!(std::abs(angle) < calm_angle_ && std::abs(rate) < calm_rate_)) return false;
+    const double most = rig_.acceleration_limit;
+    return most == unlimited ||
+           std::abs(response_.from_command * target_ - response_.from_angle * angle -
+                    response_.from_rate * rate) <= most;
   }
 
   // Chooses what the servo does from here. May change its rate: a stop takes it, and a servo of
@@ -67,11 +71,17 @@ class ServoAxis {
   [[nodiscard]] Fall first_fall(const HeldMotion& motion, double command, double start,
                                 double end) const;
 
-  // While a servo moves freely by a spring's law, what switches it no sooner than its angle or its
-  // rate reaches as much: (angle, rate) of which neither is positive if there is more to look at.
+  // While a servo moves freely by a spring's law, what switches it no sooner than its angle, its
+  // rate or its acceleration reaches as much: nothing of it positive if there is more to look at.
   struct Clearance {
-    double angle, rate;  // rad, rad/s
-    double root;         // of the stiffness, rad/s
+    double angle, rate, acceleration;  // rad, rad/s, rad/s^2
+    double root;                       // of the stiffness, rad/s
+
+    // Of a motion by that law.
+    [[nodiscard]] bool holds(const MotionReach& reached, const HeldLaw& law) const {
+      return reached.rate_most < rate && std::abs(reached.centre) + reached.angle_most < angle &&
+             law.stiffness * reached.angle_most + law.damping * reached.rate_most < acceleration;
+    }
   };
   [[nodiscard]] Clearance clearance() const;
 

@@ -55,7 +55,8 @@ struct alignas(64) LaneServo {
   double command[group];  // u
   // What switches none as long as they stay within, the root of the stiffness, and its inverse
   // (model::ServoAxis::Clearance).
-  double angle_most[group], rate_most[group], root[group], inverse_root[group];
+  double angle_most[group], rate_most[group], acceleration_most[group];
+  double root[group], inverse_root[group];
 };
 struct alignas(64) LaneServos {
   LaneServo of[2];

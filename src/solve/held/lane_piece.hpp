@@ -74,8 +74,11 @@ struct LaneKernel {
         const P inverse = of(servo.inverse_root);
         const P spring = (acceleration + damped) * inverse * inverse;
         const P most = size_of(spring) + size_of(rate) * inverse;
-        clear &= simd::exceeds(of(servo.rate_most), most * of(servo.root)) &
-                 simd::exceeds(of(servo.angle_most), size_of(angle + spring) + most);
+        const P rate_most = most * of(servo.root);
+        clear &= simd::exceeds(of(servo.rate_most), rate_most) &
+                 simd::exceeds(of(servo.angle_most), size_of(angle + spring) + most) &
+                 simd::exceeds(of(servo.acceleration_most),
+                               of(servo.stiffness) * most + of(servo.damping) * rate_most);
       }
       simd::choose(clear, P(1.0), P(0.0)).store(servos.clear + first);
     }

@@ -232,6 +232,7 @@ void RigLanes::take_mode(std::size_t l) {
     const model::ServoAxis::Clearance clear = run.clearance(i);
     servo.angle_most[l] = clear.angle;
     servo.rate_most[l] = clear.rate;
+    servo.acceleration_most[l] = clear.acceleration;
     servo.root[l] = clear.root;
     servo.inverse_root[l] = clear.root > 0 ? 1 / clear.root : 0;
     pieces_->axis[i].ratio[l] = mode.ratio;
