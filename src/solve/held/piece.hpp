@@ -235,16 +235,25 @@ struct Kernel {
       P changes[3] = {P(0.0), P(0.0), P(0.0)};
       P next[packs][3];
       for_each<packs>([&](auto p) __attribute__((always_inline)) {
-        P v[3] = {P(0.0), P(0.0), P(0.0)}, q[2] = {P(0.0), P(0.0)};
+        // In halves: a chain of sums waits for each of its members.
+        P v[3], q[2], half_v[2][3], half_q[2][2];
 #pragma GCC unroll 8
         for (int j = 0; j < nodes; ++j) {
           const P once = P::load(table.a[j] + p * lanes);
           const P twice = P::load(table.a_squared[j] + p * lanes);
 #pragma GCC unroll 3
           for (int i = 0; i < 3; ++i) {
-            v[i] += once * P(k[i][j]);
-            if (i < 2) q[i] += twice * P(k[i][j]);
+            P& sum = half_v[j % 2][i];
+            sum = j < 2 ? once * P(k[i][j]) : sum + once * P(k[i][j]);
+            if (i == 2) continue;
+            P& twice_sum = half_q[j % 2][i];
+            twice_sum = j < 2 ? twice * P(k[i][j]) : twice_sum + twice * P(k[i][j]);
           }
+        }
+#pragma GCC unroll 3
+        for (int i = 0; i < 3; ++i) {
+          v[i] = half_v[0][i] + half_v[1][i];
+          if (i < 2) q[i] = half_q[0][i] + half_q[1][i];
         }
         const P time = P(h) * P::load(table.c + p * lanes);
         P z[5];
