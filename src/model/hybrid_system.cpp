@@ -91,7 +91,7 @@ HybridSystem::HybridSystem(const Model& model, double resolution) : model_(model
     const Rig& rig = *model_.rig;
     rate_ = angle + rig.servos;
     is_direct_ = rig.between.none();
-    only_servos_settle_ = !rig.limits_commands() && !rig.between.has_pieces();
+    only_servos_settle_ = rig.sampled && !rig.limits_commands() && !rig.between.has_pieces();
     const ServoResponses servo = with_loop([](const auto& loop) { return loop.servo(); });
     for (int i = 0; i < rig.servos; ++i) {
       // With backlash the plane rests in mid-gap, whatever the servo's rate.

@@ -1,6 +1,5 @@
 #include "model/control/sampled_controller.hpp"
 
-#include <algorithm>
 #include <cmath>
 
 namespace bbsim::model {
@@ -25,7 +24,8 @@ bool BallSensor::read(double x, double y, Pair& seen) {
   return !missed;
 }
 
-SampledController::SampledController(const SampledLoop& loop) : loop_(loop) {
+SampledController::SampledController(const SampledLoop& loop)
+    : period_(loop.sampling.period), resolution_(loop.sampling.resolution), between_(loop.between) {
   law_.law = loop.law;
   law_.integrates = loop.law.integrates();
   law_.filter = loop.sampling.derivative_filter;
@@ -38,26 +38,24 @@ SampledController::SampledController(const SampledLoop& loop) : loop_(loop) {
   for (std::size_t i = 0; i < 2; ++i) {
     const CommandRange& limit = loop.limit[i];
     law_.limit[i] = {limit.low, limit.high};
-    law_.sine[i] = {std::sin(limit.low), std::sin(limit.high)};
+    law_.sine[i] = {-1, 1};
+    if (loop.law.kind == LawKind::gravity_compensation) {
+      law_.sine[i] = {std::sin(limit.low), std::sin(limit.high)};
+    }
     law_.reached[i] = {-inward(-limit.low), inward(limit.high)};
   }
-}
-
-double SampledController::elapsed() const {
-  return (seen_any_ ? 1 + unseen_ : 1) * loop_.sampling.period;
 }
 
 Pair SampledController::command(const std::optional<Pair>& seen, const double (&servo)[4],
                                 const std::array<Jet<double>, 2>& reference) {
   if (!seen) {
-    ++unseen_;
+    since_.miss();
     return command_;
   }
   const double at[2] = {(*seen)[0], (*seen)[1]};
   double u[2];
-  take_sample(law_, memory_, at, elapsed(), !seen_any_, servo, reference, u);
-  seen_any_ = true;
-  unseen_ = 0;
+  take_sample(law_, memory_, at, since_.elapsed(period_), !since_.any, servo, reference, u);
+  since_.see();
   command_ = {u[0], u[1]};
   return command_;
 }
@@ -69,9 +67,9 @@ Pair SampledController::within_limits(Pair command) const {
 }
 
 std::array<double, 3> SampledController::told(Pair command) const {
-  if (loop_.between.none()) return {command[0], command[1], 0};
-  std::array<double, 3> servo = loop_.between.told(command);
-  for (double& one : servo) one = in_steps(one, loop_.sampling.resolution);
+  if (between_.none()) return {command[0], command[1], 0};
+  std::array<double, 3> servo = between_.told(command);
+  for (double& one : servo) one = in_steps(one, resolution_);
   return servo;
 }
 

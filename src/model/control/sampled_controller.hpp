@@ -56,24 +56,20 @@ class SampledController {
   [[nodiscard]] const SampledLaw<double>& law() const { return law_; }
   [[nodiscard]] const SampledMemory<double>& memory() const { return memory_; }
   [[nodiscard]] Pair last_command() const { return command_; }
-  [[nodiscard]] bool seen_any() const { return seen_any_; }
-  [[nodiscard]] int unseen() const { return unseen_; }
+  [[nodiscard]] const SinceSeen& since_seen() const { return since_; }
 
   // What it remembers (base/archive.hpp).
   template <class Archive>
   void archive(Archive& archive) {
-    archive(seen_any_, unseen_, memory_, command_);
+    archive(since_, memory_, command_);
   }
 
  private:
-  // From the last sample that saw the ball to this one, s; a period for the first one.
-  [[nodiscard]] double elapsed() const;
-
-  SampledLoop loop_;
+  double period_, resolution_;  // of samples, s, and of what the servos are told
+  Between between_;
   SampledLaw<double> law_;
   SampledMemory<double> memory_{};
-  bool seen_any_ = false;
-  int unseen_ = 0;  // samples since it saw the ball
+  SinceSeen since_;
   Pair command_{0, 0};
 };
 

@@ -32,6 +32,17 @@ struct SampledMemory {
   Real position[2], velocity[2], integral[2];
 };
 
+// How long ago it saw the ball.
+struct SinceSeen {
+  bool any = false;  // whether it ever did
+  int unseen = 0;    // samples since then
+
+  // From that sample to the present one, s; a period for the first one.
+  [[nodiscard]] double elapsed(double period) const { return (any ? 1 + unseen : 1) * period; }
+  void miss() { ++unseen; }
+  void see() { *this = {true, 0}; }
+};
+
 template <class Real>
 [[nodiscard]] Real clamped(const Real& value, const Real& low, const Real& high) {
   return choose(exceeds(low, value), low, choose(exceeds(value, high), high, value));

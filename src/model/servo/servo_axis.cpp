@@ -7,11 +7,11 @@ namespace bbsim::model {
 
 AxisMargin ServoAxis::push() const {
   AxisMargin push{0};
-  if (!rig_.time_constant) {
+  if (!servo_.time_constant) {
     push.by_demand = 1;
     return push;
   }
-  push.by_command = 1 / *rig_.time_constant;
+  push.by_command = 1 / *servo_.time_constant;
   push.by_angle = -push.by_command;
   push.by_rate = -1;
   return push;
@@ -19,7 +19,7 @@ AxisMargin ServoAxis::push() const {
 
 AxisMargin ServoAxis::push_at_stop() const {
   AxisMargin push{0};
-  if (rig_.time_constant) {
+  if (servo_.time_constant) {
     push.by_command = 1;
     push.by_angle = -1;
   } else {
@@ -29,9 +29,10 @@ AxisMargin ServoAxis::push_at_stop() const {
 }
 
 ServoAxis::Motion ServoAxis::choose(AxisState& state) const {
-  const double stop = rig_.angle_limit, fastest = rig_.rate_limit;
-  if (rig_.time_constant) {
-    state.rate = std::clamp((state.command - state.angle) / *rig_.time_constant, -fastest, fastest);
+  const double stop = servo_.angle_limit, fastest = servo_.rate_limit;
+  if (servo_.time_constant) {
+    state.rate =
+        std::clamp((state.command - state.angle) / *servo_.time_constant, -fastest, fastest);
   }
   for (const int sign : {1, -1}) {
     if (sign * state.angle < stop * at_limit || sign * state.rate < 0) continue;
@@ -50,26 +51,26 @@ ServoAxis::Motion ServoAxis::choose(AxisState& state) const {
       return sign > 0 ? Motion::rate_up : Motion::rate_down;
     }
   }
-  if (!rig_.time_constant) {
-    if (state.demand > rig_.acceleration_limit) return Motion::accelerating_up;
-    if (state.demand < -rig_.acceleration_limit) return Motion::accelerating_down;
+  if (!servo_.time_constant) {
+    if (state.demand > servo_.acceleration_limit) return Motion::accelerating_up;
+    if (state.demand < -servo_.acceleration_limit) return Motion::accelerating_down;
   }
   return Motion::free;
 }
 
 void ServoAxis::settle_backlash(const AxisState& state, AxisMode& mode) {
-  const double half = rig_.backlash / 2;
+  const double half = servo_.backlash / 2;
   if (half <= 0) {
     mode.ratio = 1;
-    mode.offset = offset_;
+    mode.offset = servo_.offset;
     return;
   }
-  if (!started_) plane_ = state.angle + offset_;
+  if (!started_) plane_ = state.angle + servo_.offset;
   // While engaged the plane went with the servo.
-  if (started_ && play_ == Play::up) plane_ = state.angle - half + offset_;
-  if (started_ && play_ == Play::down) plane_ = state.angle + half + offset_;
+  if (started_ && play_ == Play::up) plane_ = state.angle - half + servo_.offset;
+  if (started_ && play_ == Play::down) plane_ = state.angle + half + servo_.offset;
   started_ = true;
-  const double lead = state.angle + offset_ - plane_;
+  const double lead = state.angle + servo_.offset - plane_;
   const double touching = half * at_limit;
   if (lead >= touching && state.rate > 0) {
     play_ = Play::up;
@@ -79,7 +80,7 @@ void ServoAxis::settle_backlash(const AxisState& state, AxisMode& mode) {
     play_ = Play::gap;
   }
   mode.ratio = play_ == Play::gap ? 0 : 1;
-  mode.offset = play_ == Play::gap ? plane_ : offset_ + (play_ == Play::up ? -half : half);
+  mode.offset = play_ == Play::gap ? plane_ : servo_.offset + (play_ == Play::up ? -half : half);
 }
 
 void ServoAxis::settle(AxisState& state, AxisMode& mode) {
@@ -91,18 +92,18 @@ void ServoAxis::settle(AxisState& state, AxisMode& mode) {
       mode.demand_factor = 1;
       break;
     case Motion::accelerating_up:
-      mode.set_acceleration = rig_.acceleration_limit;
+      mode.set_acceleration = servo_.acceleration_limit;
       break;
     case Motion::accelerating_down:
-      mode.set_acceleration = -rig_.acceleration_limit;
+      mode.set_acceleration = -servo_.acceleration_limit;
       break;
     default:
       break;
   }
   settle_backlash(state, mode);
-  const bool calm = motion_ == Motion::free && play_ == Play::none && !rig_.time_constant;
-  calm_angle_ = calm ? rig_.angle_limit * at_limit : 0;
-  calm_rate_ = calm ? rig_.rate_limit * at_limit : 0;
+  const bool calm = motion_ == Motion::free && play_ == Play::none && !servo_.time_constant;
+  calm_angle_ = calm ? servo_.angle_limit * at_limit : 0;
+  calm_rate_ = calm ? servo_.rate_limit * at_limit : 0;
 }
 
 template <class Use>
@@ -120,10 +121,10 @@ void ServoAxis::for_each_margin(Use use) const {
     return AxisMargin{-margin.constant, -margin.by_angle, -margin.by_rate, -margin.by_demand,
                       -margin.by_command};
   };
-  const double most = rig_.acceleration_limit;
+  const double most = servo_.acceleration_limit;
   switch (motion_) {
     case Motion::free:
-      if (!rig_.time_constant) below(0, most, &AxisMargin::by_demand);
+      if (!servo_.time_constant) below(0, most, &AxisMargin::by_demand);
       break;
     case Motion::accelerating_up:
       use(0, AxisMargin{-most, 0, 0, 1, 0});
@@ -146,8 +147,8 @@ void ServoAxis::for_each_margin(Use use) const {
   }
   const bool limited = motion_ == Motion::rate_up || motion_ == Motion::rate_down;
   const bool halted = motion_ == Motion::stop_up || motion_ == Motion::stop_down;
-  if (!limited && !halted) below(2, rig_.rate_limit, &AxisMargin::by_rate);
-  if (!halted) below(4, rig_.angle_limit, &AxisMargin::by_angle);
+  if (!limited && !halted) below(2, servo_.rate_limit, &AxisMargin::by_rate);
+  if (!halted) below(4, servo_.angle_limit, &AxisMargin::by_angle);
   switch (play_) {
     case Play::none:
       break;
@@ -158,7 +159,7 @@ void ServoAxis::for_each_margin(Use use) const {
       use(6, AxisMargin{0, 0, -1, 0, 0});
       break;
     case Play::gap:
-      below(6, rig_.backlash / 2, &AxisMargin::by_angle, offset_ - plane_);
+      below(6, servo_.backlash / 2, &AxisMargin::by_angle, servo_.offset - plane_);
       break;
   }
 }
@@ -170,10 +171,10 @@ void ServoAxis::evaluate(const AxisState& state, double* values) const {
 
 ServoAxis::Clearance ServoAxis::clearance() const {
   constexpr double clearly = 1 - 1e-12;
-  if (!rig_.switches()) return {unlimited, unlimited, unlimited, root_};
+  if (!servo_.switches()) return {unlimited, unlimited, unlimited, root_};
   if (motion_ != Motion::free || play_ != Play::none || !(root_ > 0)) return {0, 0, 0, root_};
-  return {clearly * rig_.angle_limit, clearly * rig_.rate_limit, clearly * rig_.acceleration_limit,
-          root_};
+  return {clearly * servo_.angle_limit, clearly * servo_.rate_limit,
+          clearly * servo_.acceleration_limit, root_};
 }
 
 ServoAxis::Fall ServoAxis::first_fall(const HeldMotion& motion, double command, double start,
@@ -200,11 +201,11 @@ ServoAxis::Fall ServoAxis::first_fall(const HeldMotion& motion, double command, 
 
 void ServoAxis::scales(double* values) const {
   const auto finite = [](double value) { return value < unlimited ? value : 1.0; };
-  const double acceleration = finite(rig_.acceleration_limit);
+  const double acceleration = finite(servo_.acceleration_limit);
   values[0] = values[1] = acceleration;
-  values[2] = values[3] = finite(rig_.rate_limit);
-  values[4] = values[5] = finite(rig_.angle_limit);
-  values[6] = values[7] = rig_.backlash > 0 ? rig_.backlash : 1.0;
+  values[2] = values[3] = finite(servo_.rate_limit);
+  values[4] = values[5] = finite(servo_.angle_limit);
+  values[6] = values[7] = servo_.backlash > 0 ? servo_.backlash : 1.0;
 }
 
 }  // namespace bbsim::model

@@ -32,24 +32,20 @@ class ServoAxis {
 
   // The offset of `servo` is where the plane, or the horn, is at its zero.
   ServoAxis(const RigServo& servo, const ServoResponse& response)
-      : dead_band_(servo.dead_band),
-        rig_(servo),
-        response_(response),
-        root_(std::sqrt(response.from_angle)),
-        offset_(servo.offset) {}
+      : servo_(servo), response_(response), root_(std::sqrt(response.from_angle)) {}
 
   // The command that the servo follows after it got this one: nearer to the last one than the dead
   // band it is not followed.
   [[nodiscard]] double follow(double command) {
-    if (std::abs(command - target_) > dead_band_) target_ = command;
+    if (std::abs(command - target_) > servo_.dead_band) target_ = command;
     return target_;
   }
 
-  // Whether settle() would find the servo as it left it, free and short of its limits, whatever it
-  // is told: mostly.
+  // Whether settle() would find the servo as it left it, free and short of its limits, under the
+  // command that it follows: mostly.
   [[nodiscard]] bool stays_free(double angle, double rate) const {
     if (!(std::abs(angle) < calm_angle_ && std::abs(rate) < calm_rate_)) return false;
-    const double most = rig_.acceleration_limit;
+    const double most = servo_.acceleration_limit;
     return most == unlimited ||
            std::abs(response_.from_command * target_ - response_.from_angle * angle -
                     response_.from_rate * rate) <= most;
@@ -120,12 +116,11 @@ class ServoAxis {
   // A guard that was found at zero is this near it.
   static constexpr double at_limit = 1 - 1e-11;
 
-  // What every command asks for: the one that is followed, and up to where stays_free().
-  double dead_band_, target_ = 0, calm_angle_ = 0, calm_rate_ = 0;
-  RigServo rig_;
+  double target_ = 0;                      // the command that is followed
+  double calm_angle_ = 0, calm_rate_ = 0;  // up to where stays_free()
+  RigServo servo_;
   ServoResponse response_;
   double root_;  // of the stiffness, in free motion
-  double offset_;
   Motion motion_ = Motion::free;
   Play play_ = Play::none;
   bool started_ = false;

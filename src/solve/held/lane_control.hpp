@@ -1,40 +1,18 @@
 // The controllers of rigs in lanes at a sample, for one instruction set.
 #pragma once
 
+#include <array>
+#include <type_traits>
+
+#include "simd/arcsine.hpp"
 #include "simd/compare.hpp"
 #include "solve/held/lane_kernel.hpp"
 
-namespace bbsim::simd {
-
-// Of a sine up to 0.7 by Newton's iteration, beyond by the C library. Found beside the one for any
-// number type (model/control/law.hpp), which knows less of the lanes.
-template <class Isa, int lanes>
-BBSIM_INLINE Pack<Isa, lanes> arcsine(Pack<Isa, lanes> s) {
-  using P = Pack<Isa, lanes>;
-  if (!all_of<P>(exceeds(P(0.7), size_of(s)))) {
-    P angle;
-    for (int l = 0; l < lanes; ++l) angle.v[l] = __builtin_asin(s.v[l]);
-    return angle;
-  }
-  const P s2 = s * s;
-  P angle = s * (P(1.0) + s2 * (P(1.0 / 6) +
-                                s2 * (P(3.0 / 40) + s2 * (P(15.0 / 336) + s2 * P(35.0 / 1152)))));
-  // Newton's iteration: what is left after a step is below the square of it.
-  for (int i = 0; i < 6; ++i) {
-    const SinCos<P> at = sin_cos_of_small(angle);
-    const P step = (at.sin - s) / at.cos;
-    angle = angle - step;
-    if (all_of<P>(exceeds(P(1e-8), size_of(step)))) break;
-  }
-  return angle;
-}
-
-}  // namespace bbsim::simd
-
 namespace bbsim::solve::held {
 
+// Loads the packs that begin at a lane.
 template <class P>
-struct LaneLaw {
+struct LoadLanes {
   int first;
 
   BBSIM_INLINE P one(const Lanes& from) const { return P::load(from.of + first); }
@@ -75,7 +53,7 @@ struct LaneLaw {
 template <class P>
 [[gnu::flatten]] void control_lanes(LaneControl& control) {
   for (int first = 0; first < group; first += P::size) {
-    const LaneLaw<P> from{first};
+    const LoadLanes<P> from{first};
     const model::SampledLaw<P> law = from.load(control.law);
     model::SampledMemory<P> memory;
     from.each(memory.position, control.memory.position);

@@ -103,7 +103,7 @@ RigLanes::RigLanes(Tolerances tolerances, const OutputGrid& grid, const LaneAske
       pieces_(std::make_unique<LanePieces>()),
       servos_(std::make_unique<LaneServos>()),
       reference_(std::make_unique<LaneReference>()),
-      control_(std::make_unique<LaneControl>()) {
+      controllers_(kernels_) {
   scene_.rtol = tolerances.rtol;
   scene_.atol = tolerances.atol;
   scene_.gimbal = asked.gimbal;
@@ -126,7 +126,7 @@ void RigLanes::begin(std::size_t l, const model::Model& model, LaneSink& sink) {
   lane.next_row = 1;
   lane.rejections = 0;
   lane.run->handle_time_event(0, lane.z.data());
-  load_controller(l);
+  controllers_.take_over(l, lane.run->computer());
   const std::vector<char>& happening = lane.run->happening();
   lane.alive = lane.run->check_events(0, lane.z.data()) == model::HybridSystem::Effect::none &&
                std::find(happening.begin(), happening.end(), 1) == happening.end();
@@ -160,41 +160,6 @@ void RigLanes::take_monitors(std::size_t l, const model::Model& model) {
       stays(Look::x, model::unlimited, -model::unlimited);
     }
   }
-}
-
-// From the run, which took the first sample.
-void RigLanes::load_controller(std::size_t l) {
-  const model::SampledController& from = lanes_[l].run->computer();
-  const model::SampledLaw<double>& law = from.law();
-  LaneControl& to = *control_;
-  to.law.law.kind = law.law.kind;
-  to.law.integrates = to.law.integrates || law.integrates;
-  to.law.law.scale.of[l] = law.law.scale;
-  to.law.resolution.of[l] = law.resolution;
-  to.law.filter.of[l] = law.filter;
-  for (int i = 0; i < 2; ++i) {
-    for (int j = 0; j < 8; ++j) to.law.law.gain[i][j].of[l] = law.law.gain[i][j];
-    for (int j = 0; j < 2; ++j) {
-      to.law.law.integral[i][j].of[l] = law.law.integral[i][j];
-      to.law.law.kv[i][j].of[l] = law.law.kv[i][j];
-      to.law.law.kp[i][j].of[l] = law.law.kp[i][j];
-    }
-    const auto put = [l](model::SampledLaw<Lanes>::Range& range,
-                         const model::SampledLaw<double>::Range& of) {
-      range.low.of[l] = of.low;
-      range.high.of[l] = of.high;
-    };
-    put(to.law.limit[i], law.limit[i]);
-    put(to.law.sine[i], law.sine[i]);
-    put(to.law.reached[i], law.reached[i]);
-    to.memory.position[i].of[l] = from.memory().position[i];
-    to.memory.velocity[i].of[l] = from.memory().velocity[i];
-    to.memory.integral[i].of[l] = from.memory().integral[i];
-  }
-  const Pair command = from.last_command();
-  for (std::size_t i = 0; i < 2; ++i) to.command[i].of[l] = command[i];
-  lanes_[l].seen_any = from.seen_any();
-  lanes_[l].unseen = from.unseen();
 }
 
 // A lane without a rig, or with one that was given up, holds numbers that do no harm.
@@ -445,61 +410,6 @@ void RigLanes::end_lane(std::size_t l, double t, LaneSink& sink) {
   lane.alive = false;
 }
 
-// At the instants of the lanes for which something is due.
-void RigLanes::take_samples(const bool (&due)[group], const double (&when)[group]) {
-  LaneControl& control = *control_;
-  bool asks[group], any = false;
-  double at = -1;
-  // Of lanes that sample at one time, so that they have one reference: mostly all.
-  const auto compute = [&] {
-    if (any) kernels_.control(control);
-    for (double& sees : control.sees.of) sees = 0;
-    any = false;
-  };
-  compute();
-  for (std::size_t l = 0; l < group; ++l) {
-    Lane& lane = lanes_[l];
-    asks[l] = due[l];
-    if (!asks[l]) continue;
-    lane.run->see(when[l], lane.z.data());
-    asks[l] = lane.run->samples_at(when[l]);
-    if (!asks[l]) continue;
-    if (when[l] != at) {
-      compute();
-      at = when[l];
-      const auto& reference = lane.run->reference_at(at);
-      for (std::size_t i = 0; i < 2; ++i) {
-        control.reference[i][0] = reference[i].value;
-        control.reference[i][1] = reference[i].rate;
-        control.reference[i][2] = reference[i].acceleration;
-      }
-    }
-    const std::optional<Pair> seen = lane.run->begin_sample(at);
-    if (!seen) {
-      ++lane.unseen;
-      continue;
-    }
-    any = true;
-    control.sees.of[l] = 1;
-    control.is_first.of[l] = lane.seen_any ? 0 : 1;
-    control.elapsed.of[l] =
-        (lane.seen_any ? 1 + lane.unseen : 1) * lane.run->model().rig->sampled->sampling.period;
-    lane.seen_any = true;
-    lane.unseen = 0;
-    for (std::size_t i = 0; i < 2; ++i) {
-      control.seen[i].of[l] = (*seen)[i];
-      control.servo[i].of[l] = lane.z[angle + i];
-      control.servo[2 + i].of[l] = lane.z[rate + i];
-    }
-  }
-  compute();
-  for (std::size_t l = 0; l < group; ++l) {
-    if (!asks[l]) continue;
-    lanes_[l].run->end_sample({control.command[0].of[l], control.command[1].of[l]},
-                              {control.memory.position[0].of[l], control.memory.position[1].of[l]});
-  }
-}
-
 // Takes samples, applies commands and tells of rows, each at its time, up to the pieces' ends.
 void RigLanes::pass_instants(LaneSink& sink) {
   alignas(64) double after[group], ball[5][group];
@@ -528,16 +438,17 @@ void RigLanes::pass_instants(LaneSink& sink) {
     }
     if (!any) return;
     if (within) kernels_.evaluate(*pieces_, after, ball);
-    bool due[group];
     for (std::size_t l = 0; l < group; ++l) {
-      const Lane& lane = lanes_[l];
-      due[l] = false;
+      Lane& lane = lanes_[l];
       if (!lane.moved || lane.settled) continue;
-      due[l] = is_event[l];
-      const bool last = lane.next_row + 1 == grid_.size();
-      state_at(l, when[l], ball, (due[l] && lane.feeds_servos_back) || last);
+      const double t = when[l];
+      const bool last = grid_.end() - t <= lane.run->rounding(t);
+      state_at(l, t, ball, (is_event[l] && lane.feeds_servos_back) || last);
+      if (!is_event[l]) continue;
+      lane.run->see(t, lane.z.data());
+      if (lane.run->samples_at(t)) controllers_.sample(l, *lane.run, t, lane.z.data());
     }
-    take_samples(due, when);
+    controllers_.finish();
     for (std::size_t l = 0; l < group; ++l) {
       Lane& lane = lanes_[l];
       if (!lane.moved || lane.settled) continue;
@@ -589,7 +500,7 @@ void RigLanes::go_on(std::size_t l) {
 std::array<bool, group> RigLanes::integrate(const model::Model* const* models, std::size_t count,
                                             LaneSink& sink) {
   scene_.force = false;
-  control_->law.integrates = false;
+  controllers_.begin();
   known_reference_ = {};
   for (std::size_t l = 0; l < group; ++l) {
     if (l < count) {

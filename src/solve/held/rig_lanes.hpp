@@ -11,6 +11,7 @@
 #include "model/hybrid_system.hpp"
 #include "solve/held/held.hpp"
 #include "solve/held/instants.hpp"
+#include "solve/held/lane_controllers.hpp"
 #include "solve/held/lane_kernel.hpp"
 #include "solve/outcome.hpp"
 #include "solve/output_grid.hpp"
@@ -21,7 +22,8 @@ namespace bbsim::solve::held {
 // and its controller, and the program itself is the controller.
 [[nodiscard]] bool carries(const model::Model& model);
 
-// Whether two rigs that it carries can go together: their instants are the same.
+// Whether two rigs that it carries can go together: their instants are the same, and so is the kind
+// of their law. Their references have to be one too, which it does not look at.
 [[nodiscard]] bool go_together(const model::Model& one, const model::Model& other);
 
 // A piece of each lane, to be looked at before the next one.
@@ -80,9 +82,9 @@ struct LaneAsked {
 };
 
 // Integrates groups of rigs from t = 0 over an output grid. Each has its HybridSystem, and so its
-// own sensor, controller, servos and limits; between its switches the balls go together, as
-// HeldStepper takes one. What switches in one lane cuts its piece alone, and it is behind the
-// others from there on: nobody waits.
+// own sensor, servos and limits; laws are computed together (LaneControllers), and between its
+// switches the balls go together, as HeldStepper takes one. What switches in one lane cuts its
+// piece alone, and it is behind the others from there on: nobody waits.
 //
 // A rig in which an event occurs, or may occur as far as the bounds tell, is given up: it is for
 // whoever runs one by one. A rig's rows depend, within the tolerance, on its companions, and on
@@ -113,8 +115,6 @@ class RigLanes {
     double foreseen = 0;  // until when `fall` tells, s
     std::size_t next_row = 1;
     int rejections = 0;
-    int unseen = 0;         // samples since its controller saw the ball
-    bool seen_any = false;  // that it ever did
     bool alive = false, feeds_servos_back = false;
     bool moved = false, settled = false;      // with the last attempt
     bool restarts = false, switched = false;  // by a command, or by more than that
@@ -141,8 +141,6 @@ class RigLanes {
   void fill_reference();
   void take_reference(std::size_t lane);
   void take_monitors(std::size_t lane, const model::Model& model);
-  void load_controller(std::size_t lane);
-  void take_samples(const bool (&due)[group], const double (&when)[group]);
   void pass_instants(LaneSink& sink);
   void state_at(std::size_t lane, double t, const double (*ball)[group], bool servos);
   void go_on(std::size_t lane);
@@ -155,7 +153,7 @@ class RigLanes {
   std::unique_ptr<LanePieces> pieces_;  // aligned
   std::unique_ptr<LaneServos> servos_;
   std::unique_ptr<LaneReference> reference_;
-  std::unique_ptr<LaneControl> control_;
+  LaneControllers controllers_;
   LaneScene scene_{};
   LaneStep step_;
   model::HybridSystem::KnownReference known_reference_;

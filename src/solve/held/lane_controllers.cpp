@@ -1,0 +1,101 @@
+#include "solve/held/lane_controllers.hpp"
+
+namespace bbsim::solve::held {
+
+LaneControllers::LaneControllers(const LaneKernels& kernels)
+    : kernels_(kernels), control_(std::make_unique<LaneControl>()) {}
+
+void LaneControllers::begin() {
+  *control_ = {};
+  // Lanes of one pack look at each other to know when they are done: numbers that do no harm.
+  for (double& elapsed : control_->elapsed.of) elapsed = 1;
+  asked_ = {};
+  at_ = -1;
+  any_ = false;
+}
+
+void LaneControllers::take_over(std::size_t l, const model::SampledController& from) {
+  const model::SampledLaw<double>& law = from.law();
+  LaneControl& to = *control_;
+  to.law.law.kind = law.law.kind;
+  to.law.integrates = to.law.integrates || law.integrates;
+  to.law.law.scale.of[l] = law.law.scale;
+  to.law.resolution.of[l] = law.resolution;
+  to.law.filter.of[l] = law.filter;
+  const Pair command = from.last_command();
+  for (std::size_t i = 0; i < 2; ++i) {
+    for (int j = 0; j < 8; ++j) to.law.law.gain[i][j].of[l] = law.law.gain[i][j];
+    for (int j = 0; j < 2; ++j) {
+      to.law.law.integral[i][j].of[l] = law.law.integral[i][j];
+      to.law.law.kv[i][j].of[l] = law.law.kv[i][j];
+      to.law.law.kp[i][j].of[l] = law.law.kp[i][j];
+    }
+    const auto put = [l](model::SampledLaw<Lanes>::Range& range,
+                         const model::SampledLaw<double>::Range& of) {
+      range.low.of[l] = of.low;
+      range.high.of[l] = of.high;
+    };
+    put(to.law.limit[i], law.limit[i]);
+    put(to.law.sine[i], law.sine[i]);
+    put(to.law.reached[i], law.reached[i]);
+    to.memory.position[i].of[l] = from.memory().position[i];
+    to.memory.velocity[i].of[l] = from.memory().velocity[i];
+    to.memory.integral[i].of[l] = from.memory().integral[i];
+    to.command[i].of[l] = command[i];
+  }
+  since_[l] = from.since_seen();
+}
+
+void LaneControllers::sample(std::size_t l, model::HybridSystem& run, double t, const double* z) {
+  LaneControl& control = *control_;
+  asked_[l] = &run;
+  if (t != at_) {  // those of another time have another reference
+    compute();
+    at_ = t;
+    const auto& reference = run.reference_at(t);
+    for (std::size_t i = 0; i < 2; ++i) {
+      control.reference[i][0] = reference[i].value;
+      control.reference[i][1] = reference[i].rate;
+      control.reference[i][2] = reference[i].acceleration;
+    }
+  }
+  const std::optional<Pair> seen = run.begin_sample(t);
+  if (!seen) {
+    since_[l].miss();
+    return;
+  }
+  any_ = true;
+  control.sees.of[l] = 1;
+  control.is_first.of[l] = since_[l].any ? 0 : 1;
+  control.elapsed.of[l] = since_[l].elapsed(run.model().rig->sampled->sampling.period);
+  since_[l].see();
+  constexpr auto angle = static_cast<std::size_t>(model::RigLayout::angle);
+  constexpr auto rate = static_cast<std::size_t>(model::RigLayout::rate);
+  for (std::size_t i = 0; i < 2; ++i) {
+    control.seen[i].of[l] = (*seen)[i];
+    control.servo[i].of[l] = z[angle + i];
+    control.servo[2 + i].of[l] = z[rate + i];
+  }
+}
+
+void LaneControllers::compute() {
+  if (!any_) return;
+  kernels_.control(*control_);
+  for (double& sees : control_->sees.of) sees = 0;
+  any_ = false;
+}
+
+void LaneControllers::finish() {
+  compute();
+  const LaneControl& control = *control_;
+  const auto both = [](const Lanes(&of)[2], std::size_t l) {
+    return Pair{of[0].of[l], of[1].of[l]};
+  };
+  for (std::size_t l = 0; l < group; ++l) {
+    if (asked_[l] == nullptr) continue;
+    asked_[l]->end_sample(both(control.command, l), both(control.memory.position, l));
+    asked_[l] = nullptr;
+  }
+}
+
+}  // namespace bbsim::solve::held

@@ -1,0 +1,39 @@
+// The sampled controllers of rigs that go together: whoever samples at one time computes together.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <memory>
+
+#include "model/hybrid_system.hpp"
+#include "solve/held/lane_kernel.hpp"
+
+namespace bbsim::solve::held {
+
+// The runs' own controllers (HybridSystem::computer()) stay what they were when they were taken
+// over: their law and their memory are here from there on.
+class LaneControllers {
+ public:
+  explicit LaneControllers(const LaneKernels& kernels);
+
+  // A new group: no lane has a controller.
+  void begin();
+  void take_over(std::size_t lane, const model::SampledController& from);
+
+  // The sample of a lane's run that is due at t, from states z; `run` lives until finish(), and
+  // learns its command then.
+  void sample(std::size_t lane, model::HybridSystem& run, double t, const double* z);
+  void finish();
+
+ private:
+  void compute();
+
+  const LaneKernels& kernels_;
+  std::unique_ptr<LaneControl> control_;  // aligned
+  std::array<model::SinceSeen, group> since_{};
+  std::array<model::HybridSystem*, group> asked_{};  // since the last finish()
+  double at_ = -1;                                   // when those sample that are not computed, s
+  bool any_ = false;                                 // whether there are some
+};
+
+}  // namespace bbsim::solve::held
