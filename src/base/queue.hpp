@@ -1,5 +1,5 @@
-// First in, first out, of a few: without a move of what is left, and without memory of its own once
-// it has held as many.
+// First in, first out, of a few: mostly without a move of what is left, and without more memory
+// once it has held as many.
 #pragma once
 
 #include <cstddef>

@@ -48,8 +48,8 @@ class HybridSystem {
   // Throws ControllerFault where a controller that is not built in does not do its part.
   void handle_time_event(double t, double* z);
 
-  // The same step by step, for who computes the laws of several runs at once: see(); while
-  // samples_at(), a sample, whose command is end_sample()'s; act(). Of a sampled loop.
+  // handle_time_event() step by step, for who computes the laws of several runs at once: see();
+  // while samples_at(), a sample, whose command is end_sample()'s; act(). Of a sampled loop.
   void see(double t, const double* z);
   [[nodiscard]] bool samples_at(double t) const {
     return sampled_ && sampled_->exchange.samples_by(instant_end(t));
@@ -63,12 +63,12 @@ class HybridSystem {
     sampled_->measured = measured;
   }
   void act(double t, double* z);
-  // Who computes the law otherwise.
+  // Who computes the law in handle_time_event(); what it remembers is of the last sample there.
   [[nodiscard]] const SampledController& computer() const { return sampled_->controller; }
 
-  // Whether the last call may have changed how the model moves from there on.
+  // Whether the last act(), or handle_time_event(), may have changed how the model moves.
   [[nodiscard]] bool touched() const { return touched_; }
-  // Whether it did so by no more than what the servos follow.
+  // Whether it did so by no more than what the servos follow; to be asked right after it.
   [[nodiscard]] bool only_commanded() const { return !settled_; }
 
   // The first of those times at which the motion may change: others only see it.

@@ -45,6 +45,14 @@ events: {slip: {friction: 0.05}, lift_off: stop, tilt: {limit: 0.5, action: stop
 time: {end: 8, step: 0.02}
 output: {columns: [t,x,y,vx,vy,phi,theta,phi_rate,theta_rate,phi_acceleration,phi_command,theta_command,normal_force]}
 )"},
+    {"a continuous law without a limit, whose servo reaches its acceleration limit",
+     R"(gravity: 9.81
+ball: {radius: 0.02, mass: 0.03, position: [0.05, -0.02], velocity: [0.1,-0.1]}
+gimbal: {servo: {natural_frequency: 10, damping: 0.3, acceleration_limit: 5}}
+controller: {lqr: {position: 10, velocity: 1, command: 1}, drives: angle, reference: {point: [0,0]}}
+time: {end: 1, step: 0.02}
+output: {columns: [t,x,y,vx,vy,phi,theta,phi_rate,theta_rate,phi_acceleration,phi_command,theta_command,normal_force]}
+)"},
     {"a stop of the integrator next to a switch",
      R"(gravity: 9.81
 ball: {radius: 0.02, mass: 0.03, position: [0.00508171, -0.0657872], velocity: [0,-0.1], inertia_factor: 0.6667}
@@ -60,7 +68,7 @@ output: {columns: [t,x,y,vx,vy,phi,theta,phi_rate,theta_rate,phi_acceleration,ph
 }  // namespace
 
 TEST_CASE("integrators agree on when a rig switches") {
-  const Case& one = cases[GENERATE(0, 1, 2, 3)];
+  const Case& one = cases[GENERATE(0, 1, 2, 3, 4)];
   CAPTURE(one.what);
   Scenario scene = parse_scenario(one.text, "rig.yaml");
   const solve::Tolerances tolerances{1e-10, 1e-12};

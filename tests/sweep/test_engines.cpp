@@ -541,7 +541,11 @@ TEST_CASE("a rig that does not fit among the others of its group is run by itsel
 }
 
 TEST_CASE("rigs in lanes do not depend on how their groups are handed out") {
-  const Setup setup("configs/rig.yaml", gains_and_seeds, {"time.end=2"}, loop_measures, 7);
+  // Commands that are not rounded show the last bit. Of 21 cases the last group is not full.
+  const std::string sampling = GENERATE("{period: 20 ms, delay: 10 ms, resolution: 0.1 deg}",
+                                        "{period: 20 ms, delay: 10 ms}");
+  const Setup setup("configs/rig.yaml", gains_and_seeds,
+                    {"time.end=2", "controller.sampling=" + sampling}, loop_measures, 7);
   const Engine engine = choose_engine(setup.task);
   REQUIRE(engine.name == "rig lanes");
   const std::size_t cases = setup.plan.cases(), width = 1 + setup.task.measures.size();

@@ -24,8 +24,8 @@ class Instants {
   // and has that length, if both come again from period to period.
   [[nodiscard]] std::optional<double> recurring(double time, double after, double length) const;
 
-  // The answer to an impulse so long after a piece began at `time`, kept for the instants at which
-  // samples are taken. Valid until the next call.
+  // The answer to an impulse so long after the beginning of such a piece, kept for the instants at
+  // which samples are taken. Valid until the next call.
   [[nodiscard]] const model::ImpulseAnswer& answer(const model::HeldLaw& law, double time,
                                                    double after);
 

@@ -1,8 +1,8 @@
 // Rigs between two instants, another one in each lane: what their driver sees of them, whatever the
 // instruction set.
 //
-// Plain data and pointers to functions only; nothing here may become code that two instruction
-// sets share.
+// Plain data and pointers to functions; kernels may call no function that is not of their own
+// instruction set, and so none on doubles of what is included here.
 #pragma once
 
 #include "model/control/sampled_law.hpp"
