@@ -96,14 +96,15 @@ void take_sample(const SampledLaw<Real>& of, SampledMemory<Real>& memory, const 
   Command<Real> u = output();
   for (std::size_t j = 0; j < 2; ++j) {
     const Real e = reference[j].value - memory.position[j];
-    Mask grows_beyond{};
+    Real grows_beyond = Real(0.0);  // or 1
     for (std::size_t i = 0; i < 2; ++i) {
       const Real push = of.law.integral[i][j] * e;
-      const auto beyond =
-          exceeds(u.value[i], of.limit[i].high) | exceeds(of.limit[i].low, u.value[i]);
-      grows_beyond = grows_beyond | (beyond & exceeds(push * u.value[i], Real(0.0)));
+      const Real& value = u.value[i];
+      const Real beyond = choose(exceeds(value, of.limit[i].high), value,
+                                 choose(exceeds(of.limit[i].low, value), value, Real(0.0)));
+      grows_beyond = choose(exceeds(push * beyond, Real(0.0)), Real(1.0), grows_beyond);
     }
-    memory.integral[j] += choose(grows_beyond, Real(0.0), e * elapsed);
+    memory.integral[j] += choose(exceeds(grows_beyond, Real(0.0)), Real(0.0), e * elapsed);
   }
   if (of.integrates) u = output();
   for (int i = 0; i < 2; ++i) commanded[i] = u.value[i];
