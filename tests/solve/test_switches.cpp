@@ -45,14 +45,6 @@ events: {slip: {friction: 0.05}, lift_off: stop, tilt: {limit: 0.5, action: stop
 time: {end: 8, step: 0.02}
 output: {columns: [t,x,y,vx,vy,phi,theta,phi_rate,theta_rate,phi_acceleration,phi_command,theta_command,normal_force]}
 )"},
-    {"a continuous law without a limit, whose servo reaches its acceleration limit",
-     R"(gravity: 9.81
-ball: {radius: 0.02, mass: 0.03, position: [0.05, -0.02], velocity: [0.1,-0.1]}
-gimbal: {servo: {natural_frequency: 10, damping: 0.3, acceleration_limit: 5}}
-controller: {lqr: {position: 10, velocity: 1, command: 1}, drives: angle, reference: {point: [0,0]}}
-time: {end: 1, step: 0.02}
-output: {columns: [t,x,y,vx,vy,phi,theta,phi_rate,theta_rate,phi_acceleration,phi_command,theta_command,normal_force]}
-)"},
     {"a stop of the integrator next to a switch",
      R"(gravity: 9.81
 ball: {radius: 0.02, mass: 0.03, position: [0.00508171, -0.0657872], velocity: [0,-0.1], inertia_factor: 0.6667}
@@ -61,6 +53,14 @@ gimbal: {servo: {time_constant: 0.01, rate_limit: 0.05, backlash: 0.03}, mountin
 controller: {gravity_compensation: {kp: 4, kv: 4}, drives: angle, reference: {circle: {radius: 0.05, rate: 3}}, sampling: {period: 0.003, resolution: 0.002, derivative_filter: 0.03}}
 events: {slip: {friction: 0.05}, lift_off: stop, tilt: {limit: 0.5, action: stop}, edge: stop}
 time: {end: 3, step: 0.02}
+output: {columns: [t,x,y,vx,vy,phi,theta,phi_rate,theta_rate,phi_acceleration,phi_command,theta_command,normal_force]}
+)"},
+    {"a continuous law without a limit, whose servo reaches its acceleration limit",
+     R"(gravity: 9.81
+ball: {radius: 0.02, mass: 0.03, position: [0.05, -0.02], velocity: [0.1,-0.1]}
+gimbal: {servo: {natural_frequency: 10, damping: 0.3, acceleration_limit: 5}}
+controller: {lqr: {position: 10, velocity: 1, command: 1}, drives: angle, reference: {point: [0,0]}}
+time: {end: 1, step: 0.02}
 output: {columns: [t,x,y,vx,vy,phi,theta,phi_rate,theta_rate,phi_acceleration,phi_command,theta_command,normal_force]}
 )"},
 };
