@@ -43,7 +43,8 @@ Result shell(const std::string& line, const std::filesystem::path& folder) {
 }
 
 std::string on_terminal(const std::vector<std::string>& arguments, unsigned short columns,
-                        const std::filesystem::path& folder, double seconds) {
+                        const std::filesystem::path& folder, double seconds,
+                        const std::string& awaited) {
   const winsize size{24, columns, 0, 0};
   int terminal = -1;
   const pid_t child = forkpty(&terminal, nullptr, nullptr, &size);
@@ -64,7 +65,8 @@ std::string on_terminal(const std::vector<std::string>& arguments, unsigned shor
     if (got <= 0) break;
     text.append(part.data(), static_cast<std::size_t>(got));
     const double elapsed = std::chrono::duration<double>(Clock::now() - start).count();
-    if (!ended && elapsed > seconds) {
+    const bool seen = !awaited.empty() && text.find(awaited) != std::string::npos;
+    if (!ended && (seen || elapsed > seconds)) {
       kill(child, SIGINT);
       ended = true;
     }

@@ -13,9 +13,10 @@ namespace bbsim_test {
 // the last pipe that failed, if one did.
 Result shell(const std::string& line, const std::filesystem::path& folder);
 
-// What the program sends to a terminal of that many columns until it ends, or until it is ended
-// after so many seconds.
+// What the program sends to a terminal of that many columns until it ends, or until it is
+// interrupted: after so many seconds, or when it has sent `awaited`, where that is something.
 std::string on_terminal(const std::vector<std::string>& arguments, unsigned short columns,
-                        const std::filesystem::path& folder, double seconds);
+                        const std::filesystem::path& folder, double seconds,
+                        const std::string& awaited = "");
 
 }  // namespace bbsim_test
