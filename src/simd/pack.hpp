@@ -55,6 +55,13 @@ struct Pack {
   BBSIM_INLINE void store(double* p) const {
     *reinterpret_cast<Vector*>(__builtin_assume_aligned(p, sizeof(Vector))) = v;
   }
+  // The same, wherever they are.
+  BBSIM_INLINE static Pack load_anywhere(const double* p) {
+    Pack pack;
+    __builtin_memcpy(&pack.v, p, sizeof(Vector));
+    return pack;
+  }
+  BBSIM_INLINE void store_anywhere(double* p) const { __builtin_memcpy(p, &v, sizeof(Vector)); }
   BBSIM_INLINE double operator[](int lane) const { return v[lane]; }
 
   BBSIM_INLINE friend Pack operator+(Pack a, Pack b) { return of(a.v + b.v); }

@@ -36,7 +36,7 @@ BBSIM_INLINE P promise_between(const Looked<P>& from, const Looked<P>& to) {
 }
 
 // Follows the function to its top between two places, by one cubic after another, and raises
-// `greatest` to each value on the way. Lanes that are not wanted do not hold up the others.
+// `greatest` to each value on the way, in the lanes that are wanted: as far as each needs itself.
 template <class P, class Evaluate>
 BBSIM_INLINE void climb(Looked<P> from, Looked<P> to, typename P::Mask wanted, P& greatest,
                         Evaluate evaluate) {
@@ -56,12 +56,12 @@ BBSIM_INLINE void climb(Looked<P> from, Looked<P> to, typename P::Mask wanted, P
     Looked<P> next;
     next.at = from.at + width * larger_of(P(edge), smaller_of(part, P(1 - edge)));
     evaluate(next.at, next.value, next.slope);
-    greatest = larger_of(greatest, next.value);
+    greatest = choose(wanted, larger_of(greatest, next.value), greatest);
     // What is left to gain, of a parabola as curved as the slopes at both ends say.
     const P bend = from.slope - to.slope;
     const P left = next.slope * next.slope * width;
-    const Mask open = (Mask)(left.v > (P(close) * greatest * bend).v) & wanted;
-    if (!any_of<P>(open)) return;
+    wanted &= (Mask)(left.v > (P(close) * greatest * bend).v);
+    if (!any_of<P>(wanted)) return;
     const Mask rising = next.slope.v > 0;
     from = {choose(rising, next.at, from.at), choose(rising, next.value, from.value),
             choose(rising, next.slope, from.slope)};

@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "solve/shrinking.hpp"
 #include "sweep/single.hpp"
 #include "sweep/verdict.hpp"
 
@@ -31,15 +32,17 @@ class GroupRunner : public CaseRunner {
     into.resize(count, task_);
     for (std::size_t i = 0; i < count; i += group_) {
       if (stop.load(std::memory_order_relaxed)) return i;
-      if (!run_group(i, std::min(group_, count - i), into, stop)) return i;
+      const std::size_t in_group = std::min(group_, count - i);
+      const std::size_t done = run_group(i, in_group, into, stop);
+      if (done < in_group) return i + done;
     }
     return count;
   }
 
  private:
-  // False if `stop` became true before all were run.
-  bool run_group(std::size_t place, std::size_t count, CaseResults& into,
-                 const std::atomic<bool>& stop) {
+  // How many were run before `stop` became true.
+  std::size_t run_group(std::size_t place, std::size_t count, CaseResults& into,
+                        const std::atomic<bool>& stop) {
     const std::size_t axes = task_.plan.axes().size(), numbers = 1 + task_.measures.size();
     cases_.clear();
     for (std::size_t i = place; i < place + count; ++i) {
@@ -47,22 +50,26 @@ class GroupRunner : public CaseRunner {
       task_.plan.values(into.first + i, values);
       cases_.push_back({into.first + i, values, &into.numbers[i * numbers] + 1});
     }
-    carrier_->carry(cases_);
+    carrier_->carry(cases_, stop);
     for (const GroupCase& one : cases_) {
       const std::size_t at = one.number - into.first;
       double* const results = &into.numbers[at * numbers];
       CaseStatus& status = into.status[at];
       if (one.carried) {
-        results[0] = first_.time.end;
-        if (status.word != "done" || !status.reason.empty()) status = {};
+        results[0] = one.unbounded_at.value_or(first_.time.end);
+        if (one.unbounded_at) {
+          status = {"failed", solve::Shrinking::reason};
+        } else if (status.word != "done" || !status.reason.empty()) {
+          status = {};
+        }
         if (!is_plain(one.measures)) judge(task_, first_, one.measures, status);
         continue;
       }
-      if (single_->run(one.number, 1, alone_, stop) == 0) return false;
+      if (single_->run(one.number, 1, alone_, stop) == 0) return at - place;
       std::copy(alone_.numbers.begin(), alone_.numbers.end(), results);
       status = alone_.status[0];
     }
-    return true;
+    return count;
   }
 
   // Whether there is nothing to say about the measures.

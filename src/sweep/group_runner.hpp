@@ -1,8 +1,10 @@
 // Cases that go together in lanes, a group at a time, and those that do not fit by themselves.
 #pragma once
 
+#include <atomic>
 #include <cstddef>
 #include <memory>
+#include <optional>
 #include <span>
 
 #include "scenario/scenario.hpp"
@@ -14,7 +16,9 @@ struct GroupCase {
   std::size_t number;    // in the sweep
   const double* values;  // of the axes
   double* measures;      // where they go
-  bool carried = false;  // to the end, and the measures are there
+  bool carried = false;  // as far as it goes, and the measures are there
+  // Where the motion grew without bound, s; none where it went to the end.
+  std::optional<double> unbounded_at = {};
 };
 
 // What carries a group of cases in lanes.
@@ -22,7 +26,8 @@ class GroupCarrier {
  public:
   virtual ~GroupCarrier() = default;
   // One group, or fewer at the sweep's end. Cases that are not marked as carried are run alone.
-  virtual void carry(std::span<GroupCase> cases) = 0;
+  // May return when `stop` becomes true.
+  virtual void carry(std::span<GroupCase> cases, const std::atomic<bool>& stop) = 0;
 };
 
 // `first` is the sweep's first case: in the others the same measures have a meaning, and those that

@@ -51,7 +51,11 @@ LoopCase loop_case(const Scenario& scenario, const model::Model& model,
   return loop;
 }
 
-class LoopCarrier : public GroupCarrier {
+// Cases that go through the lanes one after the other. When the last ones are on their way some
+// lanes are empty: of so many cases that hardly counts.
+constexpr std::size_t in_turn = 1024;
+
+class LoopCarrier : public GroupCarrier, private solve::loop::LoopStudy {
  public:
   LoopCarrier(const SweepTask& task, const Scenario& first)
       : scenario_(task),
@@ -59,53 +63,80 @@ class LoopCarrier : public GroupCarrier {
         grid_(first.time),
         lanes_(first.controller->drives, solve::loop::choose_nodes(first.solver.rtol),
                {first.solver.rtol, first.solver.atol}, grid_),
-        same_signals_(task.plan.shares_signals()) {
-    lanes_.leave_out_all_but_places();
-  }
+        same_signals_(task.plan.shares_signals()),
+        ends_at_places_(std::all_of(
+            task.measures.begin(), task.measures.end(), [](const scenario::Measure& measure) {
+              return measure.kind != scenario::Measure::Kind::end || measure.column->name == "x" ||
+                     measure.column->name == "y";
+            })) {}
 
-  void carry(std::span<GroupCase> cases) override {
-    std::array<LoopCase, group> loops;
+  void carry(std::span<GroupCase> cases, const std::atomic<bool>& stop) override {
+    cases_ = cases;
+    begun_ = 0;
     loops_.clear();
-    for (const GroupCase& one : cases) {
-      const Scenario& scenario = scenario_.at(one.number, one.values);
-      model::Model model = model::assemble(scenario, false, model::Symmetry::ignored);
-      loops[loops_.size()] = loop_case(scenario, model, record::signals_of(model).view());
-      loops_.push_back({std::move(model), model::constants_of(scenario)});
-    }
-    const auto carried = lanes_.integrate(loops.data(), static_cast<int>(cases.size()));
-    for (std::size_t lane = 0; lane < cases.size(); ++lane) {
-      const auto greatest = extremes(lane);
-      if (!carried[lane] || !greatest) continue;
-      track_.begin(loops_[lane].model, loops_[lane].constants, grid_, same_signals_);
-      track_.take(grid_.size(), lanes_.rows() + lane, lanes_.row_size(), group, *greatest);
-      track_.finish(cases[lane].measures);
-      cases[lane].carried = true;
-    }
+    loops_.resize(cases.size());
+    lanes_.carry(*this, stop);
   }
 
  private:
-  // None where squares were too large or too small for a double.
-  [[nodiscard]] std::optional<record::TrackExtremes> extremes(std::size_t lane) const {
-    const auto& of = lanes_.greatest().of;
-    const double distance = of[solve::loop::distance_squared][lane];
-    const double error = of[solve::loop::error_squared][lane];
-    if (!record::is_square(distance) || !record::is_square(error)) return {};
-    return record::TrackExtremes{of[solve::loop::versine][lane],
-                                 of[solve::loop::rate_squared][lane], std::sqrt(distance),
-                                 std::sqrt(error)};
-  }
-
   struct Loop {
     model::Model model;
     model::BallConstants constants;
   };
+
+  std::optional<std::size_t> begin(LoopCase& loop) override {
+    if (begun_ == cases_.size()) return {};
+    const GroupCase& one = cases_[begun_];
+    const Scenario& scenario = scenario_.at(one.number, one.values);
+    model::Model model = model::assemble(scenario, false, model::Symmetry::ignored);
+    loop = loop_case(scenario, model, record::signals_of(model).view());
+    loops_[begun_].emplace(Loop{std::move(model), model::constants_of(scenario)});
+    return begun_++;
+  }
+
+  void end(std::size_t number, const solve::loop::LoopRun& run) override {
+    using solve::loop::LoopEnding;
+    GroupCase& one = cases_[number];
+    std::optional<Loop>& loop = loops_[number];
+    const auto greatest = extremes(run);
+    const bool unbounded = run.ending == LoopEnding::unbounded;
+    // Of the last row before infinity the place is all that is known.
+    if (run.ending != LoopEnding::given_up && greatest && (!unbounded || ends_at_places_)) {
+      track_.begin(loop->model, loop->constants, grid_, same_signals_);
+      std::array<double, solve::loop::states> last;
+      std::copy_n(run.state, last.size(), last.begin());
+      if (unbounded) {
+        last[0] = run.x[run.rows - 1];
+        last[1] = run.y[run.rows - 1];
+      }
+      track_.take(run.rows, run.x, run.y, last.data(), *greatest);
+      track_.finish(one.measures);
+      one.carried = true;
+      if (unbounded) one.unbounded_at = run.reached;
+    }
+    loop.reset();
+  }
+
+  // None where squares were too large or too small for a double.
+  [[nodiscard]] static std::optional<record::TrackExtremes> extremes(
+      const solve::loop::LoopRun& run) {
+    const double distance = run.greatest[solve::loop::distance_squared];
+    const double error = run.greatest[solve::loop::error_squared];
+    if (!record::is_square(distance) || !record::is_square(error)) return {};
+    return record::TrackExtremes{run.greatest[solve::loop::versine],
+                                 run.greatest[solve::loop::rate_squared], std::sqrt(distance),
+                                 std::sqrt(error)};
+  }
 
   CaseScenario scenario_;
   record::TrackMeasures track_;
   solve::OutputGrid grid_;
   solve::loop::LoopLanes lanes_;
   bool same_signals_;
-  std::vector<Loop> loops_;  // of the group, a lane each
+  bool ends_at_places_;  // of columns at the end there are x and y alone
+  std::span<GroupCase> cases_;
+  std::size_t begun_ = 0;
+  std::vector<std::optional<Loop>> loops_;  // of the cases that are on their way
 };
 
 }  // namespace
@@ -130,7 +161,7 @@ std::size_t lane_group() {
 
 std::unique_ptr<CaseRunner> lane_runner(const SweepTask& task) {
   const Scenario first = task.family.read(task.plan.settings(0));
-  return group_runner(task, first, group, std::make_unique<LoopCarrier>(task, first));
+  return group_runner(task, first, in_turn, std::make_unique<LoopCarrier>(task, first));
 }
 
 }  // namespace bbsim::sweep

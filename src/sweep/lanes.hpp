@@ -1,4 +1,4 @@
-// Loops of one kind in step, a case in each SIMD lane.
+// Loops of one kind, a case in each SIMD lane.
 #pragma once
 
 #include "sweep/task.hpp"
@@ -9,11 +9,11 @@ namespace bbsim::sweep {
 // runs, and all its measures are those of a track.
 [[nodiscard]] bool can_use_lanes(const SweepTask& task);
 
-// Cases that step together.
+// Cases that begin together.
 [[nodiscard]] std::size_t lane_group();
 
-// The task is one for which can_use_lanes() holds, and outlives the runner. A case that does not
-// fit among the others of its group is run by itself.
+// The task is one for which can_use_lanes() holds, and outlives the runner. A case that the
+// lanes give up is run by itself.
 [[nodiscard]] std::unique_ptr<CaseRunner> lane_runner(const SweepTask& task);
 
 }  // namespace bbsim::sweep

@@ -75,7 +75,7 @@ class OpenCarrier : public GroupCarrier {
                      std::count(take_.begin(), take_.end(), Take::tilt_rate) > 0;
   }
 
-  void carry(std::span<GroupCase> cases) override {
+  void carry(std::span<GroupCase> cases, const std::atomic<bool>&) override {
     for (std::size_t i = 0; i < cases.size(); ++i) {
       set(cases_[i], scenario_.at(cases[i].number, cases[i].values), motion_.view());
     }

@@ -44,7 +44,7 @@ class RigCarrier : public GroupCarrier {
         measures_(task.measures, grid_),
         lanes_(tolerances_, grid_, measures_.asks_for()) {}
 
-  void carry(std::span<GroupCase> cases) override {
+  void carry(std::span<GroupCase> cases, const std::atomic<bool>&) override {
     rigs_.clear();
     for (GroupCase& one : cases) take(one);
     if (rigs_.empty()) return;

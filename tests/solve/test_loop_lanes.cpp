@@ -1,8 +1,10 @@
 // Loops in lanes: against the collocation integrator, one by one.
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <cstdlib>
 #include <limits>
+#include <optional>
 #include <random>
 #include <string>
 #include <vector>
@@ -17,8 +19,12 @@
 using namespace bbsim;
 using namespace bbsim_test;
 using solve::loop::group;
+using solve::loop::looks;
 using solve::loop::LoopCase;
+using solve::loop::LoopEnding;
 using solve::loop::LoopLanes;
+using solve::loop::LoopRun;
+using solve::loop::LoopStudy;
 using solve::loop::states;
 
 namespace bbsim::solve::loop {
@@ -92,31 +98,69 @@ solve::Trajectory truth(const Scenario& scene) {
   return rows;
 }
 
+// What became of a loop.
+struct Course {
+  LoopEnding ending = LoopEnding::given_up;
+  double reached = 0;
+  std::vector<double> x, y, state, greatest;
+
+  bool operator==(const Course&) const = default;
+};
+
+class Study : public LoopStudy {
+ public:
+  explicit Study(const std::vector<LoopCase>& cases) : cases_(cases), runs(cases.size()) {}
+
+  std::optional<std::size_t> begin(LoopCase& loop) override {
+    if (begun_ == cases_.size()) return {};
+    loop = cases_[begun_];
+    return begun_++;
+  }
+  void end(std::size_t number, const LoopRun& run) override {
+    runs[number] = {run.ending,
+                    run.reached,
+                    {run.x, run.x + run.rows},
+                    {run.y, run.y + run.rows},
+                    {run.state, run.state + states},
+                    {run.greatest, run.greatest + looks}};
+    ++ended;
+  }
+
+ private:
+  const std::vector<LoopCase>& cases_;
+  std::size_t begun_ = 0;
+
+ public:
+  std::vector<Course> runs;
+  std::size_t ended = 0;
+};
+
+const std::atomic<bool> goes_on{false};
+
+std::vector<Course> carry(LoopLanes& lanes, const std::vector<LoopCase>& cases) {
+  Study study(cases);
+  lanes.carry(study, goes_on);
+  CHECK(study.ended == cases.size());
+  return study.runs;
+}
+
+bool are_done(const std::vector<Course>& runs) {
+  return std::all_of(runs.begin(), runs.end(),
+                     [](const Course& run) { return run.ending == LoopEnding::done; });
+}
+
 // The error of the ball's place, over all rows, m.
-double error_of(const LoopLanes& lanes, int lane, const Scenario& scene) {
+double error_of(const Course& run, const Scenario& scene) {
   const solve::Trajectory exact = truth(scene);
+  REQUIRE(run.x.size() == exact.rows());
   double worst = 0;
   for (std::size_t row = 0; row < exact.rows(); ++row) {
-    for (std::size_t i = 0; i < 2; ++i) {
-      const double ours = lanes.rows()[(row * states + i) * group + static_cast<std::size_t>(lane)];
-      // Not a maximum of NaN.
-      const double apart = std::abs(ours - exact.row(row)[i]);
-      worst = apart <= worst ? worst : apart;
+    for (const double apart :
+         {std::abs(run.x[row] - exact.row(row)[0]), std::abs(run.y[row] - exact.row(row)[1])}) {
+      worst = apart <= worst ? worst : apart;  // not a maximum of NaN
     }
   }
   return worst;
-}
-
-std::vector<double> lane_of(const LoopLanes& lanes, std::size_t rows, int lane) {
-  std::vector<double> values(rows * states);
-  for (std::size_t i = 0; i < values.size(); ++i) {
-    values[i] = lanes.rows()[i * group + static_cast<std::size_t>(lane)];
-  }
-  return values;
-}
-
-int count_of(const std::array<bool, group>& carried) {
-  return static_cast<int>(std::count(carried.begin(), carried.end(), true));
 }
 
 // A local error of this tolerance, m, where the ball is within 0.1 m.
@@ -142,12 +186,12 @@ TEST_CASE("loops in lanes follow collocation at every tolerance") {
   const int nodes = GENERATE(8, 12);
   const solve::Tolerances tolerances{rtol, rtol / 100};
   LoopLanes lanes(scene.controller->drives, nodes, tolerances, solve::OutputGrid(scene.time));
-  CHECK(count_of(lanes.integrate(cases_of(scenes).data(), group)) == group);
-  for (int lane = 0; lane < group; ++lane) {
-    CAPTURE(name, rtol, nodes, lane);
+  const auto runs = carry(lanes, cases_of(scenes));
+  CHECK(are_done(runs));
+  for (std::size_t i = 0; i < group; ++i) {
+    CAPTURE(name, rtol, nodes, i);
     // Some tens of steps, whose errors a stable loop forgets.
-    CHECK(error_of(lanes, lane, scenes[static_cast<std::size_t>(lane)]) <
-          10 * local_error(tolerances));
+    CHECK(error_of(runs[i], scenes[i]) < 10 * local_error(tolerances));
   }
 }
 
@@ -163,38 +207,24 @@ TEST_CASE("a step's error falls with the order of the method") {
     void* place = memory.data();
     std::size_t space = memory.size() * sizeof(double);
     void* const workspace = std::align(64, kernel.workspace, place, space);
-    solve::loop::Loops loops;
-    alignas(64) double initial[states][group], row[states][group];
-    const auto fill = [](double(&lanes)[group], double value) {
-      std::fill(std::begin(lanes), std::end(lanes), value);
-    };
-    fill(loops.radius, one.radius);
-    fill(loops.gravity, one.gravity);
-    fill(loops.omega_n, one.omega_n);
-    fill(loops.zeta, one.zeta);
-    fill(loops.frequency, one.frequency);
-    for (int i = 0; i < 2; ++i) {
-      fill(loops.start[i], one.start[i]);
-      fill(loops.rate[i], one.rate[i]);
-      fill(loops.sine[i], one.sine[i]);
-      fill(loops.cosine[i], one.cosine[i]);
-      for (int j = 0; j < 2; ++j) {
-        fill(loops.kv[i][j], one.kv[i][j]);
-        fill(loops.kp[i][j], one.kp[i][j]);
-      }
-    }
-    for (int i = 0; i < states; ++i) fill(initial[i], one.initial[i]);
-    kernel.start(workspace, loops, initial, 1e-6, 1e-8);
+    solve::loop::LoopState state{one, {}, {}};
+    std::copy_n(one.initial, states, state.state);
+    kernel.start(workspace, 1e-6, 1e-8);
+    for (int lane = 0; lane < group; ++lane) kernel.load(workspace, lane, state);
     solve::loop::Attempt attempt;
+    solve::loop::Spans spans;
+    solve::loop::Lanes all;
+    std::fill(std::begin(all.of), std::end(all.of), -1);
     const int steps = static_cast<int>(std::lround(2 / h));
     for (int i = 0; i < steps; ++i) {
-      kernel.attempt(workspace, i * h, h, attempt);
-      const double end = i * h + h;
-      if (i == steps - 1) kernel.evaluate(workspace, &end, 1, false, row[0]);
-      kernel.accept(workspace);
+      std::fill(std::begin(spans.from), std::end(spans.from), i * h);
+      std::fill(std::begin(spans.length), std::end(spans.length), h);
+      kernel.attempt(workspace, spans, attempt);
+      kernel.accept(workspace, all);
     }
+    kernel.store(workspace, 3, state);
     const solve::Trajectory exact = truth(scene);
-    return std::hypot(row[0][0] - exact.row(1)[0], row[1][0] - exact.row(1)[1]);
+    return std::hypot(state.state[0] - exact.row(1)[0], state.state[1] - exact.row(1)[1]);
   };
   // At the ends of steps Radau IIA of eight nodes has order 15; and between nodes 8.
   CHECK(std::log2(error_at(1) / error_at(0.5)) > 10);
@@ -205,94 +235,110 @@ TEST_CASE("a stiff servo costs loops in lanes no order") {
   const std::vector<LoopCase> cases = cases_of(with_other_gains(scene, group));
   const auto steps_at = [&](double rtol) {
     LoopLanes lanes(Drives::angle, 8, {rtol, rtol / 100}, solve::OutputGrid(scene.time));
-    CHECK(count_of(lanes.integrate(cases.data(), group)) == group);
+    CHECK(are_done(carry(lanes, cases)));
     // A Jacobian that is not near all nodes' takes ten turns.
     CHECK(static_cast<double>(lanes.statistics().nonlinear_iterations) <
           3.5 * static_cast<double>(lanes.statistics().jacobian_evaluations));
-    return static_cast<double>(lanes.statistics().steps);
+    return static_cast<double>(lanes.statistics().steps) / group;
   };
   // Four times with order 8, and ten times with the order of a method that suffers.
   CHECK(steps_at(1e-10) / steps_at(1e-5) < 5);
   CHECK(steps_at(1e-4) < 25);
 }
 
-TEST_CASE("a loop's rows depend neither on what ran before nor, in one pack, on its lane") {
-  const Scenario scene = scenario_named("stiff-servo");
-  std::vector<LoopCase> cases = cases_of(with_other_gains(scene, 2 * group));
-  const solve::OutputGrid grid(scene.time);
-  const solve::Tolerances tolerances{1e-5, 1e-7};
-  LoopLanes lanes(Drives::angle, 8, tolerances, grid);
-  const int count = GENERATE(1, 3, 8);
-  CAPTURE(count);
-  const auto rows_of = [&] {
-    CHECK(count_of(lanes.integrate(cases.data(), count)) == count);
-    std::vector<std::vector<double>> rows;
-    for (int lane = 0; lane < count; ++lane) rows.push_back(lane_of(lanes, grid.size(), lane));
-    return rows;
-  };
-  const auto before = rows_of();
-  lanes.integrate(&cases[group], group);
-  CHECK(rows_of() == before);
-  std::reverse(cases.begin(), cases.begin() + count);
-  auto reversed = rows_of();
+TEST_CASE("what becomes of a loop depends neither on its companions nor on what ran before") {
+  // Gains of both signs: of the slow servo's loops one in three explodes.
+  const std::string name = GENERATE("fig2b", "stiff-servo");
+  const Scenario scene = scenario_named(name);
+  std::vector<Scenario> scenes = with_other_gains(scene, 40);
+  for (std::size_t i = 0; i < scenes.size(); i += 3) scenes[i].controller->kv[0][0] *= -0.3;
+  const std::vector<LoopCase> cases = cases_of(scenes);
+  const double rtol = GENERATE(1e-5, 1e-8);
+  LoopLanes lanes(Drives::angle, solve::loop::choose_nodes(rtol), {rtol, rtol / 100},
+                  solve::OutputGrid(scene.time));
+  const std::vector<Course> together = carry(lanes, cases);
+  CHECK(carry(lanes, cases) == together);
+  std::vector<LoopCase> reversed = cases;
   std::reverse(reversed.begin(), reversed.end());
-  // With narrower packs other loops are in a loop's own, and may ask for another turn.
-  if (solve::loop::choose_kernels().width == group) CHECK(reversed == before);
-  for (std::size_t lane = 0; lane < before.size(); ++lane) {
-    for (std::size_t i = 0; i < before[lane].size(); ++i) {
-      REQUIRE(reversed[lane][i] == Approx(before[lane][i]).margin(local_error(tolerances)));
-    }
+  std::vector<Course> backwards = carry(lanes, reversed);
+  std::reverse(backwards.begin(), backwards.end());
+  CHECK(backwards == together);
+  std::size_t unbounded = 0;
+  for (std::size_t i = 0; i < cases.size(); ++i) {
+    CAPTURE(i);
+    CHECK(carry(lanes, {cases[i]}).front() == together[i]);
+    if (together[i].ending == LoopEnding::unbounded) ++unbounded;
   }
+  CHECK((unbounded > 8) == (name == "fig2b"));
+  CHECK(unbounded < 20);
 }
 
-TEST_CASE("a loop that cannot be carried to the end is given up, and the others are not") {
+TEST_CASE("a loop that grows without bound ends where a single run does, and others go on") {
   const bool alone = GENERATE(false, true);
-  const Scenario literal = short_literal();  // infinite at 0.75 s
+  Scenario literal = short_literal();  // infinite at 0.75 s
   Scenario mild = literal;
   mild.controller->kv = {{{2, 0}, {0, -2}}};
   mild.controller->kp = {{{1, 0}, {0, -1}}};
   std::vector<Scenario> scenes = with_other_gains(mild, group);
   const std::vector<std::size_t> bad = {2, 5};
-  for (std::size_t lane : bad) scenes[lane] = literal;
+  for (std::size_t i : bad) scenes[i] = literal;
   if (alone) scenes.assign(1, literal);
-  const int count = static_cast<int>(scenes.size());
-  const solve::Tolerances tolerances{1e-6, 1e-8};
-  LoopLanes lanes(Drives::acceleration, 8, tolerances, solve::OutputGrid(literal.time));
-  const std::vector<LoopCase> cases = cases_of(scenes);
-  const auto carried = lanes.integrate(cases.data(), count);
-  CHECK(lanes.statistics().steps < 1000);
-  if (alone) {
-    CHECK(count_of(carried) == 0);
-    return;
-  }
-  for (int lane = 0; lane < group; ++lane) {
-    const auto at = static_cast<std::size_t>(lane);
-    const bool is_bad = std::count(bad.begin(), bad.end(), at) > 0;
-    CAPTURE(lane);
-    CHECK(carried[at] == !is_bad);
-    if (!is_bad) CHECK(error_of(lanes, lane, scenes[at]) < 10 * local_error(tolerances));
-  }
-  // The same, to the bit, another time.
-  std::vector<double> first(lanes.rows(), lanes.rows() + states * group * 21);
-  CHECK(lanes.integrate(cases.data(), count) == carried);
-  for (int lane = 0; lane < group; ++lane) {
-    if (!carried[static_cast<std::size_t>(lane)]) continue;
-    for (std::size_t i = 0; i < states * 21; ++i) {
-      REQUIRE(lanes.rows()[i * group + static_cast<std::size_t>(lane)] ==
-              first[i * group + static_cast<std::size_t>(lane)]);
+  const solve::Tolerances tolerances{1e-8, 1e-10};
+  const solve::OutputGrid grid(literal.time);
+  LoopLanes lanes(Drives::acceleration, 12, tolerances, grid);
+  const auto runs = carry(lanes, cases_of(scenes));
+  solve::Trajectory single(model::assemble(literal, false).row_size());
+  const solve::Outcome outcome = solve::integrate(model::assemble(literal, false), Method::radau,
+                                                  {1e-10, 1e-12}, grid, single, {});
+  REQUIRE(outcome.reason == solve::Shrinking::reason);
+  for (std::size_t i = 0; i < scenes.size(); ++i) {
+    CAPTURE(i);
+    if (!alone && std::count(bad.begin(), bad.end(), i) == 0) {
+      REQUIRE(runs[i].ending == LoopEnding::done);
+      CHECK(error_of(runs[i], scenes[i]) < 10 * local_error(tolerances));
+      continue;
+    }
+    CHECK(runs[i].ending == LoopEnding::unbounded);
+    // Both end when a step is a hundred thousandth of the time.
+    CHECK(runs[i].reached == Approx(outcome.reached).epsilon(1e-4));
+    REQUIRE(runs[i].x.size() == single.rows());
+    for (std::size_t row = 0; row < single.rows(); ++row) {
+      CHECK(runs[i].x[row] == Approx(single.row(row)[0]).epsilon(1e-3).margin(1e-9));
+      CHECK(runs[i].y[row] == Approx(single.row(row)[1]).epsilon(1e-3).margin(1e-9));
     }
   }
 }
 
-TEST_CASE("a loop that explodes is given up long before its steps are nothing") {
+TEST_CASE("loops end where they are told to stop") {
+  const Scenario scene = scenario_named("fig2b");
+  const std::vector<LoopCase> cases = cases_of(with_other_gains(scene, 3 * group));
+  // Becomes true when the first loop has ended.
+  class Stopping : public Study {
+   public:
+    using Study::Study;
+    void end(std::size_t number, const LoopRun& run) override {
+      Study::end(number, run);
+      stop = true;
+    }
+    std::atomic<bool> stop{false};
+  };
+  Stopping study(cases);
+  LoopLanes lanes(Drives::angle, 8, {1e-6, 1e-8}, solve::OutputGrid(scene.time));
+  lanes.carry(study, study.stop);
+  CHECK(study.ended > 0);
+  CHECK(study.ended <= group);
+  CHECK(are_done(carry(lanes, cases)));
+}
+
+TEST_CASE("a loop that explodes ends long before its steps are nothing") {
   // Near such an instant each step is a twentieth shorter than the one before: 600 of them, from
   // start to rounding.
   const double gain = GENERATE(-10.0, -1.0, -0.1);
   Scenario scene = scenario_named("fig2b");
   scene.controller->kv[0][0] = gain;
-  const std::vector<LoopCase> cases = cases_of(std::vector<Scenario>(group, scene));
   LoopLanes lanes(Drives::angle, 8, {1e-6, 1e-9}, solve::OutputGrid(scene.time));
-  CHECK(count_of(lanes.integrate(cases.data(), group)) == 0);
+  const auto runs = carry(lanes, {case_of(scene)});
+  CHECK(runs[0].ending == LoopEnding::unbounded);
   CHECK(lanes.statistics().steps < 200);
 }
 
@@ -305,11 +351,10 @@ TEST_CASE("a loop of no numbers is given up, and the others are not") {
   cases[3].kv[0][0] = bad;
   const solve::Tolerances tolerances{1e-6, 1e-8};
   LoopLanes lanes(Drives::angle, 8, tolerances, solve::OutputGrid(scene.time));
-  const auto carried = lanes.integrate(cases.data(), group);
-  for (int lane = 0; lane < group; ++lane) {
-    const auto at = static_cast<std::size_t>(lane);
-    CHECK(carried[at] == (lane != 3));
-    if (lane != 3) CHECK(error_of(lanes, lane, scenes[at]) < 10 * local_error(tolerances));
+  const auto runs = carry(lanes, cases);
+  for (std::size_t i = 0; i < group; ++i) {
+    CHECK(runs[i].ending == (i == 3 ? LoopEnding::given_up : LoopEnding::done));
+    if (i != 3) CHECK(error_of(runs[i], scenes[i]) < 10 * local_error(tolerances));
   }
 }
 
@@ -326,8 +371,9 @@ TEST_CASE("loops in lanes follow BBSIM_SIMD, and agree to the tolerance") {
     CHECK(solve::loop::choose_kernels().width == width);
     const solve::Tolerances tolerances{1e-6, 1e-8};
     LoopLanes lanes(Drives::angle, 8, tolerances, solve::OutputGrid(scene.time));
-    CHECK(count_of(lanes.integrate(cases.data(), group)) == group);
-    CHECK(error_of(lanes, 0, scenes[0]) < 10 * local_error(tolerances));
+    const auto runs = carry(lanes, cases);
+    CHECK(are_done(runs));
+    CHECK(error_of(runs[0], scenes[0]) < 10 * local_error(tolerances));
   }
   unsetenv("BBSIM_SIMD");
 }
@@ -337,8 +383,9 @@ TEST_CASE("loops whose gains cross from axis to axis are no harder") {
   scene.controller->kv = {{{0.8, 0.5}, {0.4, -0.9}}};
   const solve::Tolerances tolerances{1e-9, 1e-11};
   LoopLanes lanes(Drives::angle, 12, tolerances, solve::OutputGrid(scene.time));
-  CHECK(count_of(lanes.integrate(cases_of({scene}).data(), 1)) == 1);
-  CHECK(error_of(lanes, 0, scene) < 10 * local_error(tolerances));
+  const auto runs = carry(lanes, cases_of({scene}));
+  CHECK(are_done(runs));
+  CHECK(error_of(runs[0], scene) < 10 * local_error(tolerances));
   CHECK(lanes.statistics().nonlinear_iterations < 4 * lanes.statistics().jacobian_evaluations);
 }
 
@@ -347,24 +394,20 @@ TEST_CASE("loops in lanes know what they were greatest at, between rows") {
   Scenario scene = scenario_named(name);
   if (scene.controller->drives == Drives::acceleration) scene.time.end = 0.5;
   if (std::string(name) == "stiff-servo") scene.time.end = 0.2;
+  scene.time.step = scene.time.end;
   const std::vector<Scenario> scenes = with_other_gains(scene, group);
-  const std::vector<LoopCase> cases = cases_of(scenes);
-  const solve::Tolerances tolerances{1e-10, 1e-12};
-  Scenario close = scene, far = scene;
-  close.time.step = close.time.end / 20000;
-  far.time.step = far.time.end;
-  LoopLanes rows(scene.controller->drives, 12, tolerances, solve::OutputGrid(close.time));
-  LoopLanes ends(scene.controller->drives, 12, tolerances, solve::OutputGrid(far.time));
-  const solve::OutputGrid grid(close.time);
-  CHECK(count_of(rows.integrate(cases.data(), group)) == group);
-  CHECK(count_of(ends.integrate(cases.data(), group)) == group);
-  for (std::size_t lane = 0; lane < group; ++lane) {
-    double most[solve::loop::looks] = {};
-    const LoopCase& one = cases[lane];
+  LoopLanes lanes(scene.controller->drives, 12, {1e-10, 1e-12}, solve::OutputGrid(scene.time));
+  const auto runs = carry(lanes, cases_of(scenes));
+  REQUIRE(are_done(runs));
+  for (std::size_t i = 0; i < group; ++i) {
+    Scenario close = scenes[i];
+    close.time.step = close.time.end / 20000;
+    const solve::OutputGrid grid(close.time);
+    const solve::Trajectory rows = truth(close);
+    const LoopCase one = case_of(close);
+    double most[looks] = {};
     for (std::size_t row = 0; row < grid.size(); ++row) {
-      const auto state = [&](std::size_t i) {
-        return rows.rows()[(row * states + i) * group + lane];
-      };
+      const auto state = [&](std::size_t k) { return rows.row(row)[k]; };
       const auto raise = [&](solve::loop::Look look, double size) {
         most[look] = std::max(most[look], size);
       };
@@ -373,42 +416,36 @@ TEST_CASE("loops in lanes know what they were greatest at, between rows") {
       raise(solve::loop::rate_squared, state(7) * state(7) + state(8) * state(8));
       raise(solve::loop::distance_squared, state(0) * state(0) + state(1) * state(1));
       double error = 0;
-      for (std::size_t i = 0; i < 2; ++i) {
+      for (std::size_t k = 0; k < 2; ++k) {
         const double angle = one.frequency * grid[row];
-        const double from = state(i) - one.start[i] - one.rate[i] * grid[row] -
-                            one.sine[i] * std::sin(angle) - one.cosine[i] * std::cos(angle);
+        const double from = state(k) - one.start[k] - one.rate[k] * grid[row] -
+                            one.sine[k] * std::sin(angle) - one.cosine[k] * std::cos(angle);
         error += from * from;
       }
       raise(solve::loop::error_squared, error);
     }
-    for (int look = 0; look < solve::loop::looks; ++look) {
-      CAPTURE(name, lane, look);
-      const double found = ends.greatest().of[look][lane];
+    for (std::size_t look = 0; look < looks; ++look) {
+      CAPTURE(name, i, look);
       // Of rows h apart the greatest is below the true one by h^2 / 8 of its curvature, in servos
       // of 2000 rad/s some 1e-4; and never above it.
-      CHECK(found >= most[look] * (1 - 1e-8));
-      CHECK(found <= most[look] * (1 + 1e-3));
-      CHECK(rows.greatest().of[look][lane] == found);
+      CHECK(runs[i].greatest[look] >= most[look] * (1 - 1e-8));
+      CHECK(runs[i].greatest[look] <= most[look] * (1 + 1e-3));
     }
   }
 }
 
-TEST_CASE("rows of places alone are those of all states, and end with all") {
+TEST_CASE("the last row of a loop in lanes is its last state") {
   const Scenario scene = scenario_named("fig2b");
-  const std::vector<LoopCase> cases = cases_of(with_other_gains(scene, group));
-  const solve::OutputGrid grid(scene.time);
-  LoopLanes all(Drives::angle, 12, {1e-9, 1e-11}, grid),
-      places(Drives::angle, 12, {1e-9, 1e-11}, grid);
-  places.leave_out_all_but_places();
-  all.integrate(cases.data(), group);
-  places.integrate(cases.data(), group);
-  for (std::size_t row = 0; row < grid.size(); ++row) {
-    const std::size_t count = row + 1 < grid.size() ? 2 : states;
-    for (std::size_t i = 0; i < count * group; ++i) {
-      const double value = all.rows()[row * all.row_size() + i];
-      // The polynomial's end and the last node are the same but for rounding.
-      REQUIRE(places.rows()[row * places.row_size() + i] ==
-              Approx(value).epsilon(1e-12).margin(1e-16));
+  const std::vector<Scenario> scenes = with_other_gains(scene, group);
+  LoopLanes lanes(Drives::angle, 12, {1e-9, 1e-11}, solve::OutputGrid(scene.time));
+  const auto runs = carry(lanes, cases_of(scenes));
+  for (std::size_t i = 0; i < group; ++i) {
+    // The polynomial's end and the last node are the same but for rounding.
+    CHECK(runs[i].x.back() == Approx(runs[i].state[0]).epsilon(1e-12).margin(1e-16));
+    CHECK(runs[i].y.back() == Approx(runs[i].state[1]).epsilon(1e-12).margin(1e-16));
+    const solve::Trajectory exact = truth(scenes[i]);
+    for (std::size_t k = 0; k < states; ++k) {
+      CHECK(runs[i].state[k] == Approx(exact.row(exact.rows() - 1)[k]).margin(1e-9));
     }
   }
 }

@@ -27,7 +27,12 @@ const std::atomic<bool> goes_on{false};
 
 std::vector<scenario::Measure> measures(const std::vector<std::string>& names) {
   std::vector<scenario::Measure> found;
-  for (const std::string& name : names) found.push_back(*scenario::find_measure(name));
+  for (const std::string& name : names) {
+    const auto measure = scenario::find_measure(name);
+    CAPTURE(name);
+    REQUIRE(measure);
+    found.push_back(*measure);
+  }
   return found;
 }
 
@@ -334,6 +339,50 @@ TEST_CASE("planar cases do not decide how the others are computed") {
       GENERATE("linear:0:5 cm:11", "linear:5 cm:0:11", "list:0,0,0,0,0,0,0,0,1 cm");
   CAPTURE(spec);
   check_lanes(Setup("configs/beam.yaml", {{"ball.position.1", spec}}, coarse, loop_measures));
+}
+
+TEST_CASE("loops that explode end in lanes where single runs do, and others as without them") {
+  const Setup setup("configs/fig2b.yaml", {{"controller.pd.kv.0.0", "uniform:-0.4:0.8"}}, {},
+                    loop_measures, 60);
+  const Engine engine = choose_engine(setup.task);
+  REQUIRE(engine.name == "lanes");
+  const CaseResults lanes = run_all(*engine.runner(), 60);
+  const CaseResults alone = run_all(*single_runner(setup.task), 60);
+  const std::size_t width = 1 + setup.task.measures.size();
+  int exploded = 0;
+  for (std::size_t i = 0; i < 60; ++i) {
+    CAPTURE(i);
+    CHECK(lanes.status[i].word == alone.status[i].word);
+    CHECK(lanes.status[i].reason == alone.status[i].reason);
+    const bool done = lanes.status[i].word == "done";
+    if (!done) ++exploded;
+    CHECK(lanes.numbers[i * width] ==
+          Approx(alone.numbers[i * width]).epsilon(done ? 1e-15 : 1e-4));
+    for (std::size_t m = 0; done && m + 1 < width; ++m) {
+      CHECK(std::abs(lanes.numbers[i * width + 1 + m] - alone.numbers[i * width + 1 + m]) < 1e-6);
+    }
+  }
+  CHECK(exploded > 10);
+  CHECK(exploded < 30);
+
+  // However they are handed out, to the bit; the states at the end too, of which lanes know nothing
+  // before infinity.
+  const auto runner = engine.runner();
+  for (std::size_t first = 0; first < 60; first += 7) {
+    CaseResults some;
+    const std::size_t count = std::min<std::size_t>(7, 60 - first);
+    REQUIRE(runner->run(first, count, some, goes_on) == count);
+    for (std::size_t i = 0; i < some.numbers.size(); ++i) {
+      CHECK(some.numbers[i] == lanes.numbers[first * width + i]);
+    }
+  }
+  const Setup states("configs/fig2b.yaml", {{"controller.pd.kv.0.0", "uniform:-0.4:0.8"}}, {},
+                     {"x_end", "end_vx", "end_phi"}, 60);
+  const CaseResults ends = run_all(*choose_engine(states.task).runner(), 60);
+  const CaseResults expected = run_all(*single_runner(states.task), 60);
+  for (std::size_t i = 0; i < ends.numbers.size(); ++i) {
+    CHECK(ends.numbers[i] == Approx(expected.numbers[i]).epsilon(1e-6).margin(1e-7));
+  }
 }
 
 TEST_CASE("a sweep of planar cases alone is run one by one") {

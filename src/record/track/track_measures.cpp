@@ -176,29 +176,30 @@ void TrackMeasures::copy_points(const double* rows, std::size_t count) {
 }
 
 void TrackMeasures::accept(std::size_t first, std::size_t count, const double* values) {
-  if (wants_rms_) copy_rows(first, count, values, model_->row_size(), 1);
+  if (!wants_rms_) return;
+  const std::size_t row = model_->row_size();
+  row_x_.resize(grid_->size());
+  row_y_.resize(grid_->size());
+  for (std::size_t i = 0; i < count; ++i) {
+    row_x_.data()[first + i] = values[i * row];
+    row_y_.data()[first + i] = values[i * row + 1];
+  }
+  rows_ = first + count;
+  std::copy_n(values + (count - 1) * row, row, last_.begin());
 }
 
-void TrackMeasures::take(std::size_t count, const double* values, std::size_t row_stride,
-                         std::size_t stride, const TrackExtremes& greatest) {
-  copy_rows(0, count, values, row_stride, stride);
-  points_ = 0;
-  greatest_ = greatest;
-}
-
-void TrackMeasures::copy_rows(std::size_t first, std::size_t count, const double* values,
-                              std::size_t row_stride, std::size_t stride) {
+void TrackMeasures::take(std::size_t count, const double* x, const double* y, const double* last,
+                         const TrackExtremes& greatest) {
   if (wants_rms_) {
     row_x_.resize(grid_->size());
     row_y_.resize(grid_->size());
-    for (std::size_t i = 0; i < count; ++i) {
-      row_x_.data()[first + i] = values[i * row_stride];
-      row_y_.data()[first + i] = values[i * row_stride + stride];
-    }
+    std::copy_n(x, count, row_x_.data());
+    std::copy_n(y, count, row_y_.data());
   }
-  rows_ = first + count;
-  const double* const last = values + (count - 1) * row_stride;
-  for (std::size_t s = 0; s < last_.size(); ++s) last_[s] = last[s * stride];
+  rows_ = count;
+  std::copy_n(last, last_.size(), last_.begin());
+  points_ = 0;
+  greatest_ = greatest;
 }
 
 // Takes what is greatest from the pieces so far.

@@ -61,9 +61,9 @@ class TrackMeasures : public solve::PieceSink {
   void begin_run() override;
   void accept(const solve::Piece& piece) override;
 
-  // Takes the place of both accept(): a loop's rows, which may lie apart, and what it was
-  // greatest at. State s of row i is values[i * row_stride + s * stride].
-  void take(std::size_t count, const double* values, std::size_t row_stride, std::size_t stride,
+  // Takes the place of both accept(): a loop's places at its first `count` rows, all states of the
+  // last of them, and what the motion was greatest at.
+  void take(std::size_t count, const double* x, const double* y, const double* last,
             const TrackExtremes& greatest);
 
   // Writes the run's measures, one after the other.
@@ -71,8 +71,6 @@ class TrackMeasures : public solve::PieceSink {
 
  private:
   void copy_points(const double* rows, std::size_t count);
-  void copy_rows(std::size_t first, std::size_t count, const double* values, std::size_t row_stride,
-                 std::size_t stride);
   void look();
   void look_at_distances(double& greatest);
   void rescale(int exponent);

@@ -1,5 +1,5 @@
-// One step of a group of closed loops in lock step: what the driver sees of it, whatever the
-// instruction set.
+// One step of a group of closed loops, each at its own time: what the driver sees of it, whatever
+// the instruction set.
 //
 // Plain data and pointers to functions only; nothing here may become code that two instruction
 // sets share.
@@ -9,20 +9,45 @@
 
 namespace bbsim::solve::loop {
 
-// Loops that step together; the same on every processor, so that each run of a study has the same
-// companions everywhere.
+// Loops that step together.
 inline constexpr int group = 8;
 
 inline constexpr int states = 9;  // of model::ClosedLoop<Shape::full, ...>
+inline constexpr int velocities = 5;
+inline constexpr int spare_rows = 4 * group;
 
-// A group's loops, one a lane, in SI. The reference is
+// One loop, in SI: model::ClosedLoop<Shape::full, ...> about a reference
 // start + rate t + sine sin(frequency t) + cosine cos(frequency t), components x, y.
+struct LoopCase {
+  double radius, gravity;
+  double kv[2][2], kp[2][2];  // rows phi, theta; columns x, y
+  double omega_n, zeta;       // of the servo; not used where accelerations are driven
+  double start[2], rate[2];
+  double frequency, sine[2], cosine[2];
+  double initial[states];  // as the loop packs its states
+};
+
+// A loop on its way: where it is, and its accelerations there.
+struct LoopState {
+  LoopCase loop;
+  double state[states];  // as the loop packs them
+  double acceleration[velocities];
+};
+
+// A group's loops, one a lane: LoopCase's numbers, each in every lane.
 struct alignas(64) Loops {
   double radius[group], gravity[group];
   double kv[2][2][group], kp[2][2][group];
   double omega_n[group], zeta[group];
   double start[2][group], rate[2][group];
   double frequency[group], sine[2][group], cosine[2][group];
+  double initial[states][group];
+};
+static_assert(sizeof(Loops) == group * sizeof(LoopCase));
+
+// Which lanes take part: -1, for all bits, or 0.
+struct alignas(64) Lanes {
+  long long of[group];
 };
 
 // What is looked at, each in every lane: 1 - cos(tilt) of the plane, the square of its angular
@@ -39,7 +64,7 @@ struct alignas(64) Attempt {
   // where the step is not finite.
   double error_squared[group];
   bool converged[group];
-  int iterations;
+  int turns;  // of Newton's iteration, of the lane that took most
 };
 
 // What the accelerations of the ball and of the servos are by each other and by the states: the
@@ -51,30 +76,35 @@ struct alignas(64) Couplings {
       servo_by_angle[group];
 };
 
-// All functions work on a workspace of `workspace` bytes, aligned to 64, prepared by start(). None
-// allocates or throws.
+// When each lane's attempt starts, and how long it is, s.
+struct alignas(64) Spans {
+  double from[group], length[group];
+};
+
+// A lane's numbers depend on its own loop and steps alone, whatever its companions are, to the bit.
+//
+// All functions but couplings() work on a workspace of `workspace` bytes, aligned to 64, prepared
+// by start() and loaded in every lane. None allocates or throws.
 struct Kernel {
   int nodes;
   std::size_t workspace;
-  void (*start)(void* workspace, const Loops& loops, const double (*initial)[group], double rtol,
-                double atol);
-  // Of the loops about their present states.
-  void (*couplings)(const void* workspace, double t, Couplings& result);
-  // Attempts a step from the present states at t over h.
-  void (*attempt)(void* workspace, double t, double h, Attempt& result);
-  // The states at times within the last attempt, by its polynomial: [time][state][lane], aligned
-  // to 64; if `places_only`, there are x and y alone. To be called before accept().
-  void (*evaluate)(void* workspace, const double* times, std::size_t count, bool places_only,
-                   double* rows);
-  // Raises what is greatest to what it is at the start and over the last attempt. To be called
-  // before accept(), of each one that is accepted.
-  void (*look)(void* workspace, Greatest& greatest);
-  // Makes the end of the last attempt the present state.
-  void (*accept)(void* workspace);
-  // The present states, [state][lane].
-  void (*read)(const void* workspace, double (*state)[group]);
-  // Makes one lane a twin of another: its loop and its present state.
-  void (*twin)(void* workspace, int lane, int of);
+  void (*start)(void* workspace, double rtol, double atol);
+  // Of the loops about their initial states, at t = 0.
+  void (*couplings)(const Loops& loops, Couplings& result);
+  // Puts a loop into a lane, and takes it from there.
+  void (*load)(void* workspace, int lane, const LoopState& from);
+  void (*store)(const void* workspace, int lane, LoopState& into);
+  // Attempts a step from the present states.
+  void (*attempt)(void* workspace, const Spans& spans, Attempt& result);
+  // x and y of a lane at times within the last attempt, by its polynomial, before accept(). There
+  // is room for `group` numbers more, whose values afterwards are of no meaning.
+  void (*evaluate)(void* workspace, int lane, const double* times, std::size_t count, double* x,
+                   double* y);
+  // Raises what is greatest, in some lanes, to what it is at the start and over the last attempt.
+  // To be called before accept(), of each one that is accepted.
+  void (*look)(void* workspace, const Lanes& lanes, Greatest& greatest);
+  // Makes the end of the last attempt the present state of some lanes.
+  void (*accept)(void* workspace, const Lanes& lanes);
 };
 
 // By what the loop drives and the number of nodes.

@@ -28,7 +28,7 @@ struct LaneLoops {
   static constexpr auto motions = System::motions;
   static constexpr int nv = System::motions.count;
   static constexpr int nq = n - nv;  // velocities with a position come first
-  static_assert(n == states);
+  static_assert(n == states && nv == velocities);
   // Among the velocities.
   static constexpr int x = 0, y = 1, phi = 2, theta = 3, spin = 4;
   static_assert(motions.of[phi].position == 5 && motions.of[theta].position == 6);

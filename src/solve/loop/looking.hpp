@@ -15,8 +15,7 @@ struct Looking : Of {
   using Of::angles, Of::phi, Of::places, Of::theta, Of::x, Of::y;
   using Of::lanes, Of::nq, Of::nv, Of::packs, Of::rows, Of::s;
   using typename Of::Courses, typename Of::Half, typename Of::Loop, typename Of::Mask,
-      typename Of::P, typename Of::Pack, typename Of::Reference, typename Of::Rule,
-      typename Of::Workspace;
+      typename Of::P, typename Of::Pack, typename Of::Reference, typename Of::Workspace;
 
   // What is looked at, of a pack's states at an instant; slopes by the part of the step.
   template <int which>
@@ -54,7 +53,7 @@ struct Looking : Of {
     constexpr Half half = which == versine || which == rate_squared ? angles : places;
     Of::template make_courses<half>(w);
     const Courses& courses = w.of[p].courses[half];
-    const P h(w.h);
+    const P h = Of::length(w, p);
     P q[nq], v[nv], k[nv], first[2], second[2];
     Reference reference{};
     if constexpr (which == rate_squared) {
@@ -69,19 +68,19 @@ struct Looking : Of {
       q[2 * half + 1] = first[1];
       v[2 * half] = second[0];
       v[2 * half + 1] = second[1];
-      if constexpr (which == error_squared) reference = loop.reference(P(w.t) + h * part);
+      if constexpr (which == error_squared) reference = loop.reference(Of::from(w, p) + h * part);
     }
     look_at<which>(q, v, k, reference, h, size, slope);
   }
 
   template <int which>
-  [[gnu::flatten]] static void look_pack(Workspace& w, int p, double* greatest) {
+  [[gnu::flatten]] static void look_pack(Workspace& w, int p, Mask wanted, double* greatest) {
     const Loop loop(w.loops, p);
     Pack& of = w.of[p];
-    const P h(w.h);
+    const P h = Of::length(w, p);
     Looked<P> places[s + 1];
     Reference reference{};
-    if constexpr (which == error_squared) reference = loop.reference(P(w.t));
+    if constexpr (which == error_squared) reference = loop.reference(Of::from(w, p));
     places[0].at = P(0.0);
     P k[nv];
     if constexpr (which == rate_squared) {
@@ -103,92 +102,74 @@ struct Looking : Of {
       look_at<which>(of.q_at[j], of.v_at[j], of.k[j], of.reference[j], h, places[j + 1].value,
                      places[j + 1].slope);
     }
-    P most = P::load(greatest + p * lanes);
+    const P before = P::load(greatest + p * lanes);
+    P most = before;
     simd::raise_to_peak<s>(places, s + 1, most, [&](P part, P& size, P& slope) {
       between<which>(w, p, loop, part, size, slope);
     });
-    most.store(greatest + p * lanes);
+    choose(wanted, most, before).store(greatest + p * lanes);
   }
 
-  // How far a time within the step is from a node at most, in parts of it.
-  static constexpr double farthest = [] {
-    double most = Rule::c[0];
-    for (int j = 1; j < s; ++j) {
-      const double half = (Rule::c[j] - Rule::c[j - 1]) / 2;
-      if (half > most) most = half;
-    }
-    return most;
-  }();
-
-  // What some numbers may be greatest at, by their values at the nodes and their slopes there.
-  template <int count>
-  struct Reach {
-    P value[count], slope[count];
-
-    BBSIM_INLINE Reach() {
-#pragma GCC unroll 8
-      for (int i = 0; i < count; ++i) value[i] = slope[i] = P(0.0);
-    }
-    BBSIM_INLINE void take(int i, P at, P rate) {
-      value[i] = larger_of(value[i], size_of(at));
-      slope[i] = larger_of(slope[i], size_of(rate));
-    }
-    BBSIM_INLINE P square(int i, P h) const {
-      constexpr double beyond = 1.5;  // of the slopes, what is between nodes
-      const P most = value[i] + P(beyond * farthest) * h * slope[i];
-      return most * most;
-    }
-  };
-
-  // Bounds from above of all that is looked at.
+  // Bounds from above of all that is looked at: what simd::promise_between says at most, of squares
+  // in place of sines.
   [[gnu::flatten]] static void bound(const Workspace& w, int p, P (&bounds)[looks]) {
     const Loop loop(w.loops, p);
     const Pack& of = w.of[p];
-    Reach<nq> places;
-    Reach<2> rates, errors;
-    const auto take = [&](const P(&q)[nq], const P(&v)[nv], const Reference& reference)
+    const P h = Of::length(w, p);
+    P before[looks], rise_before[looks];
+    const auto take = [&](const P(&q)[nq], const P(&v)[nv], const P(&k)[nv],
+                          const Reference& reference, P width, bool first)
         __attribute__((always_inline)) {
+      P sizes[looks], slopes[looks];  // the latter by the time, and half as large
+      sizes[versine] = P(0.5) * (q[phi] * q[phi] + q[theta] * q[theta]);
+      slopes[versine] = P(0.5) * (q[phi] * v[phi] + q[theta] * v[theta]);
+      sizes[rate_squared] = v[phi] * v[phi] + v[theta] * v[theta];
+      slopes[rate_squared] = v[phi] * k[phi] + v[theta] * k[theta];
+      sizes[distance_squared] = q[x] * q[x] + q[y] * q[y];
+      slopes[distance_squared] = q[x] * v[x] + q[y] * v[y];
+      const P from_x = q[x] - reference[0].value, from_y = q[y] - reference[1].value;
+      sizes[error_squared] = from_x * from_x + from_y * from_y;
+      slopes[error_squared] =
+          from_x * (v[x] - reference[0].rate) + from_y * (v[y] - reference[1].rate);
 #pragma GCC unroll 4
-      for (int i = 0; i < nq; ++i) places.take(i, q[i], v[i]);
-#pragma GCC unroll 2
-      for (int i = 0; i < 2; ++i) {
-        const model::Jet<P>& aim = reference[static_cast<std::size_t>(i)];
-        errors.take(i, q[i] - aim.value, v[i] - aim.rate);
+      for (int i = 0; i < looks; ++i) {
+        if (first) {
+          bounds[i] = sizes[i];
+        } else {
+          const P rise = rise_before[i] + larger_of(-slopes[i], P(0.0));
+          bounds[i] = larger_of(bounds[i], larger_of(before[i], sizes[i]) + width * rise);
+        }
+        before[i] = sizes[i];
+        rise_before[i] = larger_of(slopes[i], P(0.0));
       }
     };
-    take(of.q, of.v, loop.reference(P(w.t)));
+    take(of.q, of.v, of.k_end, loop.reference(Of::from(w, p)), P(0.0), true);
+    constexpr double beyond = 2 * 0.25;  // of twice the half slopes
 #pragma GCC unroll 1
     for (int j = 0; j < s; ++j) {
-      take(of.q_at[j], of.v_at[j], of.reference[j]);
-      rates.take(0, of.v_at[j][phi], of.k[j][phi]);
-      rates.take(1, of.v_at[j][theta], of.k[j][theta]);
+      const P width = P(beyond * (rows.c[j] - (j > 0 ? rows.c[j - 1] : 0))) * h;
+      take(of.q_at[j], of.v_at[j], of.k[j], of.reference[j], width, false);
     }
-    rates.take(0, of.v[phi], of.k_end[phi]);
-    rates.take(1, of.v[theta], of.k_end[theta]);
-    const P h(w.h);
-    bounds[versine] = P(0.5) * (places.square(phi, h) + places.square(theta, h));
-    bounds[rate_squared] = rates.square(0, h) + rates.square(1, h);
-    bounds[distance_squared] = places.square(x, h) + places.square(y, h);
-    bounds[error_squared] = errors.square(0, h) + errors.square(1, h);
   }
 
   template <int which>
-  BBSIM_INLINE static void look_if_worth(Workspace& w, int p, const P (&bounds)[looks],
+  BBSIM_INLINE static void look_if_worth(Workspace& w, int p, Mask taken, const P (&bounds)[looks],
                                          Greatest& greatest) {
-    if (simd::any_of<P>((Mask)(bounds[which].v > P::load(greatest.of[which] + p * lanes).v))) {
-      look_pack<which>(w, p, greatest.of[which]);
-    }
+    const Mask wanted = taken & (Mask)(bounds[which].v > P::load(greatest.of[which] + p * lanes).v);
+    if (simd::any_of<P>(wanted)) look_pack<which>(w, p, wanted, greatest.of[which]);
   }
 
-  static void look(void* workspace, Greatest& greatest) {
+  static void look(void* workspace, const Lanes& taken, Greatest& greatest) {
     Workspace& w = *static_cast<Workspace*>(workspace);
     for (int p = 0; p < packs; ++p) {
+      const Mask of = Of::mask(taken, p);
+      if (!simd::any_of<P>(of)) continue;
       P bounds[looks];
       bound(w, p, bounds);
-      look_if_worth<versine>(w, p, bounds, greatest);
-      look_if_worth<rate_squared>(w, p, bounds, greatest);
-      look_if_worth<distance_squared>(w, p, bounds, greatest);
-      look_if_worth<error_squared>(w, p, bounds, greatest);
+      look_if_worth<versine>(w, p, of, bounds, greatest);
+      look_if_worth<rate_squared>(w, p, of, bounds, greatest);
+      look_if_worth<distance_squared>(w, p, of, bounds, greatest);
+      look_if_worth<error_squared>(w, p, of, bounds, greatest);
     }
   }
 };

@@ -1,10 +1,11 @@
 #include "solve/loop/loop_lanes.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
-#include <cstring>
 #include <limits>
 #include <new>
+#include <utility>
 
 #include "solve/step_growth.hpp"
 
@@ -17,118 +18,30 @@ constexpr double infinite = std::numeric_limits<double>::infinity();
 
 // What takes more is for another integrator.
 constexpr std::size_t most_attempts = 100'000;
-// From one second to the rounding of its time takes 50 halvings of the step.
-constexpr int most_rejections = 60;
-// Errors fall with the step to the power of the nodes and more: a lane whose error is so much more
-// than the median's needs a step a quarter as long or shorter.
-constexpr LostLanes<group>::Patience patience{.notable = 1, .holding_back = 1e8, .most_held = 4};
-// What a step that Newton's iteration does not solve counts as: one that needs to be half as long.
-constexpr double unsolved = 1e6;
+// Steps that are so small a part of the time do not arrive, or Shrinking would say why.
+constexpr double least_part = 1e-8;
+// What the next attempt is of one that Newton's iteration does not solve.
+constexpr double unsolved = 0.4;
 
-// Steps each of which is so much shorter than the one before, so many in a row, are mostly on the
-// way to an instant beyond which there is no motion. Loops that ask for them are given up, unless
-// they arrive before it: another integrator looks at them more closely, and says why they end.
-constexpr double shorter = 0.85, asking = 0.1;
-constexpr int long_since = 4;
+// Lanes of which no more than so many are at work are worth refilling.
+constexpr int few = group / 2;
+// Steps to the end that are worth waiting for.
+constexpr double soon = 2;
 
-// How steps shrink.
-class Shrinking {
- public:
-  // To be told of each step that is accepted.
-  void take(double h) {
-    ratio_ = last_ > 0 ? h / last_ : 1;
-    count_ = ratio_ < shorter ? count_ + 1 : 0;
-    last_ = h;
+void put(Loops& loops, int lane, const LoopCase& loop) {
+  constexpr std::size_t count = sizeof(LoopCase) / sizeof(double);
+  const auto numbers = std::bit_cast<std::array<double, count>>(loop);
+  auto* row = reinterpret_cast<double*>(&loops) + lane;
+  for (const double number : numbers) {
+    *row = number;
+    row += group;
   }
-  // Whether they have shrunk for long, and would not get so far if they went on like that.
-  [[nodiscard]] bool ends_before(double left) const {
-    return count_ >= long_since && last_ * ratio_ < left * (1 - ratio_);
-  }
-  // How much longer than the last one the next may be, if its error alone would have it grow like
-  // that: what shrank twice is going to shrink as much again, which spares rejections.
-  [[nodiscard]] double bound(double growth) const { return count_ >= 2 ? ratio_ * growth : growth; }
-
- private:
-  double last_ = 0, ratio_ = 1;
-  int count_ = 0;
-};
+}
 
 const Kernel& kernel_of(Drives drives, int nodes) {
   const Kernels& all = choose_kernels();
   const Kernels::Nodes& of = drives == Drives::angle ? all.angle : all.acceleration;
   return of.few.nodes == nodes ? of.few : of.many;
-}
-
-// Errors in the tolerances' weights; no numbers where a step is not finite.
-std::array<double, group> errors_of(const Attempt& attempt) {
-  std::array<double, group> errors;
-  for (std::size_t lane = 0; lane < group; ++lane) {
-    errors[lane] = std::sqrt(attempt.error_squared[lane]);
-    if (!attempt.converged[lane]) errors[lane] = std::max(errors[lane], unsolved);
-  }
-  return errors;
-}
-
-template <class T>
-T* allocate(std::size_t bytes) {
-  return static_cast<T*>(::operator new(bytes, alignment));
-}
-
-}  // namespace
-
-int choose_nodes(double rtol) {
-  constexpr double for_many = 3e-7;
-  return rtol < for_many ? 12 : 8;
-}
-
-void LoopLanes::Free::operator()(void* memory) const {
-  ::operator delete(memory, alignment);
-}
-
-LoopLanes::LoopLanes(Drives drives, int nodes, Tolerances tolerances, const OutputGrid& grid)
-    : kernel_(&kernel_of(drives, nodes)),
-      tolerances_(tolerances),
-      times_(grid.size()),
-      rows_(allocate<double>(grid.size() * states * group * sizeof(double))),
-      workspace_(allocate<void>(kernel_->workspace)),
-      lost_(patience) {
-  for (std::size_t i = 0; i < grid.size(); ++i) times_[i] = grid[i];
-}
-
-// Unused lanes repeat the last case.
-void LoopLanes::load(const LoopCase* cases, int count) {
-  Loops loops;
-  alignas(64) double initial[states][group];
-  for (int lane = 0; lane < group; ++lane) {
-    const LoopCase& one = cases[std::min(lane, count - 1)];
-    loops.radius[lane] = one.radius;
-    loops.gravity[lane] = one.gravity;
-    loops.omega_n[lane] = one.omega_n;
-    loops.zeta[lane] = one.zeta;
-    loops.frequency[lane] = one.frequency;
-    for (int i = 0; i < 2; ++i) {
-      loops.start[i][lane] = one.start[i];
-      loops.rate[i][lane] = one.rate[i];
-      loops.sine[i][lane] = one.sine[i];
-      loops.cosine[i][lane] = one.cosine[i];
-      for (int j = 0; j < 2; ++j) {
-        loops.kv[i][j][lane] = one.kv[i][j];
-        loops.kp[i][j][lane] = one.kp[i][j];
-      }
-    }
-    for (int i = 0; i < states; ++i) initial[i][lane] = one.initial[i];
-  }
-  kernel_->start(workspace_.get(), loops, initial, tolerances_.rtol, tolerances_.atol);
-  std::memcpy(rows_.get(), initial, sizeof(initial));
-}
-
-// The rows up to the end of the last attempt.
-void LoopLanes::record(double arrived) {
-  const std::size_t first = recorded_;
-  while (recorded_ < times_.size() && times_[recorded_] <= arrived) ++recorded_;
-  if (recorded_ == first) return;
-  kernel_->evaluate(workspace_.get(), &times_[first], recorded_ - first, places_only_,
-                    rows_.get() + first * row_size());
 }
 
 // How fast a lane's loop moves, 1/s: each way round it from an acceleration to itself, by as many
@@ -144,84 +57,246 @@ double fastest_of(const Couplings& of, int lane) {
        std::sqrt(std::sqrt(at(of.ball_by_angle) * by_place))});
 }
 
-// The fastest motion of any lane, 1/s. Loops that have none for not being finite are given up.
-double LoopLanes::fastest(const LoopCase* cases, int count) {
-  Couplings couplings;
-  kernel_->couplings(workspace_.get(), 0, couplings);
-  double rate = 0;
-  for (int lane = 0; lane < group; ++lane) {
-    const double own =
-        fastest_of(couplings, lane) + std::abs(cases[std::min(lane, count - 1)].frequency);
-    if (std::isfinite(own)) {
-      rate = std::max(rate, own);
-    } else {
-      lost_.give_up(static_cast<std::size_t>(lane));
-    }
-  }
-  return rate;
+}  // namespace
+
+int choose_nodes(double rtol) {
+  constexpr double for_many = 3e-7;
+  return rtol < for_many ? 12 : 8;
 }
 
-std::array<bool, group> LoopLanes::integrate(const LoopCase* cases, int count) {
-  load(cases, count);
-  lost_.begin();
-  greatest_ = {};
-  statistics_ = {};
-  recorded_ = 1;
-  const double end = times_.back();
-  const double rate = fastest(cases, count);
-  const auto twin = [&](int lane, int of) { kernel_->twin(workspace_.get(), lane, of); };
-  lost_.replace(twin);
-  double next = rate > 0 ? std::pow(tolerances_.rtol, 1.0 / kernel_->nodes) / rate : end;
-  if (!(next > 0)) next = end * 1e-6;
+void LoopLanes::Free::operator()(void* memory) const {
+  ::operator delete(memory, alignment);
+}
 
-  double t = 0;
-  int rejections = 0;
-  Shrinking shrinking;
-  while (t < end && !lost_.all()) {
-    // The steps to the end are alike.
-    const double left = end - t;
-    const double pieces = std::ceil(left / next * (1 - 1e-3));
-    const bool arrives = !(pieces > 1);
-    const double h = arrives ? left : pieces < 4 ? left / pieces : next;
-    const bool at_limit =
-        rejections >= most_rejections || !(h > 4 * std::numeric_limits<double>::epsilon() * t);
-    Attempt attempt;
-    kernel_->attempt(workspace_.get(), t, h, attempt);
-    statistics_.nonlinear_iterations += static_cast<std::size_t>(attempt.iterations);
-    if (++statistics_.jacobian_evaluations > most_attempts) lost_.give_up_all();
-    const auto errors = errors_of(attempt);
-    const double worst = lost_.judge(errors.data(), at_limit ? 1 : infinite);
-    // The first step is a guess.
-    const double most = statistics_.steps < 3 ? 30 : 8;
-    const double growth = step_growth(worst, kernel_->nodes, most);
-    if (worst <= 1) {
-      t = arrives ? end : t + h;
-      record(t);
-      kernel_->look(workspace_.get(), greatest_);
-      kernel_->accept(workspace_.get());
-      ++statistics_.steps;
-      shrinking.take(h);
-      if (shrinking.ends_before(end - t)) {
-        for (std::size_t lane = 0; lane < group; ++lane) {
-          if (errors[lane] >= asking * worst) lost_.give_up(lane);
-        }
-        shrinking = {};
-      }
-      const double bound = shrinking.bound(growth);
-      next = h * (rejections > 0 ? std::min(bound, 1.0) : bound);
-      rejections = 0;
+LoopLanes::LoopLanes(Drives drives, int nodes, Tolerances tolerances, const OutputGrid& grid)
+    : kernel_(&kernel_of(drives, nodes)),
+      end_(grid.end()),
+      reach_(std::pow(tolerances.rtol, 1.0 / nodes)),
+      times_(grid.size() + spare_rows, grid.end()),
+      rows_(grid.size()),
+      workspace_(::operator new(kernel_->workspace, alignment)) {
+  for (std::size_t i = 0; i < rows_; ++i) times_[i] = grid[i];
+  kernel_->start(workspace_.get(), tolerances.rtol, tolerances.atol);
+}
+
+int LoopLanes::live() const {
+  return static_cast<int>(
+      std::count_if(ways_.begin(), ways_.end(), [](const auto& way) { return way.has_value(); }));
+}
+
+void LoopLanes::take_columns(Way& way) {
+  for (std::vector<double>* const column : {&way.x, &way.y}) {
+    if (spare_.empty()) {
+      column->resize(times_.size());
     } else {
-      next = h * std::min(0.8, growth);
-      ++statistics_.error_test_failures;
-      ++rejections;
+      *column = std::move(spare_.back());
+      spare_.pop_back();
     }
-    lost_.replace(twin);
   }
-  if (places_only_) {
-    kernel_->read(workspace_.get(), reinterpret_cast<double(*)[group]>(
-                                        rows_.get() + (times_.size() - 1) * row_size()));
+}
+
+// Gives lanes, all of which are free, the next loops; as many as there are.
+void LoopLanes::begin(LoopStudy& study) {
+  std::array<LoopState, group> begun{};
+  std::array<std::size_t, group> numbers{};
+  int count = 0;
+  while (count < group && !exhausted_) {
+    const auto at = static_cast<std::size_t>(count);
+    if (const auto number = study.begin(begun[at].loop)) {
+      numbers[at] = *number;
+      ++count;
+    } else {
+      exhausted_ = true;
+    }
   }
-  return lost_.carried(count);
+  if (count == 0) return;
+  Loops loops;
+  for (int lane = 0; lane < group; ++lane) {
+    put(loops, lane, begun[static_cast<std::size_t>(std::min(lane, count - 1))].loop);
+  }
+  Couplings couplings;
+  kernel_->couplings(loops, couplings);
+  for (int lane = 0; lane < count; ++lane) {
+    LoopState& state = begun[static_cast<std::size_t>(lane)];
+    std::copy_n(state.loop.initial, states, state.state);
+    kernel_->load(workspace_.get(), lane, state);
+    for (auto& greatest : greatest_.of) greatest[lane] = 0;
+    const double rate = fastest_of(couplings, lane) + std::abs(state.loop.frequency);
+    Way& way = way_of(lane).emplace();
+    way.number = numbers[static_cast<std::size_t>(lane)];
+    way.next = rate > 0 ? reach_ / rate : end_;
+    // What is not finite is given up when no step of it is.
+    if (!(way.next > 0)) way.next = end_ * 1e-6;
+    take_columns(way);
+    way.x[0] = state.loop.initial[0];
+    way.y[0] = state.loop.initial[1];
+  }
+}
+
+void LoopLanes::set_aside(int lane) {
+  Aside& aside = aside_.emplace_back(Aside{std::move(*way_of(lane)), {}, {}});
+  way_of(lane).reset();
+  kernel_->store(workspace_.get(), lane, aside.state);
+  for (int i = 0; i < looks; ++i) aside.greatest[i] = greatest_.of[i][lane];
+}
+
+void LoopLanes::resume(int lane) {
+  Aside& aside = aside_.back();
+  kernel_->load(workspace_.get(), lane, aside.state);
+  for (int i = 0; i < looks; ++i) greatest_.of[i][lane] = aside.greatest[i];
+  way_of(lane) = std::move(aside.way);
+  aside_.pop_back();
+}
+
+// Makes room where few lanes are at work, and where a lane holds up the others: on the way to
+// infinity Newton's iteration takes many turns.
+void LoopLanes::set_laggards_aside() {
+  if (exhausted_ || (laggards_ && !aside_.empty())) return;
+  const bool are_few = live() <= few;
+  for (int lane = 0; lane < group; ++lane) {
+    const auto& way = way_of(lane);
+    if (!way) continue;
+    const bool is_far = end_ - way->t > soon * way->next;
+    if ((are_few && is_far) || (!laggards_ && way->shrinking.goes_on())) set_aside(lane);
+  }
+}
+
+// Gives lanes that are free what they may have: loops begin together.
+void LoopLanes::fill(LoopStudy& study) {
+  if (live() == 0) {
+    laggards_ = exhausted_ || aside_.size() >= group;
+    if (!laggards_) begin(study);
+  }
+  for (int lane = 0; lane < group && (laggards_ || exhausted_) && !aside_.empty(); ++lane) {
+    if (!way_of(lane)) resume(lane);
+  }
+}
+
+// Lanes without a loop repeat an attempt of one that has some: their numbers stay finite, and cost
+// nothing.
+void LoopLanes::idle(int lane) {
+  const auto of =
+      std::find_if(ways_.begin(), ways_.end(), [](const auto& way) { return way.has_value(); });
+  LoopState state;
+  kernel_->store(workspace_.get(), static_cast<int>(of - ways_.begin()), state);
+  kernel_->load(workspace_.get(), lane, state);
+  spans_.from[lane] = (*of)->t;
+  spans_.length[lane] = (*of)->next / 2;
+}
+
+double LoopLanes::size(int lane) const {
+  LoopState now;
+  kernel_->store(workspace_.get(), lane, now);
+  double size = 0;
+  for (const double value : now.state) {
+    if (!std::isfinite(value)) return infinite;
+    size = std::max(size, std::abs(value));
+  }
+  return size;
+}
+
+void LoopLanes::plan(int lane, Way& way) {
+  // The steps to the end are alike.
+  const double left = end_ - way.t;
+  const double pieces = std::ceil(left / way.next * (1 - 1e-3));
+  way.arrives = !(pieces > 1);
+  spans_.from[lane] = way.t;
+  spans_.length[lane] = way.arrives ? left : pieces < 4 ? left / pieces : way.next;
+}
+
+// Whether the lane's attempt is accepted; `ending` then or otherwise, if it is its last.
+bool LoopLanes::judge(int lane, const Attempt& attempt, Way& way,
+                      std::optional<LoopEnding>& ending) {
+  const double h = spans_.length[lane];
+  const double error = std::sqrt(attempt.error_squared[lane]);
+  // The first step is a guess.
+  const double growth =
+      step_growth(static_cast<float>(error), kernel_->nodes, way.steps < 3 ? 30 : 8);
+  ++way.attempts;
+  if (way.attempts > most_attempts || !(h > least_part * way.t)) {
+    ending = LoopEnding::given_up;
+    return false;
+  }
+  if (!attempt.converged[lane] || !(error <= 1)) {
+    ++way.rejections;
+    way.next = h * std::min(attempt.converged[lane] ? 0.8 : unsolved, growth);
+    ++statistics_.error_test_failures;
+    return false;
+  }
+  if (!way.arrives && way.shrinking.diverges(h, way.t, [&] { return size(lane); })) {
+    ending = LoopEnding::unbounded;
+    return false;
+  }
+  if (way.arrives) ending = LoopEnding::done;
+  const double next = h * (way.rejections > 0 ? std::min(growth, 1.0) : growth);
+  way.next = std::min(next, way.shrinking.bound(error, h * growth, kernel_->nodes));
+  way.rejections = 0;
+  way.t = way.arrives ? end_ : way.t + h;
+  ++way.steps;
+  ++statistics_.steps;
+  return true;
+}
+
+// The rows up to the end of the last attempt.
+void LoopLanes::record(int lane, Way& way) {
+  const std::size_t first = way.rows;
+  while (way.rows < rows_ && times_[way.rows] <= way.t) ++way.rows;
+  if (way.rows == first) return;
+  kernel_->evaluate(workspace_.get(), lane, &times_[first], way.rows - first, &way.x[first],
+                    &way.y[first]);
+}
+
+void LoopLanes::end(int lane, LoopEnding ending, LoopStudy& study) {
+  Way way = std::move(*way_of(lane));
+  way_of(lane).reset();
+  LoopState now;
+  kernel_->store(workspace_.get(), lane, now);
+  LoopRun run{ending, way.t, way.rows, way.x.data(), way.y.data(), now.state, {}};
+  for (int i = 0; i < looks; ++i) run.greatest[i] = greatest_.of[i][lane];
+  study.end(way.number, run);
+  for (std::vector<double>* const column : {&way.x, &way.y}) spare_.push_back(std::move(*column));
+}
+
+void LoopLanes::carry(LoopStudy& study, const std::atomic<bool>& stop) {
+  statistics_ = {};
+  ways_ = {};
+  aside_.clear();
+  exhausted_ = laggards_ = false;
+  const auto for_each_way = [&](auto use) {
+    for (int lane = 0; lane < group; ++lane) {
+      if (auto& way = way_of(lane)) use(lane, *way);
+    }
+  };
+  std::array<bool, group> worked;  // in the last attempt
+  worked.fill(true);
+  while (!stop.load(std::memory_order_relaxed)) {
+    fill(study);
+    if (live() == 0) return;
+    for (int lane = 0; lane < group; ++lane) {
+      const auto at = static_cast<std::size_t>(lane);
+      if (worked[at] && !ways_[at]) idle(lane);
+      worked[at] = ways_[at].has_value();
+    }
+
+    for_each_way([&](int lane, Way& way) { plan(lane, way); });
+    Attempt attempt;
+    kernel_->attempt(workspace_.get(), spans_, attempt);
+    ++statistics_.jacobian_evaluations;
+    statistics_.nonlinear_iterations += static_cast<std::size_t>(attempt.turns);
+    Lanes taken{};
+    std::array<std::optional<LoopEnding>, group> endings;
+    for_each_way([&](int lane, Way& way) {
+      if (!judge(lane, attempt, way, endings[static_cast<std::size_t>(lane)])) return;
+      taken.of[lane] = -1;
+      record(lane, way);
+    });
+    kernel_->look(workspace_.get(), taken, greatest_);
+    kernel_->accept(workspace_.get(), taken);
+    for (int lane = 0; lane < group; ++lane) {
+      if (const auto ending = endings[static_cast<std::size_t>(lane)]) end(lane, *ending, study);
+    }
+    set_laggards_aside();
+  }
 }
 
 }  // namespace bbsim::solve::loop

@@ -2,69 +2,71 @@
 #pragma once
 
 #include <array>
+#include <atomic>
 #include <cstddef>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "scenario/scenario.hpp"
 #include "solve/loop/kernel.hpp"
-#include "solve/lost_lanes.hpp"
 #include "solve/outcome.hpp"
 #include "solve/output_grid.hpp"
+#include "solve/shrinking.hpp"
 
 namespace bbsim::solve::loop {
-
-// One loop, in SI: model::ClosedLoop<Shape::full, ...> about a reference
-// start + rate t + sine sin(frequency t) + cosine cos(frequency t), components x, y.
-struct LoopCase {
-  double radius, gravity;
-  double kv[2][2], kp[2][2];  // rows phi, theta; columns x, y
-  double omega_n, zeta;       // of the servo; not used where accelerations are driven
-  double start[2], rate[2];
-  double frequency, sine[2], cosine[2];
-  double initial[states];  // as the loop packs its states
-};
 
 // How many nodes suit a relative tolerance: 8 or 12.
 [[nodiscard]] int choose_nodes(double rtol);
 
-// Integrates groups of loops from t = 0 over an output grid, in lock step: a group takes one step
-// for all its lanes, short enough for each, by collocation at Radau IIA's nodes (step.hpp). Stiff
-// servos cost no more steps than the motion does.
+enum class LoopEnding {
+  done,
+  unbounded,  // the motion grew without bound, as for a single run (Shrinking)
+  given_up,   // for another integrator
+};
+
+// What became of a loop; its rows and its state are there as long as LoopStudy::end() looks at
+// them.
+struct LoopRun {
+  LoopEnding ending;
+  double reached;          // s
+  std::size_t rows;        // of the grid, up to there
+  const double *x, *y;     // of each row
+  const double* state;     // at `reached`, as the loop packs its states
+  double greatest[looks];  // of the motion up to there, between rows as at them
+};
+
+// What loops are taken from, and where what becomes of them goes.
+class LoopStudy {
+ public:
+  virtual ~LoopStudy() = default;
+  // The next loop, and a number that it goes by; none if there is none. A few dozen are on their
+  // way at a time.
+  virtual std::optional<std::size_t> begin(LoopCase& loop) = 0;
+  virtual void end(std::size_t number, const LoopRun& run) = 0;
+};
+
+// Integrates loops from t = 0 over an output grid by collocation at Radau IIA's nodes (step.hpp),
+// each lane at its own time and by its own steps. Loops that need about as many steps go together;
+// those that fall behind, or are on the way to infinity, are set aside until they fill the lanes.
+// Stiff servos cost no more steps than the motion does.
 //
 // The tolerances bound each step's error in each state, with one exception: of a servo's own
 // motion, faster than 1 rad/s, its rates are followed to an absolute tolerance of atol omega_n, and
 // the ball's velocity to that times the radius. The ball's place and the angles are not concerned.
 //
-// A loop's rows depend, within the tolerance, on its companions in the group (their steps, and in
-// one pack their turns of Newton's iteration), and on nothing else: the same group gives the same
-// bits whichever thread and whatever ran before. Allocates nothing once it is made; one for each
-// thread.
+// What becomes of a loop depends on nothing else, to the bit: neither on those beside it nor on
+// those before. One for each thread.
 class LoopLanes {
  public:
   // Throws InputError as choose_kernels() does. `nodes` is one of choose_nodes()'s.
   LoopLanes(Drives drives, int nodes, Tolerances tolerances, const OutputGrid& grid);
 
-  // Rows but the last one then are of x and y alone.
-  void leave_out_all_but_places() { places_only_ = true; }
+  // Carries all loops of the study, or gives up those on their way when `stop` becomes true: of
+  // these, and of any after them, end() is not told.
+  void carry(LoopStudy& study, const std::atomic<bool>& stop);
 
-  // The first `count` cases, 1 <= count <= group. Whether each was carried to the end; one that was
-  // not, for values that are not finite, for steps that shrank to nothing or were about to, for too
-  // many steps, or because it would hold the others back, is for another integrator.
-  std::array<bool, group> integrate(const LoopCase* cases, int count);
-
-  // The last group's states, [row][state][lane], a row for each time of the grid; aligned to 64.
-  // Rows of a case that was given up, and of lanes beyond `count`, mean nothing.
-  [[nodiscard]] const double* rows() const { return rows_.get(); }
-  // From row to row.
-  [[nodiscard]] std::size_t row_size() const {
-    return static_cast<std::size_t>(places_only_ ? 2 : states) * group;
-  }
-
-  // What the last group's motion was greatest at, between rows as at them.
-  [[nodiscard]] const Greatest& greatest() const { return greatest_; }
-
-  // Of the last group.
+  // Of the last study; a Jacobian and its iterations count for all lanes of an attempt.
   [[nodiscard]] Statistics statistics() const { return statistics_; }
 
  private:
@@ -72,19 +74,51 @@ class LoopLanes {
     void operator()(void* memory) const;
   };
 
-  void load(const LoopCase* cases, int count);
-  double fastest(const LoopCase* cases, int count);
-  void record(double arrived);
+  // A loop on its way.
+  struct Way {
+    std::size_t number = 0;  // in the study
+    double t = 0, next = 0;  // s: where it is, and how long the next step may be
+    bool arrives = false;    // with this attempt
+    int rejections = 0;      // in a row
+    std::size_t attempts = 0, steps = 0, rows = 1;
+    Shrinking shrinking;
+    std::vector<double> x{}, y{};  // of rows
+  };
+  struct Aside {
+    Way way;
+    LoopState state;
+    double greatest[looks];
+  };
+
+  void fill(LoopStudy& study);
+  void begin(LoopStudy& study);
+  void resume(int lane);
+  void set_aside(int lane);
+  void set_laggards_aside();
+  void idle(int lane);
+  void plan(int lane, Way& way);
+  bool judge(int lane, const Attempt& attempt, Way& way, std::optional<LoopEnding>& ending);
+  void record(int lane, Way& way);
+  void end(int lane, LoopEnding ending, LoopStudy& study);
+  [[nodiscard]] std::optional<Way>& way_of(int lane) {
+    return ways_[static_cast<std::size_t>(lane)];
+  }
+  [[nodiscard]] int live() const;
+  [[nodiscard]] double size(int lane) const;
+  void take_columns(Way& way);
 
   const Kernel* kernel_;
-  Tolerances tolerances_;
-  std::vector<double> times_;  // of the rows, s
-  bool places_only_ = false;
-  std::unique_ptr<double, Free> rows_;
+  double end_, reach_;         // s; of the first step, in parts of what the fastest motion takes
+  std::vector<double> times_;  // of the rows, s, and room beyond them
+  std::size_t rows_;
   std::unique_ptr<void, Free> workspace_;
+  bool exhausted_ = false;  // there are no more loops
+  bool laggards_ = false;   // what the lanes have was set aside before
   Greatest greatest_{};
-  LostLanes<group> lost_;
-  std::size_t recorded_ = 0;
+  std::array<std::optional<Way>, group> ways_;
+  std::vector<Aside> aside_;
+  std::vector<std::vector<double>> spare_;  // columns that no loop has
+  Spans spans_{};
   Statistics statistics_;
 };
 

@@ -57,11 +57,11 @@ struct Newton : LaneLoops<Isa, drives> {
 
   // I - Jk - h l Jv - h^2 l^2 Jq for each eigenvalue l, and its LU factors in place, rows and
   // columns in that order; the diagonal holds its own inverse.
-  BBSIM_INLINE static void factor(const Jacobian& at, double h, Matrices& of) {
+  BBSIM_INLINE static void factor(const Jacobian& at, P h, Matrices& of) {
 #pragma GCC unroll 1
     for (int k = 0; k < pairs; ++k) {
-      const double re = h * rows.lambda_re[k], im = h * rows.lambda_im[k];
-      const P re1(re), im1(im), re2(re * re - im * im), im2(2 * re * im);
+      const P re1 = h * P(rows.lambda_re[k]), im1 = h * P(rows.lambda_im[k]);
+      const P re2 = re1 * re1 - im1 * im1, im2 = P(2.0) * re1 * im1;
       auto& m = of.lu[k];
 #pragma GCC unroll 8
       for (int i = 0; i < nq; ++i) {

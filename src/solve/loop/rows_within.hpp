@@ -1,4 +1,4 @@
-// Rows of output within a step of a group of closed loops, by the step's polynomials.
+// Rows of output within a step of one of a group's closed loops, by the step's polynomials.
 //
 // Included only by the kernels; see simd/pack.hpp for why all is inlined or tagged.
 #pragma once
@@ -9,90 +9,110 @@ namespace bbsim::solve::loop {
 
 template <class Of>
 struct RowsWithin : Of {
-  using Of::angles, Of::places;
-  using Of::lanes, Of::motions, Of::n, Of::nq, Of::packs, Of::rows, Of::s, Of::spin;
-  using typename Of::Courses, typename Of::P, typename Of::Pack, typename Of::Workspace;
+  using Of::lanes, Of::packs, Of::places, Of::s;
+  using typename Of::Courses, typename Of::P, typename Of::Workspace;
 
-  template <int coordinates>
-  static constexpr int row_size = (coordinates == nq ? n : coordinates) * group;
+  // Of a lane's step: its start, one over its length, and the coefficients of x and y by
+  // Chebyshev's polynomials T_m: their recurrence T_(m+1) = 2 x T_m - T_(m-1) is the shortest.
+  struct Series {
+    double from, per_length, of[s + 2][2];
+  };
 
-  // Rows for as many times as a pack has lanes.
-  template <int coordinates>
-  BBSIM_INLINE static void put_rows(const Workspace& w, P parts, int used, double* to) {
-    alignas(64) double polynomial[s + 2][lanes];
-    P(1.0).store(polynomial[0]);
-    Courses::polynomials(
-        P(2.0) * parts - P(1.0), [&](int m, P value) __attribute__((always_inline)) {
-          value.store(polynomial[m]);
-        });
-    constexpr int together = coordinates == nq ? 1 : lanes < 4 ? lanes : 4;
+  // Legendre's polynomial P_n is the sum of part[n][m] T_m: products of the coefficients of
+  // (1 - z)^(-1/2), since P_n are those of ((1 - z e^(i t)) (1 - z e^(-i t)))^(-1/2), cos t = x.
+  struct Parts {
+    double of[s + 2][s + 2]{};
+    consteval Parts() {
+      double root[s + 2] = {1};
+      for (int j = 1; j < s + 2; ++j) root[j] = root[j - 1] * (2 * j - 1) / (2 * j);
+      for (int n = 0; n < s + 2; ++n) {
+        for (int m = n; m >= 0; m -= 2) {
+          of[n][m] = (m > 0 ? 2 : 1) * root[(n - m) / 2] * root[(n + m) / 2];
+        }
+      }
+    }
+  };
+  static constexpr Parts parts{};
+
+  BBSIM_INLINE static Series series_of(const Workspace& w, int lane) {
+    Series series;
+    series.from = w.spans.from[lane];
+    series.per_length = 1 / w.spans.length[lane];
+    for (int m = 0; m < s + 2; ++m) {
+      for (int i = 0; i < 2; ++i) series.of[m][i] = w.of[lane / lanes].series[m][i].v[lane % lanes];
+    }
+    return series;
+  }
+
+  [[gnu::flatten]] static void make_series(Workspace& w) {
+    if (w.series) return;
+    w.series = true;
+    Of::template make_courses<places>(w);
+    for (int p = 0; p < packs; ++p) {
+      const Courses& courses = w.of[p].courses[places];
 #pragma GCC unroll 1
-    for (int first = 0; first < used; first += together) {
+      for (int m = 0; m < s + 2; ++m) {
+        P sum[2] = {P(0.0), P(0.0)};
 #pragma GCC unroll 1
-      for (int p = 0; p < packs; ++p) {
-        const Courses* const of = w.of[p].courses;
-        P q[together][coordinates], v[together][coordinates];
-#pragma GCC unroll 4
-        for (int l = 0; l < together; ++l) {
-#pragma GCC unroll 4
-          for (int i = 0; i < coordinates; ++i) q[l][i] = v[l][i] = P(0.0);
+        for (int n = m; n < s + 2; n += 2) {
+          for (int i = 0; i < 2; ++i) sum[i] += P(parts.of[n][m]) * courses.q[i][n];
         }
-#pragma GCC unroll 2
-        for (int m = 0; m <= s + 1; ++m) {
-#pragma GCC unroll 4
-          for (int l = 0; l < together; ++l) {
-            const P value(polynomial[m][first + l]);
-#pragma GCC unroll 4
-            for (int i = 0; i < coordinates; ++i) {
-              q[l][i] += of[i / 2].q[i % 2][m] * value;
-              if (coordinates == nq && m <= s) v[l][i] += of[i / 2].v[i % 2][m] * value;
-            }
-          }
-        }
-        for (int l = 0; l < together && first + l < used; ++l) {
-          double* const row = to + (first + l) * row_size<coordinates> + p * lanes;
-#pragma GCC unroll 4
-          for (int i = 0; i < coordinates; ++i) {
-            q[l][i].store(row + motions.of[i].position * group);
-            if (coordinates == nq) v[l][i].store(row + motions.of[i].velocity * group);
-          }
-          if (coordinates == nq) {
-            spin_at(w, p, first + l, polynomial).store(row + motions.of[spin].velocity * group);
-          }
-        }
+        for (int i = 0; i < 2; ++i) w.of[p].series[m][i] = sum[i];
       }
     }
   }
 
-  BBSIM_INLINE static P spin_at(const Workspace& w, int p, int l,
-                                const double (&polynomial)[s + 2][lanes]) {
-    const Pack& of = w.of[p];
-    P k[s], v[s + 1];
-    for (int m = 0; m < s; ++m) {
-      k[m] = P(0.0);
-      for (int j = 0; j < s; ++j) k[m] += P(w.h * rows.legendre[j][m]) * of.k[j][spin];
+  // Rows for so many packs of times: each polynomial waits for the one before, and packs do not
+  // wait for each other.
+  template <int together>
+  BBSIM_INLINE static void put_rows(const Series& series, const double* times, double* x,
+                                    double* y) {
+    P twice[together], before[together], now[together], sum_x[together], sum_y[together];
+#pragma GCC unroll 4
+    for (int l = 0; l < together; ++l) {
+      const P part = (P::load_anywhere(times + l * lanes) - P(series.from)) * P(series.per_length);
+      before[l] = P(1.0);
+      now[l] = P(2.0) * part - P(1.0);
+      twice[l] = now[l] + now[l];
+      sum_x[l] = P(series.of[0][0]) + P(series.of[1][0]) * now[l];
+      sum_y[l] = P(series.of[0][1]) + P(series.of[1][1]) * now[l];
     }
-    Courses::template integrate<s>(k, P(0.5), of.v[spin], v);
-    P sum(0.0);
-    for (int m = 0; m <= s; ++m) sum += v[m] * P(polynomial[m][l]);
-    return sum;
+#pragma GCC unroll 1
+    for (int m = 2; m < s + 2; ++m) {
+      const P of_x(series.of[m][0]), of_y(series.of[m][1]);
+#pragma GCC unroll 4
+      for (int l = 0; l < together; ++l) {
+        const P next = twice[l] * now[l] - before[l];
+        before[l] = now[l];
+        now[l] = next;
+        sum_x[l] += of_x * next;
+        sum_y[l] += of_y * next;
+      }
+    }
+#pragma GCC unroll 4
+    for (int l = 0; l < together; ++l) {
+      sum_x[l].store_anywhere(x + l * lanes);
+      sum_y[l].store_anywhere(y + l * lanes);
+    }
   }
 
-  [[gnu::flatten]] static void evaluate(void* workspace, const double* times, std::size_t count,
-                                        bool places_only, double* to) {
+  [[gnu::flatten]] static void evaluate(void* workspace, int lane, const double* times,
+                                        std::size_t count, double* x, double* y) {
     Workspace& w = *static_cast<Workspace*>(workspace);
-    Of::template make_courses<Of::places>(w);
-    if (!places_only) Of::template make_courses<Of::angles>(w);
-    for (std::size_t first = 0; first < count; first += lanes) {
-      const int used = count - first < lanes ? static_cast<int>(count - first) : lanes;
-      alignas(64) double parts[lanes];
-      for (int l = 0; l < lanes; ++l) {
-        parts[l] = (times[first + static_cast<std::size_t>(l < used ? l : 0)] - w.t) / w.h;
-      }
-      if (places_only) {
-        put_rows<2>(w, P::load(parts), used, to + first * row_size<2>);
+    make_series(w);
+    const Series series = series_of(w, lane);
+    for (std::size_t i = 0; i < count;) {
+      const std::size_t left = count - i;
+      const double* const at = times + i;
+      if (left > 2 * lanes) {
+        put_rows<4>(series, at, x + i, y + i);
+        i += 4 * lanes;
+      } else if (left > lanes) {
+        put_rows<2>(series, at, x + i, y + i);
+        i += 2 * lanes;
       } else {
-        put_rows<nq>(w, P::load(parts), used, to + first * row_size<nq>);
+        put_rows<1>(series, at, x + i, y + i);
+        i += lanes;
       }
     }
   }

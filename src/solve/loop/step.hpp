@@ -38,7 +38,7 @@ struct Step : Work<Isa, drives, s> {
   };
 
   // The states at the nodes.
-  BBSIM_INLINE static void integrate(const Loop& loop, Pack& of, double h, Change& change) {
+  BBSIM_INLINE static void integrate(const Loop& loop, Pack& of, P h, Change& change) {
 #pragma GCC unroll 8
     for (int i = 0; i < nv; ++i) {
       change.v[i] = P(0.0);
@@ -70,17 +70,17 @@ struct Step : Work<Isa, drives, s> {
       }
 #pragma GCC unroll 2
       for (int j = 0; j < together; ++j) {
-        const P time(rows.c[first + j] * h);
+        const P time = P(rows.c[first + j]) * h;
         P moved[nv];
         // Every other node tells enough: what is left is a polynomial over the step.
         const bool counts = j == together - 1;
 #pragma GCC unroll 8
         for (int i = 0; i < nv; ++i) {
-          const P v = of.v[i] + P(h) * once[j][i];
+          const P v = of.v[i] + h * once[j][i];
           if (counts) moved[i] = v - of.v_at[first + j][i];
           of.v_at[first + j][i] = v;
           if (i >= nq) continue;
-          const P q = of.q[i] + (time * of.v[i] + P(h * h) * twice[j][i]);
+          const P q = of.q[i] + (time * of.v[i] + (h * h) * twice[j][i]);
           if (counts) change.q[i] = larger_of(change.q[i], size_of(q - of.q_at[first + j][i]));
           of.q_at[first + j][i] = q;
         }
@@ -140,9 +140,11 @@ struct Step : Work<Isa, drives, s> {
     return sin_cos(angle);
   }
 
-  // The accelerations at the nodes, and how far k is from them; of the spin k is them.
+  // The accelerations at the nodes, and how far k is from them; of the spin k is them. Nothing of
+  // either where a lane does not take part: its k stays as it is.
   template <bool small>
-  [[gnu::noinline, gnu::flatten]] static void take_residuals(const Workspace& w, int p, Pack& of) {
+  [[gnu::noinline, gnu::flatten]] static void take_residuals(const Workspace& w, int p, Mask active,
+                                                             Pack& of) {
     const Loop loop(w.loops, p);
 #pragma GCC unroll 1
     for (int j = 0; j < s; ++j) {
@@ -153,32 +155,34 @@ struct Step : Work<Isa, drives, s> {
            of.v_at[j], assumed, rolling);
 #pragma GCC unroll 2
       for (int i = 0; i < 2; ++i) {
-        of.residual[j][i] = rolling[i] - of.k[j][i];
-        of.residual[j][phi + i] = turning[i] - assumed[i];
+        of.residual[j][i] = choose(active, rolling[i] - of.k[j][i], P(0.0));
+        of.residual[j][phi + i] = choose(active, turning[i] - assumed[i], P(0.0));
       }
-      of.k[j][spin] = rolling[2];
+      of.k[j][spin] = choose(active, rolling[2], of.k[j][spin]);
     }
   }
 
-  static constexpr int most_iterations = 12;
+  static constexpr int most_turns = 12;
 
-  // One pack; returns which lanes came to rest.
-  [[gnu::flatten]] static Mask solve(Workspace& w, int p, int& iterations) {
+  // One pack; returns which lanes came to rest. One that has, or that will not, takes no further
+  // part: others may need more turns.
+  [[gnu::flatten]] static Mask solve(Workspace& w, int p, int& turns) {
     Pack& of = w.of[p];
     const Loop loop(w.loops, p);
-    const bool moderate = loop.moderate_until(P(w.t + w.h));
+    const P from = Base::from(w, p), h = Base::length(w, p);
+    const bool moderate = loop.moderate_until(from + h);
     // At first accelerations that go on as they were.
 #pragma GCC unroll 1
     for (int j = 0; j < s; ++j) {
-      const double time = rows.c[j] * w.h;
-      const P at(w.t + time);
+      const P time = P(rows.c[j]) * h;
+      const P at = from + time;
       of.reference[j] = moderate ? loop.template reference<true>(at) : loop.reference(at);
 #pragma GCC unroll 8
       for (int i = 0; i < nv; ++i) {
-        const P gain = P(time) * of.k_end[i];
+        const P gain = time * of.k_end[i];
         of.k[j][i] = of.k_end[i];
         of.v_at[j][i] = of.v[i] + gain;
-        if (i < nq) of.q_at[j][i] = of.q[i] + P(time) * (of.v[i] + P(0.5) * gain);
+        if (i < nq) of.q_at[j][i] = of.q[i] + time * (of.v[i] + P(0.5) * gain);
       }
     }
     Change change;
@@ -187,27 +191,26 @@ struct Step : Work<Isa, drives, s> {
       Jacobian at;
       const P turning[2] = {of.k[middle][phi], of.k[middle][theta]};
       differentiate(loop, of.reference[middle], of.q_at[middle], of.v_at[middle], turning, at);
-      Base::factor(at, w.h, of.newton);
+      Base::factor(at, h, of.newton);
     }
     constexpr double enough = 1e-2, slow = 0.7, rounding = 30 * 2.2e-16;
     const P floor(rounding / w.rtol);
     P last(0.0);
-    Mask resting{};
-    for (iterations = 1;; ++iterations) {
-      are_small(of) ? take_residuals<true>(w, p, of) : take_residuals<false>(w, p, of);
+    Mask resting{}, active = ~Mask{};
+    for (turns = 1;; ++turns) {
+      are_small(of) ? take_residuals<true>(w, p, active, of)
+                    : take_residuals<false>(w, p, active, of);
       Base::correct(of.newton, of.residual, of.k);
-      integrate(loop, of, w.h, change);
-      if (iterations == 1) weigh(w, loop, of);
+      integrate(loop, of, h, change);
+      if (turns == 1) weigh(w, loop, of);
       const P now = weighted(of, change);
       // What is not finite is at rest: the states tell.
-      resting = (Mask)(now.v <= P(enough).v) | (Mask)(now.v <= floor.v) | ~is_finite(now);
-      if (iterations > 1) {
-        resting |= (Mask)((now * now).v <= (P(enough) * (last - now)).v);
-        if (iterations > 2 && simd::any_of<P>(~resting & (Mask)(now.v > (P(slow) * last).v))) {
-          return resting;
-        }
-      }
-      if (!simd::any_of<P>(~resting) || iterations >= most_iterations) return resting;
+      Mask rests = (Mask)(now.v <= P(enough).v) | (Mask)(now.v <= floor.v) | ~is_finite(now);
+      if (turns > 1) rests |= (Mask)((now * now).v <= (P(enough) * (last - now)).v);
+      resting |= active & rests;
+      active &= ~rests;
+      if (turns > 2) active &= ~(Mask)(now.v > (P(slow) * last).v);
+      if (!simd::any_of<P>(active) || turns >= most_turns) return resting;
       last = now;
     }
   }
@@ -216,54 +219,77 @@ struct Step : Work<Isa, drives, s> {
   [[gnu::flatten]] static P estimate(const Workspace& w, int p) {
     const Pack& of = w.of[p];
     const Loop loop(w.loops, p);
-    const double once = w.h / (2 * s + 1);
-    const double twice = once * once;
+    const P once = Base::length(w, p) * P(1.0 / (2 * s + 1));
+    const P twice = once * once;
     LastCoefficients<P, s, nv> series(rows.legendre, of.k);
     P error(0.0);
 #pragma GCC unroll 8
     for (int i = 0; i < nq; ++i) {
-      error = larger_of(error, series.left_out_squared(i, P(twice) * of.q_weight[i]));
+      error = larger_of(error, series.left_out_squared(i, twice * of.q_weight[i]));
     }
 #pragma GCC unroll 4
     for (auto& coefficients : series.of) without_servos(loop, coefficients);
     Mask finite = ~Mask{};
 #pragma GCC unroll 8
     for (int i = 0; i < nv; ++i) {
-      error = larger_of(error, series.left_out_squared(i, P(once) * of.v_weight[i]));
+      error = larger_of(error, series.left_out_squared(i, once * of.v_weight[i]));
       finite &= is_finite(of.v_at[s - 1][i]);
       if (i < nq) finite &= is_finite(of.q_at[s - 1][i]);
     }
     return P::of((Vector)((Mask)error.v | ~finite));  // all bits: no number
   }
 
-  static void start(void* workspace, const Loops& loops, const double (*initial)[group],
-                    double rtol, double atol) {
+  static void start(void* workspace, double rtol, double atol) {
     Workspace& w = *static_cast<Workspace*>(workspace);
-    w.loops = loops;
     w.rtol = rtol;
     w.atol = atol;
-    w.t = w.h = 0;
-    w.courses[places] = w.courses[angles] = false;
-    for (int p = 0; p < packs; ++p) {
-      Pack& of = w.of[p];
-      for (int i = 0; i < nv; ++i) {
-        of.v[i] = Loop::lane(initial[motions.of[i].velocity], p);
-        of.k_end[i] = P(0.0);
-        if (i < nq) of.q[i] = Loop::lane(initial[motions.of[i].position], p);
-      }
+  }
+
+  static constexpr int numbers = sizeof(LoopCase) / sizeof(double);
+
+  static void load(void* workspace, int lane, const LoopState& from) {
+    Workspace& w = *static_cast<Workspace*>(workspace);
+    double loop[numbers];
+    __builtin_memcpy(loop, &from.loop, sizeof(loop));
+    auto* const rows = reinterpret_cast<double*>(&w.loops);
+    for (int i = 0; i < numbers; ++i) rows[i * group + lane] = loop[i];
+    Pack& into = w.of[lane / lanes];
+    const int l = lane % lanes;
+    for (int i = 0; i < nv; ++i) {
+      into.v[i].v[l] = from.state[motions.of[i].velocity];
+      into.k_end[i].v[l] = from.acceleration[i];
+      if (i < nq) into.q[i].v[l] = from.state[motions.of[i].position];
     }
   }
 
-  [[gnu::flatten]] static void couplings(const void* workspace, double t, Couplings& result) {
+  static void store(const void* workspace, int lane, LoopState& into) {
     const Workspace& w = *static_cast<const Workspace*>(workspace);
+    double loop[numbers];
+    const auto* const rows = reinterpret_cast<const double*>(&w.loops);
+    for (int i = 0; i < numbers; ++i) loop[i] = rows[i * group + lane];
+    __builtin_memcpy(&into.loop, loop, sizeof(loop));
+    const Pack& from = w.of[lane / lanes];
+    const int l = lane % lanes;
+    for (int i = 0; i < nv; ++i) {
+      into.state[motions.of[i].velocity] = from.v[i].v[l];
+      into.acceleration[i] = from.k_end[i].v[l];
+      if (i < nq) into.state[motions.of[i].position] = from.q[i].v[l];
+    }
+  }
+
+  [[gnu::flatten]] static void couplings(const Loops& loops, Couplings& result) {
     for (int p = 0; p < packs; ++p) {
-      const Loop loop(w.loops, p);
-      const Pack& of = w.of[p];
-      const Reference reference = loop.reference(P(t));
+      const Loop loop(loops, p);
+      P q[nq], v[nv];
+      for (int i = 0; i < nv; ++i) {
+        v[i] = Loop::lane(loops.initial[motions.of[i].velocity], p);
+        if (i < nq) q[i] = Loop::lane(loops.initial[motions.of[i].position], p);
+      }
+      const Reference reference = loop.reference(P(0.0));
       P turning[2];
-      turn(loop, reference, of.q, of.v, turning);
+      turn(loop, reference, q, v, turning);
       Jacobian at;
-      differentiate(loop, reference, of.q, of.v, turning, at);
+      differentiate(loop, reference, q, v, turning, at);
       const auto put = [&](const auto& matrix, int row, int column, double(&to)[group])
           __attribute__((always_inline)) {
         P norm(0.0);
@@ -284,55 +310,30 @@ struct Step : Work<Isa, drives, s> {
     }
   }
 
-  static void attempt(void* workspace, double t, double h, Attempt& result) {
+  static void attempt(void* workspace, const Spans& spans, Attempt& result) {
     Workspace& w = *static_cast<Workspace*>(workspace);
-    w.t = t;
-    w.h = h;
-    w.courses[places] = w.courses[angles] = false;
-    result.iterations = 0;
+    w.spans = spans;
+    w.courses[places] = w.courses[angles] = w.series = false;
+    result.turns = 0;
     for (int p = 0; p < packs; ++p) {
-      int iterations = 0;
-      const Mask resting = solve(w, p, iterations);
-      if (iterations > result.iterations) result.iterations = iterations;
+      int turns = 0;
+      const Mask resting = solve(w, p, turns);
+      if (turns > result.turns) result.turns = turns;
       estimate(w, p).store(result.error_squared + p * lanes);
       for (int l = 0; l < lanes; ++l) result.converged[p * lanes + l] = resting[l] != 0;
     }
   }
 
-  static void accept(void* workspace) {
+  static void accept(void* workspace, const Lanes& taken) {
     Workspace& w = *static_cast<Workspace*>(workspace);
     for (int p = 0; p < packs; ++p) {
+      const Mask mask = Base::mask(taken, p);
       Pack& of = w.of[p];
       for (int i = 0; i < nv; ++i) {
-        of.v[i] = of.v_at[s - 1][i];
-        of.k_end[i] = of.k[s - 1][i];
-        if (i < nq) of.q[i] = of.q_at[s - 1][i];
+        of.v[i] = choose(mask, of.v_at[s - 1][i], of.v[i]);
+        of.k_end[i] = choose(mask, of.k[s - 1][i], of.k_end[i]);
+        if (i < nq) of.q[i] = choose(mask, of.q_at[s - 1][i], of.q[i]);
       }
-    }
-  }
-
-  static void read(const void* workspace, double (*state)[group]) {
-    const Workspace& w = *static_cast<const Workspace*>(workspace);
-    for (int p = 0; p < packs; ++p) {
-      for (int i = 0; i < nv; ++i) {
-        w.of[p].v[i].store(state[motions.of[i].velocity] + p * lanes);
-        if (i < nq) w.of[p].q[i].store(state[motions.of[i].position] + p * lanes);
-      }
-    }
-  }
-
-  static void twin(void* workspace, int lane, int of) {
-    Workspace& w = *static_cast<Workspace*>(workspace);
-    double* const loops = reinterpret_cast<double*>(&w.loops);
-    constexpr int count = sizeof(Loops) / (group * sizeof(double));
-    for (int row = 0; row < count; ++row) loops[row * group + lane] = loops[row * group + of];
-    const auto copy = [&](auto member) {
-      member(w.of[lane / lanes]).v[lane % lanes] = member(w.of[of / lanes]).v[of % lanes];
-    };
-    for (int i = 0; i < nv; ++i) {
-      copy([i](Pack& one) -> P& { return one.v[i]; });
-      copy([i](Pack& one) -> P& { return one.k_end[i]; });
-      if (i < nq) copy([i](Pack& one) -> P& { return one.q[i]; });
     }
   }
 
@@ -340,12 +341,12 @@ struct Step : Work<Isa, drives, s> {
                                  sizeof(Workspace),
                                  start,
                                  couplings,
+                                 load,
+                                 store,
                                  attempt,
                                  RowsWithin<Base>::evaluate,
                                  Looking<Base>::look,
-                                 accept,
-                                 read,
-                                 twin};
+                                 accept};
 };
 
 template <class Isa>

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "model/signals/signal_pair.hpp"
-#include "solve/lost_lanes.hpp"
 #include "solve/open/kernel.hpp"
+#include "solve/open/lost_lanes.hpp"
 #include "solve/outcome.hpp"
 
 namespace bbsim::solve::open {

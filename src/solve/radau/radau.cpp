@@ -100,10 +100,9 @@ void RadauStepper::renew(const model::Model& model, double end) {
   widest_ = highest_frequency_ > 0 ? 1.6 * kernel_->stages / highest_frequency_
                                    : std::numeric_limits<double>::max();
   tempo_ = tempo(model);
-  time_ = next_step_ = turned_ = last_step_ = 0;
-  last_error_ = 1;
+  time_ = next_step_ = turned_ = 0;
   attempted_ = false;
-  shrinking_ = 0;
+  shrinking_ = {};
   worst_state_ = 0;
   statistics_ = {};
   least_end_ = 0;
@@ -162,7 +161,7 @@ void RadauStepper::start(double t, const double* z) {
   kernel_->start(workspace, {view_.get(), z, tolerances_.rtol, tolerances_.atol, model_->gamma,
                              positions_only_});
   time_ = t;
-  last_step_ = 0;
+  shrinking_.interrupt();
   if (next_step_ > 0) return;
   const double rate = std::max(kernel_->rate(workspace, t), highest_frequency_);
   next_step_ = rate > 0 ? 2 * reach_ / rate : end_;
@@ -170,23 +169,9 @@ void RadauStepper::start(double t, const double* z) {
   if (!(next_step_ > 0)) next_step_ = end_ * 1e-6;
 }
 
-// Whether the steps shrink as they do on the way to infinity in finite time, each to a part of what
-// is left: for long, and by far, while states grow. A smooth motion that passes something makes no
-// dozen of steps in a row ever shorter, to a hundred thousandth; one whose tolerance is below what
-// rounding lets it reach may, and goes on. A rig may be stopped by an event on the way.
+// Whether the motion is on its way to infinity. A rig may be stopped by an event on the way.
 bool RadauStepper::diverges(double step, double t) {
-  constexpr int for_a_while = 4, long_since = 12;
-  constexpr double by_far = 1e-5, grown = 2;
-  if (!(step < 0.9 * last_step_)) {
-    shrinking_ = 0;
-    shrinks_from_ = step;
-  } else {
-    if (++shrinking_ == for_a_while) size_before_ = size_of(state());
-  }
-  shrank_by_ = step / last_step_;
-  last_step_ = step;
-  return !model_->hybrid() && shrinking_ >= long_since &&
-         step < by_far * std::min(shrinks_from_, t) && !(size_of(state()) < grown * size_before_);
+  return shrinking_.diverges(step, t, [this] { return size_of(state()); }) && !model_->hybrid();
 }
 
 const char* RadauStepper::step(double limit) {
@@ -220,20 +205,13 @@ const char* RadauStepper::step(double limit) {
       ++statistics_.error_test_failures;
       continue;
     }
-    if (!arrives && diverges(step, t)) return "the motion grows without bound";
+    if (!arrives && diverges(step, t)) return Shrinking::reason;
     attempted_ = true;
     time_ = arrives ? limit : t + step;
     ++statistics_.steps;
     const double factor = step_growth(attempt.error, stages);
     h = step * (rejected ? std::min(factor, 1.0) : factor);
-    // Where steps shrink, the error has grown from step to step by more than their sizes say, and
-    // will again (Gustafsson's predictive control; Hairer and Wanner, IV.8): rejections fewer.
-    if (shrinking_ >= 2 && attempt.error > 0) {
-      const double trend =
-          step_growth(attempt.error / last_error_, stages) / step_growth(1, stages);
-      h = std::min(h, step * factor * shrank_by_ * trend);
-    }
-    last_error_ = std::max(attempt.error, 1e-3);
+    h = std::min(h, shrinking_.bound(attempt.error, step * factor, stages));
     accepted_step_ = step;
     fill_ = std::min(1.0, step_safety / factor);
     // A step that the limit cut short says little of how long the next may be.
@@ -244,8 +222,8 @@ const char* RadauStepper::step(double limit) {
 
 template <class Archive>
 void RadauStepper::archive(Archive& archive) {
-  archive(time_, next_step_, attempted_, turned_, shrinking_, shrinks_from_, last_step_, shrank_by_,
-          size_before_, last_error_, accepted_step_, fill_, worst_state_, least_end_, statistics_);
+  archive(time_, next_step_, attempted_, turned_, shrinking_, accepted_step_, fill_, worst_state_,
+          least_end_, statistics_);
   // The kernel's memory is plain but for its first member, which is where the system's view is.
   auto* const memory = static_cast<unsigned char*>(workspace_.get());
   archive.bytes(memory + sizeof(void*), kernel_->workspace - sizeof(void*));

@@ -11,6 +11,7 @@
 #include "solve/outcome.hpp"
 #include "solve/output_grid.hpp"
 #include "solve/radau/kernel.hpp"
+#include "solve/shrinking.hpp"
 #include "solve/stepper.hpp"
 
 namespace bbsim::solve::radau {
@@ -89,12 +90,7 @@ class RadauStepper : public Stepper {
   double next_step_ = 0;    // s; 0: not known yet
   bool attempted_ = false;  // a step was made, and is not yet the present state
   double turned_ = 0;       // integral of u until start(), m
-  // Steps in a row that were shorter than the one before; the step before the first of them, the
-  // last one, and its part of the one before.
-  int shrinking_ = 0;
-  double shrinks_from_ = 0, last_step_ = 0, shrank_by_ = 1;
-  double size_before_ = 0;               // the greatest state when steps had shrunk for a while
-  double last_error_ = 1;                // of the last step, in the tolerances' weights
+  Shrinking shrinking_;
   double accepted_step_ = 0, fill_ = 1;  // its length (s), and part of what would have passed
   std::size_t worst_state_ = 0;
   double least_end_ = 0;  // see least_end(), s
