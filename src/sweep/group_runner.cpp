@@ -1,7 +1,6 @@
 #include "sweep/group_runner.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
 #include <vector>
 
@@ -21,10 +20,7 @@ class GroupRunner : public CaseRunner {
         group_(group),
         carrier_(std::move(carrier)),
         single_(single_runner(task)),
-        has_all_(std::none_of(task.measures.begin(), task.measures.end(),
-                              [&](const scenario::Measure& measure) {
-                                return bool(scenario::missing(measure, first));
-                              })) {}
+        verdict_(task, first) {}
 
   std::size_t run(std::size_t first, std::size_t count, CaseResults& into,
                   const std::atomic<bool>& stop) override {
@@ -59,10 +55,10 @@ class GroupRunner : public CaseRunner {
         results[0] = one.unbounded_at.value_or(first_.time.end);
         if (one.unbounded_at) {
           status = {"failed", solve::Shrinking::reason};
-        } else if (status.word != "done" || !status.reason.empty()) {
-          status = {};
+          judge(task_, first_, one.measures, status);
+        } else {
+          verdict_.judge(first_, one.measures, status);
         }
-        if (!is_plain(one.measures)) judge(task_, first_, one.measures, status);
         continue;
       }
       if (single_->run(one.number, 1, alone_, stop) == 0) return at - place;
@@ -72,18 +68,12 @@ class GroupRunner : public CaseRunner {
     return count;
   }
 
-  // Whether there is nothing to say about the measures.
-  [[nodiscard]] bool is_plain(const double* measures) const {
-    return has_all_ && std::all_of(measures, measures + task_.measures.size(),
-                                   [](double value) { return std::isfinite(value); });
-  }
-
   const SweepTask& task_;
   const Scenario first_;
   std::size_t group_;
   std::unique_ptr<GroupCarrier> carrier_;
   std::unique_ptr<CaseRunner> single_;
-  bool has_all_;  // columns that the measures are of
+  DoneVerdict verdict_;
   std::vector<GroupCase> cases_;
   CaseResults alone_;
 };

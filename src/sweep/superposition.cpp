@@ -241,15 +241,14 @@ class SuperpositionRunner : public CaseRunner {
         scenario_(task),
         solutions_(std::move(solutions)),
         kernels_(record::choose_track_kernels()),
+        verdict_(task, task.family.read(task.plan.settings(0))),
         factors_(solutions_->terms.size()) {
     squares_.resize(solutions_->points);
     for (const Superposed::Term& term : solutions_->terms) {
       x_.push_back(term.x.data());
       y_.push_back(term.y.data());
     }
-    for (const scenario::Measure& measure : task.measures) {
-      far_ = far_ || measure.column->name == "distance";
-    }
+    for (const scenario::Measure& measure : task.measures) take_.push_back(take_of(measure));
   }
 
   std::size_t run(std::size_t first, std::size_t count, CaseResults& into,
@@ -272,18 +271,34 @@ class SuperpositionRunner : public CaseRunner {
     for (std::size_t k = 1; k < factors_.size(); ++k) {
       factors_[k] = solutions_->terms[k].part->factor(scenario);
     }
-    const double distance = far_ ? farthest() : 0;
-    status = {};
     numbers[0] = solutions_->end;
-    for (std::size_t m = 0; m < task_.measures.size(); ++m) {
-      const scenario::Measure& measure = task_.measures[m];
-      const std::string_view name = measure.column->name;
-      numbers[1 + m] = name == "distance"    ? distance
-                       : name == "tilt"      ? solutions_->gimbal.tilt
-                       : name == "tilt_rate" ? solutions_->gimbal.rate
-                                             : last(name == "x" ? x_ : y_);
+    for (std::size_t m = 0; m < take_.size(); ++m) numbers[1 + m] = taken(take_[m]);
+    verdict_.judge(scenario, numbers + 1, status);
+  }
+
+  enum class Take { x, y, distance, tilt, tilt_rate };
+  static Take take_of(const scenario::Measure& measure) {
+    const std::string_view name = measure.column->name;
+    return name == "x"          ? Take::x
+           : name == "y"        ? Take::y
+           : name == "distance" ? Take::distance
+           : name == "tilt"     ? Take::tilt
+                                : Take::tilt_rate;
+  }
+  [[nodiscard]] double taken(Take what) {
+    switch (what) {
+      case Take::x:
+        return last(x_);
+      case Take::y:
+        return last(y_);
+      case Take::distance:
+        return farthest();
+      case Take::tilt:
+        return solutions_->gimbal.tilt;
+      case Take::tilt_rate:
+        break;
     }
-    judge(task_, scenario, numbers + 1, status);
+    return solutions_->gimbal.rate;
   }
 
   [[nodiscard]] double farthest() {
@@ -321,11 +336,12 @@ class SuperpositionRunner : public CaseRunner {
   CaseScenario scenario_;
   std::shared_ptr<const Superposed> solutions_;
   const record::TrackKernels& kernels_;
+  const DoneVerdict verdict_;
+  std::vector<Take> take_;            // of each measure
   std::vector<const double*> x_, y_;  // of each term
   std::vector<double> factors_;
   record::PaddedRows squares_;
   record::SpanSearch search_;
-  bool far_ = false;
 };
 
 }  // namespace

@@ -18,4 +18,18 @@ void judge(const SweepTask& task, const Scenario& scenario, double* measures, Ca
   status.reason = scenario::why_not_finite(task.measures, measures, scenario);
 }
 
+DoneVerdict::DoneVerdict(const SweepTask& task, const Scenario& first)
+    : task_(task),
+      has_all_(std::none_of(task.measures.begin(), task.measures.end(),
+                            [&](const scenario::Measure& measure) {
+                              return bool(scenario::missing(measure, first));
+                            })) {}
+
+void DoneVerdict::judge(const Scenario& scenario, double* measures, CaseStatus& status) const {
+  if (status.word != "done" || !status.reason.empty()) status = {};
+  const bool is_plain = has_all_ && std::all_of(measures, measures + task_.measures.size(),
+                                                [](double value) { return std::isfinite(value); });
+  if (!is_plain) sweep::judge(task_, scenario, measures, status);
+}
+
 }  // namespace bbsim::sweep
