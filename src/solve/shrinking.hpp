@@ -39,16 +39,20 @@ class Shrinking {
            !(size() < grown * size_before_);
   }
 
-  // Whether steps have shrunk for a while, and so far do.
-  [[nodiscard]] bool goes_on() const { return in_a_row_ >= 3; }
+  // How many steps were shorter than the one before, since one that was longer.
+  [[nodiscard]] int count() const { return count_; }
 
   // To be told the error of each step that was taken, in the tolerances' weights, and how long its
   // size alone would have the next one be, s: how long that may be. Where steps shrink, the error
   // has grown from step to step by more than their sizes say, and will again (Gustafsson's
-  // predictive control; Hairer and Wanner, IV.8): rejections fewer.
-  [[nodiscard]] double bound(double error, double next, int stages) {
+  // predictive control; Hairer and Wanner, IV.8): rejections fewer. Two steps in a row show it;
+  // with Sign::jump one does, if its error is far above the last one.
+  enum class Sign { steps, jump };
+  [[nodiscard]] double bound(double error, double next, int stages, Sign sign = Sign::steps) {
+    constexpr double by_far = 10;
+    const bool jumps = sign == Sign::jump && count_ >= 1 && error > by_far * last_error_;
     double most = next;
-    if (in_a_row_ >= 2 && error > 0) {
+    if (jumps || (in_a_row_ >= 2 && error > 0)) {
       const double trend = step_growth(error / last_error_, stages) / step_growth(1.0, stages);
       most = std::min(next, next * ratio_ * trend);
     }

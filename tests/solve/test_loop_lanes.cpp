@@ -207,7 +207,7 @@ TEST_CASE("a step's error falls with the order of the method") {
     void* place = memory.data();
     std::size_t space = memory.size() * sizeof(double);
     void* const workspace = std::align(64, kernel.workspace, place, space);
-    solve::loop::LoopState state{one, {}, {}};
+    solve::loop::LoopState state{one, {}, {}, 0, {}};
     std::copy_n(one.initial, states, state.state);
     kernel.start(workspace, 1e-6, 1e-8);
     for (int lane = 0; lane < group; ++lane) kernel.load(workspace, lane, state);
@@ -220,7 +220,7 @@ TEST_CASE("a step's error falls with the order of the method") {
       std::fill(std::begin(spans.from), std::end(spans.from), i * h);
       std::fill(std::begin(spans.length), std::end(spans.length), h);
       kernel.attempt(workspace, spans, attempt);
-      kernel.accept(workspace, all);
+      kernel.accept(workspace, all, all);
     }
     kernel.store(workspace, 3, state);
     const solve::Trajectory exact = truth(scene);

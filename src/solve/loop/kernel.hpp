@@ -27,11 +27,16 @@ struct LoopCase {
   double initial[states];  // as the loop packs its states
 };
 
-// A loop on its way: where it is, and its accelerations there.
+inline constexpr int most_nodes = 12;
+
+// A loop on its way: where it is, its accelerations there, and maybe those at its last step's
+// nodes.
 struct LoopState {
   LoopCase loop;
   double state[states];  // as the loop packs them
   double acceleration[velocities];
+  double last_step;  // s; 0 where that is not kept
+  double last_accelerations[most_nodes][velocities];
 };
 
 // A group's loops, one a lane: LoopCase's numbers, each in every lane.
@@ -103,8 +108,9 @@ struct Kernel {
   // Raises what is greatest, in some lanes, to what it is at the start and over the last attempt.
   // To be called before accept(), of each one that is accepted.
   void (*look)(void* workspace, const Lanes& lanes, Greatest& greatest);
-  // Makes the end of the last attempt the present state of some lanes.
-  void (*accept)(void* workspace, const Lanes& lanes);
+  // Makes the end of the last attempt the present state of some lanes. Those of them that are
+  // `kept` keep the attempt's accelerations, with which one that is much shorter then begins.
+  void (*accept)(void* workspace, const Lanes& lanes, const Lanes& kept);
 };
 
 // By what the loop drives and the number of nodes.

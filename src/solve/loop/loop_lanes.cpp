@@ -25,6 +25,8 @@ constexpr double unsolved = 0.4;
 
 // Lanes of which no more than so many are at work are worth refilling.
 constexpr int few = group / 2;
+// Steps in a row, or nearly so, that became shorter: on the way to infinity, mostly.
+constexpr int long_since = 3;
 // Steps to the end that are worth waiting for.
 constexpr double soon = 2;
 
@@ -71,7 +73,7 @@ void LoopLanes::Free::operator()(void* memory) const {
 LoopLanes::LoopLanes(Drives drives, int nodes, Tolerances tolerances, const OutputGrid& grid)
     : kernel_(&kernel_of(drives, nodes)),
       end_(grid.end()),
-      reach_(std::pow(tolerances.rtol, 1.0 / nodes)),
+      reach_(5 * std::pow(tolerances.rtol, 1.0 / nodes)),
       times_(grid.size() + spare_rows, grid.end()),
       rows_(grid.size()),
       workspace_(::operator new(kernel_->workspace, alignment)) {
@@ -157,7 +159,8 @@ void LoopLanes::set_laggards_aside() {
     const auto& way = way_of(lane);
     if (!way) continue;
     const bool is_far = end_ - way->t > soon * way->next;
-    if ((are_few && is_far) || (!laggards_ && way->shrinking.goes_on())) set_aside(lane);
+    if ((are_few && is_far) || (!laggards_ && way->shrinking.count() >= long_since))
+      set_aside(lane);
   }
 }
 
@@ -229,7 +232,8 @@ bool LoopLanes::judge(int lane, const Attempt& attempt, Way& way,
   }
   if (way.arrives) ending = LoopEnding::done;
   const double next = h * (way.rejections > 0 ? std::min(growth, 1.0) : growth);
-  way.next = std::min(next, way.shrinking.bound(error, h * growth, kernel_->nodes));
+  way.next =
+      std::min(next, way.shrinking.bound(error, h * growth, kernel_->nodes, Shrinking::Sign::jump));
   way.rejections = 0;
   way.t = way.arrives ? end_ : way.t + h;
   ++way.steps;
@@ -283,15 +287,16 @@ void LoopLanes::carry(LoopStudy& study, const std::atomic<bool>& stop) {
     kernel_->attempt(workspace_.get(), spans_, attempt);
     ++statistics_.jacobian_evaluations;
     statistics_.nonlinear_iterations += static_cast<std::size_t>(attempt.turns);
-    Lanes taken{};
+    Lanes taken{}, kept{};
     std::array<std::optional<LoopEnding>, group> endings;
     for_each_way([&](int lane, Way& way) {
       if (!judge(lane, attempt, way, endings[static_cast<std::size_t>(lane)])) return;
       taken.of[lane] = -1;
+      if (way.shrinking.count() > 0) kept.of[lane] = -1;
       record(lane, way);
     });
     kernel_->look(workspace_.get(), taken, greatest_);
-    kernel_->accept(workspace_.get(), taken);
+    kernel_->accept(workspace_.get(), taken, kept);
     for (int lane = 0; lane < group; ++lane) {
       if (const auto ending = endings[static_cast<std::size_t>(lane)]) end(lane, *ending, study);
     }

@@ -20,6 +20,9 @@ struct Work : Newton<Isa, drives, nodes> {
   struct Pack {
     P q[nq], v[nv];  // the present state
     P k_end[nv];     // accelerations there
+    // Of the last step that was accepted: its length, 0 if it was not kept, and accelerations at
+    // its nodes.
+    P h_before, k_before[s][nv];
     // At the nodes of the last attempt.
     P k[s][nv], q_at[s][nq], v_at[s][nv], residual[s][nq];
     Reference reference[s];
