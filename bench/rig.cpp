@@ -149,7 +149,7 @@ class Swept {
 struct Candidate {
   std::string name;
   std::function<void()> run;
-  std::function<double()> error;    // of the last run, m
+  std::function<double()> error;    // of the last run, or of a sweep's first cases, m
   double most = 0;                  // of dopri5's time at rtol 1e-8; 0: nothing is asked
   double cases = 1;                 // of one call
   std::function<double()> least{};  // of all calls, s, if that is not the least call

@@ -7,7 +7,6 @@
 #include <utility>
 
 #include "base/archive.hpp"
-#include "base/instant.hpp"
 #include "model/ball/dynamics.hpp"
 
 namespace bbsim::model {
@@ -274,7 +273,7 @@ void HybridSystem::evaluate_pieces(const Wanted& wanted, const double* z, double
   for (std::size_t i = 0; i < 2; ++i, values += piece_guards) {
     const Linkage& linkage = model_.rig->between.linkages[i];
     if (!linkage.table) continue;
-    const AxisMode axis = with_loop([i](const auto& loop) { return loop.mode.axis[i]; });
+    const AxisMode& axis = mode_->axis[i];
     const double horn = axis.ratio * z[static_cast<std::size_t>(angle) + i] + axis.offset;
     const std::size_t last = linkage.table->knots().size() - 2;
     const CommandRange holds = linkage.piece_range(pieces_[i]);
@@ -360,14 +359,13 @@ Sample HybridSystem::sample(double t, const double* z, Detail detail) const {
 void HybridSystem::evaluate_guards(double t, const double* z, double* values) const {
   if (model_.rig && model_.rig->switches()) {
     const Wanted wanted = axes(t, z);
-    const RigMode present = with_loop([](const auto& loop) { return loop.mode; });
     for (int i = 0; i < model_.rig->servos; ++i, values += axis_guards) {
       servos_[static_cast<std::size_t>(i)].evaluate(axis_state(i, wanted, z), values);
       double* const command = values + ServoAxis::guards;
       command[0] = command[1] = unlimited;
       if (i >= 2 || !model_.rig->command_limit[i].binds()) continue;
       const CommandRange& limit = model_.rig->command_limit[i];
-      const AxisMode& axis = present.axis[i];
+      const AxisMode& axis = mode_->axis[i];
       const double raw = wanted.raw[static_cast<std::size_t>(i)];
       // A command at a limit is watched at that one alone: it can pass to the other in no time.
       if (axis.command_factor != 0) {
@@ -410,10 +408,9 @@ HybridSystem::Fall HybridSystem::next_fall(double t, const std::array<HeldMotion
                                            double end) const {
   Fall first;
   if (!model_.rig || !model_.rig->switches()) return first;
-  const RigMode& present = with_loop([](const auto& loop) -> const RigMode& { return loop.mode; });
   for (std::size_t i = 0; i < 2; ++i) {
     const ServoAxis::Fall fall =
-        servos_[i].first_fall(motions[i], present.command[i], t, std::min(end, first.time) - t);
+        servos_[i].first_fall(motions[i], mode_->command[i], t, std::min(end, first.time) - t);
     // Rounded up: what falls has then fallen, however short the time is beside t.
     double at = t + fall.after;
     if (at - t < fall.after) at = std::nextafter(at, unlimited);

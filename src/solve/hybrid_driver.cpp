@@ -239,7 +239,9 @@ class HybridIntegration {
   // looked at with the step, which mostly settles what the switch did to them too.
   void foresee(double t, const std::vector<double>& z, bool switched) {
     foreseen_ = run_.next_change();
-    fall_ = run_.next_fall(t, run_.held_motions(z.data()), foreseen_);
+    // A rig that does not switch has no servo's guards.
+    fall_ = {};
+    if (first_guard_ > 0) fall_ = run_.next_fall(t, run_.held_motions(z.data()), foreseen_);
     unarmed_ = first_guard_ < guards_.size();
     unlooked_ = unlooked_ || (switched && unarmed_);
   }

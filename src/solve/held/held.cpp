@@ -214,7 +214,7 @@ const HeldStepper::Shares* HeldStepper::shares(double after) {
 
 void HeldStepper::evaluate_some(const double* times, std::size_t count, double* rows) {
   double after[16], ball[16][6];
-  const Shares* known[16];
+  const Shares* known[16] = {};
   bool others = false;
   const double rounding = 2 * rounding_of(time_);
   const auto is_end = [&](std::size_t i) { return std::abs(times[i] - time_) <= rounding; };
