@@ -142,7 +142,7 @@ BBSIM_INLINE SinCos<Pack<Isa, lanes>> sin_cos_of_moderate(Pack<Isa, lanes> angle
   return result;
 }
 
-// The result is the same up to 10^5; beyond, it is the C library's.
+// The result is the same up to 10^5; beyond, it is the C library's, in the lanes concerned alone.
 template <class Isa, int lanes>
 BBSIM_INLINE SinCos<Pack<Isa, lanes>> sin_cos(Pack<Isa, lanes> angle) {
   using P = Pack<Isa, lanes>;
@@ -152,6 +152,7 @@ BBSIM_INLINE SinCos<Pack<Isa, lanes>> sin_cos(Pack<Isa, lanes> angle) {
   for (int i = 1; i < lanes; ++i) all &= small[i];
   if (__builtin_expect(all == 0, 0)) {
     for (int i = 0; i < lanes; ++i) {
+      if (small[i] != 0) continue;
       result.sin.v[i] = __builtin_sin(angle.v[i]);
       result.cos.v[i] = __builtin_cos(angle.v[i]);
     }

@@ -18,9 +18,9 @@ class Shrinking {
   // Takes a step at time t that is about to be accepted, both in s. Whether steps shrink as they do
   // on the way to infinity in finite time, each to a part of what is left: for long, and by far,
   // while states grow. A smooth motion that passes something does not make a dozen steps ever
-  // shorter, to a hundred thousandth, with none that is longer again; one whose tolerance is below
-  // what rounding lets it reach may, and goes on. size() is that of the greatest state at t,
-  // infinite if one is no number.
+  // shorter, to a hundred thousandth, with none that is longer again by a quarter; one whose
+  // tolerance is below what rounding lets it reach may, and goes on. size() is that of the greatest
+  // state at t, infinite if one is no number.
   template <class Size>
   [[nodiscard]] bool diverges(double step, double t, Size size) {
     constexpr int for_a_while = 4, long_since = 12;
@@ -39,7 +39,7 @@ class Shrinking {
            !(size() < grown * size_before_);
   }
 
-  // How many steps were shorter than the one before, since one that was longer.
+  // How many steps were shorter than the one before, since one that was longer by a quarter.
   [[nodiscard]] int count() const { return count_; }
 
   // To be told the error of each step that was taken, in the tolerances' weights, and how long its
@@ -70,7 +70,7 @@ class Shrinking {
   // Of steps that were shorter than the one before: since one that was longer, and of the last
   // ones.
   int count_ = 0, in_a_row_ = 0;
-  // The step before the first of them, the last one, and its part of the one before.
+  // The step that the former count begins after, the last one, and its part of the one before.
   double from_ = 0, last_ = 0, ratio_ = 1;
   double size_before_ = 0;  // when steps had shrunk for a while
   double last_error_ = 1;

@@ -61,6 +61,8 @@ class GroupRunner : public CaseRunner {
         }
         continue;
       }
+      // What the lanes did not come to is not for single runs either.
+      if (stop.load(std::memory_order_relaxed)) return at - place;
       if (single_->run(one.number, 1, alone_, stop) == 0) return at - place;
       std::copy(alone_.numbers.begin(), alone_.numbers.end(), results);
       status = alone_.status[0];

@@ -13,7 +13,8 @@ namespace bbsim::sweep {
 [[nodiscard]] std::size_t lane_group();
 
 // The task is one for which can_use_lanes() holds, and outlives the runner. A case that the
-// lanes give up is run by itself.
+// lanes give up is run by itself, and so is one that grows without bound, if more than x and y are
+// asked of its end.
 [[nodiscard]] std::unique_ptr<CaseRunner> lane_runner(const SweepTask& task);
 
 }  // namespace bbsim::sweep

@@ -247,15 +247,23 @@ TEST_CASE("a stiff servo costs loops in lanes no order") {
 }
 
 TEST_CASE("what becomes of a loop depends neither on its companions nor on what ran before") {
-  // Gains of both signs: of the slow servo's loops one in three explodes.
+  const char* const set = GENERATE("sse2", "avx2", "avx512");
+  if (!simd::find_instruction_set(set)) return;
+  setenv("BBSIM_SIMD", set, 1);
+  // Gains of both signs, some large: of the slow servo's loops one in three explodes, and angles
+  // are then beyond what packs take sines of. One loop has a reference as fast.
   const std::string name = GENERATE("fig2b", "stiff-servo");
   const Scenario scene = scenario_named(name);
   std::vector<Scenario> scenes = with_other_gains(scene, 40);
   for (std::size_t i = 0; i < scenes.size(); i += 3) scenes[i].controller->kv[0][0] *= -0.3;
-  const std::vector<LoopCase> cases = cases_of(scenes);
+  for (std::size_t i = 1; i < scenes.size(); i += 9) scenes[i].controller->kv[0][0] *= -8;
+  std::vector<LoopCase> cases = cases_of(scenes);
+  cases[11].frequency = 3e4;
   const double rtol = GENERATE(1e-5, 1e-8);
+  CAPTURE(set, name, rtol);
   LoopLanes lanes(Drives::angle, solve::loop::choose_nodes(rtol), {rtol, rtol / 100},
                   solve::OutputGrid(scene.time));
+  unsetenv("BBSIM_SIMD");
   const std::vector<Course> together = carry(lanes, cases);
   CHECK(carry(lanes, cases) == together);
   std::vector<LoopCase> reversed = cases;
@@ -269,8 +277,8 @@ TEST_CASE("what becomes of a loop depends neither on its companions nor on what 
     CHECK(carry(lanes, {cases[i]}).front() == together[i]);
     if (together[i].ending == LoopEnding::unbounded) ++unbounded;
   }
-  CHECK((unbounded > 8) == (name == "fig2b"));
-  CHECK(unbounded < 20);
+  if (name == "fig2b") CHECK(unbounded > 8);
+  CHECK(unbounded < 25);
 }
 
 TEST_CASE("a loop that grows without bound ends where a single run does, and others go on") {

@@ -358,8 +358,13 @@ TEST_CASE("loops that explode end in lanes where single runs do, and others as w
     if (!done) ++exploded;
     CHECK(lanes.numbers[i * width] ==
           Approx(alone.numbers[i * width]).epsilon(done ? 1e-15 : 1e-4));
-    for (std::size_t m = 0; done && m + 1 < width; ++m) {
-      CHECK(std::abs(lanes.numbers[i * width + 1 + m] - alone.numbers[i * width + 1 + m]) < 1e-6);
+    for (std::size_t m = 0; m + 1 < width; ++m) {
+      const double ours = lanes.numbers[i * width + 1 + m];
+      const double theirs = alone.numbers[i * width + 1 + m];
+      // What is greatest on the way to infinity is so in the last step.
+      const bool is_greatest = setup.task.measures[m].kind == scenario::Measure::Kind::greatest;
+      if (done) CHECK(std::abs(ours - theirs) < 1e-6);
+      if (!done && !is_greatest) CHECK(ours == Approx(theirs).epsilon(1e-3));
     }
   }
   CHECK(exploded > 10);

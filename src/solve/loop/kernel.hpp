@@ -14,7 +14,7 @@ inline constexpr int group = 8;
 
 inline constexpr int states = 9;  // of model::ClosedLoop<Shape::full, ...>
 inline constexpr int velocities = 5;
-inline constexpr int spare_rows = 4 * group;
+inline constexpr int spare_rows = 2 * group;  // beyond those that are asked for
 
 // One loop, in SI: model::ClosedLoop<Shape::full, ...> about a reference
 // start + rate t + sine sin(frequency t) + cosine cos(frequency t), components x, y.
@@ -102,7 +102,7 @@ struct Kernel {
   // Attempts a step from the present states.
   void (*attempt)(void* workspace, const Spans& spans, Attempt& result);
   // x and y of a lane at times within the last attempt, by its polynomial, before accept(). There
-  // is room for `group` numbers more, whose values afterwards are of no meaning.
+  // are `spare_rows` times more, and room for what is then put there, which means nothing.
   void (*evaluate)(void* workspace, int lane, const double* times, std::size_t count, double* x,
                    double* y);
   // Raises what is greatest, in some lanes, to what it is at the start and over the last attempt.

@@ -25,7 +25,7 @@ constexpr double unsolved = 0.4;
 
 // Lanes of which no more than so many are at work are worth refilling.
 constexpr int few = group / 2;
-// Steps in a row, or nearly so, that became shorter: on the way to infinity, mostly.
+// Steps that became shorter, with none that was longer again: mostly on the way to infinity.
 constexpr int long_since = 3;
 // Steps to the end that are worth waiting for.
 constexpr double soon = 2;
@@ -175,13 +175,18 @@ void LoopLanes::fill(LoopStudy& study) {
   }
 }
 
-// Lanes without a loop repeat an attempt of one that has some: their numbers stay finite, and cost
-// nothing.
+// Lanes without a loop repeat an attempt of one that has some, best of one that goes on well: their
+// numbers stay finite, and cost next to nothing.
 void LoopLanes::idle(int lane) {
-  const auto of =
-      std::find_if(ways_.begin(), ways_.end(), [](const auto& way) { return way.has_value(); });
+  auto of = std::find_if(ways_.begin(), ways_.end(), [](const auto& way) {
+    return way.has_value() && way->shrinking.count() == 0;
+  });
+  if (of == ways_.end()) {
+    of = std::find_if(ways_.begin(), ways_.end(), [](const auto& way) { return way.has_value(); });
+  }
   LoopState state;
   kernel_->store(workspace_.get(), static_cast<int>(of - ways_.begin()), state);
+  state.last_step = 0;
   kernel_->load(workspace_.get(), lane, state);
   spans_.from[lane] = (*of)->t;
   spans_.length[lane] = (*of)->next / 2;
@@ -221,7 +226,7 @@ bool LoopLanes::judge(int lane, const Attempt& attempt, Way& way,
     return false;
   }
   if (!attempt.converged[lane] || !(error <= 1)) {
-    ++way.rejections;
+    way.rejected = true;
     way.next = h * std::min(attempt.converged[lane] ? 0.8 : unsolved, growth);
     ++statistics_.error_test_failures;
     return false;
@@ -231,10 +236,10 @@ bool LoopLanes::judge(int lane, const Attempt& attempt, Way& way,
     return false;
   }
   if (way.arrives) ending = LoopEnding::done;
-  const double next = h * (way.rejections > 0 ? std::min(growth, 1.0) : growth);
+  const double next = h * (way.rejected ? std::min(growth, 1.0) : growth);
   way.next =
       std::min(next, way.shrinking.bound(error, h * growth, kernel_->nodes, Shrinking::Sign::jump));
-  way.rejections = 0;
+  way.rejected = false;
   way.t = way.arrives ? end_ : way.t + h;
   ++way.steps;
   ++statistics_.steps;

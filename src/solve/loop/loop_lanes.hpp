@@ -46,6 +46,17 @@ class LoopStudy {
   virtual void end(std::size_t number, const LoopRun& run) = 0;
 };
 
+// A loop on its way.
+struct LoopWay {
+  std::size_t number = 0;  // in the study
+  double t = 0, next = 0;  // s: where it is, and how long the next step may be
+  bool arrives = false;    // with this attempt
+  bool rejected = false;   // the last attempt was
+  std::size_t attempts = 0, steps = 0, rows = 1;
+  Shrinking shrinking;
+  std::vector<double> x{}, y{};  // of rows
+};
+
 // Integrates loops from t = 0 over an output grid by collocation at Radau IIA's nodes (step.hpp),
 // each lane at its own time and by its own steps. Loops that need about as many steps go together;
 // those that fall behind, or are on the way to infinity, are set aside until they fill the lanes.
@@ -70,19 +81,9 @@ class LoopLanes {
   [[nodiscard]] Statistics statistics() const { return statistics_; }
 
  private:
+  using Way = LoopWay;
   struct Free {
     void operator()(void* memory) const;
-  };
-
-  // A loop on its way.
-  struct Way {
-    std::size_t number = 0;  // in the study
-    double t = 0, next = 0;  // s: where it is, and how long the next step may be
-    bool arrives = false;    // with this attempt
-    int rejections = 0;      // in a row
-    std::size_t attempts = 0, steps = 0, rows = 1;
-    Shrinking shrinking;
-    std::vector<double> x{}, y{};  // of rows
   };
   struct Aside {
     Way way;

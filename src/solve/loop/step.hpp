@@ -124,7 +124,8 @@ struct Step : Work<Isa, drives, s> {
     return most;
   }
 
-  // Whether no angle gets beyond a quarter of pi: sines are the same then, and cost less.
+  // Whether no angle gets beyond a quarter of pi: sines are the same to the bit then, or a lane's
+  // would depend on another's, and cost less.
   BBSIM_INLINE static bool are_small(const Pack& of) {
     P most(0.0);
 #pragma GCC unroll 1
