@@ -8,24 +8,25 @@
 
 namespace bbsim::simd {
 
-// Of sines up to 0.7 by Newton's iteration, beyond by the C library.
+// Of sines up to 0.7 by Newton's iteration, beyond by the C library; each lane as if it were alone.
 template <class Isa, int lanes>
 BBSIM_INLINE Pack<Isa, lanes> arcsine(Pack<Isa, lanes> s) {
   using P = Pack<Isa, lanes>;
-  if (!all_of<P>(exceeds(P(0.7), size_of(s)))) {
-    P angle;
-    for (int l = 0; l < lanes; ++l) angle.v[l] = __builtin_asin(s.v[l]);
-    return angle;
-  }
+  const typename P::Mask small = exceeds(P(0.7), size_of(s));
   const P s2 = s * s;
   P angle = s * (P(1.0) + s2 * (P(1.0 / 6) +
                                 s2 * (P(3.0 / 40) + s2 * (P(15.0 / 336) + s2 * P(35.0 / 1152)))));
   // What is left after a step is below the square of it.
-  for (int i = 0; i < 6; ++i) {
+  typename P::Mask open = small;
+  for (int i = 0; i < 6 && any_of<P>(open); ++i) {
     const SinCos<P> at = sin_cos_of_small(angle);
     const P step = (at.sin - s) / at.cos;
-    angle = angle - step;
-    if (all_of<P>(exceeds(P(1e-8), size_of(step)))) break;
+    angle = choose(open, angle - step, angle);
+    open &= ~exceeds(P(1e-8), size_of(step));
+  }
+  if (all_of<P>(small)) return angle;
+  for (int l = 0; l < lanes; ++l) {
+    if (small[l] == 0) angle.v[l] = __builtin_asin(s.v[l]);
   }
   return angle;
 }

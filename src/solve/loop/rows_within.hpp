@@ -18,7 +18,7 @@ struct RowsWithin : Of {
     double from, per_length, of[s + 2][2];
   };
 
-  // Legendre's polynomial P_n is the sum of part[n][m] T_m: products of the coefficients of
+  // Legendre's polynomial P_n is the sum of parts.of[n][m] T_m: products of the coefficients of
   // (1 - z)^(-1/2), since P_n are those of ((1 - z e^(i t)) (1 - z e^(-i t)))^(-1/2), cos t = x.
   struct Parts {
     double of[s + 2][s + 2]{};

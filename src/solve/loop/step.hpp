@@ -188,17 +188,15 @@ struct Step : Work<Isa, drives, s> {
 #pragma GCC unroll 1
     for (int j = 0; j < s; ++j) {
       const P at = P(1.0) + P(2.0 * rows.c[j]) * ratio;
-      P before(1.0), now = at, sum[nv];
+      P sum[nv];
 #pragma GCC unroll 8
       for (int i = 0; i < nv; ++i) sum[i] = series[0][i];
-#pragma GCC unroll 1
-      for (int m = 1; m < s; ++m) {
+      Base::Courses::polynomials(
+          at, [&](int m, P value) __attribute__((always_inline)) {
+            if (m >= s) return;
 #pragma GCC unroll 8
-        for (int i = 0; i < nv; ++i) sum[i] += series[m][i] * now;
-        const P next = P((2.0 * m + 1) / (m + 1)) * at * now - P(double(m) / (m + 1)) * before;
-        before = now;
-        now = next;
-      }
+            for (int i = 0; i < nv; ++i) sum[i] += series[m][i] * value;
+          });
 #pragma GCC unroll 8
       for (int i = 0; i < nv; ++i) of.k[j][i] = sum[i];
     }
