@@ -10,6 +10,12 @@ if(BBSIM_WARNINGS_AS_ERRORS)
     $<$<CXX_COMPILER_ID:GNU>:-Wno-error=restrict;-Wno-error=stringop-overflow;-Wno-error=array-bounds;-Wno-error=maybe-uninitialized>)
 endif()
 
+if(BBSIM_UNITY)
+  # What these say of a source among others is not so of the source alone, which preset dev compiles.
+  target_compile_options(bbsim_options INTERFACE -Wno-shadow
+    $<$<COMPILE_LANG_AND_ID:CXX,GNU>:-Wno-subobject-linkage>)
+endif()
+
 # a*b + c must mean the same on every machine: results are compared to the bit.
 target_compile_options(bbsim_options INTERFACE -ffp-contract=off)
 

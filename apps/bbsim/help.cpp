@@ -9,7 +9,7 @@
 namespace bbsim::app {
 namespace {
 
-constexpr std::size_t widest = 80;
+constexpr std::size_t line_width = 80;
 constexpr std::size_t margin = 24;  // where descriptions begin
 
 // The words of a text, in lines that begin at column `indent`; the first one is at `column`
@@ -20,7 +20,7 @@ std::string wrapped(std::string_view text, std::size_t indent, std::size_t colum
   while (!text.empty()) {
     const std::size_t end = text.find(' ');
     const std::string_view word = text.substr(0, end);
-    if (!first && column + 1 + word.size() > widest) {
+    if (!first && column + 1 + word.size() > line_width) {
       result += '\n' + std::string(indent, ' ');
       column = indent;
     } else if (!first) {

@@ -35,7 +35,7 @@ bool is_scenario(const std::string& file) {
 }
 
 // One of the files, read; a scenario is yet to be run.
-struct Source {
+struct Replayed {
   std::string name;
   std::optional<Scenario> scenario{};
   std::optional<plot::Result> result{};
@@ -94,14 +94,14 @@ void check_arguments(const ReplayArguments& arguments) {
 }
 
 // All of them, and all that is wrong with them at once.
-std::vector<Source> read_all(const ReplayArguments& arguments, file::Outputs& outputs) {
+std::vector<Replayed> read_all(const ReplayArguments& arguments, file::Outputs& outputs) {
   std::vector<std::string> files = arguments.files;
   files.insert(files.end(), arguments.logs.begin(), arguments.logs.end());
   const std::vector<std::string> names = names_of(files);
-  std::vector<Source> sources;
+  std::vector<Replayed> sources;
   std::vector<Problem> problems;
   for (std::size_t i = 0; i < files.size(); ++i) {
-    Source source{names[i]};
+    Replayed source{names[i]};
     try {
       if (i >= arguments.files.size()) {
         outputs.reads(files[i], "--data");
@@ -127,7 +127,7 @@ std::vector<Source> read_all(const ReplayArguments& arguments, file::Outputs& ou
   return sources;
 }
 
-replay::Run run_scenario(const Source& source, const Options& options, ExitCode& code) {
+replay::Run run_scenario(const Replayed& source, const Options& options, ExitCode& code) {
   const Scenario& scenario = *source.scenario;
   const auto asked = scenario::columns_named(scenario.output.columns);
   const auto columns = with_pictured(asked, scenario);
@@ -161,10 +161,10 @@ ExitCode replay_files(const ReplayArguments& arguments, const Options& options) 
   file::Outputs outputs;
   if (!arguments.beside.summary.empty()) outputs.reads(arguments.beside.summary, "--summary");
   if (!arguments.beside.scenario.empty()) outputs.reads(arguments.beside.scenario, "--scenario");
-  std::vector<Source> sources = read_all(arguments, outputs);
+  std::vector<Replayed> sources = read_all(arguments, outputs);
   outputs.writes(output, arguments.output.empty() ? "the first file's name, without -o" : "-o");
 
-  const auto is_sweep = [](const Source& source) {
+  const auto is_sweep = [](const Replayed& source) {
     return source.result && source.result->is_sweep();
   };
   const auto sweeps = static_cast<std::size_t>(std::ranges::count_if(sources, is_sweep));
@@ -177,7 +177,7 @@ ExitCode replay_files(const ReplayArguments& arguments, const Options& options) 
   replay::Scene scene;
   scene.version = BBSIM_VERSION;
   ExitCode code = ExitCode::done;
-  for (Source& source : sources) {
+  for (Replayed& source : sources) {
     if (source.scenario) {
       scene.runs.push_back(run_scenario(source, options, code));
       if (code == ExitCode::interrupted) break;

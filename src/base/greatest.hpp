@@ -14,6 +14,10 @@ struct Peak {
   double at = 0, value = 0;
 };
 
+// A maximum's value needs its place to the square root of what it is to be good to: to so small a
+// part of the bracket.
+inline constexpr double good_place = 1e-7;
+
 // Where a maximum may lie, by the values at Chebyshev points: between two of them, about a third
 // which is above both, or is the higher of the two. It is looked for at the guess first.
 struct Bracket {

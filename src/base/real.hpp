@@ -2,8 +2,12 @@
 #pragma once
 
 #include <cmath>
+#include <limits>
 
 namespace bbsim {
+
+inline constexpr double infinity = std::numeric_limits<double>::infinity();
+inline constexpr double no_number = std::numeric_limits<double>::quiet_NaN();
 
 // Sine and cosine together. Overloaded for number types that have a faster way.
 template <class Real>

@@ -13,6 +13,9 @@ namespace bbsim {
 // The text shown so in quotation marks; "nothing" for an empty one.
 [[nodiscard]] std::string quoted(std::string_view text, std::size_t longest = 60);
 
+// The length for what another program said.
+inline constexpr std::size_t longest_saying = 200;
+
 // The length for what is never cut off, such as the name of a file.
 inline constexpr std::size_t uncut = static_cast<std::size_t>(-1);
 

@@ -24,7 +24,7 @@
 namespace bbsim::controller {
 namespace {
 
-constexpr std::size_t longest_line = 65536, longest_complaint = 4096, longest_shown = 200;
+constexpr std::size_t longest_line = 65536, longest_complaint = 4096;
 // Looks for an answer, some 50 us of them, before it is waited for: to be woken takes longer than
 // many a program thinks. As long as they succeed, and now and then again.
 constexpr int most_patience = 200;
@@ -120,7 +120,7 @@ void Child::refuse_early_words() {
     size_ = static_cast<std::size_t>(got);
   }
   const std::string_view words = received();
-  fail("it said " + bbsim::quoted(words.substr(0, words.find('\n')), longest_shown) +
+  fail("it said " + bbsim::quoted(words.substr(0, words.find('\n')), longest_saying) +
        " before it was asked: a line each is allowed, and no more");
 }
 
@@ -145,7 +145,7 @@ void Child::receive() {
   while (answer_ == 0) {
     if (size_ == buffer_.size()) {
       fail("its answer has no end within " + std::to_string(longest_line) +
-           " bytes: " + bbsim::quoted(received(), longest_shown));
+           " bytes: " + bbsim::quoted(received(), longest_saying));
     }
     const ssize_t got = read(output_.get(), buffer_.data() + size_, buffer_.size() - size_);
     if (got < 0 && errno == EINTR) continue;
@@ -153,7 +153,7 @@ void Child::receive() {
     if (got < 0) fail("it cannot be read from: " + file::error_text(errno));
     if (got == 0) {
       if (!has_ended(parting)) fail("it closed its standard output");
-      fail(size_ == 0 ? "" : "its answer breaks off: " + bbsim::quoted(received(), longest_shown));
+      fail(size_ == 0 ? "" : "its answer breaks off: " + bbsim::quoted(received(), longest_saying));
     }
     char* const start = buffer_.data() + size_;
     char* const end = start + got;
@@ -185,7 +185,7 @@ void Child::wait(short for_output) {
   if ((ended || (may_have && has_ended(0))) && events[0].revents == 0) {
     receive();  // what it said last
     if (answer_ == 0)
-      fail(size_ == 0 ? "" : "its answer breaks off: " + bbsim::quoted(received(), longest_shown));
+      fail(size_ == 0 ? "" : "its answer breaks off: " + bbsim::quoted(received(), longest_saying));
   }
 }
 
@@ -219,7 +219,7 @@ void Child::say_lines(bool all) {
 void Child::fail_by_silence() {
   std::string why = "it did not answer within " + number_text(timeout_) + " s";
   if (size_ > 0) {
-    why += ": of its answer there is " + bbsim::quoted(received(), longest_shown) +
+    why += ": of its answer there is " + bbsim::quoted(received(), longest_saying) +
            ", without a line break";
   } else {
     why += " (one that answers into a buffer has to flush it: print(..., flush=True) in Python)";

@@ -27,8 +27,6 @@ struct LibraryFunctions {
 
 namespace {
 
-constexpr std::size_t longest_shown = 200;
-
 [[noreturn]] void refuse(const std::string& path, const std::string& why) {
   throw KeyError("controller.library.file", "found " + shown(path, uncut) + ", " + why);
 }
@@ -44,7 +42,7 @@ std::shared_ptr<const LibraryFunctions> open(const std::string& path) {
   std::string error;
   void* const library = open_library(path, error);
   if (library == nullptr) {
-    refuse(path, "which cannot be opened: " + shown(error, longest_shown) +
+    refuse(path, "which cannot be opened: " + shown(error, longest_saying) +
                      "; allowed: a shared library, as bbsim/controller.h says");
   }
   const auto functions = std::make_shared<LibraryFunctions>();
@@ -115,7 +113,7 @@ Library::~Library() {
 
 std::string Library::last_error(const void* controller) const {
   const char* const text = functions_->last_error(controller);
-  return text == nullptr || *text == '\0' ? "it does not say why" : shown(text, longest_shown);
+  return text == nullptr || *text == '\0' ? "it does not say why" : shown(text, longest_saying);
 }
 
 void Library::create() {

@@ -107,10 +107,8 @@ class Reader {
   const char* end_;
 };
 
-constexpr std::size_t longest_shown = 200;
-
 std::string not_understood(std::string_view line, const std::string& why) {
-  return "its answer was " + bbsim::quoted(line, longest_shown) + ": " + why;
+  return "its answer was " + bbsim::quoted(line, longest_saying) + ": " + why;
 }
 
 // " (did you mean command?)", where one of the names is near; otherwise nothing.
@@ -145,7 +143,7 @@ std::optional<std::string> error_of(std::string_view line) {
 
 std::string refusal(std::string_view line, const std::string& why) {
   if (const auto error = error_of(line))
-    return "it gave up: " + bbsim::quoted(*error, longest_shown);
+    return "it gave up: " + bbsim::quoted(*error, longest_saying);
   return not_understood(line, why);
 }
 

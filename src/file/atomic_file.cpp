@@ -9,13 +9,13 @@
 #include <filesystem>
 
 #include "base/error.hpp"
+#include "file/descriptor.hpp"
 #include "file/temporaries.hpp"
 
 namespace bbsim::file {
 namespace {
 
-constexpr mode_t any_permissions = 0666;  // the umask takes away what it should
-constexpr unsigned most_attempts = 100;   // at a name that nobody has
+constexpr unsigned most_attempts = 100;  // at a name that nobody has
 
 // Short, whatever the target is called, so that it cannot exceed the longest name allowed.
 std::string temporary_name(unsigned attempt) {

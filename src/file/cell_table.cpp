@@ -51,4 +51,9 @@ CellTable read_hdf5_cells(const std::string& file) {
   return table;
 }
 
+const CellColumn* CellTable::find(std::string_view name) const {
+  const auto at = std::ranges::find(names, name);
+  return at == names.end() ? nullptr : &columns[static_cast<std::size_t>(at - names.begin())];
+}
+
 }  // namespace bbsim::file

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <initializer_list>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -37,6 +38,9 @@ struct CellTable {
   std::vector<CellColumn> columns;
   std::size_t rows = columns.empty() ? 0 : columns.front().size();
   Attributes attributes{};  // of an HDF5 file's root
+
+  // The column of that name, or null.
+  [[nodiscard]] const CellColumn* find(std::string_view name) const;
 };
 
 // Reads a CSV, in which fields may be quoted, or, by its ending, an HDF5 file; "-" is CSV on

@@ -30,6 +30,9 @@ class Descriptor {
   int number_ = -1;
 };
 
+// What a new file is opened with: the umask takes away what it should.
+inline constexpr mode_t any_permissions = 0666;
+
 // 0 to 2 are where messages go: a file that got one of them, because the program was started with
 // it closed, would be written into by accident. Takes the descriptor, and keeps errno.
 [[nodiscard]] Descriptor above_standard_streams(int number);

@@ -14,7 +14,7 @@ namespace {
 
 constexpr const char* module_name = "libbbsim_hdf5.so";
 constexpr const char* reader_name = "bbsim-hdf5-reader";
-constexpr const char* advice = "; write or read .csv instead, ";
+constexpr const char* way_out = "; write or read .csv instead, ";
 
 // The file of that name in the first of these folders that has it.
 ModuleFile find_file(const std::string& what, const char* name,
@@ -25,7 +25,7 @@ ModuleFile find_file(const std::string& what, const char* name,
     if (access(file.c_str(), F_OK) == 0) return {std::move(file), ""};
     looked_in.append(looked_in.empty() ? "" : " and ").append(folder);
   }
-  return {"", what + " " + name + " is not in " + looked_in + advice +
+  return {"", what + " " + name + " is not in " + looked_in + way_out +
                   "or install bbsim whole, or set BBSIM_MODULE_PATH to the module's folder"};
 }
 
@@ -41,14 +41,14 @@ Hdf5Module open_hdf5_module(const std::vector<std::string>& folders) {
   // Never closed: HDF5 cleans up when the process ends.
   void* library = dlopen(file.path.c_str(), RTLD_NOW | RTLD_LOCAL);
   if (library == nullptr) {
-    return {nullptr, std::string("the HDF5 module does not open: ") + dlerror() + advice +
+    return {nullptr, std::string("the HDF5 module does not open: ") + dlerror() + way_out +
                          "or install the HDF5 library that it was built with"};
   }
   const auto entry = reinterpret_cast<bbsim_hdf5_entry_function>(dlsym(library, BBSIM_HDF5_ENTRY));
   const bbsim_hdf5_module* functions = entry == nullptr ? nullptr : entry();
   if (functions == nullptr || functions->interface_version != BBSIM_HDF5_INTERFACE) {
     return {nullptr, "the HDF5 module " + file.path + " belongs to another version of bbsim" +
-                         advice + "or install the two together"};
+                         way_out + "or install the two together"};
   }
   return {functions, ""};
 }

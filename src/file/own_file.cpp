@@ -7,16 +7,16 @@
 #include <cerrno>
 
 #include "base/error.hpp"
+#include "file/descriptor.hpp"
 #include "file/target.hpp"
 
 namespace bbsim::file {
 namespace {
 
-constexpr mode_t any_permissions = 0666;  // the umask takes away what it should
 constexpr int always = O_NOFOLLOW | O_NONBLOCK | O_NOCTTY | O_CLOEXEC;
 constexpr off_t largest_text = off_t{64} * 1024 * 1024;  // bytes: a scenario has at most 1 MiB
 
-[[noreturn]] void refuse(const std::string& name, const std::string& found) {
+[[noreturn]] void refuse_kind(const std::string& name, const std::string& found) {
   throw OutputError(
       "cannot write " + name + ": it is " + found +
       "; allowed: a regular file of your own, with no other name; remove it, or choose "
@@ -27,11 +27,11 @@ constexpr off_t largest_text = off_t{64} * 1024 * 1024;  // bytes: a scenario ha
 int check(const std::string& name, int descriptor) {
   struct stat status {};
   if (fstat(descriptor, &status) != 0) fail_to_write(name, errno);
-  if (!S_ISREG(status.st_mode)) refuse(name, "no regular file");
+  if (!S_ISREG(status.st_mode)) refuse_kind(name, "no regular file");
   if (status.st_uid != geteuid()) {
-    refuse(name, "a file of another user (number " + std::to_string(status.st_uid) + ")");
+    refuse_kind(name, "a file of another user (number " + std::to_string(status.st_uid) + ")");
   }
-  if (status.st_nlink > 1) refuse(name, "a file with another name, too (a hard link)");
+  if (status.st_nlink > 1) refuse_kind(name, "a file with another name, too (a hard link)");
   return status.st_nlink == 0 ? ENOENT : 0;
 }
 
@@ -39,7 +39,7 @@ int check(const std::string& name, int descriptor) {
 Descriptor open_existing(const std::string& name, int how) {
   Descriptor file = above_standard_streams(open(name.c_str(), how | always));
   if (!file.is_open()) {
-    if (errno == ELOOP) refuse(name, "a symbolic link");
+    if (errno == ELOOP) refuse_kind(name, "a symbolic link");
     if (errno != ENOENT) fail_to_write(name, errno);
     return file;
   }
@@ -79,7 +79,7 @@ OwnText read_own_file(const std::string& name) {
   if (!file.is_open()) return {};
   struct stat status {};
   if (fstat(file.get(), &status) != 0) fail_to_write(name, errno);
-  if (status.st_size > largest_text) refuse(name, "larger than any plan");
+  if (status.st_size > largest_text) refuse_kind(name, "larger than any plan");
   OwnText read{std::string(static_cast<std::size_t>(status.st_size), '\0'), true};
   const ssize_t size = read_at(file.get(), read.text.data(), read.text.size(), 0);
   if (size < 0) throw OutputError("cannot read " + name + ": " + error_text(errno));

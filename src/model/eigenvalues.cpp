@@ -11,4 +11,9 @@ std::vector<std::complex<double>> eigenvalues_of(const Eigen::MatrixXd& matrix) 
   return {solver.eigenvalues().begin(), solver.eigenvalues().end()};
 }
 
+HessenbergForm hessenberg_form(const Eigen::MatrixXd& a) {
+  const Eigen::HessenbergDecomposition<Eigen::MatrixXd> form(a);
+  return {form.matrixH(), form.matrixQ()};
+}
+
 }  // namespace bbsim::model

@@ -12,7 +12,7 @@
 namespace bbsim::model {
 namespace {
 
-constexpr int angle = RigLayout::angle;  // of the first servo, among the states
+constexpr int servo_angle = RigLayout::angle;  // of the first servo, among the states
 
 // Kinetic and potential energy of a ball that rolls and of what turns with the plane, (M51), J.
 double energy_of(const CoupledBall& ball, const double* z, const RigExtras& plane) {
@@ -88,7 +88,7 @@ HybridSystem::HybridSystem(const Model& model, double resolution) : model_(model
   pass_stops(-unlimited);
   if (model_.rig) {
     const Rig& rig = *model_.rig;
-    rate_ = angle + rig.servos;
+    rate_ = servo_angle + rig.servos;
     is_direct_ = rig.between.none();
     only_servos_settle_ = rig.sampled && !rig.limits_commands() && !rig.between.has_pieces();
     const ServoResponses servo = with_loop([](const auto& loop) { return loop.servo(); });
@@ -185,7 +185,7 @@ void HybridSystem::take_sample(double t, const double* z) {
   const std::optional<Pair> seen = begin_sample(t);
   const auto& reference = reference_at(t);
   SampledController& controller = sampled_->controller;
-  double servo[4] = {z[angle], z[angle + 1], z[rate_], z[rate_ + 1]};
+  double servo[4] = {z[servo_angle], z[servo_angle + 1], z[rate_], z[rate_ + 1]};
   if (ExternalController* const external = this->controller()) {
     if (number == 0) external->begin();
     const ControllerSample sample{static_cast<std::size_t>(number), t, seen, servo, reference};
@@ -194,7 +194,7 @@ void HybridSystem::take_sample(double t, const double* z) {
     return;
   }
   const Between& between = model_.rig->between;
-  if (!between.none()) between.believed(z + angle, z + rate_, servo);
+  if (!between.none()) between.believed(z + servo_angle, z + rate_, servo);
   const Pair command = controller.command(seen, servo, reference);
   end_sample(command, controller.last_seen());
 }
@@ -235,7 +235,7 @@ void HybridSystem::settle_commands(double t, const double* z) {
 }
 
 AxisState HybridSystem::axis_state(int i, const Wanted& wanted, const double* z) const {
-  return {z[angle + i], z[rate_ + i], wanted.demand[i], wanted.told[i]};
+  return {z[servo_angle + i], z[rate_ + i], wanted.demand[i], wanted.told[i]};
 }
 
 LinkCurve& HybridSystem::curve(std::size_t axis) {
@@ -258,7 +258,7 @@ void HybridSystem::settle_pieces(double t, const double* z) {
     const Linkage& linkage = model_.rig->between.linkages[i];
     if (!linkage.table) continue;
     const AxisMode& axis = mode_->axis[i];
-    const double horn = axis.ratio * z[static_cast<std::size_t>(angle) + i] + axis.offset;
+    const double horn = axis.ratio * z[static_cast<std::size_t>(servo_angle) + i] + axis.offset;
     pieces_[i] =
         linkage.piece_at(pieces_[i], horn, axis.ratio * z[static_cast<std::size_t>(rate_) + i]);
     if (!model_.rig->sampled && linkage.curve.assumed == Assumed::exact) {
@@ -274,7 +274,7 @@ void HybridSystem::evaluate_pieces(const Wanted& wanted, const double* z, double
     const Linkage& linkage = model_.rig->between.linkages[i];
     if (!linkage.table) continue;
     const AxisMode& axis = mode_->axis[i];
-    const double horn = axis.ratio * z[static_cast<std::size_t>(angle) + i] + axis.offset;
+    const double horn = axis.ratio * z[static_cast<std::size_t>(servo_angle) + i] + axis.offset;
     const std::size_t last = linkage.table->knots().size() - 2;
     const CommandRange holds = linkage.piece_range(pieces_[i]);
     // The ends of the whole are a dead point's matter.
@@ -298,7 +298,7 @@ void HybridSystem::settle(double t, double* z) {
 bool HybridSystem::stays_as_it_is(const double* z) const {
   if (!only_servos_settle_) return false;
   for (std::size_t i = 0; i < servos_.size(); ++i) {
-    if (!servos_[i].stays_free(z[static_cast<std::size_t>(angle) + i],
+    if (!servos_[i].stays_free(z[static_cast<std::size_t>(servo_angle) + i],
                                z[static_cast<std::size_t>(rate_) + i])) {
       return false;
     }
@@ -329,8 +329,8 @@ bool HybridSystem::settle_servos(double t, double* z) {
   for (int i = 0; i < model_.rig->servos; ++i) {
     AxisState state = axis_state(i, wanted, z);
     servos_[static_cast<std::size_t>(i)].settle(state, mode_->axis[i]);
-    moved = moved || state.angle != z[angle + i] || state.rate != z[rate_ + i];
-    z[angle + i] = state.angle;
+    moved = moved || state.angle != z[servo_angle + i] || state.rate != z[rate_ + i];
+    z[servo_angle + i] = state.angle;
     z[rate_ + i] = state.rate;
   }
   const RigExtras now = plane(z);
@@ -398,7 +398,7 @@ std::array<HeldMotion, 2> HybridSystem::held_motions(const double* z) const {
     std::array<HeldMotion, 2> motions;
     for (std::size_t i = 0; i < 2; ++i) {
       motions[i] = held_motion(loop.servo().of[i], loop.mode.axis[i], loop.mode.command[i],
-                               z[angle + i], z[rate_ + i]);
+                               z[servo_angle + i], z[rate_ + i]);
     }
     return motions;
   });

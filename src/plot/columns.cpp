@@ -342,7 +342,7 @@ std::string did_you_mean(const std::vector<Result>& runs, const std::string& nam
   return nearest.empty() ? "" : "; did you mean " + std::string(nearest) + "?";
 }
 
-std::string names_of(const std::vector<Result>& runs) {
+std::string columns_of(const std::vector<Result>& runs) {
   std::string names;
   for (const Column& column : runs.front().columns) {
     names += (names.empty() ? "" : ", ") + column.name;
@@ -429,7 +429,7 @@ std::vector<PlannedPanel> plan_panels(const std::vector<Result>& runs,
       if (std::ranges::none_of(runs,
                                [&](const Result& run) { return run.find(name) != nullptr; })) {
         throw InputError(found + did_you_mean(runs, name) + "; " + runs.front().file + " has " +
-                         names_of(runs) + ", and path is their picture in the plane");
+                         columns_of(runs) + ", and path is their picture in the plane");
       }
       if (!any_draws(runs, name)) throw InputError(found + ", which holds no finite number");
       const Unit unit = drawn_unit(name, driven);

@@ -11,7 +11,6 @@
 namespace bbsim::plot {
 namespace {
 
-const Stroke band_of_reference{"#d0d0d0", 6};
 const Stroke limit{"#000000", 1.2, Dash::dashed};
 
 // More marks than these stand at the panels' top only, without lines through them.

@@ -39,6 +39,9 @@ struct EventMarks {
   std::vector<Kind> kinds_;
 };
 
+// What a reference is drawn with, below the runs.
+inline const Stroke band_of_reference{"#d0d0d0", 6};
+
 // The stroke of a run among several, of the only one, the first.
 [[nodiscard]] Stroke stroke_of_run(const std::vector<Result>& runs, const Result& run);
 

@@ -11,7 +11,6 @@
 namespace bbsim::plot {
 namespace {
 
-const Stroke band_of_reference{"#d0d0d0", 6};
 const Stroke edge_of_plate{"#404040", 1.5};
 
 struct Plate {

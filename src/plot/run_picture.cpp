@@ -67,7 +67,7 @@ std::string base_name(const Result& run) {
 }
 
 // Names of runs in a comparison: of the files, with their folders if the files have one name.
-std::vector<std::string> names_of(const std::vector<Result>& runs) {
+std::vector<std::string> labels_of(const std::vector<Result>& runs) {
   std::vector<std::string> names;
   for (const Result& run : runs) {
     const auto same = std::ranges::count_if(
@@ -105,7 +105,7 @@ double add_top(Picture& picture, const std::vector<Result>& runs) {
   }
   if (runs.size() == 1) return y - 8;
   std::vector<Entry> legend;
-  const std::vector<std::string> names = names_of(runs);
+  const std::vector<std::string> names = labels_of(runs);
   for (std::size_t r = 0; r < runs.size(); ++r) {
     legend.push_back({names[r], stroke_of_run(runs, runs[r])});
   }

@@ -2,16 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <tuple>
 
 #include "base/error.hpp"
 #include "base/number_text.hpp"
+#include "base/real.hpp"
 
 namespace bbsim::record {
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 ValuePair compare_numbers(double a, double b, const Allowance& allowance) {
   ValuePair pair{.a = a, .b = b};
@@ -80,12 +78,6 @@ ColumnComparison compare_column(const std::string& name, const file::CellColumn&
   return result;
 }
 
-const file::CellColumn* find(const file::CellTable& table, const std::string& name) {
-  const auto at = std::find(table.names.begin(), table.names.end(), name);
-  if (at == table.names.end()) return nullptr;
-  return &table.columns[static_cast<std::size_t>(at - table.names.begin())];
-}
-
 std::string joined(const std::vector<std::string>& names) {
   std::string text;
   for (const std::string& name : names) text += (text.empty() ? "" : ", ") + name;
@@ -93,7 +85,7 @@ std::string joined(const std::vector<std::string>& names) {
 }
 
 void require_column(const file::CellTable& table, const char* which, const std::string& name) {
-  if (find(table, name) != nullptr) return;
+  if (table.find(name) != nullptr) return;
   throw InputError("--columns: the " + std::string(which) + " file has no column \"" + name +
                    "\"; it has " + joined(table.names));
 }
@@ -106,8 +98,8 @@ void require_tolerance(const char* name, double value) {
 
 // t of a row; or, of a column whose rows are as t is, of a number in it.
 std::optional<double> time_of(const file::CellTable& table, const ColumnComparison& column) {
-  const file::CellColumn* const time = find(table, "t");
-  if (time == nullptr || time->width != find(table, column.name)->width) return {};
+  const file::CellColumn* const time = table.find("t");
+  if (time == nullptr || time->width != table.find(column.name)->width) return {};
   const std::size_t i = time->width > 1 ? column.worst.position : column.worst.row;
   if (i >= time->size() || time->has_text(i)) return {};
   return time->numbers[i];
@@ -139,12 +131,12 @@ Comparison compare(const file::CellTable& a, const file::CellTable& b, const All
   }
   if (columns.empty()) {
     for (const std::string& name : b.names) {
-      if (find(a, name) == nullptr) result.only_in_b.push_back(name);
+      if (a.find(name) == nullptr) result.only_in_b.push_back(name);
     }
   }
   for (const std::string& name : columns.empty() ? a.names : columns) {
-    const file::CellColumn& in_a = *find(a, name);
-    const file::CellColumn* in_b = find(b, name);
+    const file::CellColumn& in_a = *a.find(name);
+    const file::CellColumn* in_b = b.find(name);
     if (in_b == nullptr) {
       result.only_in_a.push_back(name);
       continue;

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "base/greatest.hpp"
+
 namespace bbsim::record {
 namespace {
 
@@ -11,8 +13,6 @@ namespace {
 constexpr std::size_t most_parts = 64;
 // They show it, if what they leave out is so small a part of its changes that no maximum is missed.
 constexpr double shown = 1e-4;
-// A maximum's value needs its place to the square root of what it is to be good to.
-constexpr double place = 1e-7;
 // What is nearer than this is no greater, but rounded differently.
 constexpr double rounding = 1e-14;
 
@@ -119,7 +119,7 @@ void Extremes::climb_within(std::size_t i, const solve::Piece& piece,
     for (Peak* const peak : {&bracket.from, &bracket.best, &bracket.to}) {
       peak->value = value_at(peak->at);
     }
-    const Peak peak = climb(bracket, place * (bracket.to.at - bracket.from.at), value_at);
+    const Peak peak = climb(bracket, good_place * (bracket.to.at - bracket.from.at), value_at);
     take(i, peak.value, piece.from() + length * peak.at);
   };
   const double& greatest = greatest_[i].value;

@@ -2,7 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+
+#include "base/real.hpp"
 
 namespace bbsim::record {
 namespace {
@@ -10,8 +11,6 @@ namespace {
 using scenario::Instant;
 using scenario::Measure;
 using scenario::StepMetric;
-
-constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
 // As python-control's step_info() has them, of all instants in place of its samples.
 double step_metric(const Curve& curve, StepMetric metric) {
@@ -23,7 +22,7 @@ double step_metric(const Curve& curve, StepMetric metric) {
     const Curve::Extreme& most = above ? up : down;
     return metric == StepMetric::peak ? std::abs(most.value) : most.t;
   }
-  if (end == 0) return none;
+  if (end == 0) return no_number;
   const auto risen = curve.first_at_least(sign, 0.9 * size);
   switch (metric) {
     case StepMetric::rise_time:
@@ -46,7 +45,7 @@ double step_metric(const Curve& curve, StepMetric metric) {
     case StepMetric::steady_state_value:
       break;
   }
-  return none;
+  return no_number;
 }
 
 std::optional<Curve::Place> place_of(const Instant& instant, const Curve& curve) {
@@ -69,13 +68,13 @@ std::optional<Curve::Place> place_of(const Instant& instant, const Curve& curve)
 
 double measured(const Measure& measure, const CurveOf& curve_of) {
   const Curve& curve = curve_of(*measure.column);
-  if (curve.empty()) return none;
+  if (curve.empty()) return no_number;
   if (measure.kind == Measure::Kind::step) return step_metric(curve, measure.metric);
   const Instant& instant = measure.instant;
   const Curve& watched = instant.column != nullptr ? curve_of(*instant.column) : curve;
-  if (watched.empty()) return none;
+  if (watched.empty()) return no_number;
   const std::optional<Curve::Place> place = place_of(instant, watched);
-  if (!place) return none;
+  if (!place) return no_number;
   return measure.kind == Measure::Kind::when ? place->t : curve.value(*place);
 }
 

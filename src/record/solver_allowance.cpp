@@ -53,12 +53,6 @@ Source source_of(const file::CellTable& table) {
   return source;
 }
 
-const file::CellColumn* find(const file::CellTable& table, std::string_view name) {
-  const auto at = std::ranges::find(table.names, name);
-  if (at == table.names.end()) return nullptr;
-  return &table.columns[static_cast<std::size_t>(at - table.names.begin())];
-}
-
 // The largest finite size.
 double largest(const file::CellColumn& column) {
   double size = 0;
@@ -87,7 +81,7 @@ Claim claim_of(const file::CellTable& table) {
   if (source.text.empty()) return claim;
 
   double radius = number_at(source, "ball.radius", Dimension::length).value_or(1);
-  if (const file::CellColumn* varied = find(table, "ball.radius")) {
+  if (const file::CellColumn* varied = table.find("ball.radius")) {
     for (const double value : varied->numbers) {
       if (value > 0) radius = std::min(radius, value);
     }
@@ -98,10 +92,10 @@ Claim claim_of(const file::CellTable& table) {
   double frequency =
       number_at(source, "gimbal.servo.natural_frequency", Dimension::angular_rate).value_or(0);
   double damping = number_at(source, "gimbal.servo.damping", Dimension::number).value_or(0);
-  if (const file::CellColumn* varied = find(table, "gimbal.servo.natural_frequency")) {
+  if (const file::CellColumn* varied = table.find("gimbal.servo.natural_frequency")) {
     frequency = std::max(frequency, largest(*varied));
   }
-  if (const file::CellColumn* varied = find(table, "gimbal.servo.damping")) {
+  if (const file::CellColumn* varied = table.find("gimbal.servo.damping")) {
     damping = std::max(damping, largest(*varied));
   }
   claim.acceleration_unit = std::max(1.0, frequency * (frequency + 2 * damping));

@@ -2,19 +2,17 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <map>
 
 #include "base/error.hpp"
 #include "base/number_text.hpp"
+#include "base/real.hpp"
 
 namespace bbsim::record {
 namespace {
 
 using file::CellColumn;
 using file::CellTable;
-
-constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
 std::string names_text(const std::vector<std::string>& names) {
   std::string text;
@@ -49,7 +47,7 @@ std::vector<std::string> all_measures(const CellTable& table) {
 }
 
 double quantile(const std::vector<double>& sorted, double part) {
-  if (sorted.empty()) return none;
+  if (sorted.empty()) return no_number;
   const double place = part * static_cast<double>(sorted.size() - 1);
   const auto below = static_cast<std::size_t>(place);
   const std::size_t above = std::min(below + 1, sorted.size() - 1);
@@ -59,7 +57,7 @@ double quantile(const std::vector<double>& sorted, double part) {
 GroupFigures figures_of(const std::string& measure, std::vector<double> values,
                         const std::vector<double>& quantiles) {
   std::ranges::sort(values);
-  GroupFigures figures{measure, values.size(), none, none, none, none, {}};
+  GroupFigures figures{measure, values.size(), no_number, no_number, no_number, no_number, {}};
   for (const double part : quantiles) figures.quantiles.push_back(quantile(values, part));
   if (values.empty()) return figures;
   figures.least = values.front();

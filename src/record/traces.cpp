@@ -7,9 +7,9 @@
 namespace bbsim::record {
 namespace {
 
-constexpr std::size_t most_parts = 64;
+constexpr std::size_t most_intervals = 64;
 // What more points would change is of this size, relative to the values.
-constexpr double shown = 1e-14;
+constexpr double unseen = 1e-14;
 
 }  // namespace
 
@@ -36,7 +36,7 @@ void Traces::accept(const solve::Piece& piece) {
     const double* const values = columns_[i];
     double size = 0;
     for (std::size_t p = 0; p < points.size(); ++p) size = std::max(size, std::abs(values[p]));
-    return !(points.tail(values) > shown * size);
+    return !(points.tail(values) > unseen * size);
   };
   for (std::size_t parts = piece.parts();; parts *= 2) {
     const ChebyshevPoints& points = tables_.points(parts);
@@ -51,7 +51,7 @@ void Traces::accept(const solve::Piece& piece) {
     columns_.evaluate(times_.data(), rows_.data(), count);
     bool enough = true;
     for (std::size_t i = 0; enough && i < curves_.size(); ++i) enough = shows(i, points);
-    if (!enough && 2 * parts <= most_parts) continue;
+    if (!enough && 2 * parts <= most_intervals) continue;
     for (std::size_t i = 0; i < curves_.size(); ++i) {
       curves_[i].add_piece(piece.from(), piece.to(), points, columns_[i]);
     }

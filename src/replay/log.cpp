@@ -24,7 +24,7 @@ struct Mapped {
 };
 
 [[noreturn]] void refuse(const std::string& part, const std::string& what) {
-  throw InputError("--map: found " + quoted(part, uncut) + what);
+  throw InputError("--map: found " + bbsim::quoted(part, uncut) + what);
 }
 
 Dimension dimension_of(std::string_view unit) {
@@ -59,7 +59,7 @@ Mapped mapped(const std::string& part) {
   if (column == nullptr) {
     std::vector<std::string_view> names;
     for (const scenario::Column& one : scenario::catalogue) names.push_back(one.name);
-    refuse(part, ": there is no column " + quoted(name) + near(name, names) +
+    refuse(part, ": there is no column " + bbsim::quoted(name) + near(name, names) +
                      "; allowed: those of `bbsim columns`");
   }
   std::string from = part.substr(equals + 1);
@@ -90,7 +90,7 @@ void require_numbers(const plot::Result& log, const plot::Column& column) {
   for (std::size_t row = 0; row < column.texts.size(); ++row) {
     if (column.texts[row].empty() || !std::isnan(column.numbers[row])) continue;
     throw InputError(log.file + ": column " + shown(column.name) + ", row " +
-                     std::to_string(row + 1) + ": found " + quoted(column.texts[row]) +
+                     std::to_string(row + 1) + ": found " + bbsim::quoted(column.texts[row]) +
                      "; allowed: numbers, or nothing where there is none");
   }
 }
@@ -114,7 +114,7 @@ Run run_of_log(plot::Result log, const std::string& map, const std::string& name
         names.push_back(there.name);
         known += (known.empty() ? "" : ", ") + shown(there.name);
       }
-      throw InputError("--map: " + log.file + " has no column " + quoted(one.from) +
+      throw InputError("--map: " + log.file + " has no column " + bbsim::quoted(one.from) +
                        near(one.from, names) + "; it has " + known);
     }
     require_numbers(log, *column);

@@ -9,7 +9,7 @@
 namespace bbsim::replay {
 namespace {
 
-[[noreturn]] void refuse(const std::string& name, const std::string& what) {
+[[noreturn]] void refuse_run(const std::string& name, const std::string& what) {
   throw InputError(name + ": cannot be replayed: " + what);
 }
 
@@ -17,46 +17,48 @@ void check_times(const Run& run, const std::vector<double>& times) {
   for (std::size_t row = 0; row < times.size(); ++row) {
     const std::string place = "t in row " + std::to_string(row + 1) + " is ";
     if (!std::isfinite(times[row])) {
-      refuse(run.name, place + number_text(times[row]) + "; every row needs a finite time");
+      refuse_run(run.name, place + number_text(times[row]) + "; every row needs a finite time");
     }
     if (row > 0 && times[row] <= times[row - 1]) {
-      refuse(run.name, place + number_text(times[row]) + ", after " + number_text(times[row - 1]) +
-                           "; times have to increase");
+      refuse_run(run.name, place + number_text(times[row]) + ", after " +
+                               number_text(times[row - 1]) + "; times have to increase");
     }
   }
 }
 
 void check_run(const Run& run) {
   if (find_series(run, "t") == nullptr) {
-    refuse(run.name, "it has no column t; a replay needs t, x and y");
+    refuse_run(run.name, "it has no column t; a replay needs t, x and y");
   }
   if (find_series(run, "x") == nullptr && find_series(run, "y") == nullptr) {
-    refuse(run.name, "it has neither a column x nor y; a replay needs t, x and y");
+    refuse_run(run.name, "it has neither a column x nor y; a replay needs t, x and y");
   }
   const std::size_t rows = row_count(run);
-  if (rows == 0) refuse(run.name, "it has no rows");
+  if (rows == 0) refuse_run(run.name, "it has no rows");
   for (const Series& column : run.columns) {
     if (column.values.size() != rows) {
-      refuse(run.name, "column " + column.name + " has " + std::to_string(column.values.size()) +
-                           " rows, and t has " + std::to_string(rows));
+      refuse_run(run.name, "column " + column.name + " has " +
+                               std::to_string(column.values.size()) + " rows, and t has " +
+                               std::to_string(rows));
     }
   }
   if (!run.orientation.empty() && run.orientation.size() != rows) {
-    refuse(run.name, "there are " + std::to_string(run.orientation.size()) +
-                         " orientations of the ball, and t has " + std::to_string(rows) + " rows");
+    refuse_run(run.name, "there are " + std::to_string(run.orientation.size()) +
+                             " orientations of the ball, and t has " + std::to_string(rows) +
+                             " rows");
   }
   check_times(run, find_series(run, "t")->values);
 }
 
 void check_sweep(const Sweep& sweep) {
   const std::size_t cases = sweep.status.size();
-  if (cases == 0) refuse(sweep.name, "it has no cases");
-  if (sweep.keys.empty()) refuse(sweep.name, "no key varies in it");
-  if (sweep.measures.empty()) refuse(sweep.name, "it has no measure");
+  if (cases == 0) refuse_run(sweep.name, "it has no cases");
+  if (sweep.keys.empty()) refuse_run(sweep.name, "no key varies in it");
+  if (sweep.measures.empty()) refuse_run(sweep.name, "it has no measure");
   const auto check = [&](const std::string& name, std::size_t rows) {
     if (rows != cases) {
-      refuse(sweep.name, "column " + name + " has " + std::to_string(rows) +
-                             " rows, and status has " + std::to_string(cases));
+      refuse_run(sweep.name, "column " + name + " has " + std::to_string(rows) +
+                                 " rows, and status has " + std::to_string(cases));
     }
   };
   check("case", sweep.cases.size());

@@ -48,7 +48,7 @@ void read_waypoints(yaml::Keys& keys, WaypointReference& way) {
   if (fine) check_times(*keys.find("times"), way);
 }
 
-void read_table(yaml::Keys& keys, TableReference& table) {
+void read_table_reference(yaml::Keys& keys, TableReference& table) {
   TableRows rows;
   read_table_rows(keys, {"x", "y"}, "length", rows);
   if (rows.values.empty()) return;
@@ -83,7 +83,7 @@ void read_reference(yaml::Keys& keys, Reference& reference) {
   read_kind(keys, "point", PointRule{}, PointReference{}, reference);
   read_kind(keys, "lissajous", yaml::MappingOf(read_lissajous), LissajousReference{}, reference);
   read_kind(keys, "waypoints", yaml::MappingOf(read_waypoints), WaypointReference{}, reference);
-  read_kind(keys, "table", yaml::MappingOf(read_table), TableReference{}, reference);
+  read_kind(keys, "table", yaml::MappingOf(read_table_reference), TableReference{}, reference);
 }
 
 }  // namespace bbsim::scenario

@@ -18,18 +18,18 @@ constexpr std::size_t most_values = 1'000'000'000;
 constexpr std::string_view allowed =
     "linear:FROM:TO:COUNT, log:FROM:TO:COUNT, list:A,B,C, uniform:FROM:TO or normal:MEAN:SD";
 
-using Kind = VariationSpec::Kind;
+using Way = VariationSpec::Kind;
 
 struct Form {
   std::string_view name;
-  Kind kind;
+  Way kind;
   std::size_t parts;  // after the name
 };
-constexpr Form forms[] = {{"linear", Kind::linear, 3},
-                          {"log", Kind::log, 3},
-                          {"list", Kind::list, 1},
-                          {"uniform", Kind::uniform, 2},
-                          {"normal", Kind::normal, 2}};
+constexpr Form forms[] = {{"linear", Way::linear, 3},
+                          {"log", Way::log, 3},
+                          {"list", Way::list, 1},
+                          {"uniform", Way::uniform, 2},
+                          {"normal", Way::normal, 2}};
 
 // Parts between separators that stand in no brackets and no quotes.
 std::vector<std::string> parted(std::string_view text, char separator) {
@@ -84,7 +84,7 @@ VariationSpec parse_variation(const Variation& variation) {
   const std::string_view rest = text.substr(colon + 1);
   VariationSpec spec;
   spec.kind = form->kind;
-  if (spec.kind == Kind::list) {
+  if (spec.kind == Way::list) {
     spec.values = parted(rest, ',');
     spec.count = spec.values.size();
   } else {

@@ -4,16 +4,14 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
-#include <limits>
 
 #include "base/cpu_clock.hpp"
+#include "base/real.hpp"
 #include "solve/integrate.hpp"
 #include "study/reference.hpp"
 
 namespace bbsim::study {
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 // Far below the error of any double, in scenes that grow a millionfold as well.
 constexpr double reference_tolerance = 1e-22;

@@ -5,13 +5,12 @@
 #include <cstddef>
 #include <limits>
 
+#include "base/real.hpp"
 #include "solve/radau/radau.hpp"
 #include "study/reference.hpp"
 
 namespace bbsim::study {
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 // The tolerance of checks, unless the run's is nearly as fine; then it is the run's times
 // check_factor.

@@ -2,12 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+
+#include "base/real.hpp"
 
 namespace bbsim::study {
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 // Factors stay while each pass makes the error at least so much smaller: another pass in quad
 // costs a tenth of new factors.

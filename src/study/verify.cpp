@@ -1,10 +1,3 @@
-// Where the bounds come from.
-//
-// An integrator with tolerances rtol and atol may leave, in each step, an error of rtol |z| + atol
-// in each state. If it is left in a speed, the position drifts by that times the rest of the
-// scene; where a scene grows exponentially, an error grows as the solution itself, whose largest
-// value is taken for |z|. Hence, for positions, for u = r gamma' and for r gamma,
-//     allowance = steps (rtol size + atol) (1 + end / 1 s).
 #include "study/verify.hpp"
 
 #include <algorithm>
@@ -13,63 +6,29 @@
 #include <cstddef>
 #include <functional>
 #include <iterator>
-#include <limits>
 #include <string>
 #include <utility>
 #include <variant>
 #include <vector>
 
+#include "base/real.hpp"
 #include "model/ball/dynamics.hpp"
 #include "model/model.hpp"
 #include "scenario/reader.hpp"
 #include "solve/choose.hpp"
-#include "solve/integrate.hpp"
 #include "solve/output_grid.hpp"
 #include "study/verify_coupled.hpp"
 #include "study/verify_linkages.hpp"
 #include "study/verify_references.hpp"
+#include "study/whole_run.hpp"
 
 namespace bbsim::study {
 namespace {
 
 using model::Sample;
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr solve::Tolerances tight{1e-12, 1e-14};
 // For BDF and Adams, whose orders of at most 5 and 12 make a finer one expensive.
 constexpr solve::Tolerances of_multistep{1e-9, 1e-11};
-
-// A whole run in the paper's symbols, with what it may be wrong by.
-struct Run {
-  std::vector<Sample> samples;
-  double allowance = 0;  // m; infinite if the run did not come to its end
-  double size = 0;       // largest |x|, |y|, |x'|, |y'|, |u|, in m and m/s
-  bool done = false;
-};
-
-Run run(const Scenario& scene, const solve::Watch& watch, Method method = Method::automatic,
-        solve::Tolerances tolerances = tight) {
-  const model::Model model = model::assemble(scene, true);
-  const solve::OutputGrid grid(scene.time);
-  solve::Trajectory rows(model.row_size());
-  const solve::Outcome outcome =
-      solve::integrate(model, method, tolerances, grid, rows, {watch.stop, {}});
-  Run result;
-  result.done = outcome.ending == solve::Ending::done && rows.rows() == grid.size();
-  for (std::size_t i = 0; i < rows.rows(); ++i) {
-    const double* row = rows.row(i);
-    const Sample sample = model.sample(grid[i], row);
-    const model::BallMotion& ball = sample.ball;
-    for (const double value :
-         {ball.x, ball.y, ball.x_dot, ball.y_dot, scene.ball.radius * ball.gamma_dot}) {
-      result.size = std::max(result.size, std::abs(value));
-    }
-    result.samples.push_back(sample);
-  }
-  result.allowance = static_cast<double>(outcome.statistics.steps) *
-                     (tolerances.rtol * result.size + tolerances.atol) * (1 + scene.time.end);
-  return result;
-}
 
 // Largest difference at one instant: x, y, r gamma in m, u in m/s.
 struct Expected {
@@ -90,7 +49,7 @@ double distance(const Expected& a, const Expected& b) {
   return largest;
 }
 
-double largest_distance(const Run& run, double r,
+double largest_distance(const WholeRun& run, double r,
                         const std::function<Expected(std::size_t)>& expected) {
   if (!run.done) return infinity;
   double largest = 0;
@@ -121,7 +80,7 @@ Scenario everything_moves() {
 
 Check fixed_incline(const solve::Watch& watch) {
   const Scenario scene = incline();
-  const Run made = run(scene, watch);
+  const WholeRun made = whole_run(scene, watch);
   const double g = scene.gravity, r = scene.ball.radius;
   const double error = largest_distance(made, r, [&](std::size_t i) -> Expected {
     const double t = made.samples[i].t;
@@ -138,7 +97,7 @@ Check turning_plane(const solve::Watch& watch) {
   scene.ball = {.radius = 0.01, .position = {x0, 0}, .velocity = {0, vy0}, .spin = spin0};
   scene.gimbal.motion = {{Ramp{0, w}}, {}};
   scene.time = {3, 0.1};
-  const Run made = run(scene, watch);
+  const WholeRun made = whole_run(scene, watch);
   const double g = scene.gravity, r = scene.ball.radius;
   const double k = w * std::sqrt(5.0 / 7), q = w * std::sqrt(2.0 / 7);
   const double b = 5 * g / (12 * w * k);  // makes x'(0) zero
@@ -168,7 +127,7 @@ Check mirrored(std::size_t axis, const solve::Watch& watch) {
     mirror.gimbal.motion->theta = {Sinusoid{-0.15, 2, 0, 0}, Ramp{0, -0.02}};
   }
   const double r = scene.ball.radius;
-  const Run a = run(scene, watch), b = run(mirror, watch);
+  const WholeRun a = whole_run(scene, watch), b = whole_run(mirror, watch);
   const double error = !b.done ? infinity : largest_distance(a, r, [&](std::size_t i) -> Expected {
     const Expected seen = values(b.samples[i], r);
     return {axis == 0 ? -seen.x : seen.x, axis == 1 ? -seen.y : seen.y, -seen.u, -seen.turned};
@@ -190,7 +149,7 @@ Check scaled(const solve::Watch& watch) {
                           {Sinusoid{0.15, 2 / t, 0, 0}, Ramp{0, 0.02 / t}}};
   larger.time = {scene.time.end * t, scene.time.step * t};
   const double r = scene.ball.radius;
-  const Run a = run(scene, watch), b = run(larger, watch);
+  const WholeRun a = whole_run(scene, watch), b = whole_run(larger, watch);
   const bool alike = b.done && a.samples.size() == b.samples.size();
   const double error = !alike ? infinity : largest_distance(a, r, [&](std::size_t i) -> Expected {
     const Expected seen = values(b.samples[i], l * r);
@@ -203,7 +162,7 @@ struct Instant {
   double energy, power;  // J, W
 };
 
-std::vector<Instant> energies(const Run& made, const Scenario& scene) {
+std::vector<Instant> energies(const WholeRun& made, const Scenario& scene) {
   const model::BallConstants constants = model::constants_of(scene);
   std::vector<Instant> list;
   for (const Sample& sample : made.samples) {
@@ -216,13 +175,13 @@ std::vector<Instant> energies(const Run& made, const Scenario& scene) {
 
 // What an error of the allowance in each state makes of the energy, and of the work until then:
 // forces are about m (g + v / 1 s), momenta m v, and the plane's rates below 1 rad/s.
-double energy_allowance(const Run& made, const Scenario& scene) {
+double energy_allowance(const WholeRun& made, const Scenario& scene) {
   return 2 * scene.ball.mass * (scene.gravity + made.size) * made.allowance * (1 + scene.time.end);
 }
 
 Check energy_conserved(const solve::Watch& watch) {
   const Scenario scene = incline();
-  const Run made = run(scene, watch);
+  const WholeRun made = whole_run(scene, watch);
   double error = made.done ? 0 : infinity;
   const std::vector<Instant> instants = energies(made, scene);
   for (const Instant& instant : instants) {
@@ -249,7 +208,7 @@ Check energy_balance(const solve::Watch& watch) {
   Scenario scene = everything_moves();
   constexpr double h = 1.0 / 256;
   scene.time.step = h;
-  const Run made = run(scene, watch);
+  const WholeRun made = whole_run(scene, watch);
   const std::vector<Instant> instants = energies(made, scene);
   const std::vector<double> fine = work_by_boole(instants, 1, h);
   const std::vector<double> coarse = work_by_boole(instants, 2, 2 * h);
@@ -273,7 +232,7 @@ Scenario scenario_of(const ReferenceScene& reference) {
 Check against_reference(const ReferenceScene& reference, const solve::Watch& watch) {
   const Scenario scene = scenario_of(reference);
   const double r = scene.ball.radius;
-  const Run made = run(scene, watch);
+  const WholeRun made = whole_run(scene, watch);
   double error = made.done ? 0 : infinity;
   for (const ReferenceRow& row : reference.rows) {
     const auto i = static_cast<std::size_t>(std::lround(row.t / scene.time.step));
@@ -287,7 +246,8 @@ Check against_reference(const ReferenceScene& reference, const solve::Watch& wat
 Check against_method(const ReferenceScene& reference, Method method, const solve::Watch& watch) {
   const Scenario scene = scenario_of(reference);
   const double r = scene.ball.radius;
-  const Run a = run(scene, watch, Method::radau), b = run(scene, watch, method, of_multistep);
+  const WholeRun a = whole_run(scene, watch, Method::radau),
+                 b = whole_run(scene, watch, method, of_multistep);
   const double error =
       !b.done ? infinity
               : largest_distance(a, r, [&](std::size_t i) { return values(b.samples[i], r); });

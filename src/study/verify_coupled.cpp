@@ -2,55 +2,25 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
 #include <string>
 
+#include "base/real.hpp"
 #include "model/ball/dynamics.hpp"
 #include "model/model.hpp"
 #include "model/servo/linkages.hpp"
-#include "solve/integrate.hpp"
-#include "solve/output_grid.hpp"
+#include "study/verify_linkages.hpp"
+#include "study/whole_run.hpp"
 
 namespace bbsim::study {
 namespace {
 
 using model::Sample;
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr solve::Tolerances tight{1e-12, 1e-14};
-
-struct Run {
-  std::vector<Sample> samples;
-  double allowance = infinity;  // of a position, as in verify.cpp; infinite if it came to no end
-};
-
-Run run(const Scenario& scene, const solve::Watch& watch) {
-  const model::Model model = model::assemble(scene, true);
-  const solve::OutputGrid grid(scene.time);
-  solve::Trajectory rows(model.row_size());
-  const solve::Outcome outcome =
-      solve::integrate(model, Method::automatic, tight, grid, rows, {watch.stop, {}});
-  Run made;
-  double size = 0;
-  for (std::size_t i = 0; i < rows.rows(); ++i) {
-    made.samples.push_back(model.sample(grid[i], rows.row(i)));
-    const model::BallMotion& ball = made.samples.back().ball;
-    for (const double value : {ball.x, ball.y, ball.x_dot, ball.y_dot}) {
-      size = std::max(size, std::abs(value));
-    }
-  }
-  if (outcome.ending == solve::Ending::done) {
-    made.allowance = static_cast<double>(outcome.statistics.steps) *
-                     (tight.rtol * size + tight.atol) * (1 + scene.time.end);
-  }
-  return made;
-}
-
 // The largest distance of `value` from `expected`; infinite of a run that is not whole.
-double distance(const Run& made, double (*value)(const Sample&),
+double distance(const WholeRun& made, double (*value)(const Sample&),
                 const std::function<double(double)>& expected) {
-  double largest = made.allowance < infinity ? 0 : infinity;
+  double largest = made.done ? 0 : infinity;
   for (const Sample& sample : made.samples) {
     largest = std::max(largest, std::abs(value(sample) - expected(sample.t)));
   }
@@ -74,7 +44,7 @@ Check coasts_down(const solve::Watch& watch) {
   Scenario scene = level_plate();
   scene.ball.velocity = {0.2, 0};
   scene.ball.losses.rolling = 0.004;
-  const Run made = run(scene, watch);
+  const WholeRun made = whole_run(scene, watch);
   const double a = 0.004 * scene.gravity / 1.4, stop = 0.2 / a;
   const double error = distance(made, x_of, [&](double t) {
     const double rolled = std::min(t, stop);
@@ -89,11 +59,11 @@ Check starts_on_an_incline(const solve::Watch& watch) {
   scene.ball.losses.rolling = c;
   scene.time = {1000, 10};
   scene.gimbal.motion->phi = {std::atan(c * (1 - 1e-12))};
-  const Run below = run(scene, watch);
+  const WholeRun below = whole_run(scene, watch);
   scene.gimbal.motion->phi = {std::atan(c * (1 + 1e-12))};
-  const Run above = run(scene, watch);
-  const bool right = below.allowance < infinity && above.allowance < infinity &&
-                     below.samples.back().ball.x == 0 && above.samples.back().ball.x > 0;
+  const WholeRun above = whole_run(scene, watch);
+  const bool right = below.done && above.done && below.samples.back().ball.x == 0 &&
+                     above.samples.back().ball.x > 0;
   return {"rolling resistance: starts at tan(tilt) = c_rr", right ? 1e-12 : 1, 1e-12, "1"};
 }
 
@@ -101,7 +71,7 @@ Check spins_down(const solve::Watch& watch) {
   Scenario scene = level_plate();
   scene.ball.spin = 20;
   scene.ball.losses.pivoting = 1e-4;
-  const Run made = run(scene, watch);
+  const WholeRun made = whole_run(scene, watch);
   const double r = scene.ball.radius, a = 1e-4 * scene.gravity / (0.4 * r * r), stop = 20 / a;
   const double error = r * distance(
                                made, [](const Sample& s) { return s.gamma; },
@@ -116,7 +86,7 @@ Check decays(const solve::Watch& watch) {
   Scenario scene = level_plate();
   scene.ball.velocity = {0.2, 0};
   scene.ball.losses.viscous = 5e-6;
-  const Run made = run(scene, watch);
+  const WholeRun made = whole_run(scene, watch);
   const double rate = 5e-6 / (1.4 * 0.05 * 0.02 * 0.02);
   const double error =
       distance(made, x_of, [&](double t) { return 0.2 / rate * (1 - std::exp(-rate * t)); });
@@ -129,7 +99,7 @@ Check slides_to_roll(double backspin, const solve::Watch& watch) {
   scene.ball.rotation = Pair{0, backspin};
   scene.events.slip = SlipEvent{0.3, OnEvent::note, 0.25};
   scene.time = {2, 0.02};
-  const Run made = run(scene, watch);
+  const WholeRun made = whole_run(scene, watch);
   const double k = 0.4, a = 0.25 * scene.gravity, slip = 1 - 0.02 * backspin;
   const double rolls = k * slip / ((1 + k) * a);
   const double error = distance(made, x_of, [&](double t) {
@@ -145,9 +115,9 @@ Check slides_to_roll(double backspin, const solve::Watch& watch) {
 // under the same tolerance, so that what each may be wrong by is the allowance, in joules, and what
 // the energy may be is that of the states times the forces, momenta and moments of the scene.
 Check balance(const char* name, const Scenario& scene, const solve::Watch& watch) {
-  const Run made = run(scene, watch);
+  const WholeRun made = whole_run(scene, watch);
   const model::BallConstants constants = model::constants_of(scene);
-  double error = made.allowance < infinity ? 0 : infinity, first = 0;
+  double error = made.done ? 0 : infinity, first = 0;
   for (std::size_t i = 0; i < made.samples.size(); ++i) {
     const model::Dynamics now = model::dynamics(made.samples[i], constants);
     const double sum = now.energy() + now.gimbal_energy + now.coupled.lost - now.coupled.work;
@@ -184,11 +154,6 @@ Check rocks(const solve::Watch& watch) {
   return balance("sliding and rolling by turns: energy, work and losses balance", scene, watch);
 }
 
-// That of configs/pushrod.yaml.
-RodLinkage push_rod() {
-  return {0.024, 0.06, {}, {-0.016, 0.07}};
-}
-
 Scenario linked_plate() {
   Scenario scene = level_plate();
   scene.gimbal.motion.reset();
@@ -211,7 +176,7 @@ Check ramps_behind_a_rod(const solve::Watch& watch) {
   scene.gimbal.servo->rate_limit = fastest;
   scene.gimbal.start.phi = start;
   scene.time = {1.5, 0.01};
-  const Run made = run(scene, watch);
+  const WholeRun made = whole_run(scene, watch);
   const model::Linkage rod = make_linkage(push_rod(), model::Assumed::exact);
   const double left = fastest * constant, at = (start - left) / fastest;
   const double error = distance(

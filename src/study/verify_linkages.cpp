@@ -8,11 +8,6 @@
 namespace bbsim::study {
 namespace {
 
-// That of configs/pushrod.yaml, whose horn and rod are in line beyond 60 degrees.
-RodLinkage push_rod() {
-  return {0.024, 0.06, {}, {-0.016, 0.07}};
-}
-
 // Calls use(angle) for servos' angles well within the curve, up to 50 degrees.
 template <class Use>
 void for_each_servo(const Use& use) {
@@ -119,6 +114,10 @@ Check three_legs_rates() {
 }
 
 }  // namespace
+
+RodLinkage push_rod() {
+  return {0.024, 0.06, {}, {-0.016, 0.07}};
+}
 
 std::vector<std::function<Check()>> linkage_checks() {
   return {quanser, push_rod_inverted, push_rod_slope, three_legs_inverted, three_legs_rates};

@@ -8,6 +8,9 @@
 
 namespace bbsim::study {
 
+// That of configs/pushrod.yaml, whose horn and rod are in line beyond 60 degrees.
+[[nodiscard]] RodLinkage push_rod();
+
 [[nodiscard]] std::vector<std::function<Check()>> linkage_checks();
 
 }  // namespace bbsim::study

@@ -18,7 +18,6 @@ namespace bbsim::sweep {
 namespace {
 
 using solve::loop::LoopCase;
-constexpr std::size_t group = solve::loop::group;
 
 bool has_single_harmonic(const Reference& reference) {
   return std::holds_alternative<PointReference>(reference) ||
@@ -156,7 +155,7 @@ bool can_use_lanes(const SweepTask& task) {
 }
 
 std::size_t lane_group() {
-  return group;
+  return solve::loop::group;
 }
 
 std::unique_ptr<CaseRunner> lane_runner(const SweepTask& task) {

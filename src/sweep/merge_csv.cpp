@@ -19,7 +19,7 @@ namespace {
 
 constexpr off_t largest_plan = off_t{64} * 1024 * 1024;  // bytes
 
-struct Part {
+struct CsvPart {
   std::string file, header;
   std::size_t first = 0;  // case; of a part without rows it comes before all
   dev_t device = 0;
@@ -46,7 +46,7 @@ file::Descriptor open_part(const std::string& file, struct stat& status) {
                    " below the header; allowed: what bbsim sweep writes");
 }
 
-Part look_at(const std::string& file) {
+CsvPart look_at(const std::string& file) {
   struct stat status {};
   const file::Descriptor opened = open_part(file, status);
   PartLines lines(opened.get(), file, Blame::input);
@@ -57,7 +57,7 @@ Part look_at(const std::string& file) {
                      std::string(line.substr(0, line.find(','))) +
                      "; allowed: case, as bbsim sweep writes it");
   }
-  Part part{file, std::string(line), 0, status.st_dev, status.st_ino};
+  CsvPart part{file, std::string(line), 0, status.st_dev, status.st_ino};
   if (lines.next(line)) {
     RowReader reader(part.header);
     if (const std::string found = reader.read(line); !found.empty()) refuse_row(file, found, 1);
@@ -115,7 +115,7 @@ Agreed compare_plans_of(const std::vector<std::string>& files) {
 
 // Writes the part's rows, of which `next` is the first that may come; counts it on. False if it was
 // interrupted.
-bool copy_rows(const Part& part, file::AtomicFile& out, std::size_t& next,
+bool copy_rows(const CsvPart& part, file::AtomicFile& out, std::size_t& next,
                const std::atomic<bool>& stop) {
   struct stat status {};
   const file::Descriptor opened = open_part(part.file, status);
@@ -148,20 +148,20 @@ bool copy_rows(const Part& part, file::AtomicFile& out, std::size_t& next,
 Merged merge_csv(const std::vector<std::string>& files, const std::string& target,
                  const std::atomic<bool>& stop) {
   const Agreed agreed = compare_plans_of(files);
-  std::vector<Part> parts;
+  std::vector<CsvPart> parts;
   for (const std::string& file : files) parts.push_back(look_at(file));
-  for (const Part& part : parts) {
+  for (const CsvPart& part : parts) {
     if (part.header == parts.front().header) continue;
     throw InputError(part.file + ": found other columns than in " + parts.front().file +
                      "; allowed: parts of one sweep");
   }
   std::stable_sort(parts.begin(), parts.end(),
-                   [](const Part& a, const Part& b) { return a.first < b.first; });
+                   [](const CsvPart& a, const CsvPart& b) { return a.first < b.first; });
 
   file::AtomicFile out(target, file::Durable::yes);
   out.write(parts.front().header + '\n');
   Merged merged{0, false, agreed.instruction_sets.note()};
-  for (const Part& part : parts) {
+  for (const CsvPart& part : parts) {
     if (copy_rows(part, out, merged.cases, stop)) continue;
     merged.interrupted = true;
     return merged;

@@ -13,11 +13,11 @@ namespace {
 
 // Numbers of series in memory at a time, about.
 constexpr std::size_t most_numbers = std::size_t{1} << 19U;
-constexpr std::size_t most_rows = 1024;
+constexpr std::size_t most_at_a_time = 1024;
 
 constexpr const char* instruction_set = "instruction_set";
 
-struct Part {
+struct Hdf5Part {
   std::string file;
   file::Hdf5TableReader table;
   std::size_t first = 0;  // case
@@ -26,7 +26,7 @@ struct Part {
 std::size_t rows_at_a_time(const std::vector<file::Hdf5Column>& columns) {
   std::size_t widest = 1;
   for (const file::Hdf5Column& column : columns) widest = std::max(widest, column.width);
-  return std::clamp<std::size_t>(most_numbers / widest, 1, most_rows);
+  return std::clamp<std::size_t>(most_numbers / widest, 1, most_at_a_time);
 }
 
 std::size_t case_in(const std::string& file, double number) {
@@ -46,9 +46,9 @@ file::Attributes without_instruction_set(const file::Attributes& all) {
   return rest;
 }
 
-InstructionSets instruction_sets_of(const std::vector<Part>& parts) {
+InstructionSets instruction_sets_of(const std::vector<Hdf5Part>& parts) {
   InstructionSets all;
-  for (const Part& part : parts) {
+  for (const Hdf5Part& part : parts) {
     for (const auto& [name, value] : part.table.attributes()) {
       if (name == instruction_set) all.add(value.text());
     }
@@ -79,10 +79,10 @@ bool same_inputs(const std::vector<file::InputTable>& a, const std::vector<file:
 
 Merged merge_hdf5(const std::vector<std::string>& files, const std::string& target,
                   const std::atomic<bool>& stop) {
-  std::vector<Part> parts;
+  std::vector<Hdf5Part> parts;
   file::Hdf5Block block;
   for (const std::string& file : files) {
-    Part part{file, file::Hdf5TableReader(file), 0};
+    Hdf5Part part{file, file::Hdf5TableReader(file), 0};
     if (part.table.columns().empty() || part.table.columns()[0].name != "case" ||
         part.table.columns()[0].kind != file::Hdf5Kind::number) {
       throw InputError(file + ": found no column case first; allowed: what bbsim sweep writes");
@@ -94,13 +94,13 @@ Merged merge_hdf5(const std::vector<std::string>& files, const std::string& targ
     parts.push_back(std::move(part));
   }
   std::stable_sort(parts.begin(), parts.end(),
-                   [](const Part& a, const Part& b) { return a.first < b.first; });
+                   [](const Hdf5Part& a, const Hdf5Part& b) { return a.first < b.first; });
 
   const file::Hdf5TableReader& model = parts.front().table;
   const InstructionSets instruction_sets = instruction_sets_of(parts);
   const file::Attributes common = without_instruction_set(model.attributes());
   const std::vector<file::InputTable> inputs = model.read_inputs();
-  for (const Part& part : parts) {
+  for (const Hdf5Part& part : parts) {
     if (part.table.columns() == model.columns() && part.table.axes() == model.axes() &&
         without_instruction_set(part.table.attributes()) == common &&
         same_inputs(part.table.read_inputs(), inputs)) {
@@ -114,7 +114,7 @@ Merged merge_hdf5(const std::vector<std::string>& files, const std::string& targ
   out.keep(inputs);
   Merged merged{0, false, instruction_sets.note()};
   const std::size_t rows = rows_at_a_time(model.columns());
-  for (const Part& part : parts) {
+  for (const Hdf5Part& part : parts) {
     for (std::size_t first = 0; first < part.table.rows(); first += rows) {
       if (stop.load(std::memory_order_relaxed)) {
         merged.interrupted = true;

@@ -21,7 +21,6 @@ namespace {
 
 using solve::open::GivenMotion, solve::open::OpenCase, solve::open::OpenLanes, solve::open::Reached;
 using Kind = scenario::Measure::Kind;
-constexpr std::size_t group = solve::open::group;
 
 // A small sweep would spend more on measuring its pace than on its cases; and where a case goes on
 // for so many radians of its motion, the first one would be long in coming.
@@ -157,7 +156,7 @@ class OpenCarrier : public GroupCarrier {
   record::GimbalExtremes gimbal_;
   std::optional<record::GimbalExtremes::Greatest> turned_;
   bool needs_model_ = false, wants_turning_ = false, same_signals_;
-  std::array<OpenCase, group> cases_;
+  std::array<OpenCase, solve::open::group> cases_;
 };
 
 }  // namespace
@@ -186,9 +185,9 @@ std::optional<solve::open::Pace> open_lane_pace(const SweepTask& task) {
     OpenLanes lanes({first.solver.rtol, first.solver.atol}, first.time.end, stops, {nodes});
     std::optional<OpenLanes::Measured> slowest;
     for (int g = 0; g < groups; ++g) {
-      std::array<OpenCase, group> cases;
-      for (std::size_t i = 0; i < group; ++i) {
-        const int sample = g * static_cast<int>(group) + static_cast<int>(i);
+      std::array<OpenCase, solve::open::group> cases;
+      for (std::size_t i = 0; i < solve::open::group; ++i) {
+        const int sample = g * static_cast<int>(solve::open::group) + static_cast<int>(i);
         const Scenario scenario =
             task.family.read(task.plan.settings(sample_case(sample, task.plan.cases())));
         if (model::given_motion(scenario).highest_frequency() * scenario.time.end > longest) {
@@ -196,7 +195,7 @@ std::optional<solve::open::Pace> open_lane_pace(const SweepTask& task) {
         }
         set(cases[i], scenario, motion.view());
       }
-      const auto measured = lanes.measure(cases.data(), static_cast<int>(group));
+      const auto measured = lanes.measure(cases.data(), static_cast<int>(solve::open::group));
       if (!measured) continue;
       if (!slowest) slowest = measured;
       slowest->pace.angle = std::min(slowest->pace.angle, measured->pace.angle);
@@ -209,12 +208,13 @@ std::optional<solve::open::Pace> open_lane_pace(const SweepTask& task) {
 }
 
 std::size_t open_lane_group() {
-  return group;
+  return solve::open::group;
 }
 
 std::unique_ptr<CaseRunner> open_lane_runner(const SweepTask& task, const solve::open::Pace& pace) {
   const Scenario first = task.family.read(task.plan.settings(0));
-  return group_runner(task, first, group, std::make_unique<OpenCarrier>(task, first, pace));
+  return group_runner(task, first, solve::open::group,
+                      std::make_unique<OpenCarrier>(task, first, pace));
 }
 
 }  // namespace bbsim::sweep

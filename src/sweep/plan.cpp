@@ -14,7 +14,7 @@
 namespace bbsim::sweep {
 namespace {
 
-using Kind = scenario::VariationSpec::Kind;
+using Way = scenario::VariationSpec::Kind;
 using Setting = ScenarioFamily::Setting;
 
 constexpr double most_cases = 1e12;
@@ -48,7 +48,7 @@ double spaced(const Axis& axis, std::size_t i) {
   if (i + 1 == axis.count) return axis.to;
   const double before = static_cast<double>(i), after = static_cast<double>(axis.count - 1 - i);
   const double all = static_cast<double>(axis.count - 1);
-  if (axis.kind == Kind::log) {
+  if (axis.kind == Way::log) {
     const double first = std::log(std::abs(axis.from)), last = std::log(std::abs(axis.to));
     return std::copysign(std::exp((first * after + last * before) / all), axis.from);
   }
@@ -56,7 +56,7 @@ double spaced(const Axis& axis, std::size_t i) {
 }
 
 double listed(const Axis& axis, std::size_t i) {
-  if (axis.kind != Kind::list) return spaced(axis, i);
+  if (axis.kind != Way::list) return spaced(axis, i);
   return axis.numeric ? axis.numbers[i] : static_cast<double>(i);
 }
 
@@ -65,7 +65,7 @@ double listed(const Axis& axis, std::size_t i) {
 double not_zero(const Axis& axis) {
   if (axis.random()) return axis.from != 0 ? axis.from : axis.to;
   const std::size_t look_at =
-      axis.kind == Kind::list ? axis.count : std::min<std::size_t>(axis.count, 2);
+      axis.kind == Way::list ? axis.count : std::min<std::size_t>(axis.count, 2);
   for (std::size_t i = 0; i < look_at; ++i) {
     if (listed(axis, i) != 0) return listed(axis, i);
   }
@@ -145,7 +145,7 @@ void SweepPlan::add_axes(const ScenarioFamily& family, const Variation& variatio
   axis.stream = mixed(mixed(seed_) ^ hash(keys[0].path));
   std::vector<double> numbers;  // of the first key
   for (const std::string& value : spec.values) {
-    const bool deviation = spec.kind == Kind::normal && &value == &spec.values.back();
+    const bool deviation = spec.kind == Way::normal && &value == &spec.values.back();
     for (std::size_t k = 0; k < keys.size(); ++k) {
       const double factor = deviation ? std::abs(keys[k].factor) : keys[k].factor;
       settings[lead + k].value = scenario::scaled(value, factor);
@@ -172,7 +172,7 @@ void SweepPlan::add_axes(const ScenarioFamily& family, const Variation& variatio
       axes_.back().factor = keys[k].factor / keys[0].factor;
     }
   };
-  if (spec.kind == Kind::list) {
+  if (spec.kind == Way::list) {
     axis.numeric ? void(axis.numbers = std::move(numbers)) : void(axis.texts = spec.values);
     return tie();
   }
@@ -182,12 +182,12 @@ void SweepPlan::add_axes(const ScenarioFamily& family, const Variation& variatio
   }
   axis.from = numbers[0];
   axis.to = numbers[1];
-  if (spec.kind == Kind::log &&
+  if (spec.kind == Way::log &&
       (axis.from == 0 || axis.to == 0 || (axis.from < 0) != (axis.to < 0))) {
     fail(variation.key, "found " + yaml::shown(variation.spec) +
                             "; allowed: log from and to numbers of one sign, neither 0");
   }
-  if (spec.kind == Kind::normal && !(axis.to >= 0)) {
+  if (spec.kind == Way::normal && !(axis.to >= 0)) {
     fail(variation.key, "found " + yaml::shown(variation.spec) +
                             "; allowed: normal with a standard deviation of at least 0");
   }
@@ -246,7 +246,7 @@ SweepPlan::SweepPlan(const ScenarioFamily& family, const Sweep& sweep)
 double SweepPlan::drawn(const Axis& axis, std::size_t number) {
   const std::uint64_t bits = mixed(axis.stream + number);
   const double p = (static_cast<double>(bits >> 12U) + 0.5) * 0x1p-52;
-  if (axis.kind == Kind::uniform) return axis.from + p * (axis.to - axis.from);
+  if (axis.kind == Way::uniform) return axis.from + p * (axis.to - axis.from);
   return axis.from + axis.to * normal_quantile(p);
 }
 
@@ -314,7 +314,7 @@ bool SweepPlan::check(const ScenarioFamily& family, std::size_t first, std::size
   // Ranges have no holes, and the ends of what is listed or drawn between bounds have been read.
   for (std::size_t a = 0; a < axes_.size(); ++a) {
     const Axis& axis = axes_[a];
-    if (axis.kind != Kind::normal || !is_lead(a)) continue;
+    if (axis.kind != Way::normal || !is_lead(a)) continue;
     std::size_t least = first, greatest = first;
     double low = std::numeric_limits<double>::infinity(), high = -low;
     for (std::size_t i = first; i < last; ++i) {

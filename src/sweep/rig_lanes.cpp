@@ -18,8 +18,6 @@
 namespace bbsim::sweep {
 namespace {
 
-constexpr std::size_t group = solve::held::group;
-
 bool is_carried(const Scenario& scenario, const model::Model& model) {
   return !scenario.solver.error && solve::choose_method(scenario.solver.method) == Method::radau &&
          solve::held::carries(model);
@@ -48,7 +46,7 @@ class RigCarrier : public GroupCarrier {
     rigs_.clear();
     for (GroupCase& one : cases) take(one);
     if (rigs_.empty()) return;
-    std::array<const model::Model*, group> models{};
+    std::array<const model::Model*, solve::held::group> models{};
     for (std::size_t lane = 0; lane < rigs_.size(); ++lane) models[lane] = &rigs_[lane].model;
     measures_.begin(reference_of(rigs_.front().model));
     const auto carried = lanes_.integrate(models.data(), rigs_.size(), measures_);
@@ -94,7 +92,7 @@ class RigCarrier : public GroupCarrier {
 
 bool can_use_rig_lanes(const SweepTask& task) {
   // Fewer would leave lanes empty, and are those of `bbsim run` to the bit.
-  if (task.plan.cases() < group || !task.series.empty() ||
+  if (task.plan.cases() < solve::held::group || !task.series.empty() ||
       !record::are_track_measures(task.measures) || !share_reference(task.plan)) {
     return false;
   }
@@ -114,12 +112,12 @@ bool can_use_rig_lanes(const SweepTask& task) {
 }
 
 std::size_t rig_group() {
-  return group;
+  return solve::held::group;
 }
 
 std::unique_ptr<CaseRunner> rig_lane_runner(const SweepTask& task) {
   const Scenario first = task.family.read(task.plan.settings(0));
-  return group_runner(task, first, group, std::make_unique<RigCarrier>(task, first));
+  return group_runner(task, first, solve::held::group, std::make_unique<RigCarrier>(task, first));
 }
 
 }  // namespace bbsim::sweep

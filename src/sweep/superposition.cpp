@@ -29,11 +29,11 @@ using Kind = scenario::Measure::Kind;
 constexpr solve::Tolerances finest{1e-13, 1e-15};
 
 // What z' = A(t) z + g b_g(t) + r b_r(t) is linear in.
-struct Part {
+struct LinearPart {
   std::array<std::string_view, 2> keys;  // that it depends on; u = r gamma' on two
   double (*factor)(const Scenario& scenario);
 };
-constexpr Part parts[] = {
+constexpr LinearPart linear_parts[] = {
     {{"ball.position.0", ""}, [](const Scenario& s) { return s.ball.position[0]; }},
     {{"ball.position.1", ""}, [](const Scenario& s) { return s.ball.position[1]; }},
     {{"ball.velocity.0", ""}, [](const Scenario& s) { return s.ball.velocity[0]; }},
@@ -42,9 +42,9 @@ constexpr Part parts[] = {
     {{"ball.radius", ""}, [](const Scenario& s) { return s.ball.radius; }},
     {{"gravity", ""}, [](const Scenario& s) { return s.gravity; }},
 };
-constexpr std::size_t part_count = std::size(parts), states = 5;
+constexpr std::size_t part_count = std::size(linear_parts), states = 5;
 
-bool depends_on(const Part& part, const std::string& key) {
+bool depends_on(const LinearPart& part, const std::string& key) {
   return key == part.keys[0] || key == part.keys[1];
 }
 
@@ -66,7 +66,7 @@ constexpr int most_halvings = 12;
 // know, whatever the output times are.
 struct Superposed {
   struct Term {
-    const Part* part;  // null: what does not vary
+    const LinearPart* part;  // null: what does not vary
     record::PaddedRows x, y;
   };
   std::vector<Term> terms;
@@ -166,8 +166,9 @@ bool can_superpose(const SweepTask& task) {
   if (!task.series.empty()) return false;
   if (!std::all_of(task.measures.begin(), task.measures.end(), is_superposed)) return false;
   for (const Axis& axis : task.plan.axes()) {
-    const auto linear = [&](const Part& part) { return depends_on(part, axis.key); };
-    if (!axis.independent || std::none_of(std::begin(parts), std::end(parts), linear)) return false;
+    const auto linear = [&](const LinearPart& part) { return depends_on(part, axis.key); };
+    if (!axis.independent || std::none_of(std::begin(linear_parts), std::end(linear_parts), linear))
+      return false;
   }
   const Scenario scenario = task.family.read(task.plan.settings(0));
   if (!scenario.gimbal.motion || scenario.solver.error ||
@@ -200,10 +201,10 @@ std::shared_ptr<const Superposed> solve_superposed(const SweepTask& task) {
   for (std::size_t p = 0; p < part_count; ++p) {
     const auto& axes = task.plan.axes();
     if (std::any_of(axes.begin(), axes.end(),
-                    [&](const Axis& axis) { return depends_on(parts[p], axis.key); })) {
-      solutions->terms.push_back({&parts[p], {}, {}});
+                    [&](const Axis& axis) { return depends_on(linear_parts[p], axis.key); })) {
+      solutions->terms.push_back({&linear_parts[p], {}, {}});
     } else {
-      fixed[p] = parts[p].factor(scenario);
+      fixed[p] = linear_parts[p].factor(scenario);
     }
   }
 
@@ -213,7 +214,7 @@ std::shared_ptr<const Superposed> solve_superposed(const SweepTask& task) {
     std::array<double, part_count> factors = fixed;
     if (term.part != nullptr) {
       factors = {};
-      factors[static_cast<std::size_t>(term.part - parts)] = 1;
+      factors[static_cast<std::size_t>(term.part - linear_parts)] = 1;
     }
     model.system = model::OpenLoop<model::Shape::full>(factors[5], factors[6], motion);
     model.initial.assign(factors.begin(), factors.begin() + states);

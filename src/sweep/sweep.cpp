@@ -27,7 +27,7 @@ constexpr std::size_t most_series_numbers = std::size_t{1} << 18U;  // in a bloc
 // So many blocks a thread are done before their turn, at most: what slow cases hold up.
 constexpr std::size_t most_ahead = 8;
 
-std::size_t most_cases(const SweepTask& task, std::size_t group) {
+std::size_t block_limit(const SweepTask& task, std::size_t group) {
   const std::size_t numbers = std::max<std::size_t>(1, task.series.size() * task.series_rows);
   return std::max(group, std::min(most_in_block, most_series_numbers / numbers) / group * group);
 }
@@ -139,7 +139,8 @@ void work(const Engine& engine, Queue& queue, const std::atomic<bool>& stop,
         return;
       }
       const double seconds = std::chrono::duration<double>(Clock::now() - start).count();
-      if (seconds < least_seconds) size = std::min(2 * size, most_cases(engine.task, engine.group));
+      if (seconds < least_seconds)
+        size = std::min(2 * size, block_limit(engine.task, engine.group));
       if (seconds > most_seconds)
         size = std::max(engine.group, size / 2 / engine.group * engine.group);
     }

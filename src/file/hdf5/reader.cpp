@@ -23,7 +23,7 @@ constexpr std::uint64_t most_expansion = 1100;
 constexpr std::uint64_t slack = 65536;  // bytes
 
 // HDF5 takes memory for so many texts at a time, whatever length a damaged file gives them.
-constexpr std::size_t texts_at_once = 256;
+constexpr std::size_t rows_at_once = 256;
 
 File open_file(const char* path) {
   if (H5Fis_hdf5(path) == 0) throw Failure("it is no HDF5 file");
@@ -328,8 +328,8 @@ std::vector<std::string> Reader::read_texts(std::size_t dataset, std::size_t fir
     return texts;
   }
   std::uint64_t bytes = 0;
-  for (std::size_t done = 0; done < rows; done += texts_at_once) {
-    const std::size_t now = std::min(texts_at_once, rows - done);
+  for (std::size_t done = 0; done < rows; done += rows_at_once) {
+    const std::size_t now = std::min(rows_at_once, rows - done);
     const Selection selected = select(from, first + done, now, doing);
     bytes = sum(bytes, add_strings(from, type, selected, now, doing, texts));
     if (bytes > bytes_) throw Failure(doing + " failed: its texts are longer than the file");

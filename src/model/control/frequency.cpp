@@ -1,10 +1,12 @@
 #include "model/control/frequency.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <utility>
+
+#include "model/dense.hpp"
+#include "model/eigenvalues.hpp"
 
 namespace bbsim::model {
 namespace {
@@ -67,11 +69,10 @@ FrequencyResponse::FrequencyResponse(const Eigen::MatrixXd& a, const Eigen::Matr
                                      double period)
     : a_(a), b_(b), c_(c), d_(d), period_(period) {
   if (a.rows() < 3) return;  // as it is
-  const Eigen::HessenbergDecomposition<Eigen::MatrixXd> form(a);
-  const Eigen::MatrixXd q = form.matrixQ();
-  a_ = form.matrixH();
-  b_ = q.transpose() * b;
-  c_ = c * q;
+  const HessenbergForm form = hessenberg_form(a);
+  a_ = form.h;
+  b_ = product(form.q.transpose(), b);
+  c_ = product(c, form.q);
 }
 
 Complex FrequencyResponse::at(double w, Index i, Index j) const {

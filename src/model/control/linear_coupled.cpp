@@ -1,4 +1,3 @@
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
@@ -10,6 +9,7 @@
 #include "model/assemble_rig.hpp"
 #include "model/control/linear_law.hpp"
 #include "model/control/linear_parts.hpp"
+#include "model/dense.hpp"
 #include "model/signals/reference_path.hpp"
 #include "simd/gradient.hpp"
 
@@ -18,8 +18,6 @@ namespace {
 
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
-
-constexpr int spin = 4;
 
 template <class Loop>
 using LinkOf = std::decay_t<decltype(std::declval<Loop>().loop.link)>;
@@ -108,15 +106,10 @@ VectorXd states_at(const LinearPoint& at) {
   return z;
 }
 
-// Of a loop's states, and of six more variables at most. Where there are fewer it is all the same:
-// a compiler takes ten seconds over a right-hand side with another number of them.
 template <class Loop>
-using NumberOf = simd::WithGradient<Loop::size + 6>;
-
-template <class Loop>
-void put_states(const LinearPoint& at, NumberOf<Loop> (&z)[Loop::size]) {
+void put_states(const LinearPoint& at, Varied (&z)[Loop::size]) {
   const VectorXd values = states_at<Loop>(at);
-  for (int i = 0; i < Loop::size; ++i) z[i] = NumberOf<Loop>::variable(values[i], i);
+  for (int i = 0; i < Loop::size; ++i) z[i] = Varied::variable(values[i], i);
 }
 
 // Rates under a reference, and the push of that time.
@@ -135,8 +128,7 @@ void rates_under(const Loop& loop, const std::array<Jet<Number>, 2>& reference, 
 template <class Loop>
 PlantDerivatives differentiate_plant(const Loop& loop, const LinearPoint& at) {
   constexpr int n = Loop::size;
-  using Number = NumberOf<Loop>;
-  Number z[n], dz[n];
+  Varied z[n], dz[n];
   put_states<Loop>(at, z);
   rates_under(plant_of(loop), reference_for(at.command, z, n), at.time, z, dz);
   return plant_derivatives<n>(dz);
@@ -155,13 +147,12 @@ auto command_of(const Axes& axes, int i) {
 template <class Loop>
 LoopDerivatives differentiate_loop(const Loop& loop, const LinearPoint& at) {
   constexpr int n = Loop::size;
-  using Number = NumberOf<Loop>;
-  Number z[n], dz[n];
+  Varied z[n], dz[n];
   put_states<Loop>(at, z);
-  const auto reference = varied<Number>(at.reference, n);
+  const auto reference = varied<Varied>(at.reference, n);
   rates_under(loop, reference, at.time, z, dz);
   const auto axes = loop.loop.axes(reference, z);
-  const Number commands[2] = {command_of<Loop>(axes, 0), command_of<Loop>(axes, 1)};
+  const Varied commands[2] = {command_of<Loop>(axes, 0), command_of<Loop>(axes, 1)};
   return loop_derivatives<n>(dz, commands);
 }
 
@@ -180,16 +171,16 @@ Places places_of(const Model& model) {
 }
 
 bool spin_acts(const MatrixXd& of_state, const std::vector<int>& on) {
-  return std::ranges::any_of(on, [&](int i) { return of_state(i, spin) != 0; });
+  return std::ranges::any_of(on, [&](int i) { return of_state(i, spin_state) != 0; });
 }
 
 // In a SampledCycle's order.
 std::vector<int> cycle_states(const Model& model, const MatrixXd& of_state) {
   const Places at = places_of(model);
   std::vector<int> states{0, 1, 2, 3};
-  for (int i = spin + 1; i < at.integral; ++i) states.push_back(i);
+  for (int i = spin_state + 1; i < at.integral; ++i) states.push_back(i);
   if (at.motor_integrates) states.insert(states.end(), {at.motor, at.motor + 1});
-  if (spin_acts(of_state, states)) states.push_back(spin);
+  if (spin_acts(of_state, states)) states.push_back(spin_state);
   return states;
 }
 
@@ -215,7 +206,7 @@ std::vector<LinearSignal> coupled_signals(const Model& model) {
 std::vector<int> coupled_states(const Model& model, const MatrixXd& of_state) {
   std::vector<int> states = cycle_states(model, of_state);
   // The spin stands after the velocities.
-  if (states.back() == spin) std::rotate(states.begin() + 4, states.end() - 1, states.end());
+  if (states.back() == spin_state) std::rotate(states.begin() + 4, states.end() - 1, states.end());
   return states;
 }
 
@@ -261,20 +252,18 @@ CycleParts coupled_cycle_at(const Model& model, const LinearPoint& at, std::vect
     }
     if constexpr (std::is_same_v<LinkOf<Loop>, ThreeServos>) {
       // What the controller takes the servos' angles and rates for, and what it tells them.
-      using Number = simd::WithGradient<6>;
-      Number servo[3], moving[3], known[2], known_rate[2];
+      Varied servo[3], moving[3], known[2], known_rate[2];
       for (int i = 0; i < 3; ++i) {
-        servo[i] = Number::variable(z[angle + i], i);
-        moving[i] = Number::variable(z[rate + i], 3 + i);
+        servo[i] = Varied::variable(z[angle + i], i);
+        moving[i] = Varied::variable(z[rate + i], 3 + i);
       }
       loop.loop.link.believed(servo, moving, known, known_rate);
       parts.fed = MatrixXd::Zero(4, std::ssize(states));
       parts.fed.block<2, 6>(0, 4) = simd::gradients(known, 0, 6);
       parts.fed.block<2, 6>(2, 4) = simd::gradients(known_rate, 0, 6);
-      using Pushed = simd::WithGradient<2>;
-      const Pushed wanted[2] = {Pushed::variable(at.command[0], 0),
-                                Pushed::variable(at.command[1], 1)};
-      Pushed told[3];
+      const Varied wanted[2] = {Varied::variable(at.command[0], 0),
+                                Varied::variable(at.command[1], 1)};
+      Varied told[3];
       loop.loop.link.told(wanted, told);
       parts.told = simd::gradients(told, 0, 2);
     }
@@ -296,8 +285,8 @@ Rest rest_of(const Places& places, const ControlLaw& law, bool has_law) {
   rest.vanishing = {2, 3};
   if (has_law) rest.states = {0, 1};
   for (int i = 0; i < places.servos; ++i) {
-    rest.states.push_back(spin + 1 + i);
-    rest.vanishing.push_back(spin + 1 + places.servos + i);
+    rest.states.push_back(spin_state + 1 + i);
+    rest.vanishing.push_back(spin_state + 1 + places.servos + i);
   }
   rest.commands = !has_law;
   const auto both = [&](int place) {
@@ -328,10 +317,9 @@ void see_by(const Sensor* sensor, const Number* z, std::array<Jet<Number>, 2>& r
 template <class Loop>
 PlantDerivatives differentiate_seen(const Loop& loop, const Sensor* sensor, const LinearPoint& at) {
   constexpr int n = Loop::size;
-  using Number = NumberOf<Loop>;
-  Number z[n], dz[n];
+  Varied z[n], dz[n];
   put_states<Loop>(at, z);
-  std::array<Jet<Number>, 2> reference;
+  std::array<Jet<Varied>, 2> reference;
   for (std::size_t i = 0; i < 2; ++i) reference[i] = {at.reference[i].value, 0.0, 0.0};
   see_by(sensor, z, reference);
   rates_under(loop, reference, at.time, z, dz);
@@ -397,10 +385,9 @@ LinearPoint coupled_equilibrium(const Scenario& scene, const Model& model) {
     MatrixXd slope(n, n);
     slope.leftCols(of_states) = now.of_state(rest.vanishing, rest.states);
     if (rest.commands) slope.rightCols(2) = now.of_command(rest.vanishing, Eigen::all);
-    const Eigen::FullPivLU<MatrixXd> factors(slope);
-    if (!slope.allFinite() || !factors.isInvertible()) break;
-    const VectorXd change = -factors.solve(now.rates(rest.vanishing));
-    if (!change.allFinite()) break;
+    const auto solved = solve_if_regular(slope, -now.rates(rest.vanishing));
+    if (!solved || !solved->allFinite()) break;
+    const VectorXd change = *solved;
     for (Eigen::Index k = 0; k < of_states; ++k) {
       z[rest.states[static_cast<std::size_t>(k)]] += change[k];
     }

@@ -1,6 +1,5 @@
 #include "model/control/linearise.hpp"
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <iterator>
@@ -14,6 +13,7 @@
 #include "model/control/linear_parts.hpp"
 #include "model/control/sampled_cycle.hpp"
 #include "model/control/transmission_zeros.hpp"
+#include "model/dense.hpp"
 #include "model/eigenvalues.hpp"
 #include "model/servo/linkages.hpp"
 #include "model/signals/reference_path.hpp"
@@ -96,7 +96,6 @@ void link_controller(CycleParts& parts, const Linkages& link, const Rig& rig,
 
 namespace {
 
-constexpr int spin = 4;
 constexpr int plant_size = RigLoop<>::size;
 
 // Whether the scene's own system is differentiated (linear_coupled.cpp). Others are RigLoops: at
@@ -143,10 +142,9 @@ RigLoop<false, SignalPair, Link> plant_of(const Scenario& scene, const LinearPoi
 template <class Link>
 PlantDerivatives differentiate_plant(const RigLoop<false, SignalPair, Link>& plant,
                                      const LinearPoint& at) {
-  using Number = simd::WithGradient<plant_size + 2>;
-  Number z[plant_size], dz[plant_size];
+  Varied z[plant_size], dz[plant_size];
   for (int i = 0; i < plant_size; ++i) {
-    z[i] = Number::variable(at.state[static_cast<std::size_t>(i)], i);
+    z[i] = Varied::variable(at.state[static_cast<std::size_t>(i)], i);
   }
   plant.derivative_of(reference_for(at.command, z, plant_size), z, dz);
   return plant_derivatives<plant_size>(dz);
@@ -164,13 +162,12 @@ LoopDerivatives differentiate_loop_with(const Scenario& scene, const LinearPoint
   if constexpr (!Link::direct) loop.link = linkages_at(built.rig.between, at);
   if (at.home) loop.mode = {};
   constexpr int n = RigLoop<integrates>::size;
-  using Number = simd::WithGradient<n + 6>;
-  Number z[n], dz[n];
-  for (int i = 0; i < n; ++i) z[i] = Number::variable(at.state[static_cast<std::size_t>(i)], i);
-  const auto reference = varied<Number>(at.reference, n);
+  Varied z[n], dz[n];
+  for (int i = 0; i < n; ++i) z[i] = Varied::variable(at.state[static_cast<std::size_t>(i)], i);
+  const auto reference = varied<Varied>(at.reference, n);
   loop.derivative_of(reference, z, dz);
-  const RigAxes<Number> axes = loop.axes(reference, z);
-  const Number commands[2] = {loop.told(axes, 0), loop.told(axes, 1)};
+  const RigAxes<Varied> axes = loop.axes(reference, z);
+  const Varied commands[2] = {loop.told(axes, 0), loop.told(axes, 1)};
   return loop_derivatives<n>(dz, commands);
 }
 
@@ -279,9 +276,9 @@ std::vector<int> states_of(const MatrixXd& of_state, const std::vector<int>& axe
   for (const int first : {0, 2}) {
     for (const int axis : axes) states.push_back(first + axis);
   }
-  VectorXd acts = of_state.col(spin);
-  acts[spin] = 0;
-  if (!acts.isZero(0)) states.push_back(spin);
+  VectorXd acts = of_state.col(spin_state);
+  acts[spin_state] = 0;
+  if (!acts.isZero(0)) states.push_back(spin_state);
   for (const int first : {angle, rate}) {
     for (const int axis : axes) states.push_back(first + axis);
   }
@@ -402,9 +399,9 @@ Linearisation continuous_loop_about(const Scenario& scene, const Model& model,
     for (const int axis : axes) of.push_back(2 * order + axis);
     return all(Eigen::all, of);
   };
-  const MatrixXd once = of_order(1) + system.a * of_order(2);
-  made.zeros =
-      transmission_zeros(system.a, of_order(0) + system.a * once, system.c, system.c * once);
+  const MatrixXd once = of_order(1) + product(system.a, of_order(2));
+  made.zeros = transmission_zeros(system.a, of_order(0) + product(system.a, once), system.c,
+                                  product(system.c, once));
 
   MatrixXd of_command = MatrixXd::Zero(loop.of_state.rows(), 2);
   of_command.topRows(plant.of_command.rows()) = plant.of_command;
@@ -420,9 +417,9 @@ Linearisation continuous_loop_about(const Scenario& scene, const Model& model,
 // Of the plant's states, in SampledCycle's order: the spin, if it acts, comes last.
 std::vector<int> cycle_states(const MatrixXd& of_state) {
   std::vector<int> states{0, 1, 2, 3, 5, 6, 7, 8};
-  VectorXd acts = of_state.col(spin);
-  acts[spin] = 0;
-  if (!acts.isZero(0)) states.push_back(spin);
+  VectorXd acts = of_state.col(spin_state);
+  acts[spin_state] = 0;
+  if (!acts.isZero(0)) states.push_back(spin_state);
   return states;
 }
 
@@ -572,7 +569,7 @@ void turn_level(const Scenario& scene, LinearPoint& point) {
     if (fall.norm() <= 1e-15 * scene.gravity) return;
     Eigen::Matrix2d slope = at.of_state.block<2, 2>(2, angle);
     if (by_angle) slope += at.of_command.middleRows<2>(2);
-    const Eigen::Vector2d change = -slope.fullPivLu().solve(fall);
+    const Eigen::Vector2d change = solve_consistent(slope, -fall);
     if (!change.allFinite()) break;
     point.state[angle] += change[0];
     point.state[angle + 1] += change[1];
@@ -624,10 +621,9 @@ void place_ball(const Rig& rig, const ControlLaw& law, LinearPoint& point) {
                   point.reference[static_cast<std::size_t>(integrated[k])].value;
       slope.row(row).head<2>() = seen.row(integrated[k]);
     }
-    const Eigen::FullPivLU<MatrixXd> factors(slope);
-    if (!factors.isInvertible()) break;
-    const VectorXd change = -factors.solve(left);
-    if (!change.allFinite()) break;
+    const auto solved = solve_if_regular(slope, -left);
+    if (!solved || !solved->allFinite()) break;
+    const VectorXd change = *solved;
     for (Eigen::Index k = 0; k < n; ++k) {
       const int place = unknowns[static_cast<std::size_t>(k)];
       point.state[static_cast<std::size_t>(place < 8 ? place : integral + place - 8)] += change[k];

@@ -1,11 +1,10 @@
 #include "model/control/riccati.hpp"
 
-#include <Eigen/Cholesky>
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 
 #include "base/error.hpp"
+#include "model/dense.hpp"
 #include "model/eigenvalues.hpp"
 
 namespace bbsim::model {
@@ -23,13 +22,12 @@ using Eigen::MatrixXd;
 MatrixXd doubled(MatrixXd a, MatrixXd g, MatrixXd h) {
   const MatrixXd identity = MatrixXd::Identity(a.rows(), a.cols());
   for (int pass = 0; pass < 60; ++pass) {
-    const Eigen::PartialPivLU<MatrixXd> w(identity + g * h);
-    const MatrixXd wa = w.solve(a);
-    const MatrixXd wg = w.solve(g);
-    const MatrixXd change = a.transpose() * h * wa;
-    g += a * wg * a.transpose();
+    const MatrixXd w = identity + product(g, h), transposed = a.transpose();
+    const MatrixXd wa = solve(w, a);
+    const MatrixXd change = product(product(transposed, h), wa);
+    g += product(product(a, solve(w, g)), transposed);
     h += change;
-    a = a * wa;
+    a = product(a, wa);
     if (!h.allFinite() || !g.allFinite()) break;
     // By now a is the closed loop over 2^pass steps: it has to have died away.
     if (change.norm() <= 1e-15 * h.norm() && a.norm() <= 1e-6) return (h + h.transpose()) / 2;
@@ -42,16 +40,17 @@ MatrixXd doubled(MatrixXd a, MatrixXd g, MatrixXd h) {
 RiccatiSolution solve_discrete_riccati(const MatrixXd& a, const MatrixXd& b, const MatrixXd& q,
                                        const MatrixXd& r) {
   RiccatiSolution solution;
-  solution.cost = doubled(a, b * r.inverse() * b.transpose(), q);
-  solution.gain =
-      (r + b.transpose() * solution.cost * b).ldlt().solve(b.transpose() * solution.cost * a);
+  const MatrixXd b_transposed = b.transpose();
+  solution.cost = doubled(a, product(product(b, inverse(r)), b_transposed), q);
+  const MatrixXd seen = product(b_transposed, solution.cost);
+  solution.gain = solve(r + product(seen, b), product(seen, a));
   return solution;
 }
 
 RiccatiSolution solve_continuous_riccati(const MatrixXd& a, const MatrixXd& b, const MatrixXd& q,
                                          const MatrixXd& r) {
   const MatrixXd identity = MatrixXd::Identity(a.rows(), a.cols());
-  const MatrixXd g = b * r.inverse() * b.transpose();
+  const MatrixXd b_transposed = b.transpose(), g = product(product(b, inverse(r)), b_transposed);
   // Any shift beyond the eigenvalues' sizes does.
   double largest = 1;
   for (const std::complex<double>& value : eigenvalues_of(a)) {
@@ -59,13 +58,14 @@ RiccatiSolution solve_continuous_riccati(const MatrixXd& a, const MatrixXd& b, c
   }
   const double shift = 1.5 * largest;
   const MatrixXd shifted = a - shift * identity;
-  const MatrixXd inverse = shifted.inverse();
-  const MatrixXd w = (shifted.transpose() + q * inverse * g).inverse();
+  const MatrixXd transposed = shifted.transpose(), inverted = inverse(shifted);
+  const MatrixXd w = inverse(transposed + product(product(q, inverted), g));
+  const MatrixXd forward = inverse(shifted + product(product(g, inverse(transposed)), q));
   RiccatiSolution solution;
   solution.cost =
-      doubled(identity + 2 * shift * (shifted + g * shifted.transpose().inverse() * q).inverse(),
-              2 * shift * inverse * g * w, 2 * shift * w * q * inverse);
-  solution.gain = r.inverse() * b.transpose() * solution.cost;
+      doubled(identity + 2 * shift * forward, 2 * shift * product(product(inverted, g), w),
+              2 * shift * product(product(w, q), inverted));
+  solution.gain = product(product(inverse(r), b_transposed), solution.cost);
   return solution;
 }
 

@@ -6,11 +6,11 @@
 #include <deque>
 #include <tuple>
 #include <type_traits>
-#include <unsupported/Eigen/MatrixFunctions>
 #include <utility>
 
 #include "model/control/linear_law.hpp"
 #include "model/control/riccati.hpp"
+#include "model/dense.hpp"
 #include "model/eigenvalues.hpp"
 #include "model/systems/any_jacobian.hpp"
 
@@ -46,7 +46,7 @@ std::pair<MatrixXd, MatrixXd> advanced(const MatrixXd& a, const MatrixXd& b, dou
   MatrixXd both = MatrixXd::Zero(n + 2, n + 2);
   both.topLeftCorner(n, n) = a * time;
   both.topRightCorner(n, 2) = b * time;
-  const MatrixXd all = both.exp();
+  const MatrixXd all = exponential(both);
   return {all.topLeftCorner(n, n), all.topRightCorner(n, 2)};
 }
 
@@ -298,12 +298,8 @@ Linkages levelled(const Linkages& link) {
 }
 
 LinearPlant after(const LinearPlant& plant, double time) {
-  const Eigen::Index n = plant.a.rows();
-  MatrixXd both = MatrixXd::Zero(n + 2, n + 2);
-  both.topLeftCorner(n, n) = plant.a * time;
-  both.topRightCorner(n, 2) = plant.b * time;
-  const MatrixXd all = both.exp();
-  return {all.topLeftCorner(n, n), all.topRightCorner(n, 2)};
+  auto [a, b] = advanced(plant.a, plant.b, time);
+  return {std::move(a), std::move(b)};
 }
 
 Eigen::Matrix<double, 2, 8> lqr_gain(const LinearPlant& plant, const LqrWeights& weights,

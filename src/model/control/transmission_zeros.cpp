@@ -1,11 +1,11 @@
 #include "model/control/transmission_zeros.hpp"
 
-#include <Eigen/LU>
 #include <Eigen/SVD>
 #include <algorithm>
 #include <limits>
 #include <utility>
 
+#include "model/dense.hpp"
 #include "model/eigenvalues.hpp"
 
 namespace bbsim::model {
@@ -39,7 +39,7 @@ Quadruple reduced(Quadruple of, double rounding) {
     const RowCompression of_d = compress_rows(of.d, rounding);
     const Index sigma = of_d.rank;
     if (sigma == p) break;
-    const MatrixXd c = of_d.rows * of.c, d = of_d.rows * of.d;
+    const MatrixXd c = product(of_d.rows, of.c), d = product(of_d.rows, of.d);
     // Directions of the state that the outputs without a direct term do not see come first.
     const RowCompression seen = compress_rows(c.topRows(p - sigma).transpose(), rounding);
     const Index rho = seen.rank, nu = n - rho;
@@ -49,8 +49,9 @@ Quadruple reduced(Quadruple of, double rounding) {
       break;
     }
     MatrixXd rows(n + sigma, n + m);
-    rows << seen.rows * of.a * seen.rows.transpose(), seen.rows * of.b,
-        c.bottomRows(sigma) * seen.rows.transpose(), d.bottomRows(sigma);
+    const MatrixXd back = seen.rows.transpose();
+    rows << product(product(seen.rows, of.a), back), product(seen.rows, of.b),
+        product(c.bottomRows(sigma), back), d.bottomRows(sigma);
     of = {rows.topLeftCorner(nu, nu), rows.topRightCorner(nu, m),
           rows.block(nu, 0, rho + sigma, nu), rows.block(nu, n, rho + sigma, m)};
   }
@@ -75,7 +76,7 @@ std::vector<std::complex<double>> transmission_zeros(const MatrixXd& a, const Ma
   MatrixXd matrix = square.a;
   if (square.d.rows() > 0) {
     if (square.d.rows() != square.d.cols()) return {};
-    matrix -= square.b * square.d.fullPivLu().solve(square.c);
+    matrix -= product(square.b, solve_consistent(square.d, square.c));
   }
   std::vector<std::complex<double>> zeros = eigenvalues_of(matrix);
   std::sort(zeros.begin(), zeros.end(), [](const auto& p, const auto& q) {

@@ -12,7 +12,6 @@
 namespace bbsim::model {
 namespace {
 
-constexpr double pi = std::numbers::pi;
 // So far a command stays from where a curve ends, rad: next to it the inverse is infinitely steep.
 constexpr double inside = 1e-9;
 // A run ends so far before rod and arm are in line, where the plane's rate and acceleration are
@@ -66,7 +65,7 @@ std::vector<DeadPoint> dead_points(const Rods& of) {
 }
 
 double turned_within(double angle, double from) {
-  return angle - 2 * pi * std::floor((angle - from) / (2 * pi));
+  return angle - 2 * std::numbers::pi * std::floor((angle - from) / (2 * std::numbers::pi));
 }
 
 // The arm's angle, whole turns and all, where the servo has gone from home to `servo`, at which it
@@ -74,7 +73,9 @@ double turned_within(double angle, double from) {
 double arm_followed(const Rods& rods, double servo, double arm) {
   const Turn<double> home = rods.arm_at(0.0);
   double angle = std::atan2(home.sin, home.cos);
-  const auto go_to = [&angle](double next) { angle = turned_within(next, angle - pi); };
+  const auto go_to = [&angle](double next) {
+    angle = turned_within(next, angle - std::numbers::pi);
+  };
   constexpr int steps = 256;
   for (int i = 1; i < steps; ++i) {
     const Turn<double> turn = rods.arm_at(servo * i / steps);
@@ -154,7 +155,7 @@ Linkage make_linkage(const RodLinkage& of, Assumed assumed) {
   double at_low = -unlimited, at_high = unlimited;  // the arm's angles there
   for (const DeadPoint& point : dead_points(rods)) {
     const double there = turned_within(point.servo, 0);
-    const double up = there - point.before, down = there - 2 * pi + point.before;
+    const double up = there - point.before, down = there - 2 * std::numbers::pi + point.before;
     if (up < curve.high) {
       curve.high = up;
       at_high = point.arm;
@@ -222,7 +223,7 @@ double Linkage::servo_for(double angle) const {
   if (reach.binds()) {
     // A turn more or less is the same direction.
     const double low = reach.low + inside, high = reach.high - inside;
-    for (const double turn : {2 * pi, -2 * pi}) {
+    for (const double turn : {2 * std::numbers::pi, -2 * std::numbers::pi}) {
       if ((within < low || within > high) && within + turn >= low && within + turn <= high) {
         within += turn;
       }
@@ -424,7 +425,7 @@ double greatest_tilt(const ThreeServos& three) {
   const auto reached = [&](double tilt) {
     constexpr int directions = 60;
     for (int j = 0; j <= directions; ++j) {
-      const double azimuth = 2 * pi / 3 * j / directions;
+      const double azimuth = 2 * std::numbers::pi / 3 * j / directions;
       const ThreeServos::Pose<double> at{std::sin(tilt) * std::cos(azimuth),
                                          std::sin(tilt) * std::sin(azimuth), three.height};
       for (int i = 0; i < 3; ++i) {

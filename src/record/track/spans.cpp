@@ -7,9 +7,6 @@
 namespace bbsim::record {
 namespace {
 
-// A maximum's value needs its place to the square root of what it is to be good to.
-constexpr double place = 1e-7;
-
 // A polynomial is nowhere further above the values at its Chebyshev points than this part of their
 // range: (L - 1) / 2, of the Lebesgue constant L <= 1 + 2 / pi log(129) up to degree 128.
 constexpr double beyond = 1.55;
@@ -39,7 +36,7 @@ double SpanSearch::greatest_within(std::size_t parts, const double* values, Spac
                                    double greatest) {
   const ChebyshevPoints& points = tables_.points(parts);
   const auto look_closer = [&](const Bracket& bracket) {
-    const Peak peak = climb(bracket, place * (bracket.to.at - bracket.from.at),
+    const Peak peak = climb(bracket, good_place * (bracket.to.at - bracket.from.at),
                             [&](double s) { return points.at(values, s); });
     if (peak.value > greatest) greatest = peak.value;
   };

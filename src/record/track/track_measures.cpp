@@ -42,7 +42,7 @@ bool is_track_measure(const scenario::Measure& measure) {
 }
 
 // Points of pieces that are looked at in one go; a piece has fewer.
-constexpr std::size_t together = 1024;
+constexpr std::size_t points_together = 1024;
 
 void subtract(const SignalRows& signals, std::size_t count, PaddedRows& x, PaddedRows& y) {
   for (std::size_t i = 0; i < count; ++i) {
@@ -103,10 +103,10 @@ void TrackMeasures::begin(const model::Model& model, const model::BallConstants&
     has_row_reference_ = false;
     motion_.reset();
   }
-  for (PaddedRows* const column : {&x_, &y_, &sizes_}) column->resize(together);
+  for (PaddedRows* const column : {&x_, &y_, &sizes_}) column->resize(points_together);
   if (closed_ && wants_gimbal_) {
     for (PaddedRows* const column : {&phi_, &theta_, &phi_rate_, &theta_rate_, &more_sizes_}) {
-      column->resize(together);
+      column->resize(points_together);
     }
   }
   begin_run();
@@ -119,7 +119,7 @@ void TrackMeasures::begin_run() {
   rows_ = 1;
   spans_.clear();
   points_ = 0;
-  reference_.times(together)[0] = 0;
+  reference_.times(points_together)[0] = 0;
   last_ = model_->initial;
   last_.resize(model_->row_size());
   copy_points(last_.data(), 1);
@@ -128,7 +128,7 @@ void TrackMeasures::begin_run() {
 void TrackMeasures::accept(const solve::Piece& piece) {
   const bool looks = wants_distance_ || (closed_ && (wants_gimbal_ || wants_error_));
   const std::size_t parts = piece.parts(), count = looks ? parts + 1 : 0;
-  if (points_ + count > together) look();
+  if (points_ + count > points_together) look();
   times_.resize(count);
   if (looks) {
     const ChebyshevPoints& points = search_.points(parts);
@@ -138,7 +138,7 @@ void TrackMeasures::accept(const solve::Piece& piece) {
     times_.back() = piece.to();
     spans_.push_back({points_, parts});
     if (closed_ && wants_error_) {
-      std::copy(times_.begin(), times_.end(), reference_.times(together) + points_);
+      std::copy(times_.begin(), times_.end(), reference_.times(points_together) + points_);
     }
   }
   // Where not every row is wanted, only the last one is: it is the end of the run.

@@ -11,8 +11,8 @@
 namespace bbsim::solve::held {
 namespace {
 
-constexpr auto angle = static_cast<std::size_t>(model::RigLayout::angle);
-constexpr auto rate = static_cast<std::size_t>(model::RigLayout::rate);
+constexpr auto angle_state = static_cast<std::size_t>(model::RigLayout::angle);
+constexpr auto rate_state = static_cast<std::size_t>(model::RigLayout::rate);
 
 // A piece that is cut so often is for who runs one by one, and can say why it fails.
 constexpr int most_rejections = 40;
@@ -212,8 +212,8 @@ void RigLanes::put_start(std::size_t l) {
     pieces_->velocity[i][l] = lane.z[2 + i];
     if (i == 2) continue;
     pieces_->position[i][l] = lane.z[i];
-    pieces_->axis[i].angle[l] = lane.z[angle + i];
-    pieces_->axis[i].rate[l] = lane.z[rate + i];
+    pieces_->axis[i].angle[l] = lane.z[angle_state + i];
+    pieces_->axis[i].rate[l] = lane.z[rate_state + i];
   }
 }
 
@@ -389,14 +389,14 @@ void RigLanes::state_at(std::size_t l, double t, const double (*ball)[group], bo
   for (std::size_t i = 0; i < 2; ++i) {
     const LaneAxis& axis = pieces_->axis[i];
     if (at_end) {
-      lane.z[angle + i] = axis.angle_end[l];
-      lane.z[rate + i] = axis.rate_end[l];
+      lane.z[angle_state + i] = axis.angle_end[l];
+      lane.z[rate_state + i] = axis.rate_end[l];
     } else {
       const model::HeldMotion servo = step_.servo(l, i);
       const model::HeldMotion::Instant at =
           servo.after(lane.instants->answer(servo.law, lane.until, t - lane.time));
-      lane.z[angle + i] = at.angle;
-      lane.z[rate + i] = at.rate;
+      lane.z[angle_state + i] = at.angle;
+      lane.z[rate_state + i] = at.rate;
     }
   }
 }
