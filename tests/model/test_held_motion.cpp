@@ -95,6 +95,7 @@ TEST_CASE("the first fall of a line in a held motion is found wherever it is") {
     return line.at(at.angle, at.rate);
   };
   int falls = 0, dips = 0;
+  AnswerAtEnd at_end;  // of one law after the other
   for (const HeldLaw& law : laws) {
     for (const double rate : {-2.0, 0.0, 0.7}) {
       for (const double acceleration : {-30.0, 0.0, 8.0}) {
@@ -103,7 +104,7 @@ TEST_CASE("the first fall of a line in a held motion is found wherever it is") {
              {MotionLine{0.14, -1, 0}, MotionLine{0.2, 1, 0}, MotionLine{0.9, 0, -1},
               MotionLine{2.05, 0, 1}, MotionLine{5, -20, -1}, MotionLine{1, 3, 0.2}}) {
           constexpr double end = 0.8;
-          const double at = first_fall(line, motion, 1e-12, 0, end);
+          const double at = first_fall(line, motion, 1e-12, 0, end, at_end);
           INFO(law.stiffness << " " << law.damping << ": " << rate << " " << acceleration << ": "
                              << line.constant << " " << line.by_angle << " " << line.by_rate);
           // Never below before, by a look from close by.
@@ -116,6 +117,16 @@ TEST_CASE("the first fall of a line in a held motion is found wherever it is") {
           if (at > end) continue;
           ++falls;
           CHECK(std::abs(value(line, motion, at)) <= 1e-9);
+          // To the rounding of the time and of what the line is the sum of.
+          const HeldMotion::Instant there = motion.after(at);
+          const double slope = line.by_angle * there.rate + line.by_rate * there.acceleration;
+          const double turns = 1 + std::sqrt(law.stiffness) * at;
+          const double size =
+              std::abs(line.constant) +
+              std::abs(line.by_angle) * (0.1 + std::abs(there.angle) + std::abs(rate) * at) +
+              std::abs(line.by_rate) * (std::abs(rate) + std::abs(acceleration) * at);
+          CHECK(std::abs(value(line, motion, at)) <=
+                20 * 2.2e-16 * turns * (size + std::abs(slope) * at));
           CHECK(value(line, motion, at * (1 + 1e-9) + 1e-12) <= 0);
           dips += value(line, motion, end) > 0 ? 1 : 0;
         }
@@ -127,17 +138,21 @@ TEST_CASE("the first fall of a line in a held motion is found wherever it is") {
 }
 
 TEST_CASE("a line that starts where it fell waits until it was clearly above, or is below") {
+  const auto fall = [](const MotionLine& line, const HeldMotion& motion, double start) {
+    AnswerAtEnd at_end;
+    return first_fall(line, motion, 1e-12, start, 1, at_end);
+  };
   // Free from a rate limit: the rate falls off at once.
   const HeldMotion slows{{100, 20}, 0, 1, -3};
   const MotionLine at_limit{1, 0, -1};
-  CHECK(std::isinf(first_fall(at_limit, slows, 1e-12, 0, 1)));
+  CHECK(std::isinf(fall(at_limit, slows, 0)));
   // A rate that grows has fallen by what is clear.
   const HeldMotion grows{{0, 0}, 0, 1, 3};
-  CHECK(first_fall(at_limit, grows, 1e-12, 0, 1) == Approx(1e-12 / 3).epsilon(1e-3));
+  CHECK(fall(at_limit, grows, 0) == Approx(1e-12 / 3).epsilon(1e-3));
   // Up first, and then back: it falls where it passes zero again.
   const HeldMotion returns{{0, 0}, 0, 1, -4};
   const MotionLine angle{0, 1, 0};
-  CHECK(first_fall(angle, returns, 1e-12, 0, 1) == Approx(0.5).epsilon(1e-14));
+  CHECK(fall(angle, returns, 0) == Approx(0.5).epsilon(1e-14));
   // Times count from the piece's start: it is found to the rounding of the time itself.
-  CHECK(first_fall({0.25, -1, 0}, {{0, 0}, 0, 1, 0}, 1e-12, 1e6, 1) == Approx(0.25).epsilon(1e-9));
+  CHECK(fall({0.25, -1, 0}, {{0, 0}, 0, 1, 0}, 1e6) == Approx(0.25).epsilon(1e-9));
 }

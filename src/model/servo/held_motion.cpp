@@ -157,9 +157,29 @@ double guess(const Fall& first, const Fall& last) {
   return s;
 }
 
-// The first time in (from, to] at which a falling function is not positive; it is at `from`, and is
-// not at `to`, where it is `first` and `last`. Newton's iteration, which goes a rounding beyond
-// where it has come, so that the root is enclosed; and a bisection after two steps that do not
+// A function and three of its derivatives.
+struct Local {
+  double value, slope, curve, third;
+};
+
+// The way from there to the root, by the series of the inverse function, and how far it may be out:
+// what comes after its last term is mostly less than a quarter of it.
+struct Way {
+  double step, doubt;
+};
+Way way_to_root(const Local& at) {
+  const double newton = -at.value / at.slope;
+  const double bend = at.curve / (2 * at.slope) * newton;
+  if (!(std::abs(bend) < 1.0 / 16)) return {newton, std::abs(newton) / 64};
+  const double twist = at.third / (6 * at.slope) * newton * newton;
+  const double last = newton * (2 * bend * bend - twist);
+  return {newton * (1 - bend) + last,
+          std::abs(last) / 4 + 4 * std::abs(newton * bend * bend * bend)};
+}
+
+// The first time in (from, to] at which a falling function is not positive, to a rounding; it is at
+// `from`, and is not at `to`, where it is `first` and `last`. Steps that are in doubt go beyond
+// where they have come by as much, so that the root is enclosed; a bisection after two that do not
 // halve.
 template <class Function>
 double root(Function function, double start, double from, Fall first, double to, Fall last) {
@@ -174,33 +194,58 @@ double root(Function function, double start, double from, Fall first, double to,
     if (width <= rounding) break;
     if (!(t > from && t < to)) t = from + width / 2;
     if (t <= from || t >= to) break;
-    const Fall at = function(t);
+    const Local at = function(t);
     (at.value > 0 ? from : to) = t;
     slow = to - from > width / 2 ? slow + 1 : 0;
-    const double step = -at.value / at.slope;
-    const double beyond = std::copysign(rounding / 2 + std::abs(step) / 64, at.value);
-    t = slow < 2 && at.slope < 0 ? t + step + beyond : from;
+    const Way way = way_to_root(at);
+    if (at.slope < 0 && way.doubt <= rounding / 2) {
+      return std::clamp(t + way.step + rounding / 2, from, to);
+    }
+    const double beyond = std::copysign(rounding / 2 + way.doubt, at.value);
+    t = slow < 2 && at.slope < 0 ? t + way.step + beyond : from;
   }
   return to;
+}
+
+// Whether the line turns at most once within a time: the next one comes half a swing later.
+bool turns_once(const HeldLaw& law, double time) {
+  constexpr double pi = std::numbers::pi;
+  return -Spectrum(law).discriminant * time * time < pi * pi;
 }
 
 }  // namespace
 
 double first_fall(const MotionLine& line, const HeldMotion& motion, double clearly, double start,
-                  double end) {
+                  double end, AnswerAtEnd& at_end) {
   if (reach(motion, end).least(line) > clearly) return never;
   double threshold = 0;
   const auto fall = [&](const HeldMotion::Instant& at) {
     return Fall{line.at(at.angle, at.rate) - threshold,
                 line.by_angle * at.rate + line.by_rate * at.acceleration};
   };
-  Turns turns(line, motion);
+  const auto local = [&](double t) {
+    const HeldMotion::Instant at = motion.after(t);
+    const double third = -motion.law.damping * at.acceleration - motion.law.stiffness * at.rate;
+    const double fourth = -motion.law.damping * third - motion.law.stiffness * at.acceleration;
+    return Local{line.at(at.angle, at.rate) - threshold,
+                 line.by_angle * at.rate + line.by_rate * at.acceleration,
+                 line.by_angle * at.acceleration + line.by_rate * third,
+                 line.by_angle * third + line.by_rate * fourth};
+  };
   double from = 0;
   Fall now = fall({motion.angle, motion.rate, motion.acceleration});
   if (!(now.value > clearly)) {
     threshold = std::min(0.0, now.value) - clearly;
     now.value -= threshold;
+  } else if (turns_once(motion.law, end)) {
+    // Mostly the line's ends tell: by its slopes there it does not dip between.
+    const Fall last = fall(motion.after(at_end.of(motion.law, end)));
+    if (last.value > 0 && !(now.slope < 0 && last.slope > 0)) return never;
+    if (!(last.value > 0) && now.slope < 0 && last.slope < 0) {
+      return root(local, start, 0, now, end, last);
+    }
   }
+  Turns turns(line, motion);
   // From turn to turn the line goes one way.
   while (from < end) {
     const double to = std::min(turns.next(), end);
@@ -210,7 +255,7 @@ double first_fall(const MotionLine& line, const HeldMotion& motion, double clear
     const Fall reached = fall(at);
     if (!(reached.value > 0)) {
       if (!std::isfinite(reached.value)) return never;
-      return root([&](double t) { return fall(motion.after(t)); }, start, from, now, to, reached);
+      return root(local, start, from, now, to, reached);
     }
     from = to;
     now = reached;

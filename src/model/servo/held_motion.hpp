@@ -87,10 +87,28 @@ struct MotionReach {
   return {motion.angle + spring, most, most * root};
 }
 
+// The answer at the end of what is looked at, which lines and servos mostly have in common.
+class AnswerAtEnd {
+ public:
+  const ImpulseAnswer& of(const HeldLaw& law, double end) {
+    if (!(law == law_ && end == end_)) {
+      law_ = law;
+      end_ = end;
+      answer_ = answer(law, end);
+    }
+    return answer_;
+  }
+
+ private:
+  HeldLaw law_;
+  double end_ = 0;
+  ImpulseAnswer answer_;
+};
+
 // The first time within (0, end] at which the line falls to zero, s; infinite if it does not. If it
 // starts no more than `clearly` above zero, it has to fall clearly below, or to have risen clearly
 // above before. To the rounding of the time, which counts from `start`.
 [[nodiscard]] double first_fall(const MotionLine& line, const HeldMotion& motion, double clearly,
-                                double start, double end);
+                                double start, double end, AnswerAtEnd& at_end);
 
 }  // namespace bbsim::model

@@ -178,7 +178,7 @@ ServoAxis::Clearance ServoAxis::clearance() const {
 }
 
 ServoAxis::Fall ServoAxis::first_fall(const HeldMotion& motion, double command, double start,
-                                      double end) const {
+                                      double end, AnswerAtEnd& at_end) const {
   Fall first;
   const bool springs = root_ > 0 && motion.law.stiffness == response_.from_angle;
   const MotionReach reached = springs ? reach_about(motion, root_) : reach(motion, end);
@@ -192,8 +192,8 @@ ServoAxis::Fall ServoAxis::first_fall(const HeldMotion& motion, double command, 
     double sizes[guards];
     scales(sizes);
     // As for guards that an integrator looks at.
-    const double after =
-        model::first_fall(line, motion, 1e-12 * sizes[guard], start, std::min(end, first.after));
+    const double after = model::first_fall(line, motion, 1e-12 * sizes[guard], start,
+                                           std::min(end, first.after), at_end);
     if (after < first.after) first = {after, guard};
   });
   return first;
