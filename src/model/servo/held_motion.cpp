@@ -217,7 +217,6 @@ bool turns_once(const HeldLaw& law, double time) {
 
 double first_fall(const MotionLine& line, const HeldMotion& motion, double clearly, double start,
                   double end, AnswerAtEnd& at_end) {
-  if (reach(motion, end).least(line) > clearly) return never;
   double threshold = 0;
   const auto fall = [&](const HeldMotion::Instant& at) {
     return Fall{line.at(at.angle, at.rate) - threshold,
@@ -245,6 +244,7 @@ double first_fall(const MotionLine& line, const HeldMotion& motion, double clear
       return root(local, start, 0, now, end, last);
     }
   }
+  if (reach(motion, end).least(line) > clearly) return never;
   Turns turns(line, motion);
   // From turn to turn the line goes one way.
   while (from < end) {
