@@ -163,7 +163,8 @@ struct Local {
 };
 
 // The way from there to the root, by the series of the inverse function, and how far it may be out:
-// what comes after its last term is mostly less than a quarter of it.
+// what comes after its last term is less than a quarter of that term's parts. They do not vanish
+// together, but of a line.
 struct Way {
   double step, doubt;
 };
@@ -172,9 +173,8 @@ Way way_to_root(const Local& at) {
   const double bend = at.curve / (2 * at.slope) * newton;
   if (!(std::abs(bend) < 1.0 / 16)) return {newton, std::abs(newton) / 64};
   const double twist = at.third / (6 * at.slope) * newton * newton;
-  const double last = newton * (2 * bend * bend - twist);
-  return {newton * (1 - bend) + last,
-          std::abs(last) / 4 + 4 * std::abs(newton * bend * bend * bend)};
+  const double bent = 2 * bend * bend;
+  return {newton * (1 - bend + bent - twist), std::abs(newton) * (bent + std::abs(twist)) / 4};
 }
 
 // The first time in (from, to] at which a falling function is not positive, to a rounding; it is at
@@ -240,7 +240,7 @@ double first_fall(const MotionLine& line, const HeldMotion& motion, double clear
     // Mostly the line's ends tell: by its slopes there it does not dip between.
     const Fall last = fall(motion.after(at_end.of(motion.law, end)));
     if (last.value > 0 && !(now.slope < 0 && last.slope > 0)) return never;
-    if (!(last.value > 0) && now.slope < 0 && last.slope < 0) {
+    if (!(last.value > 0) && std::isfinite(last.value) && now.slope < 0 && last.slope < 0) {
       return root(local, start, 0, now, end, last);
     }
   }
