@@ -27,7 +27,9 @@ std::optional<MatrixXd> solve_if_regular(const MatrixXd& a, const MatrixXd& b) {
   if (!a.allFinite()) return {};
   const Eigen::FullPivLU<MatrixXd> factors(a);
   if (!factors.isInvertible()) return {};
-  return factors.solve(b);
+  MatrixXd solution = factors.solve(b);
+  if (!solution.allFinite()) return {};
+  return solution;
 }
 
 MatrixXd exponential(const MatrixXd& a) {

@@ -20,7 +20,7 @@ namespace bbsim::model {
 // By pivots of rows and columns: if `a` is singular one of the solutions, if there are any.
 [[nodiscard]] Eigen::MatrixXd solve_consistent(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b);
 
-// The same; nothing if `a` is singular, or not finite.
+// The same; nothing if `a` is singular, or anything not finite.
 [[nodiscard]] std::optional<Eigen::MatrixXd> solve_if_regular(const Eigen::MatrixXd& a,
                                                               const Eigen::MatrixXd& b);
 

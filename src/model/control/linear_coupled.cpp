@@ -386,7 +386,7 @@ LinearPoint coupled_equilibrium(const Scenario& scene, const Model& model) {
     slope.leftCols(of_states) = now.of_state(rest.vanishing, rest.states);
     if (rest.commands) slope.rightCols(2) = now.of_command(rest.vanishing, Eigen::all);
     const auto solved = solve_if_regular(slope, -now.rates(rest.vanishing));
-    if (!solved || !solved->allFinite()) break;
+    if (!solved) break;
     const VectorXd change = *solved;
     for (Eigen::Index k = 0; k < of_states; ++k) {
       z[rest.states[static_cast<std::size_t>(k)]] += change[k];

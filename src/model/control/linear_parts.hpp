@@ -26,14 +26,15 @@ struct LoopDerivatives {
   Eigen::MatrixXd of_state, of_reference, command_of_state;
 };
 
-// A number that knows how a loop's states, 19 at most, and six more variables change it. Where
-// there are fewer it is all the same: compilers take ten seconds over right-hand sides with another
-// number.
-using Varied = simd::WithGradient<19 + 6>;
+// A number that knows how a loop's states and six more variables change it. Where there are fewer
+// it is all the same: compilers take ten seconds over right-hand sides with another number.
+inline constexpr int most_states = 19;
+using Varied = simd::WithGradient<most_states + 6>;
 
 // From rates whose variables are states, then commands, and whatever follows.
 template <int n>
 [[nodiscard]] PlantDerivatives plant_derivatives(const Varied (&rates)[n]) {
+  static_assert(n <= most_states);
   return {simd::values(rates), simd::gradients(rates, 0, n), simd::gradients(rates, n, 2)};
 }
 
@@ -41,6 +42,7 @@ template <int n>
 template <int n>
 [[nodiscard]] LoopDerivatives loop_derivatives(const Varied (&rates)[n],
                                                const Varied (&commands)[2]) {
+  static_assert(n <= most_states);
   return {simd::gradients(rates, 0, n), simd::gradients(rates, n, 6),
           simd::gradients(commands, 0, n)};
 }

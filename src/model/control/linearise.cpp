@@ -622,7 +622,7 @@ void place_ball(const Rig& rig, const ControlLaw& law, LinearPoint& point) {
       slope.row(row).head<2>() = seen.row(integrated[k]);
     }
     const auto solved = solve_if_regular(slope, -left);
-    if (!solved || !solved->allFinite()) break;
+    if (!solved) break;
     const VectorXd change = *solved;
     for (Eigen::Index k = 0; k < n; ++k) {
       const int place = unknowns[static_cast<std::size_t>(k)];

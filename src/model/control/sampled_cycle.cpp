@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 #include <deque>
-#include <tuple>
 #include <type_traits>
 #include <utility>
 
@@ -38,16 +37,6 @@ RigLoop<true, SignalPair, Linkages> held(const RigLoop<true, SignalPair, Linkage
 // Three servos, about home, are two ideal ones.
 RigLoop<true> held(const RigLoop<true, SignalPair, ThreeServos>& loop) {
   return {loop.radius(), loop.gravity(), loop.rolling(), ControlLaw{}, loop.servo(), {}};
-}
-
-// States and commands, the latter constant, after a time.
-std::pair<MatrixXd, MatrixXd> advanced(const MatrixXd& a, const MatrixXd& b, double time) {
-  const Eigen::Index n = a.rows();
-  MatrixXd both = MatrixXd::Zero(n + 2, n + 2);
-  both.topLeftCorner(n, n) = a * time;
-  both.topRightCorner(n, 2) = b * time;
-  const MatrixXd all = exponential(both);
-  return {all.topLeftCorner(n, n), all.topRightCorner(n, 2)};
 }
 
 // The states in `of` about home, under commands that are held in `mode`, the loop's own.
@@ -106,7 +95,9 @@ SampledCycle::SampledCycle(CycleParts parts) : parts_(std::move(parts)) {
                               period};
   double from = 0;
   for (int i = 0; i < 3; ++i) {
-    std::tie(advance_a_[i], advance_b_[i]) = advanced(parts_.a, parts_.b, instants[i] - from);
+    LinearPlant way = after({parts_.a, parts_.b}, instants[i] - from);
+    advance_a_[i] = std::move(way.a);
+    advance_b_[i] = std::move(way.b);
     from = instants[i];
   }
 }
@@ -298,8 +289,12 @@ Linkages levelled(const Linkages& link) {
 }
 
 LinearPlant after(const LinearPlant& plant, double time) {
-  auto [a, b] = advanced(plant.a, plant.b, time);
-  return {std::move(a), std::move(b)};
+  const Eigen::Index n = plant.a.rows();
+  MatrixXd both = MatrixXd::Zero(n + 2, n + 2);
+  both.topLeftCorner(n, n) = plant.a * time;
+  both.topRightCorner(n, 2) = plant.b * time;
+  const MatrixXd all = exponential(both);
+  return {all.topLeftCorner(n, n), all.topRightCorner(n, 2)};
 }
 
 Eigen::Matrix<double, 2, 8> lqr_gain(const LinearPlant& plant, const LqrWeights& weights,
