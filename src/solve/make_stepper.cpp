@@ -39,7 +39,7 @@ std::unique_ptr<Stepper> make_stepper(const model::Model& model, Method method,
         return std::make_unique<held::HeldStepper>(model, held::choose_kernels(), tolerances);
       }
       return std::make_unique<radau::RadauStepper>(model, radau::choose_kernels(),
-                                                   radau::choose_stages(tolerances.rtol),
+                                                   radau::choose_stages(model, tolerances.rtol),
                                                    tolerances, grid.end());
     case Method::bdf:
     case Method::adams:

@@ -78,7 +78,7 @@ std::array<solve::CheckRun, 4> Checks::kinds(const Track& run, double rtol) cons
   const int most = stages_of(model_, 16), fewer = most == 16 ? 12 : 8;
   std::array<solve::CheckRun, 4> kinds{{{most, 2}, {fewer, 3}, {most, 4}, {fewer, 5}}};
   const bool alike = run.outcome.method == Method::radau &&
-                     stages_of(model_, choose_stages(rtol)) == kinds[0].stages;
+                     stages_of(model_, choose_stages(model_, rtol)) == kinds[0].stages;
   if (alike) std::swap(kinds[0], kinds[1]);
   return kinds;
 }

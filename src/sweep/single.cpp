@@ -138,11 +138,11 @@ class SingleRunner : public CaseRunner {
   solve::Outcome run_quickly(const Solver& solver, const model::Model& model,
                              const solve::OutputGrid& grid, const solve::Watch& watch) {
     const solve::Tolerances tolerances{solver.rtol, solver.atol};
+    const int stages = solve::radau::choose_stages(model, tolerances.rtol);
     if (stepper_ && same_tolerances_) {
-      stepper_->renew(model, grid.end());
+      stepper_->renew(model, stages, grid.end());
     } else {
-      stepper_.emplace(model, kernels_, solve::radau::choose_stages(tolerances.rtol), tolerances,
-                       grid.end());
+      stepper_.emplace(model, kernels_, stages, tolerances, grid.end());
     }
     stepper_->leave_out_velocities(recorder_.wants_positions_only());
     return solve::run_through(*stepper_, model, grid, recorder_, watch);

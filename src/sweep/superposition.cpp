@@ -218,7 +218,7 @@ std::shared_ptr<const Superposed> solve_superposed(const SweepTask& task) {
     }
     model.system = model::OpenLoop<model::Shape::full>(factors[5], factors[6], motion);
     model.initial.assign(factors.begin(), factors.begin() + states);
-    const int stages = solve::radau::choose_stages(finest.rtol);
+    const int stages = solve::radau::choose_stages(model, finest.rtol);
     solve::radau::RadauStepper stepper(model, solve::radau::choose_kernels(), stages, finest,
                                        grid.end());
     // Accelerations are polynomials through the stages.

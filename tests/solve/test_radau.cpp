@@ -30,7 +30,7 @@ struct Rows {
 Rows integrate(const model::Model& model, const Scenario& scene, double rtol,
                const StepKernels& kernels = solve::radau::choose_kernels(), int stages = 0,
                const solve::Watch& watch = {}) {
-  if (stages == 0) stages = solve::radau::choose_stages(rtol);
+  if (stages == 0) stages = solve::radau::choose_stages(model, rtol);
   RadauStepper stepper(model, kernels, stages, {rtol, rtol / 100}, scene.time.end);
   solve::Trajectory rows(model.row_size());
   const solve::Outcome run =

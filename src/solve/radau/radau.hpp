@@ -24,7 +24,7 @@ namespace bbsim::solve::radau {
 
 // How many stages suit a relative tolerance: 8, 12 or 16. Rigs beyond the paper's have kernels of 8
 // and 12, and take 12 for 16.
-[[nodiscard]] int choose_stages(double rtol);
+[[nodiscard]] int choose_stages(const model::Model& model, double rtol);
 
 // How many stages a model gets that is asked to take so many.
 [[nodiscard]] int stages_of(const model::Model& model, int stages);
@@ -43,7 +43,7 @@ class RadauStepper : public Stepper {
                Tolerances tolerances, double end);
 
   // Makes the stepper as if it were made anew for another model, with the memory of the last one.
-  void renew(const model::Model& model, double end);
+  void renew(const model::Model& model, int stages, double end);
 
   // Rows then have the positions alone; what else is in them is left as it is. To be called before
   // start().
@@ -77,7 +77,6 @@ class RadauStepper : public Stepper {
 
   const model::Model* model_;
   const StepKernels& kernels_;
-  int stages_;  // asked for
   const Kernel* kernel_ = nullptr;
   Tolerances tolerances_;
   double end_ = 0, highest_frequency_ = 0, reach_ = 0, widest_ = 0;

@@ -278,33 +278,38 @@ struct Collocation {
                                        });
   }
 
-  // First values of k over [t, t + h].
-  [[gnu::noinline]] static void guess(Workspace& w, double t, double h) {
-    if (!w.has_guess) {
+  // The first values of k, and the stages that come of it, for the step that w.t and w.h tell:
+  // accelerations that stay as they are at its start.
+  BBSIM_INLINE static void hold(Workspace& w, const double (&k)[nv]) {
+    for (int p = 0; p < packs; ++p) {
+      const P time = w.h * P::load(&table.c[p * lanes]);
+#pragma GCC unroll 8
       for (int i = 0; i < nv; ++i) {
-        for (int p = 0; p < packs; ++p) P(0.0).store(&w.k.of[i][p * lanes]);
-      }
-    } else if (w.accepted) {
-      // The accelerations at the end of the last step, held.
-      for (int i = 0; i < nv; ++i) {
-        const double last = w.k.of[i][s - 1];
-        for (int p = 0; p < packs; ++p) P(last).store(&w.k.of[i][p * lanes]);
-      }
-    } else {
-      // The polynomial of the rejected, longer attempt.
-      for (int p = 0; p < packs; ++p) {
-        const P x = (2 * (t - w.t) / w.h - 1) + (2 * h / w.h) * P::load(&table.c[p * lanes]);
-        P value[nv], before = P(1.0), now = x;
-        for (int i = 0; i < nv; ++i) value[i] = w.series.of[i][0] + w.series.of[i][1] * x;
-        for (int m = 1; m + 1 < s; ++m) {
-          const P next = ((2.0 * m + 1) / (m + 1)) * x * now - (double(m) / (m + 1)) * before;
-          before = now;
-          now = next;
-          for (int i = 0; i < nv; ++i) value[i] += P(w.series.of[i][m + 1]) * now;
-        }
-        for (int i = 0; i < nv; ++i) value[i].store(&w.k.of[i][p * lanes]);
+        const P gain = time * P(k[i]);
+        P(k[i]).store(&w.k.of[i][p * lanes]);
+        (P(w.v[i]) + gain).store(&w.v_stage.of[i][p * lanes]);
+        if (i >= nq) continue;
+        const P q = P(w.q[i]) + time * (P(w.v[i]) + 0.5 * gain);
+        q.store(&w.q_stage.of[i][p * lanes]);
       }
     }
+  }
+
+  // The same by the polynomial of the rejected, longer attempt from t over h.
+  [[gnu::noinline]] static void extrapolate(Workspace& w, double t, double h) {
+    for (int p = 0; p < packs; ++p) {
+      const P x = (2 * (w.t - t) / h - 1) + (2 * w.h / h) * P::load(&table.c[p * lanes]);
+      P value[nv], before = P(1.0), now = x;
+      for (int i = 0; i < nv; ++i) value[i] = w.series.of[i][0] + w.series.of[i][1] * x;
+      for (int m = 1; m + 1 < s; ++m) {
+        const P next = ((2.0 * m + 1) / (m + 1)) * x * now - (double(m) / (m + 1)) * before;
+        before = now;
+        now = next;
+        for (int i = 0; i < nv; ++i) value[i] += P(w.series.of[i][m + 1]) * now;
+      }
+      for (int i = 0; i < nv; ++i) value[i].store(&w.k.of[i][p * lanes]);
+    }
+    integrate_stages<false>(w);
   }
 
   static void weigh(Workspace& w) {
@@ -432,10 +437,12 @@ struct Collocation {
   static void evaluate(void* workspace, const double* times, std::size_t count, double* rows) {
     Workspace& w = *static_cast<Workspace*>(workspace);
     expand(w);
-    if (w.positions_only && !w.gamma) {
-      evaluate_rows<false>(w, times, count, rows);
+    if (w.gamma) {
+      evaluate_rows<true, true>(w, times, count, rows);
+    } else if (w.positions_only) {
+      evaluate_rows<false, false>(w, times, count, rows);
     } else {
-      evaluate_rows<true>(w, times, count, rows);
+      evaluate_rows<true, false>(w, times, count, rows);
     }
   }
 
@@ -450,56 +457,67 @@ struct Collocation {
     }
   }
 
-  // Positions are the same to the bit, with velocities or without.
-  template <bool velocities>
+  // Positions are the same to the bit, with velocities and the integral of u or without, and
+  // however many times there are.
+  template <bool velocities, bool turned>
   BBSIM_INLINE static void evaluate_rows(Workspace& w, const double* times, std::size_t count,
                                          double* rows) {
-    const double half = w.h / 2;
-    const int row = n + (w.gamma ? 1 : 0);
+    constexpr int row = n + (turned ? 1 : 0);
     // Two packs of times at once: the recurrence waits for itself.
-    constexpr int together = 2;
-    for (std::size_t first = 0; first < count; first += together * lanes) {
-      const std::size_t left = count - first;
-      const int used = left < together * lanes ? static_cast<int>(left) : together * lanes;
-      alignas(64) double at[together * lanes];
-      for (int l = 0; l < together * lanes; ++l) at[l] = times[first + (l < used ? l : 0)];
-      P x[together], before[together], now[together], q[nv][together], v[nv][together];
+    while (count > lanes) {
+      const std::size_t some = count < 2 * lanes ? count : 2 * lanes;
+      evaluate_some<velocities, turned, 2>(w, times, static_cast<int>(some), rows);
+      times += some;
+      rows += some * row;
+      count -= some;
+    }
+    if (count > 0) {
+      evaluate_some<velocities, turned, 1>(w, times, static_cast<int>(count), rows);
+    }
+  }
+
+  template <bool velocities, bool turned, int together>
+  BBSIM_INLINE static void evaluate_some(Workspace& w, const double* times, int count,
+                                         double* rows) {
+    constexpr int row = n + (turned ? 1 : 0);
+    const double half = w.h / 2;
+    alignas(64) double at[together * lanes];
+    for (int l = 0; l < together * lanes; ++l) at[l] = times[l < count ? l : 0];
+    P x[together], before[together], now[together], q[nv][together], v[nv][together];
+#pragma GCC unroll 2
+    for (int p = 0; p < together; ++p) {
+      x[p] = (P::load(at + p * lanes) - P(w.t + half)) * P(1 / half);
+      before[p] = P(1.0);
+      now[p] = x[p];
+#pragma GCC unroll 8
+      for (int i = 0; i < nv; ++i) {
+        if (velocities) v[i][p] = w.v_series[i][0] + w.v_series[i][1] * x[p];
+        if (turned || i < nq) q[i][p] = w.q_series[i][0] + w.q_series[i][1] * x[p];
+      }
+    }
+    for (int m = 1; m <= s; ++m) {
 #pragma GCC unroll 2
       for (int p = 0; p < together; ++p) {
-        x[p] = (P::load(at + p * lanes) - P(w.t + half)) * P(1 / half);
-        before[p] = P(1.0);
-        now[p] = x[p];
+        const P next =
+            recurrence.first[m] * x[p] * now[p] - rounded(recurrence.second[m] * before[p]);
+        before[p] = now[p];
+        now[p] = next;
 #pragma GCC unroll 8
         for (int i = 0; i < nv; ++i) {
-          if (velocities) v[i][p] = w.v_series[i][0] + w.v_series[i][1] * x[p];
-          if (velocities || i < nq) q[i][p] = w.q_series[i][0] + w.q_series[i][1] * x[p];
+          if (velocities && m < s) v[i][p] += P(w.v_series[i][m + 1]) * next;
+          if (turned || i < nq) q[i][p] += P(w.q_series[i][m + 1]) * next;
         }
       }
-      for (int m = 1; m <= s; ++m) {
-#pragma GCC unroll 2
-        for (int p = 0; p < together; ++p) {
-          const P next =
-              recurrence.first[m] * x[p] * now[p] - rounded(recurrence.second[m] * before[p]);
-          before[p] = now[p];
-          now[p] = next;
+    }
+    for (int l = 0; l < count; ++l, rows += row) {
+      const int p = l / lanes, lane = l % lanes;
 #pragma GCC unroll 8
-          for (int i = 0; i < nv; ++i) {
-            if (velocities && m < s) v[i][p] += P(w.v_series[i][m + 1]) * next;
-            if (velocities || i < nq) q[i][p] += P(w.q_series[i][m + 1]) * next;
-          }
-        }
-      }
-      for (int l = 0; l < used; ++l) {
-        const int p = l / lanes, lane = l % lanes;
-        double* const target = rows + (first + static_cast<std::size_t>(l)) * row;
-#pragma GCC unroll 8
-        for (int i = 0; i < nv; ++i) {
-          if (velocities) target[motions.of[i].velocity] = v[i][p][lane];
-          if (i < nq) {
-            target[motions.of[i].position] = q[i][p][lane];
-          } else if (velocities && turns(w, i)) {
-            target[n] = q[i][p][lane];
-          }
+      for (int i = 0; i < nv; ++i) {
+        if (velocities) rows[motions.of[i].velocity] = v[i][p][lane];
+        if (i < nq) {
+          rows[motions.of[i].position] = q[i][p][lane];
+        } else if (turned && turns(w, i)) {
+          rows[n] = q[i][p][lane];
         }
       }
     }
@@ -657,18 +675,33 @@ struct Step
     }
   }
 
-  // The accelerations at (t, q, v) for all stages.
-  static void hold_accelerations(Workspace& w, double t) {
+  // The accelerations where a step starts.
+  static void accelerations(Workspace& w, double (&k)[nv]) {
     static_assert(turning == 0);
     P z[n], dz[n], given[1];
     for (int i = 0; i < nv; ++i) {
       z[motions.of[i].velocity] = P(w.v[i]);
       if (i < nq) z[motions.of[i].position] = P(w.q[i]);
     }
-    Rates::rates(system_of(w), system_of(w).inputs(P(t)), z, given, dz);
-    for (int i = 0; i < nv; ++i) {
-      for (int p = 0; p < packs; ++p) dz[motions.of[i].velocity].store(&w.k.of[i][p * lanes]);
+    Rates::rates(system_of(w), system_of(w).inputs(P(w.t)), z, given, dz);
+    for (int i = 0; i < nv; ++i) k[i] = dz[motions.of[i].velocity].v[0];
+  }
+
+  // The first values of k, and the stages that come of it.
+  BBSIM_INLINE static void guess(Workspace& w, double t, double h) {
+    const double last_t = w.t, last_h = w.h;
+    w.t = t;
+    w.h = h;
+    if (w.has_guess && !w.accepted) {
+      Base::extrapolate(w, last_t, last_h);
+      return;
     }
+    double k[nv];
+    for (int i = 0; i < nv; ++i) k[i] = w.has_guess ? w.k.of[i][s - 1] : 0;
+    if constexpr (steep) {
+      if (!w.has_guess) accelerations(w, k);
+    }
+    Base::hold(w, k);
   }
 
   // How far the stages are from solving their equations, as a velocity in the tolerance's weights.
@@ -718,21 +751,13 @@ struct Step
 
   static void attempt(void* workspace, double t, double h, Attempt* result) {
     Workspace& w = *static_cast<Workspace*>(workspace);
-    bool guessed = false;
-    if constexpr (steep) {
-      guessed = !w.has_guess;
-      if (guessed) hold_accelerations(w, t);
-    }
-    if (!guessed) Base::guess(w, t, h);
-    w.t = t;
-    w.h = h;
+    guess(w, t, h);
     w.has_guess = false;
     Attempt& a = *result;
     a = {Verdict::diverged, 0, 0, 0, 0, 0};
     for (int p = 0; p < packs; ++p) {
       w.inputs[p] = system_of(w).inputs(P(t) + P(h) * P::load(&table.c[p * lanes]));
     }
-    Base::template integrate_stages<false>(w);
     bool factored = false;
     double last = 0, contraction = w.contraction;
     const double enough = 0.02, floor = 30 * 2.2e-16 / w.rtol;
