@@ -29,7 +29,9 @@ ImpulseAnswer by_series(const HeldLaw& law, double t) {
   double last = 1, before = 0;
   double value = 1, slope = 1, integral = 0.5;
   for (int n = 1; n <= most_terms; ++n) {
-    const double next = -(d * last + k * before * parts.of[n]) * parts.of[n + 1];
+    // Only one product waits for the last term.
+    const double part = -parts.of[n + 1];
+    const double next = (d * part) * last + (k * (parts.of[n] * part)) * before;
     before = last;
     last = next;
     value += next;

@@ -493,13 +493,17 @@ struct Kernel {
       const P d = P(damping) * t, k = P(stiffness) * t * t;
       P last(1.0), before(0.0), value(1.0), slope(1.0), integral(0.5);
       for (int n = 1; n <= most_terms; ++n) {
-        const P next = -(d * last + k * before * P(parts.of[n])) * P(parts.of[n + 1]);
+        // Only one product waits for the last term.
+        const double part = -parts.of[n + 1];
+        const P next = (d * P(part)) * last + (k * P(parts.of[n] * part)) * before;
         before = last;
         last = next;
         value += next;
         slope += P(n + 1.0) * next;
         integral += next * P(parts.of[n + 2]);
-        if (reduced(size_of(next) + size_of(before), Larger{}) < 1e-18) break;
+        // Terms are as powers of the times, of which the last lane has the longest.
+        const double largest = next.v[lanes - 1], other = before.v[lanes - 1];
+        if (size_of(largest) + size_of(other) < 1e-18) break;
       }
       (t * t * integral).store(answers.integral + p * lanes);
       (t * value).store(answers.value + p * lanes);
