@@ -84,6 +84,81 @@ struct LaneKernel {
     }
   }
 
+  // c^n of each node; and what the polynomial through values at the nodes has of each at the start.
+  static constexpr int most_terms = One::most_terms;
+  struct TimeTable {
+    double weight[nodes]{};
+    consteval TimeTable() {
+      for (int j = 0; j < nodes; ++j) {
+        weight[j] = 1;
+        for (int k = 0; k < nodes; ++k) {
+          if (k != j) weight[j] *= One::Rule::c[k] / (One::Rule::c[k] - One::Rule::c[j]);
+        }
+      }
+    }
+  };
+  static constexpr TimeTable at_start{};
+
+  [[gnu::flatten]] static void tables(LaneAxis& axis, const LaneServo& servo,
+                                      const double* length) {
+    axis.shared = nullptr;
+    for (int first = 0; first < group; first += lanes) {
+      const auto of = [first](const double* values) __attribute__((always_inline)) {
+        return P::load(values + first);
+      };
+      const P t = of(length), damping = of(servo.damping), stiffness = of(servo.stiffness);
+      const P d = damping * t, k = stiffness * t * t;
+      // model::answer()'s terms at the pieces' ends; at a part c they are as c^n.
+      P value[most_terms + 1], slope[most_terms + 1], integral[most_terms + 1];
+      P before(0.0), last(1.0);
+      int terms = 0;
+      for (;; ++terms) {
+        value[terms] = last;
+        slope[terms] = P(terms + 1.0) * last;
+        integral[terms] = P(One::parts.of[terms + 2]) * last;
+        const bool small =
+            One::reduced(size_of(last) + size_of(before), typename One::Larger{}) < 1e-18;
+        if (small || terms == most_terms) break;
+        const double part = -One::parts.of[terms + 2];
+        const P next = (d * P(part)) * last + (k * P(One::parts.of[terms + 1] * part)) * before;
+        before = last;
+        last = next;
+      }
+      P most_by_rate(0.0), most_by_acceleration(0.0);
+      P missed_by_rate(0.0), missed_by_acceleration(-1.0);
+#pragma GCC unroll 1
+      for (int n = 0; n < nodes; ++n) {
+        const P c(table.c[n]);
+        P h = value[terms], rate = slope[terms], sum = integral[terms];
+        for (int m = terms - 1; m >= 0; --m) {
+          h = h * c + value[m];
+          rate = rate * c + slope[m];
+          sum = sum * c + integral[m];
+        }
+        const P time = c * t;
+        h = h * time;
+        sum = sum * time * time;
+        const P angle_by_rate = h + damping * sum, acceleration_by_rate = -(stiffness * h);
+        const auto put = [&](double(&rows)[MotionTable::rows][nodes][group], P angle, P turn,
+                             P acceleration) __attribute__((always_inline)) {
+          angle.store(rows[MotionTable::angle][n] + first);
+          turn.store(rows[MotionTable::rate][n] + first);
+          acceleration.store(rows[MotionTable::acceleration][n] + first);
+        };
+        put(axis.by_rate, angle_by_rate, rate + damping * h, acceleration_by_rate);
+        put(axis.by_acceleration, sum, h, rate);
+        most_by_rate = larger_of(most_by_rate, size_of(angle_by_rate));
+        most_by_acceleration = larger_of(most_by_acceleration, size_of(sum));
+        missed_by_rate += P(at_start.weight[n]) * acceleration_by_rate;
+        missed_by_acceleration += P(at_start.weight[n]) * rate;
+      }
+      most_by_rate.store(axis.most_by_rate + first);
+      most_by_acceleration.store(axis.most_by_acceleration + first);
+      missed_by_rate.store(axis.missed_by_rate + first);
+      missed_by_acceleration.store(axis.missed_by_acceleration + first);
+    }
+  }
+
   // The plane's axis at a node, kept for those who look.
   BBSIM_INLINE static model::Axis<P> plane_axis(LaneAxis& axis, int node, int first, bool small) {
     const P start_rate = P::load(axis.rate + first);
@@ -501,8 +576,9 @@ struct LaneKernel {
     }
   }
 
-  static constexpr LaneKernels kernels{&start,        &attempt,   &closer_error,     &look,
-                                       &look_closely, &reference, &control_lanes<P>, &evaluate};
+  static constexpr LaneKernels kernels{&tables,  &start,        &attempt,   &closer_error,
+                                       &look,    &look_closely, &reference, &control_lanes<P>,
+                                       &evaluate};
 };
 
 }  // namespace bbsim::solve::held

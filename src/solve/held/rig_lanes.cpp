@@ -256,6 +256,20 @@ void RigLanes::load_tables(std::size_t i) {
   }
   if (axis.shared != nullptr) loaded_[i].fill({});
   axis.shared = nullptr;
+  bool suits = true, known = true;
+  for (std::size_t l = 0; l < group; ++l) {
+    const Loaded asked{{servo.stiffness[l], servo.damping[l]}, pieces_->length[l]};
+    suits = suits && model::suits_series(asked.law, asked.length);
+    known = known && (!(asked.length > 0) || loaded_[i][l] == asked);
+  }
+  if (known) return;
+  if (suits) {
+    kernels_.tables(axis, servo, pieces_->length);
+    for (std::size_t l = 0; l < group; ++l) {
+      loaded_[i][l] = {{servo.stiffness[l], servo.damping[l]}, pieces_->length[l]};
+    }
+    return;
+  }
   for (std::size_t l = 0; l < group; ++l) {
     const Loaded asked{{servo.stiffness[l], servo.damping[l]}, pieces_->length[l]};
     if (!(asked.length > 0) || loaded_[i][l] == asked) continue;
