@@ -159,11 +159,11 @@ std::optional<Pair> HybridSystem::begin_sample(double t) {
 }
 
 const std::array<Jet<double>, 2>& HybridSystem::reference_at(double t) {
-  if (known_->t != t) {
-    known_->t = t;
-    known_->value = with_loop([t](const auto& loop) { return loop.reference().at(t); });
+  KnownReference::Entry& known = known_->of(t);
+  if (known.t != t) {
+    known = {t, with_loop([t](const auto& loop) { return loop.reference().at(t); })};
   }
-  return known_->value;
+  return known.value;
 }
 
 void HybridSystem::act(double t, double* z) {

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -106,10 +108,21 @@ class HybridSystem {
     return servos_[axis].clearance();
   }
 
-  // A reference at the time that it was last asked for.
-  struct KnownReference {
-    double t = -1;  // s
-    std::array<Jet<double>, 2> value{};
+  // A reference at the times at which it was last asked for.
+  class KnownReference {
+   public:
+    struct Entry {
+      double t = -1;  // s
+      std::array<Jet<double>, 2> value{};
+    };
+    // Where it is, if it is known, at t.
+    [[nodiscard]] Entry& of(double t) {
+      return entries_[std::bit_cast<std::uint64_t>(t) * 0x9e3779b97f4a7c15u >> (64 - bits)];
+    }
+
+   private:
+    static constexpr int bits = 5;
+    std::array<Entry, std::size_t{1} << bits> entries_;
   };
   // Asks no more for what `known`, which outlives the run, says of the scene's reference.
   void share_reference(KnownReference& known) { known_ = &known; }

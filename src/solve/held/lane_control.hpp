@@ -64,8 +64,8 @@ template <class P>
     from.each(servo, control.servo);
     std::array<model::Jet<P>, 2> reference;
     for (std::size_t i = 0; i < 2; ++i) {
-      const double* const at = control.reference[i];
-      reference[i] = {P(at[0]), P(at[1]), P(at[2])};
+      const Lanes* const at = control.reference[i];
+      reference[i] = {from.one(at[0]), from.one(at[1]), from.one(at[2])};
     }
     model::take_sample(law, memory, seen, from.one(control.elapsed),
                        simd::exceeds(from.one(control.is_first), P(0.5)), servo, reference,

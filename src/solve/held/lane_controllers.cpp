@@ -10,7 +10,6 @@ void LaneControllers::begin() {
   // Lanes of one pack look at each other to know when they are done: numbers that do no harm.
   for (double& elapsed : control_->elapsed.of) elapsed = 1;
   asked_ = {};
-  at_ = -1;
   any_ = false;
 }
 
@@ -49,16 +48,6 @@ void LaneControllers::take_over(std::size_t l, const model::SampledController& f
 void LaneControllers::sample(std::size_t l, model::HybridSystem& run, double t, const double* z) {
   LaneControl& control = *control_;
   asked_[l] = &run;
-  if (t != at_) {  // those of another time have another reference
-    compute();
-    at_ = t;
-    const auto& reference = run.reference_at(t);
-    for (std::size_t i = 0; i < 2; ++i) {
-      control.reference[i][0] = reference[i].value;
-      control.reference[i][1] = reference[i].rate;
-      control.reference[i][2] = reference[i].acceleration;
-    }
-  }
   const std::optional<Pair> seen = run.begin_sample(t);
   if (!seen) {
     since_[l].miss();
@@ -71,22 +60,23 @@ void LaneControllers::sample(std::size_t l, model::HybridSystem& run, double t, 
   since_[l].see();
   constexpr auto angle = static_cast<std::size_t>(model::RigLayout::angle);
   constexpr auto rate = static_cast<std::size_t>(model::RigLayout::rate);
+  const auto& reference = run.reference_at(t);
   for (std::size_t i = 0; i < 2; ++i) {
+    control.reference[i][0].of[l] = reference[i].value;
+    control.reference[i][1].of[l] = reference[i].rate;
+    control.reference[i][2].of[l] = reference[i].acceleration;
     control.seen[i].of[l] = (*seen)[i];
     control.servo[i].of[l] = z[angle + i];
     control.servo[2 + i].of[l] = z[rate + i];
   }
 }
 
-void LaneControllers::compute() {
-  if (!any_) return;
-  kernels_.control(*control_);
-  for (double& sees : control_->sees.of) sees = 0;
-  any_ = false;
-}
-
 void LaneControllers::finish() {
-  compute();
+  if (any_) {
+    kernels_.control(*control_);
+    for (double& sees : control_->sees.of) sees = 0;
+    any_ = false;
+  }
   const LaneControl& control = *control_;
   const auto both = [](const Lanes(&of)[2], std::size_t l) {
     return Pair{of[0].of[l], of[1].of[l]};

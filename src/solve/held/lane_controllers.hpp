@@ -1,4 +1,5 @@
-// The sampled controllers of rigs that go together: whoever samples at one time computes together.
+// The sampled controllers of rigs that go together: those that sample in one turn compute together,
+// whatever their times.
 #pragma once
 
 #include <array>
@@ -26,14 +27,11 @@ class LaneControllers {
   void finish();
 
  private:
-  void compute();
-
   const LaneKernels& kernels_;
   std::unique_ptr<LaneControl> control_;  // aligned
   std::array<model::SinceSeen, group> since_{};
   std::array<model::HybridSystem*, group> asked_{};  // since the last finish()
-  double at_ = -1;                                   // when those sample that are not computed, s
-  bool any_ = false;                                 // whether there are some
+  bool any_ = false;                                 // whether some of them see the ball
 };
 
 }  // namespace bbsim::solve::held

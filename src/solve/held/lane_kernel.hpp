@@ -104,7 +104,7 @@ struct LaneControl {
   Lanes sees, is_first;     // 1 or 0
   Lanes elapsed;            // s
   Lanes seen[2], servo[4];  // m; rad and rad/s
-  double reference[2][3];   // value, rate and acceleration
+  Lanes reference[2][3];    // value, rate and acceleration
   Lanes command[2];         // the last one
 };
 
