@@ -10,7 +10,7 @@ namespace bbsim::record {
 namespace {
 
 // Points are doubled up to so many intervals where they do not show the number.
-constexpr std::size_t most_parts = 64;
+constexpr std::size_t fewest_parts = 8, most_parts = 64;
 // They show it, if what they leave out is so small a part of its changes that no maximum is missed.
 constexpr double shown = 1e-4;
 // What is nearer than this is no greater, but rounded differently.
@@ -159,7 +159,9 @@ bool Extremes::matters_not(const solve::Piece& piece) const {
 
 void Extremes::accept(const solve::Piece& piece) {
   if (matters_not(piece)) return;
-  std::size_t parts = piece.parts();
+  // Half as many points as there may be need of mostly show all numbers.
+  const std::size_t enough = piece.parts();
+  std::size_t parts = std::max(fewest_parts, (enough + 1) / 2);
   for (;; parts *= 2) {
     const ChebyshevPoints& points = tables_.points(parts);
     sample(piece, points);
@@ -168,7 +170,13 @@ void Extremes::accept(const solve::Piece& piece) {
       if (may_matter(i, points)) matter_.push_back(i);
     }
     const auto shows = [&](std::size_t i) { return is_shown(i, points); };
-    if (2 * parts > most_parts || std::all_of(matter_.begin(), matter_.end(), shows)) break;
+    if (parts < enough) {
+      bool all = true;
+      for (std::size_t i = 0; i < size() && all; ++i) all = shows(i);
+      if (all) break;
+    } else if (2 * parts > most_parts || std::all_of(matter_.begin(), matter_.end(), shows)) {
+      break;
+    }
   }
   for (const std::size_t i : matter_) climb_within(i, piece, tables_.points(parts));
 }
