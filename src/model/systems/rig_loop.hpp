@@ -327,8 +327,10 @@ class RigLoop {
   [[nodiscard]] double gravity() const { return g_; }
 
  private:
+  // The ball's accelerations where the gimbal has none, and what those of the gimbal add.
   template <class Real>
   struct Inertial {
+    GeneralRolling::Rates<Real> rest;
     Real of[3][2];  // rows x'', y'', u'; columns phi'', theta''
   };
 
@@ -340,29 +342,21 @@ class RigLoop {
   }
 
   template <class Real>
-  [[nodiscard]] GeneralRolling::Rates<Real> rates_under(const Real* z, double phi,
-                                                        double theta) const {
-    if constexpr (Link::direct) {
-      return rolling_.rates<Real>(plane_axis(0, z, Real(phi)), plane_axis(1, z, Real(theta)),
-                                  Layout::unpack(z), r_, g_);
-    } else {
-      Real none[servos];
-      for (Real& one : none) one = Real(0.0);
-      Axis<Real> axis[2];
-      planes(z, none, axis);
+  [[nodiscard]] Inertial<Real> coefficients(const Real* z) const {
+    Real none[servos];
+    for (Real& one : none) one = Real(0.0);
+    Axis<Real> axis[2];
+    planes(z, none, axis);
+    const auto under = [&](double phi, double theta) {
       axis[0].acceleration = Real(phi);
       axis[1].acceleration = Real(theta);
       return rolling_.rates<Real>(axis[0], axis[1], Layout::unpack(z), r_, g_);
-    }
-  }
-
-  template <class Real>
-  [[nodiscard]] Inertial<Real> coefficients(const Real* z) const {
-    const auto none = rates_under(z, 0, 0), phi = rates_under(z, 1, 0),
-               theta = rates_under(z, 0, 1);
-    return {{{phi.x - none.x, theta.x - none.x},
-             {phi.y - none.y, theta.y - none.y},
-             {phi.u - none.u, theta.u - none.u}}};
+    };
+    const auto rest = under(0, 0), phi = under(1, 0), theta = under(0, 1);
+    return {rest,
+            {{phi.x - rest.x, theta.x - rest.x},
+             {phi.y - rest.y, theta.y - rest.y},
+             {phi.u - rest.u, theta.u - rest.u}}};
   }
 
   template <class Real>
@@ -394,10 +388,9 @@ class RigLoop {
   [[nodiscard]] Command<Real> linearise(const std::array<Jet<Time>, 2>& reference,
                                         const Real* z) const {
     const auto state = feedback(z);
-    const auto rest = rates_under(z, 0, 0);
     const Inertial<Real> m = coefficients(z);
-    const Real x = wanted_acceleration(law_, 0, state, reference) - rest.x;
-    const Real y = wanted_acceleration(law_, 1, state, reference) - rest.y;
+    const Real x = wanted_acceleration(law_, 0, state, reference) - m.rest.x;
+    const Real y = wanted_acceleration(law_, 1, state, reference) - m.rest.y;
     const Real determinant = m.of[0][0] * m.of[1][1] - m.of[0][1] * m.of[1][0];
     Command<Real> u;
     u.raw[0] = (x * m.of[1][1] - m.of[0][1] * y) / determinant;
