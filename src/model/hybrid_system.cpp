@@ -405,13 +405,12 @@ std::array<HeldMotion, 2> HybridSystem::held_motions(const double* z) const {
 }
 
 HybridSystem::Fall HybridSystem::next_fall(double t, const std::array<HeldMotion, 2>& motions,
-                                           double end) const {
+                                           double end) {
   Fall first;
   if (!model_.rig || !model_.rig->switches()) return first;
-  AnswerAtEnd at_end;
   for (std::size_t i = 0; i < 2; ++i) {
     const ServoAxis::Fall fall = servos_[i].first_fall(motions[i], mode_->command[i], t,
-                                                       std::min(end, first.time) - t, at_end);
+                                                       std::min(end, first.time) - t, answers_);
     // Rounded up: what falls has then fallen, however short the time is beside t.
     double at = t + fall.after;
     if (at - t < fall.after) at = std::nextafter(at, unlimited);

@@ -100,8 +100,7 @@ class HybridSystem {
   [[nodiscard]] std::array<HeldMotion, 2> held_motions(const double* z) const;
   // The first guard of a servo that falls after t, within (t, end], of servos that move so from t
   // on.
-  [[nodiscard]] Fall next_fall(double t, const std::array<HeldMotion, 2>& motions,
-                               double end) const;
+  [[nodiscard]] Fall next_fall(double t, const std::array<HeldMotion, 2>& motions, double end);
 
   // What keeps the servo of phi or theta, in its present mode, from switching.
   [[nodiscard]] ServoAxis::Clearance clearance(std::size_t axis) const {
@@ -202,6 +201,7 @@ class HybridSystem {
   // is the command itself; whether something else than servos may have to be settled.
   bool only_commands_change_ = false, is_direct_ = false, only_servos_settle_ = false;
   std::vector<ServoAxis> servos_;
+  KnownAnswers answers_;  // of the servos
   int rate_ = RigLayout::rate;                             // among the states, of the first servo
   std::size_t pieces_[2]{0, 0}, command_pieces_[2]{0, 0};  // of measured curves
   std::vector<double> guard_scales_;

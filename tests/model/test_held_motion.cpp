@@ -95,7 +95,7 @@ TEST_CASE("the first fall of a line in a held motion is found wherever it is") {
     return line.at(at.angle, at.rate);
   };
   int falls = 0, dips = 0;
-  AnswerAtEnd at_end;  // of one law after the other
+  KnownAnswers answers;  // of one law after the other
   for (const HeldLaw& law : laws) {
     for (const double rate : {-2.0, 0.0, 0.7}) {
       for (const double acceleration : {-30.0, 0.0, 8.0}) {
@@ -104,7 +104,7 @@ TEST_CASE("the first fall of a line in a held motion is found wherever it is") {
              {MotionLine{0.14, -1, 0}, MotionLine{0.2, 1, 0}, MotionLine{0.9, 0, -1},
               MotionLine{2.05, 0, 1}, MotionLine{5, -20, -1}, MotionLine{1, 3, 0.2}}) {
           constexpr double end = 0.8;
-          const double at = first_fall(line, motion, 1e-12, 0, end, at_end);
+          const double at = first_fall(line, motion, 1e-12, 0, end, answers);
           INFO(law.stiffness << " " << law.damping << ": " << rate << " " << acceleration << ": "
                              << line.constant << " " << line.by_angle << " " << line.by_rate);
           // Never below before, by a look from close by.
@@ -139,8 +139,8 @@ TEST_CASE("the first fall of a line in a held motion is found wherever it is") {
 
 TEST_CASE("a line that starts where it fell waits until it was clearly above, or is below") {
   const auto fall = [](const MotionLine& line, const HeldMotion& motion, double start) {
-    AnswerAtEnd at_end;
-    return first_fall(line, motion, 1e-12, start, 1, at_end);
+    KnownAnswers answers;
+    return first_fall(line, motion, 1e-12, start, 1, answers);
   };
   // Free from a rate limit: the rate falls off at once.
   const HeldMotion slows{{100, 20}, 0, 1, -3};

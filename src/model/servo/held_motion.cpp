@@ -80,6 +80,34 @@ ImpulseAnswer answer(const HeldLaw& law, double t) {
   return {half.integral + turned * half.integral + half.value * half.value, value, slope};
 }
 
+// By powers of the time: no term waits for the one before, as it does in by_series().
+ImpulseAnswer KnownAnswers::at(const HeldLaw& law, double t) {
+  if (law == HeldLaw{}) return {t * t / 2, t, 1};
+  if (!suits_series(law, t)) return answer(law, t);
+  if (!(law == law_)) {
+    law_ = law;
+    double before = 0;
+    for (int n = 1; n <= terms; ++n) {
+      const double last = coefficients_[n - 1];
+      coefficients_[n] =
+          -(law.damping * last + law.stiffness * before * parts.of[n]) * parts.of[n + 1];
+      before = last;
+    }
+  }
+  double power = 1, before = 1;
+  double value = 1, slope = 1, integral = 0.5;
+  for (int n = 1; n <= terms; ++n) {
+    power *= t;
+    const double next = coefficients_[n] * power;
+    value += next;
+    slope += (n + 1) * next;
+    integral += next * parts.of[n + 2];
+    if (std::abs(next) + std::abs(before) < 1e-18) return {t * t * integral, t * value, slope};
+    before = next;
+  }
+  return answer(law, t);  // of coefficients that are no numbers
+}
+
 HeldMotion held_motion(const ServoResponse& servo, const AxisMode& mode, double command,
                        double angle, double rate) {
   const double free = mode.demand_factor;
@@ -218,14 +246,14 @@ bool turns_once(const HeldLaw& law, double time) {
 }  // namespace
 
 double first_fall(const MotionLine& line, const HeldMotion& motion, double clearly, double start,
-                  double end, AnswerAtEnd& at_end) {
+                  double end, KnownAnswers& answers) {
   double threshold = 0;
   const auto fall = [&](const HeldMotion::Instant& at) {
     return Fall{line.at(at.angle, at.rate) - threshold,
                 line.by_angle * at.rate + line.by_rate * at.acceleration};
   };
   const auto local = [&](double t) {
-    const HeldMotion::Instant at = motion.after(t);
+    const HeldMotion::Instant at = motion.after(answers.at(motion.law, t));
     const double third = -motion.law.damping * at.acceleration - motion.law.stiffness * at.rate;
     const double fourth = -motion.law.damping * third - motion.law.stiffness * at.acceleration;
     return Local{line.at(at.angle, at.rate) - threshold,
@@ -240,7 +268,7 @@ double first_fall(const MotionLine& line, const HeldMotion& motion, double clear
     now.value -= threshold;
   } else if (turns_once(motion.law, end)) {
     // Mostly the line's ends tell: by its slopes there it does not dip between.
-    const Fall last = fall(motion.after(at_end.of(motion.law, end)));
+    const Fall last = fall(motion.after(answers.at_end(motion.law, end)));
     if (last.value > 0 && !(now.slope < 0 && last.slope > 0)) return never;
     if (!(last.value > 0) && std::isfinite(last.value) && now.slope < 0 && last.slope < 0) {
       return root(local, start, 0, now, end, last);
@@ -253,7 +281,7 @@ double first_fall(const MotionLine& line, const HeldMotion& motion, double clear
     const double to = std::min(turns.next(), end);
     turns.pass();
     if (to <= from) continue;
-    const HeldMotion::Instant at = motion.after(to);
+    const HeldMotion::Instant at = motion.after(answers.at(motion.law, to));
     const Fall reached = fall(at);
     if (!(reached.value > 0)) {
       if (!std::isfinite(reached.value)) return never;

@@ -87,28 +87,33 @@ struct MotionReach {
   return {motion.angle + spring, most, most * root};
 }
 
-// The answer at the end of what is looked at, which lines and servos mostly have in common.
-class AnswerAtEnd {
+// Answers of the law that was last asked for, by the coefficients of its series; and the last one at
+// the end of what is looked at, which lines and servos mostly have in common.
+class KnownAnswers {
  public:
-  const ImpulseAnswer& of(const HeldLaw& law, double end) {
-    if (!(law == law_ && end == end_)) {
-      law_ = law;
+  [[nodiscard]] ImpulseAnswer at(const HeldLaw& law, double time);
+  const ImpulseAnswer& at_end(const HeldLaw& law, double end) {
+    if (!(law == ending_ && end == end_)) {
+      ending_ = law;
       end_ = end;
-      answer_ = answer(law, end);
+      answer_ = at(law, end);
     }
     return answer_;
   }
 
  private:
-  HeldLaw law_;
+  static constexpr int terms = 40;
+
+  HeldLaw ending_, law_;
   double end_ = 0;
   ImpulseAnswer answer_;
+  double coefficients_[terms + 1]{1};  // of law_: h(t) / t by powers of t
 };
 
 // The first time within (0, end] at which the line falls to zero, s; infinite if it does not. If it
 // starts no more than `clearly` above zero, it has to fall clearly below, or to have risen clearly
 // above before. To the rounding of the time, which counts from `start`.
 [[nodiscard]] double first_fall(const MotionLine& line, const HeldMotion& motion, double clearly,
-                                double start, double end, AnswerAtEnd& at_end);
+                                double start, double end, KnownAnswers& answers);
 
 }  // namespace bbsim::model

@@ -178,7 +178,7 @@ ServoAxis::Clearance ServoAxis::clearance() const {
 }
 
 ServoAxis::Fall ServoAxis::first_fall(const HeldMotion& motion, double command, double start,
-                                      double end, AnswerAtEnd& at_end) const {
+                                      double end, KnownAnswers& answers) const {
   Fall first;
   const bool springs = root_ > 0 && motion.law.stiffness == response_.from_angle;
   const MotionReach reached = springs ? reach_about(motion, root_) : reach(motion, end);
@@ -193,7 +193,7 @@ ServoAxis::Fall ServoAxis::first_fall(const HeldMotion& motion, double command, 
     scales(sizes);
     // As for guards that an integrator looks at.
     const double after = model::first_fall(line, motion, 1e-12 * sizes[guard], start,
-                                           std::min(end, first.after), at_end);
+                                           std::min(end, first.after), answers);
     if (after < first.after) first = {after, guard};
   });
   return first;

@@ -65,7 +65,7 @@ class ServoAxis {
     int guard = 0;
   };
   [[nodiscard]] Fall first_fall(const HeldMotion& motion, double command, double start, double end,
-                                AnswerAtEnd& at_end) const;
+                                KnownAnswers& answers) const;
 
   // While a servo moves freely by a spring's law, what switches it no sooner than its angle, its
   // rate or its acceleration reaches as much: nothing of it positive if there is more to look at.
