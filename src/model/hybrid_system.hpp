@@ -201,7 +201,7 @@ class HybridSystem {
   // is the command itself; whether something else than servos may have to be settled.
   bool only_commands_change_ = false, is_direct_ = false, only_servos_settle_ = false;
   std::vector<ServoAxis> servos_;
-  KnownAnswers answers_;  // of the servos
+  KnownAnswers answers_;                                   // of the servos
   int rate_ = RigLayout::rate;                             // among the states, of the first servo
   std::size_t pieces_[2]{0, 0}, command_pieces_[2]{0, 0};  // of measured curves
   std::vector<double> guard_scales_;

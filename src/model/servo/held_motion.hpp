@@ -87,8 +87,8 @@ struct MotionReach {
   return {motion.angle + spring, most, most * root};
 }
 
-// Answers of the law that was last asked for, by the coefficients of its series; and the last one at
-// the end of what is looked at, which lines and servos mostly have in common.
+// Answers of the law that was last asked for, by the coefficients of its series; and the last one
+// at the end of what is looked at, which lines and servos mostly have in common.
 class KnownAnswers {
  public:
   [[nodiscard]] ImpulseAnswer at(const HeldLaw& law, double time);
