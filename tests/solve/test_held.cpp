@@ -6,6 +6,8 @@
 #include "catch.hpp"
 #include "record/recorder.hpp"
 #include "solve/held/held.hpp"
+#include "solve/held/lane_kernel.hpp"
+#include "solve/held/motion_tables.hpp"
 #include "solve/hybrid_driver.hpp"
 #include "solve/make_stepper.hpp"
 #include "solve/radau/radau.hpp"
@@ -226,6 +228,50 @@ TEST_CASE("events of a rig by pieces are found where they lie, between instants 
       CHECK(std::abs(a.t - b.t) < 1e-8);
     }
     CHECK(largest_difference(model, general, pieces) < 1e-6);
+  }
+}
+
+TEST_CASE("servos' tables of all lanes together are those of each") {
+  namespace held = solve::held;
+  using Table = held::MotionTable;
+  struct Lane {
+    model::HeldLaw law;
+    double length;
+  };
+  // As it is, at a limit, without a spring, without a damper; a lane without a piece.
+  const Lane lanes[held::group]{{{986.96, 50.27}, 0.02}, {{986.96, 50.27}, 0.0137},
+                                {{0, 0}, 0.02},          {{0, 25}, 0.02},
+                                {{2000, 0}, 0.02},       {{986.96, 50.27}, 0},
+                                {{4e6, 3200}, 4e-4},     {{986.96, 50.27}, 3e-9}};
+  const auto axis = std::make_unique<held::LaneAxis>();
+  const auto servo = std::make_unique<held::LaneServo>();
+  alignas(64) double length[held::group];
+  for (int l = 0; l < held::group; ++l) {
+    servo->stiffness[l] = lanes[l].law.stiffness;
+    servo->damping[l] = lanes[l].law.damping;
+    length[l] = lanes[l].length;
+  }
+  held::choose_lane_kernels().tables(*axis, *servo, length);
+  for (int l = 0; l < held::group; ++l) {
+    const auto [law, h] = lanes[l];
+    if (h == 0) continue;
+    INFO(law.stiffness << " " << law.damping << " over " << h);
+    held::MotionTables tables(held::choose_kernels());
+    const Table& wanted = tables.of(law, h);
+    // Some roundings of each sum's largest term; the weights of the start add up to 16 or so.
+    constexpr double rounding = 20 * 2.2e-16, summed = 20 * rounding;
+    const double size[Table::rows] = {h, 1, 1 / h};  // by a rate; by an acceleration h times that
+    for (int row = 0; row < Table::rows; ++row) {
+      for (int n = 0; n < held::nodes; ++n) {
+        CHECK(std::abs(axis->by_rate[row][n][l] - wanted.by_rate[row][n]) <= rounding * size[row]);
+        CHECK(std::abs(axis->by_acceleration[row][n][l] - wanted.by_acceleration[row][n]) <=
+              rounding * h * size[row]);
+      }
+    }
+    CHECK(axis->most_by_rate[l] == Approx(wanted.most_by_rate).epsilon(rounding));
+    CHECK(axis->most_by_acceleration[l] == Approx(wanted.most_by_acceleration).epsilon(rounding));
+    CHECK(std::abs(axis->missed_by_rate[l] - wanted.missed_by_rate) <= summed / h);
+    CHECK(std::abs(axis->missed_by_acceleration[l] - wanted.missed_by_acceleration) <= summed);
   }
 }
 

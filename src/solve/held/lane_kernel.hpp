@@ -109,8 +109,8 @@ struct LaneControl {
 };
 
 struct LaneKernels {
-  // How the servos of an axis move over pieces of these lengths, s: what MotionTable has of each.
-  // By power series: for pieces whose length suits them all (model::suits_series()).
+  // How the servos of an axis, no two alike, move over pieces of these lengths, s: what MotionTable
+  // has of each. By power series: for pieces whose length suits them all (model::suits_series()).
   void (*tables)(LaneAxis& axis, const LaneServo& servo, const double* length);
   // Where pieces begin: the servos' accelerations, and whether they clear their limits.
   void (*start)(LanePieces& pieces, LaneServos& servos);

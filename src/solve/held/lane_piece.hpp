@@ -6,6 +6,7 @@
 #include "solve/held/lane_control.hpp"
 #include "solve/held/lane_kernel.hpp"
 #include "solve/held/piece.hpp"
+#include "solve/held/start_weights.hpp"
 
 namespace bbsim::solve::held {
 
@@ -84,24 +85,11 @@ struct LaneKernel {
     }
   }
 
-  // c^n of each node; and what the polynomial through values at the nodes has of each at the start.
-  static constexpr int most_terms = One::most_terms;
-  struct TimeTable {
-    double weight[nodes]{};
-    consteval TimeTable() {
-      for (int j = 0; j < nodes; ++j) {
-        weight[j] = 1;
-        for (int k = 0; k < nodes; ++k) {
-          if (k != j) weight[j] *= One::Rule::c[k] / (One::Rule::c[k] - One::Rule::c[j]);
-        }
-      }
-    }
-  };
-  static constexpr TimeTable at_start{};
+  static constexpr StartWeights start_weights{};
 
   [[gnu::flatten]] static void tables(LaneAxis& axis, const LaneServo& servo,
                                       const double* length) {
-    axis.shared = nullptr;
+    constexpr int most_terms = One::most_terms;
     for (int first = 0; first < group; first += lanes) {
       const auto of = [first](const double* values) __attribute__((always_inline)) {
         return P::load(values + first);
@@ -149,8 +137,8 @@ struct LaneKernel {
         put(axis.by_acceleration, sum, h, rate);
         most_by_rate = larger_of(most_by_rate, size_of(angle_by_rate));
         most_by_acceleration = larger_of(most_by_acceleration, size_of(sum));
-        missed_by_rate += P(at_start.weight[n]) * acceleration_by_rate;
-        missed_by_acceleration += P(at_start.weight[n]) * rate;
+        missed_by_rate += P(start_weights.of[n]) * acceleration_by_rate;
+        missed_by_acceleration += P(start_weights.of[n]) * rate;
       }
       most_by_rate.store(axis.most_by_rate + first);
       most_by_acceleration.store(axis.most_by_acceleration + first);

@@ -3,24 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "solve/held/start_weights.hpp"
 #include "solve/radau/tables.hpp"
 
 namespace bbsim::solve::held {
 namespace {
-
-// What the polynomial through values at the nodes is at the start.
-struct AtStart {
-  double weight[nodes];
-  AtStart() {
-    const auto& c = radau::RadauTable<nodes>::c;
-    for (int j = 0; j < nodes; ++j) {
-      weight[j] = 1;
-      for (int k = 0; k < nodes; ++k) {
-        if (k != j) weight[j] *= c[k] / (c[k] - c[j]);
-      }
-    }
-  }
-};
 
 void answer_at_nodes(const Kernels& kernels, const model::HeldLaw& law, double length,
                      NodeAnswers& answers) {
@@ -56,13 +43,13 @@ void fill(MotionTable& table, const Kernels& kernels, const model::HeldLaw& law,
     table.most_by_acceleration = std::max(table.most_by_acceleration,
                                           std::abs(table.by_acceleration[MotionTable::angle][i]));
   }
-  static const AtStart start;
+  constexpr StartWeights start;
   table.missed_by_rate = 0;
   table.missed_by_acceleration = -1;
   for (int i = 0; i < nodes; ++i) {
     constexpr auto row = MotionTable::acceleration;
-    table.missed_by_rate += start.weight[i] * table.by_rate[row][i];
-    table.missed_by_acceleration += start.weight[i] * table.by_acceleration[row][i];
+    table.missed_by_rate += start.of[i] * table.by_rate[row][i];
+    table.missed_by_acceleration += start.of[i] * table.by_acceleration[row][i];
   }
 }
 

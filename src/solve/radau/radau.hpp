@@ -22,8 +22,8 @@ namespace bbsim::solve::radau {
 // BBSIM_SIMD names none of this processor.
 [[nodiscard]] const StepKernels& choose_kernels();
 
-// How many stages suit a relative tolerance: 8, 12 or 16. Rigs beyond the paper's have kernels of 8
-// and 12, and take 12 for 16.
+// How many stages suit a model and a relative tolerance: 8, 12 or 16, of which open loops take 16
+// sooner. Rigs beyond the paper's have kernels of 8 and 12, and take 12 for 16.
 [[nodiscard]] int choose_stages(const model::Model& model, double rtol);
 
 // How many stages a model gets that is asked to take so many.

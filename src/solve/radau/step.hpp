@@ -99,7 +99,7 @@ struct Collocation {
     bool gamma;
     bool positions_only;  // in rows
     bool newton;          // iterate by Newton; otherwise by substitution
-    bool has_guess;       // k holds the last attempt's values, over [guess_t, guess_t + guess_h]
+    bool has_guess;       // k holds the last attempt's values, over [t, t + h]
     bool accepted;        // whether that attempt was accepted
     double contraction;   // remembered from the last step
     double t, h;          // of the last attempt

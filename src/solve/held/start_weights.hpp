@@ -1,0 +1,23 @@
+// What the polynomial through values at the nodes of a piece has of each at the piece's start.
+#pragma once
+
+#include "solve/held/kernel.hpp"
+#include "solve/radau/tables.hpp"
+
+namespace bbsim::solve::held {
+
+struct StartWeights {
+  double of[nodes]{};
+
+  consteval StartWeights() {
+    const auto& c = radau::RadauTable<nodes>::c;
+    for (int j = 0; j < nodes; ++j) {
+      of[j] = 1;
+      for (int k = 0; k < nodes; ++k) {
+        if (k != j) of[j] *= c[k] / (c[k] - c[j]);
+      }
+    }
+  }
+};
+
+}  // namespace bbsim::solve::held
