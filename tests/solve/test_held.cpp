@@ -258,8 +258,8 @@ TEST_CASE("servos' tables of all lanes together are those of each") {
     INFO(law.stiffness << " " << law.damping << " over " << h);
     held::MotionTables tables(held::choose_kernels());
     const Table& wanted = tables.of(law, h);
-    // Some roundings of each sum's largest term; the weights of the start add up to 16 or so.
-    constexpr double rounding = 20 * 2.2e-16, summed = 20 * rounding;
+    // Some roundings of each sum's largest term; the sizes of the start's weights add up to 5.5.
+    constexpr double rounding = 20 * 2.2e-16, summed = 5.5 * rounding;
     const double size[Table::rows] = {h, 1, 1 / h};  // by a rate; by an acceleration h times that
     for (int row = 0; row < Table::rows; ++row) {
       for (int n = 0; n < held::nodes; ++n) {
