@@ -159,7 +159,8 @@ std::optional<Pair> HybridSystem::begin_sample(double t) {
 }
 
 const std::array<Jet<double>, 2>& HybridSystem::reference_at(double t) {
-  KnownReference::Entry& known = known_->of(t);
+  KnownReference& known =
+      shared_reference_ != nullptr ? shared_reference_->at(t) : known_reference_;
   if (known.t != t) {
     known = {t, with_loop([t](const auto& loop) { return loop.reference().at(t); })};
   }

@@ -107,24 +107,25 @@ class HybridSystem {
     return servos_[axis].clearance();
   }
 
-  // A reference at the times at which it was last asked for.
-  class KnownReference {
+  // A reference at a time.
+  struct KnownReference {
+    double t = -1;  // s
+    std::array<Jet<double>, 2> value{};
+  };
+  // The same at the times at which runs that go together last asked for it.
+  class SharedReference {
    public:
-    struct Entry {
-      double t = -1;  // s
-      std::array<Jet<double>, 2> value{};
-    };
     // Where it is, if it is known, at t.
-    [[nodiscard]] Entry& of(double t) {
-      return entries_[std::bit_cast<std::uint64_t>(t) * 0x9e3779b97f4a7c15u >> (64 - bits)];
+    [[nodiscard]] KnownReference& at(double t) {
+      return known_[std::bit_cast<std::uint64_t>(t) * 0x9e3779b97f4a7c15u >> (64 - bits)];
     }
 
    private:
     static constexpr int bits = 5;
-    std::array<Entry, std::size_t{1} << bits> entries_;
+    std::array<KnownReference, std::size_t{1} << bits> known_;
   };
-  // Asks no more for what `known`, which outlives the run, says of the scene's reference.
-  void share_reference(KnownReference& known) { known_ = &known; }
+  // Asks no more for what `shared`, which outlives the run, says of the scene's reference.
+  void share_reference(SharedReference& shared) { shared_reference_ = &shared; }
 
   // Whether guard i stops the run once it has fallen to zero.
   [[nodiscard]] bool stops(std::size_t i) const;
@@ -216,7 +217,8 @@ class HybridSystem {
     std::vector<double> own{};  // the last numbers of one's own controller
   };
   std::optional<Sampled> sampled_;
-  KnownReference own_reference_, *known_ = &own_reference_;
+  KnownReference known_reference_;  // when it was asked for last, if nobody shares it
+  SharedReference* shared_reference_ = nullptr;
   std::vector<Occurrence> occurrences_;
   std::size_t with_gamma_ = 0;  // so many of them
 };

@@ -165,18 +165,15 @@ void Extremes::accept(const solve::Piece& piece) {
   for (;; parts *= 2) {
     const ChebyshevPoints& points = tables_.points(parts);
     sample(piece, points);
+    const bool few = parts < enough;
+    bool shown = true;
     matter_.clear();
     for (std::size_t i = 0; i < size(); ++i) {
-      if (may_matter(i, points)) matter_.push_back(i);
+      const bool matters = may_matter(i, points);
+      if (matters) matter_.push_back(i);
+      if (matters || few) shown = shown && is_shown(i, points);
     }
-    const auto shows = [&](std::size_t i) { return is_shown(i, points); };
-    if (parts < enough) {
-      bool all = true;
-      for (std::size_t i = 0; i < size() && all; ++i) all = shows(i);
-      if (all) break;
-    } else if (2 * parts > most_parts || std::all_of(matter_.begin(), matter_.end(), shows)) {
-      break;
-    }
+    if (shown || (!few && 2 * parts > most_parts)) break;
   }
   for (const std::size_t i : matter_) climb_within(i, piece, tables_.points(parts));
 }

@@ -4,42 +4,39 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <utility>
+
+#include "model/servo/impulse_series.hpp"
 
 namespace bbsim::model {
 namespace {
 
 constexpr double never = std::numeric_limits<double>::infinity();
 
-constexpr int most_terms = 40;
-
-// 1, 1, 1/2, 1/3, ...: products are cheaper than quotients.
-struct Parts {
-  double of[most_terms + 3]{1};
-  constexpr Parts() {
-    for (int n = 1; n < most_terms + 3; ++n) of[n] = 1.0 / n;
-  }
-};
-constexpr Parts parts;
-
-// By the power series of h: without a sine or an exponential, and without a difference of numbers
-// that are nearly one. For times that are short beside those of the law.
-ImpulseAnswer by_series(const HeldLaw& law, double t) {
-  const double d = law.damping * t, k = law.stiffness * t * t;
-  // h = t (c_0 + c_1 + ...), of which c_n = -(d c_(n-1) + k c_(n-2) / n) / (n + 1).
-  double last = 1, before = 0;
-  double value = 1, slope = 1, integral = 0.5;
+// The answer at t by its terms, term(n) for c_n, one after the other.
+template <class Term>
+ImpulseAnswer sum_of(double t, Term term) {
+  double value = 1, slope = 1, integral = 0.5, before = 1;
   for (int n = 1; n <= most_terms; ++n) {
-    // Only one product waits for the last term.
-    const double part = -parts.of[n + 1];
-    const double next = (d * part) * last + (k * (parts.of[n] * part)) * before;
-    before = last;
-    last = next;
+    const double next = term(n);
     value += next;
     slope += (n + 1) * next;
-    integral += next * parts.of[n + 2];
+    integral += next * term_parts.of[n + 2];
     if (std::abs(next) + std::abs(before) < 1e-18) break;
+    before = next;
   }
   return {t * t * integral, t * value, slope};
+}
+
+// Without a sine or an exponential, and without a difference of numbers that are nearly one. For
+// times that are short beside those of the law.
+ImpulseAnswer by_series(const HeldLaw& law, double t) {
+  const double d = law.damping * t, k = law.stiffness * t * t;
+  double last = 1, before = 0;
+  return sum_of(t, [&](int n) {
+    before = std::exchange(last, next_term(d, k, last, before, n));
+    return last;
+  });
 }
 
 // Half the damping; and the rate at which the two exponentials of h part, or at which it turns.
@@ -80,32 +77,24 @@ ImpulseAnswer answer(const HeldLaw& law, double t) {
   return {half.integral + turned * half.integral + half.value * half.value, value, slope};
 }
 
-// By powers of the time: no term waits for the one before, as it does in by_series().
 ImpulseAnswer KnownAnswers::at(const HeldLaw& law, double t) {
   if (law == HeldLaw{}) return {t * t / 2, t, 1};
   if (!suits_series(law, t)) return answer(law, t);
   if (!(law == law_)) {
     law_ = law;
-    double before = 0;
-    for (int n = 1; n <= terms; ++n) {
-      const double last = coefficients_[n - 1];
-      coefficients_[n] =
-          -(law.damping * last + law.stiffness * before * parts.of[n]) * parts.of[n + 1];
-      before = last;
+    known_ = 0;
+  }
+  double power = 1;
+  const ImpulseAnswer sum = sum_of(t, [&](int n) {
+    if (n > known_) {
+      const double before = n > 1 ? coefficients_[n - 2] : 0;
+      coefficients_[n] = next_term(law.damping, law.stiffness, coefficients_[n - 1], before, n);
+      known_ = n;
     }
-  }
-  double power = 1, before = 1;
-  double value = 1, slope = 1, integral = 0.5;
-  for (int n = 1; n <= terms; ++n) {
     power *= t;
-    const double next = coefficients_[n] * power;
-    value += next;
-    slope += (n + 1) * next;
-    integral += next * parts.of[n + 2];
-    if (std::abs(next) + std::abs(before) < 1e-18) return {t * t * integral, t * value, slope};
-    before = next;
-  }
-  return answer(law, t);  // of coefficients that are no numbers
+    return coefficients_[n] * power;
+  });
+  return std::isfinite(sum.slope) ? sum : answer(law, t);
 }
 
 HeldMotion held_motion(const ServoResponse& servo, const AxisMode& mode, double command,

@@ -14,6 +14,7 @@
 
 #include <cmath>
 
+#include "model/servo/impulse_series.hpp"
 #include "model/systems/rig_loop.hpp"
 
 namespace bbsim::model {
@@ -87,8 +88,9 @@ struct MotionReach {
   return {motion.angle + spring, most, most * root};
 }
 
-// Answers of the law that was last asked for, by the coefficients of its series; and the last one
-// at the end of what is looked at, which lines and servos mostly have in common.
+// Answers of the law that was last asked for, by the coefficients of its series in powers of the
+// time: no term waits for the one before. And the last one at the end of what is looked at, which
+// lines and servos mostly have in common.
 class KnownAnswers {
  public:
   [[nodiscard]] ImpulseAnswer at(const HeldLaw& law, double time);
@@ -102,12 +104,11 @@ class KnownAnswers {
   }
 
  private:
-  static constexpr int terms = 40;
-
   HeldLaw ending_, law_;
   double end_ = 0;
   ImpulseAnswer answer_;
-  double coefficients_[terms + 1]{1};  // of law_: h(t) / t by powers of t
+  int known_ = 0;                           // coefficients after the first one
+  double coefficients_[most_terms + 1]{1};  // of law_: those of h(t) / t
 };
 
 // The first time within (0, end] at which the line falls to zero, s; infinite if it does not. If it

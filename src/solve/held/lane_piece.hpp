@@ -89,7 +89,7 @@ struct LaneKernel {
 
   [[gnu::flatten]] static void tables(LaneAxis& axis, const LaneServo& servo,
                                       const double* length) {
-    constexpr int most_terms = One::most_terms;
+    using model::most_terms;
     for (int first = 0; first < group; first += lanes) {
       const auto of = [first](const double* values) __attribute__((always_inline)) {
         return P::load(values + first);
@@ -103,12 +103,11 @@ struct LaneKernel {
       for (;; ++terms) {
         value[terms] = last;
         slope[terms] = P(terms + 1.0) * last;
-        integral[terms] = P(One::parts.of[terms + 2]) * last;
+        integral[terms] = P(model::term_parts.of[terms + 2]) * last;
         const bool small =
             One::reduced(size_of(last) + size_of(before), typename One::Larger{}) < 1e-18;
         if (small || terms == most_terms) break;
-        const double part = -One::parts.of[terms + 2];
-        const P next = (d * P(part)) * last + (k * P(One::parts.of[terms + 1] * part)) * before;
+        const P next = model::next_term(d, k, last, before, terms + 1);
         before = last;
         last = next;
       }

@@ -11,6 +11,7 @@
 // of which this is the special case without a Jacobian, a system, or a state of the servos.
 #pragma once
 
+#include "model/servo/impulse_series.hpp"
 #include "model/systems/system.hpp"
 #include "simd/affine.hpp"
 #include "simd/compare.hpp"
@@ -476,31 +477,19 @@ struct Kernel {
     }
   }
 
-  // 1, 1, 1/2, 1/3, ...
-  static constexpr int most_terms = 40;
-  struct Parts {
-    double of[most_terms + 3]{1};
-    consteval Parts() {
-      for (int n = 1; n < most_terms + 3; ++n) of[n] = 1.0 / n;
-    }
-  };
-  static constexpr Parts parts{};
-
   // The terms of model::answer()'s series, all nodes together.
   static void answers(double damping, double stiffness, double length, NodeAnswers& answers) {
     for_each<packs>([&](auto p) __attribute__((always_inline)) {
       const P t = P(length) * P::load(table.c + p * lanes);
       const P d = P(damping) * t, k = P(stiffness) * t * t;
       P last(1.0), before(0.0), value(1.0), slope(1.0), integral(0.5);
-      for (int n = 1; n <= most_terms; ++n) {
-        // Only one product waits for the last term.
-        const double part = -parts.of[n + 1];
-        const P next = (d * P(part)) * last + (k * P(parts.of[n] * part)) * before;
+      for (int n = 1; n <= model::most_terms; ++n) {
+        const P next = model::next_term(d, k, last, before, n);
         before = last;
         last = next;
         value += next;
         slope += P(n + 1.0) * next;
-        integral += next * P(parts.of[n + 2]);
+        integral += next * P(model::term_parts.of[n + 2]);
         // Terms are as powers of the times, of which the last lane has the longest.
         const double largest = next.v[lanes - 1], other = before.v[lanes - 1];
         if (size_of(largest) + size_of(other) < 1e-18) break;

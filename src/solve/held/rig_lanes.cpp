@@ -117,7 +117,7 @@ RigLanes::RigLanes(Tolerances tolerances, const OutputGrid& grid, const LaneAske
 void RigLanes::begin(std::size_t l, const model::Model& model, LaneSink& sink) {
   Lane& lane = lanes_[l];
   lane.run.emplace(model, tolerances_.atol);
-  lane.run->share_reference(known_reference_);
+  lane.run->share_reference(shared_reference_);
   lane.feeds_servos_back = model.rig->sampled->law.feeds_servos_back();
   lane.instants.emplace(*model.rig->sampled);
   std::copy(model.initial.begin(), model.initial.end(), lane.z.begin());
@@ -239,6 +239,9 @@ void RigLanes::load_tables(std::size_t i) {
             servo.stiffness[l] == servo.stiffness[one] && servo.damping[l] == servo.damping[one];
   }
   if (one == group) return;
+  const auto asked_of = [&](std::size_t l) {
+    return Loaded{{servo.stiffness[l], servo.damping[l]}, pieces_->length[l]};
+  };
   const auto put = [&axis](const MotionTable& table, std::size_t l) {
     axis.most_by_rate[l] = table.most_by_rate;
     axis.most_by_acceleration[l] = table.most_by_acceleration;
@@ -246,7 +249,7 @@ void RigLanes::load_tables(std::size_t i) {
     axis.missed_by_acceleration[l] = table.missed_by_acceleration;
   };
   if (alike) {
-    const Loaded asked{{servo.stiffness[one], servo.damping[one]}, pieces_->length[one]};
+    const Loaded asked = asked_of(one);
     if (axis.shared != nullptr && shared_[i] == asked) return;
     shared_[i] = asked;
     shared_tables_[i] = lanes_[one].tables.of(asked.law, asked.length);
@@ -256,25 +259,24 @@ void RigLanes::load_tables(std::size_t i) {
   }
   if (axis.shared != nullptr) loaded_[i].fill({});
   axis.shared = nullptr;
-  bool suits = true, known = true;
+  std::array<Loaded, group> asked;
+  bool known = true, suits = true;
   for (std::size_t l = 0; l < group; ++l) {
-    const Loaded asked{{servo.stiffness[l], servo.damping[l]}, pieces_->length[l]};
-    suits = suits && model::suits_series(asked.law, asked.length);
-    known = known && (!(asked.length > 0) || loaded_[i][l] == asked);
+    asked[l] = asked_of(l);
+    if (!(asked[l].length > 0)) continue;
+    known = known && loaded_[i][l] == asked[l];
+    suits = suits && model::suits_series(asked[l].law, asked[l].length);
   }
   if (known) return;
   if (suits) {
     kernels_.tables(axis, servo, pieces_->length);
-    for (std::size_t l = 0; l < group; ++l) {
-      loaded_[i][l] = {{servo.stiffness[l], servo.damping[l]}, pieces_->length[l]};
-    }
+    loaded_[i] = asked;
     return;
   }
   for (std::size_t l = 0; l < group; ++l) {
-    const Loaded asked{{servo.stiffness[l], servo.damping[l]}, pieces_->length[l]};
-    if (!(asked.length > 0) || loaded_[i][l] == asked) continue;
-    loaded_[i][l] = asked;
-    const MotionTable& table = lanes_[l].tables.of(asked.law, asked.length);
+    if (!(asked[l].length > 0) || loaded_[i][l] == asked[l]) continue;
+    loaded_[i][l] = asked[l];
+    const MotionTable& table = lanes_[l].tables.of(asked[l].law, asked[l].length);
     put(table, l);
     for (int row = 0; row < MotionTable::rows; ++row) {
       for (int n = 0; n < nodes; ++n) {
@@ -515,7 +517,7 @@ std::array<bool, group> RigLanes::integrate(const model::Model* const* models, s
                                             LaneSink& sink) {
   scene_.force = false;
   controllers_.begin();
-  known_reference_ = {};
+  shared_reference_ = {};
   for (std::size_t l = 0; l < group; ++l) {
     if (l < count) {
       begin(l, *models[l], sink);

@@ -156,7 +156,7 @@ class RigLanes {
   LaneControllers controllers_;
   LaneScene scene_{};
   LaneStep step_;
-  model::HybridSystem::KnownReference known_reference_;
+  model::HybridSystem::SharedReference shared_reference_;
   std::array<Lane, group> lanes_;
   std::array<std::array<Loaded, group>, 2> loaded_{};
   std::array<Loaded, 2> shared_{};
