@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "catch.hpp"
+#include "record/extremes.hpp"
 #include "record/recorder.hpp"
 #include "scenario/reader.hpp"
 #include "solve/integrate.hpp"
@@ -318,4 +319,26 @@ TEST_CASE("a bound that is out of reach gives the extremes of the best run too")
   CHECK_FALSE(controlled.met);
   const Measured same = measure(scene, names, Method::automatic, controlled.tolerances);
   for (const std::string& name : names) CHECK(measured.of.at(name) == same.of.at(name));
+}
+
+TEST_CASE("a peak that half of the points do not show is found, however low all else is") {
+  struct Along : solve::Piece {
+    double (*x)(double s);
+    Along(double from, double (*of)(double s)) : Piece(from, from + 1, 16), x(of) {}
+    void evaluate(const double* times, std::size_t count, double* rows) const override {
+      std::fill_n(rows, count * 5, 0.0);
+      for (std::size_t i = 0; i < count; ++i) rows[5 * i] = x(times[i] - from());
+    }
+  };
+  const Scenario scene = plane_at(0.1, 0.1, 2);
+  const model::Model model = model::assemble(scene, false);
+  REQUIRE(model.row_size() == 5);
+  const model::BallConstants constants = model::constants_of(scene);
+  record::Extremes extremes({{scenario::find_column("x")}});
+  extremes.begin(model, constants);
+  extremes.accept(Along(0, [](double) { return 0.9; }));
+  // Between the fourth and the fifth of nine points, and nearly zero at both.
+  extremes.accept(Along(1, [](double s) { return std::exp(-400 * (s - 0.4) * (s - 0.4)); }));
+  CHECK(extremes[0].value == Approx(1).epsilon(1e-12));
+  CHECK(extremes[0].t == Approx(1.4).epsilon(1e-6));
 }

@@ -21,7 +21,7 @@ ImpulseAnswer sum_of(double t, Term term) {
     const double next = term(n);
     value += next;
     slope += (n + 1) * next;
-    integral += next * term_parts.of[n + 2];
+    integral += next * term_parts<double>.of[n + 2];
     if (std::abs(next) + std::abs(before) < 1e-18) break;
     before = next;
   }

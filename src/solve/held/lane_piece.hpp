@@ -103,7 +103,7 @@ struct LaneKernel {
       for (;; ++terms) {
         value[terms] = last;
         slope[terms] = P(terms + 1.0) * last;
-        integral[terms] = P(model::term_parts.of[terms + 2]) * last;
+        integral[terms] = P(model::term_parts<P>.of[terms + 2]) * last;
         const bool small =
             One::reduced(size_of(last) + size_of(before), typename One::Larger{}) < 1e-18;
         if (small || terms == most_terms) break;

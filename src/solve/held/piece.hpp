@@ -489,7 +489,7 @@ struct Kernel {
         last = next;
         value += next;
         slope += P(n + 1.0) * next;
-        integral += next * P(model::term_parts.of[n + 2]);
+        integral += next * P(model::term_parts<P>.of[n + 2]);
         // Terms are as powers of the times, of which the last lane has the longest.
         const double largest = next.v[lanes - 1], other = before.v[lanes - 1];
         if (size_of(largest) + size_of(other) < 1e-18) break;
