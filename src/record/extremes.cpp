@@ -166,14 +166,14 @@ void Extremes::accept(const solve::Piece& piece) {
     const ChebyshevPoints& points = tables_.points(parts);
     sample(piece, points);
     const bool few = parts < enough;
-    bool shown = true;
+    bool all_shown = true;
     matter_.clear();
     for (std::size_t i = 0; i < size(); ++i) {
       const bool matters = may_matter(i, points);
       if (matters) matter_.push_back(i);
-      if (matters || few) shown = shown && is_shown(i, points);
+      if (matters || few) all_shown = all_shown && is_shown(i, points);
     }
-    if (shown || (!few && 2 * parts > most_parts)) break;
+    if (all_shown || (!few && 2 * parts > most_parts)) break;
   }
   for (const std::size_t i : matter_) climb_within(i, piece, tables_.points(parts));
 }
