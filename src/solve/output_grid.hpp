@@ -31,6 +31,15 @@ class OutputGrid {
     return i < before_end_ ? static_cast<double>(i) * step_ : end_;
   }
 
+  // How many rows are not after `time` >= 0, s.
+  [[nodiscard]] std::size_t rows_until(double time) const {
+    if (time >= end_) return size();
+    std::size_t rows = static_cast<std::size_t>(time / step_) + 1;  // but for rounding
+    while (rows > 0 && (*this)[rows - 1] > time) --rows;
+    while ((*this)[rows] <= time) ++rows;
+    return rows;
+  }
+
  private:
   double step_, end_;
   std::size_t before_end_;

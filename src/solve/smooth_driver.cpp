@@ -82,17 +82,12 @@ Outcome run_through(Stepper& stepper, const model::Model& model, const OutputGri
       const double to = std::min(at_stop ? std::nextafter(reached, before) : reached, cut);
       if (to > from) pieces->accept(Step(stepper, from, to));
     }
-    if (!with_rows) {
-      while (next_row < end_row && grid[next_row] <= reached) ++next_row;
-    }
-    while (next_row < end_row && grid[next_row] <= reached) {
-      std::size_t count = 0;
-      while (count < times.size() && next_row + count < end_row &&
-             grid[next_row + count] <= reached) {
-        times[count] = grid[next_row + count];
-        ++count;
-      }
+    const std::size_t rows_until = std::min(grid.rows_until(reached), end_row);
+    if (!with_rows) next_row = std::max(next_row, rows_until);
+    while (next_row < rows_until) {
+      std::size_t count = std::min(times.size(), rows_until - next_row);
       double* const out = rows.next(count);
+      for (std::size_t i = 0; i < count; ++i) times[i] = grid[next_row + i];
       stepper.evaluate(times.data(), count, out);
       next_row += count;
     }

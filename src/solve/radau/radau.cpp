@@ -1,7 +1,6 @@
 #include "solve/radau/radau.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <new>
@@ -13,7 +12,7 @@
 namespace bbsim::solve::radau {
 namespace {
 
-constexpr std::align_val_t alignment{64};
+constexpr std::size_t alignment = 64;
 
 double highest_frequency(const model::Model& model) {
   return std::visit(
@@ -62,6 +61,10 @@ const Kernel& find_kernel(const StepKernels& kernels, int stages, const model::M
   return kernels_for(simd::InstructionSet::baseline).kernels[order][model.system.index()];
 }
 
+std::size_t size_of_view(const model::Model& model) {
+  return std::visit([](const auto& system) { return sizeof(system.view()); }, model.system);
+}
+
 // The size of the greatest state; infinite if one is no number.
 double size_of(const std::vector<double>& state) {
   double size = 0;
@@ -73,10 +76,6 @@ double size_of(const std::vector<double>& state) {
 }
 
 }  // namespace
-
-void RadauStepper::Free::operator()(void* memory) const {
-  ::operator delete(memory, alignment);
-}
 
 int choose_stages(const model::Model& model, double rtol) {
   // Substitution, which has no linear systems to solve, takes hardly longer over more stages.
@@ -101,7 +100,12 @@ void RadauStepper::renew(const model::Model& model, int stages, double end) {
   if (kernel != kernel_) {
     kernel_ = kernel;
     reach_ = resolved(kernel_->stages, tolerances_.rtol);
-    workspace_.reset(::operator new(kernel_->workspace, alignment));
+    const std::size_t both = kernel_->workspace + size_of_view(model);
+    std::size_t room = both + alignment;
+    memory_ = std::make_unique_for_overwrite<std::byte[]>(room);
+    workspace_ = memory_.get();
+    std::align(alignment, both, workspace_, room);
+    view_ = static_cast<std::byte*>(workspace_) + kernel_->workspace;
   }
   highest_frequency_ = highest_frequency(model);
   // A sinusoid shorter than the distance between nodes would be mistaken for a longer one.
@@ -121,12 +125,8 @@ void RadauStepper::look_at_model() {
   std::visit(
       [this](const auto& system) {
         using View = decltype(system.view());
-        static_assert(std::is_trivially_destructible_v<View>);
-        if (viewed_ != model_->system.index()) {
-          view_.reset(::operator new(sizeof(View), alignment));
-          viewed_ = model_->system.index();
-        }
-        new (view_.get()) View(system.view());
+        static_assert(std::is_trivially_destructible_v<View> && alignof(View) <= alignment);
+        new (view_) View(system.view());
       },
       model_->system);
 }
@@ -147,31 +147,30 @@ std::size_t RadauStepper::parts() const {
 
 // Makes the end of the last step the present state.
 void RadauStepper::settle() {
-  if (attempted_) kernel_->accept(workspace_.get());
+  if (attempted_) kernel_->accept(workspace_);
   attempted_ = false;
 }
 
 std::vector<double> RadauStepper::state() const {
   std::vector<double> z(model_->size());
-  kernel_->state(workspace_.get(), z.data());
+  kernel_->state(workspace_, z.data());
   return z;
 }
 
 void RadauStepper::start(double t, const double* z) {
   look_at_model();
-  void* const workspace = workspace_.get();
   if (model_->gamma && t > 0 && attempted_) {
     std::vector<double> row(model_->size() + 1);
     evaluate(&t, 1, row.data());
     turned_ = row.back();
   }
   attempted_ = false;
-  kernel_->start(workspace, {view_.get(), z, tolerances_.rtol, tolerances_.atol, model_->gamma,
-                             positions_only_});
+  kernel_->start(workspace_,
+                 {view_, z, tolerances_.rtol, tolerances_.atol, model_->gamma, positions_only_});
   time_ = t;
   shrinking_.interrupt();
   if (next_step_ > 0) return;
-  const double rate = std::max(kernel_->rate(workspace, t), highest_frequency_);
+  const double rate = std::max(kernel_->rate(workspace_, t), highest_frequency_);
   next_step_ = rate > 0 ? 2 * reach_ / rate : end_;
   if (!(rate > 0)) least_end_ = std::numeric_limits<double>::infinity();  // it has made this step
   if (!(next_step_ > 0)) next_step_ = end_ * 1e-6;
@@ -199,7 +198,7 @@ const char* RadauStepper::step(double limit) {
       return "the step shrank to the rounding of the time itself";
     }
     Attempt attempt;
-    kernel_->attempt(workspace_.get(), t, step, &attempt);
+    kernel_->attempt(workspace_, t, step, &attempt);
     statistics_.rhs_evaluations += static_cast<std::size_t>(attempt.right_hand_sides);
     statistics_.jacobian_evaluations += static_cast<std::size_t>(attempt.jacobians);
     statistics_.nonlinear_iterations += static_cast<std::size_t>(attempt.iterations);
@@ -233,7 +232,7 @@ void RadauStepper::archive(Archive& archive) {
   archive(time_, next_step_, attempted_, turned_, shrinking_, accepted_step_, fill_, worst_state_,
           least_end_, statistics_);
   // The kernel's memory is plain but for its first member, which is where the system's view is.
-  auto* const memory = static_cast<unsigned char*>(workspace_.get());
+  auto* const memory = static_cast<unsigned char*>(workspace_);
   archive.bytes(memory + sizeof(void*), kernel_->workspace - sizeof(void*));
 }
 
@@ -252,13 +251,13 @@ void RadauStepper::restore(StateReader& from) {
   }
   look_at_model();
   const std::vector<double> none(model_->size());
-  kernel_->start(workspace_.get(), {view_.get(), none.data(), tolerances_.rtol, tolerances_.atol,
-                                    model_->gamma, positions_only_});
+  kernel_->start(workspace_, {view_, none.data(), tolerances_.rtol, tolerances_.atol, model_->gamma,
+                              positions_only_});
   archive(from);
 }
 
 void RadauStepper::evaluate(const double* times, std::size_t count, double* rows) {
-  kernel_->evaluate(workspace_.get(), times, count, rows);
+  kernel_->evaluate(workspace_, times, count, rows);
   if (turned_ == 0) return;
   const std::size_t row = model_->size() + 1;
   for (std::size_t i = 0; i < count; ++i) rows[i * row + row - 1] += turned_;

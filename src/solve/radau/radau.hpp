@@ -3,7 +3,6 @@
 
 #include <cstddef>
 #include <memory>
-#include <variant>
 #include <vector>
 
 #include "model/model.hpp"
@@ -67,10 +66,6 @@ class RadauStepper : public Stepper {
   template <class Archive>
   void archive(Archive& archive);
 
-  struct Free {
-    void operator()(void* memory) const;
-  };
-
   void look_at_model();
   void settle();
   [[nodiscard]] bool diverges(double step, double t);
@@ -82,9 +77,9 @@ class RadauStepper : public Stepper {
   double end_ = 0, highest_frequency_ = 0, reach_ = 0, widest_ = 0;
   double tempo_ = 0;  // of what depends on the time alone, rad/s
   bool positions_only_ = false;
-  std::size_t viewed_ = std::variant_npos;  // the alternative that view_ has room for
-  std::unique_ptr<void, Free> view_;
-  std::unique_ptr<void, Free> workspace_;
+  std::unique_ptr<std::byte[]> memory_;  // of the two that follow
+  void* workspace_ = nullptr;
+  void* view_ = nullptr;
   double time_ = 0;
   double next_step_ = 0;    // s; 0: not known yet
   bool attempted_ = false;  // a step was made, and is not yet the present state

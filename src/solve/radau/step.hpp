@@ -110,7 +110,7 @@ struct Collocation {
     double jv[nv][nv], jq[nv][nv], jk[nv][turning + 1];
     E m_re[eigen_packs][nv][nv], m_im[eigen_packs][nv][nv];
     alignas(64) double r_re[nv][Table::pairs], r_im[nv][Table::pairs];
-    double q_series[nv][s + 2], v_series[nv][s + 1];
+    double q_series[nv][s + 2], v_series[nv][s + 1];  // of scaled polynomials
   };
 
   // out[v][i] = sum_j column[j][i] in[v][j]; `finish` takes each pack of the result.
@@ -397,24 +397,46 @@ struct Collocation {
     }
   }
 
-  // 1, 1/3, 1/5, ...: products are cheaper than quotients.
-  struct OddParts {
-    double of[s + 3]{};
-    consteval OddParts() {
-      for (int m = 0; m < s + 3; ++m) of[m] = 1.0 / (2 * m + 1);
+  // Rows are sums of p_m = P_m / scale[m], whose recurrence is the shortest that has no product
+  // next to another: p_(m+1) = rise[m] x p_m - p_(m-1).
+  struct ScaledLegendre {
+    double scale[s + 3]{}, rise[s + 2]{};
+    consteval ScaledLegendre() {
+      scale[0] = scale[1] = 1;
+      for (int m = 1; m < s + 2; ++m) {
+        scale[m + 1] = scale[m - 1] * m / (m + 1);
+        rise[m] = (2.0 * m + 1) / (m + 1) * scale[m] / scale[m + 1];
+      }
     }
   };
-  static constexpr OddParts odd_parts{};
+  static constexpr ScaledLegendre polynomials{};
 
-  // (h/2) times the integral from -1 of a Legendre series, plus its value there.
-  template <int length>
+  // The integral from -1 of a series is out_m = before[m] in_(m-1) - after[m] in_(m+1), m > 0.
+  // Products are cheaper than quotients.
+  template <bool of_scaled>
+  struct Integration {
+    double before[s + 2]{}, after[s + 2]{};
+    consteval Integration() {
+      const auto scale = [](int m) { return of_scaled ? polynomials.scale[m] : 1; };
+      for (int m = 1; m < s + 2; ++m) {
+        before[m] = polynomials.scale[m] / (scale(m - 1) * (2 * m - 1));
+        after[m] = polynomials.scale[m] / (scale(m + 1) * (2 * m + 3));
+      }
+    }
+  };
+  template <bool of_scaled>
+  static constexpr Integration<of_scaled> integration{};
+
+  // (h/2) times the integral from -1 of a series, plus its value there.
+  template <int length, bool of_scaled>
   BBSIM_INLINE static void integrate_series(const double* k, double half, double from,
                                             double* out) {
     const auto at = [&](int m) { return m < length ? k[m] : 0.0; };
+    constexpr const auto& by = integration<of_scaled>;
     out[0] = from + half * (at(0) - at(1) / 3);
 #pragma GCC unroll 2
     for (int m = 1; m <= length; ++m) {
-      out[m] = half * (k[m - 1] * odd_parts.of[m - 1] - at(m + 1) * odd_parts.of[m + 1]);
+      out[m] = half * (k[m - 1] * by.before[m] - at(m + 1) * by.after[m]);
     }
   }
 
@@ -451,9 +473,10 @@ struct Collocation {
   [[gnu::noinline]] static void expand(Workspace& w) {
     const double half = w.h / 2;
     for (int i = 0; i < nv; ++i) {
-      integrate_series<s>(w.series.of[i], half, w.v[i], w.v_series[i]);
-      if (i < nq || turns(w, i))
-        integrate_series<s + 1>(w.v_series[i], half, w.q[i], w.q_series[i]);
+      integrate_series<s, false>(w.series.of[i], half, w.v[i], w.v_series[i]);
+      if (i < nq || turns(w, i)) {
+        integrate_series<s + 1, true>(w.v_series[i], half, w.q[i], w.q_series[i]);
+      }
     }
   }
 
@@ -498,8 +521,7 @@ struct Collocation {
     for (int m = 1; m <= s; ++m) {
 #pragma GCC unroll 2
       for (int p = 0; p < together; ++p) {
-        const P next =
-            recurrence.first[m] * x[p] * now[p] - rounded(recurrence.second[m] * before[p]);
+        const P next = (polynomials.rise[m] * x[p]) * now[p] - before[p];
         before[p] = now[p];
         now[p] = next;
 #pragma GCC unroll 8
@@ -522,18 +544,6 @@ struct Collocation {
       }
     }
   }
-
-  // P_(m+1) = first[m] x P_m - second[m] P_(m-1)
-  struct Recurrence {
-    double first[s + 2]{}, second[s + 2]{};
-    consteval Recurrence() {
-      for (int m = 0; m < s + 2; ++m) {
-        first[m] = (2.0 * m + 1) / (m + 1);
-        second[m] = double(m) / (m + 1);
-      }
-    }
-  };
-  static constexpr Recurrence recurrence{};
 
   static void state(const void* workspace, double* z) {
     const Workspace& w = *static_cast<const Workspace*>(workspace);
