@@ -97,7 +97,8 @@ HybridSystem::HybridSystem(const Model& model, double resolution) : model_(model
       if (rig.servo[i].backlash > 0) mode_->axis[i].ratio = 0;
       servos_.emplace_back(rig.servo[i], servo.of[i]);
     }
-    if (rig.switches()) {
+    switches_ = rig.switches();
+    if (switches_) {
       for (int i = 0; i < rig.servos; ++i) {
         double scales[axis_guards];
         servos_[static_cast<std::size_t>(i)].scales(scales);
@@ -358,7 +359,7 @@ Sample HybridSystem::sample(double t, const double* z, Detail detail) const {
 }
 
 void HybridSystem::evaluate_guards(double t, const double* z, double* values) const {
-  if (model_.rig && model_.rig->switches()) {
+  if (switches_) {
     const Wanted wanted = axes(t, z);
     for (int i = 0; i < model_.rig->servos; ++i, values += axis_guards) {
       servos_[static_cast<std::size_t>(i)].evaluate(axis_state(i, wanted, z), values);
@@ -408,7 +409,7 @@ std::array<HeldMotion, 2> HybridSystem::held_motions(const double* z) const {
 HybridSystem::Fall HybridSystem::next_fall(double t, const std::array<HeldMotion, 2>& motions,
                                            double end) {
   Fall first;
-  if (!model_.rig || !model_.rig->switches()) return first;
+  if (!switches_) return first;
   for (std::size_t i = 0; i < 2; ++i) {
     const ServoAxis::Fall fall = servos_[i].first_fall(motions[i], mode_->command[i], t,
                                                        std::min(end, first.time) - t, answers_);
@@ -523,7 +524,7 @@ void HybridSystem::write_extras(double t, const double* z, double* out) const {
         }
       },
       model_.system);
-  if (sampled_) {
+  if (sampled_ && !sampled_->own.empty()) {
     std::copy(sampled_->own.begin(), sampled_->own.end(),
               out + model_.extras() - sampled_->own.size());
   }

@@ -195,6 +195,7 @@ class HybridSystem {
   Model model_;
   // What every instant looks at is together.
   RigMode* mode_ = nullptr;  // of the model's system, if that is a rig
+  bool switches_ = false;    // the rig does
   double stop_ = unlimited;  // the next one, s
   std::size_t next_stop_ = 0;
   bool touched_ = true, settled_ = true;

@@ -18,11 +18,10 @@ Sample Model::sample(double t, const double* row, Detail detail) const {
         using Any = std::decay_t<decltype(any)>;
         const double* const beside = row + size() + (gamma ? 1 : 0);
         if constexpr (is_rig<Any>) {
-          return extras() > 0 ? any.sample(t, row, RigExtras::unpack(beside), detail)
-                              : any.sample(t, row, detail);
+          return hybrid() ? any.sample(t, row, RigExtras::unpack(beside), detail)
+                          : any.sample(t, row, detail);
         } else if constexpr (is_coupled<Any>) {
-          return extras() > 0 ? any.sample(t, row, CoupledExtras::unpack(beside))
-                              : any.sample(t, row);
+          return hybrid() ? any.sample(t, row, CoupledExtras::unpack(beside)) : any.sample(t, row);
         } else {
           return any.sample(t, row, detail);
         }

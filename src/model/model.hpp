@@ -59,7 +59,7 @@ struct Model {
   [[nodiscard]] Sample sample(double t, const double* row, Detail detail = Detail::all) const;
   // Whether anything switches, samples or is watched for: model/hybrid_system.hpp runs it then.
   [[nodiscard]] bool hybrid() const {
-    return events.has_value() || dry.has_value() || (rig && (rig->switches() || rig->sampled));
+    return events.has_value() || dry.has_value() || (rig && (rig->sampled || rig->switches()));
   }
   // The names of the numbers that one's own controller gives for columns, in their order.
   [[nodiscard]] const std::vector<std::string>& own_columns() const;

@@ -41,14 +41,15 @@ class HybridIntegration {
         pieces_(sink.pieces()),
         stepper_(make_stepper(run_.model())),
         controller_(run_.controller()),
-        foresees_(stepper_->knows_servos()),
+        foresees_(stepper_->servos() != nullptr),
         first_guard_(foresees_ ? run_.first_monitor() : 0),
         guards_(run_.guards()),
         values_(run_.guards()),
         now_(run_.guards()),
         near_(run_.guards()),
         least_(run_.guards()),
-        most_(run_.guards()) {}
+        most_(run_.guards()),
+        row_(plain_size_) {}
 
   Outcome run() {
     try {
@@ -230,9 +231,9 @@ class HybridIntegration {
   }
 
   void state_at(double t, std::vector<double>& z) {
-    row_.resize(plain_size_);
     stepper_->evaluate(&t, 1, row_.data());
-    z.assign(row_.begin(), row_.begin() + static_cast<std::ptrdiff_t>(size_));
+    z.resize(size_);
+    std::copy_n(row_.begin(), size_, z.begin());
   }
 
   // From a switch on, where servos move in closed form: when the next one falls; and monitors are
@@ -241,7 +242,10 @@ class HybridIntegration {
     foreseen_ = run_.next_change();
     // A rig that does not switch has no servo's guards.
     fall_ = {};
-    if (first_guard_ > 0) fall_ = run_.next_fall(t, run_.held_motions(z.data()), foreseen_);
+    if (first_guard_ > 0) {
+      fall_ = switched ? run_.next_fall(t, *stepper_->servos(), foreseen_)
+                       : run_.next_fall(t, run_.held_motions(z.data()), foreseen_);
+    }
     unarmed_ = first_guard_ < guards_.size();
     unlooked_ = unlooked_ || (switched && unarmed_);
   }

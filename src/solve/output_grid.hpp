@@ -28,7 +28,8 @@ class OutputGrid {
 
   // The time of row i < size(), s.
   [[nodiscard]] double operator[](std::size_t i) const {
-    return i < before_end_ ? static_cast<double>(i) * step_ : end_;
+    // Processors convert signed numbers sooner.
+    return i < before_end_ ? static_cast<double>(static_cast<std::ptrdiff_t>(i)) * step_ : end_;
   }
 
   // How many rows are not after `time` >= 0, s.

@@ -1,6 +1,7 @@
 // One integrator, a step at a time: what all of them do for whoever drives them.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <memory>
 #include <optional>
@@ -8,6 +9,7 @@
 
 #include "base/archive.hpp"
 #include "model/model.hpp"
+#include "model/servo/held_motion.hpp"
 #include "solve/outcome.hpp"
 #include "solve/output_grid.hpp"
 #include "solve/part.hpp"
@@ -46,9 +48,9 @@ class Stepper {
   // time, does over the last step. A step shorter than the tolerance allows needs fewer.
   [[nodiscard]] virtual std::size_t parts() const = 0;
 
-  // Whether it moves servos in closed form. Then HybridSystem tells when one switches, and no step
-  // goes beyond.
-  [[nodiscard]] virtual bool knows_servos() const { return false; }
+  // How servos move from start() on, of a stepper that moves them in closed form; else null. Then
+  // HybridSystem tells when one switches, and no step goes beyond.
+  [[nodiscard]] virtual const std::array<model::HeldMotion, 2>* servos() const { return nullptr; }
   // Whether, for sure, no monitor of the scene's events changes its side within the last step,
   // start and end included: `happening` says of each which one it is on. To be called before the
   // next step.

@@ -44,7 +44,7 @@ class HeldStepper : public Stepper {
   [[nodiscard]] bool save(StateWriter& into) override;
   void restore(StateReader& from) override;
 
-  [[nodiscard]] bool knows_servos() const override { return true; }
+  [[nodiscard]] const std::array<model::HeldMotion, 2>* servos() const override { return &servo_; }
   [[nodiscard]] bool nothing_happens(const std::vector<char>& happening) override;
   [[nodiscard]] std::optional<Bounds> bounds(Load load, const model::BallConstants& constants,
                                              bool closely) override;
