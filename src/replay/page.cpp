@@ -188,7 +188,11 @@ Json sweep_json(const Sweep& sweep, std::size_t sweeps) {
   json["statuses"] = ways;
   json["status"] = status;
   Json keys = Json::array(), measures = Json::array();
-  for (const SweepColumn& key : sweep.keys) keys.push_back(sweep_column_json(key, cases, true));
+  for (const SweepColumn& key : sweep.keys) {
+    keys.push_back(sweep_column_json(key, cases, true));
+    if (key.drawn) keys.back()["drawn"] = true;
+    if (!key.along.empty()) keys.back()["along"] = key.along;
+  }
   for (const SweepColumn& measure : sweep.measures) {
     measures.push_back(sweep_column_json(measure, cases, false));
   }

@@ -76,6 +76,8 @@ struct SweepColumn {
   std::string name, unit;
   std::vector<double> values;
   std::vector<std::string> words;  // instead of values
+  bool drawn = false;              // a key's values are by chance
+  std::string along{};             // the first key with which this one's values always go
 
   [[nodiscard]] std::size_t rows() const { return words.empty() ? values.size() : words.size(); }
 };

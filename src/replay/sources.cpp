@@ -11,6 +11,7 @@
 #include "model/model.hpp"
 #include "model/signals/reference_path.hpp"
 #include "model/spectrum.hpp"
+#include "plot/sweep_table.hpp"
 #include "scenario/columns.hpp"
 
 namespace bbsim::replay {
@@ -100,6 +101,17 @@ SweepColumn sweep_column(plot::Column column) {
           column.texts};
 }
 
+// Which keys were drawn, and which go along with another.
+void relate(std::vector<SweepColumn>& keys, const plot::SweepTable& table) {
+  for (SweepColumn& key : keys) {
+    const auto of = std::ranges::find(table.keys, key.name, &plot::Key::name);
+    if (of == table.keys.end()) continue;
+    key.drawn = of->drawn;
+    const std::string& leader = table.keys[of->leader].name;
+    if (leader != key.name) key.along = leader;
+  }
+}
+
 }  // namespace
 
 Run run_of_table(file::TableData table, const std::string& name) {
@@ -162,6 +174,7 @@ Sweep sweep_of_result(plot::Result result, const std::string& name) {
     sweep.scenario_text = result.scenario->source.text;
     sweep.overrides = result.scenario->source.overrides;
   }
+  const plot::SweepTable table = plot::sweep_table(result);
   const plot::Column* const reason = result.find("reason");
   std::vector<std::string> reasons;
   if (reason != nullptr) reasons = reason->texts;
@@ -180,6 +193,7 @@ Sweep sweep_of_result(plot::Result result, const std::string& name) {
       if (measure.unit.empty()) measure.unit = unit_of_measure(measure.name);
     }
   }
+  relate(sweep.keys, table);
   for (std::size_t i = 0; i < reasons.size() && i < sweep.status.size(); ++i) {
     if (!reasons[i].empty()) sweep.status[i] += ": " + reasons[i];
   }

@@ -49,6 +49,7 @@ std::vector<std::size_t> cases_kept(const Sweep& sweep, std::size_t most) {
   const std::size_t cases = sweep.status.size();
   std::vector<Levels> keys;
   for (const SweepColumn& key : sweep.keys) {
+    if (!key.along.empty()) continue;
     keys.push_back(key.words.empty() ? levels_of(key.values) : levels_of(key.words));
   }
   std::vector<std::size_t> strides(keys.size(), 1);

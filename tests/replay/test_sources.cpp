@@ -1,6 +1,7 @@
 // Scenes from scenarios, tables and sweeps.
 #include <cmath>
 #include <fstream>
+#include <sstream>
 
 #include "base/error.hpp"
 #include "catch.hpp"
@@ -15,7 +16,8 @@ using namespace bbsim::replay;
 namespace {
 
 std::string config(const std::string& name) {
-  return std::string(BBSIM_SOURCE_DIR) + "/configs/" + name + ".yaml";
+  std::string file = BBSIM_SOURCE_DIR "/configs/";
+  return file.append(name).append(".yaml");
 }
 
 Run described(const std::string& name) {
@@ -84,6 +86,25 @@ TEST_CASE("a sweep's table: keys, status and measures") {
   CHECK(sweep.measures[1].unit == "m");
   CHECK(sweep.measures[2].name == "end_time");
   CHECK(sweep.measures[2].unit == "s");
+}
+
+TEST_CASE("a sweep's keys: which go along with another, and which were drawn") {
+  const Folder folder;
+  std::ostringstream table;
+  table << "case,a,b,c,status,max_tilt\n";
+  const double drawn[] = {0.3, 0.1, 0.7, 0.2, 0.9, 0.4, 0.6, 0.5};
+  for (int i = 0; i < 8; ++i) {
+    const int a = i / 4;
+    table << i << ',' << a << ',' << -2 * a << ',' << drawn[i] << ",done,1\n";
+  }
+  const replay::Sweep sweep =
+      sweep_of_result(plot::read_result(folder.put("s.csv", table.str()), {}), "s.csv");
+  REQUIRE(sweep.keys.size() == 3);
+  CHECK(sweep.keys[0].along.empty());
+  CHECK(sweep.keys[1].along == "a");
+  CHECK(sweep.keys[2].along.empty());
+  CHECK_FALSE(sweep.keys[0].drawn);
+  CHECK(sweep.keys[2].drawn);
 }
 
 TEST_CASE("a result brings what its summary tells, and the ball's orientation") {

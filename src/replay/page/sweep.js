@@ -5,7 +5,7 @@ bbsim.makeSweep = (json, container) => {
   const {element, svg, number} = text;
 
   function columnOf(column) {
-    const made = {name: column.name, unit: column.unit};
+    const made = {name: column.name, unit: column.unit, drawn: Boolean(column.drawn), along: column.along};
     if (column.words) {
       made.names = [...new Set(column.words)];
       made.words = column.words;
@@ -28,9 +28,21 @@ bbsim.makeSweep = (json, container) => {
   const doneIndex = json.statuses.indexOf('done');
   const isDone = (i) => status[i] === doneIndex;
   const statusOf = (i) => json.statuses[status[i]];
-  const grid = keys.reduce((product, key) => product * key.levels.length, 1) === count;
-  // Keys of which each value stands in several cases are axes; others were drawn, or go along with one.
-  const axes = keys.filter((key) => grid || key.levels.length <= count / 2);
+  // Of keys whose values always go along together the first one stands for all.
+  const leads = keys.filter((key) => !key.along), listed = leads.filter((key) => !key.drawn);
+  const labelOf = (key) => [key, ...keys.filter((other) => other.along === key.name)].map((one) => one.name).join(', ');
+  // How many cases each combination of the listed keys' values has: one in a grid, several where others were drawn; 0 if
+  // they are not alike, or not all there.
+  const stack = (() => {
+    const cells = listed.reduce((product, key) => product * key.levels.length, 1), tall = new Map();
+    if (cells > count) return 0;
+    for (let i = 0; i < count; ++i) {
+      const cell = listed.map((key) => key.values[i]).join();
+      tall.set(cell, (tall.get(cell) || 0) + 1);
+    }
+    return tall.size === cells && [...tall.values()].every((n) => n === count / cells) ? count / cells : 0;
+  })();
+  const axes = listed.filter((key) => key.levels.length > 1 && (stack > 0 || key.levels.length <= count / 2));
 
   // Viridis, which grows lighter evenly and is read in grey as well.
   const stops = [[68, 1, 84], [72, 40, 120], [62, 74, 137], [49, 104, 142], [38, 130, 142], [31, 158, 137], [53, 183, 121],
@@ -55,11 +67,11 @@ bbsim.makeSweep = (json, container) => {
   // What is asked for. Of the measures first one that says how well the ball was led, if it is there.
   const telling = ['rms_tracking_error', 'max_tracking_error', 'max_distance'];
   const firstMeasure = Math.max(0, measures.findIndex((m) => m.name === telling.find((name) => measures.some((other) => other.name === name))));
-  const state = {kind: axes.length >= 2 || keys.length >= 2 ? 'map' : 'lines', measure: firstMeasure, x: 0, y: Math.min(1, keys.length - 1), fixed: new Map(), chosen: -1};
-  if (!grid && axes.length < 2) state.kind = axes.length === 1 ? 'lines' : 'histogram';
-  if (axes.length > 0) state.x = keys.indexOf(axes[axes.length - 1]);
-  if (axes.length > 1) state.y = keys.indexOf(axes[axes.length - 2]);
-  if (state.y === state.x) state.y = keys.length > 1 ? (state.x + 1) % keys.length : state.x;
+  // x and y are places among `leads`.
+  const state = {kind: axes.length >= 2 ? 'map' : axes.length === 1 ? 'lines' : 'histogram', measure: firstMeasure, x: 0, y: 0, fixed: new Map(), chosen: -1};
+  if (axes.length > 0) state.x = leads.indexOf(axes[axes.length - 1]);
+  if (axes.length > 1) state.y = leads.indexOf(axes[axes.length - 2]);
+  if (state.y === state.x && leads.length > 1) state.y = (state.x + 1) % leads.length;
 
   const canvas = element('canvas', {tabindex: '0', role: 'img'});
   const over = svg('svg', {class: 'over', 'aria-hidden': 'true'});
@@ -69,7 +81,8 @@ bbsim.makeSweep = (json, container) => {
   const side = element('div', {class: 'case', 'aria-live': 'polite'});
   const controls = element('div', {class: 'controls'});
   const counts = element('ul', {class: 'statuses'});
-  let marks = [];  // of what is drawn: {i, x, y, w, h}
+  const remark = element('p', {class: 'fine remark'});
+  let marks = [];  // of what is drawn: {i, x, y, w, h}, and `all` the cases of which i is the one shown
 
   function select(label, options, chosen, action) {
     const made = element('select', {'aria-label': label}, ...options.map((words, i) => element('option', {value: String(i)}, words)));
@@ -83,8 +96,8 @@ bbsim.makeSweep = (json, container) => {
 
   // The cases that stand in the picture: of a grid those at the fixed values of the keys that are no axis.
   function fixedKeys() {
-    if (!grid || state.kind === 'histogram') return [];
-    return keys.filter((key, k) => k !== state.x && k !== state.y && key.levels.length > 1);
+    if (!stack || state.kind === 'histogram') return [];
+    return listed.filter((key) => key !== leads[state.x] && key !== leads[state.y] && key.levels.length > 1);
   }
   function selected() {
     const fixed = fixedKeys();
@@ -97,7 +110,7 @@ bbsim.makeSweep = (json, container) => {
 
   function makeControls() {
     controls.replaceChildren();
-    const kinds = [['map', 'Map', keys.length >= 2], ['lines', 'Lines', true], ['histogram', 'Histogram', true]].filter(([, , can]) => can);
+    const kinds = [['map', 'Map', leads.length >= 2], ['lines', 'Lines', true], ['histogram', 'Histogram', true]].filter(([, , can]) => can);
     const group = element('div', {class: 'segments', role: 'group', 'aria-label': 'Kind of picture'});
     for (const [kind, words] of kinds) {
       group.append(element('button', {type: 'button', 'data-kind': kind, 'aria-pressed': String(state.kind === kind), onclick: () => {
@@ -107,12 +120,12 @@ bbsim.makeSweep = (json, container) => {
     }
     controls.append(group, select('Measure', measures.map((m) => text.columnName(m.name)), state.measure, (k) => { state.measure = k; }));
     if (state.kind !== 'histogram') {
-      controls.append(select('across', keys.map((key) => key.name), state.x, (k) => {
+      controls.append(select('across', leads.map(labelOf), state.x, (k) => {
         if (k === state.y) state.y = state.x;
         state.x = k;
       }));
-      if (keys.length > 1) {
-        controls.append(select(state.kind === 'map' ? 'up' : 'a line for each', keys.map((key) => key.name), state.y, (k) => {
+      if (leads.length > 1) {
+        controls.append(select(state.kind === 'map' ? 'up' : 'a line for each', leads.map(labelOf), state.y, (k) => {
           if (k === state.x) state.x = state.y;
           state.y = k;
         }));
@@ -127,7 +140,7 @@ bbsim.makeSweep = (json, container) => {
         shown.textContent = text.visible(shortText(key, key.levels[slider.value]));
         draw();
       });
-      controls.append(element('label', {}, `${key.name} `, slider, shown));
+      controls.append(element('label', {}, `${labelOf(key)} `, slider, shown));
     }
   }
 
@@ -231,14 +244,35 @@ bbsim.makeSweep = (json, container) => {
     }
   }
 
+  // Of cases in one place that in the middle, of those that were done; if none was, the first.
+  const isFine = (i, measure) => isDone(i) && Number.isFinite(measure.values[i]);
+  function middleOf(all, measure) {
+    const fine = all.filter((i) => isFine(i, measure)).sort((a, b) => measure.values[a] - measure.values[b]);
+    return fine.length > 0 ? fine[fine.length >> 1] : all[0];
+  }
+  function gathered(list, placeOf) {
+    const places = new Map();
+    for (const i of list) {
+      const place = placeOf(i);
+      if (!places.has(place)) places.set(place, []);
+      places.get(place).push(i);
+    }
+    return [...places.values()];
+  }
+  const drawnNames = () => leads.filter((key) => key.drawn).map(labelOf).join(', ');
+
   function drawMap(list, measure) {
-    const kx = keys[state.x], ky = keys[state.y];
+    const kx = leads[state.x], ky = leads[state.y];
     const cells = axes.includes(kx) && axes.includes(ky);
     const x = axisOf(kx, box.left, width - box.right, cells), y = axisOf(ky, height - box.bottom, box.top, cells);
-    const {low, high, clipped} = colourRange(list.filter(isDone).map((i) => measure.values[i]).filter(Number.isFinite));
-    for (const i of list) {
+    const piles = cells ? gathered(list, (i) => `${kx.values[i]},${ky.values[i]}`) : list.map((i) => [i]);
+    const shown = piles.map((all) => ({i: middleOf(all, measure), all}));
+    const {low, high, clipped} = colourRange(shown.filter(({i}) => isFine(i, measure)).map(({i}) => measure.values[i]));
+    const most = Math.max(...piles.map((all) => all.length));
+    if (most > 1) remark.textContent = text.visible(`A cell shows the median of its ${stack ? '' : 'up to '}${most} cases${drawnNames() ? `, over draws of ${drawnNames()}` : ''}.`);
+    for (const {i, all} of shown) {
       const w = Math.max(x.cell, 1), h = Math.max(y.cell, 1);
-      const mark = {i, x: x.place(kx.values[i]) - w / 2, y: y.place(ky.values[i]) - h / 2, w, h};
+      const mark = {i, all, x: x.place(kx.values[i]) - w / 2, y: y.place(ky.values[i]) - h / 2, w, h};
       if (!Number.isFinite(mark.x + mark.y)) continue;
       marks.push(mark);
       const value = measure.values[i];
@@ -255,28 +289,31 @@ bbsim.makeSweep = (json, container) => {
         paintStatus(i, mark.x, mark.y, w, h);
       }
     }
-    frame(x, y, kx.name + unitOf(kx), ky.name + unitOf(ky));
+    frame(x, y, labelOf(kx) + unitOf(kx), labelOf(ky) + unitOf(ky));
     colourBar(low, high, clipped);
   }
 
   function drawLines(list, measure) {
-    const kx = keys[state.x], ky = keys.length > 1 ? keys[state.y] : null;
+    const kx = leads[state.x], ky = leads.length > 1 ? leads[state.y] : null;
     const x = axisOf(kx, box.left, width - box.right, Boolean(kx.names));
-    const {least, greatest} = data.extent(list.map((i) => measure.values[i]));
+    // What a case reached that was not done may lie anywhere.
+    const fine = list.filter((i) => isFine(i, measure));
+    const {least, greatest} = data.extent((fine.length > 0 ? fine : list).map((i) => measure.values[i]));
     const y = axisOf({levels: least < greatest ? [least, greatest] : [least - 1, least + 1]}, height - box.bottom, box.top, false);
     const byLine = new Map();
-    const lined = ky && grid && ky.levels.length <= 12;
+    const lined = ky && stack && listed.includes(ky) && ky.levels.length <= 12;
     for (const i of list) {
       const value = measure.values[i];
       const line = lined ? ky.values[i] : 0;
-      const mark = {i, x: x.place(kx.values[i]) - 4, y: (Number.isFinite(value) ? y.place(value) : height - box.bottom) - 4, w: 8, h: 8, line, value};
+      const mark = {i, x: x.place(kx.values[i]) - 4, y: (Number.isFinite(value) ? Math.min(Math.max(y.place(value), box.top), height - box.bottom) : height - box.bottom) - 4, w: 8, h: 8, line, value};
       if (!Number.isFinite(mark.x)) continue;
       marks.push(mark);
       if (!byLine.has(line)) byLine.set(line, []);
       byLine.get(line).push(mark);
     }
-    frame(x, y, kx.name + unitOf(kx), text.columnName(measure.name) + unitOf(measure));
-    const connect = grid && (!ky || lined);
+    frame(x, y, labelOf(kx) + unitOf(kx), text.columnName(measure.name) + unitOf(measure));
+    const connect = stack && listed.includes(kx) && (!ky || lined);
+    if (connect && stack > 1) remark.textContent = text.visible(`Lines go through the medians of ${stack} cases, over draws of ${drawnNames()}.`);
     const ends = [];
     [...byLine.keys()].sort((a, b) => a - b).forEach((line, n) => {
       const points = byLine.get(line).sort((a, b) => a.x - b.x);
@@ -286,8 +323,9 @@ bbsim.makeSweep = (json, container) => {
       if (connect) {
         ink.beginPath();
         let on = false;
-        for (const point of points) {
-          if (!isDone(point.i) || !Number.isFinite(point.value)) { on = false; continue; }
+        for (const all of gathered(points.map((_, p) => p), (p) => points[p].x)) {
+          const middle = middleOf(all.map((p) => points[p].i), measure), point = points[all.find((p) => points[p].i === middle)];
+          if (!isFine(middle, measure)) { on = false; continue; }
           if (on) ink.lineTo(point.x + 4, point.y + 4);
           else ink.moveTo(point.x + 4, point.y + 4);
           on = true;
@@ -298,7 +336,7 @@ bbsim.makeSweep = (json, container) => {
       for (const point of points) {
         if (isDone(point.i) && Number.isFinite(point.value)) {
           if (connect && points.length > 80) continue;
-          ink.globalAlpha = connect ? 1 : 0.55;
+          ink.globalAlpha = connect && stack === 1 ? 1 : 0.55;
           ink.beginPath();
           ink.arc(point.x + 4, point.y + 4, 3, 0, 2 * Math.PI);
           ink.fill();
@@ -330,7 +368,7 @@ bbsim.makeSweep = (json, container) => {
       if (!above.has(point.x)) above.set(point.x, []);
       above.get(point.x).push(point.y);
     }
-    if (above.size < 2 || above.size > points.length / 5) return;
+    if (above.size < 2 || above.size > points.length / 2) return;
     ink.strokeStyle = palette.now().ink;
     ink.lineWidth = 2.5;
     ink.beginPath();
@@ -391,6 +429,7 @@ bbsim.makeSweep = (json, container) => {
     ink.setTransform(scale, 0, 0, scale, 0, 0);
     ink.clearRect(0, 0, width, height);
     marks = [];
+    remark.textContent = '';
     const measure = measures[state.measure], list = selected();
     ({map: drawMap, lines: drawLines, histogram: drawHistogram})[state.kind](list, measure);
     canvas.setAttribute('aria-label', text.visible(`${state.kind} of ${measure.name}, ${list.length} cases; arrow keys go from case to case`));
@@ -399,7 +438,7 @@ bbsim.makeSweep = (json, container) => {
 
   function showChosen() {
     over.querySelectorAll('.chosen').forEach((old) => old.remove());
-    const mark = marks.find((m) => m.i === state.chosen);
+    const mark = marks.find((m) => m.i === state.chosen) || marks.find((m) => m.all && m.all.includes(state.chosen));
     if (mark) over.append(svg('rect', {x: mark.x - 1.5, y: mark.y - 1.5, width: mark.w + 3, height: mark.h + 3, class: 'chosen'}));
   }
 
@@ -447,6 +486,10 @@ bbsim.makeSweep = (json, container) => {
         ? [`case ${cases[mark.i]}`, ...keys.map((key) => `${key.name} = ${valueText(key, mark.i)}`), `${measure.name} = ${valueText(measure, mark.i)}`]
         : [`${mark.cases} cases`, `${number(mark.from)} to ${number(mark.to)}`];
     if (mark.cases === undefined && !isDone(mark.i)) lines.push(statusOf(mark.i));
+    if (mark.all && mark.all.length > 1) {
+      const fine = mark.all.filter((i) => isFine(i, measure)).length;
+      lines.unshift(fine > 0 ? `median of ${fine} cases${fine < mark.all.length ? `, ${mark.all.length - fine} not done` : ''}:` : `none of ${mark.all.length} cases done`);
+    }
     tip.replaceChildren(...lines.map((line) => element('div', {}, line)));
     const left = Math.min(mark.x + mark.w + 10, width - 190);
     tip.style.transform = `translate(${Math.max(0, left)}px, ${Math.max(0, mark.y - 10)}px)`;
@@ -461,7 +504,7 @@ bbsim.makeSweep = (json, container) => {
     const way = ways[event.key];
     if (!way || marks.length === 0) return;
     event.preventDefault();
-    const now = marks.find((m) => m.i === state.chosen);
+    const now = marks.find((m) => m.i === state.chosen || (m.all && m.all.includes(state.chosen)));
     if (!now) return choose(marks[0].i);
     let best = null, least = Infinity;
     for (const mark of marks) {
@@ -485,7 +528,7 @@ bbsim.makeSweep = (json, container) => {
   const thinned = count < json.cases ? ` ${count} of them are in this page, evenly thinned out; the result file is the record.` : '';
   container.append(element('section', {class: 'sweep'},
       element('header', {}, element('h2', {}, json.name), element('p', {class: 'fine'}, `${json.cases} cases over ${keys.map((k) => k.name).join(', ')}.${thinned}`), counts),
-      controls, element('div', {class: 'columns'}, drawing, side)));
+      controls, remark, element('div', {class: 'columns'}, drawing, side)));
   if (json.scenario.text) {
     container.append(element('details', {class: 'card'}, element('summary', {}, element('h3', {}, json.scenario.file || 'scenario')),
                              element('pre', {tabindex: '0'}, bbsim.highlight(json.scenario.text))));
@@ -498,7 +541,7 @@ bbsim.makeSweep = (json, container) => {
     state, choose, commandOf, refresh,
     // For tests: where a case is drawn, in the window.
     placeOf(number_) {
-      const mark = marks.find((m) => cases[m.i] === number_);
+      const mark = marks.find((m) => cases[m.i] === number_ || (m.all && m.all.some((i) => cases[i] === number_)));
       if (!mark) return null;
       const bounds = canvas.getBoundingClientRect();
       return [bounds.left + (mark.x + mark.w / 2) * bounds.width / width, bounds.top + (mark.y + mark.h / 2) * bounds.height / height];

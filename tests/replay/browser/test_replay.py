@@ -477,6 +477,42 @@ class Sweeps(InBrowser):
         self.browser.click("[data-kind=histogram]")
         self.assertIn("median", self.browser.text(".over"))
 
+    def test_tied_keys_are_one_and_all_others_have_sliders(self):
+        page, table = files.sweep("tied", "hold", "--vary", "controller.pd.kp.0.0,-controller.pd.kp.1.1=linear:0.5:1.5:3",
+                                  "--vary", "controller.pd.kv.0.0,-controller.pd.kv.1.1=linear:0.4:1.2:4", "--vary",
+                                  "ball.position.0=linear:0.01:0.03:2", "--set", "time.end=2")
+        self.open(page)
+        state = "bbsim.sweeps[0].state"
+        self.assertEqual(self.js(state + ".kind"), "map")
+        shown = "Array.from({length: 24}, (_, i) => bbsim.sweeps[0].placeOf(i)).map((at, i) => at ? i : -1).filter((i) => i >= 0)"
+        with open(table, newline="") as stream:
+            cases = list(csv.DictReader(stream))
+        for level, gain in [(0, "0.5"), (2, "1.5")]:
+            self.js(f"[{state}.fixed.set('controller.pd.kp.0.0', {level}), bbsim.sweeps[0].refresh()]")
+            self.assertEqual(self.js(shown), [i for i in range(24) if cases[i]["controller.pd.kp.0.0"] == gain])
+        self.assertIn("controller.pd.kp.0.0, controller.pd.kp.1.1", self.browser.text(".controls"))
+        page, _ = files.sweep("one-tied", "hold", "--vary", "controller.pd.kp.0.0,-controller.pd.kp.1.1=linear:0.5:1.5:5",
+                              "--set", "time.end=2")
+        self.open(page)
+        self.assertEqual(self.js(state + ".kind"), "lines")
+
+    def test_medians_over_draws(self):
+        page, table = files.sweep("draws", "fig2b", "--vary", "controller.pd.kv.0.0=linear:1:2:3", "--vary",
+                                  "controller.pd.kp.0.0=list:1,2", "--vary", "ball.position.0=normal:5 cm:3 mm",
+                                  "--samples", "7", "--set", "time.end=2")
+        self.open(page)
+        self.assertIn("the median of its 7 cases, over draws of ball.position.0", self.browser.text(".remark"))
+        # The case in the middle of those in its cell is the one that is chosen.
+        with open(table, newline="") as stream:
+            cases = list(csv.DictReader(stream))
+        cell = [case for case in cases if case["controller.pd.kv.0.0"] == cases[9]["controller.pd.kv.0.0"]
+                and case["controller.pd.kp.0.0"] == cases[9]["controller.pd.kp.0.0"]]
+        self.assertEqual(len(cell), 7)
+        middle = sorted(cell, key=lambda case: float(case["rms_tracking_error"]))[3]
+        x, y = self.js(f"bbsim.sweeps[0].placeOf({cell[0]['case']})")
+        self.browser.click_at(x, y)
+        self.assertEqual(self.browser.text(".case h3"), f"Case {middle['case']}")
+
 
 class Texts(InBrowser):
     def hostile(self):
