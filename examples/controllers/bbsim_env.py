@@ -30,11 +30,14 @@ class BallOnPlate:
 
     observation_size, action_size = 8, 2
 
-    def __init__(self, scenario, overrides=(), bbsim="bbsim", output=None, reward=None):
+    def __init__(self, scenario, overrides=(), bbsim="bbsim", output=None, reward=None,
+                 columns=("t", "x", "y", "phi", "theta", "phi_command", "theta_command")):
         """`overrides` are "key.path=value", as after --set; `output` is a CSV or HDF5 file that gets
-        each episode in turn; `reward(sample, action)` replaces minus the squared distance from the
-        reference, m^2."""
-        self._scenario, self._overrides = os.fspath(scenario), list(overrides)
+        each episode in turn, with `columns` (the scenario's own may be numbers that its program
+        gives, and an environment does not); `reward(sample, action)` replaces minus the squared
+        distance from the reference, m^2."""
+        self._scenario = os.fspath(scenario)
+        self._overrides = ["output.columns=" + json.dumps(list(columns)), *overrides]
         self._bbsim, self._output = os.fspath(bbsim), output
         self._reward = reward or self.squared_distance
         self._process = None

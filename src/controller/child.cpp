@@ -280,7 +280,6 @@ void Child::finish() {
   const double until = now() + farewell / 1e3;
   bool ended = has_ended(0);
   while (!ended && now() < until) {
-    if (stop_ != nullptr && stop_->load(std::memory_order_relaxed)) break;
     std::array<pollfd, 3> events{
         {{output_.get(), POLLIN, 0}, {error_.get(), POLLIN, 0}, {ended_.get(), POLLIN, 0}}};
     poll(events.data(), events.size(), ended_.is_open() ? slice : 5);

@@ -123,7 +123,7 @@ void add_lines(Picture& picture, const SweepTable& table, const Column& measure,
       band.y.push_back(up.scale(quantile(bundle.done, 0.05)));
       band.y_high.push_back(up.scale(quantile(bundle.done, 0.95)));
     }
-    if (several && groups.size() <= 3) bands.push_back(std::move(band));
+    if (several && groups.size() <= most_bands) bands.push_back(std::move(band));
     lines.push_back(std::move(line));
   }
   for (Curve& band : bands) panel.curves.push_back(std::move(band));

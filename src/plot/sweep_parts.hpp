@@ -1,6 +1,7 @@
 // The parts of the picture of a sweep.
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -53,8 +54,12 @@ struct KeyAxis {
   [[nodiscard]] double place(double value) const { return key.is_text() ? value : scale(value); }
 };
 
+// Bands of more curves would hide each other.
+inline constexpr std::size_t most_bands = 3;
+
 // A curve for each value of `group`, or one if it is null, through the medians of the cases that
-// are done; a band where nine of ten of them lie, if there are several.
+// are done; a band where nine of ten of them lie, if there are several, for up to most_bands
+// curves.
 void add_lines(Picture& picture, const SweepTable& table, const Column& measure, const Key& over,
                const Key* group, const StatusMarks& marks, Box box, bool lowest);
 [[nodiscard]] std::vector<Entry> group_legend(const Key* group);

@@ -122,9 +122,9 @@ std::string taken_over(const SweepTable& table, const Form& form) {
   if (!drawn.empty()) drawn = "draws of " + drawn;
   if (listed.empty() && drawn.empty()) return "";
   const std::string over = listed + (listed.empty() || drawn.empty() ? "" : " and ") + drawn;
-  return (form.kind == Form::Kind::lines ? "median, and 5 to 95 % as a band, over "
-                                         : "median over ") +
-         over;
+  const bool bands = form.kind == Form::Kind::lines &&
+                     (form.group == nullptr || form.group->distinct.size() <= most_bands);
+  return (bands ? "median, and 5 to 95 % as a band, over " : "median over ") + over;
 }
 
 // Title, subtitle and legend; where the panels begin.

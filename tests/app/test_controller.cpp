@@ -213,6 +213,21 @@ TEST_CASE("a run that waits for its controller ends at SIGINT, with the rows so 
   CHECK(scene.processes() == std::pair(1, 0));
 }
 
+TEST_CASE("a controller has its time to end at SIGINT too, and is not told of if it does") {
+  const Scene scene("says goodbye", "timeout: 1000", "t, x");
+  Launch launch{{"run", scene.file, "-o", scene.folder / "out.csv", "--set", "time.end=20000"},
+                {},
+                SIGINT,
+                {},
+                [&] { return std::filesystem::exists(scene.folder / "pids.begun"); },
+                {}};
+  const Result result = bbsim(launch);
+  CAPTURE(result.err);
+  CHECK(result.exit_code == 130);
+  CHECK(std::filesystem::exists(scene.folder / "pids.ended"));
+  CHECK_FALSE(contains(result.err, "went on"));
+}
+
 TEST_CASE("a command that ends at once at a signal takes its controller with it") {
   const Scene scene("mute", "timeout: 1000");
   Launch launch{{"check", scene.file, "--set", "controller.program.start_timeout=1000"},

@@ -14,7 +14,6 @@ from bbsim_env import BallOnPlate  # noqa: E402
 
 bbsim = os.environ["BBSIM"]
 scene = examples / "python.yaml"
-columns = "output.columns=[t, x, y, phi, theta]"
 
 
 class Pd:
@@ -46,7 +45,7 @@ class Environment(unittest.TestCase):
     def test_an_episode_ends_with_the_run_and_has_its_rows(self):
         with tempfile.TemporaryDirectory() as folder:
             output = os.path.join(folder, "run.csv")
-            with BallOnPlate(scene, [columns, "time.end=8"], bbsim, output) as env:
+            with BallOnPlate(scene, ["time.end=8"], bbsim, output) as env:
                 steps, total, terminated, observation, _ = episode(env, Pd())
                 first = pathlib.Path(output).read_bytes()
                 episode(env, Pd())
@@ -62,7 +61,7 @@ class Environment(unittest.TestCase):
             self.assertLess(abs(observation[0] - 0.0475), 2e-3)
 
     def test_an_event_terminates_an_episode(self):
-        with BallOnPlate(scene, [columns], bbsim) as env:
+        with BallOnPlate(scene, [], bbsim) as env:
             steps, _, terminated, _, info = episode(env, lambda _: [0.2, 0.0])
             self.assertTrue(terminated)
             self.assertLess(steps, 100)
@@ -71,7 +70,7 @@ class Environment(unittest.TestCase):
                 env.step([0, 0])
 
     def test_options_are_keys_and_a_seed_is_the_sensors(self):
-        noisy = [columns, "time.end=0.1", "controller.sensor.noise=0.001"]
+        noisy = ["time.end=0.1", "controller.sensor.noise=0.001"]
         with BallOnPlate(scene, noisy, bbsim) as env:
             one, _ = env.reset(seed=1, options={"ball.position": [0.05, 0.0]})
             again, _ = env.reset(seed=1, options={"ball.position": [0.05, 0.0]})

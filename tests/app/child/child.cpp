@@ -56,6 +56,11 @@ int main(int argc, char** argv) {
          note_process((std::string(file) + ".asleep").c_str());
          stay();
        }},
+      {"says goodbye",
+       [file] {
+         note_process((std::string(file) + ".begun").c_str());
+         say_line(answer);
+       }},
       {"dies", [] { std::_Exit(3); }},
       {"crashes", [] { (void)std::raise(SIGKILL); }},
       {"garbage", [] { say_line("hello \x1b[31mworld"); }},
@@ -130,5 +135,6 @@ int main(int argc, char** argv) {
     }
   }
   if (mode == "goes on") stay();
+  if (mode == "says goodbye") note_process((std::string(file) + ".ended").c_str());
   return 0;
 }
