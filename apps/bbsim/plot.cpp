@@ -140,6 +140,7 @@ void draw(const Task& task, plot::Format format, const PlotArguments& arguments,
   std::vector<plot::Result> results;
   for (const std::string& file : task.files) {
     results.push_back(plot::read_result(file, arguments.beside));
+    if (!options.quiet && !results.back().left_out.empty()) say(results.back().left_out);
   }
   const plot::Picture picture = picture_of(results, arguments);
   file::write_file(

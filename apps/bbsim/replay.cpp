@@ -173,6 +173,10 @@ ExitCode replay_files(const ReplayArguments& arguments, const Options& options) 
                      ": is a sweep, among runs; allowed: a page of runs, or one of sweeps");
   }
 
+  for (const Replayed& source : sources) {
+    const bool lacks = source.result && !source.result->left_out.empty();
+    if (lacks && !options.quiet) say(source.result->left_out);
+  }
   ReplayFile file(output);
   replay::Scene scene;
   scene.version = BBSIM_VERSION;

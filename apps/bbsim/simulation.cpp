@@ -82,6 +82,12 @@ Integration integrate(const Scenario& scenario, const model::Model& model,
   return made;
 }
 
+// To two digits, so that as much can be asked for.
+double rounded_up(double error) {
+  const double digit = std::pow(10.0, std::floor(std::log10(error)) - 1);
+  return std::ceil(error / digit) * digit;
+}
+
 // Why the run is not all that was asked for; empty if it is.
 std::string shortfall(const Scenario& scenario, const model::Model& model,
                       const Integration& made) {
@@ -102,7 +108,7 @@ std::string shortfall(const Scenario& scenario, const model::Model& model,
   if (made.within_error) return "";
   return "an error of " + short_number(*scenario.solver.error) +
          " m is out of reach: the scene amplifies rounding, and double precision gives about " +
-         short_number(*made.error_estimate) +
+         short_number(rounded_up(*made.error_estimate)) +
          " m.\n  Ask for that, or end the scene earlier. The rows are those of the best run.";
 }
 

@@ -4,6 +4,7 @@
 #include <array>
 #include <cerrno>
 #include <charconv>
+#include <chrono>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -184,7 +185,16 @@ void read_summary(Result& result, const std::string& file) {
   take_summary(result, json);
 }
 
-// NAME.json beside NAME.csv, if it tells of that very file.
+// Whether one file was written that long after the other, which copies made in one go are not.
+bool is_newer(const fs::path& one, const fs::path& other) {
+  std::error_code error;
+  const fs::file_time_type first = fs::last_write_time(other, error);
+  if (error) return false;
+  const fs::file_time_type second = fs::last_write_time(one, error);
+  return !error && second - first > std::chrono::seconds(2);
+}
+
+// NAME.json beside NAME.csv, if it tells of that very file. A run writes it last.
 void find_summary(Result& result) {
   const fs::path csv(result.file);
   fs::path summary = csv;
@@ -193,9 +203,13 @@ void find_summary(Result& result) {
   if (result.file == "-" || !fs::is_regular_file(summary, ignored)) return;
   const Json json = parse_json(summary);
   if (!is_summary(json)) return;
-  const bool same_name =
-      fs::path(member<std::string>(json, "output", "")).filename() == csv.filename();
-  if (same_name && member(json, "rows", std::size_t{0}) == result.rows) take_summary(result, json);
+  if (fs::path(member<std::string>(json, "output", "")).filename() != csv.filename()) return;
+  const bool as_long = member(json, "rows", std::size_t{0}) == result.rows;
+  if (as_long && !is_newer(csv, summary)) return take_summary(result, json);
+  result.left_out = summary.string() + ": left out, since it " +
+                    (as_long ? "is older than " : "has another number of rows than ") +
+                    result.file + " and so is of another run" +
+                    (as_long ? "; --summary " + summary.string() + " takes it all the same" : "");
 }
 
 }  // namespace

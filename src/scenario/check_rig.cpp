@@ -118,18 +118,21 @@ class Checks {
       refuse({"controller", "sampling", "resolution"},
              "found, but controller.drives is not angle; allowed: only with drives: angle");
     }
-    if (controller.sampling && scene_.time.end > 0 &&
-        scene_.time.end / controller.sampling->period > 1e8) {
+    if (controller.sampling && controller.sampling->period > 0) check_times(controller);
+  }
+
+  // How many samples, and how late, of a period that was found.
+  void check_times(const Controller& controller) {
+    if (scene_.time.end > 0 && scene_.time.end / controller.sampling->period > 1e8) {
       refuse({"controller", "sampling", "period"},
              "found more than 1e8 samples until time.end; allowed: a longer period");
     }
-    if (controller.sampling &&
-        controller.sampling->delay > most_periods * controller.sampling->period) {
+    if (controller.sampling->delay > most_periods * controller.sampling->period) {
       refuse({"controller", "sampling", "delay"},
              "found more than 100 periods of controller.sampling; allowed: a shorter delay, or a "
              "longer period");
     }
-    if (controller.sensor && controller.sampling &&
+    if (controller.sensor &&
         controller.sensor->delay > most_periods * controller.sampling->period) {
       refuse({"controller", "sensor", "delay"},
              "found more than 100 periods of controller.sampling; allowed: a shorter delay, or a "

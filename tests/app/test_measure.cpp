@@ -84,6 +84,21 @@ TEST_CASE("measures are refused where they cannot be, with what is allowed") {
         "measure,value\nwhen u=0.25 cross=1,0.25\n");
 }
 
+TEST_CASE("a log of any rig is measured, whatever its other columns are") {
+  const Folder folder;
+  folder.write("log.csv", "\"t\",x (m),y,mode\n0,1,2,auto\n1,3,4,man\n");
+  CHECK(bbsim({"measure", "log.csv", "--measure", "max_y"}, folder.path()).out ==
+        "measure,value\nmax_y,4\n");
+  const Result words = bbsim({"measure", "log.csv", "--measure", "max_mode"}, folder.path());
+  CHECK(words.exit_code == 2);
+  CHECK(words.err.find("column mode, row 1: found \"auto\", a number is expected") !=
+        std::string::npos);
+  folder.write("sweep.csv", "case,ball.radius,status,end_x\n0,0.01,done,1\n1,0.02,done,2\n");
+  const Result sweep = bbsim({"measure", "sweep.csv", "--measure", "end_x"}, folder.path());
+  CHECK(sweep.exit_code == 2);
+  CHECK(sweep.err.find("is a sweep") != std::string::npos);
+}
+
 TEST_CASE("a sweep takes step metrics, and they are those of its runs") {
   const Folder folder;
   std::vector<std::string> to_csv{"sweep",     config("step.yaml"),

@@ -113,6 +113,12 @@ TEST_CASE("an error in metres is met, or refused with what can be had") {
   CHECK(beyond.exit_code == 1);
   CHECK(contains(beyond.err, "an error of 1e-20 m is out of reach"));
   CHECK(lines(folder.read("fig2a.csv")).size() == 1002);
+  // What it says can be had is.
+  const std::string before = "gives about ";
+  const std::size_t at = beyond.err.find(before) + before.size();
+  const std::string had = beyond.err.substr(at, beyond.err.find(' ', at) - at);
+  CAPTURE(had);
+  CHECK(bbsim({"run", config("fig2a.yaml"), "--error", had}, folder.path()).exit_code == 0);
 
   const Result both = bbsim(
       {"run", config("fig2a.yaml"), "--error", "1e-6", "--set", "solver.rtol=1e-5"}, folder.path());

@@ -1,4 +1,6 @@
+#include <chrono>
 #include <cmath>
+#include <filesystem>
 #include <string>
 
 #include "base/error.hpp"
@@ -84,10 +86,23 @@ TEST_CASE("a summary beside a CSV tells of its scene, if it is of that very run"
   const std::string other = folder.put("other.csv", "t,x\n0,1\n0.25,2\n0.5,3\n");
   folder.put("other.json", summary_of_two_rows);
   CHECK(read(other).title.empty());
+  CHECK(read(other).left_out.empty());  // it does not say that it is of that file
   CHECK_THROWS_WITH(read(other, {folder / "run.json", "", {}}),
                     Contains("of another run: it has 2 rows"));
   CHECK_THROWS_WITH(read(csv, {csv, "", {}}), Contains("is no summary"));
   CHECK_THROWS_WITH(read(csv, {folder / "none.json", "", {}}), Contains("no such file"));
+  folder.put("run.csv", "t,x\n0,1\n0.25,2\n0.5,3\n");
+  CHECK(read(csv).title.empty());
+  CHECK_THAT(read(csv).left_out, Contains("run.json: left out, since it has another number"));
+  folder.put("run.csv", "t,x\n0,1\n0.25,2\n");
+  // One that was there when the file was written again is an earlier run's.
+  namespace fs = std::filesystem;
+  fs::last_write_time(csv, fs::last_write_time(folder / "run.json") + std::chrono::seconds(3));
+  CHECK(read(csv).events.empty());
+  CHECK_THAT(read(csv).left_out, Contains("run.json: left out, since it is older than"));
+  CHECK(read(csv, {folder / "run.json", "", {}}).events.size() == 1);
+  fs::last_write_time(csv, fs::last_write_time(folder / "run.json"));
+  CHECK(read(csv).left_out.empty());
   folder.put("run.json",
              "{\"status\": 3, \"events\": [1, {}], \"output\": \"run.csv\", \"rows\": 2}");
   CHECK(read(csv).title.empty());

@@ -89,6 +89,20 @@ TEST_CASE("a quantity of another dimension, and a number in quotes") {
         "as 0.02 or \"20 ms\"");
 }
 
+TEST_CASE("a value that was not found breaks no rule with others") {
+  const std::string loop =
+      "ball: {radius: 0.01}\ntime: {end: 1, step: 1}\n"
+      "gimbal: {servo: {natural_frequency: 5, damping: 0.8}}\n"
+      "controller:\n  gravity_compensation: {kp: 10, kv: 8}\n  drives: angle\n"
+      "  reference: {point: [0, 0]}\n  sensor: {delay: 0.01}\n";
+  CHECK(errors(loop + "  sampling: {period: 50 Hz, delay: 0.01}\n") ==
+        "scenario.yaml:9:22: controller.sampling.period: found 50 Hz, an angular rate; allowed: a "
+        "time greater than 0, such as 0.02 or \"20 ms\"");
+  CHECK(errors(loop + "  sampling: {delay: 0.01}\n") ==
+        "scenario.yaml:9:3: controller.sampling.period: missing; allowed: a time greater than 0, "
+        "such as 0.02 or \"20 ms\"");
+}
+
 TEST_CASE("an override is named in its errors") {
   CHECK(errors(open_loop, {"ball.mass=2", "ball.radius=abc"}) ==
         "--set ball.radius=abc: ball.radius: found abc; allowed: a length greater than 0, such as "
