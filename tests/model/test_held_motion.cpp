@@ -139,6 +139,22 @@ TEST_CASE("the first fall of a line in a held motion is found wherever it is") {
   CHECK(dips > 10);  // those that are above again at the end
 }
 
+TEST_CASE("a dip is found that has died away by the end, to nothing at all") {
+  KnownAnswers answers;
+  const double frequency = GENERATE(100.0, 740.0, 760.0, 2000.0, 1e5);
+  const double damping = GENERATE(0.7, 1.0, 1.01, 3.0);
+  // A command that jumps by a radian; from rest the rate goes up to its limit, and beyond.
+  const HeldLaw law{frequency * frequency, 2 * damping * frequency};
+  const HeldMotion motion{law, 0, 0, law.stiffness};
+  const MotionLine below_limit{1, 0, -1};
+  for (const double end : {0.05, 0.5, 1.0, 10.0}) {
+    CAPTURE(frequency, damping, end);
+    const double at = first_fall(below_limit, motion, 1e-12, 0, end, answers);
+    REQUIRE(at < end);
+    CHECK(motion.after(at).rate == Approx(1).epsilon(1e-9));
+  }
+}
+
 TEST_CASE("a line that starts where it fell waits until it was clearly above, or is below") {
   const auto fall = [](const MotionLine& line, const HeldMotion& motion, double start) {
     KnownAnswers answers;

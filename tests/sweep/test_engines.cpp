@@ -536,6 +536,16 @@ TEST_CASE("rigs in lanes are those of single runs") {
                            "gimbal.servo.rate_limit=100 rad/s"},
                           loop_measures, 12));
   }
+  SECTION("whose servos move between two nodes of a piece, and not at them") {
+    const std::string damping = GENERATE("0.7", "1");
+    check_rig_lanes(
+        Setup("configs/rig.yaml", {{"gimbal.servo.natural_frequency", "linear:100:3000:12"}},
+              {"time.end=0.9", "events={}", "gravity=9.81",
+               "gimbal.servo={natural_frequency: 1, damping: " + damping + ", rate_limit: 1}",
+               "controller={pd: {kv: 0, kp: [[1, 0], [0, -1]]}, drives: angle, "
+               "reference: {point: [0.1, 0]}, sampling: {period: 0.5}}"},
+              loop_measures));
+  }
   SECTION("under any law, with integrals that wait at a limit and servos that are fed back") {
     const std::string law = GENERATE(
         "pid: {kp: [[0.7, 0], [0, -0.7]], kv: [[0.6, 0], [0, -0.6]], ki: [[0.35, 0], [0, -0.35]]}",

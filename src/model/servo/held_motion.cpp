@@ -232,6 +232,20 @@ bool turns_once(const HeldLaw& law, double time) {
   return -Spectrum(law).discriminant * time * time < pi * pi;
 }
 
+// Whether the line's slope is below zero by more than its terms' roundings. What has died away to
+// next to the smallest of numbers has no slope to go by.
+bool falls_clearly(const MotionLine& line, const HeldMotion& motion, const ImpulseAnswer& at,
+                   double slope) {
+  constexpr double rounding = 1e-12, nothing = 1e-280;
+  const HeldLaw& law = motion.law;
+  const double rate = std::abs((at.slope + law.damping * at.value) * motion.rate) +
+                      std::abs(at.value * motion.acceleration);
+  const double acceleration =
+      std::abs(at.slope * motion.acceleration) + std::abs(law.stiffness * at.value * motion.rate);
+  const double terms = std::abs(line.by_angle) * rate + std::abs(line.by_rate) * acceleration;
+  return terms > nothing && slope < -rounding * terms;
+}
+
 }  // namespace
 
 double first_fall(const MotionLine& line, const HeldMotion& motion, double clearly, double start,
@@ -257,8 +271,11 @@ double first_fall(const MotionLine& line, const HeldMotion& motion, double clear
     now.value -= threshold;
   } else if (turns_once(motion.law, end)) {
     // Mostly the line's ends tell: by its slopes there it does not dip between.
-    const Fall last = fall(motion.after(answers.at_end(motion.law, end)));
-    if (last.value > 0 && !(now.slope < 0 && last.slope > 0)) return never;
+    const ImpulseAnswer& at_end = answers.at_end(motion.law, end);
+    const Fall last = fall(motion.after(at_end));
+    if (last.value > 0 && (now.slope >= 0 || falls_clearly(line, motion, at_end, last.slope))) {
+      return never;
+    }
     if (!(last.value > 0) && std::isfinite(last.value) && now.slope < 0 && last.slope < 0) {
       return root(local, start, 0, now, end, last);
     }

@@ -23,6 +23,11 @@ struct alignas(64) MotionTable {
   // What the polynomial through the accelerations at the nodes says of the start, less what is
   // there: a jump that is over before the first node leaves no other trace.
   double missed_by_rate, missed_by_acceleration;
+  // What the accelerations at the nodes, integrated, leave out of the rate and of the angle at the
+  // end: of a motion that is over between two nodes, all. `lost` if it is more than rounding.
+  bool lost;
+  double lost_rate_by_rate, lost_rate_by_acceleration;
+  double lost_angle_by_rate, lost_angle_by_acceleration;
 };
 
 // One axis: its servo at the piece's start, and how the plane's angle follows it.

@@ -22,9 +22,12 @@ struct alignas(64) LaneAxis {
   double ratio[group], offset[group];
   double most_by_rate[group], most_by_acceleration[group];
   double missed_by_rate[group], missed_by_acceleration[group];
+  double lost_rate_by_rate[group], lost_rate_by_acceleration[group];
+  double lost_angle_by_rate[group], lost_angle_by_acceleration[group];
   double by_rate[MotionTable::rows][nodes][group], by_acceleration[MotionTable::rows][nodes][group];
   double plane_sin[nodes][group], plane_cos[nodes][group];
   double plane_rate[nodes][group], plane_acceleration[nodes][group];
+  bool lost;                  // something is, in any lane; otherwise those four are zero
   const MotionTable* shared;  // where all move by one table; else null, and by_rate and so on tell
 };
 

@@ -284,7 +284,7 @@ struct LaneKernel {
 
     const Vector no_length = Vector{};
     const P inverse = P(1.0) / P::of(h.v > no_length ? h.v : P(1.0).v);
-    P tail[3];
+    P tail[3] = {P(0.0), P(0.0), P(0.0)};
 #pragma GCC unroll 1
     for (int m = 0; m < nodes; ++m) {
       P sum[3] = {P(0.0), P(0.0), P(0.0)};
@@ -328,7 +328,7 @@ struct LaneKernel {
     const P of_position = larger_of(P(1.0), P(once) * h);
 #pragma GCC unroll 2
     for (int i = 0; i < 2; ++i) most = larger_of(most, tail[i] * of_position);
-    P acceleration(0.0), tilt(0.0), distance(0.0);
+    P acceleration(0.0), lost(0.0), tilt(0.0), distance(0.0);
 #pragma GCC unroll 2
     for (int i = 0; i < 2; ++i) {
       const LaneAxis& axis = pieces.axis[i];
@@ -338,11 +338,18 @@ struct LaneKernel {
       acceleration +=
           size_of(of(axis.ratio) * (of(axis.missed_by_rate) * of(axis.rate) +
                                     of(axis.missed_by_acceleration) * of(axis.acceleration)));
+      if (axis.lost) {
+        const P rate = of(axis.lost_rate_by_rate) * of(axis.rate) +
+                       of(axis.lost_rate_by_acceleration) * of(axis.acceleration);
+        const P angle = of(axis.lost_angle_by_rate) * of(axis.rate) +
+                        of(axis.lost_angle_by_acceleration) * of(axis.acceleration);
+        lost += size_of(of(axis.ratio)) * (size_of(rate) + size_of(angle));
+      }
       tilt += size_of(of(axis.plane_sin[nodes - 1]));
       distance += size_of(of(pieces.position[i]));
     }
-    const P missed = acceleration * (P::load(scene.radius + first) + tilt * distance);
-    const P unseen = P(One::Rule::c[0] / 2) * h * missed;
+    const P unseen = (P(One::Rule::c[0] / 2) * h * acceleration + lost) *
+                     (P::load(scene.radius + first) + tilt * distance);
     return larger_of(P(once) * most, unseen) * P(1 / scene.atol);
   }
 
@@ -369,6 +376,11 @@ struct LaneKernel {
       const LaneAxis& axis = pieces.axis[i];
       tables[i].missed_by_rate = axis.missed_by_rate[lane];
       tables[i].missed_by_acceleration = axis.missed_by_acceleration[lane];
+      tables[i].lost = axis.lost;
+      tables[i].lost_rate_by_rate = axis.lost_rate_by_rate[lane];
+      tables[i].lost_rate_by_acceleration = axis.lost_rate_by_acceleration[lane];
+      tables[i].lost_angle_by_rate = axis.lost_angle_by_rate[lane];
+      tables[i].lost_angle_by_acceleration = axis.lost_angle_by_acceleration[lane];
       piece.axis[i] = {&tables[i],       axis.angle[lane], axis.rate[lane], axis.acceleration[lane],
                        axis.ratio[lane], axis.offset[lane]};
       piece.plane[i].sin[nodes - 1] = axis.plane_sin[nodes - 1][lane];

@@ -23,6 +23,37 @@ void answer_at_nodes(const Kernels& kernels, const model::HeldLaw& law, double l
   }
 }
 
+// What is left out of a sum to `whole`; nothing if that is rounding beside the motion itself.
+double lost_of(double whole, double sum, double motion) {
+  constexpr double rounding = 1e-13;
+  const double left = whole - sum;
+  return std::abs(left) > rounding * motion ? left : 0;
+}
+
+// The quadrature of the accelerations at the nodes, against the closed form.
+void find_lost(MotionTable& table, double h) {
+  using Rule = radau::RadauTable<nodes>;
+  constexpr int end = nodes - 1;
+  const auto integrals = [&](const double(&rows)[MotionTable::rows][nodes], double& once,
+                             double& twice) {
+    once = twice = 0;
+    for (int j = 0; j < nodes; ++j) {
+      once += h * Rule::a[j][end] * rows[MotionTable::acceleration][j];
+      twice += h * h * Rule::a_squared[j][end] * rows[MotionTable::acceleration][j];
+    }
+  };
+  double once = 0, twice = 0;
+  integrals(table.by_rate, once, twice);
+  table.lost_rate_by_rate = lost_of(table.by_rate[MotionTable::rate][end] - 1, once, 1);
+  table.lost_angle_by_rate = lost_of(table.by_rate[MotionTable::angle][end] - h, twice, h);
+  integrals(table.by_acceleration, once, twice);
+  table.lost_rate_by_acceleration = lost_of(table.by_acceleration[MotionTable::rate][end], once, h);
+  table.lost_angle_by_acceleration =
+      lost_of(table.by_acceleration[MotionTable::angle][end], twice, h * h);
+  table.lost = table.lost_rate_by_rate != 0 || table.lost_angle_by_rate != 0 ||
+               table.lost_rate_by_acceleration != 0 || table.lost_angle_by_acceleration != 0;
+}
+
 void fill(MotionTable& table, const Kernels& kernels, const model::HeldLaw& law, double length) {
   const model::HeldMotion by_rate{law, 0, 1, 0}, by_acceleration{law, 0, 0, 1};
   const auto put = [](double(&rows)[MotionTable::rows][nodes], int i,
@@ -51,6 +82,7 @@ void fill(MotionTable& table, const Kernels& kernels, const model::HeldLaw& law,
     table.missed_by_rate += start.of[i] * table.by_rate[row][i];
     table.missed_by_acceleration += start.of[i] * table.by_acceleration[row][i];
   }
+  find_lost(table, length);
 }
 
 }  // namespace

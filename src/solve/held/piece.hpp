@@ -321,33 +321,38 @@ struct Kernel {
     estimate(piece, scene, result);
   }
 
-  // What a servo that jumps faster than the first node shows makes of the ball's acceleration, at
-  // most: a gimbal's acceleration acts at the ball's height above its axes, and by the sine of the
-  // tilt at its distance.
-  BBSIM_INLINE static double missed(const Piece& piece, const Scene& scene) {
-    double acceleration = 0;
+  // What a servo that moves faster than the nodes show makes of the ball's motion, at most: a
+  // gimbal's acceleration acts at the ball's height above its axes, and by the sine of the tilt at
+  // its distance. A jump that is over by the first node has, in the mean, half of what it begins
+  // with.
+  BBSIM_INLINE static double unseen(const Piece& piece, const Scene& scene) {
+    double acceleration = 0, lost = 0;
     for (int i = 0; i < 2; ++i) {
       const Axis& axis = piece.axis[i];
-      acceleration +=
-          size_of(axis.ratio * (axis.table->missed_by_rate * axis.rate +
-                                axis.table->missed_by_acceleration * axis.acceleration));
+      const MotionTable& table = *axis.table;
+      acceleration += size_of(axis.ratio * (table.missed_by_rate * axis.rate +
+                                            table.missed_by_acceleration * axis.acceleration));
+      if (!table.lost) continue;
+      lost += size_of(axis.ratio) * (size_of(table.lost_rate_by_rate * axis.rate +
+                                             table.lost_rate_by_acceleration * axis.acceleration) +
+                                     size_of(table.lost_angle_by_rate * axis.rate +
+                                             table.lost_angle_by_acceleration * axis.acceleration));
     }
     const double tilt = size_of(piece.plane[0].sin[nodes - 1]) +
                         size_of(piece.plane[1].sin[nodes - 1]) + size_of(scene.rolling.sin_skew) +
                         size_of(scene.rolling.sin_base);
-    return acceleration * (scene.radius + size_of(scene.rolling.height) +
-                           tilt * (size_of(piece.position[0]) + size_of(piece.position[1])));
+    return (Rule::c[0] / 2 * piece.length * acceleration + lost) *
+           (scene.radius + size_of(scene.rolling.height) +
+            tilt * (size_of(piece.position[0]) + size_of(piece.position[1])));
   }
 
   // The error from the fall of the last Legendre coefficients, as in radau/step.hpp: the first one
   // left out, integrated once for a velocity, twice for a position.
   BBSIM_INLINE static void estimate(const Piece& piece, const Scene& scene, Attempt& result) {
     constexpr double once = 1.0 / (2 * nodes + 1);
-    // It is over by then, and in the mean has half of that.
-    const double unseen = Rule::c[0] / 2 * piece.length * missed(piece, scene);
-    result.error =
-        unseen / (scene.rtol * smaller_of(size_of(piece.velocity[0]), size_of(piece.velocity[1])) +
-                  scene.atol);
+    result.error = unseen(piece, scene) / (scene.rtol * smaller_of(size_of(piece.velocity[0]),
+                                                                   size_of(piece.velocity[1])) +
+                                           scene.atol);
     result.worst_state = 2;
     for (int i = 0; i < 3; ++i) {
       const double* const k = piece.series[i];

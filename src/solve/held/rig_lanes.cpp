@@ -25,6 +25,15 @@ bool same_instants(const Sampling& a, const Sampling& b) {
   return a.period == b.period && a.delay == b.delay;
 }
 
+// All motions show at the nodes.
+void lose_nothing(LaneAxis& axis) {
+  axis.lost = false;
+  for (double* const lost : {axis.lost_rate_by_rate, axis.lost_rate_by_acceleration,
+                             axis.lost_angle_by_rate, axis.lost_angle_by_acceleration}) {
+    std::fill_n(lost, group, 0.0);
+  }
+}
+
 }  // namespace
 
 bool carries(const model::Model& model) {
@@ -247,6 +256,11 @@ void RigLanes::load_tables(std::size_t i) {
     axis.most_by_acceleration[l] = table.most_by_acceleration;
     axis.missed_by_rate[l] = table.missed_by_rate;
     axis.missed_by_acceleration[l] = table.missed_by_acceleration;
+    axis.lost = axis.lost || table.lost;
+    axis.lost_rate_by_rate[l] = table.lost_rate_by_rate;
+    axis.lost_rate_by_acceleration[l] = table.lost_rate_by_acceleration;
+    axis.lost_angle_by_rate[l] = table.lost_angle_by_rate;
+    axis.lost_angle_by_acceleration[l] = table.lost_angle_by_acceleration;
   };
   if (alike) {
     const Loaded asked = asked_of(one);
@@ -254,6 +268,7 @@ void RigLanes::load_tables(std::size_t i) {
     shared_[i] = asked;
     shared_tables_[i] = lanes_[one].tables.of(asked.law, asked.length);
     axis.shared = &shared_tables_[i];
+    axis.lost = false;
     for (std::size_t l = 0; l < group; ++l) put(shared_tables_[i], l);
     return;
   }
@@ -270,6 +285,7 @@ void RigLanes::load_tables(std::size_t i) {
   if (known) return;
   if (suits) {
     kernels_.tables(axis, servo, pieces_->length);
+    if (axis.lost) lose_nothing(axis);
     loaded_[i] = asked;
     return;
   }
