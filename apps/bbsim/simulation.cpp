@@ -182,10 +182,10 @@ Simulation simulate(const Scenario& scenario, const model::Model& model,
       warnings_of(scenario, model, made.outcome.ending == solve::Ending::failed,
                   edge ? edge->left() : std::nullopt);
   Simulation simulation;
-  simulation.summary = summarise(scenario, model, made, reason, warnings, recorder.peaks());
-  simulation.noted = noted_text(made.outcome.occurrences);
   simulation.measures.resize(wanted.measures.size());
   recorder.finish(made.outcome, simulation.measures.data());
+  simulation.summary = summarise(scenario, model, made, reason, warnings, recorder.peaks());
+  simulation.noted = noted_text(made.outcome.occurrences);
   simulation.row_estimates = std::move(made.row_estimates);
   simulation.code = exit_code(made.outcome.ending);
   const bool whole = made.within_error && not_finite.empty();

@@ -66,6 +66,11 @@ void Extremes::note(double t, const double* row) {
   for (std::size_t i = 0; i < size(); ++i) take(i, signs_[i] * columns_[i][0], t);
 }
 
+void Extremes::note(const model::Sample& sample) {
+  columns_.evaluate(sample);
+  for (std::size_t i = 0; i < size(); ++i) take(i, signs_[i] * columns_[i][0], sample.t);
+}
+
 void Extremes::sample(const solve::Piece& piece, const ChebyshevPoints& points) {
   const std::size_t count = points.size(), row_size = model_->row_size();
   times_.resize(count);

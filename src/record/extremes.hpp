@@ -32,8 +32,10 @@ class Extremes : public solve::PieceSink {
 
   // Begins anew; the two outlive the run.
   void begin(const model::Model& model, const model::BallConstants& constants);
-  // A row that may be of no piece, such as the start of a run that ends there.
+  // A row that may be of no piece, such as the start of a run that ends there, or the end where it
+  // switches.
   void note(double t, const double* row);
+  void note(const model::Sample& sample);
 
   void begin_run() override;
   void accept(const solve::Piece& piece) override;

@@ -178,15 +178,18 @@ void Recorder::finish(const solve::Outcome& outcome, double* results) {
 
 void Recorder::finish_each(const solve::Outcome& outcome, double* results) {
   const bool stopped = outcome.ending == solve::Ending::stopped;
-  for (Rows* const end : {&end_, &traces_end_}) {
-    if (stopped) {
-      const model::Occurrence& at = outcome.occurrences.back();
-      model::Sample last = at.sample;
-      if (!at.own.empty()) last.own = at.own.data();
-      end->evaluate(last);
-    } else {
-      end->evaluate(&last_time_, last_.data(), 1);
-    }
+  model::Sample last;
+  if (stopped) {
+    const model::Occurrence& at = outcome.occurrences.back();
+    last = at.sample;
+    if (!at.own.empty()) last.own = at.own.data();
+  } else {
+    last = model_->sample(last_time_, last_.data(), model::Detail::all);
+  }
+  for (Rows* const end : {&end_, &traces_end_}) end->evaluate(last);
+  if (model_->hybrid()) {  // the last piece ends before what switches at its end
+    if (!of_motion_.empty()) extremes_.note(last);
+    if (with_loads_) loads_->extremes().note(last);
   }
   for (std::size_t k = 0; k < at_end_.size(); ++k) results[at_end_[k]] = end_[k][0];
   for (std::size_t k = 0; k < of_rows_.size(); ++k) {

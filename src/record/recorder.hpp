@@ -65,7 +65,7 @@ class Recorder : public solve::StateSink {
   // Writes the run's measures, one after the other.
   void finish(const solve::Outcome& outcome, double* results);
 
-  // The peaks of the run so far.
+  // The peaks of a run that finish() was told of.
   [[nodiscard]] std::optional<MotorPeaks> peaks() const;
 
   // Why some of the rows so far hold a number that is not finite, in the first `columns` columns;

@@ -157,7 +157,10 @@ class HybridIntegration {
           stepper_->jump();  // of the input alone: a run that is watched is one that is not
         }
         write_row_at(at, z, turned);
-        if (part_ends()) return ended(Ending::done, cut_);
+        if (part_ends()) {  // what the switch did belongs to its row
+          const bool stops = !goes_on && look(at, z, turned) == Effect::stop;
+          return stops ? ended(Ending::stopped, at) : ended(Ending::done, cut_);
+        }
         const bool over = end - at <= slack(at);
         if (foresees_ && !over) {
           if (!goes_on) turned_ = turned;

@@ -131,8 +131,24 @@ void RigLaneMeasures::accept_end(std::size_t lane, double t, std::span<const dou
   last_row_[lane].assign(row.begin(), row.end());
 }
 
+// The last piece ends before what switches at its end.
+void RigLaneMeasures::take_end(std::size_t lane, const model::Model& model) {
+  const model::Sample end =
+      model.sample(last_time_[lane], last_row_[lane].data(), model::Detail::gimbal);
+  times_[0] = end.t;
+  track_[0] = {end.ball.x,       end.ball.y,         end.gimbal.phi,
+               end.gimbal.theta, end.gimbal.phi_dot, end.gimbal.theta_dot};
+  track_of_ = group;
+  for (std::size_t i = 0; i < sizes; ++i) {
+    if (!wants_[i]) continue;
+    const auto size = static_cast<Size>(i);
+    greatest(size, lane) = std::max(greatest(size, lane), size_at(size, 0));
+  }
+}
+
 bool RigLaneMeasures::finish(std::size_t lane, const model::Model& model,
                              const model::BallConstants& constants, double* results) {
+  take_end(lane, model);
   for (const Size size : {Size::distance_squared, Size::error_squared}) {
     if (wants(size) && !record::is_square(greatest(size, lane))) return false;
   }

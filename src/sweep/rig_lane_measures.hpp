@@ -43,6 +43,7 @@ class RigLaneMeasures : public solve::held::LaneSink {
     return greatest_[static_cast<std::size_t>(size)][lane];
   }
   [[nodiscard]] bool wants(Size size) const { return wants_[static_cast<std::size_t>(size)]; }
+  void take_end(std::size_t lane, const model::Model& model);
   [[nodiscard]] double size_at(Size size, std::size_t point) const;
 
   std::vector<scenario::Measure> measures_;

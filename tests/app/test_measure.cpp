@@ -84,6 +84,45 @@ TEST_CASE("measures are refused where they cannot be, with what is allowed") {
         "measure,value\nwhen u=0.25 cross=1,0.25\n");
 }
 
+TEST_CASE("what switches at a run's last instant counts in its greatest and least values") {
+  const Folder folder;
+  const std::string first_order = "gimbal.servo={time_constant: 0.05}";
+  const std::string names =
+      "max_tilt_rate,end_tilt_rate,max_motor_torque_theta,end_motor_torque_theta";
+  // 10 ms: when the first command comes.
+  const Result run = bbsim({"run", config("rig.yaml"), "-q", "-o", "end.csv", "--set", first_order,
+                            "--set", "time.end=0.01", "--measure", names, "--summary", "end.json"},
+                           folder.path());
+  CAPTURE(run.err);
+  REQUIRE(run.exit_code == 0);
+  const auto at_end = values_of(run.out);
+  CHECK(at_end.at("end_tilt_rate") > 0.1);
+  CHECK(at_end.at("max_tilt_rate") == at_end.at("end_tilt_rate"));
+  CHECK(at_end.at("max_motor_torque_theta") >= at_end.at("end_motor_torque_theta"));
+  const auto summary = nlohmann::json::parse(folder.read("end.json"));
+  CHECK(summary["motors"]["peak_torque_theta"] >= at_end.at("end_motor_torque_theta"));
+
+  const Result sweep = bbsim({"sweep", config("rig.yaml"), "-q", "-o", "sweep.csv", "--set",
+                              first_order, "--set", "time.end=0.01", "--vary",
+                              "controller.sensor.seed=linear:1:9:9", "--measure", "max_tilt_rate"},
+                             folder.path());
+  CAPTURE(sweep.err);
+  REQUIRE(sweep.exit_code == 0);
+  const std::string rows = folder.read("sweep.csv");
+  const std::size_t row = rows.find("\n0,1,done,,0.01,");
+  REQUIRE(row != std::string::npos);
+  CHECK(std::stod(rows.substr(row + 16)) == at_end.at("max_tilt_rate"));
+
+  const Result stopped = bbsim(
+      {"run", config("catch.yaml"), "-q", "-o", "stop.csv", "--set",
+       "gimbal.servo.acceleration_limit=60", "--measure", "min_normal_force,end_normal_force"},
+      folder.path());
+  CHECK(stopped.exit_code == 1);
+  const auto at_stop = values_of(stopped.out);
+  CHECK(at_stop.at("end_normal_force") < 0);
+  CHECK(at_stop.at("min_normal_force") == at_stop.at("end_normal_force"));
+}
+
 TEST_CASE("a log of any rig is measured, whatever its other columns are") {
   const Folder folder;
   folder.write("log.csv", "\"t\",x (m),y,mode\n0,1,2,auto\n1,3,4,man\n");

@@ -200,3 +200,30 @@ TEST_CASE("events are told of by the part that they happen in") {
   CHECK(contains(rest.err, "left the plate"));
   CHECK(folder.read("b.csv") + rows_of(folder.read("c.csv")) == folder.read("a.csv"));
 }
+
+TEST_CASE("what switches at a part's last row is that part's") {
+  const Folder folder;
+  // A command that lifts the ball off as it comes, at 0.02 s.
+  const std::vector<std::string> lifts{config("catch.yaml"), "--set",
+                                       "gimbal.servo.acceleration_limit=60"};
+  const auto part = [&](std::vector<std::string> more) {
+    more.insert(more.begin(), lifts.begin(), lifts.end());
+    more.insert(more.begin(), "run");
+    return bbsim(more, folder.path());
+  };
+  const Result stopped = part({"-o", "a.csv", "--until", "0.02", "--save-state", "a.state"});
+  CHECK(stopped.exit_code == 1);
+  CHECK(contains(stopped.err, "the run stopped at t = 0.02 s"));
+  CHECK(contains(stopped.err, "a.state: not written"));
+  // One that is noted is told of once.
+  const std::vector<std::string> noted{"--set", "events.lift_off=note", "--set", "time.end=0.05"};
+  std::vector<std::string> first{"-o", "b.csv", "--until", "0.02", "--save-state", "b.state"};
+  std::vector<std::string> second{"-o", "c.csv", "--from-state", "b.state"};
+  for (auto* const words : {&first, &second}) {
+    words->insert(words->end(), noted.begin(), noted.end());
+  }
+  CHECK(contains(part(first).err, "noted: lift_off, once at t = 0.02 s"));
+  const Result rest = part(second);
+  CHECK(rest.exit_code == 0);
+  CHECK_FALSE(contains(rest.err, "noted: lift_off"));
+}
