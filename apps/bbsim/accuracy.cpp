@@ -96,6 +96,28 @@ void explain_reference(const study::AccuracyStudy& study, double end) {
   }
 }
 
+// Of a model that is hybrid().
+std::string what_switches(const Scenario& scenario, const model::Model& model) {
+  std::string list;
+  const auto add = [&list](bool there, const char* what) {
+    if (there) list += (list.empty() ? "" : ", ") + std::string(what);
+  };
+  add(model.events.has_value(), "events");
+  if (model.rig) {
+    const bool by_angles =
+        scenario.controller && scenario.controller->law == Law::gravity_compensation;
+    add(model.rig->sampled.has_value(), "controller.sampling");
+    add(model.rig->limits_commands(), by_angles ? "the limit of the command, which "
+                                                  "gravity_compensation always has"
+                                                : "controller.limit");
+    add(std::ranges::any_of(model.rig->servo, &model::RigServo::switches),
+        "a limit or the backlash of gimbal.servo");
+    add(model.rig->between.has_pieces(), "a measured curve of gimbal.linkage");
+  }
+  add(model.dry.has_value(), "dry friction, sliding, or a motor's limit");
+  return list;
+}
+
 ExitCode accuracy(const AccuracyArguments& arguments, const Options& options) {
   const Scenario scenario = read_scenario(arguments.scenario.file, arguments.scenario.overrides);
   const std::vector<Method> methods = methods_named(arguments.methods);
@@ -118,12 +140,11 @@ ExitCode accuracy(const AccuracyArguments& arguments, const Options& options) {
   const auto columns = scenario::columns_named(scenario.output.columns);
   const model::Model model = assemble(scenario, columns);
   if (model.hybrid()) {
-    throw InputError(
-        scenario.source.file +
-        ": accuracy compares smooth runs; found a part that switches or is watched for: "
-        "controller.sampling, a limit, gimbal.servo.backlash, dry friction or events; allowed: a "
-        "scene "
-        "without them (`bbsim run --error` estimates the error of this one)");
+    throw InputError(scenario.source.file +
+                     ": accuracy compares smooth runs; found what switches or is watched for: " +
+                     what_switches(scenario, model) +
+                     "; allowed: a scene without (`bbsim run --error` estimates the error of this "
+                     "one)");
   }
   const solve::OutputGrid grid(scenario.time);
   Progress progress("accuracy", options.quiet);

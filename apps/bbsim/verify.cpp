@@ -91,6 +91,7 @@ std::string table_of(const NamedScenario& named, const study::FullModelStudy& st
 ExitCode verify(const VerifyArguments& arguments, const Options& options) {
   // Looked up before the checks, so that a mistake in it is told at once.
   const std::vector<NamedScenario> scenes = scenarios(arguments);
+  for (const NamedScenario& named : scenes) study::require_comparable(named.scenario);
   file::Outputs outputs;
   if (!arguments.scenario.empty()) {
     reads_scenario(outputs, arguments.scenario, table_files(scenes.front().scenario));

@@ -62,7 +62,7 @@ SimplerModel compare(std::string name, std::string equation, const Trajectory& f
 
 }  // namespace
 
-FullModelStudy compare_simpler(const Scenario& scenario, const solve::Watch& watch) {
+void require_comparable(const Scenario& scenario) {
   const model::Model model = model::assemble(scenario, false);
   if (model.hybrid() || model.rig || scenario::is_coupled(scenario) ||
       !model::is_the_papers(scenario)) {
@@ -71,6 +71,11 @@ FullModelStudy compare_simpler(const Scenario& scenario, const solve::Watch& wat
                      "prescribed motion or under pd, without events and limits; run `bbsim verify` "
                      "without a scenario");
   }
+}
+
+FullModelStudy compare_simpler(const Scenario& scenario, const solve::Watch& watch) {
+  require_comparable(scenario);
+  const model::Model model = model::assemble(scenario, false);
   const solve::OutputGrid grid(scenario.time);
   Trajectory full(model.size());
   const solve::Outcome outcome =

@@ -23,6 +23,9 @@ struct FullModelStudy {
   bool interrupted = false;
 };
 
+// Throws InputError, with what is allowed, for a scene that compare_simpler() does not take.
+void require_comparable(const Scenario& scenario);
+
 // Runs the scene with equation (27) and with two simpler equations in its place; a controller acts
 // on whichever ball is there. Tolerances of 1e-9 and 1e-11, whatever the scene's own.
 [[nodiscard]] FullModelStudy compare_simpler(const Scenario& scenario,

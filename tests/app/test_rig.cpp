@@ -132,7 +132,15 @@ TEST_CASE("check says so where there are no poles") {
 TEST_CASE("accuracy says that it measures smooth scenes") {
   const Result result = bbsim({"accuracy", config("rig.yaml")});
   CHECK(result.exit_code == 2);
-  CHECK(contains(result.err, "controller.sampling"));
+  CHECK(contains(result.err, "events, controller.sampling, a limit or the backlash"));
+  // A limit that nobody wrote.
+  const Result unwritten =
+      bbsim({"accuracy", config("fig2b.yaml"), "--set",
+             "controller={gravity_compensation: {kp: 4, kv: 4}, drives: angle, reference: {point: "
+             "[0, 0]}}"});
+  CHECK(unwritten.exit_code == 2);
+  CHECK(contains(unwritten.err, "which gravity_compensation always has"));
+  CHECK_FALSE(contains(unwritten.err, "backlash"));
 }
 
 TEST_CASE("energy, work and losses balance in every scenario that follows them") {

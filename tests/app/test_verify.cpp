@@ -45,4 +45,8 @@ TEST_CASE("verify refuses a scenario at fault before it checks anything") {
   CHECK(wrong.exit_code == 2);
   CHECK(wrong.out.empty());
   CHECK(contains(wrong.err, "ball.radius"));
+  const Result rig = bbsim({"verify", config("rig.yaml")});
+  CHECK(rig.exit_code == 2);
+  CHECK(rig.out.empty());
+  CHECK(contains(rig.err, "simpler models are compared over"));
 }
