@@ -329,14 +329,15 @@ struct Kernel {
     double acceleration = 0, lost = 0;
     for (int i = 0; i < 2; ++i) {
       const Axis& axis = piece.axis[i];
-      const MotionTable& table = *axis.table;
-      acceleration += size_of(axis.ratio * (table.missed_by_rate * axis.rate +
-                                            table.missed_by_acceleration * axis.acceleration));
-      if (!table.lost) continue;
-      lost += size_of(axis.ratio) * (size_of(table.lost_rate_by_rate * axis.rate +
-                                             table.lost_rate_by_acceleration * axis.acceleration) +
-                                     size_of(table.lost_angle_by_rate * axis.rate +
-                                             table.lost_angle_by_acceleration * axis.acceleration));
+      const MotionTable& motion = *axis.table;
+      acceleration += size_of(axis.ratio * (motion.missed_by_rate * axis.rate +
+                                            motion.missed_by_acceleration * axis.acceleration));
+      if (!motion.lost) continue;
+      lost +=
+          size_of(axis.ratio) * (size_of(motion.lost_rate_by_rate * axis.rate +
+                                         motion.lost_rate_by_acceleration * axis.acceleration) +
+                                 size_of(motion.lost_angle_by_rate * axis.rate +
+                                         motion.lost_angle_by_acceleration * axis.acceleration));
     }
     const double tilt = size_of(piece.plane[0].sin[nodes - 1]) +
                         size_of(piece.plane[1].sin[nodes - 1]) + size_of(scene.rolling.sin_skew) +
