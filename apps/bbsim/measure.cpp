@@ -24,22 +24,14 @@ struct MeasureArguments {
   std::vector<std::string> measures;
 };
 
-// Whether a measure is of that column: x of "max_x", "x.Peak" and "when x=1".
-bool names(const std::string& measure, const std::string& column) {
-  const auto is_letter = [&](std::size_t at) {
-    return at < measure.size() && std::isalnum(static_cast<unsigned char>(measure[at])) != 0;
-  };
-  std::size_t at = measure.find(column);
-  for (; at != std::string::npos; at = measure.find(column, at + 1)) {
-    const std::size_t after = at + column.size();
-    const bool ends = !is_letter(after) && (after >= measure.size() || measure[after] != '_');
-    if ((at == 0 || !is_letter(at - 1)) && ends) return true;
-  }
-  return false;
-}
+// A column of words, as a log may have it for others.
+struct Words {
+  std::string column, first;
+  std::size_t row = 0;  // of the first
+};
 
-// The columns of numbers; those of words are for others, as a log may have them.
-file::TableData numbers_of(plot::Result result, const std::vector<std::string>& measures) {
+// The columns of numbers; of the others, what is there in place of one.
+file::TableData numbers_of(plot::Result result, std::vector<Words>& others) {
   if (result.is_sweep()) {
     throw InputError(result.file +
                      ": is a sweep; allowed: the result of a run. Measures of a sweep "
@@ -49,14 +41,10 @@ file::TableData numbers_of(plot::Result result, const std::vector<std::string>& 
   file::TableData table;
   for (plot::Column& column : result.columns) {
     if (column.is_text()) {
-      const bool asked = std::ranges::any_of(
-          measures, [&](const std::string& one) { return names(one, column.name); });
-      if (!asked && column.name != "t") continue;
       std::size_t row = 0;
       while (!std::isnan(column.numbers[row]) || column.texts[row].empty()) ++row;
-      throw InputError(result.file + ": column " + shown(column.name) + ", row " +
-                       std::to_string(row + 1) + ": found " + bbsim::quoted(column.texts[row]) +
-                       ", a number is expected");
+      others.push_back({column.name, column.texts[row], row + 1});
+      continue;
     }
     table.names.push_back(column.name);
     table.columns.push_back(std::move(column.numbers));
@@ -64,17 +52,49 @@ file::TableData numbers_of(plot::Result result, const std::vector<std::string>& 
   return table;
 }
 
+// Whether `text` has the name as a part of its own: x of "max_x", "x.Peak" and "when x=1".
+bool has_name(const std::string& text, const std::string& name) {
+  const auto is_letter = [&](std::size_t at) {
+    return at < text.size() && std::isalnum(static_cast<unsigned char>(text[at])) != 0;
+  };
+  for (std::size_t at = text.find(name); at != std::string::npos; at = text.find(name, at + 1)) {
+    if ((at == 0 || !is_letter(at - 1)) && !is_letter(at + name.size())) return true;
+  }
+  return false;
+}
+
+// What is wrong with measures that cannot be taken may be that they are of words.
+[[noreturn]] void refuse(const InputError& error, const std::string& file,
+                         const std::vector<std::string>& asked, const std::vector<Words>& others) {
+  for (const Words& words : others) {
+    const bool is_asked =
+        words.column == "t" || std::ranges::any_of(asked, [&](const std::string& measure) {
+          return has_name(measure, words.column);
+        });
+    if (!is_asked) continue;
+    throw InputError(file + ": column " + shown(words.column) + ", row " +
+                     std::to_string(words.row) + ": found " + bbsim::quoted(words.first) +
+                     ", a number is expected");
+  }
+  throw InputError(error);
+}
+
 ExitCode measure(const MeasureArguments& arguments) {
   file::Outputs outputs;
   outputs.reads(arguments.file, "FILE");
   prints(outputs);
   const std::vector<std::string> asked = scenario::split_measures(arguments.measures);
-  const record::StoredRun run(numbers_of(plot::read_result(arguments.file, {}), asked),
-                              arguments.file);
-  const auto measures = run.measures_named(asked);
-  std::vector<double> values;
-  for (const scenario::Measure& one : measures) values.push_back(run.value_of(one));
-  print(measure_text(measures, values));
+  std::vector<Words> others;
+  file::TableData numbers = numbers_of(plot::read_result(arguments.file, {}), others);
+  try {
+    const record::StoredRun run(std::move(numbers), arguments.file);
+    const auto measures = run.measures_named(asked);
+    std::vector<double> values;
+    for (const scenario::Measure& one : measures) values.push_back(run.value_of(one));
+    print(measure_text(measures, values));
+  } catch (const InputError& error) {
+    refuse(error, arguments.file, asked, others);
+  }
   return ExitCode::done;
 }
 

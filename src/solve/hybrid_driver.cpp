@@ -12,6 +12,7 @@
 #include "solve/pace.hpp"
 #include "solve/piece.hpp"
 #include "solve/row_block.hpp"
+#include "solve/standstill.hpp"
 
 namespace bbsim::solve {
 namespace {
@@ -144,7 +145,7 @@ class HybridIntegration {
           run_.handle_time_event(at, z.data());
           goes_on = goes_on && !run_.touched();
         }
-        if (!progressed(at)) {
+        if (standstill_.after(at)) {
           Outcome outcome = ended(Ending::failed, at);
           outcome.reason = "the rig switches without end at one instant";
           return outcome;  // with no states: they are those of the switch, not of the stepper
@@ -189,8 +190,8 @@ class HybridIntegration {
 
   template <class Archive>
   void archive(Archive& archive) {
-    archive(run_, pace_, guards_, asked_, asked_time_, last_switch_, still_, fall_, foreseen_,
-            unlooked_, unarmed_, turned_);
+    archive(run_, pace_, guards_, asked_, asked_time_, standstill_, fall_, foreseen_, unlooked_,
+            unarmed_, turned_);
   }
 
   // Before a step up to `limit`. What a controller of one's own remembers is asked for only where
@@ -213,14 +214,6 @@ class HybridIntegration {
 
   // Times nearer than this are one: i * step and n * period are rounded each their own way.
   [[nodiscard]] double slack(double t) const { return run_.rounding(t); }
-
-  // A hundred switches in a row that take no time are not a motion.
-  bool progressed(double t) {
-    const bool still = t - last_switch_ <= 1e-13 * t;
-    still_ = still ? still_ + 1 : 0;
-    last_switch_ = t;
-    return still_ < 100;
-  }
 
   // A guard that begins at zero, where the last one fell, fires once it is clearly below.
   void arm(double t, const double* z) {
@@ -625,9 +618,8 @@ class HybridIntegration {
   std::size_t next_planned_ = 0;
   std::size_t next_row_ = 1;
   double told_ = 0;  // the pieces up to here, s
-  double last_switch_ = -1;
+  Standstill standstill_;
   double asked_at_ = 0;  // when something was last due, s
-  int still_ = 0;
 };
 
 }  // namespace

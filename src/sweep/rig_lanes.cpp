@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <utility>
 #include <vector>
 
@@ -42,14 +43,14 @@ class RigCarrier : public GroupCarrier {
         measures_(task.measures, grid_),
         lanes_(tolerances_, grid_, measures_.asks_for()) {}
 
-  void carry(std::span<GroupCase> cases, const std::atomic<bool>&) override {
+  void carry(std::span<GroupCase> cases, const std::atomic<bool>& stop) override {
     rigs_.clear();
     for (GroupCase& one : cases) take(one);
     if (rigs_.empty()) return;
     std::array<const model::Model*, solve::held::group> models{};
     for (std::size_t lane = 0; lane < rigs_.size(); ++lane) models[lane] = &rigs_[lane].model;
     measures_.begin(reference_of(rigs_.front().model));
-    const auto carried = lanes_.integrate(models.data(), rigs_.size(), measures_);
+    const auto carried = lanes_.integrate(models.data(), rigs_.size(), measures_, stop);
     for (std::size_t lane = 0; lane < rigs_.size(); ++lane) {
       const Rig& rig = rigs_[lane];
       rig.of->carried =

@@ -132,6 +132,9 @@ TEST_CASE("a log of any rig is measured, whatever its other columns are") {
   CHECK(words.exit_code == 2);
   CHECK(words.err.find("column mode, row 1: found \"auto\", a number is expected") !=
         std::string::npos);
+  folder.write("words.csv", "t,x,when,at\n0,1,a,b\n1,2,c,d\n2,3,e,f\n");
+  CHECK(bbsim({"measure", "words.csv", "--measure", "when x=1.5"}, folder.path()).out ==
+        "measure,value\nwhen x=1.5 cross=1,0.4999999999999999\n");
   folder.write("sweep.csv", "case,ball.radius,status,end_x\n0,0.01,done,1\n1,0.02,done,2\n");
   const Result sweep = bbsim({"measure", "sweep.csv", "--measure", "end_x"}, folder.path());
   CHECK(sweep.exit_code == 2);

@@ -123,6 +123,28 @@ TEST_CASE("a servo that moves between two nodes of a piece, and not at them, mov
   CHECK(apart < 1e-7);
 }
 
+TEST_CASE(
+    "backlash: a servo that has come to rest and is driven back leaves the plane where it is") {
+  // At 0.2 s its command turns; the plane waits until the gap is crossed, 2 ms later.
+  const double end = GENERATE(0.2, 0.21);
+  const Scenario scene = parse_scenario(
+      R"(ball: {radius: 0.01, position: [-0.00912498342463637, -0.0004788716859636874],
+       velocity: [-0.03344965261030668, -0.012901321040634423]}
+gimbal: {servo: {natural_frequency: 500, damping: 1, backlash: 0.001}}
+controller: {pd: {kv: [[0.6, 0], [0, -0.6]], kp: [[0.7, 0], [0, -0.7]]}, drives: angle,
+  reference: {point: [0, 0]}, sampling: {period: 0.1}, limit: 0.2}
+events: {lift_off: stop}
+output: {columns: [t, x, y]}
+time: {step: 0.1, end: )" +
+          std::to_string(end) + "}\n",
+      "turns.yaml");
+  const Run run = run_in_memory(scene, Method::radau, {1e-8, 1e-10});
+  CHECK(run.outcome.ending == solve::Ending::done);
+  CHECK(run.outcome.occurrences.empty());
+  REQUIRE(run.samples.size() > 2);
+  CHECK(run.samples[2].gimbal.phi_ddot == 0);
+}
+
 TEST_CASE("backlash: a servo that starts with a rate does not move the plane, nor the ball") {
   Scenario scene = parse_scenario(cases[2].text, "rig.yaml");
   scene.ball.velocity = {0, 0};

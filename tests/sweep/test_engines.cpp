@@ -546,6 +546,23 @@ TEST_CASE("rigs in lanes are those of single runs") {
                "reference: {point: [0.1, 0]}, sampling: {period: 0.5}}"},
               loop_measures));
   }
+  SECTION("that switch without end at one instant, as single runs say too") {
+    const Setup setup("configs/rig.yaml", {{"gimbal.start.phi", "linear:0.0072:0.008:8"}},
+                      {"time.end=0.05", "events={}",
+                       "gimbal.servo={natural_frequency: 179504, damping: 0, "
+                       "acceleration_limit: 585}",
+                       "controller={pd: {kv: [[0.3, 0], [0, -0.3]], kp: [[0.7, 0], [0, -0.7]]}, "
+                       "drives: angle, reference: {point: [0.01, 0]}, sampling: {period: 0.01}}"},
+                      {"max_tilt"});
+    const Engine engine = choose_engine(setup.task);
+    REQUIRE(engine.name == "rig lanes");
+    const CaseResults lanes = run_all(*engine.runner(), 8);
+    const CaseResults alone = run_all(*single_runner(setup.task), 8);
+    for (std::size_t i = 0; i < 8; ++i) {
+      CHECK(lanes.status[i].word == alone.status[i].word);
+      CHECK(lanes.status[i].reason == alone.status[i].reason);
+    }
+  }
   SECTION("under any law, with integrals that wait at a limit and servos that are fed back") {
     const std::string law = GENERATE(
         "pid: {kp: [[0.7, 0], [0, -0.7]], kv: [[0.6, 0], [0, -0.6]], ki: [[0.35, 0], [0, -0.35]]}",

@@ -72,15 +72,36 @@ void ServoAxis::settle_backlash(const AxisState& state, AxisMode& mode) {
   started_ = true;
   const double lead = state.angle + servo_.offset - plane_;
   const double touching = half * at_limit;
-  if (lead >= touching && state.rate > 0) {
+  // A servo at rest moves as it is driven: engaged it would be for no time.
+  const double at_rest = guard_rounding * servo_.backlash;
+  const auto moves = [&](int sign) {
+    return sign * state.rate > at_rest ||
+           (sign * state.rate >= -at_rest && sign * drive(state) > 0);
+  };
+  if (lead >= touching && moves(1)) {
     play_ = Play::up;
-  } else if (lead <= -touching && state.rate < 0) {
+  } else if (lead <= -touching && moves(-1)) {
     play_ = Play::down;
   } else {
     play_ = Play::gap;
   }
   mode.ratio = play_ == Play::gap ? 0 : 1;
   mode.offset = play_ == Play::gap ? plane_ : servo_.offset + (play_ == Play::up ? -half : half);
+}
+
+// The servo's acceleration; one of first order has none that counts, since its rate is its drive.
+double ServoAxis::drive(const AxisState& state) const {
+  if (servo_.time_constant) return 0;
+  switch (motion_) {
+    case Motion::free:
+      return state.demand;
+    case Motion::accelerating_up:
+      return servo_.acceleration_limit;
+    case Motion::accelerating_down:
+      return -servo_.acceleration_limit;
+    default:
+      return 0;
+  }
 }
 
 void ServoAxis::settle(AxisState& state, AxisMode& mode) {
@@ -188,11 +209,11 @@ ServoAxis::Fall ServoAxis::first_fall(const HeldMotion& motion, double command, 
         margin.constant + (margin.by_command + margin.by_demand * response_.from_command) * command,
         margin.by_angle - margin.by_demand * response_.from_angle,
         margin.by_rate - margin.by_demand * response_.from_rate};
-    if (reached.least(line) > 1e-12 * std::abs(line.constant)) return;  // mostly
+    if (reached.least(line) > guard_rounding * std::abs(line.constant)) return;  // mostly
     double sizes[guards];
     scales(sizes);
     // As for guards that an integrator looks at.
-    const double after = model::first_fall(line, motion, 1e-12 * sizes[guard], start,
+    const double after = model::first_fall(line, motion, guard_rounding * sizes[guard], start,
                                            std::min(end, first.after), answers);
     if (after < first.after) first = {after, guard};
   });

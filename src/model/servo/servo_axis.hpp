@@ -107,12 +107,15 @@ class ServoAxis {
   void for_each_margin(Use use) const;
   [[nodiscard]] Motion choose(AxisState& state) const;
   void settle_backlash(const AxisState& state, AxisMode& mode);
+  [[nodiscard]] double drive(const AxisState& state) const;
   // What pushes a servo at its rate limit further: an acceleration, or, of first order, what the
   // rate would be beyond the present one.
   [[nodiscard]] AxisMargin push() const;
   // What pushes it against a stop: an acceleration, or how far the command is beyond.
   [[nodiscard]] AxisMargin push_at_stop() const;
 
+  // Guards within this part of their scale are zero.
+  static constexpr double guard_rounding = 1e-12;
   // A guard that was found at zero is this near it.
   static constexpr double at_limit = 1 - 1e-11;
 

@@ -345,7 +345,8 @@ struct LaneKernel {
                         of(axis.lost_angle_by_acceleration) * of(axis.acceleration);
         lost += size_of(of(axis.ratio)) * (size_of(rate) + size_of(angle));
       }
-      tilt += size_of(of(axis.plane_sin[nodes - 1]));
+      const P start = of(axis.ratio) * of(axis.angle) + of(axis.offset);
+      tilt += larger_of(size_of(of(axis.plane_sin[nodes - 1])), smaller_of(size_of(start), P(1.0)));
       distance += size_of(of(pieces.position[i]));
     }
     const P unseen = (P(One::Rule::c[0] / 2) * h * acceleration + lost) *

@@ -23,7 +23,9 @@ void answer_at_nodes(const Kernels& kernels, const model::HeldLaw& law, double l
   }
 }
 
-// What is left out of a sum to `whole`; nothing if that is rounding beside the motion itself.
+// What is left out of a sum to `whole`; nothing if that is rounding beside the motion itself. (Of
+// what an acceleration at the start does, that is all where it is over in a millionth of the
+// length: it is what `missed` is of.)
 double lost_of(double whole, double sum, double motion) {
   constexpr double rounding = 1e-13;
   const double left = whole - sum;

@@ -326,12 +326,15 @@ struct Kernel {
   // its distance. A jump that is over by the first node has, in the mean, half of what it begins
   // with.
   BBSIM_INLINE static double unseen(const Piece& piece, const Scene& scene) {
-    double acceleration = 0, lost = 0;
+    double acceleration = 0, lost = 0, tilt = 0;
     for (int i = 0; i < 2; ++i) {
       const Axis& axis = piece.axis[i];
       const MotionTable& motion = *axis.table;
       acceleration += size_of(axis.ratio * (motion.missed_by_rate * axis.rate +
                                             motion.missed_by_acceleration * axis.acceleration));
+      // From the start to the end: what is over by the first node may have begun far from there.
+      tilt += larger_of(size_of(piece.plane[i].sin[nodes - 1]),
+                        smaller_of(size_of(axis.ratio * axis.angle + axis.offset), 1.0));
       if (!motion.lost) continue;
       lost +=
           size_of(axis.ratio) * (size_of(motion.lost_rate_by_rate * axis.rate +
@@ -339,9 +342,7 @@ struct Kernel {
                                  size_of(motion.lost_angle_by_rate * axis.rate +
                                          motion.lost_angle_by_acceleration * axis.acceleration));
     }
-    const double tilt = size_of(piece.plane[0].sin[nodes - 1]) +
-                        size_of(piece.plane[1].sin[nodes - 1]) + size_of(scene.rolling.sin_skew) +
-                        size_of(scene.rolling.sin_base);
+    tilt += size_of(scene.rolling.sin_skew) + size_of(scene.rolling.sin_base);
     return (Rule::c[0] / 2 * piece.length * acceleration + lost) *
            (scene.radius + size_of(scene.rolling.height) +
             tilt * (size_of(piece.position[0]) + size_of(piece.position[1])));

@@ -134,6 +134,7 @@ void RigLanes::begin(std::size_t l, const model::Model& model, LaneSink& sink) {
   lane.next_step = std::numeric_limits<double>::infinity();
   lane.next_row = 1;
   lane.rejections = 0;
+  lane.standstill = {};
   lane.run->handle_time_event(0, lane.z.data());
   controllers_.take_over(l, lane.run->computer());
   const std::vector<char>& happening = lane.run->happening();
@@ -520,6 +521,7 @@ void RigLanes::go_on(std::size_t l) {
     }
   }
   lane.time = lane.until;
+  if (lane.switched && lane.standstill.after(lane.time)) lane.alive = false;
   put_start(l);
   if (lane.switched) {
     take_mode(l);
@@ -530,7 +532,7 @@ void RigLanes::go_on(std::size_t l) {
 }
 
 std::array<bool, group> RigLanes::integrate(const model::Model* const* models, std::size_t count,
-                                            LaneSink& sink) {
+                                            LaneSink& sink, const std::atomic<bool>& stop) {
   scene_.force = false;
   controllers_.begin();
   shared_reference_ = {};
@@ -541,7 +543,7 @@ std::array<bool, group> RigLanes::integrate(const model::Model* const* models, s
       lanes_[l].alive = lanes_[l].moved = false;
     }
   }
-  while (plan()) {
+  while (!stop.load(std::memory_order_relaxed) && plan()) {
     kernels_.attempt(*pieces_, scene_);
     judge();
     look();

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <atomic>
 #include <cstddef>
 #include <limits>
 #include <memory>
@@ -15,6 +16,7 @@
 #include "solve/held/lane_kernel.hpp"
 #include "solve/outcome.hpp"
 #include "solve/output_grid.hpp"
+#include "solve/standstill.hpp"
 
 namespace bbsim::solve::held {
 
@@ -94,9 +96,10 @@ class RigLanes {
   RigLanes(Tolerances tolerances, const OutputGrid& grid, const LaneAsked& asked);
 
   // The first `count` models, 1 <= count <= group, which carries() says yes to and which go
-  // together; they have one reference. Whether each was carried to the end.
+  // together; they have one reference. Whether each was carried to the end; none more once `stop`
+  // is true.
   std::array<bool, group> integrate(const model::Model* const* models, std::size_t count,
-                                    LaneSink& sink);
+                                    LaneSink& sink, const std::atomic<bool>& stop);
 
  private:
   using Loop = model::RigLoop<false>;
@@ -115,6 +118,7 @@ class RigLanes {
     double foreseen = 0;  // until when `fall` tells, s
     std::size_t next_row = 1;
     int rejections = 0;
+    Standstill standstill;
     bool alive = false, feeds_servos_back = false;
     bool moved = false, settled = false;      // with the last attempt
     bool restarts = false, switched = false;  // by a command, or by more than that

@@ -1,0 +1,28 @@
+// Rigs that switch again and again and get nowhere.
+#pragma once
+
+namespace bbsim::solve {
+
+// A hundred switches in a row that take no time are not a motion.
+class Standstill {
+ public:
+  // Whether that is so after one more, at t (s).
+  [[nodiscard]] bool after(double t) {
+    const bool still = t - last_ <= 1e-13 * t;
+    still_ = still ? still_ + 1 : 0;
+    last_ = t;
+    return still_ >= 100;
+  }
+
+  // All that it remembers (base/archive.hpp).
+  template <class Archive>
+  void archive(Archive& archive) {
+    archive(last_, still_);
+  }
+
+ private:
+  double last_ = -1;  // the last switch, s
+  int still_ = 0;
+};
+
+}  // namespace bbsim::solve
