@@ -41,8 +41,12 @@ file::TableData numbers_of(plot::Result result, std::vector<Words>& others) {
   file::TableData table;
   for (plot::Column& column : result.columns) {
     if (column.is_text()) {
+      const auto is_word = [&](std::size_t row) {
+        const bool number = row < column.numbers.size() && !std::isnan(column.numbers[row]);
+        return !number && !column.texts[row].empty();
+      };
       std::size_t row = 0;
-      while (!std::isnan(column.numbers[row]) || column.texts[row].empty()) ++row;
+      while (row + 1 < column.texts.size() && !is_word(row)) ++row;
       others.push_back({column.name, column.texts[row], row + 1});
       continue;
     }
