@@ -171,7 +171,6 @@ ExitCode obey(int argc, char** argv, std::span<const NamedCommand> commands) {
   app.set_version_flag("--version", version, "print the version and exit");
   app.require_subcommand(1);
   app.footer(
-      "A SCENARIO of - is read from standard input.\n"
       "Exit codes: 0 done; 1 the run ended early or files differ; 2 the command line or the "
       "scenario is at fault; 3 the output could not be written; 130 interrupted.");
   Options options;

@@ -107,7 +107,9 @@ ExitCode run(const RunArguments& arguments, const Options& options) {
     summary.measures.emplace_back(measures[m].name, made.measures[m]);
   }
   if (summary.error_estimate) writer->add_column(position_error, made.row_estimates);
-  writer->finish(record::to_attributes(summary, scenario.source.text));
+  // A controller that does not begin is no reason to lose an earlier run.
+  const bool any_rows = summary.rows > 0;
+  if (any_rows) writer->finish(record::to_attributes(summary, scenario.source.text));
   if (summary_file) {
     summary_file->write(record::to_json(summary));
     summary_file->commit();
@@ -118,7 +120,9 @@ ExitCode run(const RunArguments& arguments, const Options& options) {
   const std::string state = part ? part->finish(model) : "";
   const std::size_t rows = part ? part->part().end_row - part->part().first_row : grid.size();
   tell(made, options.quiet);
-  if (!options.quiet) {
+  if (!options.quiet && !any_rows) {
+    say(name_of_output(output) + ": not written, there is no row");
+  } else if (!options.quiet) {
     std::string line = name_of_output(output) + ": " + std::to_string(summary.rows) + " of " +
                        std::to_string(rows) + " rows, " + summary.method + ", " +
                        std::to_string(summary.statistics.steps) + " steps";
@@ -128,7 +132,7 @@ ExitCode run(const RunArguments& arguments, const Options& options) {
     say(line);
   }
   if (!state.empty() && !options.quiet) say(state);
-  if (replay) {
+  if (replay && any_rows) {
     replay->write(scene_of(run_of(scenario, pictured->take(), summary)), options.quiet);
   }
   return made.code;

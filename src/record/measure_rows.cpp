@@ -56,7 +56,9 @@ std::vector<Measure> StoredRun::measures_named(const std::vector<std::string>& n
     if (!measure) {
       std::string columns;
       for (const std::string& column : table_.names) columns += " " + column;
-      throw InputError("measure: found " + name + "; " + name_ + " has the columns" + columns +
+      const std::vector<std::string_view> known(table_.names.begin(), table_.names.end());
+      throw InputError("measure: found " + name + scenario::measure_hint(name, known) + "; " +
+                       name_ + " has the columns" + columns +
                        "; allowed: " + scenario::allowed_measures());
     }
     for (const Measure& other : measures) {

@@ -7,6 +7,7 @@
 #include "base/error.hpp"
 #include "base/number_text.hpp"
 #include "base/text.hpp"
+#include "yaml/nearest.hpp"
 #include "yaml/quantity.hpp"
 
 namespace bbsim::scenario {
@@ -242,6 +243,30 @@ std::vector<std::string> split_measures(const std::vector<std::string>& lists) {
   return names;
 }
 
+std::string measure_hint(std::string_view name, std::span<const std::string_view> columns) {
+  name = trimmed(name);
+  std::vector<std::string> measures{"x_end", "y_end"};
+  for (const std::string_view column : columns) {
+    const std::string its(column);
+    if (name == column) return " (did you mean end_" + its + "?)";
+    for (const Prefix& prefix : prefixes) measures.push_back(std::string(prefix.text) + its);
+    for (const Metric& metric : metrics) {
+      measures.push_back(its + "." + std::string(metric.name));
+    }
+  }
+  const std::vector<std::string_view> known(measures.begin(), measures.end());
+  const std::string_view nearest = yaml::nearest_name(name, known);
+  return nearest.empty() ? "" : " (did you mean " + std::string(nearest) + "?)";
+}
+
+std::string measure_hint(std::string_view name) {
+  std::vector<std::string_view> usable;
+  for (const Column& column : catalogue) {
+    if (is_usable(&column)) usable.push_back(column.name);
+  }
+  return measure_hint(name, usable);
+}
+
 std::string allowed_measures() {
   return "min_, max_, rms_ or end_ and one of bbsim columns but ball_q..., such as max_tilt, "
          "rms_x, end_phi; COLUMN.RiseTime, SettlingTime, SettlingMin, SettlingMax, Overshoot, "
@@ -255,7 +280,10 @@ std::vector<Measure> measures_named(const std::vector<std::string>& names,
   std::vector<Measure> measures;
   for (const std::string& name : names) {
     const std::optional<Measure> measure = find_measure(name);
-    if (!measure) throw InputError("measure: found " + name + "; allowed: " + allowed_measures());
+    if (!measure) {
+      throw InputError("measure: found " + name + measure_hint(name) +
+                       "; allowed: " + allowed_measures());
+    }
     if (const Missing lacks = missing(*measure, scenario)) {
       throw InputError("measure: found " + name + ", but " + lacks.why);
     }

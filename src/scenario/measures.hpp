@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <functional>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -80,7 +81,11 @@ using FindColumn = std::function<const Column*(std::string_view name)>;
 // Parts of a list at its commas.
 [[nodiscard]] std::vector<std::string> split_measures(const std::vector<std::string>& lists);
 
-// For the message about a name that is none.
+// For the message about a name that is none: " (did you mean x.RiseTime?)", by the columns that
+// there are, or nothing; and what is allowed.
+[[nodiscard]] std::string measure_hint(std::string_view name,
+                                       std::span<const std::string_view> columns);
+[[nodiscard]] std::string measure_hint(std::string_view name);  // of a scenario
 [[nodiscard]] std::string allowed_measures();
 
 // The measures of these names, each given once, which the scene has the columns for. Throws

@@ -64,7 +64,7 @@ struct MeasureNames {
     for (std::size_t i = 0; i < value.node->items.size(); ++i) {
       const yaml::Value item = value.item(i);
       if (!find_measure(item.node->text)) {
-        fine = item.refuse("", allowed_measures());
+        fine = item.refuse(measure_hint(item.node->text), allowed_measures());
       } else if (std::ranges::find(into, item.node->text) != into.end()) {
         fine = item.refuse(" again", "each measure once");
       } else {

@@ -64,3 +64,15 @@ TEST_CASE("measures have units and meanings, and know what they need") {
         std::vector<std::string>{"x.Peak", "max_x", "when x=1"});
   CHECK_THROWS_AS(measures_named({"when x=1 cm", "when x=0.01"}, open), bbsim::InputError);
 }
+
+TEST_CASE("a measure that is none has a hint at the one that was meant") {
+  CHECK(measure_hint("x.RizeTime") == " (did you mean x.RiseTime?)");
+  CHECK(measure_hint("x.risetime") == " (did you mean x.RiseTime?)");
+  CHECK(measure_hint(" max_titl") == " (did you mean max_tilt?)");
+  CHECK(measure_hint("x") == " (did you mean end_x?)");
+  CHECK(measure_hint("ball_qw") == "");
+  CHECK(measure_hint("nothing like that") == "");
+  const std::string_view columns[] = {"t", "level"};
+  CHECK(measure_hint("max_levle", columns) == " (did you mean max_level?)");
+  CHECK(measure_hint("max_titl", columns) == "");
+}
