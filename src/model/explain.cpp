@@ -153,12 +153,15 @@ std::string linkage_note(const Scenario& scene) {
   for (std::size_t i = 0; i < 2; ++i) {
     const Linkage& linkage = between.linkages[i];
     text += i == 0 ? "phi: " : "; theta: ";
-    if (linkage.curve.kind == LinkCurve::Kind::ideal) {
+    const bool as_servo = linkage.curve.kind == LinkCurve::Kind::ideal;
+    if (as_servo && !linkage.reach.binds()) {
       text += "none";
       continue;
     }
-    text += (linkage.table ? "measured curve, slope " : "push rod, (M54) to (M56), slope ") +
-            number(linkage.curve.slope) + " at home";
+    text += as_servo
+                ? "push rod, a parallelogram: the plane turns as the servo does"
+                : (linkage.table ? "measured curve, slope " : "push rod, (M54) to (M56), slope ") +
+                      number(linkage.curve.slope) + " at home";
     const double home = linkage.angle(0);
     if (std::abs(home) > 1e-12) text += ", where the plane is at " + degrees(home);
     if (linkage.curve.high < unlimited) {

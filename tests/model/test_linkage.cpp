@@ -2,6 +2,7 @@
 #include <cmath>
 #include <numbers>
 #include <random>
+#include <tuple>
 #include <vector>
 
 #include "base/error.hpp"
@@ -102,6 +103,70 @@ TEST_CASE("slope and bend of a push rod are its derivatives") {
       CHECK(std::abs(difference - slope) < 1e-7 * size);
     }
   }
+}
+
+TEST_CASE("where opposite bars are of one length the plane turns as the servo does") {
+  std::mt19937_64 draw(5);
+  std::uniform_real_distribution<double> unit(0, 1);
+  for (int i = 0; i < 200; ++i) {
+    const double length = 0.01 + 0.05 * unit(draw), direction = 0.1 + 2.9 * unit(draw),
+                 distance = 0.01 + 0.2 * unit(draw);
+    const double x = distance * std::cos(direction), z = distance * std::sin(direction);
+    const Linkage linkage = make_linkage(RodLinkage{length, length, {}, {x, z}}, Assumed::exact);
+    CHECK(linkage.curve.slope == 1);
+    for (double servo = -3; servo <= 3; servo += 0.25) {
+      CHECK(linkage.angle(servo) == servo);
+      if (servo < linkage.reach.low || servo > linkage.reach.high) continue;
+      CHECK(linkage.servo_for(servo) == servo);
+    }
+    // All bars lie along the line through both axes.
+    CHECK(linkage.curve.high == Approx(direction).epsilon(1e-14));
+    CHECK(linkage.curve.low == Approx(direction - std::numbers::pi).epsilon(1e-14));
+    CHECK(linkage.reach.high == linkage.curve.high);
+    CHECK(linkage.reach.low == linkage.curve.low);
+    CHECK(linkage.high_end == "horn, rod and arm are in line");
+    // The same with a rod that is given.
+    const Linkage given =
+        make_linkage(RodLinkage{length, length, std::hypot(x, z), {x, z}}, Assumed::exact);
+    CHECK(given.curve.high == linkage.curve.high);
+  }
+}
+
+TEST_CASE("a curve ends before all three bars are in line, whatever their lengths") {
+  std::mt19937_64 draw(6);
+  std::uniform_real_distribution<double> unit(0, 1);
+  int ends = 0;
+  for (int i = 0; i < 400; ++i) {
+    const double horn = 0.01 + 0.05 * unit(draw), arm = 0.01 + 0.08 * unit(draw);
+    const double x = 0.2 * unit(draw) - 0.1, z = 0.02 + 0.1 * unit(draw);
+    // The longest and the shortest bar are together as long as the other two.
+    const double distance = std::hypot(x, z), sign = i % 2 == 0 ? 1 : -1;
+    const double rod = std::abs(distance + sign * (horn - arm));
+    Linkage linkage;
+    try {
+      linkage = make_linkage(RodLinkage{horn, arm, rod, {x, z}}, Assumed::exact);
+    } catch (const InputError&) {
+      continue;  // it does not close at home
+    }
+    const Rods& rods = linkage.curve.rods;
+    for (const auto& [why, end, inside] :
+         {std::tuple(linkage.low_end, linkage.curve.low, 1e-9),
+          std::tuple(linkage.high_end, linkage.curve.high, -1e-9)}) {
+      if (why != "horn, rod and arm are in line") continue;
+      ++ends;
+      const Turn<double> turn = rods.arm_at(end + inside);
+      const double angle = std::atan2(turn.sin, turn.cos);
+      CHECK(std::abs(rod_between(rods, end, angle) - rod) < 1e-12);
+      // The bend is that of differences of the slope, to what rounding leaves of it there.
+      const double h = 1e-4;
+      const double before = end + (inside > 0 ? h : -h);
+      const double difference =
+          (rods.arm_at(before + h).slope - rods.arm_at(before - h).slope) / (2 * h);
+      CHECK(std::abs(difference - rods.arm_at(before).bend) <
+            1e-2 * (1 + std::abs(difference) + turn.slope * turn.slope));
+    }
+  }
+  CHECK(ends > 100);
 }
 
 TEST_CASE("with a long upright rod it is Quanser's: sin(plate) = (horn / arm) sin(servo)") {

@@ -1,6 +1,7 @@
 // Runs of gimbals whose servos turn the plane through something.
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "catch.hpp"
 #include "model/servo/linkages.hpp"
@@ -144,9 +145,13 @@ TEST_CASE(
 TEST_CASE("a dead point ends the run, at its time to rounding") {
   // A command beyond it under a servo at its rate limit: the horn turns at 2 rad/s.
   const bool up = GENERATE(true, false);
-  // Horn and rod come in line; and rod and arm, where the plane's rate grows without bound.
-  const bool of_arm = GENERATE(false, true);
-  const RodLinkage rods = of_arm ? RodLinkage{0.08, 0.03, {}, {0.05, 0.09}} : desk();
+  // Horn and rod come in line; rod and arm, where the plane's rate grows without bound; and all
+  // three, of a parallelogram.
+  const auto [rods, why] = GENERATE(values<std::pair<RodLinkage, const char*>>({
+      {desk(), "horn and rod are in line"},
+      {{0.08, 0.03, {}, {0.05, 0.09}}, "rod and arm are in line"},
+      {{0.03, 0.03, {}, {0, 0.1}}, "horn, rod and arm are in line"},
+  }));
   Scenario scene = linked();
   scene.gimbal.linkage = {rods, {}};
   const model::Linkage linkage = make_linkage(rods, model::Assumed::ratio);
@@ -168,8 +173,7 @@ TEST_CASE("a dead point ends the run, at its time to rounding") {
   REQUIRE(run.outcome.occurrences.size() == 1);
   const model::Occurrence& end = run.outcome.occurrences[0];
   CHECK(end.name == "dead_point");
-  CHECK((up ? linkage.high_end : linkage.low_end) ==
-        (of_arm ? "rod and arm are in line" : "horn and rod are in line"));
+  CHECK((up ? linkage.high_end : linkage.low_end) == why);
   CHECK(std::abs(end.t - 0.1) < 1e-14);
 }
 

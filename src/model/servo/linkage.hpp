@@ -88,6 +88,7 @@ enum class Assumed { none, exact, ratio };
 
 // One axis' curve, from the servo's angle to the plane's.
 struct LinkCurve {
+  // Ideal: the plane's angle is the servo's, as without a linkage, or with a parallelogram.
   enum class Kind { ideal, rods, table };
   Kind kind = Kind::ideal;
   Assumed assumed = Assumed::none;

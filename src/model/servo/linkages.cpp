@@ -17,19 +17,39 @@ constexpr double inside = 1e-9;
 // A run ends so far before rod and arm are in line, where the plane's rate and acceleration are
 // infinite, rad.
 constexpr double before_infinity = 1e-9;
+// And before all three bars are in line, where the arm may go either way: next to it the curve's
+// bend is a quotient of numbers that are as small as the cube of the distance, so that rounding is
+// 1e-7 of it.
+constexpr double before_change = 1e-3;
 
-// Where two of three bars are in line, and what the servo's and the arm's angles then are.
+constexpr const char* all_in_line = "horn, rod and arm are in line";
+
+// Where two of three bars are in line, or all, and what the servo's and the arm's angles then are.
 struct DeadPoint {
   double servo, arm;
   const char* why;
   double before = 0;  // so far from it the curve ends, rad
 };
 
-// Both angles whose cosine, from `from` on, is this; none if there is no such angle.
-std::vector<double> angles_with(double cosine, double from) {
-  if (!(std::abs(cosine) <= 1)) return {};
-  const double away = std::acos(cosine);
-  return {from + away, from - away};
+// Angles whose cosine, from `from` on, is this.
+struct Angles {
+  std::vector<double> of;  // both; none if there is no such angle
+  bool change = false;     // they are one, to rounding: all bars are in line
+};
+Angles angles_with(double cosine, double from) {
+  constexpr double rounding = 1e-12;
+  if (!(std::abs(cosine) <= 1 + rounding)) return {};
+  const double away = std::acos(std::clamp(cosine, -1.0, 1.0));
+  return {{from + away, from - away}, std::abs(cosine) >= 1 - rounding};
+}
+
+// Whether horn and arm are of one length, and so are the rod and the distance of their axes: the
+// arm is then parallel to the horn.
+bool is_parallelogram(const Rods& of) {
+  constexpr double rounding = 1e-15;
+  const double scale = std::abs(of.x) + std::abs(of.z) + of.horn + of.arm;
+  return std::abs(of.horn - of.arm) <= rounding * scale &&
+         std::abs(of.rod - std::hypot(of.x, of.z)) <= rounding * scale;
 }
 
 // Of both branches.
@@ -37,27 +57,37 @@ std::vector<DeadPoint> dead_points(const Rods& of) {
   std::vector<DeadPoint> found;
   const double distance = std::hypot(of.x, of.z), direction = std::atan2(of.z, of.x);
   if (distance == 0) return found;  // the rod is carried round, whole
+  if (is_parallelogram(of)) {
+    for (const double bar : {direction, direction + std::numbers::pi}) {
+      found.push_back({bar, bar, all_in_line});
+    }
+    return found;
+  }
   const double d2 = distance * distance;
   for (const double sign : {1.0, -1.0}) {
     const double to_horn = of.rod + sign * of.arm;
     const double c = (of.horn * of.horn + d2 - to_horn * to_horn) / (2 * of.horn * distance);
-    for (const double servo : angles_with(c, direction)) {
+    const Angles servos = angles_with(c, direction);
+    for (const double servo : servos.of) {
       const double vx = of.horn * std::cos(servo) - of.x, vz = of.horn * std::sin(servo) - of.z;
       const double k = vx * vx + vz * vz + of.arm * of.arm - of.rod * of.rod;
       found.push_back({servo, std::atan2(std::copysign(vz, vz * k), std::copysign(vx, vx * k)),
-                       "rod and arm are in line", before_infinity});
+                       servos.change ? all_in_line : "rod and arm are in line",
+                       servos.change ? before_change : before_infinity});
     }
     const double to_arm = of.horn + sign * of.rod;
     if (to_arm == 0) continue;
     const double a = (to_arm * to_arm - d2 - of.arm * of.arm) / (2 * of.arm * distance);
-    for (const double arm : angles_with(a, direction)) {
+    const Angles arms = angles_with(a, direction);
+    for (const double arm : arms.of) {
       const double bx = of.x + of.arm * std::cos(arm), bz = of.z + of.arm * std::sin(arm);
       const double servo = std::atan2(bz / to_arm, bx / to_arm);
       // On this branch, and not on the other one.
       const Turn<double> turn = of.arm_at(servo);
       if (std::hypot(turn.cos - std::cos(arm), turn.sin - std::sin(arm)) < 1e-6) {
-        found.push_back(
-            {servo, std::atan2(std::sin(arm), std::cos(arm)), "horn and rod are in line"});
+        found.push_back({servo, std::atan2(std::sin(arm), std::cos(arm)),
+                         arms.change ? all_in_line : "horn and rod are in line",
+                         arms.change ? before_change : 0});
       }
     }
   }
@@ -148,26 +178,34 @@ Linkage make_linkage(const RodLinkage& of, Assumed assumed) {
 
   Linkage linkage;
   LinkCurve& curve = linkage.curve;
-  curve.kind = LinkCurve::Kind::rods;
+  const bool parallel = is_parallelogram(rods);
+  curve.kind = parallel ? LinkCurve::Kind::ideal : LinkCurve::Kind::rods;
   curve.assumed = assumed;
   curve.rods = rods;
-  curve.slope = rods.arm_at(0.0).slope;
+  curve.slope = parallel ? 1 : rods.arm_at(0.0).slope;
   double at_low = -unlimited, at_high = unlimited;  // the arm's angles there
+  const auto arm_at = [&](const DeadPoint& point, double servo) {
+    if (point.before != before_change) return point.arm;
+    const Turn<double> turn = rods.arm_at(servo);
+    return std::atan2(turn.sin, turn.cos);
+  };
   for (const DeadPoint& point : dead_points(rods)) {
     const double there = turned_within(point.servo, 0);
     const double up = there - point.before, down = there - 2 * std::numbers::pi + point.before;
     if (up < curve.high) {
       curve.high = up;
-      at_high = point.arm;
+      at_high = arm_at(point, up);
       linkage.high_end = point.why;
     }
     if (down > curve.low) {
       curve.low = down;
-      at_low = point.arm;
+      at_low = arm_at(point, down);
       linkage.low_end = point.why;
     }
   }
-  if (curve.high < unlimited) {
+  if (parallel) {
+    linkage.reach = {curve.low, curve.high};
+  } else if (curve.high < unlimited) {
     at_low = arm_followed(rods, curve.low, at_low);
     at_high = arm_followed(rods, curve.high, at_high);
     linkage.reach = {std::min(at_low, at_high), std::max(at_low, at_high)};
@@ -218,7 +256,6 @@ double Linkage::angle(double servo) const {
 }
 
 double Linkage::servo_for(double angle) const {
-  if (curve.kind == LinkCurve::Kind::ideal) return angle;
   double within = angle + curve.shift;
   if (reach.binds()) {
     // A turn more or less is the same direction.
@@ -230,6 +267,7 @@ double Linkage::servo_for(double angle) const {
     }
     within = std::clamp(within, low, high);
   }
+  if (curve.kind == LinkCurve::Kind::ideal) return within;
   if (!table) return curve.rods.horn_at(within);
   // Newton's iteration, and a half where it leaves what is known to hold the answer.
   double low = curve.low, high = curve.high;
