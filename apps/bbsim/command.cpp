@@ -11,6 +11,18 @@
 
 namespace bbsim::app {
 
+namespace {
+
+// An option without a value is not the same as none: it is a variable of a script that is not set.
+CLI::Option* refusing_nothing(CLI::Option* option) {
+  const auto fault = [](const std::string& text) -> std::string {
+    return text.empty() ? "found nothing; allowed: a value, or to leave it out" : "";
+  };
+  return option->check(CLI::Validator(fault, ""));
+}
+
+}  // namespace
+
 Option& Option::takes(const std::string& type) {
   option_->type_name(type);
   return *this;
@@ -65,7 +77,7 @@ void Command::footer(const std::string& text) {
 }
 
 Option Command::option(const std::string& names, std::string& value, const std::string& what) {
-  return Option(*app_->add_option(names, value, what));
+  return Option(*refusing_nothing(app_->add_option(names, value, what)));
 }
 
 Option Command::option(const std::string& names, std::size_t& value, const std::string& what) {
@@ -79,7 +91,7 @@ Option Command::option(const std::string& names, std::optional<double>& value,
 
 Option Command::option(const std::string& names, std::vector<std::string>& values,
                        const std::string& what) {
-  return Option(*app_->add_option(names, values, what));
+  return Option(*refusing_nothing(app_->add_option(names, values, what)));
 }
 
 Option Command::option(const std::string& names, std::vector<double>& values,

@@ -3,6 +3,7 @@
 #include <filesystem>
 
 #include "controller/host.hpp"
+#include "scenario/reader.hpp"
 
 namespace bbsim::app {
 
@@ -41,6 +42,13 @@ void reads_scenario(file::Outputs& outputs, const std::string& file,
                     const std::vector<std::string>& tables) {
   outputs.reads(file, "the scenario");
   for (const std::string& table : tables) outputs.reads(table, "a table of the scenario");
+}
+
+void reads_tables(file::Outputs& outputs, const std::optional<Scenario>& scenario) {
+  if (!scenario) return;
+  for (const std::string& table : table_files(*scenario)) {
+    outputs.reads(table, "a table of the scenario");
+  }
 }
 
 void reads_controller(file::Outputs& outputs, const Scenario& scenario) {

@@ -1,6 +1,7 @@
 // The subcommands. Each add_ function gives one its options, and says what it does.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -35,6 +36,8 @@ void add_overrides(Command& command, std::vector<std::string>& overrides);
 // Says that a command reads a scenario, and these tables with it.
 void reads_scenario(file::Outputs& outputs, const std::string& file,
                     const std::vector<std::string>& tables);
+// The same of the tables alone, of a result whose scenario is known.
+void reads_tables(file::Outputs& outputs, const std::optional<Scenario>& scenario);
 // The same of the files that the scene's own controller is made of.
 void reads_controller(file::Outputs& outputs, const Scenario& scenario);
 

@@ -122,26 +122,29 @@ std::vector<Task> tasks_of(const PlotArguments& arguments, std::string_view endi
   return tasks;
 }
 
+std::string option_of(const Task& task, const PlotArguments& arguments) {
+  return arguments.output.empty() ? "the picture of " + task.files.front() + ", without -o" : "-o";
+}
+
 // Comes before any of them is opened.
 void declare_files(const std::vector<Task>& tasks, const PlotArguments& arguments) {
   file::Outputs outputs;
   for (const std::string& file : arguments.files) outputs.reads(file, "what is drawn");
   if (!arguments.beside.summary.empty()) outputs.reads(arguments.beside.summary, "--summary");
   if (!arguments.beside.scenario.empty()) outputs.reads(arguments.beside.scenario, "--scenario");
-  for (const Task& task : tasks) {
-    outputs.writes(task.output, arguments.output.empty()
-                                    ? "the picture of " + task.files.front() + ", without -o"
-                                    : "-o");
-  }
+  for (const Task& task : tasks) outputs.writes(task.output, option_of(task, arguments));
 }
 
 void draw(const Task& task, plot::Format format, const PlotArguments& arguments,
           const Options& options) {
   std::vector<plot::Result> results;
+  file::Outputs outputs;
   for (const std::string& file : task.files) {
     results.push_back(plot::read_result(file, arguments.beside));
+    reads_tables(outputs, results.back().scenario);
     if (!options.quiet && !results.back().left_out.empty()) say(results.back().left_out);
   }
+  outputs.writes(task.output, option_of(task, arguments));
   const plot::Picture picture = picture_of(results, arguments);
   file::write_file(
       task.output,

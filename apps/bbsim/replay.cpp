@@ -117,6 +117,7 @@ std::vector<Replayed> read_all(const ReplayArguments& arguments, file::Outputs& 
       } else {
         outputs.reads(files[i], "what is shown");
         source.result = plot::read_result(files[i], arguments.beside);
+        reads_tables(outputs, source.result->scenario);
       }
       sources.push_back(std::move(source));
     } catch (const InputError& error) {

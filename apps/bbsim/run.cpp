@@ -39,6 +39,7 @@ void declare_files(const RunArguments& arguments, const Scenario& scenario,
   file::Outputs outputs;
   reads_scenario(outputs, arguments.scenario.file, table_files(scenario));
   reads_controller(outputs, scenario);
+  if (part) part->declare_read(outputs);
   if (!arguments.measures.empty()) {
     // A pipe is nobody's, but what came of it could not be read.
     for (const auto& [name, option] : {std::pair(output, "-o"), {arguments.summary, "--summary"}}) {
@@ -49,7 +50,7 @@ void declare_files(const RunArguments& arguments, const Scenario& scenario,
     prints(outputs);
   }
   outputs.writes(output, arguments.output.empty() ? "its name by default, without -o" : "-o");
-  if (part) part->declare(outputs);
+  if (part) part->declare_written(outputs);
   if (!arguments.summary.empty()) outputs.writes(arguments.summary, "--summary");
   if (!arguments.replay.empty()) outputs.writes(arguments.replay, "--replay");
 }

@@ -185,8 +185,11 @@ void RunPart::check(const model::Model& model,
   }
 }
 
-void RunPart::declare(file::Outputs& outputs) const {
+void RunPart::declare_read(file::Outputs& outputs) const {
   if (!arguments_.from.empty()) outputs.reads(arguments_.from, "--from-state");
+}
+
+void RunPart::declare_written(file::Outputs& outputs) const {
   if (!arguments_.save.empty()) outputs.writes(arguments_.save, "--save-state");
 }
 

@@ -42,7 +42,8 @@ class RunPart {
 
   // Checks the state that is gone on from, and these columns, before files are opened.
   void check(const model::Model& model, const std::vector<const scenario::Column*>& columns) const;
-  void declare(file::Outputs& outputs) const;
+  void declare_read(file::Outputs& outputs) const;
+  void declare_written(file::Outputs& outputs) const;
   void open();
   // Writes the state that the part left; what there is to say of it.
   [[nodiscard]] std::string finish(const model::Model& model);

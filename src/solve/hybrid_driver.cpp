@@ -104,14 +104,16 @@ class HybridIntegration {
 
   // From step to step, from a state that the stepper has; z is room for one.
   Outcome go_on(std::vector<double>& z) {
-    const double end = step_limit(part_, grid_.end());
+    const double last = step_limit(part_, grid_.end());
     double from = stepper_->time(), limit = from;
     for (std::size_t steps = 1;; ++steps) {
+      // What is due at the end may be a rounding behind it.
+      const double due = run_.next_time_event();
+      const double end = due > last && due - last <= slack(last) ? due : last;
       if (from >= stepper_->time()) {
         // Servos that are foreseen are not cut where a sample is only taken, nor by the run's end:
         // a longer run has the same steps.
-        limit = foresees_ ? std::min(run_.next_change(), fall_.time)
-                          : std::min(run_.next_time_event(), end);
+        limit = foresees_ ? std::min(run_.next_change(), fall_.time) : std::min(due, end);
         if (part_ != nullptr && part_->keeps_state) keep_state(limit);
         if (is_stopped()) return ended(Ending::interrupted, from);
         quiet_ = false;
@@ -122,7 +124,6 @@ class HybridIntegration {
           return failed(from, reason);
         }
       }
-      const double due = run_.next_time_event();
       const double to = std::min({stepper_->time(), due, end});
       double at = to;
       told_ = from;

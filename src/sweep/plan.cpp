@@ -109,34 +109,70 @@ void check_overrides(const std::string& key, const Source& source) {
   }
 }
 
-// Each key that varies, with the first of its values.
-std::vector<Setting> first_settings(const Sweep& sweep, const Source& source) {
-  std::vector<Setting> firsts;
+// A variation, taken apart.
+struct Varied {
+  scenario::VariationSpec spec;
+  std::vector<scenario::TiedKey> keys;
+};
+
+std::vector<Varied> varied(const Sweep& sweep, const Source& source) {
+  std::vector<Varied> all;
+  std::vector<Setting> seen;
   for (const Variation& variation : sweep.vary) {
-    const scenario::VariationSpec spec = scenario::parse_variation(variation);
-    for (const scenario::TiedKey& key : scenario::tied_keys(variation)) {
-      check_apart(key.path, firsts);
+    const Varied& one =
+        all.emplace_back(scenario::parse_variation(variation), scenario::tied_keys(variation));
+    for (const scenario::TiedKey& key : one.keys) {
+      check_apart(key.path, seen);
       check_overrides(key.path, source);
-      for (const std::string& value : spec.values) {
+      for (const std::string& value : one.spec.values) {
         if (!scenario::scaled(value, key.factor).empty()) continue;
         fail(variation.key, "found the value " + yaml::shown(value) +
                                 ", which is no number that a factor could be applied to; allowed: "
                                 "numbers, or keys without factors");
       }
-      firsts.push_back({key.path, scenario::scaled(spec.values[0], key.factor)});
+      seen.push_back({key.path, ""});
     }
   }
-  return firsts;
+  return all;
+}
+
+// Which of the values that are written stands beside value i of another variation in some case: in
+// a grid the first one; of those that are zipped the one of the same case, or the end nearer to it.
+std::size_t beside(const scenario::VariationSpec& other, const scenario::VariationSpec& own,
+                   std::size_t i, Combine combine) {
+  if (combine != Combine::zip || other.random() || own.random()) return 0;
+  const std::size_t last = other.values.size() - 1;
+  if (other.kind == Way::list && own.kind == Way::list) return std::min(i, last);
+  return 2 * i >= own.values.size() ? last : 0;
 }
 
 }  // namespace
 
-// Reads the values of the keys of one variation, which are the next ones of `settings`; these have
-// the first values of all keys, since the scenario need not be complete without.
+struct SweepPlan::Variations {
+  std::vector<Varied> all;
+
+  // Of every key, where variation `which` has its value i: the scenario need not be complete
+  // without the others.
+  [[nodiscard]] std::vector<Setting> settings(std::size_t which, std::size_t i,
+                                              Combine combine) const {
+    std::vector<Setting> settings;
+    for (const Varied& one : all) {
+      const bool own = &one == &all[which];
+      const bool deviation = own && one.spec.kind == Way::normal && i == 1;
+      const std::size_t at = own ? i : beside(one.spec, all[which].spec, i, combine);
+      for (const scenario::TiedKey& key : one.keys) {
+        const double factor = deviation ? std::abs(key.factor) : key.factor;
+        settings.push_back({key.path, scenario::scaled(one.spec.values[at], factor)});
+      }
+    }
+    return settings;
+  }
+};
+
+// Reads the values of the keys of one variation.
 void SweepPlan::add_axes(const ScenarioFamily& family, const Variation& variation,
-                         std::vector<Setting> settings) {
-  const scenario::VariationSpec spec = scenario::parse_variation(variation);
-  const std::vector<scenario::TiedKey> keys = scenario::tied_keys(variation);
+                         const Variations& variations, std::size_t which) {
+  const auto& [spec, keys] = variations.all[which];
   const std::size_t lead = axes_.size();
   Axis axis;
   axis.kind = spec.kind;
@@ -144,12 +180,9 @@ void SweepPlan::add_axes(const ScenarioFamily& family, const Variation& variatio
   axis.lead = lead;
   axis.stream = mixed(mixed(seed_) ^ hash(keys[0].path));
   std::vector<double> numbers;  // of the first key
-  for (const std::string& value : spec.values) {
-    const bool deviation = spec.kind == Way::normal && &value == &spec.values.back();
-    for (std::size_t k = 0; k < keys.size(); ++k) {
-      const double factor = deviation ? std::abs(keys[k].factor) : keys[k].factor;
-      settings[lead + k].value = scenario::scaled(value, factor);
-    }
+  for (std::size_t i = 0; i < spec.values.size(); ++i) {
+    const bool deviation = spec.kind == Way::normal && i == 1;
+    const std::vector<Setting> settings = variations.settings(which, i, combine_);
     for (std::size_t k = 0; k < (deviation ? 1 : keys.size()); ++k) {
       std::vector<Setting> read = settings;
       std::rotate(read.begin() + static_cast<std::ptrdiff_t>(lead + k),
@@ -200,8 +233,10 @@ SweepPlan::SweepPlan(const ScenarioFamily& family, const Sweep& sweep)
     throw InputError(
         "found no key to vary; allowed: --vary KEY=SPEC, or a sweep block in the scenario");
   }
-  const std::vector<Setting> firsts = first_settings(sweep, family.source());
-  for (const Variation& variation : sweep.vary) add_axes(family, variation, firsts);
+  const Variations variations{varied(sweep, family.source())};
+  for (std::size_t i = 0; i < sweep.vary.size(); ++i) {
+    add_axes(family, sweep.vary[i], variations, i);
+  }
 
   double cases = 1;
   bool random = false;

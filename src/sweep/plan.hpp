@@ -69,8 +69,10 @@ class SweepPlan {
                            const std::function<bool(double)>& goes_on) const;
 
  private:
+  struct Variations;
+
   void add_axes(const ScenarioFamily& family, const Variation& variation,
-                std::vector<ScenarioFamily::Setting> settings);
+                const Variations& variations, std::size_t which);
   [[nodiscard]] std::vector<ScenarioFamily::Setting> settings_of(
       const std::vector<double>& values) const;
   [[nodiscard]] bool is_lead(std::size_t axis) const { return axes_[axis].lead == axis; }

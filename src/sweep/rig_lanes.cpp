@@ -37,7 +37,8 @@ bool share_reference(const SweepPlan& plan) {
 class RigCarrier : public GroupCarrier {
  public:
   RigCarrier(const SweepTask& task, const Scenario& first)
-      : scenario_(task),
+      : task_(task),
+        scenario_(task),
         grid_(first.time),
         tolerances_{first.solver.rtol, first.solver.atol},
         measures_(task.measures, grid_),
@@ -73,7 +74,10 @@ class RigCarrier : public GroupCarrier {
       model::Model model = model::assemble(scenario, false);
       if (!is_carried(scenario, model) || solve::OutputGrid(scenario.time) != grid_ ||
           scenario.solver.rtol != tolerances_.rtol || scenario.solver.atol != tolerances_.atol ||
-          (!rigs_.empty() && !solve::held::go_together(rigs_.front().model, model))) {
+          (!rigs_.empty() && !solve::held::go_together(rigs_.front().model, model)) ||
+          std::ranges::any_of(task_.measures, [&](const scenario::Measure& measure) {
+            return bool(scenario::missing(measure, scenario));
+          })) {
         return;
       }
       rigs_.push_back({&one, std::move(model), model::constants_of(scenario)});
@@ -81,6 +85,7 @@ class RigCarrier : public GroupCarrier {
     }
   }
 
+  const SweepTask& task_;
   CaseScenario scenario_;
   solve::OutputGrid grid_;
   solve::Tolerances tolerances_;

@@ -127,6 +127,50 @@ TEST_CASE("no command writes over what it reads, nor twice into a file") {
         Names{"d.csv", "in.yaml", "link.json", "t.csv", "table.yaml", "y.csv.part"});
 }
 
+TEST_CASE("nothing writes over a state that it goes on from, nor over a table of what it shows") {
+  const Folder folder;
+  folder.write("recorded.yaml", scene_with_table);
+  folder.write("t.csv", table);
+  const auto run = [&](const Names& words) { return bbsim(words, folder.path()); };
+  const Names part{"run", "recorded.yaml", "--set", "time.step=0.5", "-q"};
+  REQUIRE(run(with(part, {"-o", "p.csv", "--until", "1", "--save-state", "s.csv"})).exit_code == 0);
+  const std::string state = folder.read("s.csv");
+  const Result over = run(with(part, {"--from-state", "s.csv", "-o", "s.csv"}));
+  CHECK(over.exit_code == 2);
+  CHECK_THAT(over.err, Contains("s.csv (--from-state), which is read here"));
+  CHECK(folder.read("s.csv") == state);
+  CHECK(run(with(part, {"--from-state", "s.csv", "-o", "q.csv"})).exit_code == 0);
+
+  std::string shown = scene_with_table;
+  for (const char* const name : {"t.html", "t.svg"}) {
+    CAPTURE(name);
+    folder.write("shown.yaml", std::string(shown).replace(shown.find("t.csv"), 5, name));
+    folder.write(name, table);
+    REQUIRE(run({"run", "shown.yaml", "-q", "-o", "r.csv", "--summary", "r.json"}).exit_code == 0);
+    const std::string command = name == std::string("t.html") ? "replay" : "plot";
+    for (const Names& more : {Names{}, Names{"--scenario", "shown.yaml"}}) {
+      const Result result = run(with({command, "r.csv", "-o", name}, more));
+      CHECK(result.exit_code == 2);
+      CHECK_THAT(result.err, Contains("(a table of the scenario), which is read here"));
+      CHECK(folder.read(name) == table);
+    }
+  }
+}
+
+TEST_CASE("an option with nothing for a value is refused, as of a variable that is not set") {
+  const Folder folder;
+  folder.write("in.yaml", scene);
+  for (const char* const option :
+       {"-o", "--error", "--summary", "--from-state", "--save-state", "--replay", "--set"}) {
+    CAPTURE(option);
+    const Result result = bbsim({"run", "in.yaml", option, ""}, folder.path());
+    CHECK(result.exit_code == 2);
+    CHECK_THAT(result.err, Contains("found nothing"));
+    CHECK_THAT(result.err, Contains(option));
+  }
+  CHECK(folder.files() == Names{"in.yaml"});
+}
+
 TEST_CASE("the shipped scenarios run in their own folder, and twice alike") {
   const Folder folder;
   for (const char* name :

@@ -14,6 +14,7 @@
 #include "record/recorder.hpp"
 #include "solve/integrate.hpp"
 #include "support/largest.hpp"
+#include "support/run_in_memory.hpp"
 #include "sweep/single.hpp"
 #include "sweep/superposition.hpp"
 #include "sweep/sweep.hpp"
@@ -619,6 +620,49 @@ TEST_CASE("a rig that does not fit among the others of its group is run by itsel
                       {"time.end=3"}, loop_measures);
     check_rig_lanes(setup);
   }
+}
+
+TEST_CASE("rigs in lanes have no number for what their scene does not know") {
+  const Setup setup(
+      "configs/rig.yaml",
+      {{"plate", "list:{size: [0.3, 0.2], inertia: [1e-3, 1e-3, 2e-3]},{size: [0.3, 0.2]}"},
+       {"ball.position.0", "linear:1 cm:4 cm:8"}},
+      {"time.end=0.5"}, {"x_end", "end_motor_torque_phi"});
+  const Engine engine = choose_engine(setup.task);
+  REQUIRE(engine.name == "rig lanes");
+  const CaseResults results = run_all(*engine.runner(), 16);
+  for (std::size_t i = 0; i < 16; ++i) {
+    CHECK(std::isfinite(results.numbers[3 * i + 1]));
+    CHECK(std::isfinite(results.numbers[3 * i + 2]) == (i < 8));
+    CHECK(results.status[i].reason ==
+          (i < 8 ? "" : "end_motor_torque_phi is no number: plate.inertia is not known"));
+  }
+}
+
+TEST_CASE("a command that comes at the end, but for rounding, has come at the last row") {
+  // 14 periods of 0.05 s are a rounding more than 0.7 s; and so is a sample with its delay.
+  const auto [period, delay, end] = GENERATE(table<std::string, std::string, std::string>(
+      {{"0.05", "0", "0.7"}, {"0.02", "0", "0.7"}, {"0.02", "0.03", "0.29"}}));
+  CAPTURE(period, end);
+  const std::vector<std::string> set{
+      "time.step=0.01", "controller.sampling={period: " + period + ", delay: " + delay + "}",
+      "time.end=" + end};
+  const Setup setup("configs/rig.yaml", {{"ball.position.0", "linear:3 cm:4 cm:8"}}, set,
+                    {"end_phi_command", "end_x_measured", "end_phi_acceleration"});
+  const Engine engine = choose_engine(setup.task);
+  REQUIRE(engine.name == "rig lanes");
+  const CaseResults lanes = run_all(*engine.runner(), 8);
+  CHECK(largest_difference(lanes, one_by_one(setup.task)) < 1e-9);
+  // It is the row of a longer run.
+  std::vector<std::string> longer = set;
+  longer.back() = "time.end=1";
+  const ScenarioFamily family(BBSIM_SOURCE_DIR "/configs/rig.yaml", longer);
+  const Scenario scenario = family.read(setup.plan.settings(0));
+  const bbsim_test::Run run =
+      bbsim_test::run_in_memory(scenario, Method::radau, {1e-8, 1e-10}, false);
+  const auto row = static_cast<std::size_t>(std::lround(std::stod(end) / 0.01));
+  CHECK(lanes.numbers[1] == Approx(run.samples.at(row).command[0]));
+  CHECK(lanes.numbers[2] == Approx(run.samples.at(row).measured[0]));
 }
 
 TEST_CASE("rigs in lanes do not depend on how their groups are handed out") {

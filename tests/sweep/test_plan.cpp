@@ -86,6 +86,18 @@ TEST_CASE("zip goes along all lists together") {
   CHECK(contains(fault(sweep), "ball.spin: found 2 values, and 3 of another key"));
 }
 
+TEST_CASE("zipped values are read beside those of their own case") {
+  // Each start is within its own limit, and the second is beyond the first one's.
+  Sweep sweep = vary({{"gimbal.servo.angle_limit", "list:0.2,0.5"},
+                      {"gimbal.start.phi", GENERATE("list:0.1,0.4", "linear:0.1:0.4:2")}});
+  const bool turned = GENERATE(false, true);
+  if (turned) std::swap(sweep.vary[0], sweep.vary[1]);
+  CHECK(contains(fault(sweep, loop), "beyond gimbal.servo.angle_limit"));
+  sweep.combine = Combine::zip;
+  CHECK(fault(sweep, loop) == "");
+  CHECK(values(plan_of(sweep, loop), 1) == (turned ? std::array{0.4, 0.5} : std::array{0.5, 0.4}));
+}
+
 TEST_CASE("what is drawn depends on seed, key and case alone") {
   Sweep sweep = vary({{"gravity", "uniform:9:10"}, {"ball.spin", "normal:5:2"}});
   sweep.samples = 2000;
