@@ -30,6 +30,9 @@ class Pace {
     return creeps(time, [] { return std::numeric_limits<double>::infinity(); });
   }
 
+  // Whether the last call looked at how far it is, as one of some thousands does.
+  [[nodiscard]] bool looked() const { return steps_ % window == 0; }
+
   // What it remembers (base/archive.hpp).
   template <class Archive>
   void archive(Archive& archive) {

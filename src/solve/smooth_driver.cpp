@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -23,6 +24,23 @@ class Step : public Piece {
  private:
   Stepper& stepper_;
 };
+
+// How far a ball, m, or a plane, rad, goes before a loop that has run away is given up, if it takes
+// thousands of steps: commands are sums of terms as large, whose rounding moves the servos.
+constexpr double most_gone = 1e9;
+
+bool has_run_away(const model::Model& model, const std::vector<double>& state) {
+  bool is_loop = false, is_far = false;
+  const std::vector<std::string> names = model.state_names();
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    const bool is_angle = names[i] == "phi" || names[i] == "theta";
+    is_loop = is_loop || is_angle;
+    if (is_angle || names[i] == "x" || names[i] == "y") {
+      is_far = is_far || std::abs(state[i]) > most_gone;
+    }
+  }
+  return is_loop && is_far;
+}
 
 }  // namespace
 
@@ -101,6 +119,9 @@ Outcome run_through(Stepper& stepper, const model::Model& model, const OutputGri
       stepper.evaluate(&reached, 1, row.data());
       outcome.last_state.assign(row.begin(),
                                 row.begin() + static_cast<std::ptrdiff_t>(model.size()));
+      break;
+    } else if (pace.looked() && has_run_away(model, stepper.state())) {
+      fail("the loop has run away, beyond 1e9 m or rad, where rounding is all that moves it");
       break;
     }
     if (watch.stop != nullptr && watch.stop->load(std::memory_order_relaxed)) {

@@ -226,3 +226,23 @@ TEST_CASE("a column that is no finite number has its reason, and the exit code s
   CHECK(contains(folder.read("a.json"), "\"status\": \"done\""));
   CHECK(contains(folder.read("a.json"), "normal_force is no finite number"));
 }
+
+TEST_CASE("a loop that runs away, to where rounding moves it, is not waited for") {
+  const Folder folder;
+  folder.write("runs.yaml",
+               "ball: {radius: 0.02, position: [0.5, 0]}\n"
+               "gimbal: {servo: {natural_frequency: 13.8273, damping: 0.8}, start: {phi: -0.02}}\n"
+               "controller:\n"
+               "  pd: {kv: [[0.1, 0], [0, -0.09]], kp: -0.9084745762711864}\n"
+               "  drives: angle\n"
+               "  reference: {point: [0.007, 0]}\n"
+               "time: {end: 7, step: 0.08}\n"
+               "output: {columns: [t, x]}\n");
+  const std::string method = GENERATE("radau", "bdf", "adams");
+  const Result result = bbsim({"run", "runs.yaml", "--set", "solver.rtol=1e-6", "--set",
+                               "solver.atol=1e-8", "--set", "solver.method=" + method},
+                              folder.path());
+  CHECK(result.exit_code == 1);
+  CHECK_THAT(result.err, Catch::Matchers::Contains("the loop has run away"));
+  CHECK(result.seconds < 30);
+}

@@ -627,7 +627,7 @@ TEST_CASE("rigs in lanes have no number for what their scene does not know") {
       "configs/rig.yaml",
       {{"plate", "list:{size: [0.3, 0.2], inertia: [1e-3, 1e-3, 2e-3]},{size: [0.3, 0.2]}"},
        {"ball.position.0", "linear:1 cm:4 cm:8"}},
-      {"time.end=0.5"}, {"x_end", "end_motor_torque_phi"});
+      {"time.end=0.5", "output.columns=[t, x]"}, {"x_end", "end_motor_torque_phi"});
   const Engine engine = choose_engine(setup.task);
   REQUIRE(engine.name == "rig lanes");
   const CaseResults results = run_all(*engine.runner(), 16);
