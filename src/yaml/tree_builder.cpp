@@ -42,7 +42,13 @@ void TreeBuilder::OnDocumentStart(const YAML::Mark& mark) {
 
 void TreeBuilder::OnNull(const YAML::Mark& mark, YAML::anchor_t anchor) {
   if (expects_key()) throw TextFault(at(mark), "found an empty key; allowed: a name");
-  complete(add(Node::Kind::null, mark), anchor);
+  Node& node = add(Node::Kind::null, mark);
+  // Of a value that is left out the mark is that of whatever comes next, lines below.
+  if (!open_.empty() && open_.back().key) {
+    const Position& key = open_.back().key->position;
+    if (key.line != node.position.line) node.position = key;
+  }
+  complete(node, anchor);
 }
 
 void TreeBuilder::OnAlias(const YAML::Mark& mark, YAML::anchor_t anchor) {

@@ -81,6 +81,15 @@ TEST_CASE("a wrong type") {
         "Hz\"");
 }
 
+TEST_CASE("a key without a value is where the key stands, whatever comes below") {
+  const std::string more = "time: {end: 1, step: 1}\n";
+  CHECK(errors("ball:\n  radius: 0.01\n  mass:\n\n# a comment\ngimbal: {motion: {}}\n" + more) ==
+        "scenario.yaml:3:3: ball.mass: found nothing; allowed: a mass greater than 0, such as 0.1 "
+        "or \"100 g\"");
+  CHECK_THAT(errors("ball: {radius: 0.01}\ngimbal: {motion: {}}\n" + more + "gravity:\n"),
+             Catch::Matchers::StartsWith("scenario.yaml:4:1: gravity: found nothing"));
+}
+
 TEST_CASE("a quantity of another dimension, and a number in quotes") {
   CHECK(errors("ball: {radius: \"0.01\"}\ntime: {end: 10 cm, step: 1}\ngimbal: {motion: {}}\n") ==
         "scenario.yaml:1:16: ball.radius: found \"0.01\", a text (drop the quotes or add a unit); "
