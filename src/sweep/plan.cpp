@@ -119,8 +119,8 @@ std::vector<Varied> varied(const Sweep& sweep, const Source& source) {
   std::vector<Varied> all;
   std::vector<Setting> seen;
   for (const Variation& variation : sweep.vary) {
-    const Varied& one =
-        all.emplace_back(scenario::parse_variation(variation), scenario::tied_keys(variation));
+    all.push_back({scenario::parse_variation(variation), scenario::tied_keys(variation)});
+    const Varied& one = all.back();
     for (const scenario::TiedKey& key : one.keys) {
       check_apart(key.path, seen);
       check_overrides(key.path, source);
@@ -172,7 +172,8 @@ struct SweepPlan::Variations {
 // Reads the values of the keys of one variation.
 void SweepPlan::add_axes(const ScenarioFamily& family, const Variation& variation,
                          const Variations& variations, std::size_t which) {
-  const auto& [spec, keys] = variations.all[which];
+  const scenario::VariationSpec& spec = variations.all[which].spec;
+  const std::vector<scenario::TiedKey>& keys = variations.all[which].keys;
   const std::size_t lead = axes_.size();
   Axis axis;
   axis.kind = spec.kind;
