@@ -68,7 +68,7 @@ void *bbsim_controller_create(const bbsim_setup *setup) {
 }
 
 static double law(const struct pid *pid, const struct axis *axis, double error, double rate) {
-  return pid->kp * error + pid->kv * (rate - axis->velocity) + pid->ki * axis->integral;
+  return pid->kp * error + pid->kv * (rate - axis->velocity) + axis->integral;
 }
 
 /* The angle that takes a coordinate of the ball to its reference. */
@@ -81,9 +81,9 @@ static double command_of(struct pid *pid, struct axis *axis, double seen, double
   axis->velocity = keep * axis->velocity + (1 - keep) * difference;
   axis->position = seen;
   before = law(pid, axis, error, rate);
-  /* The integral waits while the command is at its limit, unless the error brings it back. */
-  if (!(fabs(before) > pid->limit && pid->ki * error * before > 0)) {
-    axis->integral += error * pid->elapsed;
+  /* The integral waits while the command is at its limit and the error drives it outward. */
+  if (!(fabs(before) >= pid->limit && pid->ki * error * before > 0)) {
+    axis->integral += pid->elapsed * (pid->ki * error);
   }
   return law(pid, axis, error, rate);
 }

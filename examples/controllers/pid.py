@@ -10,7 +10,7 @@ import sys
 
 
 class Axis:
-    """One coordinate of the ball: velocity from filtered differences, and the integral of the error."""
+    """One coordinate of the ball: velocity from filtered differences, and the integral part of the command."""
 
     def __init__(self, hello):
         gains = hello["parameters"]
@@ -33,13 +33,13 @@ class Axis:
         self.position = seen
         error = reference - seen
         before = self.law(error, reference_rate)
-        # The integral waits while the command is at its limit, unless the error brings it back.
-        if not (abs(before) > self.limit and self.ki * error * before > 0):
-            self.integral += error * elapsed
+        # The integral waits while the command is at its limit and the error drives it outward.
+        if not (abs(before) >= self.limit and self.ki * error * before > 0):
+            self.integral += elapsed * (self.ki * error)
         return self.law(error, reference_rate)
 
     def law(self, error, reference_rate):
-        return self.kp * error + self.kv * (reference_rate - self.velocity) + self.ki * self.integral
+        return self.kp * error + self.kv * (reference_rate - self.velocity) + self.integral
 
 
 def main():
@@ -58,7 +58,7 @@ def main():
                 "protocol": 1,
                 "reset": True,
                 "save": True,
-                "columns": {"x_integral": "m s", "y_integral": "m s"},
+                "columns": {"x_integral": "rad", "y_integral": "rad"},
                 "fields": ["ball", "reference", "reference_rate"],
             }
         elif "save" in message:

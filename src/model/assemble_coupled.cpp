@@ -51,6 +51,7 @@ DryParts dry_parts(const Scenario& scene) {
   const Motor& motor = *scene.gimbal.motor;
   dry.friction = motor.friction;
   dry.torque_limit = motor.torque_limit.value_or(unlimited);
+  dry.integrates = motor.position_loop && motor.position_loop->ki > 0;
   if (motor.dc && motor.dc->voltage_limit) {
     const double torque_by_current = motor.dc->gear * motor.dc->torque_constant;
     dry.stall_torque = torque_by_current * *motor.dc->voltage_limit / motor.dc->resistance;

@@ -39,7 +39,8 @@ struct DrySwitches::BasicScene {
   Contact* contact;
   const CoupledBall* ball;
   Motor* motors = nullptr;  // none where no torques move the gimbal
-  int slip = 0, rate = 0;   // among the states
+  MotorLaw law{};
+  int slip = 0, angle = 0, rate = 0, integral = 0;  // among the states; the motors' integrals
   std::function<Balance<double>(double, const double*)> balance{};
 
   template <class AnyModel, class Use>
@@ -49,10 +50,14 @@ struct DrySwitches::BasicScene {
         [&](auto& any) -> Result {
           using Any = std::decay_t<decltype(any)>;
           if constexpr (is_coupled<Any>) {
-            BasicScene scene{&any.parts.contact, &any.parts.ball, nullptr, Any::Layout::slip};
+            BasicScene scene{&any.parts.contact, &any.parts.ball};
+            scene.slip = Any::Layout::slip;
             if constexpr (is_coupled_loop<Any>) {
               if (any.by != GimbalBy::servos) scene.motors = any.motors;
+              scene.law = any.motor;
+              scene.angle = Any::Layout::angle;
               scene.rate = Any::Layout::rate;
+              scene.integral = Any::Layout::motor;
             }
             scene.balance = [&any](double t, const double* z) {
               return any.balance(any.inputs(t), z);
@@ -78,7 +83,94 @@ void DrySwitches::append_scales(std::vector<double>& scales) const {
   scales.insert(scales.end(), 8, limit);
 }
 
-void DrySwitches::settle_limits(Scene& scene, double t, const double* z) const {
+// The most that a motor gives one way, 1 or -1, at a rate of its axis, N m.
+double DrySwitches::most(double side, double rate) const {
+  return std::clamp(parts_.by_voltage(side, rate), -parts_.torque_limit, parts_.torque_limit);
+}
+
+// How fast the integral adds to what is asked of motor i where it does not wait, N m/s.
+template <class AnyScene>
+double DrySwitches::push(const AnyScene& scene, int i, const double* z,
+                         const Pair& commanded) const {
+  return scene.law.from_integral * (commanded[static_cast<std::size_t>(i)] - z[scene.angle + i]);
+}
+
+template <class AnyScene>
+OutwardRate DrySwitches::outward_rate(const AnyScene& scene, int i, double side, const double* z,
+                                      const Balance<double>& now,
+                                      const MotorCommands& commands) const {
+  const double rate = z[scene.rate + i], acceleration = now.acceleration[i];
+  const bool by_voltage = std::abs(parts_.by_voltage(side, rate)) < parts_.torque_limit;
+  const double asked = scene.law.from_command * commands.rate[static_cast<std::size_t>(i)] -
+                       scene.law.from_angle * rate - scene.law.from_rate * acceleration;
+  const double limit = by_voltage ? -parts_.torque_by_rate * acceleration : 0.0;
+  return {side * (asked - limit), side * push(scene, i, z, commands.value)};
+}
+
+bool DrySwitches::moves_along_limit(const Model& model) const {
+  return integrates() && SeenScene::of(model, [](const SeenScene& scene) {
+           return scene.motors[0].along != 0 || scene.motors[1].along != 0;
+         });
+}
+
+void DrySwitches::leave_limits(Model& model, double t, double* z) {
+  if (!integrates()) return;
+  Scene::of(model, [&](Scene& scene) {
+    for (int i = 0; i < 2; ++i) {
+      const MotorMode& motor = scene.motors[i];
+      reached_[i] = motor.along != 0 ? motor.side : 0;
+      if (reached_[i] == 0) continue;
+      const double beyond = scene.balance(t, z).asked[i] - most(motor.side, z[scene.rate + i]);
+      z[scene.integral + i] -= beyond / scene.law.from_integral;
+    }
+  });
+}
+
+void DrySwitches::note_limit(const Model& model, double t, const double* z, std::size_t guard) {
+  if (!integrates() || guard < motor_guard || guard >= guards) return;
+  const std::size_t i = (guard - motor_guard) / 4, which = (guard - motor_guard) % 4;
+  SeenScene::of(model, [&](const SeenScene& scene) {
+    const MotorMode& motor = scene.motors[i];
+    if (motor.along != 0) return;  // leave_limits() has said so
+    if (motor.side == 0) {
+      reached_[i] = which % 2 == 0 ? 1 : -1;
+      return;
+    }
+    // What is asked comes back; not, where one limit takes over from the other.
+    const double rate = z[scene.rate + static_cast<int>(i)], asked = scene.balance(t, z).asked[i];
+    const bool at_torque = motor.by_rate == 0;
+    const bool within_voltage =
+        asked <= parts_.by_voltage(1, rate) && asked >= parts_.by_voltage(-1, rate);
+    const std::size_t own = at_torque ? 2 : motor.side > 0 ? 0 : 1;
+    if (which == own && (!at_torque || within_voltage)) reached_[i] = motor.side;
+  });
+}
+
+void DrySwitches::settle_at_limits(Model& model, double t, const double* z,
+                                   const MotorCommands& commands) {
+  if (!integrates() || (reached_[0] == 0 && reached_[1] == 0)) return;
+  Scene::of(model, [&](Scene& scene) {
+    const Balance<double> now = scene.balance(t, z);
+    for (int i = 0; i < 2; ++i) {
+      const double side = std::exchange(reached_[i], 0), rate = z[scene.rate + i];
+      if (side == 0) continue;
+      MotorMode& motor = scene.motors[i];
+      const OutwardRate outward = outward_rate(scene, i, side, z, now, commands);
+      const AtLimit place = outward.at_limit();
+      const bool within = place == AtLimit::within;
+      const bool by_voltage = std::abs(parts_.by_voltage(side, rate)) < parts_.torque_limit;
+      motor.factor = within ? 1 : 0;
+      motor.side = within ? 0 : side;
+      motor.by_rate = !within && by_voltage ? -parts_.torque_by_rate : 0;
+      motor.set = within ? 0 : by_voltage ? side * parts_.stall_torque : most(side, rate);
+      motor.along = place == AtLimit::along ? 1 : 0;
+      motor.integrate = within || (place == AtLimit::beyond && outward.push < 0) ? 1 : 0;
+    }
+  });
+}
+
+void DrySwitches::settle_limits(Scene& scene, double t, const double* z,
+                                const Pair& commanded) const {
   if (scene.motors == nullptr || !parts_.limits_torque()) return;
   const Balance<double> now = scene.balance(t, z);
   for (int i = 0; i < 2; ++i) {
@@ -86,7 +178,7 @@ void DrySwitches::settle_limits(Scene& scene, double t, const double* z) const {
     const double rate = z[scene.rate + i], asked = now.asked[i];
     const double up = parts_.by_voltage(1, rate), down = parts_.by_voltage(-1, rate);
     const double by_voltage = std::clamp(asked, down, up);
-    motor.by_rate = motor.set = motor.factor = 0;
+    motor.by_rate = motor.set = motor.factor = motor.along = 0;
     if (std::abs(by_voltage) > parts_.torque_limit) {
       motor.set = std::copysign(parts_.torque_limit, by_voltage);
     } else if (by_voltage != asked) {
@@ -95,7 +187,9 @@ void DrySwitches::settle_limits(Scene& scene, double t, const double* z) const {
     } else {
       motor.factor = 1;
     }
-    motor.integrate = motor.factor;
+    const double given = std::clamp(by_voltage, -parts_.torque_limit, parts_.torque_limit);
+    motor.side = motor.factor != 0 ? 0 : asked > given ? 1 : -1;
+    motor.integrate = motor.factor != 0 || motor.side * push(scene, i, z, commanded) < 0 ? 1 : 0;
   }
 }
 
@@ -154,9 +248,9 @@ int DrySwitches::faults(Scene& scene, double t, const double* z, const AtZero& z
   return faults;
 }
 
-void DrySwitches::settle(Model& model, double t, double* z) const {
+void DrySwitches::settle(Model& model, double t, double* z, const Pair& commanded) const {
   Scene::of(model, [&](Scene& scene) {
-    settle_limits(scene, t, z);
+    settle_limits(scene, t, z, commanded);
     ContactMode& contact = *scene.contact;
     AtZero zero;
     double* const slip = z + scene.slip;
@@ -250,7 +344,8 @@ void DrySwitches::settle(Model& model, double t, double* z) const {
   });
 }
 
-void DrySwitches::evaluate(const Model& model, double t, const double* z, double* values) const {
+void DrySwitches::evaluate(const Model& model, double t, const double* z,
+                           const MotorCommands& commands, double* values) const {
   std::fill(values, values + guards, unlimited);
   SeenScene::of(model, [&](const SeenScene& scene) {
     const ContactMode& contact = *scene.contact;
@@ -294,14 +389,29 @@ void DrySwitches::evaluate(const Model& model, double t, const double* z, double
       const double up = parts_.by_voltage(1, rate), down = parts_.by_voltage(-1, rate);
       const double left = std::clamp(asked, down, up);
       const bool at_voltage = motor.by_rate != 0, at_limit = motor.factor == 0 && !at_voltage;
-      if (at_limit) {
-        limit[2] = std::copysign(1.0, motor.set) * left - most;
+      if (motor.along != 0) {
+        const OutwardRate outward = outward_rate(scene, i, motor.side, z, now, commands);
+        limit[0] = outward.within();
+        limit[1] = -outward.beyond();
+        // The other limit takes over.
+        const double given = std::abs(motor.side > 0 ? up : down);
+        limit[2] = at_voltage ? most - given : given - most;
       } else {
-        limit[2] = most - left;
-        limit[3] = most + left;
-        limit[0] = at_voltage && motor.set > 0 ? asked - up : up - asked;
-        limit[1] = at_voltage && motor.set < 0 ? down - asked : asked - down;
-        if (at_voltage) limit[motor.set > 0 ? 1 : 0] = unlimited;
+        std::size_t spare = 0;
+        if (at_limit) {
+          limit[2] = std::copysign(1.0, motor.set) * left - most;
+        } else {
+          limit[2] = most - left;
+          limit[3] = most + left;
+          limit[0] = at_voltage && motor.set > 0 ? asked - up : up - asked;
+          limit[1] = at_voltage && motor.set < 0 ? down - asked : asked - down;
+          spare = motor.set > 0 ? 1 : 0;
+          if (at_voltage) limit[spare] = unlimited;
+        }
+        if (motor.side != 0 && integrates()) {
+          const double drives = motor.side * push(scene, i, z, commands.value);
+          limit[spare] = motor.integrate != 0 ? -drives : drives;
+        }
       }
       for (int k = 0; k < 4; ++k) {
         if (std::isnan(limit[k])) limit[k] = unlimited;

@@ -10,24 +10,49 @@
 #include <cstddef>
 #include <vector>
 
+#include "base/pair.hpp"
+#include "model/control/integral_limit.hpp"
 #include "model/model.hpp"
 
 namespace bbsim::model {
+
+// What is asked of position loops, as motors have it: rad, and rad/s.
+struct MotorCommands {
+  Pair value{0, 0}, rate{0, 0};
+};
 
 class DrySwitches {
  public:
   // `resolution` (m/s): velocities below it are taken to be near rest.
   DrySwitches(const DryParts& parts, double resolution) : parts_(parts), slow_(resolution) {}
 
-  static constexpr std::size_t guards = 15;
+  // Contact, rolling, spin and the motors' friction have `motor_guard` guards; each motor's limits
+  // have four after them.
+  static constexpr std::size_t motor_guard = 7, guards = motor_guard + 8;
   void append_scales(std::vector<double>& scales) const;
 
   // Chooses the mode that the model goes on in from here. What has come to rest is put to rest:
-  // changes z.
-  void settle(Model& model, double t, double* z) const;
+  // changes z. `commanded`: MotorCommands::value.
+  void settle(Model& model, double t, double* z, const Pair& commanded) const;
+
+  // Whether a motor's integral may wait at a limit of its torque: MotorCommands count then.
+  [[nodiscard]] bool integrates() const { return parts_.integrates && parts_.limits_torque(); }
+
+  // Whether one moves along a limit: MotorCommands::rate counts then.
+  [[nodiscard]] bool moves_along_limit(const Model& model) const;
+
+  // An integral that moves along a limit is no state meanwhile: it is what keeps the torque there.
+  // It becomes one again before anything else may change. Sets z.
+  void leave_limits(Model& model, double t, double* z);
+  // To be told of a guard that has fallen, before settle(): what is asked of a motor may have come
+  // to a limit.
+  void note_limit(const Model& model, double t, const double* z, std::size_t guard);
+  // After settle(): how what is asked of a motor goes on from a limit that it has come to.
+  void settle_at_limits(Model& model, double t, const double* z, const MotorCommands& commands);
 
   // Positive as long as nothing switches; `guards` numbers.
-  void evaluate(const Model& model, double t, const double* z, double* values) const;
+  void evaluate(const Model& model, double t, const double* z, const MotorCommands& commands,
+                double* values) const;
 
   // What somebody may want to be told of.
   struct State {
@@ -43,13 +68,22 @@ class DrySwitches {
   using Scene = BasicScene<ContactMode, MotorMode>;
   using SeenScene = BasicScene<const ContactMode, const MotorMode>;
   struct AtZero;
-  void settle_limits(Scene& scene, double t, const double* z) const;
+  void settle_limits(Scene& scene, double t, const double* z, const Pair& commanded) const;
+  template <class AnyScene>
+  [[nodiscard]] double push(const AnyScene& scene, int i, const double* z,
+                            const Pair& commanded) const;
+  template <class AnyScene>
+  [[nodiscard]] OutwardRate outward_rate(const AnyScene& scene, int i, double side, const double* z,
+                                         const Balance<double>& now,
+                                         const MotorCommands& commands) const;
+  [[nodiscard]] double most(double side, double rate) const;
   void settle_direction(DryDirection& of, const double (&v)[2], bool was_still) const;
   [[nodiscard]] int faults(Scene& scene, double t, const double* z, const AtZero& zero, bool slide,
                            bool rest) const;
 
   DryParts parts_;
   double slow_;
+  double reached_[2]{0, 0};  // the side of a limit that what is asked of a motor is exactly at
 };
 
 }  // namespace bbsim::model

@@ -231,7 +231,7 @@ std::string law_note(const Controller& controller) {
       text = "PD, equation (31)";
       break;
     case Law::pid:
-      text = "PID; the integral waits while the command is at its limit";
+      text = "PID; the integral waits at the limit while the error drives outward";
       break;
     case Law::state_feedback:
       text = "state feedback";

@@ -8,6 +8,7 @@
 
 #include "base/archive.hpp"
 #include "model/ball/dynamics.hpp"
+#include "simd/gradient.hpp"
 
 namespace bbsim::model {
 namespace {
@@ -171,6 +172,7 @@ const std::array<Jet<double>, 2>& HybridSystem::reference_at(double t) {
 void HybridSystem::act(double t, double* z) {
   touched_ = !only_commands_change_ || t == 0;
   settled_ = false;
+  leave_limits(std::nextafter(t, -unlimited), z);  // the input may jump now
   if (sampled_) {
     const double now = instant_end(t);
     while (sampled_->exchange.commands_by(now)) apply_command();
@@ -213,27 +215,95 @@ void HybridSystem::apply_command() {
   for (std::size_t i = 0; i < 2; ++i) mode_->wanted[i] = command[i];
 }
 
-// Whether a continuous law's command is at its limit.
-void HybridSystem::settle_commands(double t, const double* z) {
-  RigMode& present = *mode_;
-  for (std::size_t i = 0; i < 2; ++i) {
-    const CommandRange& limit = model_.rig->command_limit[i];
-    const double raw = axes(t, z).raw[i];
-    AxisMode& axis = present.axis[i];
-    const bool within = raw >= limit.low && raw <= limit.high;
-    axis.command_factor = within ? 1 : 0;
-    axis.set_command = within ? 0 : raw > limit.high ? limit.high : limit.low;
-  }
-  // The integral of the error in each coordinate waits while a command that it acts on is at its
-  // limit.
-  const ControlLaw law = with_loop([](const auto& loop) { return loop.law(); });
-  for (int j = 0; j < 2; ++j) {
-    bool waits = false;
+HybridSystem::CommandRates HybridSystem::command_rates(double t, const double* z) const {
+  rates_.resize(model_.size());
+  std::visit([&](const auto& any) { any.derivative(t, z, rates_.data()); }, model_.system);
+  return with_loop([&](const auto& loop) {
+    using Loop = std::decay_t<decltype(loop)>;
+    using Moving = simd::WithGradient<1>;
+    const auto moving = [](double value, double rate) {
+      return Moving(value, Moving::Gradient(rate));
+    };
+    Moving states[Loop::size];
+    for (int k = 0; k < Loop::size; ++k)
+      states[k] = moving(z[k], rates_[static_cast<std::size_t>(k)]);
+    const auto axes = loop.axes(loop.inputs(moving(t, 1)), states);
+    CommandRates rates;
     for (int i = 0; i < 2; ++i) {
-      waits = waits || (law.integral[i][j] != 0 && present.axis[i].command_factor == 0);
+      const auto axis = static_cast<std::size_t>(i);
+      rates.raw[axis] = axes.command.raw[i].gradient[0];
+      rates.shown[axis] = loop.shown(axes, i).gradient[0];
+      if (loop.law().integrates(axis) && Loop::size > Loop::Layout::integral) {
+        rates.raw[axis] -= rates_[static_cast<std::size_t>(Loop::Layout::integral) + axis];
+      }
     }
-    present.axis[j].integrate = waits ? 0 : 1;
+    return rates;
+  });
+}
+
+// What the error adds to a command, in its unit per second, where its integral part does not wait.
+double HybridSystem::command_push(int i, double t, const double* z) const {
+  return with_loop([&](const auto& loop) {
+    return integral_rate(loop.law(), static_cast<std::size_t>(i), z, loop.inputs(t));
+  });
+}
+
+OutwardRate HybridSystem::outward_rate(int i, double side, const CommandRates& rates, double t,
+                                       const double* z) const {
+  return {side * rates.raw[static_cast<std::size_t>(i)], side * command_push(i, t, z)};
+}
+
+// An integral part that moves with its command along a limit is no state meanwhile: it is what
+// leaves the command there. It becomes one again before anything else may change, at t.
+void HybridSystem::leave_limits(double t, double* z) {
+  if (dry_) dry_->leave_limits(model_, t, z);
+  if (!switches_ || !model_.rig->limits_commands()) return;
+  for (int i = 0; i < 2; ++i) {
+    AxisMode& axis = mode_->axis[i];
+    reached_[i] = axis.along != 0 ? axis.side : 0;
+    if (reached_[i] == 0) continue;
+    const double raw = axes(t, z).raw[static_cast<std::size_t>(i)];
+    z[with_loop([](const auto& loop) { return std::decay_t<decltype(loop)>::Layout::integral; }) +
+      i] += axis.set_command - raw;
   }
+}
+
+void HybridSystem::limit_command(int i, double side, AtLimit place, double push) {
+  const CommandRange& limit = model_.rig->command_limit[i];
+  AxisMode& axis = mode_->axis[i];
+  const bool within = place == AtLimit::within;
+  axis.command_factor = within ? 1 : 0;
+  axis.side = within ? 0 : side;
+  axis.set_command = within ? 0 : side > 0 ? limit.high : limit.low;
+  axis.along = place == AtLimit::along ? 1 : 0;
+  axis.integrate = within || (place == AtLimit::beyond && side * push < 0) ? 1 : 0;
+}
+
+// Whether a continuous law's command is at its limit, and what its integral part does there.
+void HybridSystem::settle_commands(double t, const double* z) {
+  for (int i = 0; i < 2; ++i) {
+    const CommandRange& limit = model_.rig->command_limit[i];
+    const double raw = axes(t, z).raw[static_cast<std::size_t>(i)];
+    const double side = raw > limit.high ? 1 : raw < limit.low ? -1 : 0;
+    limit_command(i, side, side == 0 ? AtLimit::within : AtLimit::beyond, command_push(i, t, z));
+  }
+}
+
+// Commands that are exactly at their limits: how they move says how they go on. All modes command
+// the same there, so that it does not depend on the present one.
+void HybridSystem::settle_at_limits(double t, const double* z) {
+  if (reached_[0] == 0 && reached_[1] == 0) return;
+  const CommandRates rates = command_rates(t, z);
+  for (int i = 0; i < 2; ++i) {
+    if (reached_[i] == 0) continue;
+    const OutwardRate outward = outward_rate(i, reached_[i], rates, t, z);
+    limit_command(i, reached_[i], outward.at_limit(), reached_[i] * outward.push);
+  }
+}
+
+MotorCommands HybridSystem::motor_commands(double t, const double* z, bool moving) const {
+  if (!model_.rig || !dry_->integrates()) return {};
+  return {axes(t, z).command, moving ? command_rates(t, z).shown : Pair{0, 0}};
 }
 
 AxisState HybridSystem::axis_state(int i, const Wanted& wanted, const double* z) const {
@@ -294,7 +364,11 @@ void HybridSystem::evaluate_pieces(const Wanted& wanted, const double* z, double
 
 void HybridSystem::settle(double t, double* z) {
   if (model_.rig) settle_rig(t, z);
-  if (dry_) dry_->settle(model_, t, z);
+  if (dry_) {
+    dry_->settle(model_, t, z, motor_commands(t, z, false).value);
+    dry_->settle_at_limits(model_, t, z, motor_commands(t, z, true));
+  }
+  settle_at_limits(t, z);
 }
 
 bool HybridSystem::stays_as_it_is(const double* z) const {
@@ -318,6 +392,7 @@ void HybridSystem::settle_rig(double t, double* z) {
     const bool has_pieces = model_.rig->between.has_pieces();
     if (has_pieces) settle_pieces(t, z);
     if (!settle_servos(t, z)) return;
+    reached_[0] = reached_[1] = 0;        // of the rates that it had
     if (has_pieces) settle_pieces(t, z);  // with the rates that it has now
   }
 }
@@ -365,19 +440,7 @@ void HybridSystem::evaluate_guards(double t, const double* z, double* values) co
       servos_[static_cast<std::size_t>(i)].evaluate(axis_state(i, wanted, z), values);
       double* const command = values + ServoAxis::guards;
       command[0] = command[1] = unlimited;
-      if (i >= 2 || !model_.rig->command_limit[i].binds()) continue;
-      const CommandRange& limit = model_.rig->command_limit[i];
-      const AxisMode& axis = mode_->axis[i];
-      const double raw = wanted.raw[static_cast<std::size_t>(i)];
-      // A command at a limit is watched at that one alone: it can pass to the other in no time.
-      if (axis.command_factor != 0) {
-        command[0] = limit.high - raw;
-        command[1] = raw - limit.low;
-      } else if (axis.set_command == limit.high) {
-        command[0] = raw - limit.high;
-      } else {
-        command[1] = limit.low - raw;
-      }
+      if (i < 2) evaluate_limit(i, wanted.raw[static_cast<std::size_t>(i)], t, z, command);
     }
     if (model_.rig->between.has_pieces()) {
       evaluate_pieces(wanted, z, values);
@@ -385,7 +448,7 @@ void HybridSystem::evaluate_guards(double t, const double* z, double* values) co
     }
   }
   if (dry_) {
-    dry_->evaluate(model_, t, z, values);
+    dry_->evaluate(model_, t, z, motor_commands(t, z, dry_->moves_along_limit(model_)), values);
     values += DrySwitches::guards;
   }
   if (happening_.empty()) return;
@@ -393,6 +456,48 @@ void HybridSystem::evaluate_guards(double t, const double* z, double* values) co
   for (std::size_t m = 0; m < happening_.size(); ++m) {
     if (happening_[m] != 0) values[m] = -values[m];
   }
+}
+
+// Two guards of a continuous law's command: of its limits and, at one of them, of what its integral
+// part does there.
+void HybridSystem::evaluate_limit(int i, double raw, double t, const double* z,
+                                  double* values) const {
+  const CommandRange& limit = model_.rig->command_limit[i];
+  if (!limit.binds()) return;
+  const AxisMode& axis = mode_->axis[i];
+  if (axis.side == 0) {
+    values[0] = limit.high - raw;
+    values[1] = raw - limit.low;
+  } else if (axis.along != 0) {
+    const OutwardRate outward = outward_rate(i, axis.side, command_rates(t, z), t, z);
+    values[0] = outward.within();
+    values[1] = -outward.beyond();
+  } else {
+    // It is watched at this limit alone: it can pass to the other in no time.
+    const int own = axis.side > 0 ? 0 : 1;
+    values[own] = axis.side * (raw - axis.set_command);
+    const double push = axis.side * command_push(i, t, z);
+    if (integrates(i)) values[1 - own] = axis.integrate != 0 ? -push : push;
+  }
+}
+
+// Which limit a command has come to, if that is why guard `fallen` has.
+void HybridSystem::note_limit(std::size_t fallen, double t, const double* z) {
+  const std::size_t first_dry = first_monitor() - DrySwitches::guards;
+  if (dry_ && fallen >= first_dry) dry_->note_limit(model_, t, z, fallen - first_dry);
+  const std::size_t i = fallen / axis_guards, guard = fallen % axis_guards;
+  if (!switches_ || i >= std::min<std::size_t>(servos_.size(), 2) || guard < ServoAxis::guards ||
+      !integrates(static_cast<int>(i))) {
+    return;
+  }
+  const bool upper = guard == ServoAxis::guards;
+  const double side = upper ? 1 : -1, present = mode_->axis[i].side;
+  if (present == 0 || (present == side && mode_->axis[i].along == 0)) reached_[i] = side;
+}
+
+bool HybridSystem::integrates(int i) const {
+  return with_loop(
+      [i](const auto& loop) { return loop.law().integrates(static_cast<std::size_t>(i)); });
 }
 
 std::array<HeldMotion, 2> HybridSystem::held_motions(const double* z) const {
@@ -445,6 +550,8 @@ void HybridSystem::note_turned(double integral) {
 HybridSystem::Effect HybridSystem::handle_state_event(std::size_t i, double t, double* z) {
   const std::size_t first_monitor = guards() - happening_.size();
   if (i < first_monitor) {
+    leave_limits(t, z);
+    note_limit(i, t, z);
     settle(t, z);
     return note_dry(t, z) == Effect::stop ? Effect::stop : Effect::restart;
   }

@@ -12,6 +12,7 @@
 
 #include "base/instant.hpp"
 #include "model/control/external_controller.hpp"
+#include "model/control/integral_limit.hpp"
 #include "model/control/sample_exchange.hpp"
 #include "model/control/sampled_controller.hpp"
 #include "model/dry_switches.hpp"
@@ -166,6 +167,11 @@ class HybridSystem {
     double told[most_servos], demand[most_servos];  // of the servos, rad and rad/s^2
   };
 
+  // How fast the law's commands move, in their unit per second.
+  struct CommandRates {
+    Pair raw, shown;  // before the limit, integral parts waiting; and as motors have them
+  };
+
   // Calls `use` with the RigLoop, of a model that has one.
   template <class Use>
   auto with_loop(Use use) const;
@@ -187,7 +193,18 @@ class HybridSystem {
   [[nodiscard]] double instant_end(double t) const {
     return sampled_ ? sampled_->exchange.instant_end(t) : t + rounding_of(t);
   }
+  void leave_limits(double t, double* z);
   void settle_commands(double t, const double* z);
+  void settle_at_limits(double t, const double* z);
+  void limit_command(int i, double side, AtLimit place, double push);
+  void note_limit(std::size_t fallen, double t, const double* z);
+  void evaluate_limit(int i, double raw, double t, const double* z, double* values) const;
+  [[nodiscard]] bool integrates(int i) const;
+  [[nodiscard]] CommandRates command_rates(double t, const double* z) const;
+  [[nodiscard]] double command_push(int i, double t, const double* z) const;
+  [[nodiscard]] OutwardRate outward_rate(int i, double side, const CommandRates& rates, double t,
+                                         const double* z) const;
+  [[nodiscard]] MotorCommands motor_commands(double t, const double* z, bool moving) const;
   void take_sample(double t, const double* z);
   void apply_command();
   Effect occur(std::size_t monitor, double t, const double* z);
@@ -206,6 +223,8 @@ class HybridSystem {
   KnownAnswers answers_;                                   // of the servos
   int rate_ = RigLayout::rate;                             // among the states, of the first servo
   std::size_t pieces_[2]{0, 0}, command_pieces_[2]{0, 0};  // of measured curves
+  double reached_[2]{0, 0};            // the side of the limit that a command is exactly at; else 0
+  mutable std::vector<double> rates_;  // of the states
   std::vector<double> guard_scales_;
   std::vector<char> happening_;  // for each monitor
   std::optional<DrySwitches> dry_;

@@ -62,8 +62,9 @@ std::vector<std::string> Model::state_names() const {
               loop.push_back(std::string(own ? "servo_" : "") + one);
             }
           }
-          loop.insert(loop.end(), {"x_integral", "y_integral", "phi_integral", "theta_integral",
-                                   "slip_x", "slip_y", "energy_lost", "motor_work"});
+          loop.insert(loop.end(),
+                      {"phi_command_integral", "theta_command_integral", "phi_integral",
+                       "theta_integral", "slip_x", "slip_y", "energy_lost", "motor_work"});
           return loop;
         } else if constexpr (is_coupled<Any>) {
           return {"x", "y", "vx", "vy", "r*spin", "slip_x", "slip_y", "energy_lost", "motor_work"};
@@ -75,7 +76,7 @@ std::vector<std::string> Model::state_names() const {
           }
         }
         if constexpr (Any::size == RigLoop<true>::size) {
-          names.insert(names.end(), {"x_integral", "y_integral"});
+          names.insert(names.end(), {"phi_command_integral", "theta_command_integral"});
         }
         return names;
       },

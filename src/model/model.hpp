@@ -21,6 +21,7 @@ struct DryParts {
   double static_friction = 0;       // beyond which it does
   double friction = 0;              // of the motors, N m
   double torque_limit = unlimited;  // of a motor, N m
+  bool integrates = false;          // its position loop
   // A voltage at its limit gives stall_torque - torque_by_rate rate one way; infinite without one.
   double stall_torque = unlimited, torque_by_rate = 0;  // N m, N m s
   std::optional<OnEvent> rest{}, stick{};               // whether they are events

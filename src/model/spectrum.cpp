@@ -66,7 +66,7 @@ Eigenvalues closed_loop_poles(const Model& model) {
             std::vector<int> rest{0, 1, 2, 3};
             for (int i = Layout::angle; i < Layout::integral; ++i) rest.push_back(i);
             for (int j = 0; j < 2; ++j) {
-              if (loop.law().integral[0][j] != 0 || loop.law().integral[1][j] != 0) {
+              if (loop.law().integrates(static_cast<std::size_t>(j))) {
                 rest.push_back(Layout::integral + j);
               }
             }
@@ -76,13 +76,10 @@ Eigenvalues closed_loop_poles(const Model& model) {
             return sorted_eigenvalues(full(rest, rest));
           } else if constexpr (is_rig<Loop>) {
             if (loop.law().kind == LawKind::held) return {};
-            // Without the spin, as below, and without an integral that nothing feels.
+            // Without the spin, as below, and without an integral part that never changes.
             std::vector<int> rest{0, 1, 2, 3, 5, 6, 7, 8};
             for (int i = 9; i < Loop::size; ++i) {
-              const int j = i - 9;
-              if (loop.law().integral[0][j] != 0 || loop.law().integral[1][j] != 0) {
-                rest.push_back(i);
-              }
+              if (loop.law().integrates(static_cast<std::size_t>(i - 9))) rest.push_back(i);
             }
             return sorted_eigenvalues(full(rest, rest));
           } else if constexpr (spin < 0) {

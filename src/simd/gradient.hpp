@@ -31,6 +31,8 @@ struct WithGradient {
     return {a.value - b.value, a.gradient - b.gradient};
   }
   friend WithGradient operator-(const WithGradient& a) { return {-a.value, -a.gradient}; }
+  WithGradient& operator+=(const WithGradient& b) { return *this = *this + b; }
+  WithGradient& operator-=(const WithGradient& b) { return *this = *this - b; }
   friend WithGradient operator*(const WithGradient& a, const WithGradient& b) {
     return {a.value * b.value, b.value * a.gradient + a.value * b.gradient};
   }
@@ -68,6 +70,12 @@ struct WithGradient {
     return {std::cos(a.value), -std::sin(a.value) * a.gradient};
   }
 };
+
+// A time that varies chooses its interval as a plain one does.
+template <int n>
+[[nodiscard]] double plain(const WithGradient<n>& t) {
+  return t.value;
+}
 
 // What variables first ... first + count - 1 add to each of some numbers, a row each.
 template <int rows, int n>

@@ -305,7 +305,8 @@ TEST_CASE("HDF5 parts of several instruction sets are merged, and the file names
 TEST_CASE("the instruction set is named") {
   const Result version = bbsim({"--version"});
   CHECK(version.exit_code == 0);
-  CHECK_THAT(version.out, Catch::Matchers::StartsWith("bbsim 0.2.0\ninstruction set: "));
+  CHECK_THAT(version.out,
+             Catch::Matchers::StartsWith("bbsim " BBSIM_VERSION "\ninstruction set: "));
   const Folder folder;
   folder.write("in.yaml", scene);
   const std::string name = version.out.substr(29, version.out.size() - 30);
@@ -332,7 +333,7 @@ TEST_CASE("a sweep's summary has its plan, its engine, and how the cases ended")
   CHECK(summary.at("cases") == 2);
   CHECK(summary.at("vary") == nlohmann::json{"controller.pd.kv=list:0.001,100"});
   CHECK(summary.at("overrides") == nlohmann::json{"time.end=1"});
-  CHECK(summary.at("version") == "0.2.0");
+  CHECK(summary.at("version") == BBSIM_VERSION);
   CHECK(summary.contains("instruction_set"));
 }
 

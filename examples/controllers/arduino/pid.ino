@@ -22,7 +22,7 @@ struct Axis {
   double reference = 0, position = 0, velocity = 0, integral = 0;
   bool seen_any = false;
 
-  double law() const { return kp * (reference - position) + kv * (0 - velocity) + ki * integral; }
+  double law() const { return kp * (reference - position) + kv * (0 - velocity) + integral; }
 
   double command(double seen, double elapsed) {
     const double keep = filter / (filter + elapsed);
@@ -30,8 +30,8 @@ struct Axis {
     position = seen;
     seen_any = true;
     const double before = law(), error = reference - position;
-    // The integral waits while the command is at its limit, unless the error brings it back.
-    if (!(fabs(before) > limit && ki * error * before > 0)) integral += error * elapsed;
+    // The integral waits while the command is at its limit and the error drives it outward.
+    if (!(fabs(before) >= limit && ki * error * before > 0)) integral += elapsed * (ki * error);
     const double u = law();
     return u > limit ? limit : u < -limit ? -limit : u;
   }

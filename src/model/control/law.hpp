@@ -31,7 +31,7 @@ enum class LawKind { held, linear, gravity_compensation, feedback_linearisation 
 
 // How a command u follows from the error e = reference - (x, y), rows phi, theta.
 //   held                    is none: the command is what it was
-//   linear                  u = gain (e, e', -q, -q') + integral (of e); q: the servos' angles
+//   linear                  u = gain (e, e', -q, -q') + i, i' = integral e; q: the servos' angles
 //   gravity_compensation    angles on which gravity gives the ball x_d'' + kv e' + kp e
 //   feedback_linearisation  accelerations of the gimbal that give the ball the same
 template <class Scalar>
@@ -51,9 +51,11 @@ struct BasicControlLaw {
     return false;
   }
 
-  [[nodiscard]] bool integrates() const {
-    return integral[0][0] != 0 || integral[0][1] != 0 || integral[1][0] != 0 || integral[1][1] != 0;
+  // Whether command i has an integral part; whether any has.
+  [[nodiscard]] bool integrates(std::size_t i) const {
+    return integral[i][0] != 0 || integral[i][1] != 0;
   }
+  [[nodiscard]] bool integrates() const { return integrates(0) || integrates(1); }
 };
 using ControlLaw = BasicControlLaw<double>;
 
@@ -62,7 +64,7 @@ template <class Real, class Integral = Real>
 struct Feedback {
   Real position[2], velocity[2];  // of the ball, as the controller knows them
   Real angle[2], rate[2];         // of the servos
-  Integral integral[2];           // of the error
+  Integral integral[2];           // the part of each command that integrates the error
 };
 
 template <class Real>
@@ -86,6 +88,15 @@ template <class Real>
     angle = angle - (at.sin - s) / at.cos;
   }
   return angle;
+}
+
+// How fast the integral part of command i grows where no limit stops it: K_I e, in the command's
+// unit per second.
+template <class Scalar, class Real, class Time>
+[[nodiscard]] Real integral_rate(const BasicControlLaw<Scalar>& law, std::size_t i,
+                                 const Real* position, const std::array<Jet<Time>, 2>& reference) {
+  return law.integral[i][0] * (reference[0].value - position[0]) +
+         law.integral[i][1] * (reference[1].value - position[1]);
 }
 
 // The acceleration that the last two laws want of the ball in coordinate i, m/s^2.
@@ -123,9 +134,9 @@ template <class Scalar, class Real, class Integral, class Time, class Limited>
     for (std::size_t j = 0; j < 2; ++j) {
       sum = sum + (law.gain[i][j] * (reference[j].value - state.position[j]) +
                    law.gain[i][2 + j] * (reference[j].rate - state.velocity[j]) -
-                   law.gain[i][4 + j] * state.angle[j] - law.gain[i][6 + j] * state.rate[j] +
-                   law.integral[i][j] * state.integral[j]);
+                   law.gain[i][4 + j] * state.angle[j] - law.gain[i][6 + j] * state.rate[j]);
     }
+    sum = sum + state.integral[i];
     u.raw[i] = sum;
     u.value[i] = limited(static_cast<int>(i), sum);
   }

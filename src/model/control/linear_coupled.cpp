@@ -186,7 +186,7 @@ std::vector<int> cycle_states(const Model& model, const MatrixXd& of_state) {
 
 }  // namespace
 
-std::vector<LinearSignal> coupled_signals(const Model& model) {
+std::vector<LinearSignal> coupled_signals(const Model& model, const std::string& command_unit) {
   const Places at = places_of(model);
   std::vector<LinearSignal> signals{
       {"x", "m"}, {"y", "m"}, {"vx", "m/s"}, {"vy", "m/s"}, {"r*spin", "m/s"}};
@@ -198,7 +198,9 @@ std::vector<LinearSignal> coupled_signals(const Model& model) {
       signals.push_back({name + (rates ? "_rate" : ""), rates ? "rad/s" : "rad"});
     }
   }
-  for (const char* one : {"x_integral", "y_integral"}) signals.push_back({one, "m s"});
+  for (const char* one : {"phi_command_integral", "theta_command_integral"}) {
+    signals.push_back({one, command_unit});
+  }
   for (const char* one : {"phi_integral", "theta_integral"}) signals.push_back({one, "rad s"});
   return signals;
 }
@@ -294,7 +296,7 @@ Rest rest_of(const Places& places, const ControlLaw& law, bool has_law) {
     rest.vanishing.push_back(place);
   };
   for (int j = 0; j < 2 && has_law; ++j) {
-    if (law.integral[0][j] != 0 || law.integral[1][j] != 0) both(places.integral + j);
+    if (law.integrates(static_cast<std::size_t>(j))) both(places.integral + j);
   }
   for (int j = 0; j < 2 && places.motor_integrates; ++j) both(places.motor + j);
   return rest;

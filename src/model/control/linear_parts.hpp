@@ -95,10 +95,12 @@ void link_controller(CycleParts& parts, const Linkages& link, const Rig& rig,
 [[nodiscard]] LinearPoint coupled_equilibrium(const Scenario& scene, const Model& model);
 
 // All states by name, and those that a plant and a continuous loop have: the spin where it acts on
-// another, a motor's own integral where it has one. Integrals of the law's error are left to it.
-[[nodiscard]] std::vector<LinearSignal> coupled_signals(const Model& model);
+// another, a motor's own integral where it has one. The integral parts of the law's commands are
+// left to it.
+[[nodiscard]] std::vector<LinearSignal> coupled_signals(const Model& model,
+                                                        const std::string& command_unit);
 [[nodiscard]] std::vector<int> coupled_states(const Model& model, const Eigen::MatrixXd& of_state);
-// Where the integrals of the law's error are.
+// Where the integral parts of the law's commands are.
 [[nodiscard]] int coupled_integral(const Model& model);
 
 }  // namespace bbsim::model

@@ -206,7 +206,7 @@ std::vector<LinearSignal> signals_of(const std::vector<LinearSignal>& all,
 }
 
 // Of the states of a RigLoop.
-std::vector<LinearSignal> rig_signals() {
+std::vector<LinearSignal> rig_signals(const std::string& command_unit) {
   return {{"x", "m"},
           {"y", "m"},
           {"vx", "m/s"},
@@ -216,8 +216,8 @@ std::vector<LinearSignal> rig_signals() {
           {"theta", "rad"},
           {"phi_rate", "rad/s"},
           {"theta_rate", "rad/s"},
-          {"x_integral", "m s"},
-          {"y_integral", "m s"}};
+          {"phi_command_integral", command_unit},
+          {"theta_command_integral", command_unit}};
 }
 
 std::string command_unit(const Scenario& scene) {
@@ -304,7 +304,8 @@ Linearisation plant_about(const Scenario& scene, const Model& model, const Linea
       full ? coupled_states(model, plant.of_state) : states_of(plant.of_state, axes);
   Linearisation made;
   LinearSystem& system = made.system;
-  system.states = signals_of(full ? coupled_signals(model) : rig_signals(), states);
+  const std::string unit = command_unit(scene);
+  system.states = signals_of(full ? coupled_signals(model, unit) : rig_signals(unit), states);
   system.inputs = signals_of_commands(scene, axes);
   system.outputs = signals_of_positions(axes, "");
   system.a = plant.of_state(states, states);
@@ -376,13 +377,14 @@ Linearisation continuous_loop_about(const Scenario& scene, const Model& model,
   std::vector<int> states =
       full ? coupled_states(model, loop.of_state) : states_of(loop.of_state, axes);
   for (const int axis : axes) {
-    // Without an integral that nothing feels.
+    // Without an integral part that never changes.
     const int place = (full ? coupled_integral(model) : integral) + axis;
-    if (integrates && !loop.command_of_state.col(place).isZero(0)) states.push_back(place);
+    if (integrates && !loop.of_state.row(place).isZero(0)) states.push_back(place);
   }
   Linearisation made;
   LinearSystem& system = made.system;
-  system.states = signals_of(full ? coupled_signals(model) : rig_signals(), states);
+  const std::string unit = command_unit(scene);
+  system.states = signals_of(full ? coupled_signals(model, unit) : rig_signals(unit), states);
   const std::vector<int> columns = reference_inputs(loop.of_reference, axes, system.inputs);
   system.outputs = signals_of_positions(axes, "");
   system.a = loop.of_state(states, states);
@@ -459,9 +461,10 @@ CycleParts cycle_parts_about(const Scenario& scene, const Model& model, const Li
 std::vector<LinearSignal> signals_of_cycle(const Scenario& scene, const Model& model,
                                            const LinearPoint& at, const std::vector<int>& states,
                                            const SampledCycle& cycle) {
+  const std::string unit = command_unit(scene);
   std::vector<LinearSignal> signals =
-      signals_of(in_full(scene, at) ? coupled_signals(model) : rig_signals(), states);
-  for (LinearSignal& signal : cycle.memory(command_unit(scene))) {
+      signals_of(in_full(scene, at) ? coupled_signals(model, unit) : rig_signals(unit), states);
+  for (LinearSignal& signal : cycle.memory(unit)) {
     signals.push_back(std::move(signal));
   }
   return signals;
@@ -598,10 +601,10 @@ void place_ball(const Rig& rig, const ControlLaw& law, LinearPoint& point) {
 
   std::vector<int> unknowns{0, 1};
   std::vector<int> integrated;
-  for (int j = 0; j < 2; ++j) {
-    if (law.integral[0][j] == 0 && law.integral[1][j] == 0) continue;
-    unknowns.push_back(8 + j);
-    integrated.push_back(j);
+  for (int i = 0; i < 2; ++i) {
+    if (!law.integrates(static_cast<std::size_t>(i))) continue;
+    unknowns.push_back(8 + i);
+    integrated.push_back(i);
   }
   const Eigen::Index n = std::ssize(unknowns);
   for (int i = 0; i < 50; ++i) {
@@ -617,9 +620,10 @@ void place_ball(const Rig& rig, const ControlLaw& law, LinearPoint& point) {
     slope.topLeftCorner(2, 2) = (slope.topLeftCorner(2, 2) * seen).eval();
     for (std::size_t k = 0; k < integrated.size(); ++k) {
       const auto row = static_cast<Eigen::Index>(2 + k);
-      left[row] = fed.position[integrated[k]] -
-                  point.reference[static_cast<std::size_t>(integrated[k])].value;
-      slope.row(row).head<2>() = seen.row(integrated[k]);
+      const double(&gain)[2] = law.integral[integrated[k]];
+      left[row] = -integral_rate(law, static_cast<std::size_t>(integrated[k]), fed.position,
+                                 point.reference);
+      slope.row(row).head<2>() = gain[0] * seen.row(0) + gain[1] * seen.row(1);
     }
     const auto solved = solve_if_regular(slope, -left);
     if (!solved) break;

@@ -66,7 +66,8 @@ LinearPlant about_home(Loop& loop, RigMode& mode, const std::vector<int>& of) {
 struct SampledCycle::Parts {
   VectorXd plant;
   std::deque<Vector2> exposures, commands;
-  Vector2 position, velocity, integral, held;
+  Vector2 position, velocity, held;
+  Vector2 integral = Vector2::Zero();
 };
 
 void CycleParts::take_controller(const Rig& rig, const LinearLaw& law) {
@@ -74,11 +75,15 @@ void CycleParts::take_controller(const Rig& rig, const LinearLaw& law) {
   of_reference = law.of_reference;
   sampling = rig.sampled->sampling;
   sensor = rig.sampled->sensor;
-  integrates = rig.sampled->law.integrates();
+  const double(&k)[2][2] = rig.sampled->law.integral;
+  of_integral << k[0][0], k[0][1], k[1][0], k[1][1];
   for (int i = 0; i < servos; ++i) time_constant[i] = rig.servo[i].time_constant;
 }
 
 SampledCycle::SampledCycle(CycleParts parts) : parts_(std::move(parts)) {
+  for (const Eigen::Index i : {0, 1}) {
+    if (!parts_.of_integral.row(i).isZero(0)) integrating_.push_back(i);
+  }
   const double period = parts_.sampling.period;
   const auto split = [period](double delay, double* whole) {
     *whole = std::floor(delay / period + 1e-9);
@@ -107,7 +112,7 @@ int SampledCycle::controller_at() const {
 }
 
 int SampledCycle::controller_size() const {
-  return 4 + (parts_.integrates ? 2 : 0);
+  return 4 + static_cast<int>(integrating_.size());
 }
 
 int SampledCycle::size() const {
@@ -126,7 +131,9 @@ std::vector<LinearSignal> SampledCycle::memory(const std::string& command_unit) 
   for (std::size_t i = 1; i <= exposures_; ++i) add("x", "y", "_seen_" + std::to_string(i), "m");
   add("x", "y", "_known", "m");
   add("vx", "vy", "_known", "m/s");
-  if (parts_.integrates) add("x", "y", "_integral", "m s");
+  for (const Eigen::Index i : integrating_) {
+    signals.push_back({i == 0 ? "phi_command_integral" : "theta_command_integral", command_unit});
+  }
   for (std::size_t i = 1; i <= commands_; ++i) {
     add("phi", "theta", "_waiting_" + std::to_string(i), command_unit);
   }
@@ -145,7 +152,7 @@ SampledCycle::Parts SampledCycle::unpacked(const VectorXd& state) const {
   for (std::size_t i = 0; i < exposures_; ++i) of.exposures.push_back(pair());
   of.position = pair();
   of.velocity = pair();
-  of.integral = parts_.integrates ? pair() : Vector2::Zero().eval();
+  for (const Eigen::Index i : integrating_) of.integral[i] = state[next++];
   for (std::size_t i = 0; i < commands_; ++i) of.commands.push_back(pair());
   of.held = application_ > 0 ? pair() : Vector2::Zero().eval();
   return of;
@@ -162,7 +169,7 @@ VectorXd SampledCycle::packed(const Parts& of) const {
   for (const Vector2& seen : of.exposures) put(seen);
   put(of.position);
   put(of.velocity);
-  if (parts_.integrates) put(of.integral);
+  for (const Eigen::Index i : integrating_) state[next++] = of.integral[i];
   for (const Vector2& command : of.commands) put(command);
   if (application_ > 0) put(of.held);
   return state;
@@ -206,7 +213,7 @@ SampledCycle::Output SampledCycle::run(const VectorXd& state, const Input& input
   of.exposures.pop_front();
   of.velocity = (keep * of.velocity + (1 - keep) / period * (output.seen - of.position)).eval();
   of.position = output.seen;
-  if (parts_.integrates) of.integral += period * (input.reference.head<2>() - output.seen);
+  of.integral += period * parts_.of_integral * (input.reference.head<2>() - output.seen);
   Eigen::Matrix<double, 10, 1> known;
   known << of.position, of.velocity, of.plant.segment<4>(4), of.integral;
   if (parts_.fed.size() > 0) known.segment<4>(4) = parts_.fed * of.plant;

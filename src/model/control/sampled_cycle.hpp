@@ -54,8 +54,8 @@ struct CycleParts {
   Eigen::Matrix<double, 2, 6> of_reference = Eigen::Matrix<double, 2, 6>::Zero();
   Sampling sampling;  // whose period is the nominal one
   Sensor sensor;      // which looks for each sample, whatever its frames
-  bool integrates = false;
-  std::optional<double> time_constant[most_servos]{};  // of servos of first order, s
+  Eigen::Matrix2d of_integral = Eigen::Matrix2d::Zero();  // rates of the integral parts, of e
+  std::optional<double> time_constant[most_servos]{};     // of servos of first order, s
 
   // All but the plant: the rig's controller, whose law is near this one.
   void take_controller(const Rig& rig, const LinearLaw& law);
@@ -72,8 +72,8 @@ struct CycleParts {
 
 // One period of a sampled loop, linear: from one sample to the next. Of its state, in this order:
 // the plant's; what was seen and not yet sampled; the position and velocity that the controller
-// has; the integral, if the law has one; the commands not yet applied; the command that is held, if
-// the period begins with it.
+// has; the commands' integral parts, if the law has them; the commands not yet applied; the command
+// that is held, if the period begins with it.
 class SampledCycle {
  public:
   explicit SampledCycle(CycleParts parts);
@@ -102,6 +102,7 @@ class SampledCycle {
   [[nodiscard]] Eigen::MatrixXd map() const;
 
  private:
+  using Integrating = std::vector<Eigen::Index>;
   struct Parts;
   [[nodiscard]] Parts unpacked(const Eigen::VectorXd& state) const;
   [[nodiscard]] Eigen::VectorXd packed(const Parts& parts) const;
@@ -110,6 +111,7 @@ class SampledCycle {
   void apply(Parts& of) const;
 
   CycleParts parts_;
+  Integrating integrating_;                   // the commands with an integral part
   double exposure_ = 0, application_ = 0;     // instants within the period, s
   std::size_t exposures_ = 0, commands_ = 0;  // in the queues at the period's start
   Eigen::MatrixXd advance_a_[3], advance_b_[3];

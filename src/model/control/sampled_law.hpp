@@ -26,7 +26,7 @@ struct SampledLaw {
 };
 
 // What it remembers from sample to sample: the ball's position as it saw it (m), its velocity, and
-// the integral of the error (m s).
+// the integral parts of the commands.
 template <class Real>
 struct SampledMemory {
   Real position[2], velocity[2], integral[2];
@@ -70,8 +70,8 @@ void keep_within_limits(const SampledLaw<Real>& of, Real (&command)[2]) {
 
 // A sample that saw the ball at `seen`, `elapsed` (s) after the last one that did; `first`: there
 // was none. `servo` are the servos' angles (rad) and rates (rad/s), for laws that feed them back.
-// The integral of a PID grows while its command is within the limit, or while the error brings it
-// back there.
+// Conditional integration: the integral part of a command waits while the command, before this
+// sample's error is added to it, is at its limit and the error drives it outward.
 template <class Real, class Mask>
 void take_sample(const SampledLaw<Real>& of, SampledMemory<Real>& memory, const Real (&seen)[2],
                  const Real& elapsed, const Mask& first, const Real (&servo)[4],
@@ -94,19 +94,15 @@ void take_sample(const SampledLaw<Real>& of, SampledMemory<Real>& memory, const 
     });
   };
   Command<Real> u = output();
-  for (std::size_t j = 0; j < 2; ++j) {
-    const Real e = reference[j].value - memory.position[j];
-    Real grows_beyond = Real(0.0);  // or 1
+  if (of.integrates) {
     for (std::size_t i = 0; i < 2; ++i) {
-      const Real push = of.law.integral[i][j] * e;
-      const Real& value = u.value[i];
-      const Real beyond = choose(exceeds(value, of.limit[i].high), value,
-                                 choose(exceeds(of.limit[i].low, value), value, Real(0.0)));
-      grows_beyond = choose(exceeds(push * beyond, Real(0.0)), Real(1.0), grows_beyond);
+      const Real rate = integral_rate(of.law, i, memory.position, reference);
+      const Real upward = choose(exceeds(of.limit[i].high, u.value[i]), rate, Real(0.0));
+      const Real downward = choose(exceeds(u.value[i], of.limit[i].low), rate, Real(0.0));
+      memory.integral[i] += elapsed * choose(exceeds(rate, Real(0.0)), upward, downward);
     }
-    memory.integral[j] += choose(exceeds(grows_beyond, Real(0.0)), Real(0.0), e * elapsed);
+    u = output();
   }
-  if (of.integrates) u = output();
   for (int i = 0; i < 2; ++i) commanded[i] = u.value[i];
   keep_within_limits(of, commanded);
 }

@@ -17,7 +17,9 @@ struct MotorMode {
   double factor = 1, set = 0, by_rate = 0;
   double opposed = 0;    // sign of the rate that dry friction opposes
   double free = 1;       // 0: dry friction holds the axis
-  double integrate = 1;  // the position loop's error; 0 while the torque is at a limit
+  double integrate = 1;  // the position loop's error; 0 while its integral waits at a limit
+  double side = 0;       // 1 or -1: more or less is asked than is given
+  double along = 0;      // 1: what is asked moves along a limit (control/integral_limit.hpp)
 };
 
 // What is asked of a motor, N m: from_command u - from_angle q - from_rate q' + from_integral times
@@ -359,8 +361,8 @@ class CoupledLoop {
     }
     for (int i = 0; i < 2; ++i) {
       const AxisMode& of = loop.mode.axis[i];
-      dz[Layout::integral + i] =
-          of.integrate * (integrates_ * (Real(in[static_cast<std::size_t>(i)].value) - z[i]));
+      dz[Layout::integral + i] = (of.integrate * integrates_) *
+                                 integral_rate(loop.law(), static_cast<std::size_t>(i), z, in);
       dz[Layout::motor + i] = (motor.from_integral != 0 ? motors[i].integrate : 0.0) *
                               (command[i] - z[Layout::angle + i]);
     }

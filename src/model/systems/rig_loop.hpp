@@ -27,7 +27,9 @@ struct AxisMode {
   double ratio = 1, offset = 0;
   // Command behind its limit = command_factor * command + set_command.
   double command_factor = 1, set_command = 0;
-  double integrate = 1;  // the error; 0 while the command is at its limit
+  double integrate = 1;  // 0: the integral part of the command waits at the limit
+  double side = 0;       // 1 or -1: the command is at its upper or lower limit
+  double along = 0;      // 1: it moves along that limit (control/integral_limit.hpp)
 };
 
 struct RigMode {
@@ -80,8 +82,8 @@ struct RigExtras {
 };
 static_assert(sizeof(RigExtras) == RigExtras::size * sizeof(double));
 
-// States: the ball's five, the servos' angles and rates; and the integrals of the error, of a law
-// in continuous time that has them. Link is what stands between the servos and the plane.
+// States: the ball's five, the servos' angles and rates; and the integral parts of the commands, of
+// a law in continuous time that has them. Link is what stands between the servos and the plane.
 template <bool integrates = false, class Signals = SignalPair, class Link = Direct>
 class RigLoop {
  public:
@@ -155,7 +157,7 @@ class RigLoop {
     if constexpr (integrates) {
       for (int i = 0; i < 2; ++i) {
         dz[Layout::integral + i] =
-            mode.axis[i].integrate * (reference[static_cast<std::size_t>(i)].value - z[i]);
+            mode.axis[i].integrate * integral_rate(law_, static_cast<std::size_t>(i), z, reference);
       }
     }
     Layout::derivative(rolling_, plane[0], plane[1], Layout::unpack(z), r_, g_, dz);
@@ -373,7 +375,10 @@ class RigLoop {
       state.velocity[i] = z[2 + i];
       state.angle[i] = z[Layout::angle + i];
       state.rate[i] = z[Layout::rate + i];
-      if constexpr (integrates) state.integral[i] = z[Layout::integral + i];
+      if constexpr (integrates) {
+        const bool counts = law_.integrates(static_cast<std::size_t>(i));
+        state.integral[i] = counts ? z[Layout::integral + i] : Real(0.0);
+      }
     }
     if constexpr (!Link::direct) {
       if (feeds_servos_back_) {

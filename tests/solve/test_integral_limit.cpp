@@ -1,0 +1,196 @@
+// Integrals that wait at a limit (docs/model.md, (M64)): a run agrees with the law smoothed over a
+// width, whose solution tends to it as the width goes to 0, with an error in proportion to it.
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "catch.hpp"
+#include "model/control/integral_limit.hpp"
+#include "support/largest.hpp"
+#include "support/reading.hpp"
+#include "support/run_in_memory.hpp"
+
+using namespace bbsim;
+using namespace bbsim_test;
+
+namespace {
+
+struct Case {
+  const char* what;
+  const char* text;
+};
+
+const Case cases[] = {
+    {"a PID whose command rests along its limit",
+     R"(ball: {radius: 0.02, position: [0.0777, -0.0502], velocity: [0.178, -0.0649]}
+gimbal: {servo: {natural_frequency: 23.2, damping: 1}}
+controller:
+  pid: {kv: [[0.777, 0], [0, -0.777]], kp: [[1.056, 0], [0, -1.056]], ki: [[1.737, 0], [0, -1.737]]}
+  drives: angle
+  limit: 0.1244
+  reference: {point: [0.0077, 0]}
+time: {end: 6, step: 0.05}
+)"},
+    {"an unstable PID that goes from limit to limit",
+     R"(ball: {radius: 0.02, position: [0.08, 0]}
+gimbal: {servo: {natural_frequency: 31.4, damping: 1}}
+controller:
+  pid: {kv: [[0.10, 0], [0, -0.10]], kp: [[0.21, 0], [0, -0.21]], ki: [[0.83, 0], [0, -0.83]]}
+  drives: angle
+  reference: {circle: {radius: 0.05, rate: 1.5}}
+  limit: 0.052
+time: {end: 4, step: 0.05}
+)"},
+    {"gains of both errors on each command, and one limit",
+     R"(ball: {radius: 0.02, position: [-0.06, 0.05]}
+gimbal: {servo: {natural_frequency: 30, damping: 0.8}}
+controller:
+  pid: {kv: [[0.6, 0.05], [0.02, -0.5]], kp: [[0.8, 0], [0.1, -0.9]], ki: [[1.1, 0.4], [0.3, -1.5]]}
+  drives: angle
+  reference: {point: [0.02, -0.01]}
+  limit: {phi: 0.05}
+time: {end: 4, step: 0.05}
+)"},
+    {"a motor's position loop at the limit of its torque",
+     R"(ball: {radius: 0.02, mass: 0.05, position: [0.08, -0.05]}
+plate: {inertia: [0.004, 0.004, 0.008]}
+gimbal:
+  motor: {position_loop: {kp: 5.66, kd: 0.243, ki: 58}, torque_limit: 0.18}
+  start: {phi: -0.13, theta: 0.13, theta_rate: -1.26}
+controller:
+  pd: {kv: [[0.6, 0], [0, -0.6]], kp: [[0.7, 0], [0, -0.7]]}
+  drives: angle
+  reference: {point: [0, 0]}
+time: {end: 3, step: 0.02}
+)"},
+    {"a motor's position loop at the limit of its voltage",
+     R"(ball: {radius: 0.02, mass: 0.05, position: [0.08, -0.05]}
+plate: {inertia: [0.004, 0.004, 0.008]}
+gimbal:
+  motor: {position_loop: {kp: 5.66, kd: 0.243, ki: 58}, torque_limit: 0.17, dc: {resistance: 2, torque_constant: 0.02, gear: 8, voltage_limit: 2.2}}
+  start: {phi: -0.13, theta: 0.13, theta_rate: -1.26}
+controller:
+  pd: {kv: [[0.6, 0], [0, -0.6]], kp: [[0.7, 0], [0, -0.7]]}
+  drives: angle
+  reference: {point: [0, 0]}
+time: {end: 3, step: 0.02}
+)"},
+};
+
+// How much of an error is integrated that drives u outward: all within, none beyond, and a part
+// over `width` before the limit.
+double share(double u, double low, double high, double push, double width) {
+  const double room = push > 0 ? high - u : u - low;
+  return std::isfinite(room) ? std::clamp(room / width, 0.0, 1.0) : 1.0;
+}
+
+// Puts a system into the mode of the smoothed law at a state.
+void smooth(const model::Model& model, model::RigLoop<true>& loop, double t, const double* z,
+            double width) {
+  const auto reference = loop.inputs(t);
+  const auto axes = loop.axes(reference, z);
+  for (std::size_t i = 0; i < 2; ++i) {
+    const model::CommandRange& limit = model.rig->command_limit[i];
+    model::AxisMode& axis = loop.mode.axis[i];
+    const double raw = axes.command.raw[i];
+    const double push = model::integral_rate(loop.law(), i, z, reference);
+    axis.command_factor = 0;
+    axis.set_command = std::clamp(raw, limit.low, limit.high);
+    axis.integrate = share(raw, limit.low, limit.high, push, width * limit.high);
+  }
+}
+void smooth(const model::Model& model, model::CoupledLoop<>& loop, double t, const double* z,
+            double width) {
+  using Layout = model::CoupledLoop<>::Layout;
+  const auto in = loop.inputs(t);
+  const auto now = loop.balance(in, z);
+  const auto axes = loop.loop.axes(in, z);
+  for (int i = 0; i < 2; ++i) {
+    const double rate = z[Layout::rate + i], most = model.dry->torque_limit;
+    const double high = std::min(most, model.dry->by_voltage(1, rate));
+    const double low = std::max(-most, model.dry->by_voltage(-1, rate));
+    const double push = loop.motor.from_integral * (axes.command.value[i] - z[Layout::angle + i]);
+    model::MotorMode& motor = loop.motors[i];
+    motor.factor = 0;
+    motor.set = std::clamp(now.asked[i], low, high);
+    motor.integrate = share(now.asked[i], low, high, push, width * most);
+  }
+}
+
+// The states at the rows' times, by the classical Runge-Kutta method in steps of `step` or less.
+template <class System>
+std::vector<std::vector<double>> smoothed(const model::Model& model, const OutputTimes& times,
+                                          double width, double step) {
+  System system = std::get<System>(model.system);
+  std::vector<double> z = model.initial, stage = z, sum = z;
+  std::vector<double> dz(z.size());
+  const solve::OutputGrid grid(times);
+  std::vector<std::vector<double>> rows{z};
+  for (std::size_t row = 1; row < grid.size(); ++row) {
+    const double from = grid[row - 1], all = grid[row] - from;
+    const int steps = static_cast<int>(std::ceil(all / step));
+    const double h = all / steps;
+    for (int k = 0; k < steps; ++k) {
+      const double t = from + k * h;
+      sum = z;
+      const double after[] = {0, 0.5, 0.5, 1}, weight[] = {1.0 / 6, 1.0 / 3, 1.0 / 3, 1.0 / 6};
+      for (int s = 0; s < 4; ++s) {
+        for (std::size_t i = 0; i < z.size(); ++i) stage[i] = z[i] + after[s] * h * dz[i] * (s > 0);
+        smooth(model, system, t + after[s] * h, stage.data(), width);
+        system.derivative(t + after[s] * h, stage.data(), dz.data());
+        for (std::size_t i = 0; i < z.size(); ++i) sum[i] += weight[s] * h * dz[i];
+      }
+      z = sum;
+    }
+    rows.push_back(z);
+  }
+  return rows;
+}
+
+std::vector<std::vector<double>> smoothed(const model::Model& model, const OutputTimes& times,
+                                          double width) {
+  // The smoothed integral settles within a time of width / push, some 0.02 s times the width.
+  const double step = 0.02 * width;
+  return std::holds_alternative<model::RigLoop<true>>(model.system)
+             ? smoothed<model::RigLoop<true>>(model, times, width, step)
+             : smoothed<model::CoupledLoop<>>(model, times, width, step);
+}
+
+}  // namespace
+
+TEST_CASE("a run whose integral waits at a limit is what the smoothed law tends to") {
+  const Case& one = cases[GENERATE(0, 1, 2, 3, 4)];
+  CAPTURE(one.what);
+  const Scenario scene = test::parse(one.text);
+  const Method method = GENERATE(Method::radau, Method::bdf);
+  const Run run = run_in_memory(scene, method, {1e-10, 1e-12});
+  REQUIRE(run.outcome.ending == solve::Ending::done);
+  CHECK(run.outcome.statistics.steps < 20000);
+  const model::Model model = model::assemble(scene, false);
+  const auto wide = smoothed(model, scene.time, 2e-3), narrow = smoothed(model, scene.time, 1e-3);
+  double own = 0, apart = 0;
+  for (std::size_t i = 0; i < run.samples.size(); ++i) {
+    const double at[] = {run.samples[i].ball.x, run.samples[i].ball.y};
+    for (std::size_t k = 0; k < 2; ++k) {
+      own = largest_finite(own, {std::abs(narrow[i][k] - wide[i][k])});
+      apart = largest_finite(apart, {std::abs(2 * narrow[i][k] - wide[i][k] - at[k])});
+    }
+  }
+  CAPTURE(own, apart);
+  CHECK(own > 1e-8);  // it waits somewhere
+  // Extrapolation takes out what is in proportion to the width. What is left falls faster, but not
+  // by much where a command leaves its limit tangentially.
+  CHECK(apart < 0.5 * own);
+}
+
+TEST_CASE("at a limit, what is left waiting and what the error adds say how a command goes on") {
+  using model::AtLimit;
+  using model::OutwardRate;
+  CHECK(OutwardRate{1, 1}.at_limit() == AtLimit::beyond);
+  CHECK(OutwardRate{1, -0.5}.at_limit() == AtLimit::beyond);  // and its integral comes back
+  CHECK(OutwardRate{1, -2}.at_limit() == AtLimit::within);
+  CHECK(OutwardRate{-1, 2}.at_limit() == AtLimit::along);
+  CHECK(OutwardRate{-1, 0.5}.at_limit() == AtLimit::within);
+  CHECK(OutwardRate{-1, -1}.at_limit() == AtLimit::within);
+}
