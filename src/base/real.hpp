@@ -36,6 +36,11 @@ template <class Real>
   return which ? yes : no;
 }
 
+// The larger of two; no number if one of them is none, which std::max() may pass over.
+[[nodiscard]] inline double larger(double a, double b) {
+  return a > b || std::isnan(a) ? a : b;
+}
+
 // The nearest integer, of two the even one. At 2^52 the spacing of doubles is one, so that the sum
 // rounds; the C library would have to be called for it.
 [[nodiscard]] inline double nearest_integer(double value) {

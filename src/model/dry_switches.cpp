@@ -4,10 +4,13 @@
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <numbers>
 #include <stdexcept>
 #include <type_traits>
 #include <utility>
 #include <variant>
+
+#include "base/instant.hpp"
 
 namespace bbsim::model {
 namespace {
@@ -77,9 +80,10 @@ struct DrySwitches::AtZero {
 };
 
 void DrySwitches::append_scales(std::vector<double>& scales) const {
+  const double slow = resolution_;
   const double torque = parts_.friction > 0 ? parts_.friction : 1;
   const double limit = parts_.torque_limit < unlimited ? parts_.torque_limit : 1;
-  scales.insert(scales.end(), {slow_, slow_, slow_, slow_, slow_, torque, torque});
+  scales.insert(scales.end(), {slow, slow, slow, slow, slow, torque, torque});
   scales.insert(scales.end(), 8, limit);
 }
 
@@ -193,15 +197,102 @@ void DrySwitches::settle_limits(Scene& scene, double t, const double* z,
   }
 }
 
-void DrySwitches::settle_direction(DryDirection& of, const double (&v)[2], bool was_still) const {
+double DrySwitches::slow(double t, const CoupledBall& ball) const {
+  // Steps go on to a velocity of zero by a part of what is left each, and need some roundings of
+  // the time for the last one. Slip is slowed down by friction, and by what that turns the ball.
+  constexpr double roundings = 64;
+  const double turns = parts_.slides ? 1 / ball.rolling.k : 0;
+  return std::max(resolution_, roundings * rounding_of(t) * (1 + turns) * ball.g);
+}
+
+void DrySwitches::settle_direction(DryDirection& of, double slow, const double (&v)[2],
+                                   bool was_still) {
   const double speed = size(v);
-  const bool fast = speed > (of.moving != 0 ? slow_ * (1 + 1e-9) : slow_ * faster * (1 - 1e-9)) ||
-                    (was_still && speed > slow_);
+  const bool fast = speed > (of.moving != 0 ? slow * (1 + 1e-9) : slow * faster * (1 - 1e-9)) ||
+                    (was_still && speed > slow);
   const bool keeps = !fast && of.moving == 0 && size(of.along) > 0 && !was_still;
   of.moving = fast ? 1 : 0;
   if (keeps) return;
   of.along[0] = v[0] / speed;
   of.along[1] = v[1] / speed;
+}
+
+// The angle from a motion along `along` to the acceleration that it then has, rad.
+template <class Turned>
+double start_angle(const Turned& turned, double at) {
+  // Rounding is 1e-16 of the accelerations that cancel.
+  constexpr double enough = 1e-14, half_turn = std::numbers::pi;
+  // The direction of the acceleration is often the answer, and a secant's way leads there.
+  double last = at, f_last = turned(last), next = last + f_last;
+  for (int i = 0; i < 12 && std::abs(f_last) > enough; ++i) {
+    const double f = turned(next), slope = (f - f_last) / (next - last);
+    last = std::exchange(next, next - f / slope);
+    f_last = f;
+    if (!(std::abs(next - last) < half_turn)) break;
+  }
+  if (std::abs(f_last) <= enough || std::abs(next - last) <= enough) return last;
+  // Otherwise all the way round: a place where the angle passes zero, and no half turn.
+  constexpr int parts = 32;
+  double from = at, f_from = turned(from);
+  for (int i = 1; i <= parts; ++i) {
+    double to = at + 2 * half_turn * i / parts, f_to = turned(to);
+    if (f_from * f_to <= 0 && std::abs(f_from - f_to) < half_turn) {
+      for (int k = 0; k < 100 && to - from > enough; ++k) {
+        const double middle = from + (to - from) / 2, f = turned(middle);
+        if (f_from * f > 0) {
+          from = middle;
+          f_from = f;
+        } else {
+          to = middle;
+        }
+      }
+      return from;
+    }
+    from = to;
+    f_from = f_to;
+  }
+  return at;
+}
+
+// What starts from rest does so along the acceleration that it gets, which depends on that
+// direction: the plane gives way to what it feels. Turns the directions so that this is so.
+void DrySwitches::start(Scene& scene, double t, const double* z, bool slip, bool roll) {
+  ContactMode& contact = *scene.contact;
+  const auto turn = [&](DryDirection& of, const auto& acceleration) {
+    if (!(size(of.along) > 0)) return 0.0;
+    const auto put = [&](double angle) {
+      of.along[0] = std::cos(angle);
+      of.along[1] = std::sin(angle);
+    };
+    const double before = std::atan2(of.along[1], of.along[0]);
+    const double found = start_angle(
+        [&](double angle) {
+          put(angle);
+          double a[2];
+          acceleration(scene.balance(t, z).answer, a);
+          return std::atan2(of.along[0] * a[1] - of.along[1] * a[0], dot(of.along, a));
+        },
+        before);
+    put(found);
+    return std::abs(found - before);
+  };
+  // Each changes the other: a few rounds, of which the second mostly finds nothing to do.
+  for (int round = 0; round < 20; ++round) {
+    double turned = 0;
+    if (slip) {
+      turned += turn(contact.slip, [](const Answer<double>& of, double(&a)[2]) {
+        a[0] = of.slip[0];
+        a[1] = of.slip[1];
+      });
+    }
+    if (roll) {
+      turned += turn(contact.roll, [](const Answer<double>& of, double(&a)[2]) {
+        a[0] = of.x - of.slip[0];
+        a[1] = of.y - of.slip[1];
+      });
+    }
+    if (!(turned > 1e-13) || !(slip && roll)) return;
+  }
 }
 
 // How many of the conditions do not hold under which what is at zero goes on in this mode.
@@ -222,8 +313,9 @@ int DrySwitches::faults(Scene& scene, double t, const double* z, const AtZero& z
   if (zero.roll && !rest) {
     contact.roll = against(now.answer.couple);
     contact.rests = false;
-    now = scene.balance(t, z);
   }
+  start(scene, t, z, zero.slip && slide, zero.roll && !rest);
+  now = scene.balance(t, z);
   const Answer<double>& of = now.answer;
   const double n = of.force[2];
   int faults = 0;
@@ -253,6 +345,7 @@ void DrySwitches::settle(Model& model, double t, double* z, const Pair& commande
     settle_limits(scene, t, z, commanded);
     ContactMode& contact = *scene.contact;
     AtZero zero;
+    const double slow = this->slow(t, *scene.ball);
     double* const slip = z + scene.slip;
     if (parts_.slides) {
       if (contact.slides && contact.slip.moving == 0 &&
@@ -261,7 +354,7 @@ void DrySwitches::settle(Model& model, double t, double* z, const Pair& commande
       }
       zero.slip = slip[0] == 0 && slip[1] == 0;
       if (!zero.slip) {
-        settle_direction(contact.slip, {slip[0], slip[1]}, !contact.slides);
+        settle_direction(contact.slip, slow, {slip[0], slip[1]}, !contact.slides);
         contact.slides = true;
       }
     }
@@ -279,7 +372,7 @@ void DrySwitches::settle(Model& model, double t, double* z, const Pair& commande
       }
       zero.roll = p[0] == 0 && p[1] == 0;
       if (!zero.roll) {
-        settle_direction(contact.roll, p, contact.rests || size(contact.roll.along) == 0);
+        settle_direction(contact.roll, slow, p, contact.rests || size(contact.roll.along) == 0);
         contact.rests = false;
       }
     }
@@ -351,10 +444,11 @@ void DrySwitches::evaluate(const Model& model, double t, const double* z,
     const ContactMode& contact = *scene.contact;
     const Balance<double> now = scene.balance(t, z);
     const double n = now.answer.force[2];
-    const auto moving = [this](const DryDirection& of, const double(&v)[2], double* value) {
+    const double slow = this->slow(t, *scene.ball);
+    const auto moving = [slow](const DryDirection& of, const double(&v)[2], double* value) {
       const double forward = dot(of.along, v), speed = size(v);
-      value[0] = of.moving != 0 ? forward - slow_ : forward;
-      value[1] = of.moving != 0 ? forward - speed / 2 : faster * slow_ - speed;
+      value[0] = of.moving != 0 ? forward - slow : forward;
+      value[1] = of.moving != 0 ? forward - speed / 2 : faster * slow - speed;
     };
     if (scene.ball->law.rolling > 0) {
       if (contact.rests) {
@@ -422,7 +516,8 @@ void DrySwitches::evaluate(const Model& model, double t, const double* z,
 
 DrySwitches::State DrySwitches::state(const Model& model) const {
   return SeenScene::of(model, [](const SeenScene& scene) {
-    State state{scene.contact->slides, scene.contact->rests, {}};
+    // A ball that slides without turning is not at rest.
+    State state{scene.contact->slides, scene.contact->rests && !scene.contact->slides, {}};
     for (int i = 0; i < 2 && scene.motors != nullptr; ++i) {
       state.sticks[i] = scene.motors[i].free == 0;
     }

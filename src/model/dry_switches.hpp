@@ -24,7 +24,7 @@ struct MotorCommands {
 class DrySwitches {
  public:
   // `resolution` (m/s): velocities below it are taken to be near rest.
-  DrySwitches(const DryParts& parts, double resolution) : parts_(parts), slow_(resolution) {}
+  DrySwitches(const DryParts& parts, double resolution) : parts_(parts), resolution_(resolution) {}
 
   // Contact, rolling, spin and the motors' friction have `motor_guard` guards; each motor's limits
   // have four after them.
@@ -77,12 +77,15 @@ class DrySwitches {
                                          const Balance<double>& now,
                                          const MotorCommands& commands) const;
   [[nodiscard]] double most(double side, double rate) const;
-  void settle_direction(DryDirection& of, const double (&v)[2], bool was_still) const;
+  // The speed next to rest, m/s. At a later time, a rounding of the time is more of one.
+  [[nodiscard]] double slow(double t, const CoupledBall& ball) const;
+  static void settle_direction(DryDirection& of, double slow, const double (&v)[2], bool was_still);
+  static void start(Scene& scene, double t, const double* z, bool slip, bool roll);
   [[nodiscard]] int faults(Scene& scene, double t, const double* z, const AtZero& zero, bool slide,
                            bool rest) const;
 
   DryParts parts_;
-  double slow_;
+  double resolution_;
   double reached_[2]{0, 0};  // the side of a limit that what is asked of a motor is exactly at
 };
 

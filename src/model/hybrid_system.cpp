@@ -132,9 +132,10 @@ HybridSystem::HybridSystem(const Model& model, double resolution) : model_(model
     dry_.emplace(*model_.dry, resolution);
     dry_->append_scales(guard_scales_);
   }
-  const std::size_t monitors = model_.events ? model_.events->monitors.size() : 0;
-  guard_scales_.insert(guard_scales_.end(), monitors, 1.0);
-  happening_.assign(monitors, 0);
+  if (model_.events) {
+    model_.events->append_scales(guard_scales_);
+    happening_.assign(model_.events->monitors.size(), 0);
+  }
 }
 
 void HybridSystem::handle_time_event(double t, double* z) {
@@ -387,7 +388,8 @@ void HybridSystem::settle_rig(double t, double* z) {
   if (!settled_) return;
   // A stop's kick may take the command to its limit, and that the servo from where it was: a few
   // rounds, of which the second mostly finds nothing to do.
-  for (int round = 0; round < 4; ++round) {
+  constexpr int most_rounds = 8;
+  for (int round = 0; round < most_rounds; ++round) {
     if (model_.rig->limits_commands()) settle_commands(t, z);
     const bool has_pieces = model_.rig->between.has_pieces();
     if (has_pieces) settle_pieces(t, z);
@@ -395,6 +397,7 @@ void HybridSystem::settle_rig(double t, double* z) {
     reached_[0] = reached_[1] = 0;        // of the rates that it had
     if (has_pieces) settle_pieces(t, z);  // with the rates that it has now
   }
+  unsettled_ = true;
 }
 
 // Whether a servo was taken from where it was, or a rate of the plane jumped.

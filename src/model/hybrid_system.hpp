@@ -71,6 +71,9 @@ class HybridSystem {
 
   // Whether the last act(), or handle_time_event(), may have changed how the model moves.
   [[nodiscard]] bool touched() const { return touched_; }
+  // Whether the servos, their stops and the commands' limits have no state together in which the
+  // run could go on.
+  [[nodiscard]] bool unsettled() const { return unsettled_; }
   // Whether it did so by no more than what the servos follow; to be asked right after it.
   [[nodiscard]] bool only_commanded() const { return !settled_; }
 
@@ -215,7 +218,7 @@ class HybridSystem {
   bool switches_ = false;    // the rig does
   double stop_ = unlimited;  // the next one, s
   std::size_t next_stop_ = 0;
-  bool touched_ = true, settled_ = true;
+  bool touched_ = true, settled_ = true, unsettled_ = false;
   // An instant changes the motion only by what it makes a servo follow; what it makes them follow
   // is the command itself; whether something else than servos may have to be settled.
   bool only_commands_change_ = false, is_direct_ = false, only_servos_settle_ = false;

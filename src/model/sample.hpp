@@ -5,6 +5,7 @@
 #include <limits>
 #include <optional>
 
+#include "base/real.hpp"
 #include "scenario/scenario.hpp"
 
 namespace bbsim::model {
@@ -28,15 +29,16 @@ enum class Detail { ball, gimbal, motion, loop, all };
 
 // What a scene with couples, sliding or torques has beside that. All of them doubles.
 struct CoupledMotion {
-  double x_ddot, y_ddot;  // m/s^2
-  double couple[3];       // of the plane on the ball, in the plane's frame, N m
-  double slip[2];         // velocity of the ball's surface at the contact, m/s
-  double asked[2];        // of the motors: torque before their limits, N m
-  double given[2];        // and behind them
-  double lost_power;      // to couples and friction, W
-  double lost, work;      // energy lost, and given by the motors, since the start, J
+  double x_ddot, y_ddot;       // m/s^2
+  double couple[3];            // of the plane on the ball, in the plane's frame, N m
+  double slip[2];              // velocity of the ball's surface at the contact, m/s
+  double asked[2];             // of the motors: torque before their limits, N m
+  double given[2];             // and behind them
+  double lost_power;           // to couples and friction, W
+  double lost, work;           // energy lost, and given by the motors, since the start, J
+  double sliding = no_number;  // the coefficient of friction, of a ball that slides
 
-  static constexpr int size = 14;
+  static constexpr int size = 15;
 };
 static_assert(sizeof(CoupledMotion) == CoupledMotion::size * sizeof(double));
 

@@ -1,6 +1,9 @@
+#include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <string>
 
+#include "base/number_text.hpp"
 #include "scenario/columns.hpp"
 #include "scenario/coupled.hpp"
 #include "scenario/sections.hpp"
@@ -22,6 +25,13 @@ std::optional<yaml::Value> find_at(yaml::Keys& keys, std::initializer_list<std::
   return value;
 }
 
+// Of measured periods, which come again after the last one; the nominal one where none are. s
+double mean_period(const Sampling& sampling) {
+  const auto& periods = sampling.periods;
+  if (periods.empty()) return sampling.period;
+  return std::accumulate(periods.begin(), periods.end(), 0.0) / static_cast<double>(periods.size());
+}
+
 class Checks {
  public:
   Checks(yaml::Keys& keys, const Scenario& scene) : keys_(keys), scene_(scene) {}
@@ -34,6 +44,7 @@ class Checks {
     events();
     losses();
     sliding();
+    body();
     torques();
     columns();
   }
@@ -123,17 +134,23 @@ class Checks {
 
   // How many samples, and how late, of a period that was found.
   void check_times(const Controller& controller) {
-    if (scene_.time.end > 0 && scene_.time.end / controller.sampling->period > 1e8) {
-      refuse({"controller", "sampling", "period"},
-             "found more than 1e8 samples until time.end; allowed: a longer period");
+    const double period = mean_period(*controller.sampling);
+    if (!(period > 0)) return;  // which has been reported
+    if (scene_.time.end > 0 && scene_.time.end / period > 1e8) {
+      const std::string why =
+          "found more than 1e8 samples until time.end; allowed: a longer period";
+      if (controller.sampling->periods.empty()) {
+        refuse({"controller", "sampling", "period"}, why);
+      } else {
+        refuse({"controller", "sampling", "jitter"}, why + " on average");
+      }
     }
-    if (controller.sampling->delay > most_periods * controller.sampling->period) {
+    if (controller.sampling->delay > most_periods * period) {
       refuse({"controller", "sampling", "delay"},
              "found more than 100 periods of controller.sampling; allowed: a shorter delay, or a "
              "longer period");
     }
-    if (controller.sensor &&
-        controller.sensor->delay > most_periods * controller.sampling->period) {
+    if (controller.sensor && controller.sensor->delay > most_periods * period) {
       refuse({"controller", "sensor", "delay"},
              "found more than 100 periods of controller.sampling; allowed: a shorter delay, or a "
              "longer period");
@@ -363,6 +380,28 @@ class Checks {
       refuse({"events", "slip", "action"},
              "found slide with a servo that jolts the plate (time_constant, angle_limit or "
              "backlash), for which sliding friction has no answer; allowed: stop or note");
+    }
+  }
+
+  // Moments of inertia are sums of squares of distances over a body's mass.
+  void body() {
+    const auto inertia = find_at(keys_, {"plate", "inertia"});
+    if (!inertia || !scene_.plate.inertia) return;
+    const auto& j = *scene_.plate.inertia;
+    // Moments are given with a few digits.
+    constexpr double more = 1 + 1e-6;
+    constexpr const char* axes[] = {"x", "y", "the normal"};
+    for (std::size_t i = 0; i < 3; ++i) {
+      const std::size_t second = (i + 1) % 3, third = (i + 2) % 3;
+      if (!(j[i] > more * (j[second] + j[third]))) continue;
+      inertia->warn("the moment about " + std::string(axes[i]) +
+                    " is greater than the sum of the other two, which no body has");
+    }
+    const double z = scene_.plate.centre_of_mass, least = scene_.plate.mass * z * z;
+    if (std::min(j[0], j[1]) * more < least) {
+      inertia->warn("a moment about x or y is less than " + number_text(least) +
+                    " kg m^2, plate.mass times the square of plate.centre_of_mass, which no body "
+                    "has: the moments are about the gimbal's centre");
     }
   }
 

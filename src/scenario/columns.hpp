@@ -106,7 +106,9 @@ inline constexpr std::array catalogue = {
     Column{"friction_force", "N", "size of the force of the plane on the ball along the plane",
            Needs::dynamics},
     Column{"friction_demand", "1",
-           "friction_force / normal_force; rolling needs it below the friction coefficient",
+           "friction_force / normal_force; rolling needs it below the friction coefficient, and "
+           "lifting "
+           "off takes it to infinity; of a sliding ball, its coefficient of friction",
            Needs::dynamics},
     Column{"torque_phi", "N m", "motor torque about phi's axis that carries the ball",
            Needs::dynamics},

@@ -88,6 +88,7 @@ class HybridIntegration {
       return go_on(z);
     }
     run_.handle_time_event(0, z.data());
+    if (run_.unsettled()) return unsettled(0);
     double* const first = rows_.next();
     std::copy(z.begin(), z.end(), first);
     if (plain_size_ > size_) first[size_] = 0;
@@ -146,11 +147,9 @@ class HybridIntegration {
           run_.handle_time_event(at, z.data());
           goes_on = goes_on && !run_.touched();
         }
-        if (standstill_.after(at)) {
-          Outcome outcome = ended(Ending::failed, at);
-          outcome.reason = "the rig switches without end at one instant";
-          return outcome;  // with no states: they are those of the switch, not of the stepper
-        }
+        if (run_.unsettled()) return unsettled(at);
+        if (standstill_.after(at))
+          return at_switch(at, "the rig switches without end at one instant");
         if (goes_on) {
           // A sample that changed nothing.
         } else if (run_.model().rig || run_.model().dry) {
@@ -402,6 +401,7 @@ class HybridIntegration {
     for (std::size_t p = 0; p < count; ++p) {
       run_.evaluate_guards(planned_times_[p], &planned_rows_[p * plain_size_], now_.data());
       for (std::size_t i = first_guard_; i < guards_.size(); ++i) {
+        if (std::isnan(now_[i])) return false;
         least_[i] = std::min(least_[i], now_[i]);
         most_[i] = std::max(most_[i], now_[i]);
       }
@@ -581,6 +581,18 @@ class HybridIntegration {
       if (ending == Ending::failed || ending == Ending::stopped) part_->state.clear();
     }
     return with_all_rows(std::move(outcome), end_row_);
+  }
+
+  // Failed at a switch; with no states, which are the stepper's from before it.
+  Outcome at_switch(double reached, std::string reason) {
+    Outcome outcome = ended(Ending::failed, reached);
+    outcome.reason = std::move(reason);
+    return outcome;
+  }
+  Outcome unsettled(double reached) {
+    return at_switch(reached,
+                     "the servos' stops and the commands' limits act on each other without end at "
+                     "one instant");
   }
 
   Outcome failed(double reached, std::string reason) {

@@ -43,7 +43,7 @@ double distance(const Track& a, const Track& b) {
 // Below a few roundings of the position itself no two runs can tell.
 double rounding(const Track& run) {
   double size = 0;
-  for (const double position : run.positions) size = std::max(size, std::abs(position));
+  for (const double position : run.positions) size = larger(size, std::abs(position));
   return 4 * std::numeric_limits<double>::epsilon() * size;
 }
 

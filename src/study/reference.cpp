@@ -179,7 +179,7 @@ double difference(const ReferenceSolution& a, const ReferenceSolution& b, int co
   double largest = 0;
   for (std::size_t i = 0; i < std::min(a.rows(), b.rows()); ++i) {
     for (int c = 0; c < coordinates; ++c) {
-      largest = std::max(largest, plain(abs(a.row(i)[c] - b.row(i)[c])));
+      largest = larger(largest, plain(abs(a.row(i)[c] - b.row(i)[c])));
     }
   }
   return largest;

@@ -44,7 +44,7 @@ double distance(const Expected& a, const Expected& b) {
   double largest = 0;
   for (const double difference : differences) {
     if (std::isnan(difference)) return infinity;
-    largest = std::max(largest, std::abs(difference));
+    largest = larger(largest, std::abs(difference));
   }
   return largest;
 }
@@ -54,7 +54,7 @@ double largest_distance(const WholeRun& run, double r,
   if (!run.done) return infinity;
   double largest = 0;
   for (std::size_t i = 0; i < run.samples.size(); ++i) {
-    largest = std::max(largest, distance(values(run.samples[i], r), expected(i)));
+    largest = larger(largest, distance(values(run.samples[i], r), expected(i)));
   }
   return largest;
 }
@@ -185,7 +185,7 @@ Check energy_conserved(const solve::Watch& watch) {
   double error = made.done ? 0 : infinity;
   const std::vector<Instant> instants = energies(made, scene);
   for (const Instant& instant : instants) {
-    error = std::max(error, std::abs(instant.energy - instants.front().energy));
+    error = larger(error, std::abs(instant.energy - instants.front().energy));
   }
   return {"fixed incline: energy is conserved", error, energy_allowance(made, scene), "J"};
 }
@@ -216,8 +216,8 @@ Check energy_balance(const solve::Watch& watch) {
   double quadrature = 0;
   for (std::size_t i = 0; i < coarse.size(); ++i) {
     const double gained = instants[8 * i].energy - instants.front().energy;
-    error = std::max(error, std::abs(gained - fine[2 * i]));
-    quadrature = std::max(quadrature, std::abs(coarse[i] - fine[2 * i]));
+    error = larger(error, std::abs(gained - fine[2 * i]));
+    quadrature = larger(quadrature, std::abs(coarse[i] - fine[2 * i]));
   }
   // Half the step divides the error of Boole's rule by 64: this is that of the coarse one, and
   // more than that of the fine one.
@@ -237,7 +237,7 @@ Check against_reference(const ReferenceScene& reference, const solve::Watch& wat
   for (const ReferenceRow& row : reference.rows) {
     const auto i = static_cast<std::size_t>(std::lround(row.t / scene.time.step));
     if (i >= made.samples.size()) break;
-    error = std::max(
+    error = larger(
         error, distance(values(made.samples[i], r), {row.x, row.y, r * row.spin, r * row.gamma}));
   }
   return {std::string(reference.name) + ": quad-precision reference", error, made.allowance, "m"};

@@ -22,7 +22,7 @@ double distance(const WholeRun& made, double (*value)(const Sample&),
                 const std::function<double(double)>& expected) {
   double largest = made.done ? 0 : infinity;
   for (const Sample& sample : made.samples) {
-    largest = std::max(largest, std::abs(value(sample) - expected(sample.t)));
+    largest = larger(largest, std::abs(value(sample) - expected(sample.t)));
   }
   return largest;
 }
@@ -122,7 +122,7 @@ Check balance(const char* name, const Scenario& scene, const solve::Watch& watch
     const model::Dynamics now = model::dynamics(made.samples[i], constants);
     const double sum = now.energy() + now.gimbal_energy + now.coupled.lost - now.coupled.work;
     if (i == 0) first = sum;
-    error = std::max(error, std::abs(sum - first));
+    error = larger(error, std::abs(sum - first));
   }
   const double weight = (scene.ball.mass + scene.plate.mass) * scene.gravity;
   return {name, error, (2 + weight) * made.allowance, "J"};

@@ -35,7 +35,7 @@ Check push_rod_inverted() {
   const model::Linkage linkage = make_linkage(push_rod(), model::Assumed::exact);
   double error = 0;
   for_each_servo([&](double servo) {
-    error = std::max(error, std::abs(linkage.servo_for(linkage.angle(servo)) - servo));
+    error = larger(error, std::abs(linkage.servo_for(linkage.angle(servo)) - servo));
   });
   return {"push rod: inverse of forward", error, 1e-13, "rad"};
 }
@@ -54,7 +54,7 @@ Check push_rod_slope() {
   const auto angle = [&](double servo) { return curve.angle(servo); };
   double error = 0;
   for_each_servo([&](double servo) {
-    error = std::max(error, std::abs(curve.plain_turn(servo).slope - difference(angle, servo)));
+    error = larger(error, std::abs(curve.plain_turn(servo).slope - difference(angle, servo)));
   });
   return {"push rod: slope against differences (M56)", error, of_differences, "1"};
 }
@@ -83,7 +83,7 @@ Check three_legs_inverted() {
     double servo[3], plane[2];
     three.told(wanted, servo);
     three.angles(servo, plane);
-    for (int i = 0; i < 2; ++i) error = std::max(error, std::abs(plane[i] - wanted[i]));
+    for (int i = 0; i < 2; ++i) error = larger(error, std::abs(plane[i] - wanted[i]));
   });
   return {"three servos: forward of inverse over the workspace (M58) to (M61)", error, 1e-13,
           "rad"};
@@ -107,7 +107,7 @@ Check three_legs_rates() {
         three.angles(moved, plane);
         return plane[i];
       };
-      error = std::max(error, std::abs(axis[i].rate - difference(angle, 0)));
+      error = larger(error, std::abs(axis[i].rate - difference(angle, 0)));
     }
   });
   return {"three servos: rates of the plane against differences", error, of_differences, "rad/s"};

@@ -28,7 +28,7 @@ WholeRun whole_run(const Scenario& scene, const solve::Watch& watch, Method meth
     const model::BallMotion& ball = sample.ball;
     for (const double value :
          {ball.x, ball.y, ball.x_dot, ball.y_dot, scene.ball.radius * ball.gamma_dot}) {
-      result.size = std::max(result.size, std::abs(value));
+      result.size = larger(result.size, std::abs(value));
     }
     result.samples.push_back(sample);
   }

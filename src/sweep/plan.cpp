@@ -52,7 +52,9 @@ double spaced(const Axis& axis, std::size_t i) {
     const double first = std::log(std::abs(axis.from)), last = std::log(std::abs(axis.to));
     return std::copysign(std::exp((first * after + last * before) / all), axis.from);
   }
-  return sum_of_products(axis.from, after, axis.to, before) / all;
+  const double sum = sum_of_products(axis.from, after, axis.to, before);
+  // Where the products overflow, or all of a difference would.
+  return std::isfinite(sum) ? sum / all : axis.from * (after / all) + axis.to * (before / all);
 }
 
 double listed(const Axis& axis, std::size_t i) {
@@ -282,7 +284,10 @@ SweepPlan::SweepPlan(const ScenarioFamily& family, const Sweep& sweep)
 double SweepPlan::drawn(const Axis& axis, std::size_t number) {
   const std::uint64_t bits = mixed(axis.stream + number);
   const double p = (static_cast<double>(bits >> 12U) + 0.5) * 0x1p-52;
-  if (axis.kind == Way::uniform) return axis.from + p * (axis.to - axis.from);
+  if (axis.kind == Way::uniform) {
+    const double width = axis.to - axis.from;
+    return std::isfinite(width) ? axis.from + p * width : (1 - p) * axis.from + p * axis.to;
+  }
   return axis.from + axis.to * normal_quantile(p);
 }
 

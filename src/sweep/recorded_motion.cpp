@@ -20,7 +20,7 @@ void RecordedMotion::accept(const solve::Piece& piece) {
     for (std::size_t i = 0; i < points_.size(); ++i) {
       const double value = rows_[i * row_size_ + c];
       kept.values[c].push_back(value);
-      kept.size = std::max(kept.size, std::abs(value));
+      kept.size = larger(kept.size, std::abs(value));
     }
   }
 }
@@ -40,7 +40,7 @@ std::array<double, 2> RecordedMotion::at(double t) const {
 double RecordedMotion::size(double from, double to) const {
   double size = 0;
   const auto last = piece_at(to);
-  for (auto piece = piece_at(from); piece <= last; ++piece) size = std::max(size, piece->size);
+  for (auto piece = piece_at(from); piece <= last; ++piece) size = larger(size, piece->size);
   return size;
 }
 

@@ -75,7 +75,7 @@ void RigLaneMeasures::accept(const LaneStep& step) {
       if (!wants_[i]) continue;
       const Range range = step.at_nodes(size, lane);
       double& greatest = greatest_[i][lane];
-      if (step.is_whole(lane)) greatest = std::max(greatest, range.most);
+      if (step.is_whole(lane)) greatest = larger(greatest, range.most);
       const double promises = (1 + worth) * greatest;
       if (solve::held::widened(range).most > promises && step.bounds(size, lane).most > promises) {
         look_closer(step, size, lane);
@@ -114,7 +114,7 @@ void RigLaneMeasures::look_closer(const LaneStep& step, Size size, std::size_t l
   double& most = greatest(size, lane);
   for (std::size_t i = 0; i < values_.size(); ++i) {
     values_[i] = size_at(size, i);
-    most = std::max(most, values_[i]);
+    most = larger(most, values_[i]);
   }
   most = search_.greatest_within(parts, values_.data(), record::Spacing::close, most);
 }
@@ -142,7 +142,7 @@ void RigLaneMeasures::take_end(std::size_t lane, const model::Model& model) {
   for (std::size_t i = 0; i < sizes; ++i) {
     if (!wants_[i]) continue;
     const auto size = static_cast<Size>(i);
-    greatest(size, lane) = std::max(greatest(size, lane), size_at(size, 0));
+    greatest(size, lane) = larger(greatest(size, lane), size_at(size, 0));
   }
 }
 

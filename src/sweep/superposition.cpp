@@ -86,7 +86,9 @@ class Stretches {
 
   // To be called with one stretch of time after another, in none of which an input has a corner.
   void add(double from, double to, int halvings = 0) {
-    if (halvings < most_halvings && !are_shown(from, to)) {
+    const bool shown = all_shown_ && are_shown(from, to);
+    if (!shown && halvings == most_halvings) all_shown_ = false;
+    if (!shown && all_shown_) {
       const double middle = from + (to - from) / 2;
       add(from, middle, halvings + 1);
       add(middle, to, halvings + 1);
@@ -97,6 +99,8 @@ class Stretches {
     }
   }
 
+  // Whether the stretches show the motions. They do not where these are no numbers, or too wild.
+  [[nodiscard]] bool all_shown() const { return all_shown_; }
   [[nodiscard]] std::size_t intervals() const { return points_.size() - 1; }
   [[nodiscard]] const std::vector<double>& times() const { return times_; }
 
@@ -118,12 +122,13 @@ class Stretches {
   const std::vector<RecordedMotion>* motions_;
   ChebyshevPoints points_;
   std::vector<double> times_;
+  bool all_shown_ = true;
 };
 
-// The fewest points that show all motions. High degrees need fewer of them, unless the inputs have
-// many corners.
-Stretches fewest_points(const std::vector<RecordedMotion>& motions, const model::Model& model,
-                        double end) {
+// The fewest points that show all motions, if any do. High degrees need fewer of them, unless the
+// inputs have many corners.
+std::optional<Stretches> fewest_points(const std::vector<RecordedMotion>& motions,
+                                       const model::Model& model, double end) {
   std::optional<Stretches> fewest;
   for (const std::size_t intervals : {15, 7}) {
     Stretches tried(motions, intervals);
@@ -133,9 +138,10 @@ Stretches fewest_points(const std::vector<RecordedMotion>& motions, const model:
       from = stop;
     }
     tried.add(from, end);
+    if (!tried.all_shown()) continue;
     if (!fewest || tried.times().size() < fewest->times().size()) fewest = std::move(tried);
   }
-  return *fewest;
+  return fewest;
 }
 
 // x and y of all terms at those points.
@@ -227,7 +233,9 @@ std::shared_ptr<const Superposed> solve_superposed(const SweepTask& task) {
     const solve::Outcome outcome = solve::run_through(stepper, model, grid, recorded, {});
     if (outcome.ending != solve::Ending::done) return nullptr;
   }
-  fill(*solutions, motions, fewest_points(motions, model, grid.end()));
+  const std::optional<Stretches> stretches = fewest_points(motions, model, grid.end());
+  if (!stretches) return nullptr;
+  fill(*solutions, motions, *stretches);
   // The tilt is that of the motion, whatever the ball does.
   solutions->gimbal = record::GimbalExtremes().of(motion, grid.end());
   return solutions;
@@ -310,7 +318,7 @@ class SuperpositionRunner : public CaseRunner {
       // All of it smaller, or larger, by a power of two.
       double size = 0;
       for (std::size_t i = 0; i < motion.rows; ++i) {
-        size = std::max({size, std::abs(at(x_, i)), std::abs(at(y_, i))});
+        size = larger(size, larger(std::abs(at(x_, i)), std::abs(at(y_, i))));
       }
       if (size == 0 || !std::isfinite(size)) return size;
       std::frexp(size, &exponent);

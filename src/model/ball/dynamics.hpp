@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cmath>
 
 #include "model/ball/contact_force.hpp"
 #include "model/sample.hpp"
@@ -34,11 +35,15 @@ struct Dynamics {
   double plate_torque_theta = 0;                    // N m
   double gimbal_energy = 0;           // of plate, ring and rotors, kinetic and potential, J
   double push_power = 0;              // of the push on the ball, W
-  CoupledMotion coupled{};            // all 0 where the ball rolls without losses
+  CoupledMotion coupled{};            // all 0, and no sliding, where it rolls without losses
   Pair current{0, 0}, voltage{0, 0};  // of the motors, A and V
   [[nodiscard]] double energy() const { return kinetic_energy + potential_energy; }
   [[nodiscard]] double normal_force() const { return force.z(); }
   [[nodiscard]] double friction_force() const { return force.head<2>().norm(); }
+  // Of a ball that slides it is known, also where both forces vanish as it lifts off.
+  [[nodiscard]] double friction_demand() const {
+    return std::isnan(coupled.sliding) ? friction_force() / normal_force() : coupled.sliding;
+  }
 };
 
 // The force of the plane on the ball in the plane's frame, N; z is the normal force.

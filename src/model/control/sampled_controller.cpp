@@ -1,8 +1,15 @@
 #include "model/control/sampled_controller.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace bbsim::model {
+
+BallSensor::BallSensor(const Sensor& sensor) : sensor_(sensor), noise_(sensor.seed) {
+  // Another sequence than those of noise and jitter (sample_times.cpp), of the same seed.
+  constexpr unsigned long other_sequence = 0x3c6ef372fe94f82aUL;
+  if (sensor.dropout > 0) dropouts_.emplace(sensor.seed + other_sequence);
+}
 
 bool BallSensor::read(double x, double y, Pair& seen) {
   double says[2] = {x, y};
@@ -16,13 +23,22 @@ bool BallSensor::read(double x, double y, Pair& seen) {
   if (sensor_.noise > 0) {
     for (double& coordinate : says) coordinate += sensor_.noise * noise_.normal();
   }
-  if (sensor_.dropout > 0) missed = noise_.uniform() < sensor_.dropout;
+  if (dropouts_) missed = dropouts_->uniform() < sensor_.dropout;
   if (sensor_.area) {
     missed = missed || std::abs(x) > (*sensor_.area)[0] / 2 || std::abs(y) > (*sensor_.area)[1] / 2;
   }
   for (std::size_t i = 0; i < 2; ++i) seen[i] = in_steps(says[i], sensor_.resolution);
   return !missed;
 }
+
+namespace {
+
+// The greatest multiple of a step that is not beyond the limit but for rounding.
+double inward(double limit, double step) {
+  return step > 0 && limit < unlimited ? std::floor(limit / step * (1 + 1e-12)) * step : limit;
+}
+
+}  // namespace
 
 SampledController::SampledController(const SampledLoop& loop)
     : period_(loop.sampling.period), resolution_(loop.sampling.resolution), between_(loop.between) {
@@ -32,9 +48,6 @@ SampledController::SampledController(const SampledLoop& loop)
   // What is between the servos and the plane makes steps of its own.
   const double step = loop.between.none() ? loop.sampling.resolution : 0;
   law_.resolution = step;
-  const auto inward = [step](double limit) {
-    return step > 0 && limit < unlimited ? std::floor(limit / step * (1 + 1e-12)) * step : limit;
-  };
   for (std::size_t i = 0; i < 2; ++i) {
     const CommandRange& limit = loop.limit[i];
     law_.limit[i] = {limit.low, limit.high};
@@ -42,7 +55,18 @@ SampledController::SampledController(const SampledLoop& loop)
     if (loop.law.kind == LawKind::gravity_compensation) {
       law_.sine[i] = {std::sin(limit.low), std::sin(limit.high)};
     }
-    law_.reached[i] = {-inward(-limit.low), inward(limit.high)};
+    law_.reached[i] = {-inward(-limit.low, step), inward(limit.high, step)};
+  }
+  if (loop.between.linkages.empty() || !(resolution_ > 0)) return;
+  for (std::size_t i = 0; i < 2; ++i) {
+    // Of what a servo is told, which may fall as the plane rises.
+    const CommandRange& limit = loop.limit[i];
+    const auto of = [&](double angle) {
+      return std::isfinite(angle) ? loop.between.linkages[i].told(angle) : angle;
+    };
+    const double a = of(limit.low), b = of(limit.high);
+    if (!std::isfinite(a) || !std::isfinite(b)) continue;
+    servo_[i] = {-inward(-std::min(a, b), resolution_), inward(std::max(a, b), resolution_)};
   }
 }
 
@@ -70,6 +94,8 @@ std::array<double, 3> SampledController::told(Pair command) const {
   if (between_.none()) return {command[0], command[1], 0};
   std::array<double, 3> servo = between_.told(command);
   for (double& one : servo) one = in_steps(one, resolution_);
+  for (std::size_t i = 0; i < 2; ++i)
+    servo[i] = std::clamp(servo[i], servo_[i].low, servo_[i].high);
   return servo;
 }
 

@@ -13,21 +13,23 @@ namespace bbsim::model {
 // A touch screen or a camera, read once a sample.
 class BallSensor {
  public:
-  explicit BallSensor(const Sensor& sensor) : sensor_(sensor), noise_(sensor.seed) {}
+  explicit BallSensor(const Sensor& sensor);
 
   // Whether it sees a ball at (x, y), m, from where it stands, and what it says of it. (Numbers one
   // by one: a pair that was just written by halves is slow to be read as a whole.)
   [[nodiscard]] bool read(double x, double y, Pair& seen);
 
-  // What of it changes over a run (base/archive.hpp): how far its noise is drawn.
+  // What of it changes over a run (base/archive.hpp): how far noise and dropouts are drawn.
   template <class Archive>
   void archive(Archive& archive) {
     archive(noise_);
+    if (dropouts_) archive(*dropouts_);
   }
 
  private:
   Sensor sensor_;
   Noise noise_;
+  std::optional<Noise> dropouts_;  // a sequence apart, which leaves the noise as it is without
 };
 
 // The law of a sampled loop (sampled_law.hpp). It has no velocity sensor: velocities are
@@ -46,7 +48,8 @@ class SampledController {
   [[nodiscard]] Pair within_limits(Pair command) const;
 
   // What the servos are told for such a command: itself, or what the linkage makes of it, in steps
-  // of the resolution. Two, or three.
+  // of the resolution. Two, within the limit; or three, whose rounding may move the plane a little
+  // beyond it.
   [[nodiscard]] std::array<double, 3> told(Pair command) const;
 
   // What it saw last; before the first sample, (0, 0).
@@ -67,6 +70,7 @@ class SampledController {
  private:
   double period_, resolution_;  // of samples, s, and of what the servos are told
   Between between_;
+  CommandRange servo_[2];  // behind a linkage: multiples of the resolution within the limit, rad
   SampledLaw<double> law_;
   SampledMemory<double> memory_{};
   SinceSeen since_;

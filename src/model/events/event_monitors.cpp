@@ -39,6 +39,29 @@ double EventMonitors::edge_margin(const Sample& sample) const {
   return left;
 }
 
+void EventMonitors::append_scales(std::vector<double>& scales) const {
+  using Kind = Monitor::Kind;
+  const double weight = constants.mass * (constants.gravity > 0 ? constants.gravity : 1.0);
+  for (const Monitor& monitor : monitors) {
+    switch (monitor.kind) {
+      case Kind::slip:
+      case Kind::lift_off:
+        scales.push_back(weight);
+        break;
+      case Kind::edge:
+        scales.push_back(edge_margin({}));  // at the plate's centre
+        break;
+      case Kind::tilt:
+      case Kind::singularity:
+        scales.push_back(monitor.limit);
+        break;
+      case Kind::dead_point:
+        scales.push_back(1);  // rad
+        break;
+    }
+  }
+}
+
 void EventMonitors::margins(const Sample& sample, double* values) const {
   using Kind = Monitor::Kind;
   const bool asks_for_force =

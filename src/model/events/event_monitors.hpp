@@ -25,6 +25,9 @@ struct EventMonitors {
   Plate plate;
   BallConstants constants;
 
+  // The size of each monitor's quantity: appends one of each.
+  void append_scales(std::vector<double>& scales) const;
+
   // Tells how far each monitor is from happening: negative once it does.
   void margins(const Sample& sample, double* values) const;
 

@@ -76,6 +76,7 @@ template <class Real>
   std::copy(now.asked, now.asked + 2, motion.asked);
   std::copy(now.given, now.given + 2, motion.given);
   motion.lost_power = now.lost_power;
+  if (parts.contact.slides) motion.sliding = parts.ball.law.sliding;
   motion.lost = lost;
   motion.work = work;
   return motion;

@@ -236,7 +236,7 @@ void TrackMeasures::look_at_distances(double& greatest) {
   if (!is_square(squared)) {
     double size = 0;
     for (std::size_t i = 0; i < points_; ++i) {
-      size = std::max({size, std::abs(x_.data()[i]), std::abs(y_.data()[i])});
+      size = larger(size, larger(std::abs(x_.data()[i]), std::abs(y_.data()[i])));
     }
     if (size == 0) return;
     if (!std::isfinite(size)) {
