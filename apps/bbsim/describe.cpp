@@ -36,7 +36,7 @@ std::string states_line(const model::Model& model) {
 std::string poles_line(const model::Eigenvalues& poles) {
   std::string line;
   for (std::size_t i = 0; i < poles.size(); ++i) {
-    if (poles[i].imag() < 0) continue;  // its conjugate has been named
+    if (poles[i].imag() < -1e-7 * std::abs(poles[i])) continue;  // its conjugate has been named
     if (!line.empty()) line += ", ";
     line += short_number(poles[i].real());
     // A smaller imaginary part is the rounding of a double pole's root.
@@ -50,11 +50,12 @@ namespace {
 
 std::string instability_of_samples(const model::Model& model) {
   const model::Eigenvalues poles = model::sampled_poles(model);
-  const auto outside = std::count_if(poles.begin(), poles.end(),
-                                     [](const auto& pole) { return std::abs(pole) > 1 + 1e-9; });
-  if (poles.empty() || std::abs(poles.front()) < 1 - 1e-9) return "";
+  if (poles.empty() || model::stable_by_period(poles)) return "";
+  const int outside = model::growing_by_period(poles);
   if (outside == 0) {
-    return "the sampled loop is not asymptotically stable about home: poles " +
+    return "the sampled loop is on the border of stability about home, as far as rounding can "
+           "tell: "
+           "poles " +
            sampled_poles_line(poles);
   }
   return "the sampled loop is unstable about home: " + std::to_string(outside) + " of its " +
@@ -66,10 +67,10 @@ std::string instability(const model::Model& model) {
   if (model.rig && model.rig->sampled) return instability_of_samples(model);
   const model::Eigenvalues poles = model::closed_loop_poles(model);
   if (poles.empty() || model::stable(poles)) return "";
-  const auto growing =
-      std::count_if(poles.begin(), poles.end(), [](const auto& pole) { return pole.real() > 0; });
+  const int growing = model::growing(poles);
   if (growing == 0) {
-    return "the closed loop is not asymptotically stable about home: poles (1/s) " +
+    return "the closed loop is on the border of stability about home, as far as rounding can tell: "
+           "poles (1/s) " +
            poles_line(poles);
   }
   return "the closed loop is unstable about home: " + std::to_string(growing) + " of its " +
@@ -215,7 +216,7 @@ std::string sampled_poles_line(const model::Eigenvalues& poles) {
   std::string line;
   std::size_t named = 0;
   for (const auto& pole : poles) {
-    if (pole.imag() < 0) continue;  // its conjugate has been named
+    if (pole.imag() < -1e-7 * std::abs(pole)) continue;  // its conjugate has been named
     if (std::abs(pole) < 1e-3 || named == 6) return line + ", smaller ones";
     if (!line.empty()) line += ", ";
     line += short_number(pole.real());

@@ -43,14 +43,17 @@ struct LoopMargins {
 
 struct Bandwidth {
   std::string output;  // x, of the response to x_reference
-  double value;        // rad/s, infinite if there is none
+  double value;        // rad/s, where the response is 1 / sqrt(2) of that at 0; or infinite
   double of_feedback;  // of a controller that is not told the reference's accelerations
 };
 
 struct Linearisation {
   LinearSystem system;
-  Eigenvalues poles, zeros;           // of a loop, from where the reference is to where the ball is
-  std::vector<LoopMargins> margins;   // of a loop
+  Eigenvalues poles, zeros;          // of a loop, from where the reference is to where the ball is
+  std::vector<LoopMargins> margins;  // of a loop
+  // Of a loop without its spin; of an unstable one, margins say where poles cross the border and
+  // not what it bears.
+  bool stable = false;
   std::vector<Bandwidth> bandwidths;  // of a loop
 };
 

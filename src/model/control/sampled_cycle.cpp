@@ -10,7 +10,6 @@
 #include "model/control/linear_law.hpp"
 #include "model/control/riccati.hpp"
 #include "model/dense.hpp"
-#include "model/eigenvalues.hpp"
 #include "model/systems/any_jacobian.hpp"
 
 namespace bbsim::model {
@@ -391,15 +390,6 @@ Eigenvalues plant_poles(const Model& model) {
         }
       },
       model.system);
-}
-
-Eigenvalues poles_of_period(const MatrixXd& map) {
-  Eigenvalues poles = eigenvalues_of(map);
-  std::sort(poles.begin(), poles.end(), [](const auto& a, const auto& b) {
-    const double p = std::abs(a), q = std::abs(b);
-    return p != q ? p > q : a.imag() > b.imag();
-  });
-  return poles;
 }
 
 }  // namespace bbsim::model

@@ -130,7 +130,4 @@ class SampledCycle {
 // part.
 [[nodiscard]] Eigenvalues plant_poles(const Model& model);
 
-// Eigenvalues of a map from period to period, in that order.
-[[nodiscard]] Eigenvalues poles_of_period(const Eigen::MatrixXd& map);
-
 }  // namespace bbsim::model
