@@ -8,6 +8,8 @@
 #include <optional>
 #include <vector>
 
+#include "model/control/common_cycle.hpp"
+
 namespace bbsim::app {
 
 std::string short_number(double value) {
@@ -106,6 +108,29 @@ std::string instability_warning(const Scenario& scenario, const model::Model& mo
         "k for both is [[k, 0], [0, -k]]";
   }
   return warning;
+}
+
+std::string without_frames(const Scenario& scenario, bool by_sample) {
+  const std::optional<Controller>& controller = scenario.controller;
+  if (!controller || !controller->sampling || !controller->sensor || !controller->sensor->period) {
+    return "";
+  }
+  const model::CommonCycle cycle = model::common_cycle(*controller->sampling, *controller->sensor);
+  const std::string start = "without the sensor's own frames, as if each sample had one: ",
+                    frames =
+                        "frames every " + short_number(1e3 * *controller->sensor->period) + " ms";
+  if (!controller->sampling->is_even()) {
+    return start + "at samples of an uneven clock their age is not known beforehand";
+  }
+  if (!cycle.known) {
+    return start + frames + " do not come round to samples every " +
+           short_number(1e3 * controller->sampling->period) + " ms again within 500 of these";
+  }
+  if (by_sample && cycle.samples > 1) {
+    return start + frames + " come round to the samples after " + short_number(cycle.samples) +
+           " of these, from one of which to the next the loop differs";
+  }
+  return "";
 }
 
 std::string failure_text(const Scenario& scenario, const model::Model& model,

@@ -10,6 +10,7 @@
 
 #include "base/error.hpp"
 #include "model/assemble_rig.hpp"
+#include "model/control/common_cycle.hpp"
 #include "model/control/linear_law.hpp"
 #include "model/control/linear_parts.hpp"
 #include "model/control/sampled_cycle.hpp"
@@ -515,9 +516,12 @@ CycleParts cycle_parts_with(const Scenario& scene, const LinearPoint& at,
 
 CycleParts cycle_parts_about(const Scenario& scene, const Model& model, const LinearPoint& at,
                              std::vector<int>& states) {
-  if (in_full(scene, at)) return coupled_cycle_at(model, at, states);
-  return has_linkages(scene) ? cycle_parts_with<Linkages>(scene, at, states)
-                             : cycle_parts_with<Direct>(scene, at, states);
+  CycleParts parts = in_full(scene, at)    ? coupled_cycle_at(model, at, states)
+                     : has_linkages(scene) ? cycle_parts_with<Linkages>(scene, at, states)
+                                           : cycle_parts_with<Direct>(scene, at, states);
+  // From sample to sample there is one system only if each looks at a frame of the same age.
+  if (common_cycle(parts.sampling, parts.sensor).samples > 1) parts.sensor.period.reset();
+  return parts;
 }
 
 std::vector<LinearSignal> signals_of_cycle(const Scenario& scene, const Model& model,

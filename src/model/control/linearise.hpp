@@ -60,9 +60,10 @@ struct Linearisation {
 // Why a scene has no linear equations, of which dry friction has none; empty if it has.
 [[nodiscard]] std::string why_not_linear(const Scenario& scene);
 
-// Without limits, dead band, backlash, rounding and noise. The spin is a state where it acts on
-// others, and an integral where the law has it. The scene is one of `model`, which says what
-// symmetry leaves out. Throws InputError where the scene has nothing of that kind.
+// Without limits, dead band, backlash, rounding and noise; without the frames of a sensor of which
+// each sample sees one of another age (common_cycle.hpp), as if it looked for each. The spin is a
+// state where it acts on others, and an integral where the law has it. The scene is one of `model`,
+// which says what symmetry leaves out. Throws InputError where the scene has nothing of that kind.
 [[nodiscard]] Linearisation linearise(const Scenario& scene, const Model& model, LinearKind kind,
                                       const LinearPoint& at);
 
