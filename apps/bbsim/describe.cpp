@@ -242,7 +242,7 @@ std::string sampled_poles_line(const model::Eigenvalues& poles) {
   std::size_t named = 0;
   for (const auto& pole : poles) {
     if (pole.imag() < -1e-7 * std::abs(pole)) continue;  // its conjugate has been named
-    if (std::abs(pole) < 1e-3 || named == 6) return line + ", smaller ones";
+    if (named == 6 || (named > 0 && std::abs(pole) < 1e-3)) return line + ", smaller ones";
     if (!line.empty()) line += ", ";
     line += short_number(pole.real());
     // A smaller imaginary part is the rounding of a double pole's root.
