@@ -91,7 +91,8 @@ Eigenvalues sorted_eigenvalues(const Eigen::MatrixXd& matrix) {
   Eigenvalues values = eigenvalues_of(matrix);
   sort_by(values, real_part);
   if (values.empty()) return values;
-  const double doubtful = 100 * epsilon * balanced(matrix).cwiseAbs().maxCoeff();
+  // Of three poles that are one, rounding moves each by its third root.
+  const double doubtful = 1e-5 * balanced(matrix).cwiseAbs().maxCoeff();
   if (std::ranges::all_of(values, [&](const auto& one) { return std::abs(one.real()) > doubtful; }))
     return values;
   RoundedValues known = rounded_values(matrix, 4 * epsilon, real_part);

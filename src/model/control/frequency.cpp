@@ -264,8 +264,10 @@ Margins margins_of(const FrequencyResponse& open_loop, const std::vector<double>
     if (!std::isfinite(w)) continue;
     const FrequencyResponse::Careful end = loop(w);
     const double l = end.value.real();
-    // At 0 it has to be what it is up to the slowest frequency that counts.
-    const bool counts = w > 0 || std::abs(loop(slowest).value - l) < 0.5 * std::abs(l);
+    // At 0 it has to be what it is up to the slowest frequency that counts: between that and a pole
+    // at 0 that rounding has moved it is not.
+    const double first = std::max(slowest, frequencies.front());
+    const bool counts = w > 0 || std::abs(loop(first).value - l) < 0.5 * std::abs(l);
     if (l < 0 && counts && end.rounding < 1e-3 * std::abs(l)) cross(w, l);
   }
   const Rounded size{[&](double w) { return std::log(std::abs(quickly(w))); },

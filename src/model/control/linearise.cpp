@@ -335,13 +335,14 @@ std::function<std::complex<double>(double)> tracking(const FrequencyResponse& re
 }
 
 // A closed loop as its margins and bandwidth are taken from: without the spin, whose pole no
-// command moves. Off home it is next to 0, and by way of it next to nothing would be a margin.
+// command moves. Off home it is next to 0, so that what a response is at rest, on which side of the
+// border the pole is, and by which factor it changes that, say nothing.
 struct PlainLoop {
   std::vector<int> states;  // of the system's
   MatrixXd a;
   Eigenvalues poles;
-  // What is slower than this has no part in its margins, rad/s: where the gimbal moves, the point
-  // has moved on by then.
+  // Gain margins slower than this say nothing either, rad/s: where the gimbal moves, the point has
+  // moved on by then.
   double slowest;
 };
 

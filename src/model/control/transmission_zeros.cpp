@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <optional>
 #include <utility>
 
@@ -23,6 +24,10 @@ struct Sum {
     // Entries have the rounding of an exponential, and of what eliminated them.
     constexpr double rounding = 1e-12;
     return !(std::abs(value) > rounding * of);
+  }
+  // Not even a digit of it is known.
+  [[nodiscard]] bool is_rounding() const {
+    return !(std::abs(value) > 32 * std::numeric_limits<double>::epsilon() * of);
   }
 };
 
@@ -230,7 +235,10 @@ std::vector<std::complex<double>> transmission_zeros(const MatrixXd& a, const Ma
   }
   MatrixXd matrix(left, left);
   for (Index i = 0; i < left; ++i) {
-    for (Index j = 0; j < left; ++j) matrix(i, j) = square.at(i, j).value;
+    for (Index j = 0; j < left; ++j) {
+      const Sum& one = square.at(i, j);
+      matrix(i, j) = one.is_rounding() ? 0 : one.value;
+    }
   }
   std::vector<std::complex<double>> zeros =
       left > most_exact ? eigenvalues_of(matrix) : exact_eigenvalues(matrix);
