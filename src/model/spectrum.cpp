@@ -98,7 +98,9 @@ Eigenvalues sorted_eigenvalues(const Eigen::MatrixXd& matrix) {
   RoundedValues known = rounded_values(matrix, 4 * epsilon, real_part);
   if (known.values.empty()) return values;
   for (std::size_t i = 0; i < known.values.size(); ++i) {
-    if (std::abs(known.values[i].real()) <= known.moved[i]) known.values[i].real(0);
+    std::complex<double>& value = known.values[i];
+    const double rounding = std::max(known.moved[i], 8 * epsilon * std::abs(value.imag()));
+    if (std::abs(value.real()) <= rounding) value.real(0);
   }
   sort_by(known.values, real_part);
   return known.values;

@@ -346,8 +346,9 @@ struct PlainLoop {
   double slowest;
 };
 
-// How fast the plane turns at a point, rad/s, and what it throws the ball by as it turns faster.
-double turning(const Scenario& scene, const LinearPoint& at, const PlantDerivatives& plant) {
+// Below which frequency a point has moved on before anything happens, rad/s: four times the rates
+// at which the plane turns, and at which it throws the ball as its turn quickens.
+double slowest_at(const Scenario& scene, const LinearPoint& at, const PlantDerivatives& plant) {
   const int servos = scene.gimbal.three_servos && !at.own.empty() ? 3 : 2;
   const double* const angles = (at.own.empty() ? at.state.data() : at.own.data()) + angle;
   const auto largest = [servos](const auto& of, int first) {
@@ -355,8 +356,8 @@ double turning(const Scenario& scene, const LinearPoint& at, const PlantDerivati
     for (int i = 0; i < servos; ++i) size = std::max(size, std::abs(of[first + i]));
     return size;
   };
-  return std::max(largest(plant.rates, angle),
-                  std::sqrt(largest(plant.rates, angle + servos) * largest(angles, 0)));
+  return 4 * std::max(largest(plant.rates, angle),
+                      std::sqrt(largest(plant.rates, angle + servos) * largest(angles, 0)));
 }
 
 PlainLoop plain_loop(Linearisation& made, double slowest) {
@@ -470,7 +471,7 @@ Linearisation continuous_loop_about(const Scenario& scene, const Model& model,
 
   MatrixXd of_command = MatrixXd::Zero(loop.of_state.rows(), 2);
   of_command.topRows(plant.of_command.rows()) = plant.of_command;
-  const PlainLoop plain = plain_loop(made, turning(scene, at, plant));
+  const PlainLoop plain = plain_loop(made, slowest_at(scene, at, plant));
   for (const int axis : axes) {
     const VectorXd b = of_command(states, axis);
     const Eigen::RowVectorXd c = loop.command_of_state(axis, states);
@@ -563,7 +564,7 @@ Linearisation sampled_loop_about(const Scenario& scene, const Model& model, cons
       transmission_zeros(system.a, of_reference.leftCols(2), system.c, MatrixXd::Zero(2, 2));
   const PlantDerivatives plant =
       in_full(scene, at) ? coupled_plant_at(model, at) : differentiate_rig(scene, at);
-  const PlainLoop plain = plain_loop(made, turning(scene, at, plant));
+  const PlainLoop plain = plain_loop(made, slowest_at(scene, at, plant));
   for (const int axis : axes) {
     SampledCycle::Input open;
     open.open[axis] = true;
