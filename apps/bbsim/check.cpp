@@ -11,6 +11,7 @@
 #include "commands.hpp"
 #include "describe.hpp"
 #include "linear_report.hpp"
+#include "model/control/common_cycle.hpp"
 #include "model/control/sampled_cycle.hpp"
 #include "model/explain.hpp"
 #include "scenario/family.hpp"
@@ -78,19 +79,28 @@ void tell_sampled_loop(Report& report, const Scenario& scenario, const model::Mo
     return;
   }
   const std::string warning = instability_warning(scenario, model);
-  report.line("closed loop",
-              std::to_string(poles.size()) +
-                  " poles of a sample period about home: " + sampled_poles_line(poles));
-  if (warning.empty()) {
-    const double size = std::abs(poles.front());
-    const double period = model.rig->sampled->sampling.period;
-    report.line("", "stable: the slowest mode decays by a factor of " + short_number(size) +
-                        " a period, with a time constant of " +
-                        short_number(-period / std::log(size)) + " s");
-    report.line("", "without noise, dropouts, rounding, limits, dead band and backlash");
-    if (model::why_not_linear(scenario).empty()) tell_margins(report, scenario, model);
+  const model::SampledLoop& loop = *model.rig->sampled;
+  const model::CommonCycle cycle = model::common_cycle(loop.sampling, loop.sensor);
+  const std::string of = cycle.samples > 1
+                             ? short_number(cycle.samples) + " sample periods, with " +
+                                   short_number(cycle.frames) + " of the sensor's frames,"
+                             : "a sample period";
+  report.line("closed loop", std::to_string(poles.size()) + " poles of " + of +
+                                 " about home: " + sampled_poles_line(poles));
+  if (const std::string frames = without_frames(scenario, false); !frames.empty()) {
+    report.line("", frames);
+  }
+  if (!warning.empty()) return report.line("WARNING", warning);
+  const double size = std::abs(poles.front()), period = loop.sampling.period * cycle.samples;
+  report.line("", "stable: the slowest mode decays by a factor of " + short_number(size) +
+                      (cycle.samples > 1 ? " in these periods" : " a period") +
+                      ", with a time constant of " + short_number(-period / std::log(size)) + " s");
+  report.line("", "without noise, dropouts, rounding, limits, dead band and backlash");
+  if (!model::why_not_linear(scenario).empty()) return;
+  if (cycle.samples > 1) {
+    report.line("margins", "none are told: from sample to sample the loop differs, by its frames");
   } else {
-    report.line("WARNING", warning);
+    tell_margins(report, scenario, model);
   }
 }
 

@@ -8,6 +8,8 @@
 #include <optional>
 #include <vector>
 
+#include "model/control/common_cycle.hpp"
+
 namespace bbsim::app {
 
 std::string short_number(double value) {
@@ -36,7 +38,7 @@ std::string states_line(const model::Model& model) {
 std::string poles_line(const model::Eigenvalues& poles) {
   std::string line;
   for (std::size_t i = 0; i < poles.size(); ++i) {
-    if (poles[i].imag() < 0) continue;  // its conjugate has been named
+    if (poles[i].imag() < -1e-7 * std::abs(poles[i])) continue;  // its conjugate has been named
     if (!line.empty()) line += ", ";
     line += short_number(poles[i].real());
     // A smaller imaginary part is the rounding of a double pole's root.
@@ -50,11 +52,12 @@ namespace {
 
 std::string instability_of_samples(const model::Model& model) {
   const model::Eigenvalues poles = model::sampled_poles(model);
-  const auto outside = std::count_if(poles.begin(), poles.end(),
-                                     [](const auto& pole) { return std::abs(pole) > 1 + 1e-9; });
-  if (poles.empty() || std::abs(poles.front()) < 1 - 1e-9) return "";
+  if (poles.empty() || model::stable_by_period(poles)) return "";
+  const int outside = model::growing_by_period(poles);
   if (outside == 0) {
-    return "the sampled loop is not asymptotically stable about home: poles " +
+    return "the sampled loop is on the border of stability about home, as far as rounding can "
+           "tell: "
+           "poles " +
            sampled_poles_line(poles);
   }
   return "the sampled loop is unstable about home: " + std::to_string(outside) + " of its " +
@@ -66,10 +69,10 @@ std::string instability(const model::Model& model) {
   if (model.rig && model.rig->sampled) return instability_of_samples(model);
   const model::Eigenvalues poles = model::closed_loop_poles(model);
   if (poles.empty() || model::stable(poles)) return "";
-  const auto growing =
-      std::count_if(poles.begin(), poles.end(), [](const auto& pole) { return pole.real() > 0; });
+  const int growing = model::growing(poles);
   if (growing == 0) {
-    return "the closed loop is not asymptotically stable about home: poles (1/s) " +
+    return "the closed loop is on the border of stability about home, as far as rounding can tell: "
+           "poles (1/s) " +
            poles_line(poles);
   }
   return "the closed loop is unstable about home: " + std::to_string(growing) + " of its " +
@@ -105,6 +108,29 @@ std::string instability_warning(const Scenario& scenario, const model::Model& mo
         "k for both is [[k, 0], [0, -k]]";
   }
   return warning;
+}
+
+std::string without_frames(const Scenario& scenario, bool by_sample) {
+  const std::optional<Controller>& controller = scenario.controller;
+  if (!controller || !controller->sampling || !controller->sensor || !controller->sensor->period) {
+    return "";
+  }
+  const model::CommonCycle cycle = model::common_cycle(*controller->sampling, *controller->sensor);
+  const std::string start = "without the sensor's own frames, as if each sample had one: ",
+                    frames =
+                        "frames every " + short_number(1e3 * *controller->sensor->period) + " ms";
+  if (!controller->sampling->is_even()) {
+    return start + "at samples of an uneven clock their age is not known beforehand";
+  }
+  if (!cycle.known) {
+    return start + frames + " do not come round to samples every " +
+           short_number(1e3 * controller->sampling->period) + " ms again within 500 of these";
+  }
+  if (by_sample && cycle.samples > 1) {
+    return start + frames + " come round to the samples after " + short_number(cycle.samples) +
+           " of these, from one of which to the next the loop differs";
+  }
+  return "";
 }
 
 std::string failure_text(const Scenario& scenario, const model::Model& model,
@@ -215,8 +241,8 @@ std::string sampled_poles_line(const model::Eigenvalues& poles) {
   std::string line;
   std::size_t named = 0;
   for (const auto& pole : poles) {
-    if (pole.imag() < 0) continue;  // its conjugate has been named
-    if (std::abs(pole) < 1e-3 || named == 6) return line + ", smaller ones";
+    if (pole.imag() < -1e-7 * std::abs(pole)) continue;  // its conjugate has been named
+    if (named == 6 || (named > 0 && std::abs(pole) < 1e-3)) return line + ", smaller ones";
     if (!line.empty()) line += ", ";
     line += short_number(pole.real());
     // A smaller imaginary part is the rounding of a double pole's root.

@@ -26,6 +26,10 @@ namespace bbsim::app {
 // the scenario's; where it would be stable with theta's gains of the other sign, that is said too.
 [[nodiscard]] std::string instability_warning(const Scenario& scenario, const model::Model& model);
 
+// Why poles of a sampled loop, or, `by_sample`, its equations from sample to sample, are without
+// its camera's frames; empty if they are not.
+[[nodiscard]] std::string without_frames(const Scenario& scenario, bool by_sample);
+
 // Why a run failed: when, what the integrator said, what grew, and what to do.
 [[nodiscard]] std::string failure_text(const Scenario& scenario, const model::Model& model,
                                        const solve::Outcome& outcome);

@@ -29,7 +29,8 @@ std::string text_of(const model::Margins& margins) {
     text += ", or down by " + short_number(margins.reduction) + at(margins.reduction_at);
   }
   if (!std::isfinite(margins.phase)) return text + "; any phase and delay";
-  text += "; phase " + degrees(margins.phase) + at(margins.phase_at);
+  text += "; phase " + degrees(std::abs(margins.phase)) + (margins.phase < 0 ? " of lead" : "") +
+          at(margins.phase_at);
   return text + "; delay " + short_number(margins.delay) + " s";
 }
 
@@ -71,11 +72,12 @@ std::vector<LabelledLine> margin_lines(const model::Linearisation& made) {
     lines.push_back(
         {"  bandwidth", bandwidths(&model::Bandwidth::of_feedback) +
                             ", of the feedback: with the reference's accelerations, "
-                            "which the law is told, the response does not fall by 3 dB"});
+                            "which the law is told, the response does not fall to 1/sqrt(2)"});
   } else {
-    lines.push_back({"  bandwidth",
-                     bandwidths(&model::Bandwidth::value) + ": the response does not fall by 3 dB" +
-                         (made.system.period ? " up to half the rate of the samples" : "")});
+    lines.push_back(
+        {"  bandwidth", bandwidths(&model::Bandwidth::value) +
+                            ": the response does not fall to 1/sqrt(2)" +
+                            (made.system.period ? " up to half the rate of the samples" : "")});
   }
   return lines;
 }
@@ -95,7 +97,11 @@ std::string linear_report(const std::string& of, const model::Linearisation& mad
   line("period", system.period ? short_number(*system.period) + " s" : "continuous time");
   line("poles", values_line(made.poles));
   line("zeros", values_line(made.zeros));
-  if (!made.margins.empty()) line("margins", "of each command's loop, the other one closed");
+  if (!made.margins.empty()) {
+    line("margins",
+         std::string("of each command's loop, the other one closed") +
+             (made.stable ? "" : "; the loop is not stable: where poles cross the border"));
+  }
   for (const LabelledLine& one : margin_lines(made)) line(one.label, one.text);
   return text;
 }

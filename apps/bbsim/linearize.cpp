@@ -103,6 +103,10 @@ ExitCode linearize(const LinearizeArguments& arguments) {
         " has no poles that numbers can hold.");
     return ExitCode::ended_early;
   }
+  if (made.system.period) {
+    const std::string frames = without_frames(scenario, true);
+    if (!frames.empty()) say("linearize: " + frames + ".");
+  }
   const record::LinearReport report{scenario.source.file, name_of(kind), at, made};
   if (format == nullptr) {
     print(linear_report("the " + report.kind +

@@ -1,7 +1,8 @@
 #include "model/dense.hpp"
 
 #include <Eigen/LU>
-#include <unsupported/Eigen/MatrixFunctions>
+#include <cmath>
+#include <limits>
 
 namespace bbsim::model {
 
@@ -33,7 +34,25 @@ std::optional<MatrixXd> solve_if_regular(const MatrixXd& a, const MatrixXd& b) {
 }
 
 MatrixXd exponential(const MatrixXd& a) {
-  return a.exp();
+  const Eigen::Index n = a.rows();
+  if (!a.allFinite()) {
+    return MatrixXd::Constant(n, n, std::numeric_limits<double>::quiet_NaN());
+  }
+  const double size = n == 0 ? 0 : a.cwiseAbs().rowwise().sum().maxCoeff();
+  int halvings = 0;
+  while (std::ldexp(size, -halvings) > 0.5) ++halvings;
+  const MatrixXd part = std::ldexp(1.0, -halvings) * a, identity = MatrixXd::Identity(n, n);
+  // Without the identity, beside which rounding would lose what is slow where much else is fast:
+  // e^a - 1 of a small part, by its series, then (e^2a - 1) = (e^a - 1)^2 + 2 (e^a - 1).
+  constexpr int terms = 18;  // 0.5^18 / 18! is below rounding
+  MatrixXd series = identity;
+  for (int k = terms; k > 1; --k) series = identity + product(part, series) / k;
+  MatrixXd less_one = product(part, series);
+  for (int i = 0; i < halvings; ++i) {
+    const MatrixXd square = product(less_one, less_one);
+    less_one = square + 2 * less_one;
+  }
+  return less_one + identity;
 }
 
 }  // namespace bbsim::model

@@ -2,11 +2,13 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <limits>
 #include <type_traits>
 
 #include "model/control/sampled_cycle.hpp"
 #include "model/eigenvalues.hpp"
+#include "model/exact_eigenvalues.hpp"
 #include "model/systems/any_jacobian.hpp"
 
 namespace bbsim::model {
@@ -32,14 +34,98 @@ Loop level(Loop loop) {
   return loop;
 }
 
+constexpr double epsilon = std::numeric_limits<double>::epsilon();
+
+void sort_by(Eigenvalues& values, double (*measure)(const std::complex<double>&)) {
+  std::sort(values.begin(), values.end(), [measure](const auto& a, const auto& b) {
+    const double p = measure(a), q = measure(b);
+    return p != q ? p > q : a.imag() > b.imag();
+  });
+}
+
+double real_part(const std::complex<double>& value) {
+  return value.real();
+}
+
+double size_of(const std::complex<double>& value) {
+  return std::abs(value);
+}
+
+// The exact eigenvalues of a matrix whose entries are rounded, by falling measure, and how far
+// entries that are `rounding` of themselves away move each one's measure.
+struct RoundedValues {
+  Eigenvalues values;
+  std::vector<double> moved;
+};
+
+RoundedValues rounded_values(const Eigen::MatrixXd& matrix, double rounding,
+                             double (*measure)(const std::complex<double>&)) {
+  RoundedValues known{exact_eigenvalues(matrix), {}};
+  sort_by(known.values, measure);
+  known.moved.assign(known.values.size(),
+                     exact_rounding(matrix.rows()) * balanced(matrix).cwiseAbs().maxCoeff());
+  for (const int way : {1, 2}) {
+    Eigen::MatrixXd other = matrix;
+    for (Eigen::Index i = 0; i < matrix.rows(); ++i) {
+      for (Eigen::Index j = 0; j < matrix.cols(); ++j) {
+        // Any numbers between -1 and 1 that have nothing to do with each other.
+        const double part = std::sin(static_cast<double>(way * (1 + 37 * i + 101 * j)));
+        other(i, j) += matrix(i, j) * rounding * part;
+      }
+    }
+    Eigenvalues values = exact_eigenvalues(other);
+    if (values.size() != known.values.size()) return {};
+    sort_by(values, measure);
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      // Two ways alone show less than the worst one does.
+      const double change = 10 * std::abs(measure(values[i]) - measure(known.values[i]));
+      known.moved[i] = std::max(known.moved[i], change);
+    }
+  }
+  return known;
+}
+
 }  // namespace
 
 Eigenvalues sorted_eigenvalues(const Eigen::MatrixXd& matrix) {
   Eigenvalues values = eigenvalues_of(matrix);
-  std::sort(values.begin(), values.end(), [](const auto& a, const auto& b) {
-    return a.real() != b.real() ? a.real() > b.real() : a.imag() > b.imag();
-  });
-  return values;
+  sort_by(values, real_part);
+  if (values.empty()) return values;
+  // Of three poles that are one, rounding moves each by its third root.
+  const double doubtful = 1e-5 * balanced(matrix).cwiseAbs().maxCoeff();
+  if (std::ranges::all_of(values, [&](const auto& one) { return std::abs(one.real()) > doubtful; }))
+    return values;
+  RoundedValues known = rounded_values(matrix, 4 * epsilon, real_part);
+  if (known.values.empty()) return values;
+  for (std::size_t i = 0; i < known.values.size(); ++i) {
+    std::complex<double>& value = known.values[i];
+    const double rounding = std::max(known.moved[i], 8 * epsilon * std::abs(value.imag()));
+    if (std::abs(value.real()) <= rounding) value.real(0);
+  }
+  sort_by(known.values, real_part);
+  return known.values;
+}
+
+Eigenvalues poles_of_period(const Eigen::MatrixXd& map) {
+  Eigenvalues values = eigenvalues_of(map);
+  sort_by(values, size_of);
+  // A double pole is off by the root of rounding.
+  const auto near = [&](double distance) {
+    return std::ranges::any_of(
+        values, [&](const auto& one) { return std::abs(std::abs(one) - 1) < distance; });
+  };
+  if (!near(1e-6)) return values;
+  RoundedValues known{values, std::vector<double>(values.size(), 1e-9)};
+  // An exponential's entries have more than their own rounding.
+  if (map.rows() <= most_exact) known = rounded_values(map, 50 * epsilon, size_of);
+  if (known.values.empty()) return values;
+  for (std::size_t i = 0; i < known.values.size(); ++i) {
+    std::complex<double>& value = known.values[i];
+    const double size = std::abs(value);
+    if (std::abs(size - 1) <= std::max(known.moved[i], 100 * epsilon)) value /= size;
+  }
+  sort_by(known.values, size_of);
+  return known.values;
 }
 
 Eigenvalues eigenvalues(const Model& model, double t, const double* z) {
@@ -97,12 +183,23 @@ Eigenvalues closed_loop_poles(const Model& model) {
       model.system);
 }
 
+int growing(const Eigenvalues& poles) {
+  return static_cast<int>(
+      std::ranges::count_if(poles, [](const auto& pole) { return pole.real() > 0; }));
+}
+
 bool stable(const Eigenvalues& poles) {
-  double scale = 0;
-  for (const auto& pole : poles) scale = std::max(scale, std::abs(pole));
-  const double rounding = 100 * std::numeric_limits<double>::epsilon() * scale;
-  return std::all_of(poles.begin(), poles.end(),
-                     [rounding](const auto& pole) { return pole.real() < -rounding; });
+  return std::ranges::all_of(poles, [](const auto& pole) { return pole.real() < 0; });
+}
+
+int growing_by_period(const Eigenvalues& poles) {
+  return static_cast<int>(std::ranges::count_if(
+      poles, [](const auto& pole) { return std::abs(pole) > 1 + 4 * epsilon; }));
+}
+
+bool stable_by_period(const Eigenvalues& poles) {
+  return std::ranges::all_of(poles,
+                             [](const auto& pole) { return std::abs(pole) < 1 - 4 * epsilon; });
 }
 
 }  // namespace bbsim::model

@@ -20,10 +20,19 @@ using Eigenvalues = std::vector<std::complex<double>>;  // 1/s, by falling real 
 // a sampled loop, whose poles are sampled_poles().
 [[nodiscard]] Eigenvalues closed_loop_poles(const Model& model);
 
-// Those of a matrix, in that order; nothing where it is not finite.
+// Those of a matrix, in that order; nothing where it is not finite. A real part whose sign the
+// rounding of the matrix's entries would change is 0.
 [[nodiscard]] Eigenvalues sorted_eigenvalues(const Eigen::MatrixXd& matrix);
 
-// "stable" if all real parts are negative, beyond the rounding of the eigenvalues.
+// Those of a map from period to period, by falling size. One whose size rounding of the entries
+// would bring from one side of 1 to the other is on the unit circle, to the last digit of a double.
+[[nodiscard]] Eigenvalues poles_of_period(const Eigen::MatrixXd& map);
+
+// All poles are within the border of stability; on it, as far as rounding can tell, is not.
 [[nodiscard]] bool stable(const Eigenvalues& poles);
+[[nodiscard]] bool stable_by_period(const Eigenvalues& poles);
+// How many are beyond it.
+[[nodiscard]] int growing(const Eigenvalues& poles);
+[[nodiscard]] int growing_by_period(const Eigenvalues& poles);
 
 }  // namespace bbsim::model

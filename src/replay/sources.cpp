@@ -7,6 +7,7 @@
 #include <string_view>
 #include <utility>
 
+#include "model/control/common_cycle.hpp"
 #include "model/control/sampled_cycle.hpp"
 #include "model/model.hpp"
 #include "model/signals/reference_path.hpp"
@@ -46,7 +47,9 @@ std::optional<Poles> poles_of(const model::Model& model) {
     return {};  // only the controller knows them
   }
   if (model.rig && model.rig->sampled) {
-    return Poles{model::sampled_poles(model), model.rig->sampled->sampling.period};
+    const model::SampledLoop& loop = *model.rig->sampled;
+    const double samples = model::common_cycle(loop.sampling, loop.sensor).samples;
+    return Poles{model::sampled_poles(model), loop.sampling.period * samples};
   }
   return Poles{model::closed_loop_poles(model), {}};
 }

@@ -45,6 +45,39 @@ TEST_CASE("check prints the poles and warns of an unstable loop") {
   CHECK(contains(unstable.out, "unstable"));
 }
 
+TEST_CASE("check's verdict knows how old the frames are that a sampled controller sees") {
+  const Folder folder;
+  folder.write("camera.yaml",
+               "ball: {radius: 0.01}\ntime: {end: 1, step: 0.1}\n"
+               "gimbal: {servo: {natural_frequency: 30, damping: 0.8}}\n"
+               "controller: {drives: angle, pd: {kp: [[4, 0], [0, -4]], kv: [[2, 0], [0, -2]]}, "
+               "reference: {point: [0, 0]}, sampling: {period: 0.02}, "
+               "sensor: {period: 0.02, phase: 0}}\n");
+  const auto check = [&](const std::string& set) {
+    return bbsim({"check", "camera.yaml", "--set", set}, folder.path()).out;
+  };
+  CHECK(contains(check("controller.sensor.phase=0"), "stable: "));
+  // A run of it grows: each frame is 19 ms old.
+  CHECK(contains(check("controller.sensor.phase=0.001"), "unstable about home: 4 of its 14 poles"));
+  folder.write("slow.yaml",
+               "ball: {radius: 0.01}\ntime: {end: 1, step: 0.1}\n"
+               "gimbal: {servo: {natural_frequency: 30, damping: 0.8}}\n"
+               "controller: {drives: angle, pd: {kp: [[0.4, 0], [0, -0.4]], "
+               "kv: [[0.3, 0], [0, -0.3]]}, reference: {point: [0, 0]}, "
+               "sampling: {period: 0.02}, sensor: {period: 0.03, phase: 0.001}}\n");
+  const Result slow = bbsim({"check", "slow.yaml"}, folder.path());
+  CAPTURE(slow.out);
+  CHECK(contains(slow.out, "poles of 3 sample periods, with 2 of the sensor's frames,"));
+  CHECK(contains(slow.out, " in these periods"));
+  CHECK(contains(slow.out, "none are told: from sample to sample the loop differs"));
+  const Result never = bbsim(
+      {"check", "slow.yaml", "--set", "controller.sensor.period=0.0314159265"}, folder.path());
+  CHECK(contains(never.out, "without the sensor's own frames, as if each sample had one"));
+  const Result linear = bbsim({"linearize", "slow.yaml", "-o", "-"}, folder.path());
+  CHECK(linear.exit_code == 0);
+  CHECK(contains(linear.err, "come round to the samples after 3 of these"));
+}
+
 TEST_CASE("check reports all problems of a scenario at once, each with its place") {
   const Folder folder;
   folder.write("bad.yaml",

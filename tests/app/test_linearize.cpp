@@ -121,6 +121,23 @@ TEST_CASE("linearize's files have what their readers expect") {
   CHECK(octave.exit_code == 0);
 }
 
+TEST_CASE("no 0 that linearize writes or prints has a sign") {
+  const Folder folder;
+  for (const char* name : {"fig2b.yaml", "three-servos.yaml", "torque-lqr.yaml"}) {
+    for (const char* kind : {"--plant", "--loop"}) {
+      for (const char* file : {"all.m", "all.py", "all.csv", "all.json"}) {
+        REQUIRE(bbsim({"linearize", config(name), kind, "-o", file}, folder.path()).exit_code == 0);
+      }
+      const Result found =
+          shell("grep -nE '(^|[^0-9e])-0(\\.0)?([^0-9.]|$)' all.*; $BBSIM linearize " +
+                    config(name) + " " + kind + " | grep -nE '(^| )-0([^0-9.]|$)'",
+                folder.path());
+      CAPTURE(name, kind, found.out);
+      CHECK(found.out.empty());
+    }
+  }
+}
+
 TEST_CASE("linearize writes over nothing that it reads") {
   const Folder folder;
   const Result same =
@@ -136,6 +153,83 @@ TEST_CASE("check prints the margins of a stable loop") {
   CHECK(contains(stable.out, "bandwidth"));
   CHECK_FALSE(contains(bbsim({"check", config("fig2b-literal.yaml")}).out, "margins"));
   CHECK_FALSE(contains(bbsim({"check", config("fig2a.yaml")}).out, "margins"));
+}
+
+TEST_CASE("margins at both ends of the frequencies, and of lead, are told") {
+  const Folder folder;
+  const std::string about = "ball: {radius: 0.02, mass: 0.1}\ntime: {end: 1, step: 0.1}\n";
+  folder.write("half-rate.yaml",
+               about +
+                   "gimbal: {servo: {natural_frequency: 55, damping: 0.7}}\n"
+                   "controller: {state_feedback: {gain: [[0.66, 0, 0.61, 0, 0.1, 0, 0.02, 0], "
+                   "[0, -0.66, 0, -0.61, 0, 0.1, 0, 0.02]]}, drives: angle, "
+                   "reference: {point: [0, 0]}, sampling: {period: 0.026}}\n");
+  const Result fast = bbsim({"linearize", "half-rate.yaml", "-o", "-"}, folder.path());
+  const json at_half_rate = json::parse(fast.out)["margins"]["phi_command"];
+  // pi / 0.026; 2.035 by the poles of the loop with these gains times that.
+  CHECK(at_half_rate["gain"].get<double>() == Approx(2.035).epsilon(1e-3));
+  CHECK(at_half_rate["gain_frequency"].get<double>() == Approx(120.83).epsilon(1e-4));
+  CHECK(at_half_rate["gain_reduction"].is_null());
+
+  folder.write("rest.yaml",
+               about +
+                   "plate: {inertia: [0.004, 0.004, 0.008]}\n"
+                   "gimbal: {motor: {viscous: 0.01}}\n"
+                   "controller: {state_feedback: {gain: [[5, 0, 2, 0, 2.6, 0, 0.25, 0], "
+                   "[0, -5, 0, -2, 0, 2.6, 0, 0.25]]}, drives: torque, "
+                   "reference: {point: [0, 0]}}\n");
+  // m g = 0.1 * 9.80665 N over 5 N/m of phi's row.
+  CHECK(
+      contains(bbsim({"check", "rest.yaml"}, folder.path()).out, "or down by 0.196133 at 0 rad/s"));
+
+  folder.write("lead.yaml", about +
+                                "gimbal: {servo: {natural_frequency: 130, damping: 0.717}}\n"
+                                "controller: {pd: {kp: [[0.693, 0], [0, -0.693]], kv: [[0.728, 0], "
+                                "[0, -0.728]]}, drives: angle, reference: {point: [0, 0]}, "
+                                "sampling: {period: 0.03}}\n");
+  const Result lead = bbsim({"check", "lead.yaml", "--set", "ball.radius=0.032"}, folder.path());
+  CAPTURE(lead.out);
+  CHECK(contains(lead.out, "stable: "));
+  CHECK(contains(lead.out, " deg of lead at "));
+  CHECK_FALSE(contains(lead.out, "phase -"));
+  CHECK_FALSE(contains(lead.out, "not stable"));
+  CHECK(contains(bbsim({"linearize", config("fig2b-literal.yaml")}).out, "the loop is not stable"));
+}
+
+TEST_CASE("margins off home are not those of the spin") {
+  for (const char* name : {"hold.yaml", "rig.yaml", "catch.yaml"}) {
+    const Result moving = bbsim({"linearize", config(name), "--at", "1 s", "-o", "-"});
+    REQUIRE(moving.exit_code == 0);
+    const json all = json::parse(moving.out)["margins"];
+    REQUIRE(all.size() == 2);
+    for (const json& margins : all) {
+      CAPTURE(name, margins.dump());
+      CHECK(margins["gain_reduction"].is_null());
+      CHECK(margins["gain"].is_number());
+    }
+  }
+}
+
+TEST_CASE("linearize and check bear servos and gains of any size") {
+  for (const char* speed : {"1e4", "1e5", "1e12", "1e100"}) {
+    for (const char* name : {"fig2b.yaml", "hold.yaml", "lissajous.yaml", "waypoints.yaml"}) {
+      const std::string servo = std::string("gimbal.servo.natural_frequency=") + speed;
+      CAPTURE(speed, name);
+      CHECK(bbsim({"linearize", config(name), "--set", servo}).exit_code <= 1);
+      CHECK(bbsim({"check", config(name), "--set", servo}).exit_code == 0);
+    }
+  }
+  CHECK(bbsim({"linearize", config("hold.yaml"), "--set", "controller.pd.kv=[[1e6,0],[0,-100]]"})
+            .exit_code == 0);
+}
+
+TEST_CASE("check warns of no instability that is the rounding of a stiff loss") {
+  const Result slow = bbsim({"check", config("hold.yaml"), "--set", "ball.losses.viscous=1e9"});
+  CHECK_FALSE(contains(slow.out, "WARNING"));
+  const Result sampled = bbsim({"check", config("step.yaml"), "--set", "ball.losses.viscous=1e9"});
+  CHECK_FALSE(contains(sampled.out, "unstable"));
+  CHECK(
+      contains(sampled.out, "on the border of stability about home, as far as rounding can tell"));
 }
 
 TEST_CASE("check tells the bandwidth of the feedback where the reference leads the ball besides") {

@@ -6,6 +6,7 @@
 #include "base/error.hpp"
 #include "catch.hpp"
 #include "model/assemble_rig.hpp"
+#include "model/control/common_cycle.hpp"
 #include "model/control/riccati.hpp"
 #include "model/control/sampled_cycle.hpp"
 #include "support/run_in_memory.hpp"
@@ -99,33 +100,12 @@ TEST_CASE("LQR brings the ball home, sampled or not") {
   CHECK(std::hypot(run.samples.back().ball.x, run.samples.back().ball.y) < 1e-3);
 }
 
-TEST_CASE("from sample to sample a small motion obeys the polynomial of the sampled poles") {
-  // Without errors of sensor and servo a small motion is linear: the state at samples is multiplied
-  // by the cycle's matrix M, so x at samples satisfies the recurrence whose coefficients are those
-  // of M's characteristic polynomial (Cayley and Hamilton).
-  Scenario scene = lqr_scene(true);
-  // An LQR wants a servo of second order.
-  const auto [law, first_order] =
-      GENERATE(std::pair{Law::pd, false}, std::pair{Law::pd, true}, std::pair{Law::pid, false},
-               std::pair{Law::pid, true}, std::pair{Law::lqr, false});
-  scene.controller->law = law;
-  scene.controller->kp = {{{0.4, 0}, {0, -0.4}}};
-  scene.controller->kv = {{{0.35, 0}, {0, -0.35}}};
-  scene.controller->ki = {{{0.1, 0}, {0, -0.1}}};
-  if (scene.controller->law != Law::pid) scene.controller->ki = {};
-  if (first_order) {
-    Servo servo;
-    servo.time_constant = 0.05;
-    scene.gimbal.servo = servo;
-  }
-  const auto [delay, late] = GENERATE(std::pair{0.0, 0.0}, std::pair{0.013, 0.0},
-                                      std::pair{0.02, 0.01}, std::pair{0.03, 0.055});
-  CAPTURE(int(scene.controller->law), first_order, delay, late);
-  scene.controller->sampling = Sampling{0.02, delay, 0, 0.03};
-  scene.controller->sensor = Sensor{};
-  scene.controller->sensor->delay = late;
-  scene.ball.position = {1e-7, 0};
-  scene.time = {2, 0.02};
+namespace {
+
+// Without errors of sensor and servo a small motion is linear: a cycle of so many samples
+// multiplies the state by a matrix M, so x from cycle to cycle satisfies the recurrence whose
+// coefficients are those of M's characteristic polynomial (Cayley and Hamilton).
+void check_recurrence(const Scenario& scene, std::size_t samples) {
   const model::Model model = model::assemble(scene, false);
   const auto poles =
       model::sampled_poles(std::get<model::RigLoop<false>>(model.system), *model.rig);
@@ -140,20 +120,95 @@ TEST_CASE("from sample to sample a small motion obeys the polynomial of the samp
   const std::size_t n = poles.size();
   int instants = 0;
   // From a time at which all that was exposed before the start has passed through the delays.
-  for (std::size_t from = 5; from + n < run.samples.size(); ++from) {
+  for (std::size_t from = 5; from + n * samples < run.samples.size(); ++from) {
+    if (from % samples != 0) continue;
     double sum = 0, sizes = 0;
     for (std::size_t i = 0; i <= n; ++i) {
-      const double term = polynomial[i].real() * run.samples[from + n - i].ball.x;
+      const double term = polynomial[i].real() * run.samples[from + (n - i) * samples].ball.x;
       sum += term;
       sizes += std::abs(term);
     }
     // A loop that its delays make unstable grows out of what is small.
-    if (std::abs(run.samples[from + n].gimbal.phi) > 1e-4) break;
+    if (std::abs(run.samples[from + n * samples].gimbal.phi) > 1e-4) break;
     // The tolerance, times a hundred; what is not linear is smaller by the squares of the angles.
     CHECK(std::abs(sum) < 1e-9 * sizes);
     ++instants;
   }
   CHECK(instants > 0);
+}
+
+Scenario small_motion(Law law, bool first_order) {
+  Scenario scene = lqr_scene(true);
+  scene.controller->law = law;
+  scene.controller->kp = {{{0.4, 0}, {0, -0.4}}};
+  scene.controller->kv = {{{0.35, 0}, {0, -0.35}}};
+  scene.controller->ki = {{{0.1, 0}, {0, -0.1}}};
+  if (scene.controller->law != Law::pid) scene.controller->ki = {};
+  if (first_order) {
+    Servo servo;
+    servo.time_constant = 0.05;
+    scene.gimbal.servo = servo;
+  }
+  scene.controller->sensor = Sensor{};
+  scene.ball.position = {1e-7, 0};
+  return scene;
+}
+
+}  // namespace
+
+TEST_CASE("from sample to sample a small motion obeys the polynomial of the sampled poles") {
+  // An LQR wants a servo of second order.
+  const auto [law, first_order] =
+      GENERATE(std::pair{Law::pd, false}, std::pair{Law::pd, true}, std::pair{Law::pid, false},
+               std::pair{Law::pid, true}, std::pair{Law::lqr, false});
+  Scenario scene = small_motion(law, first_order);
+  const auto [delay, late] = GENERATE(std::pair{0.0, 0.0}, std::pair{0.013, 0.0},
+                                      std::pair{0.02, 0.01}, std::pair{0.03, 0.055});
+  CAPTURE(int(scene.controller->law), first_order, delay, late);
+  scene.controller->sampling = Sampling{0.02, delay, 0, 0.03};
+  scene.controller->sensor->delay = late;
+  scene.time = {2, 0.02};
+  check_recurrence(scene, 1);
+}
+
+TEST_CASE("from cycle to cycle of samples and frames a small motion obeys the sampled poles too") {
+  struct Camera {
+    double period, phase, delay;  // s
+    std::size_t samples;          // of 20 ms, after which its frames meet them again
+  };
+  const auto camera = GENERATE(Camera{0.02, 0.001, 0, 1}, Camera{0.02, 0, 0, 1},
+                               Camera{0.02, 0.013, 0.03, 1}, Camera{0.005, 0.003, 0.004, 1},
+                               Camera{0.03, 0.004, 0.012, 3}, Camera{0.04 / 3, 0.002, 0, 2},
+                               Camera{0.04, 0.02, 0.02, 2}, Camera{0.05, 0.013, 0.021, 5});
+  const auto [law, first_order] = GENERATE(std::pair{Law::pd, false}, std::pair{Law::pid, true});
+  const double delay = GENERATE(0.0, 0.013, 0.02);
+  Scenario scene = small_motion(law, first_order);
+  scene.controller->sampling = Sampling{0.02, delay, 0, 0.03};
+  scene.controller->sensor->period = camera.period;
+  scene.controller->sensor->phase = camera.phase;
+  scene.controller->sensor->delay = camera.delay;
+  CAPTURE(camera.period, camera.phase, camera.delay, first_order, delay);
+  const model::CommonCycle cycle =
+      model::common_cycle(*scene.controller->sampling, *scene.controller->sensor);
+  REQUIRE(cycle.known);
+  REQUIRE(cycle.samples == static_cast<double>(camera.samples));
+  scene.time = {2 + 0.4 * static_cast<double>(camera.samples), 0.02};
+  check_recurrence(scene, camera.samples);
+}
+
+TEST_CASE("frames that never meet the samples again, or uneven ones, are not in the poles") {
+  Scenario scene = small_motion(Law::pd, false);
+  scene.controller->sampling = Sampling{0.02, 0.004, 0, 0.03};
+  const auto plain = model::sampled_poles(model::assemble(scene, false));
+  scene.controller->sensor->period = 0.02 / std::sqrt(2.0);
+  CHECK_FALSE(model::common_cycle(*scene.controller->sampling, *scene.controller->sensor).known);
+  CHECK(model::sampled_poles(model::assemble(scene, false)) == plain);
+  scene.controller->sensor->period = 0.02;
+  scene.controller->sensor->phase = 0.001;
+  CHECK(model::sampled_poles(model::assemble(scene, false)) != plain);
+  scene.controller->sampling->jitter = 1e-4;
+  CHECK_FALSE(model::common_cycle(*scene.controller->sampling, *scene.controller->sensor).known);
+  CHECK(model::sampled_poles(model::assemble(scene, false)) == plain);
 }
 
 TEST_CASE("delays make a sampled loop unstable where its poles say so") {

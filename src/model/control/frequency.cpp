@@ -1,11 +1,12 @@
 #include "model/control/frequency.hpp"
 
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <utility>
 
-#include "model/dense.hpp"
 #include "model/eigenvalues.hpp"
 
 namespace bbsim::model {
@@ -27,39 +28,97 @@ double zero_between(const Real& f, double low, double high) {
   }
 }
 
-// All zeros of f that its values at the points, and the dips between them, show.
-std::vector<double> zeros_of(const Real& f, const std::vector<double>& points) {
-  std::vector<double> values, zeros;
-  for (const double w : points) values.push_back(f(w));
-  const auto look = [&](double low, double at_low, double high, double at_high) {
-    if ((at_low < 0) != (at_high < 0)) zeros.push_back(zero_between(f, low, high));
+// A function, quickly; and carefully, with how far rounding may move it.
+struct Rounded {
+  struct Value {
+    double value, rounding;
+    [[nodiscard]] bool certain() const { return std::abs(value) > rounding; }
   };
-  for (std::size_t i = 0; i + 1 < points.size(); ++i) {
-    const bool dips = i > 0 && (values[i] < 0) == (values[i - 1] < 0) &&
-                      (values[i] < 0) == (values[i + 1] < 0) &&
-                      std::abs(values[i]) < std::abs(values[i - 1]) &&
-                      std::abs(values[i]) < std::abs(values[i + 1]);
-    if (!dips) {
-      look(points[i], values[i], points[i + 1], values[i + 1]);
-      continue;
+  Real value;
+  std::function<Value(double)> careful;
+};
+
+// Where f is least in size between a and b, by golden sections.
+double lowest_between(const Real& f, double a, double b) {
+  constexpr double golden = 0.6180339887498949;
+  for (int k = 0; k < 80 && b - a > 1e-15 * b; ++k) {
+    const double c = b - golden * (b - a), d = a + golden * (b - a);
+    if (std::abs(f(c)) < std::abs(f(d))) {
+      b = d;
+    } else {
+      a = c;
     }
-    // The least size on both sides of the point, by golden sections.
-    constexpr double golden = 0.6180339887498949;
-    const double sign = values[i] < 0 ? -1 : 1;
-    double a = points[i - 1], b = points[i + 1];
-    for (int k = 0; k < 80 && b - a > 1e-15 * b; ++k) {
-      const double c = b - golden * (b - a), d = a + golden * (b - a);
-      if (sign * f(c) < sign * f(d)) {
-        b = d;
-      } else {
-        a = c;
-      }
+  }
+  return a + (b - a) / 2;
+}
+
+// All zeros of f that its values at the points, and the dips between them, show, and that rounding
+// does not make.
+std::vector<double> zeros_of(const Rounded& f, const std::vector<double>& points) {
+  std::vector<double> at, values;
+  const auto add = [&](double w, double value) {
+    at.push_back(w);
+    values.push_back(value);
+  };
+  std::vector<double> known;
+  for (const double w : points) known.push_back(f.value(w));
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    add(points[i], known[i]);
+    if (i == 0 || i + 1 == points.size()) continue;
+    const bool dips =
+        (known[i] < 0) == (known[i - 1] < 0) && (known[i] < 0) == (known[i + 1] < 0) &&
+        std::abs(known[i]) < std::abs(known[i - 1]) && std::abs(known[i]) < std::abs(known[i + 1]);
+    if (!dips) continue;
+    const double lowest = lowest_between(f.value, points[i - 1], points[i + 1]);
+    const double value = f.value(lowest);
+    if (lowest == points[i] || (value < 0) == (known[i] < 0)) continue;
+    add(lowest, value);
+    if (lowest < points[i]) {
+      std::swap(at[at.size() - 1], at[at.size() - 2]);
+      std::swap(values[at.size() - 1], values[at.size() - 2]);
     }
-    const double lowest = a + (b - a) / 2, value = f(lowest);
-    look(points[i - 1], values[i - 1], lowest, value);
-    look(lowest, value, points[i + 1], values[i + 1]);
+  }
+  std::vector<double> zeros;
+  for (std::size_t i = 0; i + 1 < at.size(); ++i) {
+    if ((values[i] < 0) == (values[i + 1] < 0)) continue;
+    // From the last point before it to the first one after it whose signs are certain.
+    std::size_t low = i, high = i + 1;
+    Rounded::Value at_low = f.careful(at[low]), at_high = f.careful(at[high]);
+    while (low > 0 && !at_low.certain()) at_low = f.careful(at[--low]);
+    while (high + 1 < at.size() && !at_high.certain()) at_high = f.careful(at[++high]);
+    i = high - 1;
+    if (!at_low.certain() || !at_high.certain()) continue;
+    if ((at_low.value < 0) == (at_high.value < 0)) continue;
+    zeros.push_back(zero_between([&](double w) { return f.careful(w).value; }, at[low], at[high]));
   }
   return zeros;
+}
+
+// In place of A, B and C those of other states, A zero below the diagonal next to its own: by
+// elimination, which leaves what is small beside large entries as exact as it was.
+void make_hessenberg(Eigen::MatrixXd& a, Eigen::MatrixXd& b, Eigen::MatrixXd& c) {
+  const Index n = a.rows();
+  for (Index k = 1; k + 1 < n; ++k) {
+    Index pivot = k;
+    a.col(k - 1).tail(n - k).cwiseAbs().maxCoeff(&pivot);
+    pivot += k;
+    if (a(pivot, k - 1) == 0) continue;
+    if (pivot != k) {
+      a.row(pivot).swap(a.row(k));
+      a.col(pivot).swap(a.col(k));
+      b.row(pivot).swap(b.row(k));
+      c.col(pivot).swap(c.col(k));
+    }
+    for (Index i = k + 1; i < n; ++i) {
+      const double factor = a(i, k - 1) / a(k, k - 1);
+      if (factor == 0) continue;
+      a.row(i) -= factor * a.row(k);
+      b.row(i) -= factor * b.row(k);
+      a.col(k) += factor * a.col(i);
+      c.col(k) += factor * c.col(i);
+      a(i, k - 1) = 0;
+    }
+  }
 }
 
 }  // namespace
@@ -68,18 +127,31 @@ FrequencyResponse::FrequencyResponse(const Eigen::MatrixXd& a, const Eigen::Matr
                                      const Eigen::MatrixXd& c, const Eigen::MatrixXd& d,
                                      double period)
     : a_(a), b_(b), c_(c), d_(d), period_(period) {
-  if (a.rows() < 3) return;  // as it is
-  const HessenbergForm form = hessenberg_form(a);
-  a_ = form.h;
-  b_ = product(form.q.transpose(), b);
-  c_ = product(c, form.q);
+  Eigen::VectorXd scale;
+  a_ = balanced(a, &scale);
+  for (Index i = 0; i < a.rows(); ++i) {
+    b_.row(i) /= scale[i];
+    c_.col(i) *= scale[i];
+  }
+  balanced_a_ = a_;
+  balanced_b_ = b_;
+  balanced_c_ = c_;
+  make_hessenberg(a_, b_, c_);
+}
+
+double FrequencyResponse::last() const {
+  return period_ > 0 ? pi / period_ : Margins::none;
+}
+
+Complex FrequencyResponse::point(double w) const {
+  if (!(period_ > 0)) return {0, w};
+  return w == last() ? Complex(-1) : std::polar(1.0, w * period_);
 }
 
 Complex FrequencyResponse::at(double w, Index i, Index j) const {
   const Index n = a_.rows();
-  const Complex s = period_ > 0 ? std::polar(1.0, w * period_) : Complex(0, w);
   Eigen::MatrixXcd m = (-a_).cast<Complex>();
-  m.diagonal().array() += s;
+  m.diagonal().array() += point(w);
   Eigen::VectorXcd x = b_.col(j).cast<Complex>();
   // Only what is next to the diagonal has to go, by rows in either order.
   for (Index k = 0; k + 1 < n; ++k) {
@@ -96,28 +168,52 @@ Complex FrequencyResponse::at(double w, Index i, Index j) const {
   return (c_.row(i).cast<Complex>() * x)(0) + d_(i, j);
 }
 
-std::vector<double> frequencies_to_look_at(const std::vector<Complex>& poles, double period) {
+FrequencyResponse::Careful FrequencyResponse::carefully_at(double w, Index i, Index j) const {
+  // |c (sI - A)^-1| |what is rounded| |(sI - A)^-1 b|, of entries as they were given: those of the
+  // Hessenberg form no longer say of which terms they are the sum.
+  const Index n = balanced_a_.rows();
+  Eigen::MatrixXcd m = (-balanced_a_).cast<Complex>();
+  m.diagonal().array() += point(w);
+  const Eigen::PartialPivLU<Eigen::MatrixXcd> factors(m);
+  const Eigen::VectorXd b = balanced_b_.col(j), c = balanced_c_.row(i);
+  const Eigen::VectorXcd x = factors.solve(b.cast<Complex>()),
+                         y = factors.transpose().solve(c.cast<Complex>());
+  double sum = std::abs(d_(i, j));
+  for (Index p = 0; p < n; ++p) {
+    const double left = std::abs(y[p]), right = std::abs(x[p]);
+    sum += left * std::abs(point(w)) * right + left * std::abs(b[p]) + std::abs(c[p]) * right;
+    for (Index q = 0; q < n; ++q) sum += left * std::abs(balanced_a_(p, q)) * std::abs(x[q]);
+  }
+  // Of a period they are those of an exponential.
+  const double rounding = (period_ > 0 ? 50 : 10) * std::numeric_limits<double>::epsilon() * sum;
+  Complex value = d_(i, j);
+  for (Index p = 0; p < n; ++p) value += c[p] * x[p];
+  return {value, std::isfinite(rounding) ? rounding : Margins::none};
+}
+
+std::vector<double> frequencies_to_look_at(const std::vector<Complex>& open,
+                                           const std::vector<Complex>& closed, double period) {
   // As rates, of samples too: z = exp(s T).
   std::vector<Complex> rates;
-  for (const Complex& pole : poles) {
-    if (period <= 0) {
-      rates.push_back(pole);
-    } else if (std::abs(pole) > 1e-6) {
-      rates.push_back(std::log(pole) / period);
-    }
-  }
   double slowest = Margins::none, fastest = 0;
-  for (const Complex& rate : rates) {
-    fastest = std::max(fastest, std::abs(rate));
-    // A double pole at 0 is rounded to one that is not.
-    if (std::abs(rate) > 1e-6) slowest = std::min(slowest, std::abs(rate));
-  }
+  const auto add = [&](const std::vector<Complex>& poles, double least) {
+    for (const Complex& pole : poles) {
+      if (period > 0 && !(std::abs(pole) > 1e-6)) continue;
+      const Complex rate = period > 0 ? std::log(pole) / period : pole;
+      rates.push_back(rate);
+      fastest = std::max(fastest, std::abs(rate));
+      if (std::abs(rate) > least) slowest = std::min(slowest, std::abs(rate));
+    }
+  };
+  // A double pole of the open loop at 0 is rounded to one that is not.
+  add(open, 1e-6);
+  add(closed, period > 0 ? 1e-9 / period : 0);
   if (!(fastest > 0)) fastest = 1;
   slowest = std::min(slowest, fastest);
   const double low = 1e-3 * slowest;
   const double high = period > 0 ? pi / period : 1e3 * fastest;
   // Delays of a hundred periods make a hundred states, whose squares each point costs.
-  const double size = static_cast<double>(poles.size());
+  const double size = static_cast<double>(rates.size());
   const double a_decade = std::clamp(200 * 2500 / (size * size), 20.0, 200.0);
   std::vector<double> points;
   const auto count = static_cast<std::size_t>(a_decade * std::max(1.0, std::log10(high / low)));
@@ -137,14 +233,13 @@ std::vector<double> frequencies_to_look_at(const std::vector<Complex>& poles, do
   return points;
 }
 
-Margins margins_of(const std::function<Complex(double)>& open_loop,
-                   const std::vector<double>& frequencies) {
+Margins margins_of(const FrequencyResponse& open_loop, const std::vector<double>& frequencies,
+                   double slowest) {
+  const auto quickly = [&](double w) { return open_loop.at(w, 0, 0); };
+  const auto loop = [&](double w) { return open_loop.carefully_at(w, 0, 0); };
   Margins margins;
-  for (const double w : zeros_of([&](double at) { return open_loop(at).imag(); }, frequencies)) {
-    const Complex l = open_loop(w);
-    // The imaginary part changes its sign at a pole on the axis too.
-    if (!(l.real() < 0) || !(std::abs(l.imag()) < 1e-6 * std::abs(l.real()))) continue;
-    const double factor = -1 / l.real();
+  const auto cross = [&margins](double w, double l) {
+    const double factor = -1 / l;
     if (factor >= 1 && factor < margins.gain) {
       margins.gain = factor;
       margins.gain_at = w;
@@ -152,10 +247,36 @@ Margins margins_of(const std::function<Complex(double)>& open_loop,
       margins.reduction = factor;
       margins.reduction_at = w;
     }
+  };
+  const Rounded imaginary{[&](double w) { return quickly(w).imag(); },
+                          [&](double w) -> Rounded::Value {
+                            const FrequencyResponse::Careful l = loop(w);
+                            return {l.value.imag(), l.rounding};
+                          }};
+  for (const double w : zeros_of(imaginary, frequencies)) {
+    if (w < slowest) continue;
+    const Complex l = loop(w).value;
+    // The imaginary part changes its sign at a pole on the axis too.
+    if (l.real() < 0 && std::abs(l.imag()) < 1e-6 * std::abs(l.real())) cross(w, l.real());
   }
-  const auto size = [&](double at) { return std::log(std::abs(open_loop(at))); };
+  // At its ends the response is real without a change of sign.
+  for (const double w : {0.0, open_loop.last()}) {
+    if (!std::isfinite(w)) continue;
+    const FrequencyResponse::Careful end = loop(w);
+    const double l = end.value.real();
+    // At 0 it has to be what it is up to the slowest frequency that counts: between that and a pole
+    // at 0 that rounding has moved it is not.
+    const double first = std::max(slowest, frequencies.front());
+    const bool counts = w > 0 || std::abs(loop(first).value - l) < 0.5 * std::abs(l);
+    if (l < 0 && counts && end.rounding < 1e-3 * std::abs(l)) cross(w, l);
+  }
+  const Rounded size{[&](double w) { return std::log(std::abs(quickly(w))); },
+                     [&](double w) -> Rounded::Value {
+                       const FrequencyResponse::Careful l = loop(w);
+                       return {std::log(std::abs(l.value)), l.rounding / std::abs(l.value)};
+                     }};
   for (const double w : zeros_of(size, frequencies)) {
-    double phase = std::arg(open_loop(w)) + pi;  // 0 to 2 pi
+    double phase = std::arg(loop(w).value) + pi;  // 0 to 2 pi
     const double delay = phase / w;
     if (phase > pi) phase -= 2 * pi;
     if (std::abs(phase) < std::abs(margins.phase)) {

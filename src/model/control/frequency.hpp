@@ -16,33 +16,55 @@ class FrequencyResponse {
   FrequencyResponse(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b, const Eigen::MatrixXd& c,
                     const Eigen::MatrixXd& d, double period);
 
-  // From input j to output i.
+  // From input j to output i. At 0, and at half the rate of the samples, it is real; not finite at
+  // a pole.
   [[nodiscard]] std::complex<double> at(double w, Eigen::Index i, Eigen::Index j) const;
 
+  // The same near poles on the border of stability too, where it takes longer, and how far the
+  // rounding of the entries may move it.
+  struct Careful {
+    std::complex<double> value;
+    double rounding;
+  };
+  [[nodiscard]] Careful carefully_at(double w, Eigen::Index i, Eigen::Index j) const;
+
+  // Half the rate of the samples, rad/s; infinite in continuous time.
+  [[nodiscard]] double last() const;
+
  private:
+  [[nodiscard]] std::complex<double> point(double w) const;
+
   Eigen::MatrixXd a_, b_, c_, d_;  // A in Hessenberg form: what is left to solve is cheap
+  Eigen::MatrixXd balanced_a_, balanced_b_, balanced_c_;
   double period_;
 };
 
-// Frequencies, rising, between which nothing of a system with these poles happens unseen: from well
-// below the slowest to well above the fastest, or to half the rate of the samples.
+// Frequencies, rising, between which nothing unseen happens of a system with such poles, open and
+// closed: from well below the slowest to well above the fastest, or to half the rate of the
+// samples. Poles on the border of stability have no rate to look near.
 [[nodiscard]] std::vector<double> frequencies_to_look_at(
-    const std::vector<std::complex<double>>& poles, double period);
+    const std::vector<std::complex<double>>& open, const std::vector<std::complex<double>>& closed,
+    double period);
 
 // Of the loop 1 + L = 0. What no change brings to the border of stability is infinite, or 0.
 struct Margins {
   static constexpr double none = std::numeric_limits<double>::infinity();
-  double gain = none, gain_at = none;         // the smallest factor above 1, and where, rad/s
+  // The smallest factor above 1, and where, rad/s: at 0, where a pole passes through 0 (or z = 1),
+  // up to half the rate of the samples (z = -1).
+  double gain = none, gain_at = none;
   double reduction = 0, reduction_at = none;  // the largest factor below 1
-  double phase = none, phase_at = none;  // the smallest in size, rad; negative: a lead is borne
+  // The smallest turn of L's phase, rad: above 0, so much more lag; below 0, so much more lead.
+  double phase = none, phase_at = none;
   double delay = none, delay_at = none;  // the shortest, s
 };
 
-[[nodiscard]] Margins margins_of(const std::function<std::complex<double>(double)>& open_loop,
-                                 const std::vector<double>& frequencies);
+// Of the response from the only input to the only output. What rounding of the entries would make
+// or unmake is none. Factors of frequencies below `slowest` (rad/s) do not count.
+[[nodiscard]] Margins margins_of(const FrequencyResponse& open_loop,
+                                 const std::vector<double>& frequencies, double slowest = 0);
 
-// Where the size of a response first falls below its value at 0 over the root of 2, rad/s; none if
-// it does not.
+// Where the size of a response first falls below 1 / sqrt(2) of that at 0 (by 3.01 dB), rad/s;
+// infinite if it does not.
 [[nodiscard]] double bandwidth_of(const std::function<std::complex<double>(double)>& closed_loop,
                                   const std::vector<double>& frequencies);
 

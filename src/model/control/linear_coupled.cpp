@@ -189,7 +189,7 @@ std::vector<int> cycle_states(const Model& model, const MatrixXd& of_state) {
 std::vector<LinearSignal> coupled_signals(const Model& model, const std::string& command_unit) {
   const Places at = places_of(model);
   std::vector<LinearSignal> signals{
-      {"x", "m"}, {"y", "m"}, {"vx", "m/s"}, {"vy", "m/s"}, {"r*spin", "m/s"}};
+      {"x", "m"}, {"y", "m"}, {"vx", "m/s"}, {"vy", "m/s"}, {spin_name, "m/s"}};
   for (const bool rates : {false, true}) {
     const char* const three[] = {"servo_phi", "servo_theta", "servo_third"};
     const char* const two[] = {"phi", "theta"};

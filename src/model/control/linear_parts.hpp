@@ -12,6 +12,7 @@ namespace bbsim::model {
 
 // The ball's spin among the states, of systems that have it: after x, y and their rates.
 inline constexpr int spin_state = 4;
+inline constexpr const char* spin_name = "r*spin";
 
 // Of the gimbal and the ball without a controller's law: rates at a point, and what states and the
 // gimbal's commands add to them.

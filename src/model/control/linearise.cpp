@@ -3,12 +3,14 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <limits>
 #include <string>
 #include <type_traits>
 #include <utility>
 
 #include "base/error.hpp"
 #include "model/assemble_rig.hpp"
+#include "model/control/common_cycle.hpp"
 #include "model/control/linear_law.hpp"
 #include "model/control/linear_parts.hpp"
 #include "model/control/sampled_cycle.hpp"
@@ -211,7 +213,7 @@ std::vector<LinearSignal> rig_signals(const std::string& command_unit) {
           {"y", "m"},
           {"vx", "m/s"},
           {"vy", "m/s"},
-          {"r*spin", "m/s"},
+          {spin_name, "m/s"},
           {"phi", "rad"},
           {"theta", "rad"},
           {"phi_rate", "rad/s"},
@@ -333,12 +335,54 @@ std::function<std::complex<double>(double)> tracking(const FrequencyResponse& re
   };
 }
 
-void add_bandwidths(Linearisation& made, const std::vector<int>& columns,
+// A closed loop as its margins and bandwidth are taken from: without the spin, whose pole no
+// command moves. Off home it is next to 0, so that what a response is at rest, on which side of the
+// border the pole is, and by which factor it changes that, say nothing.
+struct PlainLoop {
+  std::vector<int> states;  // of the system's
+  MatrixXd a;
+  Eigenvalues poles;
+  // Gain margins slower than this say nothing either, rad/s: where the gimbal moves, the point has
+  // moved on by then.
+  double slowest;
+};
+
+// Below which frequency a point has moved on before anything happens, rad/s: four times the rates
+// at which the plane turns, and at which it throws the ball as its turn quickens.
+double slowest_at(const Scenario& scene, const LinearPoint& at, const PlantDerivatives& plant) {
+  const int servos = scene.gimbal.three_servos && !at.own.empty() ? 3 : 2;
+  const double* const angles = (at.own.empty() ? at.state.data() : at.own.data()) + angle;
+  const auto largest = [servos](const auto& of, int first) {
+    double size = 0;
+    for (int i = 0; i < servos; ++i) size = std::max(size, std::abs(of[first + i]));
+    return size;
+  };
+  return 4 * std::max(largest(plant.rates, angle),
+                      std::sqrt(largest(plant.rates, angle + servos) * largest(angles, 0)));
+}
+
+PlainLoop plain_loop(Linearisation& made, double slowest) {
+  const LinearSystem& system = made.system;
+  PlainLoop plain;
+  plain.slowest = slowest;
+  for (int i = 0; i < static_cast<int>(system.states.size()); ++i) {
+    if (system.states[static_cast<std::size_t>(i)].name != spin_name) plain.states.push_back(i);
+  }
+  plain.a = system.a(plain.states, plain.states);
+  plain.poles = plain.states.size() == system.states.size() ? made.poles
+                : system.period                             ? poles_of_period(plain.a)
+                                                            : sorted_eigenvalues(plain.a);
+  made.stable = system.period ? stable_by_period(plain.poles) : stable(plain.poles);
+  return plain;
+}
+
+void add_bandwidths(Linearisation& made, const PlainLoop& plain, const std::vector<int>& columns,
                     const std::vector<int>& axes) {
   const LinearSystem& system = made.system;
   const double period = system.period.value_or(0);
-  const FrequencyResponse response(system.a, system.b, system.c, system.d, period);
-  const std::vector<double> frequencies = frequencies_to_look_at(made.poles, period);
+  const FrequencyResponse response(plain.a, system.b(plain.states, Eigen::all),
+                                   system.c(Eigen::all, plain.states), system.d, period);
+  const std::vector<double> frequencies = frequencies_to_look_at({}, plain.poles, period);
   // A law that is told the reference's accelerations may follow it at any frequency, by the plant's
   // own inverse: what its feedback does is seen without them.
   std::vector<int> fed_back;
@@ -354,16 +398,48 @@ void add_bandwidths(Linearisation& made, const std::vector<int>& columns,
 }
 
 // The loop of one command: with what A, B and C it goes once round, open there.
-void add_margins(Linearisation& made, int axis, const MatrixXd& a, const VectorXd& b,
-                 const Eigen::RowVectorXd& c) {
+void add_margins(Linearisation& made, const PlainLoop& plain, int axis, const MatrixXd& a,
+                 const VectorXd& b, const Eigen::RowVectorXd& c) {
   const double period = made.system.period.value_or(0);
+  const std::vector<int>& of = plain.states;
+  const MatrixXd open = a(of, of);
   // What comes back is taken from the reference: 1 + L.
-  const FrequencyResponse response(a, b, -c, MatrixXd::Zero(1, 1), period);
-  Eigenvalues poles = eigenvalues_of(a);
-  poles.insert(poles.end(), made.poles.begin(), made.poles.end());
-  made.margins.push_back({std::string(angle_name(axis)) + "_command",
-                          margins_of([&](double w) { return response.at(w, 0, 0); },
-                                     frequencies_to_look_at(poles, period))});
+  const FrequencyResponse response(open, b(of), -c(of), MatrixXd::Zero(1, 1), period);
+  made.margins.push_back(
+      {std::string(angle_name(axis)) + "_command",
+       margins_of(response, frequencies_to_look_at(eigenvalues_of(open), plain.poles, period),
+                  plain.slowest)});
+}
+
+// What is left of a where b is taken from it, without what only rounding leaves.
+MatrixXd without(const MatrixXd& a, const MatrixXd& b) {
+  constexpr double rounding = 16 * std::numeric_limits<double>::epsilon();
+  return a.binaryExpr(
+      b, [](double p, double q) { return std::abs(p - q) <= rounding * std::abs(q) ? 0 : p - q; });
+}
+
+// Zeros of C (sI - A)^-1 (B0 + s B1 + s^2 B2): those of the system whose states are the
+// reference and its rate too, and whose input is its acceleration. (The powers of s could be had by
+// multiples of A, whose entries would cancel.)
+Eigenvalues tracking_zeros(const MatrixXd& a, const MatrixXd& of_reference, const MatrixXd& c,
+                           const std::vector<int>& axes) {
+  const Eigen::Index n = a.rows(), m = std::ssize(axes);
+  const bool of_accelerations = !of_reference.rightCols(2).isZero(0);
+  const Eigen::Index orders = of_accelerations ? 2 : 1, size = n + orders * m;
+  const auto of_order = [&](Eigen::Index order) -> MatrixXd {
+    return of_reference.middleCols(2 * order, 2)(Eigen::all, axes);
+  };
+  MatrixXd all = MatrixXd::Zero(size, size), input = MatrixXd::Zero(size, m),
+           output = MatrixXd::Zero(c.rows(), size);
+  all.topLeftCorner(n, n) = a;
+  for (Eigen::Index order = 0; order < orders; ++order) {
+    all.block(0, n + order * m, n, m) = of_order(order);
+  }
+  if (of_accelerations) all.block(n, n + m, m, m).setIdentity();
+  input.topRows(n) = of_order(orders);
+  input.bottomRows(m).setIdentity();
+  output.leftCols(n) = c;
+  return transmission_zeros(all, input, output, MatrixXd::Zero(c.rows(), m));
 }
 
 Linearisation continuous_loop_about(const Scenario& scene, const Model& model,
@@ -393,26 +469,17 @@ Linearisation continuous_loop_about(const Scenario& scene, const Model& model,
   system.d = MatrixXd::Zero(std::ssize(axes), std::ssize(columns));
   made.poles = sorted_eigenvalues(system.a);
 
-  // C (sI - A)^-1 (B0 + s B1 + s^2 B2) without the powers of s: positions have no direct term
-  // from accelerations of the gimbal but through their own derivatives.
-  const MatrixXd all = loop.of_reference(states, Eigen::all);
-  const auto of_order = [&](int order) -> MatrixXd {
-    std::vector<int> of;
-    for (const int axis : axes) of.push_back(2 * order + axis);
-    return all(Eigen::all, of);
-  };
-  const MatrixXd once = of_order(1) + product(system.a, of_order(2));
-  made.zeros = transmission_zeros(system.a, of_order(0) + product(system.a, once), system.c,
-                                  product(system.c, once));
+  made.zeros = tracking_zeros(system.a, loop.of_reference(states, Eigen::all), system.c, axes);
 
   MatrixXd of_command = MatrixXd::Zero(loop.of_state.rows(), 2);
   of_command.topRows(plant.of_command.rows()) = plant.of_command;
+  const PlainLoop plain = plain_loop(made, slowest_at(scene, at, plant));
   for (const int axis : axes) {
     const VectorXd b = of_command(states, axis);
     const Eigen::RowVectorXd c = loop.command_of_state(axis, states);
-    add_margins(made, axis, system.a - b * c, b, c);
+    add_margins(made, plain, axis, without(system.a, b * c), b, c);
   }
-  add_bandwidths(made, columns, axes);
+  add_bandwidths(made, plain, columns, axes);
   return made;
 }
 
@@ -453,9 +520,12 @@ CycleParts cycle_parts_with(const Scenario& scene, const LinearPoint& at,
 
 CycleParts cycle_parts_about(const Scenario& scene, const Model& model, const LinearPoint& at,
                              std::vector<int>& states) {
-  if (in_full(scene, at)) return coupled_cycle_at(model, at, states);
-  return has_linkages(scene) ? cycle_parts_with<Linkages>(scene, at, states)
-                             : cycle_parts_with<Direct>(scene, at, states);
+  CycleParts parts = in_full(scene, at)    ? coupled_cycle_at(model, at, states)
+                     : has_linkages(scene) ? cycle_parts_with<Linkages>(scene, at, states)
+                                           : cycle_parts_with<Direct>(scene, at, states);
+  // From sample to sample there is one system only if each looks at a frame of the same age.
+  if (common_cycle(parts.sampling, parts.sensor).samples > 1) parts.sensor.period.reset();
+  return parts;
 }
 
 std::vector<LinearSignal> signals_of_cycle(const Scenario& scene, const Model& model,
@@ -495,6 +565,9 @@ Linearisation sampled_loop_about(const Scenario& scene, const Model& model, cons
   made.poles = poles_of_period(system.a);
   made.zeros =
       transmission_zeros(system.a, of_reference.leftCols(2), system.c, MatrixXd::Zero(2, 2));
+  const PlantDerivatives plant =
+      in_full(scene, at) ? coupled_plant_at(model, at) : differentiate_rig(scene, at);
+  const PlainLoop plain = plain_loop(made, slowest_at(scene, at, plant));
   for (const int axis : axes) {
     SampledCycle::Input open;
     open.open[axis] = true;
@@ -506,9 +579,9 @@ Linearisation sampled_loop_about(const Scenario& scene, const Model& model, cons
       c[j] = out.law[axis];
     }
     open.command[axis] = 1;
-    add_margins(made, axis, a, cycle.run(none, open).state, c);
+    add_margins(made, plain, axis, a, cycle.run(none, open).state, c);
   }
-  add_bandwidths(made, columns, axes);
+  add_bandwidths(made, plain, columns, axes);
   return made;
 }
 
@@ -710,9 +783,10 @@ LinearKind usual_kind(const Scenario& scene) {
   return scene.controller->own ? LinearKind::sampled : LinearKind::loop;
 }
 
-Linearisation linearise(const Scenario& scene, const Model& model, LinearKind kind,
-                        const LinearPoint& at) {
-  require_linear(scene);
+namespace {
+
+Linearisation linearise_as(const Scenario& scene, const Model& model, LinearKind kind,
+                           const LinearPoint& at) {
   switch (kind) {
     case LinearKind::plant:
       break;
@@ -732,6 +806,33 @@ Linearisation linearise(const Scenario& scene, const Model& model, LinearKind ki
                                         : continuous_loop_about(scene, model, at);
   }
   return plant_about(scene, model, at);
+}
+
+// -0 is what symmetry makes of 0.
+MatrixXd with_plain_zeros(const MatrixXd& matrix) {
+  return matrix.unaryExpr([](double value) { return value == 0 ? 0.0 : value; });
+}
+
+void make_zeros_plain(Eigenvalues& values) {
+  for (auto& value : values) {
+    if (value.real() == 0) value.real(0);
+    if (value.imag() == 0) value.imag(0);
+  }
+}
+
+}  // namespace
+
+Linearisation linearise(const Scenario& scene, const Model& model, LinearKind kind,
+                        const LinearPoint& at) {
+  require_linear(scene);
+  Linearisation made = linearise_as(scene, model, kind, at);
+  LinearSystem& system = made.system;
+  for (MatrixXd* matrix : {&system.a, &system.b, &system.c, &system.d}) {
+    *matrix = with_plain_zeros(*matrix);
+  }
+  make_zeros_plain(made.poles);
+  make_zeros_plain(made.zeros);
+  return made;
 }
 
 }  // namespace bbsim::model

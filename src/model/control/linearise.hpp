@@ -43,23 +43,27 @@ struct LoopMargins {
 
 struct Bandwidth {
   std::string output;  // x, of the response to x_reference
-  double value;        // rad/s, infinite if there is none
+  double value;        // rad/s, where the response is 1 / sqrt(2) of that at 0; or infinite
   double of_feedback;  // of a controller that is not told the reference's accelerations
 };
 
 struct Linearisation {
   LinearSystem system;
-  Eigenvalues poles, zeros;           // of a loop, from where the reference is to where the ball is
-  std::vector<LoopMargins> margins;   // of a loop
+  Eigenvalues poles, zeros;          // of a loop, from where the reference is to where the ball is
+  std::vector<LoopMargins> margins;  // of a loop
+  // Of a loop without its spin; of an unstable one, margins say where poles cross the border and
+  // not what it bears.
+  bool stable = false;
   std::vector<Bandwidth> bandwidths;  // of a loop
 };
 
 // Why a scene has no linear equations, of which dry friction has none; empty if it has.
 [[nodiscard]] std::string why_not_linear(const Scenario& scene);
 
-// Without limits, dead band, backlash, rounding and noise. The spin is a state where it acts on
-// others, and an integral where the law has it. The scene is one of `model`, which says what
-// symmetry leaves out. Throws InputError where the scene has nothing of that kind.
+// Without limits, dead band, backlash, rounding and noise; without the frames of a sensor of which
+// each sample sees one of another age (common_cycle.hpp), as if it looked for each. The spin is a
+// state where it acts on others, and an integral where the law has it. The scene is one of `model`,
+// which says what symmetry leaves out. Throws InputError where the scene has nothing of that kind.
 [[nodiscard]] Linearisation linearise(const Scenario& scene, const Model& model, LinearKind kind,
                                       const LinearPoint& at);
 

@@ -2,14 +2,9 @@
 
 #include <cmath>
 
+#include "model/control/common_cycle.hpp"
+
 namespace bbsim::model {
-namespace {
-
-// Instants of different clocks that are nearer than this, relative to the period, are one.
-constexpr double one_instant = 1e-9;
-
-}  // namespace
-
 SampleExchange::SampleExchange(const SampledLoop& loop)
     : even_(loop.sampling.is_even()),
       period_(loop.sampling.period),

@@ -7,10 +7,10 @@
 #include <type_traits>
 #include <utility>
 
+#include "model/control/common_cycle.hpp"
 #include "model/control/linear_law.hpp"
 #include "model/control/riccati.hpp"
 #include "model/dense.hpp"
-#include "model/eigenvalues.hpp"
 #include "model/systems/any_jacobian.hpp"
 
 namespace bbsim::model {
@@ -63,11 +63,18 @@ LinearPlant about_home(Loop& loop, RigMode& mode, const std::vector<int>& of) {
 
 }  // namespace
 
+using Pairs = Eigen::Matrix<double, 2, Eigen::Dynamic>;
+
 struct SampledCycle::Parts {
-  VectorXd plant;
-  std::deque<Vector2> exposures, commands;
-  Vector2 position, velocity, held;
-  Vector2 integral = Vector2::Zero();
+  MatrixXd plant;
+  std::deque<Pairs> exposures, commands;
+  Pairs position, velocity, integral, held;
+};
+
+// Of the cycle's first sample.
+struct SampledCycle::Outputs {
+  MatrixXd states;
+  Pairs seen, law;
 };
 
 void CycleParts::take_controller(const Rig& rig, const LinearLaw& law) {
@@ -80,30 +87,122 @@ void CycleParts::take_controller(const Rig& rig, const LinearLaw& law) {
   for (int i = 0; i < servos; ++i) time_constant[i] = rig.servo[i].time_constant;
 }
 
+namespace {
+
+// The frames that samples of a cycle look at, by their numbers, and when they are exposed.
+struct Frames {
+  double period, phase, delay;  // s
+  double sampling;              // the period of the samples, s
+  double first_seen;            // by the sample at the cycle's start
+  double first;                 // that is exposed in the cycle
+  double count;                 // that are exposed in a cycle
+
+  [[nodiscard]] double seen_by(double sample) const {
+    return std::floor(((sample + one_instant) * sampling - delay - phase) / period);
+  }
+};
+
+Frames frames_of(const CycleParts& parts, const CommonCycle& cycle) {
+  const double sampling = parts.sampling.period, delay = parts.sensor.delay;
+  const bool own = parts.sensor.period && cycle.known;
+  Frames frames{own ? *parts.sensor.period : sampling,
+                own ? parts.sensor.phase : -delay,
+                delay,
+                sampling,
+                0,
+                0,
+                cycle.frames};
+  frames.first_seen = frames.seen_by(0);
+  frames.first = std::ceil((-one_instant * sampling - frames.phase) / frames.period);
+  return frames;
+}
+
+}  // namespace
+
 SampledCycle::SampledCycle(CycleParts parts) : parts_(std::move(parts)) {
   for (const Eigen::Index i : {0, 1}) {
     if (!parts_.of_integral.row(i).isZero(0)) integrating_.push_back(i);
   }
-  const double period = parts_.sampling.period;
-  const auto split = [period](double delay, double* whole) {
-    *whole = std::floor(delay / period + 1e-9);
-    return std::max(0.0, delay - *whole * period);
+  plan();
+}
+
+void SampledCycle::plan() {
+  const CommonCycle cycle = common_cycle(parts_.sampling, parts_.sensor);
+  const Frames frames = frames_of(parts_, cycle);
+  const double period = parts_.sampling.period, near = one_instant * period;
+  const auto samples = static_cast<int>(cycle.samples);
+
+  struct Event {
+    double time;
+    Act act;
   };
-  double whole = 0;
-  const double exposed_before = split(parts_.sensor.delay, &whole);
-  exposure_ = exposed_before > 1e-9 * period ? period - exposed_before : 0;
-  exposures_ = static_cast<std::size_t>(whole) + (exposure_ > 0 ? 1 : 0);
-  application_ = split(parts_.sampling.delay, &whole);
-  if (application_ <= 1e-9 * period) application_ = 0;
+  std::vector<Event> events;
+  // Numbers of frames that are looked at, as in the cycle in which they are exposed.
+  std::vector<double> seen;
+  for (int i = 0; i < samples; ++i) {
+    const double number = frames.seen_by(i);
+    seen.push_back(number - frames.count * std::floor((number - frames.first) / frames.count));
+  }
+  std::sort(seen.begin(), seen.end());
+  seen.erase(std::unique(seen.begin(), seen.end()), seen.end());
+  for (const double number : seen) {
+    double time = frames.phase + number * frames.period;
+    const double at_sample = std::round(time / period) * period;
+    if (std::abs(time - at_sample) <= near) time = at_sample;
+    events.push_back({time, Act::expose});
+  }
+  // All of them in their order, from the one that the first sample looks at.
+  std::vector<double> queue;
+  for (double back = std::ceil((frames.first - frames.first_seen) / frames.count); back >= 0;
+       --back) {
+    for (const double number : seen) {
+      const double then = number - back * frames.count;
+      if (then >= frames.first_seen) queue.push_back(then);
+    }
+  }
+  exposures_ = static_cast<std::size_t>(
+      std::ranges::count_if(queue, [&](double number) { return number < frames.first; }));
+  std::size_t front = 0;
+  const auto skip_to = [&](double number) {
+    int skipped = 0;
+    for (; front < queue.size() && queue[front] < number; ++front) ++skipped;
+    return skipped;
+  };
+  for (int i = 0; i < samples; ++i) skipped_.push_back(skip_to(frames.seen_by(i)));
+  skipped_last_ = skip_to(frames.first_seen + frames.count);
+
+  const double whole = std::floor(parts_.sampling.delay / period + one_instant);
+  double application = std::max(0.0, parts_.sampling.delay - whole * period);
+  if (application <= near) application = 0;
   commands_ = static_cast<std::size_t>(whole);
-  const double instants[3] = {std::min(exposure_, application_), std::max(exposure_, application_),
-                              period};
-  double from = 0;
-  for (int i = 0; i < 3; ++i) {
-    LinearPlant way = after({parts_.a, parts_.b}, instants[i] - from);
-    advance_a_[i] = std::move(way.a);
-    advance_b_[i] = std::move(way.b);
-    from = instants[i];
+  begins_held_ = application > 0;
+  for (int i = 0; i < samples; ++i) {
+    events.push_back({i * period, Act::sample});
+    events.push_back({i * period + application, Act::apply});
+  }
+  events.push_back({samples * period, Act::end});
+  // What is seen, sampled and commanded at one instant happens in that order.
+  std::stable_sort(events.begin(), events.end(), [](const Event& a, const Event& b) {
+    return a.time != b.time ? a.time < b.time : a.act < b.act;
+  });
+
+  ways_.emplace_back();
+  std::vector<double> lengths{0};
+  double last = 0;
+  for (const Event& event : events) {
+    const double length = event.time - last;
+    last = std::max(last, event.time);
+    std::size_t way = 0;
+    if (length > 1e-3 * near) {
+      const auto known = std::ranges::find_if(
+          lengths, [&](double other) { return std::abs(other - length) <= 1e-3 * near; });
+      way = static_cast<std::size_t>(known - lengths.begin());
+      if (known == lengths.end()) {
+        lengths.push_back(length);
+        ways_.push_back(after({parts_.a, parts_.b}, length));
+      }
+    }
+    steps_.push_back({way, event.act});
   }
 }
 
@@ -118,7 +217,7 @@ int SampledCycle::controller_size() const {
 int SampledCycle::size() const {
   // A command that is applied at once is none of the period's start.
   return controller_at() + controller_size() + 2 * static_cast<int>(commands_) +
-         (application_ > 0 ? 2 : 0);
+         (begins_held_ ? 2 : 0);
 }
 
 std::vector<LinearSignal> SampledCycle::memory(const std::string& command_unit) const {
@@ -137,113 +236,128 @@ std::vector<LinearSignal> SampledCycle::memory(const std::string& command_unit) 
   for (std::size_t i = 1; i <= commands_; ++i) {
     add("phi", "theta", "_waiting_" + std::to_string(i), command_unit);
   }
-  if (application_ > 0) add("phi", "theta", "_held", command_unit);
+  if (begins_held_) add("phi", "theta", "_held", command_unit);
   return signals;
 }
 
-SampledCycle::Parts SampledCycle::unpacked(const VectorXd& state) const {
+SampledCycle::Parts SampledCycle::unpacked(const MatrixXd& states) const {
   Parts of;
+  const Eigen::Index count = states.cols();
   Eigen::Index next = parts_.a.rows();
-  of.plant = state.head(next);
-  const auto pair = [&]() -> Vector2 {
+  of.plant = states.topRows(next);
+  const auto pair = [&]() -> Pairs {
     next += 2;
-    return state.segment<2>(next - 2);
+    return states.middleRows(next - 2, 2);
   };
   for (std::size_t i = 0; i < exposures_; ++i) of.exposures.push_back(pair());
   of.position = pair();
   of.velocity = pair();
-  for (const Eigen::Index i : integrating_) of.integral[i] = state[next++];
+  of.integral = Pairs::Zero(2, count);
+  for (const Eigen::Index i : integrating_) of.integral.row(i) = states.row(next++);
   for (std::size_t i = 0; i < commands_; ++i) of.commands.push_back(pair());
-  of.held = application_ > 0 ? pair() : Vector2::Zero().eval();
+  of.held = begins_held_ ? pair() : Pairs::Zero(2, count).eval();
   return of;
 }
 
-VectorXd SampledCycle::packed(const Parts& of) const {
-  VectorXd state(size());
-  Eigen::Index next = of.plant.size();
-  state.head(next) = of.plant;
-  const auto put = [&](const Vector2& pair) {
-    state.segment<2>(next) = pair;
+MatrixXd SampledCycle::packed(const Parts& of) const {
+  MatrixXd states(size(), of.plant.cols());
+  Eigen::Index next = of.plant.rows();
+  states.topRows(next) = of.plant;
+  const auto put = [&](const Pairs& pairs) {
+    states.middleRows(next, 2) = pairs;
     next += 2;
   };
-  for (const Vector2& seen : of.exposures) put(seen);
+  for (const Pairs& seen : of.exposures) put(seen);
   put(of.position);
   put(of.velocity);
-  for (const Eigen::Index i : integrating_) state[next++] = of.integral[i];
-  for (const Vector2& command : of.commands) put(command);
-  if (application_ > 0) put(of.held);
-  return state;
-}
-
-void SampledCycle::advance(Parts& of, int i) const {
-  of.plant = (advance_a_[i] * of.plant + advance_b_[i] * of.held).eval();
+  for (const Eigen::Index i : integrating_) states.row(next++) = of.integral.row(i);
+  for (const Pairs& command : of.commands) put(command);
+  if (begins_held_) put(of.held);
+  return states;
 }
 
 void SampledCycle::expose(Parts& of) const {
-  const Vector2 at = of.plant.head<2>();
-  if (parts_.sensor.is_aligned()) {
-    of.exposures.push_back(at);
-  } else {
-    of.exposures.emplace_back(seen_matrix(parts_.sensor) * at);
-  }
+  const MatrixXd at = of.plant.topRows(2);
+  of.exposures.emplace_back(parts_.sensor.is_aligned() ? at
+                                                       : product(seen_matrix(parts_.sensor), at));
 }
 
 void SampledCycle::apply(Parts& of) const {
   of.held = of.commands.front();
   of.commands.pop_front();
-  VectorXd told = of.held;
-  if (parts_.told.size() > 0) told = (parts_.told * of.held).eval();
-  VectorXd jump = VectorXd::Zero(parts_.servos);
+  const MatrixXd told = parts_.told.size() > 0 ? product(parts_.told, of.held) : MatrixXd(of.held);
+  MatrixXd jump = MatrixXd::Zero(parts_.servos, of.plant.cols());
   for (int i = 0; i < parts_.servos; ++i) {
     if (!parts_.time_constant[i]) continue;
-    jump[i] =
-        (told[i] - of.plant[4 + i]) / *parts_.time_constant[i] - of.plant[4 + parts_.servos + i];
+    jump.row(i) = (told.row(i) - of.plant.row(4 + i)) / *parts_.time_constant[i] -
+                  of.plant.row(4 + parts_.servos + i);
   }
-  if (!jump.isZero(0)) of.plant += (parts_.jump * jump).eval();
+  if (!jump.isZero(0)) of.plant += product(parts_.jump, jump);
 }
 
-SampledCycle::Output SampledCycle::run(const VectorXd& state, const Input& input) const {
-  Parts of = unpacked(state);
-  if (exposure_ == 0) expose(of);
-
+void SampledCycle::sample(Parts& of, const Input& input, Outputs& output) const {
   const double period = parts_.sampling.period, filter = parts_.sampling.derivative_filter;
   const double keep = filter / (filter + period);
-  Output output;
-  output.seen = of.exposures.front();
-  of.exposures.pop_front();
-  of.velocity = (keep * of.velocity + (1 - keep) / period * (output.seen - of.position)).eval();
-  of.position = output.seen;
-  of.integral += period * parts_.of_integral * (input.reference.head<2>() - output.seen);
-  Eigen::Matrix<double, 10, 1> known;
-  known << of.position, of.velocity, of.plant.segment<4>(4), of.integral;
-  if (parts_.fed.size() > 0) known.segment<4>(4) = parts_.fed * of.plant;
-  output.law = parts_.of_feedback * known + parts_.of_reference * input.reference;
-  Vector2 command = output.law;
+  const Pairs& seen = of.exposures.front();
+  of.velocity = (keep * of.velocity + (1 - keep) / period * (seen - of.position)).eval();
+  of.position = seen;
+  const Pairs error = (-seen).colwise() + input.reference.head<2>();
+  of.integral += period * product(parts_.of_integral, error);
+  MatrixXd known(10, of.plant.cols());
+  known << of.position, of.velocity, of.plant.middleRows(4, 4), of.integral;
+  if (parts_.fed.size() > 0) known.middleRows(4, 4) = product(parts_.fed, of.plant);
+  const Vector2 led = parts_.of_reference * input.reference;
+  const Pairs law = product(parts_.of_feedback, known).colwise() + led;
+  Pairs command = law;
   for (int i = 0; i < 2; ++i) {
-    if (input.open[i]) command[i] = input.command[i];
+    if (input.open[i]) command.row(i).setConstant(input.command[i]);
+  }
+  if (output.law.size() == 0) {
+    output.law = law;
+    output.seen = seen;
   }
   of.commands.push_back(command);
+}
 
-  if (application_ == 0) apply(of);
-  advance(of, 0);
-  const bool exposure_first = exposure_ <= application_;
-  for (int i = 1; i <= 2; ++i) {
-    if ((i == 1) == exposure_first) {
-      if (exposure_ > 0) expose(of);
-    } else if (application_ > 0) {
-      apply(of);
+SampledCycle::Outputs SampledCycle::run_all(const MatrixXd& states, const Input& input) const {
+  Parts of = unpacked(states);
+  Outputs output;
+  const auto skip = [&of](int count) {
+    for (; count > 0; --count) of.exposures.pop_front();
+  };
+  std::size_t next_sample = 0;
+  for (const Step& step : steps_) {
+    if (step.way > 0) {
+      const LinearPlant& way = ways_[step.way];
+      of.plant = product(way.a, of.plant) + product(way.b, of.held);
     }
-    advance(of, i);
+    switch (step.act) {
+      case Act::expose:
+        expose(of);
+        break;
+      case Act::sample:
+        skip(skipped_[next_sample++]);
+        sample(of, input, output);
+        break;
+      case Act::apply:
+        apply(of);
+        break;
+      case Act::end:
+        skip(skipped_last_);
+        break;
+    }
   }
-  output.state = packed(of);
+  output.states = packed(of);
   return output;
 }
 
+SampledCycle::Output SampledCycle::run(const VectorXd& state, const Input& input) const {
+  const Outputs all = run_all(state, input);
+  return {all.states.col(0), all.seen.col(0), all.law.col(0)};
+}
+
 MatrixXd SampledCycle::map() const {
-  const int n = size();
-  MatrixXd map(n, n);
-  for (int j = 0; j < n; ++j) map.col(j) = run(VectorXd::Unit(n, j), {}).state;
-  return map;
+  return run_all(MatrixXd::Identity(size(), size()), {}).states;
 }
 
 LinearPlant linear_plant(const RigLoop<>& loop) {
@@ -398,15 +512,6 @@ Eigenvalues plant_poles(const Model& model) {
         }
       },
       model.system);
-}
-
-Eigenvalues poles_of_period(const MatrixXd& map) {
-  Eigenvalues poles = eigenvalues_of(map);
-  std::sort(poles.begin(), poles.end(), [](const auto& a, const auto& b) {
-    const double p = std::abs(a), q = std::abs(b);
-    return p != q ? p > q : a.imag() > b.imag();
-  });
-  return poles;
 }
 
 }  // namespace bbsim::model

@@ -53,7 +53,7 @@ struct CycleParts {
   Eigen::Matrix<double, 2, 10> of_feedback = Eigen::Matrix<double, 2, 10>::Zero();
   Eigen::Matrix<double, 2, 6> of_reference = Eigen::Matrix<double, 2, 6>::Zero();
   Sampling sampling;  // whose period is the nominal one
-  Sensor sensor;      // which looks for each sample, whatever its frames
+  Sensor sensor;      // which looks for each sample where it has no frames of a known cycle
   Eigen::Matrix2d of_integral = Eigen::Matrix2d::Zero();  // rates of the integral parts, of e
   std::optional<double> time_constant[most_servos]{};     // of servos of first order, s
 
@@ -70,10 +70,11 @@ struct CycleParts {
 // A linkage under a plane that is level at home.
 [[nodiscard]] Linkages levelled(const Linkages& link);
 
-// One period of a sampled loop, linear: from one sample to the next. Of its state, in this order:
-// the plant's; what was seen and not yet sampled; the position and velocity that the controller
-// has; the commands' integral parts, if the law has them; the commands not yet applied; the command
-// that is held, if the period begins with it.
+// What a sampled loop does from a sample on, linear, until samples and frames meet again: to the
+// next sample, if there are no frames, or one for each (common_cycle.hpp). Of its state, in this
+// order: the plant's; what was seen and is not yet done with; the position and velocity that the
+// controller has; the commands' integral parts, if the law has them; the commands not yet applied;
+// the command that is held, if the cycle begins with it.
 class SampledCycle {
  public:
   explicit SampledCycle(CycleParts parts);
@@ -85,42 +86,56 @@ class SampledCycle {
     Eigen::Vector2d command = Eigen::Vector2d::Zero();
   };
   struct Output {
-    Eigen::VectorXd state;  // a period later
-    Eigen::Vector2d seen;   // by the sample at the period's start, m
+    Eigen::VectorXd state;  // a cycle later
+    Eigen::Vector2d seen;   // by the sample at the cycle's start, m
     Eigen::Vector2d law;    // what the law says then
   };
   [[nodiscard]] Output run(const Eigen::VectorXd& state, const Input& input) const;
 
   [[nodiscard]] int size() const;
+  // How many periods of the samples it takes.
+  [[nodiscard]] int samples() const { return static_cast<int>(skipped_.size()); }
   // Of the states after the plant's.
   [[nodiscard]] std::vector<LinearSignal> memory(const std::string& command_unit) const;
   // Where among the states the controller's own are: from the position on, so many.
   [[nodiscard]] int controller_at() const;
   [[nodiscard]] int controller_size() const;
 
-  // What a period does to the state, the loop closed.
+  // What a cycle does to the state, the loop closed.
   [[nodiscard]] Eigen::MatrixXd map() const;
 
  private:
-  using Integrating = std::vector<Eigen::Index>;
+  enum class Act { expose, sample, apply, end };
+  struct Step {
+    std::size_t way;  // until then, among `ways_`; 0: none
+    Act act;
+  };
+  // Of several states at once: a column each.
   struct Parts;
-  [[nodiscard]] Parts unpacked(const Eigen::VectorXd& state) const;
-  [[nodiscard]] Eigen::VectorXd packed(const Parts& parts) const;
-  void advance(Parts& of, int i) const;
+  struct Outputs;
+  [[nodiscard]] Outputs run_all(const Eigen::MatrixXd& states, const Input& input) const;
+  [[nodiscard]] Parts unpacked(const Eigen::MatrixXd& states) const;
+  [[nodiscard]] Eigen::MatrixXd packed(const Parts& parts) const;
+  void plan();
+  void sample(Parts& of, const Input& input, Outputs& output) const;
   void expose(Parts& of) const;
   void apply(Parts& of) const;
 
   CycleParts parts_;
-  Integrating integrating_;                   // the commands with an integral part
-  double exposure_ = 0, application_ = 0;     // instants within the period, s
-  std::size_t exposures_ = 0, commands_ = 0;  // in the queues at the period's start
-  Eigen::MatrixXd advance_a_[3], advance_b_[3];
+  std::vector<Eigen::Index> integrating_;     // the commands with an integral part
+  bool begins_held_ = false;                  // with a command, for a part of its first period
+  std::size_t exposures_ = 0, commands_ = 0;  // in the queues at the cycle's start
+  std::vector<Step> steps_;
+  std::vector<LinearPlant> ways_;
+  // How many exposures are done with before each sample, and at the cycle's end.
+  std::vector<int> skipped_;
+  int skipped_last_ = 0;
 };
 
 // About home.
 [[nodiscard]] CycleParts cycle_parts(const RigLoop<>& loop, const Rig& rig);
 
-// The poles of a sampled loop about home: eigenvalues of what a period does to the plant, to what
+// The poles of a sampled loop about home: eigenvalues of what a cycle does to the plant, to what
 // is on its way through the delays, and to what the controller remembers. The loop is stable if all
 // lie within the unit circle. By falling size; empty if the gains are too large for numbers, or if
 // the law is not for the model to know.
@@ -131,8 +146,5 @@ class SampledCycle {
 // The poles of the LinearPlant of a model with a rig under a constant command, 1/s, by falling real
 // part.
 [[nodiscard]] Eigenvalues plant_poles(const Model& model);
-
-// Eigenvalues of a map from period to period, in that order.
-[[nodiscard]] Eigenvalues poles_of_period(const Eigen::MatrixXd& map);
 
 }  // namespace bbsim::model

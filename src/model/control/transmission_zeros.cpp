@@ -1,12 +1,14 @@
 #include "model/control/transmission_zeros.hpp"
 
-#include <Eigen/SVD>
 #include <algorithm>
+#include <cmath>
+#include <cstddef>
 #include <limits>
+#include <optional>
 #include <utility>
 
-#include "model/dense.hpp"
 #include "model/eigenvalues.hpp"
+#include "model/exact_eigenvalues.hpp"
 
 namespace bbsim::model {
 namespace {
@@ -14,71 +16,232 @@ namespace {
 using Eigen::Index;
 using Eigen::MatrixXd;
 
-struct Quadruple {
-  MatrixXd a, b, c, d;
+// A sum, and how large its terms were: what is left of terms that cancel is 0.
+struct Sum {
+  double value = 0, of = 0;
+
+  [[nodiscard]] bool is_zero() const {
+    // Entries have the rounding of an exponential, and of what eliminated them.
+    constexpr double rounding = 1e-12;
+    return !(std::abs(value) > rounding * of);
+  }
+  // Not even a digit of it is known.
+  [[nodiscard]] bool is_rounding() const {
+    return !(std::abs(value) > 32 * std::numeric_limits<double>::epsilon() * of);
+  }
 };
 
-// Rows of an orthogonal matrix: first those that a matrix maps to nothing, then the others.
-struct RowCompression {
-  MatrixXd rows;
-  Index rank;
+Sum product(const Sum& a, const Sum& b) {
+  return {a.value * b.value, std::max(a.of * std::abs(b.value), std::abs(a.value) * b.of)};
+}
+
+Sum ratio(const Sum& a, const Sum& b) {
+  const double value = a.value / b.value;
+  return {value, std::max(a.of, std::abs(value) * b.of) / std::abs(b.value)};
+}
+
+// [A, B; C, D], of so many states: rows are those of the states and the outputs, columns those of
+// the states and the inputs.
+struct Pencil {
+  Index states = 0;
+  std::vector<std::vector<Sum>> rows;
+
+  [[nodiscard]] Index row_count() const { return std::ssize(rows); }
+  [[nodiscard]] Index column_count() const { return rows.empty() ? states : std::ssize(rows[0]); }
+  Sum& at(Index i, Index j) {
+    return rows[static_cast<std::size_t>(i)][static_cast<std::size_t>(j)];
+  }
+  [[nodiscard]] const Sum& at(Index i, Index j) const {
+    return rows[static_cast<std::size_t>(i)][static_cast<std::size_t>(j)];
+  }
 };
 
-RowCompression compress_rows(const MatrixXd& matrix, double rounding) {
-  const Eigen::JacobiSVD<MatrixXd, Eigen::FullPivHouseholderQRPreconditioner> svd(
-      matrix, Eigen::ComputeFullU);
-  const auto& sizes = svd.singularValues();
-  const Index rank = (sizes.array() > rounding).count();
-  return {svd.matrixU().rowwise().reverse().transpose(), rank};
+void add(Sum& to, const Sum& factor, const Sum& what, double sign) {
+  const Sum more = product(factor, what);
+  to = {to.value + sign * more.value, std::max(to.of, more.of)};
+}
+
+struct Place {
+  Index row, column;
+};
+
+// The largest entry that is not 0, of such rows and columns.
+std::optional<Place> largest_of(const Pencil& of, const std::vector<Index>& rows,
+                                const std::vector<Index>& columns) {
+  std::optional<Place> place;
+  double largest = 0;
+  for (const Index i : rows) {
+    for (const Index j : columns) {
+      const Sum& one = of.at(i, j);
+      if (one.is_zero() || !(std::abs(one.value) > largest)) continue;
+      largest = std::abs(one.value);
+      place = Place{i, j};
+    }
+  }
+  return place;
+}
+
+std::vector<Index> range(Index from, Index to) {
+  std::vector<Index> all;
+  for (Index i = from; i < to; ++i) all.push_back(i);
+  return all;
+}
+
+// Takes multiples of the pivot's row from another, so that it has 0 in the pivot's column.
+void eliminate(Pencil& of, const Place& pivot, Index row) {
+  if (of.at(row, pivot.column).value == 0) return;
+  const Sum factor = ratio(of.at(row, pivot.column), of.at(pivot.row, pivot.column));
+  for (Index j = 0; j < of.column_count(); ++j) {
+    if (j != pivot.column) add(of.at(row, j), factor, of.at(pivot.row, j), -1);
+  }
+  of.at(row, pivot.column) = {};
+}
+
+// Rows of outputs that D has a pivot in; in the columns of inputs all others are 0 after it.
+std::vector<Place> compress_inputs(Pencil& of, std::vector<Index>& without) {
+  without = range(of.states, of.row_count());
+  std::vector<Index> columns = range(of.states, of.column_count());
+  std::vector<Place> pivots;
+  while (const auto pivot = largest_of(of, without, columns)) {
+    std::erase(without, pivot->row);
+    std::erase(columns, pivot->column);
+    for (const Index row : without) eliminate(of, *pivot, row);
+    pivots.push_back(*pivot);
+  }
+  for (const Index row : without) {
+    for (Index j = of.states; j < of.column_count(); ++j) of.at(row, j) = {};
+  }
+  return pivots;
+}
+
+// Other states, of which such rows of outputs see these alone.
+std::vector<Index> compress_states(Pencil& of, std::vector<Index> outputs,
+                                   std::vector<Index>& unseen) {
+  unseen = range(0, of.states);
+  std::vector<Index> seen;
+  while (const auto pivot = largest_of(of, outputs, unseen)) {
+    std::erase(outputs, pivot->row);
+    std::erase(unseen, pivot->column);
+    const Index k = pivot->column;
+    for (const Index j : unseen) {
+      if (of.at(pivot->row, j).value == 0) continue;
+      // x_k + f x_j is a state in place of x_k.
+      const Sum f = ratio(of.at(pivot->row, j), of.at(pivot->row, k));
+      for (Index i = 0; i < of.row_count(); ++i) add(of.at(i, j), f, of.at(i, k), -1);
+      for (Index i = 0; i < of.column_count(); ++i) add(of.at(k, i), f, of.at(j, i), 1);
+      of.at(pivot->row, j) = {};
+    }
+    for (const Index row : outputs) of.at(row, k) = {};
+    seen.push_back(k);
+  }
+  return seen;
 }
 
 // Takes away what of the state no zero sees, until D has full row rank.
-Quadruple reduced(Quadruple of, double rounding) {
-  while (of.a.rows() > 0) {
-    const Index n = of.a.rows(), m = of.b.cols(), p = of.c.rows();
-    const RowCompression of_d = compress_rows(of.d, rounding);
-    const Index sigma = of_d.rank;
-    if (sigma == p) break;
-    const MatrixXd c = product(of_d.rows, of.c), d = product(of_d.rows, of.d);
-    // Directions of the state that the outputs without a direct term do not see come first.
-    const RowCompression seen = compress_rows(c.topRows(p - sigma).transpose(), rounding);
-    const Index rho = seen.rank, nu = n - rho;
-    if (rho == 0) {
-      of.c = c.bottomRows(sigma);
-      of.d = d.bottomRows(sigma);
-      break;
+Pencil reduced(Pencil of) {
+  while (of.states > 0) {
+    std::vector<Index> without, unseen;
+    const std::vector<Place> pivots = compress_inputs(of, without);
+    if (without.empty()) break;
+    const std::vector<Index> seen = compress_states(of, without, unseen);
+    // Where outputs see nothing any more they are left out.
+    std::vector<Index> kept = unseen, columns = unseen;
+    kept.insert(kept.end(), seen.begin(), seen.end());
+    for (const Place& pivot : pivots) kept.push_back(pivot.row);
+    for (Index j = of.states; j < of.column_count(); ++j) columns.push_back(j);
+    Pencil next;
+    next.states = std::ssize(unseen);
+    for (const Index i : kept) {
+      next.rows.emplace_back();
+      for (const Index j : columns) next.rows.back().push_back(of.at(i, j));
     }
-    MatrixXd rows(n + sigma, n + m);
-    const MatrixXd back = seen.rows.transpose();
-    rows << product(product(seen.rows, of.a), back), product(seen.rows, of.b),
-        product(c.bottomRows(sigma), back), d.bottomRows(sigma);
-    of = {rows.topLeftCorner(nu, nu), rows.topRightCorner(nu, m),
-          rows.block(nu, 0, rho + sigma, nu), rows.block(nu, n, rho + sigma, m)};
+    of = std::move(next);
+    if (seen.empty()) break;
   }
   return of;
 }
 
-Quadruple transposed(const Quadruple& of) {
-  return {of.a.transpose(), of.c.transpose(), of.b.transpose(), of.d.transpose()};
+Pencil transposed(const Pencil& of) {
+  Pencil other;
+  other.states = of.states;
+  for (Index j = 0; j < of.column_count(); ++j) {
+    other.rows.emplace_back();
+    for (Index i = 0; i < of.row_count(); ++i) other.rows.back().push_back(of.at(i, j));
+  }
+  return other;
+}
+
+// In other units, by powers of 2: of states, so that a row and its column are alike in size; of
+// inputs and outputs, so that their largest entry is about 1.
+void balance(MatrixXd& all, Index states) {
+  constexpr int enough = 100;
+  bool changes = true;
+  const auto power = [](double of) { return std::exp2(std::round(std::log2(of))); };
+  for (int pass = 0; pass < enough && changes; ++pass) {
+    changes = false;
+    for (Index i = 0; i < all.rows(); ++i) {
+      double row = 0, column = 0;
+      for (Index j = 0; j < all.cols(); ++j) {
+        if (j == i && i < states) continue;
+        row = std::max(row, std::abs(all(i, j)));
+        column = std::max(column, std::abs(all(j, i)));
+      }
+      double of_row = 1, of_column = 1;
+      if (i >= states) {
+        if (row > 0) of_row = power(1 / row);
+        if (column > 0) of_column = power(1 / column);
+      } else if (row > 0 && column > 0) {
+        of_column = std::exp2(std::round((std::log2(row) - std::log2(column)) / 2));
+        of_row = 1 / of_column;
+      }
+      if ((of_row == 1 && of_column == 1) || !std::isfinite(of_row) || !std::isfinite(of_column)) {
+        continue;
+      }
+      changes = true;
+      all.row(i) *= of_row;
+      all.col(i) *= of_column;
+    }
+  }
 }
 
 }  // namespace
 
 std::vector<std::complex<double>> transmission_zeros(const MatrixXd& a, const MatrixXd& b,
                                                      const MatrixXd& c, const MatrixXd& d) {
-  if (b.cols() != c.rows() || !a.allFinite() || !b.allFinite() || !c.allFinite()) return {};
-  const double size = std::max({a.norm(), b.norm(), c.norm(), d.norm()});
-  const double rounding =
-      10 * static_cast<double>(a.rows()) * std::numeric_limits<double>::epsilon() * size;
-  const Quadruple by_rows = reduced({a, b, c, d}, rounding);
-  const Quadruple square = transposed(reduced(transposed(by_rows), rounding));
-  if (square.a.rows() == 0) return {};
-  MatrixXd matrix = square.a;
-  if (square.d.rows() > 0) {
-    if (square.d.rows() != square.d.cols()) return {};
-    matrix -= product(square.b, solve_consistent(square.d, square.c));
+  const Index n = a.rows(), inputs = b.cols();
+  if (inputs != c.rows() || !a.allFinite() || !b.allFinite() || !c.allFinite() || !d.allFinite()) {
+    return {};
   }
-  std::vector<std::complex<double>> zeros = eigenvalues_of(matrix);
+  MatrixXd all(n + inputs, n + inputs);
+  all << a, b, c, d;
+  balance(all, n);
+  Pencil pencil;
+  pencil.states = n;
+  for (Index i = 0; i < all.rows(); ++i) {
+    pencil.rows.emplace_back();
+    for (Index j = 0; j < all.cols(); ++j) {
+      pencil.rows.back().push_back({all(i, j), std::abs(all(i, j))});
+    }
+  }
+  Pencil square = transposed(reduced(transposed(reduced(std::move(pencil)))));
+  const Index left = square.states;
+  if (left == 0 || square.row_count() != square.column_count()) return {};
+  // A - B D^-1 C.
+  std::vector<Index> without;
+  const std::vector<Place> pivots = compress_inputs(square, without);
+  if (!without.empty()) return {};
+  for (const Place& pivot : pivots) {
+    for (Index row = 0; row < left; ++row) eliminate(square, pivot, row);
+  }
+  MatrixXd matrix(left, left);
+  for (Index i = 0; i < left; ++i) {
+    for (Index j = 0; j < left; ++j) {
+      const Sum& one = square.at(i, j);
+      matrix(i, j) = one.is_rounding() ? 0 : one.value;
+    }
+  }
+  std::vector<std::complex<double>> zeros =
+      left > most_exact ? eigenvalues_of(matrix) : exact_eigenvalues(matrix);
   std::sort(zeros.begin(), zeros.end(), [](const auto& p, const auto& q) {
     return p.real() != q.real() ? p.real() > q.real() : p.imag() > q.imag();
   });

@@ -1,0 +1,352 @@
+// What loops bear, held against their own poles; poles that rounding must not move; zeros.
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <random>
+#include <string>
+
+#include "catch.hpp"
+#include "model/control/linearise.hpp"
+#include "model/control/sampled_cycle.hpp"
+#include "model/control/transmission_zeros.hpp"
+#include "model/exact_eigenvalues.hpp"
+#include "support/reading.hpp"
+#include "support/scenes.hpp"
+
+using namespace bbsim;
+using namespace bbsim_test;
+using Eigen::MatrixXd;
+using model::Eigenvalues;
+using model::Linearisation;
+using model::LinearKind;
+using model::Margins;
+using Complex = std::complex<double>;
+
+namespace {
+
+Linearisation loop_of(const Scenario& scene) {
+  return model::linearise(scene, model::assemble(scene, false), LinearKind::loop,
+                          model::home_point());
+}
+
+bool is_stable(const Scenario& scene) {
+  const model::Model model = model::assemble(scene, false);
+  return model.rig && model.rig->sampled ? model::stable_by_period(model::sampled_poles(model))
+                                         : model::stable(model::closed_loop_poles(model));
+}
+
+// With all that the law says of an axis times a factor.
+Scenario with_row(Scenario scene, std::size_t row, double factor) {
+  Controller& law = *scene.controller;
+  for (Matrix2* gain : {&law.kp, &law.kv, &law.ki}) {
+    for (double& one : (*gain)[row]) one *= factor;
+  }
+  for (double& one : law.gain[row]) one *= factor;
+  return scene;
+}
+
+// Loops of all kinds, most of them stable.
+class Loops {
+ public:
+  Scenario draw() {
+    Scenario scene = fig2b();
+    scene.ball.radius = by_factors(0.005, 0.05);
+    scene.ball.mass = by_factors(0.01, 0.5);
+    Controller& controller = *scene.controller;
+    controller.reference = PointReference{};
+    const bool sampled = chance(0.6), by_torque = chance(0.25);
+    const double slowest = sampled ? 10 : 3;
+    scene.gimbal.servo = Servo{by_factors(slowest, 150), between(0.3, 1.5)};
+    if (chance(0.2)) {
+      scene.gimbal.mounting = {between(-0.03, 0.03), between(-0.02, 0.02), between(-0.02, 0.02),
+                               between(-0.1, 0.1),   between(-0.5, 0.5),   between(-0.03, 0.03)};
+    }
+    if (by_torque) {
+      scene.gimbal.servo.reset();
+      scene.plate.inertia = {{0.004, by_factors(0.002, 0.008), 0.008}};
+      scene.gimbal.motor = Motor{};
+      scene.gimbal.motor->viscous = by_factors(1e-3, 0.1);
+      controller.drives = Drives::torque;
+    }
+    const double whole = by_torque ? by_factors(3, 8) : by_factors(0.2, 1),
+                 of_rate = whole * by_factors(0.2, 1.2),
+                 of_angle = by_torque ? by_factors(1, 4) : between(-0.1, 0.5),
+                 of_angle_rate = by_torque ? by_factors(0.1, 0.5) : between(-0.01, 0.03);
+    const int law = by_torque ? 2 : static_cast<int>(between(0, 3));
+    controller.law = law == 0 ? Law::pd : law == 1 ? Law::pid : Law::state_feedback;
+    controller.kp = {{{whole, 0}, {0, -whole}}};
+    controller.kv = {{{of_rate, 0}, {0, -of_rate}}};
+    if (law == 1) {
+      const double of_sum = whole * by_factors(0.02, 1);
+      controller.ki = {{{of_sum, 0}, {0, -of_sum}}};
+    }
+    if (law == 2) {
+      controller.kp = controller.kv = {};
+      controller.gain = {{{whole, 0, of_rate, 0, of_angle, 0, of_angle_rate, 0},
+                          {0, -whole, 0, -of_rate, 0, of_angle, 0, of_angle_rate}}};
+    }
+    if (sampled) {
+      controller.sampling = Sampling{by_torque ? by_factors(0.002, 0.02) : by_factors(0.005, 0.05)};
+      if (chance(0.4)) controller.sampling->delay = controller.sampling->period * between(0, 2);
+      if (chance(0.6)) controller.sampling->derivative_filter = by_factors(0.005, 0.05);
+      if (chance(0.4)) {
+        controller.sensor = Sensor{};
+        controller.sensor->delay = controller.sampling->period * between(0, 2);
+      }
+      if (!by_torque && law != 2 && chance(0.2)) {
+        scene.gimbal.servo = Servo{};
+        scene.gimbal.servo->time_constant = by_factors(0.02, 0.1);
+      }
+    }
+    return scene;
+  }
+
+  double between(double low, double high) {
+    return std::uniform_real_distribution<double>(low, high)(random_);
+  }
+
+ private:
+  double by_factors(double low, double high) {
+    return std::exp(between(std::log(low), std::log(high)));
+  }
+  bool chance(double p) { return between(0, 1) < p; }
+
+  std::mt19937 random_{11};
+};
+
+}  // namespace
+
+TEST_CASE("margins of gain are where the poles of 500 random loops cross the border") {
+  Loops loops;
+  int tried = 0, sampled = 0, at_zero = 0, at_half_rate = 0, between = 0, down = 0, none = 0;
+  while (tried < 500) {
+    const Scenario scene = loops.draw();
+    if (!is_stable(scene)) continue;
+    const auto row = static_cast<std::size_t>(tried % 2);
+    const Margins margins = loop_of(scene).margins[row].margins;
+    const auto stable_with = [&](double factor) { return is_stable(with_row(scene, row, factor)); };
+    ++tried;
+    const bool samples = scene.controller->sampling.has_value();
+    CAPTURE(tried, samples, static_cast<int>(scene.controller->law), margins.gain, margins.gain_at,
+            margins.reduction, margins.reduction_at);
+    if (samples) ++sampled;
+    if (std::isfinite(margins.gain)) {
+      CHECK(stable_with(0.99 * margins.gain));
+      CHECK_FALSE(stable_with(1.01 * margins.gain));
+      const bool last =
+          samples && margins.gain_at == std::numbers::pi / scene.controller->sampling->period;
+      ++(last ? at_half_rate : between);
+    } else {
+      ++none;
+      CHECK(stable_with(1e3));
+    }
+    if (margins.reduction > 0) {
+      CHECK(stable_with(1.01 * margins.reduction));
+      CHECK_FALSE(stable_with(0.99 * margins.reduction));
+      ++(margins.reduction_at == 0 ? at_zero : down);
+    } else {
+      CHECK(stable_with(1e-3));
+    }
+    // And nowhere between them.
+    const double low = std::log(std::max(margins.reduction, 1e-3)),
+                 high = std::log(std::min(margins.gain, 1e3));
+    for (int i = 0; i < 3; ++i) CHECK(stable_with(std::exp(loops.between(low, high))));
+  }
+  CAPTURE(sampled, at_zero, at_half_rate, between, down, none);
+  // Of each kind there are some.
+  CHECK(std::min({sampled, 500 - sampled, at_zero, at_half_rate, between, down, none}) > 20);
+}
+
+TEST_CASE("a margin of phase below 0 is of lead: so much of it brings the loop to the border") {
+  Scenario scene = fig2b();
+  scene.ball.radius = 0.032;
+  scene.gimbal.servo = Servo{130, 0.717};
+  scene.controller->kp = {{{0.693, 0}, {0, -0.693}}};
+  scene.controller->kv = {{{0.728, 0}, {0, -0.728}}};
+  scene.controller->reference = PointReference{};
+  scene.controller->sampling = Sampling{0.03};
+  REQUIRE(is_stable(scene));
+  const Margins margins = loop_of(scene).margins[0].margins;
+  REQUIRE(margins.phase < 0);
+  // L = K(z) G(z), of the plant that a command is held for.
+  const Linearisation plant = model::linearise(scene, model::assemble(scene, false),
+                                               LinearKind::sampled, model::home_point());
+  const auto& system = plant.system;
+  const model::FrequencyResponse response(system.a, system.b, system.c, system.d, 0.03);
+  const Complex z = std::polar(1.0, margins.phase_at * 0.03);
+  const Complex l = (0.693 + 0.728 * (1.0 - 1.0 / z) / 0.03) * response.at(margins.phase_at, 0, 0);
+  CHECK(std::abs(1.0 + l * std::polar(1.0, -margins.phase)) < 1e-9);
+}
+
+TEST_CASE("where the plane turns, what the spin does is no margin") {
+  const Scenario scene = read_scenario(BBSIM_SOURCE_DIR "/configs/hold.yaml");
+  const Margins home = loop_of(scene).margins[0].margins;
+  model::LinearPoint at;
+  at.state = {0.05, -0.04, -0.1, 0.05, 0.1, 0.02, -0.01, 0.03, 0.02};
+  for (const bool sampled : {false, true}) {
+    Scenario moving = scene;
+    if (sampled) moving.controller->sampling = Sampling{0.01};
+    const Linearisation made =
+        model::linearise(moving, model::assemble(moving, false), LinearKind::loop, at);
+    REQUIRE(made.system.states[4].name == (sampled ? "phi" : "r*spin"));
+    for (const model::LoopMargins& one : made.margins) {
+      CAPTURE(sampled, one.command);
+      CHECK(one.margins.reduction == 0);
+    }
+    // So slow a turn of a ball that spins at 10 rad/s changes little else.
+    if (!sampled) CHECK(made.margins[0].margins.gain == Approx(home.gain).epsilon(0.03));
+  }
+}
+
+TEST_CASE("a loss that stops the ball makes no pole unstable by its rounding") {
+  for (const double viscous : {1e3, 1e6, 1e9}) {
+    Scenario scene = read_scenario(BBSIM_SOURCE_DIR "/configs/hold.yaml");
+    scene.ball.losses.viscous = viscous;
+    CAPTURE(viscous);
+    const Eigenvalues poles = model::closed_loop_poles(model::assemble(scene, false));
+    CHECK(model::stable(poles));
+    // x' = g m r^2 / viscous phi, but for 1e-8 under the least loss; quads leave 1e-20 1/s of 2e14.
+    const double slow = -0.7 * scene.gravity * scene.ball.mass * 1e-4 / viscous;
+    for (const std::size_t i : {0U, 1U}) CHECK(poles[i].real() == Approx(slow).epsilon(1e-5));
+    const auto margins = loop_of(scene).margins;
+    // An integrator: 90 degrees at its own rate.
+    CHECK(margins[1].margins.phase == Approx(std::numbers::pi / 2).epsilon(1e-6));
+    CHECK(margins[1].margins.phase_at == Approx(-slow).epsilon(1e-6));
+    CHECK(margins[1].margins.reduction == 0);
+
+    Scenario sampled = read_scenario(BBSIM_SOURCE_DIR "/configs/step.yaml");
+    sampled.ball.losses.viscous = viscous;
+    CHECK(model::growing_by_period(model::sampled_poles(model::assemble(sampled, false))) == 0);
+  }
+}
+
+TEST_CASE("eigenvalues in quads are right beside others 1e25 times as large") {
+  MatrixXd a(4, 4);
+  // Two blocks of (-1e12, -1e-13) and (2 +- 3i), of which the first one acts on the second.
+  a << -1e12, 1e-3, 0, 0, 0, -1e-13, 0, 0, 1e6, 1, 2, 9, -1e5, 3, -1, 2;
+  auto values = model::exact_eigenvalues(a);
+  std::ranges::sort(values, {}, [](const Complex& one) { return std::abs(one); });
+  REQUIRE(values.size() == 4);
+  CHECK(values[0].real() == Approx(-1e-13).epsilon(1e-14));
+  CHECK(values[1].real() == Approx(2).epsilon(1e-14));
+  CHECK(std::abs(values[1].imag()) == Approx(3).epsilon(1e-14));
+  CHECK(values[1] == std::conj(values[2]));
+  CHECK(values[3].real() == Approx(-1e12).epsilon(1e-14));
+  CHECK(model::exact_eigenvalues(MatrixXd(0, 0)).empty());
+  CHECK(model::exact_eigenvalues(MatrixXd::Zero(2, 2)) == Eigenvalues(2));
+  a(0, 0) = std::nan("");
+  CHECK(model::exact_eigenvalues(a).empty());
+}
+
+namespace {
+
+double worst_of(const Eigenvalues& found, Eigenvalues expected) {
+  REQUIRE(found.size() == expected.size());
+  double worst = 0;
+  for (const Complex& one : found) {
+    const auto nearest = std::ranges::min_element(
+        expected, {}, [&](const Complex& other) { return std::abs(other - one); });
+    worst = std::max(worst, std::abs(*nearest - one) / std::abs(*nearest));
+    expected.erase(nearest);
+  }
+  return worst;
+}
+
+}  // namespace
+
+TEST_CASE("zeros are those of the plant behind servos of any speed, and of the law before them") {
+  for (const char* name : {"fig2b", "hold", "lissajous", "waypoints"}) {
+    Scenario scene = read_scenario(std::string(BBSIM_SOURCE_DIR "/configs/") + name + ".yaml");
+    const Controller& controller = *scene.controller;
+    const double r = scene.ball.radius, beyond = std::sqrt(5 * scene.gravity / 7 / r);
+    for (const double speed : {10.0, 1e3, 1e4, 1e5, 1e6, 1e7}) {
+      scene.gimbal.servo = Servo{speed, 0.9};
+      CAPTURE(name, speed);
+      // 5/7 g is beside r speed^2 in an entry of A: so much of its digits is left.
+      const double conditioning = 1e-15 * (1 + r * speed * speed / (5 * scene.gravity / 7));
+      const auto plant = model::linearise(scene, model::assemble(scene, false), LinearKind::plant,
+                                          model::home_point());
+      const Eigenvalues of_plant{beyond, beyond, -beyond, -beyond};
+      CHECK(worst_of(plant.zeros, of_plant) < 1e-13 + 10 * conditioning);
+      Eigenvalues of_loop = of_plant;
+      for (const std::size_t i : {0U, 1U}) {
+        of_loop.emplace_back(-controller.kp[i][i] / controller.kv[i][i]);
+      }
+      CHECK(worst_of(loop_of(scene).zeros, of_loop) < 1e-12 + 1e3 * conditioning);
+    }
+  }
+  // Nothing is left of 5/7 g beside this: any answer, but an answer.
+  for (const double speed : {1e9, 1e15, 1e60}) {
+    Scenario scene = read_scenario(BBSIM_SOURCE_DIR "/configs/hold.yaml");
+    scene.gimbal.servo = Servo{speed, 0.9};
+    CHECK_NOTHROW(loop_of(scene));
+  }
+  Scenario steep = read_scenario(BBSIM_SOURCE_DIR "/configs/hold.yaml");
+  steep.controller->kv = {{{1e6, 0}, {0, -100}}};
+  CHECK(loop_of(steep).zeros.size() == 6);
+}
+
+TEST_CASE("zeros are known whatever the units of states, inputs, outputs and time") {
+  // Two outputs with the zeros 2, -3e-4 and -5e3, and -7, of s^3 + ... and s^2 + ...; the second
+  // input acts on the first output too.
+  const double zeros[3] = {2, -3e-4, -5e3};
+  const double sum = zeros[0] + zeros[1] + zeros[2],
+               pairs = zeros[0] * zeros[1] + zeros[1] * zeros[2] + zeros[2] * zeros[0],
+               product = zeros[0] * zeros[1] * zeros[2];
+  MatrixXd a = MatrixXd::Zero(6, 6), b = MatrixXd::Zero(6, 2), c = MatrixXd::Zero(2, 6);
+  for (const int i : {0, 1, 2, 4}) a(i, i + 1) = 1;
+  a.row(3).head(4) << -24, -50, -35, -10;
+  a.row(5).tail(2) << -2, -3;
+  b(3, 0) = b(5, 1) = 1;
+  b(3, 1) = 0.7;
+  c.row(0).head(4) << -product, pairs, -sum, 1;
+  c.row(1).tail(2) << 7, 1;
+  const MatrixXd d = MatrixXd::Zero(2, 2);
+  const Eigenvalues expected{2, -3e-4, -5e3, -7};
+  CHECK(worst_of(model::transmission_zeros(a, b, c, d), expected) < 1e-11);
+  std::mt19937 random(5);
+  const auto unit = [&random](double decades) {
+    return std::pow(10.0, std::uniform_real_distribution<double>(-decades, decades)(random));
+  };
+  for (int i = 0; i < 50; ++i) {
+    MatrixXd scaled_a = a, scaled_b = b, scaled_c = c;
+    const double time = unit(9);
+    for (int k = 0; k < 6; ++k) {
+      const double scale = unit(12);
+      scaled_a.row(k) *= scale;
+      scaled_a.col(k) /= scale;
+      scaled_b.row(k) *= scale;
+      scaled_c.col(k) /= scale;
+    }
+    scaled_a *= time;
+    scaled_b *= unit(20);
+    scaled_b.col(0) *= unit(20);
+    scaled_c.row(1) *= unit(20);
+    Eigenvalues all = model::transmission_zeros(scaled_a, scaled_b, scaled_c, d);
+    for (Complex& one : all) one /= time;
+    // Of sums of entries, of which the largest is 1e4 times the least.
+    CHECK(worst_of(all, expected) < 1e-11);
+  }
+  // No states, no inputs, nothing that is seen.
+  CHECK(model::transmission_zeros(MatrixXd(0, 0), MatrixXd(0, 1), MatrixXd(1, 0),
+                                  MatrixXd::Ones(1, 1))
+            .empty());
+  CHECK(model::transmission_zeros(a, MatrixXd(6, 0), MatrixXd(0, 6), MatrixXd(0, 0)).size() == 6);
+  CHECK_NOTHROW(model::transmission_zeros(a, b, MatrixXd::Zero(2, 6), d));
+  CHECK_NOTHROW(model::transmission_zeros(a, MatrixXd::Zero(6, 2), c, d));
+}
+
+TEST_CASE("a plant under a held command keeps what is slow beside what is 1e13 times as fast") {
+  model::LinearPlant plant{MatrixXd::Zero(3, 3), MatrixXd::Zero(3, 2)};
+  plant.a(0, 0) = -1e13;
+  plant.a(0, 1) = 1e13;
+  plant.a(1, 1) = -3;
+  plant.a(1, 2) = 1;
+  plant.b(2, 0) = 1;
+  const model::LinearPlant later = model::after(plant, 0.02);
+  CHECK(later.a(1, 1) == Approx(std::exp(-0.06)).epsilon(1e-14));
+  CHECK(later.a(1, 2) == Approx(-std::expm1(-0.06) / 3).epsilon(1e-13));
+  CHECK(later.a(0, 2) == Approx(later.a(1, 2)).epsilon(1e-11));
+  CHECK(later.b(2, 0) == Approx(0.02).epsilon(1e-14));
+  CHECK(later.a(2, 2) == 1);
+}
