@@ -172,15 +172,15 @@ void describe(Run& run, const Scenario& scenario) {
 }
 
 Run run_of_result(plot::Result result, const std::string& name) {
+  plot::add_end_row(result);
   Run run;
   run.name = name;
+  run.has_end_row = result.has_end_row;
   run.title = std::move(result.title);
   run.status = std::move(result.status);
   run.reason = std::move(result.reason);
   run.version = std::move(result.version);
   run.summary = std::move(result.summary);
-  plot::add_end_row(result);
-  run.has_end_row = result.has_end_row;
   run.reached = result.end_time;
   run.units_known = result.units_known;
   // How it pivots has to be told, too; along one axis it does not.

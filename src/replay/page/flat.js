@@ -14,8 +14,18 @@ bbsim.makeFlat = (canvas) => {
   const ink = canvas.getContext('2d', {willReadFrequently: true});
   const ground = make(), base = make();  // what stays; the same with the trails so far
   let width = 0, height = 0, ratio = 1, scale = 1, waiting = false, stale = true, dirty = [];
-  // Of each run: up to which row its trail is in the base, and its ball's picture.
-  const actors = runs.map((run) => ({run, until: 0, sprite: make(), turn: new THREE.Quaternion(), last: [0, 0]}));
+  // What moves with every picture are small canvases of their own above the large one, so that no more is drawn and put
+  // together than they take.
+  function piece() {
+    const made = make();
+    made.canvas.className = 'piece';
+    canvas.parentElement.append(made.canvas);
+    return made;
+  }
+  const target = piece();
+  // Of each run: up to which row its trail is in the base. Ghosts are below the leading ball.
+  const actors = runs.map((run) => ({run, until: 0, turn: new THREE.Quaternion(), last: [0, 0]}));
+  for (const actor of [...actors].reverse()) actor.sprite = piece();
 
   // From the plane to the canvas.
   const px = (x) => width / 2 + x * scale, py = (y) => height / 2 - y * scale;
@@ -166,7 +176,8 @@ bbsim.makeFlat = (canvas) => {
 
   // The ball's face, as it is seen from above: octants, as in ball.js, shaded.
   function paintBall(actor, radius) {
-    const {sprite, run, turn} = actor, wide = 2 * Math.ceil(radius) + 2, step = Math.max(1, Math.ceil(radius / 60));
+    const {sprite, run, turn} = actor, ring = radius < least * ratio;
+    const wide = 2 * Math.ceil(Math.max(radius, ring ? 11 * ratio : 0)) + 2, step = Math.max(1, Math.ceil(radius / 60));
     const colours = palette.now(), dark = rgb(palette.run(run.index)), light = rgb(colours.cream);
     if (sprite.canvas.width !== wide) sprite.canvas.width = sprite.canvas.height = wide;
     const image = sprite.createImageData(wide, wide);
@@ -194,106 +205,98 @@ bbsim.makeFlat = (canvas) => {
       }
     }
     sprite.putImageData(image, 0, 0);
+    if (!ring) return;
+    for (const [colour, line] of [[colours.ink, 5], [palette.run(run.index), 3]]) {
+      Object.assign(sprite, {strokeStyle: colour, lineWidth: line * ratio});
+      sprite.beginPath();
+      sprite.arc(wide / 2, wide / 2, 8 * ratio, 0, 2 * Math.PI);
+      sprite.stroke();
+    }
   }
 
-  // What moves, each with the rectangle that it takes.
-  function paintMoving(t, draws) {
-    const colours = palette.now(), boxes = [];
-    const take = (x, y, r) => boxes.push([x - r, y - r, x + r, y + r]);
-    if (visible.sensor && lead.isMeasured) {
-      const xs = lead.values('x_measured'), ys = lead.values('y_measured'), r = 5 * ratio;
-      for (let row = lead.row(t), n = 0; n < 12 && row >= 0 && shown(xs[row]) && shown(ys[row]); ++n) {
-        const [x, y] = [xs[row], ys[row]];
-        while (row >= 0 && xs[row] === x && ys[row] === y) --row;
-        take(px(x), py(y), r + ratio);
-        draws.push(() => {
-          Object.assign(ink, {strokeStyle: colours.sensor, lineWidth: 2 * ratio});
-          ink.beginPath();
-          ink.moveTo(px(x) - r, py(y));
-          ink.lineTo(px(x) + r, py(y));
-          ink.moveTo(px(x), py(y) - r);
-          ink.lineTo(px(x), py(y) + r);
-          ink.stroke();
-        });
-      }
+  function paintTarget() {
+    const r = Math.max(1.45 * lead.ball.radius * scale, 9 * ratio), wide = 2 * Math.ceil(r + 6 * ratio), middle = wide / 2;
+    target.canvas.width = target.canvas.height = wide;
+    Object.assign(target, {strokeStyle: palette.now().reference, lineWidth: 2 * ratio});
+    target.beginPath();
+    target.arc(middle, middle, r, 0, 2 * Math.PI);
+    for (const [dx, dy] of [[1, 0], [-1, 0], [0, 1], [0, -1]]) {
+      target.moveTo(middle + dx * (r - 4 * ratio), middle + dy * (r - 4 * ratio));
+      target.lineTo(middle + dx * (r + 4 * ratio), middle + dy * (r + 4 * ratio));
     }
-    if (visible.reference && (lead.hasReference || lead.path.length === 2)) {
-      const x = lead.at(t, 'x_reference', lead.path[0]), y = lead.at(t, 'y_reference', lead.path[1]);
-      const r = Math.max(1.45 * lead.ball.radius * scale, 9 * ratio);
-      if (shown(x) && shown(y)) {
-        take(px(x), py(y), r + 6 * ratio);
-        draws.push(() => {
-          Object.assign(ink, {strokeStyle: colours.reference, lineWidth: 2 * ratio});
-          ink.beginPath();
-          ink.arc(px(x), py(y), r, 0, 2 * Math.PI);
-          for (const [dx, dy] of [[1, 0], [-1, 0], [0, 1], [0, -1]]) {
-            ink.moveTo(px(x) + dx * (r - 4 * ratio), py(y) + dy * (r - 4 * ratio));
-            ink.lineTo(px(x) + dx * (r + 4 * ratio), py(y) + dy * (r + 4 * ratio));
-          }
-          ink.stroke();
-        });
-      }
+    target.stroke();
+  }
+
+  // Puts the middle of a piece at a place of the canvas, or takes it away.
+  function put(one, x, y, on) {
+    const half = one.canvas.width / 2;
+    one.at = on ? [x - half, y - half] : null;
+    one.canvas.hidden = !on;
+    Object.assign(one.canvas.style, {width: `${2 * half / ratio}px`, height: `${2 * half / ratio}px`,
+                                     transform: `translate(${(x - half) / ratio}px, ${(y - half) / ratio}px)`});
+  }
+
+  // The last points that the sensor saw; answers the rectangles that they take.
+  function paintSeen(t) {
+    const boxes = [];
+    if (!visible.sensor || !lead.isMeasured) return boxes;
+    const xs = lead.values('x_measured'), ys = lead.values('y_measured'), r = 5 * ratio;
+    Object.assign(ink, {strokeStyle: palette.now().sensor, lineWidth: 2 * ratio});
+    ink.beginPath();
+    for (let row = lead.row(t), n = 0; n < 12 && row >= 0 && shown(xs[row]) && shown(ys[row]); ++n) {
+      const [x, y] = [xs[row], ys[row]], [cx, cy] = [px(x), py(y)];
+      while (row >= 0 && xs[row] === x && ys[row] === y) --row;
+      boxes.push([cx - r - ratio, cy - r - ratio, cx + r + ratio, cy + r + ratio]);
+      ink.moveTo(cx - r, cy);
+      ink.lineTo(cx + r, cy);
+      ink.moveTo(cx, cy - r);
+      ink.lineTo(cx, cy + r);
     }
-    // Ghosts first, so that the leading ball is above them.
-    for (const actor of [...actors].reverse()) {
-      const {run} = actor, found = run.placeAt(t);
-      if (Array.isArray(found)) actor.last = found;
-      if (!run.shown || found === 'beyond') continue;
-      const [x, y] = actor.last.map((value, i) => (i === 0 ? px(value) : py(value)));
-      const radius = run.ball.radius * scale, row = run.row(t), xs = run.values('x'), ys = run.values('y');
-      const ring = radius < least * ratio;
-      take(x, y, (ring ? 11 * ratio : radius + 2) + 2);
-      if (Array.isArray(found) && visible.trail && shown(xs[row]) && shown(ys[row])) {
-        const [fx, fy] = [px(xs[row]), py(ys[row])], far = 2 * ratio;
-        boxes.push([Math.min(x, fx) - far, Math.min(y, fy) - far, Math.max(x, fx) + far, Math.max(y, fy) + far]);
-        draws.push(() => {
-          Object.assign(ink, {strokeStyle: palette.run(run.index), lineWidth: 3 * ratio});
-          ink.beginPath();
-          ink.moveTo(fx, fy);
-          ink.lineTo(x, y);
-          ink.stroke();
-        });
-      }
-      draws.push(() => {
-        if (radius >= 1) {
-          if (run.turns) run.orientationAt(t, actor.turn);
-          paintBall(actor, radius);
-          const half = actor.sprite.canvas.width / 2;
-          ink.drawImage(actor.sprite.canvas, x - half, y - half);
-        }
-        if (!ring) return;
-        for (const [colour, wide] of [[colours.ink, 5], [palette.run(run.index), 3]]) {
-          Object.assign(ink, {strokeStyle: colour, lineWidth: wide * ratio});
-          ink.beginPath();
-          ink.arc(x, y, 8 * ratio, 0, 2 * Math.PI);
-          ink.stroke();
-        }
-      });
-    }
+    ink.stroke();
     return boxes;
   }
 
-  function draw() {
-    waiting = false;
-    if (width === 0) size_();
-    const t = bbsim.clock.now, draws = [];
+  // What need not follow each picture: the trails, and what the sensor saw.
+  function drawBase(t = bbsim.clock.now) {
+    if (!flat.active || width === 0) return;
     if (stale) {
       paintGround();
+      paintTarget();
       dirty = null;
     }
     paintTrails(t);
-    const boxes = paintMoving(t, draws);
     if (dirty === null) {
       ink.drawImage(base.canvas, 0, 0);
     } else {
-      for (const [left, top, right, bottom] of [...dirty, ...boxes]) {
+      for (const [left, top, right, bottom] of dirty) {
         const x = Math.max(0, Math.floor(left)), y = Math.max(0, Math.floor(top));
         const w = Math.min(width, Math.ceil(right)) - x, h = Math.min(height, Math.ceil(bottom)) - y;
         if (w > 0 && h > 0) ink.drawImage(base.canvas, x, y, w, h, x, y, w, h);
       }
     }
-    for (const one of draws) one();
-    dirty = boxes;
+    dirty = paintSeen(t);
+  }
+
+  function drawMoving(t) {
+    const x = lead.at(t, 'x_reference', lead.path[0]), y = lead.at(t, 'y_reference', lead.path[1]);
+    const wanted = visible.reference && (lead.hasReference || lead.path.length === 2) && shown(x) && shown(y);
+    put(target, px(x), py(y), wanted);
+    for (const actor of actors) {
+      const {run} = actor, found = run.placeAt(t), on = run.shown && found !== 'beyond';
+      if (Array.isArray(found)) actor.last = found;
+      if (run.turns) run.orientationAt(t, actor.turn);
+      const looks = [...actor.turn.toArray(), run.ball.radius * scale, palette.run(run.index)].join();
+      if (on && looks !== actor.looks) paintBall(actor, run.ball.radius * scale);
+      actor.looks = looks;
+      put(actor.sprite, px(actor.last[0]), py(actor.last[1]), on);
+    }
+  }
+
+  function draw() {
+    waiting = false;
+    if (width === 0) size_();
+    if (stale || !bbsim.clock.playing) drawBase();
+    drawMoving(bbsim.clock.now);
     ++flat.draws;
   }
   function ask() {
@@ -308,6 +311,7 @@ bbsim.makeFlat = (canvas) => {
 
   const flat = {
     canvas, draw, invalidate, lead, factor: 1,
+    get zoom() { return ratio; },
     active: false,
     draws: 0,
     resize() {
@@ -317,10 +321,19 @@ bbsim.makeFlat = (canvas) => {
       size_();
       draw();
     },
+    // All of it in one canvas.
+    whole() {
+      drawBase();
+      drawMoving(bbsim.clock.now);
+      const made = make();
+      [made.canvas.width, made.canvas.height] = [width, height];
+      made.drawImage(canvas, 0, 0);
+      for (const one of [target, ...actors.map((actor) => actor.sprite).reverse()]) if (one.at) made.drawImage(one.canvas, ...one.at);
+      return made.canvas;
+    },
     print(w, h) {
       size_({width: w, height: h}, 2);
-      draw();
-      return canvas;
+      return flat.whole();
     },
     printed() {
       size_();
@@ -339,6 +352,7 @@ bbsim.makeFlat = (canvas) => {
     },
   };
   bbsim.clock.onTime(ask);
+  bbsim.clock.onTimeRelaxed(drawBase);
   palette.onChange(invalidate);
   return flat;
 };

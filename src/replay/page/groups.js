@@ -27,8 +27,8 @@ bbsim.groups = (() => {
   const third = {colour: ink, pattern: [9, 3, 2, 3], layer: 3}, main = {colour: warm, width: 2.2, layer: 2};
   const firstBand = {colour: band, width: 6, layer: 0}, secondBand = {colour: band, width: 6, pattern: [16, 4], layer: 0};
   const firstCommand = {colour: xColour, pattern: [2, 2], width: 1.2, layer: 1};
-  const secondCommand = {colour: yColour, pattern: [1, 4], width: 1.6, layer: 1};
-  const dots = {colour: sensor, dots: 'circle', layer: 1}, crosses = {colour: sensor, dots: 'cross', layer: 1};
+  const secondCommand = {colour: yColour, pattern: [1, 3], width: 2, layer: 1};
+  const dots = {colour: sensor, dots: 'circle', layer: 4}, crosses = {colour: sensor, dots: 'cross', layer: 4};
 
   // Columns of one plot, and how each is drawn.
   const families = [
@@ -36,14 +36,15 @@ bbsim.groups = (() => {
     ['Gimbal', 'rad', {phi: first, theta: second, phi_command: firstCommand, theta_command: secondCommand, tilt: third}],
     ['Distance', 'm', {tracking_error: main, distance: third}],
     ['Error of x, y', 'm', {position_error: main}],
-    ['Velocity', 'm/s', {speed: main, vx: first, vy: second}],
+    ['Velocity', 'm/s', {speed: third, vx: first, vy: second}],
     ['Turn of the ball', 'rad', {gamma: main}],
     ['Rates', 'rad/s', {phi_rate: first, theta_rate: second, tilt_rate: third, spin: {...main, pattern: [2, 3]}}],
     ['Accelerations', 'rad/s^2', {phi_acceleration: first, theta_acceleration: second, phi_command: firstCommand, theta_command: secondCommand}],
     ['Friction demand', '1', {friction_demand: main, friction: third}],
     ['Forces', 'N', {normal_force: first, friction_force: {...main, pattern: [8, 4]}}],
-    ['Motors\' torque', 'N m', {phi_torque: first, theta_torque: second, phi_torque_asked: firstCommand, theta_torque_asked: secondCommand,
-                                phi_command: firstCommand, theta_command: secondCommand}],
+    ['Motors\' torque', 'N m', {phi_torque: first, theta_torque: second, phi_torque_asked: firstCommand, theta_torque_asked: secondCommand}],
+    ['Commands', 'N m', {phi_command: first, theta_command: second}],
+    ['Commands', 'V', {phi_command: first, theta_command: second}],
     ['Torques', 'N m', {motor_torque_phi: first, motor_torque_theta: second, torque_phi: {...first, pattern: [2, 3]},
                         torque_theta: {...second, pattern: [9, 3, 2, 3]}}],
     ['Power', 'W', {motor_power: main, power: third}],

@@ -4,7 +4,7 @@
 bbsim.makeOrbit = (canvas, eye, told) => {
   const target = new THREE.Vector3(), tiny = 1e-4;
   const fingers = new Map();  // pointers that are down: where they were last
-  let way = null, last = null, tapped = false;
+  let way = null, last = null, tapped = null;  // where a finger came down that may only have tapped
   const taken = () => document.activeElement === canvas;
   // Spherical coordinates about z, by three.js's about y.
   const yUp = (v) => new THREE.Vector3(v.y, v.z, v.x), zUp = (v) => new THREE.Vector3(v.z, v.x, v.y);
@@ -50,7 +50,7 @@ bbsim.makeOrbit = (canvas, eye, told) => {
   function begin(event) {
     const touch = event.pointerType === 'touch', first = fingers.size === 0;
     fingers.set(event.pointerId, {x: event.clientX, y: event.clientY});
-    tapped = touch && first && !taken();
+    tapped = touch && first && !taken() ? {x: event.clientX, y: event.clientY} : null;
     if (touch && fingers.size === 1 && !taken()) return;
     if (!touch) {
       event.preventDefault();
@@ -66,8 +66,8 @@ bbsim.makeOrbit = (canvas, eye, told) => {
   function go(event) {
     if (!fingers.has(event.pointerId)) return;
     fingers.set(event.pointerId, {x: event.clientX, y: event.clientY});
+    if (tapped && Math.hypot(event.clientX - tapped.x, event.clientY - tapped.y) > 8) tapped = null;
     if (way === null) return;
-    tapped = false;
     const now = hand(), dx = now.x - last.x, dy = now.y - last.y, whole = 2 * Math.PI * 0.8 / canvas.clientHeight;
     if (way === 'turn') turn(-dx * whole, dy * whole);
     else move(dx, dy);

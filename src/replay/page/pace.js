@@ -1,15 +1,18 @@
 'use strict';
-// Where pictures come slowly while time goes on, fewer pixels are drawn, and if that is not enough the picture is flat.
+// Where pictures come slowly while time goes on, all but the picture follows a few times a second, since what a browser
+// puts together anew is all between what has changed; the picture has fewer pixels; and if that is not enough it is flat.
 // A time that stands still is drawn with all pixels. Who chooses a view keeps it.
 bbsim.makePace = (screen, tell) => {
   const {clock} = bbsim;
-  const slow = 1000 / 24, tooSlow = 1000 / 15, several = 8;  // ms a picture; so many are looked at
+  const slow = 1000 / 24, tooSlow = 1000 / 15, several = 6;  // ms a picture; so many are looked at
   let last = null, spans = [], coarse = false, chosen = false;
 
   function judge() {
     const middle = spans.sort((a, b) => a - b)[several >> 1];
     spans = [];
-    if (screen.isFlat || middle <= slow) return;
+    if (middle <= slow) return;
+    clock.relax(100);
+    if (screen.isFlat) return;
     if (!coarse) {
       coarse = true;
       screen.solid.setPixels(0.5);

@@ -280,7 +280,7 @@ bbsim.makePicture = (canvas, left) => {
         actor.tip.scale.x = length;
       }
       if (actor.links && !actor.leads) actor.links.base.visible = run.shown;
-      state.push(x, y, shown ? 1 : 0, row, ...actor.ball.mesh.quaternion.toArray());
+      state.push(x, y, shown ? 1 : 0, until[row + 1], from, ...actor.ball.mesh.quaternion.toArray());
     }
     if (target.visible) {
       target.position.x = lead.at(t, 'x_reference', lead.path[0]);
@@ -351,6 +351,11 @@ bbsim.makePicture = (canvas, left) => {
     active: true,  // whether it is on the screen
     draws: 0,      // how often it was drawn, for tests
     get factor() { return factor; },
+    get zoom() { return renderer.getPixelRatio(); },
+    whole() {
+      draw();
+      return canvas;
+    },
     invalidate, resize, draw, recolour,
     // Draws, and comes back when that is done and not only asked for.
     drawn() {

@@ -25,15 +25,27 @@ bbsim.makePlots = (container) => {
     return line;
   }
 
-  function drawCross(graph, name, ink, x, y, colour, size) {
-    ink.beginPath();
-    ink.strokeStyle = colour;
-    ink.lineWidth = 1;
-    ink.moveTo(x - size, y);
-    ink.lineTo(x + size, y);
-    ink.moveTo(x, y - size);
-    ink.lineTo(x, y + size);
-    ink.stroke();
+  // Points as dots or crosses, so far apart that each is seen and what they lie on as well.
+  function drawPoint(cross) {
+    let last = -Infinity;
+    return (graph, name, ink, x, y, colour, size) => {
+      if (x >= last && x < last + 7) return;
+      last = x;
+      ink.beginPath();
+      if (cross) {
+        ink.strokeStyle = colour;
+        ink.lineWidth = 1.2;
+        ink.moveTo(x - size, y);
+        ink.lineTo(x + size, y);
+        ink.moveTo(x, y - size);
+        ink.lineTo(x, y + size);
+        ink.stroke();
+      } else {
+        ink.fillStyle = colour;
+        ink.arc(x, y, size, 0, 2 * Math.PI);
+        ink.fill();
+      }
+    };
   }
 
   // Rows of all curves of a plot on one grid of times; where they come from runs with other times, gaps.
@@ -97,8 +109,8 @@ bbsim.makePlots = (container) => {
       const labels = ['t', ...this.order.map((_, i) => `c${i}`)];
       const series = {};
       this.order.forEach((curve, i) => {
-        const points = {strokeWidth: 0, drawPoints: true, pointSize: curve.dots === 'cross' ? 2.2 : 1.3, highlightCircleSize: 3};
-        if (curve.dots === 'cross') points.drawPointCallback = drawCross;
+        const cross = curve.dots === 'cross';
+        const points = {strokeWidth: 0, drawPoints: true, pointSize: cross ? 2.6 : 1.6, highlightCircleSize: 3, drawPointCallback: drawPoint(cross)};
         series[`c${i}`] = curve.dots ? points : {strokePattern: curve.pattern, strokeWidth: curve.width || 1.8};
       });
       const mixed = new Set(this.curves.map((curve) => curve.run)).size > 1;
@@ -244,13 +256,12 @@ bbsim.makePlots = (container) => {
 
   // Cursors go with the time; while it goes on, numbers follow a few times a second, which is as much as one reads.
   let readAgain = 0;
-  clock.onTime((t) => {
+  clock.onTimeRelaxed((t) => {
     follow(t);
     const now = performance.now(), reading = !clock.playing || now >= readAgain;
     if (reading) readAgain = now + 125;
     for (const plot of plots) if (plot.near) plot.placeCursor(reading);
   });
-  clock.onState(() => { if (!clock.playing) plots.forEach((plot) => plot.placeCursor()); });
   palette.onChange(() => plots.forEach((plot) => plot.recolour()));
   return {
     plots, point,

@@ -112,7 +112,7 @@ bbsim.makeTransport = () => {
     const [why] = lead.reason.split('\n');
     get('ended').textContent = text.visible(why ? why[0].toUpperCase() + why.slice(1) : `The run ended here: ${lead.status}`);
   }
-  clock.onTime(showTime);
+  clock.onTimeRelaxed(showTime);
   clock.onState(showState);
   showTime(clock.now);
   showState();
