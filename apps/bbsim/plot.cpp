@@ -191,7 +191,7 @@ void add_plot(Command& command, const Options& options) {
       "A run: its path in the plane, and its columns over time; a sweep: its measures over the "
       "keys that vary. Title, plate, events and friction coefficient are in .h5 files; for a .csv "
       "they are taken from its summary, NAME.json beside NAME.csv or --summary, or from "
-      "--scenario.\n"
+      "--scenario. Without these a table that bbsim did not write is drawn without units.\n"
       "\n"
       "Examples:\n"
       "  bbsim run configs/rig.yaml --summary rig.json && bbsim plot rig.csv\n"

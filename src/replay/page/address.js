@@ -50,7 +50,7 @@ bbsim.address = (() => {
     const said = read();
     if (['light', 'dark'].includes(said.get('theme'))) bbsim.palette.choose(said.get('theme'));
     const t = Number(said.get('t'));
-    if (said.get('t') && Number.isFinite(t)) bbsim.clock.seek(t);
+    if (bbsim.clock && said.get('t') && Number.isFinite(t)) bbsim.clock.seek(t);
     if (bbsim.plots && zoomIn(said)) bbsim.plots.zoom(zoomIn(said));
     if (!screen) return;
     const view = said.get('view');

@@ -16,16 +16,17 @@ bbsim.makeFlat = (canvas) => {
   let width = 0, height = 0, ratio = 1, scale = 1, waiting = false, stale = true, dirty = [];
   // What moves with every picture are small canvases of their own above the large one, so that no more is drawn and put
   // together than they take.
-  function piece() {
+  function piece(name) {
     const made = make();
     made.canvas.className = 'piece';
+    made.canvas.setAttribute('aria-label', text.visible(name));
     canvas.parentElement.append(made.canvas);
     return made;
   }
-  const target = piece();
+  const target = piece('where the ball is wanted');
   // Of each run: up to which row its trail is in the base. Ghosts are below the leading ball.
   const actors = runs.map((run) => ({run, until: 0, turn: new THREE.Quaternion(), last: [0, 0]}));
-  for (const actor of [...actors].reverse()) actor.sprite = piece();
+  for (const actor of [...actors].reverse()) actor.sprite = piece(`the ball of ${actor.run.name}`);
 
   // From the plane to the canvas.
   const px = (x) => width / 2 + x * scale, py = (y) => height / 2 - y * scale;

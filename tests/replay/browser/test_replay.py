@@ -626,7 +626,7 @@ class Made(InBrowser):
 
     def page_of(self, name, *arguments):
         """Of these files; what is to be told of them is told by code 0 or 1."""
-        file = files(name + ".html")
+        file = files("made-" + name + ".html")
         if not os.path.exists(file):
             made = subprocess.run([BBSIM, "replay", *arguments, "-o", file, "-q"], cwd=SOURCE, capture_output=True)
             self.assertIn(made.returncode, [0, 1], made.stderr)
