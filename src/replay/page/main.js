@@ -58,7 +58,7 @@
   get('replay').hidden = false;
   get('subtitle').append(describe(runs[0]));
   makePicture();
-  const screen = bbsim.makeScreen(picture, bbsim.makeFlat(get('flat-canvas')));
+  const screen = bbsim.makeScreen(picture, () => bbsim.makeFlat(get('flat-canvas')));
   bbsim.screen = screen;
   bbsim.picture = picture;
 

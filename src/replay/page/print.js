@@ -72,5 +72,7 @@ bbsim.preparePrint = () => {
 
   window.addEventListener('beforeprint', begin);
   window.addEventListener('afterprint', end);
+  // Where a browser only shows what it would print.
+  matchMedia('print').addEventListener('change', (event) => (event.matches ? begin() : end()));
   bbsim.print = {begin, end};  // for tests
 };

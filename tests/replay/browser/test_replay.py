@@ -1083,6 +1083,12 @@ class Paper(Made):
         self.js("bbsim.print.end()")
         self.assertEqual(self.js("document.querySelectorAll('canvas.printed').length"), 0)
         self.assertEqual(self.js("document.documentElement.className"), "")
+        # So it is where a browser only shows what it would print.
+        self.browser.devtools("Emulation.setEmulatedMedia", {"media": "print"})
+        self.assertTrue(self.wait("document.querySelectorAll('canvas.printed').length > 5"))
+        self.browser.devtools("Emulation.setEmulatedMedia", {"media": "", "features": [
+            {"name": "prefers-color-scheme", "value": "light"}, {"name": "prefers-reduced-motion", "value": "reduce"}]})
+        self.assertTrue(self.wait("document.querySelectorAll('canvas.printed').length === 0"))
         # The picture on the screen is as it was.
         left, top, width, height = self.js("bbsim.view().canvas")
         self.near(self.js("bbsim.picture.eyes.camera.aspect"), width / height, 0.01)
