@@ -85,7 +85,8 @@ study::Picture picture_of(const std::string& file) {
   const std::string ending = file::lower_ending(file);
   if (ending == ".svg") return study::Picture::svg;
   if (ending == ".png") return study::Picture::png;
-  throw InputError("--plot: found " + file + ", allowed is a name that ends in .svg or .png");
+  if (ending == ".pdf") return study::Picture::pdf;
+  throw InputError("--plot: found " + file + ", allowed is a name that ends in .svg, .png or .pdf");
 }
 
 void explain_reference(const study::AccuracyStudy& study, double end) {
@@ -196,7 +197,7 @@ void add_accuracy(Command& command, const Options& options) {
   command.option("--csv", arguments->csv, "write all points to this file; - is standard output")
       .takes("FILE");
   command.option("--plot", arguments->plot, "draw time over error, with gnuplot")
-      .takes("FILE.svg|FILE.png");
+      .takes("FILE.svg|.png|.pdf");
   command.does([arguments, &options] { return accuracy(*arguments, options); });
 }
 

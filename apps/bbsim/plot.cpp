@@ -143,6 +143,7 @@ void draw(const Task& task, plot::Format format, const PlotArguments& arguments,
     results.push_back(plot::read_result(file, arguments.beside));
     reads_tables(outputs, results.back().scenario);
     if (!options.quiet && !results.back().left_out.empty()) say(results.back().left_out);
+    plot::add_end_row(results.back());
   }
   outputs.writes(task.output, option_of(task, arguments));
   const plot::Picture picture = picture_of(results, arguments);
@@ -151,7 +152,7 @@ void draw(const Task& task, plot::Format format, const PlotArguments& arguments,
       plot::mended(run_gnuplot(plot::gnuplot_script(picture, format, some_font_has)), format));
   if (options.quiet || task.output == "-") return;
   std::size_t rows = 0;
-  for (const plot::Result& result : results) rows += result.rows;
+  for (const plot::Result& result : results) rows += result.rows - (result.has_end_row ? 1 : 0);
   const auto panels = picture.panels.size() - static_cast<std::size_t>(std::ranges::count_if(
                                                   picture.panels, &plot::Panel::is_scale));
   say(task.output + ": " + std::to_string(rows) +
@@ -190,7 +191,7 @@ void add_plot(Command& command, const Options& options) {
       "A run: its path in the plane, and its columns over time; a sweep: its measures over the "
       "keys that vary. Title, plate, events and friction coefficient are in .h5 files; for a .csv "
       "they are taken from its summary, NAME.json beside NAME.csv or --summary, or from "
-      "--scenario.\n"
+      "--scenario. Without these a table that bbsim did not write is drawn without units.\n"
       "\n"
       "Examples:\n"
       "  bbsim run configs/rig.yaml --summary rig.json && bbsim plot rig.csv\n"

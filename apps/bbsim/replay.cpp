@@ -141,7 +141,7 @@ replay::Run run_scenario(const Replayed& source, const Options& options, ExitCod
   host.finish();
   tell(made, options.quiet);
   if (code == ExitCode::done || made.code == ExitCode::interrupted) code = made.code;
-  replay::Run run = run_of(scenario, table.take(), made.summary);
+  replay::Run run = run_of(scenario, table.take(), made);
   run.name = source.name;
   return run;
 }

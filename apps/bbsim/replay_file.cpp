@@ -40,7 +40,7 @@ std::string count_text(std::size_t count, const char* one, const char* many) {
 
 std::string content_text(const replay::Scene& scene) {
   std::size_t rows = 0, cases = 0;
-  for (const replay::Run& run : scene.runs) rows += replay::row_count(run);
+  for (const replay::Run& run : scene.runs) rows += replay::rows_of_file(run);
   for (const replay::Sweep& sweep : scene.sweeps) cases += sweep.status.size();
   if (scene.runs.empty()) return count_text(cases, "case", "cases");
   const std::string text = count_text(rows, "row", "rows");
@@ -90,8 +90,12 @@ std::vector<const scenario::Column*> with_pictured(
   return all;
 }
 
-replay::Run run_of(const Scenario& scenario, file::TableData rows, record::RunSummary summary) {
+replay::Run run_of(const Scenario& scenario, file::TableData rows, const Simulation& made) {
+  record::RunSummary summary = made.summary;
+  for (std::size_t c = 0; c < made.end_row.size(); ++c) rows.columns[c].push_back(made.end_row[c]);
   replay::Run run = replay::run_of_table(std::move(rows), short_name(scenario.source.file));
+  run.has_end_row = !made.end_row.empty();
+  run.reached = summary.end_time;
   describe_all(run, scenario);
   run.status = summary.status;
   run.reason = summary.reason;
@@ -105,7 +109,7 @@ replay::Run run_of(const Scenario& scenario, file::TableData rows, record::RunSu
 }
 
 replay::Run run_of(plot::Result result, const std::string& name) {
-  const std::optional<Scenario> scenario = std::exchange(result.scenario, std::nullopt);
+  const std::optional<Scenario> scenario = result.scenario;
   const std::string title = result.title;
   replay::Run run = replay::run_of_result(std::move(result), name);
   if (!scenario) return run;

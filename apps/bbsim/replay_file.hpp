@@ -7,10 +7,10 @@
 #include "file/atomic_file.hpp"
 #include "file/table_writer.hpp"
 #include "plot/result.hpp"
-#include "record/summary.hpp"
 #include "replay/scene.hpp"
 #include "scenario/columns.hpp"
 #include "scenario/scenario.hpp"
+#include "simulation.hpp"
 
 namespace bbsim::app {
 
@@ -39,7 +39,7 @@ class ReplayFile {
 
 // A scenario that was run, with what `bbsim check` says of it.
 [[nodiscard]] replay::Run run_of(const Scenario& scenario, file::TableData rows,
-                                 record::RunSummary summary);
+                                 const Simulation& made);
 
 // A result with what is known of its scenario: all of it where it and its tables can be read as
 // they were, else what is sound in it.

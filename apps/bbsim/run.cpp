@@ -134,7 +134,7 @@ ExitCode run(const RunArguments& arguments, const Options& options) {
   }
   if (!state.empty() && !options.quiet) say(state);
   if (replay && any_rows) {
-    replay->write(scene_of(run_of(scenario, pictured->take(), summary)), options.quiet);
+    replay->write(scene_of(run_of(scenario, pictured->take(), made)), options.quiet);
   }
   return made.code;
 }

@@ -184,6 +184,7 @@ Simulation simulate(const Scenario& scenario, const model::Model& model,
   Simulation simulation;
   simulation.measures.resize(wanted.measures.size());
   recorder.finish(made.outcome, simulation.measures.data());
+  simulation.end_row = recorder.end_row(made.outcome);
   simulation.summary = summarise(scenario, model, made, reason, warnings, recorder.peaks());
   simulation.noted = noted_text(made.outcome.occurrences);
   simulation.row_estimates = std::move(made.row_estimates);

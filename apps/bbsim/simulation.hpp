@@ -23,7 +23,8 @@ struct Simulation {
   // The error of each row, in a run with an error estimate, m.
   std::vector<double> row_estimates;
   std::vector<double> measures;
-  std::string noted;  // how often each thing was noted; empty if nothing was
+  std::vector<double> end_row;  // Recorder::end_row()
+  std::string noted;            // how often each thing was noted; empty if nothing was
   ExitCode code = ExitCode::done;
 };
 

@@ -18,6 +18,7 @@ enum class Place {
   x,
   y,
   tracking_error,
+  position_error,
   distance,
   velocity,
   spin,
@@ -94,6 +95,7 @@ constexpr std::array known_columns = {
     Known{"y_reference", "y reference", Place::y, Role::reference},
     Known{"y_measured", "y as seen", Place::y, Role::measured},
     Known{"tracking_error", "tracking error", Place::tracking_error},
+    Known{"position_error", "error of x, y", Place::position_error},
     Known{"distance", "distance", Place::distance},
     Known{"vx", "vx", Place::velocity},
     Known{"vy", "vy", Place::velocity},
@@ -153,19 +155,33 @@ bool is_command(std::string_view column) {
   return column == "phi_command" || column == "theta_command";
 }
 
-Unit drawn_unit(std::string_view column, Drives driven) {
-  if (!is_command(column)) return unit_of(column);
+Unit drawn_unit(const std::vector<Result>& runs, std::string_view column, Drives driven) {
+  if (!is_command(column)) return unit_of(runs, column);
   switch (driven) {
     case Drives::acceleration:
-      return unit_of("phi_acceleration");
+      return unit_of(runs, "phi_acceleration");
     case Drives::torque:
-      return unit_of("phi_torque");
+      return unit_of(runs, "phi_torque");
     case Drives::voltage:
-      return unit_of("phi_voltage");
+      return unit_of(runs, "phi_voltage");
     case Drives::angle:
       break;
   }
-  return unit_of(column);
+  return unit_of(runs, column);
+}
+
+Unit drawn(std::string_view unit, bool turns) {
+  constexpr double degrees = 180 / std::numbers::pi;
+  if (unit == "1") return {};
+  if (!turns && unit == "rad") return {"°", degrees};
+  if (!turns && unit == "rad/s") return {"°/s", degrees};
+  if (unit == "rad/s^2") return {"°/s²", degrees};
+  return {std::string(unit)};
+}
+
+// Of the ball, often many times round.
+bool is_turn(std::string_view column) {
+  return column == "gamma" || column == "spin";
 }
 
 // Commands stand beside what they command.
@@ -353,14 +369,19 @@ std::string columns_of(const std::vector<Result>& runs) {
 }  // namespace
 
 Unit unit_of(std::string_view column) {
-  constexpr double degrees = 180 / std::numbers::pi;
   const scenario::Column* const found = scenario::find_column(column);
-  if (found == nullptr || found->unit == "1") return {};
-  const bool turns = column == "gamma" || column == "spin";  // of the ball, often many times round
-  if (!turns && found->unit == "rad") return {"°", degrees};
-  if (!turns && found->unit == "rad/s") return {"°/s", degrees};
-  if (found->unit == "rad/s^2") return {"°/s²", degrees};
-  return {std::string(found->unit)};
+  return found == nullptr ? Unit{} : drawn(found->unit, is_turn(column));
+}
+
+Unit unit_of(const std::vector<Result>& runs, std::string_view column) {
+  if (!std::ranges::all_of(runs, &Result::units_known)) return {};
+  const scenario::Column* const known = scenario::find_column(column);
+  if (known != nullptr) return unit_of(column);
+  for (const Result& run : runs) {
+    const Column* const found = run.find(column);
+    if (found != nullptr && !found->unit.empty()) return drawn(found->unit, false);
+  }
+  return {};
 }
 
 Drives driven_quantity(const Result& run) {
@@ -387,7 +408,7 @@ std::vector<PlannedPanel> plan_panels(const std::vector<Result>& runs) {
       if (static_cast<int>(place_of(known, driven)) != place || !any_draws(runs, known.column)) {
         continue;
       }
-      panel.unit = drawn_unit(known.column, driven);
+      panel.unit = drawn_unit(runs, known.column, driven);
       panel.lines.push_back(line_of(known.column));
     }
     if (panel.lines.empty()) continue;
@@ -411,7 +432,7 @@ std::vector<PlannedPanel> plan_panels(const std::vector<Result>& runs) {
                panel.lines.end();
       });
       if (planned || column.name == "t" || !is_drawable(run, column.name)) continue;
-      panels.push_back({"", unit_of(column.name), {line_of(column.name)}});
+      panels.push_back({"", unit_of(runs, column.name), {line_of(column.name)}});
     }
   }
   return finish(runs, panels, true);
@@ -432,7 +453,7 @@ std::vector<PlannedPanel> plan_panels(const std::vector<Result>& runs,
                          columns_of(runs) + ", and path is their picture in the plane");
       }
       if (!any_draws(runs, name)) throw InputError(found + ", which holds no finite number");
-      const Unit unit = drawn_unit(name, driven);
+      const Unit unit = drawn_unit(runs, name, driven);
       if (!panel.lines.empty() && !(unit == panel.unit)) {
         throw InputError(found + " in a panel with " + panel.lines.front().column +
                          ", which has another unit; a semicolon begins another panel");

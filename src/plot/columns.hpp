@@ -36,8 +36,12 @@ struct PlannedPanel {
 [[nodiscard]] std::vector<PlannedPanel> plan_panels(
     const std::vector<Result>& runs, const std::vector<std::vector<std::string>>& asked);
 
-// The unit in which a column of runs is drawn.
+// The unit in which a column of `bbsim columns` is drawn.
 [[nodiscard]] Unit unit_of(std::string_view column);
+
+// The unit in which a column of these runs is drawn: as a file says, or as `bbsim columns` does.
+// None where one of the runs does not tell (Result::units_known).
+[[nodiscard]] Unit unit_of(const std::vector<Result>& runs, std::string_view column);
 
 // What the command columns are: as the scenario says, or if there is none, angles or accelerations,
 // whichever the commands resemble more.

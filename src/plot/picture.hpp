@@ -48,6 +48,9 @@ struct Curve {
   std::vector<double> y_high{};
 };
 
+// Of a line those points that have a gap on either side, as dots: no line goes through them.
+[[nodiscard]] Curve lone_points(const Curve& line);
+
 // A filled rectangle. Neighbours come in the order of their columns, each from below.
 struct Cell {
   double left = 0, right = 0, bottom = 0, top = 0;

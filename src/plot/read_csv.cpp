@@ -1,5 +1,6 @@
 // CSV of any origin: numbers and texts, quoted or not, as a picture can use them.
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
 #include <cstddef>
@@ -14,6 +15,7 @@
 #include "file/case_text.hpp"
 #include "file/line_reader.hpp"
 #include "plot/read_result.hpp"
+#include "scenario/columns.hpp"
 
 namespace bbsim::plot {
 namespace {
@@ -73,6 +75,22 @@ void read_header(const file::LineReader& lines, const Fields& fields, Result& re
   }
 }
 
+// Whether a table is one that bbsim writes: all of its columns are in `bbsim columns`, some of them
+// under names that are nobody else's, and its numbers have the digits of doubles, as those of a
+// rig's log have not.
+bool looks_like_a_run(const Result& table, std::size_t longest_number) {
+  constexpr std::size_t digits_of_doubles = 15;
+  constexpr std::array<std::string_view, 12> anybodys = {
+      "t", "x", "y", "vx", "vy", "phi", "theta", "spin", "tilt", "distance", "power", "energy"};
+  if (longest_number < digits_of_doubles || table.find("t") == nullptr) return false;
+  bool own_name = false;
+  for (const Column& column : table.columns) {
+    if (scenario::find_column(column.name) == nullptr) return false;
+    own_name = own_name || std::ranges::find(anybodys, column.name) == anybodys.end();
+  }
+  return own_name;
+}
+
 void add_field(Column& column, std::string_view field) {
   double value = std::numeric_limits<double>::quiet_NaN();
   const bool number = field.empty() || is_number(field, value);
@@ -103,6 +121,7 @@ Result read_csv_columns(const std::string& file) {
     fail(lines, "is no header of a CSV file");
   }
   read_header(lines, fields, result);
+  std::size_t longest_number = 0;
   while ((next = lines.next())) {
     line = *next;
     if (trimmed(line).empty()) continue;
@@ -113,10 +132,12 @@ Result read_csv_columns(const std::string& file) {
     }
     for (std::size_t c = 0; c < result.columns.size(); ++c) {
       add_field(result.columns[c], fields.views()[c]);
+      longest_number = std::max(longest_number, fields.views()[c].size());
     }
     ++result.rows;
   }
   if (result.rows == 0) fail_whole(lines, "has a header and no rows");
+  result.units_known = result.is_sweep() || looks_like_a_run(result, longest_number);
   return result;
 }
 

@@ -20,6 +20,7 @@
 #include "file/descriptor.hpp"
 #include "file/format.hpp"
 #include "file/hdf5_table.hpp"
+#include "scenario/columns.hpp"
 #include "scenario/reader.hpp"
 #include "scenario/variation.hpp"
 
@@ -67,8 +68,12 @@ Event event_of(const std::string& line) {
     const std::size_t equals = word.find('=');
     if (equals != std::string::npos) members[word.substr(0, equals)] = word.substr(equals + 1);
   }
-  return {members["event"], members["action"] == "stop", to_number(members["t"]),
-          to_number(members["x"]), to_number(members["y"])};
+  Event event{members["event"], members["action"] == "stop", to_number(members["t"]),
+              to_number(members["x"]), to_number(members["y"])};
+  for (const auto& [name, value] : members) {
+    if (scenario::find_column(name) != nullptr) event.state[name] = to_number(value);
+  }
+  return event;
 }
 
 // Where the scenario's text stands for a file that may have changed since, or be gone with its
@@ -140,6 +145,7 @@ bool is_summary(const Json& json) {
 }
 
 void take_summary(Result& result, const Json& json) {
+  result.units_known = true;
   result.title = member<std::string>(json, "title", "");
   result.status = member<std::string>(json, "status", "");
   result.reason = member<std::string>(json, "reason", "");
@@ -152,6 +158,10 @@ void take_summary(Result& result, const Json& json) {
                              member<std::string>(event, "action", "") == "stop",
                              member(event, "t", 0.0), member(event, "x", 0.0),
                              member(event, "y", 0.0)});
+    for (const auto& [name, value] : event.items()) {
+      const bool column = value.is_number() && scenario::find_column(name) != nullptr;
+      if (column) result.events.back().state[name] = value.get<double>();
+    }
   }
   std::vector<std::string> overrides;
   if (json.contains("overrides") && json["overrides"].is_array()) {
@@ -227,6 +237,7 @@ Result read_result(const std::string& file, const Beside& beside) {
   }
   if (!beside.scenario.empty()) {
     result.scenario = read_scenario(beside.scenario, beside.overrides);
+    result.units_known = true;
   }
   if (result.scenario && (result.title.empty() || !beside.scenario.empty())) {
     result.title = result.scenario->title;

@@ -1,6 +1,8 @@
 #include "plot/result.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 
 namespace bbsim::plot {
 
@@ -11,6 +13,26 @@ const Column* Result::find(std::string_view name) const {
 
 bool Result::is_sweep() const {
   return !columns.empty() && columns.front().name == "case" && find("status") != nullptr;
+}
+
+void add_end_row(Result& result) {
+  if (result.status != "stopped" || result.events.empty() || result.rows == 0) return;
+  const Event& end = result.events.back();
+  const Column* const t = result.find("t");
+  if (!end.stopped || t == nullptr || t->is_text() || !(end.t > t->numbers.back())) return;
+  std::map<std::string, double> state = end.state;
+  state.insert_or_assign("t", end.t);
+  state.insert_or_assign("x", end.x);
+  state.insert_or_assign("y", end.y);
+  state.insert_or_assign("distance", std::hypot(end.x, end.y));
+  for (Column& column : result.columns) {
+    const auto known = state.find(column.name);
+    column.numbers.push_back(known == state.end() ? std::numeric_limits<double>::quiet_NaN()
+                                                  : known->second);
+    if (column.is_text()) column.texts.emplace_back();
+  }
+  ++result.rows;
+  result.has_end_row = true;
 }
 
 }  // namespace bbsim::plot

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -25,7 +26,8 @@ struct Column {
 struct Event {
   std::string name;
   bool stopped = false;
-  double t = 0, x = 0, y = 0;  // s, m
+  double t = 0, x = 0, y = 0;             // s, m
+  std::map<std::string, double> state{};  // columns of `bbsim columns` at that instant, if told
 };
 
 struct Result {
@@ -43,10 +45,18 @@ struct Result {
   std::optional<Scenario> scenario{};
   std::vector<std::string> drawn_keys{};  // of a sweep: keys whose values were drawn by chance
   bool tells_drawn = false;               // whether drawn_keys is known
+  // Whether columns of `bbsim columns` are in its units where the file does not say: not in a table
+  // of which nothing tells that bbsim wrote it.
+  bool units_known = true;
+  bool has_end_row = false;  // that add_end_row() added
 
   [[nodiscard]] const Column* find(std::string_view name) const;
   // A row a case, as `bbsim sweep` writes them.
   [[nodiscard]] bool is_sweep() const;
 };
+
+// Where an event stopped a run between two rows, its instant becomes the last row: with what the
+// event tells, and NaN, or an empty text, in all other columns.
+void add_end_row(Result& result);
 
 }  // namespace bbsim::plot

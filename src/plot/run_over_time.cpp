@@ -32,7 +32,7 @@ Stroke stroke_in(const std::vector<Result>& runs, const Result& run, Role role,
     case Role::reference:
       return band_of_reference;
     case Role::measured:
-      return one ? Stroke{"#e69f00", 1.2} : stroke_of_run(runs, run);
+      return one ? Stroke{"#f2c45c", 4} : stroke_of_run(runs, run);
     case Role::command:
       return one ? Stroke{"#707070", 1.2} : stroke_of_run(runs, run);
     case Role::main:
@@ -41,9 +41,9 @@ Stroke stroke_in(const std::vector<Result>& runs, const Result& run, Role role,
   return one ? stroke_of(main_before) : stroke_of_run(runs, run);
 }
 
-// References lie under all else. What was seen is thin, and would be lost under what was.
+// References and what was seen are bands, under the thin lines of commands and of what was.
 int layer(Role role) {
-  constexpr std::array layers = {2, 0, 3, 1};
+  constexpr std::array layers = {3, 0, 1, 2};
   return layers[static_cast<std::size_t>(role)];
 }
 
@@ -116,6 +116,11 @@ void add_time_panel(Picture& picture, const std::vector<Result>& runs, const Pla
                   abscissa.of(run), column->numbers};
       if (!is_line(curve.y)) curve.stroke.marker = Marker::dot;
       for (double& value : curve.y) value = scale(value);
+      if (curve.stroke.marker == Marker::none) {
+        if (Curve lone = lone_points(curve); !lone.x.empty()) {
+          drawn.push_back({layer(line.role), thin_over_time(std::move(lone), panel)});
+        }
+      }
       drawn.push_back({layer(line.role), thin_over_time(std::move(curve), panel)});
     }
   }

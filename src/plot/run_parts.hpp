@@ -47,6 +47,10 @@ inline const Stroke band_of_reference{"#d0d0d0", 6};
 
 [[nodiscard]] bool has_path(const std::vector<Result>& runs);
 
+// Whether a picture of the plane shows no more than the columns do: the ball stays on a line along
+// x or y, and no plate is known.
+[[nodiscard]] bool is_along_an_axis(const std::vector<Result>& runs);
+
 // The path in the plane, to scale, in the box or the part of it that its legend leaves.
 void add_path(Picture& picture, const std::vector<Result>& runs, const EventMarks& marks, Box box);
 

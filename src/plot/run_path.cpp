@@ -115,6 +115,18 @@ bool has_path(const std::vector<Result>& runs) {
   return !extent.x.empty();
 }
 
+bool is_along_an_axis(const std::vector<Result>& runs) {
+  Extent extent;
+  for (const Result& run : runs) {
+    include(extent, points_of(run, "x", "y"));
+    include(extent, points_of(run, "x_reference", "y_reference"));
+  }
+  if (extent.x.empty() || !plates_of(runs).empty()) return false;
+  constexpr double unseen = 1e-6;  // part of the longer side
+  const double along_x = extent.x.high - extent.x.low, along_y = extent.y.high - extent.y.low;
+  return std::min(along_x, along_y) < unseen * std::max(along_x, along_y);
+}
+
 void add_path(Picture& picture, const std::vector<Result>& runs, const EventMarks& marks, Box box) {
   const bool one = runs.size() == 1;
   Extent extent;
@@ -149,7 +161,7 @@ void add_path(Picture& picture, const std::vector<Result>& runs, const EventMark
   legend.push_back({"end", marker("#000000", Marker::dot, 1.3)});
   for (const Entry& entry : marks.legend()) legend.push_back(entry);
 
-  const auto [x_scale, y_scale] = choose_scales({"m"}, extent.x, extent.y);
+  const auto [x_scale, y_scale] = choose_scales(unit_of(runs, "x"), extent.x, extent.y);
   const double legend_left = box.left + 70;  // beside the heading
   box.top += 8 + legend_pitch * static_cast<double>(legend_rows(legend, legend_left, box.right));
   place_legend(picture, legend, legend_left, box.right, box.top - 14);
@@ -178,8 +190,9 @@ void add_path(Picture& picture, const std::vector<Result>& runs, const EventMark
   };
   const auto add = [&](const Points& points, const Stroke& stroke) {
     Points drawn = scaled(points);
-    panel.curves.push_back(
-        thin_path({Curve::Shape::line, stroke, std::move(drawn.x), std::move(drawn.y)}, panel));
+    const Curve line{Curve::Shape::line, stroke, std::move(drawn.x), std::move(drawn.y)};
+    if (const Curve lone = lone_points(line); !lone.x.empty()) panel.curves.push_back(lone);
+    panel.curves.push_back(thin_path(line, panel));
   };
   for (const Points& reference : references) {
     if (!stands_still(reference)) add(reference, band_of_reference);

@@ -142,7 +142,7 @@ Abscissa abscissa_of(const std::vector<Result>& runs) {
     abscissa.range.include(run.find("t")->numbers);
     for (const Event& event : run.events) abscissa.range.include(event.t);
   }
-  abscissa.scale = choose_scale(abscissa.is_time ? Unit{"s"} : Unit{}, abscissa.range);
+  abscissa.scale = choose_scale(abscissa.is_time ? unit_of(runs, "t") : Unit{}, abscissa.range);
   return abscissa;
 }
 
@@ -184,13 +184,7 @@ std::vector<Entry> EventMarks::legend() const {
 }
 
 Stroke stroke_of_run(const std::vector<Result>& runs, const Result& run) {
-  const auto index = static_cast<std::size_t>(&run - runs.data());
-  Stroke stroke = stroke_of(index);
-  // Of two equal lines the lower one is wider, so that both are seen.
-  if (runs.size() > 1) {
-    stroke.width += 1.1 * static_cast<double>(std::min<std::size_t>(runs.size() - 1 - index, 3));
-  }
-  return stroke;
+  return stroke_of(static_cast<std::size_t>(&run - runs.data()));
 }
 
 Picture run_picture(const std::vector<Result>& runs, const Asked& asked) {
@@ -199,9 +193,10 @@ Picture run_picture(const std::vector<Result>& runs, const Asked& asked) {
   if (path_asked && !has_path(runs)) {
     throw InputError("--columns: found path; " + runs.front().file + " has no numbers x and y");
   }
-  const bool path = asked.empty() ? has_path(runs) : path_asked;
   const std::vector<PlannedPanel> panels =
       asked.empty() ? plan_panels(runs) : plan_panels(runs, columns);
+  const bool path =
+      asked.empty() ? has_path(runs) && (panels.empty() || !is_along_an_axis(runs)) : path_asked;
   if (panels.empty() && !path) {
     throw InputError(runs.front().file + ": nothing to draw: no column but t holds finite numbers");
   }

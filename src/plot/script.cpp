@@ -74,7 +74,7 @@ class Script {
   std::string write() {
     text_ = "set encoding utf8\napostrophe = \"\\047\"\nset terminal " + terminal_.name +
             " noenhanced rounded background '#ffffff' font '" + terminal_.font +
-            "'\nset border 0\nunset key\nset datafile missing 'NaN'\n";
+            "'\nset border 0\nunset key\n";
     for (std::size_t i = 0; i < picture_.panels.size(); ++i) write_data(picture_.panels[i], i);
     text_ += "set multiplot\n";
     for (std::size_t i = 0; i < picture_.panels.size(); ++i) write_panel(picture_.panels[i], i);
@@ -194,8 +194,7 @@ class Script {
                          : panel.y.at_right ? "9"
                                             : "3") +
              " linecolor rgb '#404040' linewidth " + fixed(terminal_.line_scale, 2) +
-             "\nunset key\nset tics nomirror out textcolor rgb '#202020' scale 0.6\n"
-             "set datafile missing 'NaN'\n";
+             "\nunset key\nset tics nomirror out textcolor rgb '#202020' scale 0.6\n";
     text_ += "set lmargin at screen " + screen_x(panel.box.left) + "\nset rmargin at screen " +
              screen_x(panel.box.right) + "\nset bmargin at screen " + screen_y(panel.box.bottom) +
              "\nset tmargin at screen " + screen_y(panel.box.top) + '\n';

@@ -88,7 +88,7 @@ KeyAxis::KeyAxis(const SweepTable& table, const Key& of) : key(of) {
   log = by_equal_factors(key.distinct);
   Range range;
   range.include(key.distinct);
-  scale = choose_scale({"SI"}, range, !log);
+  scale = choose_scale({key.unit}, range, !log);
   label = scale.heading(name);
 }
 

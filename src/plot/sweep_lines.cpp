@@ -63,12 +63,10 @@ std::string pale(const std::string& colour) {
   return result;
 }
 
-// Of two equal lines the lower one is wider, so that both are seen.
-Stroke stroke_of_group(std::size_t group, std::size_t groups) {
+Stroke stroke_of_group(std::size_t group) {
   constexpr std::array markers = {Marker::dot, Marker::triangle, Marker::filled_square,
                                   Marker::diamond, Marker::ring};
   Stroke stroke = stroke_of(group);
-  stroke.width += 1.1 * static_cast<double>(std::min<std::size_t>(groups - 1 - group, 3));
   stroke.marker = markers[group % markers.size()];
   return stroke;
 }
@@ -83,8 +81,7 @@ std::string group_name(const Key& group, double value) {
 std::vector<Entry> group_legend(const Key* group) {
   std::vector<Entry> entries;
   for (std::size_t g = 0; group != nullptr && g < group->distinct.size(); ++g) {
-    entries.push_back(
-        {group_name(*group, group->distinct[g]), stroke_of_group(g, group->distinct.size())});
+    entries.push_back({group_name(*group, group->distinct[g]), stroke_of_group(g)});
   }
   return entries;
 }
@@ -109,7 +106,7 @@ void add_lines(Picture& picture, const SweepTable& table, const Column& measure,
         bundle.done.push_back(measure.numbers[i]);
       }
     }
-    Stroke stroke = stroke_of_group(g, groups.size());
+    Stroke stroke = stroke_of_group(g);
     if (over.distinct.size() > most_markers) stroke.marker = Marker::none;
     if (over.is_text()) stroke.width = 0;  // nothing lies between two words
     Curve line{Curve::Shape::line, stroke, {}, {}};

@@ -31,6 +31,7 @@ Key key_of(const Column& column) {
     }
   }
   key.distinct = sorted_distinct(key.values);
+  key.unit = column.unit == "1" ? "" : column.unit;
   return key;
 }
 

@@ -15,6 +15,7 @@ struct Key {
   std::vector<double> values;         // one a case; of a text, its place in `labels`
   std::vector<double> distinct;       // in rising order
   std::vector<std::string> labels{};  // of a text, in the order in which they come
+  std::string unit{};                 // as the file says; empty if it does not
   bool drawn = false;                 // by chance
   std::size_t leader = 0;             // the first key with which its values always go along
 

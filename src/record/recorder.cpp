@@ -16,6 +16,14 @@ using Kind = Measure::Kind;
 
 namespace {
 
+// Of a run that an event stopped.
+model::Sample end_of(const solve::Outcome& outcome) {
+  const model::Occurrence& at = outcome.occurrences.back();
+  model::Sample end = at.sample;
+  if (!at.own.empty()) end.own = at.own.data();
+  return end;
+}
+
 constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
 
 template <class Wanted>
@@ -178,14 +186,8 @@ void Recorder::finish(const solve::Outcome& outcome, double* results) {
 
 void Recorder::finish_each(const solve::Outcome& outcome, double* results) {
   const bool stopped = outcome.ending == solve::Ending::stopped;
-  model::Sample last;
-  if (stopped) {
-    const model::Occurrence& at = outcome.occurrences.back();
-    last = at.sample;
-    if (!at.own.empty()) last.own = at.own.data();
-  } else {
-    last = model_->sample(last_time_, last_.data(), model::Detail::all);
-  }
+  const model::Sample last =
+      stopped ? end_of(outcome) : model_->sample(last_time_, last_.data(), model::Detail::all);
   for (Rows* const end : {&end_, &traces_end_}) end->evaluate(last);
   if (model_->hybrid()) {  // the last piece ends before what switches at its end
     if (!of_motion_.empty()) extremes_.note(last);
@@ -202,6 +204,17 @@ void Recorder::finish_each(const solve::Outcome& outcome, double* results) {
     return traces_.of(column);
   };
   for (const std::size_t m : of_curves_) results[m] = measured(asked_.measures[m], curve_of);
+}
+
+std::vector<double> Recorder::end_row(const solve::Outcome& outcome) {
+  if (outcome.ending != solve::Ending::stopped || asked_.columns.empty() || times_.empty() ||
+      !(outcome.occurrences.back().t > times_.back())) {
+    return {};
+  }
+  rows_.evaluate(end_of(outcome));
+  std::vector<double> row;
+  for (std::size_t c = 0; c < asked_.columns.size(); ++c) row.push_back(rows_[c][0]);
+  return row;
 }
 
 std::string Recorder::why_not_finite(std::size_t columns) const {

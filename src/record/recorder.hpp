@@ -65,6 +65,10 @@ class Recorder : public solve::StateSink {
   // Writes the run's measures, one after the other.
   void finish(const solve::Outcome& outcome, double* results);
 
+  // The columns at the instant at which an event stopped the run, if no row is of that instant;
+  // else nothing. Comes after the last row.
+  [[nodiscard]] std::vector<double> end_row(const solve::Outcome& outcome);
+
   // The peaks of a run that finish() was told of.
   [[nodiscard]] std::optional<MotorPeaks> peaks() const;
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <numbers>
+#include <optional>
 #include <utility>
 
 #include "base/error.hpp"
@@ -81,7 +82,9 @@ class Writer {
 
   // The meshes of unit size that nodes scale.
   struct Meshes {
-    std::size_t plate, frame_box, frame_ring, ball, ghost;
+    std::size_t plate, frame_box, frame_ring;
+    std::array<std::array<std::optional<std::size_t>, 2>, 2>
+        balls;  // of the leading run, of others
   };
 
   void add_materials() {
@@ -125,12 +128,19 @@ class Writer {
       box["material"] = plate_colour;
       made_.plate = add_mesh("plate", Json::array({box}));
     }
-    const Json light = primitive(octants(false), ball_light);
-    Json dark = primitive(octants(true), ball_dark);
-    made_.ball = add_mesh("ball", Json::array({light, dark}));
-    if (scene_.runs.size() == 1) return;
-    dark["material"] = ghost_dark;
-    made_.ghost = add_mesh("ghost", Json::array({light, dark}));
+    light_ = primitive(octants(false), ball_light);
+    dark_ = primitive(octants(true), ball_dark);
+  }
+
+  // A ball with its marks, or of one colour where nobody knows how it turns.
+  std::size_t ball_mesh(bool leads, bool turns_known) {
+    std::optional<std::size_t>& made = made_.balls[leads ? 0 : 1][turns_known ? 0 : 1];
+    if (made) return *made;
+    Json light = light_, dark = dark_;
+    dark["material"] = leads ? ball_dark : ghost_dark;
+    if (!turns_known) light["material"] = dark["material"];
+    made = add_mesh(leads ? "ball" : "ghost", Json::array({light, dark}));
+    return *made;
   }
 
   std::size_t add_node(Json node) {
@@ -274,8 +284,10 @@ class Writer {
     std::vector<std::array<float, 3>> centres;
     std::vector<std::array<float, 4>> turns;
     Quaternion last{1, 0, 0, 0};
+    const bool turns_known = !orientation.empty();
     for (std::size_t i = 0; i < rows.size(); ++i) {
       centres.push_back({to_float(x[i]), to_float(y[i]), to_float(height)});
+      if (!turns_known) continue;
       Quaternion q = orientation[rows[i]];
       // Two quaternions are the same rotation: the nearer one is taken, for players that do not
       // look.
@@ -286,10 +298,10 @@ class Writer {
       last = q;
     }
     const std::size_t ball = add_child(plane, {{"name", "ball of " + run.name},
-                                               {"mesh", leads ? made_.ball : made_.ghost},
+                                               {"mesh", ball_mesh(leads, turns_known)},
                                                {"scale", {radius, radius, radius}}});
     animate(ball, "translation", times, buffer_.add_vectors(centres));
-    animate(ball, "rotation", times, buffer_.add_quaternions(turns));
+    if (turns_known) animate(ball, "rotation", times, buffer_.add_quaternions(turns));
     add_path(run.name, plane, centres, to_float(0.98 * radius));
   }
 
@@ -303,6 +315,7 @@ class Writer {
   Json nodes_ = Json::array(), meshes_ = Json::array(), materials_ = Json::array();
   Json samplers_ = Json::array(), channels_ = Json::array();
   Meshes made_{};
+  Json light_, dark_;      // octants of the ball
   double start_ = 0;       // s, of what comes first
   std::size_t plane_ = 0;  // of the leading run
 };

@@ -98,7 +98,10 @@ void require_numbers(const plot::Result& log, const plot::Column& column) {
 }  // namespace
 
 Run run_of_log(plot::Result log, const std::string& map, const std::string& name) {
-  if (map.empty()) return run_of_result(std::move(log), name);
+  if (map.empty()) {
+    log.units_known = true;  // as --data says
+    return run_of_result(std::move(log), name);
+  }
   std::vector<Mapped> all = read_map(map);
   const scenario::Column* const time = scenario::find_column("t");
   if (std::ranges::find(all, time, &Mapped::column) == all.end() && log.find("t") != nullptr) {
@@ -122,7 +125,9 @@ Run run_of_log(plot::Result log, const std::string& map, const std::string& name
     table.columns.push_back(column->numbers);
     for (double& number : table.columns.back()) number *= one.unit;
   }
-  return run_of_table(std::move(table), name);
+  Run run = run_of_table(std::move(table), name);
+  run.rolls = false;
+  return run;
 }
 
 }  // namespace bbsim::replay

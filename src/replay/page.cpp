@@ -55,6 +55,7 @@ Json columns_json(const Run& run, const std::vector<std::size_t>& rows) {
 std::string orientation_text(const std::vector<Quaternion>& orientation,
                              const std::vector<std::size_t>& rows) {
   std::vector<double> numbers;
+  if (orientation.empty()) return "";
   numbers.reserve(4 * rows.size());
   for (const std::size_t row : rows) {
     numbers.insert(numbers.end(), orientation[row].begin(), orientation[row].end());
@@ -134,7 +135,7 @@ Json run_json(const Run& run, const Stage& stage, std::size_t most) {
   const KeptRows kept = kept_rows(run, orientation, most);
   Json json = {{"name", run.name},        {"title", run.title},
                {"status", run.status},    {"reason", run.reason},
-               {"end", run.end},          {"rows", row_count(run)},
+               {"end", run.end},          {"rows", rows_of_file(run)},
                {"buckets", kept.buckets}, {"motionError", kept.motion_error}};
   json["ball"] = {{"radius", radius}, {"given", run.ball_radius.has_value()}};
   json["mounting"] = {{"height", run.mounting.height},
@@ -145,6 +146,9 @@ Json run_json(const Run& run, const Stage& stage, std::size_t most) {
   json["columns"] = columns_json(run, kept.rows);
   json["orientation"] = orientation_text(orientation, kept.rows);
   json["orientationGiven"] = !run.orientation.empty();
+  json["reached"] = run.reached ? Json(*run.reached) : Json();
+  json["hasEndRow"] = run.has_end_row;
+  json["unitsKnown"] = run.units_known;
   json["events"] = events_json(run);
   json["eventCount"] = run.events.size();
   json["reference"] = reference_text(run);
@@ -211,7 +215,8 @@ Json scene_json(const Scene& scene) {
     json["stage"] = {{"width", stage.width},
                      {"depth", stage.depth},
                      {"round", stage.round},
-                     {"plateGiven", stage.plate_given}};
+                     {"plateGiven", stage.plate_given},
+                     {"largest", largest_drawn}};
     for (const Run& run : scene.runs) runs.push_back(run_json(run, stage, rows_allowed(scene)));
   }
   for (const Sweep& sweep : scene.sweeps) sweeps.push_back(sweep_json(sweep, scene.sweeps.size()));

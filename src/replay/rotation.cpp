@@ -31,11 +31,46 @@ std::vector<Quaternion> rolled(const std::vector<double>& x, const std::vector<d
   return result;
 }
 
+namespace {
+
+// The integral from the first row on, by trapezoids; rows without a number add nothing.
+std::vector<double> integral(const std::vector<double>& t, const std::vector<double>& rate) {
+  std::vector<double> sum(t.size(), 0);
+  for (std::size_t row = 1; row < t.size(); ++row) {
+    const double more = (t[row] - t[row - 1]) * (rate[row] / 2 + rate[row - 1] / 2);
+    sum[row] = sum[row - 1] + (std::isfinite(more) ? more : 0);
+  }
+  return sum;
+}
+
+// The way that the ball would have gone with this turn, had it rolled: without what it slipped.
+std::vector<double> way_rolled(const Run& run, const char* axis, const char* slip) {
+  std::vector<double> way = coordinate(run, axis);
+  if (const Series* const rate = find_series(run, slip)) {
+    const std::vector<double> slipped = integral(find_series(run, "t")->values, rate->values);
+    for (std::size_t row = 0; row < way.size(); ++row) way[row] -= slipped[row];
+  }
+  return way;
+}
+
+}  // namespace
+
 std::vector<Quaternion> orientation_of(const Run& run, double radius) {
   if (!run.orientation.empty()) return run.orientation;
-  const Series* gamma = find_series(run, "gamma");
-  return rolled(coordinate(run, "x"), coordinate(run, "y"),
-                gamma == nullptr ? nullptr : &gamma->values, radius);
+  const Series* const gamma = find_series(run, "gamma");
+  const Series* const spin = find_series(run, "spin");
+  const bool slip_known = find_series(run, "slip_x") != nullptr &&
+                          find_series(run, "slip_y") != nullptr &&
+                          (gamma != nullptr || spin != nullptr) && run.ball_radius.has_value();
+  if (!run.rolls && !slip_known) return {};
+  std::vector<double> turned;
+  if (gamma != nullptr) {
+    turned = gamma->values;
+  } else if (spin != nullptr) {
+    turned = integral(find_series(run, "t")->values, spin->values);
+  }
+  return rolled(way_rolled(run, "x", "slip_x"), way_rolled(run, "y", "slip_y"),
+                turned.empty() ? nullptr : &turned, radius);
 }
 
 }  // namespace bbsim::replay

@@ -20,7 +20,9 @@ namespace bbsim::replay {
                                              const std::vector<double>& y,
                                              const std::vector<double>* gamma, double radius);
 
-// The run's own orientations, or where it has none rolled() with this radius.
+// The run's own orientations; or where it has none those of a ball of this radius that rolls
+// (rolled()), or slips as columns slip_x and slip_y say, off by the square of the rows' distance,
+// and pivots as gamma or spin do. Empty where the columns do not tell how the ball turns.
 [[nodiscard]] std::vector<Quaternion> orientation_of(const Run& run, double radius);
 
 }  // namespace bbsim::replay

@@ -79,6 +79,10 @@ std::size_t row_count(const Run& run) {
   return t == nullptr ? 0 : t->values.size();
 }
 
+std::size_t rows_of_file(const Run& run) {
+  return row_count(run) - (run.has_end_row ? 1 : 0);
+}
+
 std::vector<double> coordinate(const Run& run, std::string_view name) {
   const Series* series = find_series(run, name);
   return series == nullptr ? std::vector<double>(row_count(run), 0.0) : series->values;

@@ -49,14 +49,20 @@ struct Poles {
 // A run, or the log of a rig. Only the columns t and x or y have to be there: without the other,
 // the ball stays on its axis.
 struct Run {
-  std::string name;            // what tells it from other runs: its file
-  std::string title;           // of its scenario
-  std::string status, reason;  // done, failed, interrupted or stopped; why, if it ended early
-  double end = 0;              // time that was asked for; 0 if it is not known
+  std::string name;                 // what tells it from other runs: its file
+  std::string title;                // of its scenario
+  std::string status, reason;       // done, failed, interrupted or stopped; why, if it ended early
+  double end = 0;                   // time that was asked for; 0 if it is not known
+  std::optional<double> reached{};  // when it ended, s, which may be after its last row
+  // Whether the last row is none of its file, but the instant at which an event stopped the run.
+  bool has_end_row = false;
+  bool units_known = true;  // else columns without a unit are in whatever it is
   std::vector<Series> columns;
-  // Rotations from the ball's own frame to the plane's, one a row. Empty: the ball is taken to roll
-  // from row to row (rolled()).
+  // Rotations from the ball's own frame to the plane's, one a row. Where it is empty,
+  // orientation_of() says what the columns tell.
   std::vector<Quaternion> orientation;
+  // Whether its way tells how the ball turns: not if it may slide, or if nobody knows.
+  bool rolls = true;
   std::vector<Event> events;
   Plate plate;
   std::optional<double> ball_radius{};
@@ -104,6 +110,9 @@ struct Scene {
 
 // The number of rows in its column t.
 [[nodiscard]] std::size_t row_count(const Run& run);
+
+// The same, of its file: without the row that is its end.
+[[nodiscard]] std::size_t rows_of_file(const Run& run);
 
 // Its column x or y; zeros where it has none.
 [[nodiscard]] std::vector<double> coordinate(const Run& run, std::string_view name);

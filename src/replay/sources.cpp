@@ -13,6 +13,7 @@
 #include "model/signals/reference_path.hpp"
 #include "model/spectrum.hpp"
 #include "plot/sweep_table.hpp"
+#include "replay/rotation.hpp"
 #include "scenario/columns.hpp"
 
 namespace bbsim::replay {
@@ -67,10 +68,32 @@ std::string unit_of_measure(const std::string& name) {
   return column == nullptr ? "" : std::string(column->unit);
 }
 
-Series series_of(const std::string& name, std::vector<double> values) {
+Series series_of(const std::string& name, std::vector<double> values, bool unit_known = true) {
   const scenario::Column* const known = scenario::find_column(name);
   if (known == nullptr) return {name, "", "", std::move(values)};
-  return {name, std::string(known->unit), std::string(known->meaning), std::move(values)};
+  return {name, unit_known ? std::string(known->unit) : "", std::string(known->meaning),
+          std::move(values)};
+}
+
+// What a loop commands: angles, as `bbsim columns` has it, or what the gimbal is driven by.
+void set_unit_of_commands(Run& run, Drives driven) {
+  const char* unit = "rad";
+  if (driven == Drives::acceleration) unit = "rad/s^2";
+  if (driven == Drives::torque) unit = "N m";
+  if (driven == Drives::voltage) unit = "V";
+  for (Series& series : run.columns) {
+    if (series.name == "phi_command" || series.name == "theta_command") series.unit = unit;
+  }
+}
+
+// To the instant at which an event stopped the run the ball rolls on from its last row.
+void turn_to_the_end(Run& run) {
+  if (!run.has_end_row || !run.rolls || !run.ball_radius || run.orientation.size() < 2) return;
+  const std::vector<double> x = coordinate(run, "x"), y = coordinate(run, "y");
+  const std::size_t end = x.size() - 1;
+  run.orientation[end] =
+      product(rolled({x[end - 1], x[end]}, {y[end - 1], y[end]}, nullptr, *run.ball_radius).back(),
+              run.orientation[end - 1]);
 }
 
 // Where all four parts of the ball's orientation are recorded, they are that, and no plots. A row
@@ -135,6 +158,9 @@ void describe_sight(Run& run, const Scenario& scenario) {
   const bbsim::Mounting& mounting = scenario.gimbal.mounting;
   run.mounting = {mounting.height, mounting.skew, mounting.yaw, mounting.base_tilt};
   if (scenario.events.slip) run.friction = scenario.events.slip->friction;
+  if (scenario.events.slip && scenario.events.slip->sliding) run.rolls = false;
+  if (scenario.controller) set_unit_of_commands(run, scenario.controller->drives);
+  turn_to_the_end(run);
   run.scenario_file = scenario.source.file;
   run.scenario_text = scenario.source.text;
   run.overrides = scenario.source.overrides;
@@ -149,19 +175,27 @@ void describe(Run& run, const Scenario& scenario) {
 }
 
 Run run_of_result(plot::Result result, const std::string& name) {
+  plot::add_end_row(result);
   Run run;
   run.name = name;
+  run.has_end_row = result.has_end_row;
   run.title = std::move(result.title);
   run.status = std::move(result.status);
   run.reason = std::move(result.reason);
   run.version = std::move(result.version);
   run.summary = std::move(result.summary);
+  run.reached = result.end_time;
+  run.units_known = result.units_known;
+  // How it pivots has to be told, too; along one axis it does not.
+  run.rolls =
+      result.scenario && (result.find("gamma") != nullptr || result.find("spin") != nullptr ||
+                          result.find("x") == nullptr || result.find("y") == nullptr);
   for (const plot::Event& event : result.events) {
     run.events.push_back({event.t, event.name, event.stopped ? "stop" : "note", event.x, event.y});
   }
   for (plot::Column& column : result.columns) {
     if (column.is_text()) continue;
-    run.columns.push_back(series_of(column.name, std::move(column.numbers)));
+    run.columns.push_back(series_of(column.name, std::move(column.numbers), run.units_known));
     if (!column.unit.empty()) run.columns.back().unit = std::move(column.unit);
   }
   take_orientation(run);

@@ -2,32 +2,45 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <vector>
 
 namespace bbsim::replay {
 namespace {
 
-// How far the runs and their references go from home. A run that reaches infinity is not to shrink
-// all that went before: what is twenty times as far as half of the rows does not count.
-double extent(const Scene& scene) {
-  std::vector<double> distances;
-  double reference = 0;
+// How far the runs and their references go from home, along each axis.
+struct Extent {
+  double x = 0, y = 0;
+
+  void include(double at_x, double at_y) {
+    if (!(std::abs(at_x) <= largest_drawn && std::abs(at_y) <= largest_drawn)) return;
+    x = std::max(x, std::abs(at_x));
+    y = std::max(y, std::abs(at_y));
+  }
+};
+
+Extent extent(const Scene& scene) {
+  Extent all;
   for (const Run& run : scene.runs) {
     const std::vector<double> x = coordinate(run, "x"), y = coordinate(run, "y");
-    for (std::size_t row = 0; row < x.size(); ++row) {
-      const double far = std::max(std::abs(x[row]), std::abs(y[row]));
-      if (std::isfinite(far)) distances.push_back(far);
-    }
-    for (const auto& point : run.reference) {
-      const double far = std::max(std::abs(point[0]), std::abs(point[1]));
-      if (std::isfinite(far)) reference = std::max(reference, far);
-    }
+    for (std::size_t row = 0; row < x.size(); ++row) all.include(x[row], y[row]);
+    for (const auto& point : run.reference) all.include(point[0], point[1]);
   }
-  if (distances.empty()) return reference;
-  std::sort(distances.begin(), distances.end());
-  const double middle = std::max(distances[distances.size() / 2], reference);
-  const double all = distances.back();
-  return std::max(reference, middle > 0 ? std::min(all, 20 * middle) : all);
+  return all;
+}
+
+// A plate that they fit on with some air, and a ball of that radius.
+void fit_plate(Stage& stage, const Extent& paths, double ball) {
+  constexpr double margin = 1.2, thin = 1e-6, beam = 1.0 / 8;
+  const double far = std::max(paths.x, paths.y);
+  if (far == 0 && ball == 0) {
+    stage.width = stage.depth = 0.3;
+    return;
+  }
+  stage.width = stage.depth = 2 * std::max(margin * far, 6 * ball);
+  const double across = std::max(beam * stage.width, std::min(4 * ball, stage.width));
+  if (paths.y < thin * paths.x) stage.depth = across;
+  if (paths.x < thin * paths.y) stage.width = across;
 }
 
 }  // namespace
@@ -51,14 +64,13 @@ Stage stage_of(const Scene& scene) {
                                   [](const Run& run) { return run.ball_radius.has_value(); });
   stage.ball_given = sized != scene.runs.end();
   if (!stage.plate_given) {
-    constexpr double margin = 1.2;
-    const double ball = stage.ball_given ? *sized->ball_radius : 0;
-    stage.width = stage.depth = 2 * std::max(margin * extent(scene), 6 * ball);
-    if (stage.width == 0) stage.width = stage.depth = 0.3;
+    fit_plate(stage, extent(scene), stage.ball_given ? *sized->ball_radius : 0);
   }
+  // On a beam it may be as large as on a plate of that length.
   constexpr double ball_part = 1.0 / 30;
-  stage.ball_radius =
-      stage.ball_given ? *sized->ball_radius : ball_part * std::min(stage.width, stage.depth);
+  const double side =
+      stage.plate_given ? std::min(stage.width, stage.depth) : std::max(stage.width, stage.depth);
+  stage.ball_radius = stage.ball_given ? *sized->ball_radius : ball_part * side;
   return stage;
 }
 

@@ -5,6 +5,9 @@
 
 namespace bbsim::replay {
 
+// What is further away is not drawn: a float, of which pictures are made, holds its square no more.
+inline constexpr double largest_drawn = 1e15;  // m
+
 struct Stage {
   double width = 0, depth = 0;  // of the plate along x and y, m
   bool round = false;
@@ -13,7 +16,9 @@ struct Stage {
   bool ball_given = false;   // else it is a thirtieth of the plate
 };
 
-// The stage for all runs of the scene; the first run that has a plate says what the plate is.
+// The stage for all runs of the scene; the first run that has a plate says what the plate is. One
+// that is drawn to fit holds all paths and references, as far as they are drawn at all; where these
+// stay on an axis it is a beam.
 [[nodiscard]] Stage stage_of(const Scene& scene);
 
 }  // namespace bbsim::replay

@@ -131,12 +131,9 @@ Missing missing(const Column& column, const Scenario& scenario) {
       if (scenario.controller && scenario.controller->own) return {};
       return {"the scene has no controller of its own that gives it",
               "columns of bbsim columns; or controller.program or controller.library"};
-    case Needs::orientation:
-      if (!(scenario.events.slip && scenario.events.slip->sliding)) return {};
-      return {"the ball may slide, and its orientation is followed as it rolls",
-              "other columns; or an action of events.slip that is not slide"};
     case Needs::ball:
     case Needs::gamma:
+    case Needs::orientation:
     case Needs::gimbal:
     case Needs::accelerations:
     case Needs::dynamics:

@@ -120,9 +120,17 @@ std::string accuracy_plot(const AccuracyStudy& study, const std::string& title, 
            std::string(solve::method_name(methods[i])).c_str());
   }
 
-  script += picture == Picture::svg
-                ? "set terminal svg size 900,600 dynamic font 'sans-serif,15' background 'white'\n"
-                : "set terminal pngcairo size 900,600 font 'sans-serif,12' background 'white'\n";
+  switch (picture) {
+    case Picture::svg:
+      script += "set terminal svg size 900,600 dynamic font 'sans-serif,15' background 'white'\n";
+      break;
+    case Picture::png:
+      script += "set terminal pngcairo size 900,600 font 'sans-serif,12' background 'white'\n";
+      break;
+    case Picture::pdf:
+      script += "set terminal pdfcairo size 9in,6in font 'sans-serif,15' background 'white'\n";
+      break;
+  }
   script += "set encoding utf8\n";
   script += "set title " + quoted(title) + " noenhanced\n";
   script +=

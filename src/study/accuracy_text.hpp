@@ -13,7 +13,7 @@ namespace bbsim::study {
 // method,rtol,atol,error_m,time_us,steps,rhs_evaluations,jacobian_evaluations,status
 [[nodiscard]] std::string accuracy_csv(const AccuracyStudy& study);
 
-enum class Picture { svg, png };
+enum class Picture { svg, png, pdf };
 
 // A gnuplot script that writes a work-precision diagram to its standard output: time over error,
 // both logarithmic, one curve a method. Runs that ended early are left out.

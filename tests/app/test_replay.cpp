@@ -91,6 +91,24 @@ TEST_CASE("a run that an event stopped is shown to its end, from every kind of f
   check_page("yaml.html");
 }
 
+TEST_CASE("a ball that slides is shown as it turns, and as it was when it stopped") {
+  const Folder folder;
+  // Its orientation is a column like others.
+  REQUIRE(bbsim({"run", config("slides.yaml"), "--set",
+                 "output.columns=[t,x,y,ball_qw,ball_qx,ball_qy,ball_qz]", "-o", "s.csv", "-q"},
+                folder.path())
+              .exit_code == 1);
+  CHECK(folder.read("s.csv").starts_with("t,x,y,ball_qw,"));
+  CHECK(bbsim({"replay", config("slides.yaml"), "-o", "s.html", "-q"}, folder.path()).exit_code ==
+        1);
+  const auto run = data_of(folder.read("s.html")).at("runs").at(0);
+  CHECK(run.at("orientationGiven") == true);
+  CHECK(run.at("hasEndRow") == true);
+  CHECK(run.at("rows") == 167);
+  CHECK(run.at("time").is_string());  // the last of them is no multiple of the step
+  CHECK(run.at("reached") == Approx(3.33288).epsilon(1e-5));
+}
+
 TEST_CASE("runs and the log of a rig are one scene, a sweep another, glTF a file of its own") {
   const Folder folder;
   const std::string log = folder.write("log.csv", "Time,Ballx,Bally\n0,-10,0\n100,-9,1\n200,,2\n");

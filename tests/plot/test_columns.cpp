@@ -128,3 +128,24 @@ TEST_CASE("angles are drawn in degrees, turns of the ball in radians") {
   CHECK(plot::unit_of("x").text == "m");
   CHECK(plot::unit_of("voltage").text.empty());
 }
+
+TEST_CASE("of a table that nobody tells of no unit is known, whatever its names are") {
+  std::vector<plot::Result> runs{run_with({"t", "x", "phi"})};
+  CHECK(plot::unit_of(runs, "x").text == "m");
+  runs.push_back(runs.front());
+  runs.back().units_known = false;
+  for (const char* name : {"t", "x", "phi"}) {
+    CHECK(plot::unit_of(runs, name).text.empty());
+    CHECK(plot::unit_of(runs, name).factor == 1);
+  }
+}
+
+TEST_CASE("a column that only a file knows has the unit that the file tells") {
+  plot::Result run = run_with({"x", "position_error", "angle"});
+  run.columns[2].unit = "m";
+  run.columns[3].unit = "rad";
+  const auto panels = plot::plan_panels({run});
+  CHECK(text_of(panels) == "x: x | error of x, y: position_error | angle: angle");
+  CHECK(panels[1].unit.text == "m");
+  CHECK(panels[2].unit.text == "°");
+}

@@ -108,6 +108,39 @@ TEST_CASE("a summary beside a CSV tells of its scene, if it is of that very run"
   CHECK(read(csv).title.empty());
 }
 
+TEST_CASE("units are those of bbsim where something tells that bbsim wrote the table") {
+  const Folder folder;
+  const auto known = [&](const std::string& text) {
+    return read(folder.put("a.csv", text)).units_known;
+  };
+  // A log may have bbsim's names, or a double's digits.
+  CHECK_FALSE(known("t,x,y\n0,-12.5,3\n0.1,-12.25,3\n"));
+  CHECK_FALSE(known("t,x,y\n0,-12.345678901234567,3\n"));
+  CHECK_FALSE(known("t,x,y,x_reference\n0,-12.5,3,0\n"));
+  CHECK_FALSE(known("t,x,y,x_reference,mine\n0,-0.12345678901234567,3,0,0\n"));
+  CHECK(known("t,x,y,x_reference\n0,-0.12345678901234567,3,0\n"));
+  CHECK(known("case,ball.radius,status\n0,1,done\n"));
+  const std::string csv = folder.put("run.csv", "t,x\n0,1\n0.25,2\n");
+  CHECK_FALSE(read(csv).units_known);
+  folder.put("run.json", summary_of_two_rows);
+  CHECK(read(csv).units_known);
+}
+
+TEST_CASE("an event that stopped a run tells of its state") {
+  const Folder folder;
+  const std::string csv = folder.put("run.csv", "t,x\n0,1\n0.25,2\n");
+  folder.put("run.json",
+             R"({"status": "stopped", "rows": 2, "output": "run.csv", "events":
+                 [{"t": 0.3, "event": "edge", "action": "stop", "x": 0.1, "y": -0.2, "phi": 0.5,
+                   "what": 3}]})");
+  plot::Result result = read(csv);
+  CHECK(result.events.at(0).state ==
+        std::map<std::string, double>{{"t", 0.3}, {"x", 0.1}, {"y", -0.2}, {"phi", 0.5}});
+  CHECK(result.rows == 2);  // as the file has them, until asked
+  plot::add_end_row(result);
+  CHECK(result.find("x")->numbers == std::vector<double>{1, 2, 0.1});
+}
+
 TEST_CASE("a scenario that is named comes before what is beside") {
   const Folder folder;
   const std::string csv = folder.put("run.csv", "t,x\n0,1\n0.25,2\n");

@@ -4,6 +4,7 @@
 
 #include "base/error.hpp"
 #include "catch.hpp"
+#include "plot/run_parts.hpp"
 #include "plot/run_picture.hpp"
 #include "results.hpp"
 
@@ -154,6 +155,62 @@ TEST_CASE("comparisons name each run, and tell them apart without colour") {
   for (const Dash dash : {Dash::solid, Dash::dashed, Dash::dotted, Dash::dash_dotted}) {
     CHECK(std::ranges::find(dashes, dash) != dashes.end());
   }
+}
+
+TEST_CASE("all runs of a comparison are drawn equally wide, and what was seen hides nothing") {
+  const std::vector<Result> runs(8, rig_run());
+  const Picture picture = run_picture(runs, {});
+  for (const Panel& panel : picture.panels) {
+    for (const Curve& curve : panel.curves) {
+      const bool of_a_run = curve.stroke.width > 0 && curve.x.size() > 10 &&
+                            curve.stroke.colour != band_of_reference.colour;
+      if (of_a_run && curve.stroke.colour != "#404040") CHECK(curve.stroke.width == 2);
+    }
+  }
+  const Picture one = run_picture({rig_run()}, {});
+  const std::vector<Curve>& x = one.panels[1].curves;  // after the path
+  const auto seen = std::ranges::find(x, Curve::Shape::steps, &Curve::shape);
+  const auto main = std::ranges::find(x, "#0072b2", [](const Curve& c) { return c.stroke.colour; });
+  REQUIRE(seen != x.end());
+  REQUIRE(main != x.end());
+  CHECK(seen < main);
+}
+
+TEST_CASE("a run that an event stopped is drawn to the event") {
+  Result run = run_of({{"x", wave(0.1)}, {"y", wave(0.2)}, {"phi", wave(0.1)}}, 1, 11);
+  run.status = "stopped";
+  run.events = {{"edge", true, 1.04, 0.16, 0.01, {{"phi", 0.3}, {"vx", 2}}}};
+  add_end_row(run);
+  CHECK(run.has_end_row);
+  CHECK(run.rows == 12);
+  CHECK(run.find("t")->numbers.back() == 1.04);
+  CHECK(run.find("x")->numbers.back() == 0.16);
+  CHECK(run.find("phi")->numbers.back() == 0.3);
+  CHECK(run_picture({run}, {}).panels.front().curves.front().x.back() == Approx(16));  // cm
+  Result at_a_row = run_of({{"x", wave(0.1)}}, 1, 11);
+  at_a_row.status = "stopped";
+  at_a_row.events = {{"edge", true, 1, 0.16, 0.01}};
+  add_end_row(at_a_row);
+  CHECK_FALSE(at_a_row.has_end_row);
+}
+
+TEST_CASE("a ball along one axis has no picture of the plane, unless a plate is in it") {
+  const Function none = [](double) { return 0.0; };
+  Result beam = run_of({{"x", wave(0.1)}, {"y", none}});
+  CHECK(run_picture({beam}, {}).panels.size() == 1);
+  CHECK(run_picture({beam}, {{"path"}}).panels.size() == 1);
+  beam.scenario.emplace();
+  beam.scenario->plate.size = Pair{0.32, 0.24};
+  CHECK(run_picture({beam}, {}).panels.size() == 2);
+}
+
+TEST_CASE("a number between two gaps is a dot") {
+  Result run = run_of({{"x", wave(1)}}, 1, 11);
+  run.columns[1].numbers[3] = run.columns[1].numbers[5] = NAN;
+  const std::vector<Curve> curves = run_picture({run}, {}).panels.front().curves;
+  REQUIRE(curves.size() == 2);
+  CHECK(curves[0].stroke.marker == Marker::dot);
+  CHECK(curves[0].x.size() == 1);
 }
 
 TEST_CASE("many events are marked at the top only") {

@@ -51,6 +51,8 @@ TEST_CASE("data are places in the panel, whatever their size") {
   picture.panels.push_back(panel);
   CHECK_THAT(gnuplot_script(picture, Format::png, no_letter),
              Contains("0.000000 0.000000\n1.000000 1.000000\n0.500000 NaN\n"));
+  // What gnuplot takes for missing it draws a line over.
+  CHECK_THAT(gnuplot_script(picture, Format::png, no_letter), !Contains("missing"));
 }
 
 TEST_CASE("what gnuplot leaves of XML in a text is mended") {

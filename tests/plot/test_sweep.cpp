@@ -120,7 +120,15 @@ TEST_CASE("one key gives lines, with cases that are not done marked at the foot"
   CHECK(curves[1].stroke.marker != curves[2].stroke.marker);
   CHECK(says(picture, "failed: 2 cases"));
   CHECK(says(picture, "stopped: 1 case"));
-  CHECK(says(picture, "ball.radius (SI)"));
+  CHECK(says(picture, "ball.radius"));  // no unit that nobody told
+}
+
+TEST_CASE("a key has the unit that its file tells, and no other") {
+  Result sweep = sweep_of({repeated("ball.radius", 20, 1, 20)});
+  sweep.columns[1].unit = "m";
+  CHECK(says(sweep_picture(sweep, {}), "ball.radius (m)"));
+  sweep.columns[1].unit = "1";
+  CHECK(says(sweep_picture(sweep, {}), "ball.radius"));
 }
 
 TEST_CASE("two keys give a map; one with few values gives a line for each") {

@@ -168,6 +168,21 @@ TEST_CASE("the ball's octants face outwards and cover the ball") {
   CHECK(area < 4 * 3.1416);
 }
 
+TEST_CASE("a ball of which nobody knows how it turns has one colour, and does not turn") {
+  Scene unknown = scene();
+  unknown.runs[0].rolls = false;
+  const File file = read(gltf(unknown));
+  for (const auto& channel : file.json.at("animations").at(0).at("channels")) {
+    const auto& node = file.json.at("nodes").at(channel.at("target").at("node").get<std::size_t>());
+    if (node.at("name") == "ball of circle.csv")
+      CHECK(channel.at("target").at("path") != "rotation");
+  }
+  for (const auto& mesh : file.json.at("meshes")) {
+    if (mesh.at("name") != "ball") continue;
+    CHECK(mesh.at("primitives").at(0).at("material") == mesh.at("primitives").at(1).at("material"));
+  }
+}
+
 TEST_CASE("a second run has its ghost: on a gimbal of its own, or on the first one's plate") {
   Scene two = scene();
   two.runs.push_back(circling(200));

@@ -202,10 +202,40 @@ TEST_CASE("the plate is the scene's, or one that the path fits on") {
   CHECK(stage.width == Approx(2 * 1.2 * 0.05));
   scene.runs[0].plate.diameter = 0.25;
   CHECK(bbsim::replay::stage_of(scene).round);
-  // A last row on its way to infinity does not shrink the rest.
+  // It holds the whole path, wherever the ball is mostly.
+  scene.runs[0].plate = {};
+  scene.runs[0].columns[1].values.front() = 50;
+  CHECK(bbsim::replay::stage_of(scene).width == Approx(2 * 1.2 * 50));
+  scene.runs[0].columns[1].values.front() = 0.05;
+  // A last row on its way to infinity does not shrink the rest: that far nothing is drawn.
   scene.runs[0].plate = {};
   scene.runs[0].columns[1].values.back() = 1e200;
   CHECK(bbsim::replay::stage_of(scene).width <= 2 * 1.2 * 20 * 0.05);
+}
+
+TEST_CASE("a scene along one axis has a plate like a beam") {
+  Scene scene = scene_of(circling(2100));
+  scene.runs[0].plate = {};
+  scene.runs[0].columns[2].values.assign(2100, 0.0);
+  for (double& y : scene.runs[0].columns.back().values) y = 0;
+  const auto stage = bbsim::replay::stage_of(scene);
+  CHECK(stage.width == Approx(2 * 1.2 * 0.05));
+  CHECK(stage.depth < stage.width / 2);
+  CHECK(stage.depth >= 4 * 0.01);  // wider than the ball
+}
+
+TEST_CASE("a page says what is known of turns, units and the end") {
+  Run run = circling(50);
+  run.rolls = false;
+  run.units_known = false;
+  run.has_end_row = true;
+  run.reached = 0.495;
+  const auto made = data_of(page(scene_of(run), small_template)).at("runs").at(0);
+  CHECK(made.at("orientation") == "");
+  CHECK(made.at("orientationGiven") == false);
+  CHECK(made.at("unitsKnown") == false);
+  CHECK(made.at("rows") == 49);
+  CHECK(made.at("reached") == 0.495);
 }
 
 TEST_CASE("what cannot be replayed is refused with what is wrong") {

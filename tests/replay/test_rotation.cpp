@@ -84,6 +84,32 @@ TEST_CASE("round a circle the error of rolling from row to row falls with its sq
   CHECK(std::log2(coarse / fine) > 1.9);
 }
 
+TEST_CASE("a ball that slips turns by what it has not slipped") {
+  // It goes on at 1 m/s and slips at 3 - 2 t m/s: in a second it turns by -1 m over its radius.
+  Run run;
+  run.rolls = false;
+  run.ball_radius = 1;
+  run.columns = {{"t", "", "", {}},
+                 {"x", "", "", {}},
+                 {"y", "", "", {}},
+                 {"slip_x", "", "", {}},
+                 {"slip_y", "", "", {}}};
+  for (int i = 0; i <= 10; ++i) {
+    const double t = 0.1 * i;
+    const double values[] = {t, t, 0, 3 - 2 * t, 0};
+    for (std::size_t c = 0; c < run.columns.size(); ++c) run.columns[c].values.push_back(values[c]);
+  }
+  CHECK(orientation_of(run, 1).empty());  // how it pivots is not known
+  run.columns.push_back({"spin", "", "", std::vector<double>(11, 0.0)});
+  const Quaternion last = orientation_of(run, 1).back();
+  CHECK(apart(last, Eigen::Quaterniond(Eigen::AngleAxisd(-1, Eigen::Vector3d::UnitY()))) < 1e-7);
+  // Its spin is integrated.
+  run.columns.back().values.assign(11, 0.5);
+  run.columns[3].values.assign(11, 1.0);
+  CHECK(apart(orientation_of(run, 1).back(),
+              Eigen::Quaterniond(Eigen::AngleAxisd(0.5, Eigen::Vector3d::UnitZ()))) < 1e-7);
+}
+
 TEST_CASE("a row without numbers keeps the last orientation, and the next goes on") {
   const std::vector<double> x{0, std::nan(""), 0.01, 0.02}, y{0, 0, 0, 0};
   const auto turned = rolled(x, y, nullptr, 0.01);

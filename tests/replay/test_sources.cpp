@@ -6,6 +6,7 @@
 #include "base/error.hpp"
 #include "catch.hpp"
 #include "plot/read_result.hpp"
+#include "replay/rotation.hpp"
 #include "replay/sources.hpp"
 #include "scenario/reader.hpp"
 #include "support/folder.hpp"
@@ -62,6 +63,68 @@ TEST_CASE("a table's columns have their units") {
   CHECK(find_series(run, "phi")->unit == "rad");
   CHECK(find_series(run, "mine")->unit.empty());
   CHECK(row_count(run) == 2);
+}
+
+TEST_CASE("of a table that nobody tells of neither units nor turns are known") {
+  const Folder folder;
+  const std::string file = folder.put("log.csv", "t,x,y,gamma\n0,-12,3,0\n1,-11,3,0\n");
+  const Run run = run_of_result(plot::read_result(file, {}), "log.csv");
+  CHECK_FALSE(run.units_known);
+  for (const Series& series : run.columns) CHECK(series.unit.empty());
+  CHECK_FALSE(run.rolls);
+  CHECK(orientation_of(run, 0.01).empty());
+  // Its scenario tells both.
+  plot::Result told = plot::read_result(file, {"", config("fig2a"), {}});
+  const Scenario scenario = *told.scenario;
+  Run known = run_of_result(std::move(told), "log.csv");
+  describe(known, scenario);
+  CHECK(find_series(known, "x")->unit == "m");
+  CHECK(known.rolls);
+  CHECK(orientation_of(known, 0.01).size() == 2);
+  // But not that a ball rolls that may slide, nor how one pivots of which it is not recorded.
+  Run sliding = known;
+  describe(sliding, read_scenario(config("slides")));
+  CHECK_FALSE(sliding.rolls);
+  CHECK(orientation_of(sliding, 0.01).empty());
+  const std::string bare = folder.put("bare.csv", "t,x,y\n0,0,0\n1,1,0\n");
+  CHECK_FALSE(run_of_result(plot::read_result(bare, {"", config("fig2a"), {}}), "bare.csv").rolls);
+}
+
+TEST_CASE("commands have the unit of what they command") {
+  const auto unit = [](const char* scene) {
+    Run run = run_of_table({{"t", "x", "phi_command"}, {{0, 1}, {0, 1}, {0, 1}}}, "a");
+    describe_sight(run, read_scenario(config(scene)));
+    return find_series(run, "phi_command")->unit;
+  };
+  CHECK(unit("rig") == "rad");
+  CHECK(unit("fig2b-literal") == "rad/s^2");
+  CHECK(unit("torque-lqr") == "N m");
+}
+
+TEST_CASE(
+    "the instant at which an event stopped a run is its last row, and the ball rolls on to it") {
+  const Folder folder;
+  const std::string file = folder.put("r.csv",
+                                      "t,x,y,ball_qw,ball_qx,ball_qy,ball_qz,phi\n"
+                                      "0,0,0,1,0,0,0,0\n1,0.1,0,1,0,0,0,0\n");
+  folder.put("r.json",
+             R"({"version": "7", "title": "", "status": "stopped", "reason": "", "end_time": 1.5,
+                 "rows": 2, "output": "r.csv", "scenario_text": "", "events":
+                 [{"t": 1.5, "event": "edge", "action": "stop", "x": 0.11, "y": 0.0, "phi": 0.3}]})");
+  plot::Result result = plot::read_result(file, {"", config("fig2a"), {}});
+  const Scenario scenario = *result.scenario;
+  Run run = run_of_result(std::move(result), "r.csv");
+  CHECK(run.has_end_row);
+  CHECK(row_count(run) == 3);
+  CHECK(rows_of_file(run) == 2);
+  CHECK(run.reached == 1.5);
+  CHECK(find_series(run, "x")->values.back() == 0.11);
+  CHECK(find_series(run, "phi")->values.back() == 0.3);
+  run.rolls = true;
+  describe_sight(run, scenario);
+  // One centimetre on a ball of one: one radian about y.
+  CHECK(run.orientation.back()[0] == Approx(std::cos(0.5)));
+  CHECK(run.orientation.back()[2] == Approx(std::sin(0.5)));
 }
 
 TEST_CASE("a sweep's table: keys, status and measures") {

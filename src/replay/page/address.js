@@ -1,26 +1,36 @@
 'use strict';
-// Time and view in the page's address, after the #: a link shows what its sender saw.
+// Time, view and zoom in the page's address, after the #: a link shows what its sender saw.
 bbsim.address = (() => {
   const short = (value) => String(Number(value.toPrecision(5)));
+  // What is no text with an escape in it, as "%", is left as it is.
+  function decoded(words) {
+    try {
+      return decodeURIComponent(words);
+    } catch {
+      return words;
+    }
+  }
 
   function read() {
     const result = new Map();
     for (const part of location.hash.slice(1).split('&')) {
       const [name, value] = part.split('=');
-      if (name) result.set(name, value === undefined ? '' : decodeURIComponent(value));
+      if (name) result.set(name, value === undefined ? '' : decoded(value));
     }
     return result;
   }
 
-  function write(picture) {
-    const {clock, palette} = bbsim;
+  function write(screen) {
+    const {clock, palette, plots} = bbsim;
     const parts = [`t=${Number(clock.now.toPrecision(9))}`];
-    if (picture) {
-      const {eyes} = picture;
-      parts.push(`view=${eyes.view}`);
-      if (eyes.touched) parts.push(`eye=${eyes.state().map(short).join(',')}`);
-      if (picture.factor !== 1) parts.push(`tilt=${picture.factor}`);
+    if (screen) {
+      const {solid} = screen;
+      parts.push(`view=${screen.isFlat ? 'flat' : solid.eyes.view}`);
+      if (!screen.isFlat && solid.eyes.touched) parts.push(`eye=${solid.eyes.state().map(short).join(',')}`);
+      if (solid && solid.factor !== 1) parts.push(`tilt=${solid.factor}`);
     }
+    const zoom = plots ? plots.range : zoomIn(read());
+    if (zoom) parts.push(`zoom=${zoom.map((t) => Number(t.toPrecision(9))).join(',')}`);
     if (palette.chosen()) parts.push(`theme=${palette.chosen()}`);
     const hash = '#' + parts.join('&');
     try {
@@ -30,36 +40,45 @@ bbsim.address = (() => {
     }
   }
 
+  function zoomIn(said) {
+    const range = (said.get('zoom') || '').split(',').map(Number);
+    return range.length === 2 && range.every(Number.isFinite) && range[0] < range[1] ? range : null;
+  }
+
   // What a hash says that makes sense; the rest of it is left alone.
-  function apply(picture, setFactor) {
+  function apply(screen, actions) {
     const said = read();
     if (['light', 'dark'].includes(said.get('theme'))) bbsim.palette.choose(said.get('theme'));
     const t = Number(said.get('t'));
-    if (said.has('t') && Number.isFinite(t)) bbsim.clock.seek(t);
-    if (!picture) return;
+    if (bbsim.clock && said.get('t') && Number.isFinite(t)) bbsim.clock.seek(t);
+    if (bbsim.plots && zoomIn(said)) bbsim.plots.zoom(zoomIn(said));
+    if (!screen) return;
     const view = said.get('view');
     const eye = (said.get('eye') || '').split(',').map(Number);
-    if (['free', 'above', 'front', 'axis', 'plate'].includes(view)) {
+    if (view === 'flat') screen.setFlat(true);
+    if (screen.solid && ['free', 'above', 'front', 'axis', 'plate', 'ball'].includes(view)) {
       const usable = eye.length === 6 && eye.every(Number.isFinite) && Math.hypot(eye[0] - eye[3], eye[1] - eye[4], eye[2] - eye[5]) > 0;
-      picture.eyes.restore(view, said.has('eye') && usable ? eye : null);
+      screen.setFlat(false);
+      screen.solid.eyes.restore(view, said.has('eye') && usable ? eye : null);
     }
     const factor = Number(said.get('tilt'));
-    if (factor >= 1) setFactor(factor);
+    if (factor >= 1) actions.setFactor(factor);
   }
 
-  function keep(picture, setFactor) {
+  function keep(screen, actions) {
     let timer = 0;
     const later = () => {
       clearTimeout(timer);
-      timer = setTimeout(() => { if (!bbsim.clock.playing) write(picture); }, 250);
+      timer = setTimeout(() => { if (!bbsim.clock.playing) write(screen); }, 250);
     };
     bbsim.clock.onTime(later);
     bbsim.clock.onState(later);
     bbsim.palette.onChange(later);
-    if (picture) picture.eyes.onChange(later);
-    window.addEventListener('hashchange', () => apply(picture, setFactor));
+    screen.onChange(later);
+    if (screen.solid) screen.solid.eyes.onChange(later);
+    window.addEventListener('hashchange', () => apply(screen, actions));
     return later;
   }
 
-  return {apply, keep};
+  return {apply, keep, zoom: () => zoomIn(read())};
 })();

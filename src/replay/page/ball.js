@@ -2,11 +2,12 @@
 // The ball: octants in two colours, the engineer's mark of a centre of mass, on which rolling and turning
 // about any axis is seen; one of them has a dot, which tells a whole turn from a half.
 bbsim.ball = (() => {
-  function paint(canvas, cream, colour) {
+  function paint(canvas, cream, colour, plain) {
     const ink = canvas.getContext('2d', {willReadFrequently: true});
     const {width, height} = canvas;
-    ink.fillStyle = cream;
+    ink.fillStyle = plain ? colour : cream;
     ink.fillRect(0, 0, width, height);
+    if (plain) return;
     ink.fillStyle = colour;
     for (let sector = 0; sector < 4; ++sector) {
       ink.fillRect(sector * width / 4, sector % 2 === 0 ? 0 : height / 2, width / 4, height / 2);
@@ -27,7 +28,8 @@ bbsim.ball = (() => {
     ink.fill();
   }
 
-  function build(radius, ghost) {
+  // A ball of which nobody knows how it turns is plain.
+  function build(radius, ghost, plain) {
     const canvas = document.createElement('canvas');
     canvas.width = 512;
     canvas.height = 256;
@@ -39,7 +41,7 @@ bbsim.ball = (() => {
     return {
       mesh,
       colour(cream, colour) {
-        paint(canvas, cream, colour);
+        paint(canvas, cream, colour, plain);
         texture.needsUpdate = true;
       },
     };

@@ -1,20 +1,30 @@
 'use strict';
-// Where the picture is seen from. The eye orbits in the world, or in the plate's own frame.
-bbsim.makeCamera = (canvas, rig, changed) => {
+// Where the picture is seen from. The eye orbits in the world, in the plate's own frame, or about the ball on it.
+bbsim.makeCamera = (canvas, rig, told) => {
   const fov = 30;
   const camera = new THREE.PerspectiveCamera(fov, 1, 1, 2);
   camera.matrixAutoUpdate = false;
   const eye = new THREE.PerspectiveCamera(fov, 1, 1, 2);  // in the frame that it orbits in
   eye.up.set(0, 0, 1);
-  const controls = new THREE.OrbitControls(eye, canvas);
-  controls.enableKeys = false;
-  controls.screenSpacePanning = true;
-  controls.rotateSpeed = 0.8;
-  controls.minDistance = 0.05 * rig.size;
-  controls.maxDistance = 20 * rig.size;
-  let view = 'free', touched = false, moving = null;
+  let view = 'free', touched = false, moving = null, usual = 1;
   const listeners = [];
+  const tell = () => listeners.forEach((listener) => listener());
+  const controls = bbsim.makeOrbit(canvas, eye, {
+    changed: told.changed, left: told.left,
+    begun() {
+      moving = null;
+      touched = true;
+      tell();
+    },
+    ended: tell,
+  });
+  const {yUp, zUp} = controls;
+  // In the longest side of the plate, as the picture has it.
+  const scale = 1 / rig.size, radius = rig.ballRadius * scale;
+  controls.minDistance = Math.min(0.05, 3 * radius);
+  controls.maxDistance = 20;
   const reduced = matchMedia('(prefers-reduced-motion: reduce)');
+  const frameOf = (name) => (name === 'plate' || name === 'ball' ? name : 'world');
 
   // Where to look from along a direction to have all of the rig in the picture, in its middle.
   function fit(direction, up) {
@@ -22,7 +32,7 @@ bbsim.makeCamera = (canvas, rig, changed) => {
     const half = Math.tan(fov * Math.PI / 360) * 0.93, target = new THREE.Vector3();
     let far = 0;
     for (let again = 0; again < 3; ++again) {
-      const seen = rig.outline.map((point) => point.clone().sub(target));
+      const seen = rig.outline().map((point) => point.clone().multiplyScalar(scale).sub(target));
       far = Math.max(...seen.map((p) => p.dot(back) + Math.max(Math.abs(p.dot(over)) / half, Math.abs(p.dot(right)) / half / camera.aspect)));
       const heights = seen.map((p) => p.dot(over) / (far - p.dot(back)));
       target.addScaledVector(over, far * (Math.max(...heights) + Math.min(...heights)) / 2);
@@ -37,19 +47,23 @@ bbsim.makeCamera = (canvas, rig, changed) => {
     return axis.length() > 1e-9 ? axis.normalize() : new THREE.Vector3(0, 1, 0);
   }
 
+  // A long plate is seen from its longer side.
+  const corner = () => (rig.long === 'y' ? new THREE.Vector3(1, -0.5, 0.72) : new THREE.Vector3(0.5, -1, 0.72));
+
   function place(name) {
     const up = new THREE.Vector3(0, 0, 1);
     if (name === 'above') return fit(new THREE.Vector3(0, -1e-4, 1), up);
     if (name === 'front') return fit(new THREE.Vector3(0, -1, 0.09), up);
     if (name === 'axis') return fit(tiltAxis().negate().add(new THREE.Vector3(0, 0, 0.06)), up);
-    return fit(new THREE.Vector3(0.5, -1.0, 0.72), up);
+    // The ball is a sixth of the picture's height.
+    if (name === 'ball') return {target: new THREE.Vector3(), position: corner().setLength(6 * radius / Math.tan(fov * Math.PI / 360))};
+    return fit(corner(), up);
   }
 
   function set(to) {
     eye.position.copy(to.position);
     controls.target.copy(to.target);
     controls.update();
-    changed();
   }
 
   function glide(to) {
@@ -78,13 +92,10 @@ bbsim.makeCamera = (canvas, rig, changed) => {
     };
     requestAnimationFrame(frame);
   }
-  const yUp = (v) => new THREE.Vector3(v.y, v.z, v.x);
-  const zUp = (v) => new THREE.Vector3(v.z, v.x, v.y);
-  const tell = () => listeners.forEach((listener) => listener());
 
   function go(name, atOnce = false) {
     const to = place(name);
-    const sameFrame = (view === 'plate') === (name === 'plate');
+    const sameFrame = frameOf(view) === frameOf(name) && name !== 'ball';
     view = name;
     touched = false;
     if (atOnce || reduced.matches || !sameFrame) {
@@ -96,14 +107,6 @@ bbsim.makeCamera = (canvas, rig, changed) => {
     tell();
   }
 
-  controls.addEventListener('change', changed);
-  controls.addEventListener('start', () => {
-    moving = null;
-    touched = true;
-    tell();
-  });
-  controls.addEventListener('end', tell);
-
   return {
     camera, controls, fov, go,
     get view() { return view; },
@@ -112,30 +115,35 @@ bbsim.makeCamera = (canvas, rig, changed) => {
     resize(width, height) {
       for (const c of [camera, eye]) c.aspect = width / height;
     },
+    // All is in the picture, whatever has become of its shape or of what is in it.
+    refit() {
+      usual = place('free').position.length();
+      if (!touched) this.restore(view);
+    },
+    // How much further what is looked at is than in the view from a corner.
+    farness: () => eye.position.distanceTo(controls.target) / usual,
     // Before a picture is drawn: the camera, from the eye and the frame that it is in.
     update() {
-      eye.updateMatrix();
       const far = eye.position.distanceTo(controls.target);
-      camera.near = Math.max(far / 100, far - 4 * rig.size);
-      camera.far = far + 8 * rig.size;
+      camera.near = Math.max(far / 100, far - 4);
+      camera.far = far + 8;
       camera.updateProjectionMatrix();
       camera.matrix.copy(eye.matrix);
-      if (view === 'plate') camera.matrix.premultiply(rig.plane.matrixWorld);
+      if (frameOf(view) !== 'world') {
+        const frame = rig.plane.matrixWorld.clone();
+        if (view === 'ball') frame.multiply(new THREE.Matrix4().makeTranslation(rig.ball.x, rig.ball.y, rig.ball.z));
+        camera.matrix.premultiply(frame.multiply(new THREE.Matrix4().makeScale(rig.size, rig.size, rig.size)));
+      }
       camera.updateMatrixWorld(true);
     },
     zoom(factor) {
-      eye.position.sub(controls.target).multiplyScalar(factor).add(controls.target);
       touched = true;
-      controls.update();
-      changed();
+      controls.zoom(factor);
       tell();
     },
     turn(left, up) {
-      const around = new THREE.Spherical().setFromVector3(yUp(eye.position.clone().sub(controls.target)));
-      around.theta += left;
-      around.phi = Math.min(Math.max(around.phi - up, 0.001), Math.PI - 0.001);
       touched = true;
-      set({position: zUp(new THREE.Vector3().setFromSpherical(around)).add(controls.target), target: controls.target.clone()});
+      controls.turn(left, up);
       tell();
     },
     // Numbers for the page's address.

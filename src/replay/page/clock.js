@@ -2,11 +2,21 @@
 // The time that picture, plots and scrubber show, and how it goes on.
 bbsim.clock = (() => {
   const {start, end} = bbsim.data;
-  const listeners = [], stateListeners = [];
+  const listeners = [], stateListeners = [], relaxed = [];
+  let span = 0, due = 0;  // ms from one call of the relaxed ones to the next, while time goes on
   let now = start, playing = false, speed = 1, loop = false, last = null;
 
-  const tell = () => listeners.forEach((listener) => listener(now));
-  const tellState = () => stateListeners.forEach((listener) => listener());
+  function tell() {
+    for (const listener of listeners) listener(now);
+    const time = performance.now();
+    if (playing && time < due) return;
+    due = time + span;
+    for (const listener of relaxed) listener(now);
+  }
+  const tellState = () => {
+    if (!playing) for (const listener of relaxed) listener(now);
+    for (const listener of stateListeners) listener();
+  };
 
   function frame(time) {
     if (!playing) return;
@@ -72,6 +82,9 @@ bbsim.clock = (() => {
       clock.seek(run.t[Math.min(Math.max(next, 0), run.t.length - 1)]);
     },
     onTime: (listener) => listeners.push(listener),
+    // Of what need not follow each picture, where these come slowly.
+    onTimeRelaxed: (listener) => relaxed.push(listener),
+    relax(least) { span = least; },
     onState: (listener) => stateListeners.push(listener),
   };
   return clock;

@@ -45,9 +45,11 @@ bbsim.data = (() => {
         if (!this.columns.has(name)) this.absent.set(name, new Float32Array(this.t.length));
       }
       this.quaternions = parts(json.orientation);
+      this.turns = this.quaternions.length > 0;  // else nobody knows how the ball turns
       this.path = floats(json.reference);
       this.start = this.t[0];
       this.last = this.t[this.t.length - 1];
+      if (this.reached === null) this.reached = this.last;  // when it ended, which may be after its last row
       this.hasAngles = this.columns.has('phi') || this.columns.has('theta');
       this.hasReference = this.columns.has('x_reference') && this.columns.has('y_reference');
       this.isMeasured = this.columns.has('x_measured') && this.columns.has('y_measured');
@@ -82,6 +84,23 @@ bbsim.data = (() => {
       return Number.isFinite(value) ? value : otherwise;
     }
 
+    // phi or theta; NaN where it is not known. A beam has no angle about the axis along which it has no coordinate.
+    angleAt(t, name) {
+      return this.columns.has(name) ? this.at(t, name) : this.absent.has(name === 'phi' ? 'x' : 'y') ? 0 : NaN;
+    }
+
+    // Where the ball is: [x, y], or why it is nowhere: 'missing' from the rows, or 'beyond' what can be drawn.
+    placeAt(t) {
+      const row = this.row(t), between = t > this.t[row] && row + 1 < this.t.length;
+      const far = ['x', 'y'].some((name) => {
+        const values = this.values(name);
+        return Math.abs(values[row]) > scene.stage.largest || (between && Math.abs(values[row + 1]) > scene.stage.largest);
+      });
+      if (far) return 'beyond';
+      const place = [this.at(t, 'x'), this.at(t, 'y')];
+      return place.every(Number.isFinite) ? place : 'missing';
+    }
+
     // Of the row that is nearest to t.
     nearest(t) {
       const row = this.row(t);
@@ -104,6 +123,8 @@ bbsim.data = (() => {
   const runs = scene.runs.map((run, index) => new Run(run, index));
   const start = Math.min(...runs.map((run) => run.start));
   const end = Math.max(...runs.map((run) => run.last));
+  // What a stretch of the way takes on the plane.
+  const shown = (value) => Math.abs(value) <= scene.stage.largest;
 
-  return {scene, runs, start, end, floats, doubles, extent};
+  return {scene, runs, start, end, floats, doubles, extent, shown};
 })();

@@ -37,12 +37,39 @@ bbsim.makeDetails = (container) => {
     return list;
   }
 
+  // The peaks of the motors' loads: {peak_torque_phi, peak_torque_phi_at, ...}.
+  function motorsOf(motors) {
+    const rows = [['φ', 'peak_torque_phi', 'N m'], ['θ', 'peak_torque_theta', 'N m'], ['power', 'peak_power', 'W']];
+    const body = element('tbody', {});
+    for (const [name, key, unit] of rows) {
+      if (typeof motors[key] !== 'number') continue;
+      const shown = text.shownIn(unit, Math.abs(motors[key])), at = motors[`${key}_at`];
+      body.append(element('tr', {}, element('th', {scope: 'row'}, unit === 'W' ? name : `torque ${name}`),
+                          element('td', {}, `${text.number(motors[key] * shown.factor)} ${shown.unit}`),
+                          element('td', {}, typeof at === 'number' ? `${text.number(at, 6)} s` : '')));
+    }
+    return element('table', {class: 'motors'}, element('caption', {}, `with ${motors.carries || 'ball'}`),
+                   element('thead', {}, element('tr', {}, element('th', {}, ''), element('th', {scope: 'col'}, 'peak'), element('th', {scope: 'col'}, 'at'))), body);
+  }
+
   function rowsNote(run) {
-    if (run.t.length === run.rows) return `All ${run.rows} rows are in this page.`;
-    return `Of ${run.rows} rows ${run.t.length} are in this page: those with the least and the greatest value of each column in ` +
+    const kept = run.t.length - (run.hasEndRow ? 1 : 0);
+    const end = run.hasEndRow ? ' After them comes the instant at which the run stopped.' : '';
+    if (kept === run.rows) return `All ${run.rows} rows are in this page.${end}`;
+    return `Of ${run.rows} rows ${kept} are in this page: those with the least and the greatest value of each column in ` +
         `${run.buckets} stretches, and those that the motion needs to be drawn within ` +
         `${run.motionError <= 1 ? 'half a thousandth' : `${text.number(Math.max(1, run.motionError) * 0.05, 2)} %`} of its extent. ` +
-        'The result file is the record.';
+        `The result file is the record.${end}`;
+  }
+
+  // Of rows that the picture leaves out.
+  function beyondNote(run) {
+    const xs = run.values('x'), ys = run.values('y');
+    const far = Array.from(run.t.keys()).filter((i) => [xs[i], ys[i]].some((v) => Math.abs(v) > data.scene.stage.largest));
+    if (far.length === 0) return '';
+    const unit = run.unitsKnown ? ' m' : '';
+    return `In ${far.length} rows, from ${text.number(run.t[far[0]], 6)} s on, the ball is more than ` +
+        `${text.number(data.scene.stage.largest)}${unit} away: there it is not drawn.`;
   }
 
   function section(run) {
@@ -69,16 +96,25 @@ bbsim.makeDetails = (container) => {
     }
     if (run.check.length > 0) root.append(card('Model', element('pre', {class: 'wrap'}, run.check.join('\n'))));
     if (summary) {
-      const {statistics, events, model_notes, ...rest} = summary;
+      const {statistics, events, model_notes, motors, ...rest} = summary;
       root.append(card('Summary', rowsOf(rest)));
+      if (motors && typeof motors === 'object') root.append(card('Motors', motorsOf(motors)));
       if (statistics) root.append(card('Statistics', rowsOf(statistics)));
     }
     const notes = [rowsNote(run)];
-    if (!run.orientationGiven) notes.push('The ball is drawn as one that rolls straight from row to row: its orientation was not recorded.');
+    if (!run.turns) notes.push('How the ball turns is not known, so it is drawn without marks: columns ball_qw to ball_qz would tell.');
+    else if (!run.orientationGiven) notes.push('The ball is drawn as one that rolls straight from row to row: its orientation was not recorded.');
+    if (!run.unitsKnown) notes.push('Nothing tells in which units the file is: its summary would, or --scenario.');
+    if (beyondNote(run)) notes.push(beyondNote(run));
     if (run.version) notes.push(`Run by bbsim ${run.version}.`);
     root.append(element('p', {class: 'fine'}, notes.join(' ')));
     if (several) root.append(element('button', {type: 'button', onclick: () => bbsim.save.csv(run)}, 'Save as CSV'));
     return root;
+  }
+
+  function lengthText(value) {
+    const shown = text.shownIn('m', Math.abs(value) || 0.1);
+    return `${text.number(value * shown.factor)} ${shown.unit}`;
   }
 
   function eventsOf(run) {
@@ -88,7 +124,7 @@ bbsim.makeDetails = (container) => {
         bbsim.clock.pause();
         bbsim.clock.seek(event.t);
       }}, `${event.action === 'stop' ? '■' : '◆'} ${text.number(event.t, 6)} s`), ` ${event.name}, ${event.action === 'stop' ? 'stopped' : 'noted'}, ` +
-        `at x ${text.number(event.x * 1e3)} mm, y ${text.number(event.y * 1e3)} mm`));
+        `at x ${lengthText(event.x)}, y ${lengthText(event.y)}`));
     }
     const more = run.eventCount - 50;
     return card(`Events (${run.eventCount})`, list, more > 0 ? element('p', {class: 'fine'}, `and ${more} more`) : null);

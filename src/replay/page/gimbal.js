@@ -2,7 +2,7 @@
 // The rig: base, ring that turns by phi, plate that turns by theta in it, at its true size. Frames as in
 // bbsim's docs/model.md: R = R_x(base tilt) R_y(phi) R_z(skew) R_x(theta) R_z(yaw - skew).
 bbsim.gimbal = (() => {
-  const {stage} = bbsim.data.scene;
+  const {runs, scene: {stage}} = bbsim.data;
 
   // A frame of bars with rounded corners around the origin, `half` wide inside, of square section.
   function frameGeometry(halfX, halfY, bar, round) {
@@ -85,7 +85,7 @@ bbsim.gimbal = (() => {
     const bar = 0.03 * size, gap = 0.025 * size, thickness = 0.014 * size;
     const halfX = stage.width / 2 + gap, halfY = stage.depth / 2 + gap;
     const {height, skew, yaw, baseTilt} = run.mounting;
-    const postY = halfY + bar + 0.7 * gap, foot = size * 0.46;
+    const postY = halfY + bar + 0.7 * gap, foot = Math.min(0.46 * size, 0.16 * size + 0.6 * Math.min(stage.width, stage.depth));
 
     const base = new THREE.Group();
     base.rotation.x = baseTilt;
@@ -128,16 +128,45 @@ bbsim.gimbal = (() => {
     ring.add(cross);
     cross.add(hinge);
     hinge.add(plane);
-    // What has to be in the picture: the ring's corners, the posts' ends.
-    const outline = [];
-    for (const x of [-1, 1]) {
+    // What has to be in the picture: the posts' ends, the ring's corners and the plate's at all angles that they take.
+    function outlineAt(factor) {
+      const angles = (name) => {
+        const seen = runs.map((one) => one.columns.get(name)).filter(Boolean);
+        const within = (angle) => Math.min(Math.max(factor * angle, -Math.PI), Math.PI);
+        const low = within(Math.min(0, ...seen.map((column) => column.least)));
+        const high = within(Math.max(0, ...seen.map((column) => column.greatest)));
+        const steps = Math.min(10, Math.ceil((high - low) / 0.3)) || 1;
+        return Array.from({length: steps + 1}, (_, i) => low + i / steps * (high - low));
+      };
+      const points = [], turned = new THREE.Matrix4().makeRotationX(baseTilt);
+      const add = (matrix, x, y, z) => points.push(new THREE.Vector3(x, y, z).applyMatrix4(matrix));
+      const corners = stage.round ? Array.from({length: 12}, (_, i) => [Math.cos(i * Math.PI / 6), Math.sin(i * Math.PI / 6)])
+                                  : [[-1, -1], [-1, 1], [1, -1], [1, 1]];
       for (const y of [-1, 1]) {
-        for (const z of [-1.5 * bar, 1.5 * bar]) outline.push(new THREE.Vector3(x * (halfX + bar), y * (halfY + bar), z));
-        outline.push(new THREE.Vector3(x * 2.5 * bar, y * (postY + bar), -foot), new THREE.Vector3(0, y * (postY + 1.4 * bar), bar));
+        for (const x of [-1, 1]) add(turned, x * 2.5 * bar, y * (postY + bar), -foot);
+        add(turned, 0, y * (postY + 1.4 * bar), bar);
       }
+      const thetas = angles('theta');
+      for (const phi of angles('phi')) {
+        const outer = turned.clone().multiply(new THREE.Matrix4().makeRotationY(phi));
+        for (const [x, y] of corners) {
+          for (const z of [-1.5 * bar, 1.5 * bar]) add(outer, x * (halfX + bar), y * (halfY + bar), z);
+        }
+        for (const theta of thetas) {
+          const inner = outer.clone().multiply(new THREE.Matrix4().makeRotationZ(skew))
+              .multiply(new THREE.Matrix4().makeRotationX(theta)).multiply(new THREE.Matrix4().makeRotationZ(yaw - skew));
+          for (const [x, y] of corners) add(inner, x * stage.width / 2, y * stage.depth / 2, height);
+        }
+      }
+      return points;
     }
+    let outline = outlineAt(1);
     return {
-      base, ring, hinge, plane, size, foot, outline,
+      base, ring, hinge, plane, size, foot,
+      ballRadius: run.ball.radius, ball: new THREE.Vector3(),
+      long: stage.depth > 2 * stage.width ? 'y' : 'x',
+      outline: () => outline,
+      reach(factor) { outline = outlineAt(factor); },
       set(phi, theta) {
         ring.rotation.y = phi;
         hinge.rotation.x = theta;
@@ -164,7 +193,11 @@ bbsim.gimbal = (() => {
       points.push(stage.round ? new THREE.Vector3(c * stage.width / 2, s * stage.depth / 2, 0)
                               : new THREE.Vector3(Math.sign(c) * stage.width / 2, Math.sign(s) * stage.depth / 2, 0));
     }
-    const edge = new THREE.Line(new THREE.BufferGeometry().setFromPoints(points), line);
+    const outline = new THREE.BufferGeometry().setFromPoints(points);
+    for (const [name, of] of [['normal', 3], ['uv', 2]]) {
+      outline.setAttribute(name, new THREE.BufferAttribute(new Float32Array(of * points.length), of));
+    }
+    const edge = new THREE.Line(outline, line);
     edge.position.z = run.mounting.height;
     plane.add(edge);
     return {

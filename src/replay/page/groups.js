@@ -5,7 +5,7 @@ bbsim.groups = (() => {
   const {palette, text} = bbsim;
   const lead = runs[0];
 
-  // curve: {run, name, label, values, colour(), pattern, dots, faint}
+  // curve: {run, name, label, values, colour(), pattern, width, dots, layer}
   const fromColumn = (run, name, style = {}) => ({
     run, name, label: text.columnName(name), values: run.values(name), meaning: run.columns.get(name).meaning,
     unit: run.columns.get(name).unit, ...style,
@@ -14,31 +14,41 @@ bbsim.groups = (() => {
   function computed(run, name, label, unit, meaning, from, style = {}) {
     const values = new Float64Array(run.t.length);
     for (let i = 0; i < values.length; ++i) values[i] = from(i);
-    return {run, name, label, values, meaning, unit, ...style};
+    return {run, name, label, values, meaning, unit: run.unitsKnown ? unit : '', ...style};
   }
 
   const xColour = () => palette.now().x, yColour = () => palette.now().y;
   const sensor = () => palette.now().sensor;
-  const ink = () => palette.now().reference, warm = () => palette.run(0);
+  const ink = () => palette.now().reference, warm = () => palette.run(0), band = () => palette.now().band;
 
-  // Columns of one plot, with the colour and the pattern of each.
+  // No two curves of a plot differ by colour alone: of x and y, phi and theta the second is dashed, references are pale
+  // bands below them, commands thin and dotted, and what a sensor saw dots and crosses.
+  const first = {colour: xColour, layer: 3}, second = {colour: yColour, pattern: [8, 4], layer: 3};
+  const third = {colour: ink, pattern: [9, 3, 2, 3], layer: 3}, main = {colour: warm, width: 2.2, layer: 2};
+  const firstBand = {colour: band, width: 6, layer: 0}, secondBand = {colour: band, width: 6, pattern: [16, 4], layer: 0};
+  const firstCommand = {colour: xColour, pattern: [2, 2], width: 1.2, layer: 1};
+  const secondCommand = {colour: yColour, pattern: [1, 3], width: 2, layer: 1};
+  const dots = {colour: sensor, dots: 'circle', layer: 4}, crosses = {colour: sensor, dots: 'cross', layer: 4};
+
+  // Columns of one plot, and how each is drawn.
   const families = [
-    ['Position', 'm', [['x', xColour], ['y', yColour], ['x_reference', xColour, [7, 4]], ['y_reference', yColour, [7, 4]],
-                       ['x_measured', sensor, 'dots'], ['y_measured', sensor, 'dots']]],
-    ['Gimbal', 'rad', [['phi', xColour], ['theta', yColour], ['phi_command', xColour, [2, 2]], ['theta_command', yColour, [2, 2]],
-                       ['tilt', ink, [9, 3, 2, 3]]]],
-    ['Distance', 'm', [['tracking_error', warm], ['distance', ink, [7, 4]]]],
-    ['Velocity', 'm/s', [['speed', warm], ['vx', xColour, [7, 4]], ['vy', yColour, [7, 4]]]],
-    ['Turn of the ball', 'rad', [['gamma', warm]]],
-    ['Rates', 'rad/s', [['phi_rate', xColour], ['theta_rate', yColour], ['tilt_rate', ink, [9, 3, 2, 3]], ['spin', warm, [7, 4]]]],
-    ['Accelerations', 'rad/s^2', [['phi_acceleration', xColour], ['theta_acceleration', yColour], ['phi_command', xColour, [2, 2]],
-                                  ['theta_command', yColour, [2, 2]]]],
-    ['Friction demand', '1', [['friction_demand', warm], ['friction', ink, [7, 4]]]],
-    ['Forces', 'N', [['normal_force', xColour], ['friction_force', warm, [7, 4]]]],
-    ['Torques', 'N m', [['motor_torque_phi', xColour], ['motor_torque_theta', yColour], ['torque_phi', xColour, [7, 4]],
-                        ['torque_theta', yColour, [7, 4]]]],
-    ['Power', 'W', [['motor_power', warm], ['power', ink, [7, 4]]]],
-    ['Energy', 'J', [['energy', warm]]],
+    ['Position', 'm', {x: first, y: second, x_reference: firstBand, y_reference: secondBand, x_measured: dots, y_measured: crosses}],
+    ['Gimbal', 'rad', {phi: first, theta: second, phi_command: firstCommand, theta_command: secondCommand, tilt: third}],
+    ['Distance', 'm', {tracking_error: main, distance: third}],
+    ['Error of x, y', 'm', {position_error: main}],
+    ['Velocity', 'm/s', {speed: third, vx: first, vy: second}],
+    ['Turn of the ball', 'rad', {gamma: main}],
+    ['Rates', 'rad/s', {phi_rate: first, theta_rate: second, tilt_rate: third, spin: {...main, pattern: [2, 3]}}],
+    ['Accelerations', 'rad/s^2', {phi_acceleration: first, theta_acceleration: second, phi_command: firstCommand, theta_command: secondCommand}],
+    ['Friction demand', '1', {friction_demand: main, friction: third}],
+    ['Forces', 'N', {normal_force: first, friction_force: {...main, pattern: [8, 4]}}],
+    ['Motors\' torque', 'N m', {phi_torque: first, theta_torque: second, phi_torque_asked: firstCommand, theta_torque_asked: secondCommand}],
+    ['Commands', 'N m', {phi_command: first, theta_command: second}],
+    ['Commands', 'V', {phi_command: first, theta_command: second}],
+    ['Torques', 'N m', {motor_torque_phi: first, motor_torque_theta: second, torque_phi: {...first, pattern: [2, 3]},
+                        torque_theta: {...second, pattern: [9, 3, 2, 3]}}],
+    ['Power', 'W', {motor_power: main, power: third}],
+    ['Energy', 'J', {energy: main}],
   ];
 
   function derived(run) {
@@ -56,35 +66,37 @@ bbsim.groups = (() => {
     return made;
   }
 
-  function styled(curve, colour, pattern) {
-    return {...curve, colour, pattern: Array.isArray(pattern) ? pattern : null, dots: pattern === 'dots'};
-  }
+  // As one of several of a kind.
+  const numbered = (curve, n) => ({...curve, colour: () => palette.run(n), pattern: palette.dash(n), layer: 3});
 
   function ofOneRun() {
     const more = derived(lead), used = new Set(), plots = [];
     for (const [title, unit, columns] of families) {
       const curves = [];
-      for (const [name, colour, pattern] of columns) {
+      for (const [name, style] of Object.entries(columns)) {
         if (used.has(name)) continue;
         const curve = more.get(name) || (lead.columns.has(name) ? fromColumn(lead, name) : null);
-        if (!curve || curve.unit !== unit) continue;
+        // Of a table without units a name says what it belongs to.
+        if (!curve || (curve.unit !== unit && (lead.unitsKnown || curve.unit !== ''))) continue;
         used.add(name);
-        curves.push(styled(curve, colour, pattern));
+        curves.push({...curve, ...style});
       }
-      if (curves.length > 0) plots.push({title, unit, curves});
+      if (curves.length > 0) plots.push({title, unit: curves[0].unit, curves});
     }
-    // What no family knows: a plot for each unit.
+    // What no family knows: a plot for each unit, of four at most.
     const rest = new Map();
     for (const [name, column] of lead.columns) {
       if (used.has(name) || name.startsWith('ball_q')) continue;
-      if (!rest.has(column.unit)) rest.set(column.unit, []);
-      rest.get(column.unit).push(name);
+      // Those without a unit need not have anything in common.
+      const key = column.unit || name;
+      if (!rest.has(key)) rest.set(key, []);
+      rest.get(key).push(name);
     }
-    for (const [unit, names] of rest) {
+    for (const names of rest.values()) {
+      const {unit} = lead.columns.get(names[0]);
       for (let from = 0; from < names.length; from += 4) {
         const some = names.slice(from, from + 4);
-        plots.push({title: some.map(text.columnName).join(', '), unit, curves: some.map((name, i) =>
-          styled(fromColumn(lead, name), () => palette.run(i), palette.dash(i)))});
+        plots.push({title: some.map(text.columnName).join(', '), unit, curves: some.map((name, i) => numbered(fromColumn(lead, name), i))});
       }
     }
     return plots;
@@ -93,30 +105,32 @@ bbsim.groups = (() => {
   // Of several runs: a plot for each column that more than one has, and how far they are from the first.
   function ofSeveral() {
     const plots = [];
-    const apart = runs.slice(1).map((run) => styled(computed(
+    const apart = runs.slice(1).map((run) => numbered(computed(
         lead, 'apart', `${run.name} from ${lead.name}`, 'm', 'distance of the contact points', (i) => {
           const t = lead.t[i];
           if (t < run.start || t > run.last) return NaN;
           return Math.hypot(run.at(t, 'x') - lead.values('x')[i], run.at(t, 'y') - lead.values('y')[i]);
-        }), () => palette.run(run.index), palette.dash(run.index)));
+        }), run.index));
     const one = (name, title) => {
       const curves = [];
       for (const run of runs) {
         if (run.columns.has(name)) {
-          curves.push(styled({...fromColumn(run, name), label: run.name}, () => palette.run(run.index), palette.dash(run.index)));
+          curves.push(numbered({...fromColumn(run, name), label: run.name}, run.index));
         }
       }
       if (lead.columns.has(name + '_reference')) {
-        curves.push(styled({...fromColumn(lead, name + '_reference'), label: 'reference'}, ink, [2, 4]));
+        curves.push({...fromColumn(lead, name + '_reference'), label: 'reference', ...firstBand});
       }
-      if (curves.length > 0) plots.push({title, unit: curves[0].unit, curves: curves.filter((c) => c.unit === curves[0].unit)});
+      // Beside one in nobody knows which unit none has one.
+      const units = new Set(curves.map((curve) => curve.unit)), unit = units.has('') ? '' : [...units][0];
+      if (curves.length > 0) plots.push({title, unit, curves: curves.filter((curve) => unit === '' || curve.unit === unit)});
     };
     one('x', 'x');
     one('y', 'y');
-    plots.push({title: 'Distance between the runs', unit: 'm', curves: apart});
+    plots.push({title: 'Distance between the runs', unit: runs.every((run) => run.unitsKnown) ? 'm' : '', curves: apart});
     const seen = new Set(['x', 'y', 'x_reference', 'y_reference', 'x_measured', 'y_measured']);
     for (const [, , columns] of families) {
-      for (const [name] of columns) {
+      for (const name of Object.keys(columns)) {
         if (seen.has(name) || runs.filter((run) => run.columns.has(name)).length < 2) continue;
         seen.add(name);
         one(name, text.columnName(name));

@@ -18,6 +18,8 @@ bbsim.makeKeys = (actions) => {
     [['3'], '3', 'from the front', () => actions.view('front')],
     [['4'], '4', 'along the tilt axis', () => actions.view('axis')],
     [['5'], '5', 'in the plate\'s frame', () => actions.view('plate')],
+    [['6'], '6', 'near the ball', () => actions.view('ball')],
+    [['7'], '7', 'from above, flat', () => actions.view('flat')],
     [['+', '='], '+', 'nearer', () => actions.zoom(0.85)],
     [['-'], '−', 'farther', () => actions.zoom(1 / 0.85)],
     [['w'], 'W', 'turn the view up', () => actions.turn(0, 0.08)],

@@ -17,22 +17,31 @@
   const statusSigns = {done: '●', stopped: '■', failed: '▲', interrupted: '❚❚'};
   function describe(run) {
     if (!run.status) return text.element('span', {}, run.name);
-    const until = run.status === 'done' ? '' : ` at ${text.number(run.last)} s${run.end > 0 ? ` of ${text.number(run.end)} s` : ''}`;
+    const until = run.status === 'done' ? '' : ` at ${text.number(run.reached, 6)} s${run.end > 0 ? ` of ${text.number(run.end)} s` : ''}`;
     return text.element('span', {title: text.visible(run.reason)}, `${run.name}  `,
                         text.element('b', {class: `status ${run.status}`}, `${statusSigns[run.status] || '○'} ${run.status}${until}`));
   }
 
-  let picture = null, transport = null;
+  // What went wrong is said as it is, and not taken for a browser without 3D graphics.
+  let picture = null;
   function makePicture() {
     try {
-      picture = bbsim.makePicture(get('canvas'));
+      picture = bbsim.makePicture(get('canvas'), () => hint('Ctrl and the wheel zoom, or click the picture first.'));
     } catch (error) {
-      // No WebGL: the plots and all else are there still.
-      get('trouble').textContent = 'This browser gives the page no 3D graphics (WebGL), so the picture stays away: ' + error.message;
+      const probe = document.createElement('canvas');
+      const has = ['webgl', 'experimental-webgl'].some((kind) => probe.getContext(kind));
+      get('trouble').textContent = text.visible(has ? `The picture is drawn flat, since that in three dimensions failed: ${error.message}.`
+          : 'This browser gives the page no 3D graphics (WebGL), so the picture is drawn flat.');
       get('trouble').hidden = false;
-      get('picture').hidden = true;
-      document.querySelectorAll('.shown, #save-png').forEach((part) => { part.hidden = true; });
     }
+  }
+
+  let hinting = 0;
+  function hint(words) {
+    get('hint').textContent = words;
+    get('hint').hidden = false;
+    clearTimeout(hinting);
+    hinting = setTimeout(() => { get('hint').hidden = true; }, 2500);
   }
 
   bbsim.ready = new Promise((resolve, reject) => { Object.assign(bbsim, {isReady: resolve, isNot: reject}); });
@@ -42,13 +51,16 @@
     bbsim.seek = () => {};
     bbsim.ballOnScreen = () => null;
     palette.onChange(() => {});
-    bbsim.address.apply(null);
+    bbsim.address.apply(null, null);
     return;
   }
 
   get('replay').hidden = false;
   get('subtitle').append(describe(runs[0]));
   makePicture();
+  const screen = bbsim.makeScreen(picture, () => bbsim.makeFlat(get('flat-canvas')));
+  bbsim.screen = screen;
+  bbsim.picture = picture;
 
   // 1, 2, 5, ...: what the plate's angles are multiplied by in the picture.
   const factors = [1, 2, 5, 10, 20, 50];
@@ -58,68 +70,89 @@
     get('exaggeration').value = factors.indexOf(nearest);
     get('exaggeration').setAttribute('aria-valuetext', `${nearest} times`);
     get('factor').textContent = `×${nearest}`;
-    get('exaggerated').textContent = `Tilt drawn ×${nearest}`;
-    get('exaggerated').hidden = nearest === 1;
+    showFactor();
     if (later) later();
+  }
+  // The flat picture shows no tilt.
+  function showFactor() {
+    const factor = picture && !screen.isFlat ? picture.factor : 1;
+    get('exaggerated').textContent = `Tilt drawn ×${factor}`;
+    get('exaggerated').hidden = factor === 1;
+    document.querySelector('.tilt').hidden = screen.isFlat;
   }
   let later = null;
   get('exaggeration').addEventListener('input', () => setFactor(factors[get('exaggeration').value]));
-  setFactor(1);
 
-  transport = bbsim.makeTransport(picture);
-  bbsim.picture = picture;
+  const transport = bbsim.makeTransport();
   bbsim.transport = transport;
 
   function say(words) {
     get('said').textContent = words;
   }
 
-  if (picture) {
-    const views = [...document.querySelectorAll('[data-view]')];
-    const mark = () => views.forEach((button) => {
-      button.setAttribute('aria-pressed', String(button.dataset.view === picture.eyes.view && !picture.eyes.touched));
-    });
-    for (const button of views) button.addEventListener('click', () => picture.eyes.go(button.dataset.view));
-    picture.eyes.onChange(mark);
-    mark();
-
-    const chip = (name, words, sign) => {
-      const button = text.element('button', {type: 'button', class: 'chip', 'aria-pressed': 'true'},
-                                  text.element('span', {class: `sign ${sign}`, 'aria-hidden': 'true'}), words);
-      button.addEventListener('click', () => {
-        const on = button.getAttribute('aria-pressed') !== 'true';
-        button.setAttribute('aria-pressed', String(on));
-        picture.show(name, on);
-      });
-      get('shown').append(button);
-    };
-    chip('trail', 'trail', 'line');
-    if (picture.hasPath || picture.target.visible) chip('reference', 'reference', 'dashed');
-    if (runs[0].isMeasured) chip('sensor', 'sensor', 'cross');
-    if (runs[0].events.length > 0) chip('events', 'events', 'diamond');
-    chip('axes', 'axes', 'axes');
-    chip('gimbal', 'gimbal', 'frame');
-    const spacing = bbsim.gimbal.gridSpacing(), shown = text.shownIn('m', spacing);
-    get('canvas').setAttribute('aria-label', text.visible(
-        `${scene.title}: a ball on a plate in a gimbal, seen in three dimensions. Grid lines are ` +
-        `${text.number(spacing * shown.factor)} ${shown.unit} apart.` +
-        (scene.stage.plateGiven ? '' : ' The scene has no plate: one is drawn that the path fits on.')));
-    get('picture').append(text.element('p', {class: 'scale'},
-        `grid ${text.number(spacing * shown.factor)} ${shown.unit}${scene.stage.plateGiven ? '' : ' · plate drawn to fit the path'}` +
-        `${runs[0].ball.given ? '' : ' · ball of no known size'}`));
-    picture.recolour();
-    picture.resize();
-    new ResizeObserver(picture.resize).observe(get('picture'));
-    window.addEventListener('resize', picture.resize);
+  const pace = bbsim.makePace(screen, (rate) => hint(`In three dimensions this browser draws ${rate} pictures a second: here it is flat. A view brings it back.`));
+  function goTo(name) {
+    screen.setFlat(name === 'flat');
+    if (name === 'flat' || !picture) return;
+    pace.choose();
+    picture.eyes.go(name);
   }
+  const views = [...document.querySelectorAll('[data-view]')];
+  const mark = () => {
+    showFactor();
+    for (const button of views) {
+      const {view} = button.dataset;
+      button.hidden = !picture && view !== 'flat';
+      button.setAttribute('aria-pressed', String(view === 'flat' ? screen.isFlat : !screen.isFlat && view === picture.eyes.view && !picture.eyes.touched));
+    }
+  };
+  for (const button of views) button.addEventListener('click', () => goTo(button.dataset.view));
+  screen.onChange(mark);
+  if (picture) picture.eyes.onChange(mark);
 
-  bbsim.address.apply(picture, setFactor);
-  later = bbsim.address.keep(picture, setFactor);
+  const chip = (name, words, sign) => {
+    const button = text.element('button', {type: 'button', class: 'chip', 'aria-pressed': 'true'},
+                                text.element('span', {class: `sign ${sign}`, 'aria-hidden': 'true'}), words);
+    button.addEventListener('click', () => {
+      const on = button.getAttribute('aria-pressed') !== 'true';
+      button.setAttribute('aria-pressed', String(on));
+      screen.show(name, on);
+    });
+    get('shown').append(button);
+  };
+  chip('trail', 'trail', 'line');
+  if (runs[0].path.length > 0 || runs[0].hasReference) chip('reference', 'reference', 'dashed');
+  if (runs[0].isMeasured) chip('sensor', 'sensor', 'cross');
+  if (runs[0].events.length > 0) chip('events', 'events', 'diamond');
+  chip('axes', 'axes', 'axes');
+  if (picture) chip('gimbal', 'gimbal', 'frame');
+  const spacing = bbsim.gimbal.gridSpacing(), shown = text.shownIn(runs[0].unitsKnown ? 'm' : '', spacing);
+  const grid = `grid ${text.number(spacing * shown.factor)} ${shown.unit}`.trim();
+  get('canvas').setAttribute('aria-label', text.visible(
+      `${scene.title}: a ball on a plate in a gimbal, seen in three dimensions: ${grid}.` +
+      (scene.stage.plateGiven ? '' : ' The scene has no plate: one is drawn that the path fits on.')));
+  get('flat-canvas').setAttribute('aria-label', text.visible(`${scene.title}: a ball on a plate, seen from above: ${grid}.`));
+  get('screen').append(text.element('p', {class: 'scale'},
+      `${grid}${scene.stage.plateGiven ? '' : ' · plate drawn to fit the path'}${runs[0].ball.given ? '' : ' · ball of no known size'}` +
+      `${runs[0].turns ? '' : ' · how the ball turns is not known'}`));
+  if (picture) picture.recolour();
+  screen.setFlat(false);
+  setFactor(1);
+  if (picture) picture.eyes.refit();
+  screen.resize();
+  mark();
+  new ResizeObserver(screen.resize).observe(get('screen'));
+  window.addEventListener('resize', screen.resize);
+
+  bbsim.address.apply(screen, {setFactor});
+  later = bbsim.address.keep(screen, {setFactor});
+  bbsim.addressLater = later;
 
   const speeds = [...get('speed').options].map((option) => Number(option.value));
   get('save-csv').addEventListener('click', () => bbsim.save.csv(runs[0]));
-  get('save-csv').title = `Save the numbers of this page as CSV (S): ${runs[0].t.length} of ${runs[0].rows} rows, seven digits`;
-  if (picture) get('save-png').addEventListener('click', () => bbsim.save.png(picture, transport.timeText));
+  get('save-csv').title = `Save the numbers of this page as CSV (S): ${runs[0].t.length - (runs[0].hasEndRow ? 1 : 0)} of ${runs[0].rows} rows, seven digits`;
+  const png = () => bbsim.save.png(screen.shown, transport.timeText);
+  get('save-png').addEventListener('click', png);
   bbsim.makeKeys({
     toggle: clock.toggle,
     step: clock.step,
@@ -132,23 +165,23 @@
       say(`speed ${get('speed').selectedOptions[0].textContent}`);
     },
     loop: () => clock.setLoop(!clock.loop),
-    view: (name) => picture && picture.eyes.go(name),
-    zoom: (factor) => picture && picture.eyes.zoom(factor),
-    turn: (left, up) => picture && picture.eyes.turn(left, up),
+    view: goTo,
+    zoom: (factor) => !screen.isFlat && picture.eyes.zoom(factor),
+    turn: (left, up) => !screen.isFlat && picture.eyes.turn(left, up),
     exaggerate() {
-      if (!picture) return;
+      if (screen.isFlat) return;
       setFactor(factors[(factors.indexOf(picture.factor) + 1) % factors.length]);
       say(`tilt drawn ${picture.factor} times`);
     },
     theme: toggleTheme,
-    png: () => picture && bbsim.save.png(picture, transport.timeText),
+    png,
     csv: () => bbsim.save.csv(runs[0]),
   });
 
   bbsim.seek = clock.seek;
-  bbsim.ballOnScreen = () => picture && picture.ballOnScreen();
+  bbsim.ballOnScreen = () => screen.shown.ballOnScreen();
   bbsim.view = () => picture && picture.view();
-  if (picture) {
+  if (!screen.isFlat) {
     picture.drawn();
     bbsim.firstPicture = performance.now();  // ms from when the page was asked for
   }

@@ -1,21 +1,24 @@
 'use strict';
 // What is painted on the plate: paths as ribbons, marks, and small labels that face the eye.
 bbsim.paint = (() => {
-  // A ribbon along points (xs, ys), a quad a segment, cut into dashes [on, off] of that length if given. The
-  // returned geometry has `until`: how many indices the first n points need.
+  // A ribbon along points (xs, ys), a quad a segment, cut into dashes [on, off] of that length if given; what is too far
+  // away to be drawn is a gap. Its width is that of its material (`spread`); `width` is the one that it has mostly. The
+  // returned geometry has `until`: how many indices the first n points need, and `reached`: the last of them that the
+  // ribbon comes to.
   function ribbon(xs, ys, width, dash = null) {
-    const positions = [], indices = [], until = new Uint32Array(xs.length + 1);
+    const positions = [], aside = [], indices = [], until = new Uint32Array(xs.length + 1), reached = new Int32Array(xs.length + 1);
+    reached[0] = -1;
     let along = 0;
     const quad = (ax, ay, bx, by, ux, uy) => {
-      const first = positions.length / 3, nx = -uy * width / 2, ny = ux * width / 2;
-      const overlap = dash ? 0 : 0.3 * width;  // closes the gaps of corners
-      const cx = ax - ux * overlap, cy = ay - uy * overlap, dx = bx + ux * overlap, dy = by + uy * overlap;
-      positions.push(cx - nx, cy - ny, 0, dx - nx, dy - ny, 0, dx + nx, dy + ny, 0, cx + nx, cy + ny, 0);
+      const first = positions.length / 3, nx = -uy / 2, ny = ux / 2;
+      const ox = dash ? 0 : 0.3 * ux, oy = dash ? 0 : 0.3 * uy;  // closes the gaps of corners
+      positions.push(ax, ay, 0, bx, by, 0, bx, by, 0, ax, ay, 0);
+      aside.push(-ox - nx, -oy - ny, 0, ox - nx, oy - ny, 0, ox + nx, oy + ny, 0, nx - ox, ny - oy, 0);
       indices.push(first, first + 1, first + 2, first, first + 2, first + 3);
     };
     let last = -1;
     for (let i = 0; i < xs.length; ++i) {
-      if (Number.isFinite(xs[i]) && Number.isFinite(ys[i])) {
+      if (bbsim.data.shown(xs[i]) && bbsim.data.shown(ys[i])) {
         if (last >= 0) {
           const ax = xs[last], ay = ys[last], length = Math.hypot(xs[i] - ax, ys[i] - ay);
           // A fifth of the width is less than anybody sees.
@@ -40,16 +43,19 @@ bbsim.paint = (() => {
         } else {
           last = i;
         }
+      } else {
+        last = -1;
       }
       until[i + 1] = indices.length;
+      reached[i + 1] = last;
     }
     const geometry = new THREE.BufferGeometry();
     geometry.setAttribute('position', new THREE.BufferAttribute(new Float32Array(positions), 3));
     // As all other bodies have them: one way to read them is compiled.
-    geometry.setAttribute('normal', new THREE.BufferAttribute(new Float32Array(positions.length), 3));
+    geometry.setAttribute('normal', new THREE.BufferAttribute(new Float32Array(aside), 3));
     geometry.setAttribute('uv', new THREE.BufferAttribute(new Float32Array(positions.length / 3 * 2), 2));
     geometry.setIndex(new THREE.BufferAttribute(new Uint32Array(indices), 1));
-    geometry.until = until;
+    Object.assign(geometry, {until, reached});
     return geometry;
   }
 
@@ -66,16 +72,17 @@ bbsim.paint = (() => {
     precision highp float;
     attribute vec3 position, normal;
     attribute vec2 uv;
-    uniform mat4 modelMatrix, viewMatrix, projectionMatrix;
+    uniform mat4 modelMatrix, modelViewMatrix, projectionMatrix;
     uniform vec3 cameraPosition;
+    uniform float spread;
     varying vec3 direction, toEye;
     varying vec2 place;
     void main() {
-      vec4 world = modelMatrix * vec4(position, 1.0);
-      direction = mat3(modelMatrix[0].xyz, modelMatrix[1].xyz, modelMatrix[2].xyz) * normal;
+      vec4 here = vec4(position + spread * normal, 1.0), world = modelMatrix * here;
+      direction = mat3(modelMatrix[0].xyz, modelMatrix[1].xyz, modelMatrix[2].xyz) * normal / length(modelMatrix[0].xyz);
       toEye = cameraPosition - world.xyz;
       place = uv;
-      gl_Position = projectionMatrix * viewMatrix * world;
+      gl_Position = projectionMatrix * modelViewMatrix * here;  // exact about a small ball, too
     }`;
   const fragmentShader = `
     precision highp float;
@@ -93,13 +100,14 @@ bbsim.paint = (() => {
       gl_FragColor = vec4(mix(base, base * light + gloss * gleam, lit), texel.a * opacity);
     }`;
 
-  function material({map = white, opacity = 1, gloss = 0, lit = 1, ...options}) {
+  function material({map = white, opacity = 1, gloss = 0, lit = 1, spread = 0, ...options}) {
     const uniforms = {
       ...lights, map: {value: map}, color: {value: new THREE.Color(0xffffff)}, opacity: {value: opacity},
-      gloss: {value: gloss}, lit: {value: lit},
+      gloss: {value: gloss}, lit: {value: lit}, spread: {value: spread},
     };
     const made = new THREE.RawShaderMaterial({uniforms, vertexShader, fragmentShader, ...options});
     made.color = uniforms.color.value;
+    made.spread = uniforms.spread;
     made.map = null;  // that is for materials of the library's own
     return made;
   }
@@ -144,14 +152,12 @@ bbsim.paint = (() => {
     const group = new THREE.Group();
     const outer = new THREE.Mesh(new THREE.CircleBufferGeometry(radius, sides, action === 'stop' ? Math.PI / 8 : 0), rim);
     const inner = new THREE.Mesh(new THREE.CircleBufferGeometry(0.68 * radius, sides, action === 'stop' ? Math.PI / 8 : 0), fill);
-    inner.position.z = 0.02 * radius;
-    inner.renderOrder = 1;
+    inner.renderOrder = 0.5;  // of what lies in one plane, that is above
     group.add(outer, inner);
     return group;
   }
 
-  // A word that faces the eye, `pixels` high whatever the distance: face() turns it, in the world's frame, to a
-  // camera for which one pixel at distance 1 is that large.
+  // A word that faces the eye, `pixels` high whatever the distance.
   function label(words, colour, halo, pixels = 15) {
     const canvas = document.createElement('canvas');
     const ink = canvas.getContext('2d', {willReadFrequently: true}), zoom = 2;
@@ -176,13 +182,29 @@ bbsim.paint = (() => {
     const mesh = new THREE.Mesh(new THREE.PlaneBufferGeometry(canvas.width / zoom, canvas.height / zoom),
                                 flat({map, transparent: true, depthTest: false}));
     mesh.renderOrder = 20;
-    mesh.face = (place, camera, pixel) => {
-      mesh.position.copy(place);
-      mesh.quaternion.setFromRotationMatrix(camera.matrixWorld);
-      const deep = -place.clone().applyMatrix4(camera.matrixWorldInverse).z;
-      mesh.scale.setScalar(Math.max(deep, 1e-9) * pixel);
-    };
+    mesh.size = [width / zoom, height / zoom];
     return mesh;
+  }
+
+  // Puts what is measured in pixels at a place, so many pixels higher on the screen, and turns it to the eye: to a camera
+  // for which one pixel at distance 1 is that large.
+  function face(mesh, place, camera, pixel, up = 0) {
+    const deep = Math.max(-place.clone().applyMatrix4(camera.matrixWorldInverse).z, 1e-30);
+    mesh.quaternion.setFromRotationMatrix(camera.matrixWorld);
+    mesh.scale.setScalar(deep * pixel);
+    mesh.position.copy(place).addScaledVector(new THREE.Vector3().setFromMatrixColumn(camera.matrixWorld, 1), up * deep * pixel);
+    mesh.updateMatrixWorld(true);
+  }
+
+  // A ring of constant size about a ball that is too small to be seen, in pixels.
+  function marker(fill, rim) {
+    const group = new THREE.Group();
+    for (const [inner, outer, material, order] of [[5.5, 10.5, rim, 14], [6.5, 9.5, fill, 15]]) {
+      const ring = new THREE.Mesh(new THREE.RingBufferGeometry(inner, outer, 40), material);
+      ring.renderOrder = order;
+      group.add(ring);
+    }
+    return group;
   }
 
   // A soft round shadow.
@@ -207,5 +229,5 @@ bbsim.paint = (() => {
     return group;
   }
 
-  return {lights, ribbon, lit, flat, target, arrow, eventMark, label, shadow, cross};
+  return {lights, ribbon, lit, flat, target, arrow, eventMark, label, face, marker, shadow, cross};
 })();

@@ -1,7 +1,7 @@
 'use strict';
 // The picture: rig, ball, trail, reference, what the sensor saw, and what happened where, at the clock's time.
 // It is drawn when something has changed, and else costs nothing.
-bbsim.makePicture = (canvas) => {
+bbsim.makePicture = (canvas, left) => {
   const {scene, runs} = bbsim.data;
   const {stage} = scene;
   const {palette, paint, text} = bbsim;
@@ -17,22 +17,28 @@ bbsim.makePicture = (canvas) => {
   let [width, height] = sizeOf();
   const renderer = new THREE.WebGLRenderer({canvas, antialias: true, alpha: false});
   renderer.debug.checkShaderErrors = false;  // asking whether they compiled waits for them one by one
-  if (window.devicePixelRatio > 1) renderer.setPixelRatio(Math.min(window.devicePixelRatio, 2));
-  const world = new THREE.Scene();
-  world.background = new THREE.Color();
+  const sharp = () => Math.min(Math.max(window.devicePixelRatio || 1, 1), 2);
+  if (sharp() > 1) renderer.setPixelRatio(sharp());
+  // Metres in the world, whose longest side is 1 for the eye: floats of a graphics card have no room for all sizes.
+  const root = new THREE.Scene(), world = new THREE.Group();
+  root.background = new THREE.Color();
+  world.scale.setScalar(1 / size);
+  root.add(world);
 
   const plate = document.createElement('canvas');
   plate.width = plate.height = 1024;
   const plateTexture = new THREE.CanvasTexture(plate);
   plateTexture.anisotropy = 4;
+  const trailWidth = 0.0055 * size;
   const materials = {
     face: paint.lit({map: plateTexture, gloss: 0.16}),
     slab: paint.lit({gloss: 0.05}),
     frame: paint.lit({gloss: 0.25}),
     axle: paint.lit({gloss: 0.4}),
     metal: paint.lit({gloss: 0.15}),
-    path: paint.flat(), future: paint.flat(), reference: paint.flat(), target: paint.flat(), x: paint.flat(),
+    reference: paint.flat(), target: paint.flat(), x: paint.flat(),
     y: paint.flat(), event: paint.flat(), eventRim: paint.flat(), sensor: paint.flat({transparent: true, opacity: 0.85}),
+    rim: paint.flat({depthTest: false}),
   };
   const rig = bbsim.gimbal.build(lead, materials);
   rig.width = stage.width + 0.2 * size;
@@ -44,19 +50,28 @@ bbsim.makePicture = (canvas) => {
   world.add(floor);
 
   // Painted on the plate, layer by layer.
-  const layer = (n) => lead.mounting.height + n * 0.00025 * size;
+  const layer = (n, near = 1) => lead.mounting.height + n * 0.00025 * size * near;
+  const layers = [];
   function onPlate(object, n, plane = rig.plane) {
+    layers.push({object, n});
     object.position.z = layer(n);
-    object.traverse((part) => { part.renderOrder = n; });
+    object.traverse((part) => { part.renderOrder += n; });
     plane.add(object);
     return object;
   }
 
-  const trailWidth = 0.0055 * size;
   const visible = {trail: true, reference: true, sensor: true, events: true, axes: true, gimbal: true};
   const labels = [];
   const parts = {axes: new THREE.Group(), events: new THREE.Group(), reference: new THREE.Group(), sensor: new THREE.Group()};
   for (const group of Object.values(parts)) rig.plane.add(group);
+  const marks = [];  // what is no larger on the screen when the eye comes near
+  const ribbons = [];  // materials of such, and how wide they are at most
+
+  function ribbonOf(part, make) {
+    const material = paint.flat({spread: part * trailWidth});
+    ribbons.push({material, width: part * trailWidth});
+    return make(material);
+  }
 
   for (const axis of ['x', 'y']) {
     onPlate(paint.arrow(axis, 0.13 * size, 0.0085 * size, materials[axis]), 2, parts.axes);
@@ -65,18 +80,21 @@ bbsim.makePicture = (canvas) => {
   // Runs: their balls and trails, the leading one's on the plate, the others' on plates of their own.
   const actors = runs.map((run) => {
     const leads = run === lead;
-    const edge = new THREE.LineBasicMaterial({transparent: true, opacity: 0.7});
+    const edge = paint.flat({transparent: true, opacity: 0.7});
     const links = leads ? rig : run.hasAngles ? bbsim.gimbal.buildGhost(run, edge) : null;
     if (links && !leads) world.add(links.base);
     const plane = links ? links.plane : rig.plane;
-    const ball = bbsim.ball.build(run.ball.radius, !leads);
+    const ball = bbsim.ball.build(run.ball.radius, !leads, !run.turns);
     ball.mesh.renderOrder = 10;
     plane.add(ball.mesh);
     const xs = run.values('x'), ys = run.values('y');
-    const dash = leads ? null : palette.dash(run.index).slice(0, 2).map((n) => n * 0.0022 * size);
-    const past = new THREE.Mesh(paint.ribbon(xs, ys, trailWidth, dash), paint.flat());
-    const tip = new THREE.Mesh(new THREE.PlaneBufferGeometry(1, trailWidth), past.material);
-    const future = new THREE.Mesh(leads ? paint.ribbon(xs, ys, 0.55 * trailWidth) : past.geometry.clone(), paint.flat());
+    const pattern = leads ? null : palette.dash(run.index);
+    const dash = pattern && pattern.slice(0, 2).map((n) => n * 0.0022 * size);
+    const past = ribbonOf(1, (material) => new THREE.Mesh(paint.ribbon(xs, ys, trailWidth, dash), material));
+    // Of length 1 along x, and as wide as its material says.
+    const tip = new THREE.Mesh(paint.ribbon([-0.5, 0.5], [0, 0], 1, [2, 0]), past.material);
+    const future = ribbonOf(0.9, (material) => new THREE.Mesh(
+        leads ? paint.ribbon(xs, ys, 0.9 * trailWidth, [0.02 * size, 0.009 * size]) : past.geometry.clone(), material));
     future.visible = leads;
     const shadow = paint.shadow(0.55);
     shadow.scale.set(1.5 * run.ball.radius, 1.5 * run.ball.radius, 1);
@@ -84,23 +102,29 @@ bbsim.makePicture = (canvas) => {
     onPlate(past, 5, plane);
     onPlate(tip, 5, plane);
     onPlate(shadow, 8, plane);
-    return {run, leads, links, plane, ball, past, tip, future, shadow, edge};
+    const marker = paint.marker(paint.flat({depthTest: false}), materials.rim);
+    root.add(marker);
+    return {run, leads, links, plane, ball, past, tip, future, shadow, edge, marker};
   });
   const leader = actors[0];
 
   const hasPath = lead.path.length >= 4;
   if (hasPath) {
     const xs = lead.path.filter((_, i) => i % 2 === 0), ys = lead.path.filter((_, i) => i % 2 === 1);
-    onPlate(new THREE.Mesh(paint.ribbon(xs, ys, 0.0042 * size, [0.012 * size, 0.009 * size]), materials.reference), 4,
-            parts.reference);
+    onPlate(ribbonOf(0.75, (material) => {
+      materials.reference = material;
+      return new THREE.Mesh(paint.ribbon(xs, ys, 0.75 * trailWidth, [0.012 * size, 0.009 * size]), material);
+    }), 4, parts.reference);
   }
   const target = onPlate(paint.target(Math.max(1.45 * lead.ball.radius, 0.02 * size), materials.target), 7, parts.reference);
   target.visible = lead.hasReference || lead.path.length === 2;
+  const targetLeast = 1.45 * lead.ball.radius / Math.max(1.45 * lead.ball.radius, 0.02 * size);
 
   // The last points that the sensor saw.
   const seen = [];
   if (lead.isMeasured) {
     for (let i = 0; i < 12; ++i) seen.push(onPlate(paint.cross(0.016 * size, materials.sensor), 6, parts.sensor));
+    marks.push(...seen);
   }
 
   // Of very many events the first hundred and the last are marked; all are listed beside the picture.
@@ -109,17 +133,18 @@ bbsim.makePicture = (canvas) => {
     const mark = onPlate(paint.eventMark(event.action, 0.016 * size, materials.event, materials.eventRim), 6, parts.events);
     mark.position.x = event.x;
     mark.position.y = event.y;
+    marks.push(mark);
   }
 
   function label(words, colour, at, group, pixels) {
     const mesh = paint.label(words, colour, palette.now().plate, pixels);
-    world.add(mesh);
+    root.add(mesh);
     labels.push({mesh, at, group});
   }
 
   function makeLabels() {
     for (const {mesh} of labels) {
-      world.remove(mesh);
+      root.remove(mesh);
       mesh.geometry.dispose();
       mesh.material.uniforms.map.value.dispose();
       mesh.material.dispose();
@@ -138,13 +163,41 @@ bbsim.makePicture = (canvas) => {
     }
   }
 
+  // The size of a pixel at distance 1.
+  const pixelSize = () => 2 * Math.tan(eyes.fov * Math.PI / 360) / height;
+
   function faceLabels() {
-    const pixel = 2 * Math.tan(eyes.fov * Math.PI / 360) / Math.max(canvas.clientHeight, 1);
-    for (const {mesh, at, group} of labels) {
+    const pixel = pixelSize(), shown = [];
+    for (const one of labels) {
+      const {mesh, at, group} = one;
       mesh.visible = group.visible;
-      mesh.face(at.clone().applyMatrix4(rig.plane.matrixWorld), eyes.camera, pixel);
-      mesh.updateMatrixWorld();
+      if (!mesh.visible) continue;
+      one.place = at.clone().applyMatrix4(rig.plane.matrixWorld);
+      const on = one.place.clone().project(eyes.camera);
+      shown.push({...one, x: on.x * width / 2, y: -on.y * height / 2, width: mesh.size[0], height: mesh.size[1]});
     }
+    bbsim.placeLabels(shown).forEach((up, i) => {
+      const {mesh, place} = shown[i];
+      mesh.visible = up !== null;
+      if (up !== null) paint.face(mesh, place, eyes.camera, pixel, up);
+    });
+  }
+
+  // What has a size on the screen: ribbons and marks, which do not grow when the eye comes near, and markers of balls
+  // that are too small to be seen.
+  function sizeToScreen() {
+    const near = Math.min(1, eyes.farness()), pixel = pixelSize();
+    for (const {material, width: most} of ribbons) material.spread.value = most * near;
+    for (const {object, n} of layers) object.position.z = layer(n, near);
+    for (const mark of marks) mark.scale.setScalar(near);
+    target.scale.setScalar(Math.max(near, targetLeast));
+    for (const {ball, marker, run} of actors) {
+      const place = ball.mesh.getWorldPosition(new THREE.Vector3());
+      const deep = -place.clone().applyMatrix4(eyes.camera.matrixWorldInverse).z;
+      marker.visible = ball.mesh.visible && deep > 0 && run.ball.radius / size < 7 * pixel * deep;
+      if (marker.visible) paint.face(marker, place, eyes.camera, pixel);
+    }
+    root.updateMatrixWorld(true);
   }
 
   // The plate's colour through which a trail shines that is still to come.
@@ -154,7 +207,7 @@ bbsim.makePicture = (canvas) => {
 
   function recolour() {
     const colours = palette.now();
-    world.background.set(colours.background);
+    root.background.set(colours.background);
     paint.lights.sky.value.set(colours.sky).multiplyScalar(colours.hemisphere);
     paint.lights.earth.value.set(colours.earth).multiplyScalar(colours.hemisphere);
     paint.lights.lampColour.value.setScalar(colours.light);
@@ -171,58 +224,68 @@ bbsim.makePicture = (canvas) => {
     materials.event.color.set('#ffd23f');
     materials.eventRim.color.set('#14181e');
     materials.sensor.color.set(colours.sensor);
+    materials.rim.color.set(colours.ink);
     for (const actor of actors) {
       const colour = palette.run(actor.run.index);
       actor.ball.colour(colours.cream, colour);
       actor.past.material.color.set(colour);
       actor.future.material.color.copy(mixed(colour, colours.faint));
       actor.edge.color.set(colour);
+      actor.marker.children[1].material.color.set(colour);
     }
     makeLabels();
     invalidate();
   }
 
-  let factor = 1, waiting = false;
+  let factor = 1, waiting = false, forced = false, pixels = 1;
   const turn = new THREE.Quaternion();
-  const last = runs.map(() => ({x: 0, y: 0}));
+  const last = runs.map(() => [0, 0]);
+  // What is not known is drawn level; the page says so.
+  const angle = (run, t, name) => run.angleAt(t, name) || 0;
 
-  // Puts everything where it is at time t.
+  // Puts everything where it is at time t; answers all numbers that this depends on.
   function pose(t) {
-    const phi = lead.at(t, 'phi', 0), theta = lead.at(t, 'theta', 0);
-    rig.set(factor * phi, factor * theta);
+    const state = [factor * angle(lead, t, 'phi'), factor * angle(lead, t, 'theta')];
+    rig.set(...state);
     for (const actor of actors) {
       const {run} = actor;
-      if (actor.links && !actor.leads) actor.links.set(factor * run.at(t, 'phi', 0), factor * run.at(t, 'theta', 0));
-      // Where a row has no number the ball stays where it was.
-      const place = last[run.index];
-      place.x = run.at(t, 'x', place.x);
-      place.y = run.at(t, 'y', place.y);
-      const height = (actor.links ? run : lead).mounting.height;
-      actor.ball.mesh.position.set(place.x, place.y, height + run.ball.radius);
-      actor.ball.mesh.quaternion.copy(run.orientationAt(t, turn));
-      const shown = run.shown;
+      if (actor.links && !actor.leads) {
+        const angles = [factor * angle(run, t, 'phi'), factor * angle(run, t, 'theta')];
+        actor.links.set(...angles);
+        state.push(...angles);
+      }
+      // Where a row has no number the ball stays where it was; what is too far away is not drawn.
+      const found = run.placeAt(t), place = Array.isArray(found) ? found : last[run.index];
+      last[run.index] = place;
+      const [x, y] = place, height = (actor.links ? run : lead).mounting.height;
+      actor.ball.mesh.position.set(x, y, height + run.ball.radius);
+      if (actor.leads) rig.ball.copy(actor.ball.mesh.position);
+      if (run.turns) actor.ball.mesh.quaternion.copy(run.orientationAt(t, turn));
+      const shown = run.shown && found !== 'beyond';
       actor.ball.mesh.visible = shown;
       actor.shadow.visible = shown;
-      actor.shadow.position.x = place.x + 0.12 * run.ball.radius;
-      actor.shadow.position.y = place.y - 0.25 * run.ball.radius;
-      const row = run.row(t), {until} = actor.past.geometry;
-      actor.past.visible = shown && visible.trail;
-      actor.future.visible = shown && visible.trail && actor.leads;
+      actor.shadow.position.x = x + 0.12 * run.ball.radius;
+      actor.shadow.position.y = y - 0.25 * run.ball.radius;
+      const row = run.row(t), {until, reached} = actor.past.geometry;
+      actor.past.visible = run.shown && visible.trail;
+      actor.future.visible = run.shown && visible.trail && actor.leads;
       actor.past.geometry.setDrawRange(0, until[row + 1]);
-      // From the last row to the ball.
-      const dx = place.x - run.values('x')[row], dy = place.y - run.values('y')[row], length = Math.hypot(dx, dy);
-      actor.tip.visible = shown && visible.trail && length > 0;
-      if (length > 0) {
-        actor.tip.position.x = place.x - dx / 2;
-        actor.tip.position.y = place.y - dy / 2;
+      // From where the ribbon ends to the ball.
+      const from = reached[row + 1], dx = x - run.values('x')[from], dy = y - run.values('y')[from], length = Math.hypot(dx, dy);
+      actor.tip.visible = shown && visible.trail && from >= 0 && Array.isArray(found) && length > 0;
+      if (actor.tip.visible) {
+        actor.tip.position.x = x - dx / 2;
+        actor.tip.position.y = y - dy / 2;
         actor.tip.rotation.z = Math.atan2(dy, dx);
         actor.tip.scale.x = length;
       }
-      if (actor.links && !actor.leads) actor.links.base.visible = shown;
+      if (actor.links && !actor.leads) actor.links.base.visible = run.shown;
+      state.push(x, y, shown ? 1 : 0, until[row + 1], from, ...actor.ball.mesh.quaternion.toArray());
     }
     if (target.visible) {
       target.position.x = lead.at(t, 'x_reference', lead.path[0]);
       target.position.y = lead.at(t, 'y_reference', lead.path[1]);
+      state.push(target.position.x, target.position.y);
     }
     // One point a sample, of which the rows between two have the same.
     let row = lead.row(t);
@@ -239,41 +302,60 @@ bbsim.makePicture = (canvas) => {
     for (const part of rig.base.children) if (part !== rig.ring) part.visible = visible.gimbal;
     for (const part of [...rig.ring.children, ...rig.hinge.children]) if (part.isMesh) part.visible = visible.gimbal;
     floor.visible = visible.gimbal;
-    world.updateMatrixWorld(true);
+    root.updateMatrixWorld(true);
+    return state;
   }
 
-  function draw() {
-    waiting = false;
+  let drawn = [];
+  function draw(whole = true) {
+    waiting = forced = false;
     begun = true;
-    pose(bbsim.clock.now);
+    const state = pose(bbsim.clock.now);
     eyes.update();
+    state.push(...eyes.camera.matrixWorld.elements);
+    // A ball at rest is not drawn again and again.
+    if (!whole && state.length === drawn.length && state.every((value, i) => value === drawn[i])) return;
+    drawn = state;
+    sizeToScreen();
     faceLabels();
-    renderer.render(world, eyes.camera);
+    renderer.render(root, eyes.camera);
+    ++picture.draws;
   }
-  function invalidate() {
+  function ask(whole) {
+    forced = forced || whole;
     if (waiting) return;
     waiting = true;
-    requestAnimationFrame(() => { if (waiting) draw(); });
+    requestAnimationFrame(() => { if (waiting) draw(forced); });
+  }
+  function invalidate() {
+    if (picture.active) ask(true);
   }
 
-  const eyes = bbsim.makeCamera(canvas, rig, invalidate);
-
   let begun = false;
-  function resize() {
-    const [w, h] = sizeOf();
-    if (begun && w === width && h === height) return;
+  const eyes = bbsim.makeCamera(canvas, rig, {changed: () => picture.active && ask(false), left});
+
+  function setSize(w, h) {
     if (w !== width || h !== height) renderer.setSize(w, h, false);
     [width, height] = [w, h];
     eyes.resize(w, h);
-    if (!eyes.touched) eyes.restore(eyes.view);  // all is in the picture, whatever its shape
+    eyes.refit();
     if (begun) draw();
   }
-  bbsim.clock.onTime(invalidate);
-  palette.onChange(recolour);
+  function resize() {
+    const [w, h] = sizeOf();
+    if (picture.active && !(begun && w === width && h === height)) setSize(w, h);
+  }
 
-  return {
-    eyes, rig, actors, visible, hasPath, target, lead, renderer,
+  const picture = {
+    eyes, rig, actors, visible, hasPath, target, lead, renderer, canvas,
+    active: true,  // whether it is on the screen
+    draws: 0,      // how often it was drawn, for tests
     get factor() { return factor; },
+    get zoom() { return renderer.getPixelRatio(); },
+    whole() {
+      draw();
+      return canvas;
+    },
     invalidate, resize, draw, recolour,
     // Draws, and comes back when that is done and not only asked for.
     drawn() {
@@ -281,8 +363,27 @@ bbsim.makePicture = (canvas) => {
       const gl = renderer.getContext();
       gl.readPixels(0, 0, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, new Uint8Array(4));
     },
+    // In so many parts of its pixels: fewer are drawn faster.
+    setPixels(part) {
+      if (part === pixels) return;
+      pixels = part;
+      renderer.setPixelRatio(sharp() * part);
+      if (picture.active) draw();
+    },
+    // Drawn for paper, in CSS pixels.
+    print(w, h) {
+      renderer.setPixelRatio(2);
+      setSize(w, h);
+      return canvas;
+    },
+    printed() {
+      renderer.setPixelRatio(sharp() * pixels);
+      setSize(...sizeOf());
+    },
     exaggerate(value) {
       factor = value;
+      rig.reach(value);
+      eyes.refit();
       invalidate();
     },
     show(name, on) {
@@ -302,21 +403,13 @@ bbsim.makePicture = (canvas) => {
       draw();
       const box = canvas.getBoundingClientRect();
       return {
-        view: eyes.camera.matrixWorldInverse.toArray(), projection: eyes.camera.projectionMatrix.toArray(),
+        view: eyes.camera.matrixWorldInverse.clone().multiply(new THREE.Matrix4().makeScale(1 / size, 1 / size, 1 / size)).toArray(),
+        projection: eyes.camera.projectionMatrix.toArray(),
         canvas: [box.left, box.top, box.width, box.height],
       };
     },
-    // The plate's tilt now: its size, and where downhill is in the plate's frame; both as they are, not as drawn.
-    tilt() {
-      const t = bbsim.clock.now;
-      const {skew, yaw, baseTilt} = lead.mounting;
-      const rotation = new THREE.Matrix4().makeRotationX(baseTilt)
-          .multiply(new THREE.Matrix4().makeRotationY(lead.at(t, 'phi', 0)))
-          .multiply(new THREE.Matrix4().makeRotationZ(skew))
-          .multiply(new THREE.Matrix4().makeRotationX(lead.at(t, 'theta', 0)))
-          .multiply(new THREE.Matrix4().makeRotationZ(yaw - skew));
-      const up = new THREE.Vector3(0, 0, 1).transformDirection(new THREE.Matrix4().getInverse(rotation));
-      return {angle: Math.atan2(Math.hypot(up.x, up.y), up.z), x: -up.x, y: -up.y};
-    },
   };
+  bbsim.clock.onTime(() => picture.active && ask(false));
+  palette.onChange(recolour);
+  return picture;
 };

@@ -4,19 +4,48 @@ bbsim.makePlots = (container) => {
   const {clock, palette, text, data} = bbsim;
   const {element} = text;
   const plots = [];
-  let hover = null, zooming = false, range = null;
+  // A little more than all, for the number at its end.
+  const whole = data.end > data.start ? [data.start, data.end + 1e-6 * (data.end - data.start)] : [data.start - 0.5, data.end + 0.5];
+  const timeLabel = data.runs.every((run) => run.unitsKnown) ? 't (s)' : 't';
+  let hover = null, zooming = false, printing = false, range = bbsim.address.zoom();
 
   // Canvases of this size are painted faster where they are than on the way to a graphics card and back.
   Dygraph.getContext = (canvas) => canvas.getContext('2d', {willReadFrequently: true});
 
   function swatch(curve) {
     const line = text.svg('svg', {viewBox: '0 0 26 10', class: 'swatch', 'aria-hidden': 'true'});
-    if (curve.dots) {
+    if (curve.dots === 'cross') {
+      line.append(text.svg('path', {d: 'M1.5 5h5m-2.5 -2.5v5M10.5 5h5m-2.5 -2.5v5M19.5 5h5m-2.5 -2.5v5', style: 'stroke-width: 1.4'}));
+    } else if (curve.dots) {
       for (const x of [4, 13, 22]) line.append(text.svg('circle', {cx: x, cy: 5, r: 2}));
     } else {
-      line.append(text.svg('path', {d: 'M1 5H25', 'stroke-dasharray': curve.pattern ? curve.pattern.join(' ') : 'none'}));
+      line.append(text.svg('path', {d: 'M1 5H25', 'stroke-dasharray': curve.pattern ? curve.pattern.join(' ') : 'none',
+                                    style: `stroke-width: ${Math.min(2.4, curve.width || 1.8) + (curve.width > 3 ? 3 : 0.4)}`}));
     }
     return line;
+  }
+
+  // Points as dots or crosses, so far apart that each is seen and what they lie on as well.
+  function drawPoint(cross) {
+    let last = -Infinity;
+    return (graph, name, ink, x, y, colour, size) => {
+      if (x >= last && x < last + 7) return;
+      last = x;
+      ink.beginPath();
+      if (cross) {
+        ink.strokeStyle = colour;
+        ink.lineWidth = 1.2;
+        ink.moveTo(x - size, y);
+        ink.lineTo(x + size, y);
+        ink.moveTo(x, y - size);
+        ink.lineTo(x, y + size);
+        ink.stroke();
+      } else {
+        ink.fillStyle = colour;
+        ink.arc(x, y, size, 0, 2 * Math.PI);
+        ink.fill();
+      }
+    };
   }
 
   // Rows of all curves of a plot on one grid of times; where they come from runs with other times, gaps.
@@ -54,9 +83,8 @@ bbsim.makePlots = (container) => {
 
   class Plot {
     constructor({title, unit, curves}) {
-      // What is drawn first is covered by what comes later: points, then commands, then the motion itself.
-      const layer = (curve) => (curve.dots ? 0 : curve.pattern && curve.pattern[0] === 2 ? 1 : curve.pattern ? 3 : 2);
-      this.order = [...curves].sort((a, b) => layer(a) - layer(b));
+      // What is drawn first is covered by what comes later: references, then points and commands, then the motion.
+      this.order = [...curves].sort((a, b) => a.layer - b.layer);
       this.curves = curves;
       this.size = Math.max(...curves.map((curve) => data.extent(curve.values).size));
       this.shown = text.shownIn(unit, this.size);
@@ -81,20 +109,21 @@ bbsim.makePlots = (container) => {
       const labels = ['t', ...this.order.map((_, i) => `c${i}`)];
       const series = {};
       this.order.forEach((curve, i) => {
-        series[`c${i}`] = curve.dots ? {strokeWidth: 0, drawPoints: true, pointSize: 1.3, highlightCircleSize: 3}
-                                     : {strokePattern: curve.pattern, strokeWidth: curve.pattern ? 1.5 : 1.8};
+        const cross = curve.dots === 'cross';
+        const points = {strokeWidth: 0, drawPoints: true, pointSize: cross ? 2.6 : 1.6, highlightCircleSize: 3, drawPointCallback: drawPoint(cross)};
+        series[`c${i}`] = curve.dots ? points : {strokePattern: curve.pattern, strokeWidth: curve.width || 1.8};
       });
       const mixed = new Set(this.curves.map((curve) => curve.run)).size > 1;
       this.graph = new Dygraph(this.canvas, tableOf(this.order, this.shown.factor), {
         labels, series, colors: this.order.map((curve) => curve.colour()), legend: 'never', connectSeparatedPoints: mixed,
-        highlightCircleSize: 3.5, axisLabelFontSize: 11, drawGrid: true, animatedZooms: false, xRangePad: 2, yRangePad: 6,
-        gridLineWidth: 0.6, axisLineWidth: 0.8, rightGap: 8,
+        highlightCircleSize: 3.5, axisLabelFontSize: 11, drawGrid: true, animatedZooms: false, yRangePad: 6,
+        gridLineWidth: 0.6, axisLineWidth: 0.8, rightGap: 8, xlabel: timeLabel, xLabelHeight: 13,
         axes: {
-          x: {axisLabelFormatter: (t) => text.number(t, 6), valueFormatter: (t) => text.number(t, 6), axisLabelWidth: 44, pixelsPerLabel: 70},
+          x: {axisLabelFormatter: (t) => text.number(t, 6), valueFormatter: (t) => text.number(t, 6), axisLabelWidth: 44, pixelsPerLabel: 50},
           y: {axisLabelFormatter: (value) => text.number(value, 5), axisLabelWidth: 46, pixelsPerLabel: 26},
         },
         ...this.colours(),
-        dateWindow: range,
+        dateWindow: range || whole,
         highlightCallback: (event, t) => point(t),
         unhighlightCallback: () => point(null),
         clickCallback: (event, t) => {
@@ -103,7 +132,7 @@ bbsim.makePlots = (container) => {
         },
         drawCallback: (graph, initial) => {
           if (!initial) this.placeCursor();
-          if (!initial && !zooming) share(graph);
+          if (!initial && !zooming && !printing) share(graph);
         },
         underlayCallback: (ink, area, graph) => this.paintEvents(ink, area, graph),
       });
@@ -139,36 +168,51 @@ bbsim.makePlots = (container) => {
       ink.restore();
     }
 
-    placeCursor() {
+    placeCursor(reading = true) {
       if (!this.graph) return;
       const t = hover === null ? clock.now : hover;
       const x = this.graph.toDomXCoord(clock.now), area = this.graph.getArea();
       this.cursor.style.transform = `translateX(${x.toFixed(1)}px)`;
       this.cursor.style.height = `${area.h}px`;
       this.cursor.hidden = !(x >= area.x - 1 && x <= area.x + area.w + 1);
-      this.read(t);
+      if (reading) this.read(t);
     }
 
     read(t) {
       const size = this.size * this.shown.factor;
       this.curves.forEach((curve, i) => {
-        const value = valueOf(curve, t);
-        this.readings[i].textContent = Number.isFinite(value) ? text.steady(value * this.shown.factor, size) : '–';
-        this.readings[i].title = Number.isFinite(value) ? `${value} ${curve.unit === '1' ? '' : curve.unit}` : '';
+        const value = valueOf(curve, t), out = this.readings[i];
+        // To write what is there already would have the page laid out again.
+        const words = Number.isNaN(value) ? '–' : text.steady(value * this.shown.factor, size);
+        if (out.textContent === words) return;
+        out.textContent = words;
+        out.title = Number.isNaN(value) ? '' : `${value} ${curve.unit === '1' ? '' : curve.unit}`;
       });
     }
   }
 
   // All plots show the same stretch of time.
-  function share(graph) {
-    const now = graph.isZoomed('x') ? graph.xAxisRange() : null;
-    if (String(now) === String(range)) return;
-    range = now;
+  function setRange(next, from = null) {
+    range = next;
     zooming = true;
     for (const plot of plots) {
-      if (plot.graph && plot.graph !== graph) plot.graph.updateOptions({dateWindow: range});
+      if (plot.graph && (plot.graph !== from || range === null)) plot.graph.updateOptions({dateWindow: range || whole});
     }
     zooming = false;
+    if (bbsim.addressLater) bbsim.addressLater();
+  }
+  function share(graph) {
+    const [low, high] = graph.xAxisRange(), slack = 1e-5 * (whole[1] - whole[0]);
+    const all = !graph.isZoomed('x') || (low <= whole[0] + slack && high >= whole[1] - slack);
+    const now = all ? null : [low, high];
+    if (String(now) !== String(range)) setRange(now, graph);
+    else if (all && (low > whole[0] + slack || high < whole[1] - slack)) setRange(null);
+  }
+  // What is zoomed follows the time: when it has gone out at one side, the stretch goes on with it.
+  function follow(t) {
+    if (range === null || hover !== null || (t >= range[0] && t <= range[1])) return;
+    const long = range[1] - range[0], from = Math.min(Math.max(t - 0.05 * long, whole[0]), whole[1] - long);
+    if (from !== range[0]) setRange([from, from + long]);
   }
 
   const readAt = element('p', {class: 'read-at', role: 'status'});
@@ -191,8 +235,8 @@ bbsim.makePlots = (container) => {
 
   container.append(element('div', {class: 'plots-head'}, element('h2', {}, 'Over time'), readAt,
                            element('button', {type: 'button', class: 'link', id: 'unzoom', onclick: () => {
-                             range = null;
-                             for (const plot of plots) if (plot.graph) plot.graph.resetZoom();
+                             for (const plot of plots) if (plot.graph && plot.graph.isZoomed('y')) plot.graph.resetZoom();
+                             setRange(null);
                            }}, 'all of it')));
   for (const group of bbsim.groups()) {
     const plot = new Plot(group);
@@ -202,14 +246,38 @@ bbsim.makePlots = (container) => {
   // A plot is drawn when it comes near the window: many runs have more plots than anybody looks at.
   const near = new IntersectionObserver((entries) => {
     for (const entry of entries) {
-      if (!entry.isIntersecting) continue;
-      near.unobserve(entry.target);
-      plots.find((plot) => plot.root === entry.target).build();
+      const plot = plots.find((one) => one.root === entry.target);
+      plot.near = entry.isIntersecting;
+      if (plot.near && plot.graph) plot.placeCursor();
+      if (plot.near) plot.build();
     }
   }, {rootMargin: '300px'});
   for (const plot of plots) near.observe(plot.root);
 
-  clock.onTime(() => { for (const plot of plots) plot.placeCursor(); });
+  // Cursors go with the time; while it goes on, numbers follow a few times a second, which is as much as one reads.
+  let readAgain = 0;
+  clock.onTimeRelaxed((t) => {
+    follow(t);
+    const now = performance.now(), reading = !clock.playing || now >= readAgain;
+    if (reading) readAgain = now + 125;
+    for (const plot of plots) if (plot.near) plot.placeCursor(reading);
+  });
   palette.onChange(() => plots.forEach((plot) => plot.recolour()));
-  return {plots, point, get range() { return range; }};
+  return {
+    plots, point,
+    get range() { return range; },
+    zoom: (to) => setRange(to),
+    // All of them at that size, whole; null: as they were.
+    print(size) {
+      printing = true;
+      for (const plot of plots) {
+        plot.build();
+        plot.graph.updateOptions({pixelRatio: size ? 2 : undefined}, true);
+        if (size) plot.graph.resize(size.width, size.height);
+        else plot.graph.resize();
+        plot.read(clock.now);
+      }
+      printing = false;
+    },
+  };
 };

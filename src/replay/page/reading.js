@@ -16,9 +16,9 @@
       const box = element('input', {type: 'checkbox', checked: true, 'data-run': String(run.index)});
       box.addEventListener('change', () => {
         run.shown = box.checked;
-        if (bbsim.picture) bbsim.picture.invalidate();
+        bbsim.screen.invalidate();
       });
-      const words = run.status && run.status !== 'done' ? ` (${run.status} at ${text.number(run.last)} s)` : '';
+      const words = run.status && run.status !== 'done' ? ` (${run.status} at ${text.number(run.reached, 6)} s)` : '';
       const item = element('li', {}, element('label', {}, box, sample, element('span', {}, run.name + words)), apart);
       list.append(item);
       return {run, apart, item};
@@ -27,13 +27,14 @@
     const show = (t) => {
       for (const {run, apart} of lines.slice(1)) {
         const far = t >= run.start && t <= run.last ? Math.hypot(run.at(t, 'x') - runs[0].at(t, 'x'), run.at(t, 'y') - runs[0].at(t, 'y')) : NaN;
-        apart.textContent = Number.isFinite(far) ? `${text.steady(far * 1e3, 100)} mm apart` : 'over';
+        const shown = text.shownIn(run.unitsKnown && runs[0].unitsKnown ? 'm' : '', far < 1 ? 0.1 : far);
+        apart.textContent = Number.isFinite(far) ? `${text.steady(far * shown.factor, 100)} ${shown.unit} apart` : 'over';
       }
     };
     lines[0].apart.textContent = 'leads';
     recolour();
     palette.onChange(recolour);
-    clock.onTime(show);
+    clock.onTimeRelaxed(show);
     show(clock.now);
     container.append(element('h2', {}, `${runs.length} runs`), list);
     container.hidden = false;
@@ -44,6 +45,7 @@
     if (data.runs.length > 0) {
       bbsim.plots = bbsim.makePlots(get('plots'));
       bbsim.makeDetails(get('details'));
+      bbsim.preparePrint();
     }
     const sweeps = data.scene.sweeps;
     if (sweeps.length > 0) {

@@ -43,8 +43,7 @@ bbsim.save = (() => {
 
   // The view with its title and time beneath, as wide as it is on the screen.
   function png(picture, timeText) {
-    picture.draw();
-    const view = picture.renderer.domElement, zoom = view.width / view.clientWidth;
+    const view = picture.whole(), {zoom} = picture;
     const caption = Math.round(34 * zoom);
     const canvas = document.createElement('canvas');
     canvas.width = view.width;

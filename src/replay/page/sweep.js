@@ -67,10 +67,11 @@ bbsim.makeSweep = (json, container) => {
   // What is asked for. Of the measures first one that says how well the ball was led, if it is there.
   const telling = ['rms_tracking_error', 'max_tracking_error', 'max_distance'];
   const firstMeasure = Math.max(0, measures.findIndex((m) => m.name === telling.find((name) => measures.some((other) => other.name === name))));
-  // x and y are places among `leads`.
+  // x and y are places among `leads`: as `bbsim plot` has it, of the keys with the most values the first one goes across.
   const state = {kind: axes.length >= 2 ? 'map' : axes.length === 1 ? 'lines' : 'histogram', measure: firstMeasure, x: 0, y: 0, fixed: new Map(), chosen: -1};
-  if (axes.length > 0) state.x = leads.indexOf(axes[axes.length - 1]);
-  if (axes.length > 1) state.y = leads.indexOf(axes[axes.length - 2]);
+  const [across, up] = [...axes].sort((a, b) => b.levels.length - a.levels.length).slice(0, 2).map((key) => leads.indexOf(key)).sort((a, b) => a - b);
+  if (axes.length > 0) state.x = across;
+  if (axes.length > 1) state.y = up;
   if (state.y === state.x && leads.length > 1) state.y = (state.x + 1) % leads.length;
 
   const canvas = element('canvas', {tabindex: '0', role: 'img'});
@@ -229,7 +230,8 @@ bbsim.makeSweep = (json, container) => {
     return {low: at(0.02), high: at(0.98), clipped: true};
   }
 
-  function colourBar(low, high, clipped) {
+  function colourBar(low, high, clipped, name) {
+    over.append(svg('text', {'text-anchor': 'middle', class: 'name', transform: `translate(${width - 5} ${(box.top + height - box.bottom) / 2}) rotate(-90)`}, name));
     const x = width - box.right + 18, top = box.top, bottom = height - box.bottom;
     for (let y = 0; y < bottom - top; ++y) {
       ink.fillStyle = colourOf(1 - y / (bottom - top));
@@ -290,8 +292,11 @@ bbsim.makeSweep = (json, container) => {
       }
     }
     frame(x, y, labelOf(kx) + unitOf(kx), labelOf(ky) + unitOf(ky));
-    colourBar(low, high, clipped);
+    if (low !== undefined) colourBar(low, high, clipped, text.columnName(measure.name) + unitOf(measure));
   }
+
+  // The ends of an axis: of one value, about it.
+  const spread = (low, high) => (low < high ? [low, high] : [low - (Math.abs(low) / 2 || 1), low + (Math.abs(low) / 2 || 1)]);
 
   function drawLines(list, measure) {
     const kx = leads[state.x], ky = leads.length > 1 ? leads[state.y] : null;
@@ -299,7 +304,7 @@ bbsim.makeSweep = (json, container) => {
     // What a case reached that was not done may lie anywhere.
     const fine = list.filter((i) => isFine(i, measure));
     const {least, greatest} = data.extent((fine.length > 0 ? fine : list).map((i) => measure.values[i]));
-    const y = axisOf({levels: least < greatest ? [least, greatest] : [least - 1, least + 1]}, height - box.bottom, box.top, false);
+    const y = axisOf({levels: spread(least, greatest)}, height - box.bottom, box.top, false);
     const byLine = new Map();
     const lined = ky && stack && listed.includes(ky) && ky.levels.length <= 12;
     for (const i of list) {
@@ -398,11 +403,12 @@ bbsim.makeSweep = (json, container) => {
     const heap = Array.from({length: bars}, () => []);
     for (const i of values) heap[Math.min(bars - 1, Math.floor((measure.values[i] - low) / (high - low || 1) * bars))].push(i);
     const most = Math.max(...heap.map((h) => h.length));
-    const x = axisOf({levels: low < high ? [low, high] : [low - 1, low + 1]}, box.left, width - box.right, false);
+    const x = axisOf({levels: spread(low, high)}, box.left, width - box.right, false);
     const bottom = height - box.bottom, tall = (n) => n / most * (bottom - box.top - 8);
-    const wide = (x.place(high) - x.place(low)) / bars || 20;
+    // What is one value is one bar, about it.
+    const wide = (x.place(high) - x.place(low)) / bars || 20, from = high > low ? x.place(low) : x.place(low) - wide / 2;
     heap.forEach((cases_, n) => {
-      const mark = {x: x.place(low) + n * wide, y: bottom - tall(cases_.length), w: wide, h: tall(cases_.length), i: cases_[cases_.length >> 1], cases: cases_.length,
+      const mark = {x: from + n * wide, y: bottom - tall(cases_.length), w: wide, h: tall(cases_.length), i: cases_[cases_.length >> 1], cases: cases_.length,
                     from: low + n * (high - low) / bars, to: low + (n + 1) * (high - low) / bars};
       ink.fillStyle = palette.run(1);
       ink.fillRect(mark.x + 0.5, mark.y, Math.max(1, wide - 1), mark.h);
@@ -421,7 +427,7 @@ bbsim.makeSweep = (json, container) => {
     width = Math.max(280, drawing.clientWidth);
     height = Math.max(300, Math.min(0.62 * width, 620));
     box.left = width < 480 ? 58 : 74;
-    box.right = state.kind === 'histogram' ? 20 : width < 480 ? 66 : 96;
+    box.right = state.kind === 'histogram' ? 20 : (width < 480 ? 66 : 96) + (state.kind === 'map' ? 16 : 0);
     canvas.width = width * scale;
     canvas.height = height * scale;
     drawing.style.height = `${height}px`;
@@ -525,9 +531,10 @@ bbsim.makeSweep = (json, container) => {
     tally.set(word, (tally.get(word) || 0) + 1);
   }
   for (const [word, n] of [...tally].sort((a, b) => b[1] - a[1])) counts.append(element('li', {class: `status ${word}`}, `${{done: '●', stopped: '⁄'}[word] || '×'} ${n} ${word}`));
-  const thinned = count < json.cases ? ` ${count} of them are in this page, evenly thinned out; the result file is the record.` : '';
+  const grouped = (n) => n.toLocaleString('en-US');
+  const thinned = count < json.cases ? ` ${grouped(count)} of ${grouped(json.cases)} shown, evenly thinned out; the result file is the record.` : '';
   container.append(element('section', {class: 'sweep'},
-      element('header', {}, element('h2', {}, json.name), element('p', {class: 'fine'}, `${json.cases} cases over ${keys.map((k) => k.name).join(', ')}.${thinned}`), counts),
+      element('header', {}, element('h2', {}, json.name), element('p', {class: 'fine'}, `${json.cases} ${json.cases === 1 ? 'case' : 'cases'} over ${keys.map((k) => k.name).join(', ')}.${thinned}`), counts),
       controls, remark, element('div', {class: 'columns'}, drawing, side)));
   if (json.scenario.text) {
     container.append(element('details', {class: 'card'}, element('summary', {}, element('h3', {}, json.scenario.file || 'scenario')),
@@ -535,6 +542,9 @@ bbsim.makeSweep = (json, container) => {
   }
   side.append(element('p', {class: 'fine'}, 'Choose a case to see its values and the command that runs it again.'));
   refresh();
+  // The only one that there is to look at.
+  const done = Array.from(cases.keys()).filter(isDone);
+  if (done.length === 1) choose(done[0]);
   new ResizeObserver(() => { if (drawing.clientWidth && Math.abs(drawing.clientWidth - width) > 1) draw(); }).observe(drawing);
   palette.onChange(draw);
   return {

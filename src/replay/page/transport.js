@@ -1,6 +1,6 @@
 'use strict';
 // The buttons under the picture, the scrubber with what happened on it, and the level in the picture's corner.
-bbsim.makeTransport = (picture) => {
+bbsim.makeTransport = () => {
   const {clock, text, data} = bbsim;
   const {start, end, runs} = data;
   const lead = runs[0];
@@ -10,15 +10,40 @@ bbsim.makeTransport = (picture) => {
   const steps = Number(scrub.max);
 
   const timeText = (t) => t.toFixed(decimals).replace('-', '−');
+  // A run that ended between two rows ended when it says, to six digits.
+  const early = lead.status && lead.status !== 'done';
+  const isOver = (t) => early && t >= lead.last - 1e-9 * Math.max(1, Math.abs(lead.last));
+  const endText = early && end === lead.last && timeText(lead.reached) * 1 !== lead.reached ? text.number(lead.reached, 6) : timeText(end);
+  const shownTime = (t) => (isOver(t) && t === end ? endText : timeText(t));
+  const put = (node, words) => { if (node.textContent !== words) node.textContent = words; };
+  time.append(text.element('b', {}), ` / ${endText} s`);
 
   function showTime(t) {
     scrub.value = end > start ? Math.round((t - start) / (end - start) * steps) : 0;
     scrub.style.setProperty('--done', `${end > start ? 100 * (t - start) / (end - start) : 0}%`);
-    scrub.setAttribute('aria-valuetext', `${timeText(t)} s of ${timeText(end)} s`);
-    time.replaceChildren(text.element('b', {}, timeText(t)), ` / ${timeText(end)} s`);
-    showLevel();
-    const over = lead.status && lead.status !== 'done' && t >= lead.last - 1e-9 * Math.max(1, Math.abs(lead.last));
-    get('ended').hidden = !over;
+    scrub.setAttribute('aria-valuetext', `${shownTime(t)} s of ${endText} s`);
+    put(time.firstChild, shownTime(t));
+    showLevel(t);
+    showMissing(t);
+    get('ended').hidden = !isOver(t);
+  }
+
+  // What of the picture is not what it seems to be.
+  function showMissing(t) {
+    const words = [], place = lead.placeAt(t);
+    if (place === 'beyond') words.push(`The ball is ${far(t)}: it is not drawn.`);
+    if (place === 'missing') words.push('Where the ball is now is not recorded: it is left where it was.');
+    if (bbsim.tilt(lead, t) === null) {
+      words.push(lead.hasAngles ? 'The tilt is not recorded here: the plate is drawn level.' : 'No tilt was recorded: the plate is drawn level.');
+    }
+    put(get('missing'), words.join(' '));
+    get('missing').hidden = words.length === 0;
+  }
+
+  const unit = lead.unitsKnown ? ' m' : '';
+  function far(t) {
+    const row = lead.nearest(t), size = Math.max(Math.abs(lead.values('x')[row]), Math.abs(lead.values('y')[row]));
+    return size === Infinity ? 'farther away than the page has numbers for' : `${text.number(size)}${unit} away`;
   }
 
   function showState() {
@@ -31,21 +56,32 @@ bbsim.makeTransport = (picture) => {
   // The level's full scale: the first of these that holds the run's largest tilt.
   const scale = (() => {
     const largest = Math.hypot(...['phi', 'theta'].map((name) => (lead.columns.get(name) || {size: 0}).size));
-    const degrees = text.degrees * (largest + Math.abs(lead.mounting.baseTilt));
+    const degrees = text.degrees * (Math.min(largest, Math.PI) + Math.abs(lead.mounting.baseTilt));
     return [0.1, 0.2, 0.5, 1, 2, 5, 10, 20, 45, 90, 180].find((s) => degrees <= s) || 180;
   })();
-  get('level-scale').textContent = `of ${scale}°`;
   get('level').title = 'Tilt of the plate: the dot is where downhill is, in the plate\'s own axes';
 
-  function showLevel() {
-    if (!picture) return;
-    const tilt = picture.tilt(), degrees = tilt.angle * text.degrees;
+  let lastTilt;
+  function showLevel(t) {
+    const tilt = bbsim.tilt(lead, t), same = tilt && lastTilt && ['angle', 'x', 'y'].every((name) => tilt[name] === lastTilt[name]);
+    if (same || (tilt === null && lastTilt === null)) return;
+    lastTilt = tilt;
+    get('level').classList.toggle('missing', tilt === null);
+    get('level-bubble').setAttribute('visibility', tilt ? 'visible' : 'hidden');
+    get('level-unknown').setAttribute('visibility', tilt ? 'hidden' : 'visible');
+    get('level-scale').textContent = tilt ? `of ${scale}°` : 'not known';
+    if (tilt === null) {
+      get('level-slope').setAttribute('d', '');
+      put(get('level-tilt'), '–');
+      return;
+    }
+    const degrees = tilt.angle * text.degrees;
     const far = Math.min(1, degrees / scale) * 46, length = Math.hypot(tilt.x, tilt.y) || 1;
     const x = tilt.x / length * far, y = -tilt.y / length * far;
     get('level-bubble').setAttribute('cx', x.toFixed(2));
     get('level-bubble').setAttribute('cy', y.toFixed(2));
     get('level-slope').setAttribute('d', `M0 0L${x.toFixed(2)} ${y.toFixed(2)}`);
-    get('level-tilt').textContent = `${text.steady(degrees, scale)}°`;
+    put(get('level-tilt'), `${text.steady(degrees, scale)}°`);
   }
 
   scrub.addEventListener('input', () => {
@@ -76,9 +112,9 @@ bbsim.makeTransport = (picture) => {
     const [why] = lead.reason.split('\n');
     get('ended').textContent = text.visible(why ? why[0].toUpperCase() + why.slice(1) : `The run ended here: ${lead.status}`);
   }
-  clock.onTime(showTime);
+  clock.onTimeRelaxed(showTime);
   clock.onState(showState);
   showTime(clock.now);
   showState();
-  return {timeText};
+  return {timeText, shownTime};
 };

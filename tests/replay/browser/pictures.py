@@ -1,10 +1,11 @@
 """Takes the pictures of docs/replay.md: pictures.py BBSIM MAKE_PAGE TEMPLATE SOURCE FOLDER"""
 
 import os
+import subprocess
 import sys
 
 folder = os.path.abspath(sys.argv[5])
-from test_replay import Comparison, files  # noqa: E402: it reads the command line
+from test_replay import BBSIM, SOURCE, Comparison, files  # noqa: E402: it reads the command line
 from webdriver import Browser, small_png  # noqa: E402
 
 
@@ -18,10 +19,16 @@ def take(name, page, script, width, height, **options):
             picture.write(small_png(browser.picture()))
 
 
+def replay(config):
+    page = files("picture-" + config + ".html")
+    subprocess.run([BBSIM, "replay", files.config(config), "-o", page, "-q"], cwd=SOURCE, check=False)
+    return "file://" + page
+
+
 os.makedirs(folder, exist_ok=True)
-take("replay-rig", files.replay("rig"), "bbsim.seek(12.4)", 1100, 700)
-take("replay-falls", files.replay("falls"), "bbsim.seek(9)", 1100, 700, dark=True)
-take("replay-phone", files.replay("fig2b"), "bbsim.seek(3)", 400, 800, phone=True)
+take("replay-rig", replay("rig"), "bbsim.seek(12.4)", 1100, 700)
+take("replay-falls", replay("falls"), "bbsim.seek(9)", 1100, 700, dark=True)
+take("replay-phone", replay("fig2b"), "bbsim.seek(3)", 400, 800, phone=True)
 take("replay-compare", Comparison().page(), "bbsim.seek(1.2)", 1100, 700)
 gains, _ = files.sweep("map", "fig2b", "--vary", "controller.pd.kv.0.0=linear:0.2:4:31", "--vary",
                        "controller.pd.kp.0.0=linear:0:8:25")

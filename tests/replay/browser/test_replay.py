@@ -6,10 +6,12 @@ with the program, tests/replay/make_page, share/bbsim/replay.html and the reposi
 """
 
 import atexit
+import base64
 import csv
 import json
 import math
 import os
+import re
 import shlex
 import shutil
 import subprocess
@@ -455,10 +457,10 @@ class Sweeps(InBrowser):
         words[words.index("-o") + 1] = output
         subprocess.run([BBSIM, *words[1:], "--set", "time.end=3", "-q"], cwd=SOURCE, check=True)
         self.near(rows_of(output)[-1]["x"], float(case["x_end"]), 1e-6)
-        # Keys go from case to case, along the axes.
+        # Keys go from case to case, along the axes: as in a plot, the first key goes across.
         self.js("document.querySelector('.drawing canvas').focus()")
         self.browser.keys("\ue014")
-        self.assertEqual(self.browser.text(".case h3"), "Case 9")
+        self.assertEqual(self.browser.text(".case h3"), "Case 13")
         self.browser.keys("\ue013")
         self.assertEqual(self.browser.text(".case h3"), "Case 14")
         for kind in ["lines", "histogram", "map"]:
@@ -487,9 +489,11 @@ class Sweeps(InBrowser):
         shown = "Array.from({length: 24}, (_, i) => bbsim.sweeps[0].placeOf(i)).map((at, i) => at ? i : -1).filter((i) => i >= 0)"
         with open(table, newline="") as stream:
             cases = list(csv.DictReader(stream))
-        for level, gain in [(0, "0.5"), (2, "1.5")]:
-            self.js(f"[{state}.fixed.set('controller.pd.kp.0.0', {level}), bbsim.sweeps[0].refresh()]")
-            self.assertEqual(self.js(shown), [i for i in range(24) if cases[i]["controller.pd.kp.0.0"] == gain])
+        # Of the two with the most values, as in a plot, are the axes; the third one has a slider.
+        self.assertEqual(self.js(f"[{state}.x, {state}.y]"), [0, 1])
+        for level, place in [(0, "0.01"), (1, "0.03")]:
+            self.js(f"[{state}.fixed.set('ball.position.0', {level}), bbsim.sweeps[0].refresh()]")
+            self.assertEqual(self.js(shown), [i for i in range(24) if cases[i]["ball.position.0"] == place])
         self.assertIn("controller.pd.kp.0.0, controller.pd.kp.1.1", self.browser.text(".controls"))
         page, _ = files.sweep("one-tied", "hold", "--vary", "controller.pd.kp.0.0,-controller.pd.kp.1.1=linear:0.5:1.5:5",
                               "--set", "time.end=2")
@@ -615,6 +619,500 @@ class Texts(InBrowser):
 
 def self_sweep():
     return files.sweep("delay", "falls", "--vary", "controller.sensor.delay=linear:0:0.2:11")[0]
+
+
+class Made(InBrowser):
+    """Pages that bbsim itself makes, of anything that it takes."""
+
+    def page_of(self, name, *arguments):
+        """Of these files; what is to be told of them is told by code 0 or 1."""
+        file = files("made-" + name + ".html")
+        if not os.path.exists(file):
+            made = subprocess.run([BBSIM, "replay", *arguments, "-o", file, "-q"], cwd=SOURCE, capture_output=True)
+            self.assertIn(made.returncode, [0, 1], made.stderr)
+        return "file://" + file
+
+    def show(self, name, *arguments):
+        self.open(self.page_of(name, *arguments))
+
+    def quaternion(self):
+        return self.js("[bbsim.picture.draw(), ...bbsim.picture.actors[0].ball.mesh.quaternion.toArray()].slice(1)")
+
+    def wait(self, condition, seconds=20):
+        """Until it is true in the page; what it was at last."""
+        return self.browser.call("POST", "/execute/async", {"script": f"""
+            const done = arguments[0], until = Date.now() + {seconds} * 1000;
+            const look = () => {{ const is = {condition}; if (is || Date.now() > until) done(is); else setTimeout(look, 20); }};
+            look();""", "args": []})
+
+
+class Turns(Made):
+    def test_of_a_ball_that_slides_are_its_own(self):
+        """20 rad/s about x and -110 about y at the start, as the scene says, where rolling would be 34.6 about y."""
+        self.show("slides", "configs/slides.yaml")
+        self.js("bbsim.seek(0.02)")
+        x, y, z, w = self.quaternion()
+        turned = 2 * math.acos(min(1, abs(w)))
+        # In 20 ms friction takes 6.9 m/s^2 / 0.026 m * 20 ms = 5 rad/s of it.
+        self.near(turned, 0.02 * math.sqrt(20**2 + 110**2 + 15**2), 0.06)
+        size = math.copysign(math.sqrt(1 - w * w), w)
+        self.near(y / size, -110 / math.sqrt(20**2 + 110**2 + 15**2), 0.05)
+        self.assertTrue(self.js("bbsim.data.runs[0].orientationGiven"))
+
+    def test_that_nobody_knows_are_not_drawn(self):
+        subprocess.run([BBSIM, "run", "configs/slides.yaml", "-q", "--set", "output.columns=[t,x,y,vx,vy]", "-o",
+                        files("sl.csv"), "--summary", files("sl.json")], cwd=SOURCE, check=False)
+        self.show("sl", files("sl.csv"))
+        self.assertFalse(self.js("bbsim.data.runs[0].turns"))
+        self.js("bbsim.seek(1)")
+        self.assertEqual(self.quaternion(), [0, 0, 0, 1])
+        self.assertIn("How the ball turns is not known", self.browser.text("#details"))
+        self.assertIn("how the ball turns is not known", self.browser.text(".scale"))
+        # A log tells no more.
+        with open(files("xy.csv"), "w") as stream:
+            stream.write("t,x,y\n0,0,0\n1,0.01,0\n2,0.02,0.01\n")
+        self.show("xy", files("xy.csv"))
+        self.assertFalse(self.js("bbsim.data.runs[0].turns"))
+
+    def test_follow_from_columns_that_tell(self):
+        """Slip, velocity and spin are enough."""
+        subprocess.run([BBSIM, "run", "configs/slides.yaml", "-q", "-o", files("told.csv"), "--summary", files("told.json")],
+                       cwd=SOURCE, check=False)
+        self.show("told", files("told.csv"))
+        self.assertTrue(self.js("bbsim.data.runs[0].turns"))
+        self.js("bbsim.seek(0.02)")
+        self.near(2 * math.acos(min(1, abs(self.quaternion()[3]))), 0.02 * math.sqrt(20**2 + 110**2 + 15**2), 0.06)
+
+
+class ManyRuns(Made):
+    def test_seven_have_their_picture_and_are_told_apart(self):
+        tables = []
+        for n in range(7):
+            tables.append(files(f"many{n}.csv"))
+            subprocess.run([BBSIM, "run", "configs/hold.yaml", "-q", "--set", f"controller.pd.kp.0.0={0.5 + 0.1 * n}", "-o",
+                            tables[-1]], cwd=SOURCE, check=True)
+        self.show("many", *tables)
+        self.assertTrue(self.js("document.getElementById('trouble').hidden"))
+        self.assertFalse(self.js("document.getElementById('picture').hidden"))
+        self.assertEqual(self.js("bbsim.picture.actors.length"), 7)
+        looks = self.js("bbsim.data.runs.map((run) => bbsim.palette.run(run.index) + bbsim.palette.dash(run.index))")
+        self.assertEqual(len(set(looks)), 7)
+        # All over one stretch of time, which is named.
+        ranges = self.js("bbsim.plots.plots.filter((p) => p.graph).map((p) => p.graph.xAxisRange())")
+        self.assertEqual(len({tuple(one) for one in ranges}), 1)
+        self.assertEqual(self.js("document.querySelector('.dygraph-xlabel').textContent"), "t (s)")
+
+    def test_that_end_early_and_late_have_one_span(self):
+        self.show("spans", "configs/falls.yaml", "configs/fig2a.yaml")
+        ranges = self.js("bbsim.plots.plots.filter((p) => p.graph).map((p) => p.graph.xAxisRange())")
+        self.assertGreater(len(ranges), 2)
+        for low, high in ranges:
+            self.near(low, 0, 1e-3)
+            self.near(high, 10, 1e-3)
+        self.assertEqual(self.js("document.querySelector('.dygraph-xlabel').textContent"), "t (s)")
+
+    def test_of_units_that_nobody_tells_have_none(self):
+        with open(files("cm.csv"), "w") as stream:
+            stream.write("t,x,y,phi,phi_command,torque_phi,mine\n")
+            for i in range(20):
+                stream.write(f"{0.1 * i:.1f},{-12 + i},{3 - 0.1 * i:.1f},{i % 3},{i % 4},{i % 5},{i}\n")
+        self.show("cm", files("cm.csv"))
+        self.assertEqual(self.js("[...document.querySelectorAll('.plot h3 small')].map((e) => e.textContent)"), [])
+        self.assertNotIn("mm", self.browser.text(".scale"))
+        self.assertNotIn(" m", self.browser.text(".scale"))
+        self.assertEqual(self.js("document.querySelector('.dygraph-xlabel').textContent"), "t")
+        # Every column has its plot all the same, in the numbers of the file.
+        shown = set(self.js("bbsim.plots.plots.flatMap((p) => p.curves.map((c) => c.name))"))
+        self.assertEqual(shown, {"x", "y", "phi", "phi_command", "torque_phi", "mine"})
+        self.js("bbsim.seek(0.5)")
+        self.assertEqual(float(self.browser.text(".plot .legend li:first-child output").replace("−", "-")), -7)
+
+
+class TheStage(Made):
+    def inside(self, t):
+        """Whether the ball is in the picture at that time, and on the plate that is drawn."""
+        self.js("bbsim.seek(arguments[0])", t)
+        x, y = self.js("bbsim.ballOnScreen()")
+        left, top, width, height = self.js("bbsim.view().canvas")
+        self.assertTrue(left < x < left + width and top < y < top + height, (t, x, y))
+        place = self.js("bbsim.data.runs[0].placeAt(bbsim.clock.now)")
+        stage = self.js("bbsim.data.scene.stage")
+        self.assertLessEqual(abs(place[0]), stage["width"] / 2)
+        self.assertLessEqual(abs(place[1]), stage["depth"] / 2)
+
+    def test_holds_the_whole_path_in_view(self):
+        for scene in ["hold", "hard/pulse", "hard/unstable", "fig2a", "incline"]:
+            with self.subTest(scene):
+                self.show(scene.replace("/", "-"), f"configs/{scene}.yaml")
+                end = self.js("bbsim.data.end")
+                for k in range(9):
+                    self.inside(end * k / 8)
+                # Its corners, too, at every tilt.
+                for k in range(9):
+                    self.js("[bbsim.seek(arguments[0]), bbsim.picture.draw()]", end * k / 8)
+                    corners = self.js("""[[-1, -1], [-1, 1], [1, -1], [1, 1]].map(([x, y]) => {
+                        const {width, depth} = bbsim.data.scene.stage;
+                        const v = new THREE.Vector3(x * width / 2, y * depth / 2, 0).applyMatrix4(bbsim.picture.rig.plane.matrixWorld);
+                        v.project(bbsim.picture.eyes.camera); return [v.x, v.y]; })""")
+                    self.assertLessEqual(max(abs(c) for corner in corners for c in corner), 1, scene)
+
+    def test_of_one_axis_is_a_beam(self):
+        self.show("beam", "configs/beam.yaml")
+        stage = self.js("bbsim.data.scene.stage")
+        self.assertLess(stage["depth"], stage["width"] / 3)
+
+    def test_a_ball_too_small_to_be_seen_has_a_marker_of_constant_size(self):
+        sizes = {}
+        for scene in ["fig2a", "hard/ball-10um", "rig"]:
+            self.show(scene.replace("/", "-"), f"configs/{scene}.yaml")
+            self.js("bbsim.picture.draw()")
+            marker = "bbsim.picture.actors[0].marker"
+            sizes[scene] = self.js(f"""(() => {{ if (!{marker}.visible) return 0;
+                const on = (x) => {{ const v = new THREE.Vector3(x, 0, 0).applyMatrix4({marker}.matrixWorld).project(bbsim.picture.eyes.camera);
+                  return v.x * bbsim.view().canvas[2] / 2; }};
+                return on(9) - on(-9); }})()""")
+        self.assertEqual(sizes["rig"], 0)
+        self.near(sizes["fig2a"], 18, 0.5)
+        self.near(sizes["hard/ball-10um"], 18, 0.5)
+
+    def test_the_view_of_the_ball_goes_with_it(self):
+        self.show("hard-ball-10um", "configs/hard/ball-10um.yaml")
+        self.browser.keys("6")
+        for t in [0, 3.3, 10]:
+            self.js("[bbsim.seek(arguments[0]), bbsim.picture.draw()]", t)
+            x, y = self.js("bbsim.ballOnScreen()")
+            left, top, width, height = self.js("bbsim.view().canvas")
+            self.near(x, left + width / 2, 1)
+            self.near(y, top + height / 2, 1)
+            # A sixth of half the picture's height.
+            radius = self.js("""(() => { const {ball} = bbsim.picture.actors[0], {camera} = bbsim.picture.eyes;
+                const p = ball.mesh.getWorldPosition(new THREE.Vector3()), q = p.clone().project(camera);
+                const up = new THREE.Vector3().setFromMatrixColumn(camera.matrixWorld, 1).multiplyScalar(1e-5 / bbsim.picture.rig.size);
+                return (p.add(up).project(camera).y - q.y) * bbsim.view().canvas[3] / 2; })()""")
+            self.near(radius, height / 12, 1)
+            self.assertFalse(self.js("bbsim.picture.actors[0].marker.visible"))
+
+    def test_what_is_ahead_is_seen(self):
+        """The dashes of the way to come, against the plate: as far from it as a line of text has to be."""
+        self.show("fig2a", "configs/fig2a.yaml")
+        apart = self.js("""(() => { const c = bbsim.picture.actors[0].future.material.color, p = new THREE.Color(bbsim.palette.now().plate);
+            const light = (k) => { const f = (v) => (v <= 0.03928 ? v / 12.92 : ((v + 0.055) / 1.055) ** 2.4);
+              return 0.2126 * f(k.r) + 0.7152 * f(k.g) + 0.0722 * f(k.b) + 0.05; };
+            return Math.max(light(c), light(p)) / Math.min(light(c), light(p)); })()""")
+        self.assertGreater(apart, 2)
+
+    def test_infinite_values_are_said(self):
+        self.show("overflow", "configs/hard/overflow.yaml")
+        self.assertEqual(self.browser.console(), [])
+        self.js("bbsim.seek(50000)")
+        self.assertFalse(self.js("document.getElementById('missing').hidden"))
+        self.assertIn("it is not drawn", self.browser.text("#missing"))
+        self.assertIn("∞", self.browser.text(".plot .legend li:first-child output"))
+        self.assertNotIn("e154", self.browser.text(".scale"))
+        self.assertIn("there it is not drawn", self.browser.text("#details"))
+        self.assertTrue(all(math.isfinite(v) for v in self.js("bbsim.view().view")))
+        self.js("bbsim.seek(0)")
+        self.assertTrue(self.js("document.getElementById('missing').hidden"))
+
+
+class Missing(Made):
+    def test_angles_are_said_to_be_missing(self):
+        with open(files("gaps.csv"), "w") as stream:
+            stream.write("t,x,y,phi,theta\n")
+            for i in range(11):
+                angles = "," if 3 <= i <= 7 else "0.02,0.03"
+                stream.write(f"{i},0.0{i},0,{angles}\n")
+        self.show("gaps", files("gaps.csv"))
+        self.assertTrue(self.js("document.getElementById('missing').hidden"))
+        self.assertIn("°", self.browser.text("#level-tilt"))
+        self.js("bbsim.seek(5)")
+        self.assertIn("tilt is not recorded", self.browser.text("#missing"))
+        self.assertFalse(self.js("document.getElementById('missing').hidden"))
+        self.assertNotIn("°", self.browser.text("#level-tilt"))
+        self.assertEqual(self.js("document.getElementById('level-bubble').getAttribute('visibility')"), "hidden")
+        self.js("bbsim.seek(9)")
+        self.assertEqual(self.browser.text("#level-tilt"), "2.066°")
+        # None at all: a log of places.
+        with open(files("places.csv"), "w") as stream:
+            stream.write("t,x,y\n0,0,0\n1,0.1,0.1\n")
+        self.show("places", files("places.csv"))
+        self.assertIn("No tilt was recorded", self.browser.text("#missing"))
+
+
+class TheEnd(Made):
+    def test_is_where_the_event_was(self):
+        for name, arguments in [("falls", ["configs/falls.yaml"]), ("falls-csv", [files("end.csv")])]:
+            if name == "falls-csv":
+                subprocess.run([BBSIM, "run", "configs/falls.yaml", "-q", "-o", files("end.csv"), "--summary", files("end.json")],
+                               cwd=SOURCE, check=False)
+            with self.subTest(name):
+                self.show(name, *arguments)
+                self.browser.keys("\ue010")  # End
+                place = self.js("bbsim.data.runs[0].placeAt(bbsim.clock.now)")
+                self.near(place[0], 0.16, 1e-8)
+                time = "0.542322"
+                self.assertIn(f"stopped at {time} s of 8 s", self.browser.text("#subtitle"))
+                self.assertIn(f"at t = {time} s of 8 s", self.browser.text("#ended"))
+                self.assertIn(f"{time} / {time} s", self.browser.text("#time"))
+                x, y = self.js("bbsim.ballOnScreen()")
+                row = {"x": 0.16, "y": -0.020345410307771216, "phi": -0.2396367700421219, "theta": -0.07284538574323257}
+                wanted = on_screen(self.js("bbsim.view()"), row, 0.02)
+                self.near(x, wanted[0], 0.1)
+                self.near(y, wanted[1], 0.1)
+                self.assertIn("All 28 rows are in this page", self.browser.text("#details"))
+
+    def test_of_a_run_without_a_second_row_has_its_time(self):
+        self.show("creep", "configs/hard/creep.yaml")
+        self.assertIn("failed at 1.67535e−5 s of 13 s", self.browser.text("#subtitle"))
+        self.assertIn("1.67535e−5 / 1.67535e−5 s", self.browser.text("#time"))
+
+
+class WithoutColour(Made):
+    def test_no_two_curves_of_a_plot_are_alike(self):
+        for scene in ["rig", "slides", "torque-lqr", "three-servos", "hold", "fig2b"]:
+            self.show(scene, f"configs/{scene}.yaml")
+            plots = self.js("""bbsim.plots.plots.map((p) => p.curves.map((c) =>
+                JSON.stringify([c.pattern, c.dots, c.width > 3, (c.width || 1.8) < 1.5])))""")
+            for looks in plots:
+                self.assertEqual(len(set(looks)), len(looks), (scene, looks))
+
+
+class Links(Made):
+    def test_nonsense_in_an_address_throws_nothing(self):
+        page = self.page_of("rig", "configs/rig.yaml")
+        self.open(page + "#t=%&view=above&zoom=%E0%A4&x=%")
+        self.assertEqual(self.js("bbsim.picture.eyes.view"), "above")
+        self.browser.keys("\ue014")
+        self.near(self.js("bbsim.clock.now"), 0.02, 1e-12)
+        self.assertEqual(self.browser.console(), [])
+
+    def test_zoom_is_kept_and_follows_the_time(self):
+        page = self.page_of("rig", "configs/rig.yaml")
+        self.open(page)
+        self.js("bbsim.plots.zoom([10, 14])")
+        self.js("bbsim.seek(12)")
+        self.wait("location.hash.includes('zoom=10,14')")
+        self.assertIn("zoom=10,14", self.js("location.hash"))
+        self.open(page + "#t=12&zoom=10,14")
+        first = "bbsim.plots.plots[0].graph.xAxisRange()"
+        self.assertEqual(self.js(first), [10, 14])
+        self.js("bbsim.seek(14.5)")
+        low, high = self.js(first)
+        self.assertTrue(low <= 14.5 <= high)
+        self.near(high - low, 4, 1e-9)
+        self.js("bbsim.seek(3)")
+        low, high = self.js(first)
+        self.assertTrue(low <= 3 <= high)
+
+
+class Hands(Made):
+    def wheel(self, x, y, modifiers=0):
+        self.browser.devtools("Input.dispatchMouseEvent", {"type": "mouseWheel", "x": x, "y": y, "deltaX": 0, "deltaY": 120,
+                                                           "modifiers": modifiers})
+        self.browser.frame()
+
+    def test_a_wheel_scrolls_the_page_until_the_view_is_clicked(self):
+        self.open(self.page_of("rig", "configs/rig.yaml"))
+        box = self.js("document.getElementById('canvas').getBoundingClientRect().toJSON()")
+        x, y = box["left"] + 200, box["top"] + 300
+        distance = "Math.hypot(...bbsim.picture.eyes.state().slice(0, 3))"
+        before = self.js(distance)
+        self.wheel(x, y)
+        self.assertTrue(self.wait("window.scrollY > 0"))
+        self.assertEqual(self.js(distance), before)
+        self.assertFalse(self.js("document.getElementById('hint').hidden"))
+        self.wheel(x, y, modifiers=2)  # Ctrl
+        zoomed = self.js(distance)
+        self.assertGreater(zoomed, before)
+        self.js("window.scrollTo(0, 0)")
+        self.browser.click_at(x, y)
+        self.wheel(x, y)
+        self.assertGreater(self.js(distance), zoomed)
+        self.assertEqual(self.js("window.scrollY"), 0)
+
+    def test_a_finger_scrolls_the_page_until_the_view_is_tapped(self):
+        self.open(self.page_of("rig", "configs/rig.yaml"))
+        box = self.js("document.getElementById('canvas').getBoundingClientRect().toJSON()")
+        x, y = box["left"] + 200, box["top"] + 300
+        touch = lambda kind, *points: self.browser.devtools("Input.dispatchTouchEvent", {
+            "type": kind, "touchPoints": [{"x": px, "y": py} for px, py in points]})
+        eye = lambda: self.js("bbsim.picture.eyes.state()")
+        action = "getComputedStyle(document.getElementById('canvas')).touchAction"
+        before = eye()
+        touch("touchStart", (x, y))
+        touch("touchMove", (x + 40, y))
+        touch("touchEnd")
+        self.browser.frame()
+        self.assertEqual(eye(), before)
+        self.assertEqual(self.js(action), "pan-y")
+        touch("touchStart", (x, y))
+        touch("touchEnd")
+        self.assertTrue(self.wait("document.activeElement.id === 'canvas'"))
+        self.assertEqual(self.js(action), "none")
+        touch("touchStart", (x, y))
+        touch("touchMove", (x + 20, y))
+        touch("touchMove", (x + 60, y))
+        touch("touchEnd")
+        self.browser.frame()
+        self.assertNotEqual(eye(), before)
+
+
+class Words(Made):
+    def test_of_events_are_not_printed_over_each_other(self):
+        self.show("slides", "configs/slides.yaml")
+        self.assertEqual(self.js("""(() => { const wanted = Array.from({length: 6}, (_, i) => ({x: 3 * i, y: 0, width: 40, height: 12}));
+            const up = bbsim.placeLabels(wanted);
+            const boxes = wanted.map((w, i) => up[i] === null ? null : [w.x - 20, -up[i] - 6, w.x + 20, -up[i] + 6]).filter(Boolean);
+            return [boxes.length > 1, boxes.some((a, i) => boxes.some((b, k) => i < k && a[0] < b[2] && b[0] < a[2] && a[1] < b[3] && b[1] < a[3]))]; })()"""),
+            [True, False])
+
+    def test_of_marks_are_above_their_rims(self):
+        """Rims drawn later than what they surround had hidden it."""
+        self.show("slides", "configs/slides.yaml")
+        orders = self.js("bbsim.picture.rig.plane.children.flatMap((group) => group.children).filter((mark) => mark.children.length === 2)"
+                         ".map((mark) => mark.children.map((part) => part.renderOrder))")
+        marks = [order for order in orders if order[0] != order[1]]
+        self.assertGreaterEqual(len(marks), 3)
+        for rim, inner in marks:
+            self.assertGreater(inner, rim)
+
+    def test_of_motors_are_a_table_with_units(self):
+        self.show("rig", "configs/rig.yaml")
+        table = self.browser.text(".motors")
+        for word in ["torque φ", "N·m", "power", "mW", "s"]:
+            self.assertIn(word, table)
+
+
+class Pace(Made):
+    def test_slow_pictures_have_fewer_pixels_and_then_are_flat(self):
+        self.show("rig", "configs/rig.yaml")
+        # As many pictures as are looked at, each after this time; the page's own frames stand still.
+        self.js("[window.fake = 0, performance.now = () => window.fake, window.requestAnimationFrame = () => 0, bbsim.clock.play()]")
+        frames = "Array.from({length: arguments[0]}, () => [window.fake += arguments[1], bbsim.seek(bbsim.clock.now + 1e-3)]).length"
+        self.js(frames, 30, 20)
+        ratio = "bbsim.picture.renderer.getPixelRatio()"
+        self.assertEqual(self.js(ratio), 1)
+        self.js(frames, 8, 60)
+        self.assertEqual(self.js(ratio), 0.5)
+        self.assertFalse(self.js("bbsim.screen.isFlat"))
+        self.js("bbsim.clock.pause()")
+        self.assertEqual(self.js(ratio), 1)  # what stands still has all of them
+        self.js("bbsim.clock.play()")
+        self.js(frames, 8, 120)
+        self.assertTrue(self.js("bbsim.screen.isFlat"))
+        self.assertFalse(self.js("document.getElementById('flat').hidden"))
+        self.assertTrue(self.js("document.getElementById('picture').hidden"))
+        self.assertIn("pictures a second", self.browser.text("#hint"))
+        # Who asks for three dimensions gets them, and keeps them.
+        self.browser.click("[data-view=above]")
+        self.assertFalse(self.js("bbsim.screen.isFlat"))
+        self.js(frames, 30, 120)
+        self.assertFalse(self.js("bbsim.screen.isFlat"))
+
+    def test_what_has_not_changed_is_not_drawn_again(self):
+        self.show("rest", "configs/hard/rest.yaml")
+        draws = lambda: self.js("bbsim.picture.draws")
+        self.js("bbsim.seek(1e5)")
+        self.browser.frame()
+        before = draws()
+        for t in [2e5, 3.3e5, 7e5]:
+            self.js("bbsim.seek(arguments[0])", t)
+            self.browser.frame()
+        self.assertEqual(draws(), before)
+        self.js("bbsim.picture.eyes.turn(0.1, 0)")
+        self.browser.frame()
+        self.assertEqual(draws(), before + 1)
+
+    def test_numbers_of_plots_are_written_only_where_they_change(self):
+        self.show("rest", "configs/hard/rest.yaml")
+        self.js("""[window.written = 0, new MutationObserver((seen) => { window.written += seen.length; }).observe(
+            document.getElementById('plots'), {subtree: true, childList: true, characterData: true})]""")
+        for t in [1e5, 2e5, 3e5]:
+            self.js("bbsim.seek(arguments[0])", t)
+            self.browser.frame()
+        self.assertEqual(self.js("window.written"), 0)
+
+
+class Flat(Made):
+    def test_shows_the_ball_where_the_rows_say(self):
+        self.show("rig", "configs/rig.yaml")
+        self.browser.keys("7")
+        self.assertTrue(self.js("bbsim.screen.isFlat"))
+        box = self.js("document.getElementById('flat-canvas').getBoundingClientRect().toJSON()")
+        scale = None
+        for t in [0, 7.3, 24]:
+            self.js("bbsim.seek(arguments[0])", t)
+            x, y = self.js("bbsim.ballOnScreen()")
+            px, py = self.js("bbsim.data.runs[0].placeAt(bbsim.clock.now)")
+            dx, dy = x - box["left"] - box["width"] / 2, y - box["top"] - box["height"] / 2
+            scale = scale or math.hypot(dx, dy) / math.hypot(px, py)
+            self.near(dx, scale * px, 0.05)
+            self.near(dy, -scale * py, 0.05)
+        # And draws it there.
+        self.browser.frame()
+        piece = self.js("""(() => { const b = [...document.querySelectorAll('#flat .piece')].pop().getBoundingClientRect();
+            return [b.left + b.width / 2, b.top + b.height / 2]; })()""")
+        self.near(piece[0], x, 1)
+        self.near(piece[1], y, 1)
+        self.assertIn("view=flat", self.wait("location.hash.includes('view=flat') && location.hash"))
+        self.browser.keys("1")
+        self.assertFalse(self.js("bbsim.screen.isFlat"))
+
+
+class Paper(Made):
+    def pages(self):
+        pdf = base64.b64decode(self.browser.devtools("Page.printToPDF", {"paperWidth": 8.27, "paperHeight": 11.69})["data"])
+        return len(re.findall(rb"/Type\s*/Page[^s]", pdf))
+
+    def test_has_two_sheets_at_most_all_plots_and_a_round_ball(self):
+        for scene in ["rig", "falls", "fig2a", "slides", "torque-lqr", "three-servos", "pushrod", "hard/overflow"]:
+            with self.subTest(scene):
+                self.show(scene.replace("/", "-"), f"configs/{scene}.yaml")
+                self.assertLessEqual(self.pages(), 2)
+        self.show("rig", "configs/rig.yaml")
+        self.js("bbsim.print.begin()")
+        drawn = self.js("""bbsim.plots.plots.map(({canvas}) => { const c = canvas.querySelector('canvas.printed');
+            const bytes = c.getContext('2d').getImageData(0, 0, c.width, c.height).data; let inked = 0;
+            for (let i = 3; i < bytes.length; i += 4) inked += bytes[i] > 0; return inked / (bytes.length / 4); })""")
+        self.assertGreater(len(drawn), 4)
+        self.assertGreater(min(drawn), 0.005)
+        # As wide for its height as it was drawn.
+        width, height, shown_width, shown_height = self.js("""(() => { const c = document.querySelector('#screen > canvas.printed'),
+            b = c.getBoundingClientRect(); return [c.width, c.height, b.width, b.height]; })()""")
+        self.near(width / height, shown_width / shown_height, 0.01)
+        self.js("bbsim.print.end()")
+        self.assertEqual(self.js("document.querySelectorAll('canvas.printed').length"), 0)
+        self.assertEqual(self.js("document.documentElement.className"), "")
+        # So it is where a browser only shows what it would print.
+        self.browser.devtools("Emulation.setEmulatedMedia", {"media": "print"})
+        self.assertTrue(self.wait("document.querySelectorAll('canvas.printed').length > 5"))
+        self.browser.devtools("Emulation.setEmulatedMedia", {"media": "", "features": [
+            {"name": "prefers-color-scheme", "value": "light"}, {"name": "prefers-reduced-motion", "value": "reduce"}]})
+        self.assertTrue(self.wait("document.querySelectorAll('canvas.printed').length === 0"))
+        # The picture on the screen is as it was.
+        left, top, width, height = self.js("bbsim.view().canvas")
+        self.near(self.js("bbsim.picture.eyes.camera.aspect"), width / height, 0.01)
+
+
+class SweepPages(Made):
+    def sweep_page(self, name, text):
+        with open(files(name + ".csv"), "w") as stream:
+            stream.write(text)
+        self.show(name, files(name + ".csv"))
+
+    def test_say_how_many_cases_they_show(self):
+        rows = "".join(f"{i},{i // 300},{i % 300},done,1,{(i % 7) / 7}\n" for i in range(90000))
+        self.sweep_page("thinned", "case,a,b,status,end_time,max_tilt\n" + rows)
+        self.assertIn("22,500 of 90,000 shown", self.browser.text("#sweeps"))
+        # As in a plot, the first of two keys goes across; what the colours are of is said.
+        self.assertEqual(self.js("[bbsim.sweeps[0].state.x, bbsim.sweeps[0].state.y]"), [0, 1])
+        self.assertEqual(self.js("[...document.querySelectorAll('.over .name')].map((e) => e.textContent)").count("max tilt, rad"), 1)
+
+    def test_with_one_case_that_is_done_show_it(self):
+        self.sweep_page("one-done", "case,a,status,end_time,max_distance\n0,1,failed,0.1,9\n1,2,done,1,0.02\n2,3,failed,0.1,9\n")
+        self.assertEqual(self.browser.text(".case h3"), "Case 1")
+        ticks = [float(text.replace("−", "-")) for text in self.js("[...document.querySelectorAll('.over text[text-anchor=end]')].map((e) => e.textContent)")]
+        self.assertTrue(0 < min(ticks) and max(ticks) < 0.05, ticks)  # an axis about 0.02, and not from -1 to 1
 
 
 class LongRuns(InBrowser):

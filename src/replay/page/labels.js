@@ -1,0 +1,15 @@
+'use strict';
+// Words beside points of a picture, so that none is printed over another.
+bbsim.placeLabels = (wanted) => {
+  // wanted: {x, y, width, height} in pixels, the middle of each; answers how far each goes up, or null: no room for it.
+  const placed = [];
+  return wanted.map(({x, y, width, height}) => {
+    for (let up = 0; up <= 4 * height; up += height) {
+      const box = [x - width / 2, y - up - height / 2, x + width / 2, y - up + height / 2];
+      if (placed.some((other) => box[0] < other[2] && other[0] < box[2] && box[1] < other[3] && other[1] < box[3])) continue;
+      placed.push(box);
+      return up;
+    }
+    return null;
+  });
+};
