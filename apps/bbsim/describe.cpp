@@ -135,7 +135,7 @@ std::string without_frames(const Scenario& scenario, bool by_sample) {
 
 std::string failure_text(const Scenario& scenario, const model::Model& model,
                          const solve::Outcome& outcome) {
-  if (outcome.by_controller) {
+  if (outcome.why == solve::Why::controller) {
     return "the run ended early, at t = " + short_number(outcome.reached) + " s of " +
            short_number(scenario.time.end) + " s: " + outcome.reason + '.';
   }
@@ -143,6 +143,11 @@ std::string failure_text(const Scenario& scenario, const model::Model& model,
   std::string text = "the run ended early, at t = " + short_number(outcome.reached) + " s of " +
                      short_number(scenario.time.end) + " s: " + outcome.reason + ".\n";
   const auto& state = outcome.last_state;
+  const auto lost = std::ranges::find_if(state, [](double value) { return !std::isfinite(value); });
+  if (lost != state.end()) {
+    return text + "  " + names[static_cast<std::size_t>(lost - state.begin())] +
+           " is no finite number any more; the rows are those before.";
+  }
   const auto largest = std::max_element(
       state.begin(), state.end(), [](double a, double b) { return std::abs(a) < std::abs(b); });
   if (largest != state.end()) {

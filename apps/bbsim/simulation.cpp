@@ -113,7 +113,7 @@ std::string shortfall(const Scenario& scenario, const model::Model& model,
 }
 
 record::RunSummary summarise(const Scenario& scenario, const model::Model& model,
-                             const Integration& made, const std::string& reason,
+                             const Integration& made, const std::string& reason, solve::Why why,
                              const std::vector<std::string>& warnings,
                              const std::optional<record::MotorPeaks>& peaks) {
   const solve::Outcome& outcome = made.outcome;
@@ -126,6 +126,7 @@ record::RunSummary summarise(const Scenario& scenario, const model::Model& model
   summary.overrides = scenario.source.overrides;
   summary.status = status_name(outcome.ending);
   summary.reason = reason;
+  summary.reason_code = solve::name_of(why);
   summary.warnings = warnings;
   summary.end_time = outcome.reached;
   summary.rows = outcome.rows;
@@ -167,16 +168,26 @@ Simulation simulate(const Scenario& scenario, const model::Model& model,
   solve::StateSink& sink = edge ? static_cast<solve::StateSink&>(*edge) : recorder;
 
   Progress progress(scenario.source.file, quiet);
-  const solve::Watch watch{&watch_signals(),
-                           [&](double time) { progress.update(time / grid.end()); }};
+  solve::Watch watch{&watch_signals(), [&](double time) { progress.update(time / grid.end()); }};
+  if (!quiet) {
+    watch.slow = [&](double time, double pace, double steps) {
+      progress.clear();
+      say("note: at t = " + short_number(time) + " s the run takes " + short_number(pace) +
+          " steps per second of motion, and " + short_number(steps) +
+          " more to its end at that pace. Ctrl-C ends it and keeps its rows; a looser solver.rtol, "
+          "or an earlier time.end, needs fewer.");
+    };
+  }
   Integration made = integrate(scenario, model, grid, sink, watch, part);
   progress.clear();
 
   std::string reason = shortfall(scenario, model, made);
+  solve::Why why = made.within_error ? made.outcome.why : solve::Why::error_out_of_reach;
   const std::string not_finite = recorder.why_not_finite(wanted.finite_columns);
   if (reason.empty() && !not_finite.empty()) {
     reason = "the motion was found to its end, but " + not_finite +
              ".\n  There it is beyond the range of doubles, or not defined.";
+    why = solve::Why::not_finite;
   }
   const std::vector<std::string> warnings =
       warnings_of(scenario, model, made.outcome.ending == solve::Ending::failed,
@@ -185,7 +196,7 @@ Simulation simulate(const Scenario& scenario, const model::Model& model,
   simulation.measures.resize(wanted.measures.size());
   recorder.finish(made.outcome, simulation.measures.data());
   simulation.end_row = recorder.end_row(made.outcome);
-  simulation.summary = summarise(scenario, model, made, reason, warnings, recorder.peaks());
+  simulation.summary = summarise(scenario, model, made, reason, why, warnings, recorder.peaks());
   simulation.noted = noted_text(made.outcome.occurrences);
   simulation.row_estimates = std::move(made.row_estimates);
   simulation.code = exit_code(made.outcome.ending);

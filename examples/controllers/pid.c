@@ -18,7 +18,7 @@ struct axis {
 
 struct pid {
   double kp, kv, ki, filter, limit, period;
-  double elapsed; /* since the ball was seen last, s */
+  double periods, elapsed; /* since the ball was seen last; elapsed in s */
   int seen_any;
   struct axis axis[2];
   double command[2];
@@ -44,6 +44,7 @@ int bbsim_controller_reset(void *controller, const bbsim_setup *setup) {
   pid->filter = setup->derivative_filter;
   pid->limit = setup->limit;
   pid->elapsed = pid->period = setup->period;
+  pid->periods = 1;
   for (i = 0; i < setup->column_count; ++i) {
     const int x = strcmp(setup->columns[i], "x_integral") == 0;
     if (i == 2 || (!x && strcmp(setup->columns[i], "y_integral") != 0)) {
@@ -93,7 +94,7 @@ int bbsim_controller_step(void *controller, const bbsim_sample *sample, double c
   struct pid *pid = controller;
   size_t i;
   if (sample->seen == 0) { /* the command stays */
-    pid->elapsed += pid->period;
+    pid->elapsed = ++pid->periods * pid->period;
   } else {
     double u[2];
     int j;
@@ -105,6 +106,7 @@ int bbsim_controller_step(void *controller, const bbsim_sample *sample, double c
     pid->command[0] = u[0];
     pid->command[1] = 0 - u[1];
     pid->seen_any = 1;
+    pid->periods = 1;
     pid->elapsed = pid->period;
   }
   memcpy(command, pid->command, sizeof pid->command);

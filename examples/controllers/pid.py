@@ -48,10 +48,10 @@ def main():
         if "protocol" in message:  # a run begins
             period = message["period"]
             x, y = Axis(message), Axis(message)
-            elapsed = period
+            periods = 1  # since the ball was seen last
             command = [0.0, 0.0]
             if "state" in message:  # it goes on from where another one was
-                states, elapsed, command = message["state"]
+                states, periods, command = message["state"]
                 x.restore(states[0])
                 y.restore(states[1])
             answer = {
@@ -62,16 +62,17 @@ def main():
                 "fields": ["ball", "reference", "reference_rate"],
             }
         elif "save" in message:
-            answer = {"state": [[x.save(), y.save()], elapsed, command]}
+            answer = {"state": [[x.save(), y.save()], periods, command]}
         else:
             if message["ball"] is None:  # the sensor missed it: the command stays
-                elapsed += period
+                periods += 1
             else:
                 (ball_x, ball_y), (x_d, y_d) = message["ball"], message["reference"]
                 x_rate, y_rate = message["reference_rate"]
+                elapsed = periods * period
                 # Positive phi drives the ball towards +x, positive theta towards -y.
                 command = [x.command(ball_x, x_d, x_rate, elapsed), 0 - y.command(ball_y, y_d, y_rate, elapsed)]
-                elapsed = period
+                periods = 1
             answer = {"command": command, "x_integral": x.integral, "y_integral": y.integral}
         print(json.dumps(answer), flush=True)
 

@@ -217,13 +217,17 @@ void DrySwitches::settle_direction(DryDirection& of, double slow, const double (
   of.along[1] = v[1] / speed;
 }
 
-// The angle from a motion along `along` to the acceleration that it then has, rad.
+// Angles nearer than this are one: rounding is 1e-16 of the accelerations that cancel.
+constexpr double enough = 1e-14;
+
+// The angle of a motion whose acceleration goes the same way, rad: `turned` gives the angle from a
+// motion to its acceleration, which is `f_last` at the angle `last`.
 template <class Turned>
-double start_angle(const Turned& turned, double at) {
-  // Rounding is 1e-16 of the accelerations that cancel.
-  constexpr double enough = 1e-14, half_turn = std::numbers::pi;
+double start_angle(const Turned& turned, double last, double f_last) {
+  constexpr double half_turn = std::numbers::pi;
+  const double at = last;
   // The direction of the acceleration is often the answer, and a secant's way leads there.
-  double last = at, f_last = turned(last), next = last + f_last;
+  double next = last + f_last;
   for (int i = 0; i < 12 && std::abs(f_last) > enough; ++i) {
     const double f = turned(next), slope = (f - f_last) / (next - last);
     last = std::exchange(next, next - f / slope);
@@ -260,6 +264,13 @@ void DrySwitches::start(Scene& scene, double t, const double* z, bool slip, bool
   ContactMode& contact = *scene.contact;
   const auto turn = [&](DryDirection& of, const auto& acceleration) {
     if (!(size(of.along) > 0)) return 0.0;
+    const auto present = [&] {
+      double a[2];
+      acceleration(scene.balance(t, z).answer, a);
+      return std::atan2(of.along[0] * a[1] - of.along[1] * a[0], dot(of.along, a));
+    };
+    const double turned = present();
+    if (std::abs(turned) <= enough) return 0.0;  // the direction stays as it is to the bit
     const auto put = [&](double angle) {
       of.along[0] = std::cos(angle);
       of.along[1] = std::sin(angle);
@@ -268,11 +279,9 @@ void DrySwitches::start(Scene& scene, double t, const double* z, bool slip, bool
     const double found = start_angle(
         [&](double angle) {
           put(angle);
-          double a[2];
-          acceleration(scene.balance(t, z).answer, a);
-          return std::atan2(of.along[0] * a[1] - of.along[1] * a[0], dot(of.along, a));
+          return present();
         },
-        before);
+        before, turned);
     put(found);
     return std::abs(found - before);
   };

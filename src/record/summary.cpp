@@ -19,6 +19,7 @@ void for_each_member(const RunSummary& summary, Add add) {
   add("overrides", summary.overrides);
   add("status", summary.status);
   add("reason", summary.reason);
+  add("reason_code", summary.reason_code);
   add("warnings", summary.warnings);
   add("end_time", summary.end_time);
   add("rows", summary.rows);

@@ -40,6 +40,7 @@ struct RunSummary {
   std::vector<std::string> overrides;  // each "key.path=value"
   std::string status;                  // done, failed, interrupted or stopped
   std::string reason;                  // why the run ended early; empty if it did not
+  std::string reason_code = "none";    // the same in a word: solve::name_of()
   std::vector<std::string> warnings;   // what may not be as the user meant it, one sentence each
   double end_time = 0;                 // what the run reached, s
   std::size_t rows = 0;

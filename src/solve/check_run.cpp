@@ -21,7 +21,7 @@ class DividedStepper : public radau::RadauStepper {
     RadauStepper::start(t, z);
   }
 
-  const char* step(double limit) override {
+  std::optional<Failure> step(double limit) override {
     if (limit != limit_) {
       limit_ = limit;
       from_ = time();

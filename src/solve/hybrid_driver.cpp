@@ -59,7 +59,7 @@ class HybridIntegration {
       Outcome outcome =
           ended(fault.interrupted() ? Ending::interrupted : Ending::failed, asked_at_);
       outcome.reason = fault.what();
-      outcome.by_controller = !fault.interrupted();
+      if (!fault.interrupted()) outcome.why = Why::controller;
       return outcome;
     }
   }
@@ -118,11 +118,11 @@ class HybridIntegration {
         if (part_ != nullptr && part_->keeps_state) keep_state(limit);
         if (is_stopped()) return ended(Ending::interrupted, from);
         quiet_ = false;
-        if (const char* reason = stepper_->step(limit)) {
+        if (const auto failure = stepper_->step(limit)) {
           if (unlooked_ && look(from, stepper_->state(), turned_) == Effect::stop) {
             return ended(Ending::stopped, from);
           }
-          return failed(from, reason);
+          return failed(from, failure->why, failure->text);
         }
       }
       const double to = std::min({stepper_->time(), due, end});
@@ -173,11 +173,14 @@ class HybridIntegration {
         if (!foresees_ && !guards_.empty()) arm(at, z.data());
       }
       from = at;
-      if (at < limit && at >= stepper_->time() &&
-          pace_.creeps(at, [&] { return stopped_at(at); })) {
-        Outcome outcome = failed(at, pace_.reason());
-        state_at(at, outcome.last_state);
+      // A switch that the step came to is work like a step; a sample or a stop says nothing.
+      if (at < limit && pace_.creeps(at, [&] { return stopped_at(at); })) {
+        Outcome outcome = failed(at, Why::too_slow, pace_.reason());
+        if (at >= stepper_->time()) state_at(at, outcome.last_state);
         return outcome;
+      }
+      if (watch_.slow && pace_.looked() && pace_.is_news()) {
+        watch_.slow(at, pace_.steps_per_second(), pace_.steps_left());
       }
       if (watch_.progress && steps % 256 == 0) watch_.progress(at);
     }
@@ -567,6 +570,8 @@ class HybridIntegration {
     rows_.flush();
     Outcome outcome;
     outcome.ending = ending;
+    if (ending == Ending::stopped) outcome.why = Why::event;
+    if (ending == Ending::interrupted) outcome.why = Why::interrupted;
     outcome.reached = reached;
     outcome.rows = rows_.rows();
     outcome.statistics = stepper_->statistics();
@@ -586,6 +591,7 @@ class HybridIntegration {
   // Failed at a switch; with no states, which are the stepper's from before it.
   Outcome at_switch(double reached, std::string reason) {
     Outcome outcome = ended(Ending::failed, reached);
+    outcome.why = Why::singular;
     outcome.reason = std::move(reason);
     return outcome;
   }
@@ -595,8 +601,9 @@ class HybridIntegration {
                      "one instant");
   }
 
-  Outcome failed(double reached, std::string reason) {
+  Outcome failed(double reached, Why why, std::string reason) {
     Outcome outcome = ended(Ending::failed, reached);
+    outcome.why = why;
     outcome.reason = std::move(reason);
     outcome.last_state = stepper_->state();
     outcome.worst_state = stepper_->worst_state();

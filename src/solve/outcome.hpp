@@ -37,6 +37,9 @@ class StateSink {
 struct Watch {
   const std::atomic<bool>* stop = nullptr;      // end the run soon after this becomes true
   std::function<void(double time)> progress{};  // called every few hundred steps
+  // Called once, if that comes: at `time` (s) the run takes so many steps per second of motion, and
+  // needs so many more to its end at that pace.
+  std::function<void(double time, double pace, double steps)> slow{};
 };
 
 struct Statistics {
@@ -46,6 +49,29 @@ struct Statistics {
   std::size_t nonlinear_iterations = 0;
   std::size_t error_test_failures = 0;
 };
+
+// Why a run is not whole, in a word that scripts may ask for.
+enum class Why {
+  none,
+  event,               // the scene stops at what happened
+  unbounded,           // the motion grows without bound
+  singular,            // there is no motion beyond the instant
+  too_slow,            // it would take more steps than anybody waits for
+  controller,          // it is the fault of a controller that is not built in
+  not_finite,          // what is asked for, or the motion, is no finite number
+  error_out_of_reach,  // double precision cannot give solver.error, or rtol
+  interrupted
+};
+[[nodiscard]] const char* name_of(Why why);
+
+// Why there is no further step, with a sentence for people: "the linear system is singular".
+struct Failure {
+  Why why = Why::singular;
+  const char* text = "";
+};
+// Of all integrators.
+inline constexpr Failure step_is_lost{Why::singular,
+                                      "the step shrank to the rounding of the time itself"};
 
 // stopped: something happened that the scene stops at.
 enum class Ending { done, failed, interrupted, stopped };
@@ -60,7 +86,7 @@ struct Outcome {
   // error estimate, and all states, at the time reached; no states if it failed for another reason
   // than the motion.
   std::string reason;
-  bool by_controller = false;  // it is the fault of a controller that is not built in
+  Why why = Why::none;
   std::size_t worst_state = 0;
   std::vector<double> last_state;
   // What was watched for and happened, in order; of a stopped run the last one stopped it.

@@ -10,6 +10,7 @@
 #include <cstddef>
 #include <limits>
 #include <string>
+#include <utility>
 
 namespace bbsim::solve {
 
@@ -39,6 +40,19 @@ class Pace {
     archive(steps_, from_, advance_, advances_, windows_, shrinking_, slow_, awaited_);
   }
 
+  // How many steps a second of motion takes at present, 1/s, and how many are left at that pace;
+  // after looked().
+  [[nodiscard]] double steps_per_second() const { return static_cast<double>(window) / advance_; }
+  [[nodiscard]] double steps_left() const { return (end_ - from_) * steps_per_second(); }
+
+  // Whether it is time to say so: once, where a second of motion takes a million steps and the rest
+  // more than a second or so of work. To be called after looked().
+  [[nodiscard]] bool is_news() {
+    constexpr double a_million = 1e6, some_work = 1e5;
+    const bool slow = steps_ > 0 && steps_per_second() > a_million && steps_left() > some_work;
+    return slow && !std::exchange(told_, true);
+  }
+
   // Why, as Outcome::reason.
   [[nodiscard]] std::string reason() const;
 
@@ -61,6 +75,7 @@ class Pace {
   std::array<double, 4> advances_{};  // of the last windows
   std::size_t windows_ = 0;
   int shrinking_ = 0, slow_ = 0, awaited_ = 0;
+  bool told_ = false;
 };
 
 }  // namespace bbsim::solve

@@ -3,14 +3,15 @@
 
 #include <algorithm>
 
+#include "solve/outcome.hpp"
 #include "solve/step_growth.hpp"
 
 namespace bbsim::solve {
 
 class Shrinking {
  public:
-  // Why a run ends there, as Outcome::reason.
-  static constexpr const char* reason = "the motion grows without bound";
+  // Why a run ends there.
+  static constexpr Failure reason{Why::unbounded, "the motion grows without bound"};
 
   // The next step has none before it that it can be compared with.
   void interrupt() { last_ = 0; }

@@ -62,8 +62,9 @@ Outcome run_through(Stepper& stepper, const model::Model& model, const OutputGri
 
   Outcome outcome;
   Pace pace(grid.end());
-  const auto fail = [&](std::string reason) {
+  const auto fail = [&](Why why, std::string reason) {
     outcome.ending = Ending::failed;
+    outcome.why = why;
     outcome.reason = std::move(reason);
     outcome.last_state = stepper.state();
     outcome.worst_state = stepper.worst_state();
@@ -89,8 +90,8 @@ Outcome run_through(Stepper& stepper, const model::Model& model, const OutputGri
     const double limit = next_stop < model.stops.size() ? model.stops[next_stop] : behind;
     if (part != nullptr && part->keeps_state) keep_state();
     const double before = stepper.time();
-    if (const char* reason = stepper.step(limit)) {
-      fail(reason);
+    if (const auto failure = stepper.step(limit)) {
+      fail(failure->why, failure->text);
       break;
     }
     const double reached = stepper.time();
@@ -114,18 +115,22 @@ Outcome run_through(Stepper& stepper, const model::Model& model, const OutputGri
       ++next_stop;
       stepper.jump();
     } else if (pace.creeps(reached)) {
-      fail(pace.reason());
+      fail(Why::too_slow, pace.reason());
       std::vector<double> row(row_size);
       stepper.evaluate(&reached, 1, row.data());
       outcome.last_state.assign(row.begin(),
                                 row.begin() + static_cast<std::ptrdiff_t>(model.size()));
       break;
     } else if (pace.looked() && has_run_away(model, stepper.state())) {
-      fail("the loop has run away, beyond 1e9 m or rad, where rounding is all that moves it");
+      fail(Why::unbounded,
+           "the loop has run away, beyond 1e9 m or rad, where rounding is all that moves it");
       break;
+    } else if (watch.slow && pace.looked() && pace.is_news()) {
+      watch.slow(reached, pace.steps_per_second(), pace.steps_left());
     }
     if (watch.stop != nullptr && watch.stop->load(std::memory_order_relaxed)) {
       outcome.ending = Ending::interrupted;
+      outcome.why = Why::interrupted;
       break;
     }
     if (watch.progress && steps % 256 == 0) watch.progress(reached);

@@ -26,8 +26,8 @@ class Stepper {
   virtual void start(double t, const double* z) = 0;
 
   // One step that passes its error test, not beyond `limit`; the last one before it reaches it
-  // exactly. Returns why there is none, or null.
-  virtual const char* step(double limit) = 0;
+  // exactly. Returns why there is none, if so.
+  [[nodiscard]] virtual std::optional<Failure> step(double limit) = 0;
 
   // Gives the states at times within the last step, ends included, by its own polynomial; `count`
   // rows without gaps. To be called before the next step.

@@ -54,7 +54,7 @@ class GroupRunner : public CaseRunner {
       if (one.carried) {
         results[0] = one.unbounded_at.value_or(first_.time.end);
         if (one.unbounded_at) {
-          status = {"failed", solve::Shrinking::reason};
+          status = {"failed", solve::Shrinking::reason.text};
           judge(task_, first_, one.measures, status);
         } else {
           verdict_.judge(first_, one.measures, status);

@@ -1,5 +1,6 @@
 // bbsim run: what it writes, what it says, and every way in which it can end.
 #include <csignal>
+#include <nlohmann/json.hpp>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -246,4 +247,33 @@ TEST_CASE("a loop that runs away, to where rounding moves it, is not waited for"
   CHECK(result.exit_code == 1);
   CHECK_THAT(result.err, Catch::Matchers::Contains("the loop has run away"));
   CHECK(result.seconds < 30);
+}
+
+TEST_CASE("a summary says in a word why a run is not whole") {
+  const Folder folder;
+  const auto code = [&](std::vector<std::string> words) {
+    words.insert(words.begin(), "run");
+    words.insert(words.end(), {"-q", "-o", "r.csv", "--summary", "s.json"});
+    CHECK(bbsim(words, folder.path()).exit_code < 2);
+    return nlohmann::json::parse(folder.read("s.json")).at("reason_code").get<std::string>();
+  };
+  CHECK(code({config("incline.yaml")}) == "none");
+  CHECK(code({config("falls.yaml")}) == "event");
+  CHECK(code({config("fig2b-literal.yaml")}) == "unbounded");
+  CHECK(code({BBSIM_SOURCE_DIR "/tests/data/scenarios/fast.yaml", "--error", "1e-13"}) ==
+        "error_out_of_reach");
+}
+
+TEST_CASE("a run that takes a million steps a second says so, and how to end it") {
+  const Folder folder;
+  folder.write("fast.yaml",
+               "ball: {radius: 0.01}\n"
+               "gimbal: {motion: {phi: {sinusoid: {amplitude: 1e-7, frequency: 1e8}}}}\n"
+               "time: {end: 100, step: 10}\n");
+  Launch launch{{"run", "fast.yaml", "-o", "r.csv"}, folder.path(), SIGINT, {}};
+  launch.signal_after = std::chrono::milliseconds(2000);
+  const Result result = bbsim(launch);
+  CHECK(result.exit_code == 130);
+  CHECK(contains(result.err, "steps per second of motion"));
+  CHECK(contains(result.err, "Ctrl-C ends it and keeps its rows"));
 }

@@ -52,6 +52,7 @@ TEST_CASE("the summary's JSON text") {
   ],
   "status": "done",
   "reason": "",
+  "reason_code": "none",
   "warnings": [
     "the ball is off the plate"
   ],

@@ -124,3 +124,25 @@ TEST_CASE("torques that mean nothing are refused with a reason") {
                                 "gimbal.motor.position_loop.ki=1"}),
              Contains("position_loop.ki: found beside lqr"));
 }
+
+TEST_CASE("moments of inertia that no body has draw a warning") {
+  const auto remarks = [](const std::string& plate) {
+    return parse(
+               "ball: {radius: 0.02, mass: 0.1}\n"
+               "gimbal: {torque: {phi: 0}}\n"
+               "time: {end: 1, step: 0.1}\n"
+               "plate: {" +
+               plate + "}\n")
+        .remarks;
+  };
+  CHECK(remarks("inertia: [2e-4, 3e-4, 5e-4]").empty());
+  const auto normal = remarks("inertia: [2e-4, 3e-4, 5.1e-4]");
+  REQUIRE(normal.size() == 1);
+  CHECK(normal[0].find("plate.inertia: the moment about the normal is greater") !=
+        std::string::npos);
+  CHECK(remarks("inertia: [2e-4, 6e-4, 3e-4]").size() == 1);
+  CHECK(remarks("inertia: [2e-4, 3e-4, 4e-4], mass: 0.2, centre_of_mass: 0.03").empty());
+  const auto offset = remarks("inertia: [2e-4, 3e-4, 4e-4], mass: 0.2, centre_of_mass: 0.04");
+  REQUIRE(offset.size() == 1);
+  CHECK(offset[0].find("plate.centre_of_mass") != std::string::npos);
+}

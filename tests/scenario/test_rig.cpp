@@ -150,3 +150,19 @@ TEST_CASE("feedback linearisation and gravity compensation drive what they give"
   CHECK_THAT(error_with("gravity_compensation", ", drives: acceleration"),
              Catch::Matchers::Contains("controller.gravity_compensation: found, but"));
 }
+
+TEST_CASE("measured periods count in the number of samples") {
+  const TemporaryFolder folder;
+  const auto problems = [&](const std::string& period) {
+    const std::string file = folder.write("p.csv", "p\n" + period + "\n");
+    return errors(
+        "ball: {radius: 0.02}\n"
+        "gimbal: {servo: {natural_frequency: 30, damping: 0.8}}\n"
+        "controller: {pd: {kv: 0.6, kp: 0.7}, drives: angle, reference: {point: [0, 0]},\n"
+        "  sampling: {period: 0.02, jitter: {file: " +
+        file + ", period: p}}}\ntime: {end: 1, step: 0.1}\n");
+  };
+  CHECK(problems("0.019").empty());
+  CHECK(problems("1e-9").find("controller.sampling.jitter: found more than 1e8 samples") !=
+        std::string::npos);
+}

@@ -161,7 +161,7 @@ TEST_CASE("a controller that fails ends the run at its sample, with the rows bef
       const Made made = run(model, scene);
       CHECK(made.outcome.ending ==
             (interrupts ? solve::Ending::interrupted : solve::Ending::failed));
-      CHECK(made.outcome.by_controller == !interrupts);
+      CHECK((made.outcome.why == solve::Why::controller) == !interrupts);
       CHECK(made.outcome.reason == "it fails");
       CHECK(made.outcome.reached == Approx(double(sample) * 0.02).margin(1e-15));
       REQUIRE(made.rows.size() == sample);

@@ -6,6 +6,7 @@
 #include "catch.hpp"
 #include "model/servo/linkages.hpp"
 #include "support/energy_balance.hpp"
+#include "support/reading.hpp"
 #include "support/run_in_memory.hpp"
 #include "support/scenes.hpp"
 
@@ -301,4 +302,21 @@ TEST_CASE("an axis may have a servo and limits of its own") {
   apart.controller->limit.reset();
   apart.controller->axis_limits = {{{0.1}, {0.1}}};
   CHECK(distance(run_of(alike), run_of(apart)) == 0);
+}
+
+TEST_CASE("behind a linkage the command's resolution stays within the controller's limit") {
+  const bool exact = GENERATE(false, true);
+  Scenario scene = test::parse(
+      "ball: {radius: 0.01, position: [-0.5, 0]}\n"
+      "gimbal:\n"
+      "  servo: {natural_frequency: 30, damping: 0.8}\n"
+      "  linkage: {horn: 0.02, arm: 0.05, offset: [0.05, 0.05]}\n"
+      "controller: {drives: angle, limit: 0.0634, pd: {kp: [[0.5, 0], [0, -0.5]], kv: 0},\n"
+      "  reference: {point: [0, 0]}, sampling: {period: 0.02, resolution: 0.003}}\n"
+      "time: {end: 0.1, step: 0.02}\n");
+  scene.controller->assumes = exact ? Assumes::exact : Assumes::ratio;
+  const Run run = run_in_memory(scene, Method::radau, {1e-9, 1e-11});
+  // The greatest multiples of 0.003 rad of the servo within 0.0634 rad of the plane: by the slope
+  // 0.4 it is 0.1585 rad, by the curve 0.1745 rad.
+  CHECK(run.samples.back().command[0] == Approx(exact ? 0.174 : 0.156).epsilon(1e-14));
 }

@@ -298,7 +298,7 @@ TEST_CASE("a loop that grows without bound ends where a single run does, and oth
   solve::Trajectory single(model::assemble(literal, false).row_size());
   const solve::Outcome outcome = solve::integrate(model::assemble(literal, false), Method::radau,
                                                   {1e-10, 1e-12}, grid, single, {});
-  REQUIRE(outcome.reason == solve::Shrinking::reason);
+  REQUIRE(outcome.reason == solve::Shrinking::reason.text);
   for (std::size_t i = 0; i < scenes.size(); ++i) {
     CAPTURE(i);
     if (!alone && std::count(bad.begin(), bad.end(), i) == 0) {

@@ -220,3 +220,58 @@ TEST_CASE("losses of nothing are none") {
     CHECK(std::abs(ideal.samples[i].ball.gamma_dot - with.samples[i].ball.gamma_dot) < 1e-8);
   }
 }
+
+TEST_CASE("a ball that breaks away feels resistance against the acceleration it starts with") {
+  // The light plate gives way to the ball: it starts 23 degrees beside the force that held it.
+  const Scenario scene = test::parse(
+      "ball: {radius: 0.02, mass: 0.5, position: [0.1, 0.06], losses: {rolling: 0.05}}\n"
+      "plate: {inertia: [0.001, 0.003, 0.0035]}\n"
+      "gimbal: {torque: {phi: 0.45, theta: 0.1}}\n"
+      "time: {end: 2e-6, step: 1e-6}\n");
+  const Run run = run_in_memory(scene, Method::radau, {1e-12, 1e-13});
+  REQUIRE(run.samples.size() == 3);
+  const auto accelerations = [&](std::size_t i) {
+    return Pair{run.samples[i].gimbal.phi_ddot, run.samples[i].gimbal.theta_ddot};
+  };
+  for (std::size_t axis = 0; axis < 2; ++axis) {
+    const double at_start = accelerations(0)[axis], soon = accelerations(1)[axis];
+    const double drift = accelerations(2)[axis] - soon;
+    // The acceleration at t = 0 is the limit from later: it changes by t^2, a third from 1 to 0 us.
+    CHECK(std::abs(soon - at_start) < std::abs(drift));
+  }
+}
+
+TEST_CASE("a ball that comes near rest on a plate lighter than it goes on") {
+  const Scenario scene = test::parse(
+      "ball: {radius: 0.0946502233951858, mass: 3, velocity: [-0.27123241728303826, -0.02],\n"
+      "       spin: -24.82340520375807, inertia_factor: 0.6455335337945438,\n"
+      "       losses: {rolling: 0.02, viscous: 0.0007835, pivoting: 0.00454813}}\n"
+      "plate: {inertia: [0.003541143324578275, 3.393901282063695e-05, 0.01240908294714108]}\n"
+      "gimbal:\n"
+      "  torque: {phi: 0.003, theta: {sinusoid: {amplitude: -0.026849, frequency: 0.722444,\n"
+      "           offset: -0.00305815}}}\n"
+      "  ring_inertia: 5.695618936749016e-05\n"
+      "time: {end: 0.2, step: 0.001}\n");
+  const Method method = GENERATE(Method::radau, Method::bdf);
+  const Run run = run_in_memory(scene, method, {1e-10, 1e-12});
+  CHECK(run.outcome.ending == solve::Ending::done);
+  CHECK(run.outcome.statistics.steps < 5000);
+  CHECK(energy_gap(scene, run) < 1e-8);
+}
+
+TEST_CASE("a ball that slides without turning is not at rest") {
+  // c_rr > mu_k: resistance stops the turning first, and the ball slides on.
+  const Scenario scene = test::parse(
+      "gravity: 9.81\n"
+      "ball: {radius: 0.02, velocity: [0.5, 0], losses: {rolling: 0.05}}\n"
+      "gimbal: {motion: {}}\n"
+      "events: {slip: {friction: 0.04, sliding_friction: 0.02, action: slide}, rest: note}\n"
+      "time: {end: 5, step: 0.1}\n");
+  const Run run = run_in_memory(scene, Method::radau, tight);
+  REQUIRE(count(run, "rest") == 1);
+  for (const model::Occurrence& event : run.outcome.occurrences) {
+    if (event.name != "rest") continue;
+    CHECK(event.sample.ball.x_dot == 0);
+    CHECK(event.sample.ball.y_dot == 0);
+  }
+}

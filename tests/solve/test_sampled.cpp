@@ -220,3 +220,13 @@ TEST_CASE("feedback linearisation stops short of its singularity") {
   CHECK((7 * r * std::cos(theta) + 5 * there * std::sin(theta)) / (7 * r) ==
         Approx(0.05).epsilon(1e-6));
 }
+
+TEST_CASE("dropouts do not change the noise of the samples that are seen") {
+  Scenario scene = rig();
+  scene.controller->sensor->dropout = 0;
+  const Run without = run_of(scene);
+  scene.controller->sensor->dropout = 1e-12;  // none, in 300 samples
+  const Run with = run_of(scene);
+  for (std::size_t i = 0; i < with.samples.size(); ++i)
+    CHECK(same(with.samples[i], without.samples[i]));
+}

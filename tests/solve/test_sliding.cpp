@@ -3,6 +3,7 @@
 #include <numbers>
 
 #include "catch.hpp"
+#include "model/ball/dynamics.hpp"
 #include "support/energy_balance.hpp"
 #include "support/largest.hpp"
 #include "support/run_in_memory.hpp"
@@ -157,5 +158,50 @@ TEST_CASE("rolling that only just needs the friction there is") {
       CHECK(std::abs(run.samples[i].ball.x - ideal.samples[i].ball.x) < 1e-5);
     }
     CHECK(energy_gap(scene, run) < 1e-10);
+  }
+}
+
+TEST_CASE("sliding goes over to rolling at the tightest tolerances") {
+  const std::string name = GENERATE("slides-late-steep", "slides-late-slow");
+  Scenario scene = scenario_named(name);
+  CAPTURE(name);
+  const Run run = run_in_memory(scene, Method::radau, {scene.solver.rtol, scene.solver.atol});
+  CHECK(run.outcome.ending != solve::Ending::failed);
+  CHECK(run.outcome.statistics.steps < 2000);
+  // The same motion at an ordinary tolerance, within that.
+  const Run plain = run_in_memory(scene, Method::radau, {1e-9, 1e-11});
+  REQUIRE(plain.samples.size() == run.samples.size());
+  for (std::size_t i = 0; i < run.samples.size(); ++i) {
+    CHECK(std::abs(run.samples[i].ball.x - plain.samples[i].ball.x) < 1e-7);
+    CHECK(std::abs(run.samples[i].ball.y - plain.samples[i].ball.y) < 1e-7);
+  }
+}
+
+TEST_CASE(
+    "the friction demand of a ball that slides is its coefficient, to the instant it lifts off") {
+  const Scenario scene = scenario_named("lifts-off-sliding");
+  const Run run = run_in_memory(scene, Method::radau, {1e-12, 1e-13});
+  REQUIRE(run.outcome.ending == solve::Ending::stopped);
+  const model::Sample& end = run.outcome.occurrences.back().sample;
+  const model::Dynamics now = model::dynamics(end, model::constants_of(scene));
+  CHECK(std::abs(now.normal_force()) < 1e-12);
+  CHECK(now.friction_demand() == scene.events.slip->sliding);
+}
+
+TEST_CASE("what slips and lifts off does not depend on the ball's mass") {
+  const auto events = [](double mass) {
+    Scenario scene = read_scenario(BBSIM_SOURCE_DIR "/configs/slips.yaml");
+    scene.ball.mass = mass;
+    return run_in_memory(scene, Method::radau, tight).outcome;
+  };
+  const solve::Outcome plain = events(1);
+  REQUIRE(plain.occurrences.size() >= 2);
+  for (const double mass : {1e-14, 1e9}) {
+    const solve::Outcome other = events(mass);
+    REQUIRE(other.occurrences.size() == plain.occurrences.size());
+    for (std::size_t i = 0; i < plain.occurrences.size(); ++i) {
+      CHECK(other.occurrences[i].name == plain.occurrences[i].name);
+      CHECK(std::abs(other.occurrences[i].t - plain.occurrences[i].t) < 1e-10);
+    }
   }
 }

@@ -703,3 +703,19 @@ TEST_CASE(
                 .task)
             .name == "single runs");
 }
+
+TEST_CASE("a sweep to the ends of doubles has no case done whose distance is no number") {
+  const Setup setup("configs/fig2a.yaml", {{"ball.position.0", "linear:-1e308:1e308:38"}}, {},
+                    {"max_distance", "end_x"});
+  auto solutions = solve_superposed(setup.task);
+  REQUIRE(solutions);
+  const auto runner = superposition_runner(setup.task, std::move(solutions));
+  const CaseResults results = run_all(*runner, setup.plan.cases());
+  const std::size_t numbers = 1 + setup.task.measures.size();
+  for (std::size_t i = 0; i < setup.plan.cases(); ++i) {
+    const double distance = results.numbers[i * numbers + 1];
+    CAPTURE(i, distance);
+    if (results.status[i].reason.empty()) CHECK(std::isfinite(distance));
+    CHECK(!(distance == 0));
+  }
+}

@@ -9,6 +9,7 @@
 #include <string>
 
 #include "base/error.hpp"
+#include "base/real.hpp"
 #include "catch.hpp"
 #include "sweep/plan.hpp"
 
@@ -293,4 +294,26 @@ TEST_CASE("a value from --set for a key that varies is refused") {
   CHECK(
       contains(fault(vary({{"gravity,ball.position.0", "list:1,2"}}), scene, {"ball.position.0=5"}),
                "the sweep varies ball.position.0"));
+}
+
+TEST_CASE("values between ends whose difference overflows are finite, and stay between them") {
+  for (const char* spec : {"linear:-1e308:1e308:7", "linear:-1.7e308:1.7e308:100"}) {
+    const SweepPlan plan = plan_of(vary({{"ball.position.0", spec}}));
+    double last = -infinity;
+    for (std::size_t i = 0; i < plan.cases(); ++i) {
+      double value = 0;
+      plan.values(i, &value);
+      CHECK(std::isfinite(value));
+      CHECK(value > last);
+      last = value;
+    }
+  }
+  Sweep drawn = vary({{"ball.position.0", "uniform:-1.7e308:1.7e308"}});
+  drawn.samples = 100;
+  const SweepPlan plan = plan_of(drawn);
+  for (std::size_t i = 0; i < plan.cases(); ++i) {
+    double value = 0;
+    plan.values(i, &value);
+    CHECK(std::isfinite(value));
+  }
 }

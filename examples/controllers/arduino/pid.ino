@@ -39,7 +39,7 @@ struct Axis {
 
 Axis x, y;
 unsigned long next_sample = 0;
-double elapsed = period;
+int periods = 1;  // since the ball was seen last
 
 void setup() {
   Serial.begin(115200);
@@ -54,11 +54,12 @@ void loop() {
   next_sample += period_ms;
   const int at_x = analogRead(A0), at_y = analogRead(A1);
   if (at_x == 0) {  // nothing touches the screen: the servos stay
-    elapsed += period;
+    ++periods;
     return;
   }
+  const double elapsed = periods * period;
   // Positive phi drives the ball towards +x, positive theta towards -y.
   phi.writeMicroseconds(1500 + (int)lround(x.command((at_x - 512) * count, elapsed) / microsecond));
   theta.writeMicroseconds(1500 - (int)lround(y.command((at_y - 512) * count, elapsed) / microsecond));
-  elapsed = period;
+  periods = 1;
 }

@@ -68,25 +68,25 @@ Equations equations_of(const model::Model& model) {
       model.system);
 }
 
-const char* explain(int flag) {
+Failure explain(int flag) {
   switch (flag) {
     case CV_TOO_MUCH_ACC:
-      return "the tolerance is finer than double precision can follow";
+      return {Why::error_out_of_reach, "the tolerance is finer than double precision can follow"};
     case CV_ERR_FAILURE:
-      return "the error test failed again and again at the smallest step";
+      return {Why::singular, "the error test failed again and again at the smallest step"};
     case CV_CONV_FAILURE:
-      return "the nonlinear iteration did not converge at the smallest step";
+      return {Why::singular, "the nonlinear iteration did not converge at the smallest step"};
     case CV_FIRST_RHSFUNC_ERR:
     case CV_REPTD_RHSFUNC_ERR:
     case CV_UNREC_RHSFUNC_ERR:
-      return "the accelerations are no longer finite";
+      return {Why::not_finite, "the accelerations are no longer finite"};
     case CV_LSETUP_FAIL:
     case CV_LSOLVE_FAIL:
-      return "the linear system is singular";
+      return {Why::singular, "the linear system is singular"};
     case CV_TOO_CLOSE:
-      return "what is left to integrate is shorter than the rounding of the time";
+      return {Why::singular, "what is left to integrate is shorter than the rounding of the time"};
     default:
-      return "CVODE gave up";
+      return {Why::singular, "CVODE gave up"};
   }
 }
 
@@ -130,16 +130,14 @@ class CvodeStepper : public Stepper {
   // From a stop, where the inputs' derivatives jump, the method's history is of no use.
   void jump() override { restart(time_); }
 
-  const char* step(double limit) override {
+  [[nodiscard]] std::optional<Failure> step(double limit) override {
     check(CVodeSetStopTime(memory(), limit), "CVodeSetStopTime");
     const double before = time_;
     const int flag = CVode(memory(), limit, state_.get(), &time_, CV_ONE_STEP);
     stepped_ = true;
     if (flag < 0) return explain(flag);
-    if (step_is_rounding(time_ - before)) {
-      return "the step shrank to the rounding of the time itself";
-    }
-    return nullptr;
+    if (step_is_rounding(time_ - before)) return step_is_lost;
+    return {};
   }
 
   void evaluate(const double* times, std::size_t count, double* rows) override {

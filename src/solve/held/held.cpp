@@ -104,13 +104,13 @@ void HeldStepper::prepare(double length) {
   }
 }
 
-const char* HeldStepper::step(double limit) {
+std::optional<Failure> HeldStepper::step(double limit) {
   settle();
   began_ = time_;
   looked_ = false;
   const double left = limit - time_;
   // Two guards may fall at one instant, but for a time that is lost beside it: nothing moves.
-  if (!(left > 0)) return nullptr;
+  if (!(left > 0)) return {};
   bool rejected = false;
   for (;;) {
     // The steps to the limit are alike, as they are in radau.
@@ -118,7 +118,7 @@ const char* HeldStepper::step(double limit) {
     const bool arrives = pieces <= 1;
     const double step = arrives ? left : pieces < 4 ? left / pieces : next_step_;
     if (!(step > 4 * std::numeric_limits<double>::epsilon() * time_) && !arrives) {
-      return "the step shrank to the rounding of the time itself";
+      return step_is_lost;
     }
     prepare(instants_.nominal(time_, step));
     Attempt attempt;
@@ -144,7 +144,7 @@ const char* HeldStepper::step(double limit) {
       next_step_ = arrives && !rejected ? std::max(next, next_step_) : next;
     }
     finish();
-    return nullptr;
+    return {};
   }
 }
 

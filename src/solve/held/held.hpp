@@ -32,7 +32,7 @@ class HeldStepper : public Stepper {
   HeldStepper(const model::Model& model, const Kernels& kernels, Tolerances tolerances);
 
   void start(double t, const double* z) override;
-  const char* step(double limit) override;
+  [[nodiscard]] std::optional<Failure> step(double limit) override;
   void evaluate(const double* times, std::size_t count, double* rows) override;
   void jump() override {}
   [[nodiscard]] double time() const override { return time_; }

@@ -181,7 +181,7 @@ bool RadauStepper::diverges(double step, double t) {
   return shrinking_.diverges(step, t, [this] { return size_of(state()); }) && !model_->hybrid();
 }
 
-const char* RadauStepper::step(double limit) {
+std::optional<Failure> RadauStepper::step(double limit) {
   settle();
   const int stages = kernel_->stages;
   const double t = time_, left = limit - t;
@@ -195,7 +195,7 @@ const char* RadauStepper::step(double limit) {
     const bool arrives = pieces <= 1;
     const double step = arrives ? left : pieces < 4 ? left / pieces : h;
     if (!(step > 4 * std::numeric_limits<double>::epsilon() * t) && !arrives) {
-      return "the step shrank to the rounding of the time itself";
+      return step_is_lost;
     }
     Attempt attempt;
     kernel_->attempt(workspace_, t, step, &attempt);
@@ -223,7 +223,7 @@ const char* RadauStepper::step(double limit) {
     fill_ = std::min(1.0, step_safety / factor);
     // A step that the limit cut short says little of how long the next may be.
     next_step_ = arrives && !rejected ? std::max(h, next_step_) : h;
-    return nullptr;
+    return {};
   }
 }
 

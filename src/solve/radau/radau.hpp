@@ -49,7 +49,7 @@ class RadauStepper : public Stepper {
   void leave_out_velocities(bool yes) { positions_only_ = yes; }
 
   void start(double t, const double* z) override;
-  const char* step(double limit) override;
+  [[nodiscard]] std::optional<Failure> step(double limit) override;
   void evaluate(const double* times, std::size_t count, double* rows) override;
   void jump() override {}
   [[nodiscard]] double time() const override { return time_; }
