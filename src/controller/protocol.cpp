@@ -111,10 +111,11 @@ std::string not_understood(std::string_view line, const std::string& why) {
   return "its answer was " + bbsim::quoted(line, longest_saying) + ": " + why;
 }
 
-// " (did you mean command?)", where one of the names is near; otherwise nothing.
+// " (did you mean command?)", where another one of the names is near; otherwise nothing.
 std::string hint(std::string_view found, std::span<const std::string_view> names) {
   const std::string_view nearest = yaml::nearest_name(found, names);
-  return nearest.empty() ? "" : " (did you mean " + std::string(nearest) + "?)";
+  if (nearest.empty() || nearest == found) return "";
+  return " (did you mean " + shown(nearest) + "?)";
 }
 
 // Of an answer that lacks a name, what it has in its place, if that is near: ", but "comand" (did
@@ -210,8 +211,11 @@ Ready read_ready(std::string_view line) {
         } else if (name != Json("sample")) {
           std::vector<std::string_view> known{"sample"};
           for (const Field& one : fields) known.push_back(one.name);
-          const std::string meant = name.is_string() ? hint(name.get<std::string>(), known) : "";
-          return refuse("found a field " + name.dump() + meant + "; allowed: those of the hello");
+          const bool is_text = name.is_string();
+          const std::string meant = is_text ? hint(name.get<std::string>(), known) : "";
+          return refuse("found a field " +
+                        (is_text ? bbsim::quoted(name.get<std::string>()) : "that is no text") +
+                        meant + "; allowed: those of the hello");
         }
       }
     } else if (key == "columns") {
@@ -288,8 +292,9 @@ std::string read_answer(std::string_view line, std::span<const std::string> name
         std::vector<std::string_view> known{"command", "error"};
         known.insert(known.end(), names.begin(), names.end());
         const std::string meant = hint(name, known);
-        return refuse("found " + bbsim::quoted(name) +
-                      (meant.empty() ? " that is no number" : meant) + "; " + form);
+        const char* const kind = name == "error" ? " that is no text" : " that is no number";
+        return refuse("found " + bbsim::quoted(name) + (meant.empty() ? kind : meant) + "; " +
+                      form);
       }
       const auto wanted = std::ranges::find(names, name);
       if (wanted == names.end()) continue;

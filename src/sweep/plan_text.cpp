@@ -2,6 +2,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include "base/shown.hpp"
+
 namespace bbsim::sweep {
 namespace {
 
@@ -27,7 +29,7 @@ PlanDifference compare_plans(const std::string& one, const std::string& two, boo
     if (key == "instruction_set") {
       difference.instruction_sets = {instruction_set_of(a), instruction_set_of(b)};
     } else if (key != "shard" || !of_shards) {
-      difference.other += (difference.other.empty() ? "" : ", ") + key;
+      difference.other += (difference.other.empty() ? "" : ", ") + shown(key);
     }
   };
   for (const auto& [key, value] : a.items()) {
