@@ -165,8 +165,7 @@ std::string try_controller(const Scenario& scenario) {
 ExitCode check(const ScenarioArguments& arguments) {
   const Scenario scenario = read_scenario(arguments.file, arguments.overrides);
   file::Outputs outputs;
-  reads_scenario(outputs, arguments.file, table_files(scenario));
-  reads_controller(outputs, scenario);
+  reads_scenario(outputs, arguments.file, scenario);
   prints(outputs);
   print(check_report(scenario, true) + try_controller(scenario));
   return ExitCode::done;

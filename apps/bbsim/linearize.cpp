@@ -69,7 +69,7 @@ ExitCode linearize(const LinearizeArguments& arguments) {
   const ToText format = arguments.output.empty() ? nullptr : format_of(arguments.output);
   const Scenario scenario = read_scenario(arguments.scenario.file, arguments.scenario.overrides);
   file::Outputs outputs;
-  reads_scenario(outputs, arguments.scenario.file, table_files(scenario));
+  reads_scenario(outputs, arguments.scenario.file, scenario);
   if (format != nullptr) {
     outputs.writes(arguments.output, "-o");
   } else {

@@ -84,12 +84,14 @@ bool has_name(const std::string& text, const std::string& name) {
 }
 
 ExitCode measure(const MeasureArguments& arguments) {
+  plot::Result result = plot::read_result(arguments.file, {});
   file::Outputs outputs;
   outputs.reads(arguments.file, "FILE");
+  reads_with_result(outputs, result);
   prints(outputs);
   const std::vector<std::string> asked = scenario::split_measures(arguments.measures);
   std::vector<Words> others;
-  file::TableData numbers = numbers_of(plot::read_result(arguments.file, {}), others);
+  file::TableData numbers = numbers_of(std::move(result), others);
   try {
     const record::StoredRun run(std::move(numbers), arguments.file);
     const auto measures = run.measures_named(asked);

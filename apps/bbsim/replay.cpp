@@ -8,10 +8,12 @@
 
 #include "assemble.hpp"
 #include "commands.hpp"
+#include "file/default_name.hpp"
 #include "file/format.hpp"
 #include "file/memory_table.hpp"
 #include "plot/read_result.hpp"
 #include "replay/log.hpp"
+#include "replay/page.hpp"
 #include "replay/sources.hpp"
 #include "replay_file.hpp"
 #include "scenario/reader.hpp"
@@ -25,6 +27,7 @@ namespace {
 struct ReplayArguments {
   std::vector<std::string> files;
   std::string output, title;
+  bool force = false;
   std::vector<std::string> logs, maps;
   plot::Beside beside;
 };
@@ -112,12 +115,11 @@ std::vector<Replayed> read_all(const ReplayArguments& arguments, file::Outputs& 
         source.log = replay::run_of_log(plot::read_csv_columns(files[i]), map, names[i]);
       } else if (is_scenario(files[i])) {
         source.scenario = read_scenario(files[i], arguments.beside.overrides);
-        reads_scenario(outputs, files[i], table_files(*source.scenario));
-        reads_controller(outputs, *source.scenario);
+        reads_scenario(outputs, files[i], *source.scenario);
       } else {
         outputs.reads(files[i], "what is shown");
         source.result = plot::read_result(files[i], arguments.beside);
-        reads_tables(outputs, source.result->scenario);
+        reads_with_result(outputs, *source.result);
       }
       sources.push_back(std::move(source));
     } catch (const InputError& error) {
@@ -163,7 +165,11 @@ ExitCode replay_files(const ReplayArguments& arguments, const Options& options) 
   if (!arguments.beside.summary.empty()) outputs.reads(arguments.beside.summary, "--summary");
   if (!arguments.beside.scenario.empty()) outputs.reads(arguments.beside.scenario, "--scenario");
   std::vector<Replayed> sources = read_all(arguments, outputs);
-  outputs.writes(output, arguments.output.empty() ? "the first file's name, without -o" : "-o");
+  declare_replay(outputs, output,
+                 arguments.output.empty() ? "the first file's name, without -o" : "-o");
+  if (arguments.output.empty() && !arguments.force) {
+    file::require_like(output, {.what = "a replay of bbsim's", .mark = replay::page_mark});
+  }
 
   const auto is_sweep = [](const Replayed& source) {
     return source.result && source.result->is_sweep();
@@ -224,6 +230,7 @@ void add_replay(Command& command, const Options& options) {
               "FILE.html, FILE.glb (glTF, for Blender and slides), or - for a page on "
               "standard output; default: the first file's name with .html")
       .takes("FILE");
+  add_force(command, arguments->force);
   command
       .option("--data", arguments->logs,
               "LOG.csv of a real rig, shown beside the runs; may be given again")

@@ -94,7 +94,7 @@ ExitCode verify(const VerifyArguments& arguments, const Options& options) {
   for (const NamedScenario& named : scenes) study::require_comparable(named.scenario);
   file::Outputs outputs;
   if (!arguments.scenario.empty()) {
-    reads_scenario(outputs, arguments.scenario, table_files(scenes.front().scenario));
+    reads_scenario(outputs, arguments.scenario, scenes.front().scenario);
   }
   prints(outputs);
   Progress progress("verify", options.quiet);

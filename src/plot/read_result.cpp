@@ -196,11 +196,9 @@ bool is_newer(const fs::path& one, const fs::path& other) {
 
 // NAME.json beside NAME.csv, if it tells of that very file. A run writes it last.
 void find_summary(Result& result) {
-  const fs::path csv(result.file);
-  fs::path summary = csv;
-  summary.replace_extension(".json");
-  std::error_code ignored;
-  if (result.file == "-" || !fs::is_regular_file(summary, ignored)) return;
+  const fs::path csv(result.file), summary(summary_beside(result.file));
+  if (summary.empty()) return;
+  result.beside = summary;
   const Json json = parse_json(summary);
   if (!is_summary(json)) return;
   if (fs::path(member<std::string>(json, "output", "")).filename() != csv.filename()) return;
@@ -214,6 +212,14 @@ void find_summary(Result& result) {
 
 }  // namespace
 
+std::string summary_beside(const std::string& file) {
+  fs::path summary(file);
+  summary.replace_extension(".json");
+  std::error_code ignored;
+  if (file == "-" || is_hdf5(file) || !fs::is_regular_file(summary, ignored)) return "";
+  return summary;
+}
+
 Result read_result(const std::string& file, const Beside& beside) {
   if (const std::string ending = file::lower_ending(file); ending == ".yaml" || ending == ".yml") {
     throw InputError(file + ": is a scenario; draw its result: bbsim run " + file +
@@ -222,7 +228,7 @@ Result read_result(const std::string& file, const Beside& beside) {
   Result result = is_hdf5(file) ? read_hdf5_result(file) : read_csv_columns(file);
   if (!beside.summary.empty()) {
     read_summary(result, beside.summary);
-  } else if (!is_hdf5(file) && !result.is_sweep()) {
+  } else if (!result.is_sweep()) {
     find_summary(result);
   }
   if (!beside.scenario.empty()) {

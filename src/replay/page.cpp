@@ -350,9 +350,12 @@ std::string page_template(const std::vector<std::string>& folders) {
       "BBSIM_SHARE_PATH to the template's folder");
 }
 
-std::string page_template() {
+namespace {
+
+// Where the template may be, in order.
+std::vector<std::string> template_folders() {
   if (const char* folder = std::getenv("BBSIM_SHARE_PATH"); folder != nullptr && *folder != '\0') {
-    return page_template({folder});
+    return {folder};
   }
   std::error_code error;
   const std::filesystem::path program = std::filesystem::read_symlink("/proc/self/exe", error);
@@ -360,7 +363,22 @@ std::string page_template() {
   std::vector<std::string> folders{prefix / "share" / "bbsim"};
   const std::string installed = prefix / BBSIM_INSTALL_DATADIR / "bbsim";
   if (installed != folders.front()) folders.push_back(installed);
-  return page_template(folders);
+  return folders;
+}
+
+}  // namespace
+
+std::string page_template() {
+  return page_template(template_folders());
+}
+
+std::string template_file() {
+  for (const std::string& folder : template_folders()) {
+    const std::filesystem::path file = std::filesystem::path(folder) / template_name;
+    std::error_code error;
+    if (std::filesystem::exists(file, error)) return file.string();
+  }
+  return "";
 }
 
 void write_page(const std::string& file, const Scene& scene) {

@@ -269,6 +269,19 @@ TEST_CASE("a command that cannot be started is the scenario's fault, with its pl
   CHECK_FALSE(std::filesystem::exists(scene.folder / "o.csv"));
 }
 
+TEST_CASE("a name that picks no format is refused before a controller is started") {
+  const Scene scene("good");
+  for (const char* command : {"run", "sweep"}) {
+    std::vector<std::string> words{command, scene.file, "-o", scene.folder / "o.foo"};
+    if (command == std::string("sweep")) words.insert(words.end(), {"--vary", "gravity=list:9,10"});
+    const Result result = bbsim(words);
+    CAPTURE(command, result.err);
+    CHECK(result.exit_code == 2);
+    CHECK(contains(result.err, ".csv, .h5"));
+  }
+  CHECK(scene.processes().first == 0);
+}
+
 TEST_CASE("check says what is known of a loop whose law is not") {
   const Scene scene("resets");
   const Result result = bbsim({"check", scene.file});

@@ -157,6 +157,134 @@ TEST_CASE("nothing writes over a state that it goes on from, nor over a table of
   }
 }
 
+TEST_CASE("linearize, measure, plot and replay write over nothing that they read, asked or not") {
+  const Folder folder;
+  folder.write("own.yaml",
+               "ball: {radius: 0.02}\n"
+               "gimbal: {servo: {natural_frequency: 20, damping: 0.8}}\n"
+               "controller:\n"
+               "  program: {command: [python3, pid.py, gains.csv]}\n"
+               "  drives: angle\n"
+               "  reference: {point: [0, 0]}\n"
+               "  sampling: {period: 0.02}\n"
+               "time: {end: 0.2, step: 0.02}\n");
+  const std::string law = "a law";
+  for (const char* const name : {"pid.py", "gains.csv"}) folder.write(name, law);
+  fs::create_symlink("pid.py", folder / "link.py");
+  for (const std::string name : {"pid.py", "gains.csv", "link.py", "./pid.py"}) {
+    CAPTURE(name);
+    const Result result = bbsim({"linearize", "own.yaml", "-o", name}, folder.path());
+    CHECK(result.exit_code == 2);
+    CHECK_THAT(result.err, Contains("(the scenario's controller), which is read here"));
+  }
+  CHECK(folder.read("pid.py") == law);
+  CHECK(folder.read("gains.csv") == law);
+
+  folder.write("in.yaml", scene);
+  REQUIRE(bbsim({"run", "in.yaml", "-q", "-o", "r.csv", "--summary", "r.json"}, folder.path())
+              .exit_code == 0);
+  const std::string summary = folder.read("r.json");
+  for (const char* const name : {"r.svg", "t.svg", "t.html"}) {
+    fs::create_symlink("r.json", folder / name);
+  }
+  for (const Names& words : {Names{"plot", "r.csv"}, Names{"plot", "r.csv", "-o", "t.svg"},
+                             Names{"plot", "--overlay", "r.csv", "r.csv", "-o", "t.svg"},
+                             Names{"replay", "r.csv", "-o", "t.html"}}) {
+    CAPTURE(words);
+    const Result result = bbsim(words, folder.path());
+    CHECK(result.exit_code == 2);
+    CHECK_THAT(result.err, Contains("r.json (the summary of r.csv), which is read here"));
+  }
+  Launch launch{{"measure", "r.csv", "--measure", "max_x"}, folder.path()};
+  launch.prepare = [] { static_cast<void>(std::freopen("r.json", "a", stdout)); };
+  CHECK(bbsim(launch).exit_code == 2);
+  CHECK(folder.read("r.json") == summary);
+}
+
+TEST_CASE("the page's template is no place for a page") {
+  const Folder folder;
+  folder.write("in.yaml", scene);
+  const std::string page =
+      "<!-- A replay made by bbsim. --><title>@BBSIM_TITLE@</title>@BBSIM_DATA@";
+  folder.write("replay.html", page);
+  for (const Names& words : {Names{"replay", "in.yaml", "-o", "replay.html"},
+                             Names{"run", "in.yaml", "-q", "--replay", "replay.html"}}) {
+    Launch launch{words, folder.path()};
+    launch.prepare = [] { setenv("BBSIM_SHARE_PATH", ".", 1); };
+    const Result result = bbsim(launch);
+    CHECK(result.exit_code == 2);
+    CHECK_THAT(result.err, Contains("replay.html (the template of pages), which is read here"));
+    CHECK(folder.read("replay.html") == page);
+  }
+}
+
+TEST_CASE("without -o nothing is replaced but what the command would write") {
+  struct Kept {
+    std::string content, told;
+  };
+  const auto [content, told] = GENERATE(values<Kept>({
+      {"t,x_mm,y_mm\n0,1,2\n", "begins with \"t,x_mm,y_mm\""},
+      {"", "is empty"},
+      {"t,x,y,gamma,phi,theta", "begins with \"t,x,y,gamma,phi,theta\""},
+      {"t,x,y,gamma,phi,theta\r\n0,0,0,0,0,0\r\n", "begins with"},
+      {"t,x,y,gamma,phi,theta,spin\n0,0,0,0,0,0,0\n", "begins with"},
+      {"t,x,y,gamma,phi,theta\n0,0,0,0,0,0\n0.1,0,0", "breaks off within its last row"},
+      {std::string("\x89HDF\r\n\x1a\n\0\0", 10), "begins with \"\\x89HDF"},
+  }));
+  CAPTURE(content);
+  const Folder folder;
+  folder.write("trial1.yaml", scene);
+  folder.write("trial1.csv", content);
+  const Result result = bbsim({"run", "trial1.yaml"}, folder.path());
+  CHECK(result.exit_code == 2);
+  CHECK_THAT(result.err, Contains("trial1.csv: is there, and ") && Contains(told) &&
+                             Contains("-o") && Contains("--force"));
+  CHECK(folder.read("trial1.csv") == content);
+  CHECK(folder.files() == Names{"trial1.csv", "trial1.yaml"});
+
+  CHECK(bbsim({"run", "trial1.yaml", "-q", "--force"}, folder.path()).exit_code == 0);
+  const std::string rows = folder.read("trial1.csv");
+  CHECK_THAT(rows, Catch::Matchers::StartsWith("t,x,y,gamma,phi,theta\n0,"));
+  CHECK(bbsim({"run", "trial1.yaml", "-q"}, folder.path()).exit_code == 0);
+  CHECK(folder.read("trial1.csv") == rows);
+  CHECK(bbsim({"run", "trial1.yaml", "-q", "--set", "output.columns=[t, x]"}, folder.path())
+            .exit_code == 2);
+  CHECK(folder.read("trial1.csv") == rows);
+  // A name that was given is the user's word.
+  CHECK(bbsim({"run", "trial1.yaml", "-q", "--set", "output.columns=[t, x]", "-o", "trial1.csv"},
+              folder.path())
+            .exit_code == 0);
+}
+
+TEST_CASE("so it is of sweeps, pictures and pages") {
+  const Folder folder;
+  folder.write("a.yaml", scene);
+  REQUIRE(bbsim({"run", "a.yaml", "-q", "-o", "a.csv"}, folder.path()).exit_code == 0);
+  struct Way {
+    Names words;
+    std::string file;
+  };
+  const auto [words, file] = GENERATE(values<Way>({
+      {{"sweep", "a.yaml", "--vary", "gravity=list:9,10"}, "a-sweep.csv"},
+      {{"plot", "a.csv"}, "a.svg"},
+      {{"plot", "a.csv", "--format", "png"}, "a.png"},
+      {{"plot", "a.csv", "--format", "pdf"}, "a.pdf"},
+      {{"replay", "a.csv"}, "a.html"},
+      {{"replay", "a.yaml"}, "a.html"},
+  }));
+  CAPTURE(words, file);
+  const std::string content = "notes of mine, on case,gravity\n";
+  folder.write(file, content);
+  const Result result = bbsim(words, folder.path());
+  CHECK(result.exit_code == 2);
+  CHECK_THAT(result.err,
+             Contains(file + ": is there, and begins with \"notes of mine") && Contains("--force"));
+  CHECK(folder.read(file) == content);
+  CHECK(bbsim(with(words, {"--force", "-q"}), folder.path()).exit_code == 0);
+  CHECK(folder.read(file) != content);
+  CHECK(bbsim(with(words, {"-q"}), folder.path()).exit_code == 0);
+}
+
 TEST_CASE("an option with nothing for a value is refused, as of a variable that is not set") {
   const Folder folder;
   folder.write("in.yaml", scene);
