@@ -107,9 +107,12 @@ ExitCode run(const RunArguments& arguments, const Options& options) {
   std::optional<file::MemoryTable> pictured;
   if (replay) pictured.emplace(scenario::names_of(columns), writer.get(), asked.size());
 
-  Simulation made = simulate(scenario, model, grid, {columns, asked.size(), measures},
-                             pictured ? static_cast<file::TableWriter&>(*pictured) : *writer,
-                             options.quiet, part ? &part->part() : nullptr);
+  const auto simulation = [&] {
+    return simulate(scenario, model, grid, {columns, asked.size(), measures},
+                    pictured ? static_cast<file::TableWriter&>(*pictured) : *writer, options.quiet,
+                    part ? &part->part() : nullptr);
+  };
+  Simulation made = part ? part->going_on(simulation) : simulation();
   record::RunSummary& summary = made.summary;
   summary.output = output;
   for (std::size_t m = 0; m < measures.size(); ++m) {

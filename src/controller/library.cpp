@@ -27,6 +27,9 @@ struct LibraryFunctions {
 
 namespace {
 
+// Bytes: more than a microcontroller has, by far.
+constexpr std::size_t most_remembered = std::size_t{64} * 1024 * 1024;
+
 [[noreturn]] void refuse(const std::string& path, const std::string& why) {
   throw KeyError("controller.library.file", "found " + shown(path, uncut) + ", " + why);
 }
@@ -149,7 +152,13 @@ bool Library::can_save() const {
 }
 
 std::string Library::save() {
-  std::string memory(functions_->save(controller_, nullptr, 0), '\0');
+  const std::size_t size = functions_->save(controller_, nullptr, 0);
+  if (size > most_remembered) {
+    throw fault_of("to save its state", "it would take " + std::to_string(size) +
+                                            " bytes; allowed: at most " +
+                                            std::to_string(most_remembered));
+  }
+  std::string memory(size, '\0');
   if (memory.empty() ||
       functions_->save(controller_, memory.data(), memory.size()) != memory.size()) {
     throw fault_of("to save its state", last_error(controller_));

@@ -4,8 +4,8 @@
 #include <charconv>
 #include <cmath>
 #include <limits>
-#include <nlohmann/json.hpp>
 
+#include "base/json.hpp"
 #include "base/number_text.hpp"
 #include "base/shown.hpp"
 #include "yaml/nearest.hpp"
@@ -121,7 +121,7 @@ std::string hint(std::string_view found, std::span<const std::string_view> names
 // Of an answer that lacks a name, what it has in its place, if that is near: ", but "comand" (did
 // you mean command?)".
 std::string misspelt(std::string_view line, const std::string& lacks) {
-  const Json answer = Json::parse(line, nullptr, false);
+  const Json answer = parse_json(line);
   if (!answer.is_object()) return "";
   const std::string_view wanted[] = {lacks};
   for (const auto& [name, value] : answer.items()) {
@@ -135,7 +135,7 @@ constexpr const char* form = "allowed: {\"command\": [PHI, THETA]}, and beside i
 
 // The text of {"error": "..."}, if it is that.
 std::optional<std::string> error_of(std::string_view line) {
-  const Json answer = Json::parse(line, nullptr, false);
+  const Json answer = parse_json(line);
   if (!answer.is_object()) return {};
   const auto error = answer.find("error");
   if (error == answer.end() || !error->is_string()) return {};
@@ -171,7 +171,7 @@ std::string hello_line(const Setup& setup, const std::string& memory) {
   hello["fields"]["sample"] = "1";
   for (const Field& field : fields) hello["fields"][std::string(field.name)] = field.unit;
   hello["command"] = angle ? "rad" : "rad/s^2";
-  if (!memory.empty()) hello["state"] = Json::parse(memory);
+  if (!memory.empty()) hello["state"] = parse_json(memory);
   return hello.dump() + '\n';
 }
 
@@ -185,7 +185,7 @@ Ready read_ready(std::string_view line) {
                              "}, and beside it \"reset\": " +
                              "true, \"save\": true, \"columns\": {\"NAME\": \"UNIT\"}, \"fields\": "
                              "[\"NAME\"]";
-  const Json answer = Json::parse(line, nullptr, false);
+  const Json answer = parse_json(line);
   if (!answer.is_object()) return refuse(wanted);
   if (!answer.contains("protocol")) {
     return refuse("found no protocol" + misspelt(line, "protocol") + "; " + wanted);
@@ -234,7 +234,7 @@ Ready read_ready(std::string_view line) {
 }
 
 std::string read_memory(std::string_view line, std::string& memory) {
-  const Json answer = Json::parse(line, nullptr, false);
+  const Json answer = parse_json(line);
   if (!answer.is_object() || answer.size() != 1 || !answer.contains("state")) {
     return refusal(line, "allowed: {\"state\": ANYTHING}");
   }

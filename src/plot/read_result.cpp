@@ -2,24 +2,22 @@
 
 #include <algorithm>
 #include <array>
-#include <cerrno>
 #include <charconv>
 #include <chrono>
 #include <cmath>
 #include <filesystem>
-#include <fstream>
 #include <map>
-#include <nlohmann/json.hpp>
 #include <sstream>
 #include <string_view>
 #include <utility>
 #include <variant>
 
 #include "base/error.hpp"
+#include "base/json.hpp"
 #include "base/text.hpp"
-#include "file/descriptor.hpp"
 #include "file/format.hpp"
 #include "file/hdf5_table.hpp"
+#include "file/whole_file.hpp"
 #include "scenario/reader.hpp"
 #include "scenario/variation.hpp"
 
@@ -134,6 +132,8 @@ T member(const Json& json, const char* name, T otherwise) {
   }
 }
 
+constexpr std::size_t most_of_a_summary = std::size_t{1} << 28U;  // bytes: a million events
+
 bool is_summary(const Json& json) {
   return json.is_object() && json.contains("status") && json.contains("events") &&
          json["events"].is_array() && json.contains("output");
@@ -163,16 +163,8 @@ void take_summary(Result& result, const Json& json) {
                 member<std::string>(json, "scenario", ""), overrides);
 }
 
-// `discarded`, which is no summary, if it cannot be read or is no JSON.
-Json parse_json(const std::string& file) {
-  std::ifstream stream(file, std::ios::binary);
-  return stream ? Json::parse(stream, nullptr, false) : Json(Json::value_t::discarded);
-}
-
 void read_summary(Result& result, const std::string& file) {
-  if (!std::ifstream(file))
-    throw InputError("cannot read " + file + ": " + file::error_text(errno));
-  const Json json = parse_json(file);
+  const Json json = parse_json(file::read_whole(file, {}, most_of_a_summary));
   if (!is_summary(json)) {
     throw InputError(file +
                      ": is no summary; allowed: what `bbsim run --summary FILE.json` writes");
@@ -199,7 +191,12 @@ void find_summary(Result& result) {
   const fs::path csv(result.file), summary(summary_beside(result.file));
   if (summary.empty()) return;
   result.beside = summary;
-  const Json json = parse_json(summary);
+  Json json;
+  try {
+    json = parse_json(file::read_whole(summary, {}, most_of_a_summary));
+  } catch (const InputError&) {  // nobody asked for it
+    return;
+  }
   if (!is_summary(json)) return;
   if (fs::path(member<std::string>(json, "output", "")).filename() != csv.filename()) return;
   const bool as_long = member(json, "rows", std::size_t{0}) == result.rows;

@@ -4,13 +4,12 @@
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
-#include <nlohmann/json.hpp>
 #include <system_error>
 
 #include "base/error.hpp"
+#include "base/json.hpp"
 #include "file/atomic_file.hpp"
+#include "file/whole_file.hpp"
 #include "replay/base64.hpp"
 #include "replay/kept_rows.hpp"
 #include "replay/rotation.hpp"
@@ -151,7 +150,7 @@ Json run_json(const Run& run, const Stage& stage, std::size_t most) {
   json["friction"] = run.friction ? Json(*run.friction) : Json();
   json["scenario"] = {
       {"file", run.scenario_file}, {"text", run.scenario_text}, {"overrides", run.overrides}};
-  json["summary"] = run.summary.empty() ? Json() : Json::parse(run.summary, nullptr, false);
+  json["summary"] = run.summary.empty() ? Json() : parse_json(run.summary);
   json["check"] = run.check;
   json["poles"] = run.poles ? poles_json(*run.poles) : Json();
   json["version"] = run.version;
@@ -339,8 +338,10 @@ std::string page(const Scene& scene, std::string_view whole_template) {
 std::string page_template(const std::vector<std::string>& folders) {
   std::string looked_in;
   for (const std::string& folder : folders) {
-    std::ifstream stream(std::filesystem::path(folder) / template_name, std::ios::binary);
-    if (stream) return {std::istreambuf_iterator<char>(stream), {}};
+    try {
+      return file::read_whole(std::filesystem::path(folder) / template_name);
+    } catch (const InputError&) {  // it is looked for in the next one
+    }
     looked_in.append(looked_in.empty() ? "" : " and ").append(folder);
   }
   throw OutputError(

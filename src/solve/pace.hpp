@@ -37,6 +37,9 @@ class Pace {
   template <class Archive>
   void archive(Archive& archive) {
     archive(steps_, from_, advance_, advances_, windows_, shrinking_, slow_, awaited_);
+    for (const int count : {shrinking_, slow_, awaited_}) {
+      archive.require(count >= 0 && count < 1 << 30);
+    }
   }
 
   // Why, as Outcome::reason.

@@ -1,7 +1,6 @@
 #include "sweep/plan_text.hpp"
 
-#include <nlohmann/json.hpp>
-
+#include "base/json.hpp"
 #include "base/shown.hpp"
 
 namespace bbsim::sweep {
@@ -11,7 +10,7 @@ using Json = nlohmann::ordered_json;
 
 // Discarded if it is none.
 Json parsed(const std::string& plan) {
-  return Json::parse(plan, nullptr, false);
+  return parse_json(plan);
 }
 
 std::string instruction_set_of(const Json& plan) {

@@ -285,6 +285,61 @@ TEST_CASE("so it is of sweeps, pictures and pages") {
   CHECK(bbsim(with(words, {"-q"}), folder.path()).exit_code == 0);
 }
 
+TEST_CASE("a summary that nests without end is none") {
+  const Folder folder;
+  folder.write("in.yaml", scene);
+  REQUIRE(bbsim({"run", "in.yaml", "-q", "-o", "r.csv", "--summary", "r.json"}, folder.path())
+              .exit_code == 0);
+  std::string summary = folder.read("r.json");
+  const std::size_t nesting = 100'000;
+  summary.insert(1, "\"deep\": " + std::string(nesting, '[') + std::string(nesting, ']') + ",");
+  folder.write("r.json", summary);
+  for (const Names& words : {Names{"plot", "r.csv", "-q"}, Names{"replay", "r.csv", "-q"},
+                             Names{"measure", "r.csv", "--measure", "max_x"}}) {
+    CAPTURE(words);
+    CHECK(bbsim(words, folder.path()).exit_code == 0);  // nobody asked for the summary
+  }
+  for (const Names& words : {Names{"plot", "r.csv"}, Names{"replay", "r.csv"}}) {
+    const Result result = bbsim(with(words, {"--summary", "r.json"}), folder.path());
+    CHECK(result.exit_code == 2);
+    CHECK_THAT(result.err, Contains("r.json: is no summary"));
+  }
+}
+
+TEST_CASE("a folder, an unreadable file or a device where a state or a summary is read is exit 2") {
+  const Folder folder;
+  folder.write("in.yaml", scene);
+  REQUIRE(bbsim({"run", "in.yaml", "-q", "-o", "r.csv"}, folder.path()).exit_code == 0);
+  fs::create_directory(folder / "folder");
+  folder.write("closed", "{}");
+  REQUIRE(chmod((folder / "closed").c_str(), 0) == 0);
+  struct Way {
+    std::string file, why;
+  };
+  for (const auto& [file, why] :
+       {Way{"folder", "is a directory"}, Way{"closed", "permission denied"},
+        Way{"nowhere", "no such file"}, Way{"/dev/null", "/dev/null: is no s"}}) {
+    for (const Names& words :
+         {Names{"run", "in.yaml", "-o", "x.csv", "--from-state", file},
+          Names{"plot", "r.csv", "--summary", file}, Names{"replay", "r.csv", "--summary", file}}) {
+      CAPTURE(words);
+      Launch launch{words, folder.path()};
+      launch.prepare = drop_rights_over_files;
+      const Result result = bbsim(launch);
+      CHECK(result.exit_code == 2);
+      CHECK_THAT(result.err, Contains(why));
+    }
+  }
+  // It is looked at no further than its first bytes.
+  if (under_sanitizers) return;
+  Launch launch{{"run", "in.yaml", "-o", "x.csv", "--from-state", "/dev/zero"}, folder.path()};
+  launch.prepare = [] { limit(RLIMIT_AS, rlim_t{1} << 28U); };
+  const Result zeros = bbsim(launch);
+  CHECK(zeros.exit_code == 2);
+  CHECK_THAT(zeros.err, Contains("/dev/zero: is no state of a run"));
+  CHECK(folder.files() == Names{"closed", "folder", "in.yaml", "r.csv"});
+}
+
 TEST_CASE("an option with nothing for a value is refused, as of a variable that is not set") {
   const Folder folder;
   folder.write("in.yaml", scene);

@@ -175,6 +175,19 @@ TEST_CASE("what is not known is shown, and cut where it is long") {
   }
 }
 
+TEST_CASE("what a controller says nests no deeper than anybody needs") {
+  const auto nested = [](std::size_t depth) {
+    return std::string(depth, '[') + std::string(depth, ']');
+  };
+  std::string memory;
+  CHECK(controller::read_memory("{\"state\": " + nested(50) + "}", memory).empty());
+  CHECK(memory == nested(50));
+  const std::string deep = nested(30000);  // a line is as long as that
+  CHECK_FALSE(controller::read_memory("{\"state\": " + deep + "}", memory).empty());
+  CHECK_FALSE(controller::read_ready("{\"protocol\": 1, \"fields\": " + deep + "}").fault.empty());
+  CHECK_FALSE(read("{\"a\": " + deep + "}").fault.empty());
+}
+
 TEST_CASE("a hello says what the run is like, and its answer what the controller can") {
   controller::Setup setup;
   setup.period = 0.02;
