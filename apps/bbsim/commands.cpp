@@ -28,7 +28,7 @@ void add_scenario(Command& command, ScenarioArguments& arguments) {
 void add_overrides(Command& command, std::vector<std::string>& overrides) {
   command
       .option("--set", overrides,
-              "set a key of the scenario, such as ball.radius=0.02; may be "
+              "set a key of the scenario, such as ball.radius=0.02; null removes it; may be "
               "given again")
       .takes("KEY=VALUE")
       .may_be_repeated();
