@@ -119,6 +119,7 @@ std::string what_switches(const Scenario& scenario, const model::Model& model) {
 }
 
 ExitCode accuracy(const AccuracyArguments& arguments, const Options& options) {
+  say_if_waiting(arguments.scenario.file, "a scenario", options.quiet);
   const Scenario scenario = read_scenario(arguments.scenario.file, arguments.scenario.overrides);
   const std::vector<Method> methods = methods_named(arguments.methods);
   const std::vector<double> rtols = tolerance_ladder(arguments.rtols);

@@ -145,6 +145,7 @@ void draw(const Task& task, plot::Format format, const PlotArguments& arguments,
   std::vector<plot::Result> results;
   file::Outputs outputs;
   for (const std::string& file : task.files) {
+    say_if_waiting(file, "a CSV", options.quiet);
     results.push_back(plot::read_result(file, arguments.beside));
     reads_with_result(outputs, results.back());
     if (!options.quiet && !results.back().left_out.empty()) say(results.back().left_out);

@@ -97,7 +97,8 @@ void check_arguments(const ReplayArguments& arguments) {
 }
 
 // All of them, and all that is wrong with them at once.
-std::vector<Replayed> read_all(const ReplayArguments& arguments, file::Outputs& outputs) {
+std::vector<Replayed> read_all(const ReplayArguments& arguments, const Options& options,
+                               file::Outputs& outputs) {
   std::vector<std::string> files = arguments.files;
   files.insert(files.end(), arguments.logs.begin(), arguments.logs.end());
   const std::vector<std::string> names = names_of(files);
@@ -105,6 +106,7 @@ std::vector<Replayed> read_all(const ReplayArguments& arguments, file::Outputs& 
   std::vector<Problem> problems;
   for (std::size_t i = 0; i < files.size(); ++i) {
     Replayed source{names[i]};
+    say_if_waiting(files[i], "a CSV", options.quiet);
     try {
       if (i >= arguments.files.size()) {
         outputs.reads(files[i], "--data");
@@ -164,7 +166,7 @@ ExitCode replay_files(const ReplayArguments& arguments, const Options& options) 
   file::Outputs outputs;
   if (!arguments.beside.summary.empty()) outputs.reads(arguments.beside.summary, "--summary");
   if (!arguments.beside.scenario.empty()) outputs.reads(arguments.beside.scenario, "--scenario");
-  std::vector<Replayed> sources = read_all(arguments, outputs);
+  std::vector<Replayed> sources = read_all(arguments, options, outputs);
   declare_replay(outputs, output,
                  arguments.output.empty() ? "the first file's name, without -o" : "-o");
   if (arguments.output.empty() && !arguments.force) {

@@ -58,6 +58,7 @@ void declare_files(const RunArguments& arguments, const Scenario& scenario,
 
 ExitCode run(const RunArguments& arguments, const Options& options) {
   if (!arguments.replay.empty()) require_replay_ending(arguments.replay, "--replay");
+  say_if_waiting(arguments.scenario.file, "a scenario", options.quiet);
   std::vector<std::string> overrides = arguments.scenario.overrides;
   if (!arguments.error.empty()) overrides.push_back("solver.error=" + arguments.error);
   std::vector<file::InputTable> inputs;

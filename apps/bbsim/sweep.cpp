@@ -135,6 +135,7 @@ ExitCode sweep(const SweepArguments& arguments, const Options& options) {
   std::vector<std::string> overrides = arguments.scenario.overrides;
   if (!arguments.error.empty()) overrides.push_back("solver.error=" + arguments.error);
   const Shard shard = read_shard(arguments.shard);
+  say_if_waiting(arguments.scenario.file, "a scenario", options.quiet);
   const ScenarioFamily family(arguments.scenario.file, overrides);
   const Sweep sweep = sweep_of(arguments, family.read_sweep());
   const sweep::SweepPlan plan(family, sweep);

@@ -103,24 +103,25 @@ void call_foreign(void (*function)(void*), void* data) {
 }  // namespace bbsim::controller
 
 // Functions of the C library by which a process ends, for all that is loaded into this program.
+// None of them returns, as its header says.
 extern "C" {
 
-[[noreturn]] void exit(int status) noexcept {
+void exit(int status) noexcept {
   bbsim::controller::leave("exit", status);
   bbsim::controller::pass_on("exit", status);
 }
 
-[[noreturn]] void quick_exit(int status) noexcept {
+void quick_exit(int status) noexcept {
   bbsim::controller::leave("quick_exit", status);
   bbsim::controller::pass_on("quick_exit", status);
 }
 
-[[noreturn]] void _exit(int status) {
+void _exit(int status) {
   bbsim::controller::leave("_exit", status);
   bbsim::end_process(status);
 }
 
-[[noreturn]] void _Exit(int status) noexcept {
+void _Exit(int status) noexcept {
   bbsim::controller::leave("_Exit", status);
   bbsim::end_process(status);
 }

@@ -491,7 +491,13 @@ TEST_CASE("the instruction set is named") {
   CHECK_THAT(version.out, Catch::Matchers::StartsWith("bbsim 0.2.0\ninstruction set: "));
   const Folder folder;
   folder.write("in.yaml", scene);
-  const std::string name = version.out.substr(29, version.out.size() - 30);
+  const std::string name = version.out.substr(29, version.out.find('\n', 29) - 29);
+  CHECK_THAT(version.out, Catch::Matchers::Matches(
+                              "bbsim 0\\.2\\.0\n"
+                              "instruction set: [a-z0-9]+\n"
+                              "commit: ([0-9a-f]{12}(, with changes)?|unknown: .*)\n"
+                              "libraries: SUNDIALS [0-9.]+, Eigen [0-9.]+, yaml-cpp [0-9.]+, CLI11 "
+                              "[0-9.]+, nlohmann-json [0-9.]+, fmt [0-9.]+, HDF5 [0-9.]+\n"));
   CHECK(bbsim({"run", "in.yaml", "-q", "--summary", "s.json"}, folder.path()).exit_code == 0);
   CHECK(nlohmann::json::parse(folder.read("s.json")).at("instruction_set") == name);
   Launch wrong{{"--version"}};
