@@ -155,9 +155,8 @@ void draw(const Task& task, plot::Format format, const PlotArguments& arguments,
     file::require_like(task.output, {.what = "a picture of bbsim's", .mark = plot::picture_mark});
   }
   const plot::Picture picture = picture_of(results, arguments);
-  file::write_file(
-      task.output,
-      plot::mended(run_gnuplot(plot::gnuplot_script(picture, format, some_font_has)), format));
+  const std::string drawn = run_gnuplot(plot::gnuplot_script(picture, format, some_font_has));
+  file::write_file(task.output, plot::marked(plot::mended(drawn, format), format));
   if (options.quiet || task.output == "-") return;
   std::size_t rows = 0;
   for (const plot::Result& result : results) rows += result.rows;

@@ -282,15 +282,6 @@ class Script {
   std::string text_;
 };
 
-void mend_sections(std::string& svg) {
-  if (svg.find("<![CDATA[") != std::string::npos) return;
-  constexpr std::string_view end_of_section = "]]>", as_text = "]]&gt;";
-  for (std::size_t at = 0; (at = svg.find(end_of_section, at)) != std::string::npos;) {
-    svg.replace(at, end_of_section.size(), as_text);
-    at += as_text.size();
-  }
-}
-
 // A chunk of PNG: the length of its content, its kind and content, and the CRC-32 of those two.
 std::string png_chunk(std::string_view kind_and_content) {
   const auto number = [](std::uint32_t value) {
@@ -308,25 +299,6 @@ std::string png_chunk(std::string_view kind_and_content) {
          std::string(kind_and_content) + number(~crc);
 }
 
-// Where each format has room for a comment, at the end.
-void mark(std::string& drawn, Format format) {
-  if (drawn.empty()) return;
-  switch (format) {
-    case Format::svg:
-      drawn.append("<!-- ").append(picture_mark).append(" -->\n");
-      break;
-    case Format::pdf:
-      drawn.append("% ").append(picture_mark).append("\n");
-      break;
-    case Format::png: {
-      const std::string last = png_chunk("IEND");
-      if (!drawn.ends_with(last)) break;
-      const std::string text = std::string("tEXtComment") + '\0' + picture_mark;
-      drawn.insert(drawn.size() - last.size(), png_chunk(text));
-    }
-  }
-}
-
 }  // namespace
 
 std::string gnuplot_script(const Picture& picture, Format format, const HasLetter& has_letter) {
@@ -334,8 +306,28 @@ std::string gnuplot_script(const Picture& picture, Format format, const HasLette
 }
 
 std::string mended(std::string drawn, Format format) {
-  if (format == Format::svg) mend_sections(drawn);
-  mark(drawn, format);
+  if (format != Format::svg || drawn.find("<![CDATA[") != std::string::npos) return drawn;
+  constexpr std::string_view end_of_section = "]]>", as_text = "]]&gt;";
+  for (std::size_t at = 0; (at = drawn.find(end_of_section, at)) != std::string::npos;) {
+    drawn.replace(at, end_of_section.size(), as_text);
+    at += as_text.size();
+  }
+  return drawn;
+}
+
+// Where each format has room for a comment, at the end.
+std::string marked(std::string drawn, Format format) {
+  switch (format) {
+    case Format::svg:
+      return drawn.append("<!-- ").append(picture_mark).append(" -->\n");
+    case Format::pdf:
+      return drawn.append("% ").append(picture_mark).append("\n");
+    case Format::png:
+      break;
+  }
+  const std::string last = png_chunk("IEND");
+  const std::string comment = std::string("tEXtComment") + '\0' + picture_mark;
+  if (drawn.ends_with(last)) drawn.insert(drawn.size() - last.size(), png_chunk(comment));
   return drawn;
 }
 
