@@ -20,7 +20,7 @@ namespace bbsim::file {
 namespace {
 
 std::array<std::atomic<pid_t>, 1100> remembered;
-std::atomic<pid_t> owner{0};
+std::atomic<pid_t> owner_of_children{0};
 static_assert(std::atomic<pid_t>::is_always_lock_free, "a signal handler reads them");
 
 bool is_remembered(pid_t process) {
@@ -168,7 +168,7 @@ void bury_children(int milliseconds, IsToEnd is_to_end) {
 }  // namespace
 
 void remember_child(pid_t process) {
-  owner.store(getpid());
+  owner_of_children.store(getpid());
   for (auto& place : remembered) {
     pid_t free = 0;
     if (place.compare_exchange_strong(free, process)) return;
@@ -234,7 +234,7 @@ void Family::bury() const {
 }
 
 void end_children() {
-  if (owner.load() != getpid()) return;
+  if (owner_of_children.load() != getpid()) return;
   for (auto& place : remembered) {
     if (const pid_t process = place.load()) {
       kill(-process, SIGKILL);
