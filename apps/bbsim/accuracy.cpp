@@ -120,11 +120,12 @@ std::string what_switches(const Scenario& scenario, const model::Model& model) {
 }
 
 ExitCode accuracy(const AccuracyArguments& arguments, const Options& options) {
+  say_if_waiting(arguments.scenario.file, "a scenario", options.quiet);
   const Scenario scenario = read_scenario(arguments.scenario.file, arguments.scenario.overrides);
   const std::vector<Method> methods = methods_named(arguments.methods);
   const std::vector<double> rtols = tolerance_ladder(arguments.rtols);
   file::Outputs outputs;
-  reads_scenario(outputs, arguments.scenario.file, table_files(scenario));
+  reads_scenario(outputs, arguments.scenario.file, scenario);
   if (arguments.csv != "-") prints(outputs);
   if (!arguments.csv.empty()) outputs.writes(arguments.csv, "--csv");
   if (!arguments.plot.empty()) outputs.writes(arguments.plot, "--plot");

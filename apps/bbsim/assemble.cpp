@@ -1,7 +1,5 @@
 #include "assemble.hpp"
 
-#include <unistd.h>
-
 #include <cstdio>
 #include <string>
 
@@ -44,7 +42,7 @@ void attach(controller::Host& host, const Scenario& scenario, model::Model& mode
 
 void say_of_controller(std::string_view line) {
   // In the place of a progress bar, which is drawn again below it.
-  if (isatty(STDERR_FILENO) == 1) std::fputs("\r\033[K", stderr);
+  if (draws_on_terminal()) std::fputs(to_clear_line, stderr);
   say("controller: " + std::string(line));
 }
 

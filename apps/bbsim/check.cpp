@@ -172,11 +172,11 @@ std::string try_controller(const Scenario& scenario) {
   return report.text();
 }
 
-ExitCode check(const ScenarioArguments& arguments) {
+ExitCode check(const ScenarioArguments& arguments, const Options& options) {
+  say_if_waiting(arguments.file, "a scenario", options.quiet);
   const Scenario scenario = read_scenario(arguments.file, arguments.overrides);
   file::Outputs outputs;
-  reads_scenario(outputs, arguments.file, table_files(scenario));
-  reads_controller(outputs, scenario);
+  reads_scenario(outputs, arguments.file, scenario);
   prints(outputs);
   print(check_report(scenario, true) + try_controller(scenario));
   return ExitCode::done;
@@ -220,10 +220,10 @@ std::string check_report(const Scenario& scenario, bool sweep) {
   return report.text();
 }
 
-void add_check(Command& command, const Options& /*it has nothing to be quiet about*/) {
+void add_check(Command& command, const Options& options) {
   const auto arguments = std::make_shared<ScenarioArguments>();
   add_scenario(command, *arguments);
-  command.does([arguments] { return check(*arguments); });
+  command.does([arguments, &options] { return check(*arguments, options); });
 }
 
 }  // namespace bbsim::app

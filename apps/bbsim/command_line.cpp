@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "help.hpp"
-#include "simd/instruction_set.hpp"
 #include "terminal.hpp"
+#include "version.hpp"
 #include "yaml/nearest.hpp"
 
 namespace bbsim::app {
@@ -130,11 +130,6 @@ void add_help(CLI::App& app, Chosen& chosen) {
   });
 }
 
-std::string version() {
-  return std::string("bbsim " BBSIM_VERSION "\ninstruction set: ") +
-         simd::name_of(simd::chosen_instruction_set());
-}
-
 // Adds the commands. All of them and their options take longer to make than many a run: where the
 // first word names a command, only those are made that a word names; where it names none, all are,
 // for help and for what is said of a mistake. Options are made of those that are named.
@@ -168,7 +163,7 @@ ExitCode obey(int argc, char** argv, std::span<const NamedCommand> commands) {
                "bbsim");
   app.formatter(std::make_shared<HelpFormatter>());
   app.set_help_flag("-h,--help", "print this help and exit");
-  app.set_version_flag("--version", version, "print the version and exit");
+  app.set_version_flag("--version", version, "print the version, what it was made of, and exit");
   app.require_subcommand(1);
   app.footer(
       "Exit codes: 0 done; 1 the run ended early or files differ; 2 the command line or the "

@@ -6,6 +6,19 @@
 #include "scenario/reader.hpp"
 
 namespace bbsim::app {
+namespace {
+
+// The files that a scenario names.
+void reads_parts(file::Outputs& outputs, const Scenario& scenario) {
+  for (const std::string& table : table_files(scenario)) {
+    outputs.reads(table, "a table of the scenario");
+  }
+  for (const std::string& file : controller::files_of(scenario)) {
+    outputs.reads(file, "the scenario's controller");
+  }
+}
+
+}  // namespace
 
 void add_scenario(Command& command, ScenarioArguments& arguments) {
   command.option("SCENARIO", arguments.file, "a YAML file; - is standard input").required();
@@ -15,10 +28,15 @@ void add_scenario(Command& command, ScenarioArguments& arguments) {
 void add_overrides(Command& command, std::vector<std::string>& overrides) {
   command
       .option("--set", overrides,
-              "set a key of the scenario, such as ball.radius=0.02; may be "
+              "set a key of the scenario, such as ball.radius=0.02; null removes it; may be "
               "given again")
       .takes("KEY=VALUE")
       .may_be_repeated();
+}
+
+void add_force(Command& command, bool& force) {
+  command.flag("--force", force,
+               "without -o: replace the file of the default name, whatever it holds");
 }
 
 std::string default_output(const std::string& scenario, const std::string& suffix) {
@@ -38,23 +56,14 @@ void add_error(Command& command, std::string& error) {
       .takes("E");
 }
 
-void reads_scenario(file::Outputs& outputs, const std::string& file,
-                    const std::vector<std::string>& tables) {
+void reads_scenario(file::Outputs& outputs, const std::string& file, const Scenario& scenario) {
   outputs.reads(file, "the scenario");
-  for (const std::string& table : tables) outputs.reads(table, "a table of the scenario");
+  reads_parts(outputs, scenario);
 }
 
-void reads_tables(file::Outputs& outputs, const std::optional<Scenario>& scenario) {
-  if (!scenario) return;
-  for (const std::string& table : table_files(*scenario)) {
-    outputs.reads(table, "a table of the scenario");
-  }
-}
-
-void reads_controller(file::Outputs& outputs, const Scenario& scenario) {
-  for (const std::string& file : controller::files_of(scenario)) {
-    outputs.reads(file, "the scenario's controller");
-  }
+void reads_with_result(file::Outputs& outputs, const plot::Result& result) {
+  if (!result.beside.empty()) outputs.reads(result.beside, "the summary of " + result.file);
+  if (result.scenario) reads_parts(outputs, *result.scenario);
 }
 
 void prints(file::Outputs& outputs) {

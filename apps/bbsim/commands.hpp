@@ -1,12 +1,12 @@
 // The subcommands. Each add_ function gives one its options, and says what it does.
 #pragma once
 
-#include <optional>
 #include <string>
 #include <vector>
 
 #include "command.hpp"
 #include "file/outputs.hpp"
+#include "plot/result.hpp"
 #include "scenario/scenario.hpp"
 
 namespace bbsim::app {
@@ -24,6 +24,8 @@ struct ScenarioArguments {
 void add_scenario(Command& command, ScenarioArguments& arguments);
 // --error E: a bound in metres, in place of tolerances; as a further override it comes last.
 void add_error(Command& command, std::string& error);
+// --force: see file::require_like().
+void add_force(Command& command, bool& force);
 void add_overrides(Command& command, std::vector<std::string>& overrides);
 
 // Where the result goes if nothing else is said: the scenario's name with the suffix, in the
@@ -33,13 +35,11 @@ void add_overrides(Command& command, std::vector<std::string>& overrides);
 // What an output is called in messages.
 [[nodiscard]] std::string name_of_output(const std::string& output);
 
-// Says that a command reads a scenario, and these tables with it.
-void reads_scenario(file::Outputs& outputs, const std::string& file,
-                    const std::vector<std::string>& tables);
-// The same of the tables alone, of a result whose scenario is known.
-void reads_tables(file::Outputs& outputs, const std::optional<Scenario>& scenario);
-// The same of the files that the scene's own controller is made of.
-void reads_controller(file::Outputs& outputs, const Scenario& scenario);
+// Says that a command reads a scenario, and with it its tables and what its own controller is made
+// of.
+void reads_scenario(file::Outputs& outputs, const std::string& file, const Scenario& scenario);
+// The same of what was read with a result: its summary, and what its scenario names.
+void reads_with_result(file::Outputs& outputs, const plot::Result& result);
 
 // Says that it prints: nothing it reads may be what its standard output goes to.
 void prints(file::Outputs& outputs);

@@ -28,11 +28,12 @@ record::Allowances allowances_of(const CompareOptions& options, const file::Cell
   return record::solver_allowances(a, b).value_or(standard);
 }
 
-ExitCode run_compare(const CompareOptions& options) {
+ExitCode run_compare(const CompareOptions& options, const Options& all) {
   file::Outputs outputs;
   outputs.reads(options.a, "A");
   outputs.reads(options.b, "B");
   prints(outputs);
+  for (const std::string& file : {options.a, options.b}) say_if_waiting(file, "a CSV", all.quiet);
   const file::CellTable a = file::read_cells(options.a, options.columns);
   const file::CellTable b = file::read_cells(options.b, options.columns);
   const record::Allowances allowances = allowances_of(options, a, b);
@@ -43,7 +44,7 @@ ExitCode run_compare(const CompareOptions& options) {
 
 }  // namespace
 
-void add_compare(Command& command, const Options& /*it has nothing to be quiet about*/) {
+void add_compare(Command& command, const Options& all) {
   command.footer(
       "Columns are compared by name, whatever their order, rows by position. Values a and b are "
       "alike if |a - b| <= atol + rtol max(|a|, |b|); NaN is like NaN, an infinity like the same "
@@ -71,7 +72,7 @@ void add_compare(Command& command, const Options& /*it has nothing to be quiet a
               "compare these only (default: all; one that a file lacks is a difference)")
       .takes("NAME,...")
       .parted_by_commas();  // a file may follow
-  command.does([options] { return run_compare(*options); });
+  command.does([options, &all] { return run_compare(*options, all); });
 }
 
 }  // namespace bbsim::app

@@ -11,6 +11,7 @@
 #include <memory>
 
 #include "base/error.hpp"
+#include "file/children.hpp"
 
 namespace bbsim::app {
 namespace {
@@ -78,15 +79,18 @@ std::optional<Finished> run_program(std::vector<std::string> words, const std::s
   for (std::string& word : words) arguments.push_back(word.data());
   arguments.push_back(nullptr);
   pid_t process = 0;
-  const int error =
-      posix_spawnp(&process, arguments[0], &files.actions, nullptr, arguments.data(), environ);
+  int error = 0;
+  {
+    const auto starting = file::while_starting_child();
+    error =
+        posix_spawnp(&process, arguments[0], &files.actions, nullptr, arguments.data(), environ);
+    if (error == 0) file::remember_child(process);
+  }
   if (error == ENOENT) return {};
   if (error != 0) to.fail("cannot start " + words[0], error);
-  int status = 0;
-  while (waitpid(process, &status, 0) < 0) {
-    if (errno != EINTR) to.fail("cannot wait for " + words[0], errno);
-  }
-  return Finished{status, to.content(out.get()), to.content(complaint.get())};
+  const std::optional<int> status = file::wait_for_child(process);
+  if (!status) to.fail("cannot wait for " + words[0], ECHILD);
+  return Finished{*status, to.content(out.get()), to.content(complaint.get())};
 }
 
 }  // namespace bbsim::app

@@ -65,11 +65,12 @@ double read_time(const std::string& text, const Scenario& scenario) {
   return *time.value;
 }
 
-ExitCode linearize(const LinearizeArguments& arguments) {
+ExitCode linearize(const LinearizeArguments& arguments, const Options& options) {
   const ToText format = arguments.output.empty() ? nullptr : format_of(arguments.output);
+  say_if_waiting(arguments.scenario.file, "a scenario", options.quiet);
   const Scenario scenario = read_scenario(arguments.scenario.file, arguments.scenario.overrides);
   file::Outputs outputs;
-  reads_scenario(outputs, arguments.scenario.file, table_files(scenario));
+  reads_scenario(outputs, arguments.scenario.file, scenario);
   if (format != nullptr) {
     outputs.writes(arguments.output, "-o");
   } else {
@@ -120,7 +121,7 @@ ExitCode linearize(const LinearizeArguments& arguments) {
 
 }  // namespace
 
-void add_linearize(Command& command, const Options& /*it has nothing to be quiet about*/) {
+void add_linearize(Command& command, const Options& options) {
   command.footer(
       "Without -o the poles, zeros and margins are printed. The files hold A, B, C, D and names: "
       ".m for MATLAB and Octave, .py for numpy and python-control, .json and .csv for all else.\n"
@@ -152,7 +153,7 @@ void add_linearize(Command& command, const Options& /*it has nothing to be quiet
       .option("-o,--output", arguments->output,
               "FILE.m, FILE.py, FILE.json or FILE.csv; - is JSON on standard output")
       .takes("FILE");
-  command.does([arguments] { return linearize(*arguments); });
+  command.does([arguments, &options] { return linearize(*arguments, options); });
 }
 
 }  // namespace bbsim::app

@@ -6,6 +6,7 @@
 #include <exception>
 #include <new>
 
+#include "base/end_process.hpp"
 #include "base/error.hpp"
 #include "command_line.hpp"
 #include "commands.hpp"
@@ -63,7 +64,7 @@ ExitCode run(const Command& command) {
       std::abort();
     }
     std::fputs("out of memory: end other programs, or give this one more\n", stderr);
-    std::_Exit(code(ExitCode::ended_early));
+    bbsim::end_process(code(ExitCode::ended_early));
   });
 }
 

@@ -83,13 +83,16 @@ bool has_name(const std::string& text, const std::string& name) {
   throw InputError(error);
 }
 
-ExitCode measure(const MeasureArguments& arguments) {
+ExitCode measure(const MeasureArguments& arguments, const Options& options) {
+  say_if_waiting(arguments.file, "a CSV", options.quiet);
+  plot::Result result = plot::read_result(arguments.file, {});
   file::Outputs outputs;
   outputs.reads(arguments.file, "FILE");
+  reads_with_result(outputs, result);
   prints(outputs);
   const std::vector<std::string> asked = scenario::split_measures(arguments.measures);
   std::vector<Words> others;
-  file::TableData numbers = numbers_of(plot::read_result(arguments.file, {}), others);
+  file::TableData numbers = numbers_of(std::move(result), others);
   try {
     const record::StoredRun run(std::move(numbers), arguments.file);
     const auto measures = run.measures_named(asked);
@@ -104,7 +107,7 @@ ExitCode measure(const MeasureArguments& arguments) {
 
 }  // namespace
 
-void add_measure(Command& command, const Options& /*it has nothing to be quiet about*/) {
+void add_measure(Command& command, const Options& options) {
   command.footer(
       "What lies between two rows is on the straight line from one to the other: `bbsim run "
       "--measure` has the motion itself.\n" +
@@ -118,7 +121,7 @@ void add_measure(Command& command, const Options& /*it has nothing to be quiet a
               "a result of a run: CSV, HDF5 (.h5, .hdf5), or - for CSV on standard input")
       .required();
   add_measures(command, arguments->measures, "what to measure; may be given again").required();
-  command.does([arguments] { return measure(*arguments); });
+  command.does([arguments, &options] { return measure(*arguments, options); });
 }
 
 }  // namespace bbsim::app

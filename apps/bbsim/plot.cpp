@@ -7,6 +7,7 @@
 
 #include "commands.hpp"
 #include "file/atomic_file.hpp"
+#include "file/default_name.hpp"
 #include "file/format.hpp"
 #include "file/outputs.hpp"
 #include "fonts.hpp"
@@ -25,7 +26,7 @@ namespace fs = std::filesystem;
 struct PlotArguments {
   std::vector<std::string> files;
   std::string output, format;
-  bool overlay = false;
+  bool overlay = false, force = false;
   std::vector<std::string> columns, over;
   plot::Beside beside;
 };
@@ -129,7 +130,11 @@ std::string option_of(const Task& task, const PlotArguments& arguments) {
 // Comes before any of them is opened.
 void declare_files(const std::vector<Task>& tasks, const PlotArguments& arguments) {
   file::Outputs outputs;
-  for (const std::string& file : arguments.files) outputs.reads(file, "what is drawn");
+  for (const std::string& file : arguments.files) {
+    outputs.reads(file, "what is drawn");
+    const std::string summary = plot::summary_beside(file);
+    if (!summary.empty()) outputs.reads(summary, "the summary of " + file);
+  }
   if (!arguments.beside.summary.empty()) outputs.reads(arguments.beside.summary, "--summary");
   if (!arguments.beside.scenario.empty()) outputs.reads(arguments.beside.scenario, "--scenario");
   for (const Task& task : tasks) outputs.writes(task.output, option_of(task, arguments));
@@ -140,16 +145,19 @@ void draw(const Task& task, plot::Format format, const PlotArguments& arguments,
   std::vector<plot::Result> results;
   file::Outputs outputs;
   for (const std::string& file : task.files) {
+    say_if_waiting(file, "a CSV", options.quiet);
     results.push_back(plot::read_result(file, arguments.beside));
-    reads_tables(outputs, results.back().scenario);
+    reads_with_result(outputs, results.back());
     if (!options.quiet && !results.back().left_out.empty()) say(results.back().left_out);
     plot::add_end_row(results.back());
   }
   outputs.writes(task.output, option_of(task, arguments));
+  if (arguments.output.empty() && !arguments.force) {
+    file::require_like(task.output, {.what = "a picture of bbsim's", .mark = plot::picture_mark});
+  }
   const plot::Picture picture = picture_of(results, arguments);
-  file::write_file(
-      task.output,
-      plot::mended(run_gnuplot(plot::gnuplot_script(picture, format, some_font_has)), format));
+  const std::string drawn = run_gnuplot(plot::gnuplot_script(picture, format, some_font_has));
+  file::write_file(task.output, plot::marked(plot::mended(drawn, format), format));
   if (options.quiet || task.output == "-") return;
   std::size_t rows = 0;
   for (const plot::Result& result : results) rows += result.rows - (result.has_end_row ? 1 : 0);
@@ -205,6 +213,7 @@ void add_plot(Command& command, const Options& options) {
       .required();
   command.option("-o,--output", arguments->output,
                  "FILE.svg, .png or .pdf, or - for standard output; default: FILE with .svg");
+  add_force(command, arguments->force);
   command.option("--format", arguments->format, "svg, png or pdf; default: as the ending says")
       .takes("FORMAT");
   command.flag("--overlay", arguments->overlay,

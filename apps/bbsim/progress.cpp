@@ -29,7 +29,7 @@ std::size_t columns_of_terminal() {
 
 Progress::Progress(const std::string& label, bool quiet, bool lines)
     : label_(printable(label)),
-      bar_(!quiet && isatty(STDERR_FILENO) == 1),
+      bar_(!quiet && draws_on_terminal()),
       lines_(lines && !quiet && !bar_),
       start_(Clock::now()),
       last_(start_) {}
@@ -39,7 +39,7 @@ Progress::~Progress() {
 }
 
 void Progress::clear() {
-  if (drawn_) std::fputs("\r\033[K", stderr);
+  if (drawn_) std::fputs(to_clear_line, stderr);
   drawn_ = false;
 }
 
@@ -63,7 +63,7 @@ void Progress::update(double fraction, const std::string& detail) {
     return;
   }
   drawn_ = true;
-  const std::string line = "\r\033[K" + progress_line(state, columns_of_terminal());
+  const std::string line = to_clear_line + progress_line(state, columns_of_terminal());
   std::fputs(line.c_str(), stderr);
   std::fflush(stderr);
 }

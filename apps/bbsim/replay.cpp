@@ -8,10 +8,12 @@
 
 #include "assemble.hpp"
 #include "commands.hpp"
+#include "file/default_name.hpp"
 #include "file/format.hpp"
 #include "file/memory_table.hpp"
 #include "plot/read_result.hpp"
 #include "replay/log.hpp"
+#include "replay/page.hpp"
 #include "replay/sources.hpp"
 #include "replay_file.hpp"
 #include "scenario/reader.hpp"
@@ -25,6 +27,7 @@ namespace {
 struct ReplayArguments {
   std::vector<std::string> files;
   std::string output, title;
+  bool force = false;
   std::vector<std::string> logs, maps;
   plot::Beside beside;
 };
@@ -94,7 +97,8 @@ void check_arguments(const ReplayArguments& arguments) {
 }
 
 // All of them, and all that is wrong with them at once.
-std::vector<Replayed> read_all(const ReplayArguments& arguments, file::Outputs& outputs) {
+std::vector<Replayed> read_all(const ReplayArguments& arguments, const Options& options,
+                               file::Outputs& outputs) {
   std::vector<std::string> files = arguments.files;
   files.insert(files.end(), arguments.logs.begin(), arguments.logs.end());
   const std::vector<std::string> names = names_of(files);
@@ -102,6 +106,7 @@ std::vector<Replayed> read_all(const ReplayArguments& arguments, file::Outputs& 
   std::vector<Problem> problems;
   for (std::size_t i = 0; i < files.size(); ++i) {
     Replayed source{names[i]};
+    say_if_waiting(files[i], "a CSV", options.quiet);
     try {
       if (i >= arguments.files.size()) {
         outputs.reads(files[i], "--data");
@@ -112,12 +117,11 @@ std::vector<Replayed> read_all(const ReplayArguments& arguments, file::Outputs& 
         source.log = replay::run_of_log(plot::read_csv_columns(files[i]), map, names[i]);
       } else if (is_scenario(files[i])) {
         source.scenario = read_scenario(files[i], arguments.beside.overrides);
-        reads_scenario(outputs, files[i], table_files(*source.scenario));
-        reads_controller(outputs, *source.scenario);
+        reads_scenario(outputs, files[i], *source.scenario);
       } else {
         outputs.reads(files[i], "what is shown");
         source.result = plot::read_result(files[i], arguments.beside);
-        reads_tables(outputs, source.result->scenario);
+        reads_with_result(outputs, *source.result);
       }
       sources.push_back(std::move(source));
     } catch (const InputError& error) {
@@ -162,8 +166,12 @@ ExitCode replay_files(const ReplayArguments& arguments, const Options& options) 
   file::Outputs outputs;
   if (!arguments.beside.summary.empty()) outputs.reads(arguments.beside.summary, "--summary");
   if (!arguments.beside.scenario.empty()) outputs.reads(arguments.beside.scenario, "--scenario");
-  std::vector<Replayed> sources = read_all(arguments, outputs);
-  outputs.writes(output, arguments.output.empty() ? "the first file's name, without -o" : "-o");
+  std::vector<Replayed> sources = read_all(arguments, options, outputs);
+  declare_replay(outputs, output,
+                 arguments.output.empty() ? "the first file's name, without -o" : "-o");
+  if (arguments.output.empty() && !arguments.force) {
+    file::require_like(output, {.what = "a replay of bbsim's", .mark = replay::page_mark});
+  }
 
   const auto is_sweep = [](const Replayed& source) {
     return source.result && source.result->is_sweep();
@@ -224,6 +232,7 @@ void add_replay(Command& command, const Options& options) {
               "FILE.html, FILE.glb (glTF, for Blender and slides), or - for a page on "
               "standard output; default: the first file's name with .html")
       .takes("FILE");
+  add_force(command, arguments->force);
   command
       .option("--data", arguments->logs,
               "LOG.csv of a real rig, shown beside the runs; may be given again")

@@ -56,6 +56,11 @@ void require_replay_ending(const std::string& file, const std::string& option) {
       ", allowed is a name that ends in .html, a page, or .glb, a model of what moves");
 }
 
+void declare_replay(file::Outputs& outputs, const std::string& file, const std::string& what) {
+  if (!is_gltf(file)) outputs.reads(replay::template_file(), "the template of pages");
+  outputs.writes(file, what);
+}
+
 ReplayFile::ReplayFile(const std::string& target)
     : target_(target),
       gltf_(is_gltf(target)),

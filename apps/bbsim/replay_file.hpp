@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "file/atomic_file.hpp"
+#include "file/outputs.hpp"
 #include "file/table_writer.hpp"
 #include "plot/result.hpp"
 #include "replay/scene.hpp"
@@ -16,6 +17,9 @@ namespace bbsim::app {
 
 // Throws InputError unless the name ends in .html or .glb, or is "-", a page on standard output.
 void require_replay_ending(const std::string& file, const std::string& option);
+
+// Says that a replay is written to that file, whose name `what` gives, of the page's template.
+void declare_replay(file::Outputs& outputs, const std::string& file, const std::string& what);
 
 // Opened before the work is done that it shows: what is missing for it is said at once.
 class ReplayFile {

@@ -9,6 +9,7 @@
 #include "commands.hpp"
 #include "describe.hpp"
 #include "file/atomic_file.hpp"
+#include "file/default_name.hpp"
 #include "file/memory_table.hpp"
 #include "file/outputs.hpp"
 #include "measure_text.hpp"
@@ -26,6 +27,7 @@ namespace {
 struct RunArguments {
   ScenarioArguments scenario;
   std::string output, summary, error, replay;
+  bool force = false;
   std::vector<std::string> measures;
   PartArguments part;
 };
@@ -37,8 +39,7 @@ constexpr file::ColumnHeader position_error{
 void declare_files(const RunArguments& arguments, const Scenario& scenario,
                    const std::string& output, const std::optional<RunPart>& part) {
   file::Outputs outputs;
-  reads_scenario(outputs, arguments.scenario.file, table_files(scenario));
-  reads_controller(outputs, scenario);
+  reads_scenario(outputs, arguments.scenario.file, scenario);
   if (part) part->declare_read(outputs);
   if (!arguments.measures.empty()) {
     // A pipe is nobody's, but what came of it could not be read.
@@ -52,11 +53,12 @@ void declare_files(const RunArguments& arguments, const Scenario& scenario,
   outputs.writes(output, arguments.output.empty() ? "its name by default, without -o" : "-o");
   if (part) part->declare_written(outputs);
   if (!arguments.summary.empty()) outputs.writes(arguments.summary, "--summary");
-  if (!arguments.replay.empty()) outputs.writes(arguments.replay, "--replay");
+  if (!arguments.replay.empty()) declare_replay(outputs, arguments.replay, "--replay");
 }
 
 ExitCode run(const RunArguments& arguments, const Options& options) {
   if (!arguments.replay.empty()) require_replay_ending(arguments.replay, "--replay");
+  say_if_waiting(arguments.scenario.file, "a scenario", options.quiet);
   std::vector<std::string> overrides = arguments.scenario.overrides;
   if (!arguments.error.empty()) overrides.push_back("solver.error=" + arguments.error);
   std::vector<file::InputTable> inputs;
@@ -70,6 +72,16 @@ ExitCode run(const RunArguments& arguments, const Options& options) {
   std::optional<RunPart> part;
   if (arguments.part.any()) part.emplace(arguments.part, scenario, inputs);
   declare_files(arguments, scenario, output, part);
+  std::vector<file::ColumnHeader> headers;
+  headers.reserve(asked.size());
+  for (const scenario::Column* column : asked) {
+    headers.push_back({column->name, column->unit, column->meaning});
+  }
+  // Before a controller is started, and long before the file is opened.
+  file::require_table_name(output);
+  if (arguments.output.empty() && !arguments.force) {
+    file::require_like(output, file::table_with(file::csv_header(headers)));
+  }
   controller::Host host = make_host(&watch_signals());
   auto needed = columns;
   for (const scenario::Measure& measure : measures) {
@@ -80,14 +92,11 @@ ExitCode run(const RunArguments& arguments, const Options& options) {
   const solve::OutputGrid grid = part ? part->grid() : solve::OutputGrid(scenario.time);
   if (part) part->check(model, columns);
 
-  std::vector<file::ColumnHeader> headers;
   std::deque<std::string> units;  // as the scene's own controller names them
-  headers.reserve(asked.size());
-  for (const scenario::Column* column : asked) {
-    headers.push_back({column->name, column->unit, column->meaning});
-    if (column->needs != scenario::Needs::own) continue;
-    units.push_back(host.unit_of(column->name).value_or("1"));
-    headers.back().unit = units.back();
+  for (std::size_t c = 0; c < asked.size(); ++c) {
+    if (asked[c]->needs != scenario::Needs::own) continue;
+    units.push_back(host.unit_of(asked[c]->name).value_or("1"));
+    headers[c].unit = units.back();
   }
   if (part) part->open();
   std::optional<ReplayFile> replay;
@@ -99,9 +108,12 @@ ExitCode run(const RunArguments& arguments, const Options& options) {
   std::optional<file::MemoryTable> pictured;
   if (replay) pictured.emplace(scenario::names_of(columns), writer.get(), asked.size());
 
-  Simulation made = simulate(scenario, model, grid, {columns, asked.size(), measures},
-                             pictured ? static_cast<file::TableWriter&>(*pictured) : *writer,
-                             options.quiet, part ? &part->part() : nullptr);
+  const auto simulation = [&] {
+    return simulate(scenario, model, grid, {columns, asked.size(), measures},
+                    pictured ? static_cast<file::TableWriter&>(*pictured) : *writer, options.quiet,
+                    part ? &part->part() : nullptr);
+  };
+  Simulation made = part ? part->going_on(simulation) : simulation();
   record::RunSummary& summary = made.summary;
   summary.output = output;
   for (std::size_t m = 0; m < measures.size(); ++m) {
@@ -161,6 +173,7 @@ void add_run(Command& command, const Options& options) {
               "FILE.csv, FILE.h5, or - for CSV on standard output; default: the scenario's "
               "name with .csv, in the current folder (of standard input: -)")
       .takes("FILE");
+  add_force(command, arguments->force);
   add_error(command, arguments->error);
   add_measures(command, arguments->measures,
                "print measures of the motion as CSV, measure,value: see below; may be given again");

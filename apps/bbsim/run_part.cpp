@@ -3,14 +3,13 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <fstream>
-#include <iterator>
 #include <utility>
 
 #include "base/error.hpp"
 #include "base/number_text.hpp"
 #include "controller/host.hpp"
 #include "describe.hpp"
+#include "file/whole_file.hpp"
 #include "model/control/external_controller.hpp"
 #include "scenario/coupled.hpp"
 #include "simd/instruction_set.hpp"
@@ -19,12 +18,6 @@
 
 namespace bbsim::app {
 namespace {
-
-std::string read_bytes(const std::string& file, const char* what) {
-  std::ifstream stream(file, std::ios::binary);
-  if (!stream) throw InputError(what + (": cannot read " + file));
-  return {std::istreambuf_iterator<char>(stream), {}};
-}
 
 // All that a run depends on but its end, and what it shows.
 std::string identity_of(const Scenario& scenario, const std::vector<file::InputTable>& inputs) {
@@ -45,8 +38,7 @@ std::string identity_of(const Scenario& scenario, const std::vector<file::InputT
     if (column->needs == scenario::Needs::own) identity += "\n" + std::string(column->name);
   }
   for (const std::string& file : controller::files_of(scenario)) {
-    identity +=
-        "\n" + file + ' ' + std::to_string(record::check_sum(read_bytes(file, "controller")));
+    identity += "\n" + file + ' ' + std::to_string(record::check_sum(file::read_whole(file)));
   }
   return identity;
 }
@@ -93,7 +85,7 @@ RunPart::RunPart(const PartArguments& arguments, const Scenario& scenario,
         "kept; allowed: without");
   }
   if (!arguments_.from.empty()) {
-    from_ = record::state_of(read_bytes(arguments_.from, "--from-state"), arguments_.from);
+    from_ = record::read_state(arguments_.from);
   }
   part_.keeps_state = !arguments_.save.empty();
   choose_rows();

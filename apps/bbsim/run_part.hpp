@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "base/archive.hpp"
 #include "command.hpp"
 #include "file/atomic_file.hpp"
 #include "file/outputs.hpp"
@@ -42,6 +43,15 @@ class RunPart {
 
   // Checks the state that is gone on from, and these columns, before files are opened.
   void check(const model::Model& model, const std::vector<const scenario::Column*>& columns) const;
+  // Calls `run`, which goes on from the state; what is wrong with the state is told with its file.
+  template <class Run>
+  auto going_on(Run run) const {
+    try {
+      return run();
+    } catch (const StateFault& fault) {
+      throw InputError(arguments_.from + ": " + fault.what());
+    }
+  }
   void declare_read(file::Outputs& outputs) const;
   void declare_written(file::Outputs& outputs) const;
   void open();

@@ -1,11 +1,10 @@
 #include "signals.hpp"
 
-#include <unistd.h>
-
 #include <csignal>
 
+#include "base/end_process.hpp"
 #include "base/error.hpp"
-#include "controller/children.hpp"
+#include "file/children.hpp"
 #include "file/temporaries.hpp"
 
 namespace bbsim::app {
@@ -17,8 +16,8 @@ static_assert(std::atomic<bool>::is_always_lock_free, "a signal handler may set 
 void end(int) {
   if (watched.load(std::memory_order_relaxed) && !end_requested.exchange(true)) return;
   file::remove_temporaries();
-  controller::end_children();
-  _exit(static_cast<int>(ExitCode::interrupted));
+  file::end_children();
+  end_process(static_cast<int>(ExitCode::interrupted));
 }
 
 }  // namespace

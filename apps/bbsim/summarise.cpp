@@ -9,6 +9,7 @@
 #include "file/cell_table.hpp"
 #include "file/outputs.hpp"
 #include "scenario/measures.hpp"
+#include "terminal.hpp"
 
 namespace bbsim::app {
 namespace {
@@ -19,7 +20,7 @@ struct SummariseArguments {
   std::vector<double> quantiles{0.05, 0.25, 0.5, 0.75, 0.95};
 };
 
-ExitCode summarise(const SummariseArguments& arguments) {
+ExitCode summarise(const SummariseArguments& arguments, const Options& options) {
   if (!arguments.output.ends_with(".csv") && arguments.output != "-") {
     throw InputError("-o: found " + arguments.output +
                      "; allowed: FILE.csv, or - for standard output");
@@ -32,6 +33,7 @@ ExitCode summarise(const SummariseArguments& arguments) {
   file::Outputs outputs;
   outputs.reads(arguments.file, "SWEEP");
   outputs.writes(arguments.output, "-o");
+  say_if_waiting(arguments.file, "a CSV", options.quiet);
   const file::CellTable table = file::read_cells(arguments.file);
   const auto groups =
       record::summarise(table, arguments.file, arguments.keys,
@@ -42,7 +44,7 @@ ExitCode summarise(const SummariseArguments& arguments) {
 
 }  // namespace
 
-void add_summarise(Command& command, const Options& /*it has nothing to be quiet about*/) {
+void add_summarise(Command& command, const Options& options) {
   command.footer(
       "Of each group the cases that are done count, with the measures that are finite numbers; "
       "`cases` is how many there are. The deviation is that of a sample.\n"
@@ -73,7 +75,7 @@ void add_summarise(Command& command, const Options& /*it has nothing to be quiet
       .option("-o,--output", arguments->output,
               "FILE.csv, or - for CSV on standard output (default)")
       .takes("FILE");
-  command.does([arguments] { return summarise(*arguments); });
+  command.does([arguments, &options] { return summarise(*arguments, options); });
 }
 
 }  // namespace bbsim::app

@@ -17,6 +17,7 @@
 #include "commands.hpp"
 #include "describe.hpp"
 #include "file/atomic_file.hpp"
+#include "file/default_name.hpp"
 #include "file/outputs.hpp"
 #include "progress.hpp"
 #include "scenario/measures.hpp"
@@ -36,7 +37,7 @@ struct SweepArguments {
   std::string combine, output, summary, shard, error;
   std::optional<double> samples, seed;
   std::size_t threads = 0;
-  bool resume = false, keep_trajectories = false;
+  bool resume = false, keep_trajectories = false, force = false;
 };
 
 Shard read_shard(const std::string& text) {
@@ -110,10 +111,10 @@ std::size_t available_threads() {
 void declare_files(const SweepArguments& arguments, const ScenarioFamily& family,
                    const Scenario& first, const std::string& output) {
   file::Outputs outputs;
-  std::vector<std::string> tables;
-  for (const auto& [name, hash] : family.table_hashes()) tables.push_back(name);
-  reads_scenario(outputs, arguments.scenario.file, tables);
-  reads_controller(outputs, first);
+  reads_scenario(outputs, arguments.scenario.file, first);
+  for (const auto& [name, hash] : family.table_hashes()) {
+    outputs.reads(name, "a table of the scenario");
+  }
   const std::string option = arguments.output.empty() ? "its name by default, without -o" : "-o";
   outputs.writes(output, option);
   for (const std::string& file : sweep::case_files_beside(output)) {
@@ -134,6 +135,7 @@ ExitCode sweep(const SweepArguments& arguments, const Options& options) {
   std::vector<std::string> overrides = arguments.scenario.overrides;
   if (!arguments.error.empty()) overrides.push_back("solver.error=" + arguments.error);
   const Shard shard = read_shard(arguments.shard);
+  say_if_waiting(arguments.scenario.file, "a scenario", options.quiet);
   const ScenarioFamily family(arguments.scenario.file, overrides);
   const Sweep sweep = sweep_of(arguments, family.read_sweep());
   const sweep::SweepPlan plan(family, sweep);
@@ -166,11 +168,17 @@ ExitCode sweep(const SweepArguments& arguments, const Options& options) {
                                  ? default_output(arguments.scenario.file, suffix(shard))
                                  : arguments.output;
   declare_files(arguments, family, first, output);
+  sweep::CaseFileLayout layout = layout_of(facts, engine, range);
+  // Before a controller is started.
+  sweep::check_case_target(output, layout, arguments.resume);
+  if (arguments.output.empty() && !arguments.force) {
+    file::require_like(output, file::table_with(sweep::header_of(layout.columns)));
+  }
   try_controller(family, first);
   const auto summary =
       arguments.summary.empty() ? nullptr : std::make_unique<file::AtomicFile>(arguments.summary);
-  const auto file = sweep::open_case_file(output, layout_of(facts, engine, range), plan_text(facts),
-                                          arguments.resume);
+  const auto file =
+      sweep::open_case_file(output, std::move(layout), plan_text(facts), arguments.resume);
   if (!file->kept().trouble.empty()) say(file->kept().trouble);
   const std::size_t kept = file->kept().rows, all = range.last - range.first;
   SweepEnd end{true, kept, file->kept().statuses, engine.name, output};
@@ -279,6 +287,7 @@ void add_sweep(Command& command, const Options& options) {
               "FILE.csv, FILE.h5, or - for CSV on standard output; default: the scenario's "
               "name with -sweep.csv, in the current folder (of standard input: -)")
       .takes("FILE");
+  add_force(command, arguments->force);
   command
       .option("--summary", arguments->summary,
               "what the sweep was, how its cases ended, the engine: JSON; - is standard output")

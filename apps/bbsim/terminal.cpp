@@ -1,6 +1,10 @@
 #include "terminal.hpp"
 
+#include <unistd.h>
+
 #include <cstdio>
+#include <cstdlib>
+#include <cstring>
 #include <new>
 
 #include "base/printable.hpp"
@@ -16,6 +20,16 @@ void say(std::string_view message) {
   } catch (const std::bad_alloc&) {
     std::fputs("out of memory\n", stderr);
   }
+}
+
+bool draws_on_terminal() {
+  const char* const kind = std::getenv("TERM");
+  return isatty(STDERR_FILENO) == 1 && (kind == nullptr || std::strcmp(kind, "dumb") != 0);
+}
+
+void say_if_waiting(const std::string& file, const std::string& what, bool quiet) {
+  if (quiet || file != "-" || isatty(STDIN_FILENO) != 1) return;
+  say("reading " + what + " from the terminal; Ctrl-D ends it, Ctrl-C all");
 }
 
 void print(const std::string& report) {

@@ -14,4 +14,14 @@ void say(std::string_view message);
 // A report that was asked for, to standard output. Throws OutputError.
 void print(const std::string& report);
 
+// Whether standard error is a terminal that obeys escape sequences (TERM=dumb does not).
+[[nodiscard]] bool draws_on_terminal();
+
+// What empties the terminal's present line, if it does.
+inline constexpr const char* to_clear_line = "\r\033[K";
+
+// If that file is standard input, and that a terminal, says that the program waits for `what`
+// there.
+void say_if_waiting(const std::string& file, const std::string& what, bool quiet);
+
 }  // namespace bbsim::app

@@ -89,12 +89,13 @@ std::string table_of(const NamedScenario& named, const study::FullModelStudy& st
 }
 
 ExitCode verify(const VerifyArguments& arguments, const Options& options) {
+  say_if_waiting(arguments.scenario, "a scenario", options.quiet);
   // Looked up before the checks, so that a mistake in it is told at once.
   const std::vector<NamedScenario> scenes = scenarios(arguments);
   for (const NamedScenario& named : scenes) study::require_comparable(named.scenario);
   file::Outputs outputs;
   if (!arguments.scenario.empty()) {
-    reads_scenario(outputs, arguments.scenario, table_files(scenes.front().scenario));
+    reads_scenario(outputs, arguments.scenario, scenes.front().scenario);
   }
   prints(outputs);
   Progress progress("verify", options.quiet);

@@ -18,6 +18,9 @@
  * All numbers are in SI units and radians. Rows and pairs are (x, y) of the ball, in the plane's
  * frame, and (phi, theta) of the gimbal.
  *
+ * A function that calls exit() is left there, and has failed: what it had on its stack is not
+ * destroyed.
+ *
  * In a sweep each thread creates a controller of its own, and threads call at the same time, each
  * with its own controller: what a library remembers belongs into what create() returns, not into
  * global variables. Calls with one controller never overlap. */

@@ -7,6 +7,8 @@
 #include <cstdint>
 #include <random>
 
+#include "base/archive.hpp"
+
 namespace bbsim {
 
 // The deviate z with P(Z < z) = p, 0 < p < 1, of the standard normal distribution, within a
@@ -25,7 +27,9 @@ class Noise {
   // How far it is drawn (base/archive.hpp).
   template <class Archive>
   void archive(Archive& archive) {
+    // (A generator that stands beyond its numbers makes new ones.)
     archive(generator_, uniforms_, normals_, drawn_);
+    archive.require(drawn_ <= together && is_finite(uniforms_, normals_));
   }
 
  private:

@@ -77,4 +77,16 @@ std::string printable(std::string_view text) {
   return result;
 }
 
+std::string printable_ascii(std::string_view text) {
+  std::string result;
+  for (const char c : text) {
+    if (c >= ' ' && c <= '~') {
+      result += c;
+    } else {
+      append_escape(result, "\\x%02x", static_cast<unsigned char>(c));
+    }
+  }
+  return result;
+}
+
 }  // namespace bbsim

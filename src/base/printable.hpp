@@ -12,4 +12,7 @@ namespace bbsim {
 // of what follows, which can make a name look like another. All else stays as it is.
 [[nodiscard]] std::string printable(std::string_view text);
 
+// The text in one line of printable ASCII, all other bytes as escapes: for a comment in a program.
+[[nodiscard]] std::string printable_ascii(std::string_view text);
+
 }  // namespace bbsim

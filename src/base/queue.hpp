@@ -11,6 +11,7 @@ template <class T>
 class Queue {
  public:
   [[nodiscard]] bool empty() const { return first_ == all_.size(); }
+  [[nodiscard]] std::size_t size() const { return all_.size() - first_; }
   [[nodiscard]] const T& front() const { return all_[first_]; }
   // One more, to be filled.
   T& push() {
@@ -35,6 +36,7 @@ class Queue {
   template <class Archive>
   void archive(Archive& archive) {
     archive(all_, first_);
+    archive.require(first_ < all_.size() || (first_ == 0 && all_.empty()));
   }
 
  private:

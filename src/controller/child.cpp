@@ -18,8 +18,8 @@
 
 #include "base/number_text.hpp"
 #include "base/shown.hpp"
-#include "controller/children.hpp"
 #include "controller/foreign_code.hpp"
+#include "file/children.hpp"
 
 namespace bbsim::controller {
 namespace {
@@ -74,11 +74,11 @@ std::string how_it_ended(int status) {
 
 Child::Child(const std::vector<std::string>& words, const std::string& folder, Tell tell,
              const std::atomic<bool>* stop)
-    : tell_(std::move(tell)), stop_(stop), buffer_(longest_line) {
+    : tell_(std::move(tell)), stop_(stop), mark_(file::new_mark()), buffer_(longest_line) {
   Pipe input = make_pipe(true), output = make_pipe(false), error = make_pipe(false);
   int fault = 0;
-  process_ =
-      start_program(words, folder, {input.its.get(), output.its.get(), error.its.get()}, fault);
+  process_ = start_program(words, folder, {input.its.get(), output.its.get(), error.its.get()},
+                           mark_, fault);
   if (process_ == 0) throw std::system_error(fault, std::generic_category());
   input_ = std::move(input.ours);
   output_ = std::move(output.ours);
@@ -257,18 +257,19 @@ bool Child::has_ended(int milliseconds) const {
   }
 }
 
-// Ends all of its group, and waits for it; its status, if nobody else has taken that.
+// Ends it and all that it has started, and waits for it, but not for ever: the system may hold it.
+// Its status, if it is there and nobody else has taken it.
 std::optional<int> Child::end() {
   if (process_ == 0) return {};
   input_.close();
-  // While nobody has waited for the process, its id is no other's.
-  kill(-process_, SIGKILL);
-  forget_child(process_);
+  const file::Family family(process_, mark_);
+  family.end();
+  static_cast<void>(has_ended(farewell));
+  file::forget_child(process_);
   int status = 0;
-  pid_t found = 0;
-  while ((found = waitpid(process_, &status, 0)) < 0 && errno == EINTR) {
-  }
+  const pid_t found = waitpid(process_, &status, WNOHANG);
   process_ = 0;
+  family.bury();
   if (error_.is_open()) listen();
   say_lines(true);
   return found > 0 ? std::optional(status) : std::nullopt;

@@ -26,8 +26,8 @@ class ChildFault : public std::runtime_error {
 // Whoever waits for it was asked to end.
 class ChildInterrupted : public std::exception {};
 
-// It runs in a process group of its own, which ends with this object at the latest: nothing of it
-// stays but what leaves that group on purpose.
+// It runs in a process group of its own. It ends with this object at the latest, and with it all
+// that it has started, in whatever group.
 class Child {
  public:
   // Starts the program; `tell` gets what it says on its standard error, and `stop`, which may be
@@ -64,6 +64,7 @@ class Child {
 
   Tell tell_;
   const std::atomic<bool>* stop_;
+  std::string mark_;   // of it and of what it starts
   pid_t process_ = 0;  // 0 once it was waited for
   file::Descriptor input_, output_, error_, ended_;
   std::vector<char> buffer_;           // of what it says, as long as a line may be

@@ -7,8 +7,9 @@
 
 #include <cerrno>
 #include <csignal>
+#include <string_view>
 
-#include "controller/children.hpp"
+#include "file/children.hpp"
 
 namespace bbsim::controller {
 namespace {
@@ -48,7 +49,7 @@ class SignalsWait {
 }  // namespace
 
 pid_t start_program(const std::vector<std::string>& words, const std::string& folder,
-                    const Streams& streams, int& error) {
+                    const Streams& streams, const std::string& mark, int& error) {
   Spawning spawning;
   posix_spawn_file_actions_adddup2(&spawning.actions, streams.input, STDIN_FILENO);
   posix_spawn_file_actions_adddup2(&spawning.actions, streams.output, STDOUT_FILENO);
@@ -67,13 +68,23 @@ pid_t start_program(const std::vector<std::string>& words, const std::string& fo
   std::vector<char*> arguments;
   for (std::string& word : copies) arguments.push_back(word.data());
   arguments.push_back(nullptr);
+  // Its own environment is this one's, but for the mark.
+  std::string entry = mark;
+  const std::string_view name = std::string_view(entry).substr(0, entry.find('=') + 1);
+  std::vector<char*> environment{entry.data()};
+  for (char** each = environ; *each != nullptr; ++each) {
+    if (!std::string_view(*each).starts_with(name)) environment.push_back(*each);
+  }
+  environment.push_back(nullptr);
   // One that ended this program here would leave the new process running.
   const SignalsWait until_it_is_remembered;
+  const auto starting = file::while_starting_child();
+  file::adopt_orphans();
   pid_t process = 0;
   error = posix_spawnp(&process, arguments[0], &spawning.actions, &spawning.attributes,
-                       arguments.data(), environ);
+                       arguments.data(), environment.data());
   if (error != 0) return 0;
-  remember_child(process);
+  file::remember_child(process);
   return process;
 }
 

@@ -15,11 +15,11 @@ struct Streams {
   int input = -1, output = -1, error = -1;
 };
 
-// Starts a program in a process group of its own, with all signals as at a login and no descriptors
-// but its streams; it is remembered for end_children() at once. The first word is looked for on
-// PATH if it has no slash. Returns its id; or 0, and why in `error`.
+// Starts a program in a process group of its own, with all signals as at a login, a mark in its
+// environment (file/children.hpp) and no descriptors but its streams; it is remembered at once. The
+// first word is looked for on PATH if it has no slash. Returns its id; or 0, and why in `error`.
 [[nodiscard]] pid_t start_program(const std::vector<std::string>& words, const std::string& folder,
-                                  const Streams& streams, int& error);
+                                  const Streams& streams, const std::string& mark, int& error);
 
 // Opens a shared library; a null pointer, and why in `error`, if it cannot be.
 [[nodiscard]] void* open_library(const std::string& path, std::string& error);

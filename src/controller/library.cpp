@@ -11,6 +11,7 @@
 #include "base/number_text.hpp"
 #include "base/shown.hpp"
 #include "controller/foreign_code.hpp"
+#include "controller/foreign_exit.hpp"
 
 namespace bbsim::controller {
 
@@ -27,6 +28,9 @@ struct LibraryFunctions {
 
 namespace {
 
+// Bytes: more than a microcontroller has, by far.
+constexpr std::size_t most_remembered = std::size_t{64} * 1024 * 1024;
+
 [[noreturn]] void refuse(const std::string& path, const std::string& why) {
   throw KeyError("controller.library.file", "found " + shown(path, uncut) + ", " + why);
 }
@@ -40,7 +44,11 @@ bool find(void* library, const char* name, Function*& function) {
 
 std::shared_ptr<const LibraryFunctions> open(const std::string& path) {
   std::string error;
-  void* const library = open_library(path, error);
+  expect_foreign_exits(path);
+  void* const library = [&] {
+    const CannotReturn while_it_is_opened;
+    return open_library(path, error);
+  }();
   if (library == nullptr) {
     refuse(path, "which cannot be opened: " + shown(error, longest_saying) +
                      "; allowed: a shared library, as bbsim/controller.h says");
@@ -52,7 +60,7 @@ std::shared_ptr<const LibraryFunctions> open(const std::string& path) {
                      "; allowed: a shared library, as bbsim/controller.h says");
   };
   require("bbsim_controller_abi", functions->abi);
-  const std::uint32_t abi = functions->abi();
+  const std::uint32_t abi = foreign(functions->abi);
   if (abi != BBSIM_CONTROLLER_ABI) {
     refuse(path, "which is of version " + std::to_string(abi) +
                      " of bbsim/controller.h; allowed: version " +
@@ -103,40 +111,86 @@ std::string Library::path_of(const OwnController& own) {
 }
 
 Library::Library(const OwnController& own, const Setup& setup)
-    : path_(path_of(own)), setup_(setup), functions_(open(path_)) {
+    : path_(path_of(own)), setup_(setup) {
+  try {
+    functions_ = open(path_);
+  } catch (const ExitCalled& call) {
+    throw fault_of("to begin", call.text());
+  }
   create();
 }
 
 Library::~Library() {
-  if (controller_ != nullptr) functions_->destroy(controller_);
+  destroy();
+}
+
+// One that ends the process then has done its part before.
+void Library::destroy() {
+  try {
+    if (controller_ != nullptr) foreign(functions_->destroy, controller_);
+  } catch (const ExitCalled&) {
+  }
+  controller_ = nullptr;
 }
 
 std::string Library::last_error(const void* controller) const {
-  const char* const text = functions_->last_error(controller);
+  const char* text = nullptr;
+  try {
+    text = foreign(functions_->last_error, controller);
+  } catch (const ExitCalled&) {
+  }
   return text == nullptr || *text == '\0' ? "it does not say why" : shown(text, longest_saying);
 }
 
+// Calls a function of the library. Where that ends the process, the library has failed `when` it
+// did, and its controller is left alone.
+template <class When, class Function, class... Arguments>
+auto Library::ask(When when, Function* function, Arguments... arguments) {
+  try {
+    return foreign(function, arguments...);
+  } catch (const ExitCalled& call) {
+    controller_ = nullptr;
+    throw fault_of(when(), call.text());
+  }
+}
+
+// That it ended the process is kept for begin().
 void Library::create() {
-  if (controller_ != nullptr) functions_->destroy(controller_);
-  controller_ = functions_->create(CSetup(setup_).get());
+  destroy();
+  fault_.reset();
+  fresh_ = true;
+  const CSetup setup(setup_);
+  try {
+    controller_ = ask([] { return "to begin"; }, functions_->create, setup.get());
+  } catch (const model::ControllerFault& fault) {
+    fault_.emplace(fault);
+    return;
+  }
   if (controller_ == nullptr) {
     throw KeyError("controller.library",
                    "found " + shown(path_, uncut) +
                        ", which makes no controller for this scene: " + last_error(nullptr));
   }
-  fresh_ = true;
 }
 
 void Library::renew(const Setup& setup) {
   setup_ = setup;
-  fresh_ =
-      functions_->reset != nullptr && functions_->reset(controller_, CSetup(setup_).get()) == 0;
+  fresh_ = false;
+  if (controller_ != nullptr && functions_->reset != nullptr) {
+    const CSetup its(setup_);
+    try {
+      fresh_ = foreign(functions_->reset, controller_, its.get()) == 0;
+    } catch (const ExitCalled&) {
+      controller_ = nullptr;  // as one that cannot reset
+    }
+  }
   if (!fresh_) create();
 }
 
 void Library::begin() {
   if (!fresh_) renew(setup_);
   fresh_ = false;
+  if (fault_) throw model::ControllerFault(*fault_);
 }
 
 model::ControllerFault Library::fault_of(const std::string& when, const std::string& why) const {
@@ -149,20 +203,28 @@ bool Library::can_save() const {
 }
 
 std::string Library::save() {
-  std::string memory(functions_->save(controller_, nullptr, 0), '\0');
+  constexpr auto when = [] { return "to save its state"; };
+  const std::size_t size =
+      ask(when, functions_->save, controller_, static_cast<void*>(nullptr), std::size_t{0});
+  if (size > most_remembered) {
+    throw fault_of(when(), "it would take " + std::to_string(size) + " bytes; allowed: at most " +
+                               std::to_string(most_remembered));
+  }
+  std::string memory(size, '\0');
   if (memory.empty() ||
-      functions_->save(controller_, memory.data(), memory.size()) != memory.size()) {
-    throw fault_of("to save its state", last_error(controller_));
+      ask(when, functions_->save, controller_, static_cast<void*>(memory.data()), size) != size) {
+    throw fault_of(when(), last_error(controller_));
   }
   return memory;
 }
 
 void Library::restore(const std::string& memory) {
   begin();
-  const int code = functions_->restore(controller_, memory.data(), memory.size());
+  constexpr auto when = [] { return "to go on from a state"; };
+  const int code = ask(when, functions_->restore, controller_,
+                       static_cast<const void*>(memory.data()), memory.size());
   if (code == 0) return;
-  throw fault_of("to go on from a state",
-                 "it returned " + std::to_string(code) + ": " + last_error(controller_));
+  throw fault_of(when(), "it returned " + std::to_string(code) + ": " + last_error(controller_));
 }
 
 Pair Library::command(const model::ControllerSample& sample, double* own) {
@@ -177,13 +239,12 @@ Pair Library::command(const model::ControllerSample& sample, double* own) {
                            {x.acceleration, y.acceleration},
                            {sample.servo[0], sample.servo[1]},
                            {sample.servo[2], sample.servo[3]}};
-  const auto fail = [&](const std::string& why) {
-    return fault_of(
-        "at sample " + std::to_string(sample.number) + " (t = " + number_text(sample.t) + " s)",
-        why);
+  const auto when = [&] {
+    return "at sample " + std::to_string(sample.number) + " (t = " + number_text(sample.t) + " s)";
   };
+  const auto fail = [&](const std::string& why) { return fault_of(when(), why); };
   Pair command{std::nan(""), std::nan("")};
-  const int code = functions_->step(controller_, &given, command.data(), own);
+  const int code = ask(when, functions_->step, controller_, &given, command.data(), own);
   if (code != 0) throw fail("it returned " + std::to_string(code) + ": " + last_error(controller_));
   for (const double one : command) {
     if (!std::isfinite(one)) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "controller/setup.hpp"
@@ -33,8 +34,14 @@ class Library : public model::ExternalController {
   // Where the library is, from this folder.
   [[nodiscard]] static std::string path_of(const OwnController& own);
 
+  // What begin() would throw.
+  [[nodiscard]] const std::optional<model::ControllerFault>& fault() const { return fault_; }
+
  private:
   void create();
+  void destroy();
+  template <class When, class Function, class... Arguments>
+  auto ask(When when, Function* function, Arguments... arguments);
   [[nodiscard]] model::ControllerFault fault_of(const std::string& when,
                                                 const std::string& why) const;
   [[nodiscard]] std::string last_error(const void* controller) const;
@@ -42,7 +49,8 @@ class Library : public model::ExternalController {
   std::string path_;
   Setup setup_;
   std::shared_ptr<const LibraryFunctions> functions_;
-  void* controller_ = nullptr;
+  void* controller_ = nullptr;  // also where it is left alone
+  std::optional<model::ControllerFault> fault_;
   bool fresh_ = false;  // no sample since it was created or reset
 };
 

@@ -3,7 +3,9 @@
 #include <system_error>
 #include <utility>
 
+#include "base/archive.hpp"
 #include "base/error.hpp"
+#include "base/json.hpp"
 #include "base/number_text.hpp"
 #include "base/shown.hpp"
 
@@ -89,6 +91,7 @@ void Program::begin() {
 }
 
 void Program::restore(const std::string& memory) {
+  StateReader::require(!parse_json(memory).is_discarded());
   renew(setup_, memory);
   begin();
 }

@@ -4,8 +4,8 @@
 #include <charconv>
 #include <cmath>
 #include <limits>
-#include <nlohmann/json.hpp>
 
+#include "base/json.hpp"
 #include "base/number_text.hpp"
 #include "base/shown.hpp"
 #include "yaml/nearest.hpp"
@@ -111,16 +111,17 @@ std::string not_understood(std::string_view line, const std::string& why) {
   return "its answer was " + bbsim::quoted(line, longest_saying) + ": " + why;
 }
 
-// " (did you mean command?)", where one of the names is near; otherwise nothing.
+// " (did you mean command?)", where another one of the names is near; otherwise nothing.
 std::string hint(std::string_view found, std::span<const std::string_view> names) {
   const std::string_view nearest = yaml::nearest_name(found, names);
-  return nearest.empty() ? "" : " (did you mean " + std::string(nearest) + "?)";
+  if (nearest.empty() || nearest == found) return "";
+  return " (did you mean " + shown(nearest) + "?)";
 }
 
 // Of an answer that lacks a name, what it has in its place, if that is near: ", but "comand" (did
 // you mean command?)".
 std::string misspelt(std::string_view line, const std::string& lacks) {
-  const Json answer = Json::parse(line, nullptr, false);
+  const Json answer = parse_json(line);
   if (!answer.is_object()) return "";
   const std::string_view wanted[] = {lacks};
   for (const auto& [name, value] : answer.items()) {
@@ -134,7 +135,7 @@ constexpr const char* form = "allowed: {\"command\": [PHI, THETA]}, and beside i
 
 // The text of {"error": "..."}, if it is that.
 std::optional<std::string> error_of(std::string_view line) {
-  const Json answer = Json::parse(line, nullptr, false);
+  const Json answer = parse_json(line);
   if (!answer.is_object()) return {};
   const auto error = answer.find("error");
   if (error == answer.end() || !error->is_string()) return {};
@@ -170,7 +171,7 @@ std::string hello_line(const Setup& setup, const std::string& memory) {
   hello["fields"]["sample"] = "1";
   for (const Field& field : fields) hello["fields"][std::string(field.name)] = field.unit;
   hello["command"] = angle ? "rad" : "rad/s^2";
-  if (!memory.empty()) hello["state"] = Json::parse(memory);
+  if (!memory.empty()) hello["state"] = parse_json(memory);
   return hello.dump() + '\n';
 }
 
@@ -184,7 +185,7 @@ Ready read_ready(std::string_view line) {
                              "}, and beside it \"reset\": " +
                              "true, \"save\": true, \"columns\": {\"NAME\": \"UNIT\"}, \"fields\": "
                              "[\"NAME\"]";
-  const Json answer = Json::parse(line, nullptr, false);
+  const Json answer = parse_json(line);
   if (!answer.is_object()) return refuse(wanted);
   if (!answer.contains("protocol")) {
     return refuse("found no protocol" + misspelt(line, "protocol") + "; " + wanted);
@@ -210,8 +211,11 @@ Ready read_ready(std::string_view line) {
         } else if (name != Json("sample")) {
           std::vector<std::string_view> known{"sample"};
           for (const Field& one : fields) known.push_back(one.name);
-          const std::string meant = name.is_string() ? hint(name.get<std::string>(), known) : "";
-          return refuse("found a field " + name.dump() + meant + "; allowed: those of the hello");
+          const bool is_text = name.is_string();
+          const std::string meant = is_text ? hint(name.get<std::string>(), known) : "";
+          return refuse("found a field " +
+                        (is_text ? bbsim::quoted(name.get<std::string>()) : "that is no text") +
+                        meant + "; allowed: those of the hello");
         }
       }
     } else if (key == "columns") {
@@ -230,7 +234,7 @@ Ready read_ready(std::string_view line) {
 }
 
 std::string read_memory(std::string_view line, std::string& memory) {
-  const Json answer = Json::parse(line, nullptr, false);
+  const Json answer = parse_json(line);
   if (!answer.is_object() || answer.size() != 1 || !answer.contains("state")) {
     return refusal(line, "allowed: {\"state\": ANYTHING}");
   }
@@ -288,8 +292,9 @@ std::string read_answer(std::string_view line, std::span<const std::string> name
         std::vector<std::string_view> known{"command", "error"};
         known.insert(known.end(), names.begin(), names.end());
         const std::string meant = hint(name, known);
-        return refuse("found " + bbsim::quoted(name) +
-                      (meant.empty() ? " that is no number" : meant) + "; " + form);
+        const char* const kind = name == "error" ? " that is no text" : " that is no number";
+        return refuse("found " + bbsim::quoted(name) + (meant.empty() ? kind : meant) + "; " +
+                      form);
       }
       const auto wanted = std::ranges::find(names, name);
       if (wanted == names.end()) continue;

@@ -10,12 +10,7 @@ namespace {
 class CsvWriter final : public TableWriter {
  public:
   CsvWriter(const std::string& target, const std::vector<ColumnHeader>& headers) : file_(target) {
-    std::string line;
-    for (const ColumnHeader& header : headers) {
-      if (!line.empty()) line += ',';
-      line += header.name;
-    }
-    file_.write(line + '\n');
+    file_.write(csv_header(headers) + '\n');
   }
 
   void append(std::span<const double* const> columns, std::size_t rows) override {
@@ -36,6 +31,15 @@ class CsvWriter final : public TableWriter {
 };
 
 }  // namespace
+
+std::string csv_header(const std::vector<ColumnHeader>& headers) {
+  std::string line;
+  for (const ColumnHeader& header : headers) {
+    if (!line.empty()) line += ',';
+    line += header.name;
+  }
+  return line;
+}
 
 std::unique_ptr<TableWriter> open_csv(const std::string& target,
                                       const std::vector<ColumnHeader>& headers) {

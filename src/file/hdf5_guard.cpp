@@ -8,6 +8,7 @@
 #include <cstdlib>
 #include <cstring>
 
+#include "base/end_process.hpp"
 #include "base/error.hpp"
 #include "file/temporaries.hpp"
 
@@ -26,7 +27,7 @@ void end_if_within() {
   if (message == nullptr) return;
   [[maybe_unused]] const ssize_t ignored = write(STDERR_FILENO, message, std::strlen(message));
   remove_temporaries();
-  _exit(static_cast<int>(ExitCode::output_failed));
+  end_process(static_cast<int>(ExitCode::output_failed));
 }
 
 void crashed(int /*signal*/) {

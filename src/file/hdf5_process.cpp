@@ -14,6 +14,7 @@
 #include <utility>
 
 #include "base/shown.hpp"
+#include "file/children.hpp"
 #include "file/hdf5_module.hpp"
 
 namespace bbsim::file {
@@ -89,17 +90,10 @@ std::shared_ptr<Hdf5Process> start_process() {
   fcntl(answers.get(), F_SETPIPE_SZ, pipe_bytes);  // it does with less
 
   const Spawning spawning(its_requests.get(), its_answers.get());
+  const auto starting = while_starting_child();
   const pid_t process = spawning.start(program.path);
+  remember_child(process);
   return std::make_shared<Hdf5Process>(process, std::move(requests), std::move(answers));
-}
-
-// The status that a child ends with; nothing if somebody else has taken it.
-std::optional<int> wait_for(pid_t process) {
-  int status = 0;
-  while (waitpid(process, &status, 0) < 0) {
-    if (errno != EINTR) return {};
-  }
-  return status;
 }
 
 constexpr const char* damaged = ": the file is damaged, or not as HDF5 writes it";
@@ -146,7 +140,7 @@ Hdf5Process::Hdf5Process(pid_t process, Descriptor requests, Descriptor answers)
 
 Hdf5Process::~Hdf5Process() {
   hang_up();
-  if (process_ != 0 && owner_ == getpid()) wait_for(process_);
+  if (process_ != 0 && owner_ == getpid()) wait_for_child(process_);
 }
 
 void Hdf5Process::expect_ready() {
@@ -186,7 +180,7 @@ void Hdf5Process::receive(void* bytes, std::size_t size) {
 void Hdf5Process::end() {
   if (process_ == 0) return;
   kill(process_, SIGKILL);
-  wait_for(process_.exchange(0));
+  wait_for_child(process_.exchange(0));
 }
 
 void Hdf5Process::hang_up() {
@@ -202,7 +196,7 @@ void Hdf5Process::fail(int error) {
 
 void Hdf5Process::fail_by_end() {
   hang_up();
-  const std::optional<int> status = wait_for(process_.exchange(0));
+  const std::optional<int> status = wait_for_child(process_.exchange(0));
   ended_idle_ = !status || (WIFEXITED(*status) && WEXITSTATUS(*status) == 0);
   if (!status) throw Hdf5Trouble(std::string("the HDF5 reader ended over it") + damaged);
   if (WIFSIGNALED(*status)) throw Hdf5Trouble(signal_text(WTERMSIG(*status)));

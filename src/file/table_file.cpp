@@ -7,14 +7,18 @@
 
 namespace bbsim::file {
 
-std::unique_ptr<TableWriter> open_table(const std::string& target,
-                                        const std::vector<ColumnHeader>& headers) {
-  const Format format = format_of(target);
-  if (format == Format::csv || is_written_directly(target)) return open_csv(target, headers);
-  if (format == Format::hdf5) return open_hdf5(target, headers);
+void require_table_name(const std::string& target) {
+  if (format_of(target) != Format::other || is_written_directly(target)) return;
   throw InputError("output file \"" + target +
                    "\": the name's ending picks the format and is one of .csv, .h5 and .hdf5; "
                    "\"-\" is CSV on standard output");
+}
+
+std::unique_ptr<TableWriter> open_table(const std::string& target,
+                                        const std::vector<ColumnHeader>& headers) {
+  require_table_name(target);
+  const bool hdf5 = format_of(target) == Format::hdf5 && !is_written_directly(target);
+  return hdf5 ? open_hdf5(target, headers) : open_csv(target, headers);
 }
 
 TableData read_table(const std::string& file) {

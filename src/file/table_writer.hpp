@@ -52,6 +52,12 @@ class TableWriter {
 [[nodiscard]] std::unique_ptr<TableWriter> open_table(const std::string& target,
                                                       const std::vector<ColumnHeader>& headers);
 
+// Throws the InputError of open_table() for a name that picks no format.
+void require_table_name(const std::string& target);
+
+// The first line of a CSV with these columns, without its line break.
+[[nodiscard]] std::string csv_header(const std::vector<ColumnHeader>& headers);
+
 // Reads a CSV (RFC 4180 without quoting: a header of bare names, then numbers) or, by its
 // ending, an HDF5 file; "-" is CSV on standard input. Throws InputError: where, found, allowed.
 [[nodiscard]] TableData read_table(const std::string& file);

@@ -147,7 +147,11 @@ void HybridSystem::handle_time_event(double t, double* z) {
 void HybridSystem::pass_stops(double now) {
   const std::vector<double>& stops = model_.stops;
   while (next_stop_ < stops.size() && stops[next_stop_] <= now) ++next_stop_;
-  stop_ = next_stop_ < stops.size() ? stops[next_stop_] : unlimited;
+  put_stop();
+}
+
+void HybridSystem::put_stop() {
+  stop_ = next_stop_ < model_.stops.size() ? model_.stops[next_stop_] : unlimited;
 }
 
 void HybridSystem::see(double t, const double* z) {
@@ -601,16 +605,30 @@ HybridSystem::Effect HybridSystem::check_events(double t, const double* z) {
 
 template <class Archive>
 void HybridSystem::archive(Archive& archive) {
-  if (model_.rig) archive(*mode_);
-  archive(next_stop_, stop_, happening_);
+  if (model_.rig) {
+    archive(*mode_);
+    archive.require(is_finite(*mode_));
+  }
+  archive(next_stop_);
+  archive.require(next_stop_ <= model_.stops.size());
+  put_stop();
+  archive.fixed(happening_);
+  for (const char one : happening_) archive.require(one == 0 || one == 1);
   for (ServoAxis& servo : servos_) archive(servo);
   if (model_.rig && model_.rig->between.has_pieces()) {
     archive(pieces_, command_pieces_);
+    for (std::size_t i = 0; i < 2; ++i) {
+      const Linkage& linkage = model_.rig->between.linkages[i];
+      const std::size_t pieces = linkage.table ? linkage.table->knots().size() - 1 : 1;
+      archive.require(pieces_[i] < pieces && command_pieces_[i] < pieces);
+    }
     put_pieces();
   }
   if (!sampled_) return;
   Sampled& of = *sampled_;
-  archive(of.exchange, of.controller, of.measured, of.own);
+  archive(of.exchange, of.controller, of.measured);
+  archive.require(is_finite(of.measured));
+  archive.fixed(of.own);
 }
 
 template void HybridSystem::archive(StateWriter&);

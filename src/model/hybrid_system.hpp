@@ -179,6 +179,7 @@ class HybridSystem {
   template <class Use>
   auto with_loop(Use use) const;
   void pass_stops(double now);
+  void put_stop();
   [[nodiscard]] Wanted axes(double t, const double* z) const;
   [[nodiscard]] RigExtras plane(const double* z) const;
   [[nodiscard]] Sample sample(double t, const double* z, Detail detail) const;

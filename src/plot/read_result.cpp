@@ -2,24 +2,22 @@
 
 #include <algorithm>
 #include <array>
-#include <cerrno>
 #include <charconv>
 #include <chrono>
 #include <cmath>
 #include <filesystem>
-#include <fstream>
 #include <map>
-#include <nlohmann/json.hpp>
 #include <sstream>
 #include <string_view>
 #include <utility>
 #include <variant>
 
 #include "base/error.hpp"
+#include "base/json.hpp"
 #include "base/text.hpp"
-#include "file/descriptor.hpp"
 #include "file/format.hpp"
 #include "file/hdf5_table.hpp"
+#include "file/whole_file.hpp"
 #include "scenario/columns.hpp"
 #include "scenario/reader.hpp"
 #include "scenario/variation.hpp"
@@ -139,6 +137,8 @@ T member(const Json& json, const char* name, T otherwise) {
   }
 }
 
+constexpr std::size_t most_of_a_summary = std::size_t{1} << 28U;  // bytes: a million events
+
 bool is_summary(const Json& json) {
   return json.is_object() && json.contains("status") && json.contains("events") &&
          json["events"].is_array() && json.contains("output");
@@ -173,16 +173,8 @@ void take_summary(Result& result, const Json& json) {
                 member<std::string>(json, "scenario", ""), overrides);
 }
 
-// `discarded`, which is no summary, if it cannot be read or is no JSON.
-Json parse_json(const std::string& file) {
-  std::ifstream stream(file, std::ios::binary);
-  return stream ? Json::parse(stream, nullptr, false) : Json(Json::value_t::discarded);
-}
-
 void read_summary(Result& result, const std::string& file) {
-  if (!std::ifstream(file))
-    throw InputError("cannot read " + file + ": " + file::error_text(errno));
-  const Json json = parse_json(file);
+  const Json json = parse_json(file::read_whole(file, {}, most_of_a_summary));
   if (!is_summary(json)) {
     throw InputError(file +
                      ": is no summary; allowed: what `bbsim run --summary FILE.json` writes");
@@ -206,12 +198,15 @@ bool is_newer(const fs::path& one, const fs::path& other) {
 
 // NAME.json beside NAME.csv, if it tells of that very file. A run writes it last.
 void find_summary(Result& result) {
-  const fs::path csv(result.file);
-  fs::path summary = csv;
-  summary.replace_extension(".json");
-  std::error_code ignored;
-  if (result.file == "-" || !fs::is_regular_file(summary, ignored)) return;
-  const Json json = parse_json(summary);
+  const fs::path csv(result.file), summary(summary_beside(result.file));
+  if (summary.empty()) return;
+  result.beside = summary;
+  Json json;
+  try {
+    json = parse_json(file::read_whole(summary, {}, most_of_a_summary));
+  } catch (const InputError&) {  // nobody asked for it
+    return;
+  }
   if (!is_summary(json)) return;
   if (fs::path(member<std::string>(json, "output", "")).filename() != csv.filename()) return;
   const bool as_long = member(json, "rows", std::size_t{0}) == result.rows;
@@ -224,6 +219,14 @@ void find_summary(Result& result) {
 
 }  // namespace
 
+std::string summary_beside(const std::string& file) {
+  fs::path summary(file);
+  summary.replace_extension(".json");
+  std::error_code ignored;
+  if (file == "-" || is_hdf5(file) || !fs::is_regular_file(summary, ignored)) return "";
+  return summary;
+}
+
 Result read_result(const std::string& file, const Beside& beside) {
   if (const std::string ending = file::lower_ending(file); ending == ".yaml" || ending == ".yml") {
     throw InputError(file + ": is a scenario; draw its result: bbsim run " + file +
@@ -232,7 +235,7 @@ Result read_result(const std::string& file, const Beside& beside) {
   Result result = is_hdf5(file) ? read_hdf5_result(file) : read_csv_columns(file);
   if (!beside.summary.empty()) {
     read_summary(result, beside.summary);
-  } else if (!is_hdf5(file) && !result.is_sweep()) {
+  } else if (!result.is_sweep()) {
     find_summary(result);
   }
   if (!beside.scenario.empty()) {

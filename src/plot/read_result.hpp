@@ -21,6 +21,9 @@ struct Beside {
 // rows. A scenario that is named comes before both. Throws InputError.
 [[nodiscard]] Result read_result(const std::string& file, const Beside& beside);
 
+// NAME.json beside NAME.csv, as read_result() looks for it: empty if there is none.
+[[nodiscard]] std::string summary_beside(const std::string& file);
+
 // Only the columns, of CSV. Throws InputError with file:line.
 [[nodiscard]] Result read_csv_columns(const std::string& file);
 

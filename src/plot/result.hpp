@@ -39,6 +39,7 @@ struct Result {
   std::string title, status;
   std::string reason, version;       // why a run ended early; of the bbsim that ran it
   std::string summary;               // JSON, as `run --summary` writes it, without scenario_text
+  std::string beside;                // the file that was looked at for its summary, unasked
   std::string left_out;              // what to tell of a summary beside it that is another run's
   std::optional<double> end_time{};  // that the run reached, s
   std::vector<Event> events{};

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <cstdint>
 #include <string_view>
 #include <utility>
 #include <vector>
@@ -280,6 +281,23 @@ class Script {
   std::string text_;
 };
 
+// A chunk of PNG: the length of its content, its kind and content, and the CRC-32 of those two.
+std::string png_chunk(std::string_view kind_and_content) {
+  const auto number = [](std::uint32_t value) {
+    std::string bytes;
+    for (int shift = 24; shift >= 0; shift -= 8) bytes += static_cast<char>(value >> shift & 0xFFU);
+    return bytes;
+  };
+  std::uint32_t crc = 0xFFFFFFFF;
+  for (const char c : kind_and_content) {
+    crc ^= static_cast<unsigned char>(c);
+    for (int bit = 0; bit < 8; ++bit) crc = crc >> 1U ^ (crc & 1U) * 0xEDB88320U;
+  }
+  constexpr std::size_t kind = 4;
+  return number(static_cast<std::uint32_t>(kind_and_content.size() - kind)) +
+         std::string(kind_and_content) + number(~crc);
+}
+
 }  // namespace
 
 std::string gnuplot_script(const Picture& picture, Format format, const HasLetter& has_letter) {
@@ -293,6 +311,22 @@ std::string mended(std::string drawn, Format format) {
     drawn.replace(at, end_of_section.size(), as_text);
     at += as_text.size();
   }
+  return drawn;
+}
+
+// Where each format has room for a comment, at the end.
+std::string marked(std::string drawn, Format format) {
+  switch (format) {
+    case Format::svg:
+      return drawn.append("<!-- ").append(picture_mark).append(" -->\n");
+    case Format::pdf:
+      return drawn.append("% ").append(picture_mark).append("\n");
+    case Format::png:
+      break;
+  }
+  const std::string last = png_chunk("IEND");
+  const std::string comment = std::string("tEXtComment") + '\0' + picture_mark;
+  if (drawn.ends_with(last)) drawn.insert(drawn.size() - last.size(), png_chunk(comment));
   return drawn;
 }
 

@@ -24,4 +24,8 @@ using HasLetter = std::function<bool(std::uint32_t)>;
 // What gnuplot made of it, mended: in texts of an SVG it leaves "]]>" as it is, which is no XML.
 [[nodiscard]] std::string mended(std::string drawn, Format format);
 
+// A picture with a mark, which is not to be seen, by which one of bbsim's is known.
+[[nodiscard]] std::string marked(std::string drawn, Format format);
+inline constexpr const char* picture_mark = "drawn by bbsim plot";
+
 }  // namespace bbsim::plot

@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/number_text.hpp"
+#include "base/printable.hpp"
 
 namespace bbsim::record {
 namespace {
@@ -48,14 +49,20 @@ Json number_or_null(double value) {
 
 std::string title_of(const LinearReport& report) {
   const LinearSystem& system = report.linearisation.system;
-  std::string text = "The " + report.kind + " of " + report.scenario + " about " + report.at;
-  for (char& c : text) {
-    if (static_cast<unsigned char>(c) < ' ') c = ' ';  // a comment is one line
-  }
+  std::string text =
+      "The " + report.kind + " of " + printable_ascii(report.scenario) + " about " + report.at;
   if (report.kind == "sampled") text.replace(0, 11, "The sampled plant");
   return text + (system.period
                      ? ", from sample to sample every " + number_text(*system.period) + " s"
                      : ", in continuous time");
+}
+
+// The comment at the beginning of a program. What others named comes in the third line: Python and
+// Octave take a file's encoding from its first two, and an encoding can turn comments into code.
+std::string opening(const LinearReport& report, const std::string& comment) {
+  return comment + " Made by bbsim linearize.\n" + comment +
+         " A, B, C and D of a linear system, and its names and units:\n" + comment + ' ' +
+         title_of(report) + ".\n";
 }
 
 // The text of a matrix, with what its language puts before, between and behind rows.
@@ -142,7 +149,7 @@ std::string to_json(const LinearReport& report) {
 std::string to_matlab(const LinearReport& report) {
   const LinearSystem& system = report.linearisation.system;
   constexpr Brackets brackets{"[", "", ", ", "", "; ...\n     ", "];\n"};
-  std::string text = "% " + title_of(report) + ", by bbsim linearize.\n";
+  std::string text = opening(report, "%");
   const auto matrices = matrices_of(system);
   for (std::size_t i = 0; i < matrices.size(); ++i) {
     text += std::string(matrix_names[i]) + " = " + text_of(*matrices[i], brackets);
@@ -170,7 +177,7 @@ std::string to_matlab(const LinearReport& report) {
 std::string to_python(const LinearReport& report) {
   const LinearSystem& system = report.linearisation.system;
   constexpr Brackets brackets{"numpy.array([", "[", ", ", "]", ",\n    ", "])\n"};
-  std::string text = "# " + title_of(report) + ", by bbsim linearize.\nimport numpy\n\n";
+  std::string text = opening(report, "#") + "import numpy\n\n";
   const auto matrices = matrices_of(system);
   for (std::size_t i = 0; i < matrices.size(); ++i) {
     text += std::string(matrix_names[i]) + " = " + text_of(*matrices[i], brackets);

@@ -2,16 +2,20 @@
 
 #include "base/archive.hpp"
 #include "base/error.hpp"
+#include "file/whole_file.hpp"
 
 namespace bbsim::record {
 namespace {
 
-constexpr std::string_view magic = "bbsim run state 1\n";
+constexpr std::string_view magic = "bbsim run state 2\n";
 
 template <class Archive>
 void archive_of(Archive& archive, RunState& state) {
   archive(state.version, state.instruction_set, state.identity, state.gamma, state.endless,
           state.end, state.least_end, state.time, state.next_row, state.state);
+  // A state is kept behind the first row.
+  archive.require(state.next_row > 0 && is_finite(state.end, state.time) &&
+                  is_number(state.least_end));
 }
 
 }  // namespace
@@ -33,7 +37,8 @@ std::string to_bytes(RunState state) {
   return bytes + end.bytes();
 }
 
-RunState state_of(const std::string& bytes, const std::string& file) {
+RunState read_state(const std::string& file) {
+  const std::string bytes = file::read_whole(file, magic);
   if (!bytes.starts_with(magic)) {
     throw InputError(file + ": is no state of a run; allowed: what bbsim run --save-state wrote");
   }
@@ -46,10 +51,15 @@ RunState state_of(const std::string& bytes, const std::string& file) {
   if (size == 0 || sum != check_sum(std::string_view(bytes).substr(0, size))) {
     throw InputError(file + ": is damaged: its check sum is not that of its content");
   }
-  RunState state;
-  StateReader reader(std::string_view(bytes).substr(magic.size(), size - magic.size()));
-  archive_of(reader, state);
-  return state;
+  try {
+    RunState state;
+    StateReader reader(std::string_view(bytes).substr(magic.size(), size - magic.size()));
+    archive_of(reader, state);
+    StateReader::require(reader.at_end() && !state.state.empty());
+    return state;
+  } catch (const StateFault& fault) {
+    throw InputError(file + ": " + fault.what());
+  }
 }
 
 }  // namespace bbsim::record

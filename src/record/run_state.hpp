@@ -27,7 +27,8 @@ struct RunState {
 
 [[nodiscard]] std::string to_bytes(RunState state);
 
-// Throws InputError, with the file's name, where the bytes are no such state, whole and unchanged.
-[[nodiscard]] RunState state_of(const std::string& bytes, const std::string& file);
+// Throws InputError, with the file's name, where it holds no such state, whole and unchanged. A
+// file that does not begin as one is not read to its end.
+[[nodiscard]] RunState read_state(const std::string& file);
 
 }  // namespace bbsim::record

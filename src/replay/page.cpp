@@ -4,13 +4,12 @@
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
-#include <nlohmann/json.hpp>
 #include <system_error>
 
 #include "base/error.hpp"
+#include "base/json.hpp"
 #include "file/atomic_file.hpp"
+#include "file/whole_file.hpp"
 #include "replay/base64.hpp"
 #include "replay/kept_rows.hpp"
 #include "replay/rotation.hpp"
@@ -155,7 +154,7 @@ Json run_json(const Run& run, const Stage& stage, std::size_t most) {
   json["friction"] = run.friction ? Json(*run.friction) : Json();
   json["scenario"] = {
       {"file", run.scenario_file}, {"text", run.scenario_text}, {"overrides", run.overrides}};
-  json["summary"] = run.summary.empty() ? Json() : Json::parse(run.summary, nullptr, false);
+  json["summary"] = run.summary.empty() ? Json() : parse_json(run.summary);
   json["check"] = run.check;
   json["poles"] = run.poles ? poles_json(*run.poles) : Json();
   json["version"] = run.version;
@@ -344,8 +343,10 @@ std::string page(const Scene& scene, std::string_view whole_template) {
 std::string page_template(const std::vector<std::string>& folders) {
   std::string looked_in;
   for (const std::string& folder : folders) {
-    std::ifstream stream(std::filesystem::path(folder) / template_name, std::ios::binary);
-    if (stream) return {std::istreambuf_iterator<char>(stream), {}};
+    try {
+      return file::read_whole(std::filesystem::path(folder) / template_name);
+    } catch (const InputError&) {  // it is looked for in the next one
+    }
     looked_in.append(looked_in.empty() ? "" : " and ").append(folder);
   }
   throw OutputError(
@@ -355,9 +356,12 @@ std::string page_template(const std::vector<std::string>& folders) {
       "BBSIM_SHARE_PATH to the template's folder");
 }
 
-std::string page_template() {
+namespace {
+
+// Where the template may be, in order.
+std::vector<std::string> template_folders() {
   if (const char* folder = std::getenv("BBSIM_SHARE_PATH"); folder != nullptr && *folder != '\0') {
-    return page_template({folder});
+    return {folder};
   }
   std::error_code error;
   const std::filesystem::path program = std::filesystem::read_symlink("/proc/self/exe", error);
@@ -365,7 +369,22 @@ std::string page_template() {
   std::vector<std::string> folders{prefix / "share" / "bbsim"};
   const std::string installed = prefix / BBSIM_INSTALL_DATADIR / "bbsim";
   if (installed != folders.front()) folders.push_back(installed);
-  return page_template(folders);
+  return folders;
+}
+
+}  // namespace
+
+std::string page_template() {
+  return page_template(template_folders());
+}
+
+std::string template_file() {
+  for (const std::string& folder : template_folders()) {
+    const std::filesystem::path file = std::filesystem::path(folder) / template_name;
+    std::error_code error;
+    if (std::filesystem::exists(file, error)) return file.string();
+  }
+  return "";
 }
 
 void write_page(const std::string& file, const Scene& scene) {

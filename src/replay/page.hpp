@@ -24,6 +24,12 @@ namespace bbsim::replay {
 // Reads the template as above, from one of these folders.
 [[nodiscard]] std::string page_template(const std::vector<std::string>& folders);
 
+// By which a page of bbsim's is known: it stands at the beginning of the template.
+inline constexpr const char* page_mark = "A replay made by bbsim";
+
+// The file of the template, as page_template() finds it; empty if it is not there.
+[[nodiscard]] std::string template_file();
+
 // Rows that each run of a page may keep.
 [[nodiscard]] std::size_t rows_allowed(const Scene& scene);
 

@@ -47,7 +47,9 @@ struct Parameters {
     yaml::Keys keys(value);
     bool fine = true;
     for (const yaml::Entry& entry : value.node->entries) {
-      const yaml::Value number = *keys.find(entry.key);
+      const std::optional<yaml::Value> found = keys.find(entry.key);
+      if (!found) continue;  // an override leaves it out
+      const yaml::Value& number = *found;
       if (!is_own_name(entry.key)) {
         fine = number.report(
             "found a name of other characters than letters, digits and underscores, or of more "

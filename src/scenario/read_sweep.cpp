@@ -23,6 +23,7 @@ struct Variations {
     }
     bool fine = true;
     for (const yaml::Entry& entry : value.node->entries) {
+      if (entry.value->absent) continue;
       const yaml::Value spec{entry.value, value.path + '.' + entry.key, entry.position,
                              value.context};
       const auto same = [&](const Variation& other) { return other.key == entry.key; };

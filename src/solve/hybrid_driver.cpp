@@ -85,6 +85,7 @@ class HybridIntegration {
       stepper_->restore(from);
       next_row_ = part_->first_row;
       begun_ = grid_[next_row_ - 1];
+      require_time(from);
       return go_on(z);
     }
     run_.handle_time_event(0, z.data());
@@ -193,8 +194,22 @@ class HybridIntegration {
 
   template <class Archive>
   void archive(Archive& archive) {
-    archive(run_, pace_, guards_, asked_, asked_time_, standstill_, fall_, foreseen_, unlooked_,
-            unarmed_, turned_);
+    archive(run_, pace_);
+    archive.fixed(guards_);
+    for (const Guard& guard : guards_) {
+      archive.require(is_number(guard.value) && is_number(guard.threshold));
+    }
+    archive(asked_, asked_time_, standstill_, fall_, foreseen_, unlooked_, unarmed_, turned_);
+    archive.require(asked_.size() <= guards_.size() && is_finite(asked_time_, turned_) &&
+                    is_number(foreseen_) && is_number(fall_.time) &&
+                    (std::isinf(fall_.time) || fall_.guard < first_guard_));
+  }
+
+  // A state is of a time before the next row, with all done that was due until then.
+  void require_time(const StateReader& from) const {
+    const double t = stepper_->time(), next = grid_[next_row_];
+    StateReader::require(from.at_end() && t >= 0 && t <= next + slack(next) &&
+                         run_.next_time_event() >= t - slack(t) && fall_.time >= t - slack(t));
   }
 
   // Before a step up to `limit`. What a controller of one's own remembers is asked for only where
@@ -581,6 +596,8 @@ class HybridIntegration {
       std::erase_if(outcome.occurrences, [&](const model::Occurrence& one) {
         return one.t > cut_ || (!part_->from.empty() && one.t <= begun_);
       });
+      // What stops a run does so in the part that it happens in.
+      StateReader::require(ending != Ending::stopped || !outcome.occurrences.empty());
       part_->next_row = next_row_;
       part_->least_end = stepper_->least_end();
       if (ending == Ending::failed || ending == Ending::stopped) part_->state.clear();

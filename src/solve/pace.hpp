@@ -38,6 +38,9 @@ class Pace {
   template <class Archive>
   void archive(Archive& archive) {
     archive(steps_, from_, advance_, advances_, windows_, shrinking_, slow_, awaited_);
+    for (const int count : {shrinking_, slow_, awaited_}) {
+      archive.require(count >= 0 && count < 1 << 30);
+    }
   }
 
   // How many steps a second of motion takes at present, 1/s, and how many are left at that pace;

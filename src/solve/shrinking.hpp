@@ -65,6 +65,8 @@ class Shrinking {
   template <class Archive>
   void archive(Archive& archive) {
     archive(count_, in_a_row_, from_, last_, ratio_, size_before_, last_error_);
+    constexpr int most = 1 << 30;
+    archive.require(count_ >= 0 && count_ < most && in_a_row_ >= 0 && in_a_row_ < most);
   }
 
  private:

@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/instant.hpp"
 #include "solve/pace.hpp"
 #include "solve/piece.hpp"
 #include "solve/row_block.hpp"
@@ -75,6 +76,10 @@ Outcome run_through(Stepper& stepper, const model::Model& model, const OutputGri
     StateReader from(part->from);
     from(next_stop, pace);
     stepper.restore(from);
+    const double t = stepper.time(), next = grid[next_row];
+    StateReader::require(from.at_end() && t >= 0 && t <= next + rounding_of(next) &&
+                         next_stop <= model.stops.size() &&
+                         (next_stop == model.stops.size() || model.stops[next_stop] >= t));
   } else {
     stepper.start(0, model.initial.data());
   }

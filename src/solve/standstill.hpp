@@ -11,16 +11,19 @@ class Standstill {
     const bool still = t - last_ <= 1e-13 * t;
     still_ = still ? still_ + 1 : 0;
     last_ = t;
-    return still_ >= 100;
+    return still_ >= most;
   }
 
   // All that it remembers (base/archive.hpp).
   template <class Archive>
   void archive(Archive& archive) {
     archive(last_, still_);
+    archive.require(still_ >= 0 && still_ < most);
   }
 
  private:
+  static constexpr int most = 100;
+
   double last_ = -1;  // the last switch, s
   int still_ = 0;
 };

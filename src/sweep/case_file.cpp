@@ -63,34 +63,31 @@ class Csv : public CaseFile {
 
 }  // namespace
 
+void check_case_target(const std::string& target, const CaseFileLayout& layout, bool resume) {
+  const bool direct = file::is_written_directly(target);
+  const file::Format format = file::format_of(target);
+  if (!direct && format == file::Format::other) {
+    throw InputError("cannot tell the format of " + target +
+                     " by its name; allowed endings: .csv, .h5, .hdf5");
+  }
+  if (!layout.axis_values.empty() && (direct || format != file::Format::hdf5)) {
+    throw InputError("cannot keep trajectories in " + target +
+                     ": they need a file that ends in .h5 or .hdf5");
+  }
+  if (direct && resume) {
+    throw InputError("cannot resume on " + target +
+                     ": only a file in a folder keeps what was done");
+  }
+}
+
 std::unique_ptr<CaseFile> open_case_file(const std::string& target, CaseFileLayout layout,
                                          const std::string& plan, bool resume) {
-  const bool series = !layout.axis_values.empty();
-  const auto refuse_series = [&] {
-    if (series) {
-      throw InputError("cannot keep trajectories in " + target +
-                       ": they need a file that ends in .h5 or .hdf5");
-    }
-  };
-  if (file::is_written_directly(target)) {
-    refuse_series();
-    if (resume) {
-      throw InputError("cannot resume on " + target +
-                       ": only a file in a folder keeps what was done");
-    }
-    return std::make_unique<Stream>(target, layout);
+  check_case_target(target, layout, resume);
+  if (file::is_written_directly(target)) return std::make_unique<Stream>(target, layout);
+  if (file::format_of(target) == file::Format::hdf5) {
+    return open_case_file_hdf5(target, std::move(layout), plan, resume);
   }
-  switch (file::format_of(target)) {
-    case file::Format::hdf5:
-      return open_case_file_hdf5(target, std::move(layout), plan, resume);
-    case file::Format::csv:
-      refuse_series();
-      return std::make_unique<Csv>(target, std::move(layout), plan, resume);
-    case file::Format::other:
-      break;
-  }
-  throw InputError("cannot tell the format of " + target +
-                   " by its name; allowed endings: .csv, .h5, .hdf5");
+  return std::make_unique<Csv>(target, std::move(layout), plan, resume);
 }
 
 std::vector<std::string> case_files_beside(const std::string& target) {

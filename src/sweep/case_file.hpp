@@ -49,10 +49,16 @@ class CaseFile {
   virtual void finish(const file::Attributes& attributes) = 0;
 };
 
+// The header of its CSV: the names of all columns but the series.
+[[nodiscard]] std::string header_of(const std::vector<file::Hdf5Column>& columns);
+
+// Throws InputError for another ending than .csv, .h5 and .hdf5, for series anywhere but in HDF5,
+// and for what cannot be resumed on. "-" is standard output.
+void check_case_target(const std::string& target, const CaseFileLayout& layout, bool resume);
+
 // `plan` says all that the results depend on, so that with `resume` no other sweep's part is taken
-// up. "-" is standard output; that, and what is no regular file, gets CSV as it comes. Throws
-// InputError for another ending than .csv, .h5 and .hdf5, for series anywhere but in HDF5, and for
-// a part that cannot be gone on with.
+// up. Standard output, and what is no regular file, gets CSV as it comes. Throws InputError for a
+// target as above, and for a part that cannot be gone on with.
 [[nodiscard]] std::unique_ptr<CaseFile> open_case_file(const std::string& target,
                                                        CaseFileLayout layout,
                                                        const std::string& plan, bool resume);

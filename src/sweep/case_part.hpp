@@ -11,9 +11,6 @@
 
 namespace bbsim::sweep {
 
-// The first line: the names of all columns but the series.
-[[nodiscard]] std::string header_of(const std::vector<file::Hdf5Column>& columns);
-
 // Knows what each row must be, whoever wrote it. Functions throw OutputError.
 class CasePart {
  public:

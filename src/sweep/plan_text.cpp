@@ -1,6 +1,7 @@
 #include "sweep/plan_text.hpp"
 
-#include <nlohmann/json.hpp>
+#include "base/json.hpp"
+#include "base/shown.hpp"
 
 namespace bbsim::sweep {
 namespace {
@@ -9,7 +10,7 @@ using Json = nlohmann::ordered_json;
 
 // Discarded if it is none.
 Json parsed(const std::string& plan) {
-  return Json::parse(plan, nullptr, false);
+  return parse_json(plan);
 }
 
 std::string instruction_set_of(const Json& plan) {
@@ -27,7 +28,7 @@ PlanDifference compare_plans(const std::string& one, const std::string& two, boo
     if (key == "instruction_set") {
       difference.instruction_sets = {instruction_set_of(a), instruction_set_of(b)};
     } else if (key != "shard" || !of_shards) {
-      difference.other += (difference.other.empty() ? "" : ", ") + key;
+      difference.other += (difference.other.empty() ? "" : ", ") + shown(key);
     }
   };
   for (const auto& [key, value] : a.items()) {

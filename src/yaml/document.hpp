@@ -27,6 +27,7 @@ struct Entry {
 struct Node {
   enum class Kind { null, scalar, sequence, mapping } kind = Kind::null;
   bool quoted = false;  // a scalar in quotes, or a block of text
+  bool absent = false;  // null: an override leaves out this key, whose name is checked all the same
   int height = 0;       // levels of nodes below this one
   Position position;
   std::string text;                // of a scalar

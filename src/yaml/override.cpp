@@ -37,6 +37,7 @@ std::string joined(Path names) {
 
 class Setter {
  public:
+  // A value that is absent removes what is there.
   Setter(Path path, const Node& value, int source, Nodes& nodes)
       : path_(path), value_(value), source_(source), nodes_(nodes) {}
 
@@ -44,6 +45,7 @@ class Setter {
   [[nodiscard]] const Node* set(const Node* old, std::size_t level) const {
     if (level == path_.size()) return &value_;
     if (old == nullptr || old->kind == Node::Kind::null) {
+      if (value_.absent) return old == nullptr ? &value_ : old;  // there is nothing to remove
       Node& created = nodes_.emplace_back();
       created.kind = Node::Kind::mapping;
       created.position = {source_};
@@ -58,6 +60,10 @@ class Setter {
  private:
   const Node* set_entry(Node& mapping, std::size_t level) const {
     auto entry = std::ranges::find(mapping.entries, path_[level], &Entry::key);
+    if (value_.absent && entry != mapping.entries.end() && level + 1 == path_.size()) {
+      std::erase_if(mapping.entries, [&](const Entry& one) { return one.key == path_[level]; });
+      return &mapping;
+    }
     if (entry == mapping.entries.end()) {
       entry = mapping.entries.insert(entry, {std::string(path_[level]), {source_}, nullptr});
     } else if (level + 1 == path_.size()) {
@@ -75,10 +81,19 @@ class Setter {
     // One spelling for each position: a sweep would take .00 and .0 for two keys.
     const bool number = result.ec == std::errc{} && result.ptr == name.data() + name.size() &&
                         (name.size() == 1 || name.front() != '0');
-    if (!number || index > list.items.size()) {
+    const std::size_t size = list.items.size();
+    if (value_.absent && (!number || index >= size)) {
+      fail(joined(path_.first(level)) + ": found the position " + shown(name) + " in a list" +
+           (size == 0 ? ", which has none to remove"
+                      : "; allowed: 0 to " + std::to_string(size - 1)));
+    }
+    if (!number || index > size) {
       fail(joined(path_.first(level)) + ": found the position " + shown(name) +
-           " in a list; allowed: 0 to " + std::to_string(list.items.size()) +
-           ", where the last appends");
+           " in a list; allowed: 0 to " + std::to_string(size) + ", where the last appends");
+    }
+    if (value_.absent && level + 1 == path_.size()) {
+      list.items.erase(list.items.begin() + static_cast<std::ptrdiff_t>(index));
+      return &list;
     }
     if (index == list.items.size()) list.items.push_back(nullptr);
     list.items[index] = set(list.items[index], level + 1);
@@ -114,6 +129,11 @@ const Node& parse_value(std::string_view text, int source, Nodes& nodes) {
                                   std::to_string(largest_text));
   }
   const Node* value = parse_yaml(check_text(text, source), source, nodes);
+  if (value != nullptr && value->kind == Node::Kind::null) {
+    Node& absent = nodes.emplace_back(*value);
+    absent.absent = true;
+    return absent;
+  }
   if (value != nullptr) return *value;
   Node& nothing = nodes.emplace_back();
   nothing.position = {source};

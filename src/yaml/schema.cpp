@@ -43,7 +43,7 @@ std::optional<Value> Keys::find(std::string_view key) {
   know(key);
   const auto& entries = mapping_.node->entries;
   const auto entry = std::ranges::find(entries, key, &Entry::key);
-  if (entry == entries.end()) return {};
+  if (entry == entries.end() || entry->value->absent) return {};
   return Value{entry->value, mapping_.path_of(key), entry->position, mapping_.context};
 }
 

@@ -1,5 +1,6 @@
 #include "shell.hpp"
 
+#include <poll.h>
 #include <pty.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -44,13 +45,14 @@ Result shell(const std::string& line, const std::filesystem::path& folder) {
 
 std::string on_terminal(const std::vector<std::string>& arguments, unsigned short columns,
                         const std::filesystem::path& folder, double seconds,
-                        const std::string& awaited) {
+                        const std::string& awaited, const std::string& kind) {
   const winsize size{24, columns, 0, 0};
   int terminal = -1;
   const pid_t child = forkpty(&terminal, nullptr, nullptr, &size);
   if (child < 0) throw std::runtime_error("cannot open a terminal");
   if (child == 0) {
     if (chdir(folder.c_str()) != 0) _exit(126);
+    setenv("TERM", kind.c_str(), 1);
     std::vector<std::string> words{BBSIM_PROGRAM};
     words.insert(words.end(), arguments.begin(), arguments.end());
     execute(words);
@@ -60,10 +62,13 @@ std::string on_terminal(const std::vector<std::string>& arguments, unsigned shor
   bool ended = false;
   std::string text;
   std::array<char, 4096> part{};
-  for (;;) {  // what is drawn comes ten times a second; at the end the terminal is gone
-    const ssize_t got = read(terminal, part.data(), part.size());
-    if (got <= 0) break;
-    text.append(part.data(), static_cast<std::size_t>(got));
+  for (;;) {  // at the end the terminal is gone
+    pollfd drawn{terminal, POLLIN, 0};
+    if (poll(&drawn, 1, 50) > 0) {
+      const ssize_t got = read(terminal, part.data(), part.size());
+      if (got <= 0) break;
+      text.append(part.data(), static_cast<std::size_t>(got));
+    }
     const double elapsed = std::chrono::duration<double>(Clock::now() - start).count();
     const bool seen = !awaited.empty() && text.find(awaited) != std::string::npos;
     if (!ended && (seen || elapsed > seconds)) {

@@ -12,6 +12,7 @@
 
 #include "catch.hpp"
 #include "process.hpp"
+#include "shell.hpp"
 
 using namespace bbsim_test;
 
@@ -105,6 +106,7 @@ TEST_CASE("whatever a controller does instead of answering is told, and the rows
       {"sleeps",
        "it did not answer within 1 s (one that answers into a buffer has to flush it: "
        "print(..., flush=True) in Python); it was still running, and has been ended"},
+      {"joins", "it did not answer within 1 s"},
       {"dies", "failed at sample 5 (t = 0.1 s): it ended with exit code 3."},
       {"crashes", "it was ended by signal 9 (Killed)"},
       {"garbage", "its answer was \"hello \\x1b[31mworld\": allowed: {\"command\": [PHI, THETA]}"},
@@ -185,7 +187,7 @@ TEST_CASE("a controller that does not begin fails the run before its first row")
 }
 
 TEST_CASE("nothing is left of a controller that leaves processes, or goes on at the end") {
-  const std::string mode = GENERATE("forks", "goes on");
+  const std::string mode = GENERATE("forks", "goes on", "leaves a daemon");
   CAPTURE(mode);
   const Scene scene("\"" + mode + "\"");
   const Result result = scene.run();
@@ -195,8 +197,36 @@ TEST_CASE("nothing is left of a controller that leaves processes, or goes on at 
   CHECK(contains(result.err, "it went on after the end of its input, and has been ended") ==
         (mode == "goes on"));
   const auto [processes, running] = scene.processes_in_the_end();
-  CHECK(processes == (mode == "forks" ? 2 : 1));
+  CHECK(processes == (mode == "goes on" ? 1 : 2));
   CHECK(running == 0);
+}
+
+TEST_CASE("what a shell has started in groups of its own ends with it") {
+  const std::string mode = GENERATE("sleeps", "goes on", "leaves a daemon");
+  CAPTURE(mode);
+  const Scene scene("good", "timeout: 1");
+  const std::string job = "set -m; '" BBSIM_TEST_CHILD "' '" + mode + "' pids & wait";
+  const Result result =
+      scene.run({"--set", "controller.program.command=[bash, -c, \"" + job + "\"]"});
+  CAPTURE(result.err);
+  CHECK(result.exit_code == (mode == "sleeps" ? 1 : 0));
+  CHECK(result.seconds < 10);
+  const auto [processes, running] = scene.processes_in_the_end();
+  CHECK(processes == (mode == "leaves a daemon" ? 2 : 1));
+  CHECK(running == 0);
+}
+
+TEST_CASE("a process that is none of a controller's is left alone") {
+  const Scene scene("leaves a daemon");
+  // Of a shell that becomes bbsim.
+  const Result result = shell(
+      "sleep 60 & echo $! > bystander; exec $BBSIM run scene.yaml -o out.csv", scene.folder.path());
+  CAPTURE(result.err);
+  CHECK(result.exit_code == 0);
+  CHECK(scene.processes_in_the_end() == std::pair(2, 0));
+  const pid_t bystander = std::stoi(scene.folder.read("bystander"));
+  CHECK(kill(bystander, 0) == 0);
+  kill(bystander, SIGKILL);
 }
 
 TEST_CASE("what a controller complains of comes line by line, however much it is") {
@@ -208,7 +238,7 @@ TEST_CASE("what a controller complains of comes line by line, however much it is
 }
 
 TEST_CASE("a run that waits for its controller ends at SIGINT, with the rows so far") {
-  const Scene scene("sleeps", "timeout: 1000");
+  const Scene scene(GENERATE("sleeps", "joins"), "timeout: 1000");
   Launch launch{{"run", scene.file, "-o", scene.folder / "out.csv"},
                 {},
                 SIGINT,
@@ -267,6 +297,19 @@ TEST_CASE("a command that cannot be started is the scenario's fault, with its pl
                             "name or its path\n");
   }
   CHECK_FALSE(std::filesystem::exists(scene.folder / "o.csv"));
+}
+
+TEST_CASE("a name that picks no format is refused before a controller is started") {
+  const Scene scene("good");
+  for (const char* command : {"run", "sweep"}) {
+    std::vector<std::string> words{command, scene.file, "-o", scene.folder / "o.foo"};
+    if (command == std::string("sweep")) words.insert(words.end(), {"--vary", "gravity=list:9,10"});
+    const Result result = bbsim(words);
+    CAPTURE(command, result.err);
+    CHECK(result.exit_code == 2);
+    CHECK(contains(result.err, ".csv, .h5"));
+  }
+  CHECK(scene.processes().first == 0);
 }
 
 TEST_CASE("check says what is known of a loop whose law is not") {

@@ -157,6 +157,189 @@ TEST_CASE("nothing writes over a state that it goes on from, nor over a table of
   }
 }
 
+TEST_CASE("linearize, measure, plot and replay write over nothing that they read, asked or not") {
+  const Folder folder;
+  folder.write("own.yaml",
+               "ball: {radius: 0.02}\n"
+               "gimbal: {servo: {natural_frequency: 20, damping: 0.8}}\n"
+               "controller:\n"
+               "  program: {command: [python3, pid.py, gains.csv]}\n"
+               "  drives: angle\n"
+               "  reference: {point: [0, 0]}\n"
+               "  sampling: {period: 0.02}\n"
+               "time: {end: 0.2, step: 0.02}\n");
+  const std::string law = "a law";
+  for (const char* const name : {"pid.py", "gains.csv"}) folder.write(name, law);
+  fs::create_symlink("pid.py", folder / "link.py");
+  for (const std::string name : {"pid.py", "gains.csv", "link.py", "./pid.py"}) {
+    CAPTURE(name);
+    const Result result = bbsim({"linearize", "own.yaml", "-o", name}, folder.path());
+    CHECK(result.exit_code == 2);
+    CHECK_THAT(result.err, Contains("(the scenario's controller), which is read here"));
+  }
+  CHECK(folder.read("pid.py") == law);
+  CHECK(folder.read("gains.csv") == law);
+
+  folder.write("in.yaml", scene);
+  REQUIRE(bbsim({"run", "in.yaml", "-q", "-o", "r.csv", "--summary", "r.json"}, folder.path())
+              .exit_code == 0);
+  const std::string summary = folder.read("r.json");
+  for (const char* const name : {"r.svg", "t.svg", "t.html"}) {
+    fs::create_symlink("r.json", folder / name);
+  }
+  for (const Names& words : {Names{"plot", "r.csv"}, Names{"plot", "r.csv", "-o", "t.svg"},
+                             Names{"plot", "--overlay", "r.csv", "r.csv", "-o", "t.svg"},
+                             Names{"replay", "r.csv", "-o", "t.html"}}) {
+    CAPTURE(words);
+    const Result result = bbsim(words, folder.path());
+    CHECK(result.exit_code == 2);
+    CHECK_THAT(result.err, Contains("r.json (the summary of r.csv), which is read here"));
+  }
+  Launch launch{{"measure", "r.csv", "--measure", "max_x"}, folder.path()};
+  launch.prepare = [] { static_cast<void>(std::freopen("r.json", "a", stdout)); };
+  CHECK(bbsim(launch).exit_code == 2);
+  CHECK(folder.read("r.json") == summary);
+}
+
+TEST_CASE("the page's template is no place for a page") {
+  const Folder folder;
+  folder.write("in.yaml", scene);
+  const std::string page =
+      "<!-- A replay made by bbsim. --><title>@BBSIM_TITLE@</title>@BBSIM_DATA@";
+  folder.write("replay.html", page);
+  for (const Names& words : {Names{"replay", "in.yaml", "-o", "replay.html"},
+                             Names{"run", "in.yaml", "-q", "--replay", "replay.html"}}) {
+    Launch launch{words, folder.path()};
+    launch.prepare = [] { setenv("BBSIM_SHARE_PATH", ".", 1); };
+    const Result result = bbsim(launch);
+    CHECK(result.exit_code == 2);
+    CHECK_THAT(result.err, Contains("replay.html (the template of pages), which is read here"));
+    CHECK(folder.read("replay.html") == page);
+  }
+}
+
+TEST_CASE("without -o nothing is replaced but what the command would write") {
+  struct Kept {
+    std::string content, told;
+  };
+  const auto [content, told] = GENERATE(values<Kept>({
+      {"t,x_mm,y_mm\n0,1,2\n", "begins with \"t,x_mm,y_mm\""},
+      {"", "is empty"},
+      {"t,x,y,gamma,phi,theta", "begins with \"t,x,y,gamma,phi,theta\""},
+      {"t,x,y,gamma,phi,theta\r\n0,0,0,0,0,0\r\n", "begins with"},
+      {"t,x,y,gamma,phi,theta,spin\n0,0,0,0,0,0,0\n", "begins with"},
+      {"t,x,y,gamma,phi,theta\n0,0,0,0,0,0\n0.1,0,0", "breaks off within its last row"},
+      {std::string("\x89HDF\r\n\x1a\n\0\0", 10), "begins with \"\\x89HDF"},
+  }));
+  CAPTURE(content);
+  const Folder folder;
+  folder.write("trial1.yaml", scene);
+  folder.write("trial1.csv", content);
+  const Result result = bbsim({"run", "trial1.yaml"}, folder.path());
+  CHECK(result.exit_code == 2);
+  CHECK_THAT(result.err, Contains("trial1.csv: is there, and ") && Contains(told) &&
+                             Contains("-o") && Contains("--force"));
+  CHECK(folder.read("trial1.csv") == content);
+  CHECK(folder.files() == Names{"trial1.csv", "trial1.yaml"});
+
+  CHECK(bbsim({"run", "trial1.yaml", "-q", "--force"}, folder.path()).exit_code == 0);
+  const std::string rows = folder.read("trial1.csv");
+  CHECK_THAT(rows, Catch::Matchers::StartsWith("t,x,y,gamma,phi,theta\n0,"));
+  CHECK(bbsim({"run", "trial1.yaml", "-q"}, folder.path()).exit_code == 0);
+  CHECK(folder.read("trial1.csv") == rows);
+  CHECK(bbsim({"run", "trial1.yaml", "-q", "--set", "output.columns=[t, x]"}, folder.path())
+            .exit_code == 2);
+  CHECK(folder.read("trial1.csv") == rows);
+  // A name that was given is the user's word.
+  CHECK(bbsim({"run", "trial1.yaml", "-q", "--set", "output.columns=[t, x]", "-o", "trial1.csv"},
+              folder.path())
+            .exit_code == 0);
+}
+
+TEST_CASE("so it is of sweeps, pictures and pages") {
+  const Folder folder;
+  folder.write("a.yaml", scene);
+  REQUIRE(bbsim({"run", "a.yaml", "-q", "-o", "a.csv"}, folder.path()).exit_code == 0);
+  struct Way {
+    Names words;
+    std::string file;
+  };
+  const auto [words, file] = GENERATE(values<Way>({
+      {{"sweep", "a.yaml", "--vary", "gravity=list:9,10"}, "a-sweep.csv"},
+      {{"plot", "a.csv"}, "a.svg"},
+      {{"plot", "a.csv", "--format", "png"}, "a.png"},
+      {{"plot", "a.csv", "--format", "pdf"}, "a.pdf"},
+      {{"replay", "a.csv"}, "a.html"},
+      {{"replay", "a.yaml"}, "a.html"},
+  }));
+  CAPTURE(words, file);
+  const std::string content = "notes of mine, on case,gravity\n";
+  folder.write(file, content);
+  const Result result = bbsim(words, folder.path());
+  CHECK(result.exit_code == 2);
+  CHECK_THAT(result.err,
+             Contains(file + ": is there, and begins with \"notes of mine") && Contains("--force"));
+  CHECK(folder.read(file) == content);
+  CHECK(bbsim(with(words, {"--force", "-q"}), folder.path()).exit_code == 0);
+  CHECK(folder.read(file) != content);
+  CHECK(bbsim(with(words, {"-q"}), folder.path()).exit_code == 0);
+}
+
+TEST_CASE("a summary that nests without end is none") {
+  const Folder folder;
+  folder.write("in.yaml", scene);
+  REQUIRE(bbsim({"run", "in.yaml", "-q", "-o", "r.csv", "--summary", "r.json"}, folder.path())
+              .exit_code == 0);
+  std::string summary = folder.read("r.json");
+  const std::size_t nesting = 100'000;
+  summary.insert(1, "\"deep\": " + std::string(nesting, '[') + std::string(nesting, ']') + ",");
+  folder.write("r.json", summary);
+  for (const Names& words : {Names{"plot", "r.csv", "-q"}, Names{"replay", "r.csv", "-q"},
+                             Names{"measure", "r.csv", "--measure", "max_x"}}) {
+    CAPTURE(words);
+    CHECK(bbsim(words, folder.path()).exit_code == 0);  // nobody asked for the summary
+  }
+  for (const Names& words : {Names{"plot", "r.csv"}, Names{"replay", "r.csv"}}) {
+    const Result result = bbsim(with(words, {"--summary", "r.json"}), folder.path());
+    CHECK(result.exit_code == 2);
+    CHECK_THAT(result.err, Contains("r.json: is no summary"));
+  }
+}
+
+TEST_CASE("a folder, an unreadable file or a device where a state or a summary is read is exit 2") {
+  const Folder folder;
+  folder.write("in.yaml", scene);
+  REQUIRE(bbsim({"run", "in.yaml", "-q", "-o", "r.csv"}, folder.path()).exit_code == 0);
+  fs::create_directory(folder / "folder");
+  folder.write("closed", "{}");
+  REQUIRE(chmod((folder / "closed").c_str(), 0) == 0);
+  struct Way {
+    std::string file, why;
+  };
+  for (const auto& [file, why] :
+       {Way{"folder", "is a directory"}, Way{"closed", "permission denied"},
+        Way{"nowhere", "no such file"}, Way{"/dev/null", "/dev/null: is no s"}}) {
+    for (const Names& words :
+         {Names{"run", "in.yaml", "-o", "x.csv", "--from-state", file},
+          Names{"plot", "r.csv", "--summary", file}, Names{"replay", "r.csv", "--summary", file}}) {
+      CAPTURE(words);
+      Launch launch{words, folder.path()};
+      launch.prepare = drop_rights_over_files;
+      const Result result = bbsim(launch);
+      CHECK(result.exit_code == 2);
+      CHECK_THAT(result.err, Contains(why));
+    }
+  }
+  // It is looked at no further than its first bytes.
+  if (under_sanitizers) return;
+  Launch launch{{"run", "in.yaml", "-o", "x.csv", "--from-state", "/dev/zero"}, folder.path()};
+  launch.prepare = [] { limit(RLIMIT_AS, rlim_t{1} << 28U); };
+  const Result zeros = bbsim(launch);
+  CHECK(zeros.exit_code == 2);
+  CHECK_THAT(zeros.err, Contains("/dev/zero: is no state of a run"));
+  CHECK(folder.files() == Names{"closed", "folder", "in.yaml", "r.csv"});
+}
+
 TEST_CASE("an option with nothing for a value is refused, as of a variable that is not set") {
   const Folder folder;
   folder.write("in.yaml", scene);
@@ -309,7 +492,14 @@ TEST_CASE("the instruction set is named") {
              Catch::Matchers::StartsWith("bbsim " BBSIM_VERSION "\ninstruction set: "));
   const Folder folder;
   folder.write("in.yaml", scene);
-  const std::string name = version.out.substr(29, version.out.size() - 30);
+  const std::size_t at = version.out.find("set: ") + 5;
+  const std::string name = version.out.substr(at, version.out.find('\n', at) - at);
+  CHECK_THAT(version.out, Catch::Matchers::Matches(
+                              "bbsim [0-9.]+\n"
+                              "instruction set: [a-z0-9]+\n"
+                              "commit: ([0-9a-f]{12}(, with changes)?|unknown: .*)\n"
+                              "libraries: SUNDIALS [0-9.]+, Eigen [0-9.]+, yaml-cpp [0-9.]+, CLI11 "
+                              "[0-9.]+, nlohmann-json [0-9.]+, fmt [0-9.]+, HDF5 [0-9.]+\n"));
   CHECK(bbsim({"run", "in.yaml", "-q", "--summary", "s.json"}, folder.path()).exit_code == 0);
   CHECK(nlohmann::json::parse(folder.read("s.json")).at("instruction_set") == name);
   Launch wrong{{"--version"}};

@@ -1,5 +1,7 @@
 // bbsim linearize, and the files that it writes, read by who they are for where they are installed.
+#include <algorithm>
 #include <cstdlib>
+#include <filesystem>
 #include <nlohmann/json.hpp>
 #include <sstream>
 #include <string>
@@ -269,3 +271,31 @@ TEST_CASE("what linearize does not know is refused, with what it does") {
   CHECK(bbsim({"linearize", own}).exit_code == 0);
   CHECK_FALSE(contains(bbsim({"check", config("sags.yaml")}).out, "margins"));
 }
+
+#ifdef BBSIM_PYTHON
+// "+AAo-" is a line break in UTF-7, and the name would have Python read the file so.
+TEST_CASE("a scenario's name is text in the programs that linearize writes, whatever it is") {
+  const Folder folder;
+  const std::string name = "coding: utf-7 +AAo-open('ran', 'w')+AAo- \xce\xb8 \xff.yaml";
+  std::filesystem::copy_file(config("fig2b.yaml"), folder / name);
+  for (const char* const program : {"plant.py", "plant.m"}) {
+    CAPTURE(program);
+    const Result result = bbsim({"linearize", name, "-o", program}, folder.path());
+    CAPTURE(result.err);
+    REQUIRE(result.exit_code == 0);
+    const std::string text = folder.read(program);
+    CHECK(std::ranges::all_of(text, [](char c) { return c == '\n' || (c >= ' ' && c <= '~'); }));
+    std::istringstream lines(text);
+    std::string line;
+    for (int i = 0; i < 2 && std::getline(lines, line); ++i) CHECK_FALSE(contains(line, "coding"));
+    CHECK(contains(text,
+                   "coding: utf-7 +AAo-open('ran', 'w')+AAo- \\xce\\xb8 \\xff.yaml about home"));
+  }
+  const Result run = shell(
+      "mkdir empty && echo 'array = list' > empty/numpy.py && PYTHONPATH=empty python3 plant.py",
+      folder.path());
+  CHECK(run.exit_code == 0);
+  CHECK(run.err.empty());
+  CHECK_FALSE(std::filesystem::exists(folder / "ran"));
+}
+#endif

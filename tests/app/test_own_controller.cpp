@@ -146,6 +146,76 @@ TEST_CASE("a library that fails at a sample ends the run there") {
   CHECK(std::count(result.out.begin(), result.out.end(), '\n') == 6);
 }
 
+TEST_CASE("a library that ends the process in place of returning fails, and the rows are kept") {
+  struct Way {
+    std::string mode, told;
+    std::ptrdiff_t lines;
+  };
+  const auto [mode, told, lines] = GENERATE(values<Way>({
+      {"5", "failed at sample 5 (t = 0.1 s): it called exit(0), which would have ended bbsim", 6},
+      {"6", "failed at sample 5 (t = 0.1 s): it called _exit(0), which would have ended bbsim", 6},
+      {"7", "failed to begin: it called exit(0), which would have ended bbsim", 0},
+      {"10", ") ended bbsim: what was not yet written is lost", 0},
+      {"12", ") ended bbsim: what was not yet written is lost", 0},
+  }));
+  std::vector<std::string> words = with_misdeeds(mode);
+  words.pop_back();  // -q
+  const Result result = bbsim(words);
+  CAPTURE(mode, result.err);
+  CHECK(result.exit_code == 1);
+  CHECK(contains(result.err, told));
+  CHECK(contains(result.err, "misdeeds"));
+  CHECK(std::count(result.out.begin(), result.out.end(), '\n') == lines);
+}
+
+TEST_CASE("a library that ends the process as it is opened does so with a word") {
+  const Result result = bbsim(with_misdeeds("0", BBSIM_MISDEEDS_OPENED));
+  CAPTURE(result.err);
+  CHECK(result.exit_code == 1);
+  CHECK(contains(result.err, ") ended bbsim: what was not yet written is lost"));
+  const Result check =
+      bbsim({"check", example("library.yaml"), "--set",
+             std::string("controller.library.file=") + BBSIM_MISDEEDS, "--set",
+             "controller.library.parameters={mode: 7}", "--set", "output.columns=[t, x, samples]"});
+  CHECK(check.exit_code == 1);
+  CHECK(contains(check.err, "failed to begin: it called exit(0)"));
+}
+
+TEST_CASE("a library that ends the process once it is done, or a child of its own, does no harm") {
+  const std::string mode = GENERATE("8", "9");
+  const Result result = bbsim(with_misdeeds(mode));
+  CAPTURE(mode, result.err);
+  CHECK(result.exit_code == 0);
+  CHECK(result.err.empty());
+  CHECK(result.out == bbsim(with_misdeeds("0")).out);
+}
+
+TEST_CASE("a case of a sweep whose library ends the process has failed, and the others go on") {
+  std::vector<std::string> words = with_misdeeds("0");
+  words[0] = "sweep";
+  words.insert(words.end(), {"--vary", "controller.library.parameters.mode=list:0,5,7,0",
+                             "--measure", "end_samples", "-j", "1"});
+  const Result result = bbsim(words);
+  CAPTURE(result.err, result.out);
+  CHECK(result.exit_code == 0);
+  CHECK(contains(result.out, "\n0,0,done,,0.2,11\n1,5,failed,"));
+  CHECK(contains(result.out, "it called exit(0), which would have ended bbsim"));
+  CHECK(contains(result.out, "\n2,7,failed,"));
+  CHECK(contains(result.out, "\n3,0,done,,0.2,11\n"));
+}
+
+TEST_CASE("a library that would save more than there is fails to") {
+  const Folder folder;
+  std::vector<std::string> words = with_misdeeds("11");
+  words.insert(words.end(), {"--until", "0.1", "--save-state", folder / "s.state"});
+  const Result result = bbsim(words);
+  CAPTURE(result.err);
+  CHECK(result.exit_code == 1);
+  CHECK(contains(result.err,
+                 "failed to save its state: it would take 18446744073709551615 bytes; allowed: "));
+  CHECK_FALSE(std::filesystem::exists(folder / "s.state"));
+}
+
 TEST_CASE("a library begins each case of a sweep anew, whether it can reset or not") {
   for (const char* mode : {"0", "4"}) {
     std::vector<std::string> words = with_misdeeds(mode);

@@ -134,3 +134,29 @@ TEST_CASE("rates have three digits") {
   CHECK(digits.find_first_not_of("0123456789") == std::string::npos);
   CHECK(digits.find_last_not_of('0') < 3);
 }
+
+TEST_CASE("a terminal that obeys no escape sequences is sent none") {
+  const Folder folder;
+  folder.write("scene.yaml", long_scene);
+  const auto drawn = [&](const std::string& kind) {
+    return on_terminal({"run", "scene.yaml"}, 80, folder.path(), 1.6, "", kind);
+  };
+  CHECK(contains(drawn("xterm"), "\x1b"));
+  const std::string plain = drawn("dumb");
+  CAPTURE(plain);
+  CHECK_FALSE(contains(plain, "\x1b"));
+  CHECK(contains(plain, "interrupted at t = "));
+}
+
+TEST_CASE("who gives no scenario on a terminal is told that one is waited for") {
+  const Folder folder;
+  const std::string told = "reading a scenario from the terminal; Ctrl-D ends it";
+  for (const char* const command : {"run", "check", "linearize", "accuracy", "verify"}) {
+    CAPTURE(command);
+    CHECK(contains(on_terminal({command, "-"}, 80, folder.path(), 5, told), told));
+  }
+  CHECK(
+      contains(on_terminal({"measure", "-", "--measure", "max_x"}, 80, folder.path(), 5, "reading"),
+               "reading a CSV from the terminal"));
+  CHECK_FALSE(contains(on_terminal({"run", "-", "-q"}, 80, folder.path(), 0.5), "reading"));
+}

@@ -22,6 +22,12 @@ TEST_CASE("what a terminal obeys is written as an escape") {
   CHECK(printable("\u009b31m") == "\\u009b31m");  // CSI as one character
 }
 
+TEST_CASE("in a program's comment all but printable ASCII is written as an escape") {
+  CHECK(bbsim::printable_ascii("a b~.yaml") == "a b~.yaml");
+  CHECK(bbsim::printable_ascii("a\n\tb\x7f") == "a\\x0a\\x09b\\x7f");
+  CHECK(bbsim::printable_ascii("\u03b3\xff") == "\\xce\\xb3\\xff");
+}
+
 TEST_CASE("what turns the direction of writing is written as an escape") {
   CHECK(printable("\u202egpj.exe") == "\\u202egpj.exe");
   CHECK(printable("a\u2066b\u2069\u200f\u061c") == "a\\u2066b\\u2069\\u200f\\u061c");

@@ -132,6 +132,7 @@ TEST_CASE("what is wrong with an answer is told with the answer") {
       {"{\"command\": [0, 0], \"aa\": [1]}", "found \"aa\" that is no number; allowed"},
       {"{\"Command\": 1, \"a\": 1}",
        "found no command, but \"Command\" (did you mean command?); allowed"},
+      {"{\"command\": [0, 0], \"error\": null}", "found \"error\" that is no text; allowed"},
       {"{\"error\": \"no \\\"kp\\\"\"}", "it gave up: \"no \"kp\"\""},
   }));
   CAPTURE(line);
@@ -154,8 +155,37 @@ TEST_CASE("a misspelt name in an answer is told with the one that was meant") {
              "found no protocol, but \"protocoll\" (did you mean protocol?); allowed"));
   CHECK(said(controller::read_ready("{\"protocol\": 1, \"fields\": [\"refrence\"]}").fault,
              "found a field \"refrence\" (did you mean reference?); allowed"));
+  // Nobody means what stands there.
+  CHECK_FALSE(said(read("{\"command\": [0, 0], \"error\": 5}").fault, "did you mean"));
+  CHECK_FALSE(said(read("{\"command\": [0, 0], \"a\": []}", {"a"}).fault, "did you mean"));
   // What is near nothing is not guessed at.
   CHECK_FALSE(said(read("{\"motor\": [0, 0]}").fault, "did you mean"));
+}
+
+TEST_CASE("what is not known is shown, and cut where it is long") {
+  const std::string longest(60000, 'f');
+  for (const std::string& line : {"{\"protocol\": 1, \"fields\": [\"" + longest + "\"]}",
+                                  "{\"protocol\": 1, \"fields\": [[\"" + longest + "\"]]}",
+                                  "{\"protocol\": 1, \"" + longest + "\": 1}",
+                                  "{\"protocol\": 1, \"columns\": {\"" + longest + "\": 1}}"}) {
+    CAPTURE(line.substr(0, 40));
+    const std::string fault = controller::read_ready(line).fault;
+    CHECK_FALSE(fault.empty());
+    CHECK(fault.size() < 1000);
+  }
+}
+
+TEST_CASE("what a controller says nests no deeper than anybody needs") {
+  const auto nested = [](std::size_t depth) {
+    return std::string(depth, '[') + std::string(depth, ']');
+  };
+  std::string memory;
+  CHECK(controller::read_memory("{\"state\": " + nested(50) + "}", memory).empty());
+  CHECK(memory == nested(50));
+  const std::string deep = nested(30000);  // a line is as long as that
+  CHECK_FALSE(controller::read_memory("{\"state\": " + deep + "}", memory).empty());
+  CHECK_FALSE(controller::read_ready("{\"protocol\": 1, \"fields\": " + deep + "}").fault.empty());
+  CHECK_FALSE(read("{\"a\": " + deep + "}").fault.empty());
 }
 
 TEST_CASE("a hello says what the run is like, and its answer what the controller can") {

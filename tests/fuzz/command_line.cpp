@@ -150,7 +150,7 @@ const std::atomic<bool>& bbsim::app::watch_signals() {
 // run.
 pid_t bbsim::controller::start_program(const std::vector<std::string>& /*words*/,
                                        const std::string& /*folder*/, const Streams& /*streams*/,
-                                       int& error) {
+                                       const std::string& /*mark*/, int& error) {
   error = EPERM;
   return 0;
 }

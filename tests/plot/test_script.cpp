@@ -60,3 +60,14 @@ TEST_CASE("what gnuplot leaves of XML in a text is mended") {
   CHECK(mended("a ]]> b", Format::png) == "a ]]> b");
   CHECK(mended("<![CDATA[ x ]]>", Format::svg) == "<![CDATA[ x ]]>");
 }
+
+TEST_CASE("a picture's mark is a comment of its format") {
+  CHECK(marked("<svg></svg>\n", Format::svg) == "<svg></svg>\n<!-- drawn by bbsim plot -->\n");
+  CHECK(marked("%%EOF\n", Format::pdf) == "%%EOF\n% drawn by bbsim plot\n");
+  // A chunk has its length before it, and behind it a check sum, as of zlib's crc32().
+  const std::string end("\0\0\0\0IEND\xAE\x42\x60\x82", 12);
+  const std::string chunk =
+      std::string("\0\0\0\x1BtEXtComment\0", 16) + "drawn by bbsim plot" + "\xC0\x73\x7D\x55";
+  CHECK(marked("picture" + end, Format::png) == "picture" + chunk + end);
+  CHECK(marked("no picture", Format::png) == "no picture");
+}

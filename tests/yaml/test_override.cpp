@@ -44,6 +44,48 @@ TEST_CASE("an override sets and appends list items by position") {
         std::string::npos);
 }
 
+TEST_CASE("an override of null removes a key, or an item of a list") {
+  CHECK(parse(open_loop, {"ball.mass=3", "ball.mass=null"}).ball.mass == 1);  // its default
+  CHECK(parse(open_loop + "title: a\n", {"title=~"}).title.empty());
+  CHECK(parse(closed_loop, {"controller.limit=0.1", "controller.limit=null"}).controller->limit ==
+        std::nullopt);
+  const Scenario other = parse(
+      closed_loop, {"controller.pd=null", "controller.pid={kp: 1, kv: 2, ki: 3}",
+                    "controller.drives=angle", "gimbal.servo={natural_frequency: 10, damping: 1}"});
+  CHECK(other.controller->law == Law::pid);
+  CHECK_FALSE(parse(closed_loop, {"controller=null", "gimbal.motion={}"}).controller.has_value());
+  CHECK(errors(open_loop, {"ball.radius=null"}) ==
+        "scenario.yaml:1:1: ball.radius: missing; allowed: a length greater than 0, such as 0.01 "
+        "or \"1 cm\"");
+
+  const std::string listed = open_loop + "output: {columns: [t, x, y]}\n";
+  const std::vector<std::string> without_x = {"t", "y"}, with_theta = {"t", "y", "theta"};
+  CHECK(parse(listed, {"output.columns.1=null"}).output.columns == without_x);
+  CHECK(parse(listed, {"output.columns.1=null", "output.columns.2=theta"}).output.columns ==
+        with_theta);
+  CHECK(errors(listed, {"output.columns.3=null"}) ==
+        "--set output.columns.3=null: output.columns: found the position 3 in a list; allowed: 0 "
+        "to 2");
+}
+
+TEST_CASE("what is not there may be removed, but its name has to be known") {
+  CHECK(parse(open_loop, {"ball.mass=null", "events.edge=null", "controller.pid.ki=null"})
+            .ball.mass == 1);
+  CHECK(parse(open_loop, {"title=null", "title=b"}).title == "b");
+  CHECK(errors(open_loop, {"ball.mas=null"}) ==
+        "--set ball.mas=null: ball.mas: unknown key; did you mean ball.mass?");
+  CHECK(errors(open_loop, {"evnts.edge=null"}) ==
+        "--set evnts.edge=null: evnts: unknown key; did you mean events?");
+  CHECK(errors(open_loop, {"ball.radius.x=null"}) ==
+        "--set ball.radius.x=null: ball.radius: found 0.01, which has no keys; allowed: a path "
+        "through mappings and lists");
+  // A variable of a script that is not set, and a file, remove nothing.
+  CHECK(
+      errors(open_loop, {"ball.mass="}).starts_with("--set ball.mass=: ball.mass: found nothing"));
+  CHECK(errors(open_loop + "title: null\n").find("title: found nothing") != std::string::npos);
+  CHECK_FALSE(errors(open_loop, {"ball={radius: 1, mass: null}"}).empty());
+}
+
 TEST_CASE("an override leaves the other users of an alias alone") {
   const std::string text =
       "ball: {radius: 0.01}\ntime: {end: 1, step: 1}\n"

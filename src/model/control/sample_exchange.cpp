@@ -26,7 +26,7 @@ SampleExchange::SampleExchange(const SampledLoop& loop)
 void SampleExchange::go_on_exposing() {
   if (!frames_) return go_on(expose_);
   ++expose_.number;
-  expose_.next = expose_.number * *frames_ + expose_.shift;
+  expose_.next = frame_time();
 }
 
 void SampleExchange::expose(double x, double y) {
@@ -34,6 +34,25 @@ void SampleExchange::expose(double x, double y) {
   now.at = expose_.next;
   now.sees = sensor_.read(x, y, now.position);
   go_on_exposing();
+}
+
+bool SampleExchange::is_sound(double first_exposure) const {
+  constexpr double most = 0x1p53;
+  const auto is_count = [](double number, double least) {
+    return number >= least && number <= most && number == std::floor(number);
+  };
+  if (!is_count(expose_.number, first_exposure) || !is_count(sample_.number, 0) ||
+      !is_count(apply_.number, 0)) {
+    return false;
+  }
+  if (!even_ && !(times_.knows(sample_.number) && times_.knows(apply_.number) &&
+                  (frames_ || times_.knows(expose_.number)))) {
+    return false;
+  }
+  // What is on its way.
+  const bool frame_sound = !frame_ || is_finite(*frame_);
+  return frame_sound && static_cast<double>(commands_.size()) == sample_.number - apply_.number &&
+         (frames_ || static_cast<double>(seen_.size()) == expose_.number - sample_.number);
 }
 
 // Of samples that nobody asks for any more.

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <optional>
 
+#include "base/archive.hpp"
 #include "base/instant.hpp"
 #include "base/queue.hpp"
 #include "model/control/sample_times.hpp"
@@ -54,7 +55,19 @@ class SampleExchange {
   // What changes over a run (base/archive.hpp).
   template <class Archive>
   void archive(Archive& archive) {
-    archive(sensor_, times_, seen_, frame_, commands_, expose_, sample_, apply_);
+    const double first_exposure = Archive::reads ? expose_.number : 0;
+    archive(sensor_, times_, seen_, frame_, commands_);
+    archive(expose_.number, sample_.number, apply_.number);
+    if constexpr (Archive::reads) {
+      archive.require(is_sound(first_exposure));
+      if (frames_) {
+        expose_.next = frame_time();
+      } else {
+        put(expose_);
+      }
+      put(sample_);
+      put(apply_);
+    }
   }
 
  private:
@@ -63,17 +76,17 @@ class SampleExchange {
     double shift;
     double number = -1;
     double next = 0;  // s
-
-    template <class Archive>
-    void archive(Archive& archive) {
-      archive(number, next);
-    }
   };
   struct Seen {
     double at = 0;  // when, of frames, s
     Pair position{};
     bool sees = false;
 
+    template <class Archive>
+    void archive(Archive& archive) {
+      archive(at, position, sees);
+      archive.require(is_finite(at, position));
+    }
     [[nodiscard]] std::optional<Pair> what() const {
       return sees ? std::optional(position) : std::nullopt;
     }
@@ -81,9 +94,16 @@ class SampleExchange {
 
   void go_on(Clock& clock) {
     ++clock.number;
+    put(clock);
+  }
+  // At the instant of its number.
+  void put(Clock& clock) {
     const double time = even_ ? clock.number * period_ : times_.at(clock.number);
     clock.next = time + clock.shift;
   }
+  [[nodiscard]] double frame_time() const { return expose_.number * *frames_ + expose_.shift; }
+  // Whether numbers and queues, just read, are such as a run leaves.
+  [[nodiscard]] bool is_sound(double first_exposure) const;
   void go_on_exposing();
   void forget_times();
 

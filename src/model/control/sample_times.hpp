@@ -1,6 +1,7 @@
 // When a sampled controller samples: every period, or as its clock jitters.
 #pragma once
 
+#include <cmath>
 #include <cstddef>
 #include <deque>
 
@@ -17,6 +18,11 @@ class SampleTimes {
   // The time of the n-th sample, s, n = 0, 1, ...: of none before those that have been forgotten.
   [[nodiscard]] double at(double n);
 
+  // Whether it is known without being drawn, as those are that have been asked for.
+  [[nodiscard]] bool knows(double n) const {
+    return n >= first_ && n < first_ + static_cast<double>(times_.size());
+  }
+
   // Nobody asks for samples before the n-th any more.
   void forget_before(double n);
 
@@ -24,6 +30,11 @@ class SampleTimes {
   template <class Archive>
   void archive(Archive& archive) {
     archive(noise_, times_, first_);
+    bool ascend = !times_.empty();
+    for (std::size_t i = 0; i < times_.size(); ++i) {
+      ascend = ascend && std::isfinite(times_[i]) && (i == 0 || times_[i] > times_[i - 1]);
+    }
+    archive.require(ascend && first_ >= 0 && first_ == std::floor(first_));
   }
 
  private:

@@ -64,7 +64,8 @@ class SampledController {
   // What it remembers (base/archive.hpp).
   template <class Archive>
   void archive(Archive& archive) {
-    archive(since_, memory_, command_);
+    archive(since_.any, since_.unseen, memory_, command_);
+    archive.require(since_.unseen >= 0 && is_finite(memory_, command_));
   }
 
  private:

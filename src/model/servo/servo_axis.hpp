@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "base/archive.hpp"
 #include "model/servo/held_motion.hpp"
 #include "model/systems/rig.hpp"
 
@@ -87,7 +88,10 @@ class ServoAxis {
   // What it does at present (base/archive.hpp).
   template <class Archive>
   void archive(Archive& archive) {
-    archive(motion_, play_, started_, target_, plane_, calm_angle_, calm_rate_);
+    archive.enumerated(motion_, Motion::stop_down);
+    archive.enumerated(play_, Play::gap);
+    archive(started_, target_, plane_, calm_angle_, calm_rate_);
+    archive.require(is_finite(target_, plane_) && is_number(calm_angle_) && is_number(calm_rate_));
   }
 
  private:

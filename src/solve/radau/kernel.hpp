@@ -28,6 +28,17 @@ struct Attempt {
   int jacobians;
 };
 
+// What a workspace begins with, whatever the kernel.
+struct WorkspaceHead {
+  const void* system;  // first, since it is no part of a state that is saved
+  double rtol, atol;
+  bool gamma;
+  bool positions_only;  // in rows
+  bool newton;          // iterate by Newton; otherwise by substitution
+  bool has_guess;       // k holds the last attempt's values, over [t, t + h]
+  bool accepted;        // whether that attempt was accepted
+};
+
 // All functions work on a workspace of `workspace` bytes, aligned to 64, prepared by start().
 // None allocates or throws.
 struct Kernel {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <limits>
 #include <new>
 #include <type_traits>
@@ -231,9 +232,13 @@ template <class Archive>
 void RadauStepper::archive(Archive& archive) {
   archive(time_, next_step_, attempted_, turned_, shrinking_, accepted_step_, fill_, worst_state_,
           least_end_, statistics_);
-  // The kernel's memory is plain but for its first member, which is where the system's view is.
-  auto* const memory = static_cast<unsigned char*>(workspace_);
-  archive.bytes(memory + sizeof(void*), kernel_->workspace - sizeof(void*));
+  archive.require(is_finite(time_, turned_, accepted_step_, fill_) && is_number(least_end_) &&
+                  worst_state_ < model_->size());
+  // The kernel's memory: how it goes on, and after its head plain numbers.
+  auto& head = *static_cast<WorkspaceHead*>(workspace_);
+  archive(head.newton, head.has_guess, head.accepted);
+  archive.bytes(static_cast<std::byte*>(workspace_) + sizeof head,
+                kernel_->workspace - sizeof head);
 }
 
 bool RadauStepper::save(StateWriter& into) {
@@ -247,7 +252,7 @@ void RadauStepper::restore(StateReader& from) {
   std::size_t size = 0;
   from(size);
   if (size != kernel_->workspace) {
-    throw InputError("the state of the run is not of this scene's integrator");
+    throw StateFault("is not of this scene's integrator");
   }
   look_at_model();
   const std::vector<double> none(model_->size());

@@ -93,14 +93,7 @@ struct Collocation {
     double of[rows][Table::stages];
   };
 
-  struct alignas(64) Workspace {
-    const void* system;  // first, since it is no part of a state that is saved
-    double rtol, atol;
-    bool gamma;
-    bool positions_only;  // in rows
-    bool newton;          // iterate by Newton; otherwise by substitution
-    bool has_guess;       // k holds the last attempt's values, over [t, t + h]
-    bool accepted;        // whether that attempt was accepted
+  struct alignas(64) Workspace : WorkspaceHead {
     double contraction;   // remembered from the last step
     double t, h;          // of the last attempt
     double q[nv], v[nv];  // present state; q of a velocity without position is its integral

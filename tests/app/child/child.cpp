@@ -1,5 +1,6 @@
 // A controller for tests, which does its part until sample 5 and then what its first word says. Its
 // second word names a file that gets the ids of its processes.
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include <chrono>
@@ -35,10 +36,29 @@ void say_line(const std::string& text) {
   say(text + '\n');
 }
 
+void ignore_signals() {
+  for (const int signal : {SIGHUP, SIGTERM, SIGINT}) (void)std::signal(signal, SIG_IGN);
+}
+
 // Leaves a process behind that would stay, with all streams.
 void leave_another(const char* file) {
   if (const pid_t process = fork()) return note_process(file, process);
-  for (const int signal : {SIGHUP, SIGTERM, SIGINT}) (void)std::signal(signal, SIG_IGN);
+  ignore_signals();
+  stay();
+}
+
+// Leaves one that would stay in a session of its own, as a daemon does.
+void leave_daemon(const char* file) {
+  if (const pid_t between = fork()) {
+    waitpid(between, nullptr, 0);
+    return;
+  }
+  setsid();
+  if (const pid_t daemon = fork()) {
+    note_process(file, daemon);
+    std::_Exit(0);
+  }
+  ignore_signals();
   stay();
 }
 
@@ -60,6 +80,14 @@ int main(int argc, char** argv) {
        [file] {
          note_process((std::string(file) + ".begun").c_str());
          say_line(answer);
+       }},
+      // Out of the group that it was given, into the one of who started it.
+      {"joins",
+       [file] {
+         ignore_signals();
+         setpgid(0, getpgid(getppid()));
+         note_process((std::string(file) + ".asleep").c_str());
+         stay();
        }},
       {"dies", [] { std::_Exit(3); }},
       {"crashes", [] { (void)std::raise(SIGKILL); }},
@@ -100,6 +128,11 @@ int main(int argc, char** argv) {
       {"complains",
        [] {
          for (int i = 0; i < 40000; ++i) std::cerr << "this is line " << i << '\n';
+         say_line(answer);
+       }},
+      {"leaves a daemon",
+       [file] {
+         leave_daemon(file);
          say_line(answer);
        }},
       {"forks",

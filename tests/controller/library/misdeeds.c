@@ -1,15 +1,34 @@
 /* A library for tests, which does what its parameter `mode` says:
- * 0 its part; 1 no controller; 2 an error at sample 5; 3 NaN at sample 5; 4 like 0, without reset.
- * Compiled with MISDEED_ABI it is of that version, with MISDEED_NO_STEP it lacks a function. */
+ * 0 its part; 1 no controller; 2 an error at sample 5; 3 NaN at sample 5; 4 like 0, without reset;
+ * 5 exit(0) at sample 5; 6 _exit(0) there; 7 exit(0) in create; 8 exit(0) in destroy; 9 a child of
+ * its own that calls exit(9) at sample 5, and then its part; 10 a thread of its own that calls
+ * exit(0) at sample 5; 11 more bytes to save than there are; 12 err(0, ...) at sample 5, in which
+ * the C library ends the process itself.
+ * Compiled with MISDEED_ABI it is of that version, with MISDEED_NO_STEP it lacks a function, with
+ * MISDEED_OPENED it calls exit(0) as it is opened. */
+#define _DEFAULT_SOURCE
 #include <bbsim/controller.h>
+#include <err.h>
 #include <math.h>
+#include <pthread.h>
 #include <stdlib.h>
+#include <string.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 struct controller {
   double mode, samples;
 };
 
 static const char *last_error = NULL;
+
+/* Those that are left alone once they have called exit(), for who looks for leaks. */
+static struct controller *volatile made_last[64];
+static size_t made_so_far = 0;
+
+#ifdef MISDEED_OPENED
+__attribute__((constructor)) static void opened(void) { exit(0); }
+#endif
 
 uint32_t bbsim_controller_abi(void) {
 #ifdef MISDEED_ABI
@@ -22,7 +41,9 @@ uint32_t bbsim_controller_abi(void) {
 void *bbsim_controller_create(const bbsim_setup *setup) {
   struct controller *made = calloc(1, sizeof *made);
   if (made == NULL) return NULL;
+  made_last[made_so_far++ % 64] = made;
   made->mode = bbsim_parameter_or(setup, "mode", 0);
+  if (made->mode == 7) exit(0);
   if (made->mode != 1) return made;
   last_error = "no such mode";
   free(made);
@@ -30,6 +51,11 @@ void *bbsim_controller_create(const bbsim_setup *setup) {
 }
 
 #ifndef MISDEED_NO_STEP
+static void *end(void *nothing) {
+  (void)nothing;
+  exit(0);
+}
+
 int bbsim_controller_step(void *controller, const bbsim_sample *sample, double command[2],
                           double *columns) {
   struct controller *of = controller;
@@ -37,6 +63,19 @@ int bbsim_controller_step(void *controller, const bbsim_sample *sample, double c
   command[1] = -0.02;
   columns[0] = ++of->samples;
   if (sample->number != 5) return 0;
+  if (of->mode == 5) exit(0);
+  if (of->mode == 6) _exit(0);
+  if (of->mode == 9) {
+    const pid_t child = fork();
+    int status = 0;
+    if (child == 0) exit(9);
+    if (waitpid(child, &status, 0) != child || WEXITSTATUS(status) != 9) return 7;
+  }
+  if (of->mode == 10) {
+    pthread_t thread;
+    if (pthread_create(&thread, NULL, end, NULL) == 0) pthread_join(thread, NULL);
+  }
+  if (of->mode == 12) err(0, "this is how it ends");
   if (of->mode == 2) last_error = "the plate is gone";
   if (of->mode == 3) command[1] = NAN;
   return of->mode == 2 ? 7 : 0;
@@ -50,7 +89,23 @@ int bbsim_controller_reset(void *controller, const bbsim_setup *setup) {
   return of->mode == 4 ? 1 : 0;
 }
 
-void bbsim_controller_destroy(void *controller) { free(controller); }
+void bbsim_controller_destroy(void *controller) {
+  if (((struct controller *)controller)->mode == 8) exit(0);
+  free(controller);
+}
+
+size_t bbsim_controller_save(const void *controller, void *bytes, size_t room) {
+  const struct controller *of = controller;
+  if (of->mode == 11) return (size_t)-1;
+  if (room >= sizeof *of) memcpy(bytes, of, sizeof *of);
+  return sizeof *of;
+}
+
+int bbsim_controller_restore(void *controller, const void *bytes, size_t size) {
+  if (size != sizeof(struct controller)) return 1;
+  memcpy(controller, bytes, size);
+  return 0;
+}
 
 const char *bbsim_controller_last_error(const void *controller) {
   (void)controller;

@@ -1,0 +1,14 @@
+#include "version.hpp"
+
+#include "bbsim_commit.hpp"  // cmake/commit.cmake
+#include "simd/instruction_set.hpp"
+
+namespace bbsim::app {
+
+std::string version() {
+  return std::string("bbsim " BBSIM_VERSION "\ninstruction set: ") +
+         simd::name_of(simd::chosen_instruction_set()) +
+         "\ncommit: " BBSIM_COMMIT "\nlibraries: " BBSIM_LIBRARIES;
+}
+
+}  // namespace bbsim::app

@@ -1,0 +1,12 @@
+// What this program is, and what it is made of.
+#pragma once
+
+#include <string>
+
+namespace bbsim::app {
+
+// Lines: the version, the instruction set that was chosen, the commit of the source, the libraries
+// that it was built with.
+[[nodiscard]] std::string version();
+
+}  // namespace bbsim::app

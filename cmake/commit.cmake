@@ -1,0 +1,34 @@
+# cmake -DSOURCE=FOLDER -DINTO=HEADER -P commit.cmake: writes a header that names the commit of the
+# source tree, if that is not what it says already: what includes it is not compiled for nothing.
+set(_commit "unknown: not built from a work tree of git")
+file(REAL_PATH "${SOURCE}" _source)
+function(ask_git into)
+  execute_process(COMMAND git --no-optional-locks -C "${_source}" ${ARGN}
+                  RESULT_VARIABLE _result OUTPUT_VARIABLE _output ERROR_QUIET OUTPUT_STRIP_TRAILING_WHITESPACE)
+  if(NOT _result EQUAL 0)
+    set(_output "")
+  endif()
+  set(${into} "${_output}" PARENT_SCOPE)
+endfunction()
+
+ask_git(_top rev-parse --show-toplevel)
+# A tree that was unpacked within another one's is not of that one's commits.
+if(_top AND _top STREQUAL _source)
+  ask_git(_hash rev-parse --short=12 HEAD)
+  ask_git(_changes status --porcelain --untracked-files=no)
+  if(_hash MATCHES "^[0-9a-f]+$")
+    set(_commit "${_hash}")
+    if(_changes)
+      string(APPEND _commit ", with changes")
+    endif()
+  endif()
+endif()
+
+set(_text "#pragma once\n\n#define BBSIM_COMMIT \"${_commit}\"\n")
+set(_before "")
+if(EXISTS "${INTO}")
+  file(READ "${INTO}" _before)
+endif()
+if(NOT _before STREQUAL _text)
+  file(WRITE "${INTO}" "${_text}")
+endif()

@@ -1,0 +1,128 @@
+#include "controller/foreign_exit.hpp"
+
+#include <dlfcn.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <csetjmp>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+
+#include "base/end_process.hpp"
+#include "base/error.hpp"
+#include "base/shown.hpp"
+#include "file/children.hpp"
+#include "file/temporaries.hpp"
+
+namespace bbsim::controller {
+namespace {
+
+// Where a call of this thread is left, and why.
+struct Call {
+  std::jmp_buf left{};
+  const char* volatile function = nullptr;
+  volatile int status = 0;
+};
+thread_local Call* present = nullptr;
+thread_local bool cannot_return = false;
+
+// The process that has opened a library; 0 before. One that a library forks off ends as it will.
+std::atomic<pid_t> expecting{0};
+// What is said of an end that comes from elsewhere than a call; it is never freed.
+std::atomic<const char*> message{nullptr};
+
+[[noreturn]] void end_with_message() {
+  if (const char* const text = message.load()) std::fputs(text, stderr);
+  file::remove_temporaries();
+  file::end_children();
+  end_process(static_cast<int>(ExitCode::ended_early));
+}
+
+// The C library's own function.
+[[noreturn]] void pass_on(const char* function, int status) {
+  if (void* const own = dlsym(RTLD_NEXT, function)) {
+    // NOLINTNEXTLINE(cppcoreguidelines-pro-type-reinterpret-cast): as dlsym gives functions
+    reinterpret_cast<void (*)(int)>(own)(status);
+  }
+  end_process(status);
+}
+
+// What a library's call of `function` does in place of ending the process; returns where it is for
+// the function to do its part.
+void leave(const char* function, int status) {
+  if (expecting.load() == 0 || expecting.load() != getpid()) return;
+  if (present == nullptr || cannot_return) end_with_message();
+  present->function = function;
+  present->status = status;
+  std::longjmp(present->left, 1);
+}
+
+// exit() that the C library calls itself, in err() for one, which does not come by here.
+void ended_within_a_call() {
+  if (present != nullptr && expecting.load() == getpid()) end_with_message();
+}
+
+}  // namespace
+
+std::string ExitCalled::text() const {
+  return "it called " + std::string(function_) + '(' + std::to_string(status_) +
+         "), which would have ended bbsim";
+}
+
+void expect_foreign_exits(const std::string& path) {
+  const std::string text =
+      "the controller (" + shown(path, uncut) + ") ended bbsim: what was not yet written is lost\n";
+  message.store(strdup(text.c_str()));
+  if (expecting.exchange(getpid()) == 0) {
+    [[maybe_unused]] static const int registered = std::atexit(ended_within_a_call);
+  }
+}
+
+CannotReturn::CannotReturn() {
+  cannot_return = true;
+}
+
+CannotReturn::~CannotReturn() {
+  cannot_return = false;
+}
+
+void call_foreign(void (*function)(void*), void* data) {
+  Call call;
+  Call* volatile before = present;
+  if (setjmp(call.left) == 0) {
+    present = &call;
+    function(data);
+    present = before;
+    return;
+  }
+  present = before;
+  throw ExitCalled(call.function, call.status);
+}
+
+}  // namespace bbsim::controller
+
+// Functions of the C library by which a process ends, for all that is loaded into this program.
+// None of them returns, as its header says.
+extern "C" {
+
+void exit(int status) noexcept {
+  bbsim::controller::leave("exit", status);
+  bbsim::controller::pass_on("exit", status);
+}
+
+void quick_exit(int status) noexcept {
+  bbsim::controller::leave("quick_exit", status);
+  bbsim::controller::pass_on("quick_exit", status);
+}
+
+void _exit(int status) {
+  bbsim::controller::leave("_exit", status);
+  bbsim::end_process(status);
+}
+
+void _Exit(int status) noexcept {
+  bbsim::controller::leave("_Exit", status);
+  bbsim::end_process(status);
+}
+}
