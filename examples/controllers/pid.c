@@ -94,7 +94,7 @@ int bbsim_controller_step(void *controller, const bbsim_sample *sample, double c
   struct pid *pid = controller;
   size_t i;
   if (sample->seen == 0) { /* the command stays */
-    pid->elapsed = ++pid->periods * pid->period;
+    if (pid->seen_any) pid->elapsed = ++pid->periods * pid->period;
   } else {
     double u[2];
     int j;

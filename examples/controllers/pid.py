@@ -65,7 +65,8 @@ def main():
             answer = {"state": [[x.save(), y.save()], periods, command]}
         else:
             if message["ball"] is None:  # the sensor missed it: the command stays
-                periods += 1
+                if x.position is not None:
+                    periods += 1
             else:
                 (ball_x, ball_y), (x_d, y_d) = message["ball"], message["reference"]
                 x_rate, y_rate = message["reference_rate"]

@@ -54,7 +54,7 @@ void loop() {
   next_sample += period_ms;
   const int at_x = analogRead(A0), at_y = analogRead(A1);
   if (at_x == 0) {  // nothing touches the screen: the servos stay
-    ++periods;
+    if (x.seen_any) ++periods;
     return;
   }
   const double elapsed = periods * period;
