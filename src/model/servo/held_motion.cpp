@@ -69,7 +69,8 @@ ImpulseAnswer answer(const HeldLaw& law, double t) {
                               ? (1 - slope - law.damping * value) / law.stiffness
                           : law.stiffness == 0 ? (t - value) / law.damping
                                                : never;
-  if (integral < never) return {integral, value, slope};
+  const bool is_soft = law.stiffness * t * t <= 1;  // and is a number
+  if (integral < never || !is_soft) return {integral, value, slope};
   // A soft spring behind strong damping: the steps of the series would not end, and both quotients
   // lose digits. Half the time, twice: h and its integral of a sum of times.
   const ImpulseAnswer half = answer(law, t / 2);
