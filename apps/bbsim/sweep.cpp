@@ -278,7 +278,7 @@ void add_sweep(Command& command, const Options& options) {
       .option("--measure", arguments->measure,
               "instead of the default measures: min_, max_, rms_ or end_ "
               "and one of bbsim columns but ball_q...; x.RiseTime, "
-              "y.Overshoot, ...; \"when x=0.05\" (docs/measures.md); may be "
+              "y.Overshoot, ...; \"when x=0.05\" (docs/reference/measures.md); may be "
               "given again")
       .takes("NAME,...")
       .may_be_repeated();

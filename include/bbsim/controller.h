@@ -1,6 +1,6 @@
 /* One's own controller of bbsim, as a shared library.
  *
- * A scenario names the library (docs/controllers.md):
+ * A scenario names the library (docs/reference/controllers.md):
  *
  *     controller:
  *       library: {file: ./libpid.so, parameters: {kp: 0.7, ki: 0.35}}

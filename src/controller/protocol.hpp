@@ -1,5 +1,5 @@
 // What bbsim and a controller that is a program say to each other: lines of JSON, one each way a
-// sample (docs/controllers.md).
+// sample (docs/reference/controllers.md).
 //
 //     bbsim       {"protocol":1,"bbsim":"0.3.0","period":0.02,...,"parameters":{"kp":0.7},...}
 //     controller  {"protocol": 1, "reset": true, "save": true, "columns": {"x_integral": "rad"}}

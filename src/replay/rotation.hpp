@@ -9,7 +9,7 @@
 
 namespace bbsim::replay {
 
-// From the plane's frame to the world's: R of docs/model.md, (M15).
+// From the plane's frame to the world's: R of docs/explanation/model.md, (M15).
 [[nodiscard]] Quaternion plane_orientation(const Mounting& mounting, double phi, double theta);
 
 // Orientations of the ball in the plane's frame, from the identity, if between two rows it rolls

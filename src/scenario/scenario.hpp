@@ -228,7 +228,7 @@ enum class Law {
   lqr,                     // the same, with the gain that minimises a quadratic cost
   gravity_compensation,    // angles under which gravity gives the ball x_d'' + kv e' + kp e
   feedback_linearisation,  // accelerations of the gimbal that give the ball the same
-  own,                     // one's own: a program or a library (docs/controllers.md)
+  own,                     // one's own: a program or a library (docs/reference/controllers.md)
 };
 
 // Cost of lqr: the integral of the weighted squares of the ball's distance and velocity, of the

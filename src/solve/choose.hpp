@@ -15,9 +15,9 @@ namespace bbsim::solve {
 // The integrator that runs when `asked` is: radau for automatic, any other as it is.
 //
 // The cost of each method was measured over all scenes, smooth and stiff, and over all tolerances
-// (docs/accuracy.md): radau is the cheapest at every error, by factors of 2 to 30, since its steps
-// are held down neither by stability nor by order. What depends on the tolerance is its number of
-// stages, which it chooses itself.
+// (docs/explanation/accuracy.md): radau is the cheapest at every error, by factors of 2 to 30,
+// since its steps are held down neither by stability nor by order. What depends on the tolerance is
+// its number of stages, which it chooses itself.
 [[nodiscard]] Method choose_method(Method asked);
 
 // How often the fastest decaying mode decays over the scene, by a factor of e each time: over 100

@@ -1,4 +1,4 @@
-# Draws `count` scenarios from the keys and ranges of docs/scenario.md into scenes/1.yaml and so on; every
+# Draws `count` scenarios from the keys and ranges of docs/reference/scenario.md into scenes/1.yaml and so on; every
 # other one is then broken. Reads the names of the columns. scripts/try-scenarios runs it.
 
 function between(a, b) { return sprintf("%.6g", a + (b - a) * rand()) }

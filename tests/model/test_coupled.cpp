@@ -1,4 +1,5 @@
-// Newton's and Euler's equations with couples, at random states: docs/model.md, section 10.
+// Newton's and Euler's equations with couples, at random states: docs/explanation/model.md,
+// section 10.
 #include <cmath>
 
 #include "catch.hpp"

@@ -1,4 +1,5 @@
-// What dry and viscous losses do to a ball, against closed forms: docs/model.md, section 10.
+// What dry and viscous losses do to a ball, against closed forms: docs/explanation/model.md,
+// section 10.
 #include <cmath>
 
 #include "catch.hpp"

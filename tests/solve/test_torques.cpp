@@ -1,4 +1,4 @@
-// Gimbals that torques move: docs/model.md, section 10.
+// Gimbals that torques move: docs/explanation/model.md, section 10.
 #include <cmath>
 #include <string>
 

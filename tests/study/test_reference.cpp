@@ -152,7 +152,8 @@ TEST_CASE("the reference's gamma and states agree with the independent method's"
 
 TEST_CASE("the reference agrees with a closed form to twenty digits and more") {
   // phi = 2 t, all numbers exact in binary: x = A cosh kt + B sinh kt - (5 g / 48) sin 2t with
-  // k = 2 sqrt(5/7), from docs/model.md. The sums below are of cosh and sinh themselves.
+  // k = 2 sqrt(5/7), from docs/explanation/model.md. The sums below are of cosh and sinh
+  // themselves.
   const double g = 9.8125, x0 = 0.0625;
   Scenario scenario;
   scenario.gravity = g;

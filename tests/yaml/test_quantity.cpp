@@ -145,7 +145,7 @@ TEST_CASE("the SI unit of a dimension reads as one of it") {
   CHECK(si_unit(Dimension::angular_rate) == "rad/s");
 }
 
-TEST_CASE("docs/scenario.md lists the units of each dimension") {
+TEST_CASE("docs/reference/scenario.md lists the units of each dimension") {
   const Dimension dimension =
       GENERATE(Dimension::length, Dimension::mass, Dimension::time, Dimension::angle,
                Dimension::angular_rate, Dimension::velocity, Dimension::acceleration);
@@ -156,7 +156,7 @@ TEST_CASE("docs/scenario.md lists the units of each dimension") {
   const auto first = units.find(before) + before.size();
   const std::string listed = units.substr(first, units.rfind(')') - first);
 
-  std::ifstream page(BBSIM_SOURCE_DIR "/docs/scenario.md");
+  std::ifstream page(BBSIM_SOURCE_DIR "/docs/reference/scenario.md");
   std::string line, found;
   while (std::getline(page, line)) {
     if (line.starts_with(row)) found = line.substr(row.size());

@@ -1,4 +1,4 @@
-// docs/scenario.md lists the units that quantities may have, all of them and no others.
+// docs/reference/scenario.md lists the units that quantities may have, all of them and no others.
 #include <fstream>
 #include <map>
 #include <set>
@@ -27,7 +27,7 @@ Units split(std::string list) {
 
 // By dimension, as the table of the docs has them.
 std::map<std::string, Units> in_docs() {
-  std::ifstream docs(std::string(BBSIM_SOURCE_DIR) + "/docs/scenario.md");
+  std::ifstream docs(std::string(BBSIM_SOURCE_DIR) + "/docs/reference/scenario.md");
   std::map<std::string, Units> table;
   bool among = false;
   for (std::string line; std::getline(docs, line);) {

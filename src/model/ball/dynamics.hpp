@@ -1,4 +1,5 @@
-// Accelerations, contact force, motor torques and energy of one instant (docs/model.md, section 5).
+// Accelerations, contact force, motor torques and energy of one instant (docs/explanation/model.md,
+// section 5).
 #pragma once
 
 #include <Eigen/Core>

@@ -1,5 +1,6 @@
 // The ball's equation of motion for rigs that are not the paper's: a plane above the gimbal's
-// centre, axes that are not square or not level, a ball of any inertia (docs/model.md, section 8).
+// centre, axes that are not square or not level, a ball of any inertia (docs/explanation/model.md,
+// section 8).
 #pragma once
 
 #include "model/ball/rolling.hpp"

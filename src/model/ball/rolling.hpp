@@ -1,7 +1,8 @@
 // Equation (27): a ball that rolls without slipping on a plane carried by a two-axis gimbal.
 //
-// Symbols as in docs/model.md, which numbers the equations. The spin enters as u = r gamma', a
-// speed like x' and y': gamma' itself grows as 1/r and would spoil the scaling for small balls.
+// Symbols as in docs/explanation/model.md, which numbers the equations. The spin enters as u = r
+// gamma', a speed like x' and y': gamma' itself grows as 1/r and would spoil the scaling for small
+// balls.
 #pragma once
 
 #include "base/real.hpp"

@@ -1,5 +1,6 @@
-// Conditional integration at a limit (docs/model.md, (M64) and (M65)): which way a command goes on,
-// whose integral part waits while it is at its limit and the error drives it outward.
+// Conditional integration at a limit (docs/explanation/model.md, (M64) and (M65)): which way a
+// command goes on, whose integral part waits while it is at its limit and the error drives it
+// outward.
 #pragma once
 
 #include <algorithm>

@@ -1,6 +1,6 @@
 'use strict';
 // The rig: base, ring that turns by phi, plate that turns by theta in it, at its true size. Frames as in
-// bbsim's docs/model.md: R = R_x(base tilt) R_y(phi) R_z(skew) R_x(theta) R_z(yaw - skew).
+// bbsim's docs/explanation/model.md: R = R_x(base tilt) R_y(phi) R_z(skew) R_x(theta) R_z(yaw - skew).
 bbsim.gimbal = (() => {
   const {runs, scene: {stage}} = bbsim.data;
 

@@ -1,4 +1,4 @@
-"""Takes the pictures of docs/replay.md: pictures.py BBSIM MAKE_PAGE TEMPLATE SOURCE FOLDER"""
+"""Takes the pictures of docs/how-to/replay.md: pictures.py BBSIM MAKE_PAGE TEMPLATE SOURCE FOLDER"""
 
 import os
 import subprocess

@@ -79,7 +79,7 @@ def multiply(matrix, vector):
 
 
 def on_screen(view, row, radius, factor=1):
-    """Where a row's ball is in the window: (6) of docs/model.md, then the page's camera."""
+    """Where a row's ball is in the window: (6) of docs/explanation/model.md, then the page's camera."""
     phi, theta = factor * row["phi"], factor * row["theta"]
     x, y, z = row["x"], row["y"], radius
     # R_x(theta), then R_y(phi).
