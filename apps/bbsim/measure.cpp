@@ -83,7 +83,20 @@ bool has_name(const std::string& text, const std::string& name) {
   throw InputError(error);
 }
 
-ExitCode measure(const MeasureArguments& arguments) {
+// Of step metrics, what they count to for want of a reference.
+void tell_of_references(const record::StoredRun& run,
+                        const std::vector<scenario::Measure>& measures, const std::string& file) {
+  std::vector<std::string> told;
+  for (const scenario::Measure& one : measures) {
+    const std::string lacking = run.lacks_reference(one);
+    if (lacking.empty() || std::ranges::find(told, lacking) != told.end()) continue;
+    told.push_back(lacking);
+    say("note: " + file + " has no column " + lacking + ": step metrics of " +
+        std::string(one.column->name) + " count to its own value at the end");
+  }
+}
+
+ExitCode measure(const MeasureArguments& arguments, const Options& options) {
   file::Outputs outputs;
   outputs.reads(arguments.file, "FILE");
   prints(outputs);
@@ -94,8 +107,17 @@ ExitCode measure(const MeasureArguments& arguments) {
     const record::StoredRun run(std::move(numbers), arguments.file);
     const auto measures = run.measures_named(asked);
     std::vector<double> values;
-    for (const scenario::Measure& one : measures) values.push_back(run.value_of(one));
+    scenario::Whys whys;
+    for (const scenario::Measure& one : measures) {
+      const record::Measured found = run.value_of(one);
+      values.push_back(found.value);
+      whys.push_back(found.why);
+    }
     print(measure_text(measures, values));
+    if (options.quiet) return ExitCode::done;
+    tell_of_references(run, measures, arguments.file);
+    const std::string not_measured = scenario::why_not_finite(measures, values.data(), whys);
+    if (!not_measured.empty()) say("note: " + not_measured);
   } catch (const InputError& error) {
     refuse(error, arguments.file, asked, others);
   }
@@ -104,13 +126,14 @@ ExitCode measure(const MeasureArguments& arguments) {
 
 }  // namespace
 
-void add_measure(Command& command, const Options& /*it has nothing to be quiet about*/) {
+void add_measure(Command& command, const Options& options) {
   command.footer(
       "What lies between two rows is on the straight line from one to the other: `bbsim run "
       "--measure` has the motion itself.\n" +
       measures_footer() +
       "\n\nExamples:\n"
       "  bbsim measure step.csv --measure x.RiseTime,x.Overshoot\n"
+      "  bbsim measure rig.csv --measure \"rms_tracking_error from 5 s\"\n"
       "  bbsim measure rig.h5 --measure \"when tracking_error stays below 2 mm\"");
   const auto arguments = std::make_shared<MeasureArguments>();
   command
@@ -118,7 +141,7 @@ void add_measure(Command& command, const Options& /*it has nothing to be quiet a
               "a result of a run: CSV, HDF5 (.h5, .hdf5), or - for CSV on standard input")
       .required();
   add_measures(command, arguments->measures, "what to measure; may be given again").required();
-  command.does([arguments] { return measure(*arguments); });
+  command.does([arguments, &options] { return measure(*arguments, options); });
 }
 
 }  // namespace bbsim::app

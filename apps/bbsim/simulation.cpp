@@ -178,12 +178,16 @@ Simulation simulate(const Scenario& scenario, const model::Model& model,
     reason = "the motion was found to its end, but " + not_finite +
              ".\n  There it is beyond the range of doubles, or not defined.";
   }
-  const std::vector<std::string> warnings =
-      warnings_of(scenario, model, made.outcome.ending == solve::Ending::failed,
-                  edge ? edge->left() : std::nullopt);
   Simulation simulation;
   simulation.measures.resize(wanted.measures.size());
   recorder.finish(made.outcome, simulation.measures.data());
+  simulation.whys = recorder.whys();
+  std::vector<std::string> warnings =
+      warnings_of(scenario, model, made.outcome.ending == solve::Ending::failed,
+                  edge ? edge->left() : std::nullopt);
+  const std::string not_measured =
+      scenario::why_not_finite(wanted.measures, simulation.measures.data(), simulation.whys);
+  if (!not_measured.empty()) warnings.push_back("note: " + not_measured);
   simulation.summary = summarise(scenario, model, made, reason, warnings, recorder.peaks());
   simulation.noted = noted_text(made.outcome.occurrences);
   simulation.row_estimates = std::move(made.row_estimates);
@@ -195,6 +199,7 @@ Simulation simulate(const Scenario& scenario, const model::Model& model,
 
 void tell(const Simulation& made, bool quiet) {
   if (!made.summary.reason.empty()) say(made.summary.reason);
+  for (const std::string& one : made.unmet) say(one);
   if (quiet) return;
   for (const std::string& warning : made.summary.warnings) say(warning);
   if (!made.noted.empty()) say(made.noted);

@@ -163,6 +163,13 @@ std::string_view si_unit(Dimension dimension) {
   return units.empty() ? "" : units.front().name;  // the others are told by it
 }
 
+Dimension dimension_of(std::string_view unit) {
+  for (const Description& one : descriptions) {
+    if (!one.units.empty() && one.units.front().name == unit) return one.dimension;
+  }
+  return Dimension::number;
+}
+
 std::string_view example(Dimension dimension) {
   return description(dimension).example;
 }

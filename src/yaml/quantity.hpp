@@ -19,6 +19,9 @@ enum class Dimension { number, length, mass, time, angle, angular_rate, velocity
 // The SI unit, in which values are: "rad/s"; empty of a number.
 [[nodiscard]] std::string_view si_unit(Dimension dimension);
 
+// The quantity that has this SI unit; `number` where none has.
+[[nodiscard]] Dimension dimension_of(std::string_view si_unit);
+
 // A value of that kind as one may write it: 0.01 or "1 cm".
 [[nodiscard]] std::string_view example(Dimension dimension);
 
