@@ -230,7 +230,9 @@ void add_run(Command& command, const Options& options) {
       .option("--replay", arguments->replay,
               "FILE.html: also a page that shows the run, or FILE.glb; as of bbsim replay")
       .takes("FILE");
-  command.does([arguments, &options] { return run(*arguments, options); });
+  command.does([arguments, &options] {
+    return with_error_option(arguments->error, [&] { return run(*arguments, options); });
+  });
 }
 
 }  // namespace bbsim::app

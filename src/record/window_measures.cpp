@@ -115,7 +115,7 @@ const Curve& WindowMeasures::curve_of(const Column& column) const {
 void WindowMeasures::put(std::size_t which, const Measured& measured, double* results,
                          scenario::Whys& whys) const {
   results[places_[which]] = measured.value;
-  whys[places_[which]] = measured.why;
+  whys[places_[which]] = std::isnan(measured.value) ? measured.why : nullptr;
 }
 
 void WindowMeasures::finish(const RunEnd& end, double* results, scenario::Whys& whys) {

@@ -120,6 +120,9 @@ DatasetInfo info_of(hid_t dataset, const std::string& name, const std::string& p
   info.rows = size[0];
   if (info.kind == BBSIM_HDF5_SERIES) info.width = size[1];
   if (info.kind == BBSIM_HDF5_AXIS) info.width = size[0];
+  if (info.kind == BBSIM_HDF5_TEXT && check(H5Tis_variable_str(type), doing) == 0) {
+    info.width = H5Tget_size(type);
+  }
   return info;
 }
 
