@@ -313,7 +313,7 @@ TEST_CASE("what is refused in a sweep is told with its case") {
   // Values that do not go together, where the fault stands in the file: all of them.
   const std::string together =
       fault(vary({{"time.end", "list:10,20"}, {"time.step", "list:1,1e-8"}}));
-  CHECK(contains(together, "case 3, with time.step=1e-8: "));
+  CHECK(contains(together, "case 3, with time.step=1e-08: "));
   const std::string rig = BBSIM_SOURCE_DIR "/configs/rig.yaml";
   const std::string elsewhere = fault(
       vary({{"controller.drives", "list:angle,torque"}, {"ball.radius", "list:1 cm,2 cm"}}), rig);
