@@ -32,7 +32,8 @@ class StoredRun {
   // and the file does not; empty otherwise.
   [[nodiscard]] std::string lacks_reference(const scenario::Measure& measure) const;
 
-  [[nodiscard]] const file::TableData& table() const { return table_; }
+  // Of a column that a measure is of.
+  [[nodiscard]] const std::vector<double>& values_of(const scenario::Column& column) const;
 
  private:
   // The rows of a window, and the columns' values at its ends where no row is.
@@ -44,7 +45,6 @@ class StoredRun {
   [[nodiscard]] std::vector<double> cut(const std::vector<double>& values, const Cut& cut) const;
 
   [[nodiscard]] const scenario::Column* find(std::string_view name) const;
-  [[nodiscard]] const std::vector<double>& values_of(const scenario::Column& column) const;
 
   std::string name_;
   file::TableData table_;

@@ -258,6 +258,54 @@ TEST_CASE("what is expected of a run is judged, said and recorded") {
   }
 }
 
+TEST_CASE("a log that looks like other units than bbsim's is warned of") {
+  const Folder folder;
+  folder.write("log.csv", "t,x,phi,other\n0,0,0,0\n1000,120,5,7\n2000,60,-12,7\n3000,0,0,7\n");
+  const Result measured =
+      bbsim({"measure", "log.csv", "--measure", "max_x,max_phi,max_other"}, folder.path());
+  CHECK(measured.exit_code == 0);
+  CHECK(measured.err ==
+        "warning: log.csv: x goes up to 120, measured in m: it looks like millimetres or "
+        "centimetres\n"
+        "warning: log.csv: phi goes up to 12, measured in rad: it looks like degrees\n");
+  CHECK(bbsim({"measure", "log.csv", "--measure", "max_other"}, folder.path()).err.empty());
+  CHECK(bbsim({"measure", "log.csv", "--measure", "max_x", "-q"}, folder.path()).err.empty());
+  // A result of bbsim's is in SI, however far it goes.
+  const Result far =
+      bbsim({"run", config("fig2a.yaml"), "-q", "-o", "far.h5", "--set", "ball.position.0=100"},
+            folder.path());
+  REQUIRE(far.exit_code == 0);
+  CHECK(bbsim({"measure", "far.h5", "--measure", "max_x"}, folder.path()).err.empty());
+
+  folder.write("run.csv", "t,x,phi,other\n0,0,0,0\n1,0.12,0.1,7\n2,0.06,-0.2,7\n3,0,0,7\n");
+  const Result compared = bbsim({"compare", "run.csv", "log.csv"}, folder.path());
+  CHECK(compared.exit_code == 1);
+  CHECK(compared.err ==
+        "warning: log.csv: t spans 3000, and in run.csv 3: it looks like milliseconds\n"
+        "warning: log.csv: x goes up to 120, and in run.csv 0.12: it looks like millimetres or "
+        "centimetres\n"
+        "warning: log.csv: phi goes up to 12, and in run.csv 0.2: it looks like degrees\n");
+  CHECK(bbsim({"compare", "log.csv", "log.csv"}, folder.path()).err.empty());
+  CHECK(bbsim({"compare", "run.csv", "log.csv", "-q"}, folder.path()).err.empty());
+
+  // A table of the same.
+  folder.write("s.yaml",
+               "ball: {radius: 0.01}\n"
+               "gimbal: {motion: {phi: {table: {file: log.csv, time: t, value: phi}}}}\n"
+               "time: {end: 3, step: 1}\n");
+  const Result run = bbsim({"run", "s.yaml", "-o", "a.csv"}, folder.path());
+  CHECK(run.exit_code == 0);
+  CHECK(run.err.find("it looks like degrees; say unit: deg") != std::string::npos);
+  CHECK(run.err.find("it looks like milliseconds; say time_unit: ms") != std::string::npos);
+  const std::string table = "gimbal.motion.phi.table.";
+  const Result said = bbsim({"run", "s.yaml", "-o", "b.csv", "--set", table + "unit=deg", "--set",
+                             table + "time_unit=ms", "--measure", "max_phi,min_phi"},
+                            folder.path());
+  CHECK(said.err.find("warning") == std::string::npos);
+  CHECK(values_of(said.out).at("min_phi") < -0.2);  // -12 deg, and what the interpolant makes of it
+  CHECK(values_of(said.out).at("min_phi") > -0.3);
+}
+
 TEST_CASE("a sweep takes step metrics, and they are those of its runs") {
   const Folder folder;
   std::vector<std::string> to_csv{"sweep",     config("step.yaml"),
