@@ -246,7 +246,7 @@ std::string law_note(const Controller& controller) {
     case Law::feedback_linearisation:
       text =
           "feedback linearisation of (27): the ball follows, the tilt is an unstable internal "
-          "state (docs/tutorials/your-rig.md)";
+          "state (docs/how-to/real-effects.md)";
       break;
     case Law::own:
       text = own_law(*controller.own);

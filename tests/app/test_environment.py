@@ -57,7 +57,7 @@ class Environment(unittest.TestCase):
                 rows = list(csv.DictReader(file))
             self.assertEqual(len(rows), 401)
             self.assertAlmostEqual(float(rows[-1]["x"]), observation[0], delta=3e-3)
-            # 17.5 mm beside its target, for want of an integral: docs/tutorials/your-rig.md.
+            # 17.5 mm beside its target, for want of an integral: docs/how-to/real-effects.md.
             self.assertLess(abs(observation[0] - 0.0475), 2e-3)
 
     def test_an_event_terminates_an_episode(self):
