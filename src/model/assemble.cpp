@@ -33,8 +33,8 @@ bool stays_level(const Scenario& scene, const SignalPair& input, std::size_t axi
   return at_zero && zero_row(*scene.controller, axis);
 }
 
-// The symmetries of docs/explanation/model.md, section 3: theta, y and spin stay zero together, or
-// phi, x and spin.
+// The symmetries of docs/explanation/model.md, "Structure": theta, y and spin stay zero together,
+// or phi, x and spin.
 Shape choose_shape(const Scenario& scene, const SignalPair& input) {
   if (needs_rig(scene) || needs_coupled(scene) || !is_the_papers(scene)) return Shape::full;
   const Ball& ball = scene.ball;

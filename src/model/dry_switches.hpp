@@ -1,5 +1,5 @@
 // What switches where friction is dry, contacts slide and motors have limits: which mode a coupled
-// scene is in, and when it leaves it (docs/explanation/model.md, section 10).
+// scene is in, and when it leaves it (docs/explanation/losses-and-torques.md).
 //
 // A dry force keeps something at rest as long as less than its limit is needed for that, and
 // opposes its motion otherwise. Motion along a line is one of two signs, so that only its start and

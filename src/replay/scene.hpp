@@ -1,6 +1,6 @@
 // What a replay shows: plain data, from wherever it came.
 //
-// Frames as in docs/explanation/model.md, section 8: the plane's frame is turned from the world's
+// Frames as in docs/explanation/model.md, (M15): the plane's frame is turned from the world's
 // by R = R_x(base_tilt) R_y(phi) R_z(skew) R_x(theta) R_z(yaw - skew), about the gimbal's centre.
 // SI units and radians.
 #pragma once

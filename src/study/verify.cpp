@@ -114,7 +114,7 @@ Check turning_plane(const solve::Watch& watch) {
   return {"plane turning at a constant rate: closed forms (M2), (M3)", error, made.allowance, "m"};
 }
 
-// The symmetries of docs/explanation/model.md, section 3: axis 0 mirrors x and phi, axis 1 y and
+// The symmetries of docs/explanation/model.md, "Structure": axis 0 mirrors x and phi, axis 1 y and
 // theta.
 Check mirrored(std::size_t axis, const solve::Watch& watch) {
   const Scenario scene = everything_moves();

@@ -6,9 +6,9 @@
 namespace bbsim::sweep {
 
 // Whether every case of the sweep is a sum of the same solutions: equation (27) is linear in
-// (x, y, x', y', u), gravity and radius under a given motion (docs/explanation/model.md, section
-// 2). Holds if start, radius and gravity are all that varies, and the measures are of position and
-// tilt.
+// (x, y, x', y', u), gravity and radius under a given motion (docs/explanation/model.md,
+// "Structure"). Holds if start, radius and gravity are all that varies, and the measures are of
+// position and tilt.
 [[nodiscard]] bool can_superpose(const SweepTask& task);
 
 // The solutions, made once and shared by the runners. Null of a motion that double precision cannot

@@ -1,5 +1,5 @@
-// Newton's and Euler's equations with couples, at random states: docs/explanation/model.md,
-// section 10.
+// Newton's and Euler's equations with couples, at random states:
+// docs/explanation/losses-and-torques.md.
 #include <cmath>
 
 #include "catch.hpp"

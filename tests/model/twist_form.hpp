@@ -17,7 +17,7 @@ struct State {
 };
 
 // A rig that need not be the paper's: the ball's moment of inertia over m r^2, the plane's height
-// above the gimbal's centre, and errors of the axes (docs/explanation/model.md, section 8).
+// above the gimbal's centre, and errors of the axes (docs/explanation/model.md, (M15)).
 struct Rig {
   double k = 0.4, height = 0, skew = 0, yaw = 0, base_tilt = 0;
 };

@@ -1,4 +1,4 @@
-// Closed forms of docs/explanation/model.md, section 4, and the manners of an integration.
+// Closed forms of docs/explanation/model.md, and the manners of an integration.
 #include <atomic>
 #include <cmath>
 #include <limits>

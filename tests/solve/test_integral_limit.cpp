@@ -1,4 +1,4 @@
-// Integrals that wait at a limit (docs/explanation/model.md, (M64)): a run agrees with the law
+// Integrals that wait at a limit (docs/explanation/rig-model.md, (M64)): a run agrees with the law
 // smoothed over a width, whose solution tends to it as the width goes to 0, with an error in
 // proportion to it.
 #include <algorithm>

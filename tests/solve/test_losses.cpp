@@ -1,5 +1,5 @@
-// What dry and viscous losses do to a ball, against closed forms: docs/explanation/model.md,
-// section 10.
+// What dry and viscous losses do to a ball, against closed forms:
+// docs/explanation/losses-and-torques.md.
 #include <cmath>
 
 #include "catch.hpp"

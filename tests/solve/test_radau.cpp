@@ -134,8 +134,8 @@ TEST_CASE("a servo's speed costs collocation no steps") {
   Scenario scene = scenario_named("stiff-servo");
   const double natural_frequency = GENERATE(2000.0, 20000.0);
   scene.gimbal.servo->natural_frequency = natural_frequency;
-  // The loop is stable while r k_v omega_n^2 < 2 zeta omega_n (docs/explanation/model.md, section
-  // 4).
+  // The loop is stable while r k_v omega_n^2 < 2 zeta omega_n (docs/explanation/rig-model.md,
+  // (M13)).
   const double gain = 100 / natural_frequency;
   scene.controller->kv = {{{gain, 0}, {0, -gain}}};
   scene.controller->kp = scene.controller->kv;

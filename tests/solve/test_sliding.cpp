@@ -1,4 +1,4 @@
-// From sliding to rolling and back, against closed forms: docs/explanation/model.md, section 10.
+// From sliding to rolling and back, against closed forms: docs/explanation/losses-and-torques.md.
 #include <cmath>
 #include <numbers>
 

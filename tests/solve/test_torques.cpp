@@ -1,4 +1,4 @@
-// Gimbals that torques move: docs/explanation/model.md, section 10.
+// Gimbals that torques move: docs/explanation/losses-and-torques.md.
 #include <cmath>
 #include <string>
 

@@ -1,6 +1,6 @@
 // Thousands of bounds over scenes drawn by chance: whether they are met, and what estimates are
-// worth. Takes minutes, so it is run by its tag: test_study "[wide]". docs/explanation/accuracy.md
-// has its figures.
+// worth. Takes minutes, so it is run by its tag: test_study "[wide]".
+// docs/explanation/error-control.md has its figures.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>

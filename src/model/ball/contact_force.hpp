@@ -1,6 +1,6 @@
 // The force of the plane on a ball that rolls without losses, and what it and the plate ask of the
-// motors, for every number type (docs/explanation/model.md, section 5). All vectors in the plane's
-// own frame.
+// motors, for every number type (docs/explanation/model.md, "Forces, torques and energy"). All
+// vectors in the plane's own frame.
 #pragma once
 
 #include "model/ball/general_rolling.hpp"

@@ -1,5 +1,5 @@
 // Accelerations, contact force, motor torques and energy of one instant (docs/explanation/model.md,
-// section 5).
+// "Forces, torques and energy").
 #pragma once
 
 #include <Eigen/Core>

@@ -1,6 +1,6 @@
 // The ball's equation of motion for rigs that are not the paper's: a plane above the gimbal's
 // centre, axes that are not square or not level, a ball of any inertia (docs/explanation/model.md,
-// section 8).
+// "Other mountings and other balls").
 #pragma once
 
 #include "model/ball/rolling.hpp"

@@ -1,5 +1,5 @@
 // Newton's and Euler's equations of a ball under couples and friction at its contact, and the
-// moments that it and the plate ask of the gimbal (docs/explanation/model.md, section 10).
+// moments that it and the plate ask of the gimbal (docs/explanation/losses-and-torques.md).
 //
 // Everything follows linearly from what drives the motion, a Cause: so the same function gives the
 // accelerations of a given gimbal, the inertia that a gimbal moved by torques feels, and the force

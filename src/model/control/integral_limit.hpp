@@ -1,4 +1,4 @@
-// Conditional integration at a limit (docs/explanation/model.md, (M64) and (M65)): which way a
+// Conditional integration at a limit (docs/explanation/rig-model.md, (M64) and (M65)): which way a
 // command goes on, whose integral part waits while it is at its limit and the error drives it
 // outward.
 #pragma once

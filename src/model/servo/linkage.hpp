@@ -1,5 +1,5 @@
 // What stands between a servo and the plane: a horn, a push rod and an arm, or a curve that
-// somebody measured (docs/explanation/model.md, section 11). Plain data and templates for every
+// somebody measured (docs/explanation/rig-model.md, "Linkages"). Plain data and templates for every
 // number type; how they come from a scenario is linkages.hpp's matter.
 #pragma once
 

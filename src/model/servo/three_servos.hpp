@@ -1,7 +1,7 @@
 // A plate on three legs, 3-RRS: three servos on a circle, each with a horn that turns in the
 // vertical plane through the circle's centre and through the leg's joint, a rod on it, and a ball
-// joint under the plate (docs/explanation/model.md, section 11). Three servos' angles are two tilts
-// and a height.
+// joint under the plate (docs/explanation/rig-model.md, "Three servos"). Three servos' angles are
+// two tilts and a height.
 //
 // A joint stays in its plane, which makes the plate's centre wander, and leaves the plate without
 // torsion: both are in the closed chain here, and left out of the ball's motion.

@@ -1,5 +1,5 @@
 // Scenes with couples on the ball, sliding, or a gimbal that torques move
-// (docs/explanation/model.md, section 10). Each has all states that such a scene can have; those
+// (docs/explanation/losses-and-torques.md). Each has all states that such a scene can have; those
 // that it does not use stay zero.
 #pragma once
 
