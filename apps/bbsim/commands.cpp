@@ -56,6 +56,21 @@ void add_error(Command& command, std::string& error) {
       .takes("E");
 }
 
+InputError as_of_error_option(const InputError& error) {
+  constexpr std::string_view as_key = "--set solver.error=", key = "solver.error: ";
+  std::vector<Problem> problems = error.problems();
+  for (Problem& problem : problems) {
+    if (!problem.where.starts_with(as_key)) {
+      if (!problem.where.empty() || !problem.message.starts_with(as_key)) continue;
+      problem.message = "--error " + problem.message.substr(as_key.size());
+      continue;
+    }
+    problem.where = "--error " + problem.where.substr(as_key.size());
+    if (problem.message.starts_with(key)) problem.message.erase(0, key.size());
+  }
+  return InputError(std::move(problems));
+}
+
 void reads_scenario(file::Outputs& outputs, const std::string& file, const Scenario& scenario) {
   outputs.reads(file, "the scenario");
   reads_parts(outputs, scenario);

@@ -26,6 +26,18 @@ void add_scenario(Command& command, ScenarioArguments& arguments);
 void add_error(Command& command, std::string& error);
 // --force: see file::require_like().
 void add_force(Command& command, bool& force);
+// What is wrong with solver.error as --error gave it, in --error's words.
+[[nodiscard]] InputError as_of_error_option(const InputError& error);
+// What `what` returns; its InputErrors as_of_error_option, if --error was given.
+template <class What>
+ExitCode with_error_option(const std::string& error, const What& what) {
+  if (error.empty()) return what();
+  try {
+    return what();
+  } catch (const InputError& fault) {
+    throw as_of_error_option(fault);
+  }
+}
 void add_overrides(Command& command, std::vector<std::string>& overrides);
 
 // Where the result goes if nothing else is said: the scenario's name with the suffix, in the

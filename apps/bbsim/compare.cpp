@@ -5,9 +5,12 @@
 #include <string>
 #include <vector>
 
+#include "base/number_text.hpp"
+#include "base/shown.hpp"
 #include "commands.hpp"
 #include "file/cell_table.hpp"
 #include "record/solver_allowance.hpp"
+#include "scenario/unit_doubts.hpp"
 #include "terminal.hpp"
 
 namespace bbsim::app {
@@ -28,17 +31,49 @@ record::Allowances allowances_of(const CompareOptions& options, const file::Cell
   return record::solver_allowances(a, b).value_or(standard);
 }
 
+// Warns of columns that one of the files has in another unit than the other, by their looks.
+void warn_of_units(const file::CellTable& table, const std::string& name,
+                   const file::CellTable& other, const std::string& other_name) {
+  for (std::size_t c = 0; c < table.columns.size(); ++c) {
+    const file::CellColumn* const beside = other.find(table.names[c]);
+    const std::vector<double>& numbers = table.columns[c].numbers;
+    if (beside == nullptr || numbers.empty() || beside->numbers.empty()) continue;
+    const auto warn = [&](const scenario::Doubt& doubt, const char* does, double one, double two) {
+      say("warning: " + name + ": " + shown(table.names[c]) + does + number_text(one) +
+          ", and in " + other_name + " " + number_text(two) + ": it looks like " +
+          std::string(doubt.looks_like));
+    };
+    if (table.names[c] == "t") {
+      const double span = numbers.back() - numbers.front();
+      const double its = beside->numbers.back() - beside->numbers.front();
+      if (!(its > 0)) continue;
+      if (const auto doubt = scenario::doubt_of_span(span, its)) warn(*doubt, " spans ", span, its);
+      continue;
+    }
+    const double largest = scenario::largest_size(numbers);
+    const double its = scenario::largest_size(beside->numbers);
+    const auto doubt = scenario::doubt_of(largest, table.names[c]);
+    if (doubt && !scenario::doubt_of(its, table.names[c])) {
+      warn(*doubt, " goes up to ", largest, its);
+    }
+  }
+}
+
 ExitCode run_compare(const CompareOptions& options, const Options& all) {
   file::Outputs outputs;
   outputs.reads(options.a, "A");
   outputs.reads(options.b, "B");
   prints(outputs);
-  for (const std::string& file : {options.a, options.b}) say_if_waiting(file, "a CSV", all.quiet);
+  for (const std::string& file : {options.a, options.b}) say_if_waiting(file, "a CSV", all.all.quiet);
   const file::CellTable a = file::read_cells(options.a, options.columns);
   const file::CellTable b = file::read_cells(options.b, options.columns);
   const record::Allowances allowances = allowances_of(options, a, b);
   const record::Comparison comparison = record::compare(a, b, allowances, options.columns);
   print(to_text(comparison, options.a, options.b, allowances));
+  if (!all.quiet) {
+    warn_of_units(a, options.a, b, options.b);
+    warn_of_units(b, options.b, a, options.a);
+  }
   return comparison.alike() ? ExitCode::done : ExitCode::ended_early;
 }
 

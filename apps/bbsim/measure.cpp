@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "base/error.hpp"
+#include "base/number_text.hpp"
 #include "base/shown.hpp"
 #include "commands.hpp"
 #include "file/outputs.hpp"
@@ -14,6 +15,7 @@
 #include "measure_text.hpp"
 #include "plot/read_result.hpp"
 #include "record/measure_rows.hpp"
+#include "scenario/unit_doubts.hpp"
 #include "terminal.hpp"
 
 namespace bbsim::app {
@@ -83,6 +85,37 @@ bool has_name(const std::string& text, const std::string& name) {
   throw InputError(error);
 }
 
+// Of a log, in whatever units, columns that are not in bbsim's by their looks.
+void warn_of_units(const record::StoredRun& run, const std::vector<scenario::Measure>& measures,
+                   const std::string& file) {
+  std::vector<const scenario::Column*> told;
+  for (const scenario::Measure& one : measures) {
+    for (const scenario::Column* column : {one.column, one.instant.column, one.reference}) {
+      if (column == nullptr || std::ranges::find(told, column) != told.end()) continue;
+      told.push_back(column);
+      const double largest = scenario::largest_size(run.values_of(*column));
+      const auto doubt = scenario::doubt_of(largest, column->name);
+      if (!doubt) continue;
+      say("warning: " + file + ": " + std::string(column->name) + " goes up to " +
+          number_text(largest) + ", measured in " + std::string(column->unit) + ": it looks like " +
+          std::string(doubt->looks_like));
+    }
+  }
+}
+
+// Of step metrics, what they count to for want of a reference.
+void tell_of_references(const record::StoredRun& run,
+                        const std::vector<scenario::Measure>& measures, const std::string& file) {
+  std::vector<std::string> told;
+  for (const scenario::Measure& one : measures) {
+    const std::string lacking = run.lacks_reference(one);
+    if (lacking.empty() || std::ranges::find(told, lacking) != told.end()) continue;
+    told.push_back(lacking);
+    say("note: " + file + " has no column " + lacking + ": step metrics of " +
+        std::string(one.column->name) + " count to its own value at the end");
+  }
+}
+
 ExitCode measure(const MeasureArguments& arguments, const Options& options) {
   say_if_waiting(arguments.file, "a CSV", options.quiet);
   plot::Result result = plot::read_result(arguments.file, {});
@@ -92,13 +125,24 @@ ExitCode measure(const MeasureArguments& arguments, const Options& options) {
   prints(outputs);
   const std::vector<std::string> asked = scenario::split_measures(arguments.measures);
   std::vector<Words> others;
+  const bool is_log = result.version.empty();
   file::TableData numbers = numbers_of(std::move(result), others);
   try {
     const record::StoredRun run(std::move(numbers), arguments.file);
     const auto measures = run.measures_named(asked);
     std::vector<double> values;
-    for (const scenario::Measure& one : measures) values.push_back(run.value_of(one));
+    scenario::Whys whys;
+    for (const scenario::Measure& one : measures) {
+      const record::Measured found = run.value_of(one);
+      values.push_back(found.value);
+      whys.push_back(found.why);
+    }
     print(measure_text(measures, values));
+    if (options.quiet) return ExitCode::done;
+    if (is_log) warn_of_units(run, measures, arguments.file);
+    tell_of_references(run, measures, arguments.file);
+    const std::string not_measured = scenario::why_not_finite(measures, values.data(), whys);
+    if (!not_measured.empty()) say("note: " + not_measured);
   } catch (const InputError& error) {
     refuse(error, arguments.file, asked, others);
   }
@@ -114,6 +158,7 @@ void add_measure(Command& command, const Options& options) {
       measures_footer() +
       "\n\nExamples:\n"
       "  bbsim measure step.csv --measure x.RiseTime,x.Overshoot\n"
+      "  bbsim measure rig.csv --measure \"rms_tracking_error from 5 s\"\n"
       "  bbsim measure rig.h5 --measure \"when tracking_error stays below 2 mm\"");
   const auto arguments = std::make_shared<MeasureArguments>();
   command

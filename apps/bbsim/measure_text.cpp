@@ -19,9 +19,11 @@ Option add_measures(Command& command, std::vector<std::string>& lists, const std
 
 std::string measures_footer() {
   return "Measures: min_x, max_x, rms_x, end_x of any column x; x.RiseTime, SettlingTime, "
-         "SettlingMin, SettlingMax, Overshoot, Undershoot, Peak, PeakTime, SteadyStateValue as "
-         "python-control has them; \"when x=0.05\" (with rise=N, fall=N or cross=N, last too), "
-         "\"when x stays below 0.05\" (or above), \"find y when x=0.05\", \"find y at 2\".";
+         "SettlingMin, SettlingMax, Overshoot, Undershoot, Peak, PeakTime, SteadyStateValue, of a "
+         "step from x at the start to x_reference at the end, or else to x itself there; \"when "
+         "x=0.05\" (with rise=N, fall=N or cross=N, last too), "
+         "\"when x stays below 0.05\" (or above), \"find y when x=0.05\", \"find y at 2\". Of "
+         "a part of the run: any of these with \"from 5 s\", \"to 20 s\" or both.";
 }
 
 }  // namespace bbsim::app

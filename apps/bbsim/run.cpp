@@ -1,3 +1,5 @@
+#include <algorithm>
+#include <cmath>
 #include <deque>
 #include <memory>
 #include <optional>
@@ -6,6 +8,7 @@
 #include <vector>
 
 #include "assemble.hpp"
+#include "base/number_text.hpp"
 #include "commands.hpp"
 #include "describe.hpp"
 #include "file/atomic_file.hpp"
@@ -16,6 +19,7 @@
 #include "model/model.hpp"
 #include "replay_file.hpp"
 #include "run_part.hpp"
+#include "scenario/expectation.hpp"
 #include "scenario/reader.hpp"
 #include "signals.hpp"
 #include "simulation.hpp"
@@ -28,7 +32,7 @@ struct RunArguments {
   ScenarioArguments scenario;
   std::string output, summary, error, replay;
   bool force = false;
-  std::vector<std::string> measures;
+  std::vector<std::string> measures, expect;
   PartArguments part;
 };
 
@@ -56,6 +60,47 @@ void declare_files(const RunArguments& arguments, const Scenario& scenario,
   if (!arguments.replay.empty()) declare_replay(outputs, arguments.replay, "--replay");
 }
 
+std::vector<scenario::Expectation> expectations_of(const RunArguments& arguments,
+                                                   const Scenario& scenario) {
+  std::vector<scenario::Expectation> expectations;
+  for (const std::string& text : arguments.expect) {
+    expectations.push_back(scenario::read_expectation("--expect", text, scenario));
+  }
+  return expectations;
+}
+
+// The measures asked for, and behind them the others that something is expected of.
+std::vector<scenario::Measure> with_expected(
+    std::vector<scenario::Measure> measures,
+    const std::vector<scenario::Expectation>& expectations) {
+  for (const scenario::Expectation& one : expectations) {
+    if (std::ranges::find(measures, one.measure.name, &scenario::Measure::name) == measures.end()) {
+      measures.push_back(one.measure);
+    }
+  }
+  return measures;
+}
+
+// What became of the expectations; those that are not met are said.
+void judge(const std::vector<scenario::Expectation>& expectations,
+           const std::vector<scenario::Measure>& measures, Simulation& made) {
+  for (const scenario::Expectation& one : expectations) {
+    const auto at = static_cast<std::size_t>(
+        std::ranges::find(measures, one.measure.name, &scenario::Measure::name) - measures.begin());
+    const double value = made.measures[at];
+    const bool holds = one.holds(value);
+    made.summary.expectations.push_back({one.text, value, holds});
+    if (holds) continue;
+    const std::string unit = one.measure.unit();
+    const char* const why = made.whys[at];
+    made.unmet.push_back("not as expected: " + one.text + ": " + one.measure.name + " is " +
+                         (std::isnan(value)
+                              ? "no number" + (why != nullptr ? std::string(": ") + why : "")
+                              : number_text(value) + (unit == "1" ? "" : ' ' + unit)));
+    if (made.code == ExitCode::done) made.code = ExitCode::ended_early;
+  }
+}
+
 ExitCode run(const RunArguments& arguments, const Options& options) {
   if (!arguments.replay.empty()) require_replay_ending(arguments.replay, "--replay");
   say_if_waiting(arguments.scenario.file, "a scenario", options.quiet);
@@ -65,8 +110,10 @@ ExitCode run(const RunArguments& arguments, const Options& options) {
   const Scenario scenario = read_scenario(arguments.scenario.file, overrides, &inputs);
   const auto asked = scenario::columns_named(scenario.output.columns);
   const auto columns = arguments.replay.empty() ? asked : with_pictured(asked, scenario);
-  const auto measures =
+  const auto printed =
       scenario::measures_named(scenario::split_measures(arguments.measures), scenario);
+  const auto expectations = expectations_of(arguments, scenario);
+  const auto measures = with_expected(printed, expectations);
   const std::string output =
       arguments.output.empty() ? default_output(arguments.scenario.file, ".csv") : arguments.output;
   std::optional<RunPart> part;
@@ -116,9 +163,10 @@ ExitCode run(const RunArguments& arguments, const Options& options) {
   Simulation made = part ? part->going_on(simulation) : simulation();
   record::RunSummary& summary = made.summary;
   summary.output = output;
-  for (std::size_t m = 0; m < measures.size(); ++m) {
-    summary.measures.emplace_back(measures[m].name, made.measures[m]);
+  for (std::size_t m = 0; m < printed.size(); ++m) {
+    summary.measures.emplace_back(printed[m].name, made.measures[m]);
   }
+  judge(expectations, measures, made);
   if (summary.error_estimate) writer->add_column(position_error, made.row_estimates);
   // A controller that does not begin is no reason to lose an earlier run.
   const bool any_rows = summary.rows > 0;
@@ -129,7 +177,7 @@ ExitCode run(const RunArguments& arguments, const Options& options) {
   }
 
   host.finish();
-  if (!measures.empty()) print(measure_text(measures, made.measures));
+  if (!printed.empty()) print(measure_text(printed, made.measures));
   const std::string state = part ? part->finish(model) : "";
   const std::size_t rows = part ? part->part().end_row - part->part().first_row : grid.size();
   tell(made, options.quiet);
@@ -158,6 +206,7 @@ void add_run(Command& command, const Options& options) {
       measures_footer() +
       "\n\nExamples:\n"
       "  bbsim run configs/step.yaml --measure x.RiseTime,x.Overshoot,max_tilt\n"
+      "  bbsim run configs/rig.yaml --expect \"rms_tracking_error from 5 s < 0.5 mm\" -q\n"
       "  bbsim run configs/fig2a.yaml\n"
       "  bbsim run configs/fig2a.yaml --set ball.radius=\"2 cm\" -o big.h5\n"
       "  bbsim run configs/fig2b.yaml --error \"1 um\" --summary run.json\n"
@@ -178,6 +227,13 @@ void add_run(Command& command, const Options& options) {
   add_measures(command, arguments->measures,
                "print measures of the motion as CSV, measure,value: see below; may be given again");
   command
+      .option(
+          "--expect", arguments->expect,
+          "end with exit code 1 if it does not hold: \"max_tilt < 5 deg\", or with <=, > or >=, "
+          "of any measure; may be given again")
+      .takes("\"MEASURE < VALUE\"")
+      .may_be_repeated();
+  command
       .option("--summary", arguments->summary,
               "FILE.json, or - for standard output: how the run went, what was modelled, "
               "statistics")
@@ -187,7 +243,9 @@ void add_run(Command& command, const Options& options) {
       .option("--replay", arguments->replay,
               "FILE.html: also a page that shows the run, or FILE.glb; as of bbsim replay")
       .takes("FILE");
-  command.does([arguments, &options] { return run(*arguments, options); });
+  command.does([arguments, &options] {
+    return with_error_option(arguments->error, [&] { return run(*arguments, options); });
+  });
 }
 
 }  // namespace bbsim::app

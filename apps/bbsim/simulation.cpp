@@ -189,13 +189,17 @@ Simulation simulate(const Scenario& scenario, const model::Model& model,
              ".\n  There it is beyond the range of doubles, or not defined.";
     why = solve::Why::not_finite;
   }
-  const std::vector<std::string> warnings =
-      warnings_of(scenario, model, made.outcome.ending == solve::Ending::failed,
-                  edge ? edge->left() : std::nullopt);
   Simulation simulation;
   simulation.measures.resize(wanted.measures.size());
   recorder.finish(made.outcome, simulation.measures.data());
   simulation.end_row = recorder.end_row(made.outcome);
+  simulation.whys = recorder.whys();
+  std::vector<std::string> warnings =
+      warnings_of(scenario, model, made.outcome.ending == solve::Ending::failed,
+                  edge ? edge->left() : std::nullopt);
+  const std::string not_measured =
+      scenario::why_not_finite(wanted.measures, simulation.measures.data(), simulation.whys);
+  if (!not_measured.empty()) warnings.push_back("note: " + not_measured);
   simulation.summary = summarise(scenario, model, made, reason, why, warnings, recorder.peaks());
   simulation.noted = noted_text(made.outcome.occurrences);
   simulation.row_estimates = std::move(made.row_estimates);
@@ -207,6 +211,7 @@ Simulation simulate(const Scenario& scenario, const model::Model& model,
 
 void tell(const Simulation& made, bool quiet) {
   if (!made.summary.reason.empty()) say(made.summary.reason);
+  for (const std::string& one : made.unmet) say(one);
   if (quiet) return;
   for (const std::string& warning : made.summary.warnings) say(warning);
   if (!made.noted.empty()) say(made.noted);

@@ -23,8 +23,10 @@ struct Simulation {
   // The error of each row, in a run with an error estimate, m.
   std::vector<double> row_estimates;
   std::vector<double> measures;
-  std::vector<double> end_row;  // Recorder::end_row()
-  std::string noted;            // how often each thing was noted; empty if nothing was
+  std::vector<double> end_row;     // Recorder::end_row()
+  scenario::Whys whys;             // of those that are no number
+  std::vector<std::string> unmet;  // what was expected of measures and is not so
+  std::string noted;               // how often each thing was noted; empty if nothing was
   ExitCode code = ExitCode::done;
 };
 
@@ -41,7 +43,8 @@ struct RowsAndMeasures {
                                   file::TableWriter& writer, bool quiet,
                                   solve::Part* part = nullptr);
 
-// Says why the run ended early, and, unless it is to be quiet, warnings and what was noted.
+// Says why the run ended early and what is not as expected, and, unless it is to be quiet, warnings
+// and what was noted.
 void tell(const Simulation& made, bool quiet);
 
 }  // namespace bbsim::app

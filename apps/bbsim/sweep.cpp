@@ -25,6 +25,7 @@
 #include "signals.hpp"
 #include "solve/output_grid.hpp"
 #include "sweep/case_file.hpp"
+#include "sweep/sweep_measures.hpp"
 #include "sweep_text.hpp"
 #include "terminal.hpp"
 
@@ -76,10 +77,11 @@ Sweep sweep_of(const SweepArguments& arguments, const Sweep& in_scenario) {
   return sweep;
 }
 
-std::vector<scenario::Measure> measures_of(const Sweep& sweep, const Scenario& scenario) {
-  const bool loop = scenario.controller.has_value();
-  return scenario::measures_named(
-      sweep.measure.empty() ? scenario::default_measures(loop) : sweep.measure, scenario);
+std::vector<scenario::Measure> measures_of(const Sweep& sweep, const ScenarioFamily& family,
+                                           const sweep::SweepPlan& plan, const Scenario& first) {
+  const bool loop = first.controller.has_value();
+  return sweep::sweep_measures(
+      sweep.measure.empty() ? scenario::default_measures(loop) : sweep.measure, family, plan);
 }
 
 // Columns of the output rows to be kept of each case.
@@ -140,7 +142,7 @@ ExitCode sweep(const SweepArguments& arguments, const Options& options) {
   const Sweep sweep = sweep_of(arguments, family.read_sweep());
   const sweep::SweepPlan plan(family, sweep);
   const Scenario first = family.read(plan.settings(0));
-  sweep::SweepTask task{family, plan, measures_of(sweep, first)};
+  sweep::SweepTask task{family, plan, measures_of(sweep, family, plan, first)};
   task.tell = say_of_controller;
   if (arguments.keep_trajectories) keep_trajectories(task, first);
 
@@ -278,8 +280,8 @@ void add_sweep(Command& command, const Options& options) {
       .option("--measure", arguments->measure,
               "instead of the default measures: min_, max_, rms_ or end_ "
               "and one of bbsim columns but ball_q...; x.RiseTime, "
-              "y.Overshoot, ...; \"when x=0.05\" (docs/reference/measures.md); may be "
-              "given again")
+              "y.Overshoot, ...; \"when x=0.05\"; \"rms_x from 5 s\" "
+              "(docs/reference/measures.md); may be given again")
       .takes("NAME,...")
       .may_be_repeated();
   command
@@ -305,7 +307,9 @@ void add_sweep(Command& command, const Options& options) {
   command.flag("--keep-trajectories", arguments->keep_trajectories,
                "keep the output rows of each case too (HDF5)");
   add_error(command, arguments->error);
-  command.does([arguments, &options] { return sweep(*arguments, options); });
+  command.does([arguments, &options] {
+    return with_error_option(arguments->error, [&] { return sweep(*arguments, options); });
+  });
 }
 
 }  // namespace bbsim::app

@@ -30,7 +30,7 @@ CellTable read_hdf5_cells(const std::string& file) {
   for (const Hdf5Column& column : reader.columns()) {
     table.names.push_back(column.name);
     table.columns.emplace_back();
-    table.columns.back().width = column.width;
+    if (column.kind == Hdf5Kind::series) table.columns.back().width = column.width;
   }
   constexpr std::size_t rows_at_a_time = 65536;
   Hdf5Block block;

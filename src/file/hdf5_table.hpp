@@ -22,7 +22,8 @@ enum class Hdf5Kind { number, text, series };
 struct Hdf5Column {
   std::string name, unit, meaning;
   Hdf5Kind kind = Hdf5Kind::number;
-  std::size_t width = 1;  // numbers a row, of a series
+  // Numbers a row, of a series; of a text, the most bytes of each, or 1: any number of them.
+  std::size_t width = 1;
 
   bool operator==(const Hdf5Column&) const = default;
 };
@@ -39,8 +40,9 @@ struct Hdf5Block {
 };
 
 // Writes HDF5, whole under its final name or not at all. A number is a dataset of one dimension, a
-// text one of strings of any length, a series one of rows x width; all grow with the rows. The
-// bytes depend on the rows alone, not on the blocks that they came in.
+// text one of strings, a series one of rows x width; all grow with the rows. Those of cases are
+// compressed, where HDF5 can. The bytes depend on the rows alone, not on the blocks that they came
+// in.
 //
 // Every function throws OutputError; after that, only destruction may follow.
 class Hdf5TableWriter {

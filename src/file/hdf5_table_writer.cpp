@@ -54,8 +54,14 @@ bbsim_hdf5_kind kind_of(const Hdf5Column& column) {
 }
 
 bbsim_hdf5_column described(const Hdf5Column& column, bbsim_hdf5_kind kind, std::size_t width,
-                            bool is_scale = false) {
-  return {column.name.c_str(), column.unit.c_str(), column.meaning.c_str(), kind, width, is_scale};
+                            bool is_scale = false, bool is_packed = false) {
+  return {column.name.c_str(),
+          column.unit.c_str(),
+          column.meaning.c_str(),
+          kind,
+          width,
+          is_scale,
+          is_packed};
 }
 
 [[noreturn]] void refuse(const std::string& target, const std::string& reason) {
@@ -90,11 +96,12 @@ Hdf5Output open_output(const std::string& target, const std::vector<Hdf5Column>&
            "it is a device, a pipe or standard output, and HDF5 needs a regular file; name one");
   }
   const auto scale = find_scale(columns);
+  const bool is_packed = std::ranges::any_of(columns, is_case);
   std::vector<bbsim_hdf5_column> described_columns;
   for (auto column = columns.begin(); column != columns.end(); ++column) {
     described_columns.push_back(described(*column, kind_of(*column),
-                                          column->kind == Hdf5Kind::series ? column->width : 1,
-                                          column == scale));
+                                          column->kind == Hdf5Kind::number ? 1 : column->width,
+                                          column == scale, is_packed));
   }
   return {target, described_columns, durable};
 }

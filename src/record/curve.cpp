@@ -4,18 +4,42 @@
 #include <cmath>
 #include <limits>
 
+#include "base/instant.hpp"
+
 namespace bbsim::record {
 namespace {
 
-// Where `f`, which has different signs at both ends, is zero: by halves, to rounding.
+// Where `f`, which has different signs at both ends and is 0 at neither, is zero: by halves, to
+// rounding.
 template <class Function>
 double root(double low, double high, Function f) {
-  const bool rises = f(low) < 0;
+  const double rising = f(low) < 0 ? 1 : -1;  // one that falls is one that rises, turned over
   for (;;) {
     const double middle = low + (high - low) / 2;
     if (middle <= low || middle >= high) return middle;
-    ((f(middle) < 0) == rises ? low : high) = middle;
+    (rising * f(middle) < 0 ? low : high) = middle;
   }
+}
+
+// How far a value of a piece may be off by rounding alone: that of its polynomial, by Higham (IMA
+// J. Numer. Anal. 24:547, 2004) at most (6 n + 6) u times the Lebesgue constant and the largest
+// value at the n + 1 points; and as far as it goes, at its steepest, in the rounding of a time,
+// since a switch at its end stands at a time that is rounded.
+double rounding_of_piece(double from, double to, const ChebyshevPoints& points,
+                         const double* values, const double* slopes) {
+  const std::size_t count = points.size();
+  double size = 0, steepest = 0;
+  for (std::size_t i = 0; i < count; ++i) {
+    size = std::max(size, std::abs(values[i]));
+    steepest = std::max(steepest, std::abs(slopes[i]));
+  }
+  constexpr double unit_roundoff = std::numeric_limits<double>::epsilon() / 2;
+  const double lebesgue = 1 + 2 * points.overshoot();
+  const double of_polynomial = 6 * static_cast<double>(count) * unit_roundoff * lebesgue * size;
+  const auto [least, most] = std::minmax_element(values, values + count);
+  // No further than over all of a piece that is as short as rounding itself.
+  const double part = to - from > rounding_of(to) ? rounding_of(to) / (to - from) : 1;
+  return of_polynomial + std::min(part * steepest, *most - *least);
 }
 
 }  // namespace
@@ -37,14 +61,28 @@ double Curve::value(const Place& place) const {
   return value(place.piece, place.part);
 }
 
+double Curve::last_value() const {
+  if (pieces_.empty()) return std::numeric_limits<double>::quiet_NaN();
+  return value(pieces_.size() - 1, 1);
+}
+
 Curve::Place Curve::place(std::size_t piece, double part) const {
   const Piece& of = pieces_[piece];
   return {part == 1 ? of.to : of.from + (of.to - of.from) * part, piece, part};
 }
 
 void Curve::add_line(double from, double to, double from_value, double to_value) {
+  add_line(from, to, from_value, to_value, 0);
+}
+
+void Curve::end_at(double t, double value) {
+  if (empty()) return add_line(t, t, value, value);
+  add_line(t, t, end_value(), value, pieces_[arcs_.back().to.piece].rounding);
+}
+
+void Curve::add_line(double from, double to, double from_value, double to_value, double rounding) {
   const std::size_t number = pieces_.size();
-  pieces_.push_back({from, to, nullptr, values_.size()});
+  pieces_.push_back({from, to, nullptr, values_.size(), rounding});
   values_.insert(values_.end(), {from_value, to_value});
   if (!std::isfinite(from_value) || !std::isfinite(to_value)) return;
   arcs_.push_back({place(number, 0), place(number, 1), from_value, to_value});
@@ -52,13 +90,14 @@ void Curve::add_line(double from, double to, double from_value, double to_value)
 
 void Curve::add_piece(double from, double to, const ChebyshevPoints& points, const double* values) {
   const std::size_t number = pieces_.size(), count = points.size();
-  pieces_.push_back({from, to, &points, values_.size()});
+  pieces_.push_back({from, to, &points, values_.size(), 0});
   values_.insert(values_.end(), values, values + count);
   if (!std::all_of(values, values + count, [](double value) { return std::isfinite(value); })) {
     return;
   }
   slopes_.resize(count);
   points.slopes(values, slopes_.data());
+  pieces_.back().rounding = rounding_of_piece(from, to, points, values, slopes_.data());
   Arc arc{place(number, 0), {}, values[0], 0};
   const auto end_arc = [&](double part, double value) {
     arc.to = place(number, part);
@@ -85,52 +124,68 @@ void Curve::add_piece(double from, double to, const ChebyshevPoints& points, con
   end_arc(1, values[count - 1]);
 }
 
+int Curve::side(double value, double level, std::size_t piece) const {
+  if (std::abs(value - level) <= pieces_[piece].rounding) return 0;
+  return value > level ? 1 : value < level ? -1 : 0;
+}
+
 Curve::Place Curve::at_level(const Arc& arc, double level) const {
-  if (arc.from.part == arc.to.part) return arc.to;
-  return place(arc.from.piece, root(arc.from.part, arc.to.part, [&](double part) {
-                 return value(arc.from.piece, part) - level;
-               }));
+  const std::size_t piece = arc.from.piece;
+  if (side(arc.from_value, level, piece) == 0) return arc.from;
+  if (side(arc.to_value, level, piece) == 0 || arc.from.part == arc.to.part) return arc.to;
+  return place(piece, root(arc.from.part, arc.to.part,
+                           [&](double part) { return value(piece, part) - level; }));
 }
 
 std::optional<Curve::Place> Curve::first_at_least(double sign, double level) const {
   for (const Arc& arc : arcs_) {
-    if (sign * arc.from_value >= level) return arc.from;
-    if (sign * arc.to_value >= level) return at_level(arc, sign * level);
+    const auto is_below = [&](double value) {
+      return side(sign * value, level, arc.from.piece) < 0;
+    };
+    if (!is_below(arc.from_value)) return arc.from;
+    if (!is_below(arc.to_value)) return at_level(arc, sign * level);
   }
   return {};
 }
 
 std::optional<Curve::Place> Curve::last_at_least(double sign, double level) const {
   for (auto arc = arcs_.rbegin(); arc != arcs_.rend(); ++arc) {
-    if (sign * arc->to_value >= level) return arc->to;
-    if (sign * arc->from_value >= level) return at_level(*arc, sign * level);
+    const auto is_below = [&](double value) {
+      return side(sign * value, level, arc->from.piece) < 0;
+    };
+    if (!is_below(arc->to_value)) return arc->to;
+    if (!is_below(arc->from_value)) return at_level(*arc, sign * level);
   }
   return {};
+}
+
+bool Curve::ends_at_least(double sign, double level) const {
+  return side(sign * end_value(), level, arcs_.back().to.piece) >= 0;
 }
 
 std::optional<Curve::Place> Curve::crossing(double level, scenario::Instant::Way way,
                                             std::size_t number) const {
   using Way = scenario::Instant::Way;
   std::optional<Place> last, reached;  // reached: where it came to the level and stands at it
-  double side = 0;                     // of the level, where it was
+  int side_before = 0;                 // of the level, where it was
   std::size_t found = 0;
-  const auto look = [&](double value, const Place& at) {
-    const double now = value > level ? 1 : value < level ? -1 : 0;
+  const auto look = [&](int now, const Place& at) {
     if (now == 0) {
       if (!reached) reached = at;
       return false;
     }
-    const bool crosses = side * now < 0;
+    const bool crosses = side_before * now < 0;
     const bool counts = crosses && (way == Way::either || (way == Way::rise) == (now > 0));
     if (counts) last = reached ? *reached : at;
-    side = now;
+    side_before = now;
     reached.reset();
     return counts && ++found == number;
   };
   for (const Arc& arc : arcs_) {
-    if (look(arc.from_value, arc.from)) return last;
-    const bool through = (arc.from_value - level) * (arc.to_value - level) < 0;
-    if (look(arc.to_value, through ? at_level(arc, level) : arc.to)) return last;
+    const int from = side(arc.from_value, level, arc.from.piece);
+    const int to = side(arc.to_value, level, arc.from.piece);
+    if (look(from, arc.from)) return last;
+    if (look(to, from * to < 0 ? at_level(arc, level) : arc.to)) return last;
   }
   return number == 0 ? last : std::nullopt;
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/instant.hpp"
 #include "base/real.hpp"
 
 namespace bbsim::record {
@@ -12,70 +13,111 @@ using scenario::Instant;
 using scenario::Measure;
 using scenario::StepMetric;
 
-// As python-control's step_info() has them, of all instants in place of its samples.
-double step_metric(const Curve& curve, StepMetric metric) {
-  const double end = curve.end_value(), size = std::abs(end), sign = end < 0 ? -1 : 1;
-  if (metric == StepMetric::steady_state_value) return end;
-  if (metric == StepMetric::peak || metric == StepMetric::peak_time) {
-    const Curve::Extreme up = curve.greatest(1), down = curve.greatest(-1);
-    const bool above = up.value > -down.value || (up.value == -down.value && up.t <= down.t);
-    const Curve::Extreme& most = above ? up : down;
-    return metric == StepMetric::peak ? std::abs(most.value) : most.t;
+Measured nothing(const char* why) {
+  return {no_number, why};
+}
+
+// From where the column starts to where it is meant to be at the end.
+struct Step {
+  double start, end;
+  [[nodiscard]] double size() const { return std::abs(end - start); }
+  [[nodiscard]] double sign() const { return end < start ? -1 : 1; }
+  // To the rounding of the difference.
+  [[nodiscard]] bool is_none() const {
+    return !(size() > rounding_of(std::max(std::abs(start), std::abs(end))));
   }
-  if (end == 0) return no_number;
-  const auto risen = curve.first_at_least(sign, 0.9 * size);
+};
+
+Measured peak(const Curve& curve, StepMetric metric, double start) {
+  const Curve::Extreme up = curve.greatest(1), down = curve.greatest(-1);
+  const double above = up.value - start, below = start - down.value;
+  const Curve::Extreme& most = above > below || (above == below && up.t <= down.t) ? up : down;
+  return {metric == StepMetric::peak ? std::abs(most.value) : most.t - curve.start()};
+}
+
+// As python-control's step_info() has them, of all instants in place of its samples, and of a step
+// that may start anywhere.
+Measured step_metric(const Curve& curve, StepMetric metric, const Step& step) {
+  if (step.is_none()) return nothing("it is to end where it starts, a step of 0");
+  const double size = step.size(), sign = step.sign();
+  const double start = sign * step.start, end = sign * step.end;
+  const auto risen = [&](double part) { return curve.first_at_least(sign, start + part * size); };
+  const auto high = risen(0.9);
+  constexpr const char* not_risen = "it does not come 90 % of its step";
   switch (metric) {
     case StepMetric::rise_time:
-      return risen->t - curve.first_at_least(sign, 0.1 * size)->t;
+      if (!high) return nothing(not_risen);
+      return {high->t - risen(0.1)->t};
     case StepMetric::settling_time: {
-      const auto above = curve.last_at_least(sign, 1.02 * size);
-      const auto below = curve.last_at_least(-sign, -0.98 * size);
-      return std::max(above ? above->t : curve.start(), below ? below->t : curve.start());
+      const double band = 0.02 * size;
+      if (curve.ends_at_least(sign, end + band) || curve.ends_at_least(-sign, band - end)) {
+        return nothing("it does not end within 2 % of its step");
+      }
+      const auto above = curve.last_at_least(sign, end + band);
+      const auto below = curve.last_at_least(-sign, band - end);
+      const double first = curve.start();
+      return {std::max(above ? above->t : first, below ? below->t : first) - first};
     }
     case StepMetric::settling_min:
-      return curve.greatest(-1, risen).value;
     case StepMetric::settling_max:
-      return curve.greatest(1, risen).value;
+      if (!high) return nothing(not_risen);
+      return {curve.greatest(metric == StepMetric::settling_max ? 1 : -1, high).value};
     case StepMetric::overshoot:
-      return std::max(0.0, 100 * (sign * curve.greatest(sign).value - size) / size);
+      return {std::max(0.0, 100 * (sign * curve.greatest(sign).value - end) / size)};
     case StepMetric::undershoot:
-      return std::max(0.0, -100 * sign * curve.greatest(-sign).value / size);
+      return {std::max(0.0, 100 * (start - sign * curve.greatest(-sign).value) / size)};
     case StepMetric::peak:
     case StepMetric::peak_time:
+      return peak(curve, metric, step.start);
     case StepMetric::steady_state_value:
       break;
   }
-  return no_number;
+  return {curve.end_value()};
 }
 
-std::optional<Curve::Place> place_of(const Instant& instant, const Curve& curve) {
+struct Found {
+  std::optional<Curve::Place> place;
+  const char* why = nullptr;
+};
+
+Found place_of(const Instant& instant, const Curve& curve) {
   switch (instant.kind) {
     case Instant::Kind::crosses:
-      return curve.crossing(instant.level, instant.way, instant.number);
+      return {curve.crossing(instant.level, instant.way, instant.number), "it does not happen"};
     case Instant::Kind::at:
-      return curve.place_at(instant.level);
+      return {curve.place_at(instant.level), "the time is not within what was measured"};
     case Instant::Kind::stays_below:
     case Instant::Kind::stays_above:
       break;
   }
+  // Above is below, turned over.
   const double sign = instant.kind == Instant::Kind::stays_below ? 1 : -1;
-  if (sign * curve.end_value() >= sign * instant.level) return {};  // it does not
+  if (curve.ends_at_least(sign, sign * instant.level)) return {{}, "it does not stay there"};
   const auto last = curve.last_at_least(sign, sign * instant.level);
-  return last ? last : curve.place_at(curve.start());
+  return {last ? last : curve.place_at(curve.start())};
 }
 
 }  // namespace
 
-double measured(const Measure& measure, const CurveOf& curve_of) {
+Measured measured(const Measure& measure, const CurveOf& curve_of) {
+  constexpr const char* no_value = "there is no finite value";
   const Curve& curve = curve_of(*measure.column);
-  if (curve.empty()) return no_number;
-  if (measure.kind == Measure::Kind::step) return step_metric(curve, measure.metric);
+  if (curve.empty()) return nothing(no_value);
+  if (measure.kind == Measure::Kind::step) {
+    const Curve* const reference =
+        measure.reference != nullptr ? &curve_of(*measure.reference) : nullptr;
+    const bool is_meant = reference != nullptr && !reference->empty();
+    const double end = is_meant ? reference->end_value() : curve.end_value();
+    return step_metric(curve, measure.metric, {curve.start_value(), end});
+  }
   const Instant& instant = measure.instant;
   const Curve& watched = instant.column != nullptr ? curve_of(*instant.column) : curve;
-  if (watched.empty()) return no_number;
-  const std::optional<Curve::Place> place = place_of(instant, watched);
-  if (!place) return no_number;
-  return measure.kind == Measure::Kind::when ? place->t : curve.value(*place);
+  if (watched.empty()) return nothing(no_value);
+  const Found found = place_of(instant, watched);
+  if (!found.place) return nothing(found.why);
+  if (measure.kind == Measure::Kind::when) return {found.place->t};
+  const double value = curve.value(*found.place);
+  return {value, std::isnan(value) ? no_value : nullptr};
 }
 
 }  // namespace bbsim::record

@@ -11,9 +11,14 @@ namespace bbsim::record {
 // The curve of a column.
 using CurveOf = std::function<const Curve&(const scenario::Column&)>;
 
-// The value of a measure of kind step, when or find. No number where there is none: it never
-// crosses, or it ends at 0, of which nothing is a part.
-[[nodiscard]] double measured(const scenario::Measure& measure, const CurveOf& curve_of);
+// What was measured; of what is no number, why, in a few words.
+struct Measured {
+  double value;
+  const char* why = nullptr;
+};
+
+// The value of a measure of kind step, when or find.
+[[nodiscard]] Measured measured(const scenario::Measure& measure, const CurveOf& curve_of);
 
 // Whether a measure is of one of these kinds.
 [[nodiscard]] inline bool is_of_curves(const scenario::Measure& measure) {

@@ -2,12 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <map>
 #include <utility>
 
 #include "base/error.hpp"
+#include "base/instant.hpp"
 #include "base/number_text.hpp"
+#include "base/real.hpp"
 #include "record/curve.hpp"
 #include "record/instants.hpp"
 #include "record/square_sum.hpp"
@@ -57,45 +58,96 @@ std::vector<Measure> StoredRun::measures_named(const std::vector<std::string>& n
       std::string columns;
       for (const std::string& column : table_.names) columns += " " + column;
       const std::vector<std::string_view> known(table_.names.begin(), table_.names.end());
-      throw InputError("measure: found " + name + scenario::measure_hint(name, known) + "; " +
+      throw InputError("measure: found " + name +
+                       scenario::measure_hint(scenario::split_window(name).base, known) + "; " +
                        name_ + " has the columns" + columns +
                        "; allowed: " + scenario::allowed_measures());
     }
-    for (const Measure& other : measures) {
-      if (other.name == measure->name) throw InputError("measure: found " + name + " twice");
-    }
+    const std::string outside =
+        scenario::window_fault(measure->window, times_->front(), times_->back());
+    if (!outside.empty()) throw InputError("measure: found " + name + ", but " + outside);
     measures.push_back(*measure);
   }
+  scenario::require_once(measures);
   return measures;
 }
 
-double StoredRun::value_of(const Measure& measure) const {
-  const std::vector<double>& values = values_of(*measure.column);
-  if (measure.kind == Kind::end) return values.back();
-  if (!is_of_curves(measure)) {
+std::string StoredRun::lacks_reference(const Measure& measure) const {
+  const bool has_one = measure.column->name == "x" || measure.column->name == "y";
+  if (measure.kind != Kind::step || measure.reference != nullptr || !has_one) return "";
+  return std::string(measure.column->name) + "_reference";
+}
+
+StoredRun::Cut StoredRun::cut_of(const scenario::Window& window) const {
+  const std::vector<double>& times = *times_;
+  Cut cut{0, times.size(), {}, {}};
+  const auto is_before = [&](double t) { return t < window.begin() && !window.holds(t); };
+  while (cut.first < times.size() && is_before(times[cut.first])) ++cut.first;
+  while (cut.last > cut.first && !window.holds(times[cut.last - 1])) --cut.last;
+  const bool any = cut.first < cut.last;
+  const auto is = [](double t, double other) { return std::abs(t - other) <= rounding_of(other); };
+  if (window.from && cut.first > 0 && !(any && is(times[cut.first], *window.from))) {
+    cut.before = window.from;
+  }
+  if (window.to && cut.last < times.size() && !(any && is(times[cut.last - 1], *window.to))) {
+    cut.after = window.to;
+  }
+  return cut;
+}
+
+std::vector<double> StoredRun::cut(const std::vector<double>& values, const Cut& cut) const {
+  const std::vector<double>& times = *times_;
+  // Row i is the first one behind the time.
+  const auto between = [&](std::size_t i, double t) {
+    const double part = (t - times[i - 1]) / (times[i] - times[i - 1]);
+    return values[i - 1] + part * (values[i] - values[i - 1]);
+  };
+  std::vector<double> some;
+  if (cut.before) some.push_back(between(cut.first, *cut.before));
+  const auto row = [&](std::size_t i) { return values.begin() + static_cast<std::ptrdiff_t>(i); };
+  some.insert(some.end(), row(cut.first), row(cut.last));
+  if (cut.after) some.push_back(between(cut.last, *cut.after));
+  return some;
+}
+
+Measured StoredRun::value_of(const Measure& measure) const {
+  constexpr const char* no_value = "there is no finite value";
+  const Cut within = cut_of(measure.window);
+  const std::vector<double>& all = values_of(*measure.column);
+  if (measure.kind == Kind::rms) {
     SquareSum squares;
     std::size_t rows = 0;
-    double least = std::numeric_limits<double>::infinity(), greatest = -least;
-    for (const double value : values) {
-      if (std::isnan(value)) continue;
-      squares.add(value);
+    for (std::size_t i = within.first; i < within.last; ++i) {
+      if (std::isnan(all[i])) continue;
+      squares.add(all[i]);
       ++rows;
+    }
+    if (rows > 0) return {squares.root_mean(rows)};
+    return {no_number, within.first < within.last ? no_value : "no row is within its window"};
+  }
+  if (measure.kind == Kind::end) return {cut(all, within).back(), no_value};
+  if (!is_of_curves(measure)) {
+    double least = infinity, greatest = -infinity;
+    bool any = false;
+    for (const double value : cut(all, within)) {
+      if (std::isnan(value)) continue;
+      any = true;
       least = std::min(least, value);
       greatest = std::max(greatest, value);
     }
-    if (rows == 0) return std::numeric_limits<double>::quiet_NaN();
-    if (measure.kind == Kind::rms) return squares.root_mean(rows);
-    return measure.kind == Kind::least ? least : greatest;
+    if (!any) return {no_number, no_value};
+    return {measure.kind == Kind::least ? least : greatest};
   }
+  const std::vector<double> times = cut(*times_, within);
   std::map<const Column*, Curve> curves;
   return measured(measure, [&](const Column& column) -> const Curve& {
     const auto [found, is_new] = curves.try_emplace(&column);
     if (is_new) {
-      const std::vector<double>& of = values_of(column);
+      const std::vector<double> of = cut(values_of(column), within);
       Curve& curve = found->second;
-      if (of.size() == 1) curve.add_line(times_->front(), times_->front(), of[0], of[0]);
+      if (of.size() == 1) curve.add_line(times.front(), times.front(), of[0], of[0]);
       for (std::size_t i = 1; i < of.size(); ++i) {
-        curve.add_line((*times_)[i - 1], (*times_)[i], of[i - 1], of[i]);
+        curve.add_line(times[i - 1], times[i], of[i - 1], of[i]);
       }
     }
     return found->second;

@@ -6,13 +6,10 @@
 #include <utility>
 
 #include "base/error.hpp"
-#include "record/instants.hpp"
 
 namespace bbsim::record {
 
-using scenario::Column;
 using scenario::Measure;
-using Kind = Measure::Kind;
 
 namespace {
 
@@ -26,63 +23,44 @@ model::Sample end_of(const solve::Outcome& outcome) {
 
 constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
 
-template <class Wanted>
-std::vector<std::size_t> those(const std::vector<Measure>& measures, Wanted wanted) {
-  std::vector<std::size_t> found;
+// The measures by their windows, each of which comes once.
+std::vector<std::unique_ptr<WindowMeasures>> by_window(const std::vector<Measure>& measures) {
+  std::vector<std::vector<std::size_t>> groups;
   for (std::size_t m = 0; m < measures.size(); ++m) {
-    if (wanted(measures[m].kind)) found.push_back(m);
+    const auto same = std::ranges::find_if(groups, [&](const std::vector<std::size_t>& group) {
+      return measures[group.front()].window == measures[m].window;
+    });
+    (same == groups.end() ? groups.emplace_back() : *same).push_back(m);
   }
-  return found;
+  std::vector<std::unique_ptr<WindowMeasures>> windows;
+  for (std::vector<std::size_t>& group : groups) {
+    windows.push_back(std::make_unique<WindowMeasures>(measures, std::move(group)));
+  }
+  return windows;
 }
 
-// Columns, and behind them those of some measures.
-std::vector<const Column*> with_columns_of(std::vector<const Column*> columns,
-                                           const std::vector<Measure>& measures,
-                                           const std::vector<std::size_t>& which) {
-  for (const std::size_t m : which) columns.push_back(measures[m].column);
-  return columns;
-}
-
-// Each once, and those that instants are told by.
-std::vector<const Column*> traced_by(const std::vector<Measure>& measures,
-                                     const std::vector<std::size_t>& which) {
-  std::vector<const Column*> columns;
-  for (const std::size_t m : which) {
-    for (const Column* column : {measures[m].column, measures[m].instant.column}) {
-      if (column != nullptr && std::ranges::find(columns, column) == columns.end()) {
-        columns.push_back(column);
-      }
-    }
+// Columns, and behind them those that windows want the rows of.
+std::vector<const scenario::Column*> with_columns_of(
+    std::vector<const scenario::Column*> columns,
+    const std::vector<std::unique_ptr<WindowMeasures>>& windows) {
+  for (const auto& window : windows) {
+    const auto wanted = window->row_columns();
+    columns.insert(columns.end(), wanted.begin(), wanted.end());
   }
   return columns;
-}
-
-std::vector<Extremes::Sought> sought_by(const std::vector<Measure>& measures,
-                                        const std::vector<std::size_t>& which) {
-  std::vector<Extremes::Sought> sought;
-  for (const std::size_t m : which) {
-    sought.push_back({measures[m].column, measures[m].kind == Kind::least});
-  }
-  return sought;
 }
 
 }  // namespace
 
 Recorder::Recorder(Asked asked)
     : asked_(std::move(asked)),
-      at_end_(those(asked_.measures, [](Kind kind) { return kind == Kind::end; })),
-      of_motion_(those(asked_.measures,
-                       [](Kind kind) { return kind == Kind::greatest || kind == Kind::least; })),
-      of_rows_(those(asked_.measures, [](Kind kind) { return kind == Kind::rms; })),
-      of_curves_(those(asked_.measures,
-                       [](Kind kind) {
-                         return kind == Kind::step || kind == Kind::when || kind == Kind::find;
-                       })),
-      rows_(with_columns_of(asked_.columns, asked_.measures, of_rows_)),
-      end_(with_columns_of({}, asked_.measures, at_end_)),
-      extremes_(sought_by(asked_.measures, of_motion_)),
-      traces_(traced_by(asked_.measures, of_curves_)),
-      traces_end_(traces_.columns()) {
+      windows_(by_window(asked_.measures)),
+      rows_(with_columns_of(asked_.columns, windows_)) {
+  std::size_t first = asked_.columns.size();
+  for (const auto& window : windows_) {
+    first_columns_.push_back(first);
+    first += window->row_columns().size();
+  }
   if (!asked_.measures.empty() && are_track_measures(asked_.measures)) {
     track_.emplace(asked_.measures);
   }
@@ -98,7 +76,6 @@ void Recorder::begin(const model::Model& model, const model::BallConstants& cons
   quick_ = manner.quick && track_ && has_track(model);
   with_loads_ = loads_ && (scenario::need_dynamics(asked_.columns) || has_plate_inertia(constants));
   gaps_.assign(asked_.columns.size(), {});
-  sums_.assign(of_rows_.size(), {});
   if (!asked_.columns.empty() || !quick_) rows_.begin(model, constants);
   fan_.clear();
   if (with_loads_) {
@@ -113,12 +90,7 @@ void Recorder::begin(const model::Model& model, const model::BallConstants& cons
   last_time_ = 0;
   last_ = model.initial;
   last_.resize(model.row_size());
-  end_.begin(model, constants);
-  extremes_.begin(model, constants);
-  traces_.begin(model, constants);
-  traces_end_.begin(model, constants);
-  if (!of_motion_.empty()) fan_.add(extremes_);
-  if (!of_curves_.empty()) fan_.add(traces_);
+  for (const auto& window : windows_) window->begin(model, constants, fan_);
 }
 
 bool Recorder::wants_positions_only() const {
@@ -140,7 +112,9 @@ void Recorder::accept(std::size_t first, std::size_t count, const double* values
     if (!asked_.columns.empty()) take_rows(count, values);
     return;
   }
-  if (first == 0 && !of_motion_.empty()) extremes_.note(times_[0], values);
+  if (first == 0) {
+    for (const auto& window : windows_) window->accept_start(times_[0], values);
+  }
   last_time_ = times_.back();
   const double* const last = values + (count - 1) * model_->row_size();
   last_.assign(last, last + model_->row_size());
@@ -150,12 +124,9 @@ void Recorder::accept(std::size_t first, std::size_t count, const double* values
 void Recorder::take_rows(std::size_t count, const double* values) {
   rows_.evaluate(times_.data(), values, count);
   const std::size_t columns = asked_.columns.size();
-  for (std::size_t k = 0; k < sums_.size(); ++k) {
-    for (std::size_t i = 0; i < count; ++i) {
-      const double value = rows_[columns + k][i];
-      if (std::isnan(value)) continue;
-      sums_[k].squares.add(value);
-      ++sums_[k].rows;
+  if (!quick_) {
+    for (std::size_t w = 0; w < windows_.size(); ++w) {
+      windows_[w]->accept_rows(times_, [&](std::size_t k) { return rows_[first_columns_[w] + k]; });
     }
   }
   if (columns == 0) return;
@@ -175,10 +146,12 @@ void Recorder::look_for_gaps(std::size_t count) {
 }
 
 void Recorder::finish(const solve::Outcome& outcome, double* results) {
+  whys_.assign(asked_.measures.size(), nullptr);
   if (quick_) {
     track_->finish(results);
-  } else if (outcome.rows == 0) {  // it ended before it began
+  } else if (outcome.rows == 0) {
     std::fill_n(results, asked_.measures.size(), nothing);
+    whys_.assign(asked_.measures.size(), "the run ended before it began");
   } else {
     finish_each(outcome, results);
   }
@@ -186,24 +159,11 @@ void Recorder::finish(const solve::Outcome& outcome, double* results) {
 
 void Recorder::finish_each(const solve::Outcome& outcome, double* results) {
   const bool stopped = outcome.ending == solve::Ending::stopped;
-  const model::Sample last =
-      stopped ? end_of(outcome) : model_->sample(last_time_, last_.data(), model::Detail::all);
-  for (Rows* const end : {&end_, &traces_end_}) end->evaluate(last);
-  if (model_->hybrid()) {  // the last piece ends before what switches at its end
-    if (!of_motion_.empty()) extremes_.note(last);
-    if (with_loads_) loads_->extremes().note(last);
-  }
-  for (std::size_t k = 0; k < at_end_.size(); ++k) results[at_end_[k]] = end_[k][0];
-  for (std::size_t k = 0; k < of_rows_.size(); ++k) {
-    results[of_rows_[k]] = sums_[k].rows == 0 ? nothing : sums_[k].squares.root_mean(sums_[k].rows);
-  }
-  for (std::size_t k = 0; k < of_motion_.size(); ++k) results[of_motion_[k]] = extremes_[k].value;
-  if (of_curves_.empty()) return;
-  traces_.finish(stopped ? outcome.occurrences.back().t : last_time_, traces_end_);
-  const CurveOf curve_of = [this](const Column& column) -> const Curve& {
-    return traces_.of(column);
-  };
-  for (const std::size_t m : of_curves_) results[m] = measured(asked_.measures[m], curve_of);
+  const RunEnd end =
+      stopped ? RunEnd{outcome.occurrences.back().t, end_of(outcome)}
+              : RunEnd{last_time_, model_->sample(last_time_, last_.data(), model::Detail::all)};
+  if (model_->hybrid() && with_loads_) loads_->extremes().note(end.sample);
+  for (const auto& window : windows_) window->finish(end, results, whys_);
 }
 
 std::vector<double> Recorder::end_row(const solve::Outcome& outcome) {

@@ -3,19 +3,18 @@
 
 #include <cstddef>
 #include <limits>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "file/table_writer.hpp"
 #include "model/model.hpp"
-#include "record/extremes.hpp"
 #include "record/motor_loads.hpp"
 #include "record/piece_fan.hpp"
 #include "record/rows.hpp"
-#include "record/square_sum.hpp"
-#include "record/traces.hpp"
 #include "record/track/track_measures.hpp"
+#include "record/window_measures.hpp"
 #include "scenario/measures.hpp"
 #include "solve/outcome.hpp"
 #include "solve/output_grid.hpp"
@@ -64,6 +63,8 @@ class Recorder : public solve::StateSink {
 
   // Writes the run's measures, one after the other.
   void finish(const solve::Outcome& outcome, double* results);
+  // Why those that are no number are none, after finish(): of each measure.
+  [[nodiscard]] const scenario::Whys& whys() const { return whys_; }
 
   // The columns at the instant at which an event stopped the run, if no row is of that instant;
   // else nothing. Comes after the last row.
@@ -83,12 +84,11 @@ class Recorder : public solve::StateSink {
   void finish_each(const solve::Outcome& outcome, double* results);
 
   Asked asked_;
-  // Which of the measures: extremes, means, and step metrics and instants (record/instants.hpp).
-  std::vector<std::size_t> at_end_, of_motion_, of_rows_, of_curves_;
-  Rows rows_, end_;  // columns of the table, then of means; columns of measures at the end
-  Extremes extremes_;
-  Traces traces_;
-  Rows traces_end_;
+  // Of each window that the measures are of; and which columns of rows_ each begins at.
+  std::vector<std::unique_ptr<WindowMeasures>> windows_;
+  std::vector<std::size_t> first_columns_;
+  Rows rows_;  // columns of the table, then of the windows' means
+  scenario::Whys whys_;
   std::optional<TrackMeasures> track_;  // takes the place of all these, if it can
   std::optional<MotorLoads> loads_;
   PieceFan fan_;
@@ -98,11 +98,6 @@ class Recorder : public solve::StateSink {
   file::TableWriter* table_ = nullptr;
   bool quick_ = false, with_loads_ = false;
 
-  struct Sum {
-    std::size_t rows = 0;
-    SquareSum squares{};
-  };
-  std::vector<Sum> sums_;  // of of_rows_
   struct Gaps {
     std::size_t rows = 0;  // that are no finite number
     double from = 0;       // the time of the first, s

@@ -115,6 +115,15 @@ std::string to_json(const RunSummary& summary) {
     nlohmann::ordered_json& measures = json["measures"] = nlohmann::ordered_json::object();
     for (const auto& [name, value] : summary.measures) measures[name] = value;
   }
+  if (!summary.expectations.empty()) {
+    nlohmann::ordered_json& all = json["expectations"] = nlohmann::ordered_json::array();
+    for (const ExpectationRecord& one : summary.expectations) {
+      nlohmann::ordered_json& entry = all.emplace_back(nlohmann::ordered_json::object());
+      entry["text"] = one.text;
+      entry["value"] = one.value;
+      entry["holds"] = one.holds;
+    }
+  }
   nlohmann::ordered_json& events = json["events"] = nlohmann::ordered_json::array();
   for (const EventRecord& event : summary.events) {
     nlohmann::ordered_json& entry = events.emplace_back(nlohmann::ordered_json::object());
@@ -142,6 +151,14 @@ file::Attributes to_attributes(const RunSummary& summary, const std::string& sce
   for_each_statistic(summary, add);
   if (summary.peaks) for_each_member(*summary.peaks, add);
   for (const auto& [name, value] : summary.measures) add("measure " + name, value);
+  if (!summary.expectations.empty()) {
+    std::vector<std::string> expectations;
+    for (const ExpectationRecord& one : summary.expectations) {
+      expectations.push_back(one.text + (one.holds ? ": holds, " : ": does not hold, ") +
+                             to_text(one.value));
+    }
+    add("expectations", expectations);
+  }
   std::vector<std::string> events;
   for (const EventRecord& event : summary.events) {
     std::string line;

@@ -31,6 +31,13 @@ struct MotorPeaks {
   bool with_plate = false;
 };
 
+// What was expected of a measure (--expect), and what it came to.
+struct ExpectationRecord {
+  std::string text;
+  double value = 0;
+  bool holds = false;
+};
+
 struct RunSummary {
   std::string version;
   std::string instruction_set;  // that the kernels are for, such as avx2
@@ -52,6 +59,7 @@ struct RunSummary {
   std::vector<EventRecord> events;
   // What was measured (--measure), by name.
   std::vector<std::pair<std::string, double>> measures;
+  std::vector<ExpectationRecord> expectations;
   std::optional<MotorPeaks> peaks;  // where a column needs the forces, or with plate.inertia
   // A run with solver.error has these: the bound asked for and the estimate reached, m.
   std::optional<double> error_bound, error_estimate;

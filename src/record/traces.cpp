@@ -60,13 +60,7 @@ void Traces::accept(const solve::Piece& piece) {
 }
 
 void Traces::finish(double t, const Rows& last) {
-  for (std::size_t i = 0; i < curves_.size(); ++i) {
-    Curve& curve = curves_[i];
-    const double value = last[i][0];
-    // What switches at the very end is of the end.
-    const double before = curve.empty() ? value : curve.end_value();
-    curve.add_line(t, t, before, value);
-  }
+  for (std::size_t i = 0; i < curves_.size(); ++i) curves_[i].end_at(t, last[i][0]);
 }
 
 }  // namespace bbsim::record

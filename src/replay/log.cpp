@@ -15,8 +15,6 @@
 namespace bbsim::replay {
 namespace {
 
-using yaml::Dimension;
-
 struct Mapped {
   const scenario::Column* column;
   std::string from;
@@ -27,18 +25,10 @@ struct Mapped {
   throw InputError("--map: found " + bbsim::quoted(part, uncut) + what);
 }
 
-Dimension dimension_of(std::string_view unit) {
-  for (const Dimension one :
-       {Dimension::length, Dimension::time, Dimension::angle, Dimension::angular_rate,
-        Dimension::velocity, Dimension::acceleration}) {
-    if (yaml::si_unit(one) == unit) return one;
-  }
-  return Dimension::number;
-}
-
 double unit_of(const std::string& part, const scenario::Column& column, const std::string& unit) {
   if (unit == column.unit) return 1;
-  const yaml::Quantity one = yaml::read_quantity("1 " + unit, false, dimension_of(column.unit));
+  const yaml::Quantity one =
+      yaml::read_quantity("1 " + unit, false, yaml::dimension_of(column.unit));
   if (one.value && !unit.empty()) return *one.value;
   refuse(part, ": " + std::string(column.name) + " is in " + std::string(column.unit) +
                    "; allowed: no unit, that one, or another for the same quantity" + one.fault);

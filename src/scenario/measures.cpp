@@ -7,8 +7,8 @@
 #include "base/error.hpp"
 #include "base/number_text.hpp"
 #include "base/text.hpp"
+#include "scenario/value_in.hpp"
 #include "yaml/nearest.hpp"
-#include "yaml/quantity.hpp"
 
 namespace bbsim::scenario {
 namespace {
@@ -30,16 +30,17 @@ struct Metric {
   std::string_view name, unit, meaning;  // unit: empty for the column's own
 };
 constexpr Metric metrics[] = {
-    {StepMetric::rise_time, "RiseTime", "s", "time from 10 % to 90 % of the value at the end of: "},
+    {StepMetric::rise_time, "RiseTime", "s", "time from 10 % to 90 % of its step: "},
     {StepMetric::settling_time, "SettlingTime", "s",
-     "time after which it stays within 2 % of the value at the end: "},
-    {StepMetric::settling_min, "SettlingMin", "", "least once it has risen to 90 %: "},
-    {StepMetric::settling_max, "SettlingMax", "", "greatest once it has risen to 90 %: "},
-    {StepMetric::overshoot, "Overshoot", "%", "beyond the value at the end, in percent of it: "},
+     "time from the start after which it stays within 2 % of its step: "},
+    {StepMetric::settling_min, "SettlingMin", "", "least once it has come 90 % of its step: "},
+    {StepMetric::settling_max, "SettlingMax", "", "greatest once it has come 90 % of its step: "},
+    {StepMetric::overshoot, "Overshoot", "%", "beyond where its step ends, in percent of it: "},
     {StepMetric::undershoot, "Undershoot", "%",
-     "to the other side of 0, in percent of the value at the end: "},
-    {StepMetric::peak, "Peak", "", "largest size of: "},
-    {StepMetric::peak_time, "PeakTime", "s", "time of the largest size of: "},
+     "to the other side of where its step starts, in percent of it: "},
+    {StepMetric::peak, "Peak", "", "size where it is farthest from its start: "},
+    {StepMetric::peak_time, "PeakTime", "s",
+     "time from the start to where it is farthest from it: "},
     {StepMetric::steady_state_value, "SteadyStateValue", "", "at the end of the run: "},
 };
 
@@ -54,19 +55,6 @@ bool take(std::string_view& text, std::string_view word) {
   if (!rest.empty() && rest.front() != ' ' && rest.front() != '\t') return false;
   text = trimmed(rest);
   return true;
-}
-
-// A number, in SI, or a quantity of the unit's dimension.
-std::optional<double> value_in(std::string_view text, std::string_view unit) {
-  using yaml::Dimension;
-  Dimension dimension = Dimension::number;
-  for (const Dimension one :
-       {Dimension::length, Dimension::mass, Dimension::time, Dimension::angle,
-        Dimension::angular_rate, Dimension::velocity, Dimension::acceleration}) {
-    if (yaml::si_unit(one) == unit) dimension = one;
-  }
-  const std::optional<double> value = yaml::read_quantity(trimmed(text), false, dimension).value;
-  return value && std::isfinite(*value) ? value : std::nullopt;
 }
 
 // What stands behind rise=, fall= or cross=.
@@ -172,10 +160,46 @@ std::optional<Measure> read_when_or_find(std::string_view text, const FindColumn
   return measure;
 }
 
+// Where a column is meant to go.
+const Column* reference_of(const Column& column, const FindColumn& find) {
+  return column.name == "x" || column.name == "y" ? find(std::string(column.name) + "_reference")
+                                                  : nullptr;
+}
+
+// A measure of the whole run.
+std::optional<Measure> find_whole(std::string_view name, const FindColumn& find) {
+  const std::size_t dot = name.rfind('.');
+  if (dot != std::string_view::npos) {
+    for (const Metric& metric : metrics) {
+      if (name.substr(dot + 1) != metric.name) continue;
+      const Column* const column = find(name.substr(0, dot));
+      if (!is_usable(column)) return {};
+      Measure measure{Kind::step, column, std::string(name), metric.metric};
+      measure.reference = reference_of(*column, find);
+      return measure;
+    }
+  }
+  if (name.starts_with("when ") || name.starts_with("find ")) return read_when_or_find(name, find);
+  if (name == "x_end" || name == "y_end") {
+    const Column* const column = find(name.substr(0, 1));
+    if (column == nullptr) return {};
+    return Measure{Kind::end, column, std::string(name)};
+  }
+  for (const Prefix& prefix : prefixes) {
+    if (!name.starts_with(prefix.text)) continue;
+    const Column* const column = find(name.substr(prefix.text.size()));
+    if (column == nullptr) continue;
+    if (!is_usable(column)) return {};
+    return Measure{prefix.kind, column, std::string(name)};
+  }
+  return {};
+}
+
 }  // namespace
 
 std::string Measure::meaning() const {
-  const std::string of(column->meaning);
+  const std::string of =
+      std::string(column->meaning) + (window_text.empty() ? "" : ", " + window_text);
   switch (kind) {
     case Kind::step:
       return std::string(metric_of(metric).meaning) + of;
@@ -205,30 +229,13 @@ std::optional<Measure> find_measure(std::string_view name) {
 }
 
 std::optional<Measure> find_measure(std::string_view name, const FindColumn& find) {
-  name = trimmed(name);
-  const std::size_t dot = name.rfind('.');
-  if (dot != std::string_view::npos) {
-    for (const Metric& metric : metrics) {
-      if (name.substr(dot + 1) != metric.name) continue;
-      const Column* const column = find(name.substr(0, dot));
-      if (!is_usable(column)) return {};
-      return Measure{Kind::step, column, std::string(name), metric.metric, {}};
-    }
-  }
-  if (name.starts_with("when ") || name.starts_with("find ")) return read_when_or_find(name, find);
-  if (name == "x_end" || name == "y_end") {
-    const Column* const column = find(name.substr(0, 1));
-    if (column == nullptr) return {};
-    return Measure{Kind::end, column, std::string(name), {}, {}};
-  }
-  for (const Prefix& prefix : prefixes) {
-    if (!name.starts_with(prefix.text)) continue;
-    const Column* const column = find(name.substr(prefix.text.size()));
-    if (column == nullptr) continue;
-    if (!is_usable(column)) return {};
-    return Measure{prefix.kind, column, std::string(name), {}, {}};
-  }
-  return {};
+  const WindowedName windowed = split_window(name);
+  std::optional<Measure> measure = find_whole(windowed.base, find);
+  if (!measure || windowed.window.is_whole()) return measure;
+  measure->window = windowed.window;
+  measure->window_text = windowed.text;
+  measure->name += " " + measure->window_text;
+  return measure;
 }
 
 std::vector<std::string> split_measures(const std::vector<std::string>& lists) {
@@ -272,26 +279,42 @@ std::string allowed_measures() {
          "rms_x, end_phi; COLUMN.RiseTime, SettlingTime, SettlingMin, SettlingMax, Overshoot, "
          "Undershoot, Peak, PeakTime or SteadyStateValue; \"when COLUMN=VALUE rise=N\" (or fall=, "
          "cross=; N or last), \"when COLUMN stays below VALUE\" (or above); \"find COLUMN when "
-         "...\", \"find COLUMN at TIME\"";
+         "...\", \"find COLUMN at TIME\"; any of these \"from TIME\", \"to TIME\" or \"from TIME "
+         "to "
+         "TIME\"";
+}
+
+Measure measure_named(std::string_view where, const std::string& name, const Scenario& scenario) {
+  const std::string found = std::string(where) + ": found " + name;
+  const std::optional<Measure> measure = find_measure(name);
+  if (!measure) {
+    throw InputError(found + measure_hint(split_window(name).base) +
+                     "; allowed: " + allowed_measures());
+  }
+  const std::string outside = window_fault(measure->window, 0, scenario.time.end);
+  if (!outside.empty()) throw InputError(found + ", but " + outside);
+  if (const Missing lacks = missing(*measure, scenario)) {
+    throw InputError(found + ", but " + lacks.why);
+  }
+  return *measure;
+}
+
+void require_once(const std::vector<Measure>& measures) {
+  for (std::size_t i = 0; i < measures.size(); ++i) {
+    for (std::size_t j = 0; j < i; ++j) {
+      if (measures[i].name != measures[j].name) continue;
+      throw InputError("measure: found " + measures[i].name + " twice");
+    }
+  }
 }
 
 std::vector<Measure> measures_named(const std::vector<std::string>& names,
                                     const Scenario& scenario) {
   std::vector<Measure> measures;
   for (const std::string& name : names) {
-    const std::optional<Measure> measure = find_measure(name);
-    if (!measure) {
-      throw InputError("measure: found " + name + measure_hint(name) +
-                       "; allowed: " + allowed_measures());
-    }
-    if (const Missing lacks = missing(*measure, scenario)) {
-      throw InputError("measure: found " + name + ", but " + lacks.why);
-    }
-    for (const Measure& other : measures) {
-      if (other.name == measure->name) throw InputError("measure: found " + name + " twice");
-    }
-    measures.push_back(*measure);
+    measures.push_back(measure_named("measure", name, scenario));
   }
+  require_once(measures);
   return measures;
 }
 
@@ -317,20 +340,22 @@ bool any_needs(const std::vector<Measure>& measures, Needs what) {
 }
 
 Missing missing(const Measure& measure, const Scenario& scenario) {
+  if (!measure.window.is_whole() && !window_fault(measure.window, 0, scenario.time.end).empty()) {
+    return {"its window is not within the run", "a window that is"};
+  }
   const Missing lacks = missing(*measure.column, scenario);
   if (lacks || measure.instant.column == nullptr) return lacks;
   return missing(*measure.instant.column, scenario);
 }
 
 std::string why_not_finite(const std::vector<Measure>& measures, const double* results,
-                           const Scenario& scenario) {
+                           const Whys& whys) {
   std::string text;
   for (std::size_t m = 0; m < measures.size(); ++m) {
     if (std::isfinite(results[m])) continue;
-    const Missing lacks = missing(measures[m], scenario);
     text += (text.empty() ? "" : "; ") + measures[m].name +
             (std::isnan(results[m]) ? " is no number" : " is infinite");
-    if (lacks) text += std::string(": ") + lacks.why;
+    if (m < whys.size() && whys[m] != nullptr) text += std::string(": ") + whys[m];
   }
   return text;
 }

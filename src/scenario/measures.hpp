@@ -10,19 +10,22 @@
 #include <vector>
 
 #include "scenario/columns.hpp"
+#include "scenario/window.hpp"
 
 namespace bbsim::scenario {
 
-// What python-control's step_info() tells of a response, by its names (RiseTime). Of a response
-// that ends at its steady-state value y_f:
-//   rise_time           from the first time at 10 % of y_f to the first at 90 %, s
-//   settling_time       after which it stays within 2 % of y_f, s
-//   settling_min, _max  the least and greatest value from the first time at 90 % on
-//   overshoot           how far it goes beyond y_f, % of y_f
-//   undershoot          how far it goes to the other side of 0, % of y_f
-//   peak, peak_time     the largest size, and when
-//   steady_state_value  y_f: the value at the end of the run
-// Those that are relative to y_f are no number where it is 0.
+// What python-control's step_info() tells of a response, by its names (RiseTime). A response is a
+// step from y_0, the column's value at the start, to y_f, what its reference is worth at the end;
+// without a reference, to its own value there. Of d = y_f - y_0, the distance, which is not 0:
+//   rise_time           from the first time at y_0 + 0.1 d to the first at y_0 + 0.9 d, s
+//   settling_time       from the start to the time after which it stays within 0.02 |d| of y_f, s
+//   settling_min, _max  the column's least and greatest value from the first time at y_0 + 0.9 d on
+//   overshoot           how far it goes beyond y_f, % of d
+//   undershoot          how far it goes to the other side of y_0, % of d
+//   peak, peak_time     the size of its value where it is farthest from y_0; s from the start
+//   steady_state_value  its value at the end
+// From y_0 = 0 and without a reference these are step_info()'s. Of a distance of 0 they are no
+// numbers.
 enum class StepMetric {
   rise_time,
   settling_time,
@@ -39,7 +42,7 @@ enum class StepMetric {
 struct Instant {
   enum class Kind {
     crosses,      // the column passes through the level
-    stays_below,  // it is below the level from then on, to the end
+    stays_below,  // it is below the level after that, to the end; at the level it is not
     stays_above,
     at  // a time that is given
   } kind = Kind::crosses;
@@ -59,6 +62,11 @@ struct Measure {
   std::string name;                // max_tilt, end_phi, x_end, x.RiseTime, when x=0.05 rise=1
   StepMetric metric = StepMetric::rise_time;
   Instant instant{};
+  // Of step: where the column is meant to go, if there is such a column; a scene or a file may have
+  // no value for it.
+  const Column* reference = nullptr;
+  Window window{};            // what the measure calls the run is this part of it
+  std::string window_text{};  // as given: "from 5 s"
 
   [[nodiscard]] std::string meaning() const;
   [[nodiscard]] std::string unit() const;
@@ -70,8 +78,9 @@ struct Measure {
 //   when COLUMN=VALUE [rise=N|fall=N|cross=N], N from 1 or last; without, its first crossing
 //   when COLUMN stays below VALUE, when COLUMN stays above VALUE
 //   find COLUMN when ..., find COLUMN at TIME
+//   any of these and "from TIME", "to TIME" or both: of that part of the run
 // A VALUE may have a unit of the column's dimension: "5 cm". The name that comes back has numbers
-// in SI instead.
+// in SI instead, but for those of the window.
 [[nodiscard]] std::optional<Measure> find_measure(std::string_view name);
 
 // The same of columns that `find` knows: those of a stored file.
@@ -88,10 +97,18 @@ using FindColumn = std::function<const Column*(std::string_view name)>;
 [[nodiscard]] std::string measure_hint(std::string_view name);  // of a scenario
 [[nodiscard]] std::string allowed_measures();
 
-// The measures of these names, each given once, which the scene has the columns for. Throws
-// InputError.
+// The measure of that name, which the scene has the columns and the time for. Throws InputError,
+// which begins with `where`, that the name comes from.
+[[nodiscard]] Measure measure_named(std::string_view where, const std::string& name,
+                                    const Scenario& scenario);
+
+// The measures of these names, each given once, which the scene has the columns and the time for.
+// Throws InputError.
 [[nodiscard]] std::vector<Measure> measures_named(const std::vector<std::string>& names,
                                                   const Scenario& scenario);
+
+// Throws InputError where two have one name.
+void require_once(const std::vector<Measure>& measures);
 
 // x_end, y_end, max_tilt, max_tilt_rate, max_distance, and with a controller rms_tracking_error and
 // max_tracking_error.
@@ -103,11 +120,15 @@ using FindColumn = std::function<const Column*(std::string_view name)>;
 // What the columns of these measures are computed from.
 [[nodiscard]] bool any_needs(const std::vector<Measure>& measures, Needs what);
 
-// Why the scene cannot fill a column of the measure.
+// Why the scene cannot fill a column of the measure, or does not come to its window.
 [[nodiscard]] Missing missing(const Measure& measure, const Scenario& scenario);
 
-// Why some of the measures of a run that came to its end are no finite numbers; empty if all are.
+// Why a measure has no number, as far as whoever takes it knows; null if it has one.
+using Whys = std::vector<const char*>;
+
+// Each of the measures that is no finite number, with the reason why: that in `whys`, which is
+// empty if nothing is known. Empty if all are.
 [[nodiscard]] std::string why_not_finite(const std::vector<Measure>& measures,
-                                         const double* results, const Scenario& scenario);
+                                         const double* results, const Whys& whys);
 
 }  // namespace bbsim::scenario

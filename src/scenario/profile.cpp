@@ -17,21 +17,21 @@ constexpr yaml::Number angular_rate{yaml::Dimension::angular_rate};
 struct OfAngle {
   static constexpr yaml::Dimension value = yaml::Dimension::angle;
   static constexpr yaml::Dimension rate = yaml::Dimension::angular_rate;
-  static constexpr std::string_view noun = "angle";
+  static constexpr yaml::Dimension in_table = yaml::Dimension::angle;
   static constexpr std::string_view term =
       "an angle, such as 0.1 or \"4 deg\", or one of sinusoid, ramp, table";
 };
 struct OfTorque {
   static constexpr yaml::Dimension value = yaml::Dimension::number;
   static constexpr yaml::Dimension rate = yaml::Dimension::number;
-  static constexpr std::string_view noun = "torque";
+  static constexpr yaml::Dimension in_table = yaml::Dimension::torque;
   static constexpr std::string_view term =
       "a torque in N m, such as 0.01, or one of sinusoid, ramp, table";
 };
 struct OfForce {
   static constexpr yaml::Dimension value = yaml::Dimension::number;
   static constexpr yaml::Dimension rate = yaml::Dimension::number;
-  static constexpr std::string_view noun = "force";
+  static constexpr yaml::Dimension in_table = yaml::Dimension::force;
   static constexpr std::string_view term =
       "a force in N, such as 0.01, or one of sinusoid, ramp, table";
 };
@@ -53,7 +53,7 @@ void read_ramp(yaml::Keys& keys, Ramp& ramp) {
 template <class Of>
 void read_table(yaml::Keys& keys, Table& table) {
   TableRows rows;
-  read_table_rows(keys, {"value"}, Of::noun, rows);
+  read_table_rows(keys, {"value"}, Of::in_table, rows);
   if (rows.values.empty()) return;
   table = {std::move(rows.file), std::move(rows.times), std::move(rows.values[0])};
 }

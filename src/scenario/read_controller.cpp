@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <utility>
 
 #include "scenario/columns.hpp"
@@ -137,10 +138,23 @@ struct Jitter {
   [[nodiscard]] static yaml::Number number() {
     return {yaml::Dimension::time, {.at_least = 0}, "\"1 ms\""};
   }
+  // Measured periods are about the one that was meant.
+  static void warn_of_periods(const yaml::Value& table, const Sampling& sampling) {
+    const double mean = std::accumulate(sampling.periods.begin(), sampling.periods.end(), 0.0) /
+                        static_cast<double>(sampling.periods.size());
+    const auto doubt = doubt_of_span(mean, sampling.period);
+    if (!doubt || !(sampling.period > 0)) return;
+    warn_of_unit(table, sampling.periods_file,
+                 "a period is " + number_text(mean) + " in the mean, for one of " +
+                     number_text(sampling.period) + " s",
+                 yaml::Dimension::time, *doubt, "unit");
+  }
   static void read_file(yaml::Keys& keys, Sampling& sampling) {
-    std::vector<std::vector<double>> columns;
-    if (!read_columns(keys, {"period"}, "time", sampling.periods_file, columns)) return;
-    sampling.periods = std::move(columns[0]);
+    FileColumns read;
+    if (!read_columns(keys, {"period"}, yaml::Dimension::time, read)) return;
+    sampling.periods_file = std::move(read.file);
+    sampling.periods = std::move(read.columns[0]);
+    if (!read.has_unit) warn_of_periods(keys.mapping(), sampling);
     if (sampling.periods.empty()) {
       keys.mapping().report(yaml::shown(sampling.periods_file) +
                             ": found no rows; allowed: at least one period");

@@ -132,10 +132,14 @@ void read_servo(yaml::Keys& keys, BothServos& both) {
 
 // [servo's angle, plane's angle] of a curve.
 void read_curve(yaml::Keys& keys, CurveLinkage& curve) {
-  std::vector<std::vector<double>> columns;
-  if (!read_columns(keys, {"servo", "plate"}, "angle", curve.file, columns)) return;
-  curve.servo = std::move(columns[0]);
-  curve.plate = std::move(columns[1]);
+  FileColumns read;
+  if (!read_columns(keys, {"servo", "plate"}, yaml::Dimension::angle, read)) return;
+  curve = {std::move(read.file), std::move(read.columns[0]), std::move(read.columns[1])};
+  const double largest = std::max(largest_size(curve.servo), largest_size(curve.plate));
+  if (const auto doubt = doubt_of(largest, yaml::Dimension::angle); doubt && !read.has_unit) {
+    warn_of_unit(keys.mapping(), curve.file, "an angle is " + number_text(largest),
+                 yaml::Dimension::angle, *doubt, "unit");
+  }
   constexpr std::size_t fewest = 4;  // of a C2 interpolant without end conditions to invent
   if (curve.servo.size() < fewest) {
     keys.mapping().report(yaml::shown(curve.file) + ": found " +

@@ -50,7 +50,7 @@ void read_waypoints(yaml::Keys& keys, WaypointReference& way) {
 
 void read_table_reference(yaml::Keys& keys, TableReference& table) {
   TableRows rows;
-  read_table_rows(keys, {"x", "y"}, "length", rows);
+  read_table_rows(keys, {"x", "y"}, yaml::Dimension::length, rows);
   if (rows.values.empty()) return;
   table.file = std::move(rows.file);
   table.times = std::move(rows.times);

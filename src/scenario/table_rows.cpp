@@ -88,41 +88,105 @@ std::string cover_fault(const TableRows& table, double end) {
          " s; allowed: a table that covers the run, 0 to " + number_text(end) + " s";
 }
 
+// What a value is, without an article: "angle".
+std::string_view bare_noun(yaml::Dimension dimension) {
+  const std::string_view noun = yaml::noun(dimension);
+  return noun.substr(noun.find(' ') + 1);
+}
+
+// A unit of a dimension, by its name.
+struct UnitOf {
+  yaml::Dimension dimension;
+
+  [[nodiscard]] std::string allowed() const { return "one of " + yaml::unit_names(dimension); }
+  bool read(const yaml::Value& value, std::optional<yaml::UnitScale>& into) const {
+    if (value.node->kind != yaml::Node::Kind::scalar) return value.refuse("", allowed());
+    into = yaml::unit_scale(value.node->text, dimension);
+    return into ? true : value.refuse("", allowed());
+  }
+};
+
+void put_in_si(const std::optional<yaml::UnitScale>& unit, std::vector<double>& numbers) {
+  if (!unit) return;
+  for (double& number : numbers) number = unit->in_si(number);
+}
+
+void warn_of_units(const yaml::Value& table, const TableRows& rows,
+                   const std::vector<std::string_view>& value_keys, yaml::Dimension dimension,
+                   bool has_unit, bool has_time_unit) {
+  for (std::size_t k = 0; k < rows.values.size() && !has_unit; ++k) {
+    const double largest = largest_size(rows.values[k]);
+    const std::optional<Doubt> doubt = doubt_of(largest, dimension);
+    if (!doubt) continue;
+    warn_of_unit(table, rows.file,
+                 std::string(value_keys[k]) + " goes up to " + number_text(largest), dimension,
+                 *doubt, "unit");
+    break;  // one is enough: all have one unit
+  }
+  const std::optional<double> run = table.context->end;
+  if (has_time_unit || !run || rows.times.empty()) return;
+  const double span = rows.times.back() - rows.times.front();
+  const std::optional<Doubt> doubt = doubt_of_span(span, *run);
+  if (!doubt) return;
+  warn_of_unit(table, rows.file,
+               "time spans " + number_text(span) + ", for a run of " + number_text(*run) + " s",
+               yaml::Dimension::time, *doubt, "time_unit");
+}
+
 }  // namespace
 
+void warn_of_unit(const yaml::Value& table, const std::string& file, const std::string& what,
+                  yaml::Dimension dimension, const Doubt& doubt, std::string_view key) {
+  const std::string its = std::string(key) + ": ", si(yaml::si_unit(dimension));
+  table.warn(yaml::shown(file) + ": " + what + ", read in " + si + ": it looks like " +
+             std::string(doubt.looks_like) + "; say " + its + std::string(doubt.units) + ", or " +
+             its + si + " if that is right");
+}
+
 bool read_columns(yaml::Keys& keys, const std::vector<std::string_view>& column_keys,
-                  std::string_view noun, std::string& file,
-                  std::vector<std::vector<double>>& columns) {
+                  yaml::Dimension dimension, FileColumns& into) {
   std::vector<std::string> names(column_keys.size());
-  bool named = keys.required("file", yaml::Text{"the name of a CSV file"}, file);
+  bool named = keys.required("file", yaml::Text{"the name of a CSV file"}, into.file);
   for (std::size_t k = 0; k < names.size(); ++k) {
     named =
         keys.required(column_keys[k], yaml::Text{"the name of a column of the file"}, names[k]) &&
         named;
   }
+  std::optional<yaml::UnitScale> unit;
+  if (const auto given = keys.find("unit")) named = UnitOf{dimension}.read(*given, unit) && named;
+  if (dimension == yaml::Dimension::time) {
+    if (const auto given = keys.find("time_unit")) {
+      named = UnitOf{dimension}.read(*given, unit) && named;
+      if (keys.find("unit")) named = given->report("found beside unit; allowed: one of them");
+    }
+  }
   if (!named) return false;
-  const file::TableData* data = load(*keys.find("file"), file);
+  const file::TableData* data = load(*keys.find("file"), into.file);
   if (data == nullptr) return false;
-  columns.clear();
+  into.columns.clear();
+  into.has_unit = unit.has_value();
   for (std::size_t k = 0; k < names.size(); ++k) {
     const std::vector<double>* found = find_column(*keys.find(column_keys[k]), names[k], *data);
-    if (found != nullptr) columns.push_back(*found);
+    if (found == nullptr) continue;
+    into.columns.push_back(*found);
+    put_in_si(unit, into.columns.back());
   }
-  if (columns.size() < names.size()) return false;
-  for (std::size_t k = 0; k < columns.size(); ++k) {
-    for (std::size_t i = 0; i < columns[k].size(); ++i) {
-      if (std::isfinite(columns[k][i])) continue;
-      return keys.mapping().report(yaml::shown(file) + ": found the " +
-                                   std::string(column_keys[k]) + ' ' + number_text(columns[k][i]) +
-                                   " in row " + std::to_string(i + 1) +
-                                   " below the header; allowed: a finite " + std::string(noun));
+  if (into.columns.size() < names.size()) return false;
+  for (std::size_t k = 0; k < into.columns.size(); ++k) {
+    const std::vector<double>& column = into.columns[k];
+    for (std::size_t i = 0; i < column.size(); ++i) {
+      if (std::isfinite(column[i])) continue;
+      return keys.mapping().report(
+          yaml::shown(into.file) + ": found the " + std::string(column_keys[k]) + ' ' +
+          number_text(column[i]) + " in row " + std::to_string(i + 1) +
+          " below the header; allowed: a finite " + std::string(bare_noun(dimension)));
     }
   }
   return true;
 }
 
 void read_table_rows(yaml::Keys& keys, const std::vector<std::string_view>& value_keys,
-                     std::string_view noun, TableRows& into) {
+                     yaml::Dimension dimension, TableRows& into) {
   constexpr yaml::Text column{"the name of a column of the file"};
   std::string time_name;
   std::vector<std::string> names(value_keys.size());
@@ -130,6 +194,11 @@ void read_table_rows(yaml::Keys& keys, const std::vector<std::string_view>& valu
   named = keys.required("time", column, time_name) && named;
   for (std::size_t k = 0; k < names.size(); ++k) {
     named = keys.required(value_keys[k], column, names[k]) && named;
+  }
+  std::optional<yaml::UnitScale> unit, time_unit;
+  if (const auto given = keys.find("unit")) named = UnitOf{dimension}.read(*given, unit) && named;
+  if (const auto given = keys.find("time_unit")) {
+    named = UnitOf{yaml::Dimension::time}.read(*given, time_unit) && named;
   }
   if (!named) return;
 
@@ -144,10 +213,14 @@ void read_table_rows(yaml::Keys& keys, const std::vector<std::string_view>& valu
   if (times == nullptr || values.size() < names.size()) return;
   into.times = *times;
   into.values = std::move(values);
+  put_in_si(time_unit, into.times);
+  for (std::vector<double>& one : into.values) put_in_si(unit, one);
 
-  std::string wrong = fault(into, value_keys, noun);
+  std::string wrong = fault(into, value_keys, bare_noun(dimension));
   if (wrong.empty() && keys.context().end) wrong = cover_fault(into, *keys.context().end);
   if (!wrong.empty()) keys.mapping().report(yaml::shown(into.file) + ": " + wrong);
+  warn_of_units(keys.mapping(), into, value_keys, dimension, unit.has_value(),
+                time_unit.has_value());
 }
 
 }  // namespace bbsim::scenario

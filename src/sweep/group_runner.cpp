@@ -19,8 +19,7 @@ class GroupRunner : public CaseRunner {
         first_(first),
         group_(group),
         carrier_(std::move(carrier)),
-        single_(single_runner(task)),
-        verdict_(task, first) {}
+        single_(single_runner(task)) {}
 
   std::size_t run(std::size_t first, std::size_t count, CaseResults& into,
                   const std::atomic<bool>& stop) override {
@@ -55,9 +54,8 @@ class GroupRunner : public CaseRunner {
         results[0] = one.unbounded_at.value_or(first_.time.end);
         if (one.unbounded_at) {
           status = {"failed", solve::Shrinking::reason.text};
-          judge(task_, first_, one.measures, status);
         } else {
-          verdict_.judge(first_, one.measures, status);
+          judge_done(task_, one.measures, status);
         }
         continue;
       }
@@ -75,7 +73,6 @@ class GroupRunner : public CaseRunner {
   std::size_t group_;
   std::unique_ptr<GroupCarrier> carrier_;
   std::unique_ptr<CaseRunner> single_;
-  DoneVerdict verdict_;
   std::vector<GroupCase> cases_;
   CaseResults alone_;
 };

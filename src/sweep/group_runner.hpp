@@ -30,8 +30,8 @@ class GroupCarrier {
   virtual void carry(std::span<GroupCase> cases, const std::atomic<bool>& stop) = 0;
 };
 
-// `first` is the sweep's first case: in those that are carried the same measures have a meaning,
-// and they end at the same time. The task outlives the runner.
+// `first` is the sweep's first case: those that are carried end at the same time, and have all
+// measures. The task outlives the runner.
 [[nodiscard]] std::unique_ptr<CaseRunner> group_runner(const SweepTask& task, const Scenario& first,
                                                        std::size_t group,
                                                        std::unique_ptr<GroupCarrier> carrier);

@@ -25,7 +25,9 @@ struct Hdf5Part {
 
 std::size_t rows_at_a_time(const std::vector<file::Hdf5Column>& columns) {
   std::size_t widest = 1;
-  for (const file::Hdf5Column& column : columns) widest = std::max(widest, column.width);
+  for (const file::Hdf5Column& column : columns) {
+    if (column.kind == file::Hdf5Kind::series) widest = std::max(widest, column.width);
+  }
   return std::clamp<std::size_t>(most_numbers / widest, 1, most_at_a_time);
 }
 

@@ -148,10 +148,63 @@ std::size_t beside(const scenario::VariationSpec& other, const scenario::Variati
   return 2 * i >= own.values.size() ? last : 0;
 }
 
+// What is wrong with the scenario itself.
+std::vector<Problem> own_problems(const ScenarioFamily& family) {
+  try {
+    static_cast<void>(family.read({}));
+  } catch (const InputError& error) {
+    return error.problems();
+  }
+  return {};
+}
+
+// Reads a case of these settings by `read`. What is wrong with it, and not with any case, is told
+// with its number and the value at fault, or all of its values where the fault stands elsewhere.
+template <class Read>
+auto read_case(const ScenarioFamily& family, std::size_t number,
+               const std::vector<Setting>& settings, const Read& read) {
+  try {
+    return read();
+  } catch (const InputError& error) {
+    std::string values;
+    for (const Setting& one : settings) {
+      values += (values.empty() ? "" : ", ") + yaml::shown(one.key + '=' + one.value);
+    }
+    const std::string name = "case " + std::to_string(number);
+    const std::vector<Problem> own = own_problems(family);
+    std::vector<Problem> problems = error.problems();
+    for (Problem& problem : problems) {
+      const bool is_own = std::any_of(own.begin(), own.end(), [&](const Problem& other) {
+        return other.where == problem.where && other.message == problem.message;
+      });
+      if (is_own) continue;
+      const bool tells_value = problem.where.starts_with("with ");
+      problem.where = name + (tells_value ? ", " : " (" + values + "), ") + problem.where;
+    }
+    throw InputError(std::move(problems));
+  }
+}
+
 }  // namespace
 
 struct SweepPlan::Variations {
   std::vector<Varied> all;
+
+  // The first case in which a variation has the value i of those that are written, and the others
+  // those beside it; nothing where that is a bound of what is drawn.
+  [[nodiscard]] std::optional<std::size_t> first_case(std::size_t which, std::size_t i,
+                                                      const Sweep& sweep) const {
+    const auto count = [](const Varied& one) {
+      return one.spec.random() ? std::size_t{1} : one.spec.count;
+    };
+    const scenario::VariationSpec& spec = all[which].spec;
+    if (spec.random()) return {};
+    std::size_t number = spec.kind == Way::list || i == 0 ? i : spec.count - 1;
+    for (std::size_t k = which + 1; k < all.size() && sweep.combine == Combine::grid; ++k) {
+      number *= count(all[k]);
+    }
+    return number * static_cast<std::size_t>(sweep.samples.value_or(1));
+  }
 
   // Of every key, where variation `which` has its value i: the scenario need not be complete
   // without the others.
@@ -172,8 +225,9 @@ struct SweepPlan::Variations {
 };
 
 // Reads the values of the keys of one variation.
-void SweepPlan::add_axes(const ScenarioFamily& family, const Variation& variation,
+void SweepPlan::add_axes(const ScenarioFamily& family, const Sweep& sweep,
                          const Variations& variations, std::size_t which) {
+  const Variation& variation = sweep.vary[which];
   const scenario::VariationSpec& spec = variations.all[which].spec;
   const std::vector<scenario::TiedKey>& keys = variations.all[which].keys;
   const std::size_t lead = axes_.size();
@@ -190,7 +244,9 @@ void SweepPlan::add_axes(const ScenarioFamily& family, const Variation& variatio
       std::vector<Setting> read = settings;
       std::rotate(read.begin() + static_cast<std::ptrdiff_t>(lead + k),
                   read.begin() + static_cast<std::ptrdiff_t>(lead + k + 1), read.end());
-      const std::optional<double> number = family.read_number(read);
+      const auto read_it = [&] { return family.read_number(read); };
+      const std::optional<std::size_t> at = variations.first_case(which, i, sweep);
+      const auto number = at ? read_case(family, *at, settings, read_it) : read_it();
       axis.numeric = axis.numeric && number;
       if (k == 0 && number) numbers.push_back(*number);
     }
@@ -238,7 +294,7 @@ SweepPlan::SweepPlan(const ScenarioFamily& family, const Sweep& sweep)
   }
   const Variations variations{varied(sweep, family.source())};
   for (std::size_t i = 0; i < sweep.vary.size(); ++i) {
-    add_axes(family, sweep.vary[i], variations, i);
+    add_axes(family, sweep, variations, i);
   }
 
   double cases = 1;
@@ -345,10 +401,14 @@ bool SweepPlan::check(const ScenarioFamily& family, std::size_t first, std::size
     return (number - first) % every != 0 ||
            goes_on(static_cast<double>(number - first) / static_cast<double>(last - first));
   };
+  const auto read = [&](std::size_t number) {
+    const std::vector<Setting> values = settings(number);
+    static_cast<void>(read_case(family, number, values, [&] { return family.read(values); }));
+  };
   if (!independent()) {
     for (std::size_t i = first; i < last; ++i) {
       if (!told(i, 64)) return false;
-      static_cast<void>(family.read(settings(i)));
+      read(i);
     }
     return true;
   }
@@ -365,8 +425,8 @@ bool SweepPlan::check(const ScenarioFamily& family, std::size_t first, std::size
       if (value > high) high = value, greatest = i;
     }
     if (first == last) continue;
-    static_cast<void>(family.read(settings(least)));
-    static_cast<void>(family.read(settings(greatest)));
+    read(least);
+    read(greatest);
   }
   return true;
 }

@@ -40,7 +40,8 @@ struct Axis {
 // other draws.
 class SweepPlan {
  public:
-  // Reads all values that are listed, and so checks them. Throws InputError.
+  // Reads all values that are listed, and so checks them. Throws InputError, which names the case
+  // that a value is refused in; so does check().
   SweepPlan(const ScenarioFamily& family, const Sweep& sweep);
 
   [[nodiscard]] std::size_t cases() const { return cases_; }
@@ -71,8 +72,8 @@ class SweepPlan {
  private:
   struct Variations;
 
-  void add_axes(const ScenarioFamily& family, const Variation& variation,
-                const Variations& variations, std::size_t which);
+  void add_axes(const ScenarioFamily& family, const Sweep& sweep, const Variations& variations,
+                std::size_t which);
   [[nodiscard]] std::vector<ScenarioFamily::Setting> settings_of(
       const std::vector<double>& values) const;
   [[nodiscard]] bool is_lead(std::size_t axis) const { return axes_[axis].lead == axis; }

@@ -126,7 +126,7 @@ class SingleRunner : public CaseRunner {
       if (outcome.ending == solve::Ending::interrupted) return false;
       numbers[0] = outcome.reached;
       recorder_.finish(outcome, numbers + 1);
-      judge(task_, scenario, numbers + 1, status);
+      judge(task_, scenario, numbers + 1, status, recorder_.whys());
     } catch (const InputError& error) {  // there is no gain of an LQR, say
       std::fill_n(numbers, 1 + task_.measures.size(), nothing);
       status = {"refused", error.what()};

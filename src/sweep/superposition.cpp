@@ -49,6 +49,7 @@ bool depends_on(const LinearPart& part, const std::string& key) {
 }
 
 bool is_superposed(const scenario::Measure& measure) {
+  if (!measure.window.is_whole()) return false;
   const std::string_view name = measure.column->name;
   if (measure.kind == Kind::end) return name == "x" || name == "y";
   return measure.kind == Kind::greatest &&
@@ -250,7 +251,6 @@ class SuperpositionRunner : public CaseRunner {
         scenario_(task),
         solutions_(std::move(solutions)),
         kernels_(record::choose_track_kernels()),
-        verdict_(task, task.family.read(task.plan.settings(0))),
         factors_(solutions_->terms.size()) {
     squares_.resize(solutions_->points);
     for (const Superposed::Term& term : solutions_->terms) {
@@ -282,7 +282,7 @@ class SuperpositionRunner : public CaseRunner {
     }
     numbers[0] = solutions_->end;
     for (std::size_t m = 0; m < take_.size(); ++m) numbers[1 + m] = taken(take_[m]);
-    verdict_.judge(scenario, numbers + 1, status);
+    judge_done(task_, numbers + 1, status);
   }
 
   enum class Take { x, y, distance, tilt, tilt_rate };
@@ -345,7 +345,6 @@ class SuperpositionRunner : public CaseRunner {
   CaseScenario scenario_;
   std::shared_ptr<const Superposed> solutions_;
   const record::TrackKernels& kernels_;
-  const DoneVerdict verdict_;
   std::vector<Take> take_;            // of each measure
   std::vector<const double*> x_, y_;  // of each term
   std::vector<double> factors_;

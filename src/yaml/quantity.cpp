@@ -45,6 +45,9 @@ constexpr std::array angular_rate_units = {Unit{"rad/s"},    Unit{"mrad/s", -3},
 constexpr std::array velocity_units = {Unit{"m/s"}, Unit{"cm/s", -2}, Unit{"mm/s", -3},
                                        per_hour("km/h")};
 constexpr std::array acceleration_units = {Unit{"m/s^2"}, Unit{"cm/s^2", -2}, Unit{"mm/s^2", -3}};
+constexpr std::array force_units = {Unit{"N"}, Unit{"mN", -3}, Unit{"kN", 3}};
+constexpr std::array torque_units = {Unit{"N m"}, Unit{"mN m", -3}, Unit{"N cm", -2},
+                                     Unit{"N mm", -3}};
 
 struct Description {
   Dimension dimension;
@@ -64,6 +67,8 @@ constexpr std::array descriptions = {
                 velocity_units},
     Description{Dimension::acceleration, "an acceleration", "accelerations",
                 "9.81 or \"9.81 m/s^2\"", acceleration_units},
+    Description{Dimension::force, "a force", "forces", "0.01 or \"10 mN\"", force_units},
+    Description{Dimension::torque, "a torque", "torques", "0.01 or \"10 mN m\"", torque_units},
 };
 
 constexpr bool in_order() {
@@ -161,6 +166,29 @@ std::string_view plural(Dimension dimension) {
 std::string_view si_unit(Dimension dimension) {
   const std::span<const Unit> units = description(dimension).units;
   return units.empty() ? "" : units.front().name;  // the others are told by it
+}
+
+Dimension dimension_of(std::string_view unit) {
+  for (const Description& one : descriptions) {
+    if (!one.units.empty() && one.units.front().name == unit) return one.dimension;
+  }
+  return Dimension::number;
+}
+
+std::string unit_names(Dimension dimension) {
+  return list_of(description(dimension).units);
+}
+
+double UnitScale::in_si(double number) const {
+  const double ten = std::pow(10.0, std::abs(power));  // exact
+  const double scaled = power < 0 ? number / ten : number * ten;
+  return std::fma(scaled, factor, scaled * rest);
+}
+
+std::optional<UnitScale> unit_scale(std::string_view name, Dimension dimension) {
+  const Unit* const unit = find_unit(description(dimension).units, plain_spelling(trimmed(name)));
+  if (unit == nullptr) return {};
+  return UnitScale{unit->power, unit->factor, unit->rest};
 }
 
 std::string_view example(Dimension dimension) {

@@ -7,8 +7,20 @@
 
 namespace bbsim::yaml {
 
-// What a quantity measures; its SI unit is m, kg, s, rad, rad/s, m/s or m/s^2. `number` has none.
-enum class Dimension { number, length, mass, time, angle, angular_rate, velocity, acceleration };
+// What a quantity measures; its SI unit is m, kg, s, rad, rad/s, m/s, m/s^2, N or N m. `number` has
+// none.
+enum class Dimension {
+  number,
+  length,
+  mass,
+  time,
+  angle,
+  angular_rate,
+  velocity,
+  acceleration,
+  force,
+  torque
+};
 
 // The quantity with its article: "a length".
 [[nodiscard]] std::string_view noun(Dimension dimension);
@@ -18,6 +30,24 @@ enum class Dimension { number, length, mass, time, angle, angular_rate, velocity
 
 // The SI unit, in which values are: "rad/s"; empty of a number.
 [[nodiscard]] std::string_view si_unit(Dimension dimension);
+
+// The quantity that has this SI unit; `number` where none has.
+[[nodiscard]] Dimension dimension_of(std::string_view si_unit);
+
+// The names of a dimension's units, SI first: "m, km, cm, mm, um, nm".
+[[nodiscard]] std::string unit_names(Dimension dimension);
+
+// A unit, by what makes SI of numbers in it: 10^power times (factor + rest), `rest` being what
+// rounding took from the factor.
+struct UnitScale {
+  int power = 0;
+  double factor = 1, rest = 0;
+
+  // Rounded once, where the factor is 1 and the power within 22; twice otherwise.
+  [[nodiscard]] double in_si(double number) const;
+};
+// That unit of the dimension, if it has one of that name.
+[[nodiscard]] std::optional<UnitScale> unit_scale(std::string_view name, Dimension dimension);
 
 // A value of that kind as one may write it: 0.01 or "1 cm".
 [[nodiscard]] std::string_view example(Dimension dimension);

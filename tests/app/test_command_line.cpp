@@ -265,6 +265,7 @@ TEST_CASE("what others named does not reach the terminal as commands") {
       {"run", fig2a, "--set", red},
       {"run", fig2a, "--set", "ball.radius=" + red},
       {"run", fig2a, "--error", red},
+      {"run", fig2a, "--expect", red + " < 1"},
       {"check", red},
       {"sweep", fig2a, "--vary", "gravity=list:1,2", "--measure", red},
       {"sweep", fig2a, "--vary", "gravity=list:1,2", "--shard", red},

@@ -1,4 +1,5 @@
 // Measures on the command line: of a run, of a stored one, of a sweep, and by group.
+#include <cmath>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <sstream>
@@ -139,6 +140,170 @@ TEST_CASE("a log of any rig is measured, whatever its other columns are") {
   const Result sweep = bbsim({"measure", "sweep.csv", "--measure", "end_x"}, folder.path());
   CHECK(sweep.exit_code == 2);
   CHECK(sweep.err.find("is a sweep") != std::string::npos);
+}
+
+TEST_CASE("steps count from where the ball starts, and a file without a reference is told of") {
+  const Folder folder;
+  const std::string names = "x.Overshoot,x.RiseTime,x.Peak,y.Overshoot";
+  const Result run = bbsim(
+      {"run", config("step.yaml"), "-o", "step.csv", "--measure", names, "--summary", "s.json"},
+      folder.path());
+  REQUIRE(run.exit_code == 0);
+  const auto motion = values_of(run.out);
+  // From -3 cm to +3 cm, with a peak at 5.47 cm.
+  CHECK(motion.at("x.Peak") == Approx(0.0547).epsilon(1e-3));
+  CHECK(motion.at("x.Overshoot") == Approx(100 * (motion.at("x.Peak") - 0.03) / 0.06));
+  // y is to stay where it is: a step of 0, of which there is nothing to tell, and that is said.
+  CHECK(std::isnan(motion.at("y.Overshoot")));
+  const std::string why = "y.Overshoot is no number: it is to end where it starts, a step of 0";
+  CHECK(run.err.find("note: " + why) != std::string::npos);
+  CHECK(folder.read("s.json").find(why) != std::string::npos);
+
+  const Result stored = bbsim({"measure", "step.csv", "--measure", "x.Overshoot"}, folder.path());
+  CHECK(values_of(stored.out).at("x.Overshoot") ==
+        Approx(motion.at("x.Overshoot")).epsilon(1e-3));  // rows are 20 ms apart
+  CHECK(stored.err.empty());
+  REQUIRE(
+      bbsim({"run", config("step.yaml"), "-q", "-o", "plain.csv", "--set", "output.columns=[t, x]"},
+            folder.path())
+          .exit_code == 0);
+  const Result plain = bbsim({"measure", "plain.csv", "--measure", "x.Overshoot"}, folder.path());
+  CHECK(plain.exit_code == 0);
+  CHECK(plain.err ==
+        "note: plain.csv has no column x_reference: step metrics of x count to its own value at "
+        "the end\n");
+  CHECK(
+      bbsim({"measure", "plain.csv", "--measure", "x.Overshoot", "-q"}, folder.path()).err.empty());
+}
+
+TEST_CASE("a window of time is measured in runs, files and sweeps") {
+  const Folder folder;
+  const std::string names =
+      "rms_tracking_error from 5 s,max_x to 3000 ms,end_x to 2 s,x.Overshoot from 1 s to 8 s";
+  const Result run = bbsim({"run", config("step.yaml"), "-q", "-o", "step.h5", "--set",
+                            "output.columns=[t, x, x_reference, tracking_error]", "--measure",
+                            names, "--summary", "s.json"},
+                           folder.path());
+  CAPTURE(run.err);
+  REQUIRE(run.exit_code == 0);
+  const auto motion = values_of(run.out);
+  const auto summary = nlohmann::json::parse(folder.read("s.json"));
+  CHECK(summary["measures"]["max_x to 3000 ms"] == motion.at("max_x to 3000 ms"));
+  const Result stored = bbsim({"measure", "step.h5", "--measure", names}, folder.path());
+  for (const auto& [name, value] : values_of(stored.out)) {
+    CAPTURE(name);
+    CHECK(motion.at(name) == Approx(value).epsilon(1e-3));  // rows are 20 ms apart
+  }
+  // What the same rows give.
+  CHECK(values_of(stored.out).at("rms_tracking_error from 5 s") ==
+        Approx(motion.at("rms_tracking_error from 5 s")).epsilon(1e-14));
+  const Result sweep = bbsim({"sweep", config("step.yaml"), "-q", "-o", "-", "--vary",
+                              "controller.pid.kp.0.0=list:0.7,0.8", "--measure", names},
+                             folder.path());
+  REQUIRE(sweep.exit_code == 0);
+  std::istringstream lines(sweep.out);
+  std::string header, row;
+  std::getline(lines, header);
+  std::getline(lines, row);
+  CHECK(header.ends_with("," + names));
+  std::string expected;
+  for (const std::string name : {"rms_tracking_error from 5 s", "max_x to 3000 ms", "end_x to 2 s",
+                                 "x.Overshoot from 1 s to 8 s"}) {
+    const std::size_t at = run.out.find(name) + name.size();
+    expected += run.out.substr(at, run.out.find('\n', at) - at);
+  }
+  CHECK(row.ends_with(",12" + expected));
+  for (const char* wrong : {"max_x from 12 s", "max_x from 2 s to 1 s", "max_x to 13 s"}) {
+    CAPTURE(wrong);
+    CHECK(bbsim({"run", config("step.yaml"), "--measure", wrong}, folder.path()).exit_code == 2);
+    CHECK(bbsim({"measure", "step.h5", "--measure", wrong}, folder.path()).exit_code == 2);
+  }
+}
+
+TEST_CASE("what is expected of a run is judged, said and recorded") {
+  const Folder folder;
+  const auto run = [&](const std::vector<std::string>& more) {
+    std::vector<std::string> arguments{"run",     config("step.yaml"), "-q",    "-o",
+                                       "step.h5", "--summary",         "s.json"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return bbsim(arguments, folder.path());
+  };
+  const Result met = run({"--expect", "x.Overshoot < 45 %", "--expect", "rms_x from 5 s >= 3 cm"});
+  CHECK(met.exit_code == 0);
+  CHECK(met.out.empty());
+  CHECK(met.err.empty());
+  const Result unmet = run({"--expect", "x.Overshoot<=41", "--expect", "max_tilt < 180 deg",
+                            "--expect", "when x=1 m < 3 s", "--measure", "end_x"});
+  CHECK(unmet.exit_code == 1);
+  CHECK(unmet.out.starts_with("measure,value\nend_x,0.03"));
+  CHECK(unmet.out.find("Overshoot") == std::string::npos);
+  CHECK(unmet.err.starts_with("not as expected: x.Overshoot<=41: x.Overshoot is 41.1"));
+  CHECK(unmet.err.find("max_tilt") == std::string::npos);
+  CHECK(unmet.err.find("not as expected: when x=1 m < 3 s: when x=1 cross=1 is no number: it does "
+                       "not happen\n") != std::string::npos);
+  const auto summary = nlohmann::json::parse(folder.read("s.json"));
+  CHECK(summary["status"] == "done");
+  REQUIRE(summary["expectations"].size() == 3);
+  CHECK(summary["expectations"][0]["text"] == "x.Overshoot<=41");
+  CHECK(summary["expectations"][0]["value"] > 41);
+  CHECK(summary["expectations"][0]["holds"] == false);
+  CHECK(summary["expectations"][1]["holds"] == true);
+  CHECK(summary["expectations"][2]["value"].is_null());
+  CHECK(summary["measures"].size() == 1);
+  for (const char* wrong : {"max_x", "max_x < 1 deg", "max_z < 1", "max_x from 13 s < 1"}) {
+    CAPTURE(wrong);
+    const Result refused = run({"--expect", wrong});
+    CHECK(refused.exit_code == 2);
+    CHECK(refused.err.starts_with("--expect: found "));
+  }
+}
+
+TEST_CASE("a log that looks like other units than bbsim's is warned of") {
+  const Folder folder;
+  folder.write("log.csv", "t,x,phi,other\n0,0,0,0\n1000,120,5,7\n2000,60,-12,7\n3000,0,0,7\n");
+  const Result measured =
+      bbsim({"measure", "log.csv", "--measure", "max_x,max_phi,max_other"}, folder.path());
+  CHECK(measured.exit_code == 0);
+  CHECK(measured.err ==
+        "warning: log.csv: x goes up to 120, measured in m: it looks like millimetres or "
+        "centimetres\n"
+        "warning: log.csv: phi goes up to 12, measured in rad: it looks like degrees\n");
+  CHECK(bbsim({"measure", "log.csv", "--measure", "max_other"}, folder.path()).err.empty());
+  CHECK(bbsim({"measure", "log.csv", "--measure", "max_x", "-q"}, folder.path()).err.empty());
+  // A result of bbsim's is in SI, however far it goes.
+  const Result far =
+      bbsim({"run", config("fig2a.yaml"), "-q", "-o", "far.h5", "--set", "ball.position.0=100"},
+            folder.path());
+  REQUIRE(far.exit_code == 0);
+  CHECK(bbsim({"measure", "far.h5", "--measure", "max_x"}, folder.path()).err.empty());
+
+  folder.write("run.csv", "t,x,phi,other\n0,0,0,0\n1,0.12,0.1,7\n2,0.06,-0.2,7\n3,0,0,7\n");
+  const Result compared = bbsim({"compare", "run.csv", "log.csv"}, folder.path());
+  CHECK(compared.exit_code == 1);
+  CHECK(compared.err ==
+        "warning: log.csv: t spans 3000, and in run.csv 3: it looks like milliseconds\n"
+        "warning: log.csv: x goes up to 120, and in run.csv 0.12: it looks like millimetres or "
+        "centimetres\n"
+        "warning: log.csv: phi goes up to 12, and in run.csv 0.2: it looks like degrees\n");
+  CHECK(bbsim({"compare", "log.csv", "log.csv"}, folder.path()).err.empty());
+  CHECK(bbsim({"compare", "run.csv", "log.csv", "-q"}, folder.path()).err.empty());
+
+  // A table of the same.
+  folder.write("s.yaml",
+               "ball: {radius: 0.01}\n"
+               "gimbal: {motion: {phi: {table: {file: log.csv, time: t, value: phi}}}}\n"
+               "time: {end: 3, step: 1}\n");
+  const Result run = bbsim({"run", "s.yaml", "-o", "a.csv"}, folder.path());
+  CHECK(run.exit_code == 0);
+  CHECK(run.err.find("it looks like degrees; say unit: deg") != std::string::npos);
+  CHECK(run.err.find("it looks like milliseconds; say time_unit: ms") != std::string::npos);
+  const std::string table = "gimbal.motion.phi.table.";
+  const Result said = bbsim({"run", "s.yaml", "-o", "b.csv", "--set", table + "unit=deg", "--set",
+                             table + "time_unit=ms", "--measure", "max_phi,min_phi"},
+                            folder.path());
+  CHECK(said.err.find("warning") == std::string::npos);
+  CHECK(values_of(said.out).at("min_phi") < -0.2);  // -12 deg, and what the interpolant makes of it
+  CHECK(values_of(said.out).at("min_phi") > -0.3);
 }
 
 TEST_CASE("a sweep takes step metrics, and they are those of its runs") {

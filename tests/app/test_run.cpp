@@ -127,6 +127,27 @@ TEST_CASE("an error in metres is met, or refused with what can be had") {
   CHECK(contains(both.err, "solver.rtol: given together with error"));
 }
 
+TEST_CASE("mistakes in --error are told of as --error's") {
+  const Folder folder;
+  const std::string allowed = "; allowed: a length greater than 0 and at most 1, such as 1e-9\n";
+  const Result run = bbsim({"run", config("fig2a.yaml"), "--error", "5 deg"}, folder.path());
+  CHECK(run.exit_code == 2);
+  CHECK(run.err == "--error 5 deg: found 5 deg, an angle" + allowed);
+  const Result sweep =
+      bbsim({"sweep", config("fig2a.yaml"), "--error", "0", "--vary", "ball.radius=list:0.01,0.02"},
+            folder.path());
+  CHECK(sweep.exit_code == 2);
+  CHECK(sweep.err == "--error 0: found 0" + allowed);
+  const Result varied = bbsim(
+      {"sweep", config("fig2a.yaml"), "--error", "1e-6", "--vary", "solver.error=list:1e-5,1e-6"},
+      folder.path());
+  CHECK(varied.exit_code == 2);
+  CHECK(varied.err.starts_with("--error 1e-6: found, but the sweep varies solver.error"));
+  // What is set is told of as that.
+  const Result set = bbsim({"run", config("fig2a.yaml"), "--set", "solver.error=0"}, folder.path());
+  CHECK(set.err.starts_with("--set solver.error=0: solver.error: found 0"));
+}
+
 TEST_CASE("the printed law blows up: exit 1, rows kept, and the reason with the poles") {
   const Folder folder;
   const Result result =

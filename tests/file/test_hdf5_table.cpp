@@ -214,6 +214,65 @@ TEST_CASE("cases are whole numbers and the scale of all rows, times that of traj
   CHECK(same(back, block));
 }
 
+TEST_CASE("tables of cases are compressed, and texts of one length stand side by side") {
+  const Folder folder;
+  constexpr std::size_t rows = 20000;
+  const Columns columns{{"case", "1", ""},
+                        {"gain", "m", ""},
+                        {"status", "", "", Hdf5Kind::text, 16},
+                        {"reason", "", "", Hdf5Kind::text},
+                        {"x", "m", "", Hdf5Kind::series, 2}};
+  Hdf5Block block{rows, std::vector<std::vector<double>>(5),
+                  std::vector<std::vector<std::string>>(5)};
+  for (std::size_t i = 0; i < rows; ++i) {
+    block.values[0].push_back(static_cast<double>(i));
+    block.values[1].push_back(0.25 * static_cast<double>(i / 100));
+    block.texts[2].emplace_back(i % 7 == 0 ? "0123456789abcdef" : "done");
+    block.texts[3].emplace_back(i == 5 ? "a reason that is longer than sixteen bytes" : "");
+    block.values[4].insert(block.values[4].end(), {1, 2});
+  }
+  {
+    Hdf5TableWriter writer(folder / "a.h5", columns, {});
+    writer.append(block);
+    writer.finish({});
+  }
+  const hid_t file = H5Fopen((folder / "a.h5").c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
+  REQUIRE(file >= 0);
+  for (const Hdf5Column& column : columns) {
+    CAPTURE(column.name);
+    const hid_t dataset = H5Dopen2(file, column.name.c_str(), H5P_DEFAULT);
+    const hid_t creation = H5Dget_create_plist(dataset);
+    const hid_t type = H5Dget_type(dataset);
+    unsigned flags = 0, level = 0;
+    std::size_t count = 1;
+    CHECK(H5Pget_filter_by_id2(creation, H5Z_FILTER_DEFLATE, &flags, &count, &level, 0, nullptr,
+                               nullptr) >= 0);
+    // The numbers repeat; what refers to strings has their places in the file.
+    const std::size_t part = column.name == "reason" ? 3 : 20;
+    const std::size_t width = column.kind == Hdf5Kind::series ? column.width : 1;
+    CHECK(H5Dget_storage_size(dataset) < rows * H5Tget_size(type) * width / part);
+    if (column.name == "status") CHECK(H5Tis_variable_str(type) == 0);
+    if (column.name == "reason") CHECK(H5Tis_variable_str(type) > 0);
+    H5Tclose(type);
+    H5Pclose(creation);
+    H5Dclose(dataset);
+  }
+  H5Fclose(file);
+  const Hdf5TableReader reader(folder / "a.h5");
+  CHECK(reader.columns() == columns);
+  Hdf5Block back;
+  reader.read(0, rows, back);
+  CHECK(same(back, block));
+
+  // A text is never cut off.
+  CHECK(message_of<OutputError>([&] {
+          Hdf5TableWriter writer(folder / "b.h5", {{"status", "", "", Hdf5Kind::text, 4}}, {});
+          writer.append({1, {{}}, {{"refused"}}});
+          writer.finish({});
+        }) ==
+        "cannot write " + (folder / "b.h5") + ": writing rows: a text is longer than its column");
+}
+
 TEST_CASE("chunks of series are whole rows of some 100 KiB") {
   const Folder folder;
   Hdf5TableWriter writer(folder / "a.h5", {{"a", "1", "", Hdf5Kind::series, 1},

@@ -120,6 +120,10 @@ TEST_CASE("a response to the other side first has an undershoot") {
   Scenario scene = servo_step(5, 0.7);
   scene.ball.radius = 0.3;
   scene.time = {1, 1e-5};
+  // The step is to just beyond where the ball comes to, so that the command stays at its limit.
+  const double reference = (1 + 1e-4) * measure_run(scene, {"end_x"}, {1e-11, 1e-13})[0];
+  scene.controller->reference = PointReference{{reference, -1000}};
+  scene.controller->kp = {{{1e6, 0}, {0, 1e6}}};
   const std::vector<std::string> names{"x.Undershoot", "x.RiseTime", "x.SettlingTime",
                                        "x.PeakTime"};
   const auto values = measure_run(scene, names, {1e-11, 1e-13});
@@ -127,10 +131,11 @@ TEST_CASE("a response to the other side first has an undershoot") {
   const solve::OutputGrid grid(scene.time);
   solve::Trajectory rows(model.row_size());
   static_cast<void>(solve::integrate(model, Method::automatic, {1e-11, 1e-13}, grid, rows));
-  file::TableData table{{"t", "x"}, {{}, {}}};
+  file::TableData table{{"t", "x", "x_reference"}, {{}, {}, {}}};
   for (std::size_t i = 0; i < rows.rows(); ++i) {
     table.columns[0].push_back(grid[i]);
     table.columns[1].push_back(model.sample(grid[i], rows.row(i)).ball.x);
+    table.columns[2].push_back(reference);
   }
   const StoredRun stored(table, "rows.csv");
   const auto measures = stored.measures_named(names);
@@ -138,7 +143,7 @@ TEST_CASE("a response to the other side first has an undershoot") {
   for (std::size_t m = 0; m < measures.size(); ++m) {
     CAPTURE(names[m]);
     // A straight line between rows is off by the square of their distance.
-    CHECK(stored.value_of(measures[m]) == Approx(values[m]).epsilon(1e-6));
+    CHECK(stored.value_of(measures[m]).value == Approx(values[m]).epsilon(1e-6));
   }
 }
 
@@ -180,14 +185,14 @@ TEST_CASE("measures of stored rows are on straight lines between them") {
   const StoredRun run({{"t", "u_integral", "x"}, {{0, 1, 2, 3}, {0, 1, 4, 4}, {-2, 0, 2, 1}}},
                       "own.csv");
   const auto value = [&](const std::string& name) {
-    return run.value_of(run.measures_named({name}).front());
+    return run.value_of(run.measures_named({name}).front()).value;
   };
   CHECK(value("u_integral.RiseTime") == Approx((1 + 2.6 / 3) - 0.4).epsilon(1e-15));
   CHECK(value("u_integral.SettlingTime") == Approx(1 + 2.92 / 3).epsilon(1e-15));
-  CHECK(value("x.Overshoot") == Approx(100));
-  CHECK(value("x.Undershoot") == Approx(200));
+  CHECK(value("x.Overshoot") == Approx(100.0 / 3));  // of a step from -2 to 1
+  CHECK(value("x.Undershoot") == 0);
   CHECK(value("x.Peak") == 2);
-  CHECK(value("x.PeakTime") == 0);  // the first of two alike
+  CHECK(value("x.PeakTime") == 2);
   CHECK(value("when x=1") == Approx(1.5));
   CHECK(value("find u_integral when x=1 rise=1") == Approx(2.5));
   CHECK(value("when x stays above -1") == Approx(0.5));
@@ -203,9 +208,204 @@ TEST_CASE("measures of stored rows are on straight lines between them") {
   CHECK_THROWS_AS(StoredRun({{"x"}, {{1}}}, "no-times.csv"), InputError);
   CHECK_THROWS_AS(StoredRun({{"t", "x"}, {{1, 0}, {1, 1}}}, "back.csv"), InputError);
   CHECK_THROWS_AS(StoredRun({{"t"}, {{}}}, "empty.csv"), InputError);
-  // One row is a run that ended at once; of a response that ends at 0 nothing is a part.
-  const StoredRun still({{"t", "x"}, {{0}, {3}}}, "still.csv");
-  CHECK(still.value_of(still.measures_named({"x.RiseTime"}).front()) == 0);
+  // A step to 0 is one; one row is a run that ended at once, and no step.
   const StoredRun back({{"t", "x"}, {{0, 1}, {3, 0}}}, "zero.csv");
-  CHECK(std::isnan(back.value_of(back.measures_named({"x.SettlingTime"}).front())));
+  CHECK(back.value_of(back.measures_named({"x.SettlingTime"}).front()).value == Approx(0.98));
+  const StoredRun still({{"t", "x"}, {{0}, {3}}}, "still.csv");
+  const Measured none = still.value_of(still.measures_named({"x.RiseTime"}).front());
+  CHECK(std::isnan(none.value));
+  CHECK(none.why == std::string("it is to end where it starts, a step of 0"));
+}
+
+TEST_CASE("step metrics count from the start to the reference") {
+  // From -3 cm to +3 cm, with 2.47 cm too much: 41 % of 6 cm.
+  const std::vector<double> t{0, 1, 2, 3, 4}, x{-0.03, -0.035, 0.0547, 0.03, 0.03};
+  const StoredRun run({{"t", "x", "x_reference"}, {t, x, {0, 0, 0.03, 0.03, 0.03}}}, "step.csv");
+  const auto value = [](const StoredRun& of, const std::string& name) {
+    return of.value_of(of.measures_named({name}).front());
+  };
+  CHECK(value(run, "x.Overshoot").value == Approx(100 * 2.47 / 6));
+  CHECK(value(run, "x.Undershoot").value == Approx(100 * 0.5 / 6));
+  const double rise = 0.0547 + 0.035;  // in the second from 1 to 2
+  CHECK(value(run, "x.RiseTime").value == Approx((0.024 + 0.024) / rise));
+  CHECK(value(run, "x.SettlingTime").value == Approx(3 - 0.0012 / 0.0247));
+  CHECK(value(run, "x.SettlingMin").value == Approx(0.024));
+  CHECK(value(run, "x.SettlingMax").value == 0.0547);
+  CHECK(value(run, "x.Peak").value == 0.0547);
+  CHECK(value(run, "x.PeakTime").value == 2);
+  CHECK(value(run, "x.SteadyStateValue").value == 0.03);
+  // A reference that is not reached: what there is no number of has a reason.
+  const StoredRun far({{"t", "x", "x_reference"}, {t, x, {1, 1, 1, 1, 1}}}, "far.csv");
+  for (const char* name : {"x.RiseTime", "x.SettlingTime", "x.SettlingMin"}) {
+    CAPTURE(name);
+    const Measured none = value(far, name);
+    CHECK(std::isnan(none.value));
+    CHECK(none.why != nullptr);
+  }
+  CHECK(value(far, "x.Overshoot").value == 0);
+  // The same step from elsewhere, and to the other side, has the same metrics.
+  const StoredRun plain({{"t", "u"}, {t, x}}, "plain.csv");
+  std::vector<double> moved = x;
+  for (double& one : moved) one = 0.07 - one;
+  const StoredRun other({{"t", "u"}, {t, moved}}, "other.csv");
+  for (const char* name : {"u.Overshoot", "u.Undershoot", "u.RiseTime", "u.SettlingTime"}) {
+    CAPTURE(name);
+    CHECK(value(plain, name).value == Approx(value(other, name).value).epsilon(1e-12));
+  }
+  // A scene's step from elsewhere too.
+  Scenario scene = servo_step(5, 0.5);
+  const std::vector<std::string> names{"phi.Overshoot", "phi.RiseTime", "phi.SettlingTime",
+                                       "phi.PeakTime"};
+  const auto from_zero = measure_run(scene, names, {1e-11, 1e-13});
+  scene.gimbal.start.phi = -0.2;
+  const auto from_elsewhere = measure_run(scene, names, {1e-11, 1e-13});
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    CHECK(from_elsewhere[i] ==
+          Approx(from_zero[i]).epsilon(1e-8));  // of two runs with their own errors
+  }
+}
+
+TEST_CASE("a step of a distance of zero has no metrics, with the reason") {
+  const StoredRun run({{"t", "x", "x_reference"}, {{0, 1, 2}, {0.3, 0.5, 0.4}, {0, 0.1, 0.3}}},
+                      "none.csv");
+  for (const char* name :
+       {"x.RiseTime", "x.SettlingTime", "x.SettlingMin", "x.SettlingMax", "x.Overshoot",
+        "x.Undershoot", "x.Peak", "x.PeakTime", "x.SteadyStateValue"}) {
+    CAPTURE(name);
+    const Measured none = run.value_of(run.measures_named({name}).front());
+    CHECK(std::isnan(none.value));
+    CHECK(none.why == std::string("it is to end where it starts, a step of 0"));
+  }
+}
+
+TEST_CASE("stays above is stays below, turned over, also from the level itself") {
+  const auto when = [](std::vector<double> values, const std::string& condition) {
+    std::vector<double> times;
+    for (std::size_t i = 0; i < values.size(); ++i) times.push_back(static_cast<double>(i));
+    const StoredRun run({{"t", "x"}, {times, std::move(values)}}, "rows.csv");
+    return run.value_of(run.measures_named({"when x stays " + condition}).front()).value;
+  };
+  const std::vector<std::vector<double>> rows{{0, 1, 2},    {1, 2, 3},       {1, 1, 2},
+                                              {0, 1, 1, 2}, {2, 1, 2},       {0, 2, 1},
+                                              {2, 2},       {0, 3, 0, 3, 3}, {1, 1}};
+  const std::vector<double> right{1, 0, 1, 2, 1, std::nan(""), 0, 2 + 1.0 / 3, std::nan("")};
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    CAPTURE(i);
+    std::vector<double> turned = rows[i];
+    for (double& one : turned) one = -one;
+    const double above = when(rows[i], "above 1"), below = when(turned, "below -1");
+    CHECK((above == below || (std::isnan(above) && std::isnan(below))));
+    CHECK((above == Approx(right[i]) || (std::isnan(above) && std::isnan(right[i]))));
+  }
+  // A motion that begins at the level.
+  const Scenario ramps = parse_scenario(
+      "ball: {radius: 0.01}\n"
+      "gimbal: {motion: {phi: {ramp: {start: -0.1, rate: 0.1}},\n"
+      "                  theta: {ramp: {start: 0.1, rate: -0.1}}}}\n"
+      "time: {end: 2, step: 0.5}\n",
+      "ramps.yaml");
+  const auto values = measure_run(
+      ramps, {"when phi stays above -0.1", "when theta stays below 0.1"}, {1e-8, 1e-10});
+  CHECK(values[0] == 0);
+  CHECK(values[1] == 0);
+}
+
+TEST_CASE("a level that rounding alone goes beyond is touched") {
+  ChebyshevTables tables;
+  const ChebyshevPoints& points = tables.points(8);
+  using Way = scenario::Instant::Way;
+  // Up to the level, where a switch comes so much too late, along it, and down again.
+  const auto plateau = [&](double too_much) {
+    Curve curve;
+    const auto add = [&](double from, double to, auto f) {
+      std::vector<double> values;
+      for (std::size_t i = 0; i < points.size(); ++i) values.push_back(f(points[i]));
+      curve.add_piece(from, to, points, values.data());
+    };
+    add(10, 10.01, [&](double s) { return s * (1 + too_much); });
+    add(10.01, 11, [](double) { return 1.0; });
+    add(11, 11.01, [](double s) { return 1 - s; });
+    return curve;
+  };
+  // A time of 10 s is rounded to 1e-15 s, in which the curve goes 1e-13.
+  const Curve touched = plateau(1e-13);
+  CHECK_FALSE(touched.crossing(1, Way::either, 1));
+  CHECK(touched.last_at_least(1, 1)->t == Approx(11).epsilon(1e-15));
+  const Curve crossed = plateau(1e-10);
+  REQUIRE(crossed.crossing(1, Way::rise, 1));
+  CHECK(crossed.crossing(1, Way::rise, 1)->t == Approx(10.01).epsilon(1e-12));
+  CHECK(crossed.crossing(1, Way::fall, 1)->t == Approx(10.01).epsilon(1e-12));
+  // A servo at its rate limit.
+  const Scenario servo = parse_scenario(
+      "ball: {radius: 0.01}\n"
+      "gimbal: {servo: {natural_frequency: 20, damping: 0.7, rate_limit: 1.0}}\n"
+      "controller: {drives: angle, limit: 0.5, sampling: {period: 0.2},\n"
+      "  pd: {kp: [[20, 0], [0, -20]], kv: [[0.4, 0], [0, -0.4]]},\n"
+      "  reference: {circle: {radius: 0.05, rate: 1}}}\n"
+      "time: {end: 3, step: 0.1}\n",
+      "servo.yaml");
+  const auto values = measure_run(servo,
+                                  {"when phi_rate=1", "when phi_rate=-1",
+                                   "when theta_rate=1 "
+                                   "cross=last",
+                                   "when phi_rate=0.999"},
+                                  {1e-8, 1e-10});
+  CHECK(std::isnan(values[0]));
+  CHECK(std::isnan(values[1]));
+  CHECK(std::isnan(values[2]));
+  CHECK(values[3] > 0);
+}
+
+TEST_CASE("measures of a window are those of a run that is no more than it") {
+  // phi of the servo's step response; the window's ends are no ends of pieces.
+  const SecondOrder exact{5, 0.3};
+  const double from = 0.37, to = 2.11;
+  const auto values = measure_run(
+      servo_step(5, 0.3),
+      {"max_phi from 0.37 s to 2.11 s", "min_phi from 370 ms to 2.11 s", "max_phi from 0.37 s",
+       "max_phi to 0.37 s", "end_phi to 2.11 s", "find phi at 1 from 0.37 s to 2.11 s",
+       "when phi=0.1 from 0.7 s", "phi.Overshoot from 0.37 s to 2.11 s",
+       "phi.PeakTime from 0.37 s to 2.11 s", "max_phi", "find phi at 0.2 from 0.37 s",
+       "rms_phi from 3 s to 5 s", "rms_phi from 3.2 s to 3.8 s"},
+      {1e-12, 1e-14});
+  const double peak = exact.at(exact.peak_time(1)), dip = exact.at(exact.peak_time(2));
+  REQUIRE(exact.peak_time(2) < to);
+  CHECK(values[0] == Approx(0.1 * peak).epsilon(1e-9));
+  CHECK(values[1] == Approx(0.1 * std::min(exact.at(from), dip)).epsilon(1e-9));
+  CHECK(values[2] == values[0]);
+  CHECK(values[3] == Approx(0.1 * exact.at(from)).epsilon(1e-9));
+  CHECK(values[4] == Approx(0.1 * exact.at(to)).epsilon(1e-9));
+  CHECK(values[5] == Approx(0.1 * exact.at(1)).epsilon(1e-9));
+  CHECK(values[6] ==
+        Approx(exact.time_of(1, exact.peak_time(1), exact.peak_time(2))).epsilon(1e-9));
+  const double step = exact.at(to) - exact.at(from);
+  CHECK(values[7] == Approx(100 * (peak - exact.at(to)) / step).epsilon(1e-8));
+  CHECK(values[8] == Approx(exact.peak_time(1) - from).epsilon(1e-8));
+  CHECK(values[9] == values[0]);
+  CHECK(std::isnan(values[10]));
+  // Rows are at whole seconds: three of them, both ends included, or none.
+  double sum = 0;
+  for (const int t : {3, 4, 5}) sum += exact.at(t) * exact.at(t);
+  CHECK(values[11] == Approx(0.1 * std::sqrt(sum / 3)).epsilon(1e-9));
+  CHECK(std::isnan(values[12]));
+}
+
+TEST_CASE("a window of stored rows is cut on the straight lines between them") {
+  const StoredRun run({{"t", "x"}, {{0, 1, 2, 3, 4}, {0, 2, 1, 5, 3}}}, "rows.csv");
+  const auto value = [&](const std::string& name) {
+    return run.value_of(run.measures_named({name}).front()).value;
+  };
+  CHECK(value("max_x from 0.25 s to 0.75 s") == 1.5);
+  CHECK(value("min_x from 0.25 s to 0.75 s") == 0.5);
+  CHECK(std::isnan(value("rms_x from 0.25 s to 0.75 s")));
+  CHECK(value("max_x to 2") == 2);
+  CHECK(value("end_x to 2.5 s") == 3);
+  CHECK(value("rms_x from 1 s to 2 s") == Approx(std::sqrt(2.5)));
+  CHECK(value("x.Overshoot from 1.5 s") == Approx(100 * 2 / 1.5));
+  CHECK(value("when x=4 from 3 s") == Approx(3.5));
+  for (const char* wrong : {"max_x from 3 s to 3 s", "max_x from 3 s to 2 s", "max_x from 4 s",
+                            "max_x to 0 s", "max_x to 5 s", "max_x from -1 s"}) {
+    CAPTURE(wrong);
+    CHECK_THROWS_AS(run.measures_named({wrong}), InputError);
+  }
 }

@@ -58,13 +58,37 @@ TEST_CASE("rms_ of a motion of 1e234 m is a number") {
 }
 
 TEST_CASE("a measure that is no finite number has its reason") {
-  const Scenario scene = parse_scenario(
-      "ball: {radius: 0.01}\ngimbal: {motion: {}}\ntime: {end: 1, step: 0.5}\n", "still.yaml");
   const std::vector<Measure> measures{*find_measure("end_x"), *find_measure("max_motor_power"),
                                       *find_measure("max_energy")};
   const double nan = std::nan(""), infinite = std::numeric_limits<double>::infinity();
   const double finite[] = {1, 2, 3}, bad[] = {1, nan, infinite};
-  CHECK(why_not_finite(measures, finite, scene).empty());
-  CHECK(why_not_finite(measures, bad, scene) ==
+  const Whys whys{nullptr, "plate.inertia is not known", nullptr};
+  CHECK(why_not_finite(measures, finite, whys).empty());
+  CHECK(why_not_finite(measures, bad, whys) ==
         "max_motor_power is no number: plate.inertia is not known; max_energy is infinite");
+  CHECK(why_not_finite(measures, bad, {}) ==
+        "max_motor_power is no number; max_energy is infinite");
+}
+
+TEST_CASE("a recorder knows why a measure has no number") {
+  const Scenario scene = parse_scenario(
+      "ball: {radius: 0.01}\ngimbal: {motion: {}}\ntime: {end: 1, step: 0.5}\n", "still.yaml");
+  const std::vector<Measure> measures =
+      scenario::measures_named({"x.Overshoot", "when x=1", "rms_x from 0.6 s to 0.9 s", "max_x",
+                                "when x stays above 0", "find x at 3"},
+                               scene);
+  const model::Model model = model::assemble(scene, false);
+  const model::BallConstants constants = model::constants_of(scene);
+  const solve::OutputGrid grid(scene.time);
+  Recorder recorder({{}, measures});
+  recorder.begin(model, constants, grid);
+  const auto outcome = solve::integrate(model, Method::automatic, {1e-8, 1e-10}, grid, recorder);
+  std::vector<double> values(measures.size());
+  recorder.finish(outcome, values.data());
+  CHECK(why_not_finite(measures, values.data(), recorder.whys()) ==
+        "x.Overshoot is no number: it is to end where it starts, a step of 0; "
+        "when x=1 cross=1 is no number: it does not happen; "
+        "rms_x from 0.6 s to 0.9 s is no number: no row is within its window; "
+        "when x stays above 0 is no number: it does not stay there; "
+        "find x at 3 is no number: the time is not within what was measured");
 }

@@ -1,6 +1,9 @@
 // The names of measures.
+#include <cmath>
+
 #include "base/error.hpp"
 #include "catch.hpp"
+#include "scenario/expectation.hpp"
 #include "scenario/measures.hpp"
 
 using namespace bbsim::scenario;
@@ -18,6 +21,10 @@ TEST_CASE("measures have names in SI, whatever the units they were given in") {
   CHECK(name("when tracking_error stays below 2 mm") == "when tracking_error stays below 0.002");
   CHECK(name("find vy when x stays above 0.1") == "find vy when x stays above 0.1");
   CHECK(name("find y at 20 ms") == "find y at 0.02");
+  // A window's text stays as it is.
+  CHECK(name(" rms_x from 5 s ") == "rms_x from 5 s");
+  CHECK(name("x.Overshoot to 20 s") == "x.Overshoot to 20 s");
+  CHECK(name("when x=5 cm from 500 ms to 20 s") == "when x=0.05 cross=1 from 500 ms to 20 s");
   for (const char* wrong : {"x.Risetime",
                             "z.RiseTime",
                             "ball_qw.Peak",
@@ -38,6 +45,11 @@ TEST_CASE("measures have names in SI, whatever the units they were given in") {
                             "find z at 1",
                             "find x of y",
                             "find ball_qw at 1",
+                            "rms_x from",
+                            "rms_x from 5 cm",
+                            "rms_x from 5 s to",
+                            "rms_x to 5 s from 1 s",
+                            "from 5 s",
                             "max_",
                             "when",
                             "find"}) {
@@ -54,7 +66,10 @@ TEST_CASE("measures have units and meanings, and know what they need") {
   CHECK(find_measure("find phi when x=1")->unit() == "rad");
   CHECK(find_measure("max_tilt")->unit() == "rad");
   CHECK(find_measure("x.Peak")->meaning() ==
-        "largest size of: contact point along the plane's x axis");
+        "size where it is farthest from its start: contact point along the plane's x axis");
+  CHECK(find_measure("rms_x from 5 s")->unit() == "m");
+  CHECK(find_measure("rms_x from 5 s")->meaning() ==
+        "root mean square over the rows of: contact point along the plane's x axis, from 5 s");
   CHECK(find_measure("find x at 2")->meaning() == "at 2: contact point along the plane's x axis");
   CHECK(any_needs({*find_measure("find x when normal_force=0.1")}, Needs::dynamics));
   bbsim::Scenario open;
@@ -75,4 +90,52 @@ TEST_CASE("a measure that is none has a hint at the one that was meant") {
   const std::string_view columns[] = {"t", "level"};
   CHECK(measure_hint("max_levle", columns) == " (did you mean max_level?)");
   CHECK(measure_hint("max_titl", columns) == "");
+}
+
+TEST_CASE("a window is read, and refused where the run does not have it") {
+  const auto measure = find_measure("max_x from 500 ms to 20 s");
+  REQUIRE(measure);
+  CHECK(measure->window.from == 0.5);
+  CHECK(measure->window.to == 20);
+  CHECK(find_measure("max_x")->window.is_whole());
+  bbsim::Scenario scene;
+  scene.time = {20, 1};
+  CHECK_FALSE(missing(*measure, scene));
+  CHECK(missing(*find_measure("max_x from 20 s"), scene));
+  CHECK(missing(*find_measure("max_x to 21 s"), scene));
+  for (const char* wrong : {"max_x from 5 s to 5 s", "max_x from 6 s to 5 s", "max_x from 20 s",
+                            "max_x to 21 s", "max_x from -1 s", "max_x to 0 s"}) {
+    CAPTURE(wrong);
+    CHECK_THROWS_AS(measures_named({wrong}, scene), bbsim::InputError);
+  }
+  // 3 * 0.1 is 0.3, and the row there is of both.
+  CHECK(Window{{}, 0.3}.holds(3 * 0.1));
+  CHECK(Window{0.3, {}}.holds(3 * 0.1));
+  CHECK_FALSE(Window{{}, 0.3}.holds(0.3 + 1e-12));
+}
+
+TEST_CASE("expectations are read, with units, and are judged") {
+  bbsim::Scenario scene;
+  scene.time = {20, 1};
+  const auto read = [&](const char* text) { return read_expectation("--expect", text, scene); };
+  const Expectation below = read(" max_tilt < 180 deg ");
+  CHECK(below.text == "max_tilt < 180 deg");
+  CHECK(below.measure.name == "max_tilt");
+  CHECK(below.value == Approx(3.14159265358979));
+  CHECK(below.holds(3));
+  CHECK_FALSE(below.holds(below.value));
+  CHECK_FALSE(below.holds(std::nan("")));
+  CHECK(read("max_x<=0.5").holds(0.5));
+  CHECK_FALSE(read("max_x > 0.5").holds(0.5));
+  CHECK(read("max_x >= 50 cm").holds(0.5));
+  CHECK(read("x.Overshoot < 41 %").value == 41);
+  CHECK(read("max_normal_force < 12 N").value == 12);
+  CHECK(read("max_friction_demand < 1").value == 1);
+  CHECK(read("when x=3 cm from 1 s < 2 s").measure.name == "when x=0.03 cross=1 from 1 s");
+  for (const char* wrong :
+       {"max_x", "max_x < ", "< 3", "max_x < 5 deg", "max_x < one", "max_x = 3", "max_z < 1",
+        "max_x from 30 s < 1", "max_tracking_error < 1", "max_x << 3", "max_x < 3 < 4"}) {
+    CAPTURE(wrong);
+    CHECK_THROWS_AS(read(wrong), bbsim::InputError);
+  }
 }

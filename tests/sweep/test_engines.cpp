@@ -1,6 +1,7 @@
 // The ways in which a sweep computes its cases, held against single runs.
 #include <unistd.h>
 
+#include <algorithm>
 #include <atomic>
 #include <cmath>
 #include <cstdio>
@@ -10,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "base/error.hpp"
 #include "catch.hpp"
 #include "record/recorder.hpp"
 #include "solve/integrate.hpp"
@@ -18,6 +20,7 @@
 #include "sweep/single.hpp"
 #include "sweep/superposition.hpp"
 #include "sweep/sweep.hpp"
+#include "sweep/sweep_measures.hpp"
 
 using namespace bbsim;
 using namespace bbsim::sweep;
@@ -458,6 +461,106 @@ TEST_CASE("a case without what a measure needs has no number for it, and says wh
   CHECK(std::isfinite(results.numbers[5]));
   CHECK(results.status[1].reason ==
         "end_motor_torque_phi is no number: plate.inertia is not known");
+}
+
+TEST_CASE("windows of time are taken whatever the engine, which the whole run has") {
+  struct Case {
+    std::string scene, engine;
+    std::vector<Variation> vary;
+    std::vector<std::string> set, names;
+    double bound;
+  };
+  const std::string part = GENERATE("superposition", "open lanes", "lanes", "rig lanes");
+  const std::vector<Case> cases{
+      {"configs/fig2a.yaml",
+       "superposition",
+       {{"ball.position.0", "linear:-0.1:0.1:32"}},
+       {},
+       {"max_distance", "max_tilt"},
+       1e-8},
+      {"configs/fig2a.yaml",
+       "open lanes",
+       {{"gimbal.motion.phi.sinusoid.phase", "linear:0:1:64"}},
+       {},
+       {"max_distance", "max_tilt_rate"},
+       1e-7},
+      {"configs/fig2b.yaml",
+       "lanes",
+       {{"ball.position.0", "linear:-0.1:0.1:16"}},
+       {},
+       {"max_tilt", "max_tracking_error"},
+       1e-7},
+      // Single runs and lanes are within the tolerance of each other, and the noise is one.
+      {"configs/rig.yaml",
+       "rig lanes",
+       {{"controller.sensor.seed", "linear:1:16:16"}},
+       {"time.end=4"},
+       {"max_tracking_error", "max_tilt"},
+       1e-8}};
+  const auto& one = *std::ranges::find(cases, part, &Case::engine);
+  const Setup whole(one.scene, one.vary, one.set, one.names);
+  const Engine engine = choose_engine(whole.task);
+  REQUIRE(engine.name == one.engine);
+  const std::size_t count = whole.plan.cases();
+  const CaseResults of_whole = run_all(*engine.runner(), count);
+
+  // The greatest of a run is that of its first part or of its second one.
+  std::vector<std::string> windows;
+  for (const std::string& name : one.names) {
+    windows.push_back(name + " to 1.3 s");
+    windows.push_back(name + " from 1.3 s");
+  }
+  const Setup parts(one.scene, one.vary, one.set, windows);
+  const Engine other = choose_engine(parts.task);
+  CHECK(other.name == "single runs");
+  const CaseResults of_parts = run_all(*other.runner(), count);
+  std::size_t different = 0;
+  for (std::size_t i = 0; i < count; ++i) {
+    const double* const all = &of_whole.numbers[i * (1 + one.names.size())];
+    const double* const some = &of_parts.numbers[i * (1 + windows.size())];
+    for (std::size_t m = 1; m <= one.names.size(); ++m) {
+      const double first = some[2 * m - 1], second = some[2 * m];
+      CAPTURE(i, m, first, second);
+      CHECK(std::max(first, second) == Approx(all[m]).epsilon(one.bound));
+      if (second != first) ++different;
+    }
+  }
+  CHECK(different > 0);
+  CHECK(of_parts.numbers == one_by_one(parts.task).numbers);
+}
+
+TEST_CASE("a measure that the first case does not know may be another's") {
+  const std::vector<Variation> plates{
+      {"plate", "list:{diameter: 0.3},{inertia: [1e-4, 1e-4, 2e-4]}"}};
+  const Setup setup("configs/fig2a.yaml", plates, {}, {"x_end"});
+  const std::vector<std::string> names{"end_motor_torque_phi", "x_end"};
+  const auto found = sweep_measures(names, setup.family, setup.plan);
+  REQUIRE(found.size() == 2);
+  SweepTask task{setup.family, setup.plan, found};
+  const CaseResults results = run_all(*single_runner(task), 2);
+  CHECK(results.status[0].reason ==
+        "end_motor_torque_phi is no number: plate.inertia is not known");
+  CHECK(std::isnan(results.numbers[1]));
+  CHECK(std::isfinite(results.numbers[4]));
+  // One that no case knows is a mistake, and so is a window that none has.
+  CHECK_THROWS_AS(sweep_measures({"max_tracking_error"}, setup.family, setup.plan), InputError);
+  CHECK_THROWS_AS(sweep_measures({"max_x from 11 s"}, setup.family, setup.plan), InputError);
+  CHECK_THROWS_AS(sweep_measures({"x_end", "x_end"}, setup.family, setup.plan), InputError);
+  CHECK_THROWS_AS(sweep_measures({"max_z"}, setup.family, setup.plan), InputError);
+  const Setup ends("configs/fig2a.yaml", {{"time.end", "list:1,12"}}, {}, {"x_end"});
+  CHECK(sweep_measures({"max_x from 11 s"}, ends.family, ends.plan).size() == 1);
+  // Rigs in lanes, where the first case lacks what all others have.
+  const Setup rigs(
+      "configs/rig.yaml",
+      {{"plate", "list:{size: [0.3, 0.2]},{size: [0.3, 0.2], inertia: [1e-3, 1e-3, 2e-3]}"},
+       {"ball.position.0", "linear:1 cm:4 cm:8"}},
+      {"time.end=0.5", "output.columns=[t, x]"}, {"x_end", "end_motor_torque_phi"});
+  const Engine engine = choose_engine(rigs.task);
+  REQUIRE(engine.name == "rig lanes");
+  const CaseResults of_rigs = run_all(*engine.runner(), 16);
+  for (std::size_t i = 0; i < 16; ++i) {
+    CHECK(std::isfinite(of_rigs.numbers[3 * i + 2]) == (i >= 8));
+  }
 }
 
 TEST_CASE("a measure beyond the range of doubles has its reason, whatever the engine") {

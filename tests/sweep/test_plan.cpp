@@ -317,3 +317,32 @@ TEST_CASE("values between ends whose difference overflows are finite, and stay b
     CHECK(std::isfinite(value));
   }
 }
+
+TEST_CASE("what is refused in a sweep is told with its case") {
+  // A value of a grid: in the first of its cases, and the value alone is told.
+  CHECK(contains(fault(vary({{"ball.spin", "list:0,1,2"}, {"ball.radius", "list:1 cm,2 cm,-1"}})),
+                 "case 2, with ball.radius=-1: ball.radius: found -1"));
+  CHECK(contains(fault(vary({{"ball.radius", "linear:0.01:-1:5"}, {"ball.spin", "list:0,1,2"}})),
+                 "case 12, with ball.radius=-1: "));
+  Sweep zip = vary({{"ball.radius", "list:1 cm,-2 cm"}, {"ball.spin", "list:0,1"}});
+  zip.combine = Combine::zip;
+  CHECK(contains(fault(zip), "case 1, with ball.radius=-2 cm: "));
+  Sweep drawn = vary({{"ball.radius", "list:1 cm,0"}, {"ball.spin", "normal:0:1"}});
+  drawn.samples = 10;
+  CHECK(contains(fault(drawn), "case 10, with ball.radius=0: "));
+  // A bound of what is drawn is in no case.
+  drawn.vary[0].spec = "uniform:-1:1";
+  CHECK(fault(drawn).starts_with("with ball.radius=-1: "));
+  // Values that do not go together, where the fault stands in the file: all of them.
+  const std::string together =
+      fault(vary({{"time.end", "list:10,20"}, {"time.step", "list:1,1e-8"}}));
+  CHECK(contains(together, "case 3, with time.step=1e-08: "));
+  const std::string rig = BBSIM_SOURCE_DIR "/configs/rig.yaml";
+  const std::string elsewhere = fault(
+      vary({{"controller.drives", "list:angle,torque"}, {"ball.radius", "list:1 cm,2 cm"}}), rig);
+  CHECK(contains(elsewhere, "case 2 (controller.drives=torque, ball.radius=1 cm), "));
+  CHECK(contains(elsewhere, "rig.yaml:16:3: gimbal.servo: found, but controller.drives is torque"));
+  // What is wrong with every case is the scenario's.
+  const std::string own = fault(vary({{"ball.spin", "list:0,1"}}), scene, {"ball.mass=-1"});
+  CHECK(own.starts_with("--set ball.mass=-1: "));
+}

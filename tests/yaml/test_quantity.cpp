@@ -165,3 +165,19 @@ TEST_CASE("docs/reference/scenario.md lists the units of each dimension") {
   found = found.substr(0, found.find(" ("));  // a remark
   CHECK(found == listed);
 }
+
+TEST_CASE("numbers of a file are put in SI as quantities are") {
+  using bbsim::yaml::unit_scale;
+  CHECK(unit_scale("cm", Dimension::length)->in_si(10) == 0.1);
+  CHECK(unit_scale("mm", Dimension::length)->in_si(0.3) == 0.3 / 1000);
+  CHECK(unit_scale("ms", Dimension::time)->in_si(20) == 0.02);
+  CHECK(unit_scale("deg", Dimension::angle)->in_si(180) == pi);
+  CHECK(unit_scale("\u00b0", Dimension::angle)->in_si(-90) == -pi / 2);
+  CHECK(unit_scale("km", Dimension::length)->in_si(1.5) == 1500);
+  CHECK(unit_scale("mN m", Dimension::torque)->in_si(5) == 0.005);
+  CHECK_FALSE(unit_scale("deg", Dimension::length));
+  CHECK_FALSE(unit_scale("", Dimension::length));
+  CHECK(plain("12 N", Dimension::force) == 12);
+  CHECK(plain("5 N cm", Dimension::torque) == 0.05);
+  CHECK(fault("5 N", Dimension::length, false) == ", a force");
+}

@@ -8,13 +8,6 @@ namespace {
 constexpr const char* writing = "writing an attribute";
 constexpr const char* reading = "reading an attribute";
 
-Datatype string_type_of(std::size_t size) {
-  Datatype type(H5Tcopy(H5T_C_S1), "preparing a string");
-  check(H5Tset_size(type, size), "preparing a string");
-  check(H5Tset_cset(type, H5T_CSET_UTF8), "preparing a string");
-  return type;
-}
-
 void write_scalar(hid_t object, const char* name, hid_t in_file, hid_t in_memory,
                   const void* value) {
   const Dataspace space(H5Screate(H5S_SCALAR), writing);
@@ -37,6 +30,13 @@ std::string read_string(hid_t attribute, const Datatype& type) {
 }
 
 }  // namespace
+
+Datatype string_type_of(std::size_t size) {
+  Datatype type(H5Tcopy(H5T_C_S1), "preparing a string");
+  check(H5Tset_size(type, size), "preparing a string");
+  check(H5Tset_cset(type, H5T_CSET_UTF8), "preparing a string");
+  return type;
+}
 
 Datatype string_type() {
   return string_type_of(H5T_VARIABLE);

@@ -1,6 +1,7 @@
 // Attributes, and the strings in them.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <variant>
@@ -14,6 +15,8 @@ using Value = std::variant<std::string, double, std::int64_t>;
 
 // Strings of any length in UTF-8, as h5py writes them. Throws Failure, as all here.
 [[nodiscard]] Datatype string_type();
+// Strings of at most so many bytes.
+[[nodiscard]] Datatype string_type_of(std::size_t size);
 
 // The text has the file's own, fixed length: what is not in the global heap of a damaged file
 // cannot lead HDF5 astray, and headers have checksums.

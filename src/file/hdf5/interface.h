@@ -12,7 +12,7 @@ extern "C" {
 #endif
 
 /* Grows with every change below; program and module refuse each other if theirs differ. */
-enum { BBSIM_HDF5_INTERFACE = 3 };
+enum { BBSIM_HDF5_INTERFACE = 4 };
 
 /* Why a call failed: `system_error` is the errno of a failed write, or 0 if `text` tells. */
 typedef struct bbsim_hdf5_error {
@@ -32,8 +32,10 @@ typedef enum bbsim_hdf5_kind {
 typedef struct bbsim_hdf5_column {
   const char *name, *unit, *description; /* UTF-8; the unit is one of UDUNITS, or empty */
   bbsim_hdf5_kind kind;
-  size_t width; /* 1 if the kind does not say otherwise */
+  size_t width; /* of a text, the bytes of each string, or 1 for any number of them; otherwise 1 if
+                   the kind does not say otherwise */
   int is_scale; /* of the rows of all other columns; at most one column is */
+  int is_packed; /* compressed, if the library can */
 } bbsim_hdf5_column;
 
 typedef enum bbsim_hdf5_value {

@@ -101,6 +101,9 @@ bbsim_hdf5_kind kind_of(hid_t dataset, H5T_class_t held, int rank) {
   return held == H5T_INTEGER ? BBSIM_HDF5_INTEGER : BBSIM_HDF5_NUMBER;
 }
 
+// Strings of one length are told as such up to this: whoever copies longer ones gives each its own.
+constexpr std::size_t longest_to_copy = 1024;
+
 DatasetInfo info_of(hid_t dataset, const std::string& name, const std::string& path) {
   const std::string doing = "reading dataset " + shown(path);
   const Dataspace space(H5Dget_space(dataset), doing);
@@ -120,6 +123,10 @@ DatasetInfo info_of(hid_t dataset, const std::string& name, const std::string& p
   info.rows = size[0];
   if (info.kind == BBSIM_HDF5_SERIES) info.width = size[1];
   if (info.kind == BBSIM_HDF5_AXIS) info.width = size[0];
+  if (info.kind == BBSIM_HDF5_TEXT && check(H5Tis_variable_str(type), doing) == 0) {
+    const std::size_t size = H5Tget_size(type);
+    if (size <= longest_to_copy) info.width = size;
+  }
   return info;
 }
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstring>
 
 #include "file/hdf5/attributes.hpp"
 #include "file/hdf5/descriptor_driver.hpp"
@@ -55,9 +56,24 @@ hid_t number_type(const bbsim_hdf5_column& column) {
   return column.kind == BBSIM_HDF5_INTEGER ? H5T_STD_I64LE : H5T_IEEE_F64LE;
 }
 
+bool is_of_fixed_length(bbsim_hdf5_kind kind, std::size_t width) {
+  return kind == BBSIM_HDF5_TEXT && width > 1;
+}
+
+// The least that deflate can do: more takes longer and gains little on numbers that were computed.
+constexpr unsigned least_deflation = 1;
+
+// Shuffled, the bytes that numbers of one size have in common stand together.
+void pack(hid_t creation, const bbsim_hdf5_column& column, const char* doing) {
+  if (H5Zfilter_avail(H5Z_FILTER_DEFLATE) <= 0) return;
+  if (!is_of_fixed_length(column.kind, column.width)) check(H5Pset_shuffle(creation), doing);
+  check(H5Pset_deflate(creation, least_deflation), doing);
+}
+
 Dataset create_dataset(hid_t file, const bbsim_hdf5_column& column) {
   constexpr const char* doing = "creating a dataset";
   const bool is_text = column.kind == BBSIM_HDF5_TEXT;
+  const bool is_fixed = is_of_fixed_length(column.kind, column.width);
   const int rank = column.kind == BBSIM_HDF5_SERIES ? 2 : 1;
   const std::array<hsize_t, 2> size = {0, column.width};
   const std::array<hsize_t, 2> most = {H5S_UNLIMITED, column.width};
@@ -66,14 +82,19 @@ Dataset create_dataset(hid_t file, const bbsim_hdf5_column& column) {
   const Properties creation(H5Pcreate(H5P_DATASET_CREATE), doing);
   check(H5Pset_chunk(creation, rank, chunk.data()), doing);
   check(H5Pset_obj_track_times(creation, false), doing);
+  if (column.is_packed != 0) pack(creation, column, doing);
 
-  constexpr std::size_t bytes_of_a_text = 16;  // as it refers to its string
-  const std::size_t bytes = is_text ? bytes_of_a_text : sizeof(double) * column.width;
+  constexpr std::size_t bytes_of_a_reference = 16;  // to a string
+  const std::size_t bytes = is_fixed  ? column.width
+                            : is_text ? bytes_of_a_reference
+                                      : sizeof(double) * column.width;
   const Properties access(H5Pcreate(H5P_DATASET_ACCESS), doing);
   check(H5Pset_chunk_cache(access, 1, std::min<std::size_t>(chunk[0] * bytes, largest_cache), 1.0),
         doing);
 
-  const Datatype type = is_text ? string_type() : Datatype(H5Tcopy(number_type(column)), doing);
+  const Datatype type = is_fixed  ? string_type_of(column.width)
+                        : is_text ? string_type()
+                                  : Datatype(H5Tcopy(number_type(column)), doing);
   Dataset dataset(H5Dcreate2(file, column.name, type, space, H5P_DEFAULT, creation, access), doing);
   describe(dataset, column);
   return dataset;
@@ -88,6 +109,16 @@ void set_root_attribute(hid_t file, const bbsim_hdf5_attribute& attribute) {
     case BBSIM_HDF5_INTEGER_VALUE:
       return set_attribute(file, attribute.name, attribute.integer);
   }
+}
+
+std::vector<char> side_by_side(const char* const* texts, std::size_t rows, std::size_t width) {
+  std::vector<char> strings(rows * width, '\0');
+  for (std::size_t i = 0; i < rows; ++i) {
+    const std::size_t size = std::strlen(texts[i]);
+    if (size > width) throw Failure("writing rows: a text is longer than its column");
+    std::copy_n(texts[i], size, strings.data() + i * width);
+  }
+  return strings;
 }
 
 // Numbers that are there as a whole.
@@ -184,7 +215,11 @@ void Writer::append(const bbsim_hdf5_values* columns, std::size_t rows) {
     const Dataspace space(H5Dget_space(dataset), "writing rows");
     check(H5Sselect_hyperslab(space, H5S_SELECT_SET, first.data(), nullptr, count.data(), nullptr),
           "writing rows");
-    if (kind == BBSIM_HDF5_TEXT) {
+    if (is_of_fixed_length(kind, width)) {
+      const std::vector<char> strings = side_by_side(columns[c].texts, rows, width);
+      check(H5Dwrite(dataset, string_type_of(width), memory, space, H5P_DEFAULT, strings.data()),
+            "writing rows");
+    } else if (kind == BBSIM_HDF5_TEXT) {
       check(H5Dwrite(dataset, string, memory, space, H5P_DEFAULT,
                      static_cast<const void*>(columns[c].texts)),
             "writing rows");

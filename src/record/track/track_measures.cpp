@@ -34,6 +34,7 @@ void with_track(const model::Model& model, Use use) {
 }
 
 bool is_track_measure(const scenario::Measure& measure) {
+  if (!measure.window.is_whole()) return false;
   if (measure.kind == Kind::end) return measure.column->needs != scenario::Needs::gamma;
   const std::string_view name = measure.column->name;
   if (name == "tracking_error") return measure.kind == Kind::greatest || measure.kind == Kind::rms;

@@ -20,7 +20,8 @@
 namespace bbsim::record {
 
 // Whether all of them can be taken by a TrackMeasures: of any column at the end; the greatest tilt,
-// tilt_rate and distance; the greatest and the root mean square of tracking_error.
+// tilt_rate and distance; the greatest and the root mean square of tracking_error; all of them of
+// the whole run.
 [[nodiscard]] bool are_track_measures(const std::vector<scenario::Measure>& measures);
 
 // Whether a TrackMeasures understands the model's rows: a ball anywhere on the plane under equation

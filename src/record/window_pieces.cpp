@@ -1,0 +1,41 @@
+#include "record/window_pieces.hpp"
+
+#include <algorithm>
+
+#include "base/instant.hpp"
+
+namespace bbsim::record {
+namespace {
+
+class PiecePart : public solve::Piece {
+ public:
+  PiecePart(const solve::Piece& whole, double from, double to)
+      : Piece(from, to, whole.parts()), whole_(whole) {}
+
+  void evaluate(const double* times, std::size_t count, double* rows) const override {
+    whole_.evaluate(times, count, rows);
+  }
+  // The whole's hold for the part.
+  [[nodiscard]] std::optional<solve::Bounds> bounds(solve::Load load,
+                                                    const model::BallConstants& constants,
+                                                    bool closely) const override {
+    return whole_.bounds(load, constants, closely);
+  }
+
+ private:
+  const solve::Piece& whole_;
+};
+
+}  // namespace
+
+void WindowPieces::accept(const solve::Piece& piece) {
+  const double from = std::max(piece.from(), window_.begin());
+  const double to = std::min(piece.to(), window_.end());
+  if (from == piece.from() && to == piece.to()) {
+    sink_.accept(piece);
+  } else if (to - from > rounding_of(to)) {
+    sink_.accept(PiecePart(piece, from, to));
+  }
+}
+
+}  // namespace bbsim::record

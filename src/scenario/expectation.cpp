@@ -1,0 +1,54 @@
+#include "scenario/expectation.hpp"
+
+#include "base/error.hpp"
+#include "base/shown.hpp"
+#include "base/text.hpp"
+#include "scenario/value_in.hpp"
+
+namespace bbsim::scenario {
+
+using Relation = Expectation::Relation;
+
+bool Expectation::holds(double measured) const {
+  switch (relation) {
+    case Relation::below:
+      return measured < value;
+    case Relation::at_most:
+      return measured <= value;
+    case Relation::above:
+      return measured > value;
+    case Relation::at_least:
+      break;
+  }
+  return measured >= value;
+}
+
+Expectation read_expectation(std::string_view where, std::string_view text,
+                             const Scenario& scenario) {
+  text = trimmed(text);
+  const std::string found = std::string(where) + ": found " + bbsim::quoted(std::string(text));
+  // No measure's name has such a sign.
+  const std::size_t sign = text.find_first_of("<>");
+  if (sign == std::string_view::npos) {
+    throw InputError(found +
+                     "; allowed: \"MEASURE < VALUE\", or with <=, > or >=, such as \"max_tilt < 5 "
+                     "deg\"");
+  }
+  const bool below = text[sign] == '<';
+  const bool equal = sign + 1 < text.size() && text[sign + 1] == '=';
+  Expectation expectation;
+  expectation.relation = below ? (equal ? Relation::at_most : Relation::below)
+                               : (equal ? Relation::at_least : Relation::above);
+  expectation.text = text;
+  expectation.measure = measure_named(where, std::string(trimmed(text.substr(0, sign))), scenario);
+  const std::string unit = expectation.measure.unit();
+  const auto value = value_in(text.substr(sign + (equal ? 2 : 1)), unit);
+  if (!value) {
+    throw InputError(found + ", but " + expectation.measure.name + " is in " + unit +
+                     "; allowed: a number in that unit, or a quantity of its kind");
+  }
+  expectation.value = *value;
+  return expectation;
+}
+
+}  // namespace bbsim::scenario

@@ -1,0 +1,26 @@
+// What is expected of a measure: "max_tilt < 5 deg".
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "scenario/measures.hpp"
+
+namespace bbsim::scenario {
+
+struct Expectation {
+  enum class Relation { below, at_most, above, at_least } relation = Relation::below;
+  std::string text;  // as given
+  Measure measure{};
+  double value = 0;  // in the measure's unit
+
+  // What is no number meets no expectation.
+  [[nodiscard]] bool holds(double measured) const;
+};
+
+// Reads "MEASURE < VALUE", or with <=, > or >=; the value may have a unit. Throws InputError, which
+// begins with `where`, also for a measure that the scene does not have.
+[[nodiscard]] Expectation read_expectation(std::string_view where, std::string_view text,
+                                           const Scenario& scenario);
+
+}  // namespace bbsim::scenario

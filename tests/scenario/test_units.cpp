@@ -1,0 +1,177 @@
+// Units of tables: what they are said to be in, and what they look like if nothing is said.
+#include <cmath>
+#include <numbers>
+
+#include "catch.hpp"
+#include "scenario/unit_doubts.hpp"
+#include "support/reading.hpp"
+
+using namespace bbsim;
+using namespace bbsim::test;
+using namespace bbsim::scenario;
+using Catch::Matchers::Contains;
+
+namespace {
+
+// Degrees, millimetres and milliseconds: what a log of a rig has.
+const char* const rows =
+    "t,phi,x,y,f\n"
+    "0,0,0,-30,0\n2500,2,100,0,5\n5000,-4,50,30,10\n7500,1,0,0,5\n10000,0,0,0,0\n";
+
+struct Scene {
+  explicit Scene(const std::string& table) { static_cast<void>(folder.write("log.csv", table)); }
+
+  [[nodiscard]] Scenario read(const std::string& key, const std::string& extra) const {
+    const std::string text =
+        "ball: {radius: 0.01, mass: 0.1}\ntime: {end: 10, step: 0.1}\n" + scene(key, extra);
+    return parse_scenario(text, folder.file("scene.yaml"));
+  }
+  [[nodiscard]] static std::string scene(const std::string& key, const std::string& extra) {
+    const std::string table = "{table: {file: log.csv, time: t" + extra;
+    if (key == "motion") return "gimbal: {motion: {phi: " + table + ", value: phi}}}}\n";
+    return "gimbal: {servo: {natural_frequency: 20, damping: 1}}\n"
+           "controller: {pd: {kv: 1, kp: 1}, drives: angle, reference: " +
+           table + ", x: x, y: y}}}\n";
+  }
+
+  TemporaryFolder folder;
+};
+
+std::string told(const Scenario& scenario) {
+  std::string all;
+  for (const std::string& remark : scenario.remarks) all += remark + '\n';
+  return all;
+}
+
+}  // namespace
+
+TEST_CASE("a table is in the units that it says") {
+  const Scene scene(rows);
+  const Scenario motion = scene.read("motion", ", unit: deg, time_unit: ms");
+  const auto& phi = std::get<Table>(motion.gimbal.motion->phi[0]);
+  CHECK(phi.times == std::vector<double>{0, 2.5, 5, 7.5, 10});
+  CHECK(phi.values[2] == -std::numbers::pi / 45);
+  CHECK(told(motion).empty());
+
+  const Scenario path = scene.read("reference", ", unit: mm, time_unit: ms");
+  const auto& reference = std::get<TableReference>(path.controller->reference);
+  CHECK(reference.x == std::vector<double>{0, 0.1, 0.05, 0, 0});
+  CHECK(reference.y == std::vector<double>{-0.03, 0, 0.03, 0, 0});
+  CHECK(reference.times.back() == 10);
+  CHECK(told(path).empty());
+
+  const auto wrong = [&](const std::string& key, const std::string& extra) {
+    try {
+      static_cast<void>(scene.read(key, extra));
+    } catch (const InputError& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  CHECK_THAT(wrong("motion", ", unit: mm"),
+             Contains("gimbal.motion.phi.table.unit: found mm; allowed: one of rad, mrad, deg"));
+  CHECK_THAT(wrong("reference", ", unit: [m]"), Contains("table.unit: found a list of 1; allowed: "
+                                                         "one of m, km, cm, mm, um, nm"));
+  CHECK_THAT(wrong("motion", ", time_unit: Hz"),
+             Contains("table.time_unit: found Hz; allowed: one of s, ms, us, ns, min, h"));
+  // In milliseconds the same times do not cover the run.
+  CHECK_THAT(wrong("motion", ", time_unit: us"), Contains("found times from 0 to 0.01 s"));
+}
+
+TEST_CASE("torques and forces of a table have units too") {
+  const TemporaryFolder folder;
+  static_cast<void>(folder.write("log.csv", "t,f\n0,0\n1,5\n2,10\n3,500\n"));
+  const Scenario scenario = parse_scenario(
+      "ball: {radius: 0.01, mass: 0.1, push: {x: {table: {file: log.csv, time: t, value: f, unit: "
+      "mN}}}}\n"
+      "plate: {inertia: [1e-3, 1e-3, 2e-3]}\n"
+      "gimbal: {torque: {phi: {table: {file: log.csv, time: t, value: f, unit: mN m}}}}\n"
+      "time: {end: 3, step: 1}\n",
+      folder.file("scene.yaml"));
+  CHECK(std::get<Table>(scenario.ball.push->x[0]).values ==
+        std::vector<double>{0, 0.005, 0.01, 0.5});
+  CHECK(std::get<Table>(scenario.gimbal.torque->phi[0]).values ==
+        std::vector<double>{0, 0.005, 0.01, 0.5});
+  CHECK(told(scenario).empty());  // neither looks like anything
+}
+
+TEST_CASE("a table that says no unit is warned of where it looks like another") {
+  const Scene scene(rows);
+  const std::string motion = told(scene.read("motion", ""));
+  CHECK_THAT(motion, Contains("warning: gimbal.motion.phi.table: log.csv: value goes up to 4, read "
+                              "in rad: it looks like degrees; say unit: deg, or unit: rad if that "
+                              "is right"));
+  CHECK_THAT(motion, Contains("warning: gimbal.motion.phi.table: log.csv: time spans 10000, for a "
+                              "run of 10 s, read in s: it looks like milliseconds; say time_unit: "
+                              "ms, or time_unit: s if that is right"));
+  const std::string path = told(scene.read("reference", ""));
+  CHECK_THAT(path, Contains("controller.reference.table: log.csv: x goes up to 100, read in m: it "
+                            "looks like millimetres or centimetres; say unit: mm or cm, or unit: "
+                            "m if that is right"));
+  CHECK_THAT(path, Contains("time_unit: ms"));
+  // What is said is believed, and says nothing of the other.
+  CHECK_THAT(told(scene.read("motion", ", unit: rad")), !Contains("degrees"));
+  CHECK_THAT(told(scene.read("motion", ", unit: rad")), Contains("milliseconds"));
+  CHECK_THAT(told(scene.read("motion", ", time_unit: s")), !Contains("milliseconds"));
+  CHECK_THAT(told(scene.read("motion", ", time_unit: s")), Contains("degrees"));
+
+  // At the thresholds nothing is said.
+  const Scene plain("t,phi,x,y\n0,0,0,-1\n1,1.6,1,0\n2,-1.6,0,0\n100,0,0,0\n");
+  CHECK(told(plain.read("motion", "")).empty());
+  CHECK(told(plain.read("reference", "")).empty());
+  const Scene beyond("t,phi,x,y\n0,0,0,-1.01\n1,1.61,1,0\n2,-1.6,0,0\n100.1,0,0,0\n");
+  CHECK_THAT(told(beyond.read("motion", "")), Contains("degrees") && Contains("milliseconds"));
+  CHECK_THAT(told(beyond.read("reference", "")), Contains("y goes up to 1.01"));
+}
+
+TEST_CASE("periods of a clock and angles of a linkage have units") {
+  const TemporaryFolder folder;
+  static_cast<void>(folder.write("periods.csv", "dt\n19\n21\n20\n"));
+  static_cast<void>(folder.write("curve.csv", "a,b\n-60,-20\n-20,-6\n20,6\n60,20\n"));
+  const auto read = [&](const std::string& of_periods, const std::string& of_curve) {
+    return parse_scenario(
+        "ball: {radius: 0.01}\n"
+        "gimbal:\n"
+        "  servo: {natural_frequency: 20, damping: 1}\n"
+        "  linkage: {table: {file: curve.csv, servo: a, plate: b" +
+            of_curve +
+            "}}\n"
+            "controller:\n"
+            "  pd: {kv: 1, kp: 1}\n"
+            "  drives: angle\n"
+            "  assumes: exact\n"
+            "  reference: {point: [0, 0]}\n"
+            "  sampling: {period: 0.02, jitter: {file: periods.csv, period: dt" +
+            of_periods +
+            "}}\n"
+            "time: {end: 10, step: 0.1}\n",
+        folder.file("scene.yaml"));
+  };
+  for (const char* unit : {", unit: ms", ", time_unit: ms"}) {
+    const Scenario scenario = read(unit, ", unit: deg");
+    CHECK(scenario.controller->sampling->periods == std::vector<double>{0.019, 0.021, 0.02});
+    CHECK(std::get<CurveLinkage>(*scenario.gimbal.linkage[1]).servo[3] ==
+          Approx(std::numbers::pi / 3));
+    CHECK(told(scenario).empty());
+  }
+  const std::string warned = told(read("", ""));
+  CHECK_THAT(warned, Contains("controller.sampling.jitter: periods.csv: a period is 20 in the "
+                              "mean, for one of 0.02 s, read in s: it looks like milliseconds; "
+                              "say unit: ms"));
+  CHECK_THAT(warned, Contains("gimbal.linkage.table: curve.csv: an angle is 60, read in rad: it "
+                              "looks like degrees; say unit: deg"));
+  CHECK_THROWS_WITH(read(", unit: ms, time_unit: ms", ""),
+                    Contains("jitter.time_unit: found beside unit; allowed: one of them"));
+  CHECK_THROWS_WITH(read(", unit: deg", ""), Contains("jitter.unit: found deg; allowed: one of s"));
+}
+
+TEST_CASE("columns of a log look like other units by the names that they have") {
+  CHECK(doubt_of(1.7, "phi")->looks_like == "degrees");
+  CHECK_FALSE(doubt_of(1.6, "phi"));
+  CHECK(doubt_of(1.1, "x_reference")->looks_like == "millimetres or centimetres");
+  CHECK_FALSE(doubt_of(1, "x"));
+  CHECK_FALSE(doubt_of(100, "gamma"));  // a ball that has turned often
+  CHECK_FALSE(doubt_of(100, "vx"));
+  CHECK_FALSE(doubt_of(100, "phi_deg"));
+  CHECK(largest_size({1, -3, std::nan(""), 2}) == 3);
+}
