@@ -64,7 +64,7 @@ ExitCode run_compare(const CompareOptions& options, const Options& all) {
   outputs.reads(options.a, "A");
   outputs.reads(options.b, "B");
   prints(outputs);
-  for (const std::string& file : {options.a, options.b}) say_if_waiting(file, "a CSV", all.all.quiet);
+  for (const std::string& file : {options.a, options.b}) say_if_waiting(file, "a CSV", all.quiet);
   const file::CellTable a = file::read_cells(options.a, options.columns);
   const file::CellTable b = file::read_cells(options.b, options.columns);
   const record::Allowances allowances = allowances_of(options, a, b);
