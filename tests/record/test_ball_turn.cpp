@@ -128,7 +128,7 @@ TEST_CASE("rows far apart give the orientation of rows near each other") {
       worst = std::max(worst, orientation(coarse, i).angularDistance(orientation(fine, 20 * i)));
     }
     CAPTURE(name, worst);
-    CHECK(worst < 2e-6);  // docs/reference/scenario.md says 1e-6 of fig2a
+    CHECK(worst < 2e-6);  // docs/reference/columns.md says 1e-6 of fig2a
   }
 }
 
