@@ -47,6 +47,10 @@ class DrySwitches {
   // To be told of a guard that has fallen, before settle(): what is asked of a motor may have come
   // to a limit.
   void note_limit(const Model& model, double t, const double* z, std::size_t guard);
+  // The command of motor i jumps, and with it what is asked: away from a limit where it was.
+  void command_jumps(std::size_t i) {
+    if (i < 2) reached_[i] = 0;
+  }
   // After settle(): how what is asked of a motor goes on from a limit that it has come to.
   void settle_at_limits(Model& model, double t, const double* z, const MotorCommands& commands);
 

@@ -210,8 +210,10 @@ void HybridSystem::apply_command() {
                                                 : sampled_->controller.told(command);
   for (std::size_t i = 0; i < servos_.size(); ++i) {
     const double follows = servos_[i].follow(told[i]);
-    touched_ = touched_ || follows != mode_->command[i];
+    if (follows == mode_->command[i]) continue;
+    touched_ = true;
     mode_->command[i] = follows;
+    if (dry_) dry_->command_jumps(i);
   }
   for (std::size_t i = 0; i < 2; ++i) mode_->wanted[i] = command[i];
 }
@@ -367,9 +369,11 @@ void HybridSystem::settle(double t, double* z) {
   if (model_.rig) settle_rig(t, z);
   if (dry_) {
     dry_->settle(model_, t, z, motor_commands(t, z, false).value);
+    settle_at_limits(t, z);  // motors are told how fast the commands move then
     dry_->settle_at_limits(model_, t, z, motor_commands(t, z, true));
+  } else {
+    settle_at_limits(t, z);
   }
-  settle_at_limits(t, z);
 }
 
 bool HybridSystem::stays_as_it_is(const double* z) const {

@@ -184,6 +184,52 @@ TEST_CASE("a run whose integral waits at a limit is what the smoothed law tends 
   CHECK(apart < 0.5 * own);
 }
 
+TEST_CASE("the integral of a position loop moves no faster than its error, nor does a row say so") {
+  const char* const sampling = GENERATE("", "  sampling: {period: 0.00781}\n");
+  CAPTURE(sampling);
+  const std::string text =
+      R"(ball: {radius: 0.01, mass: 0.045, position: [0.084, -0.096], velocity: [0.192, -0.143]}
+plate: {inertia: [0.0097, 0.0094, 0.013]}
+gimbal: {motor: {position_loop: {kp: 3.28, kd: 0.171, ki: 59.7}, torque_limit: 0.0566}}
+controller:
+  pd: {kv: [[0.19, -0.068], [-0.087, -0.193]], kp: [[0.099, -0.017], [-0.045, -0.115]]}
+  drives: angle
+  reference: {point: [0.0036, 0.075]}
+time: {end: 1, step: 0.0005}
+)";
+  std::string with = text;
+  with.insert(with.find("time:"), sampling);
+  const Scenario scene = test::parse(with);
+  const Run run = run_in_memory(scene, Method::radau, {1e-9, 1e-11});
+  REQUIRE(run.outcome.ending == solve::Ending::done);
+  struct At {
+    double integral, error, rate, command;
+  };
+  const auto at = [&](std::size_t row, int axis) {
+    const model::Sample& now = run.samples[row];
+    const double angle = axis == 0 ? now.gimbal.phi : now.gimbal.theta;
+    const double rate = axis == 0 ? now.gimbal.phi_dot : now.gimbal.theta_dot;
+    const double command = now.command[static_cast<std::size_t>(axis)], error = command - angle;
+    return At{(now.coupled->asked[axis] - 3.28 * error + 0.171 * rate) / 59.7, error, rate,
+              command};
+  };
+  double most = 0, steepest = 0;
+  for (std::size_t row = 1; row < run.samples.size(); ++row) {
+    const double dt = run.samples[row].t - run.samples[row - 1].t;
+    for (int axis = 0; axis < 2; ++axis) {
+      const At from = at(row - 1, axis), to = at(row, axis);
+      // Between two rows the error is at most that of either, and what either command changes.
+      const double error = std::max(std::abs(from.error), std::abs(to.error)) +
+                           std::max(std::abs(from.rate), std::abs(to.rate)) * dt +
+                           std::abs(to.command - from.command);
+      most = largest_finite(most, {std::abs(to.integral - from.integral) / (error * dt)});
+      steepest = largest_finite(steepest, {std::abs(run.samples[row].coupled->asked[axis])});
+    }
+  }
+  CHECK(steepest > 0.0566);  // of the motors more is asked than they give
+  CHECK(most < 1.01);        // rates change between rows by a hundredth at most
+}
+
 TEST_CASE("at a limit, what is left waiting and what the error adds say how a command goes on") {
   using model::AtLimit;
   using model::OutwardRate;
