@@ -82,7 +82,7 @@ function motor(drives, name, j, kp, torque, words) {
       (chance(0.9) ? ", kd: " sprintf("%.6g", 2 * between(0, 1.5) * sqrt(kp * j)) : "") \
       (chance(0.6) && name != "lqr" ? ", ki: " sprintf("%.6g", kp * by_factors(0.1, 50)) : "") "}"
   }
-  if (words != "") line("  motor: {" substr(words, 3) "}")
+  line("  motor: {" substr(words == "" ? ", viscous: 1e-3" : words, 3) "}")
 }
 
 function sampling(drives, period) {
