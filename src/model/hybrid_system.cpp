@@ -489,9 +489,9 @@ void HybridSystem::evaluate_limit(int i, double raw, double t, const double* z,
 }
 
 // Which limit a command has come to, if that is why guard `fallen` has.
-void HybridSystem::note_limit(std::size_t fallen, double t, const double* z) {
+void HybridSystem::note_limit(std::size_t fallen) {
   const std::size_t first_dry = first_monitor() - DrySwitches::guards;
-  if (dry_ && fallen >= first_dry) dry_->note_limit(model_, t, z, fallen - first_dry);
+  if (dry_ && fallen >= first_dry) dry_->note_limit(model_, fallen - first_dry);
   const std::size_t i = fallen / axis_guards, guard = fallen % axis_guards;
   if (!switches_ || i >= std::min<std::size_t>(servos_.size(), 2) || guard < ServoAxis::guards ||
       !integrates(static_cast<int>(i))) {
@@ -558,7 +558,7 @@ HybridSystem::Effect HybridSystem::handle_state_event(std::size_t i, double t, d
   const std::size_t first_monitor = guards() - happening_.size();
   if (i < first_monitor) {
     leave_limits(t, z);
-    note_limit(i, t, z);
+    note_limit(i);
     settle(t, z);
     return note_dry(t, z) == Effect::stop ? Effect::stop : Effect::restart;
   }

@@ -230,6 +230,62 @@ time: {end: 1, step: 0.0005}
   CHECK(most < 1.01);        // rates change between rows by a hundredth at most
 }
 
+TEST_CASE(
+    "an integral waits while its error drives outward, also where a motor turns too fast to brake "
+    "less") {
+  // From rest the voltage gives 0.0019 N m; at 1.2 rad/s it takes 0.022 N m at least. Whatever is
+  // asked, the motor then gives its limit, and the two limits of what is asked are one.
+  const Scenario scene = test::parse(
+      R"(ball: {radius: 0.0067, mass: 0.035, position: [-0.04, -0.024]}
+plate: {inertia: [0.00069, 0.00052, 0.00108]}
+gimbal:
+  motor:
+    position_loop: {kp: 0.125, kd: 0.02, ki: 0.16}
+    torque_limit: 0.0022
+    dc: {resistance: 2, torque_constant: 0.02, gear: 10, voltage_limit: 0.019}
+  start: {phi: -0.044, theta: 0.018, theta_rate: -1.2}
+controller:
+  pd: {kv: [[0.38, 0], [0, -0.38]], kp: [[0.4, 0], [0, -0.4]]}
+  drives: angle
+  reference: {point: [0.02, 0.03]}
+time: {end: 0.4, step: 0.0001}
+)");
+  const Run run = run_in_memory(scene, Method::radau, {1e-10, 1e-12});
+  REQUIRE(run.outcome.ending == solve::Ending::done);
+  const double from_rate = 0.2 * 0.2 / 2, stall = 0.2 * 0.019 / 2;
+  struct At {
+    double error, integral, beyond;  // what is asked, above what is given
+    bool overruns;
+  };
+  const auto at = [&](std::size_t row, std::size_t axis) {
+    const model::Sample& now = run.samples[row];
+    const double angle = axis == 0 ? now.gimbal.phi : now.gimbal.theta;
+    const double rate = axis == 0 ? now.gimbal.phi_dot : now.gimbal.theta_dot;
+    const double error = now.command[axis] - angle, asked = now.coupled->asked[axis];
+    return At{error, (asked - 0.125 * error + 0.02 * rate) / 0.16, asked - now.coupled->given[axis],
+              std::abs(rate) * from_rate - stall > 0.0022};
+  };
+  double apart = 0;
+  int waits = 0, moves = 0;
+  for (std::size_t row = 1; row < run.samples.size(); ++row) {
+    for (const std::size_t axis : {0U, 1U}) {
+      const At from = at(row - 1, axis), to = at(row, axis);
+      // No switch is between two rows that are alike.
+      const bool alike =
+          from.overruns && to.overruns && from.beyond * to.beyond > 0 && from.error * to.error > 0;
+      if (!alike) continue;
+      const bool outward = from.beyond * from.error > 0;
+      ++(outward ? waits : moves);
+      const double dt = run.samples[row].t - run.samples[row - 1].t;
+      const double moved = outward ? 0.0 : (from.error + to.error) / 2 * dt;
+      apart = largest_finite(apart, {std::abs(to.integral - from.integral - moved)});
+    }
+  }
+  CHECK(waits > 100);
+  CHECK(moves > 100);
+  CHECK(apart < 1e-9);  // of some 1e-6 between rows; the trapezoidal rule is off by 1e-10
+}
+
 TEST_CASE("at a limit, what is left waiting and what the error adds say how a command goes on") {
   using model::AtLimit;
   using model::OutwardRate;
