@@ -150,7 +150,12 @@ std::string failure_text(const Scenario& scenario, const model::Model& model,
   }
   const auto largest = std::max_element(
       state.begin(), state.end(), [](double a, double b) { return std::abs(a) < std::abs(b); });
-  if (largest != state.end()) {
+  const auto none =
+      std::find_if(state.begin(), state.end(), [](double z) { return std::isnan(z); });
+  if (none != state.end()) {
+    text += "  " + names[static_cast<std::size_t>(none - state.begin())] +
+            " is no number any more: the motion has left the range of numbers.\n";
+  } else if (largest != state.end()) {
     const auto index = static_cast<std::size_t>(largest - state.begin());
     const char* verb =
         std::abs(*largest) > 1e3 ? " grew without bound, to " : " is the largest, at ";
@@ -161,7 +166,7 @@ std::string failure_text(const Scenario& scenario, const model::Model& model,
   if (!warning.empty()) {
     text += "  That is the scene, not the solver: " + warning + ".\n";
     text += "  Change the gains or the servo; `bbsim check` shows the poles.";
-  } else if (largest != state.end() && std::abs(*largest) > 1e30) {
+  } else if (none != state.end() || (largest != state.end() && std::abs(*largest) > 1e30)) {
     text +=
         "  That is the motion, not the solver: end the scene earlier, or change the gimbal's "
         "motion.";

@@ -54,7 +54,8 @@ typedef struct bbsim_parameter {
 /* What a run is like. Pointers in it hold for the call alone: copy what they point to. */
 typedef struct bbsim_setup {
   uint32_t abi;                      /* BBSIM_CONTROLLER_ABI of bbsim */
-  uint32_t drives_acceleration;      /* commands are 0: angles, rad; 1: accelerations, rad/s^2 */
+  uint32_t drives_acceleration;      /* commands are 0: angles, rad; 1: accelerations, rad/s^2;
+                                      * 2: torques, N m; 3: voltages, V */
   double period;                     /* from sample to sample, s, > 0 */
   double delay;                      /* from a sample to its command, s: sampling.delay */
   double resolution;                 /* that commands are rounded to; 0: none */

@@ -77,6 +77,21 @@ std::shared_ptr<const LibraryFunctions> open(const std::string& path) {
 }
 
 // What a setup is for a library, as long as this stays.
+// bbsim_setup::drives_acceleration.
+std::uint32_t c_drives(Drives drives) {
+  switch (drives) {
+    case Drives::angle:
+      return 0;
+    case Drives::acceleration:
+      return 1;
+    case Drives::torque:
+      return 2;
+    case Drives::voltage:
+      return 3;
+  }
+  return 0;
+}
+
 class CSetup {
  public:
   explicit CSetup(const Setup& setup) {
@@ -84,7 +99,7 @@ class CSetup {
       parameters_.push_back({one.name.c_str(), one.value});
     }
     for (const std::string& name : setup.columns) columns_.push_back(name.c_str());
-    c_ = {BBSIM_CONTROLLER_ABI, setup.drives == Drives::acceleration ? 1U : 0U,
+    c_ = {BBSIM_CONTROLLER_ABI, c_drives(setup.drives),
           setup.period,         setup.delay,
           setup.resolution,     setup.derivative_filter,
           setup.limit,          setup.end,

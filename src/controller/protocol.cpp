@@ -151,7 +151,6 @@ std::string refusal(std::string_view line, const std::string& why) {
 }  // namespace
 
 std::string hello_line(const Setup& setup, const std::string& memory) {
-  const bool angle = setup.drives == Drives::angle;
   Json hello = Json::object();
   hello["protocol"] = protocol_version;
   hello["bbsim"] = BBSIM_VERSION;
@@ -159,7 +158,7 @@ std::string hello_line(const Setup& setup, const std::string& memory) {
   hello["delay"] = setup.delay;
   hello["resolution"] = setup.resolution;
   hello["derivative_filter"] = setup.derivative_filter;
-  hello["drives"] = angle ? "angle" : "acceleration";
+  hello["drives"] = name_of(setup.drives);
   hello["limit"] = std::isfinite(setup.limit) ? Json(setup.limit) : Json(nullptr);
   hello["end"] = setup.end;
   hello["parameters"] = Json::object();
@@ -170,7 +169,7 @@ std::string hello_line(const Setup& setup, const std::string& memory) {
   hello["fields"] = Json::object();
   hello["fields"]["sample"] = "1";
   for (const Field& field : fields) hello["fields"][std::string(field.name)] = field.unit;
-  hello["command"] = angle ? "rad" : "rad/s^2";
+  hello["command"] = command_unit(setup.drives);
   if (!memory.empty()) hello["state"] = parse_json(memory);
   return hello.dump() + '\n';
 }

@@ -92,6 +92,14 @@ double DrySwitches::most(double side, double rate) const {
   return std::clamp(parts_.by_voltage(side, rate), -parts_.torque_limit, parts_.torque_limit);
 }
 
+// Whether an axis turns so fast that its motor gives the limit of its torque against that, whatever
+// is asked of it: no voltage leaves it less. What is given is then one value from both sides, and
+// more than it is asked on the side of the voltage's limit.
+bool DrySwitches::overruns(double rate) const {
+  return parts_.by_voltage(1, rate) < -parts_.torque_limit ||
+         parts_.by_voltage(-1, rate) > parts_.torque_limit;
+}
+
 // How fast the integral adds to what is asked of motor i where it does not wait, N m/s.
 template <class AnyScene>
 double DrySwitches::push(const AnyScene& scene, int i, const double* z,
@@ -130,7 +138,7 @@ void DrySwitches::leave_limits(Model& model, double t, double* z) {
   });
 }
 
-void DrySwitches::note_limit(const Model& model, double t, const double* z, std::size_t guard) {
+void DrySwitches::note_limit(const Model& model, std::size_t guard) {
   if (!integrates() || guard < motor_guard || guard >= guards) return;
   const std::size_t i = (guard - motor_guard) / 4, which = (guard - motor_guard) % 4;
   SeenScene::of(model, [&](const SeenScene& scene) {
@@ -140,13 +148,9 @@ void DrySwitches::note_limit(const Model& model, double t, const double* z, std:
       reached_[i] = which % 2 == 0 ? 1 : -1;
       return;
     }
-    // What is asked comes back; not, where one limit takes over from the other.
-    const double rate = z[scene.rate + static_cast<int>(i)], asked = scene.balance(t, z).asked[i];
-    const bool at_torque = motor.by_rate == 0;
-    const bool within_voltage =
-        asked <= parts_.by_voltage(1, rate) && asked >= parts_.by_voltage(-1, rate);
-    const std::size_t own = at_torque ? 2 : motor.side > 0 ? 0 : 1;
-    if (which == own && (!at_torque || within_voltage)) reached_[i] = motor.side;
+    // What is asked comes back.
+    const std::size_t own = motor.by_rate == 0 ? 2 : motor.side > 0 ? 0 : 1;
+    if (which == own) reached_[i] = motor.side;
   });
 }
 
@@ -156,19 +160,25 @@ void DrySwitches::settle_at_limits(Model& model, double t, const double* z,
   Scene::of(model, [&](Scene& scene) {
     const Balance<double> now = scene.balance(t, z);
     for (int i = 0; i < 2; ++i) {
-      const double side = std::exchange(reached_[i], 0), rate = z[scene.rate + i];
+      double side = std::exchange(reached_[i], 0);
       if (side == 0) continue;
+      const double rate = z[scene.rate + i];
+      const bool overrun = overruns(rate);
+      if (overrun) side = parts_.by_voltage(1, rate) < 0 ? 1 : -1;
       MotorMode& motor = scene.motors[i];
       const OutwardRate outward = outward_rate(scene, i, side, z, now, commands);
-      const AtLimit place = outward.at_limit();
-      const bool within = place == AtLimit::within;
+      const AtLimit place = outward.at_limit(overrun ? outward.beyond_other() : outward.within());
       const bool by_voltage = std::abs(parts_.by_voltage(side, rate)) < parts_.torque_limit;
+      const bool within = place == AtLimit::within && !overrun;
+      // Beyond the other side of the same value.
+      const bool other = place == AtLimit::within && overrun;
       motor.factor = within ? 1 : 0;
-      motor.side = within ? 0 : side;
+      motor.side = within ? 0 : other ? -side : side;
       motor.by_rate = !within && by_voltage ? -parts_.torque_by_rate : 0;
       motor.set = within ? 0 : by_voltage ? side * parts_.stall_torque : most(side, rate);
       motor.along = place == AtLimit::along ? 1 : 0;
-      motor.integrate = within || (place == AtLimit::beyond && outward.push < 0) ? 1 : 0;
+      const double push = other ? -outward.push : outward.push;
+      motor.integrate = within || (motor.along == 0 && push < 0) ? 1 : 0;
     }
   });
 }
@@ -494,15 +504,19 @@ void DrySwitches::evaluate(const Model& model, double t, const double* z,
       const bool at_voltage = motor.by_rate != 0, at_limit = motor.factor == 0 && !at_voltage;
       if (motor.along != 0) {
         const OutwardRate outward = outward_rate(scene, i, motor.side, z, now, commands);
-        limit[0] = outward.within();
+        const bool overrun = at_limit && motor.set * motor.side < 0;
+        limit[0] = overrun ? outward.beyond_other() : outward.within();
         limit[1] = -outward.beyond();
-        // The other limit takes over.
+        // The other limit takes over, or both become one.
         const double given = std::abs(motor.side > 0 ? up : down);
         limit[2] = at_voltage ? most - given : given - most;
+        if (at_limit && !overrun) limit[3] = most + (motor.set < 0 ? up : -down);
       } else {
         std::size_t spare = 0;
         if (at_limit) {
-          limit[2] = std::copysign(1.0, motor.set) * left - most;
+          // What is asked comes back; the voltage's limit takes over.
+          limit[2] = motor.side * (asked - motor.set);
+          limit[1] = std::copysign(1.0, motor.set) * (motor.side > 0 ? up : down) - most;
         } else {
           limit[2] = most - left;
           limit[3] = most + left;

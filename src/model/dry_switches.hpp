@@ -46,7 +46,11 @@ class DrySwitches {
   void leave_limits(Model& model, double t, double* z);
   // To be told of a guard that has fallen, before settle(): what is asked of a motor may have come
   // to a limit.
-  void note_limit(const Model& model, double t, const double* z, std::size_t guard);
+  void note_limit(const Model& model, std::size_t guard);
+  // The command of motor i jumps, and with it what is asked: away from a limit where it was.
+  void command_jumps(std::size_t i) {
+    if (i < 2) reached_[i] = 0;
+  }
   // After settle(): how what is asked of a motor goes on from a limit that it has come to.
   void settle_at_limits(Model& model, double t, const double* z, const MotorCommands& commands);
 
@@ -77,6 +81,7 @@ class DrySwitches {
                                          const Balance<double>& now,
                                          const MotorCommands& commands) const;
   [[nodiscard]] double most(double side, double rate) const;
+  [[nodiscard]] bool overruns(double rate) const;
   // The speed next to rest, m/s. At a later time, a rounding of the time is more of one.
   [[nodiscard]] double slow(double t, const CoupledBall& ball) const;
   static void settle_direction(DryDirection& of, double slow, const double (&v)[2], bool was_still);

@@ -21,12 +21,21 @@ std::string number(double value) {
   return text;
 }
 
+// In the smaller unit, unless that overflows.
+std::string in_unit(double value, double units, const char* unit, const char* si) {
+  return std::isfinite(value * units) ? number(value * units) + unit : number(value) + si;
+}
+
 std::string degrees(double angle) {
-  return number(angle * 180 / std::numbers::pi) + " deg";
+  return in_unit(angle, 180 / std::numbers::pi, " deg", " rad");
 }
 
 std::string milliseconds(double time) {
-  return number(1e3 * time) + " ms";
+  return in_unit(time, 1e3, " ms", " s");
+}
+
+std::string millimetres(double length) {
+  return in_unit(length, 1e3, " mm", " m");
 }
 
 // A sentence part by part.
@@ -177,7 +186,7 @@ std::string losses_note(const Losses& losses) {
   List list;
   list.add_if(losses.rolling > 0, "rolling resistance " + number(losses.rolling));
   list.add_if(losses.viscous > 0, "viscous " + number(losses.viscous) + " N m s");
-  list.add_if(losses.pivoting > 0, "pivoting " + number(1e3 * losses.pivoting) + " mm");
+  list.add_if(losses.pivoting > 0, "pivoting " + millimetres(losses.pivoting));
   return list.text();
 }
 
@@ -295,11 +304,11 @@ std::string sensor_note(const Sensor& sensor) {
   list.add_if(sensor.rotation != 0, "turned by " + degrees(sensor.rotation));
   list.add_if(sensor.scale != Pair{1, 1},
               "scaled by " + number(sensor.scale[0]) + ", " + number(sensor.scale[1]));
-  list.add_if(sensor.offset != Pair{0, 0}, "off by " + number(1e3 * sensor.offset[0]) + ", " +
-                                               number(1e3 * sensor.offset[1]) + " mm");
-  list.add_if(sensor.resolution > 0, "resolution " + number(1e3 * sensor.resolution) + " mm");
-  list.add_if(sensor.noise > 0, "noise " + number(1e3 * sensor.noise) + " mm (seed " +
-                                    std::to_string(sensor.seed) + ")");
+  list.add_if(sensor.offset != Pair{0, 0},
+              "off by " + millimetres(sensor.offset[0]) + ", " + millimetres(sensor.offset[1]));
+  list.add_if(sensor.resolution > 0, "resolution " + millimetres(sensor.resolution));
+  list.add_if(sensor.noise > 0,
+              "noise " + millimetres(sensor.noise) + " (seed " + std::to_string(sensor.seed) + ")");
   list.add_if(sensor.delay > 0, milliseconds(sensor.delay) + " late");
   list.add_if(sensor.dropout > 0, "misses " + number(100 * sensor.dropout) + " %");
   if (sensor.area) {

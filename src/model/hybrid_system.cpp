@@ -214,8 +214,10 @@ void HybridSystem::apply_command() {
                                                 : sampled_->controller.told(command);
   for (std::size_t i = 0; i < servos_.size(); ++i) {
     const double follows = servos_[i].follow(told[i]);
-    touched_ = touched_ || follows != mode_->command[i];
+    if (follows == mode_->command[i]) continue;
+    touched_ = true;
     mode_->command[i] = follows;
+    if (dry_) dry_->command_jumps(i);
   }
   for (std::size_t i = 0; i < 2; ++i) mode_->wanted[i] = command[i];
 }
@@ -371,9 +373,11 @@ void HybridSystem::settle(double t, double* z) {
   if (model_.rig) settle_rig(t, z);
   if (dry_) {
     dry_->settle(model_, t, z, motor_commands(t, z, false).value);
+    settle_at_limits(t, z);  // motors are told how fast the commands move then
     dry_->settle_at_limits(model_, t, z, motor_commands(t, z, true));
+  } else {
+    settle_at_limits(t, z);
   }
-  settle_at_limits(t, z);
 }
 
 bool HybridSystem::stays_as_it_is(const double* z) const {
@@ -489,9 +493,9 @@ void HybridSystem::evaluate_limit(int i, double raw, double t, const double* z,
 }
 
 // Which limit a command has come to, if that is why guard `fallen` has.
-void HybridSystem::note_limit(std::size_t fallen, double t, const double* z) {
+void HybridSystem::note_limit(std::size_t fallen) {
   const std::size_t first_dry = first_monitor() - DrySwitches::guards;
-  if (dry_ && fallen >= first_dry) dry_->note_limit(model_, t, z, fallen - first_dry);
+  if (dry_ && fallen >= first_dry) dry_->note_limit(model_, fallen - first_dry);
   const std::size_t i = fallen / axis_guards, guard = fallen % axis_guards;
   if (!switches_ || i >= std::min<std::size_t>(servos_.size(), 2) || guard < ServoAxis::guards ||
       !integrates(static_cast<int>(i))) {
@@ -558,7 +562,7 @@ HybridSystem::Effect HybridSystem::handle_state_event(std::size_t i, double t, d
   const std::size_t first_monitor = guards() - happening_.size();
   if (i < first_monitor) {
     leave_limits(t, z);
-    note_limit(i, t, z);
+    note_limit(i);
     settle(t, z);
     return note_dry(t, z) == Effect::stop ? Effect::stop : Effect::restart;
   }

@@ -201,7 +201,7 @@ class HybridSystem {
   void settle_commands(double t, const double* z);
   void settle_at_limits(double t, const double* z);
   void limit_command(int i, double side, AtLimit place, double push);
-  void note_limit(std::size_t fallen, double t, const double* z);
+  void note_limit(std::size_t fallen);
   void evaluate_limit(int i, double raw, double t, const double* z, double* values) const;
   [[nodiscard]] bool integrates(int i) const;
   [[nodiscard]] CommandRates command_rates(double t, const double* z) const;

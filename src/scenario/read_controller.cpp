@@ -267,10 +267,10 @@ struct CommandLimit {
 void read_controller(yaml::Keys& keys, Controller& controller) {
   read_law(keys, controller);
   keys.optional("drives",
-                yaml::NameOf<Drives>{{{Drives::acceleration, "acceleration"},
-                                      {Drives::angle, "angle"},
-                                      {Drives::torque, "torque"},
-                                      {Drives::voltage, "voltage"}}},
+                yaml::NameOf<Drives>{{{Drives::acceleration, name_of(Drives::acceleration)},
+                                      {Drives::angle, name_of(Drives::angle)},
+                                      {Drives::torque, name_of(Drives::torque)},
+                                      {Drives::voltage, name_of(Drives::voltage)}}},
                 controller.drives);
   keys.section("reference", read_reference, controller.reference);
   keys.optional("limit", CommandLimit{controller.drives == Drives::angle}, controller);

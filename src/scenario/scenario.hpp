@@ -221,6 +221,16 @@ using Reference = std::variant<PointReference, CircleReference, LissajousReferen
 
 enum class Drives { acceleration, angle, torque, voltage };
 
+// The word for it in scenarios, and the unit of a command.
+[[nodiscard]] constexpr const char* name_of(Drives drives) {
+  constexpr const char* names[] = {"acceleration", "angle", "torque", "voltage"};
+  return names[static_cast<std::size_t>(drives)];
+}
+[[nodiscard]] constexpr const char* command_unit(Drives drives) {
+  constexpr const char* units[] = {"rad/s^2", "rad", "N m", "V"};
+  return units[static_cast<std::size_t>(drives)];
+}
+
 enum class Law {
   pd,                      // u = kv e' + kp e, e = reference - (x, y): equation (31)
   pid,                     // ... + ki times the integral of e

@@ -122,6 +122,16 @@ TEST_CASE("columns lists them all with units") {
   }
 }
 
+TEST_CASE("what no degrees can be is told in radians, and lengths and times likewise") {
+  const Result result = bbsim({"check", config("step.yaml"), "--set", "controller.limit=1e308",
+                               "--set", "controller.sensor.offset=[1e308, 0]"});
+  CAPTURE(result.out);
+  CHECK(result.exit_code == 0);
+  CHECK(contains(result.out, "within 1e+308 rad"));
+  CHECK(contains(result.out, "off by 1e+308 m, 0 mm"));
+  CHECK_FALSE(contains(result.out, "inf"));
+}
+
 TEST_CASE("every scenario of configs/ is valid and runs") {
   for (const char* name : {"fig2a", "fig2b", "incline", "beam", "hold", "recorded", "lissajous",
                            "waypoints", "traced", "rig", "step", "catch"}) {

@@ -208,6 +208,16 @@ TEST_CASE("a hello says what the run is like, and its answer what the controller
   CHECK(hello.at("fields").size() == sample.size());
   for (const auto& [name, unit] : hello.at("fields").items()) CHECK(sample.contains(name));
 
+  for (const auto& [drives, word, unit] :
+       {std::tuple{Drives::angle, "angle", "rad"},
+        std::tuple{Drives::acceleration, "acceleration", "rad/s^2"},
+        std::tuple{Drives::torque, "torque", "N m"}, std::tuple{Drives::voltage, "voltage", "V"}}) {
+    setup.drives = drives;
+    const json driven = json::parse(controller::hello_line(setup));
+    CHECK(driven.at("drives") == word);
+    CHECK(driven.at("command") == unit);
+  }
+
   CHECK(controller::read_ready("{\"protocol\": 1}").fault.empty());
   const controller::Ready ready =
       controller::read_ready("{\"protocol\": 1, \"reset\": true, \"columns\": {\"u\": \"rad\"}}");

@@ -185,6 +185,108 @@ TEST_CASE("a run whose integral waits at a limit is what the smoothed law tends 
   CHECK(apart < 0.5 * own);
 }
 
+TEST_CASE("the integral of a position loop moves no faster than its error, nor does a row say so") {
+  const char* const sampling = GENERATE("", "  sampling: {period: 0.00781}\n");
+  CAPTURE(sampling);
+  const std::string text =
+      R"(ball: {radius: 0.01, mass: 0.045, position: [0.084, -0.096], velocity: [0.192, -0.143]}
+plate: {inertia: [0.0097, 0.0094, 0.013]}
+gimbal: {motor: {position_loop: {kp: 3.28, kd: 0.171, ki: 59.7}, torque_limit: 0.0566}}
+controller:
+  pd: {kv: [[0.19, -0.068], [-0.087, -0.193]], kp: [[0.099, -0.017], [-0.045, -0.115]]}
+  drives: angle
+  reference: {point: [0.0036, 0.075]}
+time: {end: 1, step: 0.0005}
+)";
+  std::string with = text;
+  with.insert(with.find("time:"), sampling);
+  const Scenario scene = test::parse(with);
+  const Run run = run_in_memory(scene, Method::radau, {1e-9, 1e-11});
+  REQUIRE(run.outcome.ending == solve::Ending::done);
+  struct At {
+    double integral, error, rate, command;
+  };
+  const auto at = [&](std::size_t row, int axis) {
+    const model::Sample& now = run.samples[row];
+    const double angle = axis == 0 ? now.gimbal.phi : now.gimbal.theta;
+    const double rate = axis == 0 ? now.gimbal.phi_dot : now.gimbal.theta_dot;
+    const double command = now.command[static_cast<std::size_t>(axis)], error = command - angle;
+    return At{(now.coupled->asked[axis] - 3.28 * error + 0.171 * rate) / 59.7, error, rate,
+              command};
+  };
+  double most = 0, steepest = 0;
+  for (std::size_t row = 1; row < run.samples.size(); ++row) {
+    const double dt = run.samples[row].t - run.samples[row - 1].t;
+    for (int axis = 0; axis < 2; ++axis) {
+      const At from = at(row - 1, axis), to = at(row, axis);
+      // Between two rows the error is at most that of either, and what either command changes.
+      const double error = std::max(std::abs(from.error), std::abs(to.error)) +
+                           std::max(std::abs(from.rate), std::abs(to.rate)) * dt +
+                           std::abs(to.command - from.command);
+      most = largest_finite(most, {std::abs(to.integral - from.integral) / (error * dt)});
+      steepest = largest_finite(steepest, {std::abs(run.samples[row].coupled->asked[axis])});
+    }
+  }
+  CHECK(steepest > 0.0566);  // of the motors more is asked than they give
+  CHECK(most < 1.01);        // rates change between rows by a hundredth at most
+}
+
+TEST_CASE(
+    "an integral waits while its error drives outward, also where a motor turns too fast to brake "
+    "less") {
+  // From rest the voltage gives 0.0019 N m; at 1.2 rad/s it takes 0.022 N m at least. Whatever is
+  // asked, the motor then gives its limit, and the two limits of what is asked are one.
+  const Scenario scene = test::parse(
+      R"(ball: {radius: 0.0067, mass: 0.035, position: [-0.04, -0.024]}
+plate: {inertia: [0.00069, 0.00052, 0.00108]}
+gimbal:
+  motor:
+    position_loop: {kp: 0.125, kd: 0.02, ki: 0.16}
+    torque_limit: 0.0022
+    dc: {resistance: 2, torque_constant: 0.02, gear: 10, voltage_limit: 0.019}
+  start: {phi: -0.044, theta: 0.018, theta_rate: -1.2}
+controller:
+  pd: {kv: [[0.38, 0], [0, -0.38]], kp: [[0.4, 0], [0, -0.4]]}
+  drives: angle
+  reference: {point: [0.02, 0.03]}
+time: {end: 0.4, step: 0.0001}
+)");
+  const Run run = run_in_memory(scene, Method::radau, {1e-10, 1e-12});
+  REQUIRE(run.outcome.ending == solve::Ending::done);
+  const double from_rate = 0.2 * 0.2 / 2, stall = 0.2 * 0.019 / 2;
+  struct At {
+    double error, integral, beyond;  // what is asked, above what is given
+    bool overruns;
+  };
+  const auto at = [&](std::size_t row, std::size_t axis) {
+    const model::Sample& now = run.samples[row];
+    const double angle = axis == 0 ? now.gimbal.phi : now.gimbal.theta;
+    const double rate = axis == 0 ? now.gimbal.phi_dot : now.gimbal.theta_dot;
+    const double error = now.command[axis] - angle, asked = now.coupled->asked[axis];
+    return At{error, (asked - 0.125 * error + 0.02 * rate) / 0.16, asked - now.coupled->given[axis],
+              std::abs(rate) * from_rate - stall > 0.0022};
+  };
+  double apart = 0;
+  int waits = 0, moves = 0;
+  for (std::size_t row = 1; row < run.samples.size(); ++row) {
+    for (const std::size_t axis : {0U, 1U}) {
+      const At from = at(row - 1, axis), to = at(row, axis);
+      // No switch is between two rows that are alike.
+      const bool alike =
+          from.overruns && to.overruns && from.beyond * to.beyond > 0 && from.error * to.error > 0;
+      if (!alike) continue;
+      const bool outward = from.beyond * from.error > 0;
+      ++(outward ? waits : moves);
+      const double dt = run.samples[row].t - run.samples[row - 1].t;
+      const double moved = outward ? 0.0 : (from.error + to.error) / 2 * dt;
+      apart = largest_finite(apart, {std::abs(to.integral - from.integral - moved)});
+    }
+  }
+  CHECK(waits > 100);
+  CHECK(moves > 100);
+  CHECK(apart < 1e-9);  // of some 1e-6 between rows; the trapezoidal rule is off by 1e-10
+}
+
 TEST_CASE("at a limit, what is left waiting and what the error adds say how a command goes on") {
   using model::AtLimit;
   using model::OutwardRate;

@@ -22,12 +22,15 @@ struct OutwardRate {
   // Just within the limit q integrates, just beyond it only inward.
   [[nodiscard]] double within() const { return waiting + push; }
   [[nodiscard]] double beyond() const { return waiting + std::min(push, 0.0); }
+  // Of a quantity whose two limits are one, on the other side of it: it waits there, too.
+  [[nodiscard]] double beyond_other() const { return waiting + std::max(push, 0.0); }
 
-  // How a quantity goes on that is exactly at its limit.
-  [[nodiscard]] AtLimit at_limit() const {
-    if (!(within() > 0)) return AtLimit::within;
+  // How a quantity goes on that is exactly at its limit; `inner`: within(), or beyond_other().
+  [[nodiscard]] AtLimit at_limit(double inner) const {
+    if (!(inner > 0)) return AtLimit::within;
     return beyond() < 0 ? AtLimit::along : AtLimit::beyond;
   }
+  [[nodiscard]] AtLimit at_limit() const { return at_limit(within()); }
 };
 
 }  // namespace bbsim::model

@@ -225,17 +225,7 @@ std::vector<LinearSignal> rig_signals(const std::string& command_unit) {
 std::string command_unit(const Scenario& scene) {
   if (scene.gimbal.torque) return "N m";
   if (!scene.controller) return "rad/s^2";
-  switch (scene.controller->drives) {
-    case Drives::angle:
-      return "rad";
-    case Drives::acceleration:
-      return "rad/s^2";
-    case Drives::torque:
-      return "N m";
-    case Drives::voltage:
-      return "V";
-  }
-  return "";
+  return bbsim::command_unit(scene.controller->drives);
 }
 
 std::vector<LinearSignal> signals_of_commands(const Scenario& scene, const std::vector<int>& axes) {

@@ -403,6 +403,10 @@ class CoupledLoop {
       extras.rig.command[i] = by == GimbalBy::given_torques ? 0 : command[i];
     }
     extras.motion = coupled_motion(now, parts, z[Layout::lost], z[Layout::work]);
+    for (int i = 0; i < 2; ++i) {
+      // What is asked along a limit is the limit: its integral is no state meanwhile.
+      if (motors[i].along != 0) extras.motion.asked[i] = now.given[i];
+    }
     return extras;
   }
 
