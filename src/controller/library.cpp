@@ -76,7 +76,6 @@ std::shared_ptr<const LibraryFunctions> open(const std::string& path) {
   return functions;
 }
 
-// What a setup is for a library, as long as this stays.
 // bbsim_setup::drives_acceleration.
 std::uint32_t c_drives(Drives drives) {
   switch (drives) {
@@ -92,6 +91,7 @@ std::uint32_t c_drives(Drives drives) {
   return 0;
 }
 
+// What a setup is for a library, as long as this stays.
 class CSetup {
  public:
   explicit CSetup(const Setup& setup) {

@@ -205,19 +205,6 @@ std::string motor_note(const Motor& motor) {
   return list.text();
 }
 
-std::string command_unit(Drives drives) {
-  switch (drives) {
-    case Drives::torque:
-      return " N m";
-    case Drives::voltage:
-      return " V";
-    case Drives::acceleration:
-    case Drives::angle:
-      break;
-  }
-  return " rad/s^2";
-}
-
 std::string own_law(const OwnController& own) {
   std::string text;
   if (const auto* program = std::get_if<ControllerProgram>(&own.by)) {
@@ -263,8 +250,9 @@ std::string law_note(const Controller& controller) {
   }
   const auto shown = [&](const std::optional<double>& limit) {
     if (!limit) return std::string("any");
-    return controller.drives == Drives::angle ? degrees(*limit)
-                                              : number(*limit) + command_unit(controller.drives);
+    return controller.drives == Drives::angle
+               ? degrees(*limit)
+               : number(*limit) + ' ' + command_unit(controller.drives);
   };
   const auto phi = command_limit(controller, 0), theta = command_limit(controller, 1);
   if (phi != theta) {

@@ -87,9 +87,9 @@ class Stretches {
 
   // To be called with one stretch of time after another, in none of which an input has a corner.
   void add(double from, double to, int halvings = 0) {
-    const bool shown = all_shown_ && are_shown(from, to);
-    if (!shown && halvings == most_halvings) all_shown_ = false;
-    if (!shown && all_shown_) {
+    const bool is_shown = all_shown_ && are_shown(from, to);
+    if (!is_shown && halvings == most_halvings) all_shown_ = false;
+    if (!is_shown && all_shown_) {
       const double middle = from + (to - from) / 2;
       add(from, middle, halvings + 1);
       add(middle, to, halvings + 1);

@@ -1,60 +1,6 @@
-<<<<<<< HEAD
 # Draws `count` scenarios from the keys and ranges of docs/reference/scenario.md into scenes/1.yaml and so on; every
-# other one is then broken. Reads the names of the columns. scripts/try-scenarios runs it.
-
-function between(a, b) { return sprintf("%.6g", a + (b - a) * rand()) }
-function by_factors(a, b) { return sprintf("%.6g", exp(log(a) + (log(b) - log(a)) * rand())) }
-function chance(p) { return rand() < p }
-function pick(list, parts) { return parts[1 + int(rand() * split(list, parts, "|"))] }
-function either_sign(x) { return chance(0.5) ? x : -x }
-function line(words) { scene = scene words "\n" }
-
-# The same quantity with a unit now and then.
-function metres(x) { return chance(0.3) ? sprintf("\"%.6g cm\"", 100 * x) : x }
-function seconds(x) { return chance(0.3) ? sprintf("\"%.6g ms\"", 1000 * x) : x }
-function radians(x) { return chance(0.3) ? sprintf("\"%.6g deg\"", 57.29577951308232 * x) : x }
-
-function point(size) { return "[" metres(between(-size, size)) ", " metres(between(-size, size)) "]" }
-
-function profile(depth, kind) {
-  kind = depth < 1 && chance(0.2) ? "sum" : pick("constant|sinusoid|sinusoid|ramp|table")
-  if (kind == "constant") return radians(between(-0.2, 0.2))
-  if (kind == "sinusoid") {
-    return "{sinusoid: {amplitude: " between(-0.3, 0.3) ", frequency: " by_factors(0.01, 50) \
-      (chance(0.5) ? ", phase: " radians(between(-7, 7)) : "") \
-      (chance(0.3) ? ", offset: " between(-0.1, 0.1) : "") "}}"
-  }
-  if (kind == "ramp") return "{ramp: {start: " between(-0.1, 0.1) ", rate: " between(-0.1, 0.1) "}}"
-  if (kind == "table") return "{table: {file: table.csv, time: t, value: phi}}"
-  return "[" profile(depth + 1) ", " profile(depth + 1) "]"
-}
-
-function path(kind, n, i, t, points, times) {
-  kind = pick("point|circle|lissajous|waypoints|table")
-  if (kind == "point") return "{point: " point(0.1) "}"
-  if (kind == "circle") {
-    return "{circle: {radius: " metres(between(0, 0.1)) ", rate: " between(-3, 3) \
-      (chance(0.3) ? ", phase: " between(-4, 4) : "") (chance(0.3) ? ", centre: " point(0.05) : "") "}}"
-  }
-  if (kind == "lissajous") {
-    return "{lissajous: {amplitude: " point(0.1) ", rate: [" between(-3, 3) ", " between(-3, 3) "]" \
-      (chance(0.3) ? ", phase: [" between(-4, 4) ", 1]" : "") "}}"
-  }
-  if (kind == "table") return "{table: {file: table.csv, time: t, x: x, y: y}}"
-  n = 2 + int(rand() * 5)
-  for (i = 0; i < n; ++i) {
-    t += by_factors(0.05, 1)
-    points = points (i ? ", " : "") point(0.1)
-    times = times (i ? ", " : "") t
-  }
-  return "{waypoints: {points: [" points "], times: [" times "]" \
-    (chance(0.4) ? ", rest: " pick("true|false") : "") "}}"
-}
-=======
-# Draws `count` scenarios from the keys and ranges of docs/scenario.md into scenes/1.yaml and so on; every
 # other one is then broken. Reads the names of the columns. `own`: the kinds of controllers of one's own that there
 # are, "library" and "program". After draw.awk; scripts/try-scenarios runs it.
->>>>>>> wt-e
 
 # Rows phi, theta: the gains that hold the ball, or whatever.
 function gain(size, k) {

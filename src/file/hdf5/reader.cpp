@@ -124,8 +124,8 @@ DatasetInfo info_of(hid_t dataset, const std::string& name, const std::string& p
   if (info.kind == BBSIM_HDF5_SERIES) info.width = size[1];
   if (info.kind == BBSIM_HDF5_AXIS) info.width = size[0];
   if (info.kind == BBSIM_HDF5_TEXT && check(H5Tis_variable_str(type), doing) == 0) {
-    const std::size_t size = H5Tget_size(type);
-    if (size <= longest_to_copy) info.width = size;
+    const std::size_t length = H5Tget_size(type);
+    if (length <= longest_to_copy) info.width = length;
   }
   return info;
 }

@@ -49,7 +49,7 @@ struct CoupledExtras {
   static constexpr int size = sizeof(RigExtras) / sizeof(double) + CoupledMotion::size;
   [[nodiscard]] static CoupledExtras unpack(const double* numbers) {
     CoupledExtras extras;
-    std::memcpy(&extras, numbers, sizeof extras);
+    std::memcpy(static_cast<void*>(&extras), numbers, sizeof extras);
     return extras;
   }
   void pack(double* numbers) const { std::memcpy(numbers, this, sizeof *this); }
