@@ -118,7 +118,7 @@ void tell_closed_loop(Report& report, const Scenario& scenario, const model::Mod
   const model::Eigenvalues poles = model::closed_loop_poles(model);
   if (poles.empty()) {
     report.line("WARNING",
-                "the closed loop has no linearisation about home: the law is singular there");
+                "the closed loop has no linearization about home: the law is singular there");
     return;
   }
   const std::string warning = instability_warning(scenario, model);

@@ -21,6 +21,15 @@ std::vector<std::string> names_of_commands(const CLI::App& app) {
   return names;
 }
 
+std::vector<std::string> aliases_of_commands(const CLI::App& app) {
+  std::vector<std::string> names;
+  for (const CLI::App* command : app.get_subcommands({})) {
+    const std::vector<std::string>& aliases = command->get_aliases();
+    names.insert(names.end(), aliases.begin(), aliases.end());
+  }
+  return names;
+}
+
 std::vector<std::string> names_of_options(const CLI::App& command) {
   std::vector<std::string> names;
   for (const CLI::App* app = &command; app != nullptr; app = app->get_parent()) {
@@ -45,7 +54,9 @@ std::string known_commands(const CLI::App& app) {
 }
 
 [[noreturn]] void refuse_command(const CLI::App& app, const std::string& word) {
-  const std::string near = nearest(word, names_of_commands(app));
+  std::vector<std::string> names = names_of_commands(app);
+  for (std::string& alias : aliases_of_commands(app)) names.push_back(std::move(alias));
+  const std::string near = nearest(word, names);
   throw InputError("unknown command " + word + "; " +
                    (near.empty() ? known_commands(app) : "did you mean " + near + "?") + more);
 }
@@ -121,7 +132,7 @@ void add_help(CLI::App& app, Chosen& chosen) {
         return ExitCode::done;
       }
       for (const CLI::App* known : app.get_subcommands({})) {
-        if (known->get_name() != *name) continue;
+        if (!known->check_name(*name)) continue;
         print(known->help("bbsim"));
         return ExitCode::done;
       }
@@ -135,18 +146,22 @@ void add_help(CLI::App& app, Chosen& chosen) {
 // for help and for what is said of a mistake. Options are made of those that are named.
 void add_commands(CLI::App& app, std::span<char* const> words,
                   std::span<const NamedCommand> commands, const Options& options, Chosen& chosen) {
+  const auto calls = [](std::string_view word, const NamedCommand& command) {
+    return word == command.name || (!word.empty() && word == command.alias);
+  };
   const auto is_named = [&](const NamedCommand& command) {
-    return std::ranges::find(words, std::string_view(command.name)) != words.end();
+    return std::ranges::any_of(words, [&](std::string_view word) { return calls(word, command); });
   };
   const auto first = std::ranges::find_if_not(
       words, [](std::string_view word) { return word == "-q" || word == "--quiet"; });
   const bool names_one =
       first != words.end() &&
-      std::ranges::find(commands, std::string_view(*first), &NamedCommand::name) != commands.end();
+      std::ranges::any_of(commands, [&](const NamedCommand& one) { return calls(*first, one); });
   for (const NamedCommand& command : commands) {
     const bool named = is_named(command);
     if (names_one && !named) continue;
     CLI::App* const added = app.add_subcommand(command.name, command.description);
+    if (!command.alias.empty()) added->alias(std::string(command.alias));
     if (!named) continue;
     Command its(*added, chosen);
     command.add_options(its, options);

@@ -204,12 +204,12 @@ std::string occurrence_text(const model::Occurrence& occurrence) {
 std::string stopping_text(const Scenario& scenario, const std::string& event) {
   const Events& events = scenario.events;
   if (event == "tilt" && !events.tilt) {
-    return "So it is by default under feedback_linearisation; events.tilt with action: note would "
+    return "So it is by default under feedback_linearization; events.tilt with action: note would "
            "let "
            "it run on.";
   }
   if (event == "singularity" && !events.singularity) {
-    return "So it is by default under feedback_linearisation; events.singularity.action: note "
+    return "So it is by default under feedback_linearization; events.singularity.action: note "
            "would "
            "let it run on.";
   }

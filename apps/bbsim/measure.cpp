@@ -37,7 +37,7 @@ file::TableData numbers_of(plot::Result result, std::vector<Words>& others) {
   if (result.is_sweep()) {
     throw InputError(result.file +
                      ": is a sweep; allowed: the result of a run. Measures of a sweep "
-                     "are its columns: bbsim summarise " +
+                     "are its columns: bbsim summarize " +
                      result.file);
   }
   file::TableData table;

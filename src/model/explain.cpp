@@ -153,7 +153,7 @@ std::string linkage_note(const Scenario& scene) {
     const ThreeServos& three = *between.three;
     const double tilt = greatest_tilt(three);
     return "three servos, two tilts and a height, (M58) to (M61); all legs reach a tilt of " +
-           degrees(tilt) + "; without the wander of the plate's centre, at most " +
+           degrees(tilt) + "; without the wander of the plate's center, at most " +
            number(1e3 * three.plate / 2 * (1 - std::cos(tilt))) + " mm there, and " +
            number(1e3 * three.plate / 2 * (1 - std::cos(0.1))) + " mm at 0.1 rad" +
            assumes_note(scene);
@@ -241,7 +241,7 @@ std::string law_note(const Controller& controller) {
       break;
     case Law::feedback_linearisation:
       text =
-          "feedback linearisation of (27): the ball follows, the tilt is an unstable internal "
+          "feedback linearization of (27): the ball follows, the tilt is an unstable internal "
           "state (docs/how-to/real-effects.md)";
       break;
     case Law::own:
@@ -311,7 +311,7 @@ std::string mounting_note(const Scenario& scene) {
   list.add_if(scene.ball.inertia_factor != 0.4,
               "inertia factor " + number(scene.ball.inertia_factor));
   list.add_if(mounting.height != 0,
-              "plane " + number(mounting.height) + " m above the gimbal's centre");
+              "plane " + number(mounting.height) + " m above the gimbal's center");
   list.add_if(mounting.phi_offset != 0, "phi off by " + degrees(mounting.phi_offset));
   list.add_if(mounting.theta_offset != 0, "theta off by " + degrees(mounting.theta_offset));
   list.add_if(mounting.skew != 0, "axes askew by " + degrees(mounting.skew));
@@ -377,7 +377,7 @@ std::vector<Note> explain(const Scenario& scene, const Model& model) {
   }
   if (scene.gimbal.servo) note("servo", limits_note(scene.gimbal));
   note("linkage", linkage_note(scene));
-  if (scene.ball.push) note("push", "a force on the ball's centre, along the plane's axes");
+  if (scene.ball.push) note("push", "a force on the ball's center, along the plane's axes");
   if (scene.gimbal.motor) note("motors", motor_note(*scene.gimbal.motor));
   note("losses", losses_note(scene.ball.losses));
   if (scene.events.slip && scene.events.slip->sliding) {

@@ -58,6 +58,12 @@ class Checks {
     if (value) value->context->problems.add(value->position, value->path + ": " + why);
   }
 
+  // The law's key, as written.
+  std::string law() {
+    const auto value = find_at(keys_, {"controller", "feedback_linearization"});
+    return value ? std::string(value->name()) : "feedback_linearization";
+  }
+
   void controller() {
     if (!scene_.controller) return;
     const Controller& controller = *scene_.controller;
@@ -85,14 +91,15 @@ class Checks {
     }
     if (controller.law == Law::feedback_linearisation) {
       if (controller.sampling) {
-        refuse({"controller", "sampling"},
-               "found beside feedback_linearisation, which needs the exact state at all times; "
-               "allowed: any other law");
+        refuse({"controller", "sampling"}, "found beside " + law() +
+                                               ", which needs the exact state at all times; "
+                                               "allowed: any other law");
       }
       if (controller.drives != Drives::acceleration) {
         refuse({"controller", "drives"},
                std::string("found ") + (controller.drives == Drives::angle ? "angle" : "torques") +
-                   ", but feedback_linearisation gives the gimbal's accelerations; allowed: "
+                   ", but " + law() +
+                   " gives the gimbal's accelerations; allowed: "
                    "acceleration");
       }
     }
@@ -309,9 +316,9 @@ class Checks {
              "ball.mass given");
     }
     if (inverts()) {
-      refuse({"ball", "push"},
-             "found beside feedback_linearisation, which inverts equations without it; allowed: "
-             "any other law");
+      refuse({"ball", "push"}, "found beside " + law() +
+                                   ", which inverts equations without it; allowed: "
+                                   "any other law");
     }
   }
 
@@ -323,7 +330,7 @@ class Checks {
     if (scene_.events.singularity &&
         !(scene_.controller && scene_.controller->law == Law::feedback_linearisation)) {
       refuse({"events", "singularity"},
-             "found without controller.feedback_linearisation; allowed: only with it");
+             "found without controller.feedback_linearization; allowed: only with it");
     }
   }
 
@@ -345,9 +352,9 @@ class Checks {
           "factor greater than 0");
     }
     if (has_dry_losses(scene_) && inverts()) {
-      refuse({"ball", "losses"},
-             "found dry friction beside feedback_linearisation, which inverts equations that are "
-             "smooth; allowed: viscous, or any other law");
+      refuse({"ball", "losses"}, "found dry friction beside " + law() +
+                                     ", which inverts equations that are "
+                                     "smooth; allowed: viscous, or any other law");
     }
     if (scene_.events.rest && !(losses.rolling > 0)) {
       refuse({"events", "rest"},
@@ -369,10 +376,9 @@ class Checks {
              "allowed: a factor greater than 0");
     }
     if (inverts()) {
-      refuse(
-          {"events", "slip", "action"},
-          "found slide beside feedback_linearisation, which inverts the equations of a ball that "
-          "rolls; allowed: stop or note, or any other law");
+      refuse({"events", "slip", "action"}, "found slide beside " + law() +
+                                               ", which inverts the equations of a ball that "
+                                               "rolls; allowed: stop or note, or any other law");
     }
     if (any_servo([](const Servo& servo) {
           return servo.time_constant || servo.angle_limit || servo.backlash > 0;
@@ -400,8 +406,8 @@ class Checks {
     const double z = scene_.plate.centre_of_mass, least = scene_.plate.mass * z * z;
     if (std::min(j[0], j[1]) * more < least) {
       inertia->warn("a moment about x or y is less than " + number_text(least) +
-                    " kg m^2, plate.mass times the square of plate.centre_of_mass, which no body "
-                    "has: the moments are about the gimbal's centre");
+                    " kg m^2, plate.mass times the square of plate.center_of_mass, which no body "
+                    "has: the moments are about the gimbal's center");
     }
   }
 
@@ -409,7 +415,7 @@ class Checks {
     const Gimbal& gimbal = scene_.gimbal;
     if (scene_.plate.mass == 0) {
       refuse(
-          {"plate", "centre_of_mass"},
+          {"plate", "center_of_mass"},
           "found without plate.mass; allowed: only with it, since it is the mass that pulls there");
     }
     const bool sticks = gimbal.motor && gimbal.motor->friction > 0;
@@ -446,7 +452,7 @@ class Checks {
       }
     }
     if (inverts()) {
-      refuse({"controller", "feedback_linearisation"},
+      refuse({"controller", "feedback_linearization"},
              "found, but torques move the gimbal, and this law gives its accelerations; allowed: "
              "drives: acceleration, or any other law");
     }

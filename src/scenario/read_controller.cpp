@@ -105,7 +105,7 @@ constexpr NamedLaw laws[] = {
     {"state_feedback", Law::state_feedback, read_state_feedback},
     {"lqr", Law::lqr, read_lqr},
     {"gravity_compensation", Law::gravity_compensation, read_pd},
-    {"feedback_linearisation", Law::feedback_linearisation, read_pd},
+    {"feedback_linearization", Law::feedback_linearisation, read_pd},
     {"program", Law::own, read_program},
     {"library", Law::own, read_library},
 };
@@ -123,8 +123,9 @@ void read_law(yaml::Keys& keys, Controller& controller) {
     return;
   }
   if (given.size() > 1) {
+    const yaml::Value first = *keys.find(given[0]->key);
     keys.find(given[1]->key)
-        ->report("found beside " + std::string(given[0]->key) + "; allowed: one law");
+        ->report("found beside " + std::string(first.name()) + "; allowed: one law");
   }
   controller.law = given[0]->law;
   keys.section(given[0]->key, given[0]->read, controller);

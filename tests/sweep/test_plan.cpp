@@ -262,6 +262,11 @@ TEST_CASE("tied keys go together, each by its factor") {
 
 TEST_CASE("what cannot be tied is said before it runs") {
   CHECK(contains(fault(vary({{"gravity,gravity", "list:1"}})), "gravity: found twice"));
+  const std::string circle = "controller.reference.circle.";
+  CHECK(contains(fault(vary({{circle + "center.0", "list:0"}, {circle + "centre.0", "list:0"}})),
+                 circle + "centre.0: found twice"));
+  CHECK(contains(fault(vary({{circle + "center.0", "list:0"}}), loop, {circle + "centre=[0, 0]"}),
+                 "but the sweep varies"));
   CHECK(
       contains(fault(vary({{"ball.radius,ball.raduis", "list:1"}})), "did you mean ball.radius?"));
   CHECK(contains(fault(vary({{"ball.position,ball.position.0", "list:[1, 2]"}})), "apart from"));
