@@ -182,22 +182,23 @@ ExitCode accuracy(const AccuracyArguments& arguments, const Options& options) {
 void add_accuracy(Command& command, const Options& options) {
   command.footer(
       "The error is the largest |dx| or |dy| over the output times, against a solution in quad "
-      "precision; the time is the median processor time of repeated runs, files not counted. atol "
-      "is rtol / 100 throughout. The second table names the fastest choice for each decade of "
-      "error.\n"
+      "precision. The time is the median processor time of repeated runs, without files. atol is "
+      "rtol / 100. A second table names the fastest choice for each decade of error.\n"
       "CSV columns: method, rtol, atol, error_m, time_us, steps, rhs_evaluations, "
       "jacobian_evaluations, status.");
   const auto arguments = std::make_shared<AccuracyArguments>();
   add_scenario(command, arguments->scenario);
-  command.option("--methods", arguments->methods, "methods to compare (default: all but auto)")
+  command
+      .option("--methods", arguments->methods,
+              "methods to compare: radau, bdf, adams; default: all")
       .takes("NAME,...")
       .parted_by_commas();
   command.option("--rtol", arguments->rtols, "tolerances, a decade apart")
       .takes("LOOSEST:TIGHTEST")
       .shows_default();
-  command.option("--csv", arguments->csv, "write all points to this file; - is standard output")
+  command.option("--csv", arguments->csv, "write all points to FILE as CSV; - is standard output")
       .takes("FILE");
-  command.option("--plot", arguments->plot, "draw time over error, with gnuplot")
+  command.option("--plot", arguments->plot, "draw time over error to FILE, with gnuplot")
       .takes("FILE.svg|.png|.pdf");
   command.does([arguments, &options] { return accuracy(*arguments, options); });
 }

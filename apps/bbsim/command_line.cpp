@@ -92,7 +92,7 @@ bool is_option(std::string_view word) {
 void add_quiet(CLI::App& app, Options& options) {
   app.fallthrough();  // which the commands take over, so that the flag may stand after them
   app.add_flag("-q,--quiet", options.quiet,
-               "print no messages and no progress, only results and why a run ended");
+               "print results and the reason why a run ended early; no messages, no progress");
 }
 
 // Prints help or the version, where that ended the parsing. Throws InputError for a mistake.
@@ -122,9 +122,9 @@ ExitCode parsing_ended(const CLI::App& app, const CLI::ParseError& error) {
 }
 
 void add_help(CLI::App& app, Chosen& chosen) {
-  CLI::App* command = app.add_subcommand("help", "Print help, of a command if it is named");
+  CLI::App* command = app.add_subcommand("help", "Print help on bbsim or on one command");
   const auto name = std::make_shared<std::string>();
-  command->add_option("COMMAND", *name, "the command; default: what all of them do");
+  command->add_option("COMMAND", *name, "the command; default: list all commands");
   command->callback([&app, name, &chosen] {
     chosen = [&app, name] {
       if (name->empty()) {
@@ -174,15 +174,20 @@ void add_commands(CLI::App& app, std::span<char* const> words,
 }  // namespace
 
 ExitCode obey(int argc, char** argv, std::span<const NamedCommand> commands) {
-  CLI::App app("bbsim simulates a ball that rolls on a plane which a two-axis gimbal tips.",
-               "bbsim");
+  CLI::App app(
+      "bbsim simulates a ball rolling on a plate that tilts about two axes (the ball-and-plate rig "
+      "of control courses).",
+      "bbsim");
   app.formatter(std::make_shared<HelpFormatter>());
   app.set_help_flag("-h,--help", "print this help and exit");
-  app.set_version_flag("--version", version, "print the version, what it was made of, and exit");
+  app.set_version_flag("--version", version,
+                       "print the versions of bbsim and its libraries and exit");
   app.require_subcommand(1);
   app.footer(
       "Exit codes: 0 done; 1 the run ended early or files differ; 2 the command line or the "
-      "scenario is at fault; 3 the output could not be written; 130 interrupted.");
+      "scenario is at fault; 3 the output could not be written; 130 interrupted.\n"
+      "\n"
+      "Run `bbsim COMMAND --help` for the options of a command.");
   Options options;
   add_quiet(app, options);
   Chosen chosen;

@@ -196,10 +196,11 @@ ExitCode plot_files(const PlotArguments& arguments, const Options& options) {
 
 void add_plot(Command& command, const Options& options) {
   command.footer(
-      "A run: its path in the plane, and its columns over time; a sweep: its measures over the "
-      "keys that vary. Title, plate, events and friction coefficient are in .h5 files; for a .csv "
-      "they are taken from its summary, NAME.json beside NAME.csv or --summary, or from "
-      "--scenario. Without these a table that bbsim did not write is drawn without units.\n"
+      "The picture of a run has its path on the plate and its columns over time; that of a sweep "
+      "has its measures over the keys that vary. Title, plate, events and friction coefficient "
+      "come from the .h5 file. For a .csv they come from its summary (NAME.json beside NAME.csv, "
+      "or --summary) or from --scenario. Without these, bbsim draws a table of other programs "
+      "without units.\n"
       "\n"
       "Examples:\n"
       "  bbsim run configs/rig.yaml --summary rig.json && bbsim plot rig.csv\n"
@@ -212,27 +213,25 @@ void add_plot(Command& command, const Options& options) {
               "CSV or HDF5 files of runs and sweeps; - is CSV on standard input")
       .required();
   command.option("-o,--output", arguments->output,
-                 "FILE.svg, .png or .pdf, or - for standard output; default: FILE with .svg");
+                 "write FILE.svg, .png or .pdf, or - for standard output; default: FILE with .svg");
   add_force(command, arguments->force);
-  command.option("--format", arguments->format, "svg, png or pdf; default: as the ending says")
+  command.option("--format", arguments->format, "svg, png or pdf; default: the ending of -o")
       .takes("FORMAT");
   command.flag("--overlay", arguments->overlay,
-               "all files in one picture, to be compared; default name: FIRST-overlay.svg");
+               "draw all files in one picture; default name: FIRST-overlay.svg");
   command
-      .option(
-          "--columns", arguments->columns,
-          "what to draw: columns of a panel parted by commas, panels by semicolons; path is the "
-          "picture in the plane. Of a sweep: measures")
+      .option("--columns", arguments->columns,
+              "columns to draw: commas separate the columns of a panel, semicolons separate "
+              "panels; path is the path on the plate. Of a sweep: measures")
       .may_be_repeated();
-  command
-      .option("--over", arguments->over, "KEY[,KEY] of a sweep: what its measures are drawn over")
+  command.option("--over", arguments->over, "KEY[,KEY]: draw a sweep's measures over these keys")
       .may_be_repeated();
   command.option("--summary", arguments->beside.summary,
-                 "FILE.json that `bbsim run --summary` wrote of the run");
-  command.option("--scenario", arguments->beside.scenario, "FILE.yaml that was run");
+                 "FILE.json: the summary of the run, from `bbsim run --summary`");
+  command.option("--scenario", arguments->beside.scenario, "FILE.yaml: the scenario that was run");
   command
       .option("--set", arguments->beside.overrides,
-              "key.path=value that was set in it; may be given again")
+              "key.path=value that was set in that scenario; repeatable")
       .may_be_repeated();
   command.does([arguments, &options] { return plot_files(*arguments, options); });
 }

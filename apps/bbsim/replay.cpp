@@ -211,10 +211,10 @@ ExitCode replay_files(const ReplayArguments& arguments, const Options& options) 
 
 void add_replay(Command& command, const Options& options) {
   command.footer(
-      "The page opens in any browser, offline: the rig in three dimensions, plots, what was run. "
-      "Of several runs the first one leads and the others are its ghosts. A scenario is run first. "
-      "Title, plate, ball and events of a .csv are taken from its summary, NAME.json beside "
-      "NAME.csv or --summary, or from --scenario.\n"
+      "The page opens in any browser, offline. It shows the rig in three dimensions, plots, and "
+      "the settings of the run. With several runs, the first one leads and the others are ghosts. "
+      "bbsim runs a scenario first. Title, plate, ball and events of a .csv come from its summary "
+      "(NAME.json beside NAME.csv, or --summary) or from --scenario.\n"
       "\n"
       "Examples:\n"
       "  bbsim replay configs/rig.yaml -o rig.html\n"
@@ -224,32 +224,32 @@ void add_replay(Command& command, const Options& options) {
       "  bbsim replay fig2b-sweep.csv --scenario configs/fig2b.yaml\n"
       "  bbsim replay configs/fig2a.yaml -o fig2a.glb");
   const auto arguments = std::make_shared<ReplayArguments>();
-  command.option("FILES", arguments->files,
-                 "results (CSV, HDF5) of runs or sweeps, or scenarios; - is CSV on standard "
-                 "input");
+  command.option(
+      "FILES", arguments->files,
+      "results (CSV, HDF5) of runs or of sweeps, or scenarios; - is CSV on standard input");
   command
       .option("-o,--output", arguments->output,
-              "FILE.html, FILE.glb (glTF, for Blender and slides), or - for a page on "
+              "write FILE.html, FILE.glb (glTF, for Blender and slides), or - for a page on "
               "standard output; default: the first file's name with .html")
       .takes("FILE");
   add_force(command, arguments->force);
   command
-      .option("--data", arguments->logs,
-              "LOG.csv of a real rig, shown beside the runs; may be given again")
+      .option("--data", arguments->logs, "LOG.csv of a real rig, shown with the runs; repeatable")
       .takes("LOG")
       .may_be_repeated();
   command
       .option("--map", arguments->maps,
-              "COLUMN=NAME[:UNIT],... which column of the log is which of bbsim columns, "
-              "and its unit; default: the log's names are bbsim's, in SI units")
+              "COLUMN=NAME[:UNIT],...: the log's column NAME, in UNIT, is bbsim's COLUMN; default: "
+              "columns match by name, in SI units")
       .takes("MAP")
       .may_be_repeated();
-  command.option("--title", arguments->title, "of the page; default: the scenario's").takes("TEXT");
+  command.option("--title", arguments->title, "title of the page; default: the scenario's")
+      .takes("TEXT");
   command
       .option("--summary", arguments->beside.summary,
-              "FILE.json that `bbsim run --summary` wrote of the result")
+              "FILE.json: the summary of a result, from `bbsim run --summary`")
       .takes("FILE");
-  command.option("--scenario", arguments->beside.scenario, "FILE.yaml that a result is of")
+  command.option("--scenario", arguments->beside.scenario, "FILE.yaml: the scenario of a result")
       .takes("FILE");
   add_overrides(command, arguments->beside.overrides);
   command.does([arguments, &options] { return replay_files(*arguments, options); });

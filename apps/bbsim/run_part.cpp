@@ -48,18 +48,18 @@ std::string identity_of(const Scenario& scenario, const std::vector<file::InputT
 void add_part(Command& command, PartArguments& arguments) {
   command
       .option("--save-state", arguments.save,
-              "FILE: the state at the end of this run, or at --until, or where it is "
-              "interrupted, to go on from")
+              "write the state at the end of this run, at --until, or at an interruption, for "
+              "--from-state")
       .takes("FILE");
   command
       .option("--from-state", arguments.from,
-              "go on from a state of the same scenario: the rows that follow, those of one run "
-              "to the bit")
+              "continue from a state of the same scenario; the rows are those of one whole run to "
+              "the bit")
       .takes("FILE");
   command
       .option("--until", arguments.until,
-              "with --save-state: end this part of the run at that time; time.end stays the "
-              "end of the whole")
+              "with --save-state: end this part of the run at TIME; time.end stays the end of the "
+              "whole run")
       .takes("TIME");
 }
 

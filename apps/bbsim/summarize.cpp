@@ -45,34 +45,35 @@ ExitCode summarize(const SummarizeArguments& arguments, const Options& options) 
 
 void add_summarize(Command& command, const Options& options) {
   command.footer(
-      "Of each group the cases that are done count, with the measures that are finite numbers; "
-      "`cases` is how many there are. The deviation is that of a sample.\n"
+      "Statistics are over the cases of a group that are done and have a finite measure; `cases` "
+      "is the number of all cases in the group. The deviation is the sample standard deviation. "
+      "`bbsim summarise` is the same command.\n"
       "\n"
-      "Example, twenty seeds of a sensor's noise at three gains:\n"
+      "Example (twenty seeds of the sensor noise at three gains):\n"
       "  bbsim sweep configs/rig.yaml --vary controller.sensor.seed=linear:1:20:20 \\\n"
       "      --vary controller.gravity_compensation.kp=list:8,12,16 -o seeds.csv\n"
       "  bbsim summarize seeds.csv --by controller.gravity_compensation.kp");
   const auto arguments = std::make_shared<SummarizeArguments>();
   command
       .option("SWEEP", arguments->file,
-              "a result of a sweep: CSV, HDF5 (.h5, .hdf5), or - for CSV on standard input")
+              "the result of a sweep: CSV, HDF5 (.h5, .hdf5), or - for CSV on standard input")
       .required();
   command
       .option("--by", arguments->keys,
-              "cases with one value of these keys are a group; without, all are one")
+              "group cases with equal values of these keys; default: one group of all cases")
       .takes("KEY,...")
       .parted_by_commas();
-  command.option("--measure", arguments->measures, "these measures only; may be given again")
+  command.option("--measure", arguments->measures, "only these measures; repeatable")
       .takes("NAME,...")
       .may_be_repeated();
   command
       .option("--quantiles", arguments->quantiles,
-              "parts of the cases; default: 0.05,0.25,0.5,0.75,0.95")
+              "numbers from 0 to 1; default: 0.05,0.25,0.5,0.75,0.95")
       .takes("Q,...")
       .parted_by_commas();
   command
       .option("-o,--output", arguments->output,
-              "FILE.csv, or - for CSV on standard output (default)")
+              "write FILE.csv, or - for CSV on standard output (default)")
       .takes("FILE");
   command.does([arguments, &options] { return summarize(*arguments, options); });
 }

@@ -129,8 +129,8 @@ ExitCode verify(const VerifyArguments& arguments, const Options& options) {
 void add_verify(Command& command, const Options& options) {
   const auto arguments = std::make_shared<VerifyArguments>();
   command.option("SCENARIO", arguments->scenario,
-                 "a YAML file to compare simpler models over, - is standard input; default: "
-                 "the paper's Fig. 2");
+                 "a YAML file, or - for standard input: print the error of simpler models on it; "
+                 "default: the paper's Fig. 2");
   add_overrides(command, arguments->overrides);
   command.does([arguments, &options] { return verify(*arguments, options); });
 }
