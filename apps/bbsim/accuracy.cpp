@@ -92,8 +92,8 @@ study::Picture picture_of(const std::string& file) {
 void explain_reference(const study::AccuracyStudy& study, double end) {
   say("the reference's own error: about " + rounded(study.reference_error, 2) + " m");
   if (!study.reference_complete && !study.interrupted) {
-    say("the reference ended at t = " + short_number(study.reference_reached) + " s of " +
-        short_number(end) + " s, and errors are those before: " + study.reference_reason);
+    say("the reference solution ended at t = " + short_number(study.reference_reached) + " s of " +
+        short_number(end) + " s, and the errors are those up to then: " + study.reference_reason);
   }
 }
 
@@ -108,9 +108,9 @@ std::string what_switches(const Scenario& scenario, const model::Model& model) {
     const bool by_angles =
         scenario.controller && scenario.controller->law == Law::gravity_compensation;
     add(model.rig->sampled.has_value(), "controller.sampling");
-    add(model.rig->limits_commands(), by_angles ? "the limit of the command, which "
-                                                  "gravity_compensation always has"
-                                                : "controller.limit");
+    add(model.rig->limits_commands(),
+        by_angles ? "the command limit, which gravity_compensation always has"
+                  : "controller.limit");
     add(std::ranges::any_of(model.rig->servo, &model::RigServo::switches),
         "a limit or the backlash of gimbal.servo");
     add(model.rig->between.has_pieces(), "a measured curve of gimbal.linkage");
@@ -142,11 +142,10 @@ ExitCode accuracy(const AccuracyArguments& arguments, const Options& options) {
   const auto columns = scenario::columns_named(scenario.output.columns);
   const model::Model model = assemble(scenario, columns);
   if (model.hybrid()) {
-    throw InputError(scenario.source.file +
-                     ": accuracy compares smooth runs; found what switches or is watched for: " +
-                     what_switches(scenario, model) +
-                     "; allowed: a scene without (`bbsim run --error` estimates the error of this "
-                     "one)");
+    throw InputError(
+        scenario.source.file + ": accuracy compares smooth runs; found a switch or an event: " +
+        what_switches(scenario, model) +
+        "; allowed: a scene without one (`bbsim run --error` estimates the error of this one)");
   }
   const solve::OutputGrid grid(scenario.time);
   Progress progress("accuracy", options.quiet);
@@ -173,7 +172,7 @@ ExitCode accuracy(const AccuracyArguments& arguments, const Options& options) {
     return ExitCode::interrupted;
   }
   if (any) return ExitCode::done;
-  say("no method came to the end of the scene; `bbsim run` says why");
+  say("no method reached the end of the scene; `bbsim run` says why");
   return ExitCode::ended_early;
 }
 

@@ -72,7 +72,7 @@ bool is_option(std::string_view word) {
   const std::string name = whole ? "bbsim" : "bbsim " + command.get_name();
   const std::string help = "\nRun " + name + " --help for more information.";
   if (!is_option(word)) {
-    throw InputError("found " + word + ", which " + name + " does not ask for." + help);
+    throw InputError("found " + word + ", which " + name + " does not take." + help);
   }
   const std::string option = word.substr(0, word.find('='));
   if (!whole && command.get_option_no_throw(option) != nullptr) {

@@ -101,7 +101,7 @@ ExitCode linearize(const LinearizeArguments& arguments, const Options& options) 
   const model::Linearisation made = model::linearise(scenario, model, kind, point);
   if (made.poles.empty()) {
     say("the " + std::string(name_of(kind)) + " about " + at +
-        " has no poles that numbers can hold.");
+        " has poles beyond the range of doubles.");
     return ExitCode::ended_early;
   }
   if (made.system.period) {

@@ -83,11 +83,12 @@ plot::Picture picture_of(const std::vector<plot::Result>& results, const PlotArg
   if (std::ranges::none_of(results, is_sweep)) {
     if (!arguments.over.empty()) {
       throw InputError("--over: " + results.front().file +
-                       " is no sweep; a run is drawn over time");
+                       " is no sweep; bbsim draws a run over time");
     }
     return plot::run_picture(results, asked);
   }
-  if (results.size() > 1) throw InputError("--overlay: a sweep has a picture to itself");
+  if (results.size() > 1)
+    throw InputError("--overlay: found a sweep; allowed: runs, since a sweep has its own picture");
   plot::SweepChoice choice;
   for (const std::vector<std::string>& panel : asked) {
     choice.measures.insert(choice.measures.end(), panel.begin(), panel.end());
@@ -109,12 +110,14 @@ std::vector<Task> tasks_of(const PlotArguments& arguments, std::string_view endi
   const std::vector<std::string>& files = arguments.files;
   const bool several = files.size() > 1;
   if (several && !arguments.overlay && !arguments.output.empty()) {
-    throw InputError("--output: found " + arguments.output +
-                     " for several files; allowed with --overlay, which draws them in one picture");
+    throw InputError(
+        "--output: found " + arguments.output +
+        " for several files; allowed: with --overlay, which draws them in one picture");
   }
   const auto named_after = [&](const std::string& file, const char* more) {
     if (!arguments.output.empty()) return arguments.output;
-    if (file == "-") throw InputError("--output: missing; what is drawn from - has no name");
+    if (file == "-")
+      throw InputError("--output: missing; standard input (-) gives the picture no name");
     return fs::path(file).replace_extension().string() + more + '.' + std::string(ending);
   };
   if (several && arguments.overlay) return {{files, named_after(files.front(), "-overlay")}};
@@ -172,7 +175,8 @@ ExitCode plot_files(const PlotArguments& arguments, const Options& options) {
   const NamedFormat format = format_of(arguments);
   const std::vector<Task> tasks = tasks_of(arguments, format.name);
   if (arguments.files.size() > 1 && !arguments.beside.summary.empty()) {
-    throw InputError("--summary: a summary is of one run, and several are to be drawn");
+    throw InputError(
+        "--summary: found several files; allowed: one run, to which the summary belongs");
   }
   if (!arguments.beside.overrides.empty() && arguments.beside.scenario.empty()) {
     throw InputError("--set: allowed with --scenario, in which it sets a key");

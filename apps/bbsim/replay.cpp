@@ -66,7 +66,8 @@ std::string output_of(const ReplayArguments& arguments) {
   if (!arguments.output.empty()) return arguments.output;
   const std::string& first =
       arguments.files.empty() ? arguments.logs.front() : arguments.files.front();
-  if (first == "-") throw InputError("--output: missing; what is shown from - has no name");
+  if (first == "-")
+    throw InputError("--output: missing; standard input (-) gives the page no name");
   if (is_scenario(first)) return default_output(first, ".html");
   return std::filesystem::path(first).replace_extension(".html").string();
 }
@@ -79,11 +80,11 @@ void check_arguments(const ReplayArguments& arguments) {
   const auto scenarios = std::ranges::count_if(arguments.files, is_scenario);
   const auto results = static_cast<std::ptrdiff_t>(arguments.files.size()) - scenarios;
   if (!arguments.beside.summary.empty() && results != 1) {
-    throw InputError("--summary: a summary is of one run, and " + std::to_string(results) +
-                     " results are to be shown");
+    throw InputError("--summary: found " + std::to_string(results) +
+                     " results; allowed: one run, to which the summary belongs");
   }
   if (!arguments.beside.scenario.empty() && results == 0) {
-    throw InputError("--scenario: allowed with a result, of which it is the scenario");
+    throw InputError("--scenario: allowed with a result, whose scenario it gives");
   }
   if (!arguments.beside.overrides.empty() && scenarios == 0 && arguments.beside.scenario.empty()) {
     throw InputError("--set: allowed with a scenario, in which it sets a key");

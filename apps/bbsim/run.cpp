@@ -182,7 +182,7 @@ ExitCode run(const RunArguments& arguments, const Options& options) {
   const std::size_t rows = part ? part->part().end_row - part->part().first_row : grid.size();
   tell(made, options.quiet);
   if (!options.quiet && !any_rows) {
-    say(name_of_output(output) + ": not written, there is no row");
+    say(name_of_output(output) + ": not written; there are no rows");
   } else if (!options.quiet) {
     std::string line = name_of_output(output) + ": " + std::to_string(summary.rows) + " of " +
                        std::to_string(rows) + " rows, " + summary.method + ", " +

@@ -88,8 +88,9 @@ std::vector<scenario::Measure> measures_of(const Sweep& sweep, const ScenarioFam
 void keep_trajectories(sweep::SweepTask& task, const Scenario& scenario) {
   for (const sweep::Axis& axis : task.plan.axes()) {
     if (axis.key.starts_with("time") || axis.key.starts_with("output")) {
-      throw InputError("cannot keep trajectories where " + axis.key +
-                       " varies: they must have the same rows in all cases");
+      throw InputError(
+          "--keep-trajectories: found " + axis.key +
+          " among the keys that vary; allowed: keys that leave all cases with the same rows");
     }
   }
   for (const std::string& name : scenario.output.columns) {
@@ -206,8 +207,8 @@ ExitCode sweep(const SweepArguments& arguments, const Options& options) {
       },
       [&](std::size_t had) {
         if (options.quiet) return;
-        say("no more than " + std::to_string(had) + " of " + std::to_string(threads) +
-            " threads were to be had; going on with these");
+        say("the system gave no more than " + std::to_string(had) + " of " +
+            std::to_string(threads) + " threads; the sweep continues with these");
       });
   progress.clear();
 
@@ -232,7 +233,7 @@ ExitCode sweep(const SweepArguments& arguments, const Options& options) {
   }
   if (options.quiet) return ExitCode::done;
   std::string line = name_of_output(output) + ": " + counts;
-  if (kept > 0) line += ", " + std::to_string(kept) + " of them from before";
+  if (kept > 0) line += ", " + std::to_string(kept) + " of them from the earlier run";
   if (const std::size_t early = end.statuses.early(); early > 0) {
     line += ", " + std::to_string(early) + " ended early (see status)";
   }

@@ -71,7 +71,9 @@ std::string table_of(const study::Verification& verification) {
 
 std::string table_of(const NamedScenario& named, const study::FullModelStudy& study) {
   std::string text =
-      "\nWhat equation (27) buys in " + named.name + ": the error of simpler models\n";
+      "\n"
+      "What equation (27) adds in " +
+      named.name + ": the error of simpler models\n";
   text += formatted("%-16s  %11s  %9s  %11s  %9s\n", "model", "max |dx| /m", "at t /s",
                     "max |dy| /m", "at t /s");
   for (const study::SimplerModel& model : study.simpler) {
@@ -83,7 +85,7 @@ std::string table_of(const NamedScenario& named, const study::FullModelStudy& st
   for (const study::SimplerModel& model : study.simpler) {
     if (model.reached >= end) continue;
     text += model.name + " is compared up to t = " + short_number(model.reached) + " s of " +
-            short_number(end) + " s, as far as both models go\n";
+            short_number(end) + " s, which both models reach\n";
   }
   return text;
 }

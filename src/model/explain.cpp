@@ -133,10 +133,9 @@ std::string limits_note(const Gimbal& gimbal) {
 }
 
 std::string assumes_note(const Scenario& scene) {
-  if (scene.controller->own) return "; the controller commands the servos as it sees fit";
-  return assumes_of(scene) == Assumes::exact
-             ? "; the controller inverts the curve"
-             : "; the controller takes it for a ratio, that of home";
+  if (scene.controller->own) return "; your controller commands the servos itself";
+  return assumes_of(scene) == Assumes::exact ? "; the controller inverts the curve"
+                                             : "; the controller assumes the ratio at home";
 }
 
 // Whether a stop lets a servo turn beyond where its curve ends.
@@ -168,7 +167,7 @@ std::string linkage_note(const Scenario& scene) {
       continue;
     }
     text += as_servo
-                ? "push rod, a parallelogram: the plane turns as the servo does"
+                ? "push rod, a parallelogram: the plate turns with the servo"
                 : (linkage.table ? "measured curve, slope " : "push rod, (M54) to (M56), slope ") +
                       number(linkage.curve.slope) + " at home";
     const double home = linkage.angle(0);
@@ -237,7 +236,7 @@ std::string law_note(const Controller& controller) {
                                  : "LQR of the plant about home";
       break;
     case Law::gravity_compensation:
-      text = "gravity compensation: angles under which gravity gives the acceleration wanted";
+      text = "gravity compensation: the angles at which gravity gives the wanted acceleration";
       break;
     case Law::feedback_linearisation:
       text =
@@ -271,7 +270,7 @@ std::string sampling_note(const Sampling& sampling, bool own) {
              " (the poles are those of the nominal period)");
   } else if (!sampling.periods.empty()) {
     list.add(std::to_string(sampling.periods.size()) + " measured periods of " +
-             sampling.periods_file + ", again and again (the poles are those of the nominal one)");
+             sampling.periods_file + ", repeated (the poles are those of the nominal period)");
   }
   list.add_if(sampling.delay > 0, milliseconds(sampling.delay) + " late");
   list.add_if(sampling.resolution > 0, "in steps of " + degrees(sampling.resolution));
@@ -371,7 +370,7 @@ std::vector<Note> explain(const Scenario& scene, const Model& model) {
   if (!gamma) {
     note("gamma", "not integrated: no output column asks for it");
   } else if (shape != Shape::full) {
-    note("gamma", "not integrated: it stays zero, as the spin does");
+    note("gamma", "not integrated: it stays zero, like the spin");
   } else {
     note("gamma", "a quadrature of the spin, beside the states");
   }
@@ -394,7 +393,7 @@ std::vector<Note> explain(const Scenario& scene, const Model& model) {
   }
   note("mounting", mounting_note(scene));
   if (scene.plate.inertia && !scenario::moved_by_torques(scene)) {
-    note("plate", "its inertia is in the motors' torques and power");
+    note("plate", "its inertia enters the motors' torques and power");
   }
   note("events", events_note(scene));
   note("without", without(scene));

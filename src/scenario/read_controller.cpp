@@ -53,8 +53,8 @@ struct Parameters {
       const yaml::Value& number = *found;
       if (!is_own_name(entry.key)) {
         fine = number.report(
-            "found a name of other characters than letters, digits and underscores, or of more "
-            "than 60; allowed: such as kp");
+            "found a name with characters other than letters, digits and underscores, or more than "
+            "60; allowed: a name such as kp");
       } else if (yaml::Number{yaml::Dimension::number, {}, "0.7"}.read(
                      number, into.emplace_back(Parameter{entry.key, 0}).value)) {
         continue;

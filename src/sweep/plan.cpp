@@ -132,7 +132,7 @@ std::vector<Varied> varied(const Sweep& sweep, const Source& source) {
       for (const std::string& value : one.spec.values) {
         if (!scenario::scaled(value, key.factor).empty()) continue;
         fail(variation.key, "found the value " + yaml::shown(value) +
-                                ", which is no number that a factor could be applied to; allowed: "
+                                ", which is not a number, so a factor cannot scale it; allowed: "
                                 "numbers, or keys without factors");
       }
       seen.push_back({key.path, ""});

@@ -99,7 +99,7 @@ TEST_CASE("a reader that is killed by a signal is an error that says so") {
     return refusal(file);
   };
   const std::string start = "cannot read " + file + ": ";
-  const std::string damaged = ": the file is damaged, or not as HDF5 writes it";
+  const std::string damaged = ": the file is damaged, or not valid HDF5";
   CHECK(with("kill -SEGV $$") ==
         start + "the HDF5 library failed on it (signal 11, Segmentation fault)" + damaged);
   CHECK_THAT(with("kill -ABRT $$"), Contains("(signal 6, Aborted)"));

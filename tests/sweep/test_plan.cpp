@@ -277,7 +277,7 @@ TEST_CASE("what cannot be tied is said before it runs") {
   CHECK(contains(fault(vary({{"ball.mass,x*gravity", "list:1"}})), "NUMBER*KEY"));
   CHECK(contains(
       fault(vary({{"controller.pd.kv,-controller.pd.kp", "list:1,[[2, 0], [0, -2]]"}}), loop),
-      "no number that a factor could be applied to"));
+      "so a factor cannot scale it"));
   CHECK(contains(fault(vary({{"title,-gravity", "list:-5,-6"}})), "a single number"));
 }
 
