@@ -207,10 +207,10 @@ std::string motor_note(const Motor& motor) {
 std::string own_law(const OwnController& own) {
   std::string text;
   if (const auto* program = std::get_if<ControllerProgram>(&own.by)) {
-    text = "one's own, a program:";
+    text = "your own, a program:";
     for (const std::string& word : program->command) text += ' ' + word;
   } else {
-    text = "one's own, a library: " + std::get<ControllerLibrary>(own.by).file;
+    text = "your own, a library: " + std::get<ControllerLibrary>(own.by).file;
   }
   for (std::size_t i = 0; i < own.parameters.size(); ++i) {
     text += (i == 0 ? ", with " : ", ") + own.parameters[i].name + " = " +
