@@ -400,10 +400,11 @@ class Checks {
                     " is greater than the sum of the other two, which no body has");
     }
     const double z = scene_.plate.centre_of_mass, least = scene_.plate.mass * z * z;
-    if (std::min(j[0], j[1]) * more < least) {
+    const auto height = find_at(keys_, {"plate", "center_of_mass"});
+    if (height && std::min(j[0], j[1]) * more < least) {
       inertia->warn("a moment about x or y is less than " + number_text(least) +
-                    " kg m^2, plate.mass times the square of plate.center_of_mass, which no body "
-                    "has: the moments are about the gimbal's center");
+                    " kg m^2, plate.mass times the square of " + height->path +
+                    ", which no body has: the moments are about the gimbal's center");
     }
   }
 
