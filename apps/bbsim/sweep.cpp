@@ -88,9 +88,8 @@ std::vector<scenario::Measure> measures_of(const Sweep& sweep, const ScenarioFam
 void keep_trajectories(sweep::SweepTask& task, const Scenario& scenario) {
   for (const sweep::Axis& axis : task.plan.axes()) {
     if (axis.key.starts_with("time") || axis.key.starts_with("output")) {
-      throw InputError(
-          "--keep-trajectories: found " + axis.key +
-          " among the keys that vary; allowed: keys that leave all cases with the same rows");
+      throw InputError("cannot keep trajectories where " + axis.key +
+                       " varies: all cases must have the same rows");
     }
   }
   for (const std::string& name : scenario.output.columns) {

@@ -290,7 +290,7 @@ void Child::finish() {
     if (events[1].revents != 0) listen();
     ended = has_ended(0);
   }
-  if (!ended) tell_("it went on after the end of its input, and has been ended");
+  if (!ended) tell_("it kept running after its input ended, so bbsim ended it");
   static_cast<void>(end());
 }
 

@@ -40,8 +40,8 @@ std::string to_bytes(RunState state) {
 RunState read_state(const std::string& file) {
   const std::string bytes = file::read_whole(file, magic);
   if (!bytes.starts_with(magic)) {
-    throw InputError(
-        file + ": found no state of a run; allowed: a file that bbsim run --save-state wrote");
+    throw InputError(file +
+                     ": is no state of a run; allowed: a file that bbsim run --save-state wrote");
   }
   std::uint64_t sum = 0;
   const std::size_t size = bytes.size() < magic.size() + sizeof sum ? 0 : bytes.size() - sizeof sum;

@@ -599,7 +599,7 @@ TEST_CASE("a sweep that is resumed counts the cases of before, too") {
   REQUIRE(kill_once_there_are(10000, "s.csv.part", arguments, folder).exit_code == 137);
   const Result rest = bbsim(with(arguments, {"--resume", "--summary", "s.json"}), folder.path());
   CHECK(rest.exit_code == 0);
-  CHECK_THAT(rest.err, Contains(" of them from before, 900 ended early (see status)"));
+  CHECK_THAT(rest.err, Contains(" of them from the earlier run, 900 ended early (see status)"));
   CHECK(nlohmann::json::parse(folder.read("s.json")).at("statuses") ==
         nlohmann::json{{"stopped", 900}});
 }
@@ -665,7 +665,8 @@ TEST_CASE("where there are fewer threads, fewer are used") {
   };
   const Result few = bbsim(launch);
   CHECK(few.exit_code == 0);
-  CHECK_THAT(few.err, Contains("no more than ") && Contains(" of 64 threads were to be had"));
+  CHECK_THAT(few.err, Contains("no more than ") &&
+                          Contains(" of 64 threads; the sweep continues with these"));
   CHECK(bbsim(with(arguments, {"-j", "1", "-o", "one.csv"}), folder.path()).exit_code == 0);
   CHECK(folder.read("few.csv") == folder.read("one.csv"));
 }

@@ -75,7 +75,7 @@ TEST_CASE("the reason of a run that creeps has figures") {
   for (std::size_t n = 0; n < 3'000'000 && !pace.creeps(1e-12 * static_cast<double>(n)); ++n) {
   }
   CHECK_THAT(pace.reason(),
-             Catch::Matchers::Contains("the last 4096 of them took it on by 4.1e-09 s"));
+             Catch::Matchers::Contains("the last 4096 of them advanced it by 4.1e-09 s"));
 }
 
 TEST_CASE("a run that is done without all of its rows is one that failed") {
