@@ -61,6 +61,18 @@ TEST_CASE("a spec that is none says what is allowed") {
   }
 }
 
+TEST_CASE("a bound that is no number is refused with the spec, before a case is read") {
+  for (const char* wrong : {"linear:null:1:3", "linear:0.01:~:3", "log:*a:1:3", "linear:{}:1:3",
+                            "uniform:a:b", "normal:0:true"}) {
+    INFO(wrong);
+    CHECK(fault(wrong).find("numbers and quantities") != std::string::npos);
+  }
+  for (const char* right : {"linear:\"1 cm\":'2 cm':3", "log:.5:1:3", "uniform:-1e-3:+2"}) {
+    INFO(right);
+    CHECK(fault(right).empty());
+  }
+}
+
 TEST_CASE("KEY=SPEC is parted at its first equals sign") {
   const Variation variation = split_variation("a.b=list:x=1");
   CHECK(variation.key == "a.b");
