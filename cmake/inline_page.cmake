@@ -1,3 +1,6 @@
+# SPDX-FileCopyrightText: 2026 the bbsim authors
+# SPDX-License-Identifier: BSD-3-Clause
+
 # Puts an HTML file and the local styles and scripts that it names into one:
 #
 #   cmake -DINDEX=index.html -DLIBRARIES=FILE|FILE -DOUTPUT=page.html -P inline_page.cmake
@@ -21,6 +24,8 @@ function(content_of name result)
     message(FATAL_ERROR "${file} contains '</${CMAKE_MATCH_1}': it cannot stand in a page")
   endif()
   string(REGEX REPLACE "\n?(//|/[*])# sourceMappingURL=[^\n]*" "" content "${content}")
+  # The page says once under which license it is.
+  string(REGEX REPLACE "(^|\n)(//|/[*]) SPDX-[^\n]*" "" content "${content}")
   # The sources are for reading, the page for mailing: without indentation and lines of comment.
   if(NOT name MATCHES "[.]min[.]")
     string(REGEX REPLACE "\n[ \t]*//[^\n]*" "" content "${content}")

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 #include "command_line.hpp"
 
 #include <CLI/CLI.hpp>  // all of it: some source has to

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // What is the same for all commands: help, -q, mistakes, standard input, and a reader that goes.
 #include <chrono>
 #include <csignal>
