@@ -28,7 +28,7 @@ function(content_of name result)
   endif()
   string(REGEX REPLACE "\n?(//|/[*])# sourceMappingURL=[^\n]*" "" content "${content}")
   # The page says once under which license it is.
-  string(REGEX REPLACE "(^|\n)(//|/[*]) SPDX-[^\n]*" "" content "${content}")
+  string(REGEX REPLACE "^((//|/[*]) SPDX-[^\n]*\n+)+" "" content "${content}")
   # The sources are for reading, the page for mailing: without indentation and lines of comment.
   if(NOT name MATCHES "[.]min[.]")
     string(REGEX REPLACE "\n[ \t]*//[^\n]*" "" content "${content}")
