@@ -23,7 +23,7 @@ std::size_t count(const std::string& text, const std::string& part) {
 
 }  // namespace
 
-TEST_CASE("--licenses prints the license and the notices of all libraries") {
+TEST_CASE("option --licenses prints the license and the notices of all libraries") {
   const Result result = bbsim({"--licenses"});
   REQUIRE(result.exit_code == 0);
   CHECK(result.err.empty());
@@ -42,7 +42,7 @@ TEST_CASE("--licenses prints the license and the notices of all libraries") {
   CHECK(result.out.substr(result.out.size() - 50).find("\n\n") == std::string::npos);
 }
 
-TEST_CASE("--licenses knows every library that --version names") {
+TEST_CASE("option --licenses knows every library that --version names") {
   const std::string version = bbsim({"--version"}).out;
   const std::string licenses = bbsim({"--licenses"}).out;
   const std::string mark = "libraries: ";
