@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Controllers that are not built in, as a user runs them: what they do well, and what they do
 // badly.
 #include <algorithm>

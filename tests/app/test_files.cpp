@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // What the program reads and writes: no file is lost, whatever it is called and however it ends.
 #include <sys/resource.h>
 #include <sys/stat.h>

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // What stands between servos and plane: push rods, measured curves, three servos.
 #include <cmath>
 #include <numbers>

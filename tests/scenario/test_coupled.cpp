@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // What scenes with losses, torques and sliding may say, and what they may not.
 #include "catch.hpp"
 #include "scenario/coupled.hpp"

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // A run that creeps, told from one that takes long; and one that loses rows.
 #include <cmath>
 

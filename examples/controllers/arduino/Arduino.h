@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Arduino on the desktop: what a sketch for this rig calls, over bbsim's lines of text. A sketch
 // that includes it is a program that bbsim runs as a controller; on a board, the IDE's own is used.
 #pragma once

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // What stands between a servo and the plane: a horn, a push rod and an arm, or a curve that
 // somebody measured (docs/explanation/rig-model.md, "Linkages"). Plain data and templates for every
 // number type; how they come from a scenario is linkages.hpp's matter.
