@@ -19,7 +19,7 @@ namespace {
 // An option without a value is not the same as none: it is a variable of a script that is not set.
 CLI::Option* refusing_nothing(CLI::Option* option) {
   const auto fault = [](const std::string& text) -> std::string {
-    return text.empty() ? "found nothing; allowed: a value, or to leave it out" : "";
+    return text.empty() ? "found nothing; allowed: a value, or leave the option out" : "";
   };
   return option->check(CLI::Validator(fault, ""));
 }

@@ -25,6 +25,15 @@ std::vector<std::string> names_of_commands(const CLI::App& app) {
   return names;
 }
 
+std::vector<std::string> aliases_of_commands(const CLI::App& app) {
+  std::vector<std::string> names;
+  for (const CLI::App* command : app.get_subcommands({})) {
+    const std::vector<std::string>& aliases = command->get_aliases();
+    names.insert(names.end(), aliases.begin(), aliases.end());
+  }
+  return names;
+}
+
 std::vector<std::string> names_of_options(const CLI::App& command) {
   std::vector<std::string> names;
   for (const CLI::App* app = &command; app != nullptr; app = app->get_parent()) {
@@ -49,7 +58,9 @@ std::string known_commands(const CLI::App& app) {
 }
 
 [[noreturn]] void refuse_command(const CLI::App& app, const std::string& word) {
-  const std::string near = nearest(word, names_of_commands(app));
+  std::vector<std::string> names = names_of_commands(app);
+  for (std::string& alias : aliases_of_commands(app)) names.push_back(std::move(alias));
+  const std::string near = nearest(word, names);
   throw InputError("unknown command " + word + "; " +
                    (near.empty() ? known_commands(app) : "did you mean " + near + "?") + more);
 }
@@ -65,7 +76,7 @@ bool is_option(std::string_view word) {
   const std::string name = whole ? "bbsim" : "bbsim " + command.get_name();
   const std::string help = "\nRun " + name + " --help for more information.";
   if (!is_option(word)) {
-    throw InputError("found " + word + ", which " + name + " does not ask for." + help);
+    throw InputError("found " + word + ", which " + name + " does not take." + help);
   }
   const std::string option = word.substr(0, word.find('='));
   if (!whole && command.get_option_no_throw(option) != nullptr) {
@@ -85,7 +96,7 @@ bool is_option(std::string_view word) {
 void add_quiet(CLI::App& app, Options& options) {
   app.fallthrough();  // which the commands take over, so that the flag may stand after them
   app.add_flag("-q,--quiet", options.quiet,
-               "print no messages and no progress, only results and why a run ended");
+               "print results and the reason why a run ended early; no messages, no progress");
 }
 
 // Prints help or the version, where that ended the parsing. Throws InputError for a mistake.
@@ -121,9 +132,9 @@ void add_licenses(CLI::App& app) {
 }
 
 void add_help(CLI::App& app, Chosen& chosen) {
-  CLI::App* command = app.add_subcommand("help", "Print help, of a command if it is named");
+  CLI::App* command = app.add_subcommand("help", "Print help on bbsim or on one command");
   const auto name = std::make_shared<std::string>();
-  command->add_option("COMMAND", *name, "the command; default: what all of them do");
+  command->add_option("COMMAND", *name, "the command; default: list all commands");
   command->callback([&app, name, &chosen] {
     chosen = [&app, name] {
       if (name->empty()) {
@@ -131,7 +142,7 @@ void add_help(CLI::App& app, Chosen& chosen) {
         return ExitCode::done;
       }
       for (const CLI::App* known : app.get_subcommands({})) {
-        if (known->get_name() != *name) continue;
+        if (!known->check_name(*name)) continue;
         print(known->help("bbsim"));
         return ExitCode::done;
       }
@@ -146,19 +157,23 @@ void add_help(CLI::App& app, Chosen& chosen) {
 // named.
 void add_commands(CLI::App& app, std::span<char* const> words,
                   std::span<const NamedCommand> commands, const Options& options, Chosen& chosen) {
+  const auto calls = [](std::string_view word, const NamedCommand& command) {
+    return word == command.name || (!word.empty() && word == command.alias);
+  };
   const auto is_named = [&](const NamedCommand& command) {
-    return std::ranges::find(words, std::string_view(command.name)) != words.end();
+    return std::ranges::any_of(words, [&](std::string_view word) { return calls(word, command); });
   };
   const auto first = std::ranges::find_if_not(
       words, [](std::string_view word) { return word == "-q" || word == "--quiet"; });
   const bool names_one =
       first != words.end() &&
-      std::ranges::find(commands, std::string_view(*first), &NamedCommand::name) != commands.end();
+      std::ranges::any_of(commands, [&](const NamedCommand& one) { return calls(*first, one); });
   if (!names_one) add_licenses(app);
   for (const NamedCommand& command : commands) {
     const bool named = is_named(command);
     if (names_one && !named) continue;
     CLI::App* const added = app.add_subcommand(command.name, command.description);
+    if (!command.alias.empty()) added->alias(std::string(command.alias));
     if (!named) continue;
     Command its(*added, chosen);
     command.add_options(its, options);
@@ -171,15 +186,20 @@ void add_commands(CLI::App& app, std::span<char* const> words,
 }  // namespace
 
 ExitCode obey(int argc, char** argv, std::span<const NamedCommand> commands) {
-  CLI::App app("bbsim simulates a ball that rolls on a plane which a two-axis gimbal tips.",
-               "bbsim");
+  CLI::App app(
+      "bbsim simulates a ball rolling on a plate that tilts about two axes (the ball-and-plate rig "
+      "of control courses).",
+      "bbsim");
   app.formatter(std::make_shared<HelpFormatter>());
   app.set_help_flag("-h,--help", "print this help and exit");
-  app.set_version_flag("--version", version, "print the version, what it was made of, and exit");
+  app.set_version_flag("--version", version,
+                       "print the versions of bbsim and its libraries and exit");
   app.require_subcommand(1);
   app.footer(
       "Exit codes: 0 done; 1 the run ended early or files differ; 2 the command line or the "
-      "scenario is at fault; 3 the output could not be written; 130 interrupted.");
+      "scenario is at fault; 3 the output could not be written; 130 interrupted.\n"
+      "\n"
+      "Run `bbsim COMMAND --help` for the options of a command.");
   Options options;
   add_quiet(app, options);
   Chosen chosen;

@@ -63,7 +63,7 @@ void add_run(Command& command, const Options& options);
 void add_check(Command& command, const Options& options);
 void add_linearize(Command& command, const Options& options);
 void add_measure(Command& command, const Options& options);
-void add_summarise(Command& command, const Options& options);
+void add_summarize(Command& command, const Options& options);
 void add_compare(Command& command, const Options& options);
 void add_verify(Command& command, const Options& options);
 void add_columns(Command& command, const Options& options);

@@ -124,7 +124,7 @@ class StateReader {
     for (auto& element : list) get(element);
   }
   static void require(bool sound) {
-    if (!sound) throw StateFault("is damaged: it holds what no run leaves");
+    if (!sound) throw StateFault("is damaged: it contains data that no run writes");
   }
   void bytes(void* data, std::size_t size) {
     require_bytes(size);
@@ -135,7 +135,7 @@ class StateReader {
 
  private:
   void require_bytes(std::size_t size) const {
-    if (size > left_.size()) throw StateFault("is damaged: it is cut short");
+    if (size > left_.size()) throw StateFault("is damaged: it is truncated");
   }
 
   template <class T>

@@ -134,7 +134,8 @@ std::string misspelt(std::string_view line, const std::string& lacks) {
   return "";
 }
 
-constexpr const char* form = "allowed: {\"command\": [PHI, THETA]}, and beside it \"NAME\": NUMBER";
+constexpr const char* form =
+    "allowed: {\"command\": [PHI, THETA]}, optionally with \"NAME\": NUMBER";
 
 // The text of {"error": "..."}, if it is that.
 std::optional<std::string> error_of(std::string_view line) {

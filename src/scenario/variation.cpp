@@ -128,7 +128,7 @@ std::vector<TiedKey> tied_keys(const Variation& variation) {
     }
     if (key.path.empty() || key.factor == 0) {
       fail(variation, part.empty() ? "no key beside a comma" : yaml::shown(part),
-           "KEY, -KEY or NUMBER*KEY with a number that is not 0, parted by commas");
+           "KEY, -KEY or NUMBER*KEY with a number that is not 0, separated by commas");
     }
     keys.push_back(std::move(key));
   }

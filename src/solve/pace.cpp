@@ -27,11 +27,10 @@ bool Pace::look(double time, double event) {
 
 std::string Pace::reason() const {
   char text[120];
-  std::snprintf(
-      text, sizeof text,
-      "the steps became so short that it would never end: the last %zu of them took it on "
-      "by %.2g s",
-      window, advance_);
+  std::snprintf(text, sizeof text,
+                "the steps became so short that the run would never end: the last %zu of them "
+                "advanced it by %.2g s",
+                window, advance_);
   return text;
 }
 

@@ -85,9 +85,19 @@ TEST_CASE("help names a command") {
   CHECK(contains(unknown.err, "unknown command rnu; did you mean run?"));
 }
 
+TEST_CASE("summarise is summarize") {
+  const Result help = bbsim({"summarize", "--help"});
+  CHECK(help.exit_code == 0);
+  CHECK(contains(help.out, "Usage: bbsim summarize"));
+  CHECK(bbsim({"summarise", "--help"}).out == help.out);
+  CHECK(bbsim({"help", "summarise"}).out == help.out);
+}
+
 TEST_CASE("a misspelt command or option is answered with the nearest one") {
   CHECK(contains(bbsim(Names{"swep", "a.yaml"}).err, "unknown command swep; did you mean sweep?"));
   CHECK(contains(bbsim({"comapre", "a", "b"}).err, "did you mean compare?"));
+  CHECK(contains(bbsim(Names{"sumarize"}).err, "did you mean summarize?"));
+  CHECK(contains(bbsim(Names{"sumarise"}).err, "did you mean summarise?"));
   CHECK(contains(bbsim({"fly"}).err, "unknown command fly; known: run check"));
   CHECK(contains(bbsim(Names{}).err, "found no command; known: run check"));
 

@@ -233,8 +233,7 @@ TEST_CASE("check warns of no instability that is the rounding of a stiff loss") 
   CHECK_FALSE(contains(slow.out, "WARNING"));
   const Result sampled = bbsim({"check", config("step.yaml"), "--set", "ball.losses.viscous=1e9"});
   CHECK_FALSE(contains(sampled.out, "unstable"));
-  CHECK(
-      contains(sampled.out, "on the border of stability about home, as far as rounding can tell"));
+  CHECK(contains(sampled.out, "at the stability limit about home, within rounding"));
 }
 
 TEST_CASE("check tells the bandwidth of the feedback where the reference leads the ball besides") {

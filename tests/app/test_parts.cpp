@@ -168,7 +168,7 @@ TEST_CASE("a state is refused where bytes could not be those of one run") {
   CHECK(contains(refusal({example("python.yaml"), "--save-state", "c.state", "--set",
                           std::string("controller.program.command=[\"") + BBSIM_TEST_CHILD + "\"]",
                           "--set", "controller.program.parameters={}"}),
-                 "does not say what it remembers"));
+                 "cannot save its state"));
   CHECK(contains(refusal({rig, "--until", "3"}), "--save-state"));
   CHECK(contains(refusal({rig, "--save-state", "c.state", "--until", "50"}), "--until"));
   CHECK(refusal({rig, "--from-state", "a.state", "--save-state", "a.state", "--until", "3"}) != "");

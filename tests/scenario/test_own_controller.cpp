@@ -106,5 +106,5 @@ TEST_CASE("a controller of one's own needs samples") {
   text.replace(text.find("  sampling"), std::string("  sampling: {period: 0.02}\n").size(), "");
   CHECK(errors(text) ==
         "scenario.yaml:4:3: controller.program: found without controller.sampling; allowed: only "
-        "with it, since it is asked once a sample");
+        "with it, since bbsim calls it once per sample");
 }

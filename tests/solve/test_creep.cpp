@@ -13,7 +13,8 @@ TEST_CASE("a run that creeps ends with its reason, by every method") {
   CAPTURE(name_of(method));
   const Run run = run_in_memory(hard_case("creep"), method, {1e-8, 1e-10});
   CHECK(run.outcome.ending == solve::Ending::failed);
-  CHECK_THAT(run.outcome.reason, Catch::Matchers::Contains("so short that it would never end"));
+  CHECK_THAT(run.outcome.reason,
+             Catch::Matchers::Contains("so short that the run would never end"));
   CHECK(run.outcome.reached > 1.6e-5);
   CHECK(run.outcome.reached < 1.8e-5);
   CHECK(run.outcome.last_state.size() == 9);

@@ -193,9 +193,9 @@ class Server {
       if (what == Message::read) read(request);
       if (what == Message::close) files_.erase(request.number());
     } catch (const std::bad_alloc&) {
-      say(Message::failed, "there is not enough memory for what it says that it holds");
+      say(Message::failed, "there is not enough memory for the size that it declares");
     } catch (const std::length_error&) {
-      say(Message::failed, "there is not enough memory for what it says that it holds");
+      say(Message::failed, "there is not enough memory for the size that it declares");
     } catch (const std::exception& failure) {
       say(Message::failed, failure.what());
     }
