@@ -103,7 +103,8 @@ constexpr const char* damaged = ": the file is damaged, or not valid HDF5";
 
 std::string signal_text(int number) {
   // What the reader's own timer sends.
-  if (number == SIGPROF) return std::string("the HDF5 library does not finish reading it") + damaged;
+  if (number == SIGPROF)
+    return std::string("the HDF5 library does not finish reading it") + damaged;
   const std::string which = " (signal " + std::to_string(number) + ", " + strsignal(number) + ")";
   if (number == SIGKILL) return "the HDF5 reader was ended from outside" + which;
   return "the HDF5 library failed on it" + which + damaged;
