@@ -117,7 +117,7 @@ TEST_CASE("a misspelt command or option is answered with the nearest one") {
       {{"--verison"}, "unknown option --verison of bbsim; did you mean --version?"},
       {{"-o", "a.csv", "run", "a.yaml"},
        "-o: found before run; allowed: the options of a command after it."},
-      {{"run", "a.yaml", "b.yaml"}, "found b.yaml, which bbsim run does not ask for."},
+      {{"run", "a.yaml", "b.yaml"}, "found b.yaml, which bbsim run does not take."},
       {{"run"}, "SCENARIO is required"},
   };
   for (const Case& one : cases) {
