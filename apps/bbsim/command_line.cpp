@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 #include "command_line.hpp"
 
 #include <CLI/CLI.hpp>  // all of it: some source has to
@@ -8,6 +11,7 @@
 #include <vector>
 
 #include "help.hpp"
+#include "licenses.hpp"
 #include "terminal.hpp"
 #include "version.hpp"
 #include "yaml/nearest.hpp"
@@ -121,6 +125,12 @@ ExitCode parsing_ended(const CLI::App& app, const CLI::ParseError& error) {
                    " --help for more information.");
 }
 
+void add_licenses(CLI::App& app) {
+  app.add_flag_callback(
+      "--licenses", [] { throw CLI::CallForVersion(licenses(), 0); },
+      "print the licenses of bbsim and of the libraries in it, and exit");
+}
+
 void add_help(CLI::App& app, Chosen& chosen) {
   CLI::App* command = app.add_subcommand("help", "Print help on bbsim or on one command");
   const auto name = std::make_shared<std::string>();
@@ -141,9 +151,10 @@ void add_help(CLI::App& app, Chosen& chosen) {
   });
 }
 
-// Adds the commands. All of them and their options take longer to make than many a run: where the
-// first word names a command, only those are made that a word names; where it names none, all are,
-// for help and for what is said of a mistake. Options are made of those that are named.
+// Adds the commands, and --licenses. All of them and their options take longer to make than many a
+// run: where the first word names a command, only those are made that a word names; where it names
+// none, all are, for help and for what is said of a mistake. Options are made of those that are
+// named.
 void add_commands(CLI::App& app, std::span<char* const> words,
                   std::span<const NamedCommand> commands, const Options& options, Chosen& chosen) {
   const auto calls = [](std::string_view word, const NamedCommand& command) {
@@ -157,6 +168,7 @@ void add_commands(CLI::App& app, std::span<char* const> words,
   const bool names_one =
       first != words.end() &&
       std::ranges::any_of(commands, [&](const NamedCommand& one) { return calls(*first, one); });
+  if (!names_one) add_licenses(app);
   for (const NamedCommand& command : commands) {
     const bool named = is_named(command);
     if (names_one && !named) continue;

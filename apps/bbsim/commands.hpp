@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // The subcommands. Each add_ function gives one its options, and says what it does.
 #pragma once
 

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // bbsim: a table of contents. Each subcommand has a file of its own; one ladder turns errors into
 // exit codes.
 #include <csignal>

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 #include "sweep/sweep.hpp"
 
 #include <algorithm>
@@ -88,8 +91,9 @@ std::vector<scenario::Measure> measures_of(const Sweep& sweep, const ScenarioFam
 void keep_trajectories(sweep::SweepTask& task, const Scenario& scenario) {
   for (const sweep::Axis& axis : task.plan.axes()) {
     if (axis.key.starts_with("time") || axis.key.starts_with("output")) {
-      throw InputError("cannot keep trajectories where " + axis.key +
-                       " varies: all cases must have the same rows");
+      throw InputError(
+          "--keep-trajectories: found " + axis.key +
+          " among the keys that vary; allowed: keys that leave all cases with the same rows");
     }
   }
   for (const std::string& name : scenario.output.columns) {

@@ -1,4 +1,6 @@
 #!/usr/bin/env python3
+# SPDX-FileCopyrightText: 2026 the bbsim authors
+# SPDX-License-Identifier: BSD-3-Clause
 """A ball on a plate as a Gymnasium-style environment: reset() and step(), by bbsim itself.
 
     from bbsim_env import BallOnPlate

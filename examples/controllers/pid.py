@@ -1,4 +1,6 @@
 #!/usr/bin/env python3
+# SPDX-FileCopyrightText: 2026 the bbsim authors
+# SPDX-License-Identifier: BSD-3-Clause
 """The built-in PID of bbsim, as a program: python.yaml runs it.
 
     bbsim run examples/controllers/python.yaml

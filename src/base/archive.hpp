@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // The state of objects as bytes, and back: for a run that is gone on with by another process.
 //
 // A class has one function for both ways, which says what the parts must be like:

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 #include "controller/child.hpp"
 
 #include <fcntl.h>
@@ -290,7 +293,7 @@ void Child::finish() {
     if (events[1].revents != 0) listen();
     ended = has_ended(0);
   }
-  if (!ended) tell_("it kept running after its input ended, so bbsim ended it");
+  if (!ended) tell_("it went on after the end of its input, and has been ended");
   static_cast<void>(end());
 }
 

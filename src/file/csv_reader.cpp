@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // A strict reader of CSV: a header of bare names, then as many numbers a row, or, where texts are
 // wanted, as many fields.
 #include <unistd.h>

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 #include "record/run_state.hpp"
 
 #include "base/archive.hpp"
@@ -40,8 +43,8 @@ std::string to_bytes(RunState state) {
 RunState read_state(const std::string& file) {
   const std::string bytes = file::read_whole(file, magic);
   if (!bytes.starts_with(magic)) {
-    throw InputError(file +
-                     ": is no state of a run; allowed: a file that bbsim run --save-state wrote");
+    throw InputError(
+        file + ": found no state of a run; allowed: a file that bbsim run --save-state wrote");
   }
   std::uint64_t sum = 0;
   const std::size_t size = bytes.size() < magic.size() + sizeof sum ? 0 : bytes.size() - sizeof sum;

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // The one table of output columns: CSV headers, HDF5 datasets, `bbsim columns` and the docs. How
 // each is computed is record/column_values.hpp's matter.
 #pragma once

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // How a mapping of the scenario is read into a struct: one function a mapping.
 //
 //     void read_ball(Keys& keys, Ball& ball) {

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Controllers that are not built in, as a user runs them: what they do well, and what they do
 // badly.
 #include <algorithm>
@@ -194,7 +197,7 @@ TEST_CASE("nothing is left of a controller that leaves processes, or goes on at 
   CAPTURE(result.err);
   CHECK(result.exit_code == 0);
   CHECK(count(scene.folder.read("out.csv"), "\n") == 12);
-  CHECK(contains(result.err, "it kept running after its input ended, so bbsim ended it") ==
+  CHECK(contains(result.err, "it went on after the end of its input, and has been ended") ==
         (mode == "goes on"));
   const auto [processes, running] = scene.processes_in_the_end();
   CHECK(processes == (mode == "goes on" ? 1 : 2));

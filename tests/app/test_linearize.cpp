@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // bbsim linearize, and the files that it writes, read by who they are for where they are installed.
 #include <algorithm>
 #include <cstdlib>

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Measures on the command line: of a run, of a stored one, of a sweep, and by group.
 #include <cmath>
 #include <map>

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // The controllers of examples/controllers against the built-in law; and those that are libraries.
 #include <algorithm>
 #include <filesystem>

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // A run split in two gives the bytes of one.
 #include <filesystem>
 #include <string>

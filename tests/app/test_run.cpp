@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // bbsim run: what it writes, what it says, and every way in which it can end.
 #include <csignal>
 #include <nlohmann/json.hpp>

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // HDF5 files are read in a process of their own: what becomes of it is an error with its reason;
 // what a file says of its size is not believed; and nothing of a file reaches a terminal raw.
 #include <fcntl.h>

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // What counts as alike, and what is told about what does not.
 #include <cmath>
 #include <limits>

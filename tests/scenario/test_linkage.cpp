@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Keys of linkages, three servos, servos by axis, clocks, frames and pushes: what they read as, and
 // what is refused.
 #include "catch.hpp"

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Keys of a controller that is not built in.
 #include "catch.hpp"
 #include "scenario/columns.hpp"

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Keys of built rigs: what they read as, and which combinations are refused, with why.
 #include "catch.hpp"
 #include "support/reading.hpp"

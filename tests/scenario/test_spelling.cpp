@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Keys in American and British spelling.
 #include <string>
 #include <variant>

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // A run that would never end is ended, with its reason, in bounded work; one that an event stops on
 // the way there is stopped.
 #include "solve/hard_cases.hpp"

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Quantities. Values are compared exactly: powers of ten are applied to the decimal text, and other
 // units convert with one rounding of the exact product.
 #include <clocale>

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Arduino on the desktop: the calls of a sketch for this rig, over bbsim's lines of text. A sketch
 // that includes this file is a program that bbsim runs as a controller. A board uses the IDE's own.
 #pragma once

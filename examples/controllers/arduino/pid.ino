@@ -1,3 +1,6 @@
+/* SPDX-FileCopyrightText: 2026 the bbsim authors
+ * SPDX-License-Identifier: BSD-3-Clause */
+
 /* The PID of configs/step.yaml as one writes it for a board: it goes to the rig as it stands, and to
  * bbsim, with the Arduino.h beside it:
  *

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // bbsim-hdf5-reader: reads HDF5 files for bbsim, in a process of its own, which may die of what a
 // damaged file does to the HDF5 library. Standard input is a socket with requests, standard output
 // a pipe for the answers: messages.hpp.
