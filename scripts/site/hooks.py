@@ -135,7 +135,7 @@ def on_files(files, config):
 
 def note(target, page):
     path = target_path(target, page)
-    if path and not (path in PAGES.values()):
+    if path and path not in PAGES.values():
         add_source(path)
 
 
@@ -159,23 +159,22 @@ def on_page_read_source(page, config):
 
 
 def gallery():
-    """The replays that scripts/docs made, each with the comment at the top of its scenario."""
+    """The replays that scripts/docs made, each under its title and the first lines of its scenario's comment."""
     parts = []
     for name in os.environ["BBSIM_SITE_REPLAYS"].split():
         with open(os.path.join(ROOT, "configs", name + ".yaml"), encoding="utf-8") as scenario:
-            comment = []
-            for line in scenario:
-                if not line.startswith("#"):
-                    break
-                comment.append(line.lstrip("# ").strip())
+            text = scenario.read()
+        comment = re.match(r"(?:# \S.*\n)*", text)[0].replace("# ", "").replace("\n", " ")
+        title = re.search(r"^title: *(.*)$", text, re.MULTILINE)
+        heading = title[1].strip("\"'") if title else name
         parts.append(f"""
-## {name}
+## {heading}
 
-{" ".join(comment)}
+{comment}
 
 <iframe class="replay" src="replays/{name}.html" loading="lazy" title="A replay of configs/{name}.yaml"></iframe>
 
-<a href="replays/{name}.html" target="_blank">The whole window</a> · [the scenario](source/configs/{name}.yaml.md)
+<a href="replays/{name}.html" target="_blank">Open it in a window</a> · [the scenario](source/configs/{name}.yaml.md)
 
 ```console
 $ bbsim replay configs/{name}.yaml -o {name}.html
@@ -204,8 +203,8 @@ def source_text(path):
 
 def on_page_markdown(markdown, page, config, files):
     uri = page.file.src_uri
-    if uri.startswith("source/"):
-        return markdown
+    if uri.startswith("source/") or uri == "replays.md":
+        return markdown  # written for the site
     here = repository_path(uri)
 
     def change(target):
@@ -224,10 +223,7 @@ def on_page_markdown(markdown, page, config, files):
             return target
         return posixpath.relpath(to, posixpath.dirname(uri) or ".") + ("#" + fragment if fragment else "")
 
-    lines, command = [], False
-    if uri == "replays.md":
-        here = "docs/replays.md"
-    previous = ""
+    lines, command, previous = [], False, ""
     for line, is_text in lines_outside_fences(markdown):
         if is_text and re.match(r"<!--.*-->\s*$", line):
             # The separate comment keeps blocks of code apart that stand above and below.

@@ -1,6 +1,14 @@
 'use strict';
-// Formulas, the colors of replays, and what the copy buttons take.
+// Formulas, tables, the colors of replays, and what the copy buttons take.
 (() => {
+  // Numbers and names are not broken, and sentences have room, where a table is wider than a phone.
+  for (const cell of document.querySelectorAll('.md-typeset td')) {
+    const {length} = cell.textContent;
+    if (length <= 14) cell.classList.add('short');
+    else if (length >= 30) cell.classList.add('long');
+  }
+
+  // Cells are measured before formulas are in them.
   for (const element of document.querySelectorAll('.arithmatex')) {
     const text = element.textContent.trim();
     // \( ... \) in a line, \[ ... \] on lines of its own.
@@ -17,10 +25,12 @@
     new MutationObserver(paint).observe(document.body, {attributes: true, attributeFilter: ['data-md-color-scheme']});
   }
 
-  // Commands alone, without prompts and without what they print.
-  for (const block of document.querySelectorAll('.language-console.highlight')) {
-    const button = block.querySelector('[data-clipboard-target]');
-    if (!button) continue;
+  // A copy button takes the commands alone, without prompts and without what they print. It must know before
+  // the theme's own listener asks it.
+  document.addEventListener('click', (event) => {
+    const button = event.target.closest('[data-clipboard-target]');
+    const block = button && button.closest('.language-console');
+    if (!block) return;
     const commands = [];
     let goesOn = false;
     for (const line of block.querySelector('code').textContent.split('\n')) {
@@ -30,5 +40,5 @@
       goesOn = line.endsWith('\\');
     }
     button.dataset.clipboardText = commands.join('\n');
-  }
+  }, true);
 })();
