@@ -1,3 +1,6 @@
+# SPDX-FileCopyrightText: 2026 the bbsim authors
+# SPDX-License-Identifier: BSD-3-Clause
+
 """Hooks of MkDocs for scripts/docs: docs/ is written for GitHub, and these make a site of it.
 
 * Files that the pages link to and that are outside docs/ become pages below source/.

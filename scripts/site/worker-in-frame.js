@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 'use strict';
 // A Worker that runs in a hidden frame: browsers start no worker from a file.
 window.Worker = class extends EventTarget {
