@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Tools asked for the same tolerance are not equally accurate; what compares them is their time at
 // the same error.
 #pragma once

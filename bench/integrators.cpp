@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // bbsim's integrator beside odeint's Dormand-Prince 5(4) and CVODE's BDF and Adams: processor time
 // at equal error, over scenes with a quad-precision reference.
 #include <CLI/App.hpp>

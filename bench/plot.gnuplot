@@ -1,3 +1,6 @@
+# SPDX-FileCopyrightText: 2026 the bbsim authors
+# SPDX-License-Identifier: BSD-3-Clause
+
 # Work-precision diagram of one scene: processor time over error, a curve a tool.
 # gnuplot -c plot.gnuplot POINTS.csv SCENE OUT.png
 csv = ARG1

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // configs/rig.yaml beside the same rig written by hand (rig_by_hand.hpp): processor time of a run,
 // and how far it is from the solution.
 #include <CLI/App.hpp>

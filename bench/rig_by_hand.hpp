@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // configs/rig.yaml as one would write it by hand, for that one rig, with a library of one's own
 // choice: what bbsim's rigs are measured against.
 //

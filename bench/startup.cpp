@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // The time of a whole process, from posix_spawn() to its end: `bbsim run` of a scenario, and a
 // program with the same libraries that does nothing.
 #include <fcntl.h>

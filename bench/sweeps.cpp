@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Sweeps beside the same cases one by one with odeint's Dormand-Prince 5(4) and CVODE's BDF:
 // processor time a case at equal error.
 #include <CLI/App.hpp>

@@ -1,3 +1,6 @@
+# SPDX-FileCopyrightText: 2026 the bbsim authors
+# SPDX-License-Identifier: BSD-3-Clause
+
 # Finds CVODES, the serial vector, and the dense solver of SUNDIALS 6 or 7, static if possible.
 #
 # SUNDIALS brings a CMake config of its own, but Debian's refuses to load unless every library

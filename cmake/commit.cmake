@@ -1,3 +1,6 @@
+# SPDX-FileCopyrightText: 2026 the bbsim authors
+# SPDX-License-Identifier: BSD-3-Clause
+
 # cmake -DSOURCE=FOLDER -DINTO=HEADER -P commit.cmake: writes a header that names the commit of the
 # source tree, if that is not what it says already: what includes it is not compiled for nothing.
 set(_commit "unknown: not built from a work tree of git")

@@ -1,11 +1,17 @@
+# SPDX-FileCopyrightText: 2026 the bbsim authors
+# SPDX-License-Identifier: BSD-3-Clause
+
 # Puts an HTML file and the local styles and scripts that it names into one:
 #
-#   cmake -DINDEX=index.html -DLIBRARIES=FILE|FILE -DOUTPUT=page.html -P inline_page.cmake
+#   cmake -DINDEX=index.html -DLIBRARIES=FILE|FILE -DNOTICES=NAME=FILE|NAME=FILE -DOUTPUT=page.html
+#         -P inline_page.cmake
 #
-# What index.html names stands beside it or is one of LIBRARIES, by its name.
+# What index.html names stands beside it or is one of LIBRARIES, by its name. The script NAME begins with its notice,
+# the text of FILE, in a comment.
 file(READ "${INDEX}" page)
 get_filename_component(folder "${INDEX}" DIRECTORY)
 string(REPLACE "|" ";" LIBRARIES "${LIBRARIES}")
+string(REPLACE "|" ";" NOTICES "${NOTICES}")
 
 function(content_of name result)
   set(file "${folder}/${name}")
@@ -21,6 +27,8 @@ function(content_of name result)
     message(FATAL_ERROR "${file} contains '</${CMAKE_MATCH_1}': it cannot stand in a page")
   endif()
   string(REGEX REPLACE "\n?(//|/[*])# sourceMappingURL=[^\n]*" "" content "${content}")
+  # The page says once under which license it is.
+  string(REGEX REPLACE "^((//|/[*]) SPDX-[^\n]*\n+)+" "" content "${content}")
   # The sources are for reading, the page for mailing: without indentation and lines of comment.
   if(NOT name MATCHES "[.]min[.]")
     string(REGEX REPLACE "\n[ \t]*//[^\n]*" "" content "${content}")
@@ -30,6 +38,15 @@ function(content_of name result)
   if(name STREQUAL "three.min.js")
     string(REGEX REPLACE "(var [a-z0-9_]+=)\"[^\"]*\\\\n[^\"]*\"" "\\1\"\"" content "${content}")
   endif()
+  foreach(notice IN LISTS NOTICES)
+    if(notice MATCHES "^([^=]+)=(.+)$" AND CMAKE_MATCH_1 STREQUAL name)
+      file(READ "${CMAKE_MATCH_2}" text)
+      if(text MATCHES "[*]/|</")
+        message(FATAL_ERROR "${CMAKE_MATCH_2} contains '${CMAKE_MATCH_0}': it cannot stand in a comment of a page")
+      endif()
+      set(content "/*!\n${text}*/\n${content}")
+    endif()
+  endforeach()
   set(${result} "${content}" PARENT_SCOPE)
 endfunction()
 

@@ -1,3 +1,6 @@
+# SPDX-FileCopyrightText: 2026 the bbsim authors
+# SPDX-License-Identifier: BSD-3-Clause
+
 # Code that is compiled once for each instruction set, from one source, and chosen at run time:
 #
 #   bbsim_add_kernels(TARGET ROOM)

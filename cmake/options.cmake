@@ -1,3 +1,6 @@
+# SPDX-FileCopyrightText: 2026 the bbsim authors
+# SPDX-License-Identifier: BSD-3-Clause
+
 # What every target of the project is compiled with; linked as bbsim::options.
 add_library(bbsim_options INTERFACE)
 add_library(bbsim::options ALIAS bbsim_options)

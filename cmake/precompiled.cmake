@@ -1,3 +1,6 @@
+# SPDX-FileCopyrightText: 2026 the bbsim authors
+# SPDX-License-Identifier: BSD-3-Clause
+
 # Headers that are read once for many targets: half of what compilers do here is to read the standard
 # library's and Eigen's.
 #

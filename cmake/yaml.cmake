@@ -1,3 +1,6 @@
+# SPDX-FileCopyrightText: 2026 the bbsim authors
+# SPDX-License-Identifier: BSD-3-Clause
+
 # yaml-cpp, static where the system has it: a shared one costs a start of the program 0.3 ms.
 find_package(yaml-cpp REQUIRED)
 add_library(bbsim_yaml_cpp INTERFACE)

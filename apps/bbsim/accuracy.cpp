@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 #include "study/accuracy.hpp"
 
 #include <algorithm>
@@ -92,8 +95,8 @@ study::Picture picture_of(const std::string& file) {
 void explain_reference(const study::AccuracyStudy& study, double end) {
   say("the reference's own error: about " + rounded(study.reference_error, 2) + " m");
   if (!study.reference_complete && !study.interrupted) {
-    say("the reference ended at t = " + short_number(study.reference_reached) + " s of " +
-        short_number(end) + " s, and errors are those before: " + study.reference_reason);
+    say("the reference solution ended at t = " + short_number(study.reference_reached) + " s of " +
+        short_number(end) + " s, and the errors are those up to then: " + study.reference_reason);
   }
 }
 
@@ -108,9 +111,9 @@ std::string what_switches(const Scenario& scenario, const model::Model& model) {
     const bool by_angles =
         scenario.controller && scenario.controller->law == Law::gravity_compensation;
     add(model.rig->sampled.has_value(), "controller.sampling");
-    add(model.rig->limits_commands(), by_angles ? "the limit of the command, which "
-                                                  "gravity_compensation always has"
-                                                : "controller.limit");
+    add(model.rig->limits_commands(),
+        by_angles ? "the command limit, which gravity_compensation always has"
+                  : "controller.limit");
     add(std::ranges::any_of(model.rig->servo, &model::RigServo::switches),
         "a limit or the backlash of gimbal.servo");
     add(model.rig->between.has_pieces(), "a measured curve of gimbal.linkage");
@@ -142,11 +145,10 @@ ExitCode accuracy(const AccuracyArguments& arguments, const Options& options) {
   const auto columns = scenario::columns_named(scenario.output.columns);
   const model::Model model = assemble(scenario, columns);
   if (model.hybrid()) {
-    throw InputError(scenario.source.file +
-                     ": accuracy compares smooth runs; found what switches or is watched for: " +
-                     what_switches(scenario, model) +
-                     "; allowed: a scene without (`bbsim run --error` estimates the error of this "
-                     "one)");
+    throw InputError(
+        scenario.source.file + ": accuracy compares smooth runs; found a switch or an event: " +
+        what_switches(scenario, model) +
+        "; allowed: a scene without one (`bbsim run --error` estimates the error of this one)");
   }
   const solve::OutputGrid grid(scenario.time);
   Progress progress("accuracy", options.quiet);
@@ -173,7 +175,7 @@ ExitCode accuracy(const AccuracyArguments& arguments, const Options& options) {
     return ExitCode::interrupted;
   }
   if (any) return ExitCode::done;
-  say("no method came to the end of the scene; `bbsim run` says why");
+  say("no method reached the end of the scene; `bbsim run` says why");
   return ExitCode::ended_early;
 }
 
@@ -182,22 +184,23 @@ ExitCode accuracy(const AccuracyArguments& arguments, const Options& options) {
 void add_accuracy(Command& command, const Options& options) {
   command.footer(
       "The error is the largest |dx| or |dy| over the output times, against a solution in quad "
-      "precision; the time is the median processor time of repeated runs, files not counted. atol "
-      "is rtol / 100 throughout. The second table names the fastest choice for each decade of "
-      "error.\n"
+      "precision. The time is the median processor time of repeated runs, without files. atol is "
+      "rtol / 100. A second table names the fastest choice for each decade of error.\n"
       "CSV columns: method, rtol, atol, error_m, time_us, steps, rhs_evaluations, "
       "jacobian_evaluations, status.");
   const auto arguments = std::make_shared<AccuracyArguments>();
   add_scenario(command, arguments->scenario);
-  command.option("--methods", arguments->methods, "methods to compare (default: all but auto)")
+  command
+      .option("--methods", arguments->methods,
+              "methods to compare: radau, bdf, adams; default: all")
       .takes("NAME,...")
       .parted_by_commas();
   command.option("--rtol", arguments->rtols, "tolerances, a decade apart")
       .takes("LOOSEST:TIGHTEST")
       .shows_default();
-  command.option("--csv", arguments->csv, "write all points to this file; - is standard output")
+  command.option("--csv", arguments->csv, "write all points to FILE as CSV; - is standard output")
       .takes("FILE");
-  command.option("--plot", arguments->plot, "draw time over error, with gnuplot")
+  command.option("--plot", arguments->plot, "draw time over error to FILE, with gnuplot")
       .takes("FILE.svg|.png|.pdf");
   command.does([arguments, &options] { return accuracy(*arguments, options); });
 }

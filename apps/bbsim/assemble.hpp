@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Scenario -> Model, for a command: what is wrong with a key is said with its place.
 #pragma once
 

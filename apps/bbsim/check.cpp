@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 #include "check.hpp"
 
 #include <cmath>
@@ -74,8 +77,9 @@ void tell_margins(Report& report, const Scenario& scenario, const model::Model& 
 void tell_sampled_loop(Report& report, const Scenario& scenario, const model::Model& model) {
   const model::Eigenvalues poles = model::sampled_poles(model);
   if (poles.empty()) {
-    report.line("WARNING",
-                "the sampled loop has no poles that numbers can hold: its gains are too large");
+    report.line(
+        "WARNING",
+        "the poles of the sampled loop exceed the range of doubles: its gains are too large");
     return;
   }
   const std::string warning = instability_warning(scenario, model);
@@ -98,7 +102,7 @@ void tell_sampled_loop(Report& report, const Scenario& scenario, const model::Mo
   report.line("", "without noise, dropouts, rounding, limits, dead band and backlash");
   if (!model::why_not_linear(scenario).empty()) return;
   if (cycle.samples > 1) {
-    report.line("margins", "none are told: from sample to sample the loop differs, by its frames");
+    report.line("margins", "none: the loop differs from sample to sample, by the sensor's frames");
   } else {
     tell_margins(report, scenario, model);
   }
@@ -118,7 +122,7 @@ void tell_closed_loop(Report& report, const Scenario& scenario, const model::Mod
   const model::Eigenvalues poles = model::closed_loop_poles(model);
   if (poles.empty()) {
     report.line("WARNING",
-                "the closed loop has no linearisation about home: the law is singular there");
+                "the closed loop has no linearization about home: the law is singular there");
     return;
   }
   const std::string warning = instability_warning(scenario, model);
@@ -138,9 +142,10 @@ void tell_solver(Report& report, const Scenario& scenario, const model::Model& m
   line += solver.error
               ? ", error of x and y at most " + short_number(*solver.error) + " m"
               : ", rtol " + short_number(solver.rtol) + ", atol " + short_number(solver.atol);
-  line += solver.method == Method::automatic
-              ? "; auto takes it, as the cheapest at any error on every kind of scene measured"
-              : "; asked for";
+  line +=
+      solver.method == Method::automatic
+          ? "; auto chooses it: it was the cheapest at every error on every kind of scene measured"
+          : "; asked for";
   report.line("solver", line);
   const double decays = solve::decays_over_scene(model, scenario.time.end);
   report.line("", std::string(decays > 100 ? "a stiff scene" : "not a stiff scene") +

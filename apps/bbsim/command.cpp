@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 #include "command.hpp"
 
 #include <CLI/App.hpp>
@@ -16,7 +19,7 @@ namespace {
 // An option without a value is not the same as none: it is a variable of a script that is not set.
 CLI::Option* refusing_nothing(CLI::Option* option) {
   const auto fault = [](const std::string& text) -> std::string {
-    return text.empty() ? "found nothing; allowed: a value, or to leave it out" : "";
+    return text.empty() ? "found nothing; allowed: a value, or leave the option out" : "";
   };
   return option->check(CLI::Validator(fault, ""));
 }

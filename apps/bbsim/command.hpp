@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // A subcommand and its options, as its own file names them. What parses the command line stays
 // behind command.cpp: each source that sees CLI11's headers makes their validators anew at every
 // start of the program, and takes its compiler seconds more.

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 #include "command_line.hpp"
 
 #include <CLI/CLI.hpp>  // all of it: some source has to
@@ -8,6 +11,7 @@
 #include <vector>
 
 #include "help.hpp"
+#include "licenses.hpp"
 #include "terminal.hpp"
 #include "version.hpp"
 #include "yaml/nearest.hpp"
@@ -18,6 +22,15 @@ namespace {
 std::vector<std::string> names_of_commands(const CLI::App& app) {
   std::vector<std::string> names;
   for (const CLI::App* command : app.get_subcommands({})) names.push_back(command->get_name());
+  return names;
+}
+
+std::vector<std::string> aliases_of_commands(const CLI::App& app) {
+  std::vector<std::string> names;
+  for (const CLI::App* command : app.get_subcommands({})) {
+    const std::vector<std::string>& aliases = command->get_aliases();
+    names.insert(names.end(), aliases.begin(), aliases.end());
+  }
   return names;
 }
 
@@ -45,7 +58,9 @@ std::string known_commands(const CLI::App& app) {
 }
 
 [[noreturn]] void refuse_command(const CLI::App& app, const std::string& word) {
-  const std::string near = nearest(word, names_of_commands(app));
+  std::vector<std::string> names = names_of_commands(app);
+  for (std::string& alias : aliases_of_commands(app)) names.push_back(std::move(alias));
+  const std::string near = nearest(word, names);
   throw InputError("unknown command " + word + "; " +
                    (near.empty() ? known_commands(app) : "did you mean " + near + "?") + more);
 }
@@ -61,7 +76,7 @@ bool is_option(std::string_view word) {
   const std::string name = whole ? "bbsim" : "bbsim " + command.get_name();
   const std::string help = "\nRun " + name + " --help for more information.";
   if (!is_option(word)) {
-    throw InputError("found " + word + ", which " + name + " does not ask for." + help);
+    throw InputError("found " + word + ", which " + name + " does not take." + help);
   }
   const std::string option = word.substr(0, word.find('='));
   if (!whole && command.get_option_no_throw(option) != nullptr) {
@@ -81,7 +96,7 @@ bool is_option(std::string_view word) {
 void add_quiet(CLI::App& app, Options& options) {
   app.fallthrough();  // which the commands take over, so that the flag may stand after them
   app.add_flag("-q,--quiet", options.quiet,
-               "print no messages and no progress, only results and why a run ended");
+               "print results and the reason why a run ended early; no messages, no progress");
 }
 
 // Prints help or the version, where that ended the parsing. Throws InputError for a mistake.
@@ -110,10 +125,16 @@ ExitCode parsing_ended(const CLI::App& app, const CLI::ParseError& error) {
                    " --help for more information.");
 }
 
+void add_licenses(CLI::App& app) {
+  app.add_flag_callback(
+      "--licenses", [] { throw CLI::CallForVersion(licenses(), 0); },
+      "print the licenses of bbsim and of the libraries in it, and exit");
+}
+
 void add_help(CLI::App& app, Chosen& chosen) {
-  CLI::App* command = app.add_subcommand("help", "Print help, of a command if it is named");
+  CLI::App* command = app.add_subcommand("help", "Print help on bbsim or on one command");
   const auto name = std::make_shared<std::string>();
-  command->add_option("COMMAND", *name, "the command; default: what all of them do");
+  command->add_option("COMMAND", *name, "the command; default: list all commands");
   command->callback([&app, name, &chosen] {
     chosen = [&app, name] {
       if (name->empty()) {
@@ -121,7 +142,7 @@ void add_help(CLI::App& app, Chosen& chosen) {
         return ExitCode::done;
       }
       for (const CLI::App* known : app.get_subcommands({})) {
-        if (known->get_name() != *name) continue;
+        if (!known->check_name(*name)) continue;
         print(known->help("bbsim"));
         return ExitCode::done;
       }
@@ -130,23 +151,29 @@ void add_help(CLI::App& app, Chosen& chosen) {
   });
 }
 
-// Adds the commands. All of them and their options take longer to make than many a run: where the
-// first word names a command, only those are made that a word names; where it names none, all are,
-// for help and for what is said of a mistake. Options are made of those that are named.
+// Adds the commands, and --licenses. All of them and their options take longer to make than many a
+// run: where the first word names a command, only those are made that a word names; where it names
+// none, all are, for help and for what is said of a mistake. Options are made of those that are
+// named.
 void add_commands(CLI::App& app, std::span<char* const> words,
                   std::span<const NamedCommand> commands, const Options& options, Chosen& chosen) {
+  const auto calls = [](std::string_view word, const NamedCommand& command) {
+    return word == command.name || (!word.empty() && word == command.alias);
+  };
   const auto is_named = [&](const NamedCommand& command) {
-    return std::ranges::find(words, std::string_view(command.name)) != words.end();
+    return std::ranges::any_of(words, [&](std::string_view word) { return calls(word, command); });
   };
   const auto first = std::ranges::find_if_not(
       words, [](std::string_view word) { return word == "-q" || word == "--quiet"; });
   const bool names_one =
       first != words.end() &&
-      std::ranges::find(commands, std::string_view(*first), &NamedCommand::name) != commands.end();
+      std::ranges::any_of(commands, [&](const NamedCommand& one) { return calls(*first, one); });
+  if (!names_one) add_licenses(app);
   for (const NamedCommand& command : commands) {
     const bool named = is_named(command);
     if (names_one && !named) continue;
     CLI::App* const added = app.add_subcommand(command.name, command.description);
+    if (!command.alias.empty()) added->alias(std::string(command.alias));
     if (!named) continue;
     Command its(*added, chosen);
     command.add_options(its, options);
@@ -159,15 +186,20 @@ void add_commands(CLI::App& app, std::span<char* const> words,
 }  // namespace
 
 ExitCode obey(int argc, char** argv, std::span<const NamedCommand> commands) {
-  CLI::App app("bbsim simulates a ball that rolls on a plane which a two-axis gimbal tips.",
-               "bbsim");
+  CLI::App app(
+      "bbsim simulates a ball rolling on a plate that tilts about two axes (the ball-and-plate rig "
+      "of control courses).",
+      "bbsim");
   app.formatter(std::make_shared<HelpFormatter>());
   app.set_help_flag("-h,--help", "print this help and exit");
-  app.set_version_flag("--version", version, "print the version, what it was made of, and exit");
+  app.set_version_flag("--version", version,
+                       "print the versions of bbsim and its libraries and exit");
   app.require_subcommand(1);
   app.footer(
       "Exit codes: 0 done; 1 the run ended early or files differ; 2 the command line or the "
-      "scenario is at fault; 3 the output could not be written; 130 interrupted.");
+      "scenario is at fault; 3 the output could not be written; 130 interrupted.\n"
+      "\n"
+      "Run `bbsim COMMAND --help` for the options of a command.");
   Options options;
   add_quiet(app, options);
   Chosen chosen;

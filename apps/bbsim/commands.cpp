@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 #include "commands.hpp"
 
 #include <filesystem>
@@ -21,22 +24,21 @@ void reads_parts(file::Outputs& outputs, const Scenario& scenario) {
 }  // namespace
 
 void add_scenario(Command& command, ScenarioArguments& arguments) {
-  command.option("SCENARIO", arguments.file, "a YAML file; - is standard input").required();
+  command.option("SCENARIO", arguments.file, "a YAML file, or - for standard input").required();
   add_overrides(command, arguments.overrides);
 }
 
 void add_overrides(Command& command, std::vector<std::string>& overrides) {
   command
       .option("--set", overrides,
-              "set a key of the scenario, such as ball.radius=0.02; null removes it; may be "
-              "given again")
+              "set a key of the scenario, such as ball.radius=0.02; null removes it; repeatable")
       .takes("KEY=VALUE")
       .may_be_repeated();
 }
 
 void add_force(Command& command, bool& force) {
   command.flag("--force", force,
-               "without -o: replace the file of the default name, whatever it holds");
+               "replace a file of the default name, whatever it holds; only without -o");
 }
 
 std::string default_output(const std::string& scenario, const std::string& suffix) {
@@ -51,8 +53,8 @@ std::string name_of_output(const std::string& output) {
 void add_error(Command& command, std::string& error) {
   command
       .option("--error", error,
-              "bound on the error of x and y at all output times, such as 1e-9 or \"1 um\"; "
-              "instead of solver.rtol and solver.atol, also of those in the scenario")
+              "bound the error of x and y, in meters, at all output times: 1e-9 or \"1 um\"; "
+              "replaces solver.rtol and solver.atol of the scenario")
       .takes("E");
 }
 

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // The subcommands. Each add_ function gives one its options, and says what it does.
 #pragma once
 
@@ -60,7 +63,7 @@ void add_run(Command& command, const Options& options);
 void add_check(Command& command, const Options& options);
 void add_linearize(Command& command, const Options& options);
 void add_measure(Command& command, const Options& options);
-void add_summarise(Command& command, const Options& options);
+void add_summarize(Command& command, const Options& options);
 void add_compare(Command& command, const Options& options);
 void add_verify(Command& command, const Options& options);
 void add_columns(Command& command, const Options& options);

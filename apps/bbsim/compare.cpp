@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 #include "record/compare.hpp"
 
 #include <memory>
@@ -81,22 +84,18 @@ ExitCode run_compare(const CompareOptions& options, const Options& all) {
 
 void add_compare(Command& command, const Options& all) {
   command.footer(
-      "Columns are compared by name, whatever their order, rows by position. Values a and b are "
-      "alike if |a - b| <= atol + rtol max(|a|, |b|); NaN is like NaN, an infinity like the same "
-      "infinity; texts, such as a sweep's status, are alike if they are equal. Without --rtol and "
-      "--atol, HDF5 files are compared by what their solver was asked for, and all else by 1e-9 "
-      "and 1e-12.\n"
+      "bbsim matches columns by name and rows by position. Values a and b are alike if |a - b| <= "
+      "atol + rtol max(|a|, |b|). NaN is like NaN, and an infinity like the same infinity. Texts, "
+      "such as a sweep's status, must be equal. Without --rtol and --atol, the tolerances follow "
+      "from the solver settings that HDF5 files carry; for other files they are 1e-9 and 1e-12.\n"
       "The exit code is 0 if the files are alike, 1 if they differ, 2 if one cannot be read or "
       "lacks a named column.");
   auto options = std::make_shared<CompareOptions>();
-  command
-      .option("A", options->a,
-              "a CSV file, an HDF5 file (.h5, .hdf5), or - for CSV on standard input")
+  command.option("A", options->a, "CSV, HDF5 (.h5, .hdf5), or - for CSV on standard input")
       .required();
-  command.option("B", options->b, "what to compare it with").required();
+  command.option("B", options->b, "the file to compare it with").required();
   command
-      .option("--rtol", options->rtol,
-              "relative tolerance, of the larger value; default: see below")
+      .option("--rtol", options->rtol, "tolerance relative to the larger value; default: see below")
       .takes("R");
   command
       .option("--atol", options->atol,
@@ -104,7 +103,8 @@ void add_compare(Command& command, const Options& all) {
       .takes("A");
   command
       .option("--columns", options->columns,
-              "compare these only (default: all; one that a file lacks is a difference)")
+              "compare only these columns; default: all, and a column that only one file has is a "
+              "difference")
       .takes("NAME,...")
       .parted_by_commas();  // a file may follow
   command.does([options, &all] { return run_compare(*options, all); });

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 #include "describe.hpp"
 
 #include <algorithm>
@@ -55,14 +58,12 @@ std::string instability_of_samples(const model::Model& model) {
   if (poles.empty() || model::stable_by_period(poles)) return "";
   const int outside = model::growing_by_period(poles);
   if (outside == 0) {
-    return "the sampled loop is on the border of stability about home, as far as rounding can "
-           "tell: "
-           "poles " +
+    return "the sampled loop is at the stability limit about home, within rounding: poles " +
            sampled_poles_line(poles);
   }
   return "the sampled loop is unstable about home: " + std::to_string(outside) + " of its " +
          std::to_string(poles.size()) + (outside == 1 ? " poles is" : " poles are") +
-         " not within the unit circle: " + sampled_poles_line(poles);
+         " outside the unit circle: " + sampled_poles_line(poles);
 }
 
 std::string instability(const model::Model& model) {
@@ -71,8 +72,7 @@ std::string instability(const model::Model& model) {
   if (poles.empty() || model::stable(poles)) return "";
   const int growing = model::growing(poles);
   if (growing == 0) {
-    return "the closed loop is on the border of stability about home, as far as rounding can tell: "
-           "poles (1/s) " +
+    return "the closed loop is at the stability limit about home, within rounding: poles (1/s) " +
            poles_line(poles);
   }
   return "the closed loop is unstable about home: " + std::to_string(growing) + " of its " +
@@ -120,15 +120,15 @@ std::string without_frames(const Scenario& scenario, bool by_sample) {
                     frames =
                         "frames every " + short_number(1e3 * *controller->sensor->period) + " ms";
   if (!controller->sampling->is_even()) {
-    return start + "at samples of an uneven clock their age is not known beforehand";
+    return start + "with an uneven clock, their age at a sample is not known beforehand";
   }
   if (!cycle.known) {
-    return start + frames + " do not come round to samples every " +
-           short_number(1e3 * controller->sampling->period) + " ms again within 500 of these";
+    return start + frames + " do not coincide again with samples every " +
+           short_number(1e3 * controller->sampling->period) + " ms within 500 samples";
   }
   if (by_sample && cycle.samples > 1) {
-    return start + frames + " come round to the samples after " + short_number(cycle.samples) +
-           " of these, from one of which to the next the loop differs";
+    return start + frames + " coincide with the samples again after " +
+           short_number(cycle.samples) + " samples; the loop differs from sample to sample";
   }
   return "";
 }
@@ -146,7 +146,7 @@ std::string failure_text(const Scenario& scenario, const model::Model& model,
   const auto lost = std::ranges::find_if(state, [](double value) { return !std::isfinite(value); });
   if (lost != state.end()) {
     return text + "  " + names[static_cast<std::size_t>(lost - state.begin())] +
-           " is no finite number any more; the rows are those before.";
+           " is no longer a finite number; the file has the rows before that.";
   }
   const auto largest = std::max_element(
       state.begin(), state.end(), [](double a, double b) { return std::abs(a) < std::abs(b); });
@@ -154,7 +154,7 @@ std::string failure_text(const Scenario& scenario, const model::Model& model,
       std::find_if(state.begin(), state.end(), [](double z) { return std::isnan(z); });
   if (none != state.end()) {
     text += "  " + names[static_cast<std::size_t>(none - state.begin())] +
-            " is no number any more: the motion has left the range of numbers.\n";
+            " is no longer a number: the motion has left the range of doubles.\n";
   } else if (largest != state.end()) {
     const auto index = static_cast<std::size_t>(largest - state.begin());
     const char* verb =
@@ -185,13 +185,14 @@ std::string occurrence_text(const model::Occurrence& occurrence) {
       {"edge", "the contact point left the plate"},
       {"slip", "rolling needs more friction than there is"},
       {"lift_off", "the ball leaves the plane: the normal force is no longer positive"},
-      {"tilt", "the plane tilts to its limit"},
+      {"tilt", "the plate reaches its tilt limit"},
       {"roll", "the ball rolls again"},
       {"rest", "rolling resistance has brought the ball to rest"},
       {"stick_phi", "friction of its motor holds phi"},
       {"stick_theta", "friction of its motor holds theta"},
-      {"dead_point", "what links a servo to the plane is at a dead point, or where its curve ends"},
-      {"singularity", "no accelerations of the gimbal give the ball the one wanted any more"},
+      {"dead_point", "the linkage of a servo is at a dead point, or at the end of its curve"},
+      {"singularity",
+       "no accelerations of the gimbal give the ball the wanted acceleration any more"},
   };
   std::string text = occurrence.name;
   for (const Words& word : words) {
@@ -204,29 +205,27 @@ std::string occurrence_text(const model::Occurrence& occurrence) {
 std::string stopping_text(const Scenario& scenario, const std::string& event) {
   const Events& events = scenario.events;
   if (event == "tilt" && !events.tilt) {
-    return "So it is by default under feedback_linearisation; events.tilt with action: note would "
-           "let "
-           "it run on.";
+    return "This is the default under feedback_linearization; events.tilt with action: note lets "
+           "the run continue.";
   }
   if (event == "singularity" && !events.singularity) {
-    return "So it is by default under feedback_linearisation; events.singularity.action: note "
-           "would "
-           "let it run on.";
+    return "This is the default under feedback_linearization; events.singularity.action: note lets "
+           "the run continue.";
   }
   if (event == "lift_off" && !events.lift_off) {
-    return "So it is by default where friction depends on the normal force; events.lift_off: note "
-           "would let it run on.";
+    return "This is the default if friction depends on the normal force; events.lift_off: note "
+           "lets the run continue.";
   }
   if (event == "dead_point") {
-    return "There is no motion beyond it. bbsim check tells between which angles the servos may "
-           "turn; gimbal.servo.angle_limit or controller.limit keeps them there.";
+    return "There is no motion beyond it. `bbsim check` prints the angles between which the servos "
+           "may turn; gimbal.servo.angle_limit or controller.limit keeps them there.";
   }
   if (event.starts_with("stick")) {
-    return "That is what the scene asks for: events.stick is stop; note would let it run on.";
+    return "The scene asks for this: events.stick is stop; note lets the run continue.";
   }
   const bool plain = event == "edge" || event == "lift_off" || event == "rest";
-  return "That is what the scene asks for: events." + event + (plain ? "" : ".action") +
-         " is stop; note would let it run on.";
+  return "The scene asks for this: events." + event + (plain ? "" : ".action") +
+         " is stop; note lets the run continue.";
 }
 
 std::string noted_text(const std::vector<model::Occurrence>& occurrences) {

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 #include "gnuplot.hpp"
 
 #include <optional>
@@ -19,7 +22,7 @@ std::string run_gnuplot(const std::string& script) {
       run_program({"gnuplot", "--default-settings", "-"}, script, "draw the plot");
   if (!finished) {
     throw OutputError(
-        "cannot draw the plot: there is no gnuplot on the PATH; install it (Debian: apt install "
+        "cannot draw the plot: gnuplot is not on the PATH; install it (Debian: apt install "
         "gnuplot-nox)");
   }
   if (finished->well()) return std::move(finished->output);

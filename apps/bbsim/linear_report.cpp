@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 #include "linear_report.hpp"
 
 #include <algorithm>
@@ -71,13 +74,13 @@ std::vector<LabelledLine> margin_lines(const model::Linearisation& made) {
   } else if (all_end(&model::Bandwidth::of_feedback)) {
     lines.push_back(
         {"  bandwidth", bandwidths(&model::Bandwidth::of_feedback) +
-                            ", of the feedback: with the reference's accelerations, "
-                            "which the law is told, the response does not fall to 1/sqrt(2)"});
+                            ", of the feedback: with the reference's accelerations, which the law "
+                            "knows, the response does not fall to 1/sqrt(2)"});
   } else {
     lines.push_back(
         {"  bandwidth", bandwidths(&model::Bandwidth::value) +
                             ": the response does not fall to 1/sqrt(2)" +
-                            (made.system.period ? " up to half the rate of the samples" : "")});
+                            (made.system.period ? " up to half the sampling rate" : "")});
   }
   return lines;
 }
@@ -100,7 +103,9 @@ std::string linear_report(const std::string& of, const model::Linearisation& mad
   if (!made.margins.empty()) {
     line("margins",
          std::string("of each command's loop, the other one closed") +
-             (made.stable ? "" : "; the loop is not stable: where poles cross the border"));
+             (made.stable
+                  ? ""
+                  : "; the loop is not stable: these are where poles cross the stability limit"));
   }
   for (const LabelledLine& one : margin_lines(made)) line(one.label, one.text);
   return text;

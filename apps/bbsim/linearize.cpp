@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 #include <memory>
 #include <string>
 
@@ -101,7 +104,7 @@ ExitCode linearize(const LinearizeArguments& arguments, const Options& options) 
   const model::Linearisation made = model::linearise(scenario, model, kind, point);
   if (made.poles.empty()) {
     say("the " + std::string(name_of(kind)) + " about " + at +
-        " has no poles that numbers can hold.");
+        " has poles beyond the range of doubles.");
     return ExitCode::ended_early;
   }
   if (made.system.period) {
@@ -123,8 +126,9 @@ ExitCode linearize(const LinearizeArguments& arguments, const Options& options) 
 
 void add_linearize(Command& command, const Options& options) {
   command.footer(
-      "Without -o the poles, zeros and margins are printed. The files hold A, B, C, D and names: "
-      ".m for MATLAB and Octave, .py for numpy and python-control, .json and .csv for all else.\n"
+      "Without -o, bbsim prints poles, zeros and margins. Files contain A, B, C, D and the names "
+      "of states, inputs and outputs: .m for MATLAB and Octave, .py for numpy and python-control, "
+      ".json and .csv for other programs.\n"
       "\n"
       "Examples:\n"
       "  bbsim linearize configs/step.yaml\n"
@@ -134,24 +138,23 @@ void add_linearize(Command& command, const Options& options) {
   add_scenario(command, arguments->scenario);
   command
       .option("--at", arguments->at,
-              "home, all zero (default); equilibrium, at rest under the reference of t = 0; "
-              "or a TIME of the run")
+              "home: all states zero (default); equilibrium: at rest under the reference of t = 0; "
+              "or a TIME of the run, such as \"2 s\"")
       .takes("POINT");
   Option plant = command.flag(
       "--plant", arguments->plant,
-      "from the gimbal's commands to the ball's position (default without a controller)");
+      "the plant, from the gimbal's commands to the ball's position; default without a controller");
   Option loop = command.flag("--loop", arguments->loop,
-                             "the closed loop, from the reference to the position (default with a "
-                             "controller); of a sampled controller from sample to sample");
-  Option sampled = command.flag(
-      "--sampled", arguments->sampled,
-      "the plant under a command that is held between samples, with the delays of sensor and "
-      "controller");
+                             "the closed loop, from the reference to the position; from sample to "
+                             "sample if the controller samples; default with a built-in law");
+  Option sampled = command.flag("--sampled", arguments->sampled,
+                                "the plant under a zero-order hold, with the delays of sensor and "
+                                "controller; default with your own controller");
   loop.excludes(plant);
   sampled.excludes(plant).excludes(loop);
   command
       .option("-o,--output", arguments->output,
-              "FILE.m, FILE.py, FILE.json or FILE.csv; - is JSON on standard output")
+              "write FILE.m, FILE.py, FILE.json or FILE.csv; - is JSON on standard output")
       .takes("FILE");
   command.does([arguments, &options] { return linearize(*arguments, options); });
 }

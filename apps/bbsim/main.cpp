@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // bbsim: a table of contents. Each subcommand has a file of its own; one ladder turns errors into
 // exit codes.
 #include <csignal>
@@ -70,22 +73,22 @@ ExitCode run(const Command& command) {
 
 constexpr bbsim::app::NamedCommand commands[] = {
     {"run", "Simulate a scenario", bbsim::app::add_run},
-    {"check", "Validate a scenario; print what is modelled and why, poles, and the solver",
+    {"check", "Validate a scenario; print the model and why, the poles and the solver",
      bbsim::app::add_check},
-    {"linearize", "A, B, C, D, poles, zeros and margins of a scenario about a point",
+    {"linearize", "Linearize a scenario about a point: A, B, C, D, poles, zeros, margins",
      bbsim::app::add_linearize},
     {"measure", "Measure a stored run: step metrics, extremes, crossings", bbsim::app::add_measure},
     {"sweep", "Simulate a scenario at many values of its keys", bbsim::app::add_sweep},
-    {"merge", "Put the parts of a sweep (bbsim sweep --shard) together", bbsim::app::add_merge},
-    {"summarise", "Count, mean, deviation and quantiles of a sweep's measures, by group",
-     bbsim::app::add_summarise},
+    {"merge", "Join the parts of a sweep that `bbsim sweep --shard` wrote", bbsim::app::add_merge},
+    {"summarize", "Print statistics of a sweep's measures: count, mean, deviation, quantiles",
+     bbsim::app::add_summarize, "summarise"},
     {"plot", "Draw runs and sweeps", bbsim::app::add_plot},
-    {"replay", "Show runs and sweeps: one HTML file that replays them", bbsim::app::add_replay},
-    {"compare", "Compare two results, of runs or of sweeps: CSV or HDF5", bbsim::app::add_compare},
-    {"verify", "Check this build against known answers; show what the full model buys",
+    {"replay", "Write one HTML file that replays runs or sweeps", bbsim::app::add_replay},
+    {"compare", "Compare two results of runs or sweeps, CSV or HDF5", bbsim::app::add_compare},
+    {"verify", "Check this build against known answers; print the error of simpler models",
      bbsim::app::add_verify},
-    {"columns", "List the output columns, their units and meaning", bbsim::app::add_columns},
-    {"accuracy", "Error and time of each method over a ladder of tolerances",
+    {"columns", "List the output columns with unit and meaning", bbsim::app::add_columns},
+    {"accuracy", "Measure error and time of every method over a range of tolerances",
      bbsim::app::add_accuracy},
 };
 

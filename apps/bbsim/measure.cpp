@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 #include <algorithm>
 #include <cctype>
 #include <cmath>
@@ -37,7 +40,7 @@ file::TableData numbers_of(plot::Result result, std::vector<Words>& others) {
   if (result.is_sweep()) {
     throw InputError(result.file +
                      ": is a sweep; allowed: the result of a run. Measures of a sweep "
-                     "are its columns: bbsim summarise " +
+                     "are its columns: bbsim summarize " +
                      result.file);
   }
   file::TableData table;
@@ -153,8 +156,8 @@ ExitCode measure(const MeasureArguments& arguments, const Options& options) {
 
 void add_measure(Command& command, const Options& options) {
   command.footer(
-      "What lies between two rows is on the straight line from one to the other: `bbsim run "
-      "--measure` has the motion itself.\n" +
+      "Values between two rows are interpolated linearly. `bbsim run --measure` measures the "
+      "motion itself.\n" +
       measures_footer() +
       "\n\nExamples:\n"
       "  bbsim measure step.csv --measure x.RiseTime,x.Overshoot\n"
@@ -163,9 +166,9 @@ void add_measure(Command& command, const Options& options) {
   const auto arguments = std::make_shared<MeasureArguments>();
   command
       .option("FILE", arguments->file,
-              "a result of a run: CSV, HDF5 (.h5, .hdf5), or - for CSV on standard input")
+              "the result of a run: CSV, HDF5 (.h5, .hdf5), or - for CSV on standard input")
       .required();
-  add_measures(command, arguments->measures, "what to measure; may be given again").required();
+  add_measures(command, arguments->measures, "measures to take; repeatable").required();
   command.does([arguments, &options] { return measure(*arguments, options); });
 }
 

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 #include "sweep/merge.hpp"
 
 #include <memory>
@@ -44,10 +47,10 @@ ExitCode merge(const MergeArguments& arguments, const Options& options) {
 
 void add_merge(Command& command, const Options& options) {
   const auto arguments = std::make_shared<MergeArguments>();
-  command.option("PARTS", arguments->parts, "files of all shards, in any order").required();
+  command.option("PARTS", arguments->parts, "the files of all shards, in any order").required();
   command
       .option("-o,--output", arguments->output,
-              "FILE.csv or FILE.h5, as the parts; - for CSV on standard output")
+              "write FILE.csv or FILE.h5, like the parts; - is CSV on standard output")
       .takes("FILE")
       .required();
   command.does([arguments, &options] { return merge(*arguments, options); });

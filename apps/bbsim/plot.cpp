@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 #include <algorithm>
 #include <array>
 #include <filesystem>
@@ -83,11 +86,12 @@ plot::Picture picture_of(const std::vector<plot::Result>& results, const PlotArg
   if (std::ranges::none_of(results, is_sweep)) {
     if (!arguments.over.empty()) {
       throw InputError("--over: " + results.front().file +
-                       " is no sweep; a run is drawn over time");
+                       " is no sweep; bbsim draws a run over time");
     }
     return plot::run_picture(results, asked);
   }
-  if (results.size() > 1) throw InputError("--overlay: a sweep has a picture to itself");
+  if (results.size() > 1)
+    throw InputError("--overlay: found a sweep; allowed: runs, since a sweep has its own picture");
   plot::SweepChoice choice;
   for (const std::vector<std::string>& panel : asked) {
     choice.measures.insert(choice.measures.end(), panel.begin(), panel.end());
@@ -109,12 +113,14 @@ std::vector<Task> tasks_of(const PlotArguments& arguments, std::string_view endi
   const std::vector<std::string>& files = arguments.files;
   const bool several = files.size() > 1;
   if (several && !arguments.overlay && !arguments.output.empty()) {
-    throw InputError("--output: found " + arguments.output +
-                     " for several files; allowed with --overlay, which draws them in one picture");
+    throw InputError(
+        "--output: found " + arguments.output +
+        " for several files; allowed: with --overlay, which draws them in one picture");
   }
   const auto named_after = [&](const std::string& file, const char* more) {
     if (!arguments.output.empty()) return arguments.output;
-    if (file == "-") throw InputError("--output: missing; what is drawn from - has no name");
+    if (file == "-")
+      throw InputError("--output: missing; standard input (-) gives the picture no name");
     return fs::path(file).replace_extension().string() + more + '.' + std::string(ending);
   };
   if (several && arguments.overlay) return {{files, named_after(files.front(), "-overlay")}};
@@ -172,7 +178,8 @@ ExitCode plot_files(const PlotArguments& arguments, const Options& options) {
   const NamedFormat format = format_of(arguments);
   const std::vector<Task> tasks = tasks_of(arguments, format.name);
   if (arguments.files.size() > 1 && !arguments.beside.summary.empty()) {
-    throw InputError("--summary: a summary is of one run, and several are to be drawn");
+    throw InputError(
+        "--summary: found several files; allowed: one run, to which the summary belongs");
   }
   if (!arguments.beside.overrides.empty() && arguments.beside.scenario.empty()) {
     throw InputError("--set: allowed with --scenario, in which it sets a key");
@@ -196,10 +203,11 @@ ExitCode plot_files(const PlotArguments& arguments, const Options& options) {
 
 void add_plot(Command& command, const Options& options) {
   command.footer(
-      "A run: its path in the plane, and its columns over time; a sweep: its measures over the "
-      "keys that vary. Title, plate, events and friction coefficient are in .h5 files; for a .csv "
-      "they are taken from its summary, NAME.json beside NAME.csv or --summary, or from "
-      "--scenario. Without these a table that bbsim did not write is drawn without units.\n"
+      "The picture of a run has its path on the plate and its columns over time; that of a sweep "
+      "has its measures over the keys that vary. Title, plate, events and friction coefficient "
+      "come from the .h5 file. For a .csv they come from its summary (NAME.json beside NAME.csv, "
+      "or --summary) or from --scenario. Without these, bbsim draws a table of other programs "
+      "without units.\n"
       "\n"
       "Examples:\n"
       "  bbsim run configs/rig.yaml --summary rig.json && bbsim plot rig.csv\n"
@@ -212,27 +220,25 @@ void add_plot(Command& command, const Options& options) {
               "CSV or HDF5 files of runs and sweeps; - is CSV on standard input")
       .required();
   command.option("-o,--output", arguments->output,
-                 "FILE.svg, .png or .pdf, or - for standard output; default: FILE with .svg");
+                 "write FILE.svg, .png or .pdf, or - for standard output; default: FILE with .svg");
   add_force(command, arguments->force);
-  command.option("--format", arguments->format, "svg, png or pdf; default: as the ending says")
+  command.option("--format", arguments->format, "svg, png or pdf; default: the ending of -o")
       .takes("FORMAT");
   command.flag("--overlay", arguments->overlay,
-               "all files in one picture, to be compared; default name: FIRST-overlay.svg");
+               "draw all files in one picture; default name: FIRST-overlay.svg");
   command
-      .option(
-          "--columns", arguments->columns,
-          "what to draw: columns of a panel parted by commas, panels by semicolons; path is the "
-          "picture in the plane. Of a sweep: measures")
+      .option("--columns", arguments->columns,
+              "columns to draw: commas separate the columns of a panel, semicolons separate "
+              "panels; path is the path on the plate. Of a sweep: measures")
       .may_be_repeated();
-  command
-      .option("--over", arguments->over, "KEY[,KEY] of a sweep: what its measures are drawn over")
+  command.option("--over", arguments->over, "KEY[,KEY]: draw a sweep's measures over these keys")
       .may_be_repeated();
   command.option("--summary", arguments->beside.summary,
-                 "FILE.json that `bbsim run --summary` wrote of the run");
-  command.option("--scenario", arguments->beside.scenario, "FILE.yaml that was run");
+                 "FILE.json: the summary of the run, from `bbsim run --summary`");
+  command.option("--scenario", arguments->beside.scenario, "FILE.yaml: the scenario that was run");
   command
       .option("--set", arguments->beside.overrides,
-              "key.path=value that was set in it; may be given again")
+              "key.path=value that was set in that scenario; repeatable")
       .may_be_repeated();
   command.does([arguments, &options] { return plot_files(*arguments, options); });
 }

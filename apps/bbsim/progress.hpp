@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // A progress bar on a terminal, for anything that takes over a second; elsewhere, where asked for,
 // a line a minute.
 #pragma once

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 #include <algorithm>
 #include <filesystem>
 #include <memory>
@@ -66,7 +69,8 @@ std::string output_of(const ReplayArguments& arguments) {
   if (!arguments.output.empty()) return arguments.output;
   const std::string& first =
       arguments.files.empty() ? arguments.logs.front() : arguments.files.front();
-  if (first == "-") throw InputError("--output: missing; what is shown from - has no name");
+  if (first == "-")
+    throw InputError("--output: missing; standard input (-) gives the page no name");
   if (is_scenario(first)) return default_output(first, ".html");
   return std::filesystem::path(first).replace_extension(".html").string();
 }
@@ -79,11 +83,11 @@ void check_arguments(const ReplayArguments& arguments) {
   const auto scenarios = std::ranges::count_if(arguments.files, is_scenario);
   const auto results = static_cast<std::ptrdiff_t>(arguments.files.size()) - scenarios;
   if (!arguments.beside.summary.empty() && results != 1) {
-    throw InputError("--summary: a summary is of one run, and " + std::to_string(results) +
-                     " results are to be shown");
+    throw InputError("--summary: found " + std::to_string(results) +
+                     " results; allowed: one run, to which the summary belongs");
   }
   if (!arguments.beside.scenario.empty() && results == 0) {
-    throw InputError("--scenario: allowed with a result, of which it is the scenario");
+    throw InputError("--scenario: allowed with a result, whose scenario it gives");
   }
   if (!arguments.beside.overrides.empty() && scenarios == 0 && arguments.beside.scenario.empty()) {
     throw InputError("--set: allowed with a scenario, in which it sets a key");
@@ -211,10 +215,10 @@ ExitCode replay_files(const ReplayArguments& arguments, const Options& options) 
 
 void add_replay(Command& command, const Options& options) {
   command.footer(
-      "The page opens in any browser, offline: the rig in three dimensions, plots, what was run. "
-      "Of several runs the first one leads and the others are its ghosts. A scenario is run first. "
-      "Title, plate, ball and events of a .csv are taken from its summary, NAME.json beside "
-      "NAME.csv or --summary, or from --scenario.\n"
+      "The page opens in any browser, offline. It shows the rig in three dimensions, plots, and "
+      "the settings of the run. With several runs, the first one leads and the others are ghosts. "
+      "bbsim runs a scenario first. Title, plate, ball and events of a .csv come from its summary "
+      "(NAME.json beside NAME.csv, or --summary) or from --scenario.\n"
       "\n"
       "Examples:\n"
       "  bbsim replay configs/rig.yaml -o rig.html\n"
@@ -224,32 +228,32 @@ void add_replay(Command& command, const Options& options) {
       "  bbsim replay fig2b-sweep.csv --scenario configs/fig2b.yaml\n"
       "  bbsim replay configs/fig2a.yaml -o fig2a.glb");
   const auto arguments = std::make_shared<ReplayArguments>();
-  command.option("FILES", arguments->files,
-                 "results (CSV, HDF5) of runs or sweeps, or scenarios; - is CSV on standard "
-                 "input");
+  command.option(
+      "FILES", arguments->files,
+      "results (CSV, HDF5) of runs or of sweeps, or scenarios; - is CSV on standard input");
   command
       .option("-o,--output", arguments->output,
-              "FILE.html, FILE.glb (glTF, for Blender and slides), or - for a page on "
+              "write FILE.html, FILE.glb (glTF, for Blender and slides), or - for a page on "
               "standard output; default: the first file's name with .html")
       .takes("FILE");
   add_force(command, arguments->force);
   command
-      .option("--data", arguments->logs,
-              "LOG.csv of a real rig, shown beside the runs; may be given again")
+      .option("--data", arguments->logs, "LOG.csv of a real rig, shown with the runs; repeatable")
       .takes("LOG")
       .may_be_repeated();
   command
       .option("--map", arguments->maps,
-              "COLUMN=NAME[:UNIT],... which column of the log is which of bbsim columns, "
-              "and its unit; default: the log's names are bbsim's, in SI units")
+              "COLUMN=NAME[:UNIT],...: the log's column NAME, in UNIT, is bbsim's COLUMN; default: "
+              "columns match by name, in SI units")
       .takes("MAP")
       .may_be_repeated();
-  command.option("--title", arguments->title, "of the page; default: the scenario's").takes("TEXT");
+  command.option("--title", arguments->title, "title of the page; default: the scenario's")
+      .takes("TEXT");
   command
       .option("--summary", arguments->beside.summary,
-              "FILE.json that `bbsim run --summary` wrote of the result")
+              "FILE.json: the summary of a result, from `bbsim run --summary`")
       .takes("FILE");
-  command.option("--scenario", arguments->beside.scenario, "FILE.yaml that a result is of")
+  command.option("--scenario", arguments->beside.scenario, "FILE.yaml: the scenario of a result")
       .takes("FILE");
   add_overrides(command, arguments->beside.overrides);
   command.does([arguments, &options] { return replay_files(*arguments, options); });

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // A replay as a file, and how a run becomes one: for `replay`, and for `run --replay`.
 #pragma once
 

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 #include <algorithm>
 #include <cmath>
 #include <deque>
@@ -182,7 +185,7 @@ ExitCode run(const RunArguments& arguments, const Options& options) {
   const std::size_t rows = part ? part->part().end_row - part->part().first_row : grid.size();
   tell(made, options.quiet);
   if (!options.quiet && !any_rows) {
-    say(name_of_output(output) + ": not written, there is no row");
+    say(name_of_output(output) + ": not written; there are no rows");
   } else if (!options.quiet) {
     std::string line = name_of_output(output) + ": " + std::to_string(summary.rows) + " of " +
                        std::to_string(rows) + " rows, " + summary.method + ", " +
@@ -219,29 +222,27 @@ void add_run(Command& command, const Options& options) {
   add_scenario(command, arguments->scenario);
   command
       .option("-o,--output", arguments->output,
-              "FILE.csv, FILE.h5, or - for CSV on standard output; default: the scenario's "
-              "name with .csv, in the current folder (of standard input: -)")
+              "write rows to FILE.csv or FILE.h5, or - for CSV on standard output; default: "
+              "SCENARIO's name with .csv, in the current folder; if SCENARIO is -, standard output")
       .takes("FILE");
   add_force(command, arguments->force);
   add_error(command, arguments->error);
   add_measures(command, arguments->measures,
-               "print measures of the motion as CSV, measure,value: see below; may be given again");
+               "print measures of the motion as CSV, measure,value (see below); repeatable");
   command
-      .option(
-          "--expect", arguments->expect,
-          "end with exit code 1 if it does not hold: \"max_tilt < 5 deg\", or with <=, > or >=, "
-          "of any measure; may be given again")
+      .option("--expect", arguments->expect,
+              "exit with code 1 if this does not hold, such as \"max_tilt < 5 deg\"; any measure, "
+              "with <, <=, > or >=; repeatable")
       .takes("\"MEASURE < VALUE\"")
       .may_be_repeated();
   command
       .option("--summary", arguments->summary,
-              "FILE.json, or - for standard output: how the run went, what was modelled, "
-              "statistics")
+              "write a summary of the run to FILE.json, or - for standard output: how it ended, "
+              "the model, statistics")
       .takes("FILE");
   add_part(command, arguments->part);
   command
-      .option("--replay", arguments->replay,
-              "FILE.html: also a page that shows the run, or FILE.glb; as of bbsim replay")
+      .option("--replay", arguments->replay, "also write FILE.html or FILE.glb, like bbsim replay")
       .takes("FILE");
   command.does([arguments, &options] {
     return with_error_option(arguments->error, [&] { return run(*arguments, options); });

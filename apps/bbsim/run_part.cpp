@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 #include "run_part.hpp"
 
 #include <algorithm>
@@ -48,18 +51,18 @@ std::string identity_of(const Scenario& scenario, const std::vector<file::InputT
 void add_part(Command& command, PartArguments& arguments) {
   command
       .option("--save-state", arguments.save,
-              "FILE: the state at the end of this run, or at --until, or where it is "
-              "interrupted, to go on from")
+              "write the state at the end of this run, at --until, or at an interruption, for "
+              "--from-state")
       .takes("FILE");
   command
       .option("--from-state", arguments.from,
-              "go on from a state of the same scenario: the rows that follow, those of one run "
-              "to the bit")
+              "continue from a state of the same scenario; the rows are those of one whole run to "
+              "the bit")
       .takes("FILE");
   command
       .option("--until", arguments.until,
-              "with --save-state: end this part of the run at that time; time.end stays the "
-              "end of the whole")
+              "with --save-state: end this part of the run at TIME; time.end stays the end of the "
+              "whole run")
       .takes("TIME");
 }
 
@@ -69,20 +72,20 @@ RunPart::RunPart(const PartArguments& arguments, const Scenario& scenario,
   const Method method = solve::choose_method(scenario.solver.method);
   if (scenario.solver.error) {
     throw InputError(
-        "--save-state, --from-state: found with solver.error, for which a run is made several "
-        "times; allowed: with tolerances");
+        "--save-state, --from-state: found with solver.error, which repeats the run several times; "
+        "allowed: with tolerances");
   }
   if (method != Method::radau) {
     throw InputError("--save-state, --from-state: found with solver.method " +
                      std::string(solve::method_name(method)) +
-                     ", which keeps its history to itself; allowed: radau");
+                     ", whose history is not saved; allowed: radau");
   }
   Scenario without_push = scenario;  // which switches nothing
   without_push.ball.push.reset();
   if (scenario::is_coupled(without_push)) {
     throw InputError(
         "--save-state, --from-state: found with losses, sliding or torques, whose switches are not "
-        "kept; allowed: without");
+        "saved; allowed: a scene without these");
   }
   if (!arguments_.from.empty()) {
     from_ = record::read_state(arguments_.from);
@@ -128,8 +131,8 @@ void RunPart::check(const model::Model& model,
   if (model.rig && model.rig->sampled && model.rig->sampled->external &&
       !model.rig->sampled->external->can_save()) {
     throw InputError(
-        "--save-state, --from-state: found with a controller that does not say what it remembers; "
-        "allowed: a program that answers its hello with \"save\": true, or a library with "
+        "--save-state, --from-state: found with a controller that cannot save its state; allowed: "
+        "a program that answers the hello with \"save\": true, or a library with "
         "bbsim_controller_save and bbsim_controller_restore");
   }
   if (!from_) return;
@@ -137,42 +140,42 @@ void RunPart::check(const model::Model& model,
   const record::RunState& state = *from_;
   const std::string set = simd::name_of(simd::chosen_instruction_set());
   if (state.version != BBSIM_VERSION || state.instruction_set != set) {
-    throw InputError(file + ": is of bbsim " + state.version + " for " + state.instruction_set +
-                     "; allowed: of this one, " BBSIM_VERSION " for " + set +
-                     " (BBSIM_SIMD chooses another)");
+    throw InputError(file + ": found a state from bbsim " + state.version + " for " +
+                     state.instruction_set + "; allowed: from this one, " BBSIM_VERSION " for " +
+                     set + " (BBSIM_SIMD chooses another)");
   }
   if (state.identity != identity_) {
-    throw InputError(
-        file +
-        ": is of another scenario; allowed: the same text, --set, tables and files of a "
-        "controller, but for time.end and output.columns");
+    throw InputError(file +
+                     ": found a state of another scenario; allowed: the same text, --set, tables "
+                     "and files of a controller; only time.end and output.columns may differ");
   }
   if (state.gamma != model.gamma) {
-    throw InputError(file + ": is of a run " + (state.gamma ? "with" : "without") +
-                     " gamma among what it computes; allowed: columns that need gamma in both or "
-                     "in neither");
+    throw InputError(file + ": found a state of a run " + (state.gamma ? "with" : "without") +
+                     " gamma; allowed: columns that need gamma in both runs or in neither");
   }
   if (scenario::any_needs(columns, scenario::Needs::orientation)) {
     throw InputError(
-        "--from-state: found with columns ball_q..., which come of all rows from the start; "
-        "allowed: other columns");
+        "--from-state: found with columns ball_q..., which bbsim computes from all rows since the "
+        "start; allowed: other columns");
   }
   if (!state.endless && (part_.endless || state.end != grid_->end())) {
-    throw InputError(file + ": is of a run to t = " + short_number(state.end) +
-                     " s, found time.end " + short_number(whole_.time.end) +
+    throw InputError(file + ": found a state of a run to t = " + short_number(state.end) +
+                     " s, but time.end is " + short_number(whole_.time.end) +
                      (part_.endless ? " and no --until" : "") + "; allowed: the same time.end" +
                      (part_.endless ? ", with --until" : ""));
   }
   if (state.endless && !part_.endless && grid_->end() < state.least_end) {
-    throw InputError(
-        file + ": was made without knowing that the run ends at t = " + short_number(grid_->end()) +
-        " s, to which its last steps would have been fitted; allowed: a time.end of " +
-        (std::isfinite(state.least_end) ? short_number(state.least_end) + " s or more, or "
-                                        : std::string()) +
-        "a first part with this time.end and --until");
+    throw InputError(file + ": the part that wrote it did not know that the run ends at t = " +
+                     short_number(grid_->end()) +
+                     " s, where the integrator would have chosen a different last step; allowed: a "
+                     "time.end of " +
+                     (std::isfinite(state.least_end)
+                          ? short_number(state.least_end) + " s or more, or "
+                          : std::string()) +
+                     "a first part with this time.end and --until");
   }
   if (part_.first_row >= part_.end_row) {
-    throw InputError(file + ": is at t = " + short_number(state.time) +
+    throw InputError(file + ": found a state at t = " + short_number(state.time) +
                      " s; allowed: an end after that");
   }
 }
@@ -191,7 +194,7 @@ void RunPart::open() {
 
 std::string RunPart::finish(const model::Model& model) {
   if (!file_) return "";
-  if (part_.state.empty()) return arguments_.save + ": not written, there is nothing to go on from";
+  if (part_.state.empty()) return arguments_.save + ": not written; the run kept no state";
   record::RunState state;
   state.version = BBSIM_VERSION;
   state.instruction_set = simd::name_of(simd::chosen_instruction_set());

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // SIGINT (Ctrl-C), SIGTERM and SIGHUP end the program with exit code 130, and leave no temporary
 // files; a run that watches them keeps what it reached.
 #pragma once

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 #include "simulation.hpp"
 
 #include <optional>
@@ -109,7 +112,8 @@ std::string shortfall(const Scenario& scenario, const model::Model& model,
   return "an error of " + short_number(*scenario.solver.error) +
          " m is out of reach: the scene amplifies rounding, and double precision gives about " +
          short_number(rounded_up(*made.error_estimate)) +
-         " m.\n  Ask for that, or end the scene earlier. The rows are those of the best run.";
+         " m.\n"
+         "  Ask for that, or end the scene earlier. The file has the rows of the best run.";
 }
 
 record::RunSummary summarise(const Scenario& scenario, const model::Model& model,
@@ -174,8 +178,8 @@ Simulation simulate(const Scenario& scenario, const model::Model& model,
       progress.clear();
       say("note: at t = " + short_number(time) + " s the run takes " + short_number(pace) +
           " steps per second of motion, and " + short_number(steps) +
-          " more to its end at that pace. Ctrl-C ends it and keeps its rows; a looser solver.rtol, "
-          "or an earlier time.end, needs fewer.");
+          " more to its end at that pace. Ctrl-C ends it and keeps its rows; a looser solver.rtol "
+          "or an earlier time.end needs fewer steps.");
     };
   }
   Integration made = integrate(scenario, model, grid, sink, watch, part);
@@ -185,7 +189,7 @@ Simulation simulate(const Scenario& scenario, const model::Model& model,
   solve::Why why = made.within_error ? made.outcome.why : solve::Why::error_out_of_reach;
   const std::string not_finite = recorder.why_not_finite(wanted.finite_columns);
   if (reason.empty() && !not_finite.empty()) {
-    reason = "the motion was found to its end, but " + not_finite +
+    reason = "the motion was computed to its end, but " + not_finite +
              ".\n  There it is beyond the range of doubles, or not defined.";
     why = solve::Why::not_finite;
   }

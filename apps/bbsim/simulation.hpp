@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // One run of a scenario from its first row to its last: for `run`, and for `replay` of a scenario.
 #pragma once
 

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 #include "sweep/sweep.hpp"
 
 #include <algorithm>
@@ -88,8 +91,9 @@ std::vector<scenario::Measure> measures_of(const Sweep& sweep, const ScenarioFam
 void keep_trajectories(sweep::SweepTask& task, const Scenario& scenario) {
   for (const sweep::Axis& axis : task.plan.axes()) {
     if (axis.key.starts_with("time") || axis.key.starts_with("output")) {
-      throw InputError("cannot keep trajectories where " + axis.key +
-                       " varies: they must have the same rows in all cases");
+      throw InputError(
+          "--keep-trajectories: found " + axis.key +
+          " among the keys that vary; allowed: keys that leave all cases with the same rows");
     }
   }
   for (const std::string& name : scenario.output.columns) {
@@ -206,8 +210,8 @@ ExitCode sweep(const SweepArguments& arguments, const Options& options) {
       },
       [&](std::size_t had) {
         if (options.quiet) return;
-        say("no more than " + std::to_string(had) + " of " + std::to_string(threads) +
-            " threads were to be had; going on with these");
+        say("the system gave no more than " + std::to_string(had) + " of " +
+            std::to_string(threads) + " threads; the sweep continues with these");
       });
   progress.clear();
 
@@ -232,7 +236,7 @@ ExitCode sweep(const SweepArguments& arguments, const Options& options) {
   }
   if (options.quiet) return ExitCode::done;
   std::string line = name_of_output(output) + ": " + counts;
-  if (kept > 0) line += ", " + std::to_string(kept) + " of them from before";
+  if (kept > 0) line += ", " + std::to_string(kept) + " of them from the earlier run";
   if (const std::size_t early = end.statuses.early(); early > 0) {
     line += ", " + std::to_string(early) + " ended early (see status)";
   }
@@ -248,8 +252,8 @@ ExitCode sweep(const SweepArguments& arguments, const Options& options) {
 void add_sweep(Command& command, const Options& options) {
   command.footer(
       "SPEC is linear:FROM:TO:COUNT, log:FROM:TO:COUNT, list:A,B,C, uniform:FROM:TO or "
-      "normal:MEAN:SD; values may have units. KEY may be several keys that are tied, each with a "
-      "factor: KEY,-KEY,2*KEY.\n"
+      "normal:MEAN:SD. Values may have units. KEY may be a list of tied keys, each with a factor: "
+      "KEY,-KEY,2*KEY.\n"
       "\n"
       "Examples:\n"
       "  bbsim sweep configs/fig2a.yaml --vary ball.position.0=linear:-0.1:0.1:41\n"
@@ -261,51 +265,53 @@ void add_sweep(Command& command, const Options& options) {
   add_scenario(command, arguments->scenario);
   command
       .option("--vary", arguments->vary,
-              "values for a key, or for several that are tied, see below; "
-              "may be given again; default: the scenario's sweep.vary")
+              "values of a key, or of several tied keys (see below); repeatable; default: the "
+              "scenario's sweep.vary")
       .takes("KEY=SPEC")
       .may_be_repeated();
   command
-      .option("--combine", arguments->combine,
-              "grid: each value with each (default); zip: the first with the first")
+      .option(
+          "--combine", arguments->combine,
+          "grid: each value with each (default); zip: first values together, then second ones, ...")
       .takes("HOW")
       .takes_one_of({"grid", "zip"});
-  command.option("--samples", arguments->samples, "cases to draw for uniform and normal")
+  command.option("--samples", arguments->samples, "number of cases to draw for uniform and normal")
       .takes("N")
       .takes_whole(1);
-  command.option("--seed", arguments->seed, "of what is drawn; default: 1")
+  command.option("--seed", arguments->seed, "seed of drawn values; default: 1")
       .takes("N")
       .takes_whole(0);
   command
       .option("--measure", arguments->measure,
-              "instead of the default measures: min_, max_, rms_ or end_ "
-              "and one of bbsim columns but ball_q...; x.RiseTime, "
-              "y.Overshoot, ...; \"when x=0.05\"; \"rms_x from 5 s\" "
-              "(docs/reference/measures.md); may be given again")
+              "measures to take instead of the default ones: min_, max_, rms_ or end_ before a "
+              "column of `bbsim columns` (but not ball_q...); x.RiseTime, y.Overshoot, ...; \"when "
+              "x=0.05\"; \"rms_x from 5 s\" (docs/reference/measures.md); repeatable")
       .takes("NAME,...")
       .may_be_repeated();
   command
-      .option("-o,--output", arguments->output,
-              "FILE.csv, FILE.h5, or - for CSV on standard output; default: the scenario's "
-              "name with -sweep.csv, in the current folder (of standard input: -)")
+      .option(
+          "-o,--output", arguments->output,
+          "write rows to FILE.csv or FILE.h5, or - for CSV on standard output; default: SCENARIO's "
+          "name with -sweep.csv, in the current folder; if SCENARIO is -, standard output")
       .takes("FILE");
   add_force(command, arguments->force);
   command
       .option("--summary", arguments->summary,
-              "what the sweep was, how its cases ended, the engine: JSON; - is standard output")
+              "write a summary of the sweep to FILE.json, or - for standard output: its settings, "
+              "how cases ended, the engine")
       .takes("FILE");
   command
       .option("-j,--threads", arguments->threads,
-              "threads; default: as many as there are processors")
+              "number of threads; default: number of processors")
       .takes("N")
       .takes_whole(1, 1024);
   command
       .option("--shard", arguments->shard,
-              "only part K of N, from 1; `bbsim merge` puts the parts together")
+              "run only part K of N, K from 1; `bbsim merge` joins the parts")
       .takes("K/N");
-  command.flag("--resume", arguments->resume, "go on with a sweep that did not end");
+  command.flag("--resume", arguments->resume, "continue a sweep that did not end");
   command.flag("--keep-trajectories", arguments->keep_trajectories,
-               "keep the output rows of each case too (HDF5)");
+               "also keep the output rows of each case (HDF5 only)");
   add_error(command, arguments->error);
   command.does([arguments, &options] {
     return with_error_option(arguments->error, [&] { return sweep(*arguments, options); });

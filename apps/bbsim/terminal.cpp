@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 #include "terminal.hpp"
 
 #include <unistd.h>
@@ -29,7 +32,7 @@ bool draws_on_terminal() {
 
 void say_if_waiting(const std::string& file, const std::string& what, bool quiet) {
   if (quiet || file != "-" || isatty(STDIN_FILENO) != 1) return;
-  say("reading " + what + " from the terminal; Ctrl-D ends it, Ctrl-C all");
+  say("reading " + what + " from the terminal; Ctrl-D ends it, Ctrl-C ends bbsim");
 }
 
 void print(const std::string& report) {

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // What the program says to people. Every message and every report goes through here, and so through
 // printable(): names of files, columns and keys come from others, and a terminal obeys what it is
 // sent. Results that programs read (CSV, JSON, HDF5) do not: they are written as they are.

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 #include "study/verify.hpp"
 
 #include <algorithm>
@@ -71,7 +74,9 @@ std::string table_of(const study::Verification& verification) {
 
 std::string table_of(const NamedScenario& named, const study::FullModelStudy& study) {
   std::string text =
-      "\nWhat equation (27) buys in " + named.name + ": the error of simpler models\n";
+      "\n"
+      "What equation (27) adds in " +
+      named.name + ": the error of simpler models\n";
   text += formatted("%-16s  %11s  %9s  %11s  %9s\n", "model", "max |dx| /m", "at t /s",
                     "max |dy| /m", "at t /s");
   for (const study::SimplerModel& model : study.simpler) {
@@ -83,7 +88,7 @@ std::string table_of(const NamedScenario& named, const study::FullModelStudy& st
   for (const study::SimplerModel& model : study.simpler) {
     if (model.reached >= end) continue;
     text += model.name + " is compared up to t = " + short_number(model.reached) + " s of " +
-            short_number(end) + " s, as far as both models go\n";
+            short_number(end) + " s, which both models reach\n";
   }
   return text;
 }
@@ -129,8 +134,8 @@ ExitCode verify(const VerifyArguments& arguments, const Options& options) {
 void add_verify(Command& command, const Options& options) {
   const auto arguments = std::make_shared<VerifyArguments>();
   command.option("SCENARIO", arguments->scenario,
-                 "a YAML file to compare simpler models over, - is standard input; default: "
-                 "the paper's Fig. 2");
+                 "a YAML file, or - for standard input: print the error of simpler models on it; "
+                 "default: the paper's Fig. 2");
   add_overrides(command, arguments->overrides);
   command.does([arguments, &options] { return verify(*arguments, options); });
 }

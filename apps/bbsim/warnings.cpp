@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 #include "warnings.hpp"
 
 #include "describe.hpp"
@@ -12,10 +15,10 @@ std::string plate_text(const Plate& plate) {
 }
 
 std::string edge_warning(const Scenario& scenario, const record::OffPlate& left) {
-  return "warning: the ball is off the plate in the row of t = " + short_number(left.t) +
+  return "warning: the ball is off the plate in the row at t = " + short_number(left.t) +
          " s, at x = " + short_number(left.x) + " m, y = " + short_number(left.y) +
-         " m, and the run goes on as if there were more of it: " + plate_text(scenario.plate) +
-         "; events.edge: stop would end it there";
+         " m, and the run continues as if the plate were larger: " + plate_text(scenario.plate) +
+         "; events.edge: stop ends it there";
 }
 
 }  // namespace

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Rolling resistance against MuJoCo, an engine with soft contacts (Todorov, Erez and Tassa 2012).
 //
 // A ball rolls along a level plate to rest, and stands on one that is tilted by half of what it

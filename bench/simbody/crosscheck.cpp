@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Equation (27) against a multibody engine that does not know it.
 //
 // Simbody (Sherman, Seth and Delp 2011) gets two pins, a plate, a free ball and its ideal

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // The rig in Simbody, behind an interface that C++17 and C++20 both take: Simbody 3.7 is not C++20.
 #pragma once
 

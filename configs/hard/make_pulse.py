@@ -1,4 +1,6 @@
 #!/usr/bin/env python3
+# SPDX-FileCopyrightText: 2026 the bbsim authors
+# SPDX-License-Identifier: BSD-3-Clause
 """Writes pulse.csv: a pulse of phi(t), 1 ms wide, in the middle of 1000 s.
 
     python3 configs/hard/make_pulse.py > configs/hard/pulse.csv

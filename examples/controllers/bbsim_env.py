@@ -1,4 +1,6 @@
 #!/usr/bin/env python3
+# SPDX-FileCopyrightText: 2026 the bbsim authors
+# SPDX-License-Identifier: BSD-3-Clause
 """A ball on a plate as a Gymnasium-style environment: reset() and step(), by bbsim itself.
 
     from bbsim_env import BallOnPlate
@@ -59,7 +61,7 @@ class BallOnPlate:
         self._folder = tempfile.TemporaryDirectory(prefix="bbsim-env-")
         place = os.path.join(self._folder.name, "socket")
         keys["controller.program.command"] = [sys.executable, os.path.abspath(__file__), place]
-        keys["controller.program.timeout"] = 86400  # whoever learns may take its time
+        keys["controller.program.timeout"] = 86400  # a learner may be slow
         keys["controller.program.start_timeout"] = 60
         overrides = self._overrides + [f"{key}={json.dumps(value)}" for key, value in keys.items()]
         words = [self._bbsim, "run", self._scenario, "-q", "-o", self._output or "-"]
@@ -98,7 +100,7 @@ class BallOnPlate:
             raise RuntimeError("step() before reset(), or after the episode's end")
         sample = self._ask({"command": [float(command) for command in action]})
         terminated = truncated = False
-        if sample is None:  # bbsim has no more to ask
+        if sample is None:  # the run has ended
             sample = self._sample
             truncated = self._end() == 0
             terminated = not truncated

@@ -1,3 +1,6 @@
+/* SPDX-FileCopyrightText: 2026 the bbsim authors
+ * SPDX-License-Identifier: BSD-3-Clause */
+
 /* The built-in PID of bbsim, as a shared library: library.yaml names it.
  *
  *     cc -std=c99 -O2 -ffp-contract=off -fPIC -shared -I include examples/controllers/pid.c \

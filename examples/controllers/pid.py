@@ -1,4 +1,6 @@
 #!/usr/bin/env python3
+# SPDX-FileCopyrightText: 2026 the bbsim authors
+# SPDX-License-Identifier: BSD-3-Clause
 """The built-in PID of bbsim, as a program: python.yaml runs it.
 
     bbsim run examples/controllers/python.yaml
@@ -17,7 +19,7 @@ class Axis:
         self.kp, self.kv, self.ki = gains["kp"], gains["kv"], gains["ki"]
         self.filter = hello["derivative_filter"]
         self.limit = hello["limit"] or float("inf")  # null: none
-        self.position = None  # not seen yet
+        self.position = None  # not measured yet
         self.velocity = self.integral = 0.0
 
     def save(self):
@@ -48,9 +50,9 @@ def main():
         if "protocol" in message:  # a run begins
             period = message["period"]
             x, y = Axis(message), Axis(message)
-            periods = 1  # since the ball was seen last
+            periods = 1  # since the last measured position
             command = [0.0, 0.0]
-            if "state" in message:  # it goes on from where another one was
+            if "state" in message:  # it continues an earlier run
                 states, periods, command = message["state"]
                 x.restore(states[0])
                 y.restore(states[1])
@@ -64,7 +66,7 @@ def main():
         elif "save" in message:
             answer = {"state": [[x.save(), y.save()], periods, command]}
         else:
-            if message["ball"] is None:  # the sensor missed it: the command stays
+            if message["ball"] is None:  # the sensor missed the ball: hold the command
                 if x.position is not None:
                     periods += 1
             else:

@@ -1,3 +1,6 @@
+/* SPDX-FileCopyrightText: 2026 the bbsim authors
+ * SPDX-License-Identifier: BSD-3-Clause */
+
 /* One's own controller of bbsim, as a shared library.
  *
  * A scenario names the library (docs/reference/controllers.md):

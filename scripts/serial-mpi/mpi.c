@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // What Debian's static SUNDIALS 7 library wants of Open MPI to link. Without a communicator none of
 // it is called; see mpi.h.
 #include "mpi.h"

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Stands in for Open MPI's header, for the SUNDIALS that scripts/setup unpacks: Debian builds
 // SUNDIALS 7 with MPI, so that its headers name the type and the null communicator below. bbsim
 // passes the null communicator only, with which SUNDIALS calls nothing of MPI.

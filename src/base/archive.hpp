@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // The state of objects as bytes, and back: for a run that is gone on with by another process.
 //
 // A class has one function for both ways, which says what the parts must be like:
@@ -121,7 +124,7 @@ class StateReader {
     for (auto& element : list) get(element);
   }
   static void require(bool sound) {
-    if (!sound) throw StateFault("is damaged: it holds what no run leaves");
+    if (!sound) throw StateFault("is damaged: it contains data that no run writes");
   }
   void bytes(void* data, std::size_t size) {
     require_bytes(size);
@@ -132,7 +135,7 @@ class StateReader {
 
  private:
   void require_bytes(std::size_t size) const {
-    if (size > left_.size()) throw StateFault("is damaged: it is cut short");
+    if (size > left_.size()) throw StateFault("is damaged: it is truncated");
   }
 
   template <class T>

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Random numbers that are the same on every machine: a generator whose output the C++ standard
 // fixes, and arithmetic that IEEE 754 fixes.
 #pragma once

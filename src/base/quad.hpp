@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // A 113-bit floating-point number, for reference solutions.
 //
 // On x86-64 with glibc it is __float128, whose sine and cosine the C library has had since 2.26

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // First in, first out, of a few: mostly without a move of what is left, and without more memory
 // once it has held as many.
 #pragma once

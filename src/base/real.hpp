@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // What templates on a number type ask of it, for doubles; other types overload it.
 #pragma once
 

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 #include "controller/child.hpp"
 
 #include <fcntl.h>
@@ -121,7 +124,7 @@ void Child::refuse_early_words() {
   }
   const std::string_view words = received();
   fail("it said " + bbsim::quoted(words.substr(0, words.find('\n')), longest_saying) +
-       " before it was asked: a line each is allowed, and no more");
+       " before it was asked; allowed: one line for each request");
 }
 
 void Child::send(std::string_view line) {
@@ -222,7 +225,7 @@ void Child::fail_by_silence() {
     why += ": of its answer there is " + bbsim::quoted(received(), longest_saying) +
            ", without a line break";
   } else {
-    why += " (one that answers into a buffer has to flush it: print(..., flush=True) in Python)";
+    why += " (flush buffered output after each answer: print(..., flush=True) in Python)";
   }
   fail(why);
 }

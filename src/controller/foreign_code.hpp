@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // The two places at which code of others begins to run. Fuzz targets, which read scenarios that
 // nobody wrote, have their own of these, which refuse.
 #pragma once

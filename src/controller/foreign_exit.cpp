@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 #include "controller/foreign_exit.hpp"
 
 #include <dlfcn.h>
@@ -72,7 +75,7 @@ std::string ExitCalled::text() const {
 
 void expect_foreign_exits(const std::string& path) {
   const std::string text =
-      "the controller (" + shown(path, uncut) + ") ended bbsim: what was not yet written is lost\n";
+      "the controller (" + shown(path, uncut) + ") ended bbsim; unwritten output is lost\n";
   message.store(strdup(text.c_str()));
   if (expecting.exchange(getpid()) == 0) {
     [[maybe_unused]] static const int registered = std::atexit(ended_within_a_call);

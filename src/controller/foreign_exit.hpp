@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Functions of a library that end the process in place of returning: exit() and its like are this
 // program's own (foreign_exit.cpp), and end the call where they can.
 #pragma once

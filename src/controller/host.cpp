@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 #include "controller/host.hpp"
 
 #include <algorithm>
@@ -88,9 +91,8 @@ std::vector<std::string> Host::describe() const {
   if (program_->fault()) throw model::ControllerFault(*program_->fault());
   const Ready& ready = program_->ready();
   std::vector<std::string> lines{"the program starts, and answers"};
-  lines.emplace_back(ready.reset ? "it can reset: a sweep starts one for each thread"
-                                 : "it does not say that it can reset: a sweep starts one for each "
-                                   "case");
+  lines.emplace_back(ready.reset ? "it can reset: a sweep starts one per thread"
+                                 : "it does not declare a reset: a sweep starts one per case");
   std::string columns;
   if (ready.columns) {
     for (const auto& [name, unit] : *ready.columns) {

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 #include "controller/protocol.hpp"
 
 #include <algorithm>
@@ -131,7 +134,8 @@ std::string misspelt(std::string_view line, const std::string& lacks) {
   return "";
 }
 
-constexpr const char* form = "allowed: {\"command\": [PHI, THETA]}, and beside it \"NAME\": NUMBER";
+constexpr const char* form =
+    "allowed: {\"command\": [PHI, THETA]}, optionally with \"NAME\": NUMBER";
 
 // The text of {"error": "..."}, if it is that.
 std::optional<std::string> error_of(std::string_view line) {

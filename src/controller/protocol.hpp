@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // What bbsim and a controller that is a program say to each other: lines of JSON, one each way a
 // sample (docs/reference/controllers.md).
 //

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 #include "file/atomic_file.hpp"
 
 #include <fcntl.h>
@@ -125,7 +128,7 @@ void AtomicFile::open_named() {
   if (error == EACCES || error == EPERM || error == EROFS) {
     throw OutputError("cannot write " + target_.name + ": " + error_text(error) + " in folder " +
                       target_.folder() +
-                      "; write to a place where you may, or change the permissions of the folder");
+                      "; write to a folder where you may, or change the permissions of this one");
   }
   fail(error);
 }

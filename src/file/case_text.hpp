@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Rows of a sweep as CSV text (RFC 4180: a text with a comma, a quote or a line break is quoted).
 #pragma once
 

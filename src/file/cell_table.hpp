@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Tables as `bbsim compare` sees them: numbers and texts, of runs and of sweeps, with what their
 // files say of the solver.
 #pragma once

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Processes that run beside this one, and what these have started: whatever ends them takes all of
 // it along.
 #pragma once

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // A strict reader of CSV: a header of bare names, then as many numbers a row, or, where texts are
 // wanted, as many fields.
 #include <unistd.h>
@@ -103,7 +106,7 @@ class Parser {
   void require_room(std::size_t rows, std::size_t most) const {
     if (rows < most) return;
     fail(text_, "found more than " + std::to_string(most) +
-                    " rows; that is more than this machine has room for");
+                    " rows; that is more than this machine has memory for");
   }
 
   bool next_line() {
@@ -173,7 +176,8 @@ class Parser {
     if (text_.find('"') == std::string_view::npos) {
       found = for_each_field(read);
     } else {
-      if (!split_fields(text_, fields_)) fail(text_, "found a quotation mark that nothing closes");
+      if (!split_fields(text_, fields_))
+        fail(text_, "found a quotation mark without its closing one");
       for (const std::string& field : fields_) read(trimmed(field), found++);
     }
     require_fields(found, found == 1 ? " field" : " fields");

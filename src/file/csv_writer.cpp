@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // CSV: a header of bare names, then numbers in the shortest form that reads back to the same
 // double, "\n" after each row, no comments.
 #include "base/number_text.hpp"

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // File descriptors that close themselves, and calls of the system that do all they are asked for.
 #pragma once
 

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // The formats behind open_table() and read_table(); nobody else needs them.
 #pragma once
 

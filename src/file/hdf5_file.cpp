@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 #include "file/hdf5_file.hpp"
 
 #include <algorithm>
@@ -13,7 +16,7 @@ namespace bbsim::file {
 namespace {
 
 constexpr const char* crash =
-    ": the HDF5 library crashed, which it may where memory ends; end other programs, or write "
+    ": the HDF5 library crashed, as it may when memory runs out; end other programs, or write "
     ".csv\n";
 
 const bbsim_hdf5_module& module_to_write(const std::string& target) {
@@ -137,7 +140,7 @@ void require_hdf5(const std::string& target) {
 
 void Hdf5Output::check_open() const {
   if (writer_ != nullptr) return;
-  throw OutputError("cannot write " + target_ + ": it is complete, or a part of it has failed");
+  throw OutputError("cannot write " + target_ + ": it is complete, or one of its parts failed");
 }
 
 void Hdf5Output::fail(const bbsim_hdf5_error& error) {

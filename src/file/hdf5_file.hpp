@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // HDF5 files that the program writes: the module behind them, its errors as ours.
 #pragma once
 

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // What becomes of this program where the HDF5 library crashes in it, as it writes.
 //
 // Debian's HDF5 does not bear it everywhere that it gets no memory. Files come to no harm by that:

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 #include "file/hdf5_input.hpp"
 
 #include <sys/stat.h>
@@ -24,7 +27,7 @@ using hdf5::Packer;
 using hdf5::Unpacker;
 
 [[noreturn]] void nonsense() {
-  throw Hdf5Trouble("the HDF5 reader sent what was not asked for: the file is damaged");
+  throw Hdf5Trouble("the HDF5 reader sent an unexpected answer: the file is damaged");
 }
 
 bbsim_hdf5_kind kind_of(std::uint64_t number) {
@@ -51,9 +54,9 @@ void guarded(const Hdf5Input& input, Action action) {
   } catch (const InputError&) {
     throw;
   } catch (const std::bad_alloc&) {
-    input.fail("there is not enough memory for what it holds");
+    input.fail("there is not enough memory for its content");
   } catch (const std::length_error&) {
-    input.fail("there is not enough memory for what it holds");
+    input.fail("there is not enough memory for its content");
   } catch (const std::runtime_error& error) {  // Hdf5Trouble, or of a message that makes no sense
     input.fail(error.what());
   }

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Finds the HDF5 module, which writes, and the reader's program, and opens the module.
 #pragma once
 

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // HDF5 tables of numbers, as runs write them.
 #include "base/shown.hpp"
 #include "file/formats.hpp"

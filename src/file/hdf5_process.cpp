@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 #include "file/hdf5_process.hpp"
 
 #include <fcntl.h>
@@ -96,11 +99,12 @@ std::shared_ptr<Hdf5Process> start_process() {
   return std::make_shared<Hdf5Process>(process, std::move(requests), std::move(answers));
 }
 
-constexpr const char* damaged = ": the file is damaged, or not as HDF5 writes it";
+constexpr const char* damaged = ": the file is damaged, or not valid HDF5";
 
 std::string signal_text(int number) {
   // What the reader's own timer sends.
-  if (number == SIGPROF) return std::string("the HDF5 library goes in circles on it") + damaged;
+  if (number == SIGPROF)
+    return std::string("the HDF5 library does not finish reading it") + damaged;
   const std::string which = " (signal " + std::to_string(number) + ", " + strsignal(number) + ")";
   if (number == SIGKILL) return "the HDF5 reader was ended from outside" + which;
   return "the HDF5 library failed on it" + which + damaged;
@@ -205,7 +209,7 @@ void Hdf5Process::fail_by_end() {
 
 Hdf5Talk::Hdf5Talk(Hdf5Process& process, Message what, std::string_view request)
     : process_(process), lock_(process.mutex_) {
-  if (process.process_ == 0) throw Hdf5Trouble("the HDF5 reader has ended, over another file");
+  if (process.process_ == 0) throw Hdf5Trouble("the HDF5 reader ended on another file");
   if (request.size() > hdf5::most_bytes) throw Hdf5Trouble("it has too many datasets");
   const Head head{what, static_cast<std::uint32_t>(request.size())};
   process_.send(&head, sizeof head);

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // The process in which HDF5 files are read.
 //
 // Debian's HDF5 library crashes on some damaged files and goes in circles on others. So it reads

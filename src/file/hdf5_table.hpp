@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Tables in HDF5, of numbers, texts and series: a run, a number a column at each time; or a sweep,
 // what each case gave.
 //

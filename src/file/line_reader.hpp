@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Lines of text, one after the other, of a file, a pipe or a device.
 #pragma once
 

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // The one place that knows all files of a command: nothing that it writes to is another of them.
 #pragma once
 

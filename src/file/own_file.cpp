@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 #include "file/own_file.hpp"
 
 #include <fcntl.h>
@@ -31,7 +34,7 @@ int check(const std::string& name, int descriptor) {
   if (status.st_uid != geteuid()) {
     refuse_kind(name, "a file of another user (number " + std::to_string(status.st_uid) + ")");
   }
-  if (status.st_nlink > 1) refuse_kind(name, "a file with another name, too (a hard link)");
+  if (status.st_nlink > 1) refuse_kind(name, "a file that has another name too (a hard link)");
   return status.st_nlink == 0 ? ENOENT : 0;
 }
 

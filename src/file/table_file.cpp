@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Tables, in the format that their file's name asks for.
 #include "base/error.hpp"
 #include "file/atomic_file.hpp"

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Where rows go: CSV, HDF5 or standard output, whole under its final name or not at all.
 #pragma once
 

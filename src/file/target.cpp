@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 #include "file/target.hpp"
 
 #include <fcntl.h>
@@ -38,7 +41,7 @@ std::string advice(int error_number, const std::string& name) {
     case EACCES:
     case EPERM:
     case EROFS:
-      return "; write to a place where you may, or change the permissions of " + name;
+      return "; write to a folder where you may, or change the permissions of " + name;
     case ENOENT:
       return "; create its folder, or write to another place";
     case ENAMETOOLONG:

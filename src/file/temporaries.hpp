@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Temporary files with a name, which a signal that ends the process must take with it.
 #pragma once
 

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // The algebra of matrices that are small, and whose sizes only the scene tells. Eigen makes code of
 // its own for every expression, of which compilers take seconds each: products of products,
 // transposes and blocks all become one here.

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // What switches where friction is dry, contacts slide and motors have limits: which mode a coupled
 // scene is in, and when it leaves it (docs/explanation/losses-and-torques.md).
 //

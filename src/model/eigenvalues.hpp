@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Eigenvalues of a dense matrix: in one place, since Eigen's solver takes a compiler longer
 // than all that makes use of it.
 #pragma once

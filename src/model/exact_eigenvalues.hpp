@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Eigenvalues in quad precision: a stiff part of 1e13 1/s leaves those of 1e-13 1/s right.
 #pragma once
 

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 #include "model/explain.hpp"
 
 #include <algorithm>
@@ -133,10 +136,9 @@ std::string limits_note(const Gimbal& gimbal) {
 }
 
 std::string assumes_note(const Scenario& scene) {
-  if (scene.controller->own) return "; the controller commands the servos as it sees fit";
-  return assumes_of(scene) == Assumes::exact
-             ? "; the controller inverts the curve"
-             : "; the controller takes it for a ratio, that of home";
+  if (scene.controller->own) return "; your controller commands the servos itself";
+  return assumes_of(scene) == Assumes::exact ? "; the controller inverts the curve"
+                                             : "; the controller assumes the ratio at home";
 }
 
 // Whether a stop lets a servo turn beyond where its curve ends.
@@ -153,7 +155,7 @@ std::string linkage_note(const Scenario& scene) {
     const ThreeServos& three = *between.three;
     const double tilt = greatest_tilt(three);
     return "three servos, two tilts and a height, (M58) to (M61); all legs reach a tilt of " +
-           degrees(tilt) + "; without the wander of the plate's centre, at most " +
+           degrees(tilt) + "; without the wander of the plate's center, at most " +
            number(1e3 * three.plate / 2 * (1 - std::cos(tilt))) + " mm there, and " +
            number(1e3 * three.plate / 2 * (1 - std::cos(0.1))) + " mm at 0.1 rad" +
            assumes_note(scene);
@@ -168,7 +170,7 @@ std::string linkage_note(const Scenario& scene) {
       continue;
     }
     text += as_servo
-                ? "push rod, a parallelogram: the plane turns as the servo does"
+                ? "push rod, a parallelogram: the plate turns with the servo"
                 : (linkage.table ? "measured curve, slope " : "push rod, (M54) to (M56), slope ") +
                       number(linkage.curve.slope) + " at home";
     const double home = linkage.angle(0);
@@ -208,10 +210,10 @@ std::string motor_note(const Motor& motor) {
 std::string own_law(const OwnController& own) {
   std::string text;
   if (const auto* program = std::get_if<ControllerProgram>(&own.by)) {
-    text = "one's own, a program:";
+    text = "your own, a program:";
     for (const std::string& word : program->command) text += ' ' + word;
   } else {
-    text = "one's own, a library: " + std::get<ControllerLibrary>(own.by).file;
+    text = "your own, a library: " + std::get<ControllerLibrary>(own.by).file;
   }
   for (std::size_t i = 0; i < own.parameters.size(); ++i) {
     text += (i == 0 ? ", with " : ", ") + own.parameters[i].name + " = " +
@@ -237,11 +239,11 @@ std::string law_note(const Controller& controller) {
                                  : "LQR of the plant about home";
       break;
     case Law::gravity_compensation:
-      text = "gravity compensation: angles under which gravity gives the acceleration wanted";
+      text = "gravity compensation: the angles at which gravity gives the wanted acceleration";
       break;
     case Law::feedback_linearisation:
       text =
-          "feedback linearisation of (27): the ball follows, the tilt is an unstable internal "
+          "feedback linearization of (27): the ball follows, the tilt is an unstable internal "
           "state (docs/how-to/real-effects.md)";
       break;
     case Law::own:
@@ -271,7 +273,7 @@ std::string sampling_note(const Sampling& sampling, bool own) {
              " (the poles are those of the nominal period)");
   } else if (!sampling.periods.empty()) {
     list.add(std::to_string(sampling.periods.size()) + " measured periods of " +
-             sampling.periods_file + ", again and again (the poles are those of the nominal one)");
+             sampling.periods_file + ", repeated (the poles are those of the nominal period)");
   }
   list.add_if(sampling.delay > 0, milliseconds(sampling.delay) + " late");
   list.add_if(sampling.resolution > 0, "in steps of " + degrees(sampling.resolution));
@@ -311,7 +313,7 @@ std::string mounting_note(const Scenario& scene) {
   list.add_if(scene.ball.inertia_factor != 0.4,
               "inertia factor " + number(scene.ball.inertia_factor));
   list.add_if(mounting.height != 0,
-              "plane " + number(mounting.height) + " m above the gimbal's centre");
+              "plane " + number(mounting.height) + " m above the gimbal's center");
   list.add_if(mounting.phi_offset != 0, "phi off by " + degrees(mounting.phi_offset));
   list.add_if(mounting.theta_offset != 0, "theta off by " + degrees(mounting.theta_offset));
   list.add_if(mounting.skew != 0, "axes askew by " + degrees(mounting.skew));
@@ -371,13 +373,13 @@ std::vector<Note> explain(const Scenario& scene, const Model& model) {
   if (!gamma) {
     note("gamma", "not integrated: no output column asks for it");
   } else if (shape != Shape::full) {
-    note("gamma", "not integrated: it stays zero, as the spin does");
+    note("gamma", "not integrated: it stays zero, like the spin");
   } else {
     note("gamma", "a quadrature of the spin, beside the states");
   }
   if (scene.gimbal.servo) note("servo", limits_note(scene.gimbal));
   note("linkage", linkage_note(scene));
-  if (scene.ball.push) note("push", "a force on the ball's centre, along the plane's axes");
+  if (scene.ball.push) note("push", "a force on the ball's center, along the plane's axes");
   if (scene.gimbal.motor) note("motors", motor_note(*scene.gimbal.motor));
   note("losses", losses_note(scene.ball.losses));
   if (scene.events.slip && scene.events.slip->sliding) {
@@ -394,7 +396,7 @@ std::vector<Note> explain(const Scenario& scene, const Model& model) {
   }
   note("mounting", mounting_note(scene));
   if (scene.plate.inertia && !scenario::moved_by_torques(scene)) {
-    note("plate", "its inertia is in the motors' torques and power");
+    note("plate", "its inertia enters the motors' torques and power");
   }
   note("events", events_note(scene));
   note("without", without(scene));

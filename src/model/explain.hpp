@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // What is modelled of a scene and what is not, and why: for `bbsim check` and the summary.
 #pragma once
 

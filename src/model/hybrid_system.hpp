@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // A run of a scene in which things switch: the model in its present mode, what comes next, and what
 // happens then. Whoever integrates knows no more of a rig than this class says.
 #pragma once

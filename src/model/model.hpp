@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Scenario -> Model: the smallest system that gives the scene's answer.
 #pragma once
 

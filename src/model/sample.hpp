@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // One instant of a run in the symbols of the paper: what the columns are computed from.
 #pragma once
 

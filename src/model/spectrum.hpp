@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // How a scene behaves near a state: eigenvalues of the exact Jacobian.
 #pragma once
 

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Units and tics that suit a range of values, so that labels are short whatever its size.
 #pragma once
 

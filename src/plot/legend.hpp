@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Headings and legends, laid out by us, so that nothing in them collides whatever the names.
 #pragma once
 

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // What is in a picture, in pixels from the top left and in the axes' own units. Nothing here knows
 // of balls, and nothing of the program that draws it (script.hpp).
 #pragma once

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // CSV of any origin: numbers and texts, quoted or not, as a picture can use them.
 #include <algorithm>
 #include <array>

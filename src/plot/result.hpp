@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // A result as pictures need it: its columns, and what is known of the scene that gave them.
 #pragma once
 

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Columns over time, with the commands, references and limits that belong to them.
 #include <algorithm>
 #include <array>

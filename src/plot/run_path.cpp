@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // The path in the plane: where the ball was, where it was to be, and where the plate ends.
 #include <algorithm>
 #include <cmath>

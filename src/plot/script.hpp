@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Picture -> a script for gnuplot, which writes the picture to its standard output.
 #pragma once
 

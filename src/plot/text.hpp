@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Words in a picture: what may stand there, how wide it is, how it is cut to fit.
 #pragma once
 

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // How the ball is turned, from row to row: what columns ball_qw to ball_qz are.
 #pragma once
 

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // What the columns (scenario/columns.hpp) are: numbers of a row.
 #pragma once
 

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // A number of a run over time, as arcs on each of which it only rises or only falls: what crosses
 // what, when, and how far it goes.
 #pragma once

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Where a ball left a plate of known size, in scenes that do not watch for it: seen on the rows as
 // they pass, at the price of two comparisons a row.
 #pragma once

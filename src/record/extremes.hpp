@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // The greatest and least values that columns of a run take, over its continuous motion.
 #pragma once
 

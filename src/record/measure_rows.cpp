@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 #include "record/measure_rows.hpp"
 
 #include <algorithm>
@@ -29,7 +32,7 @@ StoredRun::StoredRun(file::TableData table, const std::string& name)
   }
   const Column* const t = find("t");
   if (t == nullptr) {
-    throw InputError(name_ + ": has no column t; allowed: the result of a run, with its times");
+    throw InputError(name_ + ": found no column t; allowed: the result of a run, with its times");
   }
   times_ = &values_of(*t);
   if (times_->empty()) throw InputError(name_ + ": has no rows; allowed: at least one");

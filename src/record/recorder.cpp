@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 #include "record/recorder.hpp"
 
 #include <algorithm>
@@ -182,7 +185,7 @@ std::string Recorder::why_not_finite(std::size_t columns) const {
   for (std::size_t c = 0; c < std::min(columns, gaps_.size()); ++c) {
     if (gaps_[c].rows == 0) continue;
     char line[120];
-    std::snprintf(line, sizeof line, " is no finite number in %zu rows, the first at t = %.6g s",
+    std::snprintf(line, sizeof line, " is not a finite number in %zu rows, the first at t = %.6g s",
                   gaps_[c].rows, gaps_[c].from);
     text += (text.empty() ? "" : "; ") + std::string(asked_.columns[c]->name) + line;
   }

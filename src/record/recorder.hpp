@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Run -> columns of its rows, in a table, and measures of its motion (scenario/measures.hpp).
 #pragma once
 

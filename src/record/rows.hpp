@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Rows of a run as columns: the one way from states to numbers, for tables, measures and sweeps.
 #pragma once
 

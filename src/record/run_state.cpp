@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 #include "record/run_state.hpp"
 
 #include "base/archive.hpp"
@@ -40,7 +43,8 @@ std::string to_bytes(RunState state) {
 RunState read_state(const std::string& file) {
   const std::string bytes = file::read_whole(file, magic);
   if (!bytes.starts_with(magic)) {
-    throw InputError(file + ": is no state of a run; allowed: what bbsim run --save-state wrote");
+    throw InputError(
+        file + ": found no state of a run; allowed: a file that bbsim run --save-state wrote");
   }
   std::uint64_t sum = 0;
   const std::size_t size = bytes.size() < magic.size() + sizeof sum ? 0 : bytes.size() - sizeof sum;
@@ -49,7 +53,7 @@ RunState read_state(const std::string& file) {
     end(sum);
   }
   if (size == 0 || sum != check_sum(std::string_view(bytes).substr(0, size))) {
-    throw InputError(file + ": is damaged: its check sum is not that of its content");
+    throw InputError(file + ": is damaged: its checksum does not match its content");
   }
   try {
     RunState state;

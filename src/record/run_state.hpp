@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // The state of a run as a file: what `run --save-state` writes and `run --from-state` goes on from.
 #pragma once
 

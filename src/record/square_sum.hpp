@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // A sum of squares that neither overflows nor vanishes where its root does not.
 #pragma once
 

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 #include "record/summarise.hpp"
 
 #include <algorithm>
@@ -86,7 +89,8 @@ std::vector<Group> summarise(const CellTable& table, const std::string& name,
   for (const std::string& key : keys) by.push_back(&column_of(table, name, key, "--by"));
   const std::vector<std::string> names = measures.empty() ? all_measures(table) : measures;
   if (names.empty()) {
-    throw InputError(name + ": has no columns of numbers to summarise; allowed: a sweep's result");
+    throw InputError(name +
+                     ": found no columns of numbers to summarize; allowed: a sweep's result");
   }
   std::vector<const CellColumn*> columns;
   for (const std::string& measure : names) {
@@ -94,7 +98,7 @@ std::vector<Group> summarise(const CellTable& table, const std::string& name,
     if (!column.texts.empty() || column.width != 1) {
       throw InputError(
           "--measure: found " + measure +
-          ", which is no column of numbers; allowed: " + names_text(all_measures(table)));
+          ", which is not a column of numbers; allowed: " + names_text(all_measures(table)));
     }
     columns.push_back(&column);
   }

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // What a sweep's cases come to, group by group: where noise or draws make many of one.
 #pragma once
 

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // What a run was and how it went: as JSON, and as attributes of an HDF5 file.
 #pragma once
 

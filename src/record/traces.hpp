@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Follows columns over the continuous motion of a run, and keeps them as curves.
 #pragma once
 

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Measures of one window of a run, or of the whole of it (scenario/measures.hpp).
 #pragma once
 

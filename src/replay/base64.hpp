@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Numbers as text that a page reads at once: base64 of their bytes, little-endian.
 #pragma once
 

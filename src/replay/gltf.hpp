@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // A scene as binary glTF 2.0 (.glb), for Blender and slides.
 #pragma once
 

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // The binary part of a glTF file and the JSON that says what is where in it.
 #pragma once
 

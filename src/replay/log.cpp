@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 #include "replay/log.hpp"
 
 #include <algorithm>
@@ -31,7 +34,7 @@ double unit_of(const std::string& part, const scenario::Column& column, const st
       yaml::read_quantity("1 " + unit, false, yaml::dimension_of(column.unit));
   if (one.value && !unit.empty()) return *one.value;
   refuse(part, ": " + std::string(column.name) + " is in " + std::string(column.unit) +
-                   "; allowed: no unit, that one, or another for the same quantity" + one.fault);
+                   "; allowed: no unit, or a unit of the same quantity" + one.fault);
 }
 
 std::string near(const std::string& name, const std::vector<std::string_view>& names) {
@@ -81,7 +84,7 @@ void require_numbers(const plot::Result& log, const plot::Column& column) {
     if (column.texts[row].empty() || !std::isnan(column.numbers[row])) continue;
     throw InputError(log.file + ": column " + shown(column.name) + ", row " +
                      std::to_string(row + 1) + ": found " + bbsim::quoted(column.texts[row]) +
-                     "; allowed: numbers, or nothing where there is none");
+                     "; allowed: numbers, or an empty field");
   }
 }
 

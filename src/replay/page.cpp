@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 #include "replay/page.hpp"
 
 #include <algorithm>
@@ -349,11 +352,11 @@ std::string page_template(const std::vector<std::string>& folders) {
     }
     looked_in.append(looked_in.empty() ? "" : " and ").append(folder);
   }
-  throw OutputError(
-      std::string("cannot make a page: its template ") + template_name + " is not in " + looked_in +
-      "; it is made where bbsim is built with three.js and dygraphs (Debian: "
-      "libjs-three, libjs-dygraphs; scripts/setup installs them): build again, or set "
-      "BBSIM_SHARE_PATH to the template's folder");
+  throw OutputError(std::string("cannot make a page: its template ") + template_name +
+                    " is not in " + looked_in +
+                    "; it is made where bbsim is built with three.js and dygraphs (Debian: "
+                    "libjs-three, libjs-dygraphs; scripts/setup installs them):build bbsim again, "
+                    "or set BBSIM_SHARE_PATH to the template's folder");
 }
 
 namespace {

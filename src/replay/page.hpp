@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // One HTML file that replays a scene: it opens offline, and asks for nothing.
 #pragma once
 

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Rotations: of the gimbal's links and of the ball that rolls on the plane.
 #pragma once
 

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // What a replay shows: plain data, from wherever it came.
 //
 // Frames as in docs/explanation/model.md, (M15): the plane's frame is turned from the world's

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Where scenes come from: scenarios, tables of rows, results of runs and of sweeps.
 #pragma once
 

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // The sizes of what is drawn around the ball: as the scene gives them, or such that the path fits.
 #pragma once
 

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 #include "scenario/columns.hpp"
 #include "scenario/sections.hpp"
 
@@ -26,7 +29,7 @@ void report_missing(yaml::Keys& scenario, const std::string& message) {
 void check_open_loop(yaml::Keys& scenario) {
   if (const auto start = find_in(scenario, "gimbal", "start")) {
     report(*start,
-           "found beside gimbal.motion, which says where the gimbal starts; allowed: only "
+           "found beside gimbal.motion, which determines where the gimbal starts; allowed: only "
            "with a controller");
   }
   if (const auto servo = find_in(scenario, "gimbal", "servo")) {
@@ -35,10 +38,9 @@ void check_open_loop(yaml::Keys& scenario) {
            "controller that drives angle");
   }
   if (const auto motor = find_in(scenario, "gimbal", "motor")) {
-    report(
-        *motor,
-        "found beside gimbal.motion, which is what it is whatever the torques; allowed: only with "
-        "gimbal.torque or a controller");
+    report(*motor,
+           "found beside gimbal.motion, which no torque changes; allowed: only with gimbal.torque "
+           "or a controller");
   }
 }
 
@@ -61,8 +63,7 @@ void check_servo(yaml::Keys& scenario) {
   }
   if (driven == "angle" && motor && servo) {
     report(*servo,
-           "found beside gimbal.motor: a servo moves whatever the torques are; allowed: one of the "
-           "two");
+           "found beside gimbal.motor, but a servo moves at any torque; allowed: one of the two");
   }
   if (driven == "acceleration" && servo) {
     report(*servo,
@@ -70,10 +71,9 @@ void check_servo(yaml::Keys& scenario) {
            "only with drives: angle");
   }
   if (driven == "acceleration" && motor) {
-    report(
-        *motor,
-        "found, but controller.drives is acceleration, whatever torque that takes; allowed: only "
-        "with drives: torque or voltage, or angle and a position_loop");
+    report(*motor,
+           "found, but controller.drives is acceleration, at any torque; allowed: only with "
+           "drives: torque or voltage, or angle and a position_loop");
   }
   if (driven == "torque" || driven == "voltage") {
     if (servo) {
@@ -101,8 +101,8 @@ void check_torque(yaml::Keys& scenario) {
   const auto motor = find_in(scenario, "gimbal", "motor");
   if (const auto loop = motor ? yaml::Keys(*motor).find("position_loop") : std::nullopt) {
     report(*loop,
-           "found beside gimbal.torque, which is the motors' own; allowed: only with a controller "
-           "that drives angle");
+           "found beside gimbal.torque, which prescribes the motors' torque; allowed: only with a "
+           "controller that drives angle");
   }
 }
 
@@ -114,8 +114,8 @@ void check_loop(yaml::Keys& scenario) {
   const auto controller = scenario.find("controller");
   if (motion && controller) {
     report(*controller,
-           "found beside gimbal.motion; allowed: exactly one of the two, since either "
-           "the motion is prescribed or the controller makes it");
+           "found beside gimbal.motion; allowed: exactly one of the two, since either the scene "
+           "prescribes the motion or the controller drives it");
   } else if (torque && (motion || controller)) {
     report(*torque, std::string("found beside ") + (motion ? "gimbal.motion" : "controller") +
                         "; allowed: exactly one of gimbal.motion, gimbal.torque and controller");

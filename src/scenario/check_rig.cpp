@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 #include <algorithm>
 #include <cmath>
 #include <numeric>
@@ -58,49 +61,55 @@ class Checks {
     if (value) value->context->problems.add(value->position, value->path + ": " + why);
   }
 
+  // The law's key, as written.
+  std::string law() {
+    const auto value = find_at(keys_, {"controller", "feedback_linearization"});
+    return value ? std::string(value->name()) : "feedback_linearization";
+  }
+
   void controller() {
     if (!scene_.controller) return;
     const Controller& controller = *scene_.controller;
     if (!controller.sampling) {
       refuse({"controller", "sensor"},
-             "found, but no controller.sampling; allowed: only with it, since a sensor is read at "
-             "the controller's samples, and the continuous law knows the ball exactly");
+             "found, but no controller.sampling; allowed: only with it, since the controller reads "
+             "the sensor at its samples; a continuous law knows the ball exactly");
     }
     // The keys, not their values: a rig may be tried with its noise at 0.
     if (!find_at(keys_, {"controller", "sensor", "noise"}) &&
         !find_at(keys_, {"controller", "sensor", "dropout"}) &&
         !find_at(keys_, {"controller", "sampling", "jitter"})) {
-      refuse(
-          {"controller", "sensor", "seed"},
-          "found, but neither noise nor dropout, nor sampling.jitter, which are all that is drawn; "
-          "allowed: only with one of them");
+      refuse({"controller", "sensor", "seed"},
+             "found, but neither noise nor dropout, nor sampling.jitter, and nothing else is "
+             "drawn; allowed: only with one of them");
     }
     frames(controller);
     if (controller.law == Law::own && !controller.sampling) {
       for (const char* key : {"program", "library"}) {
         refuse({"controller", key},
-               "found without controller.sampling; allowed: only with it, since it is asked once a "
-               "sample");
+               "found without controller.sampling; allowed: only with it, since bbsim calls it "
+               "once per sample");
       }
     }
     if (controller.law == Law::feedback_linearisation) {
       if (controller.sampling) {
-        refuse({"controller", "sampling"},
-               "found beside feedback_linearisation, which needs the exact state at all times; "
-               "allowed: any other law");
+        refuse({"controller", "sampling"}, "found beside " + law() +
+                                               ", which needs the exact state at all times; "
+                                               "allowed: any other law");
       }
       if (controller.drives != Drives::acceleration) {
         refuse({"controller", "drives"},
                std::string("found ") + (controller.drives == Drives::angle ? "angle" : "torques") +
-                   ", but feedback_linearisation gives the gimbal's accelerations; allowed: "
+                   ", but " + law() +
+                   " gives the gimbal's accelerations; allowed: "
                    "acceleration");
       }
     }
     if (controller.law == Law::lqr) {
       if (!(scene_.gravity > 0)) {
         refuse({"controller", "lqr"},
-               "found, but gravity is 0, without which a tilted plane does not move the ball; "
-               "allowed: only where there is gravity");
+               "found, but gravity is 0, and a tilted plate does not move the ball; allowed: "
+               "gravity greater than 0");
       }
       if (any_servo([](const Servo& servo) { return servo.time_constant.has_value(); })) {
         refuse({"controller", "lqr"},
@@ -116,12 +125,12 @@ class Checks {
       }
       if (!(scene_.gravity > 0)) {
         refuse({"controller", "gravity_compensation"},
-               "found, but gravity is 0; allowed: only where there is gravity");
+               "found, but gravity is 0; allowed: gravity greater than 0");
       }
       if (controller.limit_of(0).value_or(0) > 1.4 || controller.limit_of(1).value_or(0) > 1.4) {
         refuse({"controller", "limit"},
-               "found more than 1.4 rad (80 deg), next to which the sine of gravity_compensation "
-               "cannot be inverted; allowed: at most that");
+               "found more than 1.4 rad (80 deg), near which gravity_compensation cannot invert "
+               "its sine; allowed: at most that");
       }
     }
     if (controller.drives != Drives::angle && controller.sampling &&
@@ -163,8 +172,8 @@ class Checks {
     const Sensor& sensor = *controller.sensor;
     if (!sensor.period) {
       refuse({"controller", "sensor", "phase"},
-             "found without sensor.period; allowed: only with it, since without frames of its own "
-             "the sensor looks where the controller samples");
+             "found without sensor.period; allowed: only with it, since a sensor without frames "
+             "measures at the controller's samples");
       return;
     }
     if (scene_.time.end / *sensor.period > 1e8) {
@@ -173,7 +182,7 @@ class Checks {
     }
     if (sensor.phase >= *sensor.period) {
       refuse({"controller", "sensor", "phase"},
-             "found a phase of a whole sensor.period or more; allowed: less than that");
+             "found a phase of a whole sensor.period or more; allowed: less than a period");
     }
     if (sensor.delay > most_periods * *sensor.period) {
       refuse({"controller", "sensor", "delay"},
@@ -222,11 +231,10 @@ class Checks {
     const Servo& servo = scene_.gimbal.servo_of(axis);
     if (servo.time_constant) {
       if (!scene_.controller->sampling) {
-        refuse_of_servo(
-            axis, "time_constant",
-            "found without controller.sampling; allowed: only with it. A servo of first order "
-            "turns at a rate that follows its command at once, so a command without steps would "
-            "have to be differentiated");
+        refuse_of_servo(axis, "time_constant",
+                        "found without controller.sampling; allowed: only with it. The rate of a "
+                        "servo of first order follows its command at once, so a continuous command "
+                        "would have to be differentiated");
       }
       if (servo.acceleration_limit) {
         refuse_of_servo(axis, "acceleration_limit",
@@ -238,14 +246,14 @@ class Checks {
       const double rate = axis == 0 ? start.phi_rate : start.theta_rate;
       if (other ? rate != 0 : start.phi_rate != 0 || start.theta_rate != 0) {
         refuse({"gimbal", "start"},
-               "found a rate, but a servo of first order (time_constant) has none of its own; "
+               "found a rate, but a servo of first order (time_constant) has no rate state; "
                "allowed: phi and theta");
       }
     }
     if (servo.dead_band > 0 && !scene_.controller->sampling) {
       refuse_of_servo(axis, "dead_band",
                       "found without controller.sampling; allowed: only with it, since a dead band "
-                      "tells commands apart, one after another");
+                      "compares each command with the one before");
     }
   }
 
@@ -255,15 +263,15 @@ class Checks {
     const bool three = gimbal.three_servos.has_value();
     if (!linked && !three) {
       refuse({"controller", "assumes"},
-             "found, but nothing is between servos and plane; allowed: only with gimbal.linkage or "
+             "found, but nothing links servos and plate; allowed: only with gimbal.linkage or "
              "gimbal.three_servos");
       return;
     }
     const char* const key = linked ? "linkage" : "three_servos";
     if (linked && three) {
       refuse({"gimbal", "three_servos"},
-             "found beside gimbal.linkage; allowed: one of them: three servos are a linkage of "
-             "their own");
+             "found beside gimbal.linkage; allowed: one of the two, since three servos are a "
+             "linkage themselves");
     }
     if (!scene_.controller) {
       refuse({"gimbal", key},
@@ -280,14 +288,14 @@ class Checks {
     }
     if (scene_.controller->own) {
       refuse({"controller", "assumes"},
-             "found with a controller of one's own, which commands the servos as it sees fit; "
-             "allowed: only with a law that is built in");
+             "found with your own controller, which commands the servos itself; allowed: only with "
+             "a built-in law");
     }
     if (!three) return;
     if (gimbal.theta_servo) {
       refuse({"gimbal", "servo"},
-             "found keys for phi and theta beside gimbal.three_servos, none of which is phi's or "
-             "theta's; allowed: keys of all three, alike");
+             "found keys for phi and theta beside gimbal.three_servos, which belong to no axis; "
+             "allowed: the same keys for all three");
     }
     if (gimbal.start.phi != 0 || gimbal.start.theta != 0 || gimbal.start.phi_rate != 0 ||
         gimbal.start.theta_rate != 0) {
@@ -296,8 +304,7 @@ class Checks {
     }
     if (scene_.controller->own) {
       refuse({"gimbal", "three_servos"},
-             "found with a controller of one's own, which has two commands; allowed: a law that is "
-             "built in");
+             "found with your own controller, which has two commands; allowed: a built-in law");
     }
   }
 
@@ -305,13 +312,12 @@ class Checks {
     if (!scene_.ball.push) return;
     if (!find_at(keys_, {"ball", "mass"})) {
       refuse({"ball", "push"},
-             "found, but no ball.mass, and a lighter ball goes farther; allowed: only with "
-             "ball.mass given");
+             "found, but no ball.mass, and a push moves a lighter ball farther; allowed: only with "
+             "ball.mass");
     }
     if (inverts()) {
-      refuse({"ball", "push"},
-             "found beside feedback_linearisation, which inverts equations without it; allowed: "
-             "any other law");
+      refuse({"ball", "push"}, "found beside " + law() +
+                                   ", whose equations do not include it; allowed: any other law");
     }
   }
 
@@ -323,7 +329,7 @@ class Checks {
     if (scene_.events.singularity &&
         !(scene_.controller && scene_.controller->law == Law::feedback_linearisation)) {
       refuse({"events", "singularity"},
-             "found without controller.feedback_linearisation; allowed: only with it");
+             "found without controller.feedback_linearization; allowed: only with it");
     }
   }
 
@@ -335,8 +341,8 @@ class Checks {
     const Losses& losses = scene_.ball.losses;
     if (losses.viscous > 0 && !find_at(keys_, {"ball", "mass"})) {
       refuse({"ball", "losses", "viscous"},
-             "found, but no ball.mass, and a lighter ball loses more; allowed: only with ball.mass "
-             "given");
+             "found, but no ball.mass, and a lighter ball loses more speed; allowed: only with "
+             "ball.mass");
     }
     if (losses.pivoting > 0 && scene_.ball.inertia_factor == 0) {
       refuse(
@@ -346,8 +352,8 @@ class Checks {
     }
     if (has_dry_losses(scene_) && inverts()) {
       refuse({"ball", "losses"},
-             "found dry friction beside feedback_linearisation, which inverts equations that are "
-             "smooth; allowed: viscous, or any other law");
+             "found dry friction beside " + law() +
+                 ", which inverts smooth equations; allowed: viscous, or any other law");
     }
     if (scene_.events.rest && !(losses.rolling > 0)) {
       refuse({"events", "rest"},
@@ -359,7 +365,7 @@ class Checks {
     const bool slides = scene_.events.slip && scene_.events.slip->sliding;
     if (scene_.ball.rotation && !slides) {
       refuse({"ball", "rotation"},
-             "found, but the ball only rolls, which says how it turns; allowed: only with "
+             "found, but the ball only rolls, which determines how it turns; allowed: only with "
              "events.slip and its action: slide");
     }
     if (!slides) return;
@@ -369,17 +375,16 @@ class Checks {
              "allowed: a factor greater than 0");
     }
     if (inverts()) {
-      refuse(
-          {"events", "slip", "action"},
-          "found slide beside feedback_linearisation, which inverts the equations of a ball that "
-          "rolls; allowed: stop or note, or any other law");
+      refuse({"events", "slip", "action"}, "found slide beside " + law() +
+                                               ", which inverts the equations of a ball that "
+                                               "rolls; allowed: stop or note, or any other law");
     }
     if (any_servo([](const Servo& servo) {
           return servo.time_constant || servo.angle_limit || servo.backlash > 0;
         })) {
       refuse({"events", "slip", "action"},
              "found slide with a servo that jolts the plate (time_constant, angle_limit or "
-             "backlash), for which sliding friction has no answer; allowed: stop or note");
+             "backlash), where the sliding motion is not defined; allowed: stop or note");
     }
   }
 
@@ -400,17 +405,16 @@ class Checks {
     const double z = scene_.plate.centre_of_mass, least = scene_.plate.mass * z * z;
     if (std::min(j[0], j[1]) * more < least) {
       inertia->warn("a moment about x or y is less than " + number_text(least) +
-                    " kg m^2, plate.mass times the square of plate.centre_of_mass, which no body "
-                    "has: the moments are about the gimbal's centre");
+                    " kg m^2, plate.mass times the square of plate.center_of_mass, which no body "
+                    "has: the moments are about the gimbal's center");
     }
   }
 
   void torques() {
     const Gimbal& gimbal = scene_.gimbal;
     if (scene_.plate.mass == 0) {
-      refuse(
-          {"plate", "centre_of_mass"},
-          "found without plate.mass; allowed: only with it, since it is the mass that pulls there");
+      refuse({"plate", "center_of_mass"},
+             "found without plate.mass; allowed: only with it, since the weight acts there");
     }
     const bool sticks = gimbal.motor && gimbal.motor->friction > 0;
     if (scene_.events.stick && !sticks) {
@@ -427,7 +431,7 @@ class Checks {
       // The ball itself is there: it has a radius, or that is missed too.
       refuse({"ball"},
              "found no mass, but the ball's weight moves the gimbal; allowed: ball.mass given, "
-             "since its default of 1 kg is nobody's ball");
+             "since the default of 1 kg is not a realistic ball");
     }
     if (!scene_.plate.inertia) {
       const auto gimbal_keys = find_at(keys_, {"gimbal"});
@@ -442,11 +446,11 @@ class Checks {
       const auto& j = *scene_.plate.inertia;
       if (!(j[0] + rotor > 0) || !(j[1] + ring + rotor > 0)) {
         refuse({"plate", "inertia"},
-               "found an axis that nothing gives any inertia; allowed: moments greater than 0");
+               "found an axis without inertia; allowed: moments greater than 0");
       }
     }
     if (inverts()) {
-      refuse({"controller", "feedback_linearisation"},
+      refuse({"controller", "feedback_linearization"},
              "found, but torques move the gimbal, and this law gives its accelerations; allowed: "
              "drives: acceleration, or any other law");
     }

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 #include "scenario/columns.hpp"
 
 #include <algorithm>
@@ -114,7 +117,7 @@ Missing missing(const Column& column, const Scenario& scenario) {
     case Needs::torques:
       if (moved_by_torques(scenario)) return {};
       return {"no torques move the gimbal",
-              "what the gimbal's motion takes, such as motor_torque_phi; or give gimbal.motor"};
+              "the torque of the gimbal's motion, such as motor_torque_phi; or give gimbal.motor"};
     case Needs::armature:
       if (moved_by_torques(scenario) && scenario.gimbal.motor && scenario.gimbal.motor->dc)
         return {};
@@ -122,14 +125,14 @@ Missing missing(const Column& column, const Scenario& scenario) {
               "columns of the torque, such as phi_torque; or give gimbal.motor.dc"};
     case Needs::coupled:
       if (is_coupled(scenario) || is_linked(scenario)) return {};
-      return {"nothing is lost: the ball rolls without losses",
+      return {"the ball rolls without losses",
               "other columns, such as energy; or give ball.losses, or slip with action: slide"};
     case Needs::pushed:
       if (scenario.ball.push) return {};
       return {"nothing pushes the ball", "other columns, such as energy; or give ball.push"};
     case Needs::own:
       if (scenario.controller && scenario.controller->own) return {};
-      return {"the scene has no controller of its own that gives it",
+      return {"no controller of yours gives it",
               "columns of bbsim columns; or controller.program or controller.library"};
     case Needs::ball:
     case Needs::gamma:

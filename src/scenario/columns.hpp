@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // The one table of output columns: CSV headers, HDF5 datasets, `bbsim columns` and the docs. How
 // each is computed is record/column_values.hpp's matter.
 #pragma once
@@ -49,16 +52,16 @@ struct Column {
 // All columns, in the order of `bbsim columns`.
 inline constexpr std::array catalogue = {
     Column{"t", "s", "time", Needs::ball},
-    Column{"x", "m", "contact point along the plane's x axis", Needs::ball},
-    Column{"y", "m", "contact point along the plane's y axis", Needs::ball},
-    Column{"distance", "m", "distance of the contact point from the plane's origin", Needs::ball},
-    Column{"vx", "m/s", "velocity of the contact point in the plane, x'", Needs::ball},
-    Column{"vy", "m/s", "velocity of the contact point in the plane, y'", Needs::ball},
-    Column{"spin", "rad/s", "ball's rate of turn about the plane normal, relative to the plane",
+    Column{"x", "m", "contact point along the plate's x axis", Needs::ball},
+    Column{"y", "m", "contact point along the plate's y axis", Needs::ball},
+    Column{"distance", "m", "distance of the contact point from the plate's origin", Needs::ball},
+    Column{"vx", "m/s", "velocity of the contact point in the plate frame, x'", Needs::ball},
+    Column{"vy", "m/s", "velocity of the contact point in the plate frame, y'", Needs::ball},
+    Column{"spin", "rad/s", "ball's rate of turn about the plate's normal, relative to the plate",
            Needs::ball},
-    Column{"gamma", "rad", "ball's turn about the plane normal since the start: integral of spin",
+    Column{"gamma", "rad", "ball's turn about the plate's normal since the start: integral of spin",
            Needs::gamma},
-    Column{"ball_qw", "1", "ball's orientation in the plane's frame, a unit quaternion: its scalar",
+    Column{"ball_qw", "1", "ball's orientation in the plate frame, a unit quaternion: scalar part",
            Needs::orientation},
     Column{"ball_qx", "1", "ball's orientation: x part of the quaternion, 0 at the start",
            Needs::orientation},
@@ -72,43 +75,41 @@ inline constexpr std::array catalogue = {
     Column{"phi_acceleration", "rad/s^2", "acceleration of phi", Needs::accelerations},
     Column{"theta_acceleration", "rad/s^2", "acceleration of theta", Needs::accelerations},
     Column{"servo_phi", "rad",
-           "angle of phi's servo, before its backlash and what links it to the plane; of the first "
-           "of three",
+           "angle of phi's servo, before backlash and linkage; with three servos, of the first",
            Needs::servos},
-    Column{"servo_theta", "rad", "angle of theta's servo; of the second of three", Needs::servos},
+    Column{"servo_theta", "rad",
+           "angle of theta's servo, before backlash and linkage; with three servos, of the second",
+           Needs::servos},
     Column{"servo_third", "rad", "angle of the third of three servos", Needs::third_servo},
-    Column{"push_x", "N", "push on the ball's centre along the plane's x axis", Needs::pushed},
-    Column{"push_y", "N", "push on the ball's centre along the plane's y axis", Needs::pushed},
+    Column{"push_x", "N", "push on the ball's center along the plate's x axis", Needs::pushed},
+    Column{"push_y", "N", "push on the ball's center along the plate's y axis", Needs::pushed},
     Column{"x_reference", "m", "where the controller wants x", Needs::controller},
     Column{"y_reference", "m", "where the controller wants y", Needs::controller},
-    Column{"tracking_error", "m",
-           "distance of the contact point from where the controller wants it", Needs::controller},
-    Column{
-        "phi_command", "rad",
-        "command that the servo of phi follows (rad/s^2 if accelerations are driven, N m or V if "
-        "torques or voltages are)",
-        Needs::commands},
-    Column{
-        "theta_command", "rad",
-        "command that the servo of theta follows (rad/s^2 if accelerations are driven, N m or V if "
-        "torques or voltages are)",
-        Needs::commands},
-    Column{"x_measured", "m", "x as the sensor last saw it", Needs::samples},
-    Column{"y_measured", "m", "y as the sensor last saw it", Needs::samples},
-    Column{"tilt", "rad", "angle between the plane's normal and the vertical", Needs::gimbal},
-    Column{"tilt_rate", "rad/s", "size of the plane's angular velocity", Needs::gimbal},
+    Column{"tracking_error", "m", "distance of the contact point from its reference",
+           Needs::controller},
+    Column{"phi_command", "rad",
+           "command for phi: an angle; rad/s^2, N m or V if the controller drives accelerations, "
+           "torques or voltages",
+           Needs::commands},
+    Column{"theta_command", "rad",
+           "command for theta: an angle; rad/s^2, N m or V if the controller drives accelerations, "
+           "torques or voltages",
+           Needs::commands},
+    Column{"x_measured", "m", "x that the sensor measured last", Needs::samples},
+    Column{"y_measured", "m", "y that the sensor measured last", Needs::samples},
+    Column{"tilt", "rad", "angle between the plate's normal and the vertical", Needs::gimbal},
+    Column{"tilt_rate", "rad/s", "size of the plate's angular velocity", Needs::gimbal},
     Column{"singularity_distance", "1",
-           "how far from where no gimbal accelerations give the ball any acceleration wanted: 0 "
-           "there, 1 at home on the paper's gimbal",
+           "distance from the state in which no gimbal accelerations give the ball the wanted "
+           "acceleration: 0 there, 1 at home on the paper's gimbal",
            Needs::gimbal},
     Column{"normal_force", "N",
-           "force of the plane on the ball along the normal; contact needs > 0", Needs::dynamics},
-    Column{"friction_force", "N", "size of the force of the plane on the ball along the plane",
+           "force of the plate on the ball along the normal; contact needs > 0", Needs::dynamics},
+    Column{"friction_force", "N", "size of the force of the plate on the ball along the plate",
            Needs::dynamics},
     Column{"friction_demand", "1",
-           "friction_force / normal_force; rolling needs it below the friction coefficient, and "
-           "lifting "
-           "off takes it to infinity; of a sliding ball, its coefficient of friction",
+           "friction_force / normal_force; rolling needs it below the friction coefficient, and it "
+           "grows to infinity at lift-off; of a sliding ball, its coefficient of friction",
            Needs::dynamics},
     Column{"torque_phi", "N m", "motor torque about phi's axis that carries the ball",
            Needs::dynamics},
@@ -120,20 +121,19 @@ inline constexpr std::array catalogue = {
            "motor torque about theta's axis that carries ball and plate", Needs::plate},
     Column{"motor_power", "W", "power of the two motors with ball and plate", Needs::plate},
     Column{"energy", "J",
-           "ball's kinetic and potential energy; potential is 0 at the gimbal's centre",
+           "ball's kinetic and potential energy; potential is 0 at the gimbal's center",
            Needs::dynamics},
-    Column{
-        "power", "W",
-        "power of the two motor torques that carry the ball; the rate of change of energy, but for "
-        "losses",
-        Needs::dynamics},
+    Column{"power", "W",
+           "power of the two motor torques that carry the ball: the rate of change of energy, "
+           "except for losses",
+           Needs::dynamics},
     Column{"push_power", "W", "power of the push on the ball", Needs::pushed},
     Column{"total_energy", "J",
            "kinetic and potential energy of ball, plate, ring and the motors' rotors",
            Needs::dynamics},
-    Column{"slip_x", "m/s", "velocity of the ball's surface over the plane at the contact, along x",
+    Column{"slip_x", "m/s", "velocity of the ball's surface over the plate at the contact, along x",
            Needs::coupled},
-    Column{"slip_y", "m/s", "velocity of the ball's surface over the plane at the contact, along y",
+    Column{"slip_y", "m/s", "velocity of the ball's surface over the plate at the contact, along y",
            Needs::coupled},
     Column{"loss_power", "W",
            "power lost to the ball's couples, to sliding and in the motors' friction",

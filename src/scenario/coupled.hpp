@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Which scenes have more than ideal rolling under a gimbal that moves whatever the torques.
 #pragma once
 

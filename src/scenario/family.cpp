@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 #include "scenario/family.hpp"
 
 #include <bit>
@@ -9,6 +12,7 @@
 #include "yaml/check_text.hpp"
 #include "yaml/override.hpp"
 #include "yaml/rules.hpp"
+#include "yaml/spelling.hpp"
 #include "yaml/text_file.hpp"
 
 namespace bbsim {
@@ -69,7 +73,7 @@ Scenario ScenarioFamily::read(const std::vector<Setting>& settings) const {
 std::optional<double> ScenarioFamily::read_number(const std::vector<Setting>& settings) const {
   std::map<std::string, NotedNumber> numbers;
   [[maybe_unused]] const Scenario scenario = state_->read(settings, &numbers);
-  const auto found = numbers.find(settings.back().key);
+  const auto found = numbers.find(american(settings.back().key));
   if (found == numbers.end()) return {};
   return found->second.value;
 }
@@ -78,7 +82,7 @@ std::string_view ScenarioFamily::unit_of(const std::string& key,
                                          const std::vector<Setting>& settings) const {
   std::map<std::string, NotedNumber> numbers;
   [[maybe_unused]] const Scenario scenario = state_->read(settings, &numbers);
-  const auto found = numbers.find(key);
+  const auto found = numbers.find(american(key));
   return found == numbers.end() ? "" : si_unit(found->second.dimension);
 }
 

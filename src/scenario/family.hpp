@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // One scenario with other values at some of its keys, again and again: what a sweep reads.
 #pragma once
 

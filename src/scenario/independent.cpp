@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 #include "scenario/independent.hpp"
 
 #include <charconv>
@@ -107,7 +110,8 @@ Numbers in_controller(Controller& controller, Names names) {
   if (point != nullptr && names[1] == "point") return in_pair(point->position, names.subspan(2));
   auto* const circle = std::get_if<CircleReference>(&controller.reference);
   if (circle == nullptr || names[1] != "circle" || names.size() < 3) return {};
-  if (names[2] == "centre") return in_pair(circle->centre, names.subspan(3));
+  if (names[2] == "center" || names[2] == "centre")
+    return in_pair(circle->centre, names.subspan(3));
   if (names.size() != 3) return {};
   if (names[2] == "radius") return {&circle->radius};
   if (names[2] == "rate") return {&circle->rate};

@@ -1,9 +1,13 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 #include "scenario/look_up.hpp"
 
 #include <algorithm>
 
 #include "scenario/sections.hpp"
 #include "yaml/check_text.hpp"
+#include "yaml/spelling.hpp"
 
 namespace bbsim {
 
@@ -24,7 +28,12 @@ Found find(const Node* root, std::string_view path) {
   while (found.node != nullptr && !path.empty()) {
     const std::size_t dot = path.find('.');
     const auto& entries = found.node->entries;
-    const auto entry = std::ranges::find(entries, path.substr(0, dot), &Entry::key);
+    const std::string_view key = path.substr(0, dot);
+    auto entry = std::ranges::find(entries, key, &Entry::key);
+    if (entry == entries.end()) {
+      const std::optional<std::string> other = other_spelling(key);
+      if (other) entry = std::ranges::find(entries, *other, &Entry::key);
+    }
     if (entry == entries.end()) return found;
     found = {entry->position, entry->value, false};
     path.remove_prefix(dot == std::string_view::npos ? path.size() : dot + 1);

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Single keys of a scenario's text, looked up without reading the scenario.
 #pragma once
 

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 #include "scenario/measures.hpp"
 
 #include <algorithm>
@@ -275,13 +278,12 @@ std::string measure_hint(std::string_view name) {
 }
 
 std::string allowed_measures() {
-  return "min_, max_, rms_ or end_ and one of bbsim columns but ball_q..., such as max_tilt, "
-         "rms_x, end_phi; COLUMN.RiseTime, SettlingTime, SettlingMin, SettlingMax, Overshoot, "
-         "Undershoot, Peak, PeakTime or SteadyStateValue; \"when COLUMN=VALUE rise=N\" (or fall=, "
-         "cross=; N or last), \"when COLUMN stays below VALUE\" (or above); \"find COLUMN when "
-         "...\", \"find COLUMN at TIME\"; any of these \"from TIME\", \"to TIME\" or \"from TIME "
-         "to "
-         "TIME\"";
+  return "min_, max_, rms_ or end_ before a column of `bbsim columns` (but not ball_q...), such as "
+         "max_tilt, rms_x, end_phi; COLUMN.RiseTime, SettlingTime, SettlingMin, SettlingMax, "
+         "Overshoot, Undershoot, Peak, PeakTime or SteadyStateValue; \"when COLUMN=VALUE rise=N\" "
+         "(or fall=, cross=; N or last), \"when COLUMN stays below VALUE\" (or above); \"find "
+         "COLUMN when ...\", \"find COLUMN at TIME\"; any of these \"from TIME\", \"to TIME\" or "
+         "\"from TIME to TIME\"";
 }
 
 Measure measure_named(std::string_view where, const std::string& name, const Scenario& scenario) {

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // A profile of a gimbal angle, of a motor's torque or of a force: a number, one of the shapes of a
 // ProfileTerm, or a list: their sum.
 #pragma once

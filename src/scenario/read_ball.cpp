@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 #include "scenario/profile.hpp"
 #include "scenario/sections.hpp"
 #include "yaml/rules.hpp"
@@ -51,7 +54,7 @@ void read_plate(yaml::Keys& keys, Plate& plate) {
   }
   keys.optional("inertia", yaml::MomentsOf{}, plate.inertia);
   keys.optional("mass", yaml::Number{yaml::Dimension::mass, {.at_least = 0}}, plate.mass);
-  keys.optional("centre_of_mass", yaml::Number{yaml::Dimension::length}, plate.centre_of_mass);
+  keys.optional("center_of_mass", yaml::Number{yaml::Dimension::length}, plate.centre_of_mass);
 }
 
 }  // namespace bbsim::scenario

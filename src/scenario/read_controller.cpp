@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 #include <algorithm>
 #include <cmath>
 #include <numeric>
@@ -53,8 +56,8 @@ struct Parameters {
       const yaml::Value& number = *found;
       if (!is_own_name(entry.key)) {
         fine = number.report(
-            "found a name of other characters than letters, digits and underscores, or of more "
-            "than 60; allowed: such as kp");
+            "found a name with characters other than letters, digits and underscores, or more than "
+            "60; allowed: a name such as kp");
       } else if (yaml::Number{yaml::Dimension::number, {}, "0.7"}.read(
                      number, into.emplace_back(Parameter{entry.key, 0}).value)) {
         continue;
@@ -105,7 +108,7 @@ constexpr NamedLaw laws[] = {
     {"state_feedback", Law::state_feedback, read_state_feedback},
     {"lqr", Law::lqr, read_lqr},
     {"gravity_compensation", Law::gravity_compensation, read_pd},
-    {"feedback_linearisation", Law::feedback_linearisation, read_pd},
+    {"feedback_linearization", Law::feedback_linearisation, read_pd},
     {"program", Law::own, read_program},
     {"library", Law::own, read_library},
 };
@@ -123,8 +126,9 @@ void read_law(yaml::Keys& keys, Controller& controller) {
     return;
   }
   if (given.size() > 1) {
+    const yaml::Value first = *keys.find(given[0]->key);
     keys.find(given[1]->key)
-        ->report("found beside " + std::string(given[0]->key) + "; allowed: one law");
+        ->report("found beside " + std::string(first.name()) + "; allowed: one law");
   }
   controller.law = given[0]->law;
   keys.section(given[0]->key, given[0]->read, controller);

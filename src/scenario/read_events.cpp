@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 #include "scenario/sections.hpp"
 #include "yaml/rules.hpp"
 
@@ -25,7 +28,8 @@ void read_slip(yaml::Keys& keys, SlipEvent& slip) {
     if (*slip.sliding > slip.friction && slip.friction > 0) {
       if (const auto found = keys.find("sliding_friction")) {
         found->report(
-            "found more than friction, beyond which the ball slides; allowed: at most that");
+            "found more than friction, at which the ball starts to slide; allowed: at most "
+            "friction");
       }
     }
   } else if (const auto found = keys.find("sliding_friction")) {

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 #include <utility>
 
 #include "scenario/sections.hpp"
@@ -14,14 +17,14 @@ void read_circle(yaml::Keys& keys, CircleReference& circle) {
   keys.required("radius", yaml::Number{yaml::Dimension::length, {.at_least = 0}}, circle.radius);
   keys.required("rate", yaml::Number{yaml::Dimension::angular_rate}, circle.rate);
   keys.optional("phase", yaml::Number{yaml::Dimension::angle}, circle.phase);
-  keys.optional("centre", yaml::PairOf{yaml::Dimension::length}, circle.centre);
+  keys.optional("center", yaml::PairOf{yaml::Dimension::length}, circle.centre);
 }
 
 void read_lissajous(yaml::Keys& keys, LissajousReference& figure) {
   keys.required("amplitude", yaml::PairOf{yaml::Dimension::length}, figure.amplitude);
   keys.required("rate", yaml::PairOf{yaml::Dimension::angular_rate}, figure.rate);
   keys.optional("phase", yaml::PairOf{yaml::Dimension::angle}, figure.phase);
-  keys.optional("centre", yaml::PairOf{yaml::Dimension::length}, figure.centre);
+  keys.optional("center", yaml::PairOf{yaml::Dimension::length}, figure.centre);
 }
 
 void check_times(const yaml::Value& times, const WaypointReference& way) {

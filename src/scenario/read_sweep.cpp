@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 #include <algorithm>
 #include <cmath>
 #include <string>
@@ -7,6 +10,7 @@
 #include "scenario/sections.hpp"
 #include "scenario/variation.hpp"
 #include "yaml/rules.hpp"
+#include "yaml/spelling.hpp"
 
 namespace bbsim::scenario {
 namespace {
@@ -26,7 +30,9 @@ struct Variations {
       if (entry.value->absent) continue;
       const yaml::Value spec{entry.value, value.path + '.' + entry.key, entry.position,
                              value.context};
-      const auto same = [&](const Variation& other) { return other.key == entry.key; };
+      const auto same = [&](const Variation& other) {
+        return yaml::american(other.key) == yaml::american(entry.key);
+      };
       if (spec.node->kind != yaml::Node::Kind::scalar) {
         fine = spec.refuse("", "a text such as linear:0.005:0.02:16");
       } else if (std::ranges::any_of(into, same)) {

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // YAML text -> Scenario. The door: what passes is complete, finite, in range, and in SI units.
 #pragma once
 

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Columns of a CSV or HDF5 file, to be interpolated over the time of the run.
 #pragma once
 

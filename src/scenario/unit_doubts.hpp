@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Numbers of a table or a log that look as if they were not in SI units and radians.
 #pragma once
 

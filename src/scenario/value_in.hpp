@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Values within names of measures and expectations: "5 cm", "0.05".
 #pragma once
 

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 #include "scenario/variation.hpp"
 
 #include <charconv>
@@ -68,6 +71,12 @@ std::size_t read_count(const Variation& variation, const std::string& text) {
   return count;
 }
 
+// Of a bound, which may stand in quotes. Its unit is read with the key that it belongs to.
+bool starts_with_number(std::string_view bound) {
+  if (bound.front() == '"' || bound.front() == '\'') bound.remove_prefix(1);
+  return yaml::leading_decimal(bound).length > 0;
+}
+
 }  // namespace
 
 VariationSpec parse_variation(const Variation& variation) {
@@ -97,6 +106,10 @@ VariationSpec parse_variation(const Variation& variation) {
   }
   for (const std::string& value : spec.values) {
     if (value.empty()) fail(variation, "an empty value in " + yaml::shown(text), allowed);
+    if (spec.kind != Way::list && !starts_with_number(value)) {
+      fail(variation, yaml::shown(value) + " in " + yaml::shown(text),
+           "numbers and quantities, such as linear:0.01:0.02:11");
+    }
   }
   return spec;
 }
@@ -115,7 +128,7 @@ std::vector<TiedKey> tied_keys(const Variation& variation) {
     }
     if (key.path.empty() || key.factor == 0) {
       fail(variation, part.empty() ? "no key beside a comma" : yaml::shown(part),
-           "KEY, -KEY or NUMBER*KEY with a number that is not 0, parted by commas");
+           "KEY, -KEY or NUMBER*KEY with a number that is not 0, separated by commas");
     }
     keys.push_back(std::move(key));
   }

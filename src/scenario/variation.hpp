@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // SPEC of `bbsim sweep --vary KEY=SPEC`: which values a key takes over a sweep.
 #pragma once
 

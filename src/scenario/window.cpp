@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 #include "scenario/window.hpp"
 
 #include "base/number_text.hpp"
@@ -29,7 +32,7 @@ WindowedName split_window(std::string_view name) {
 
 std::string window_fault(const Window& window, double start, double end) {
   if (window.from && window.to && !(*window.from < *window.to)) {
-    return "the window is empty; allowed: from a time to a later one";
+    return "the window is empty; allowed: from a time to a later time";
   }
   const double rounding = rounding_of(end);
   const bool within = (!window.from || (*window.from >= start && *window.from < end)) &&

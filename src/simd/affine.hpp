@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // A number that is affine in a few others: its value where they are zero, and what each adds.
 //
 // Given to an equation that is linear in the state, in place of the state's numbers, it takes the

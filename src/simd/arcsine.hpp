@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // The arcsine of a pack.
 //
 // Included only by kernels that want it in place of the one for any number type

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // What is larger, what is finite, and in which lanes. Numbers alone are told in the same words.
 //
 // Like pack.hpp included only by the kernels, most of which are compiled as if all numbers were

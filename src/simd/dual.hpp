@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // A number with its derivative in one direction, for the exact columns of a Jacobian.
 //
 // Included only by the kernels; see pack.hpp for why all is inlined or tagged.

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // A value with its gradient, for exact derivatives by forward differentiation.
 #pragma once
 

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // The one choice of an instruction set, for all code that is compiled once for each.
 #pragma once
 

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // A pack of doubles, one a SIMD lane, and the numbers made of it.
 //
 // Included only by the kernels, which are compiled once for each instruction set. Every type

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 #include "solve/hybrid_driver.hpp"
 
 #include <algorithm>
@@ -150,7 +153,7 @@ class HybridIntegration {
         }
         if (run_.unsettled()) return unsettled(at);
         if (standstill_.after(at))
-          return at_switch(at, "the rig switches without end at one instant");
+          return at_switch(at, "the rig switches endlessly at one instant");
         if (goes_on) {
           // A sample that changed nothing.
         } else if (run_.model().rig || run_.model().dry) {
@@ -613,9 +616,9 @@ class HybridIntegration {
     return outcome;
   }
   Outcome unsettled(double reached) {
-    return at_switch(reached,
-                     "the servos' stops and the commands' limits act on each other without end at "
-                     "one instant");
+    return at_switch(
+        reached,
+        "the servos' stops and the commands' limits trigger each other endlessly at one instant");
   }
 
   Outcome failed(double reached, Why why, std::string reason) {

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Runs a scene in which things switch, sample, or are watched for, with any integrator.
 #pragma once
 

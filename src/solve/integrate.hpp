@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Model -> Trajectory, by the integrator asked for or the one that suits.
 #pragma once
 

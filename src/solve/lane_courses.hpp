@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // The motion over one collocation step, between its nodes: Legendre series of some coordinates and
 // their velocities, another case in each lane.
 //

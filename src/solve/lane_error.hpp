@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // The error of a collocation step from the fall of the last Legendre coefficients of its
 // accelerations, another case in each lane: as radau/step.hpp tells it of one.
 //

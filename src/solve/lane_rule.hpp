@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Radau IIA's tables by rows, what one node takes from all: for kernels that have cases in lanes
 // and the nodes in a loop. A copy of each instruction set's own, since sets may share nothing.
 #pragma once

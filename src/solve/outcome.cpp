@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 #include "solve/outcome.hpp"
 
 #include <utility>
@@ -31,7 +34,7 @@ const char* name_of(Why why) {
 Outcome with_all_rows(Outcome outcome, std::size_t rows) {
   if (outcome.ending != Ending::done || outcome.rows == rows) return outcome;
   outcome.ending = Ending::failed;
-  outcome.reason = "rows were lost by a fault of this program: it came to the end with " +
+  outcome.reason = "bbsim has lost rows by a defect of its own code: it reached the end with " +
                    std::to_string(outcome.rows) + " of " + std::to_string(rows);
   return outcome;
 }

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // The times at which a run is recorded: i * step, exactly, and the end.
 #pragma once
 

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 #include "solve/pace.hpp"
 
 #include <cstdio>
@@ -14,7 +17,9 @@ bool Pace::look(double time, double event) {
   const bool out_of_reach = !(needed <= most_steps);
   shrinking_ = out_of_reach && advance_ < 0.9 * before ? shrinking_ + 1 : 0;
   before = advance_;
-  slow_ = out_of_reach ? slow_ + 1 : 0;
+  // Steps near the rounding of the time are no transient: such windows count several times.
+  const bool hopeless = !(needed <= most_steps * 200);
+  slow_ = out_of_reach ? slow_ + (hopeless ? 8 : 1) : 0;
   if (taken > most_steps) return true;
   if (shrinking_ < most_shrinking && slow_ < most_slow) return false;
   return !(event - time <= soon * advance_) || ++awaited_ > most_awaited;
@@ -22,11 +27,10 @@ bool Pace::look(double time, double event) {
 
 std::string Pace::reason() const {
   char text[120];
-  std::snprintf(
-      text, sizeof text,
-      "the steps became so short that it would never end: the last %zu of them took it on "
-      "by %.2g s",
-      window, advance_);
+  std::snprintf(text, sizeof text,
+                "the steps became so short that the run would never end: the last %zu of them "
+                "advanced it by %.2g s",
+                window, advance_);
   return text;
 }
 

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Tells a run that will not come to its end from one that takes long.
 //
 // Near a singular point, or where rounding is all that an error test sees, steps become so short

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // A part of a run: its rows up to some row, and a state from which another part goes on.
 #pragma once
 

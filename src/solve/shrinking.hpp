@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // How steps shrink on the way to an instant beyond which there is no motion.
 #pragma once
 

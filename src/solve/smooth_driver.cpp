@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -128,7 +131,7 @@ Outcome run_through(Stepper& stepper, const model::Model& model, const OutputGri
       break;
     } else if (pace.looked() && has_run_away(model, stepper.state())) {
       fail(Why::unbounded,
-           "the loop has run away, beyond 1e9 m or rad, where rounding is all that moves it");
+           "the loop has run away beyond 1e9 m or rad, where only rounding moves it");
       break;
     } else if (watch.slow && pace.looked() && pace.is_news()) {
       watch.slow(reached, pace.steps_per_second(), pace.steps_left());

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // One integrator, a step at a time: what all of them do for whoever drives them.
 #pragma once
 

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // What accuracy costs: integrators and tolerances against the quad-precision reference.
 #pragma once
 

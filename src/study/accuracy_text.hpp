@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // A study of accuracy as text: a table for people, CSV for programs, a plot for gnuplot.
 #pragma once
 

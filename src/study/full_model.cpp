@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 #include "study/full_model.hpp"
 
 #include <algorithm>
@@ -67,9 +70,9 @@ void require_comparable(const Scenario& scenario) {
   if (model.hybrid() || model.rig || scenario::is_coupled(scenario) ||
       !model::is_the_papers(scenario)) {
     throw InputError(scenario.source.file +
-                     ": simpler models are compared over scenes of the paper's gimbal and ball, of "
-                     "prescribed motion or under pd, without events and limits; run `bbsim verify` "
-                     "without a scenario");
+                     ": simpler models are compared over scenes with the paper's gimbal and ball, "
+                     "with prescribed motion or under pd, without events and limits; run `bbsim "
+                     "verify` without a scenario");
   }
 }
 

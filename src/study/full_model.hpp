@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // What the full model buys: a scene with simpler equations for the ball, against equation (27).
 #pragma once
 

@@ -1,4 +1,6 @@
 #!/usr/bin/env python3
+# SPDX-FileCopyrightText: 2026 the bbsim authors
+# SPDX-License-Identifier: BSD-3-Clause
 """Writes verify_references.hpp: what `bbsim verify` knows by heart.
 
     python3 src/study/make_verify_references.py > src/study/verify_references.hpp
@@ -14,7 +16,10 @@ SCENES = ("fig2a", "fig2b", "fast", "small-ball", "spin", "stiff-servo", "tumble
 COLUMNS = ("t", "x", "y", "spin", "gamma")
 
 data = pathlib.Path(__file__).resolve().parents[2] / "tests" / "data"
-print("// Written by make_verify_references.py from tests/data; do not edit.")
+print("""// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// Written by make_verify_references.py from tests/data; do not edit.""")
 print("#pragma once\n\n#include <array>\n")
 print("namespace bbsim::study {\n")
 print("struct ReferenceRow {\n  double t, x, y, spin, gamma;\n};\n")

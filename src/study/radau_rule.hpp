@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Radau IIA collocation of s stages, order 2s - 1, in quad precision.
 #pragma once
 

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // The solution of a model in quad precision: what the integrators' results are measured against.
 #pragma once
 

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Checks of losses, sliding, torques and linked servos against closed forms, and of their balance
 // of energy.
 #pragma once

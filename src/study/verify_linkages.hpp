@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Checks of what stands between servos and the plane, against closed forms of its geometry.
 #pragma once
 

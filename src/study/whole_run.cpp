@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Where the bounds come from.
 //
 // An integrator with tolerances rtol and atol may leave, in each step, an error of rtol |z| + atol

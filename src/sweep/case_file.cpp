@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 #include "sweep/case_file.hpp"
 
 #include <limits>
@@ -72,11 +75,11 @@ void check_case_target(const std::string& target, const CaseFileLayout& layout, 
   }
   if (!layout.axis_values.empty() && (direct || format != file::Format::hdf5)) {
     throw InputError("cannot keep trajectories in " + target +
-                     ": they need a file that ends in .h5 or .hdf5");
+                     ": trajectories need a file that ends in .h5 or .hdf5");
   }
   if (direct && resume) {
     throw InputError("cannot resume on " + target +
-                     ": only a file in a folder keeps what was done");
+                     ": only a regular file keeps the cases that were done");
   }
 }
 

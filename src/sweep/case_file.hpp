@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // The results of a sweep on their way into a file: CSV or HDF5, whole under its final name once all
 // cases are there, and until then a part that can be gone on with.
 #pragma once

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 #include "sweep/case_part.hpp"
 
 #include <algorithm>
@@ -99,8 +102,9 @@ void CasePart::check_complete(std::size_t rows) const {
 }
 
 void CasePart::refuse(const std::string& fault) const {
-  throw OutputError("cannot complete " + file_.name() + ": " + fault +
-                    "; run the sweep again with --resume, which goes on from what is sound");
+  throw OutputError(
+      "cannot complete " + file_.name() + ": " + fault +
+      "; run the sweep again with --resume, which continues after the last sound case");
 }
 
 }  // namespace bbsim::sweep

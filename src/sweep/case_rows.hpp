@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // The one reader of a sweep's CSV rows: every read is checked, and so is every row.
 #pragma once
 

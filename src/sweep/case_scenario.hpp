@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // The scenario of a case: numbers put in place where no rule minds, read anew otherwise.
 #pragma once
 

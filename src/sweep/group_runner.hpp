@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Cases that go together in lanes, a group at a time, and those that do not fit by themselves.
 #pragma once
 

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 #include "sweep/merge_csv.hpp"
 
 #include <fcntl.h>
@@ -37,13 +40,13 @@ file::Descriptor open_part(const std::string& file, struct stat& status) {
   if (!opened.is_open() || fstat(opened.get(), &status) != 0)
     cannot_read(file, file::error_text(errno));
   if (!S_ISREG(status.st_mode))
-    cannot_read(file, "it is no regular file, and parts are read twice");
+    cannot_read(file, "it is not a regular file, and bbsim reads parts twice");
   return opened;
 }
 
 [[noreturn]] void refuse_row(const std::string& file, const std::string& found, std::size_t row) {
   throw InputError(file + ": found " + found + " in row " + std::to_string(row) +
-                   " below the header; allowed: what bbsim sweep writes");
+                   " below the header; allowed: a file that bbsim sweep wrote");
 }
 
 CsvPart look_at(const std::string& file) {
@@ -131,8 +134,8 @@ bool copy_rows(const CsvPart& part, file::AtomicFile& out, std::size_t& next,
   for (std::size_t row = 1; lines.next(line); ++row) {
     if (stop.load(std::memory_order_relaxed)) return false;
     if (!lines.whole()) {
-      throw InputError(
-          part.file + ": found a last row that is not whole; allowed: a part that came to its end");
+      throw InputError(part.file +
+                       ": found an incomplete last row; allowed: a part whose sweep has ended");
     }
     if (const std::string found = reader.read(line); !found.empty())
       refuse_row(part.file, found, row);

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 #include "sweep/merge_hdf5.hpp"
 
 #include <algorithm>
@@ -36,8 +39,8 @@ std::size_t case_in(const std::string& file, double number) {
   if (number >= 0 && number <= most && number == std::floor(number)) {
     return static_cast<std::size_t>(number);
   }
-  throw InputError(file +
-                   ": found a case that is no whole number; allowed: what bbsim sweep writes");
+  throw InputError(
+      file + ": found a case that is not a whole number; allowed: a file that bbsim sweep wrote");
 }
 
 file::Attributes without_instruction_set(const file::Attributes& all) {
@@ -87,7 +90,8 @@ Merged merge_hdf5(const std::vector<std::string>& files, const std::string& targ
     Hdf5Part part{file, file::Hdf5TableReader(file), 0};
     if (part.table.columns().empty() || part.table.columns()[0].name != "case" ||
         part.table.columns()[0].kind != file::Hdf5Kind::number) {
-      throw InputError(file + ": found no column case first; allowed: what bbsim sweep writes");
+      throw InputError(file +
+                       ": found no column case first; allowed: a file that bbsim sweep wrote");
     }
     if (part.table.rows() > 0) {
       part.table.read(0, 1, block);

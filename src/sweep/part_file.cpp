@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 #include "sweep/part_file.hpp"
 
 #include <fcntl.h>
@@ -62,9 +65,9 @@ void PartFile::open_and_lock() {
       locked = flock(descriptor_.get(), LOCK_EX | LOCK_NB);
     } while (locked != 0 && errno == EINTR);
     if (locked != 0 && errno == EWOULDBLOCK) {
-      throw InputError(part_ +
-                       ": another bbsim is writing to it; wait for its end, or choose another name "
-                       "with -o");
+      throw InputError(
+          part_ +
+          ": another bbsim is writing to it; wait until it ends, or choose another name with -o");
     }
     // Some file systems of clusters know no locks; what they are for is seldom.
     if (locked != 0 && errno != ENOSYS && errno != ENOLCK && errno != EOPNOTSUPP) {
@@ -84,13 +87,13 @@ void PartFile::open_and_lock() {
 void PartFile::check_plan(bool resume) const {
   if (!resume) {
     throw InputError(part_ +
-                     ": found, of a sweep that did not end; add --resume to go on with it, or "
-                     "remove it to begin anew");
+                     ": found, from a sweep that did not end; add --resume to continue it, or "
+                     "remove the file to start again");
   }
   const file::OwnText found = file::read_own_file(plan_);
   if (!found.there) {
     throw InputError(part_ + ": found without " + plan_ +
-                     ", which would say what it is of; remove it to begin anew");
+                     ", which names its sweep; remove it to start again");
   }
   if (found.text == plan_text_) return;
   const PlanDifference difference = compare_plans(found.text, plan_text_);
@@ -102,8 +105,8 @@ void PartFile::check_plan(bool resume) const {
   }
   throw InputError(part_ + ": begun with the instruction set " + difference.instruction_sets[0] +
                    ", and this is " + difference.instruction_sets[1] +
-                   ", whose results differ in the last digits; go on where the first is to be had "
-                   "(BBSIM_SIMD=" +
+                   ", whose results differ in the last digits; continue on a machine with the "
+                   "first one (BBSIM_SIMD=" +
                    difference.instruction_sets[0] + "), or remove it to begin anew");
 }
 
@@ -206,7 +209,7 @@ void PartFile::discard() {
 
 void PartFile::fail(const std::string& doing, int error) const {
   throw OutputError("cannot " + doing + ' ' + part_ + ": " + file::error_text(error) +
-                    (size_ > 0 ? "; what it holds can be gone on with by --resume" : ""));
+                    (size_ > 0 ? "; --resume continues from its rows" : ""));
 }
 
 }  // namespace bbsim::sweep

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // A file that grows over a long run, stays when the run ends early, and can be taken up again.
 #pragma once
 

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 #include "sweep/plan.hpp"
 
 #include <algorithm>
@@ -10,6 +13,7 @@
 #include "scenario/independent.hpp"
 #include "yaml/problems.hpp"
 #include "yaml/quantity.hpp"
+#include "yaml/spelling.hpp"
 
 namespace bbsim::sweep {
 namespace {
@@ -80,7 +84,7 @@ std::string value_text(const Axis& axis, double value) {
 
 // Whether the path goes on from another one.
 bool within(const std::string& path, const std::string& other) {
-  return path.starts_with(other + '.');
+  return yaml::american(path).starts_with(yaml::american(other) + '.');
 }
 
 [[noreturn]] void fail(const std::string& key, const std::string& message) {
@@ -90,7 +94,9 @@ bool within(const std::string& path, const std::string& other) {
 // A key that varies must not be another one's, nor a part of it.
 void check_apart(const std::string& key, const std::vector<Setting>& others) {
   for (const Setting& other : others) {
-    if (other.key == key) fail(key, "found twice; allowed: each key once");
+    if (yaml::american(other.key) == yaml::american(key)) {
+      fail(key, "found twice; allowed: each key once");
+    }
     if (within(other.key, key) || within(key, other.key)) {
       fail(key, "found beside " + other.key + "; allowed: keys apart from each other");
     }
@@ -104,7 +110,7 @@ void check_apart(const std::string& key, const std::vector<Setting>& others) {
 void check_overrides(const std::string& key, const Source& source) {
   for (const std::string& set : source.overrides) {
     const std::string set_key = set.substr(0, set.find('='));
-    if (set_key != key && !within(set_key, key)) continue;
+    if (yaml::american(set_key) != yaml::american(key) && !within(set_key, key)) continue;
     throw InputError("--set " + yaml::shown(set) + ": found, but the sweep varies " +
                      yaml::shown(key) +
                      ", and its values would replace this one; allowed: one of the two");
@@ -129,7 +135,7 @@ std::vector<Varied> varied(const Sweep& sweep, const Source& source) {
       for (const std::string& value : one.spec.values) {
         if (!scenario::scaled(value, key.factor).empty()) continue;
         fail(variation.key, "found the value " + yaml::shown(value) +
-                                ", which is no number that a factor could be applied to; allowed: "
+                                ", which is not a number, so a factor cannot scale it; allowed: "
                                 "numbers, or keys without factors");
       }
       seen.push_back({key.path, ""});
@@ -235,7 +241,8 @@ void SweepPlan::add_axes(const ScenarioFamily& family, const Sweep& sweep,
   axis.kind = spec.kind;
   axis.count = spec.random() ? 1 : spec.count;
   axis.lead = lead;
-  axis.stream = mixed(mixed(seed_) ^ hash(keys[0].path));
+  // Both spellings of a key draw the same values.
+  axis.stream = mixed(mixed(seed_) ^ hash(yaml::british(keys[0].path)));
   std::vector<double> numbers;  // of the first key
   for (std::size_t i = 0; i < spec.values.size(); ++i) {
     const bool deviation = spec.kind == Way::normal && i == 1;

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Which cases a sweep has: what its keys vary over, combined and numbered.
 #pragma once
 

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // The text beside a sweep's rows that says all that they depend on: JSON, an object.
 #pragma once
 

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // A run's contact point at any time: the integrator's own polynomials, kept.
 #pragma once
 

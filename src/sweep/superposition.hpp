@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Cases that share one prescribed motion of the gimbal, as sums of a few solutions.
 #pragma once
 

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Runs the cases of a sweep, over threads, and delivers them in their order.
 #pragma once
 

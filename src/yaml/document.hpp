@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // YAML text -> a tree of nodes that know where they stand. The only user of yaml-cpp.
 #pragma once
 

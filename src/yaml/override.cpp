@@ -1,14 +1,19 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 #include "yaml/override.hpp"
 
 #include <algorithm>
 #include <charconv>
 #include <cstddef>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "yaml/check_text.hpp"
 #include "yaml/problems.hpp"
+#include "yaml/spelling.hpp"
 #include "yaml/text_file.hpp"
 
 namespace bbsim::yaml {
@@ -58,15 +63,28 @@ class Setter {
   }
 
  private:
+  // The key as the mapping spells it. Parameters of a user's own controller have one spelling.
+  [[nodiscard]] std::string key_in(const Node& mapping, std::size_t level) const {
+    const auto is_there = [&](std::string_view key) {
+      return std::ranges::find(mapping.entries, key, &Entry::key) != mapping.entries.end();
+    };
+    const std::string_view key = path_[level];
+    if (is_there(key) || (level > 0 && path_[level - 1] == "parameters")) return std::string(key);
+    const std::optional<std::string> other = other_spelling(key);
+    return other && is_there(*other) ? *other : std::string(key);
+  }
+
   const Node* set_entry(Node& mapping, std::size_t level) const {
-    auto entry = std::ranges::find(mapping.entries, path_[level], &Entry::key);
+    const std::string key = key_in(mapping, level);
+    auto entry = std::ranges::find(mapping.entries, key, &Entry::key);
     if (value_.absent && entry != mapping.entries.end() && level + 1 == path_.size()) {
-      std::erase_if(mapping.entries, [&](const Entry& one) { return one.key == path_[level]; });
+      std::erase_if(mapping.entries, [&](const Entry& one) { return one.key == key; });
       return &mapping;
     }
     if (entry == mapping.entries.end()) {
-      entry = mapping.entries.insert(entry, {std::string(path_[level]), {source_}, nullptr});
+      entry = mapping.entries.insert(entry, {key, {source_}, nullptr});
     } else if (level + 1 == path_.size()) {
+      entry->key = path_[level];
       entry->position = {source_};
     }
     entry->value = set(entry->value, level + 1);

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Everything that is wrong with a scenario, collected to be reported in one go.
 #pragma once
 

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 #include "yaml/quantity.hpp"
 
 #include <algorithm>
@@ -144,7 +147,7 @@ bool is_infinite_or_nan(std::string_view text) {
 }
 
 std::string unit_fault(std::string_view unit, Dimension dimension) {
-  if (unit.front() == ',') return ", with a comma where a decimal point belongs";
+  if (unit.front() == ',') return ", with a comma in place of the decimal point";
   const std::string name = plain_spelling(unit);
   for (const Description& other : descriptions) {
     if (find_unit(other.units, name) != nullptr) return std::string(", ").append(other.noun);

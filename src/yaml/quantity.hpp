@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Numbers and quantities ("10 cm") as text -> doubles in SI units and radians.
 #pragma once
 

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // What a value may be, and how it is read: the rules that schema.hpp speaks of.
 #pragma once
 

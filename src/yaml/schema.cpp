@@ -1,9 +1,13 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 #include "yaml/schema.hpp"
 
 #include <algorithm>
 #include <unordered_map>
 
 #include "yaml/nearest.hpp"
+#include "yaml/spelling.hpp"
 
 namespace bbsim::yaml {
 
@@ -27,6 +31,14 @@ bool Value::report(std::string_view message) const {
   return false;
 }
 
+std::string_view Value::name() const {
+  return std::string_view(path).substr(path.rfind('.') + 1);
+}
+
+void Value::note(double number, Dimension dimension) const {
+  if (context->numbers != nullptr) (*context->numbers)[american(path)] = {number, dimension};
+}
+
 void Value::warn(std::string_view message) const {
   context->problems.remark(node->position, "warning: " + path + ": " + std::string(message));
 }
@@ -42,9 +54,13 @@ void Keys::know(std::string_view key) {
 std::optional<Value> Keys::find(std::string_view key) {
   know(key);
   const auto& entries = mapping_.node->entries;
-  const auto entry = std::ranges::find(entries, key, &Entry::key);
+  auto entry = std::ranges::find(entries, key, &Entry::key);
+  if (entry == entries.end()) {
+    const std::optional<std::string> other = other_spelling(key);
+    if (other) entry = std::ranges::find(entries, *other, &Entry::key);
+  }
   if (entry == entries.end() || entry->value->absent) return {};
-  return Value{entry->value, mapping_.path_of(key), entry->position, mapping_.context};
+  return Value{entry->value, mapping_.path_of(entry->key), entry->position, mapping_.context};
 }
 
 bool Keys::missing(std::string_view key, std::string_view allowed) {
@@ -68,7 +84,13 @@ bool Keys::exactly_one(const std::vector<std::string_view>& keys) {
 }
 
 void Keys::report_unknown(const Entry& entry) const {
-  const std::string_view nearest = nearest_name(entry.key, known_);
+  std::vector<std::string> others;
+  for (const std::string_view key : known_) {
+    if (std::optional<std::string> other = other_spelling(key)) others.push_back(*std::move(other));
+  }
+  std::vector<std::string_view> names = known_;
+  names.insert(names.end(), others.begin(), others.end());
+  const std::string_view nearest = nearest_name(entry.key, names);
   context().problems.add(entry.position,
                          mapping_.path_of(shown(entry.key)) + ": unknown key; " +
                              (nearest.empty() ? "known keys here: " + comma_separated(known_)
@@ -76,17 +98,27 @@ void Keys::report_unknown(const Entry& entry) const {
 }
 
 void Keys::finish() const {
-  std::unordered_map<std::string_view, int> first_lines;
+  std::unordered_map<std::string_view, const Entry*> firsts;  // by the known name
   for (const Entry& entry : mapping_.node->entries) {
-    const auto [first, is_first] = first_lines.emplace(entry.key, entry.position.line);
-    if (std::ranges::find(known_, entry.key) == known_.end()) {
-      report_unknown(entry);
-    } else if (!is_first) {
-      context().problems.add(entry.position,
-                             mapping_.path_of(entry.key) + ": found again (first on line " +
-                                 std::to_string(first->second) + "); allowed: each key once");
+    auto known = std::ranges::find(known_, entry.key);
+    if (known == known_.end()) {
+      const std::optional<std::string> other = other_spelling(entry.key);
+      if (other) known = std::ranges::find(known_, *other);
     }
+    if (known == known_.end()) {
+      report_unknown(entry);
+      continue;
+    }
+    const auto [first, is_first] = firsts.emplace(*known, &entry);
+    if (!is_first) report_again(entry, *first->second);
   }
+}
+
+void Keys::report_again(const Entry& entry, const Entry& first) const {
+  const std::string as = entry.key == first.key ? "" : " as " + first.key + ", the same key";
+  context().problems.add(
+      entry.position, mapping_.path_of(entry.key) + ": found again (first on line " +
+                          std::to_string(first.position.line) + as + "); allowed: each key once");
 }
 
 std::string comma_separated(const std::vector<std::string_view>& words) {

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // How a mapping of the scenario is read into a struct: one function a mapping.
 //
 //     void read_ball(Keys& keys, Ball& ball) {
@@ -5,9 +8,10 @@
 //       keys.optional("spin", Number{Dimension::angular_rate}, ball.spin);
 //     }
 //
-// The keys that the function asks for are the known ones: any other is reported, with the nearest
-// known one. A rule (rules.hpp) says what a value may be, in `allowed()`, and reads it, in
-// `read()`, which reports what is wrong and returns whether all is well.
+// The keys that the function asks for are the known ones, in either spelling (spelling.hpp): any
+// other is reported, with the nearest known one. A rule (rules.hpp) says what a value may be, in
+// `allowed()`, and reads it, in `read()`, which reports what is wrong and returns whether all is
+// well.
 #pragma once
 
 #include <filesystem>
@@ -51,7 +55,8 @@ struct Context {
   std::filesystem::path folder;  // where table files are
   std::optional<double> end{};   // time.end, s, once it is read
   std::shared_ptr<Tables> tables = std::make_shared<Tables>();
-  // Where each single number goes that is read, if somebody asks, by its key's path.
+  // Where each single number goes that is read, if somebody asks, by its key's path in American
+  // spelling.
   std::map<std::string, NotedNumber>* numbers = nullptr;
   bool own_controller = false;  // which gives numbers of its own names; once it is read
 };
@@ -59,12 +64,14 @@ struct Context {
 // A node on its way into the scenario.
 struct Value {
   const Node* node;
-  std::string path;   // its key's full path, empty at the top
+  std::string path;   // its key's full path as written, empty at the top
   Position position;  // of its key: where something missing inside is reported
   Context* context;
 
   [[nodiscard]] Value item(std::size_t i) const;
   [[nodiscard]] std::string path_of(std::string_view key) const;
+  // The last name of the path.
+  [[nodiscard]] std::string_view name() const;
 
   // Reports "path: found <node><remark>; allowed: <allowed>" at the node. Returns false.
   bool refuse(std::string_view remark, std::string_view allowed) const;
@@ -77,9 +84,7 @@ struct Value {
   void mention(std::string_view message) const;
 
   // Says that a single number was read here, in SI units.
-  void note(double number, Dimension dimension) const {
-    if (context->numbers != nullptr) (*context->numbers)[path] = {number, dimension};
-  }
+  void note(double number, Dimension dimension) const;
 };
 
 class Keys {
@@ -131,6 +136,7 @@ class Keys {
  private:
   void know(std::string_view key);
   void report_unknown(const Entry& entry) const;
+  void report_again(const Entry& entry, const Entry& first) const;
 
   Value mapping_;
   std::vector<std::string_view> known_;

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Runs the program as it stands in a shell's line, with pipes and redirections; and on a terminal.
 #pragma once
 

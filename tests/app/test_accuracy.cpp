@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // bbsim accuracy: its table, its CSV, and its mistakes.
 #include <sstream>
 #include <string>

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // bbsim check and bbsim columns.
 #include <string>
 
@@ -69,13 +72,13 @@ TEST_CASE("check's verdict knows how old the frames are that a sampled controlle
   CAPTURE(slow.out);
   CHECK(contains(slow.out, "poles of 3 sample periods, with 2 of the sensor's frames,"));
   CHECK(contains(slow.out, " in these periods"));
-  CHECK(contains(slow.out, "none are told: from sample to sample the loop differs"));
+  CHECK(contains(slow.out, "none: the loop differs from sample to sample"));
   const Result never = bbsim(
       {"check", "slow.yaml", "--set", "controller.sensor.period=0.0314159265"}, folder.path());
   CHECK(contains(never.out, "without the sensor's own frames, as if each sample had one"));
   const Result linear = bbsim({"linearize", "slow.yaml", "-o", "-"}, folder.path());
   CHECK(linear.exit_code == 0);
-  CHECK(contains(linear.err, "come round to the samples after 3 of these"));
+  CHECK(contains(linear.err, "coincide with the samples again after 3 samples"));
 }
 
 TEST_CASE("check reports all problems of a scenario at once, each with its place") {

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // What is the same for all commands: help, -q, mistakes, standard input, and a reader that goes.
 #include <chrono>
 #include <csignal>
@@ -82,9 +85,19 @@ TEST_CASE("help names a command") {
   CHECK(contains(unknown.err, "unknown command rnu; did you mean run?"));
 }
 
+TEST_CASE("summarise is summarize") {
+  const Result help = bbsim({"summarize", "--help"});
+  CHECK(help.exit_code == 0);
+  CHECK(contains(help.out, "Usage: bbsim summarize"));
+  CHECK(bbsim({"summarise", "--help"}).out == help.out);
+  CHECK(bbsim({"help", "summarise"}).out == help.out);
+}
+
 TEST_CASE("a misspelt command or option is answered with the nearest one") {
   CHECK(contains(bbsim(Names{"swep", "a.yaml"}).err, "unknown command swep; did you mean sweep?"));
   CHECK(contains(bbsim({"comapre", "a", "b"}).err, "did you mean compare?"));
+  CHECK(contains(bbsim(Names{"sumarize"}).err, "did you mean summarize?"));
+  CHECK(contains(bbsim(Names{"sumarise"}).err, "did you mean summarise?"));
   CHECK(contains(bbsim({"fly"}).err, "unknown command fly; known: run check"));
   CHECK(contains(bbsim(Names{}).err, "found no command; known: run check"));
 
@@ -104,7 +117,7 @@ TEST_CASE("a misspelt command or option is answered with the nearest one") {
       {{"--verison"}, "unknown option --verison of bbsim; did you mean --version?"},
       {{"-o", "a.csv", "run", "a.yaml"},
        "-o: found before run; allowed: the options of a command after it."},
-      {{"run", "a.yaml", "b.yaml"}, "found b.yaml, which bbsim run does not ask for."},
+      {{"run", "a.yaml", "b.yaml"}, "found b.yaml, which bbsim run does not take."},
       {{"run"}, "SCENARIO is required"},
   };
   for (const Case& one : cases) {
@@ -237,8 +250,9 @@ TEST_CASE("reports that cannot be written are exit 3") {
   const Folder folder;
   const std::string fig2a = config("fig2a.yaml");
   for (const std::string& words :
-       {std::string("--help"), std::string("--version"), std::string("run --help"),
-        std::string("help run"), std::string("columns"), "check '" + fig2a + "'"}) {
+       {std::string("--help"), std::string("--version"), std::string("--licenses"),
+        std::string("run --help"), std::string("help run"), std::string("columns"),
+        "check '" + fig2a + "'"}) {
     const Result result = shell("\"$BBSIM\" " + words + " > /dev/full", folder.path());
     CAPTURE(words, result.err);
     CHECK(result.exit_code == 3);

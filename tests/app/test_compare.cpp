@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // bbsim compare over what the program writes: runs and sweeps, CSV and HDF5.
 #include <cstdlib>
 #include <string>

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Controllers that are not built in, as a user runs them: what they do well, and what they do
 // badly.
 #include <algorithm>
@@ -104,8 +107,8 @@ TEST_CASE("whatever a controller does instead of answering is told, and the rows
   };
   const auto [mode, told] = GENERATE(values<Misdeed>({
       {"sleeps",
-       "it did not answer within 1 s (one that answers into a buffer has to flush it: "
-       "print(..., flush=True) in Python); it was still running, and has been ended"},
+       "it did not answer within 1 s (flush buffered output after each answer: print(..., "
+       "flush=True) in Python); it was still running, and has been ended"},
       {"joins", "it did not answer within 1 s"},
       {"dies", "failed at sample 5 (t = 0.1 s): it ended with exit code 3."},
       {"crashes", "it was ended by signal 9 (Killed)"},
@@ -178,7 +181,7 @@ TEST_CASE("a controller that does not begin fails the run before its first row")
   CHECK(contains(result.err, "failed to begin: "));
   CHECK(contains(result.err, told));
   CHECK(result.seconds < 10);
-  CHECK(contains(result.err, "out.csv: not written, there is no row"));
+  CHECK(contains(result.err, "out.csv: not written; there are no rows"));
   CHECK(scene.folder.read("out.csv") == "an earlier run's rows");
   CHECK(scene.processes_in_the_end().second == 0);
   const Result check = bbsim({"check", scene.file, "--set", patience});

@@ -1,4 +1,6 @@
 #!/usr/bin/env python3
+# SPDX-FileCopyrightText: 2026 the bbsim authors
+# SPDX-License-Identifier: BSD-3-Clause
 """The environment of examples/controllers/bbsim_env.py: BBSIM names the program."""
 import csv
 import os

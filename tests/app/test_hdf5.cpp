@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // HDF5 files as results: alike runs alike to the byte, with all that is needed to run them again;
 // and files that do the program harm.
 #include <sys/stat.h>

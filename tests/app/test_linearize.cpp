@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // bbsim linearize, and the files that it writes, read by who they are for where they are installed.
 #include <algorithm>
 #include <cstdlib>
@@ -230,8 +233,7 @@ TEST_CASE("check warns of no instability that is the rounding of a stiff loss") 
   CHECK_FALSE(contains(slow.out, "WARNING"));
   const Result sampled = bbsim({"check", config("step.yaml"), "--set", "ball.losses.viscous=1e9"});
   CHECK_FALSE(contains(sampled.out, "unstable"));
-  CHECK(
-      contains(sampled.out, "on the border of stability about home, as far as rounding can tell"));
+  CHECK(contains(sampled.out, "at the stability limit about home, within rounding"));
 }
 
 TEST_CASE("check tells the bandwidth of the feedback where the reference leads the ball besides") {

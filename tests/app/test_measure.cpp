@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Measures on the command line: of a run, of a stored one, of a sweep, and by group.
 #include <cmath>
 #include <map>
@@ -324,14 +327,15 @@ TEST_CASE("a sweep takes step metrics, and they are those of its runs") {
   std::getline(rows, row);
   CAPTURE(row);
 
-  const Result groups = bbsim({"summarise", "sweep.csv", "--by", "ball.radius"}, folder.path());
+  const Result groups = bbsim({"summarize", "sweep.csv", "--by", "ball.radius"}, folder.path());
   CAPTURE(groups.err);
   REQUIRE(groups.exit_code == 0);
   CHECK(groups.out.starts_with("ball.radius,measure,cases,count,mean,deviation,min,q5,q25,q50,"));
   CHECK(groups.out.find("\n0.02,x.Overshoot,3,3,") != std::string::npos);
-  CHECK(bbsim({"summarise", "sweep.csv", "--by", "radius"}, folder.path()).exit_code == 2);
-  CHECK(bbsim({"summarise", "sweep.csv", "-o", "sweep.csv"}, folder.path()).exit_code == 2);
-  CHECK(bbsim({"summarise", "sweep.csv", "--quantiles", "2"}, folder.path()).exit_code == 2);
+  CHECK(bbsim({"summarise", "sweep.csv", "--by", "ball.radius"}, folder.path()).out == groups.out);
+  CHECK(bbsim({"summarize", "sweep.csv", "--by", "radius"}, folder.path()).exit_code == 2);
+  CHECK(bbsim({"summarize", "sweep.csv", "-o", "sweep.csv"}, folder.path()).exit_code == 2);
+  CHECK(bbsim({"summarize", "sweep.csv", "--quantiles", "2"}, folder.path()).exit_code == 2);
 
   // HDF5 has the same, and a resumed sweep takes its columns for what they are.
   auto to_hdf5 = to_csv;

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // The controllers of examples/controllers against the built-in law; and those that are libraries.
 #include <algorithm>
 #include <filesystem>
@@ -155,8 +158,8 @@ TEST_CASE("a library that ends the process in place of returning fails, and the 
       {"5", "failed at sample 5 (t = 0.1 s): it called exit(0), which would have ended bbsim", 6},
       {"6", "failed at sample 5 (t = 0.1 s): it called _exit(0), which would have ended bbsim", 6},
       {"7", "failed to begin: it called exit(0), which would have ended bbsim", 0},
-      {"10", ") ended bbsim: what was not yet written is lost", 0},
-      {"12", ") ended bbsim: what was not yet written is lost", 0},
+      {"10", ") ended bbsim; unwritten output is lost", 0},
+      {"12", ") ended bbsim; unwritten output is lost", 0},
   }));
   std::vector<std::string> words = with_misdeeds(mode);
   words.pop_back();  // -q
@@ -172,7 +175,7 @@ TEST_CASE("a library that ends the process as it is opened does so with a word")
   const Result result = bbsim(with_misdeeds("0", BBSIM_MISDEEDS_OPENED));
   CAPTURE(result.err);
   CHECK(result.exit_code == 1);
-  CHECK(contains(result.err, ") ended bbsim: what was not yet written is lost"));
+  CHECK(contains(result.err, ") ended bbsim; unwritten output is lost"));
   const Result check =
       bbsim({"check", example("library.yaml"), "--set",
              std::string("controller.library.file=") + BBSIM_MISDEEDS, "--set",

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // A run split in two gives the bytes of one.
 #include <filesystem>
 #include <string>
@@ -165,7 +168,7 @@ TEST_CASE("a state is refused where bytes could not be those of one run") {
   CHECK(contains(refusal({example("python.yaml"), "--save-state", "c.state", "--set",
                           std::string("controller.program.command=[\"") + BBSIM_TEST_CHILD + "\"]",
                           "--set", "controller.program.parameters={}"}),
-                 "does not say what it remembers"));
+                 "cannot save its state"));
   CHECK(contains(refusal({rig, "--until", "3"}), "--save-state"));
   CHECK(contains(refusal({rig, "--save-state", "c.state", "--until", "50"}), "--until"));
   CHECK(refusal({rig, "--from-state", "a.state", "--save-state", "a.state", "--until", "3"}) != "");

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // bbsim plot, with gnuplot, as a user runs it.
 #include <algorithm>
 #include <cctype>

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // The progress bar: its text for every width, and what a terminal of that width is sent.
 #include <algorithm>
 #include <cmath>

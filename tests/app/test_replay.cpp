@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // bbsim replay and run --replay, as a user runs them. What the pages show is tested in a browser
 // (tests/replay/browser).
 #include <algorithm>

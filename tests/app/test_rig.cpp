@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Scenarios of built rigs, as a user runs them.
 #include <algorithm>
 #include <cmath>
@@ -209,7 +212,7 @@ TEST_CASE("check tells of linkages, clocks and frames, and of stops beyond a dea
   CHECK(result.exit_code == 0);
   CHECK(contains(result.out, "servo_phi"));
   CHECK(contains(result.out, "push rod, (M54) to (M56), slope "));
-  CHECK(contains(result.out, "the controller takes it for a ratio, that of home"));
+  CHECK(contains(result.out, "the controller assumes the ratio at home"));
   CHECK(contains(result.out, "(the poles are those of the nominal period)"));
   CHECK(contains(result.out, "frames every 33.3 ms from 7 ms on"));
   CHECK(contains(result.out, "turned by 1.5 deg"));
@@ -226,7 +229,7 @@ TEST_CASE("check tells of linkages, clocks and frames, and of stops beyond a dea
   const Result three = bbsim({"check", config("three-servos.yaml")});
   CHECK(three.exit_code == 0);
   CHECK(contains(three.out, "three servos, two tilts and a height"));
-  CHECK(contains(three.out, "without the wander of the plate's centre"));
+  CHECK(contains(three.out, "without the wander of the plate's center"));
 }
 
 TEST_CASE("scenes with linkages and three servos run, in parts too, to the byte") {
@@ -261,5 +264,5 @@ TEST_CASE("a run of a ball that slides tells where it rolls, and where it rests"
   const Result result = bbsim({"run", config("slides.yaml"), "-o", "-"});
   CHECK(contains(result.err, "noted: roll, once at t = 0.533974 s: the ball rolls again"));
   CHECK(contains(result.err, "the run stopped at t = 3.33288 s"));
-  CHECK(contains(result.err, "events.rest is stop; note would let it run on"));
+  CHECK(contains(result.err, "events.rest is stop; note lets the run continue"));
 }

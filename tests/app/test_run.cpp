@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // bbsim run: what it writes, what it says, and every way in which it can end.
 #include <csignal>
 #include <nlohmann/json.hpp>
@@ -243,10 +246,11 @@ TEST_CASE("a column that is no finite number has its reason, and the exit code s
                                "a.csv", "--summary", "a.json"},
                               folder.path());
   CHECK(result.exit_code == 1);
-  CHECK(contains(result.err, "normal_force is no finite number in 201 rows, the first at t = 0 s"));
+  CHECK(contains(result.err,
+                 "normal_force is not a finite number in 201 rows, the first at t = 0 s"));
   CHECK(lines(folder.read("a.csv")).size() == 202);
   CHECK(contains(folder.read("a.json"), "\"status\": \"done\""));
-  CHECK(contains(folder.read("a.json"), "normal_force is no finite number"));
+  CHECK(contains(folder.read("a.json"), "normal_force is not a finite number"));
 }
 
 TEST_CASE("a loop that runs away, to where rounding moves it, is not waited for") {

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Sweeps as a user runs them.
 #include <algorithm>
 #include <cmath>
@@ -307,7 +310,7 @@ TEST_CASE("what a sweep cannot do is said in one line, before it begins") {
   CHECK(contains(fault(with(key, {"-o", "-", "--resume"})), "cannot resume"));
   CHECK(contains(fault(with(key, {"--keep-trajectories"})), ".h5"));
   CHECK(contains(fault({"--vary", "time.end=list:1,2", "--keep-trajectories", "-o", "a.h5"}),
-                 "time.end varies"));
+                 "time.end among the keys that vary"));
   CHECK(folder.files().empty());
   const Result full =
       bbsim(sweep(config("fig2a.yaml"), with(key, {"-o", "/dev/full"})), folder.path());

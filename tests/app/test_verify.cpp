@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // bbsim verify.
 #include <string>
 
@@ -24,15 +27,15 @@ TEST_CASE("verify needs no files, and all of its checks hold") {
   CHECK(contains(result.out, "fixed incline: closed form (M1)"));
   CHECK(contains(result.out, "tumble: radau against adams"));
   CHECK_FALSE(contains(result.out, "FAILS"));
-  CHECK(contains(result.out, "buys in fig2a"));
-  CHECK(contains(result.out, "buys in fig2b"));
+  CHECK(contains(result.out, "adds in fig2a"));
+  CHECK(contains(result.out, "adds in fig2b"));
   CHECK(folder.files().empty());
 }
 
 TEST_CASE("verify compares simpler models over a scenario, up to where it goes") {
   const Result result = bbsim({"verify", config("fig2b-literal.yaml"), "--set", "time.end=2"});
   CHECK(result.exit_code == 0);
-  CHECK(contains(result.out, "buys in " + config("fig2b-literal.yaml")));
+  CHECK(contains(result.out, "adds in " + config("fig2b-literal.yaml")));
   CHECK(contains(result.out, "s of 2 s"));
 }
 

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // What a run that came to its end says of what may not be as its user meant.
 #include <nlohmann/json.hpp>
 #include <string>
@@ -94,9 +97,9 @@ TEST_CASE("a ball that leaves a plate of known size is noted without events") {
   const Result result = bbsim({"run", "s.yaml", "--summary", "s.json"}, folder.path());
   CHECK(result.exit_code == 0);
   CHECK(contains(result.err,
-                 "warning: the ball is off the plate in the row of t = 1.6 s, at x = 0.16 m, y = "
-                 "0.032 m, and the run goes on as if there were more of it: plate.size is [0.3, "
-                 "0.2] m; events.edge: stop would end it there"));
+                 "warning: the ball is off the plate in the row at t = 1.6 s, at x = 0.16 m, y = "
+                 "0.032 m, and the run continues as if the plate were larger: plate.size is [0.3, "
+                 "0.2] m; events.edge: stop ends it there"));
   CHECK(nlohmann::json::parse(folder.read("s.json"))["warnings"].size() == 1);
 
   const auto said = [&](const std::string& key) {
@@ -215,8 +218,7 @@ TEST_CASE("a regulator without a gain is told at its place") {
     const Result result = bbsim({command, "s.yaml"}, folder.path());
     CAPTURE(command, result.err);
     CHECK(result.exit_code == 2);
-    CHECK(contains(result.err,
-                   "s.yaml:5:3: controller.lqr: there is no gain that stabilises this rig"));
+    CHECK(contains(result.err, "s.yaml:5:3: controller.lqr: no gain stabilizes this rig"));
   }
   const Result set = bbsim(
       {"run", "s.yaml", "--set", "controller.lqr={position: 1, command: 1e300}"}, folder.path());

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Polynomials through Chebyshev points, and the greatest values of functions that they show.
 #include <cmath>
 #include <limits>

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Noise that is the same everywhere, and normal.
 #include <cmath>
 #include <vector>

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Text of others within our sentences: on one line, without what a terminal acts on.
 #include "base/shown.hpp"
 #include "catch.hpp"

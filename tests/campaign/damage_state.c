@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // damage_state FILE COPY NUMBER: a copy of a state of a run (bbsim run --save-state) that is damaged
 // in one of many ways, the same of the same number, and whose check sum is right all the same.
 #include <stdint.h>

@@ -1,3 +1,6 @@
+# SPDX-FileCopyrightText: 2026 the bbsim authors
+# SPDX-License-Identifier: BSD-3-Clause
+
 # What both kinds of drawn scenarios are made of: numbers, quantities, profiles and paths. A file that draws
 # scenes (draw_*.awk) comes after it, appends lines to `scene`, and calls put().
 

@@ -1,3 +1,6 @@
+# SPDX-FileCopyrightText: 2026 the bbsim authors
+# SPDX-License-Identifier: BSD-3-Clause
+
 # Draws `count` scenarios in which integrals wait at limits, such as people might build, into scenes/1.yaml and so on:
 # continuous PIDs with `limit`, and motors' position loops with `ki` at limits of their torque and voltage. After
 # draw.awk; scripts/try-limits runs it.

@@ -1,3 +1,6 @@
+# SPDX-FileCopyrightText: 2026 the bbsim authors
+# SPDX-License-Identifier: BSD-3-Clause
+
 # Draws `count` scenarios from the keys and ranges of docs/reference/scenario.md into scenes/1.yaml and so on; every
 # other one is then broken. Reads the names of the columns. `own`: the kinds of controllers of one's own that there
 # are, "library" and "program". After draw.awk; scripts/try-scenarios runs it.

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Preloaded into a program (LD_PRELOAD), makes one of the calls to the system that it makes fail:
 // the K-th of a name, as often as the program makes it between the beginning of main() and its end.
 // scripts/try-failing-calls compiles this and says what is to fail, in the environment:

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // The lines that bbsim and a program say to each other.
 #include <cmath>
 #include <limits>

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // A file is there whole or not at all, whatever stands where it is to go.
 #include <fcntl.h>
 #include <sys/resource.h>

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // CSV: written and read back to the bit; what is no table of numbers is refused, with its place.
 #include <sys/stat.h>
 

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // HDF5: written and read back to the bit, with units, description and scale where other programs
 // look for them; a full disk is an error and not a crash.
 #include <hdf5.h>

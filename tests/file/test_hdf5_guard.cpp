@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Where the HDF5 library crashes as it writes, the program ends with a message and its exit code.
 #include <sys/wait.h>
 #include <unistd.h>

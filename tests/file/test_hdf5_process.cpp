@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // HDF5 files are read in a process of their own: what becomes of it is an error with its reason;
 // what a file says of its size is not believed; and nothing of a file reaches a terminal raw.
 #include <fcntl.h>
@@ -99,11 +102,11 @@ TEST_CASE("a reader that is killed by a signal is an error that says so") {
     return refusal(file);
   };
   const std::string start = "cannot read " + file + ": ";
-  const std::string damaged = ": the file is damaged, or not as HDF5 writes it";
+  const std::string damaged = ": the file is damaged, or not valid HDF5";
   CHECK(with("kill -SEGV $$") ==
         start + "the HDF5 library failed on it (signal 11, Segmentation fault)" + damaged);
   CHECK_THAT(with("kill -ABRT $$"), Contains("(signal 6, Aborted)"));
-  CHECK(with("kill -PROF $$") == start + "the HDF5 library goes in circles on it" + damaged);
+  CHECK(with("kill -PROF $$") == start + "the HDF5 library does not finish reading it" + damaged);
   CHECK_THAT(with("kill -KILL $$"), Contains("was ended from outside (signal 9, Killed)"));
   CHECK_THAT(with("exit 3"), Contains("the HDF5 reader ended with code 3"));
   CHECK_THAT(with("exit 127"), Contains("does not start; install the HDF5 library"));

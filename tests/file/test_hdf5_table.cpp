@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Tables of cases: numbers, text and series, read back to the bit and block by block; the same
 // rows give the same bytes however they came, and so do parts that are merged.
 #include <hdf5.h>

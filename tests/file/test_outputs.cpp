@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Nothing that a command writes to is another of its files, whatever it is called.
 #include <fcntl.h>
 #include <sys/stat.h>

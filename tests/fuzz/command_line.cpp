@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // The command line, in process: main() with words and files of an input, in a folder of its own.
 //
 // An input has a word a line, up to a line "== NAME", after which comes the content of a file of

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // CSV: a table read back and compared with itself, and the quoting of a sweep's rows.
 #include <sys/mman.h>
 #include <unistd.h>

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // A folder of a fuzz target's own, empty before each input, and removed when the target ends.
 #pragma once
 

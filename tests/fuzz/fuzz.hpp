@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // What the fuzz targets share. Each is a function that libFuzzer calls with one input after the
 // other; an exception that leaves it, a report of a sanitizer and a broken promise are findings.
 #pragma once

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // The reader of HDF5 files on sound files of all kinds (foreign_hdf5.hpp): that HDF5 itself fails
 // on damaged ones is another matter (hdf5_file.cpp).
 #include <cstdlib>

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Memory as on a machine that is full: what is asked for in one piece beyond a bound is refused, by
 // std::bad_alloc, as the sanitizers' own operator new never does. So an input that makes the
 // program ask for too much tries the program's answer to that.

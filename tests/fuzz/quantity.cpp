@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Quantities: "10 cm", 1e-3, "0.5 Hz".
 //
 // The first byte of an input picks what is measured and whether the text is quoted, the rest is the

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Scenario text with overrides, up to the model that is made of it and its explanation.
 //
 // An input is YAML; lines of it that begin with "--set " are overrides, as on a command line.

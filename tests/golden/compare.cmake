@@ -1,3 +1,6 @@
+# SPDX-FileCopyrightText: 2026 the bbsim authors
+# SPDX-License-Identifier: BSD-3-Clause
+
 # Runs SCENARIO as a user would, with a row every 0.1 s, and holds it against its golden CSV.
 #
 # A golden file is the solution at rtol 1e-13 (regenerate.sh), not what some method gave at its

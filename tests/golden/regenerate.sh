@@ -1,4 +1,7 @@
 #!/usr/bin/env bash
+# SPDX-FileCopyrightText: 2026 the bbsim authors
+# SPDX-License-Identifier: BSD-3-Clause
+#
 # Writes the golden CSVs anew. Only for a change that is meant to change the answers.
 #     tests/golden/regenerate.sh build/release/bin/bbsim
 set -euo pipefail

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // What a scene is given, and what it is spared.
 #include <algorithm>
 #include <cmath>

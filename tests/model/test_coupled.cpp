@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Newton's and Euler's equations with couples, at random states:
 // docs/explanation/losses-and-torques.md.
 #include <cmath>

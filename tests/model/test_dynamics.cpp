@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Contact force, torques and energy, against statics and against each other.
 #include <algorithm>
 #include <array>

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Equation (27) in its compact form against the paper's twist form, and its symmetries.
 #include <array>
 #include <cmath>

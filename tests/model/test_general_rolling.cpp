@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Equation (27) for any inertia factor and mounting, (M18) to (M20), against the twist form.
 #include <cmath>
 

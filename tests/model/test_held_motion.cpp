@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Servos under a held command in closed form: the motion itself, and when a line in it falls.
 #include <cmath>
 #include <limits>

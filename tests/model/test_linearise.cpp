@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Scenes as linear systems: against differences in quad precision, closed forms, and the poles that
 // the loop has otherwise.
 #include <Eigen/Eigenvalues>

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // What stands between servos and plane: push rods, measured curves, three servos.
 #include <cmath>
 #include <numbers>
@@ -79,6 +82,26 @@ TEST_CASE("the inverse of a push rod is its inverse, to 1e-13") {
       CHECK(told.gradient[0] * slope == Approx(1).epsilon(1e-9));
     }
   }
+}
+
+TEST_CASE("the inverse of a push rod holds for servos that turn beyond half a turn") {
+  int beyond = 0;
+  for (const RodLinkage& one : some_linkages()) {
+    const Linkage linkage = make_linkage(one, Assumed::exact);
+    const LinkCurve& curve = linkage.curve;
+    if (!std::isfinite(curve.low) || !std::isfinite(curve.high)) continue;
+    for (int i = 1; i < 50; ++i) {
+      const double servo = curve.low + (curve.high - curve.low) * i / 50;
+      CAPTURE(one.horn, one.arm, one.offset[0], one.offset[1], servo);
+      beyond += std::abs(servo) > std::numbers::pi;
+      const double slope = curve.plain_turn(servo).slope;
+      const double bound = 1e-13 * std::max(1.0, 0.05 / std::abs(slope));
+      CHECK(std::abs(linkage.servo_for(linkage.angle(servo)) - servo) < bound);
+      const simd::WithGradient<1> wanted(linkage.angle(servo), simd::WithGradient<1>::Gradient(1));
+      CHECK(std::abs(curve.told(wanted).value - servo) < bound);
+    }
+  }
+  CHECK(beyond > 100);
 }
 
 TEST_CASE("slope and bend of a push rod are its derivatives") {

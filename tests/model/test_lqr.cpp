@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Riccati equations, LQR gains, and the poles of sampled loops.
 #include <Eigen/Eigenvalues>
 #include <cmath>

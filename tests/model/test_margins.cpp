@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // What loops bear, held against their own poles; poles that rounding must not move; zeros.
 #include <algorithm>
 #include <cmath>

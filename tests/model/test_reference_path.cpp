@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Reference paths: against formulas, finite differences, and what they promise at their knots.
 #include <algorithm>
 #include <cmath>

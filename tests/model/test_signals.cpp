@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Profiles and splines: values, derivatives, and what they share.
 #include <algorithm>
 #include <cmath>

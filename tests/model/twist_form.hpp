@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // The paper's own derivation, equations (2)-(26), evaluated numerically: twists, the 6x6 inertia
 // and the pairing with s3, s4, s5. Shares nothing with src/model but the meaning of the symbols.
 #pragma once

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Columns ball_qw to ball_qz: the ball's orientation against closed forms and against its twist.
 #include <Eigen/Geometry>
 #include <cmath>

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // What counts as alike, and what is told about what does not.
 #include <cmath>
 #include <limits>
@@ -250,7 +253,7 @@ TEST_CASE("a file that is no table of cells is refused with its place") {
   CHECK_THAT(message_of<InputError>([&] { (void)cells("a,b\n1,x,3\n"); }),
              Contains("a.csv:2:1: found 3 fields; the header names 2 columns"));
   CHECK_THAT(message_of<InputError>([&] { (void)cells("a,b\n1,\"x\n"); }),
-             Contains("a.csv:2:1: found a quotation mark that nothing closes"));
+             Contains("a.csv:2:1: found a quotation mark without its closing one"));
   CHECK_THAT(message_of<InputError>([&] { (void)cells("a\n1\n\n2\n"); }),
              Contains("a.csv:3:1: found a blank line"));
 }

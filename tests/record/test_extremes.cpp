@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // What a run was greatest at between its rows, against closed forms.
 #include <algorithm>
 #include <cmath>

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Step metrics and instants of the continuous motion, against closed forms.
 #include <cmath>
 #include <limits>

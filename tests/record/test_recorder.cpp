@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Measures of a run, at the ends of the range of doubles too.
 #include <cmath>
 #include <limits>

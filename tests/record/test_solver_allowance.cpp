@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // How far two HDF5 files may be apart by what their solver was asked for.
 #include <string>
 

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // The summary says the same in JSON and in attributes.
 #include <bit>
 #include <limits>

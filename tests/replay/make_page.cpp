@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Makes a page, or a .glb, of results: what browser tests look at.
 //
 //   make_page [--title TEXT] [--template FILE] -o FILE RUN...

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // A .glb read back by the rules of glTF 2.0. scripts/check-gltf asks Khronos' validator as well.
 #include <cmath>
 #include <cstdint>

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // What is left out of a long run is not missed: no peak in a plot, no turn in the motion.
 #include <algorithm>
 #include <cmath>

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // A scene arrives in its page: numbers as exact as they are meant to be, texts as texts.
 #include <cmath>
 #include <limits>

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // The ball's and the plane's orientation against what they stand for.
 #include <Eigen/Geometry>
 #include <cmath>

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // What scenes with losses, torques and sliding may say, and what they may not.
 #include "catch.hpp"
 #include "scenario/coupled.hpp"
@@ -144,5 +147,5 @@ TEST_CASE("moments of inertia that no body has draw a warning") {
   CHECK(remarks("inertia: [2e-4, 3e-4, 4e-4], mass: 0.2, centre_of_mass: 0.03").empty());
   const auto offset = remarks("inertia: [2e-4, 3e-4, 4e-4], mass: 0.2, centre_of_mass: 0.04");
   REQUIRE(offset.size() == 1);
-  CHECK(offset[0].find("plate.centre_of_mass") != std::string::npos);
+  CHECK(offset[0].find("plate.center_of_mass") != std::string::npos);
 }

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Keys whose numbers are put in place instead of being read anew.
 #include <string>
 #include <vector>

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Keys of linkages, three servos, servos by axis, clocks, frames and pushes: what they read as, and
 // what is refused.
 #include "catch.hpp"
@@ -131,7 +134,7 @@ TEST_CASE("what makes no sense of these keys is refused, with why") {
       {{"gimbal.linkage={table: {file: none.csv, servo: a, plate: b}}"}, "none.csv"},
       {{"gimbal.linkage={phi: 3}"}, "gimbal.linkage.phi: found 3"},
       {{"controller.assumes=exact"},
-       "controller.assumes: found, but nothing is between servos and plane"},
+       "controller.assumes: found, but nothing links servos and plate"},
       {{with_rods, "controller.assumes=perfect"}, "controller.assumes: found perfect"},
       {{with_rods, "gimbal.three_servos=" + three},
        "gimbal.three_servos: found beside gimbal.linkage"},

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // The names of measures.
 #include <cmath>
 
@@ -66,11 +69,11 @@ TEST_CASE("measures have units and meanings, and know what they need") {
   CHECK(find_measure("find phi when x=1")->unit() == "rad");
   CHECK(find_measure("max_tilt")->unit() == "rad");
   CHECK(find_measure("x.Peak")->meaning() ==
-        "size where it is farthest from its start: contact point along the plane's x axis");
+        "size where it is farthest from its start: contact point along the plate's x axis");
   CHECK(find_measure("rms_x from 5 s")->unit() == "m");
   CHECK(find_measure("rms_x from 5 s")->meaning() ==
-        "root mean square over the rows of: contact point along the plane's x axis, from 5 s");
-  CHECK(find_measure("find x at 2")->meaning() == "at 2: contact point along the plane's x axis");
+        "root mean square over the rows of: contact point along the plate's x axis, from 5 s");
+  CHECK(find_measure("find x at 2")->meaning() == "at 2: contact point along the plate's x axis");
   CHECK(any_needs({*find_measure("find x when normal_force=0.1")}, Needs::dynamics));
   bbsim::Scenario open;
   CHECK(missing(*find_measure("find x when tracking_error=1 mm"), open));

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // The exact words of the commonest errors.
 #include "catch.hpp"
 #include "support/reading.hpp"

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Keys of a controller that is not built in.
 #include "catch.hpp"
 #include "scenario/columns.hpp"
@@ -103,5 +106,5 @@ TEST_CASE("a controller of one's own needs samples") {
   text.replace(text.find("  sampling"), std::string("  sampling: {period: 0.02}\n").size(), "");
   CHECK(errors(text) ==
         "scenario.yaml:4:3: controller.program: found without controller.sampling; allowed: only "
-        "with it, since it is asked once a sample");
+        "with it, since bbsim calls it once per sample");
 }

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Reference paths of a controller.
 #include <numbers>
 
@@ -62,8 +65,8 @@ TEST_CASE("a circle has a centre, by default the origin") {
   CHECK_THAT(problem("{circle: {radius: -1}}"),
              Contains("circle.radius: found -1; allowed: a length of at least 0") &&
                  Contains("circle.rate: missing"));
-  CHECK(problem("{circle: {radius: 1, rate: 1, center: [0, 0]}}") ==
-        key + ".circle.center: unknown key; did you mean " + key + ".circle.centre?");
+  CHECK(problem("{circle: {radius: 1, rate: 1, centter: [0, 0]}}") ==
+        key + ".circle.centter: unknown key; did you mean " + key + ".circle.center?");
   CHECK(problem("{circle: {radius: 1, rate: 1, centre: 2}}") ==
         key + ".circle.centre: found 2; allowed: two lengths [x, y], such as [0.1, 0]");
 }
@@ -87,7 +90,7 @@ TEST_CASE("a Lissajous figure, with units and defaults") {
   CHECK(problem("{lissajous: {amplitude: [1, 1], rate: [1, 2 s]}}") ==
         lissajous + "rate.1: found 2 s, a time; allowed: an angular rate, such as 3 or \"0.5 Hz\"");
   CHECK(problem("{lissajous: {amplitude: [1, 1], rate: [1, 2], radius: 3}}") ==
-        lissajous + "radius: unknown key; known keys here: amplitude, rate, phase, centre");
+        lissajous + "radius: unknown key; known keys here: amplitude, rate, phase, center");
 }
 
 TEST_CASE("waypoints, with units and defaults") {

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Keys of built rigs: what they read as, and which combinations are refused, with why.
 #include "catch.hpp"
 #include "support/reading.hpp"
@@ -107,7 +110,7 @@ TEST_CASE("combinations that mean nothing are refused, with why") {
            Case{base, {"events.edge=stop"}, "events.edge: found, but the plate has no edge"},
            Case{base,
                 {"events.singularity.distance=0.2"},
-                "events.singularity: found without controller.feedback_linearisation"},
+                "events.singularity: found without controller.feedback_linearization"},
            Case{base,
                 {"controller.pid={kp: 1, ki: 1, kv: 1}"},
                 "controller.pid: found beside pd; allowed: one law"},

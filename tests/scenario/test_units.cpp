@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Units of tables: what they are said to be in, and what they look like if nothing is said.
 #include <cmath>
 #include <numbers>

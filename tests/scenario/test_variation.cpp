@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // SPEC of a sweep, as a user writes it.
 #include <string>
 
@@ -58,6 +61,18 @@ TEST_CASE("a spec that is none says what is allowed") {
   for (const char* wrong : {"linear:0:1:0", "linear:0:1:-3", "linear:0:1:2.5", "linear:0:1:1e99"}) {
     INFO(wrong);
     CHECK(fault(wrong).find("a whole number from 1 to 1e9") != std::string::npos);
+  }
+}
+
+TEST_CASE("a bound that is no number is refused with the spec, before a case is read") {
+  for (const char* wrong : {"linear:null:1:3", "linear:0.01:~:3", "log:*a:1:3", "linear:{}:1:3",
+                            "uniform:a:b", "normal:0:true"}) {
+    INFO(wrong);
+    CHECK(fault(wrong).find("numbers and quantities") != std::string::npos);
+  }
+  for (const char* right : {"linear:\"1 cm\":'2 cm':3", "log:.5:1:3", "uniform:-1e-3:+2"}) {
+    INFO(right);
+    CHECK(fault(right).empty());
   }
 }
 

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // What the hard cases share: scenarios of configs/hard, quad references, and an argued bound.
 #pragma once
 

@@ -1,3 +1,6 @@
+# SPDX-FileCopyrightText: 2026 the bbsim authors
+# SPDX-License-Identifier: BSD-3-Clause
+
 # Kernels must be compiled with the options meant for them (cmake/kernels.cmake), which those of every
 # other target would take back if they came later: products are fused where the instructions for it
 # exist, and sanitizers leave kernels alone.

@@ -1,3 +1,6 @@
+# SPDX-FileCopyrightText: 2026 the bbsim authors
+# SPDX-License-Identifier: BSD-3-Clause
+
 # The kernels of different instruction sets must share no code: a function that two objects define
 # would be linked from either, and run where its instructions do not exist.
 #

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Every integrator against quad-precision solutions of every scenario that has one.
 #include <algorithm>
 #include <cmath>

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Closed forms of docs/explanation/model.md, and the manners of an integration.
 #include <atomic>
 #include <cmath>

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // A run that would never end is ended, with its reason, in bounded work; one that an event stops on
 // the way there is stopped.
 #include "solve/hard_cases.hpp"
@@ -10,7 +13,8 @@ TEST_CASE("a run that creeps ends with its reason, by every method") {
   CAPTURE(name_of(method));
   const Run run = run_in_memory(hard_case("creep"), method, {1e-8, 1e-10});
   CHECK(run.outcome.ending == solve::Ending::failed);
-  CHECK_THAT(run.outcome.reason, Catch::Matchers::Contains("so short that it would never end"));
+  CHECK_THAT(run.outcome.reason,
+             Catch::Matchers::Contains("so short that the run would never end"));
   CHECK(run.outcome.reached > 1.6e-5);
   CHECK(run.outcome.reached < 1.8e-5);
   CHECK(run.outcome.last_state.size() == 9);

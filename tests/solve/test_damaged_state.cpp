@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // States that somebody has changed: a run that goes on from one ends, or is refused.
 #include <cstdint>
 #include <cstring>

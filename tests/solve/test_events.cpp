@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // What is watched for: found when it happens, by every integrator.
 #include <cmath>
 #include <fstream>

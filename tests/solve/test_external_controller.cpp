@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Runs whose controller is not built in: when it is asked, what it is told, and what its faults do.
 #include <algorithm>
 #include <atomic>

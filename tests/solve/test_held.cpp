@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Sampled rigs by pieces between instants, beside the general way: radau's steps, guards looked at.
 #include <cmath>
 #include <filesystem>

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Rows, samples and stops at times that are nearly, or but for their rounding, the same.
 #include <cmath>
 #include <limits>

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Integrals that wait at a limit (docs/explanation/rig-model.md, (M64)): a run agrees with the law
 // smoothed over a width, whose solution tends to it as the width goes to 0, with an error in
 // proportion to it.

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Runs of gimbals whose servos turn the plane through something.
 #include <cmath>
 #include <limits>

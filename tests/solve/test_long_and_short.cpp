@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Very long, very short and very still scenes, extreme tolerances, and time run backwards.
 #include <cmath>
 #include <cstdlib>

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Loops in lanes: against the collocation integrator, one by one.
 #include <algorithm>
 #include <atomic>

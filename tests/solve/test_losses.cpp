@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // What dry and viscous losses do to a ball, against closed forms:
 // docs/explanation/losses-and-torques.md.
 #include <cmath>

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Groups of balls under given motions, against the reference and against what is known of them.
 #include <cmath>
 #include <limits>

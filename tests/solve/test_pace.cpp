@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // A run that creeps, told from one that takes long; and one that loses rows.
 #include <cmath>
 
@@ -41,6 +44,12 @@ TEST_CASE("short steps that would take days are told within a million") {
   const std::size_t told = steps_until_told(1, 10'000'000, [](double) { return 1e-12; });
   CHECK(told > 400'000);
   CHECK(told < 1'000'000);
+}
+
+TEST_CASE("steps near the rounding of the time are given up within a hundred thousand") {
+  const std::size_t told = steps_until_told(1, 10'000'000, [](double) { return 1e-14; });
+  CHECK(told > 0);
+  CHECK(told < 100'000);
 }
 
 TEST_CASE("an event that is near is waited for, but not for ever") {

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // The collocation integrator: against quad-precision solutions, at its limits, and its parts.
 #include <algorithm>
 #include <atomic>

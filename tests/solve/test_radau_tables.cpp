@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // The constants of the collocation, and its sine and cosine.
 #include <algorithm>
 #include <cmath>

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Closed loops along each kind of reference path: two integrators agree, and the ball follows.
 #include <algorithm>
 #include <cmath>

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Servos at their limits: when they switch, and what that does to the ball.
 #include <cmath>
 

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // From sliding to rolling and back, against closed forms: docs/explanation/losses-and-torques.md.
 #include <cmath>
 #include <numbers>

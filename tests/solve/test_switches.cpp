@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Rigs in which much switches at once: every integrator finds the same switches.
 #include <cmath>
 #include <string>

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Clocks that jitter, frames of a camera, and sensors that are not aligned.
 #include <cmath>
 

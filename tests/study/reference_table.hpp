@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // The reference trajectories of tests/data/reference, with all of their 21 digits.
 #pragma once
 

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // What accuracy costs: errors against an independent reference, and the choice among points.
 #include <algorithm>
 #include <atomic>

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Thousands of bounds over scenes drawn by chance: whether they are met, and what estimates are
 // worth. Takes minutes, so it is run by its tag: test_study "[wide]".
 // docs/explanation/error-control.md has its figures.

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // The error that a user asks for, against quad-precision solutions.
 #include <algorithm>
 #include <cmath>

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // The quad-precision reference against solutions by an independent method, and closed forms.
 #include <algorithm>
 #include <atomic>

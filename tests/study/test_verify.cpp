@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // bbsim verify: its checks, and the simpler models against what is known of them.
 #include <algorithm>
 #include <atomic>

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // The energy of everything that moves, with what was lost and less what the motors gave: constant.
 #pragma once
 

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // The largest of many numbers, none of which may be anything but one: std::max() passes over NaN.
 #pragma once
 

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Root's right to pass by permissions, taken from a process that is to have none but an owner's.
 #pragma once
 

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // The results of a sweep on their way into a file: what an earlier run left is looked at, what
 // stands in the way refused, and nothing let go before all is there.
 #include <fcntl.h>

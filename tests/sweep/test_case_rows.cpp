@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Rows of a sweep, read back: whatever is not as it was written is found.
 #include <fcntl.h>
 #include <unistd.h>

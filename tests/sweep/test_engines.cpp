@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // The ways in which a sweep computes its cases, held against single runs.
 #include <unistd.h>
 

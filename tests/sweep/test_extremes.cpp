@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // What a sweep's cases are greatest at between their rows, by each of its engines.
 #include <algorithm>
 #include <atomic>

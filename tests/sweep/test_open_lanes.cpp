@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Sweeps of given motions in lanes, held against single runs.
 #include <atomic>
 #include <cmath>

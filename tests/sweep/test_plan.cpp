@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Which cases a sweep has.
 #include <unistd.h>
 
@@ -262,6 +265,11 @@ TEST_CASE("tied keys go together, each by its factor") {
 
 TEST_CASE("what cannot be tied is said before it runs") {
   CHECK(contains(fault(vary({{"gravity,gravity", "list:1"}})), "gravity: found twice"));
+  const std::string circle = "controller.reference.circle.";
+  CHECK(contains(fault(vary({{circle + "center.0", "list:0"}, {circle + "centre.0", "list:0"}})),
+                 circle + "centre.0: found twice"));
+  CHECK(contains(fault(vary({{circle + "center.0", "list:0"}}), loop, {circle + "centre=[0, 0]"}),
+                 "but the sweep varies"));
   CHECK(
       contains(fault(vary({{"ball.radius,ball.raduis", "list:1"}})), "did you mean ball.radius?"));
   CHECK(contains(fault(vary({{"ball.position,ball.position.0", "list:[1, 2]"}})), "apart from"));
@@ -272,7 +280,7 @@ TEST_CASE("what cannot be tied is said before it runs") {
   CHECK(contains(fault(vary({{"ball.mass,x*gravity", "list:1"}})), "NUMBER*KEY"));
   CHECK(contains(
       fault(vary({{"controller.pd.kv,-controller.pd.kp", "list:1,[[2, 0], [0, -2]]"}}), loop),
-      "no number that a factor could be applied to"));
+      "so a factor cannot scale it"));
   CHECK(contains(fault(vary({{"title,-gravity", "list:-5,-6"}})), "a single number"));
 }
 

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Input made to break a reader: each is refused, soon and in little memory.
 #include <sys/stat.h>
 

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Quantities. Values are compared exactly: powers of ten are applied to the decimal text, and other
 // units convert with one rounding of the exact product.
 #include <clocale>
@@ -94,7 +97,7 @@ TEST_CASE("what is no quantity says why") {
         "rpm)");
   CHECK(fault("0.01", Dimension::length) == ", a text (drop the quotes or add a unit)");
   CHECK(fault("0.01", Dimension::number) == ", a text (drop the quotes)");
-  CHECK(fault("0,01", Dimension::length) == ", with a comma where a decimal point belongs");
+  CHECK(fault("0,01", Dimension::length) == ", with a comma in place of the decimal point");
   for (const char* text : {"nan", ".nan", ".NaN", "inf", "-.inf", "+Infinity"}) {
     CHECK(fault(text, Dimension::length, false) == ", which is not finite");
   }

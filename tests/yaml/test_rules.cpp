@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // What each key takes and refuses.
 #include "catch.hpp"
 #include "support/reading.hpp"
@@ -74,7 +77,7 @@ TEST_CASE("values at the edges of their ranges") {
 TEST_CASE("exactly one of a prescribed motion and a controller") {
   CHECK(errors(closed_loop + "gimbal:\n  motion: {}\n") ==
         "scenario.yaml:3:1: controller: found beside gimbal.motion; allowed: exactly one of the "
-        "two, since either the motion is prescribed or the controller makes it");
+        "two, since either the scene prescribes the motion or the controller drives it");
   CHECK(errors("ball: {radius: 0.01}\ntime: {end: 10, step: 0.1}\n\ngimbal: {}\n") ==
         "scenario.yaml:4:1: gimbal.motion: missing, and so is controller; allowed: exactly one of "
         "the two");
@@ -88,8 +91,8 @@ TEST_CASE("the start of the gimbal belongs to a controller") {
   CHECK(scenario.gimbal.start.phi_rate == 0);
   CHECK(scenario.gimbal.start.theta_rate == 0.5);
   check_refused(open_loop, "gimbal.start={}",
-                "gimbal.start: found beside gimbal.motion, which says where the gimbal starts; "
-                "allowed: only with a controller");
+                "gimbal.start: found beside gimbal.motion, which determines where the gimbal "
+                "starts; allowed: only with a controller");
 }
 
 TEST_CASE("the servo belongs to a controller that drives angle") {

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // docs/reference/scenario.md lists the units that quantities may have, all of them and no others.
 #include <fstream>
 #include <map>

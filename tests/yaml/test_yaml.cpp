@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // YAML that is no scenario: refused where it stands, in plain words.
 #include "catch.hpp"
 #include "support/reading.hpp"

@@ -1,5 +1,8 @@
-// Arduino on the desktop: what a sketch for this rig calls, over bbsim's lines of text. A sketch
-// that includes it is a program that bbsim runs as a controller; on a board, the IDE's own is used.
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// Arduino on the desktop: the calls of a sketch for this rig, over bbsim's lines of text. A sketch
+// that includes this file is a program that bbsim runs as a controller. A board uses the IDE's own.
 #pragma once
 #include <cmath>
 #include <cstdlib>
@@ -7,8 +10,8 @@
 #include <iostream>
 #include <string>
 
-// How the rig is wired: a touch screen of 0.32 mm a count on A0 and A1, which gives 0 where nothing
-// touches it; servos on pins 9 (phi) and 10 (theta), level at 1500 us, 0.1 degrees a microsecond.
+// The rig's wiring: a touch screen of 0.32 mm per count on A0 and A1, which gives 0 if nothing
+// touches it; servos on pins 9 (phi) and 10 (theta), level at 1500 us, 0.1 degrees per microsecond.
 constexpr int A0 = 0, A1 = 1, phi_pin = 9, theta_pin = 10;
 constexpr double metres_per_count = 0.00032;
 constexpr double radians_per_microsecond = 0.1 * 3.14159265358979323846 / 180;
@@ -32,7 +35,7 @@ struct Servo {
   int pin = 0;
 };
 
-struct SerialPort {  // what it prints comes out of bbsim, a line each, after "controller: "
+struct SerialPort {  // bbsim prints its lines after "controller: "
   void begin(long) {}
   template <class Any> void print(const Any& any) { std::cerr << any; }
   template <class Any> void println(const Any& any) { std::cerr << any << std::endl; }

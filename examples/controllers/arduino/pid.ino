@@ -1,3 +1,6 @@
+/* SPDX-FileCopyrightText: 2026 the bbsim authors
+ * SPDX-License-Identifier: BSD-3-Clause */
+
 /* The PID of configs/step.yaml as one writes it for a board: it goes to the rig as it stands, and to
  * bbsim, with the Arduino.h beside it:
  *
@@ -39,7 +42,7 @@ struct Axis {
 
 Axis x, y;
 unsigned long next_sample = 0;
-int periods = 1;  // since the ball was seen last
+int periods = 1;  // since the last measured position
 
 void setup() {
   Serial.begin(115200);
@@ -53,7 +56,7 @@ void loop() {
   if (millis() < next_sample) return;
   next_sample += period_ms;
   const int at_x = analogRead(A0), at_y = analogRead(A1);
-  if (at_x == 0) {  // nothing touches the screen: the servos stay
+  if (at_x == 0) {  // nothing touches the screen: hold the servos
     if (x.seen_any) ++periods;
     return;
   }

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // An HDF5 file driver that writes through a descriptor that is already open.
 //
 // HDF5's own drivers cannot end a file on a full disk: closing fails, what could not be written

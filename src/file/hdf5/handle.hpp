@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Owned HDF5 identifiers and checked calls, for the module and the reader.
 #pragma once
 

@@ -1,3 +1,6 @@
+/* SPDX-FileCopyrightText: 2026 the bbsim authors
+ * SPDX-License-Identifier: BSD-3-Clause */
+
 /* The C interface between the program and its HDF5 module, which is opened at run time to write
    files. No C++ type and no exception crosses it; each side frees what it allocated. (Files are
    read elsewhere, in a process of their own: messages.hpp.) */

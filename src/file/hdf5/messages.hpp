@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // What the program and its HDF5 reader, a process of its own, say to each other: requests go one
 // way, answers the other. Both are of one build on one machine, so numbers are as in memory.
 //

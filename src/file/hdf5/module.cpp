@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // The module's functions for the program: the C++ inside, with every exception turned into a
 // bbsim_hdf5_error at the border.
 #include <hdf5.h>

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 #include "file/hdf5/reader.hpp"
 
 #include <algorithm>
@@ -85,7 +88,7 @@ std::vector<std::string> links_of(hid_t group, const std::string& path) {
     check(H5Lget_info_by_idx(group, ".", order, H5_ITER_INC, i, &link, H5P_DEFAULT), doing);
     if (link.type == H5L_TYPE_HARD || link.type == H5L_TYPE_SOFT) continue;
     throw Failure(shown(path + names.back()) +
-                  " is a link to another file; allowed: what is in the file itself");
+                  " is a link to another file; allowed: data in the file itself");
   }
   return names;
 }
@@ -288,7 +291,7 @@ void Reader::check_size(hid_t dataset, const DatasetInfo& info, const std::strin
   const Properties creation(H5Dget_create_plist(dataset), doing);
   const H5D_layout_t layout = H5Pget_layout(creation);
   if (layout == H5D_VIRTUAL || check(H5Pget_external_count(creation), doing) > 0) {
-    refuse(path, "its numbers are in other files; allowed: what is in the file itself");
+    refuse(path, "its numbers are in other files; allowed: data in the file itself");
   }
   const Datatype type(H5Dget_type(dataset), doing);
   const std::size_t numbers = info.kind == BBSIM_HDF5_SERIES ? info.width : 1;

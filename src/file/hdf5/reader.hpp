@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Reads the datasets of a file's root group, and of the tables within it, some rows at a time.
 //
 // What a file says of itself is not believed: a dataset that would be larger than what the file

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // bbsim-hdf5-reader: reads HDF5 files for bbsim, in a process of its own, which may die of what a
 // damaged file does to the HDF5 library. Standard input is a socket with requests, standard output
 // a pipe for the answers: messages.hpp.
@@ -190,9 +193,9 @@ class Server {
       if (what == Message::read) read(request);
       if (what == Message::close) files_.erase(request.number());
     } catch (const std::bad_alloc&) {
-      say(Message::failed, "there is not enough memory for what it says that it holds");
+      say(Message::failed, "there is not enough memory for the size that it declares");
     } catch (const std::length_error&) {
-      say(Message::failed, "there is not enough memory for what it says that it holds");
+      say(Message::failed, "there is not enough memory for the size that it declares");
     } catch (const std::exception& failure) {
       say(Message::failed, failure.what());
     }

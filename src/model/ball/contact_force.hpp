@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // The force of the plane on a ball that rolls without losses, and what it and the plate ask of the
 // motors, for every number type (docs/explanation/model.md, "Forces, torques and energy"). All
 // vectors in the plane's own frame.

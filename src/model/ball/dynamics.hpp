@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Accelerations, contact force, motor torques and energy of one instant (docs/explanation/model.md,
 // "Forces, torques and energy").
 #pragma once

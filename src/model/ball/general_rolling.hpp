@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // The ball's equation of motion for rigs that are not the paper's: a plane above the gimbal's
 // centre, axes that are not square or not level, a ball of any inertia (docs/explanation/model.md,
 // "Other mountings and other balls").

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Newton's and Euler's equations of a ball under couples and friction at its contact, and the
 // moments that it and the plate ask of the gimbal (docs/explanation/losses-and-torques.md).
 //

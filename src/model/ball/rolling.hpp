@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Equation (27): a ball that rolls without slipping on a plane carried by a two-axis gimbal.
 //
 // Symbols as in docs/explanation/model.md, which numbers the equations. The spin enters as u = r

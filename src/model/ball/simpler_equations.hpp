@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Simpler equations for the ball than (27), to measure what the full one buys.
 //
 // Each is a policy for the systems of model/systems/system.hpp in the place of Equation27. In both

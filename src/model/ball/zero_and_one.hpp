@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Numbers known at compile time, so that a term which a scene does not have is not computed.
 //
 // A planar scene passes Zero for the coordinates that stay zero, and One for the cosine of an

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // A controller that is not built in: the model knows when it is asked and what for, and nothing of
 // who answers (src/controller).
 #pragma once

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // What a loop bears: margins of gain, phase and delay, and the bandwidth, from its frequency
 // response.
 #pragma once

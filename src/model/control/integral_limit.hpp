@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Conditional integration at a limit (docs/explanation/rig-model.md, (M64) and (M65)): which way a
 // command goes on, whose integral part waits while it is at its limit and the error drives it
 // outward.

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
@@ -406,15 +409,15 @@ LinearPoint coupled_equilibrium(const Scenario& scene, const Model& model) {
     for (std::size_t axis = 0; axis < 2; ++axis) {
       if (std::abs(asked[axis]) > command_limit(*scene.controller, axis).value_or(unlimited)) {
         throw InputError(
-            "linearize: there is no equilibrium: the command that keeps the ball where it is led "
+            "linearize: there is no equilibrium: the command that keeps the ball at its reference "
             "is beyond controller.limit");
       }
     }
     return point;
   }
   throw InputError(
-      "linearize: there is no equilibrium: no single position, with angles of this gimbal and "
-      "commands for it, is one at which everything rests");
+      "linearize: there is no equilibrium: everything rests at no single position, at any angles "
+      "and commands of this gimbal");
 }
 
 }  // namespace bbsim::model

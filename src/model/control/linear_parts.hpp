@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // What linearise() is made of: the right-hand side and the law, differentiated about a point.
 #pragma once
 

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 #include "model/control/linearise.hpp"
 
 #include <algorithm>
@@ -287,7 +290,7 @@ Linearisation plant_about(const Scenario& scene, const Model& model, const Linea
       (scene.gimbal.servo->time_constant || scene.gimbal.servo_of(1).time_constant)) {
     throw InputError(
         "linearize: found --plant and a servo of first order (gimbal.servo.time_constant), whose "
-        "rate jumps with its command; allowed: --sampled, or --loop");
+        "rate jumps with its command; allowed: --sampled or --loop");
   }
   const std::vector<int> axes = axes_of(model);
   const bool full = in_full(scene, at);
@@ -579,8 +582,8 @@ Linearisation sampled_plant_about(const Scenario& scene, const Model& model,
                                   const LinearPoint& at) {
   if (!scene.controller || !scene.controller->sampling) {
     throw InputError(
-        "linearize: found --sampled, but the scene has no controller.sampling, whose period and "
-        "delays it shows; allowed: --plant, or --loop");
+        "linearize: found --sampled, but the scene has no controller.sampling, which gives the "
+        "period and the delays; allowed: --plant or --loop");
   }
   std::vector<int> states;
   const SampledCycle cycle(cycle_parts_about(scene, model, at, states));
@@ -645,8 +648,7 @@ void turn_level(const Scenario& scene, LinearPoint& point) {
       return;
     }
   }
-  throw InputError(
-      "linearize: there is no equilibrium: no angles of this gimbal make its plane level");
+  throw InputError("linearize: there is no equilibrium: no angles of this gimbal level its plate");
 }
 
 // Where the law's command is the one under which the gimbal rests: position, and integrals.
@@ -698,8 +700,8 @@ void place_ball(const Rig& rig, const ControlLaw& law, LinearPoint& point) {
     if (change.norm() <= 1e-12 * (1 + left.norm())) return;
   }
   throw InputError(
-      "linearize: there is no equilibrium: the law has no single position at which its command "
-      "keeps the plane level");
+      "linearize: there is no equilibrium: the law's command keeps the plate level at no single "
+      "position");
 }
 
 void require_linear(const Scenario& scene) {
@@ -712,8 +714,8 @@ void require_linear(const Scenario& scene) {
 std::string why_not_linear(const Scenario& scene) {
   const auto dry = [](const std::string& what) {
     return "found " + what +
-           ", which is dry: how it acts depends on which way things move, and at rest it holds "
-           "them, so that no linear equations come near it; allowed: ";
+           ", which is dry: it depends on the direction of motion and holds at rest, so no linear "
+           "equations approximate it; allowed: ";
   };
   const Losses& losses = scene.ball.losses;
   const char* const viscous = "ball.losses.viscous alone";
@@ -761,7 +763,7 @@ LinearPoint equilibrium(const Scenario& scene) {
     const double limit = command_limit(*scene.controller, i).value_or(unlimited);
     if (std::abs(asked[i]) > limit) {
       throw InputError(
-          "linearize: there is no equilibrium: the command that keeps the plane level is beyond "
+          "linearize: there is no equilibrium: the command that keeps the plate level is beyond "
           "controller.limit");
     }
   }
@@ -789,7 +791,7 @@ Linearisation linearise_as(const Scenario& scene, const Model& model, LinearKind
       }
       if (scene.controller->own) {
         throw InputError(
-            "linearize: found --loop and a controller of one's own, whose law only it knows; "
+            "linearize: found --loop with your own controller, whose law bbsim does not know; "
             "allowed: --plant, --sampled");
       }
       return scene.controller->sampling ? sampled_loop_about(scene, model, at)

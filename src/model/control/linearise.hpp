@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // A scene as a linear system about a point of its motion: the plant, the loop, or the plant as a
 // sampled controller sees it. Exact: by differentiating the right-hand side and the law.
 #pragma once

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 #include "model/control/riccati.hpp"
 
 #include <algorithm>
@@ -14,8 +17,8 @@ using Eigen::MatrixXd;
 
 [[noreturn]] void throw_no_solution() {
   throw KeyError("controller.lqr",
-                 "there is no gain that stabilises this rig with these weights; allowed: weights "
-                 "that see all that moves, and gravity greater than 0");
+                 "no gain stabilizes this rig with these weights; allowed: weights that observe "
+                 "every mode, and gravity greater than 0");
 }
 
 // A, G, H -> H, which tends to the solution; each pass doubles the number of steps it looks ahead.

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // What goes between a rig and its sampled controller, and when: what the sensor sees of the ball,
 // and the controller's commands, either of them on its way for some time.
 #pragma once

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // When a sampled controller samples: every period, or as its clock jitters.
 #pragma once
 

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // The microcontroller of a rig: what it sees of the ball and what it makes of it, once a sample.
 #pragma once
 

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // A rig as a linear system: for LQR gains, and what a sampled loop does in a period.
 #pragma once
 

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // The arithmetic of a sampled controller, once, for every number type: a pack of doubles holds
 // another rig in each lane.
 #pragma once

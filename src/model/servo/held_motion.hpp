@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // A servo between two switches under a command that is held: its motion in closed form.
 //
 // In every mode of a rig (free, of first or second order; at its acceleration limit; at its rate

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // The power series of what a servo answers to an impulse (held_motion.hpp), once for every number
 // type: h = t (c_0 + c_1 + ...), c_0 = 1.
 //

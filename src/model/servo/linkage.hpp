@@ -1,8 +1,12 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // What stands between a servo and the plane: a horn, a push rod and an arm, or a curve that
 // somebody measured (docs/explanation/rig-model.md, "Linkages"). Plain data and templates for every
 // number type; how they come from a scenario is linkages.hpp's matter.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 
@@ -39,12 +43,33 @@ template <class Real>
   return std::atan2(sine, cosine);
 }
 
+// An angle near the middle of a range, so that one of more than half a turn to either side of 0
+// does not come back a whole turn off.
+struct RangeMiddle {
+  double angle = 0, cos = 1, sin = 0;
+
+  // Of a range from `low` to `high`, rad. One well within half a turn of 0 is left about 0.
+  [[nodiscard]] static RangeMiddle of(double low, double high) {
+    constexpr double well_within = 2.5;
+    if (!(high - low < HUGE_VAL) || std::max(-low, high) <= well_within) return {};
+    const double middle = low + (high - low) / 2;
+    return {middle, std::cos(middle), std::sin(middle)};
+  }
+
+  // The angle of a direction, within half a turn of the middle.
+  template <class Real>
+  [[nodiscard]] Real angle_of(const Real& sine, const Real& cosine) const {
+    return Real(angle) + model::angle_of(cos * sine - sin * cosine, cos * cosine + sin * sine);
+  }
+};
+
 // Two bars that turn about axes of their own, joined by a rod between their ends. Lengths in m; the
 // servo's axis is at (0, 0). Each side says which of two positions the other bar has.
 struct Rods {
   double horn = 0, arm = 0, rod = 0;
   double x = 0, z = 0;  // of the gimbal's axis
   double arm_side = 1, horn_side = 1;
+  RangeMiddle horn_middle{}, arm_middle{};
 
   // Equations (M54) to (M56).
   template <class Real>
@@ -78,7 +103,7 @@ struct Rods {
     const Real v2 = vx * vx + vz * vz;
     const Real k = (0.5 / horn) * (v2 + Real(horn * horn - rod * rod));
     const Real root = root_along(v2 - k * k, Real(horn_side));
-    return angle_of((k * vz + root * vx) / v2, (k * vx - root * vz) / v2);
+    return horn_middle.angle_of((k * vz + root * vx) / v2, (k * vx - root * vz) / v2);
   }
 };
 
@@ -147,7 +172,7 @@ struct LinkCurve {
       along(piece, servo, &value);
     } else {
       const Turn<Real> turn = rods.arm_at(servo);
-      value = angle_of(turn.sin, turn.cos);
+      value = rods.arm_middle.angle_of(turn.sin, turn.cos);
     }
     return value - Real(shift);
   }

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 #include "model/servo/linkages.hpp"
 
 #include <algorithm>
@@ -209,6 +212,8 @@ Linkage make_linkage(const RodLinkage& of, Assumed assumed) {
     at_low = arm_followed(rods, curve.low, at_low);
     at_high = arm_followed(rods, curve.high, at_high);
     linkage.reach = {std::min(at_low, at_high), std::max(at_low, at_high)};
+    curve.rods.horn_middle = RangeMiddle::of(curve.low, curve.high);
+    curve.rods.arm_middle = RangeMiddle::of(linkage.reach.low, linkage.reach.high);
   }
   return linkage;
 }

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // What stands between the servos and the plane, with all that is not of one instant: the whole of a
 // measured curve, where curves end, and what may be commanded.
 #pragma once

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // What one servo does: free, at a limit, at a stop; its backlash and its dead band. Between two
 // switches it is an AxisMode; each switch is where one of the guards falls through zero.
 #pragma once

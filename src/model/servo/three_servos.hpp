@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // A plate on three legs, 3-RRS: three servos on a circle, each with a horn that turns in the
 // vertical plane through the circle's centre and through the leg's joint, a rod on it, and a ball
 // joint under the plate (docs/explanation/rig-model.md, "Three servos"). Three servos' angles are

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Where a controller wants the ball, as functions of time with their derivatives.
 #pragma once
 

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Two functions of time with their derivatives: the gimbal's angles, or a reference path.
 #pragma once
 

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Piecewise polynomials of time: interpolants through tabulated values, and paths past waypoints.
 #pragma once
 

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // The exact Jacobian of whichever system a model is: in one place, since that of all systems takes
 // a compiler longer than all that makes use of it.
 #pragma once

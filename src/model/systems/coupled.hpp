@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Scenes with couples on the ball, sliding, or a gimbal that torques move
 // (docs/explanation/losses-and-torques.md). Each has all states that such a scene can have; those
 // that it does not use stay zero.

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // The exact Jacobian of a system, by forward-mode automatic differentiation.
 #pragma once
 

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // The closed loop of a built rig: servos with limits, laws beyond equation (31), controllers that
 // hold their command between samples.
 //

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // The ordinary differential equations of a scene: equation (27) with what moves the gimbal.
 //
 // A system is a plain value with

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // The greatest tilt, and the greatest size of the angular velocity, of a plane that moves as given
 // functions of time say.
 #pragma once

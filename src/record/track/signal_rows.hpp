@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Two functions of time, a gimbal's motion or a reference, at many times at once.
 #pragma once
 

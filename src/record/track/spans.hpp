@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Values at Chebyshev points of one stretch of time after another, and what they are greatest at
 // between the points.
 #pragma once

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 'use strict';
 // Time, view and zoom in the page's address, after the #: a link shows what its sender saw.
 bbsim.address = (() => {

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 'use strict';
 // The ball: octants in two colours, the engineer's mark of a centre of mass, on which rolling and turning
 // about any axis is seen; one of them has a dot, which tells a whole turn from a half.

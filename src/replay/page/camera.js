@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 'use strict';
 // Where the picture is seen from. The eye orbits in the world, in the plate's own frame, or about the ball on it.
 bbsim.makeCamera = (canvas, rig, told) => {

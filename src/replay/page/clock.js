@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 'use strict';
 // The time that picture, plots and scrubber show, and how it goes on.
 bbsim.clock = (() => {

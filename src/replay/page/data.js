@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 'use strict';
 // The scene that the page was made of: its numbers decoded, and runs that know their state at any time.
 bbsim.data = (() => {

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 'use strict';
 // What was run: the scenario's text, how it went, what was modelled, the poles, statistics.
 bbsim.makeDetails = (container) => {

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 'use strict';
 // The picture from above, drawn flat in the plate's own axes, for browsers without 3D or in which it is slow. What does
 // not move is drawn once; of each new picture only what has changed.

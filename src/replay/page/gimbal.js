@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 'use strict';
 // The rig: base, ring that turns by phi, plate that turns by theta in it, at its true size. Frames as in
 // bbsim's docs/explanation/model.md: R = R_x(base tilt) R_y(phi) R_z(skew) R_x(theta) R_z(yaw - skew).

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 'use strict';
 // Which curves stand in which plot: those that one looks at together, where the runs have them.
 bbsim.groups = (() => {

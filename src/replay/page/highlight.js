@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 'use strict';
 // A scenario's YAML in colours, enough to read it by: comments, keys, strings, numbers. It builds text nodes only.
 bbsim.highlight = (source) => {

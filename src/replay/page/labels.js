@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 'use strict';
 // Words beside points of a picture, so that none is printed over another.
 bbsim.placeLabels = (wanted) => {

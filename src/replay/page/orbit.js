@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 'use strict';
 // Turns, moves and zooms an eye about a target, by mouse, wheel and fingers. The page keeps what it scrolls by: a
 // wheel is the view's with Ctrl or once the view was clicked, and so is one finger; two always are.

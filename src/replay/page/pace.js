@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 'use strict';
 // Where pictures come slowly while time goes on, all but the picture follows a few times a second, since what a browser
 // puts together anew is all between what has changed; the picture has fewer pixels; and if that is not enough it is flat.

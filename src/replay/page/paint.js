@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 'use strict';
 // What is painted on the plate: paths as ribbons, marks, and small labels that face the eye.
 bbsim.paint = (() => {

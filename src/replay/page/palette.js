@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 'use strict';
 // Colours of light and dark. Those that carry meaning are Okabe and Ito's, which people tell apart whatever
 // their eyes, and never come alone: lines have dashes, marks have shapes, everything has its name.

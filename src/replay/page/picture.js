@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 'use strict';
 // The picture: rig, ball, trail, reference, what the sensor saw, and what happened where, at the clock's time.
 // It is drawn when something has changed, and else costs nothing.

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 'use strict';
 // Plots over time beside the picture, with one cursor in all of them: the clock's time, or where a pointer is.
 bbsim.makePlots = (container) => {

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 'use strict';
 // The loop's poles as a small picture: the s-plane, or of a sampled loop the unit circle.
 bbsim.drawPoles = ({period, values}) => {

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 'use strict';
 // A page on paper: the picture as it is now, all plots, and of what was run what two sheets have room for.
 bbsim.preparePrint = () => {

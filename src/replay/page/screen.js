@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 'use strict';
 // Which of the two pictures is on the screen: that in three dimensions, if the browser can, or the flat one, which is
 // made when it is wanted.

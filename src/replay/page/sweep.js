@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 'use strict';
 // A sweep: a map of a measure over two keys, lines over one, a histogram; a case tells how to run it again.
 bbsim.makeSweep = (json, container) => {

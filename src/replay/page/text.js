@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 'use strict';
 // Texts and numbers as people read them. Nothing of a scene is ever put into the page as HTML.
 window.bbsim = {};

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 'use strict';
 // The plate's tilt at a time, as it is and not as it is drawn: its size, and where downhill is in the plate's frame.
 // Null where the run does not tell both angles; along one axis the other one is zero.

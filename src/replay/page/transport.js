@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 'use strict';
 // The buttons under the picture, the scrubber with what happened on it, and the level in the picture's corner.
 bbsim.makeTransport = () => {

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 #include "solve/cvode/cvode.hpp"
 
 #include <algorithm>
@@ -71,9 +74,9 @@ Equations equations_of(const model::Model& model) {
 Failure explain(int flag) {
   switch (flag) {
     case CV_TOO_MUCH_ACC:
-      return {Why::error_out_of_reach, "the tolerance is finer than double precision can follow"};
+      return {Why::error_out_of_reach, "the tolerance is finer than double precision allows"};
     case CV_ERR_FAILURE:
-      return {Why::singular, "the error test failed again and again at the smallest step"};
+      return {Why::singular, "the error test failed repeatedly at the smallest step"};
     case CV_CONV_FAILURE:
       return {Why::singular, "the nonlinear iteration did not converge at the smallest step"};
     case CV_FIRST_RHSFUNC_ERR:
@@ -84,7 +87,7 @@ Failure explain(int flag) {
     case CV_LSOLVE_FAIL:
       return {Why::singular, "the linear system is singular"};
     case CV_TOO_CLOSE:
-      return {Why::singular, "what is left to integrate is shorter than the rounding of the time"};
+      return {Why::singular, "the remaining time is shorter than its rounding"};
     default:
       return {Why::singular, "CVODE gave up"};
   }

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // The adapter to CVODES, SUNDIALS' CVODE with quadratures: variable-order BDF or Adams.
 #pragma once
 

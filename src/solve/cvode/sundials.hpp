@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // SUNDIALS 6 or 7, every handle owned and every return code checked.
 #pragma once
 

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Rigs whose controller samples: from one instant to the next in one piece, servos in closed form.
 #pragma once
 

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // What comes again from period to period of a sampled loop: how long its pieces are, and when
 // within them samples are taken.
 #pragma once

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // One piece of a rig between two instants, its command held: what the stepper sees of it, whatever
 // the instruction set.
 //

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 #include "simd/instruction_set.hpp"
 #include "solve/held/held.hpp"
 #include "solve/held/lane_kernel.hpp"

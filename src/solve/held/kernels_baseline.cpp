@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // For every processor: pairs of lanes, which are SSE2 on x86-64 and Neon on 64-bit ARM.
 #include "solve/held/lane_piece.hpp"
 

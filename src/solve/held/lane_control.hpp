@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // The controllers of rigs in lanes at a sample, for one instruction set.
 #pragma once
 

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // The sampled controllers of rigs that go together: those that sample in one turn compute together,
 // whatever their times.
 #pragma once

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Rigs between two instants, another one in each lane: what their driver sees of them, whatever the
 // instruction set.
 //

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Rigs between two instants, another one in each lane, for one instruction set: as piece.hpp, whose
 // nodes lie in the lanes, but for what follows from that. A case that is alone in a register leaves
 // no lane without work, and sums over nodes need no shuffles.

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Servos' motions at the nodes of pieces, kept for lengths that come again.
 #pragma once
 

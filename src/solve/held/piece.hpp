@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // A rig between two instants, for one instruction set.
 //
 // Under a held command the servos move in closed form (model/servo/held_motion.hpp), the gimbal's

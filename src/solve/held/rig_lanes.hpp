@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Many sampled rigs at once, for studies of their gains: another rig in each SIMD lane.
 #pragma once
 

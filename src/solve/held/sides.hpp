@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Whether a monitor stays on its side over a whole piece, by the ranges of what it watches.
 #pragma once
 

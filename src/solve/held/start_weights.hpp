@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // What the polynomial through values at the nodes of a piece has of each at the piece's start.
 #pragma once
 

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // One step of a group of closed loops, each at its own time: what the driver sees of it, whatever
 // the instruction set.
 //

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Eight closed loops, one in each lane of some packs: their equations, and these differentiated.
 //
 // Included only by the kernels; see simd/pack.hpp for why all is inlined or tagged.

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // What a group of closed loops is greatest at over a step, at the nodes and between them.
 //
 // Included only by the kernels; see simd/pack.hpp for why all is inlined or tagged.

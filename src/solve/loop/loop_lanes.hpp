@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Many closed loops at once, for studies of their gains: another loop in each SIMD lane.
 #pragma once
 

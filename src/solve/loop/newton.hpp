@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Newton's iteration for the accelerations at the nodes of a step, eight loops in lanes.
 //
 // The eigenvectors of Radau IIA's matrix part the system for all nodes into a complex one of four

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Rows of output within a step of one of a group's closed loops, by the step's polynomials.
 //
 // Included only by the kernels; see simd/pack.hpp for why all is inlined or tagged.

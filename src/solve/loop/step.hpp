@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // A step of a group of closed loops, for one way to drive the gimbal, one number of nodes and one
 // instruction set.
 //

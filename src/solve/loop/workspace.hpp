@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // What a group of closed loops has in memory from step to step, and its motion between the nodes.
 //
 // Included only by the kernels; see simd/pack.hpp for why all is inlined or tagged.

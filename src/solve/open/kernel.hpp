@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // A group of balls under given motions, in lock step: what the driver sees of it, whatever the
 // instruction set.
 //

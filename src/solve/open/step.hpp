@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // A step of a group of balls under given motions, for one instruction set.
 //
 // The gimbal's motion is given, and the ball's equation therefore linear in its five states:

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // One step of Radau IIA collocation: what the driver sees of it, whatever the instruction set.
 //
 // Plain data and pointers to functions only; nothing here may become code that two instruction

@@ -1,4 +1,6 @@
 #!/usr/bin/env python3
+# SPDX-FileCopyrightText: 2026 the bbsim authors
+# SPDX-License-Identifier: BSD-3-Clause
 """Writes the constants of Radau IIA collocation, and those of the sine and cosine of packs.
 
     python3 src/solve/radau/make_tables.py radau > src/solve/radau/tables.hpp
@@ -146,7 +148,10 @@ def sine_tables():
 
 
 def write_radau():
-    print("""// Written by make_tables.py, which says how; not to be edited.
+    print("""// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// Written by make_tables.py, which says how; not to be edited.
 //
 // Matrices are stored by columns, the index of the result last: column[j][i].
 #pragma once
@@ -179,7 +184,10 @@ struct RadauTable;
 
 def write_sine():
     sine, cosine, parts = sine_tables()
-    print("""// Written by make_tables.py, which says how; not to be edited.
+    print("""// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// Written by make_tables.py, which says how; not to be edited.
 #pragma once
 
 namespace bbsim::simd {

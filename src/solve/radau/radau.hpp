@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // bbsim's own integrator: Radau IIA collocation of high order, its stages in SIMD lanes.
 #pragma once
 

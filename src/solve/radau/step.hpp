@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // The collocation step, for one system, number of stages and instruction set.
 //
 // Radau IIA with s stages (Hairer and Wanner, Solving Ordinary Differential Equations II, IV.5

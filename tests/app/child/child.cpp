@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // A controller for tests, which does its part until sample 5 and then what its first word says. Its
 // second word names a file that gets the ids of its processes.
 #include <sys/wait.h>

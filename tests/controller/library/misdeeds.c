@@ -1,3 +1,6 @@
+/* SPDX-FileCopyrightText: 2026 the bbsim authors
+ * SPDX-License-Identifier: BSD-3-Clause */
+
 /* A library for tests, which does what its parameter `mode` says:
  * 0 its part; 1 no controller; 2 an error at sample 5; 3 NaN at sample 5; 4 like 0, without reset;
  * 5 exit(0) at sample 5; 6 _exit(0) there; 7 exit(0) in create; 8 exit(0) in destroy; 9 a child of

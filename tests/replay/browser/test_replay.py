@@ -1,3 +1,6 @@
+# SPDX-FileCopyrightText: 2026 the bbsim authors
+# SPDX-License-Identifier: BSD-3-Clause
+
 """Replays in a real browser: what is drawn is what the files say, and what is pressed does what it says.
 
     test_replay.py BBSIM MAKE_PAGE TEMPLATE SOURCE [unittest's arguments]

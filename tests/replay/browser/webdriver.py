@@ -1,3 +1,6 @@
+# SPDX-FileCopyrightText: 2026 the bbsim authors
+# SPDX-License-Identifier: BSD-3-Clause
+
 """A headless Chromium, driven by WebDriver with nothing but Python's standard library."""
 
 import base64

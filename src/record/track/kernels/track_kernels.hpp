@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Measures of many instants at a time, in SIMD lanes: what is seen of the kernels, whatever
 // the instruction set.
 //

@@ -1,4 +1,5 @@
-#include "record/summarise.hpp"
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
 
 #include <memory>
 #include <string>
@@ -8,19 +9,20 @@
 #include "file/atomic_file.hpp"
 #include "file/cell_table.hpp"
 #include "file/outputs.hpp"
+#include "record/summarise.hpp"
 #include "scenario/measures.hpp"
 #include "terminal.hpp"
 
 namespace bbsim::app {
 namespace {
 
-struct SummariseArguments {
+struct SummarizeArguments {
   std::string file, output = "-";
   std::vector<std::string> keys, measures;
   std::vector<double> quantiles{0.05, 0.25, 0.5, 0.75, 0.95};
 };
 
-ExitCode summarise(const SummariseArguments& arguments, const Options& options) {
+ExitCode summarize(const SummarizeArguments& arguments, const Options& options) {
   if (!arguments.output.ends_with(".csv") && arguments.output != "-") {
     throw InputError("-o: found " + arguments.output +
                      "; allowed: FILE.csv, or - for standard output");
@@ -44,38 +46,39 @@ ExitCode summarise(const SummariseArguments& arguments, const Options& options) 
 
 }  // namespace
 
-void add_summarise(Command& command, const Options& options) {
+void add_summarize(Command& command, const Options& options) {
   command.footer(
-      "Of each group the cases that are done count, with the measures that are finite numbers; "
-      "`cases` is how many there are. The deviation is that of a sample.\n"
+      "Statistics are over the cases of a group that are done and have a finite measure; `cases` "
+      "is the number of all cases in the group. The deviation is the sample standard deviation. "
+      "`bbsim summarise` is the same command.\n"
       "\n"
-      "Example, twenty seeds of a sensor's noise at three gains:\n"
+      "Example (twenty seeds of the sensor noise at three gains):\n"
       "  bbsim sweep configs/rig.yaml --vary controller.sensor.seed=linear:1:20:20 \\\n"
       "      --vary controller.gravity_compensation.kp=list:8,12,16 -o seeds.csv\n"
-      "  bbsim summarise seeds.csv --by controller.gravity_compensation.kp");
-  const auto arguments = std::make_shared<SummariseArguments>();
+      "  bbsim summarize seeds.csv --by controller.gravity_compensation.kp");
+  const auto arguments = std::make_shared<SummarizeArguments>();
   command
       .option("SWEEP", arguments->file,
-              "a result of a sweep: CSV, HDF5 (.h5, .hdf5), or - for CSV on standard input")
+              "the result of a sweep: CSV, HDF5 (.h5, .hdf5), or - for CSV on standard input")
       .required();
   command
       .option("--by", arguments->keys,
-              "cases with one value of these keys are a group; without, all are one")
+              "group cases with equal values of these keys; default: one group of all cases")
       .takes("KEY,...")
       .parted_by_commas();
-  command.option("--measure", arguments->measures, "these measures only; may be given again")
+  command.option("--measure", arguments->measures, "only these measures; repeatable")
       .takes("NAME,...")
       .may_be_repeated();
   command
       .option("--quantiles", arguments->quantiles,
-              "parts of the cases; default: 0.05,0.25,0.5,0.75,0.95")
+              "numbers from 0 to 1; default: 0.05,0.25,0.5,0.75,0.95")
       .takes("Q,...")
       .parted_by_commas();
   command
       .option("-o,--output", arguments->output,
-              "FILE.csv, or - for CSV on standard output (default)")
+              "write FILE.csv, or - for CSV on standard output (default)")
       .takes("FILE");
-  command.does([arguments, &options] { return summarise(*arguments, options); });
+  command.does([arguments, &options] { return summarize(*arguments, options); });
 }
 
 }  // namespace bbsim::app
