@@ -1,0 +1,47 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+'use strict';
+// Formulas, tables, the colors of replays, and what the copy buttons take.
+(() => {
+  // Numbers and names are not broken, and sentences have room, where a table is wider than a phone.
+  for (const cell of document.querySelectorAll('.md-typeset td')) {
+    const {length} = cell.textContent;
+    if (length <= 14) cell.classList.add('short');
+    else if (length >= 30) cell.classList.add('long');
+  }
+
+  // Cells are measured before formulas are in them.
+  for (const element of document.querySelectorAll('.arithmatex')) {
+    const text = element.textContent.trim();
+    // \( ... \) in a line, \[ ... \] on lines of its own.
+    katex.render(text.slice(2, -2), element, {displayMode: text.startsWith('\\['), throwOnError: false});
+  }
+
+  const frames = document.querySelectorAll('iframe.replay');
+  const theme = () => (document.body.dataset.mdColorScheme === 'slate' ? 'dark' : 'light');
+  function paint() {
+    for (const frame of frames) frame.src = `${frame.getAttribute('src').split('#')[0]}#theme=${theme()}`;
+  }
+  if (frames.length > 0) {
+    paint();
+    new MutationObserver(paint).observe(document.body, {attributes: true, attributeFilter: ['data-md-color-scheme']});
+  }
+
+  // A copy button takes the commands alone, without prompts and without what they print. It must know before
+  // the theme's own listener asks it.
+  document.addEventListener('click', (event) => {
+    const button = event.target.closest('[data-clipboard-target]');
+    const block = button && button.closest('.language-console');
+    if (!block) return;
+    const commands = [];
+    let goesOn = false;
+    for (const line of block.querySelector('code').textContent.split('\n')) {
+      if (goesOn) commands.push(line);
+      else if (line.startsWith('$ ')) commands.push(line.slice(2));
+      else continue;
+      goesOn = line.endsWith('\\');
+    }
+    button.dataset.clipboardText = commands.join('\n');
+  }, true);
+})();
