@@ -11,6 +11,8 @@
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
+#include <mutex>
+#include <set>
 
 #include "base/end_process.hpp"
 #include "base/error.hpp"
@@ -76,7 +78,13 @@ std::string ExitCalled::text() const {
 void expect_foreign_exits(const std::string& path) {
   const std::string text =
       "the controller (" + shown(path, uncut) + ") ended bbsim; unwritten output is lost\n";
-  message.store(strdup(text.c_str()));
+  // Kept to the end of the process, which may end in any thread while it prints one of them.
+  static std::mutex guard;
+  static auto* const texts = new std::set<std::string>;
+  {
+    const std::lock_guard lock(guard);
+    message.store(texts->insert(text).first->c_str());
+  }
   if (expecting.exchange(getpid()) == 0) {
     [[maybe_unused]] static const int registered = std::atexit(ended_within_a_call);
   }

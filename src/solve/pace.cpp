@@ -18,8 +18,8 @@ bool Pace::look(double time, double event) {
   shrinking_ = out_of_reach && advance_ < 0.9 * before ? shrinking_ + 1 : 0;
   before = advance_;
   // Steps near the rounding of the time are no transient: such windows count several times.
-  const bool hopeless = !(needed <= most_steps * 200);
-  slow_ = out_of_reach ? slow_ + (hopeless ? 8 : 1) : 0;
+  const bool near_rounding = advance_ < 1e-12 * of_window * time;
+  slow_ = out_of_reach ? slow_ + (near_rounding ? 8 : 1) : 0;
   if (taken > most_steps) return true;
   if (shrinking_ < most_shrinking && slow_ < most_slow) return false;
   return !(event - time <= soon * advance_) || ++awaited_ > most_awaited;
