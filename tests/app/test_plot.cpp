@@ -111,7 +111,7 @@ std::string fault(std::vector<std::string> arguments, const Folder& folder) {
 
 }  // namespace
 
-TEST_CASE("every scenario's run is drawn, in every format, from HDF5") {
+TEST_CASE("every scenario's run is drawn, in every format, from HDF5", "[slow]") {
   draw_all_of(config(""), ".h5");
 }
 
