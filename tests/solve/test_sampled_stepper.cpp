@@ -235,37 +235,36 @@ TEST_CASE("events of a rig by pieces are found where they lie, between instants 
 }
 
 TEST_CASE("servos' tables of all lanes together are those of each") {
-  namespace held = solve::sampled;
-  using Table = sampled::MotionTable;
+  using Table = solve::sampled::MotionTable;
   struct Lane {
     model::HeldLaw law;
     double length;
   };
   // As it is, at a limit, without a spring, without a damper; a lane without a piece.
-  const Lane lanes[sampled::group]{{{986.96, 50.27}, 0.02}, {{986.96, 50.27}, 0.0137},
-                                   {{0, 0}, 0.02},          {{0, 25}, 0.02},
-                                   {{2000, 0}, 0.02},       {{986.96, 50.27}, 0},
-                                   {{4e6, 3200}, 4e-4},     {{986.96, 50.27}, 3e-9}};
-  const auto axis = std::make_unique<sampled::LaneAxis>();
-  const auto servo = std::make_unique<sampled::LaneServo>();
-  alignas(64) double length[sampled::group];
-  for (int l = 0; l < sampled::group; ++l) {
+  const Lane lanes[solve::sampled::group]{{{986.96, 50.27}, 0.02}, {{986.96, 50.27}, 0.0137},
+                                          {{0, 0}, 0.02},          {{0, 25}, 0.02},
+                                          {{2000, 0}, 0.02},       {{986.96, 50.27}, 0},
+                                          {{4e6, 3200}, 4e-4},     {{986.96, 50.27}, 3e-9}};
+  const auto axis = std::make_unique<solve::sampled::LaneAxis>();
+  const auto servo = std::make_unique<solve::sampled::LaneServo>();
+  alignas(64) double length[solve::sampled::group];
+  for (int l = 0; l < solve::sampled::group; ++l) {
     servo->stiffness[l] = lanes[l].law.stiffness;
     servo->damping[l] = lanes[l].law.damping;
     length[l] = lanes[l].length;
   }
-  sampled::choose_lane_kernels().tables(*axis, *servo, length);
-  for (int l = 0; l < sampled::group; ++l) {
+  solve::sampled::choose_lane_kernels().tables(*axis, *servo, length);
+  for (int l = 0; l < solve::sampled::group; ++l) {
     const auto [law, h] = lanes[l];
     if (h == 0) continue;
     INFO(law.stiffness << " " << law.damping << " over " << h);
-    sampled::MotionTables tables(sampled::choose_kernels());
+    solve::sampled::MotionTables tables(solve::sampled::choose_kernels());
     const Table& wanted = tables.of(law, h);
     // Some roundings of each sum's largest term; the sizes of the start's weights add up to 5.5.
     constexpr double rounding = 20 * 2.2e-16, summed = 5.5 * rounding;
     const double size[Table::rows] = {h, 1, 1 / h};  // by a rate; by an acceleration h times that
     for (int row = 0; row < Table::rows; ++row) {
-      for (int n = 0; n < sampled::nodes; ++n) {
+      for (int n = 0; n < solve::sampled::nodes; ++n) {
         CHECK(std::abs(axis->by_rate[row][n][l] - wanted.by_rate[row][n]) <= rounding * size[row]);
         CHECK(std::abs(axis->by_acceleration[row][n][l] - wanted.by_acceleration[row][n]) <=
               rounding * h * size[row]);
