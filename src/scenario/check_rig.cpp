@@ -45,6 +45,7 @@ class Checks {
     linkage();
     push();
     events();
+    plate();
     losses();
     sliding();
     body();
@@ -331,6 +332,22 @@ class Checks {
       refuse({"events", "singularity"},
              "found without controller.feedback_linearization; allowed: only with it");
     }
+  }
+
+  // Lengths without their unit put the ball meters away.
+  void plate() {
+    const Plate& plate = scene_.plate;
+    const auto warn_beside = [&](Path path, const Pair& point) {
+      const bool beside = (plate.size && (std::abs(point[0]) > (*plate.size)[0] / 2 ||
+                                          std::abs(point[1]) > (*plate.size)[1] / 2)) ||
+                          (plate.diameter && std::hypot(point[0], point[1]) > *plate.diameter / 2);
+      const auto value = beside ? find_at(keys_, path) : std::nullopt;
+      if (value) value->warn("is not on the plate; lengths without a unit are read in m");
+    };
+    warn_beside({"ball", "position"}, scene_.ball.position);
+    if (!scene_.controller) return;
+    const auto* const point = std::get_if<PointReference>(&scene_.controller->reference);
+    if (point != nullptr) warn_beside({"controller", "reference", "point"}, point->position);
   }
 
   [[nodiscard]] bool inverts() const {

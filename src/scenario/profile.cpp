@@ -20,23 +20,20 @@ constexpr yaml::Number angular_rate{yaml::Dimension::angular_rate};
 struct OfAngle {
   static constexpr yaml::Dimension value = yaml::Dimension::angle;
   static constexpr yaml::Dimension rate = yaml::Dimension::angular_rate;
-  static constexpr yaml::Dimension in_table = yaml::Dimension::angle;
   static constexpr std::string_view term =
-      "an angle, such as 0.1 or \"4 deg\", or one of sinusoid, ramp, table";
+      "an angle, such as 0.1 or \"4 deg\", or one of sinusoid, ramp, pulse, table";
 };
 struct OfTorque {
-  static constexpr yaml::Dimension value = yaml::Dimension::number;
+  static constexpr yaml::Dimension value = yaml::Dimension::torque;
   static constexpr yaml::Dimension rate = yaml::Dimension::number;
-  static constexpr yaml::Dimension in_table = yaml::Dimension::torque;
   static constexpr std::string_view term =
-      "a torque in N m, such as 0.01, or one of sinusoid, ramp, table";
+      "a torque, such as 0.01 or \"10 mN m\", or one of sinusoid, ramp, pulse, table";
 };
 struct OfForce {
-  static constexpr yaml::Dimension value = yaml::Dimension::number;
+  static constexpr yaml::Dimension value = yaml::Dimension::force;
   static constexpr yaml::Dimension rate = yaml::Dimension::number;
-  static constexpr yaml::Dimension in_table = yaml::Dimension::force;
   static constexpr std::string_view term =
-      "a force in N, such as 0.01, or one of sinusoid, ramp, table";
+      "a force, such as 0.01 or \"10 mN\", or one of sinusoid, ramp, pulse, table";
 };
 
 template <class Of>
@@ -54,9 +51,16 @@ void read_ramp(yaml::Keys& keys, Ramp& ramp) {
 }
 
 template <class Of>
+void read_pulse(yaml::Keys& keys, Pulse& pulse) {
+  keys.required("start", yaml::Number{yaml::Dimension::time}, pulse.start);
+  keys.required("duration", yaml::Number{yaml::Dimension::time, {.above = 0}}, pulse.duration);
+  keys.required("value", yaml::Number{Of::value}, pulse.value);
+}
+
+template <class Of>
 void read_table(yaml::Keys& keys, Table& table) {
   TableRows rows;
-  read_table_rows(keys, {"value"}, Of::in_table, rows);
+  read_table_rows(keys, {"value"}, Of::value, rows);
   if (rows.values.empty()) return;
   table = {std::move(rows.file), std::move(rows.times), std::move(rows.values[0])};
 }
@@ -64,14 +68,16 @@ void read_table(yaml::Keys& keys, Table& table) {
 struct Shapes {
   std::optional<Sinusoid> sinusoid;
   std::optional<Ramp> ramp;
+  std::optional<Pulse> pulse;
   std::optional<Table> table;
 };
 
 template <class Of>
 void read_shapes(yaml::Keys& keys, Shapes& shapes) {
-  keys.exactly_one({"sinusoid", "ramp", "table"});
+  keys.exactly_one({"sinusoid", "ramp", "pulse", "table"});
   keys.optional("sinusoid", yaml::MappingOf(read_sinusoid<Of>), shapes.sinusoid);
   keys.optional("ramp", yaml::MappingOf(read_ramp<Of>), shapes.ramp);
+  keys.optional("pulse", yaml::MappingOf(read_pulse<Of>), shapes.pulse);
   keys.optional("table", yaml::MappingOf(read_table<Of>), shapes.table);
 }
 
@@ -90,6 +96,7 @@ bool read_term(const yaml::Value& value, Profile& into) {
   if (!yaml::MappingOf(read_shapes<Of>).read(value, shapes)) return false;
   if (shapes.sinusoid) into.emplace_back(*shapes.sinusoid);
   if (shapes.ramp) into.emplace_back(*shapes.ramp);
+  if (shapes.pulse) into.emplace_back(*shapes.pulse);
   if (shapes.table) into.emplace_back(std::move(*shapes.table));
   return true;
 }

@@ -27,8 +27,10 @@ void read_push(yaml::Keys& keys, BallPush& push) {
 }  // namespace
 
 void read_ball(yaml::Keys& keys, Ball& ball) {
-  keys.required("radius", yaml::Number{yaml::Dimension::length, {.above = 0}}, ball.radius);
-  keys.optional("mass", yaml::Number{yaml::Dimension::mass, {.above = 0}}, ball.mass);
+  const yaml::Number length{yaml::Dimension::length, {.above = 0}};
+  keys.required("radius", yaml::Usual{length, "mm", 1}, ball.radius);
+  const yaml::Number mass{yaml::Dimension::mass, {.above = 0}};
+  keys.optional("mass", yaml::Usual{mass, "g", 20}, ball.mass);
   keys.optional("position", yaml::PairOf{yaml::Dimension::length}, ball.position);
   keys.optional("velocity", yaml::PairOf{yaml::Dimension::velocity}, ball.velocity);
   keys.optional("spin", yaml::Number{yaml::Dimension::angular_rate}, ball.spin);

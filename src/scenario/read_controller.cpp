@@ -182,9 +182,10 @@ struct Jitter {
 
 void read_sampling(yaml::Keys& keys, Sampling& sampling) {
   const yaml::Number time{yaml::Dimension::time, {.at_least = 0}};
-  keys.required("period", yaml::Number{yaml::Dimension::time, {.above = 0}}, sampling.period);
+  const yaml::Number period{yaml::Dimension::time, {.above = 0}};
+  keys.required("period", yaml::Usual{period, "ms", 1}, sampling.period);
   keys.optional("delay", time, sampling.delay);
-  keys.optional("resolution", yaml::AngleLimit{{.at_least = 0}}, sampling.resolution);
+  keys.optional("resolution", yaml::angle_limit({.at_least = 0}, 0.15), sampling.resolution);
   keys.optional("derivative_filter", time, sampling.derivative_filter);
   keys.optional("jitter", Jitter{}, sampling);
 }
@@ -211,8 +212,9 @@ struct Scale {
 
 void read_sensor(yaml::Keys& keys, Sensor& sensor) {
   const yaml::Number length{yaml::Dimension::length, {.at_least = 0}};
-  keys.optional("resolution", length, sensor.resolution);
-  keys.optional("noise", length, sensor.noise);
+  const yaml::Usual fine{length, "mm", 0.05};
+  keys.optional("resolution", fine, sensor.resolution);
+  keys.optional("noise", fine, sensor.noise);
   // Doubles hold integers up to 2^53.
   double seed = static_cast<double>(sensor.seed);
   const yaml::Number whole{
@@ -221,7 +223,8 @@ void read_sensor(yaml::Keys& keys, Sensor& sensor) {
     if (seed != std::floor(seed)) keys.find("seed")->refuse("", "a whole number of at least 0");
     sensor.seed = static_cast<unsigned long>(seed);
   }
-  keys.optional("delay", yaml::Number{yaml::Dimension::time, {.at_least = 0}}, sensor.delay);
+  const yaml::Number delay{yaml::Dimension::time, {.at_least = 0}};
+  keys.optional("delay", yaml::Usual{delay, "ms", 1}, sensor.delay);
   keys.optional("dropout",
                 yaml::Number{yaml::Dimension::number, {.at_least = 0, .at_most = 1}, "0.05"},
                 sensor.dropout);
@@ -239,13 +242,14 @@ struct CommandLimit {
 
   [[nodiscard]] std::string allowed() const { return one() + ", or {phi: ..., theta: ...}"; }
   [[nodiscard]] std::string one() const {
-    return of_angle ? yaml::AngleLimit{{.above = 0}}.allowed() : number().allowed();
+    return of_angle ? yaml::angle_limit({.above = 0}).allowed() : number().allowed();
   }
   [[nodiscard]] static yaml::Number number() {
     return {yaml::Dimension::number, {.above = 0}, "5"};
   }
   bool read_one(const yaml::Value& value, double& into) const {
-    return of_angle ? yaml::AngleLimit{{.above = 0}}.read(value, into) : number().read(value, into);
+    return of_angle ? yaml::angle_limit({.above = 0}).read(value, into)
+                    : number().read(value, into);
   }
   bool read(const yaml::Value& value, Controller& into) const {
     if (value.node->kind != yaml::Node::Kind::mapping) {

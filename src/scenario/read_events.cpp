@@ -41,7 +41,7 @@ void read_slip(yaml::Keys& keys, SlipEvent& slip) {
 }
 
 void read_tilt(yaml::Keys& keys, TiltEvent& tilt) {
-  keys.required("limit", yaml::AngleLimit{{.above = 0}}, tilt.limit);
+  keys.required("limit", yaml::angle_limit({.above = 0}), tilt.limit);
   keys.optional("action", action(), tilt.action);
 }
 

@@ -1,6 +1,8 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
+#include <limits>
+#include <numbers>
 #include <string>
 #include <utility>
 
@@ -74,18 +76,20 @@ void read_servo_keys(yaml::Keys& keys, Servo& servo) {
   } else {
     // Of second order, whatever both axes' common keys say.
     if (keys.find("natural_frequency")) servo.time_constant.reset();
-    keys.optional("natural_frequency", frequency, servo.natural_frequency);
+    constexpr double one_hertz = 2 * std::numbers::pi, any = std::numeric_limits<double>::max();
+    keys.optional("natural_frequency", yaml::Usual{frequency, "Hz", any, one_hertz},
+                  servo.natural_frequency);
     keys.optional("damping", damping, servo.damping);
   }
-  keys.optional("angle_limit", yaml::AngleLimit{{.above = 0}}, servo.angle_limit);
-  keys.optional("rate_limit", yaml::Number{yaml::Dimension::angular_rate, {.above = 0}},
-                servo.rate_limit);
+  keys.optional("angle_limit", yaml::angle_limit({.above = 0}), servo.angle_limit);
+  const yaml::Number rate{yaml::Dimension::angular_rate, {.above = 0}};
+  keys.optional("rate_limit", yaml::Usual{rate, "deg/s", 60}, servo.rate_limit);
   keys.optional("acceleration_limit", yaml::Number{yaml::Dimension::number, {.above = 0}, "200"},
                 servo.acceleration_limit);
-  keys.optional("dead_band", yaml::AngleLimit{{.at_least = 0}}, servo.dead_band);
+  keys.optional("dead_band", yaml::angle_limit({.at_least = 0}, 0.15), servo.dead_band);
   // Below that, rounding would decide when the servo touches the plane.
   constexpr double least_backlash = 1e-6;
-  if (keys.optional("backlash", yaml::AngleLimit{{.at_least = 0}}, servo.backlash) &&
+  if (keys.optional("backlash", yaml::angle_limit({.at_least = 0}, 0.15), servo.backlash) &&
       servo.backlash > 0 && servo.backlash < least_backlash) {
     keys.find("backlash")->refuse("", "0, or an angle of at least 1e-6 rad");
   }

@@ -45,9 +45,15 @@ struct Table {
   std::vector<double> values;  // rad
 };
 
+// Zero but for `duration` seconds from `start` on, in which it rises to `value` and falls again, as
+// smoothly as it can: each half has the least jerk.
+struct Pulse {
+  double start = 0, duration = 0, value = 0;
+};
+
 // Of an angle; where it is of a torque or of a force, in N m or N.
-using ProfileTerm = std::variant<double, Sinusoid, Ramp, Table>;  // a number is a constant
-using Profile = std::vector<ProfileTerm>;                         // their sum; empty is zero
+using ProfileTerm = std::variant<double, Sinusoid, Ramp, Pulse, Table>;  // a number is a constant
+using Profile = std::vector<ProfileTerm>;                                // their sum; empty is zero
 
 // A force on the ball's centre along the plane's axes, N.
 struct BallPush {

@@ -48,9 +48,9 @@ void set(OpenCase& one, const Scenario& scenario, const model::SignalView& table
   motion.wave_count = 0;
   motion.tables = tables.tables;
   motion.table_count = tables.table_count;
-  const auto no_table = [](const Table&) {};
-  model::add_profile(gimbal.motion->phi, 0, motion, no_table);
-  model::add_profile(gimbal.motion->theta, 1, motion, no_table);
+  const auto no_spline = [](const auto&) {};
+  model::add_profile(gimbal.motion->phi, 0, motion, no_spline);
+  model::add_profile(gimbal.motion->theta, 1, motion, no_spline);
   motion.add_constant(0, gimbal.mounting.phi_offset);
   motion.add_constant(1, gimbal.mounting.theta_offset);
 }

@@ -41,16 +41,20 @@ bool Number::read(const Value& value, double& into) const {
   return true;
 }
 
-bool AngleLimit::read(const Value& value, double& into) const {
-  if (!Number{Dimension::angle, range}.read(value, into)) return false;
+bool Usual::read(const Value& value, double& into) const {
+  if (!number.read(value, into)) return false;
   const Node& node = *value.node;
-  const bool without_unit =
-      read_quantity(node.text, node.quoted, Dimension::number).value.has_value();
-  if (without_unit && std::abs(into) > 2 * std::numbers::pi) {
-    value.warn("found " + shown(node) + ", which is in radians, more than a turn; for degrees: \"" +
-               shown(node) + " deg\"");
-  }
+  const bool has_unit = !read_quantity(node.text, node.quoted, Dimension::number).value;
+  const double size = std::abs(into);
+  if (has_unit || size == 0 || (size <= most && size >= least)) return true;
+  value.warn("found " + shown(node) + ", which is read in " +
+             std::string(si_unit(number.dimension)) + "; did you mean \"" + shown(node) + ' ' +
+             std::string(unit) + "\"?");
   return true;
+}
+
+Usual angle_limit(Range range, double most) {
+  return {{Dimension::angle, range}, "deg", most};
 }
 
 std::string PairOf::allowed() const {

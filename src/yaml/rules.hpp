@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <iterator>
+#include <numbers>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -40,14 +41,20 @@ struct Number {
   bool read(const Value& value, double& into) const;
 };
 
-// An angle that something must not exceed. One of more than a turn, without a unit, is read, and
-// remarked upon: whoever wrote it may have meant degrees.
-struct AngleLimit {
-  Range range{};
+// A number that is rarely above `most` or below `least`, in SI units. One that is, and has no unit,
+// is read and warned of: `unit` may have been meant.
+struct Usual {
+  Number number;
+  std::string_view unit;  // "deg"
+  double most;
+  double least = 0;
 
-  [[nodiscard]] std::string allowed() const { return Number{Dimension::angle, range}.allowed(); }
+  [[nodiscard]] std::string allowed() const { return number.allowed(); }
   bool read(const Value& value, double& into) const;
 };
+
+// An angle that something must not exceed: more than a turn without a unit may be in degrees.
+[[nodiscard]] Usual angle_limit(Range range, double most = 2 * std::numbers::pi);
 
 // [x, y]
 struct PairOf {

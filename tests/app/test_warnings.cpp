@@ -184,11 +184,11 @@ TEST_CASE("an angle of more than a turn without a unit is warned of") {
       bbsim({"run", "s.yaml", "--set", right_sign, "--set", angle_limit}, folder.path());
   CHECK(run.exit_code == 0);
   CHECK(contains(run.err,
-                 "s.yaml:6:24: warning: events.tilt.limit: found 30, which is in radians, more "
-                 "than a turn; for degrees: \"30 deg\""));
+                 "s.yaml:6:24: warning: events.tilt.limit: found 30, which is read in rad; did "
+                 "you mean \"30 deg\"?"));
   CHECK(contains(run.err,
                  "--set gimbal.servo.angle_limit=25: warning: gimbal.servo.angle_limit: "
-                 "found 25, which is in radians"));
+                 "found 25, which is read in rad"));
   CHECK(contains(bbsim({"check", "s.yaml"}, folder.path()).out, "warning: events.tilt.limit"));
   CHECK(contains(bbsim({"sweep", "s.yaml", "--vary", "ball.radius=list:0.01"}, folder.path()).err,
                  "warning: events.tilt.limit"));

@@ -134,7 +134,7 @@ TEST_CASE("errors come in the order of the file, then of the overrides") {
         "scenario.yaml:1:13: time.end: found -1; allowed: a time greater than 0, such as 0.02 or "
         "\"20 ms\"\n"
         "scenario.yaml:2:24: gimbal.motion.phi: found x; allowed: an angle, such as 0.1 or \"4 "
-        "deg\", or one of sinusoid, ramp, table\n"
+        "deg\", or one of sinusoid, ramp, pulse, table\n"
         "scenario.yaml:3:16: ball.radius: found 0; allowed: a length greater than 0, such as 0.01 "
         "or \"1 cm\"\n"
         "--set solver.rtol=2: solver.rtol: found 2; allowed: a number from 1e-14 to 0.1, such as "

@@ -66,7 +66,7 @@ TEST_CASE("a list is a sum") {
   CHECK(std::get<Sinusoid>(sum[2]).amplitude == 1);
   CHECK(errors(with_phi("[1, [2]]")) ==
         "scenario.yaml:3:28: gimbal.motion.phi.1: found a list of 1; allowed: an angle, such as "
-        "0.1 or \"4 deg\", or one of sinusoid, ramp, table");
+        "0.1 or \"4 deg\", or one of sinusoid, ramp, pulse, table");
   CHECK_THAT(errors(with_phi("[]")), Contains("found an empty list; allowed: a list of 1 to 1000"));
 }
 

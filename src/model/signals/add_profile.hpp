@@ -12,9 +12,9 @@
 namespace bbsim::model {
 
 // Gives a profile's constants, sinusoids and ramps to add_constant(component, ...) and its like of
-// `to`, and its tables to add_table(table).
-template <class Signals, class Component, class AddTable>
-void add_profile(const Profile& profile, Component component, Signals& to, AddTable add_table) {
+// `to`, and its pulses and tables, which are splines, to add_spline(part).
+template <class Signals, class Component, class AddSpline>
+void add_profile(const Profile& profile, Component component, Signals& to, AddSpline add_spline) {
   for (const ProfileTerm& term : profile) {
     std::visit(
         [&](const auto& part) {
@@ -27,7 +27,7 @@ void add_profile(const Profile& profile, Component component, Signals& to, AddTa
           } else if constexpr (std::is_same_v<Part, Ramp>) {
             to.add_ramp(component, part.start, part.rate);
           } else {
-            add_table(part);
+            add_spline(part);
           }
         },
         term);

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <type_traits>
 #include <utility>
 
 #include "model/signals/add_profile.hpp"
@@ -38,10 +39,15 @@ void SignalPair::add_table(std::size_t component, Spline spline) {
 }
 
 void SignalPair::add(std::size_t component, const Profile& profile) {
-  add_profile(profile, component, *this, [&](const Table& table) {
-    const auto zero = [](double value) { return value == 0; };
-    if (!std::all_of(table.values.begin(), table.values.end(), zero)) {
-      add_table(component, Spline(table.times, table.values));
+  add_profile(profile, component, *this, [&](const auto& part) {
+    if constexpr (std::is_same_v<decltype(part), const Pulse&>) {
+      const double end = part.start + part.duration, middle = part.start + part.duration / 2;
+      if (part.value == 0) return;
+      add_table(component, Spline::at_rest_at_knots({part.start, middle, end}, {0, part.value, 0}));
+    } else {
+      const auto zero = [](double value) { return value == 0; };
+      if (std::all_of(part.values.begin(), part.values.end(), zero)) return;
+      add_table(component, Spline(part.times, part.values));
     }
   });
 }
