@@ -15,8 +15,7 @@ struct Start {
   const void* system;  // the system's view(), of the kernel's own type; must outlive the workspace
   const double* state;
   double rtol, atol;
-  bool gamma;  // whether the integral of u is under error control too, and follows the states in a
-               // row
+  bool gamma;  // whether the integral of u is under error control too, and follows the states
   bool positions_only = false;  // without gamma: evaluate() leaves the velocities in rows unchanged
 };
 

@@ -178,8 +178,8 @@ void RadauStepper::start(double t, const double* z) {
   const double rate = std::max(kernel_->rate(workspace_, t), highest_frequency_);
   next_step_ = rate > 0 ? 2 * reach_ / rate : end_;
   if (!(rate > 0))
-    least_end_ = std::numeric_limits<double>::infinity();  // the first step depends
-                                                           // on `end`
+    // The first step depends on `end`.
+    least_end_ = std::numeric_limits<double>::infinity();
   if (!(next_step_ > 0)) next_step_ = end_ * 1e-6;
 }
 
