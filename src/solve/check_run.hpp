@@ -20,7 +20,7 @@ struct CheckRun {
 };
 
 // Integrates by radau. Every part of an interval ends a step. Returns a failed Outcome where the
-// run cannot go on. Throws only what `sink` throws.
+// run cannot go on. Throws what `sink` throws, and InputError as radau::choose_kernels() does.
 [[nodiscard]] Outcome integrate_check_run(const model::Model& model, CheckRun how,
                                           Tolerances tolerances, const OutputGrid& grid,
                                           StateSink& sink, const Watch& watch);

@@ -651,13 +651,13 @@ class HybridIntegration {
   PieceSink* pieces_;
   std::unique_ptr<Stepper> stepper_;
   model::ExternalController* controller_;  // null if the law is built in
-  // the stepper moves servos in closed form, and run_ predicts when they switch
+  // The stepper moves servos in closed form, and run_ predicts when they switch.
   bool foresees_;
   std::size_t first_guard_;  // the first one that scan() evaluates
   model::HybridSystem::Fall fall_;
   double foreseen_ = 0;  // guard falls are predicted up to here, s
   bool quiet_ = false;   // the stepper proved that nothing happens in the last step
-  // guards have no values at the start of the step; monitors were not checked since the last switch
+  // Guards have no values at the start of the step; monitors were not checked since a switch.
   bool unarmed_ = false, unlooked_ = false;
   double turned_ = 0;  // integral of u at that switch, m
   std::vector<Guard> guards_;

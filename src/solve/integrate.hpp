@@ -17,7 +17,7 @@ namespace bbsim::solve {
 // radau can save a state; other methods leave the part's state empty.
 //
 // A run that cannot go on returns Ending::failed with the rows that it reached. Throws what `sink`
-// throws.
+// throws. Throws InputError as make_stepper() does, or if the state in `part` does not fit.
 [[nodiscard]] Outcome integrate(const model::Model& model, Method method, Tolerances tolerances,
                                 const OutputGrid& grid, StateSink& sink, const Watch& watch = {},
                                 Part* part = nullptr);

@@ -38,8 +38,7 @@ class OutputGrid {
   // The number of rows at or before `time` >= 0, s.
   [[nodiscard]] std::size_t rows_until(double time) const {
     if (time >= end_) return size();
-    std::size_t rows = static_cast<std::size_t>(time / step_) + 1;  // may be off by one from
-                                                                    // rounding
+    std::size_t rows = static_cast<std::size_t>(time / step_) + 1;  // rounding: +-1
     while (rows > 0 && (*this)[rows - 1] > time) --rows;
     while ((*this)[rows] <= time) ++rows;
     return rows;

@@ -103,9 +103,8 @@ AccuracyStudy measure_accuracy(const model::Model& model, const solve::OutputGri
         return study;
       }
       AccuracyPoint point = measure(model, grid, method, rtol, reference, watch.stop);
-      if (point.ending == solve::Ending::interrupted)
-        continue;  // the check above then ends the
-                   // study
+      // The check above then ends the study.
+      if (point.ending == solve::Ending::interrupted) continue;
       study.points.push_back(point);
       progress(reference_share +
                (1 - reference_share) * static_cast<double>(study.points.size()) / all);

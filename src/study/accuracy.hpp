@@ -28,8 +28,7 @@ struct AccuracyPoint {
 };
 
 struct AccuracyStudy {
-  std::vector<AccuracyPoint> points;  // methods in the order asked for, each with its tolerances in
-                                      // order
+  std::vector<AccuracyPoint> points;  // method by method, rtol by rtol, as asked for
   double reference_error = 0;         // the reference's estimate of its own error, m
   bool reference_complete = false;    // if not, errors are those up to its end
   double reference_reached = 0;       // s

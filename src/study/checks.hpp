@@ -34,10 +34,10 @@ struct Track {
 };
 
 // Check runs, whose distance from another run is that run's error. Each is as accurate as doubles
-// allow. A tolerance bounds a step's error from above only. A check at a hundredth of the run's
-// tolerance may therefore be no better than the run, and wrong in the same way. Each check also has
-// other stages and other steps than the run and its neighbors in kinds(), so that their errors have
-// no common cause.
+// allow. A tolerance only bounds a step's error from above, so a check at a hundredth of the run's
+// tolerance may be no better than the run, and wrong in the same way. Each check also has other
+// steps than the run and the other checks, and mostly other stages, so that their errors have no
+// common cause.
 //
 // Checks are made when they are first needed, and serve all runs of the model.
 class Checks {

@@ -22,8 +22,8 @@ std::vector<double> first_row(const model::Model& model) {
     row.resize(model.row_size());
     return row;
   }
-  model::HybridSystem run(model, 0);  // the resolution is 0: scenes with dry friction are refused
-                                      // before
+  // The resolution is 0: scenes with dry friction are refused.
+  model::HybridSystem run(model, 0);
   run.handle_time_event(0, row.data());
   row.resize(model.row_size());
   run.write_extras(0, row.data(), row.data() + model.size() + (model.gamma ? 1 : 0));

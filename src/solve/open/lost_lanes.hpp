@@ -19,9 +19,8 @@ class LostLanes {
   // alone and only costs time.
   struct Patience {
     double notable;       // lanes with errors up to this do not hold others back
-    double holding_back;  // a lane whose error exceeds the median by this factor needs a far
-                          // shorter step
-    int most_held;        // the number of attempts in which a lane may need that
+    double holding_back;  // a lane with an error above this times the median does
+    int most_held;        // the number of attempts in which a lane may do so
   };
 
   explicit LostLanes(const Patience& patience) : patience_(patience) {}

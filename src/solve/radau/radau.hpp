@@ -89,7 +89,7 @@ class RadauStepper : public Stepper {
   bool attempted_ = false;  // a step was made that is not yet the present state
   double turned_ = 0;       // integral of u until start(), m
   Shrinking shrinking_;
-  // length of the accepted step (s), and its fraction of the length that would have passed
+  // Length of the accepted step (s), and its fraction of the length that would have passed
   double accepted_step_ = 0, fill_ = 1;
   std::size_t worst_state_ = 0;
   double least_end_ = 0;  // see least_end(), s

@@ -836,8 +836,8 @@ struct Step
       }
     }
     if constexpr (steep) {
-      constexpr double hardly_solved = 30;  // stiff motors magnify the residual of Newton's
-                                            // iteration
+      // Stiff motors magnify the residual of Newton's iteration.
+      constexpr double hardly_solved = 30;
       a.right_hand_sides += s;
       if (!(residual(w) <= hardly_solved)) {
         w.contraction = 1;

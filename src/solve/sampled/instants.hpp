@@ -22,8 +22,9 @@ class Instants {
   // to the times themselves.
   [[nodiscard]] double nominal(double time, double length) const;
 
-  // The recurring time nearest to `after` (s from the start of a piece), if both it and the piece's
-  // length recur. The piece has `length` s and ends near `time`.
+  // The exact recurring time that `after` stands for: both are in s from the start of a piece and
+  // differ by rounding. Empty if it or the piece's length does not recur. The piece has `length` s
+  // and ends near `time`.
   [[nodiscard]] std::optional<double> recurring(double time, double after, double length) const;
 
   // The impulse response `after` seconds into a piece that ends near `time`. Kept for the instants
