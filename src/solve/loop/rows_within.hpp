@@ -21,9 +21,9 @@ struct RowsWithin : Of {
     double from, per_length, of[s + 2][2];
   };
 
-  // The Legendre polynomial P_n is the sum of parts.of[n][m] T_m. Their generating function is ((1
-  // - z e^(i t)) (1 - z e^(-i t)))^(-1/2) with cos t = x, so the parts are products of coefficients
-  // of (1 - z)^(-1/2).
+  // The Legendre polynomial P_n is the sum of parts.of[n][m] T_m. With cos t = x, the generating
+  // function of P_n is ((1 - z e^(i t)) (1 - z e^(-i t)))^(-1/2). The parts are therefore products
+  // of coefficients of (1 - z)^(-1/2).
   struct Parts {
     double of[s + 2][s + 2]{};
     consteval Parts() {
