@@ -1,11 +1,12 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// A number that is affine in a few others: its value where they are zero, and what each adds.
+// A number that is affine in a few variables: its value where they are zero, and its coefficient of
+// each.
 //
-// Given to an equation that is linear in the state, in place of the state's numbers, it takes the
-// equation's coefficients from the one place where the equation stands. Only what keeps it affine
-// is there: products are with plain numbers.
+// Used in place of the state in an equation that is linear in the state, it extracts the equation's
+// coefficients from the one place that has the equation. It has only operations that keep it
+// affine: factors are plain numbers.
 #pragma once
 
 #include "simd/pack.hpp"
@@ -22,14 +23,14 @@ struct Affine {
 #pragma GCC unroll 8
     for (int i = 0; i < n; ++i) by[i] = P(0.0);
   }
-  // The number that all are affine in, of place i.
+  // Variable i.
   BBSIM_INLINE static Affine variable(int i) {
     Affine one(P(0.0));
     one.by[i] = P(1.0);
     return one;
   }
 
-  // Its value where the numbers are these.
+  // The value at these variables.
   BBSIM_INLINE P at(const P* numbers) const {
     P sum = value;
 #pragma GCC unroll 8

@@ -3,15 +3,15 @@
 
 // The arcsine of a pack.
 //
-// Included only by kernels that want it in place of the one for any number type
-// (model/control/law.hpp), beside which it is found.
+// Included only by kernels. It overloads the arcsine for any number type in model/control/law.hpp.
 #pragma once
 
 #include "simd/compare.hpp"
 
 namespace bbsim::simd {
 
-// Of sines up to 0.7 by Newton's iteration, beyond by the C library; each lane as if it were alone.
+// Uses Newton's iteration for |s| below 0.7, and the C library beyond. A lane's result does not
+// depend on the other lanes.
 template <class Isa, int lanes>
 BBSIM_INLINE Pack<Isa, lanes> arcsine(Pack<Isa, lanes> s) {
   using P = Pack<Isa, lanes>;
@@ -19,7 +19,7 @@ BBSIM_INLINE Pack<Isa, lanes> arcsine(Pack<Isa, lanes> s) {
   const P s2 = s * s;
   P angle = s * (P(1.0) + s2 * (P(1.0 / 6) +
                                 s2 * (P(3.0 / 40) + s2 * (P(15.0 / 336) + s2 * P(35.0 / 1152)))));
-  // What is left after a step is below the square of it.
+  // The error after a step is below the square of the step.
   typename P::Mask open = small;
   for (int i = 0; i < 6 && any_of<P>(open); ++i) {
     const SinCos<P> at = sin_cos_of_small(angle);

@@ -1,10 +1,11 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// What is larger, what is finite, and in which lanes. Numbers alone are told in the same words.
+// Comparisons of packs, lane by lane: which is larger, which is finite. The same functions exist
+// for single numbers.
 //
-// Like pack.hpp included only by the kernels, most of which are compiled as if all numbers were
-// finite: bits tell whether one is.
+// Included only by the kernels, as pack.hpp is. Most of these are compiled as if all numbers were
+// finite, so is_finite() tests bits.
 #pragma once
 
 #include <type_traits>
@@ -48,7 +49,7 @@ BBSIM_INLINE double size_of(double a) {
   return __builtin_fabs(a);
 }
 
-// As of doubles (base/real.hpp), but for the sign of a zero.
+// As for doubles (base/real.hpp), but for the sign of a zero.
 template <class P>
 BBSIM_INLINE P nearest_integer(P a) {
   const P spaced_by_one = choose(exceeds(P(0.0), a), P(-0x1p52), P(0x1p52));
@@ -64,7 +65,7 @@ BBSIM_INLINE bool is_finite(double a) {
   return (__builtin_bit_cast(unsigned long long, a) >> 52 & 0x7ff) != 0x7ff;
 }
 
-// The largest of the lanes.
+// The largest lane.
 template <class P>
 BBSIM_INLINE double largest_of(P a) {
   double most = a[0];
@@ -72,7 +73,7 @@ BBSIM_INLINE double largest_of(P a) {
   return most;
 }
 
-// Whether any lane is set. Narrow lanes are fewer to ask.
+// Whether any lane is set. Narrowing the lanes first leaves fewer to test.
 template <class P>
 BBSIM_INLINE bool any_of(typename P::Mask mask) {
   if constexpr (P::size == 2) {

@@ -3,22 +3,22 @@
 
 // A number with its derivative in one direction, for the exact columns of a Jacobian.
 //
-// Included only by the kernels; see pack.hpp for why all is inlined or tagged.
+// Included only by the kernels. See pack.hpp for why everything is inlined or tagged.
 #pragma once
 
 #include "simd/pack.hpp"
 
 namespace bbsim::simd {
 
-// How large the angles may be whose sines are taken: beyond 10^5 a moderate one's may be off, which
-// costs a Jacobian nothing but its user some steps, and spares a branch.
+// The range of angles in sines. With `moderate`, sines beyond 10^5 rad may be wrong. A Jacobian
+// tolerates that at the cost of some steps, and it saves a branch.
 enum class Angles { any, moderate };
 
-// value + slope * epsilon, epsilon^2 = 0: with another state's direction in each lane, a column of
-// the Jacobian a lane; or, with other loops in the lanes, one column of each.
+// value + slope * epsilon, epsilon^2 = 0. The lanes hold different directions of the state, for one
+// column of the Jacobian per lane; or different loops, for one column of each.
 //
-// A compiler that knows the slopes of the variables, 0 or 1, can drop what does not depend on the
-// direction, and computes the values once for all directions where there is no branch.
+// If the compiler knows the variables' slopes (0 or 1), it drops all terms that do not depend on
+// the direction. Without branches it also computes the values only once for all directions.
 template <class P, Angles angles = Angles::any>
 struct Dual {
   P value, slope;

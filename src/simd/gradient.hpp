@@ -11,8 +11,9 @@ namespace bbsim::simd {
 
 // A function's value and its partial derivatives with respect to n variables.
 //
-// Every operation is evaluated at once. Eigen's AutoDiffScalar builds one expression of the whole
-// right-hand side instead, which takes a compiler with sanitizers seven minutes for our systems.
+// Every operation is evaluated immediately. Eigen's AutoDiffScalar builds one expression of the
+// whole right-hand side instead; with sanitizers a compiler takes seven minutes for bbsim's
+// systems.
 template <int n>
 struct WithGradient {
   using Gradient = Eigen::Matrix<double, n, 1>;
@@ -24,7 +25,7 @@ struct WithGradient {
   WithGradient(double constant) : value(constant) {}
   WithGradient(double v, const Gradient& g) : value(v), gradient(g) {}
 
-  // The variable number i.
+  // Variable i, with value v.
   static WithGradient variable(double v, int i) { return {v, Gradient::Unit(i)}; }
 
   friend WithGradient operator+(const WithGradient& a, const WithGradient& b) {
@@ -74,13 +75,13 @@ struct WithGradient {
   }
 };
 
-// A time that varies chooses its interval as a plain one does.
+// The plain time, which selects the interval of a table.
 template <int n>
 [[nodiscard]] double plain(const WithGradient<n>& t) {
   return t.value;
 }
 
-// What variables first ... first + count - 1 add to each of some numbers, a row each.
+// The derivatives by variables first ... first + count - 1, one row for each number.
 template <int rows, int n>
 [[nodiscard]] Eigen::MatrixXd gradients(const WithGradient<n> (&of)[rows], int first, int count) {
   Eigen::MatrixXd found(rows, count);

@@ -10,10 +10,9 @@
 #include "base/error.hpp"
 
 #if defined(BBSIM_X86_KERNELS) && !defined(__clang__) && __has_include(<sys/platform/x86.h>)
-// What the C library found out when the program was started. The compiler's own
-// __builtin_cpu_supports would ask the processor anew at every start, which in a virtual machine
-// takes microseconds a question.
-// (Clang does not read the header: it has C's _Bool.)
+// Use the features that the C library found when the program started. The compiler's
+// __builtin_cpu_supports asks the processor again at every start, which takes microseconds per
+// question in a virtual machine. (Clang cannot read this header: it has C's _Bool.)
 #include <sys/platform/x86.h>
 #define BBSIM_CPU_HAS(feature, name) CPU_FEATURE_ACTIVE(feature)
 #else

@@ -1,11 +1,11 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// A pack of doubles, one a SIMD lane, and the numbers made of it.
+// A pack of doubles, one per SIMD lane, and numbers made of packs.
 //
-// Included only by the kernels, which are compiled once for each instruction set. Every type
-// carries the set as a tag and every function is inlined or takes a tagged type, so that no code
-// for one set can be linked in place of code for another.
+// Included only by the kernels, which are compiled once for each instruction set. Every type has
+// the set as a tag, and every function is inlined or takes a tagged type. The linker can therefore
+// not use code for one set in place of code for another.
 #pragma once
 
 #include "base/real.hpp"
@@ -42,7 +42,7 @@ struct Pack {
   Vector v;
 
   BBSIM_INLINE Pack() {}  // NOLINT(modernize-use-equals-default): uninitialised on purpose
-  // A pack is copied as one vector: as plain memory, numbers made of packs would go by halves.
+  // Copies a pack as one vector. Compilers would copy plain memory in halves.
   BBSIM_INLINE Pack(const Pack& other) : v(other.v) {}
   BBSIM_INLINE Pack& operator=(const Pack& other) { return v = other.v, *this; }
   BBSIM_INLINE Pack(double value) : v(value - Vector{}) {}  // NOLINT(google-explicit-constructor)
@@ -51,14 +51,14 @@ struct Pack {
     p.v = v;
     return p;
   }
-  // From `lanes` doubles, aligned to the pack's own size.
+  // Loads `lanes` doubles, aligned to the pack's own size.
   BBSIM_INLINE static Pack load(const double* p) {
     return of(*reinterpret_cast<const Vector*>(__builtin_assume_aligned(p, sizeof(Vector))));
   }
   BBSIM_INLINE void store(double* p) const {
     *reinterpret_cast<Vector*>(__builtin_assume_aligned(p, sizeof(Vector))) = v;
   }
-  // The same, wherever they are.
+  // The same without alignment.
   BBSIM_INLINE static Pack load_anywhere(const double* p) {
     Pack pack;
     __builtin_memcpy(&pack.v, p, sizeof(Vector));
@@ -75,8 +75,8 @@ struct Pack {
   BBSIM_INLINE friend Pack operator-(Pack a) { return of(-a.v); }
   BBSIM_INLINE Pack& operator+=(Pack b) { return v += b.v, *this; }
   BBSIM_INLINE Pack& operator-=(Pack b) { return v -= b.v, *this; }
-  // A product that is not fused with what it is added to: of two in a sum, one can be, and which
-  // one is then no matter of the compiler's mood.
+  // Keeps a product from being fused into the sum that uses it. In a sum of two products a compiler
+  // may fuse either one; this fixes the choice.
   BBSIM_INLINE friend Pack rounded(Pack a) {
 #if defined(__x86_64__)
     asm("" : "+v"(a.v));
@@ -97,13 +97,14 @@ struct Pack {
     }
     return root;
   }
-  // All of one step's times lie between the same knots of a table: any tells the piece.
+  // The time that selects an interval of a table. All times of a step lie between the same two
+  // knots, so any lane will do.
   BBSIM_INLINE friend double plain(Pack a) {
     return a.v[0];
   }
 };
 
-// Of angles within a quarter of pi: the polynomials alone, below.
+// For angles within pi/4: the polynomials alone.
 template <class Isa, int lanes>
 BBSIM_INLINE SinCos<Pack<Isa, lanes>> sin_cos_of_small(Pack<Isa, lanes> angle) {
   using P = Pack<Isa, lanes>;
@@ -118,8 +119,8 @@ BBSIM_INLINE SinCos<Pack<Isa, lanes>> sin_cos_of_small(Pack<Isa, lanes> angle) {
   return {P::of(r + (r * u) * p), P::of(1.0 + (u * -0.5 + u2 * q))};
 }
 
-// The result is within 1 ulp or so of the true value up to 10^5: reduction by multiples of pi/2
-// after Cody and Waite, then minimax polynomials. Beyond, that reduction loses digits.
+// Within about 1 ulp of the true value up to 10^5 rad: Cody and Waite's reduction by multiples of
+// pi/2, then minimax polynomials. The reduction loses digits beyond.
 template <class Isa, int lanes>
 BBSIM_INLINE SinCos<Pack<Isa, lanes>> sin_cos_of_moderate(Pack<Isa, lanes> angle) {
   using P = Pack<Isa, lanes>;
@@ -145,7 +146,7 @@ BBSIM_INLINE SinCos<Pack<Isa, lanes>> sin_cos_of_moderate(Pack<Isa, lanes> angle
   return result;
 }
 
-// The result is the same up to 10^5; beyond, it is the C library's, in the lanes concerned alone.
+// The same up to 10^5 rad. Beyond, uses the C library, in the lanes concerned alone.
 template <class Isa, int lanes>
 BBSIM_INLINE SinCos<Pack<Isa, lanes>> sin_cos(Pack<Isa, lanes> angle) {
   using P = Pack<Isa, lanes>;

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The greatest value of a function of one variable, another function in each lane.
+// The maximum of a function of one variable, with another function in each lane.
 #pragma once
 
 #include "simd/compare.hpp"
@@ -20,11 +20,11 @@ BBSIM_INLINE P root_of(P a) {
   return a;
 }
 
-// What the function may reach between two places, by the cubic through values and slopes at both.
-// Where both slopes go the way that the values do, and neither is more than three times as steep,
-// it goes one way (Fritsch and Carlson, SIAM Journal on Numerical Analysis 17:238, 1980). Otherwise
-// it is above the ends by no more than 4/27 of the change that its slopes there would give; what is
-// of a higher degree is allowed for.
+// An upper bound between two places, from the cubic through values and slopes at both. The cubic is
+// monotonic if both slopes have the sign of the change and neither exceeds three times the mean
+// slope (Fritsch and Carlson, SIAM Journal on Numerical Analysis 17:238, 1980). Otherwise it
+// exceeds the ends by at most 4/27 of the changes that its end slopes would make. The factor used,
+// 0.25, allows for terms of higher degree.
 template <class P>
 BBSIM_INLINE P promise_between(const Looked<P>& from, const Looked<P>& to) {
   using Mask = typename P::Mask;
@@ -38,8 +38,8 @@ BBSIM_INLINE P promise_between(const Looked<P>& from, const Looked<P>& to) {
   return larger_of(from.value, to.value) + choose(one_way, P(0.0), more);
 }
 
-// Follows the function to its top between two places, by one cubic after another, and raises
-// `greatest` to each value on the way, in the lanes that are wanted: as far as each needs itself.
+// Climbs to the maximum between two places by successive cubics. Raises `greatest` to each value on
+// the way, in the lanes of `wanted`, until each lane is done.
 template <class P, class Evaluate>
 BBSIM_INLINE void climb(Looked<P> from, Looked<P> to, typename P::Mask wanted, P& greatest,
                         Evaluate evaluate) {
@@ -50,7 +50,7 @@ BBSIM_INLINE void climb(Looked<P> from, Looked<P> to, typename P::Mask wanted, P
   for (int step = 0; step < most_steps; ++step) {
     const P width = to.at - from.at, change = to.value - from.value;
     const P s0 = width * from.slope, s1 = width * to.slope;
-    // The cubic's slope is s0 + 2 b u + 3 a u^2; its top is where that falls through zero.
+    // The cubic's slope is s0 + 2 b u + 3 a u^2. Its maximum is where the slope falls through zero.
     const P a = s0 + s1 - P(2.0) * change, b = P(3.0) * change - P(2.0) * s0 - s1;
     const P root = root_of(larger_of(b * b - P(3.0) * a * s0, P(0.0)));
     const P under = root - b;
@@ -60,7 +60,7 @@ BBSIM_INLINE void climb(Looked<P> from, Looked<P> to, typename P::Mask wanted, P
     next.at = from.at + width * larger_of(P(edge), smaller_of(part, P(1 - edge)));
     evaluate(next.at, next.value, next.slope);
     greatest = choose(wanted, larger_of(greatest, next.value), greatest);
-    // What is left to gain, of a parabola as curved as the slopes at both ends say.
+    // The possible gain, of a parabola with the curvature given by the two end slopes.
     const P bend = from.slope - to.slope;
     const P left = next.slope * next.slope * width;
     wanted &= (Mask)(left.v > (P(close) * greatest * bend).v);
@@ -73,13 +73,13 @@ BBSIM_INLINE void climb(Looked<P> from, Looked<P> to, typename P::Mask wanted, P
   }
 }
 
-// Raises `greatest` to what a function reaches over `count` places in their order, at most `most`,
-// and between them; evaluate(at, value, slope) tells what it is at others.
+// Raises `greatest` to the maximum of a function over `count` places, in order, and between them.
+// `most`: the largest count. evaluate(at, value, slope) gives the function elsewhere.
 template <int most, class P, class Evaluate>
 BBSIM_INLINE void raise_to_peak(const Looked<P>* places, int count, P& greatest,
                                 Evaluate evaluate) {
   using Mask = typename P::Mask;
-  constexpr double worth = 1 + 1e-9;  // what promises less is about as great
+  constexpr double worth = 1 + 1e-9;  // intervals with less to gain are skipped
   P promise[most];
   greatest = larger_of(greatest, places[0].value);
 #pragma GCC unroll 1
@@ -87,7 +87,7 @@ BBSIM_INLINE void raise_to_peak(const Looked<P>* places, int count, P& greatest,
     greatest = larger_of(greatest, places[i + 1].value);
     promise[i] = promise_between(places[i], places[i + 1]);
   }
-  // Mostly that is a few intervals, if any.
+  // Mostly there are few such intervals, if any.
   int promising[most], left = 0;
   const P enough = P(worth) * greatest;
 #pragma GCC unroll 1
@@ -95,7 +95,7 @@ BBSIM_INLINE void raise_to_peak(const Looked<P>* places, int count, P& greatest,
     promising[left] = i;
     left += any_of<P>((Mask)(promise[i].v > enough.v)) ? 1 : 0;
   }
-  // Each lane looks into the one that promises most to it.
+  // Each lane searches the interval with the highest bound for it.
 #pragma GCC unroll 1
   for (int round = 0; round < left; ++round) {
     P best = P(worth) * greatest, number(-1.0);

@@ -12,7 +12,7 @@
 namespace bbsim::solve {
 namespace {
 
-// Radau with a stop of its own at the end of each part of the way to a limit.
+// Radau that also ends a step at the end of each part of the interval between two stops.
 class DividedStepper : public radau::RadauStepper {
  public:
   DividedStepper(const model::Model& model, CheckRun how, Tolerances tolerances, double end)
@@ -20,7 +20,7 @@ class DividedStepper : public radau::RadauStepper {
         parts_(how.parts) {}
 
   void start(double t, const double* z) override {
-    limit_ = std::numeric_limits<double>::quiet_NaN();  // another way begins
+    limit_ = std::numeric_limits<double>::quiet_NaN();  // the next step() begins a new interval
     RadauStepper::start(t, z);
   }
 

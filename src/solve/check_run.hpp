@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// A run to hold another one against: with other stages, and other steps.
+// Check runs: runs with other stages and other steps, from which `run --error` estimates its error
+// (docs/explanation/error-control.md).
 #pragma once
 
 #include "model/model.hpp"
@@ -12,13 +13,14 @@ namespace bbsim::solve {
 
 struct CheckRun {
   int stages;  // of radau: 8, 12 or 16
-  // Each way from one stop of the integrator to the next, where an input's derivative jumps or a
-  // sample is taken, is cut into so many parts: these stops dictate the steps of any method at any
-  // tolerance, which are then alike unless they are cut.
+  // Each interval between two stops (an input derivative jumps, a sample is taken) is cut into this
+  // many parts. Stops fix the steps of every method at every tolerance. Without the cuts, a run and
+  // its check run would share these steps.
   int parts;
 };
 
-// Integrates by radau, in steps that end at the parts' ends too.
+// Integrates by radau. Every part of an interval ends a step. Returns a failed Outcome where the
+// run cannot go on. Throws what `sink` throws, and InputError as radau::choose_kernels() does.
 [[nodiscard]] Outcome integrate_check_run(const model::Model& model, CheckRun how,
                                           Tolerances tolerances, const OutputGrid& grid,
                                           StateSink& sink, const Watch& watch);

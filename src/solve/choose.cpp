@@ -28,7 +28,7 @@ double decays_over_scene(const model::Model& model, double end) {
     look(model::eigenvalues(model, 0, model.initial.data()));
     look(model::closed_loop_poles(model));
   } else {
-    // The Jacobian depends on time alone: a look at times across the scene.
+    // The Jacobian depends only on time. Sample it across the scene.
     constexpr int samples = 8;
     for (int i = 0; i <= samples; ++i) {
       look(model::eigenvalues(model, end * i / samples, model.initial.data()));

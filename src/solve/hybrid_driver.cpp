@@ -22,8 +22,8 @@ namespace {
 
 using Effect = model::HybridSystem::Effect;
 
-// Velocities below so many times the absolute tolerance are near rest: the integrator hardly knows
-// their direction.
+// A velocity below this multiple of the absolute tolerance is near rest: the integrator hardly
+// knows its direction.
 constexpr double near_rest = 10;
 
 class HybridIntegration {
@@ -69,9 +69,9 @@ class HybridIntegration {
 
  private:
   struct Guard {
-    double value = 0;      // at the last point looked at
-    double slope = 0;      // from there on, 1/s
-    double threshold = 0;  // fires below; 0 once it was positive
+    double value = 0;      // at the last time evaluated
+    double slope = 0;      // at the same time, 1/s
+    double threshold = 0;  // the guard fires below it; 0 once the guard was positive
   };
 
   Outcome run_to_end() {
@@ -107,17 +107,18 @@ class HybridIntegration {
     return go_on(z);
   }
 
-  // From step to step, from a state that the stepper has; z is room for one.
+  // Goes from step to step, starting from the stepper's present state. z is scratch space for one
+  // state.
   Outcome go_on(std::vector<double>& z) {
     const double last = step_limit(part_, grid_.end());
     double from = stepper_->time(), limit = from;
     for (std::size_t steps = 1;; ++steps) {
-      // What is due at the end may be a rounding behind it.
+      // An event due at the end may lie a rounding after it.
       const double due = run_.next_time_event();
       const double end = due > last && due - last <= slack(last) ? due : last;
       if (from >= stepper_->time()) {
-        // Servos that are foreseen are not cut where a sample is only taken, nor by the run's end:
-        // a longer run has the same steps.
+        // With closed-form servos, a step ends where the motion changes. It ends neither at a
+        // sample nor at the run's end, so a longer run has the same steps.
         limit = foresees_ ? std::min(run_.next_change(), fall_.time) : std::min(due, end);
         if (part_ != nullptr && part_->keeps_state) keep_state(limit);
         if (is_stopped()) return ended(Ending::interrupted, from);
@@ -145,7 +146,7 @@ class HybridIntegration {
         if (effect == Effect::none) state_at(at, z);
         const double turned = row_.back();
         asked_at_ = at;
-        // In the same mode, from the same state.
+        // True if the motion continues in the same mode from the same state.
         bool goes_on = foresees_ && effect == Effect::none;
         if (run_.is_due(at)) {
           run_.handle_time_event(at, z.data());
@@ -155,14 +156,16 @@ class HybridIntegration {
         if (standstill_.after(at))
           return at_switch(at, "the rig switches endlessly at one instant");
         if (goes_on) {
-          // A sample that changed nothing.
+          // The sample changed nothing.
         } else if (run_.model().rig || run_.model().dry) {
           stepper_->start(at, z.data());
         } else {
-          stepper_->jump();  // of the input alone: a run that is watched is one that is not
+          // Only an input derivative jumps here. A run with monitors takes the same steps as one
+          // without.
+          stepper_->jump();
         }
         write_row_at(at, z, turned);
-        if (part_ends()) {  // what the switch did belongs to its row
+        if (part_ends()) {  // the row at a switch includes what the switch did
           const bool stops = !goes_on && look(at, z, turned) == Effect::stop;
           return stops ? ended(Ending::stopped, at) : ended(Ending::done, cut_);
         }
@@ -177,7 +180,8 @@ class HybridIntegration {
         if (!foresees_ && !guards_.empty()) arm(at, z.data());
       }
       from = at;
-      // A switch that the step came to is work like a step; a sample or a stop says nothing.
+      // A step or state event short of `limit` counts as work. A sample or a stop says nothing
+      // about the pace.
       if (at < limit && pace_.creeps(at, [&] { return stopped_at(at); })) {
         Outcome outcome = failed(at, Why::too_slow, pace_.reason());
         if (at >= stepper_->time()) state_at(at, outcome.last_state);
@@ -190,7 +194,7 @@ class HybridIntegration {
     }
   }
 
-  // Whether all rows are there of a part that is not the last one.
+  // Whether all rows of this part are written, if it is not the last part.
   [[nodiscard]] bool part_ends() const {
     return part_ != nullptr && next_row_ == end_row_ && end_row_ < grid_.size();
   }
@@ -208,15 +212,16 @@ class HybridIntegration {
                     (std::isinf(fall_.time) || fall_.guard < first_guard_));
   }
 
-  // A state is of a time before the next row, with all done that was due until then.
+  // Requires that a restored time lies before the next row, and that nothing due earlier was left
+  // undone.
   void require_time(const StateReader& from) const {
     const double t = stepper_->time(), next = grid_[next_row_];
     StateReader::require(from.at_end() && t >= 0 && t <= next + slack(next) &&
                          run_.next_time_event() >= t - slack(t) && fall_.time >= t - slack(t));
   }
 
-  // Before a step up to `limit`. What a controller of one's own remembers is asked for only where
-  // the part may end within the step, or ends now.
+  // Saves the state before a step up to `limit`. Asks an external controller for its memory only if
+  // the part may end within this step, or ends now.
   void keep_state(double limit) {
     part_->state.clear();
     StateWriter into;
@@ -233,10 +238,11 @@ class HybridIntegration {
     return watch_.stop != nullptr && watch_.stop->load(std::memory_order_relaxed);
   }
 
-  // Times nearer than this are one: i * step and n * period are rounded each their own way.
+  // Times closer than this (s) are the same instant: i * step and n * period round differently.
   [[nodiscard]] double slack(double t) const { return run_.rounding(t); }
 
-  // A guard that begins at zero, where the last one fell, fires once it is clearly below.
+  // Sets the guards' start values. A guard that starts at zero, where it last fell, fires once it
+  // is clearly below.
   void arm(double t, const double* z) {
     unarmed_ = false;
     run_.evaluate_guards(t, z, values_.data());
@@ -253,11 +259,11 @@ class HybridIntegration {
     std::copy_n(row_.begin(), size_, z.begin());
   }
 
-  // From a switch on, where servos move in closed form: when the next one falls; and monitors are
-  // looked at with the step, which mostly settles what the switch did to them too.
+  // After a switch with closed-form servos: predicts when the next servo guard falls. Monitors wait
+  // for the step, whose bounds usually settle what the switch did to them too.
   void foresee(double t, const std::vector<double>& z, bool switched) {
     foreseen_ = run_.next_change();
-    // A rig that does not switch has no servo's guards.
+    // A rig that does not switch has no servo guards.
     fall_ = {};
     if (first_guard_ > 0) {
       fall_ = switched ? run_.next_fall(t, *stepper_->servos(), foreseen_)
@@ -267,9 +273,9 @@ class HybridIntegration {
     unlooked_ = unlooked_ || (switched && unarmed_);
   }
 
-  // The servo's guard falls that was foreseen, at the end of the last step.
+  // Handles the predicted fall of a servo guard, at the end of the last step.
   Effect fall(double at, std::vector<double>& z) {
-    write_rows(at, false);  // in the mode that they belong to
+    write_rows(at, false);  // in the mode before the switch
     tell(at, true);
     state_at(at, z);
     const Effect effect = run_.handle_state_event(fall_.guard, at, z.data());
@@ -277,14 +283,15 @@ class HybridIntegration {
     return effect;
   }
 
-  // After a switch; `turned` is the integral of u.
+  // Checks the monitors after a switch. `turned`: the integral of u there, m.
   Effect look(double t, const std::vector<double>& z, double turned) {
     const Effect effect = run_.check_events(t, z.data());
     run_.note_turned(turned);
     return effect;
   }
 
-  // When an event will stop the run if its guard falls on as it has since this was last asked, s.
+  // Predicts when an event stops the run, s. Extrapolates each guard linearly from its value at the
+  // last call.
   double stopped_at(double t) {
     double soonest = std::numeric_limits<double>::infinity();
     asked_.resize(guards_.size());
@@ -310,8 +317,9 @@ class HybridIntegration {
     return values_[i] - guards_[i].threshold;
   }
 
-  // The first time in (from, to] at which guard i is not above its threshold; it is at `from`, and
-  // is not at `to`. Regula falsi, and a bisection after each of its steps that does not halve.
+  // The first time in (from, to] at which guard i is not above its threshold. The guard is above it
+  // at `from`, and not at `to`. Uses regula falsi, with a bisection after each step that does not
+  // halve the bracket.
   double root(std::size_t i, double from, double to) {
     double f_from = above(i, from), f_to = above(i, to);
     bool halve = false;
@@ -334,8 +342,8 @@ class HybridIntegration {
     return to;
   }
 
-  // The least value of guard i within [from, to] is looked for by golden sections; returns a time
-  // at which it is not positive, or `from`.
+  // Searches for the minimum of guard i within [from, to] by golden sections. Returns a time at
+  // which the guard is not above its threshold, or `from` if it finds none.
   double dip(std::size_t i, double from, double to) {
     constexpr double golden = 0.6180339887498949;
     double a = from, b = to;
@@ -361,17 +369,17 @@ class HybridIntegration {
     return from;
   }
 
-  // Point p of the `points` at which a step from `from` to `to` is looked at.
+  // Time of point p of the `points` at which scan() evaluates a step from `from` to `to`.
   static double point(std::size_t p, std::size_t points, double from, double to) {
     if (p == points) return to;
     return from + (to - from) * static_cast<double>(p) / static_cast<double>(points);
   }
 
-  // Slopes are differences over this part of the way from point to point.
+  // Width of the differences that give slopes, as a fraction of the distance between two points.
   static constexpr double nudged = 1e-4;
 
-  // States at all times that scan() looks at if nothing happens: one call costs little more than
-  // one for each pack of lanes.
+  // Evaluates the states at all times that scan() visits if nothing happens. One call for all times
+  // fills the SIMD lanes.
   void look_ahead(std::size_t points, double from, double to) {
     planned_times_.clear();
     double last = from;
@@ -392,21 +400,21 @@ class HybridIntegration {
       ++next_planned_;
       return;
     }
-    next_planned_ = planned_times_.size();  // another way than planned
+    next_planned_ = planned_times_.size();  // scan() has left the planned times
     state_at(t, look_);
     run_.evaluate_guards(t, look_.data(), values.data());
   }
 
-  // Whether a guard that is positive at both ends of an interval falls at its start, rises at its
-  // end, and its tangents there meet below zero: it may be negative between.
+  // Whether a guard that is positive at both ends of an interval may be negative between: it falls
+  // at the start, rises at the end, and its end tangents meet below zero.
   static bool may_dip(const Guard& guard, double end_value, double end_slope, double width) {
     if (guard.threshold != 0 || !(guard.slope < 0) || !(end_slope > 0)) return false;
     const double meet = (end_value - guard.value - end_slope * width) / (guard.slope - end_slope);
     return guard.value + guard.slope * meet <= 0;
   }
 
-  // Whether no guard falls within the step, by its values at Chebyshev points and how far below
-  // them the polynomial may go. Guards that are not finite are left to scan().
+  // Whether no guard falls within the step. Bounds each guard by its values at Chebyshev points and
+  // by the most that a polynomial can undershoot them. Leaves guards that are not finite to scan().
   bool all_stay_up(double from, double to) {
     const ChebyshevPoints& points = tables_.points(stepper_->parts());
     const std::size_t count = points.size();
@@ -416,7 +424,7 @@ class HybridIntegration {
     planned_rows_.resize(count * plain_size_);
     stepper_->evaluate(planned_times_.data(), count, planned_rows_.data());
     for (std::size_t i = first_guard_; i < guards_.size(); ++i) {
-      if (guards_[i].threshold != 0) return false;  // it starts at zero
+      if (guards_[i].threshold != 0) return false;  // starts at zero: scan() decides
       least_[i] = most_[i] = guards_[i].value;
     }
     for (std::size_t p = 0; p < count; ++p) {
@@ -428,16 +436,15 @@ class HybridIntegration {
       }
     }
     for (std::size_t i = first_guard_; i < guards_.size(); ++i) {
-      if (std::isinf(least_[i]) && least_[i] > 0) continue;  // not looked out for
+      if (std::isinf(least_[i]) && least_[i] > 0) continue;  // not monitored
       if (!(least_[i] - points.overshoot() * (most_[i] - least_[i]) > 0)) return false;
     }
     for (std::size_t i = 0; i < guards_.size(); ++i) guards_[i].value = now_[i];
     return true;
   }
 
-  // Whether the stepper tells that nothing it was not told of happens within the step. If it does
-  // not, guards are armed where the step begins; `stops` is set where something stops the run
-  // there.
+  // Whether the stepper proves that no monitor changes sides within the step. If it does not, this
+  // arms the guards at the start of the step. Sets `stops` if an event stops the run there.
   bool settled(double from, std::vector<double>& z, bool& stops) {
     if (first_guard_ == guards_.size() || quiet_) return true;
     quiet_ = stepper_->nothing_happens(run_.happening());
@@ -454,8 +461,8 @@ class HybridIntegration {
     return false;
   }
 
-  // Looks along the step for guards that fall. Occurrences that change nothing are noted on the
-  // way; at the first that does, `at` and z are set.
+  // Searches the step for guards that fall. Notes occurrences that change nothing on the way. Sets
+  // `at` and z at the first one that changes something.
   Effect scan(double from, double to, double& at, std::vector<double>& z) {
     bool stops = false;
     if (guards_.empty() || (foresees_ && settled(from, z, stops))) return Effect::none;
@@ -466,7 +473,7 @@ class HybridIntegration {
     if (all_stay_up(from, to)) return Effect::none;
     const std::size_t points = stepper_->detail();
     look_ahead(points, from, to);
-    double last = from;  // looked at
+    double last = from;  // the last time evaluated
     for (std::size_t p = 1; p <= points;) {
       const double here = point(p, points, from, to);
       const double width = here - last, nudge = width * nudged;
@@ -484,8 +491,8 @@ class HybridIntegration {
       std::size_t first = guards_.size();
       double first_time = here;
       for (std::size_t i = first_guard_; i < guards_.size(); ++i) {
-        // Infinite: not looked out for. No number: the motion overflows, which is for the stepper
-        // to say.
+        // An infinite guard is not monitored. If a guard is NaN, the motion overflows, and the
+        // stepper reports that.
         if (!std::isfinite(now_[i])) continue;
         double low = here;
         if (now_[i] > guards_[i].threshold) {
@@ -508,7 +515,7 @@ class HybridIntegration {
         ++p;
         continue;
       }
-      write_rows(first_time, false);  // in the mode that they belong to
+      write_rows(first_time, false);  // in the mode before the switch
       tell(first_time, true);
       state_at(first_time, z);
       const Effect effect = run_.handle_state_event(first, first_time, z.data());
@@ -527,7 +534,7 @@ class HybridIntegration {
     if (row_size_ > plain_size_) run_.write_extras(t, row, row + plain_size_);
   }
 
-  // Rows before `to`, and at it if `with_it`.
+  // Writes the rows before `to`, and the row at `to` if `with_it`.
   void write_rows(double to, bool with_it) {
     for (; next_row_ < end_row_; ++next_row_) {
       const double t = grid_[next_row_];
@@ -538,8 +545,8 @@ class HybridIntegration {
     }
   }
 
-  // The row at the instant of a switch, after it; the integral of u does not jump. There are more
-  // than one where rows are nearer to each other than rounding.
+  // Writes the row at the instant of a switch, with the state after it. The integral of u does not
+  // jump. There are several rows if rows are closer than rounding.
   void write_row_at(double at, const std::vector<double>& z, double turned) {
     for (; next_row_ < end_row_ && grid_[next_row_] - at <= slack(at); ++next_row_) {
       double* const row = rows_.next();
@@ -575,7 +582,7 @@ class HybridIntegration {
     }
   }
 
-  // Tells what became of the motion up to `to`, before the mode changes.
+  // Hands on the piece up to `to`, before the mode changes.
   void tell(double to, bool switches) {
     if (pieces_ == nullptr) return;
     const double first = std::max(told_, begun_);
@@ -595,11 +602,12 @@ class HybridIntegration {
     outcome.statistics = stepper_->statistics();
     outcome.occurrences = run_.occurrences();
     if (part_ != nullptr) {
-      // A part's first and last step are made by two parts.
+      // Two adjacent parts both make the step across their border. Keep only what happens within
+      // this part.
       std::erase_if(outcome.occurrences, [&](const model::Occurrence& one) {
         return one.t > cut_ || (!part_->from.empty() && one.t <= begun_);
       });
-      // What stops a run does so in the part that it happens in.
+      // A run that stops in this part has the stopping event among the part's occurrences.
       StateReader::require(ending != Ending::stopped || !outcome.occurrences.empty());
       part_->next_row = next_row_;
       part_->least_end = stepper_->least_end();
@@ -608,7 +616,8 @@ class HybridIntegration {
     return with_all_rows(std::move(outcome), end_row_);
   }
 
-  // Failed at a switch; with no states, which are the stepper's from before it.
+  // A failure at a switch. The outcome has no states, because the stepper's are from before the
+  // switch.
   Outcome at_switch(double reached, std::string reason) {
     Outcome outcome = ended(Ending::failed, reached);
     outcome.why = Why::singular;
@@ -635,31 +644,33 @@ class HybridIntegration {
   const Watch& watch_;
   Part* part_;
   std::size_t end_row_;      // of this part
-  double cut_, begun_ = -1;  // the times of its last row, and of the last one before it
+  double cut_, begun_ = -1;  // times of this part's last row and of the last row before the part
   std::size_t size_, plain_size_, row_size_;
   RowBlock rows_;
   Pace pace_;
   PieceSink* pieces_;
   std::unique_ptr<Stepper> stepper_;
   model::ExternalController* controller_;  // null if the law is built in
-  bool foresees_;            // the stepper knows servos, of which run_ tells when they switch
-  std::size_t first_guard_;  // that is looked at
+  // The stepper moves servos in closed form, and run_ predicts when they switch.
+  bool foresees_;
+  std::size_t first_guard_;  // the first one that scan() evaluates
   model::HybridSystem::Fall fall_;
-  double foreseen_ = 0;                      // until when, s
-  bool quiet_ = false;                       // nothing happens in the last step
-  bool unarmed_ = false, unlooked_ = false;  // guards since the last step; monitors since a switch
-  double turned_ = 0;                        // integral of u at that switch, m
+  double foreseen_ = 0;  // guard falls are predicted up to here, s
+  bool quiet_ = false;   // the stepper proved that nothing happens in the last step
+  // Guards have no values at the start of the step; monitors were not checked since a switch.
+  bool unarmed_ = false, unlooked_ = false;
+  double turned_ = 0;  // integral of u at that switch, m
   std::vector<Guard> guards_;
   ChebyshevTables tables_;
   std::vector<double> values_, now_, near_, least_, most_, look_, row_, planned_times_,
       planned_rows_, plain_rows_;
-  std::vector<double> asked_;  // values of the guards when stopped_at() was last asked
+  std::vector<double> asked_;  // guard values at the last call of stopped_at()
   double asked_time_ = 0;
   std::size_t next_planned_ = 0;
   std::size_t next_row_ = 1;
-  double told_ = 0;  // the pieces up to here, s
+  double told_ = 0;  // pieces are handed on up to here, s
   Standstill standstill_;
-  double asked_at_ = 0;  // when something was last due, s
+  double asked_at_ = 0;  // the last time event, s
 };
 
 }  // namespace

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Runs a scene in which things switch, sample, or are watched for, with any integrator.
+// Runs a scene that switches, samples or watches for events, with any integrator.
 #pragma once
 
 #include <functional>
@@ -14,13 +14,14 @@ namespace bbsim::solve {
 
 using MakeStepper = std::function<std::unique_ptr<Stepper>(const model::Model& model)>;
 
-// Integrates from one switch to the next, by a stepper that is made for the model which the run
-// changes from mode to mode; `tolerances` are the stepper's. What does not depend on the state is a
-// stop of the integrator; what does is the root of a guard on the step's own polynomial, to the
-// rounding of the time.
+// Integrates from one switch to the next. `make_stepper` is called once, with the model that the
+// run changes from mode to mode; `tolerances` are the stepper's. A time event is a stop of the
+// integrator. A state event is the root of a guard on the step's own polynomial, to the rounding of
+// the time.
 //
-// Rows are as long as Model::row_size() says. A row at the very time of a switch is of the instant
-// after it. Ends with Ending::stopped where something happened that the scene stops at.
+// Rows have Model::row_size() numbers. A row exactly at a switch has the state after it. Returns
+// Ending::stopped if an event stops the scene. Throws what `sink` throws, and InputError if `part`
+// has a state that does not fit.
 [[nodiscard]] Outcome integrate_hybrid(const model::Model& model, const MakeStepper& make_stepper,
                                        Tolerances tolerances, const OutputGrid& grid,
                                        StateSink& sink, const Watch& watch, Part* part = nullptr);

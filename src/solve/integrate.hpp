@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Model -> Trajectory, by the integrator asked for or the one that suits.
+// Integrates a model with the method asked for, or with the one that suits.
 #pragma once
 
 #include "model/model.hpp"
@@ -13,11 +13,11 @@ namespace bbsim::solve {
 
 // Integrates from t = 0 to the end of the grid and hands each output row to `sink`.
 //
-// `part`, which may be null, says that it is a part of a run (solve/part.hpp): by radau alone,
-// other methods keep what they remember to themselves, and leave no state.
+// `method` may be automatic. `part`, if not null, selects a part of the run (solve/part.hpp). Only
+// radau can save a state; other methods leave the part's state empty.
 //
-// `method` may be automatic. A run that cannot go on returns Ending::failed with the rows that it
-// reached; exceptions come from the sink alone.
+// A run that cannot go on returns Ending::failed with the rows that it reached. Throws what `sink`
+// throws. Throws InputError as make_stepper() does, or if the state in `part` does not fit.
 [[nodiscard]] Outcome integrate(const model::Model& model, Method method, Tolerances tolerances,
                                 const OutputGrid& grid, StateSink& sink, const Watch& watch = {},
                                 Part* part = nullptr);

@@ -16,10 +16,10 @@ namespace bbsim::solve {
 
 namespace {
 
-// What each step of a coupled scene may leave, so that what is left over the run is about the
-// tolerance for every column, of u = r gamma' too, which is hundreds of times smaller than other
-// speeds where a ball hardly spins. BDF and Adams take many more steps, and the errors of each are
-// of one sign. All other scenes keep the steps, and so the results, that they had.
+// Tightens the tolerance of each step in coupled scenes. The error over the run then stays near the
+// tolerance for every column. The hardest column is u = r gamma': it is hundreds of times smaller
+// than other speeds if the ball hardly spins. BDF and Adams take many more steps, and the errors of
+// their steps have one sign. Other scenes keep their steps and so their results.
 Tolerances of_each_step(const model::Model& model, Method method, Tolerances asked) {
   const bool coupled = std::visit(
       [](const auto& system) { return model::is_coupled<std::decay_t<decltype(system)>>; },

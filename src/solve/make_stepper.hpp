@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The integrators, by name.
+// Makes integrators by name.
 #pragma once
 
 #include <memory>
@@ -12,10 +12,9 @@
 
 namespace bbsim::solve {
 
-// Makes a stepper for runs of the model with rows at the times of the grid, by any method but
-// `automatic`: what that stands for is choose_method()'s to say. The stepper keeps a reference to
-// the model. Throws InputError if the environment variable BBSIM_SIMD names no
-// instruction set of this processor.
+// Makes a stepper for runs of the model with rows at the times of the grid. `method` must not be
+// automatic (see choose_method()). The stepper keeps a reference to the model. Throws InputError if
+// the environment variable BBSIM_SIMD names no instruction set of this processor.
 [[nodiscard]] std::unique_ptr<Stepper> make_stepper(const model::Model& model, Method method,
                                                     Tolerances tolerances, const OutputGrid& grid);
 

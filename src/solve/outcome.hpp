@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// What an integration is asked for, what it hands on, and how it ended.
+// What goes into an integration, its rows, and how it ended.
 #pragma once
 
 #include <atomic>
@@ -22,26 +22,27 @@ struct Tolerances {
 
 class PieceSink;
 
-// Receives the rows of a run in order. A row is the states at one output time, as the system
-// packs them; after them, if the model asks for gamma, the integral of u = r gamma'; and, of a rig
-// that switches, what Model::extras() counts.
+// Receives the rows of a run in order. A row has the states at one output time, packed as in the
+// system. The integral of u = r gamma' follows if the model asks for gamma. A rig that switches
+// adds Model::extras() numbers.
 class StateSink {
  public:
   virtual ~StateSink() = default;
-  // Rows first ... first + count - 1, row-major and without gaps. May throw; the run then ends.
+  // Takes rows first ... first + count - 1, row-major and without gaps. May throw; the run then
+  // ends.
   virtual void accept(std::size_t first, std::size_t count, const double* values) = 0;
-  // Who is told of the motion between rows (solve/piece.hpp); null if nobody asks.
+  // Receives the motion between rows (solve/piece.hpp); null if nobody needs it.
   [[nodiscard]] virtual PieceSink* pieces() { return nullptr; }
-  // Whether rows are of use. If not, a run may do without them, and only counts them.
+  // If false, the run may skip the rows and only count them.
   [[nodiscard]] virtual bool wants_rows() const { return true; }
 };
 
-// Lets the caller look in on a long run.
+// Lets the caller observe and stop a long run.
 struct Watch {
-  const std::atomic<bool>* stop = nullptr;      // end the run soon after this becomes true
+  const std::atomic<bool>* stop = nullptr;      // ends the run soon after it becomes true
   std::function<void(double time)> progress{};  // called every few hundred steps
-  // Called once, if that comes: at `time` (s) the run takes so many steps per second of motion, and
-  // needs so many more to its end at that pace.
+  // Called at most once, at `time` (s), when a run turns out to be slow: it takes `pace` steps per
+  // second of motion, and needs `steps` more to its end at that pace.
   std::function<void(double time, double pace, double steps)> slow{};
 };
 
@@ -53,30 +54,30 @@ struct Statistics {
   std::size_t error_test_failures = 0;
 };
 
-// Why a run is not whole, in a word that scripts may ask for.
+// Why a run is not whole, as a word that scripts can test.
 enum class Why {
   none,
-  event,               // the scene stops at what happened
+  event,               // an event stops the scene
   unbounded,           // the motion grows without bound
-  singular,            // there is no motion beyond the instant
-  too_slow,            // it would take more steps than anybody waits for
-  controller,          // it is the fault of a controller that is not built in
-  not_finite,          // what is asked for, or the motion, is no finite number
-  error_out_of_reach,  // double precision cannot give solver.error, or rtol
+  singular,            // there is no motion beyond this instant
+  too_slow,            // the run would take too many steps
+  controller,          // an external controller failed
+  not_finite,          // the motion, or a number asked for, is not finite
+  error_out_of_reach,  // double precision cannot reach solver.error, or rtol
   interrupted
 };
 [[nodiscard]] const char* name_of(Why why);
 
-// Why there is no further step, with a sentence for people: "the linear system is singular".
+// Why there is no further step, with a sentence for users: "the linear system is singular".
 struct Failure {
   Why why = Why::singular;
   const char* text = "";
 };
-// Of all integrators.
+// Common to all integrators.
 inline constexpr Failure step_is_lost{Why::singular,
                                       "the step shrank to the rounding of the time itself"};
 
-// stopped: something happened that the scene stops at.
+// stopped: an event stops the scene.
 enum class Ending { done, failed, interrupted, stopped };
 
 struct Outcome {
@@ -85,25 +86,24 @@ struct Outcome {
   double reached = 0;                 // s
   std::size_t rows = 0;               // handed to the sink
   Statistics statistics;
-  // What there is to know of a failed run: what the integrator says, the state with the largest
-  // error estimate, and all states, at the time reached; no states if it failed for another reason
-  // than the motion.
+  // Details of a failed run: the integrator's reason, the state with the largest error estimate,
+  // and all states at the time reached. There are no states if the motion is not the cause.
   std::string reason;
   Why why = Why::none;
   std::size_t worst_state = 0;
   std::vector<double> last_state;
-  // What was watched for and happened, in order; of a stopped run the last one stopped it.
+  // Events that occurred, in order. The last one stopped a stopped run.
   std::vector<model::Occurrence> occurrences{};
 };
 
-// The outcome as it is, but failed with its reason if it says that it is done and has not handed on
-// every one of the `rows` of its grid: whatever lost them, no file without them may pass for whole.
+// Returns the outcome, but as failed if it is done without all `rows` of its grid. A file that lost
+// rows, for whatever cause, must not pass for whole.
 [[nodiscard]] Outcome with_all_rows(Outcome outcome, std::size_t rows);
 
 // Collects a whole run in memory.
 class Trajectory : public StateSink {
  public:
-  // `pieces`, which may be null, is told of the motion between rows.
+  // `pieces`, if not null, receives the motion between rows.
   explicit Trajectory(std::size_t row_size, PieceSink* pieces = nullptr)
       : row_size_(row_size), pieces_(pieces) {}
 

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The times at which a run is recorded: i * step, exactly, and the end.
+// The times of the output rows: i * step, exactly, and the end.
 #pragma once
 
 #include <algorithm>
@@ -21,7 +21,7 @@ class OutputGrid {
     const double whole = std::floor(intervals);
     const double slack = std::max(1e-9, rounding_of(intervals));
     before_end_ = static_cast<std::size_t>(intervals - whole > slack ? whole + 1 : whole);
-    if (before_end_ == 0) before_end_ = 1;  // t = 0 comes always
+    if (before_end_ == 0) before_end_ = 1;  // t = 0 always has a row
   }
 
   bool operator==(const OutputGrid&) const = default;
@@ -31,14 +31,14 @@ class OutputGrid {
 
   // The time of row i < size(), s.
   [[nodiscard]] double operator[](std::size_t i) const {
-    // Processors convert signed numbers sooner.
+    // Processors convert signed integers faster.
     return i < before_end_ ? static_cast<double>(static_cast<std::ptrdiff_t>(i)) * step_ : end_;
   }
 
-  // How many rows are not after `time` >= 0, s.
+  // The number of rows at or before `time` >= 0, s.
   [[nodiscard]] std::size_t rows_until(double time) const {
     if (time >= end_) return size();
-    std::size_t rows = static_cast<std::size_t>(time / step_) + 1;  // but for rounding
+    std::size_t rows = static_cast<std::size_t>(time / step_) + 1;  // rounding: +-1
     while (rows > 0 && (*this)[rows - 1] > time) --rows;
     while ((*this)[rows] <= time) ++rows;
     return rows;

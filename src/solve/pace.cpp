@@ -12,12 +12,12 @@ bool Pace::look(double time, double event) {
   advance_ = time - from_;
   from_ = time;
   const double taken = static_cast<double>(steps_), of_window = static_cast<double>(window);
-  // Not finite where the steps are so short that the time stands still.
+  // Not finite if the steps are so short that time stands still.
   const double needed = taken + (end_ - time) / advance_ * of_window;
   const bool out_of_reach = !(needed <= most_steps);
   shrinking_ = out_of_reach && advance_ < 0.9 * before ? shrinking_ + 1 : 0;
   before = advance_;
-  // Steps near the rounding of the time are no transient: such windows count several times.
+  // Steps near the rounding of the time are no transient. Their windows count eight times.
   const bool near_rounding = advance_ < 1e-12 * of_window * time;
   slow_ = out_of_reach ? slow_ + (near_rounding ? 8 : 1) : 0;
   if (taken > most_steps) return true;

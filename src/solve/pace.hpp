@@ -1,12 +1,12 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Tells a run that will not come to its end from one that takes long.
+// Distinguishes a run that will never finish from one that takes long.
 //
-// Near a singular point, or where rounding is all that an error test sees, steps become so short
-// that a run goes on for days without getting anywhere. Steps as such say little: they are short
-// for a while where a transient passes, or where an event soon ends the run. So the question is how
-// many more it would take at the pace of the last ones, and it is asked again and again.
+// Near a singular point, or where the error test sees only rounding, steps become so short that a
+// run goes on for days without progress. The step length alone says little: steps are short for a
+// while in a transient, or before an event that ends the run. Pace therefore extrapolates again and
+// again how many steps remain at the present pace.
 #pragma once
 
 #include <array>
@@ -19,13 +19,13 @@ namespace bbsim::solve {
 
 class Pace {
  public:
-  // The run is to go to `end`, s.
+  // `end`: the end of the run, s.
   explicit Pace(double end) : end_(end) {}
 
-  // Tells whether to give up; to be called after each step that fell short of its limit: one that
-  // ended at a stop, a sample or the end says nothing. `time` is where the run is, s. `event` tells
-  // when something will end the run, if it comes on as it has since `event` was last called, s;
-  // that is now and then.
+  // Returns whether to give up. Call it after each step that ends short of its limit. A step that
+  // ends at a stop, a sample or the end says nothing. `time`: the present time, s. `event` returns
+  // the time (s) at which an event will end the run, extrapolated from its last call; it is called
+  // once per window of steps.
   template <class Event>
   [[nodiscard]] bool creeps(double time, Event event) {
     return ++steps_ % window == 0 && look(time, event());
@@ -34,10 +34,10 @@ class Pace {
     return creeps(time, [] { return std::numeric_limits<double>::infinity(); });
   }
 
-  // Whether the last call looked at how far it is, as one of some thousands does.
+  // Whether the last call of creeps() completed a window of 4096 steps and checked the pace.
   [[nodiscard]] bool looked() const { return steps_ % window == 0; }
 
-  // What it remembers (base/archive.hpp).
+  // Saves or restores its state (base/archive.hpp).
   template <class Archive>
   void archive(Archive& archive) {
     archive(steps_, from_, advance_, advances_, windows_, shrinking_, slow_, awaited_);
@@ -46,39 +46,38 @@ class Pace {
     }
   }
 
-  // How many steps a second of motion takes at present, 1/s, and how many are left at that pace;
-  // after looked().
+  // Steps per second of motion at present, 1/s, and steps left at that pace. Valid after looked().
   [[nodiscard]] double steps_per_second() const { return static_cast<double>(window) / advance_; }
   [[nodiscard]] double steps_left() const { return (end_ - from_) * steps_per_second(); }
 
-  // Whether it is time to say so: once, where a second of motion takes a million steps and the rest
-  // more than a second or so of work. To be called after looked().
+  // Whether to report a slow run now. True once, if a second of motion takes over a million steps
+  // and the rest takes over a second or so of work. Call it after looked().
   [[nodiscard]] bool is_news() {
     constexpr double a_million = 1e6, some_work = 1e5;
     const bool slow = steps_ > 0 && steps_per_second() > a_million && steps_left() > some_work;
     return slow && !std::exchange(told_, true);
   }
 
-  // Why, as Outcome::reason.
+  // Why the run was given up, for Outcome::reason.
   [[nodiscard]] std::string reason() const;
 
  private:
   static constexpr std::size_t window = 4096;
-  // Hours of the fastest integrator: more steps than this are not waited for.
+  // A run with more steps is given up. They take the fastest integrator hours.
   static constexpr double most_steps = 1e10;
-  // Windows in a row in which the end stays out of reach while the steps become shorter than some
-  // windows before, and windows whatever they do: a transient passes in half a million steps.
+  // The run is given up after this many windows in a row that leave the end out of reach: with
+  // shrinking advances, and with any. A transient passes in half a million steps.
   static constexpr int most_shrinking = 6, most_slow = 128;
-  // An event is waited for that is so many windows away, and for so many.
+  // Waits for an event that is at most `soon` windows away, and for at most `most_awaited` windows.
   static constexpr int soon = 64, most_awaited = 128;
 
   bool look(double time, double event);
 
   double end_;
   std::size_t steps_ = 0;
-  double from_ = 0;                   // where the last window began, s
-  double advance_ = 0;                // how far it came, s
-  std::array<double, 4> advances_{};  // of the last windows
+  double from_ = 0;                   // start of the present window, s
+  double advance_ = 0;                // of the last whole window, s
+  std::array<double, 4> advances_{};  // of the last windows, s
   std::size_t windows_ = 0;
   int shrinking_ = 0, slow_ = 0, awaited_ = 0;
   bool told_ = false;

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The motion between rows: the smooth pieces that a run consists of.
+// The motion between rows: the smooth pieces of a run.
 #pragma once
 
 #include <cstddef>
@@ -11,31 +11,30 @@
 
 namespace bbsim::solve {
 
-// What the motors give, in the columns of those names.
+// Loads of the motors, named like their output columns.
 enum class Load { motor_torque_phi, motor_torque_theta, motor_power };
 
 struct Bounds {
   double least, most;
 };
 
-// A step of the integrator, or the part of one before something switched. To be looked at before
-// the run goes on.
+// A step of the integrator, or the part of a step before a switch. Valid only until the run
+// continues.
 class Piece {
  public:
   Piece(double from, double to, std::size_t parts) : from_(from), to_(to), parts_(parts) {}
   virtual ~Piece() = default;
 
   [[nodiscard]] double from() const { return from_; }  // s
-  // Where the piece ends at a switch, the last instant before it: what is evaluated there is of
-  // this side of the switch, and at from() of the next piece of the other one.
+  // At a switch this is the last instant before it. Values at to() are from before the switch, and
+  // values at from() of the next piece from after it.
   [[nodiscard]] double to() const { return to_; }
-  // Chebyshev points of so many intervals show what a smooth function of the rows does.
+  // The number of Chebyshev intervals that resolve a smooth function of the rows.
   [[nodiscard]] std::size_t parts() const { return parts_; }
-  // Rows as a StateSink gets them, at times within the piece, ends included.
+  // Evaluates rows, as a StateSink receives them, at times within the piece, ends included.
   virtual void evaluate(const double* times, std::size_t count, double* rows) const = 0;
-  // Between which numbers a load stays over the piece, at the least: wider than it does, but told
-  // at once; `closely` takes a little longer. Nothing where that is not known without evaluating
-  // rows.
+  // Quick bounds of a load over the piece. They may be wider than its true range; `closely` narrows
+  // them and takes a little longer. Empty if only rows can show the range.
   [[nodiscard]] virtual std::optional<Bounds> bounds(Load /*load*/,
                                                      const model::BallConstants& /*constants*/,
                                                      bool /*closely*/) const {
@@ -47,11 +46,11 @@ class Piece {
   std::size_t parts_;
 };
 
-// Is told of each piece of a run, in order.
+// Receives each piece of a run, in order.
 class PieceSink {
  public:
   virtual ~PieceSink() = default;
-  // A run begins. What came of another one, which was given up, does not count.
+  // A run begins. Pieces of an earlier attempt, which was given up, no longer count.
   virtual void begin_run() = 0;
   virtual void accept(const Piece& piece) = 0;
 };

@@ -14,21 +14,21 @@ namespace bbsim::solve {
 
 class RowBlock {
  public:
-  // `first` is the number of the first row.
+  // `first`: the number of the first row.
   RowBlock(StateSink& sink, std::size_t row_size, std::size_t first = 0)
       : sink_(sink),
         row_size_(row_size),
         values_(std::make_unique_for_overwrite<double[]>(row_size * capacity)),
         first_(first) {}
 
-  // Room for the next row. It counts as handed on once the next call, or flush(), is made.
+  // Returns space for the next row. The row must be complete before the next call of next() or
+  // flush().
   [[nodiscard]] double* next() {
     if (count_ == capacity) flush();
     return values_.get() + row_size_ * count_++;
   }
 
-  // Room for several rows in one piece: `wanted` of them, or as many as there is room for, which
-  // is what `wanted` then says.
+  // Returns space for several adjacent rows. Reduces `wanted` to the number of rows that fit.
   [[nodiscard]] double* next(std::size_t& wanted) {
     if (count_ == capacity) flush();
     wanted = std::min(wanted, capacity - count_);

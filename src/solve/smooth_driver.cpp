@@ -29,8 +29,9 @@ class Step : public Piece {
   Stepper& stepper_;
 };
 
-// How far a ball, m, or a plane, rad, goes before a loop that has run away is given up, if it takes
-// thousands of steps: commands are sums of terms as large, whose rounding moves the servos.
+// Beyond this distance of the ball (m) or angle of the plate (rad), a closed loop has run away. It
+// is given up if it takes thousands of steps: commands are then sums of terms of this size, and
+// only their rounding moves the servos.
 constexpr double most_gone = 1e9;
 
 bool has_run_away(const model::Model& model, const std::vector<double>& state) {

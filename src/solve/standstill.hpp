@@ -1,15 +1,15 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Rigs that switch again and again and get nowhere.
+// Detects rigs that switch again and again without progress.
 #pragma once
 
 namespace bbsim::solve {
 
-// A hundred switches in a row that take no time are not a motion.
+// A hundred switches in a row without progress in time are a standstill.
 class Standstill {
  public:
-  // Whether that is so after one more, at t (s).
+  // Counts a switch at t (s). Returns whether the rig stands still.
   [[nodiscard]] bool after(double t) {
     const bool still = t - last_ <= 1e-13 * t;
     still_ = still ? still_ + 1 : 0;
@@ -17,7 +17,7 @@ class Standstill {
     return still_ >= most;
   }
 
-  // All that it remembers (base/archive.hpp).
+  // Saves or restores its state (base/archive.hpp).
   template <class Archive>
   void archive(Archive& archive) {
     archive(last_, still_);

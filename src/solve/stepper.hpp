@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// One integrator, a step at a time: what all of them do for whoever drives them.
+// The interface of all integrators: one step at a time.
 #pragma once
 
 #include <array>
@@ -20,66 +20,65 @@
 
 namespace bbsim::solve {
 
-// States are packed as the system does it; with Model::gamma the integral of u = r gamma' follows.
+// States are packed as in the system. With Model::gamma the integral of u = r gamma' follows.
 class Stepper {
  public:
   virtual ~Stepper() = default;
 
-  // Begins anew from states at t, without memory: the model's right-hand side may have changed.
+  // Restarts from the states z at t (s). Forgets all history, because the model's right-hand side
+  // may have changed.
   virtual void start(double t, const double* z) = 0;
 
-  // One step that passes its error test, not beyond `limit`; the last one before it reaches it
-  // exactly. Returns why there is none, if so.
+  // Makes one step that passes its error test, up to `limit` (s) at most. The last step before
+  // `limit` ends exactly there. Returns the failure if there is no step.
   [[nodiscard]] virtual std::optional<Failure> step(double limit) = 0;
 
-  // Gives the states at times within the last step, ends included, by its own polynomial; `count`
-  // rows without gaps. To be called before the next step.
+  // Evaluates the states at times within the last step, ends included, on the step's own
+  // polynomial. Writes `count` rows without gaps. Call it before the next step.
   virtual void evaluate(const double* times, std::size_t count, double* rows) = 0;
 
-  // A derivative of the input jumps here, at the end of the last step.
+  // An input derivative jumps at the end of the last step.
   virtual void jump() = 0;
 
   // The end of the last step, s.
   [[nodiscard]] virtual double time() const = 0;
-  // After a step() that failed: the states that it started from, and which one failed it.
+  // After a failed step(): the states at its start, and the index of the state that failed it.
   [[nodiscard]] virtual std::vector<double> state() const = 0;
   [[nodiscard]] virtual std::size_t worst_state() const = 0;
   [[nodiscard]] virtual Statistics statistics() const = 0;
-  // How many points of a step show all that its polynomial can do.
+  // The number of points that resolve a step's polynomial.
   [[nodiscard]] virtual std::size_t detail() const = 0;
-  // Chebyshev points of so many intervals show what a smooth function of the states, and of the
-  // time, does over the last step. A step shorter than the tolerance allows needs fewer.
+  // The number of Chebyshev intervals that resolve a smooth function of states and time over the
+  // last step. A step shorter than the tolerance allows needs fewer.
   [[nodiscard]] virtual std::size_t parts() const = 0;
 
-  // How servos move from start() on, of a stepper that moves them in closed form; else null. Then
-  // HybridSystem tells when one switches, and no step goes beyond.
+  // The servos' motion since start(), if the stepper moves servos in closed form; otherwise null.
+  // HybridSystem then predicts their switches, and no step crosses one.
   [[nodiscard]] virtual const std::array<model::HeldMotion, 2>* servos() const { return nullptr; }
-  // Whether, for sure, no monitor of the scene's events changes its side within the last step,
-  // start and end included: `happening` says of each which one it is on. To be called before the
-  // next step.
+  // Whether no monitor of the scene's events changes sides within the last step, ends included.
+  // False if that is not certain. `happening` has the present side of each monitor. Call it before
+  // the next step.
   [[nodiscard]] virtual bool nothing_happens(const std::vector<char>& /*happening*/) {
     return false;
   }
-  // Of the last step, as Piece::bounds().
+  // Bounds over the last step, as Piece::bounds().
   [[nodiscard]] virtual std::optional<Bounds> bounds(Load /*load*/,
                                                      const model::BallConstants& /*constants*/,
                                                      bool /*closely*/) {
     return {};
   }
 
-  // All that it remembers, for another stepper of this model, method and tolerances: its steps are
-  // then those that this one would have made, to the bit. False if the integrator does not give it
-  // away.
+  // Saves the whole state. Another stepper of this model, method and tolerances continues from it
+  // with the same steps, to the bit. Returns false if the integrator cannot save its state.
   [[nodiscard]] virtual bool save(StateWriter& /*into*/) { return false; }
-  // Takes the place of start(). Throws InputError where the bytes are not such a stepper's.
+  // Replaces start(). Throws InputError if the bytes are not the state of a stepper like this one.
   virtual void restore(StateReader& /*from*/) {}
-  // The earliest end of a run whose steps would have been those that were made with an infinite
-  // limit, s.
+  // The earliest end (s) of a run that has the steps made so far with an infinite limit.
   [[nodiscard]] virtual double least_end() const { return 0; }
 };
 
-// Drives a stepper from the model's initial state to the end of the grid, and hands on the rows.
-// The model is not hybrid().
+// Drives a stepper from the model's initial state to the end of the grid and hands on the rows. The
+// model must not be hybrid().
 [[nodiscard]] Outcome run_through(Stepper& stepper, const model::Model& model,
                                   const OutputGrid& grid, StateSink& sink, const Watch& watch,
                                   Part* part = nullptr);

@@ -16,9 +16,9 @@
 namespace bbsim::study {
 namespace {
 
-// Far below the error of any double, in scenes that grow a millionfold as well.
+// Far below the error of any double, even in scenes that grow a millionfold.
 constexpr double reference_tolerance = 1e-22;
-// The reference's share of the progress shown.
+// The reference's share of the progress.
 constexpr double reference_share = 0.05;
 
 constexpr std::size_t least_repeats = 5;
@@ -103,7 +103,8 @@ AccuracyStudy measure_accuracy(const model::Model& model, const solve::OutputGri
         return study;
       }
       AccuracyPoint point = measure(model, grid, method, rtol, reference, watch.stop);
-      if (point.ending == solve::Ending::interrupted) continue;  // and end at the check above
+      // The check above then ends the study.
+      if (point.ending == solve::Ending::interrupted) continue;
       study.points.push_back(point);
       progress(reference_share +
                (1 - reference_share) * static_cast<double>(study.points.size()) / all);
@@ -123,7 +124,7 @@ std::vector<BestChoice> best_by_decade(const AccuracyStudy& study) {
     return a->error < b->error;
   };
   const auto [least, most] = std::minmax_element(done.begin(), done.end(), by_error);
-  // An error of zero, of a ball that does not move, needs no finer decade than rounding has.
+  // A ball that does not move has an error of zero. It needs no decade below rounding.
   const auto decade = [](double error) {
     return static_cast<int>(std::ceil(std::log10(std::max(error, 1e-16))));
   };

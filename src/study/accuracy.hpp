@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// What accuracy costs: integrators and tolerances against the quad-precision reference.
+// Measures the cost of accuracy: methods and tolerances against the quad-precision reference.
 #pragma once
 
 #include <atomic>
@@ -28,25 +28,26 @@ struct AccuracyPoint {
 };
 
 struct AccuracyStudy {
-  std::vector<AccuracyPoint> points;  // methods in the order asked for, each down its ladder
+  std::vector<AccuracyPoint> points;  // method by method, rtol by rtol, as asked for
   double reference_error = 0;         // the reference's estimate of its own error, m
-  bool reference_complete = false;    // if not, errors are those up to where it ended
+  bool reference_complete = false;    // if not, errors are those up to its end
   double reference_reached = 0;       // s
   std::string reference_reason;
-  bool interrupted = false;  // points are those finished before
+  bool interrupted = false;  // if so, points has only those finished before
 };
 
 struct AccuracyWatch {
-  const std::atomic<bool>* stop = nullptr;          // end soon after this becomes true
+  const std::atomic<bool>* stop = nullptr;          // ends the study soon after it becomes true
   std::function<void(double fraction)> progress{};  // of the whole study, in [0, 1]
 };
 
-// The double that its first ten digits name: 1e-5, where 1e-3 / 100 is one next to it.
+// The double nearest to the first ten digits of `value`: 1e-5 for 1e-3 / 100, which is a neighbor
+// of it.
 [[nodiscard]] double ten_digits(double value);
 
-// Runs every method at every rtol, with the rows kept in memory. atol is a hundredth of rtol, as
-// in the scenario's defaults. Each run is repeated until its time is steady: at least 5 times and
-// for 20 ms, but for no more than a second.
+// Runs every method at every rtol, with the rows kept in memory. atol is a hundredth of rtol, as in
+// the scenario's defaults. Repeats each run until its time is steady: at least 5 times and for 20
+// ms, but for no more than a second.
 [[nodiscard]] AccuracyStudy measure_accuracy(const model::Model& model,
                                              const solve::OutputGrid& grid,
                                              const std::vector<Method>& methods,
@@ -59,9 +60,9 @@ struct BestChoice {
   const AccuracyPoint* point = nullptr;
 };
 
-// The choices go from the coarsest decade that tells points apart to the finest one that any
-// reached. Only runs that came to their end count. The points are those of `study`, which must
-// outlive the result.
+// The best choice for each decade, from the coarsest that distinguishes points to the finest that a
+// point reached. Only runs that reached their end count. The results point into `study`, which must
+// outlive them.
 [[nodiscard]] std::vector<BestChoice> best_by_decade(const AccuracyStudy& study);
 
 }  // namespace bbsim::study

@@ -17,7 +17,7 @@
 namespace bbsim::study {
 namespace {
 
-// Prints as printf does, to the end of a string; lines of this file are shorter than the buffer.
+// Appends text as printf does. Lines of this file are shorter than the buffer.
 [[gnu::format(printf, 2, 3)]] void append(std::string& text, const char* format, ...) {
   char line[256];
   va_list arguments;
@@ -28,7 +28,7 @@ namespace {
   text += line;
 }
 
-// Rounds to whole nanoseconds, which is what the clock has.
+// Rounds to whole nanoseconds, the resolution of the clock.
 double microseconds(const AccuracyPoint& point) {
   return std::round(1e9 * point.cpu_seconds) / 1000;
 }
@@ -41,8 +41,7 @@ const char* status(const AccuracyPoint& point) {
   return point.ending == solve::Ending::done ? "done" : "failed";
 }
 
-// The text as a string of gnuplot in single quotes, where a quote is doubled and nothing else is
-// special.
+// The text as a gnuplot string in single quotes, where only the quote is special: it is doubled.
 std::string quoted(std::string_view text) {
   std::string result = "'";
   for (const char c : text) {
@@ -91,7 +90,7 @@ std::string accuracy_csv(const AccuracyStudy& study) {
 }
 
 std::string accuracy_plot(const AccuracyStudy& study, const std::string& title, Picture picture) {
-  // Okabe and Ito's colours, which the colour-blind can tell apart.
+  // Okabe and Ito's colors, which color-blind people can distinguish.
   constexpr std::array<std::string_view, 6> colours{"#0072B2", "#D55E00", "#009E73",
                                                     "#CC79A7", "#E69F00", "#56B4E9"};
   std::vector<Method> methods;
@@ -107,7 +106,7 @@ std::string accuracy_plot(const AccuracyStudy& study, const std::string& title, 
     for (const AccuracyPoint& point : study.points) {
       if (point.method != methods[i] || point.ending != solve::Ending::done) continue;
       if (!std::isfinite(point.error)) continue;
-      // A logarithm has no zero; an error below all rounding is one.
+      // A logarithm has no zero. An error below all rounding can be zero.
       append(data, "%.17g %.17g\n", std::max(point.error, 1e-20), microseconds(point));
     }
     if (data.empty()) continue;

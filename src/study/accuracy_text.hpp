@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// A study of accuracy as text: a table for people, CSV for programs, a plot for gnuplot.
+// Writes a study of accuracy as a table for people, as CSV for programs, or as a gnuplot script.
 #pragma once
 
 #include <string>
@@ -19,7 +19,7 @@ namespace bbsim::study {
 enum class Picture { svg, png, pdf };
 
 // A gnuplot script that writes a work-precision diagram to its standard output: time over error,
-// both logarithmic, one curve a method. Runs that ended early are left out.
+// both logarithmic, with one curve for each method. Runs that ended early are left out.
 [[nodiscard]] std::string accuracy_plot(const AccuracyStudy& study, const std::string& title,
                                         Picture picture);
 

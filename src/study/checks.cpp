@@ -15,17 +15,16 @@
 namespace bbsim::study {
 namespace {
 
-// The tolerance of checks, unless the run's is nearly as fine; then it is the run's times
-// check_factor.
+// The tolerance of checks. If the run's tolerance times check_factor is finer, they use that.
 constexpr double usual_rtol = 1e-13, check_factor = 1e-2;
-// An estimate is the distance of runs, which can be near each other by luck.
+// An estimate is a distance between runs, which may be close by luck.
 constexpr double safety = 1.5;
-// Checks that are apart by more than this part of the estimate blur it; the estimate is then
-// widened.
+// If the distance between checks exceeds this fraction of the estimate, they are too noisy, and the
+// estimate is widened.
 constexpr double noise = 0.1, safety_in_noise = 3;
 
-// How far two runs are apart, m: at the worst output time that both have, and, of runs that an
-// event stopped, by the way that the ball goes between their ends.
+// The distance between two runs, m: the largest at an output time that both have. For runs that an
+// event stopped, it includes how far the ball moves between their ends.
 double distance(const Track& a, const Track& b) {
   if (a.outcome.ending != b.outcome.ending) return infinity;
   double largest = 0;
@@ -43,7 +42,7 @@ double distance(const Track& a, const Track& b) {
   return std::isnan(largest) ? infinity : largest;
 }
 
-// Below a few roundings of the position itself no two runs can tell.
+// No two runs can resolve less than a few roundings of the position.
 double rounding(const Track& run) {
   double size = 0;
   for (const double position : run.positions) size = larger(size, std::abs(position));
@@ -74,8 +73,8 @@ void Tracker::accept(std::size_t first, std::size_t count, const double* values)
   if (rows_ != nullptr) rows_->accept(first, count, values);
 }
 
-// The checks for a run, of which the first has other stages than it, and neighbours have other ones
-// than each other. A rig beyond the paper's has kernels of 8 and 12 stages only.
+// The checks for a run. The first has other stages than the run, and neighbors have different
+// stages. A rig beyond the paper's has kernels of 8 and 12 stages only.
 std::array<solve::CheckRun, 4> Checks::kinds(const Track& run, double rtol) const {
   using solve::radau::choose_stages, solve::radau::stages_of;
   const int most = stages_of(model_, 16), fewer = most == 16 ? 12 : 8;
@@ -106,7 +105,7 @@ const Track* Checks::check(solve::CheckRun how) {
   return made_.back().track.get();
 }
 
-// Nothing if a check does not come to its end.
+// Empty if a check does not reach its end.
 std::optional<double> Checks::distance_from(const Track& run,
                                             const std::array<solve::CheckRun, 4>& kinds,
                                             bool confirm) {
@@ -153,7 +152,7 @@ std::vector<double> Checks::row_estimates(const Track& run, double estimate) con
   }
   double largest = 0;
   for (const double one : rows) largest = std::fmax(largest, one);
-  // Never more than what is said of the whole run, nor less than rounding.
+  // Between rounding and the estimate of the whole run.
   const double factor =
       largest > 0 ? std::clamp(estimate / largest, safety, safety_in_noise) : safety;
   const double least = rounding(run);

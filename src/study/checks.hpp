@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// How far a run is from the truth, by runs that are unlike it.
+// Estimates the error of a run by check runs that differ from it.
 #pragma once
 
 #include <array>
@@ -20,43 +20,43 @@ namespace bbsim::study {
 // The tightest relative tolerance that is tried, about 50 roundings.
 inline constexpr double finest_rtol = 1e-14;
 
-// Positions matter in metres: the absolute part of the tolerance is the same fraction of a metre as
-// the relative part, but never so coarse that a scene of millimetres would not be resolved.
+// The absolute tolerance is a hundredth of the relative one, in meters: fine enough to resolve a
+// scene of millimeters.
 [[nodiscard]] solve::Tolerances tolerances_of(double rtol);
 
-// Whether a run came to where the scene ends it, or to something that the scene stops at.
+// Whether a run reached the end of the scene, or an event that stops it.
 [[nodiscard]] bool came_to_its_end(const solve::Outcome& outcome);
 
-// A run, by what its error is measured in.
+// The parts of a run that its error is measured by.
 struct Track {
   solve::Outcome outcome;
-  std::vector<double> positions;  // of the ball, one output time after the other, m
+  std::vector<double> positions;  // of the ball, at one output time after another, m
 };
 
-// Runs whose distance from another run is that one's error. Each is as exact as doubles allow: a
-// tolerance says what a step's error is at most, not how small it is, so that a check of a
-// hundredth of the run's tolerance may be no better than the run, and wrong in the same way. And
-// each has other stages and other steps than the run and than the other checks, so that they have
-// no error in common.
+// Check runs, whose distance from another run is that run's error. Each is as accurate as doubles
+// allow. A tolerance only bounds a step's error from above, so a check at a hundredth of the run's
+// tolerance may be no better than the run, and wrong in the same way. Each check also has other
+// steps than the run and the other checks, and mostly other stages, so that their errors have no
+// common cause.
 //
-// Checks are made when they are first needed, and serve all runs of the model that are asked about.
+// Checks are made when they are first needed, and serve all runs of the model.
 class Checks {
  public:
-  // Both outlive the checks.
+  // `model`, `grid` and `watch` must outlive the object.
   Checks(const model::Model& model, const solve::OutputGrid& grid, const solve::Watch& watch)
       : model_(model), grid_(grid), watch_(watch) {}
 
-  // About the largest error of x and y in a run that came to its end, at the output times, m: one
-  // and a half times its distance from a check, or more where checks themselves are so far apart
-  // that it says little. Infinite if they do not come to the same end, or none comes to its end at
-  // a tolerance at least as fine as the run's.
+  // Estimates the largest error of x and y at the output times, m, of a run that reached its end:
+  // 1.5 times its distance from a check, or more if the checks' own distances are too large.
+  // Infinite if they end differently, or if no check reaches its end at a tolerance at least as
+  // fine as the run's.
   //
-  // With `confirm` two checks or more are made. One may be near the run by luck, where rounding is
-  // all that is left of the error.
+  // `confirm`: make two or more checks. If only rounding is left of the error, one check may be
+  // close to the run by luck.
   [[nodiscard]] double estimate(const Track& run, double rtol, bool confirm);
 
-  // The estimate for each of the run's rows, once `estimate` of the whole run is known. For a row
-  // that no check has it is no number.
+  // The estimate for each of the run's rows, from the `estimate` of the whole run. NaN for a row
+  // that no check has.
   [[nodiscard]] std::vector<double> row_estimates(const Track& run, double estimate) const;
 
   [[nodiscard]] bool interrupted() const { return interrupted_; }
@@ -78,14 +78,14 @@ class Checks {
   double least_ = 0;  // finer tolerances have failed
   struct Made {
     solve::CheckRun how;
-    std::unique_ptr<Track> track;  // null if it did not come to its end
+    std::unique_ptr<Track> track;  // null if it did not reach its end
   };
   std::vector<Made> made_;
   bool interrupted_ = false;
   int runs_ = 0;
 };
 
-// Keeps the positions of a run, and hands its rows on to a sink if there is one.
+// Keeps the positions of a run, and passes its rows on to a sink if there is one.
 class Tracker : public solve::StateSink {
  public:
   Tracker(const model::Model& model, std::vector<double>& positions,

@@ -28,10 +28,10 @@ ErrorControlled integrate_to_error(const model::Model& model, Method method, dou
                                    const solve::OutputGrid& grid, solve::StateSink& sink,
                                    const solve::Watch& watch) {
   ErrorControlled result;
-  // Whoever looks between the rows is told of each run that may be chosen, and again of the one
-  // that is, if another came after it.
+  // `pieces` receives every run that may be chosen. If a later run was not chosen, the chosen one
+  // is run again for it.
   solve::PieceSink* const pieces = sink.pieces();
-  double told = 0;  // the relative tolerance of whichever was told last
+  double told = 0;  // the relative tolerance of the last run that it received
   const auto run = [&](double rtol) {
     Candidate made{rtol, {}, Trajectory(model.row_size(), pieces)};
     Tracker tracker(model, made.track.positions, &made.rows);
@@ -52,11 +52,13 @@ ErrorControlled integrate_to_error(const model::Model& model, Method method, dou
   Checks checks(model, grid, watch);
   Candidate candidate = run(std::clamp(bound, 100 * finest_rtol, 1e-3));
   Candidate best{candidate.rtol, {}, Trajectory(model.row_size())};
-  bool confirmed = false;  // the estimate of the best
+  bool confirmed = false;  // whether the best estimate is confirmed
   for (;;) {
     const bool first = result.runs == 1;
     const double rtol = candidate.rtol;
-    if (candidate.track.outcome.ending == Ending::failed && !first) break;  // too fine a tolerance
+    if (candidate.track.outcome.ending == Ending::failed && !first)
+      // The tolerance was too fine.
+      break;
     if (!came_to_its_end(candidate.track.outcome)) {
       result.runs += checks.runs();
       deliver(candidate);
@@ -77,7 +79,7 @@ ErrorControlled integrate_to_error(const model::Model& model, Method method, dou
     }
     result.met = result.estimate <= bound && confirmed;
     if (result.met || rtol <= finest_rtol || std::isinf(estimate)) break;
-    // The error is about proportional to the tolerance; a margin of three on the way to the bound.
+    // The error is about proportional to the tolerance. Aim at a third of the bound.
     candidate = run(std::max(finest_rtol, rtol * std::clamp(bound / (3 * estimate), 1e-5, 0.3)));
   }
   if (!confirmed && came_to_its_end(best.track.outcome)) {

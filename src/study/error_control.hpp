@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// From metres of error to a method and its tolerances.
+// Chooses tolerances for an error bound in meters.
 #pragma once
 
 #include <vector>
@@ -13,24 +13,26 @@
 namespace bbsim::study {
 
 struct ErrorControlled {
-  solve::Outcome outcome;          // of the run whose rows the sink was given
+  solve::Outcome outcome;          // of the run whose rows the sink received
   solve::Tolerances tolerances{};  // of that run
   double estimate = 0;             // of its error: max |dx|, |dy| over the rows, m
-  // The estimate for each of these rows; for one that the second run did not reach it is no number.
-  // None if there is no estimate.
+  // The estimate for each of these rows, NaN for a row that no check run reached. Empty if there is
+  // no estimate.
   std::vector<double> row_estimates;
   bool met = false;  // whether the estimate is within the bound
-  int runs = 0;      // integrations that it took
+  int runs = 0;      // number of integrations
 };
 
-// Integrates so that x and y are within `bound` (m) at all output times.
+// Integrates so that x and y are within `bound` (m) at all output times
+// (docs/explanation/error-control.md).
 //
-// The error of a run is estimated by its distance from a second run with another number of stages
-// and a tolerance far below, which knows nothing of the first run's own error estimate. While the
-// estimate is above the bound the tolerance is tightened, until double precision gives no more:
-// then the most accurate run's rows are given, and `met` is false. All rows are held in memory.
+// Estimates a run's error by its distance from check runs with another number of stages and a much
+// finer tolerance. They do not use the run's own error estimate. While the estimate exceeds the
+// bound, the tolerance is tightened. If double precision cannot meet the bound, the sink receives
+// the most accurate run, and `met` is false. All rows are held in memory.
 //
-// A run that fails, or is interrupted, ends the matter: its rows are given.
+// If a run fails or is interrupted, the sink receives the rows of that run. A later run that fails
+// is dropped in favor of the best one before it.
 [[nodiscard]] ErrorControlled integrate_to_error(const model::Model& model, Method method,
                                                  double bound, const solve::OutputGrid& grid,
                                                  solve::StateSink& sink,

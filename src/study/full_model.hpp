@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// What the full model buys: a scene with simpler equations for the ball, against equation (27).
+// Compares simpler equations for the ball with equation (27).
 #pragma once
 
 #include <string>
@@ -16,21 +16,23 @@ struct SimplerModel {
   std::string name;
   std::string equation;
   double dx = 0, dy = 0;        // largest |difference| from the full model over the output times, m
-  double at_dx = 0, at_dy = 0;  // when, s
-  double reached = 0;           // the comparison's end: the scene's, or where a model failed, s
+  double at_dx = 0, at_dy = 0;  // times of these, s
+  double reached = 0;  // end of the comparison: the scene's end, or where a model failed, s
 };
 
 struct FullModelStudy {
   std::vector<SimplerModel> simpler;
-  double reached = 0;  // of the full model, s
+  double reached = 0;  // by the full model, s
   bool interrupted = false;
 };
 
-// Throws InputError, with what is allowed, for a scene that compare_simpler() does not take.
+// Throws InputError if compare_simpler() does not support the scene. The message says what is
+// allowed.
 void require_comparable(const Scenario& scenario);
 
-// Runs the scene with equation (27) and with two simpler equations in its place; a controller acts
-// on whichever ball is there. Tolerances of 1e-9 and 1e-11, whatever the scene's own.
+// Runs the scene with equation (27) and with two simpler equations in its place. A controller acts
+// on the ball of its own run. Tolerances are 1e-9 and 1e-11, not the scene's. Throws as
+// require_comparable() does.
 [[nodiscard]] FullModelStudy compare_simpler(const Scenario& scenario,
                                              const solve::Watch& watch = {});
 

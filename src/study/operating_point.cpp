@@ -15,14 +15,15 @@
 namespace bbsim::study {
 namespace {
 
-// The row at the start, with all that happens at that instant.
+// The row at the start, after all that happens at that instant.
 std::vector<double> first_row(const model::Model& model) {
   std::vector<double> row = model.initial;
   if (!model.hybrid()) {
     row.resize(model.row_size());
     return row;
   }
-  model::HybridSystem run(model, 0);  // scenes with dry friction are refused
+  // The resolution is 0: scenes with dry friction are refused.
+  model::HybridSystem run(model, 0);
   run.handle_time_event(0, row.data());
   row.resize(model.row_size());
   run.write_extras(0, row.data(), row.data() + model.size() + (model.gamma ? 1 : 0));
@@ -52,7 +53,7 @@ model::LinearPoint point_of(const model::Model& model, double time, const double
         } else {
           point.reference = system.reference().at(time);
         }
-        // Angles of the servos, which are not those of the plane.
+        // The states have the angles of the servos, not of the plate.
         if constexpr (model::is_rig<Any>) std::copy_n(row, Any::size, point.state.begin());
         if constexpr (model::is_coupled_loop<Any>) {
           point.own.assign(row, row + Any::size);

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The point of a scene's motion at a time, to linearise it about.
+// The state of a scene at a time, as a point for linearization.
 #pragma once
 
 #include <optional>
@@ -18,7 +18,7 @@ struct PointInTime {
   solve::Outcome outcome;
 };
 
-// Runs the scene, of which `model` is the model, up to `time` (s), which is within it.
+// Runs the scene up to `time` (s), which must lie within it. `model` is the scene's model.
 [[nodiscard]] PointInTime point_in_time(const Scenario& scenario, const model::Model& model,
                                         double time, const solve::Watch& watch);
 

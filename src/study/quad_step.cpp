@@ -11,8 +11,8 @@
 namespace bbsim::study {
 namespace {
 
-// Factors stay while each pass makes the error at least so much smaller: another pass in quad
-// costs a tenth of new factors.
+// The factors are kept while each pass reduces the error at least by this factor. Another pass in
+// quad costs a tenth of new factors.
 constexpr double worth_keeping = 0.05;
 
 }  // namespace
@@ -37,7 +37,8 @@ double CollocationStep::solve(Quad t, Quad h, const std::vector<Quad>& z) {
 
   double correction = 0;
   if (!solve_in_double(&correction)) return infinity;
-  // What a double can see of the error, above the noise that the iteration left, may be enough.
+  // The error visible in double, above the noise of the iteration, may be enough to reject the
+  // step.
   const double seen = tail(w_in_double_);
   if (!(seen <= std::max({tolerance_, 1e3 * correction, 1e-11}))) return seen;
 
@@ -46,7 +47,7 @@ double CollocationStep::solve(Quad t, Quad h, const std::vector<Quad>& z) {
   return tail(w_);
 }
 
-// From W = 0. `correction` is the last one's size.
+// Starts from W = 0. `correction`: the size of the last correction.
 bool CollocationStep::solve_in_double(double* correction) {
   std::fill(w_in_double_.begin(), w_in_double_.end(), 0.0);
   factorise();
@@ -69,7 +70,7 @@ bool CollocationStep::solve_in_double(double* correction) {
 }
 
 bool CollocationStep::refine() {
-  // Far enough below the tolerance not to be seen in the estimate of the error.
+  // Far enough below the tolerance not to show in the error estimate.
   const double goal = std::max(1e-4 * tolerance_, 16 * Quad::epsilon());
   double last = 0;
   for (Eigen::Index pass = 0; pass < 40; ++pass) {
@@ -90,7 +91,7 @@ bool CollocationStep::refine() {
   return false;
 }
 
-// I - h A (x) J, with the Jacobian of each stage.
+// Factors I - h A (x) J, with the Jacobian of each stage.
 void CollocationStep::factorise() {
   const Eigen::Index s = rule_.stages;
   const double t = plain(t_), h = plain(h_);
@@ -146,9 +147,9 @@ double CollocationStep::norm(const Eigen::VectorXd& correction) const {
   return (by_stage.array().abs().colwise() / scale_.array()).maxCoeff<Eigen::PropagateNaN>();
 }
 
-// The error of the polynomial, from its Legendre coefficients. They fall by a factor of five or
-// more from one degree to the next where a step is worth taking, so the last one bounds what was
-// left out; a tenth of the one before speaks for it where symmetry makes it vanish.
+// The error of the polynomial, from its Legendre coefficients. In a step of reasonable length they
+// fall by a factor of five or more per degree, so the last one bounds the remainder. If symmetry
+// makes the last one vanish, a tenth of the one before replaces it.
 template <class Real>
 double CollocationStep::tail(const std::vector<Real>& increments) const {
   double largest = 0;

@@ -14,7 +14,7 @@
 
 namespace bbsim::study {
 
-// z' = f(t, z), in both precisions, and df/dz.
+// z' = f(t, z) in both precisions, and df/dz.
 class Equation {
  public:
   virtual ~Equation() = default;
@@ -24,24 +24,24 @@ class Equation {
   [[nodiscard]] virtual Eigen::MatrixXd jacobian(double t, const double* z) const = 0;
 };
 
-// The stages solve W_i = h sum_j a_ij f(t + c_j h, z + W_j). Newton's iteration with the exact
-// Jacobian solves them in double first. Then the residual is formed in quad and the same factors,
-// in double, correct it, as in the iterative refinement of a linear system: each pass gains about
-// as many digits as the condition of the system leaves a double.
+// Solves W_i = h sum_j a_ij f(t + c_j h, z + W_j) for the stages W_i. Newton's iteration with the
+// exact Jacobian solves them in double first. The residual is then computed in quad and corrected
+// with the same factors in double, as in iterative refinement of a linear system. Each pass gains
+// about as many digits as the condition of the system leaves to a double.
 class CollocationStep {
  public:
-  // Stages are solved to well below `tolerance`, relative to 1 + |z| in each state's unit.
+  // Solves stages to well below `tolerance`, relative to 1 + |z| in each state's unit.
   CollocationStep(const Equation& equation, const RadauRule& rule, double tolerance);
 
-  // Takes a step from z at t. Returns the estimated error of the collocation polynomial in the
-  // unit of the tolerance, or infinity where the iteration does not converge. Beyond the
-  // tolerance the estimate may be all there is: the stages need not have been refined.
+  // Makes a step of length h from z at t. Returns the estimated error of the collocation polynomial
+  // in the unit of the tolerance, or infinity if the iteration does not converge. If the estimate
+  // exceeds the tolerance, the stages may not be refined.
   [[nodiscard]] double solve(Quad t, Quad h, const std::vector<Quad>& z);
 
-  // The state at t + fraction h of the step just solved.
+  // The state at t + fraction h of the last step.
   void state_at(Quad fraction, Quad* z) const;
 
-  // The integral of one state over the step just solved: from t to t + fraction h.
+  // The integral of one state over the last step, from t to t + fraction h.
   class Integral {
    public:
     Integral(const CollocationStep& step, int state);
@@ -65,7 +65,7 @@ class CollocationStep {
   const Equation& equation_;
   const RadauRule& rule_;
   double tolerance_;
-  Eigen::Index n_;  // states
+  Eigen::Index n_;  // number of states
 
   Quad t_ = 0.0, h_ = 0.0;
   std::vector<Quad> z_;

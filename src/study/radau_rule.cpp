@@ -10,14 +10,14 @@
 namespace bbsim::study {
 namespace {
 
-// The right Radau points on (-1, 1], increasing: the roots of P_s - P_{s-1}. By Newton's iteration
-// from the Chebyshev-Radau points.
+// The right Radau points on (-1, 1], increasing: the roots of P_s - P_{s-1}. Newton's iteration
+// starts from the Chebyshev-Radau points.
 std::vector<Quad> radau_points(int s) {
   std::vector<Quad> roots;
   std::vector<Quad> p(static_cast<std::size_t>(s) + 1);
   for (int i = s - 1; i > 0; --i) {
     Quad x = std::cos(2 * std::numbers::pi * i / (2 * s - 1));
-    // The guess has two digits, each pass doubles them; 113 bits are 34.
+    // The guess has two digits, and each pass doubles them. 113 bits are 34 digits.
     for (int pass = 0; pass < 7; ++pass) {
       legendre(x, s + 1, p.data());
       const Quad slope = s * (x * p[s] - p[s - 1]) - (s - 1) * (x * p[s - 1] - p[s - 2]);
@@ -29,7 +29,7 @@ std::vector<Quad> radau_points(int s) {
   return roots;
 }
 
-// 2s over s.
+// The binomial coefficient of 2s over s.
 Quad central_binomial(int s) {
   Quad value = 1.0;
   for (int i = 1; i <= s; ++i) value = value * (s + i) / i;
@@ -61,8 +61,8 @@ RadauRule::RadauRule(int s) : stages(s), matrix_in_double(s, s) {
     weights.push_back((1 + x) / (2 * scaled * scaled));
   }
 
-  // l_j = w_j sum_k (2k + 1) P_k(x_j) P_k, and the integral of (2k + 1) P_k from -1 is
-  // P_{k+1} - P_{k-1}.
+  // l_j = w_j sum_k (2k + 1) P_k(x_j) P_k, and the integral of (2k + 1) P_k from -1 is P_{k+1} -
+  // P_{k-1}.
   matrix.resize(size * size);
   for (std::size_t i = 0; i < size; ++i) {
     const Quad* at_i = &p[i * (size + 1)];
@@ -93,8 +93,9 @@ RadauRule::RadauRule(int s) : stages(s), matrix_in_double(s, s) {
     }
     barycentric.push_back(1 / product);
   }
-  // The barycentric sum is the leading coefficient of the interpolant; that of P_k(2t - 1) is 2k
-  // over k. Without the point 0, each weight gains the factor that it brought.
+  // The barycentric sum is the leading coefficient of the interpolant. The leading coefficient of
+  // P_k(2t - 1) is the binomial coefficient of 2k over k. Without the point 0, each weight gets
+  // back the factor of that point.
   for (std::size_t i = 0; i < size; ++i) {
     last_coefficient.push_back(barycentric[i + 1] / central_binomial(s));
     previous_coefficient.push_back(barycentric[i + 1] * nodes[i] / central_binomial(s - 1));

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Radau IIA collocation of s stages, order 2s - 1, in quad precision.
+// Radau IIA collocation with s stages, order 2s - 1, in quad precision.
 #pragma once
 
 #include <Eigen/Core>
@@ -12,11 +12,11 @@
 namespace bbsim::study {
 
 // The tables of the method on the unit interval: Hairer and Wanner, Solving Ordinary Differential
-// Equations II, IV.5. The collocation polynomial u has degree s and is known by its values at the
-// points 0, c_1, ..., c_s = 1. Being L-stable, the method forgets a stiff transient within a step;
-// Gauss's would carry what is left of it along, and the steps could not grow.
+// Equations II, IV.5. The collocation polynomial u has degree s and is given by its values at 0,
+// c_1, ..., c_s = 1. The method is L-stable, so a stiff transient decays within a step. A Gauss
+// method would carry its remainder along, and the steps could not grow.
 struct RadauRule {
-  // `s` of at least 2; beyond 40 the barycentric weights lose digits.
+  // `s` is at least 2. Beyond 40 the barycentric weights lose digits.
   explicit RadauRule(int s);
 
   int stages;
@@ -28,7 +28,7 @@ struct RadauRule {
   std::vector<Quad> last_coefficient;  // of degree s
   std::vector<Quad>
       previous_coefficient;  // of degree s - 1, of the polynomial through c_1, ..., c_s
-  // Row k takes values at c_1, ..., c_s to the Legendre coefficient of degree k < s.
+  // Row k gives the Legendre coefficient of degree k < s from values at c_1, ..., c_s.
   std::vector<Quad> to_legendre;
 };
 

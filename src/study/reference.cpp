@@ -39,7 +39,7 @@ class SystemEquation : public Equation {
 
  private:
   const System& system_;
-  const model::System& any_;  // which holds it
+  const model::System& any_;  // the variant that holds it
 };
 
 std::unique_ptr<Equation> make_equation(const model::Model& model) {
@@ -57,7 +57,7 @@ int spin_state(const model::Model& model) {
       model.system);
 }
 
-// The first step to try: a few times that of the fastest mode at the start.
+// The first step to try: a few times the period of the fastest mode at the start.
 double first_step(const model::Model& model, double end) {
   double fastest = 0;
   for (const auto& value : model::eigenvalues(model, 0, model.initial.data())) {
@@ -66,7 +66,7 @@ double first_step(const model::Model& model, double end) {
   return std::min(end, 4 / fastest);
 }
 
-// One solution with steps of its own.
+// One solution with its own steps.
 class Run {
  public:
   Run(const Equation& equation, const RadauRule& rule, double tolerance, const model::Model& model,
@@ -80,7 +80,7 @@ class Run {
     solution_.row_size = model.size() + (model.gamma ? 1 : 0);
   }
 
-  // `progress` is called with the time after every step.
+  // Calls `progress` with the time after every step.
   template <class Progress>
   ReferenceSolution solve(const std::atomic<bool>* stop, const Progress& progress) {
     solution_.values.insert(solution_.values.end(), state_.begin(), state_.end());
@@ -105,7 +105,7 @@ class Run {
         last_length_ = plain(length);
         last_error_ = error;
       }
-      // A step that ends at a stop says nothing against the longer ones before it.
+      // A step that a stop cut short says nothing about longer steps.
       next_length = to_target ? std::max(proposal, next_length) : proposal;
       accept(length, to_target ? target : time_ + length);
       if (to_target) ++next_stop;
@@ -116,15 +116,15 @@ class Run {
   }
 
  private:
-  // The polynomial's error goes as a power of the step one above its number of stages.
+  // The polynomial's error falls with the power stages + 1 of the step.
   [[nodiscard]] double change_of_step(double error) const {
     if (!std::isfinite(error)) return 0.3;
     return std::clamp(0.9 * root(tolerance_ / error), 0.1, 5.0);
   }
   [[nodiscard]] double root(double ratio) const { return std::pow(ratio, 1.0 / (stages_ + 1)); }
 
-  // If the error per length goes on to change as it did in the last step (Gustafsson's predictive
-  // control): spares a rejection a step where the solution keeps getting steeper.
+  // The next step if the error keeps changing as in the last step (Gustafsson's predictive
+  // control). It saves a rejection per step where the solution gets steeper.
   [[nodiscard]] double predicted_length(double length, double error) const {
     if (!(last_error_ > 0) || !(error > 0)) return 5 * length;
     return length * change_of_step(error) * (length / last_length_) * root(last_error_ / error);
@@ -149,7 +149,7 @@ class Run {
     ++solution_.steps;
   }
 
-  // What made ever shorter steps necessary.
+  // Describes why steps became too short.
   [[nodiscard]] std::string explain() const {
     std::size_t largest = 0;
     for (std::size_t i = 0; i < state_.size(); ++i) {
@@ -199,7 +199,7 @@ ReferenceSolution solve_reference(const model::Model& model, const solve::Output
   static const RadauRule rule(24), other_rule(20);
   const std::unique_ptr<Equation> equation = make_equation(model);
   const double finest = std::max(tolerance, 5e3 * Quad::epsilon());
-  double done = 0;  // of both runs together
+  double done = 0;  // by both runs together
   const auto progress = [&](double time) {
     if (watch.progress) watch.progress(done + time / 2);
   };

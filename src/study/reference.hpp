@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The solution of a model in quad precision: what the integrators' results are measured against.
+// The solution of a model in quad precision, the reference for the integrators' errors.
 #pragma once
 
 #include <cstddef>
@@ -15,15 +15,16 @@
 
 namespace bbsim::study {
 
-// Rows at the times of the output grid, as far as the solution goes. A row is packed as those of
+// Rows at the times of the output grid, as far as the solution goes. A row is packed as for
 // solve::StateSink: the states, then, if the model asks for gamma, the integral of u = r gamma'.
 struct ReferenceSolution {
   std::size_t row_size = 0;
   std::vector<Quad> values;  // row-major
-  bool complete = false;     // to the end of the grid
+  bool complete = false;     // whether it reached the end of the grid
   double reached = 0;        // s
-  // The largest difference in x or y, over all rows, from a solution with another number of
-  // stages and ten times the tolerance: about the error of that one, and more than of this. m
+  // The largest difference in x or y over all rows from a solution with another number of stages
+  // and ten times the tolerance, m. It is about the error of that solution, and larger than the
+  // error of this one.
   double error_estimate = 0;
   std::size_t steps = 0;
   std::string reason;  // why it is not complete; empty if it was interrupted
@@ -32,20 +33,20 @@ struct ReferenceSolution {
   [[nodiscard]] const Quad* row(std::size_t i) const { return values.data() + i * row_size; }
 };
 
-// How many of the first states are coordinates of the contact point, in m: x and y, or one.
+// The number of leading states that are coordinates of the contact point in m: 2 (x and y) or 1.
 [[nodiscard]] int coordinates(const model::Model& model);
 
-// Solves by Radau IIA collocation of order 47 in steps as long as the solution is smooth; it
-// shares no code with the integrators but the model. Stiff models are no harder than others. The
-// model's stops are reached and restarted from.
+// Solves by Radau IIA collocation of order 47, in steps as long as the solution is smooth. Shares
+// only the model with the integrators. Stiff models are no harder than others. Ends a step at each
+// of the model's stops and restarts there.
 //
-// `tolerance` bounds the error of one step, relative to 1 + |z| in each state's unit; steps are
-// longer the larger it is. It is raised to what the number type can hold (1e-30 with 113 bits).
-// The model is solved as its doubles hold it: the rounding of, say, 0.01 m to double, and of
-// products of such constants, is part of the question, not of the answer's error.
+// `tolerance` bounds the error of one step, relative to 1 + |z| in each state's unit. It is raised
+// to what the number type can resolve (1e-30 with 113 bits). The model is solved with the constants
+// that its doubles hold. The rounding of 0.01 m to double, for example, does not count as an error
+// of the solution.
 //
-// A solution that reaches infinity ends before it, with what was reached and a reason. `watch` is
-// looked at after every step.
+// A solution that reaches infinity ends before it, with the rows reached and a reason. `watch` is
+// checked after every step.
 [[nodiscard]] ReferenceSolution solve_reference(const model::Model& model,
                                                 const solve::OutputGrid& grid,
                                                 double tolerance = 1e-22,

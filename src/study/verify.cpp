@@ -30,10 +30,10 @@ namespace {
 
 using model::Sample;
 
-// For BDF and Adams, whose orders of at most 5 and 12 make a finer one expensive.
+// For BDF and Adams. Their orders of at most 5 and 12 make finer tolerances expensive.
 constexpr solve::Tolerances of_multistep{1e-9, 1e-11};
 
-// Largest difference at one instant: x, y, r gamma in m, u in m/s.
+// The values at one instant: x, y, r gamma in m, u in m/s.
 struct Expected {
   double x = 0, y = 0, u = 0, turned = 0;  // turned: r gamma
 };
@@ -71,7 +71,8 @@ Scenario incline() {
   return scene;
 }
 
-// All terms of equation (27): both angles move, at different rates, and the ball rolls and spins.
+// Uses all terms of equation (27): both angles move, at different rates, and the ball rolls and
+// spins.
 Scenario everything_moves() {
   Scenario scene;
   scene.ball = {
@@ -117,8 +118,8 @@ Check turning_plane(const solve::Watch& watch) {
   return {"plane turning at a constant rate: closed forms (M2), (M3)", error, made.allowance, "m"};
 }
 
-// The symmetries of docs/explanation/model.md, "Structure": axis 0 mirrors x and phi, axis 1 y and
-// theta.
+// The symmetries of docs/explanation/model.md, "Structure". Axis 0 mirrors x and phi, axis 1
+// mirrors y and theta.
 Check mirrored(std::size_t axis, const solve::Watch& watch) {
   const Scenario scene = everything_moves();
   Scenario mirror = scene;
@@ -177,8 +178,8 @@ std::vector<Instant> energies(const WholeRun& made, const Scenario& scene) {
   return list;
 }
 
-// What an error of the allowance in each state makes of the energy, and of the work until then:
-// forces are about m (g + v / 1 s), momenta m v, and the plane's rates below 1 rad/s.
+// The effect of an error of the allowance in each state on the energy and on the work until then.
+// Forces are about m (g + v / 1 s), momenta m v, and the plate's rates below 1 rad/s.
 double energy_allowance(const WholeRun& made, const Scenario& scene) {
   return 2 * scene.ball.mass * (scene.gravity + made.size) * made.allowance * (1 + scene.time.end);
 }
@@ -194,7 +195,7 @@ Check energy_conserved(const solve::Watch& watch) {
   return {"fixed incline: energy is conserved", error, energy_allowance(made, scene), "J"};
 }
 
-// Boole's rule over rows 0, stride, 2 stride ... with h between them; its running value after
+// Boole's rule over rows 0, stride, 2 stride ... at distance h. Returns the running value after
 // each panel of four.
 std::vector<double> work_by_boole(const std::vector<Instant>& instants, std::size_t stride,
                                   double h) {
@@ -223,8 +224,8 @@ Check energy_balance(const solve::Watch& watch) {
     error = larger(error, std::abs(gained - fine[2 * i]));
     quadrature = larger(quadrature, std::abs(coarse[i] - fine[2 * i]));
   }
-  // Half the step divides the error of Boole's rule by 64: this is that of the coarse one, and
-  // more than that of the fine one.
+  // Half the step divides the error of Boole's rule by 64. The difference is thus the error of the
+  // coarse one, and more than that of the fine one.
   return {"moving plane: energy gained is the motors' work", error,
           energy_allowance(made, scene) + quadrature, "J"};
 }

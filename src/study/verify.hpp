@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Whether this build computes what it should: checks with known answers.
+// Checks with known answers: whether this build computes correctly.
 #pragma once
 
 #include <string>
@@ -11,8 +11,8 @@
 
 namespace bbsim::study {
 
-// One comparison of a run with what is known of it. The bound is derived from the tolerance of
-// the run; verify.cpp says how.
+// One comparison of a run with a known result. The bound follows from the tolerance of the run
+// (whole_run.cpp).
 struct Check {
   std::string name;
   double error = 0;
@@ -23,12 +23,12 @@ struct Check {
 
 struct Verification {
   std::vector<Check> checks;
-  bool interrupted = false;  // checks are those finished before
+  bool interrupted = false;  // if so, checks has only those finished before
   [[nodiscard]] bool holds() const;
 };
 
-// Closed forms, symmetries, energy, quad-precision references and method against method. Needs no
-// files: all scenes are part of the program. Takes about a second.
+// Runs closed forms, symmetries, energy, quad-precision references and method against method. Needs
+// no files: all scenes are part of the program. Takes about a second.
 [[nodiscard]] Verification verify(const solve::Watch& watch = {});
 
 }  // namespace bbsim::study

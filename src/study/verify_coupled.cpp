@@ -20,7 +20,7 @@ namespace {
 
 using model::Sample;
 
-// The largest distance of `value` from `expected`; infinite of a run that is not whole.
+// The largest distance of `value` from `expected`; infinite for an incomplete run.
 double distance(const WholeRun& made, double (*value)(const Sample&),
                 const std::function<double(double)>& expected) {
   double largest = made.done ? 0 : infinity;
@@ -114,9 +114,9 @@ Check slides_to_roll(double backspin, const solve::Watch& watch) {
           error, made.allowance, "m"};
 }
 
-// The energy of all that moves, with what was lost, less the motors' work. The integrals are states
-// under the same tolerance, so that what each may be wrong by is the allowance, in joules, and what
-// the energy may be is that of the states times the forces, momenta and moments of the scene.
+// Checks the energy of all moving parts, plus losses, minus the motors' work. The integrals are
+// states under the same tolerance. Their allowed error is the allowance in joules. The energy's is
+// that of the states times the forces, momenta and moments of the scene.
 Check balance(const char* name, const Scenario& scene, const solve::Watch& watch) {
   const WholeRun made = whole_run(scene, watch);
   const model::BallConstants constants = model::constants_of(scene);
@@ -169,8 +169,8 @@ Scenario linked_plate() {
   return scene;
 }
 
-// A servo of first order that is told 0 comes from its start at its highest rate, and from where
-// that is the rate which its time constant gives, exponentially.
+// A first-order servo with command 0 starts at its rate limit. It follows an exponential from the
+// angle at which its time constant gives that rate.
 Check ramps_behind_a_rod(const solve::Watch& watch) {
   const double start = 0.5, fastest = 0.8, constant = 0.05;
   Scenario scene = linked_plate();
@@ -190,7 +190,7 @@ Check ramps_behind_a_rod(const solve::Watch& watch) {
   return {"push rod: a servo's ramp, and its end, through the curve", error, made.allowance, "rad"};
 }
 
-// Gears that engage give plate and ball a blow, whose work is the servo's.
+// When gears engage, plate and ball receive a blow. Its work is the servo's.
 Check strikes(const solve::Watch& watch) {
   Scenario scene = linked_plate();
   scene.ball.position = {0.05, -0.03};

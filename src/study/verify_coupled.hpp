@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Checks of losses, sliding, torques and linked servos against closed forms, and of their balance
-// of energy.
+// Checks of losses, sliding, torques and linked servos against closed forms, and of their energy
+// balance.
 #pragma once
 
 #include <functional>

@@ -11,15 +11,17 @@
 namespace bbsim::study {
 namespace {
 
-// Calls use(angle) for servos' angles well within the curve, up to 50 degrees.
+// Calls use(angle) for servo angles well within the curve, up to 50 degrees.
 template <class Use>
 void for_each_servo(const Use& use) {
   for (int i = -50; i <= 50; ++i) use(i * 0.0174);
 }
 
-// With the gimbal's axis at (a - b, l) and a rod of length l, (M54) is, exactly,
-//     b sin(chi) - a sin(delta) = sqrt(l^2 - u^2) - l,  u = a (1 - cos(delta)) - b (1 - cos(chi)),
-// and within 50 degrees |u| < a, so that sines are apart by at most a^2 / (b l).
+// With the gimbal's axis at (a - b, l) and a rod of length l, (M54) is exactly
+//
+//     b sin(chi) - a sin(delta) = sqrt(l^2 - u^2) - l,  u = a (1 - cos(delta)) - b (1 - cos(chi)).
+//
+// Within 50 degrees |u| < a, so the sines differ by at most a^2 / (b l).
 Check quanser() {
   const double horn = 0.0254, arm = 0.1375, rod = 1000;
   const model::Linkage linkage =
@@ -33,7 +35,7 @@ Check quanser() {
           horn * horn / (arm * rod), "1"};
 }
 
-// Rounding of angles of at most 1 rad, through a curve whose slope is between 0.2 and 0.5.
+// The bound is the rounding of angles of at most 1 rad, through a curve of slope 0.2 to 0.5.
 Check push_rod_inverted() {
   const model::Linkage linkage = make_linkage(push_rod(), model::Assumed::exact);
   double error = 0;
@@ -43,8 +45,8 @@ Check push_rod_inverted() {
   return {"push rod: inverse of forward", error, 1e-13, "rad"};
 }
 
-// Differences of the fourth order leave out h^4/30 times the fifth derivative, which is below 1e3,
-// and have the rounding of an angle over h.
+// Fourth-order differences leave out h^4/30 times the fifth derivative, which is below 1e3. They
+// have the rounding of an angle divided by h.
 constexpr double h = 1e-3, of_differences = 1e3 * h * h * h * h / 30 + 1e-15 / h;
 
 template <class Function>
@@ -78,7 +80,7 @@ void for_each_tilt(const model::ThreeServos& three, const Use& use) {
   }
 }
 
-// Rounding, which a leg that is nearly stretched magnifies.
+// The bound is rounding, which a nearly stretched leg magnifies.
 Check three_legs_inverted() {
   const model::ThreeServos three = three_legs();
   double error = 0;

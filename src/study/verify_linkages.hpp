@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Checks of what stands between servos and the plane, against closed forms of its geometry.
+// Checks of the linkages between servos and plate against closed forms of their geometry.
 #pragma once
 
 #include <functional>
@@ -11,7 +11,7 @@
 
 namespace bbsim::study {
 
-// That of configs/pushrod.yaml, whose horn and rod are in line beyond 60 degrees.
+// The linkage of configs/pushrod.yaml. Its horn and rod are in line beyond 60 degrees.
 [[nodiscard]] RodLinkage push_rod();
 
 [[nodiscard]] std::vector<std::function<Check()>> linkage_checks();

@@ -1,12 +1,13 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Where the bounds come from.
+// The allowance of a run.
 //
-// An integrator with tolerances rtol and atol may leave, in each step, an error of rtol |z| + atol
-// in each state. If it is left in a speed, the position drifts by that times the rest of the
-// scene; where a scene grows exponentially, an error grows as the solution itself, whose largest
-// value is taken for |z|. Hence, for positions, for u = r gamma' and for r gamma,
+// In each step, an integrator with tolerances rtol and atol may make an error of rtol |z| + atol in
+// each state. An error in a speed lets the position drift by that times the rest of the scene.
+// Where a scene grows exponentially, an error grows as the solution does, so |z| is the solution's
+// largest value. Hence, for positions, for u = r gamma' and for r gamma,
+//
 //     allowance = steps (rtol size + atol) (1 + end / 1 s).
 #include "study/whole_run.hpp"
 

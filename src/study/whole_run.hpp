@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Runs of which every row is compared with a closed form or with another run.
+// Runs whose rows are all compared with a closed form or with another run.
 #pragma once
 
 #include <vector>
@@ -11,12 +11,12 @@
 
 namespace bbsim::study {
 
-// In the paper's symbols, with what it may be wrong by.
+// A run in the paper's symbols, with its allowed error.
 struct WholeRun {
   std::vector<model::Sample> samples;
-  double allowance = 0;  // m, for the states that it reached
+  double allowance = 0;  // for the states that the run reached, m
   double size = 0;       // largest |x|, |y|, |x'|, |y'|, |u|, in m and m/s
-  bool done = false;     // it came to the scene's end
+  bool done = false;     // whether it reached the end of the scene
 };
 
 [[nodiscard]] WholeRun whole_run(const Scenario& scene, const solve::Watch& watch,

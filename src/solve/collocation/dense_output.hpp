@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The motion over one collocation step, between its nodes: Legendre series of some coordinates and
-// their velocities, another case in each lane.
+// Dense output over one collocation step: Legendre series of some coordinates and their velocities,
+// with one case in each lane.
 //
-// Included only by the kernels; see simd/pack.hpp for why all is inlined or tagged.
+// Included only by the kernels. See simd/pack.hpp for why everything is inlined or tagged.
 #pragma once
 
 #include "simd/pack.hpp"
@@ -15,8 +15,9 @@ template <class P, int s, int coordinates>
 struct DenseOutput {
   P k[coordinates][s], v[coordinates][s + 1], q[coordinates][s + 2];
 
-  // From the accelerations times h at the nodes, at(j, i), and from the coordinates and velocities
-  // at the start, q0(i) and v0(i). legendre[j][m] is what node j adds to coefficient m.
+  // Makes the series from the accelerations times h at the nodes, at(j, i), and from the
+  // coordinates q0(i) and velocities v0(i) at the start. legendre[j][m] is the contribution of node
+  // j to coefficient m.
   template <class At, class From, class FromRate>
   BBSIM_INLINE void make(const double (&legendre)[s][s], P h, At at, From q0, FromRate v0) {
     constexpr int together = 4;
@@ -51,7 +52,7 @@ struct DenseOutput {
     }
   }
 
-  // Half times the integral from -1 of a Legendre series of so many terms, plus its value there.
+  // `half` times the integral from -1 of a Legendre series of `length` terms, plus its value there.
   template <int length>
   BBSIM_INLINE static void integrate(const P* k, P half, P from, P* out) {
     out[0] = from + half * (k[0] - k[1] * P(1.0 / 3));
@@ -62,7 +63,7 @@ struct DenseOutput {
     }
   }
 
-  // Calls add(m, P_m(x)) for m = 1 ... s + 1; x is from -1 to 1 over the step.
+  // Calls add(m, P_m(x)) for m = 1 ... s + 1. x goes from -1 to 1 over the step.
   template <class Add>
   BBSIM_INLINE static void polynomials(P x, Add add) {
     P before(1.0), now = x;
@@ -78,7 +79,7 @@ struct DenseOutput {
     }
   }
 
-  // The coordinates and their velocities at a part of the step, 0 to 1.
+  // The coordinates and their velocities at `part` of the step, 0 to 1.
   BBSIM_INLINE void at(P part, P (&position)[coordinates], P (&velocity)[coordinates]) const {
 #pragma GCC unroll 4
     for (int i = 0; i < coordinates; ++i) {
@@ -94,7 +95,7 @@ struct DenseOutput {
         });
   }
 
-  // Velocities and accelerations times h.
+  // The velocities, and the accelerations times h, at `part` of the step.
   BBSIM_INLINE void rates_at(P part, P (&velocity)[coordinates],
                              P (&acceleration)[coordinates]) const {
 #pragma GCC unroll 4

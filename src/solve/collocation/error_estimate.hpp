@@ -1,18 +1,18 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The error of a collocation step from the fall of the last Legendre coefficients of its
-// accelerations, another case in each lane: as radau/step.hpp tells it of one.
+// The error estimate of a collocation step from the decay of its accelerations' last Legendre
+// coefficients, with one case in each lane. radau/step.hpp does the same for a single case.
 //
-// Included only by the kernels; see simd/pack.hpp for why all is inlined or tagged.
+// Included only by the kernels. See simd/pack.hpp for why everything is inlined or tagged.
 #pragma once
 
 #include "simd/compare.hpp"
 
 namespace bbsim::solve {
 
-// The last four coefficients of some numbers, of which k[j] are those at node j; legendre[j][m] is
-// what node j adds to coefficient m.
+// The last four Legendre coefficients of `count` functions with values k[j] at node j.
+// legendre[j][m] is the contribution of node j to coefficient m.
 template <class P, int s, int count>
 struct LastCoefficients {
   P of[4][count];
@@ -34,7 +34,7 @@ struct LastCoefficients {
     }
   }
 
-  // The square, so that no root is taken, of the first coefficient left out, times a weight.
+  // The square of (weight times the first coefficient left out). The square saves a root.
   BBSIM_INLINE P left_out_squared(int i, P weight) const {
     const P before = simd::larger_of(simd::size_of(of[0][i]), simd::size_of(of[1][i]));
     const P tail = simd::larger_of(simd::size_of(of[2][i]), simd::size_of(of[3][i]));

@@ -53,10 +53,10 @@ def tables(s):
     a = integral * to_legendre
     values, vectors = mp.eig(a)
     inverse = vectors ** -1
-    # inverse * a * vectors = diag(values); of each conjugate pair the one above the real axis.
+    # inverse * a * vectors = diag(values). Keep the eigenvalue above the real axis of each pair.
     kept = sorted((k for k in range(s) if mp.im(values[k]) > 0), key=lambda k: mp.im(values[k]))
     assert len(kept) == s // 2
-    # Unit maximum norm of each eigenvector.
+    # Scale each eigenvector to unit maximum norm.
     scale = {k: max(abs(vectors[i, k]) for i in range(s)) for k in kept}
     v = [[vectors[i, k] / scale[k] for i in range(s)] for k in kept]
     w = [[inverse[k, i] * scale[k] for i in range(s)] for k in kept]

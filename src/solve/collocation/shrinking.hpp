@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// How steps shrink on the way to an instant beyond which there is no motion.
+// Detects steps that shrink on the way to an instant beyond which there is no motion.
 #pragma once
 
 #include <algorithm>
@@ -16,15 +16,15 @@ class Shrinking {
   // Why a run ends there.
   static constexpr Failure reason{Why::unbounded, "the motion grows without bound"};
 
-  // The next step has none before it that it can be compared with.
+  // The next step has no predecessor that it can be compared with.
   void interrupt() { last_ = 0; }
 
-  // Takes a step at time t that is about to be accepted, both in s. Whether steps shrink as they do
-  // on the way to infinity in finite time, each to a part of what is left: for long, and by far,
-  // while states grow. A smooth motion that passes something does not make a dozen steps ever
-  // shorter, to a hundred thousandth, with none that is longer again by a quarter; one whose
-  // tolerance is below what rounding lets it reach may, and goes on. size() is that of the greatest
-  // state at t, infinite if one is no number.
+  // Takes a step at time t that is about to be accepted, both in s. Returns whether the motion goes
+  // to infinity in finite time: a dozen steps shrink, none of them is longer than the one before by
+  // a quarter, they shrink to less than 1e-5 of the first one and of t, and the states grow. A
+  // smooth motion that passes an obstacle does not shrink its steps like this. A run with a
+  // tolerance below its rounding errors may, but its states do not grow, and it continues. size()
+  // is the magnitude of the largest state at t, infinite if a state is not finite.
   template <class Size>
   [[nodiscard]] bool diverges(double step, double t, Size size) {
     constexpr int for_a_while = 4, long_since = 12;
@@ -43,14 +43,15 @@ class Shrinking {
            !(size() < grown * size_before_);
   }
 
-  // How many steps were shorter than the one before, since one that was longer by a quarter.
+  // The number of shorter steps since the last step that was longer by a quarter.
   [[nodiscard]] int count() const { return count_; }
 
-  // To be told the error of each step that was taken, in the tolerances' weights, and how long its
-  // size alone would have the next one be, s: how long that may be. Where steps shrink, the error
-  // has grown from step to step by more than their sizes say, and will again (Gustafsson's
-  // predictive control; Hairer and Wanner, IV.8): rejections fewer. Two steps in a row show it;
-  // with Sign::jump one does, if its error is far above the last one.
+  // Call it after each accepted step. `error`: its error relative to the tolerance. `next`: the
+  // next step by this error alone, s. Returns the longest next step, s. Where steps shrink, the
+  // error grows from step to step by more than the step lengths explain, and will again. Predicting
+  // this growth saves rejections (Gustafsson's predictive control; Hairer and Wanner, IV.8). It
+  // takes two shorter steps in a row. With Sign::jump, one is enough if its error is far above the
+  // last one.
   enum class Sign { steps, jump };
   [[nodiscard]] double bound(double error, double next, int stages, Sign sign = Sign::steps) {
     constexpr double by_far = 10;
@@ -64,7 +65,7 @@ class Shrinking {
     return most;
   }
 
-  // What it remembers (base/archive.hpp).
+  // Saves or restores its state (base/archive.hpp).
   template <class Archive>
   void archive(Archive& archive) {
     archive(count_, in_a_row_, from_, last_, ratio_, size_before_, last_error_);
@@ -73,12 +74,12 @@ class Shrinking {
   }
 
  private:
-  // Of steps that were shorter than the one before: since one that was longer, and of the last
-  // ones.
+  // The number of shorter steps since the last longer one, and the number of them in a row at
+  // present.
   int count_ = 0, in_a_row_ = 0;
-  // The step that the former count begins after, the last one, and its part of the one before.
+  // The step before count_ began, the last step, and its ratio to the one before.
   double from_ = 0, last_ = 0, ratio_ = 1;
-  double size_before_ = 0;  // when steps had shrunk for a while
+  double size_before_ = 0;  // when count_ reached four
   double last_error_ = 1;
 };
 

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// How long the next step of a collocation method may be.
+// The length of the next step of a collocation method.
 #pragma once
 
 #include <algorithm>
@@ -12,8 +12,8 @@ namespace bbsim::solve {
 
 inline constexpr double step_safety = 0.9;
 
-// The length of the next step relative to one of `stages` stages whose error was `error`, in the
-// weights of the tolerance: Hairer and Wanner, IV.8. Single precision is enough, and faster.
+// The length of the next step relative to the last one, which has `stages` stages and an `error`
+// relative to the tolerance: Hairer and Wanner, IV.8. Single precision is enough, and faster.
 template <class Real>
 [[nodiscard]] inline double step_growth(Real error, int stages, double most = 8) {
   constexpr double least = 0.1;
@@ -22,14 +22,14 @@ template <class Real>
   return std::clamp(step_safety * double{std::pow(error, power)}, least, most);
 }
 
-// A step on the way to an instant that some step has to end at.
+// A step towards an instant at which a step has to end.
 struct Stride {
   double length;  // s
-  bool arrives;   // ends at that instant
+  bool arrives;   // whether it ends at that instant
 };
 
-// The next stride over the `left` seconds until then, where the tolerance allows steps of `next`
-// seconds. The last four steps are of one length, so that none is a sliver.
+// The next step on an interval of `left` seconds, if the tolerance allows steps of `next` seconds.
+// The last three steps have the same length, so that none is a sliver.
 [[nodiscard]] inline Stride stride(double left, double next) {
   constexpr double alike = 4, sliver = 1e-3;
   const double steps = left <= next ? 1 : std::ceil(left / next * (1 - sliver));

@@ -19,13 +19,13 @@ namespace {
 using sundials::check;
 using sundials::data;
 
-// CVODE's answer to "try again with a smaller step".
+// CVODE's code for "try again with a smaller step".
 constexpr int recoverable = 1;
 
-// What CVODE has to do with of a system, its type forgotten.
+// A system as CVODE's callbacks need it, without its type.
 struct Equations {
   const model::System& any;
-  const void* system;  // the one in it
+  const void* system;  // the system within `any`
   std::size_t size;
   bool coupled;
   CVRhsFn derivative;
@@ -115,7 +115,7 @@ class CvodeStepper : public Stepper {
     } else {
       use_fixed_point();
     }
-    // On the way to rest the step falls by more than the seven failures that CVODE allows make it.
+    // Near rest the step shrinks by more than the seven failures that CVODE allows by default.
     if (model.dry) check(CVodeSetMaxErrTestFails(memory(), 40), "CVodeSetMaxErrTestFails");
     if (model.gamma) integrate_spin();
   }
@@ -130,7 +130,7 @@ class CvodeStepper : public Stepper {
     time_ = t;
   }
 
-  // From a stop, where the inputs' derivatives jump, the method's history is of no use.
+  // An input derivative jumps at a stop, so the method's history is useless there.
   void jump() override { restart(time_); }
 
   [[nodiscard]] std::optional<Failure> step(double limit) override {
@@ -167,7 +167,7 @@ class CvodeStepper : public Stepper {
   }
 
   [[nodiscard]] std::size_t detail() const override { return 3; }
-  // Orders are up to 5, of Adams 12, and many steps go to a turn of the motion.
+  // Orders are up to 5 (Adams 12), and steps are short compared with the motion.
   [[nodiscard]] std::size_t parts() const override { return 5; }
 
   // The state with the largest local error estimate in the solver's own weights.
@@ -199,8 +199,8 @@ class CvodeStepper : public Stepper {
     check(CVodeSetLinearSolver(memory(), linear_.get(), matrix_.get()), "CVodeSetLinearSolver");
     check(CVodeSetJacFn(memory(), jacobian), "CVodeSetJacFn");
     if (equations_.coupled) {
-      // The direction of a friction turns as fast as the velocity is small: next to rest an old
-      // Jacobian is wrong by decades, which CVODE takes for convergence.
+      // The direction of friction turns faster as the velocity gets smaller. Near rest an old
+      // Jacobian is wrong by decades, and CVODE takes the small corrections for convergence.
       check(CVodeSetJacEvalFrequency(memory(), 1), "CVodeSetJacEvalFrequency");
       check(CVodeSetLSetupFrequency(memory(), 1), "CVodeSetLSetupFrequency");
     }
@@ -216,15 +216,15 @@ class CvodeStepper : public Stepper {
     turned_ = sundials::make_vector(1, context_.get());
     data(turned_)[0] = 0;
     check(CVodeQuadInit(memory(), equations_.quadrature, turned_.get()), "CVodeQuadInit");
-    // No error control of its own: it is the integral of a state that has it. With it, CVODES 6
-    // takes 45,000 steps instead of 600 over a stiff servo.
+    // No separate error control: this is the integral of a state that already has it. With it,
+    // CVODES 6 takes 45,000 steps instead of 600 over a stiff servo.
     check(CVodeSetQuadErrCon(memory(), 0), "CVodeSetQuadErrCon");
   }
 
   void restart(double t) {
     add_statistics(statistics_);
     if (model_.gamma) {
-      // The row at t, which is within the last step.
+      // t lies within the last step.
       check(CVodeGetQuadDky(memory(), t, 0, turned_.get()), "CVodeGetQuadDky");
     }
     check(CVodeReInit(memory(), t, state_.get()), "CVodeReInit");
@@ -233,15 +233,15 @@ class CvodeStepper : public Stepper {
     stepped_ = false;
   }
 
-  // A solution that reaches infinity in finite time drives the step to nothing. A few tiny steps
-  // are the method feeling its way; a hundred in a row are not.
+  // A solution that reaches infinity in finite time shrinks the step to nothing. A few tiny steps
+  // are normal; a hundred in a row are not.
   [[nodiscard]] bool step_is_rounding(double last) {
     const double rounding = 4 * std::numeric_limits<double>::epsilon() * std::abs(time_);
     tiny_steps_ = std::abs(last) <= rounding ? tiny_steps_ + 1 : 0;
     return tiny_steps_ >= 100;
   }
 
-  // Those since the last restart, which CVODES counts.
+  // Adds the counts since the last restart, which CVODES keeps.
   void add_statistics(Statistics& sum) const {
     long steps = 0, rhs = 0, jacobians = 0, iterations = 0, failures = 0;
     check(CVodeGetNumSteps(memory(), &steps), "CVodeGetNumSteps");
@@ -262,14 +262,14 @@ class CvodeStepper : public Stepper {
   const model::Model& model_;
   Equations equations_;
   Method method_;
-  sundials::Context context_;  // outlives all that is made with it
+  sundials::Context context_;  // outlives everything made with it
   sundials::Vector state_, at_output_, turned_;
   sundials::DenseMatrix matrix_;
   sundials::LinearSolver linear_;
   sundials::NonlinearSolver nonlinear_;
   sundials::CvodeMemory cvode_;
   double time_ = 0;
-  bool stepped_ = false;  // since it was made or restarted
+  bool stepped_ = false;  // since construction or restart
   int tiny_steps_ = 0;
   Statistics statistics_;  // until the last restart
 };

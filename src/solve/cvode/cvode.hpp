@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The adapter to CVODES, SUNDIALS' CVODE with quadratures: variable-order BDF or Adams.
+// The adapter to CVODES (SUNDIALS' CVODE with quadratures): variable-order BDF or Adams.
 #pragma once
 
 #include <memory>
@@ -12,11 +12,12 @@
 
 namespace bbsim::solve {
 
-// BDF (Method::bdf, orders 1 to 5) with Newton iterations, a dense solver and the exact Jacobian;
-// or Adams-Moulton (Method::adams, orders 1 to 12) with fixed-point iterations; no other method.
+// Makes BDF (Method::bdf, orders 1 to 5) with Newton iterations, a dense solver and the exact
+// Jacobian, or Adams-Moulton (Method::adams, orders 1 to 12) with fixed-point iterations. `method`
+// must be one of these.
 //
-// Rows are interpolated by the method's own polynomial. gamma is a quadrature, outside the
-// nonlinear system. Keeps a reference to the model.
+// Rows are interpolated by the method's own polynomial. gamma is a quadrature outside the nonlinear
+// system. Keeps a reference to the model. Throws std::runtime_error if CVODES refuses its setup.
 [[nodiscard]] std::unique_ptr<Stepper> make_cvode_stepper(const model::Model& model, Method method,
                                                           Tolerances tolerances);
 

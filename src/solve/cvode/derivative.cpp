@@ -50,7 +50,7 @@ Trajectory integrate_by_bdf(Derivative derivative, const std::vector<double>& in
 
   rows.accept(0, 1, sundials::data(state));
   std::size_t stop = 0;
-  const auto set_stop = [&] {  // never stepped over
+  const auto set_stop = [&] {  // CVODE never steps over it
     const double time = stop < stops.size() ? stops[stop] : grid.end();
     check(CVodeSetStopTime(cvode.get(), time), "CVodeSetStopTime");
   };
@@ -62,7 +62,7 @@ Trajectory integrate_by_bdf(Derivative derivative, const std::vector<double>& in
       const int flag = CVode(cvode.get(), target, state.get(), &t, CV_NORMAL);
       if (flag < 0) return rows;
       if (watch.stop != nullptr && watch.stop->load(std::memory_order_relaxed)) return rows;
-      if (jumps) {  // where derivatives jump, the method starts again
+      if (jumps) {  // restart the method, because a derivative jumps
         check(CVodeReInit(cvode.get(), t, state.get()), "CVodeReInit");
         ++stop;
         set_stop();

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// A function of time and states that is no system of ours, through CVODE.
+// Integrates any function of time and states with CVODE, for equations that are no model::System.
 #pragma once
 
 #include <functional>
@@ -12,12 +12,12 @@
 
 namespace bbsim::solve {
 
-// z' = f(t, z), its type forgotten.
+// z' = f(t, z), without its type.
 using Derivative = std::function<void(double t, const double* z, double* dz)>;
 
-// Rows at the output times, by BDF with CVODE's difference quotients for the Jacobian; as many as
-// the solution reaches. Starts again at each of the `stops`, where derivatives jump. Throws
-// std::runtime_error if CVODE refuses to be set up.
+// Returns rows at the output times, as many as the solution reaches. Uses BDF with CVODE's
+// difference quotients as the Jacobian. Restarts at each of the `stops` (s), where derivatives
+// jump. Throws std::runtime_error if CVODE refuses its setup.
 [[nodiscard]] Trajectory integrate_by_bdf(Derivative derivative, const std::vector<double>& initial,
                                           const std::vector<double>& stops, Tolerances tolerances,
                                           const OutputGrid& grid, const Watch& watch);

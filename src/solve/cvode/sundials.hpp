@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// SUNDIALS 6 or 7, every handle owned and every return code checked.
+// SUNDIALS 6 or 7 with owned handles and checked return codes.
 #pragma once
 
 #include <cvodes/cvodes.h>
@@ -20,7 +20,7 @@
 
 namespace bbsim::solve::sundials {
 
-// A call that can only fail by a mistake of ours, or for want of memory.
+// For calls that fail only by a mistake in bbsim or lack of memory. Throws std::runtime_error.
 inline void check(int flag, const char* call) {
   if (flag < 0) {
     throw std::runtime_error(std::string(call) + " failed with SUNDIALS code " +
@@ -75,7 +75,7 @@ inline Context make_context() {
   SUNContext context = nullptr;
 #if SUNDIALS_VERSION_MAJOR >= 7
   check(SUNContext_Create(SUN_COMM_NULL, &context), "SUNContext_Create");
-  // Return codes tell all that the default handler would print.
+  // Return codes say everything that the default handler would print.
   SUNContext_ClearErrHandlers(context);
 #else
   check(SUNContext_Create(nullptr, &context), "SUNContext_Create");
@@ -83,7 +83,7 @@ inline Context make_context() {
   return Context(context);
 }
 
-// No message of SUNDIALS reaches the terminal: return codes tell what happened.
+// Keeps SUNDIALS' messages off the terminal. Return codes say what happened.
 inline void silence([[maybe_unused]] void* cvode) {
 #if SUNDIALS_VERSION_MAJOR < 7
   check(CVodeSetErrFile(cvode, nullptr), "CVodeSetErrFile");

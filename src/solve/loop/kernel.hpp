@@ -1,30 +1,30 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// One step of a group of closed loops, each at its own time: what the driver sees of it, whatever
-// the instruction set.
+// The driver's interface to one step of a group of closed loops, each at its own time, for every
+// instruction set.
 //
-// Plain data and pointers to functions only; nothing here may become code that two instruction
-// sets share.
+// Has only plain data and pointers to functions. Code here could be compiled for one instruction
+// set and run on another.
 #pragma once
 
 #include <cstddef>
 
 namespace bbsim::solve::loop {
 
-// Loops that step together.
+// The number of loops that step together.
 inline constexpr int group = 8;
 
 inline constexpr int states = 9;  // of model::ClosedLoop<Shape::full, ...>
 inline constexpr int velocities = 5;
-inline constexpr int spare_rows = 2 * group;  // beyond those that are asked for
+inline constexpr int spare_rows = 2 * group;  // beyond the rows of the grid
 
-// One loop, in SI: model::ClosedLoop<Shape::full, ...> about a reference
-// start + rate t + sine sin(frequency t) + cosine cos(frequency t), components x, y.
+// One loop, in SI units: model::ClosedLoop<Shape::full, ...>. Its reference (x, y) is start + rate
+// t + sine sin(frequency t) + cosine cos(frequency t).
 struct LoopCase {
   double radius, gravity;
   double kv[2][2], kp[2][2];  // rows phi, theta; columns x, y
-  double omega_n, zeta;       // of the servo; not used where accelerations are driven
+  double omega_n, zeta;       // of the servo; not used if the loop drives accelerations
   double start[2], rate[2];
   double frequency, sine[2], cosine[2];
   double initial[states];  // as the loop packs its states
@@ -32,17 +32,17 @@ struct LoopCase {
 
 inline constexpr int most_nodes = 12;
 
-// A loop on its way: where it is, its accelerations there, and maybe those at its last step's
-// nodes.
+// A loop in progress: its state, its accelerations there, and the accelerations at the last step's
+// nodes if they were kept.
 struct LoopState {
   LoopCase loop;
   double state[states];  // as the loop packs them
   double acceleration[velocities];
-  double last_step;  // s; 0 where that is not kept
+  double last_step;  // s; 0 if it was not kept
   double last_accelerations[most_nodes][velocities];
 };
 
-// A group's loops, one a lane: LoopCase's numbers, each in every lane.
+// A group's loops, one per lane: the numbers of LoopCase, each for all lanes.
 struct alignas(64) Loops {
   double radius[group], gravity[group];
   double kv[2][2][group], kp[2][2][group];
@@ -53,14 +53,13 @@ struct alignas(64) Loops {
 };
 static_assert(sizeof(Loops) == group * sizeof(LoopCase));
 
-// Which lanes take part: -1, for all bits, or 0.
+// Selects lanes: -1 (all bits) or 0.
 struct alignas(64) Lanes {
   long long of[group];
 };
 
-// What is looked at, each in every lane: 1 - cos(tilt) of the plane, the square of its angular
-// velocity, and those of the contact point's distances from the plane's origin and from the
-// reference.
+// Maxima, each in every lane: 1 - cos(tilt) of the plate, its squared angular velocity, and the
+// squared distances of the contact point from the plate's origin and from the reference.
 enum Look : int { versine, rate_squared, distance_squared, error_squared, looks };
 
 struct alignas(64) Greatest {
@@ -68,15 +67,15 @@ struct alignas(64) Greatest {
 };
 
 struct alignas(64) Attempt {
-  // Squares of the estimated local errors in the tolerances' weights, at most 1 if good; no number
-  // where the step is not finite.
+  // Squares of the estimated local errors relative to the tolerance; a lane passes at 1 or below.
+  // NaN where the step is not finite.
   double error_squared[group];
   bool converged[group];
-  int turns;  // of Newton's iteration, of the lane that took most
+  int turns;  // Newton iterations of the slowest lane
 };
 
-// What the accelerations of the ball and of the servos are by each other and by the states: the
-// greatest sum of a row of the Jacobian's block, SI. Turning is the gimbal's acceleration.
+// Couplings of the accelerations of the ball and the servos with each other and with the states:
+// the largest row sum of the Jacobian's block, in SI units. "turning" is the gimbal's acceleration.
 struct alignas(64) Couplings {
   double ball_by_turning[group];
   double ball_by_velocity[group], ball_by_place[group], ball_by_rate[group], ball_by_angle[group];
@@ -84,39 +83,40 @@ struct alignas(64) Couplings {
       servo_by_angle[group];
 };
 
-// When each lane's attempt starts, and how long it is, s.
+// The start and length of each lane's attempt, s.
 struct alignas(64) Spans {
   double from[group], length[group];
 };
 
-// A lane's numbers depend on its own loop and steps alone, whatever its companions are, to the bit.
+// A lane's numbers depend only on its own loop and steps, to the bit, whatever its companions are.
 //
-// All functions but couplings() work on a workspace of `workspace` bytes, aligned to 64, prepared
-// by start() and loaded in every lane. None allocates or throws.
+// All functions but couplings() work on a workspace of `workspace` bytes, aligned to 64. start()
+// must have prepared it, and load() must have filled every lane. None allocates or throws.
 struct Kernel {
   int nodes;
   std::size_t workspace;
   void (*start)(void* workspace, double rtol, double atol);
-  // Of the loops about their initial states, at t = 0.
+  // Of the loops at their initial states and t = 0.
   void (*couplings)(const Loops& loops, Couplings& result);
-  // Puts a loop into a lane, and takes it from there.
+  // Puts a loop into a lane, and reads it back.
   void (*load)(void* workspace, int lane, const LoopState& from);
   void (*store)(const void* workspace, int lane, LoopState& into);
   // Attempts a step from the present states.
   void (*attempt)(void* workspace, const Spans& spans, Attempt& result);
-  // x and y of a lane at times within the last attempt, by its polynomial, before accept(). There
-  // are `spare_rows` times more, and room for what is then put there, which means nothing.
+  // Evaluates x and y of a lane at times within the last attempt, on its polynomial. Call it before
+  // accept(). May read up to `spare_rows` more times and write as many meaningless results: all
+  // three arrays must have that space.
   void (*evaluate)(void* workspace, int lane, const double* times, std::size_t count, double* x,
                    double* y);
-  // Raises what is greatest, in some lanes, to what it is at the start and over the last attempt.
-  // To be called before accept(), of each one that is accepted.
+  // Updates the maxima of `lanes` with the start and the whole of the last attempt. Call it for
+  // each accepted attempt, before accept().
   void (*look)(void* workspace, const Lanes& lanes, Greatest& greatest);
-  // Makes the end of the last attempt the present state of some lanes. Those of them that are
-  // `kept` keep the attempt's accelerations, with which one that is much shorter then begins.
+  // Makes the end of the last attempt the present state of `lanes`. Lanes that are also in `kept`
+  // keep the attempt's accelerations, from which a much shorter next step starts.
   void (*accept)(void* workspace, const Lanes& lanes, const Lanes& kept);
 };
 
-// By what the loop drives and the number of nodes.
+// By the type of drive and the number of nodes.
 struct Kernels {
   int width;  // lanes of a pack
   struct Nodes {
@@ -124,8 +124,8 @@ struct Kernels {
   } acceleration, angle;
 };
 
-// Those of the instruction set that was chosen. Throws InputError if the environment variable
-// BBSIM_SIMD names none of this processor.
+// The kernels of the chosen instruction set. Throws InputError if the environment variable
+// BBSIM_SIMD names no instruction set of this processor.
 [[nodiscard]] const Kernels& choose_kernels();
 
 }  // namespace bbsim::solve::loop

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// For every processor: pairs of lanes, which are SSE2 on x86-64 and Neon on 64-bit ARM.
+// Kernels for every processor, with two lanes: SSE2 on x86-64, Neon on 64-bit ARM.
 #include "solve/loop/step.hpp"
 
 namespace bbsim::solve::loop {

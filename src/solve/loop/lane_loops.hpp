@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Eight closed loops, one in each lane of some packs: their equations, and these differentiated.
+// The equations of eight closed loops, one in each lane, and their derivatives.
 //
-// Included only by the kernels; see simd/pack.hpp for why all is inlined or tagged.
+// Included only by the kernels. See simd/pack.hpp for why everything is inlined or tagged.
 #pragma once
 
 #include <array>
@@ -25,7 +25,7 @@ struct LaneLoops {
   using P = simd::Pack<Isa, lanes>;
   using Vector = typename P::Vector;
   using Mask = typename P::Mask;
-  // Of which come the layout of the states and what they are named.
+  // Gives the layout and names of the states.
   using System = model::ClosedLoop<model::Shape::full, drives>;
   static constexpr int n = System::size;
   static constexpr auto motions = System::motions;
@@ -61,8 +61,8 @@ struct LaneLoops {
 
     BBSIM_INLINE static P lane(const double* values, int p) { return P::load(values + p * lanes); }
 
-    // Whether the waves until t are of no more than 10^5 rad: sines are the same then, and cost
-    // less.
+    // Whether the reference waves stay within 10^5 rad until t. Sines are then the same to the bit,
+    // and cheaper.
     BBSIM_INLINE bool moderate_until(P t) const {
       return !simd::any_of<P>((Mask)(size_of(frequency * t).v >= 1e5));
     }
@@ -76,7 +76,7 @@ struct LaneLoops {
       for (std::size_t i = 0; i < 2; ++i) {
         jets[i].value = start[i] + rate[i] * t + (sine[i] * wave.sin + cosine[i] * wave.cos);
         jets[i].rate = rate[i] + frequency * (sine[i] * wave.cos - cosine[i] * wave.sin);
-        jets[i].acceleration = P(0.0);  // no part of the loop
+        jets[i].acceleration = P(0.0);  // not used by the loop
       }
       return jets;
     }
@@ -100,7 +100,7 @@ struct LaneLoops {
     }
   }
 
-  // The ball's accelerations x'', y'', u' at a state in which the gimbal's are given.
+  // The ball's accelerations x'', y'', u' at a state, with given accelerations of the gimbal.
   template <class Real>
   BBSIM_INLINE static void roll(const Loop& loop, const Real (&q)[nq], const Real (&v)[nv],
                                 const Real (&turning)[2], Real (&k)[3]) {
@@ -118,8 +118,8 @@ struct LaneLoops {
     k[2] = model::u_acceleration<Real>(first, second, ball, loop.radius);
   }
 
-  // Accelerations' derivatives, but for the spin's and by the spin: the gimbal's by the states, the
-  // ball's by these and by the gimbal's accelerations.
+  // Derivatives of the accelerations, without those of the spin and by the spin: the gimbal's and
+  // the ball's by the states, and the ball's by the gimbal's accelerations.
   struct Jacobian {
     P by_v[nq][nq], by_q[nq][nq], by_turning[2][2];
   };
@@ -165,8 +165,8 @@ struct LaneLoops {
                   std::make_integer_sequence<int, 2 * nq + 2>());
   }
 
-  // What the tolerances count in place of the velocities: without what a servo's own motion gives
-  // the ball at once, -r phi'' and r theta'', by (27) near home.
+  // Replaces velocities by those that the tolerances bound. It removes the ball's immediate
+  // response to the servo's own motion: by (27) near level, -r phi'' and r theta''.
   BBSIM_INLINE static void without_servos(const Loop& loop, P (&v)[nv]) {
     if constexpr (drives == Drives::angle) {
       v[x] += loop.radius * v[phi];

@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// What a group of closed loops is greatest at over a step, at the nodes and between them.
+// Maxima of a group of closed loops over a step, at the nodes and between them.
 //
-// Included only by the kernels; see simd/pack.hpp for why all is inlined or tagged.
+// Included only by the kernels. See simd/pack.hpp for why everything is inlined or tagged.
 #pragma once
 
 #include "simd/peaks.hpp"
@@ -20,12 +20,13 @@ struct Looking : Of {
   using typename Of::Courses, typename Of::Half, typename Of::Loop, typename Of::Mask,
       typename Of::P, typename Of::Pack, typename Of::Reference, typename Of::Workspace;
 
-  // What is looked at, of a pack's states at an instant; slopes by the part of the step.
+  // One of the Look quantities and its slope, for a pack's states at an instant. Slopes are with
+  // respect to the fraction of the step.
   template <int which>
   BBSIM_INLINE static void look_at(const P* q, const P* v, const P* k, const Reference& reference,
                                    P h, P& size, P& slope) {
     if constexpr (which == versine) {
-      // Beyond 10^5 rad, in which nobody is interested, without the last digits.
+      // Angles beyond 10^5 rad, which have no practical use, lose the last digits.
       const SinCos<P> half_phi = sin_cos_of_moderate(P(0.5) * q[phi]);
       const SinCos<P> half_theta = sin_cos_of_moderate(P(0.5) * q[theta]);
       const P a = half_phi.sin * half_phi.sin, b = half_theta.sin * half_theta.sin;
@@ -87,7 +88,7 @@ struct Looking : Of {
     places[0].at = P(0.0);
     P k[nv];
     if constexpr (which == rate_squared) {
-      // The polynomial's own slope: it starts at no node.
+      // The slope of the polynomial itself, which has no node at its start.
       Of::template make_courses<angles>(w);
 #pragma GCC unroll 2
       for (int i = 0; i < 2; ++i) {
@@ -113,8 +114,8 @@ struct Looking : Of {
     choose(wanted, most, before).store(greatest + p * lanes);
   }
 
-  // Bounds from above of all that is looked at: what simd::promise_between says at most, of squares
-  // in place of sines.
+  // Upper bounds of all Look quantities over the step, as in simd::promise_between, with squares of
+  // angles in place of sines.
   [[gnu::flatten]] static void bound(const Workspace& w, int p, P (&bounds)[looks]) {
     const Loop loop(w.loops, p);
     const Pack& of = w.of[p];
@@ -123,7 +124,7 @@ struct Looking : Of {
     const auto take = [&](const P(&q)[nq], const P(&v)[nv], const P(&k)[nv],
                           const Reference& reference, P width, bool first)
         __attribute__((always_inline)) {
-      P sizes[looks], slopes[looks];  // the latter by the time, and half as large
+      P sizes[looks], slopes[looks];  // half the derivatives by time
       sizes[versine] = P(0.5) * (q[phi] * q[phi] + q[theta] * q[theta]);
       slopes[versine] = P(0.5) * (q[phi] * v[phi] + q[theta] * v[theta]);
       sizes[rate_squared] = v[phi] * v[phi] + v[theta] * v[theta];
@@ -147,7 +148,7 @@ struct Looking : Of {
       }
     };
     take(of.q, of.v, of.k_end, loop.reference(Of::from(w, p)), P(0.0), true);
-    constexpr double beyond = 2 * 0.25;  // of twice the half slopes
+    constexpr double beyond = 2 * 0.25;  // 2, because the slopes are halved
 #pragma GCC unroll 1
     for (int j = 0; j < s; ++j) {
       const P width = P(beyond * (rows.c[j] - (j > 0 ? rows.c[j - 1] : 0))) * h;

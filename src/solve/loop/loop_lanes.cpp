@@ -19,18 +19,19 @@ namespace {
 constexpr std::align_val_t alignment{64};
 constexpr double infinite = std::numeric_limits<double>::infinity();
 
-// What takes more is for another integrator.
+// A loop that takes more attempts is left to another integrator.
 constexpr std::size_t most_attempts = 100'000;
-// Steps that are so small a part of the time do not arrive, or Shrinking would say why.
+// A loop is given up if its step is below this fraction of the time. If the loop went to infinity,
+// Shrinking would have detected that before.
 constexpr double least_part = 1e-8;
-// What the next attempt is of one that Newton's iteration does not solve.
+// The factor of the step if Newton's iteration does not converge.
 constexpr double unsolved = 0.4;
 
-// Lanes of which no more than so many are at work are worth refilling.
+// Lanes are refilled when at most this many are at work.
 constexpr int few = group / 2;
-// Steps that became shorter, with none that was longer again: mostly on the way to infinity.
+// So many shrinking steps mostly mean that a loop goes to infinity.
 constexpr int long_since = 3;
-// Steps to the end that are worth waiting for.
+// A loop that is this many steps from its end stays in its lane.
 constexpr double soon = 2;
 
 void put(Loops& loops, int lane, const LoopCase& loop) {
@@ -49,8 +50,9 @@ const Kernel& kernel_of(Drives drives, int nodes) {
   return of.few.nodes == nodes ? of.few : of.many;
 }
 
-// How fast a lane's loop moves, 1/s: each way round it from an acceleration to itself, by as many
-// integrations as there are on the way.
+// The fastest rate of a lane's loop, 1/s. Each path leads from an acceleration back to itself. Its
+// rate is the n-th root of the product of its couplings, where n is the number of integrations on
+// the path.
 double fastest_of(const Couplings& of, int lane) {
   const auto at = [lane](const double(&values)[group]) { return values[lane]; };
   const double by_velocity = at(of.servo_by_velocity), by_place = at(of.servo_by_place);
@@ -100,7 +102,7 @@ void LoopLanes::take_columns(Way& way) {
   }
 }
 
-// Gives lanes, all of which are free, the next loops; as many as there are.
+// Starts the next loops in the lanes, all of which are free.
 void LoopLanes::begin(LoopStudy& study) {
   std::array<LoopState, group> begun{};
   std::array<std::size_t, group> numbers{};
@@ -130,7 +132,7 @@ void LoopLanes::begin(LoopStudy& study) {
     Way& way = way_of(lane).emplace();
     way.number = numbers[static_cast<std::size_t>(lane)];
     way.next = rate > 0 ? reach_ / rate : end_;
-    // What is not finite is given up when no step of it is.
+    // A loop that is not finite is given up when no step of it is finite.
     if (!(way.next > 0)) way.next = end_ * 1e-6;
     take_columns(way);
     way.x[0] = state.loop.initial[0];
@@ -153,8 +155,8 @@ void LoopLanes::resume(int lane) {
   aside_.pop_back();
 }
 
-// Makes room where few lanes are at work, and where a lane holds up the others: on the way to
-// infinity Newton's iteration takes many turns.
+// Makes room when few lanes are at work, and sets aside lanes that hold up the others: on the way
+// to infinity Newton's iteration takes many iterations.
 void LoopLanes::set_laggards_aside() {
   if (exhausted_ || (laggards_ && !aside_.empty())) return;
   const bool are_few = live() <= few;
@@ -167,7 +169,8 @@ void LoopLanes::set_laggards_aside() {
   }
 }
 
-// Gives lanes that are free what they may have: loops begin together.
+// Fills free lanes. New loops all begin together, in empty lanes. Loops set aside resume in any
+// lane.
 void LoopLanes::fill(LoopStudy& study) {
   if (live() == 0) {
     laggards_ = exhausted_ || aside_.size() >= group;
@@ -178,8 +181,8 @@ void LoopLanes::fill(LoopStudy& study) {
   }
 }
 
-// Lanes without a loop repeat an attempt of one that has some, best of one that goes on well: their
-// numbers stay finite, and cost next to nothing.
+// A lane without a loop repeats an attempt of another lane, if possible of one whose steps do not
+// shrink. Its numbers stay finite and cost next to nothing.
 void LoopLanes::idle(int lane) {
   auto of = std::find_if(ways_.begin(), ways_.end(), [](const auto& way) {
     return way.has_value() && way->shrinking.count() == 0;
@@ -213,12 +216,13 @@ void LoopLanes::plan(int lane, Way& way) {
   spans_.length[lane] = next.length;
 }
 
-// Whether the lane's attempt is accepted; `ending` then or otherwise, if it is its last.
+// Returns whether the lane's attempt is accepted. Sets `ending` if this is the loop's last attempt,
+// accepted or not.
 bool LoopLanes::judge(int lane, const Attempt& attempt, Way& way,
                       std::optional<LoopEnding>& ending) {
   const double h = spans_.length[lane];
   const double error = std::sqrt(attempt.error_squared[lane]);
-  // The first step is a guess.
+  // The first step is a guess, so early steps may grow more.
   const double growth =
       step_growth(static_cast<float>(error), kernel_->nodes, way.steps < 3 ? 30 : 8);
   ++way.attempts;
@@ -247,7 +251,7 @@ bool LoopLanes::judge(int lane, const Attempt& attempt, Way& way,
   return true;
 }
 
-// The rows up to the end of the last attempt.
+// Evaluates the rows up to the end of the last attempt.
 void LoopLanes::record(int lane, Way& way) {
   const std::size_t first = way.rows;
   while (way.rows < rows_ && times_[way.rows] <= way.t) ++way.rows;
@@ -277,7 +281,7 @@ void LoopLanes::carry(LoopStudy& study, const std::atomic<bool>& stop) {
       if (auto& way = way_of(lane)) use(lane, *way);
     }
   };
-  std::array<bool, group> worked;  // in the last attempt
+  std::array<bool, group> worked;  // had a loop in the last attempt
   worked.fill(true);
   while (!stop.load(std::memory_order_relaxed)) {
     fill(study);

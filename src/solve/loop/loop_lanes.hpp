@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Many closed loops at once, for studies of their gains: another loop in each SIMD lane.
+// Integrates many closed loops at once for sweeps of gains, with one loop in each SIMD lane.
 #pragma once
 
 #include <array>
@@ -19,68 +19,67 @@
 
 namespace bbsim::solve::loop {
 
-// How many nodes suit a relative tolerance: 8 or 12.
+// The number of nodes for a relative tolerance: 8 or 12.
 [[nodiscard]] int choose_nodes(double rtol);
 
 enum class LoopEnding {
   done,
-  unbounded,  // the motion grew without bound, as for a single run (Shrinking)
-  given_up,   // for another integrator
+  unbounded,  // the motion grows without bound, as for a single run (Shrinking)
+  given_up,   // left to another integrator
 };
 
-// What became of a loop; its rows and its state are there as long as LoopStudy::end() looks at
-// them.
+// The result of a loop. Its pointers are valid only during LoopStudy::end().
 struct LoopRun {
   LoopEnding ending;
   double reached;          // s
   std::size_t rows;        // of the grid, up to there
   const double *x, *y;     // of each row
   const double* state;     // at `reached`, as the loop packs its states
-  double greatest[looks];  // of the motion up to there, between rows as at them
+  double greatest[looks];  // over the motion up to there, rows and between
 };
 
-// What loops are taken from, and where what becomes of them goes.
+// The source of loops and the sink of their results.
 class LoopStudy {
  public:
   virtual ~LoopStudy() = default;
-  // The next loop, and a number that it goes by; none if there is none. A few dozen are on their
-  // way at a time.
+  // Fills in the next loop and returns its number; empty if there are no more. A few dozen loops
+  // are in progress at a time.
   virtual std::optional<std::size_t> begin(LoopCase& loop) = 0;
   virtual void end(std::size_t number, const LoopRun& run) = 0;
 };
 
-// A loop on its way.
+// A loop in progress.
 struct LoopWay {
   std::size_t number = 0;  // in the study
-  double t = 0, next = 0;  // s: where it is, and how long the next step may be
-  bool arrives = false;    // with this attempt
-  bool rejected = false;   // the last attempt was
+  double t = 0, next = 0;  // present time and longest next step, s
+  bool arrives = false;    // whether this attempt ends the loop
+  bool rejected = false;   // whether the last attempt was rejected
   std::size_t attempts = 0, steps = 0, rows = 1;
   Shrinking shrinking;
   std::vector<double> x{}, y{};  // of rows
 };
 
-// Integrates loops from t = 0 over an output grid by collocation at Radau IIA's nodes (step.hpp),
-// each lane at its own time and by its own steps. Loops that need about as many steps go together;
-// those that fall behind, or are on the way to infinity, are set aside until they fill the lanes.
-// Stiff servos cost no more steps than the motion does.
+// Integrates loops from t = 0 over an output grid, by collocation at Radau IIA's nodes (step.hpp).
+// Each lane has its own time and steps. Loops that need similar numbers of steps run together.
+// Loops that fall behind or go to infinity are set aside until they fill the lanes. Stiff servos
+// cost no more steps than the motion does.
 //
-// The tolerances bound each step's error in each state, with one exception: of a servo's own
-// motion, faster than 1 rad/s, its rates are followed to an absolute tolerance of atol omega_n, and
-// the ball's velocity to that times the radius. The ball's place and the angles are not concerned.
+// The tolerances bound each step's error in each state, with one exception. If omega_n is above 1
+// rad/s, the absolute tolerance of a servo's rates is atol omega_n, and that of the ball's velocity
+// is this value times the radius. Positions and angles keep atol.
 //
-// What becomes of a loop depends on nothing else, to the bit: neither on those beside it nor on
-// those before. One for each thread.
+// A loop's results depend on nothing else, to the bit: neither on loops beside it nor on earlier
+// ones. Use one object per thread.
 class LoopLanes {
  public:
-  // Throws InputError as choose_kernels() does. `nodes` is one of choose_nodes()'s.
+  // `nodes` comes from choose_nodes(). Throws InputError as choose_kernels() does.
   LoopLanes(Drives drives, int nodes, Tolerances tolerances, const OutputGrid& grid);
 
-  // Carries all loops of the study, or gives up those on their way when `stop` becomes true: of
-  // these, and of any after them, end() is not told.
+  // Integrates all loops of the study. When `stop` becomes true, gives up the loops in progress;
+  // end() is not called for these, nor for any later ones.
   void carry(LoopStudy& study, const std::atomic<bool>& stop);
 
-  // Of the last study; a Jacobian and its iterations count for all lanes of an attempt.
+  // Of the last study. A Jacobian and its iterations count once for all lanes of an attempt.
   [[nodiscard]] Statistics statistics() const { return statistics_; }
 
  private:
@@ -112,16 +111,16 @@ class LoopLanes {
   void take_columns(Way& way);
 
   const Kernel* kernel_;
-  double end_, reach_;         // s; of the first step, in parts of what the fastest motion takes
-  std::vector<double> times_;  // of the rows, s, and room beyond them
+  double end_, reach_;         // s; the first step as a multiple of the loop's fastest time
+  std::vector<double> times_;  // of the rows, s, padded at the end
   std::size_t rows_;
   std::unique_ptr<void, Free> workspace_;
   bool exhausted_ = false;  // there are no more loops
-  bool laggards_ = false;   // what the lanes have was set aside before
+  bool laggards_ = false;   // the lanes hold loops that were set aside before
   Greatest greatest_{};
   std::array<std::optional<Way>, group> ways_;
   std::vector<Aside> aside_;
-  std::vector<std::vector<double>> spare_;  // columns that no loop has
+  std::vector<std::vector<double>> spare_;  // unused columns
   Spans spans_{};
   Statistics statistics_;
 };

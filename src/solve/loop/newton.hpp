@@ -1,12 +1,12 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Newton's iteration for the accelerations at the nodes of a step, eight loops in lanes.
+// Newton's iteration for the accelerations at the nodes of a step, with one loop in each lane.
 //
-// The eigenvectors of Radau IIA's matrix part the system for all nodes into a complex one of four
-// unknowns for each pair of its eigenvalues.
+// The eigenvectors of Radau IIA's matrix split the system for all nodes into complex systems of
+// four unknowns, one for each pair of eigenvalues.
 //
-// Included only by the kernels; see simd/pack.hpp for why all is inlined or tagged.
+// Included only by the kernels. See simd/pack.hpp for why everything is inlined or tagged.
 #pragma once
 
 #include "solve/collocation/node_rows.hpp"
@@ -55,11 +55,11 @@ struct Newton : LaneLoops<Isa, drives> {
     Complex lu[pairs][nq][nq], transformed[pairs][nq];
   };
 
-  // Elimination begins with the servo's axes, the stiffest; without pivoting.
+  // Elimination starts with the servo's axes, which are the stiffest, and does not pivot.
   static constexpr int order[nq] = {phi, theta, x, y};
 
-  // I - Jk - h l Jv - h^2 l^2 Jq for each eigenvalue l, and its LU factors in place, rows and
-  // columns in that order; the diagonal holds its own inverse.
+  // Makes I - Jk - h l Jv - h^2 l^2 Jq for each eigenvalue l, with rows and columns in `order`, and
+  // factors it in place (LU). The diagonal holds its own inverse.
   BBSIM_INLINE static void factor(const Jacobian& at, P h, Matrices& of) {
 #pragma GCC unroll 1
     for (int k = 0; k < pairs; ++k) {

@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Rows of output within a step of one of a group's closed loops, by the step's polynomials.
+// Output rows within a step of one of a group's closed loops, on the step's polynomials.
 //
-// Included only by the kernels; see simd/pack.hpp for why all is inlined or tagged.
+// Included only by the kernels. See simd/pack.hpp for why everything is inlined or tagged.
 #pragma once
 
 #include "solve/loop/workspace.hpp"
@@ -15,14 +15,15 @@ struct RowsWithin : Of {
   using Of::lanes, Of::packs, Of::places, Of::s;
   using typename Of::Courses, typename Of::P, typename Of::Workspace;
 
-  // Of a lane's step: its start, one over its length, and the coefficients of x and y by
-  // Chebyshev's polynomials T_m: their recurrence T_(m+1) = 2 x T_m - T_(m-1) is the shortest.
+  // One lane's step: its start, inverse length, and the Chebyshev coefficients of x and y. The
+  // recurrence T_(m+1) = 2 x T_m - T_(m-1) is the shortest.
   struct Series {
     double from, per_length, of[s + 2][2];
   };
 
-  // Legendre's polynomial P_n is the sum of parts.of[n][m] T_m: products of the coefficients of
-  // (1 - z)^(-1/2), since P_n are those of ((1 - z e^(i t)) (1 - z e^(-i t)))^(-1/2), cos t = x.
+  // The Legendre polynomial P_n is the sum of parts.of[n][m] T_m. With cos t = x, the generating
+  // function of P_n is ((1 - z e^(i t)) (1 - z e^(-i t)))^(-1/2). The parts are therefore products
+  // of coefficients of (1 - z)^(-1/2).
   struct Parts {
     double of[s + 2][s + 2]{};
     consteval Parts() {
@@ -65,8 +66,7 @@ struct RowsWithin : Of {
     }
   }
 
-  // Rows for so many packs of times: each polynomial waits for the one before, and packs do not
-  // wait for each other.
+  // Evaluates `together` packs of times. Several packs at once hide the latency of the recurrence.
   template <int together>
   BBSIM_INLINE static void put_rows(const Series& series, const double* times, double* x,
                                     double* y) {

@@ -1,22 +1,26 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// A step of a group of closed loops, for one way to drive the gimbal, one number of nodes and one
-// instruction set.
+// A step of a group of closed loops, for one type of drive, one number of nodes and one instruction
+// set.
 //
-// Radau IIA as in radau/step.hpp, with another loop in each lane and the nodes in a loop: the
+// Radau IIA as in radau/step.hpp, with one loop in each lane and a loop over the nodes. The
 // unknowns are the accelerations k at the nodes,
-//     v = v(0) + h A k,    q = q(0) + c h v(0) + h^2 A A k,    k = f(t, q, v, k),
-// and Newton's iteration corrects them,
-//     (I - Jk - h A (x) Jv - h^2 A A (x) Jq) dk = f - k,
-// which the eigenvectors of A part into a complex system for each pair of eigenvalues. The spin is
-// no part of it: nothing that is stiff comes by way of it.
 //
-// The ball's accelerations are taken where the gimbal's are k, not what the servos would do at the
-// state: of a stiff servo that is a difference of large numbers, and as it stands before another
-// factor at each node, one Jacobian for all of them would be far from each. As it is, what is stiff
-// is linear, and loops about a plane that is nearly level have nearly the same Jacobian throughout
-// a step: three corrections do.
+//     v = v(0) + h A k,    q = q(0) + c h v(0) + h^2 A A k,    k = f(t, q, v, k),
+//
+// and Newton's iteration corrects them:
+//
+//     (I - Jk - h A (x) Jv - h^2 A A (x) Jq) dk = f - k.
+//
+// The eigenvectors of A split this into a complex system for each pair of eigenvalues. The spin is
+// left out, because nothing stiff depends on it.
+//
+// The ball's accelerations are evaluated with the gimbal's unknown accelerations k, not with the
+// servos' response to the state. For a stiff servo that response is a difference of large numbers.
+// It has another factor at each node, so one Jacobian would fit no node well. With k, the stiff
+// part is linear. For a nearly level plate the Jacobian is then nearly constant over the step, and
+// three corrections are enough.
 #pragma once
 
 #include "solve/collocation/convergence.hpp"
@@ -36,12 +40,12 @@ struct Step : Work<Isa, drives, s> {
       typename Base::Pack, typename Base::Reference, typename Base::Vector,
       typename Base::Workspace;
 
-  // How far the last turn moved the states.
+  // The change of the states in the last iteration.
   struct Change {
     P q[nq], v[nv];
   };
 
-  // The states at the nodes.
+  // Integrates k to the states at the nodes.
   BBSIM_INLINE static void integrate(const Loop& loop, Pack& of, P h, Change& change) {
 #pragma GCC unroll 8
     for (int i = 0; i < nv; ++i) {
@@ -76,7 +80,7 @@ struct Step : Work<Isa, drives, s> {
       for (int j = 0; j < together; ++j) {
         const P time = P(rows.c[first + j]) * h;
         P moved[nv];
-        // Every other node tells enough: what is left is a polynomial over the step.
+        // Measure the change at every other node. That is enough for a polynomial over the step.
         const bool counts = j == together - 1;
 #pragma GCC unroll 8
         for (int i = 0; i < nv; ++i) {
@@ -96,9 +100,9 @@ struct Step : Work<Isa, drives, s> {
     }
   }
 
-  // The tolerances over the step, by how far the states get in it. A servo's start would take
-  // dozens of steps for motions that no angle shows and no row of the ball's place: its rate counts
-  // as omega_n times an angle.
+  // Sets the weights from the tolerances and the largest states over the step. A servo's start
+  // would take dozens of steps for motions that show neither in an angle nor in the ball's
+  // position. The absolute tolerance of its rate is therefore omega_n times that of an angle.
   BBSIM_INLINE static void weigh(const Workspace& w, const Loop& loop, Pack& of) {
     const P rtol(w.rtol), atol(w.atol);
 #pragma GCC unroll 8
@@ -128,8 +132,8 @@ struct Step : Work<Isa, drives, s> {
     return most;
   }
 
-  // Whether no angle gets beyond a quarter of pi: sines are the same to the bit then, or a lane's
-  // would depend on another's, and cost less.
+  // Whether all angles stay within pi/4. The cheaper sines are the same to the bit there; otherwise
+  // a lane's result would depend on its companions.
   BBSIM_INLINE static bool are_small(const Pack& of) {
     P most(0.0);
 #pragma GCC unroll 1
@@ -145,8 +149,8 @@ struct Step : Work<Isa, drives, s> {
     return sin_cos(angle);
   }
 
-  // The accelerations at the nodes, and how far k is from them; of the spin k is them. Nothing of
-  // either where a lane does not take part: its k stays as it is.
+  // Sets the residuals f - k at the nodes, and k of the spin to its acceleration. Lanes that are
+  // not active get zero residuals and keep their k.
   template <bool small>
   [[gnu::noinline, gnu::flatten]] static void take_residuals(const Workspace& w, int p, Mask active,
                                                              Pack& of) {
@@ -167,12 +171,12 @@ struct Step : Work<Isa, drives, s> {
     }
   }
 
-  // How much shorter than the last step one is that begins with that one's polynomials.
+  // A step below this fraction of the last one starts from that one's polynomials.
   static constexpr double much_shorter = 0.75;
 
-  // The accelerations of the last step's polynomials, and what comes of them, at the nodes. Of a
-  // step as long as the last one they are of no use; of one that is much shorter, as on the way to
-  // infinity, they are right to a thousandth, where others spare three turns less.
+  // Sets k and the states at the nodes from the polynomials of the last step. For a step as long as
+  // the last one they are useless. For a much shorter one, as on the way to infinity, they are
+  // right to a thousandth and save three iterations.
   [[gnu::noinline, gnu::flatten]] static void extrapolate(const Loop& loop, P h, Pack& of) {
     P series[s][nv];
 #pragma GCC unroll 1
@@ -210,14 +214,14 @@ struct Step : Work<Isa, drives, s> {
 
   static constexpr int most_turns = 12;
 
-  // One pack; returns which lanes came to rest. One that has, or that will not, takes no further
-  // part: others may need more turns.
+  // Solves one pack. Returns which lanes converged. A lane that has converged, or will not, takes
+  // no part in further iterations.
   [[gnu::flatten]] static Mask solve(Workspace& w, int p, int& turns) {
     Pack& of = w.of[p];
     const Loop loop(w.loops, p);
     const P from = Base::from(w, p), h = Base::length(w, p);
     const bool moderate = loop.moderate_until(from + h);
-    // At first accelerations that go on as they were, in lanes that have nothing better.
+    // First guess: constant accelerations, in lanes without extrapolation.
     const Mask known = (Mask)(h.v < (P(much_shorter) * of.h_before).v);
     if (simd::any_of<P>(known)) extrapolate(loop, h, of);
 #pragma GCC unroll 1
@@ -253,7 +257,7 @@ struct Step : Work<Isa, drives, s> {
       integrate(loop, of, h, change);
       if (turns == 1) weigh(w, loop, of);
       const P now = weighted(of, change);
-      // What is not finite is at rest: the states tell.
+      // A lane that is not finite stops here; estimate() tests its states.
       const P contraction = turns > 1 ? P::of(now.v / last.v) : P(1.0);
       const Mask rests =
           (Mask)(now.v <= P(stop.enough).v) | stop.passes(now, contraction) | ~is_finite(now);
@@ -265,7 +269,8 @@ struct Step : Work<Isa, drives, s> {
     }
   }
 
-  // The first coefficient left out, integrated once for a velocity, twice for a position.
+  // The squares of the errors: the first coefficient left out, integrated once for a velocity and
+  // twice for a position.
   [[gnu::flatten]] static P estimate(const Workspace& w, int p) {
     const Pack& of = w.of[p];
     const Loop loop(w.loops, p);
@@ -286,7 +291,7 @@ struct Step : Work<Isa, drives, s> {
       finite &= is_finite(of.v_at[s - 1][i]);
       if (i < nq) finite &= is_finite(of.q_at[s - 1][i]);
     }
-    return P::of((Vector)((Mask)error.v | ~finite));  // all bits: no number
+    return P::of((Vector)((Mask)error.v | ~finite));  // all bits set: NaN
   }
 
   static void start(void* workspace, double rtol, double atol) {

@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// What a group of closed loops has in memory from step to step, and its motion between the nodes.
+// The memory of a group of closed loops from step to step, and dense output over the last step.
 //
-// Included only by the kernels; see simd/pack.hpp for why all is inlined or tagged.
+// Included only by the kernels. See simd/pack.hpp for why everything is inlined or tagged.
 #pragma once
 
 #include "solve/collocation/dense_output.hpp"
@@ -18,19 +18,18 @@ struct Work : Newton<Isa, drives, nodes> {
   using typename Base::P, typename Base::Mask, typename Base::Matrices, typename Base::Reference;
   static constexpr int s = nodes;
   using Courses = DenseOutput<P, s, 2>;
-  enum Half : int { places, angles };  // of the positions, and their velocities
+  enum Half : int { places, angles };  // halves of the positions: x, y and phi, theta
 
   struct Pack {
     P q[nq], v[nv];  // the present state
     P k_end[nv];     // accelerations there
-    // Of the last step that was accepted: its length, 0 if it was not kept, and accelerations at
-    // its nodes.
+    // The last accepted step: its length (0 if it was not kept) and the accelerations at its nodes.
     P h_before, k_before[s][nv];
     // At the nodes of the last attempt.
     P k[s][nv], q_at[s][nq], v_at[s][nv], residual[s][nq];
     Reference reference[s];
     Matrices newton;
-    P q_weight[nq], v_weight[nv];  // one over the tolerances
+    P q_weight[nq], v_weight[nv];  // inverse tolerances
     Courses courses[2];            // of the last attempt, by halves
     P series[s + 2][2];            // of places (rows_within.hpp)
   };
@@ -39,18 +38,18 @@ struct Work : Newton<Isa, drives, nodes> {
     Loops loops;
     Spans spans;  // of the last attempt
     double rtol, atol;
-    bool courses[2], series;  // whether they are those of it
+    bool courses[2], series;  // whether they belong to the last attempt
     Pack of[packs];
   };
 
-  // Of a pack's last attempt: where it began and how long it is, s.
+  // The start and length of a pack's last attempt, s.
   BBSIM_INLINE static P from(const Workspace& w, int p) {
     return Base::Loop::lane(w.spans.from, p);
   }
   BBSIM_INLINE static P length(const Workspace& w, int p) {
     return Base::Loop::lane(w.spans.length, p);
   }
-  // Which of a pack's lanes take part.
+  // The mask of a pack's lanes.
   BBSIM_INLINE static Mask mask(const Lanes& lanes, int p) {
     Mask mask;
     __builtin_memcpy(&mask, lanes.of + p * Base::lanes, sizeof(mask));

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Which lanes of a group that takes one step for all are given up, and why.
+// Decides which lanes of a group in lock step are given up.
 #pragma once
 
 #include <algorithm>
@@ -15,17 +15,17 @@ namespace bbsim::solve {
 template <std::size_t group>
 class LostLanes {
  public:
-  // How far a lane may fall behind the others. One that is lost without need is run again alone,
-  // and only costs time.
+  // How far a lane may fall behind the others. A lane that is given up without need is run again
+  // alone and only costs time.
   struct Patience {
-    double notable;       // errors up to here hold nobody back
-    double holding_back;  // an error so many times the median lane's needs a far shorter step
-    int most_held;        // attempts in which it alone did
+    double notable;       // lanes with errors up to this do not hold others back
+    double holding_back;  // a lane with an error above this times the median does
+    int most_held;        // the number of attempts in which a lane may do so
   };
 
   explicit LostLanes(const Patience& patience) : patience_(patience) {}
 
-  // None is lost.
+  // All lanes are good.
   void begin() {
     lost_.fill(false);
     twins_.fill(false);
@@ -38,8 +38,9 @@ class LostLanes {
     return std::find(lost_.begin(), lost_.end(), false) == lost_.end();
   }
 
-  // The largest error of the lanes that are carried on, in the tolerances' weights; what is not
-  // finite is infinite. Gives up those that cannot be: above `bearable`, and for too long behind.
+  // Returns the largest error of the lanes that continue, relative to the tolerance; an error that
+  // is not finite counts as infinite. Gives up lanes whose error is above `bearable`, and lanes
+  // that held the others back for too long.
   double judge(const double* errors, double bearable) {
     std::array<double, group> all, sorted;
     std::ptrdiff_t alive = 0;
@@ -69,8 +70,8 @@ class LostLanes {
     return worst;
   }
 
-  // Lanes that were given up go on as twins of the first that was not, by twin(lane, of): their
-  // numbers stay finite and cost nothing.
+  // Makes lost lanes copies of the first good lane, by twin(lane, of). Their numbers stay finite
+  // and cost nothing.
   template <class Twin>
   void replace(Twin twin) {
     if (lost_ == twins_) return;
@@ -82,7 +83,7 @@ class LostLanes {
     }
   }
 
-  // Of the first `count` lanes, those that are not lost.
+  // Which of the first `count` lanes are not lost.
   [[nodiscard]] std::array<bool, group> carried(int count) const {
     std::array<bool, group> kept;
     for (std::size_t lane = 0; lane < group; ++lane) {
@@ -96,7 +97,7 @@ class LostLanes {
 
   Patience patience_;
   std::array<bool, group> lost_{}, twins_{};
-  std::array<int, group> held_{};  // attempts in which a lane alone needed a far shorter step
+  std::array<int, group> held_{};  // attempts in which the lane needed a far shorter step
 };
 
 }  // namespace bbsim::solve

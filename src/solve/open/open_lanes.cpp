@@ -17,18 +17,18 @@ namespace {
 
 constexpr std::align_val_t alignment{64};
 
-// What takes more is for another integrator.
+// A group that takes more attempts is left to another integrator.
 constexpr std::size_t most_attempts = 100'000;
-// From one second to the rounding of its time takes 50 halvings of the step.
+// 50 halvings take a step from one second to the rounding of its time.
 constexpr int most_rejections = 60;
-// Errors fall with the step to the power of the nodes and more: a lane whose error is so much more
-// than the median's needs a step a quarter as long or shorter.
+// The error falls with the step to the power of the nodes or more. A lane whose error exceeds the
+// median by this factor needs a step of a quarter or less.
 constexpr LostLanes<group>::Patience patience{.notable = 1, .holding_back = 1e8, .most_held = 4};
 
-// How long half a stretch of the plane's motion is between two looks, rad: at its tempo, the cubics
-// of simd/peaks.hpp then tell where it is greatest.
+// Half the distance between two points of the plate's motion, rad at its tempo. The cubics of
+// simd/peaks.hpp then find the maxima.
 constexpr double look_angle = 0.9;
-// A gimbal that turns so often has been everywhere that it goes to.
+// Within this many points a gimbal has reached all its extremes.
 constexpr double most_looks = 1e6;
 
 const Kernel& kernel_of(const Kernels& kernels, int nodes) {
@@ -38,7 +38,7 @@ const Kernel& kernel_of(const Kernels& kernels, int nodes) {
   return kernels.many;
 }
 
-// What a step costs: sums over nodes, and coefficients at each.
+// The cost of a step: sums over nodes, and coefficients at each node.
 double step_cost(int nodes) {
   return nodes * (nodes + 15.0);
 }
@@ -63,7 +63,7 @@ OpenLanes::OpenLanes(Tolerances tolerances, double end, std::vector<double> stop
 
 // Unused lanes repeat the last case.
 void OpenLanes::load(const OpenCase* cases, int count) {
-  double most = 0;  // angle
+  double most = 0;  // the largest angle, rad
   for (int lane = 0; lane < group; ++lane) {
     const OpenCase& one = cases[std::min(lane, count - 1)];
     const GivenMotion& motion = one.motion;
@@ -86,8 +86,8 @@ void OpenLanes::load(const OpenCase* cases, int count) {
   kernel_->start(workspace_.get(), scenes_, tolerances_.rtol, tolerances_.atol);
 }
 
-// A sine costs more than the rest of the equation, so waves of one frequency, whichever it is in
-// each lane, share one: a sin(w t + p) = a cos p sin w t + a sin p cos w t.
+// A sine costs more than the rest of the equation. Waves of one frequency share one sine, even if
+// the frequency differs between lanes: a sin(w t + p) = a cos p sin w t + a sin p cos w t.
 void OpenLanes::load_waves(const OpenCase* cases, int count) {
   scenes_.harmonic_count = 0;
   for (int k = 0; k < cases[0].motion.wave_count; ++k) {
@@ -118,7 +118,7 @@ void OpenLanes::load_waves(const OpenCase* cases, int count) {
   }
 }
 
-// The highest frequency of a motion, and how fast its angles go at most, rad/s.
+// The highest frequency of a motion, and a bound of its angular velocities, rad/s.
 struct OpenLanes::Tempo {
   explicit Tempo(const GivenMotion& motion) {
     rate = std::abs(motion.rate[0]) + std::abs(motion.rate[1]);
@@ -131,8 +131,8 @@ struct OpenLanes::Tempo {
   double frequency = 0, rate;
 };
 
-// How fast what the gimbal does to the ball changes in the fastest of the lanes, rad/s: sinusoids
-// and, where angles are large, sinusoids of these.
+// The fastest rate at which the gimbal's action on the ball changes, over all lanes, rad/s. The
+// action has sinusoids and, where angles are large, sinusoids of these.
 double OpenLanes::tempo(const OpenCase* cases, int count) {
   double fastest = 0;
   for (int lane = 0; lane < count; ++lane) {
@@ -142,7 +142,8 @@ double OpenLanes::tempo(const OpenCase* cases, int count) {
   return fastest;
 }
 
-// The largest error of the lanes that are carried on.
+// Returns the largest error of the lanes that continue. At the shortest step, gives up all lanes
+// that do not pass.
 double OpenLanes::judge(const Attempt& attempt, bool at_limit) {
   constexpr double infinite = std::numeric_limits<double>::infinity();
   std::array<double, group> errors;
@@ -153,7 +154,7 @@ double OpenLanes::judge(const Attempt& attempt, bool at_limit) {
   return lost_.judge(errors.data(), attempt.converged ? 1 : -infinite);
 }
 
-// Over a stretch of time in which no input has a corner; whether any lane arrived.
+// Integrates over an interval without input corners. Returns whether any lane arrived.
 bool OpenLanes::go(double from, double to) {
   double t = from;
   int rejections = 0;
@@ -170,8 +171,7 @@ bool OpenLanes::go(double from, double to) {
       t = arrives ? to : t + h;
       kernel_->accept(workspace_.get());
       ++statistics_.steps;
-      // A step that went well is as good for the next stretch, and one that a stop cut short tells
-      // nothing about longer ones.
+      // A step that a stop cut short says nothing about longer steps.
       if (!arrives || h >= next_) {
         const double factor = std::max(1.0, step_growth(worst, kernel_->nodes));
         next_ = rejections > 0 ? h : h * factor;
@@ -187,8 +187,9 @@ bool OpenLanes::go(double from, double to) {
   return true;
 }
 
-// What comes after `until` repeats what was before: a sinusoid of both angles has all of its sizes
-// in one period, and in half of one if the plane is level in the mean.
+// Computes the plate's extremes. After `until` the motion repeats: one sinusoid in both angles
+// shows all its extremes within one period, and within half a period if the plate is level on
+// average.
 void OpenLanes::turn(const OpenCase* cases, int count) {
   alignas(64) double until[group];
   double most = 1;
@@ -242,7 +243,8 @@ std::optional<OpenLanes::Measured> OpenLanes::measure(const OpenCase* cases, int
     return std::any_of(carried.begin(), carried.end(), [](bool one) { return one; });
   };
   if (try_steps(4)) {
-    // With what the last try needed, and then with as few as do.
+    // Repeat with the number of steps that the last try needed, then with fewer while all steps
+    // pass.
     double steps = static_cast<double>(statistics_.steps);
     for (bool better = true; better && steps >= 1;) {
       static_cast<void>(try_steps(steps));

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Many balls under given motions at once: another case in each SIMD lane.
+// Integrates many balls under given motions at once, with one case in each SIMD lane.
 #pragma once
 
 #include <array>
@@ -17,8 +17,8 @@
 
 namespace bbsim::solve::open {
 
-// The gimbal's angles as functions of time: start + rate t + sums of amplitude sin(frequency t +
-// phase), plus tables that are those of all cases; phi, theta.
+// The gimbal's angles (phi, theta) as functions of time: start + rate t + sums of amplitude
+// sin(frequency t + phase), plus tables that all cases share.
 struct GivenMotion {
   struct Wave {
     int component;
@@ -26,7 +26,7 @@ struct GivenMotion {
   };
   double start[2] = {0, 0}, rate[2] = {0, 0};
   Wave waves[most_harmonics];
-  int wave_count = 0;  // in all cases of a group, with the same components
+  int wave_count = 0;  // the same in all cases of a group, and with the same components
   const model::Tabulated* tables = nullptr;
   std::size_t table_count = 0;
 
@@ -35,56 +35,58 @@ struct GivenMotion {
     start[component] += from;
     rate[component] += slope;
   }
-  // No more than there is place for.
+  // At most most_harmonics sinusoids.
   void add_sinusoid(int component, double amplitude, double frequency, double phase) {
     waves[wave_count++] = {component, amplitude, frequency, phase};
   }
 };
 
-// One case, in SI: model::OpenLoop<Shape::full>.
+// One case, in SI units: model::OpenLoop<Shape::full>.
 struct OpenCase {
   double radius = 0, gravity = 0;
   double initial[states] = {};  // x, y, x', y', u
   GivenMotion motion;
 };
 
-// How long steps are at first. Both numbers cost time alone if they do not suit.
+// The first steps of a group. A poor choice only costs time.
 struct Pace {
   int nodes = 12;      // of Radau IIA: 8, 12 or 16
-  double angle = 2.0;  // the part of the motion's tempo in a step, rad
+  double angle = 2.0;  // the tempo of the motion times the first step, rad
 };
 
-// What a case came to.
+// The results of a case.
 struct Reached {
   double state[states];     // at the end
-  double distance_squared;  // the greatest from the plane's origin, m^2
-  double versine;           // 1 - cos(tilt), and the square of the plane's angular velocity: no
-  double rate_squared;      // numbers where there are tables, whose extremes are for others
+  double distance_squared;  // the greatest from the plate's origin, m^2
+  // Greatest 1 - cos(tilt) and squared angular velocity of the plate. NaN with tables, whose
+  // extremes are computed elsewhere.
+  double versine;
+  double rate_squared;
 };
 
-// Integrates groups of cases from t = 0 to the end, in lock step: a group takes one step for all
-// its lanes, short enough for each, by collocation at Radau IIA's nodes. Allocates nothing once it
-// is made; one for each thread.
+// Integrates groups of cases from t = 0 to the end in lock step, by collocation at Radau IIA's
+// nodes. All lanes of a group take the same step, which is short enough for each. After
+// construction nothing allocates. Use one object per thread.
 //
-// What a case comes to depends, within the tolerance, on its companions in the group, and on
-// nothing else: the same group gives the same bits whichever thread and whatever ran before.
+// Within the tolerance, the results of a case depend on its companions in the group, and on nothing
+// else. The same group gives the same bits in every thread and after any other group.
 class OpenLanes {
  public:
-  // Steps end at the stops, which are ordered, in (0, end) and the same for all cases, s. Throws
-  // InputError as choose_kernels() does.
+  // `stops` (s): ordered times in (0, end), the same for all cases, at which steps end. `end` in s.
+  // Throws InputError as choose_kernels() does.
   OpenLanes(Tolerances tolerances, double end, std::vector<double> stops, Pace pace);
 
-  // The first `count` cases, 1 <= count <= group. Whether each was carried to the end; one that was
-  // not, for values that are not finite, for a step that shrank to nothing, for too many steps, or
-  // because it would hold the others back, is for another integrator.
+  // Integrates the first `count` cases, 1 <= count <= group. Returns for each whether it reached
+  // the end. A case does not if values are not finite, if its step shrinks to nothing, if it takes
+  // too many steps, or if it would hold the others back. Another integrator must run it.
   std::array<bool, group> integrate(const OpenCase* cases, int count);
 
   // Of the last group.
   [[nodiscard]] Reached reached(int lane) const;
   [[nodiscard]] Statistics statistics() const { return statistics_; }
 
-  // The fastest pace at which this group's steps all succeed at once, and what it costs then, in
-  // sums over nodes; none if its cases are not carried at all.
+  // The fastest pace at which all of this group's steps pass at the first attempt, and its cost in
+  // sums over nodes. Empty if no case reaches the end.
   struct Measured {
     Pace pace;
     double cost;
@@ -108,7 +110,7 @@ class OpenLanes {
   const Kernels& kernels_;
   Tolerances tolerances_;
   double end_;
-  std::vector<double> stops_;  // the end among them
+  std::vector<double> stops_;  // includes the end
   Pace pace_;
   std::unique_ptr<void, Free> workspace_;
   Scenes scenes_{};

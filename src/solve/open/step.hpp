@@ -3,15 +3,19 @@
 
 // A step of a group of balls under given motions, for one instruction set.
 //
-// The gimbal's motion is given, and the ball's equation therefore linear in its five states:
+// The gimbal's motion is given, so the ball's equation is linear in its five states:
+//
 //     k = f + A (x, y, x', y', u)
-// with coefficients that are computed once a step, at the nodes of Radau IIA; another case in each
-// lane, the nodes in a loop. What is left is
+//
+// The coefficients are computed once per step at the nodes of Radau IIA. Each lane has another
+// case; the nodes are a loop. Substitution solves the remaining equations:
+//
 //     v = v(0) + h A1 k,    q = q(0) + c h v(0) + h^2 A2 k
-// and substitution solves it. An integral is about the sum of what came before, so a turn that goes
-// from node to node and takes what is new at once contracts much faster than one that waits for all
-// nodes: steps of some radians of the motion take three or four turns. The fall of the Legendre
-// coefficients of k tells the error, as it does for radau/step.hpp.
+//
+// It goes from node to node and uses new values at once. An integral mostly depends on earlier
+// nodes, so this contracts much faster than updating all nodes together: steps of some radians of
+// the motion take three or four iterations. The decay of the Legendre coefficients of k gives the
+// error estimate, as in radau/step.hpp.
 #pragma once
 
 #include "model/systems/system.hpp"
@@ -27,7 +31,7 @@ namespace bbsim::solve::open {
 
 using simd::Looked;
 
-// What does not depend on the number of nodes.
+// The parts that do not depend on the number of nodes.
 template <class Isa>
 struct Lanes {
   static constexpr int lanes = Isa::lanes;
@@ -67,7 +71,7 @@ struct Lanes {
     return small ? simd::sin_cos_of_small(angle) : sin_cos(angle);
   }
 
-  // 1 - cos(tilt) without what is lost by the difference, and its slope.
+  // 1 - cos(tilt) without cancellation, and its slope.
   BBSIM_INLINE static void tilt(const std::array<model::Jet<P>, 2>& angles, bool small, P& versine,
                                 P& slope) {
     const SinCos<P> half_phi = direction(P(0.5) * angles[0].value, small);
@@ -85,8 +89,8 @@ struct Lanes {
             (angles[0].rate * angles[0].acceleration + angles[1].rate * angles[1].acceleration);
   }
 
-  // The greatest rate of one sinusoid of both angles, over half a period and more: the greater
-  // eigenvalue of the quadratic form that its square is in sin and cos.
+  // The greatest squared rate of one sinusoid in both angles, over half a period or more. The
+  // squared rate is a quadratic form in sin and cos. This is its greater eigenvalue.
   BBSIM_INLINE static P greatest_rate(const model::BasicHarmonic<P>& of) {
     const P(&a)[2] = of.sine, (&b)[2] = of.cosine;
     const P sines = a[0] * a[0] + a[1] * a[1], cosines = b[0] * b[0] + b[1] * b[1];
@@ -95,7 +99,7 @@ struct Lanes {
     return of.frequency * of.frequency * most;
   }
 
-  // Whether a sinusoid is all that the rates have in every lane, for half a period at least.
+  // Whether the rates are one sinusoid in every lane, over at least half a period.
   BBSIM_INLINE static bool is_one_wave(const Motion& motion, P until) {
     if (motion.signals.harmonic_count != 1) return false;
     const P half_period = P(3.141592653589793 * (1 - 1e-15)) /
@@ -105,7 +109,7 @@ struct Lanes {
     return !simd::any_of<P>(no);
   }
 
-  static constexpr int together = 16;  // intervals that are looked at in one go
+  static constexpr int together = 16;  // intervals per call of raise_to_peak()
 
   [[gnu::flatten]] static void turn_pack(const Scenes& scenes, int p, const double* until,
                                          int intervals, Turning& greatest) {
@@ -162,8 +166,8 @@ struct Step : Lanes<Isa> {
 
   static constexpr NodeRows<Isa, s> rows{};
 
-  // Equation (27) at a node, times h: x'' has no part of x', y'' none of y', and u' none of x, y,
-  // u.
+  // Equation (27) at a node, times h. x'' does not depend on x', y'' not on y', and u' not on x, y
+  // or u.
   struct Coefficients {
     P value[nv], x_by[4], y_by[4], u_by[2];
 
@@ -187,7 +191,7 @@ struct Step : Lanes<Isa> {
     P q_end[nq], v_end[nv];  // the end of the last attempt
     P k[s][nv];              // accelerations times h, at the nodes
     P q_at[s][nq], v_at[s][nv];
-    P weight, q_weight[nq], v_weight[nv];  // one over the tolerances
+    P weight, q_weight[nq], v_weight[nv];  // inverse tolerances
     P distance_squared;                    // the greatest so far
   };
 
@@ -221,7 +225,7 @@ struct Step : Lanes<Isa> {
     }
   }
 
-  // The state that the integrals from the start to some nodes make: rows of tables, one a node.
+  // Integrates k from the start to `count` nodes. The table has one row per node.
   template <int count>
   BBSIM_INLINE static void integrate(const Pack& of, P h, int first, P (&q)[count][nq],
                                      P (&v)[count][nv]) {
@@ -244,7 +248,7 @@ struct Step : Lanes<Isa> {
         }
       }
     };
-      // Last what was computed last, which nobody then waits for.
+      // Add the newest values last, so that no sum waits for them.
 #pragma GCC unroll 2
     for (int j = first; j < s; ++j) add(j);
 #pragma GCC unroll 2
@@ -260,7 +264,7 @@ struct Step : Lanes<Isa> {
     }
   }
 
-  // The tolerance over the step, by how far the states get in it.
+  // Sets the weights from the tolerance and the largest states over the step.
   BBSIM_INLINE static void weigh(const Workspace& w, Pack& of) {
     const P rtol(w.rtol), atol(w.atol);
     P q_size(0.0), v_size(0.0);
@@ -284,11 +288,11 @@ struct Step : Lanes<Isa> {
 
   static constexpr int most_iterations = 15;
 
-  // One pack; returns whether substitution came to rest.
+  // Solves one pack. Returns whether substitution converged.
   [[gnu::flatten]] static bool solve(Workspace& w, int p, int& iterations) {
     Pack& of = w.of[p];
     const P h(w.h);
-    // At first a ball that goes on as it did.
+    // First guess: the ball keeps its velocity.
 #pragma GCC unroll 1
     for (int i = 0; i < s; ++i) {
       const P time(w.h * rows.c[i]);
@@ -321,7 +325,7 @@ struct Step : Lanes<Isa> {
       if (iterations == 1) weigh(w, of);
       const P most = simd::larger_of(simd::larger_of(change[0], change[1]), change[2]);
       const double now = simd::largest_of(most * of.weight);
-      if (!simd::is_finite(now)) return true;  // the states tell
+      if (!simd::is_finite(now)) return true;  // estimate() tests the states
       const double contraction = iterations > 1 ? now / last : 1;
       if (stop.passes(now, contraction)) return true;
       if (iterations >= most_iterations || (iterations > 3 && contraction > 0.5)) return false;
@@ -329,7 +333,8 @@ struct Step : Lanes<Isa> {
     }
   }
 
-  // The first coefficient left out, integrated once for a velocity, twice for a position.
+  // The square of the error: the first coefficient left out, integrated once for a velocity and
+  // twice for a position.
   [[gnu::flatten]] static P estimate(const Workspace& w, int p) {
     const Pack& of = w.of[p];
     constexpr double once = 1.0 / (2 * s + 1);
@@ -347,7 +352,7 @@ struct Step : Lanes<Isa> {
       }
       error = simd::larger_of(error, series.left_out_squared(i, weight));
     }
-    return P::of((Vector)((Mask)error.v | ~finite));  // all bits: no number
+    return P::of((Vector)((Mask)error.v | ~finite));  // all bits set: NaN
   }
 
   static void start(void* workspace, const Scenes& scenes, double rtol, double atol) {

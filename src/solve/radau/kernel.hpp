@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// One step of Radau IIA collocation: what the driver sees of it, whatever the instruction set.
+// The driver's interface to one step of Radau IIA collocation, for every instruction set.
 //
-// Plain data and pointers to functions only; nothing here may become code that two instruction
-// sets share.
+// Has only plain data and pointers to functions. Code here could be compiled for one instruction
+// set and run on another.
 #pragma once
 
 #include <cstddef>
@@ -12,61 +12,61 @@
 namespace bbsim::solve::radau {
 
 struct Start {
-  const void* system;  // the system's view(), of the kernel's own type; outlives the workspace
+  const void* system;  // the system's view(), of the kernel's own type; must outlive the workspace
   const double* state;
   double rtol, atol;
-  bool gamma;  // the integral of u is under the tolerance too, and follows the states in a row
-  bool positions_only = false;  // without gamma: evaluate() leaves velocities as they are
+  bool gamma;  // whether the integral of u is under error control too, and follows the states
+  bool positions_only = false;  // without gamma: evaluate() leaves the velocities in rows unchanged
 };
 
 enum class Verdict { converged, diverged, not_finite };
 
-// What became of an attempted step.
+// The result of an attempted step.
 struct Attempt {
   Verdict verdict;
-  double error;     // estimated local error in the tolerance's weights: at most 1 is good
-  int worst_state;  // the state with the largest estimate
+  double error;  // estimated local error relative to the tolerance; the step passes at 1 or below
+  int worst_state;  // the state with the largest error estimate
   int iterations;
   int right_hand_sides;
   int jacobians;
 };
 
-// What a workspace begins with, whatever the kernel.
+// The first part of every kernel's workspace.
 struct WorkspaceHead {
-  const void* system;  // first, since it is no part of a state that is saved
+  const void* system;  // not part of a saved state
   double rtol, atol;
   bool gamma;
   bool positions_only;  // in rows
-  bool newton;          // iterate by Newton; otherwise by substitution
-  bool has_guess;       // k holds the last attempt's values, over [t, t + h]
+  bool newton;          // whether to iterate by Newton; otherwise by substitution
+  bool has_guess;       // whether k has the values of the last attempt, over [t, t + h]
   bool accepted;        // whether that attempt was accepted
 };
 
-// All functions work on a workspace of `workspace` bytes, aligned to 64, prepared by start().
+// All functions work on a workspace of `workspace` bytes, aligned to 64, which start() prepares.
 // None allocates or throws.
 struct Kernel {
   int stages;
   int states;
   std::size_t workspace;
   void (*start)(void* workspace, const Start& start);
-  // How fast the linearised system moves about the present state, 1/s: the norm of its Jacobian,
-  // positions counted by the root.
+  // The rate of the linearized system about the present state, 1/s: the norm of its Jacobian, where
+  // the norm for positions counts by its square root.
   double (*rate)(void* workspace, double t);
-  // Attempts a step from the present state at t over h.
+  // Attempts a step of length h from the present state at t, both in s.
   void (*attempt)(void* workspace, double t, double h, Attempt* result);
   // Makes the end of the last attempt the present state.
   void (*accept)(void* workspace);
-  // The rows of states, and the integral of u, at times within the last attempt, by its
-  // polynomial; to be called before accept().
+  // Evaluates rows (states, and the integral of u if wanted) at times within the last attempt, on
+  // its polynomial. Call it before accept().
   void (*evaluate)(void* workspace, const double* times, std::size_t count, double* rows);
   void (*state)(const void* workspace, double* state);
 };
 
-// One for each system of model/systems/list.hpp, in its order.
+// One kernel for each system in model/systems/list.hpp, in its order.
 inline constexpr int system_count = 17;
 
 struct StepKernels {
-  // Of a system that only the baseline has kernels for, without functions.
+  // A system that only the baseline supports has a kernel without functions.
   Kernel kernels[3][system_count];  // for 8, 12 and 16 stages
 };
 

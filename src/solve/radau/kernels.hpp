@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// All kernels of one instruction set.
+// The table of all kernels of one instruction set.
 #pragma once
 
 #include <type_traits>
@@ -12,14 +12,14 @@
 
 namespace bbsim::solve::radau {
 
-// Rigs beyond the paper's are cut into short pieces by what switches: orders above 23, which pay
-// over long steps, are not compiled for them.
+// Switches cut the motion of rigs beyond the paper's into short pieces. Orders above 23 pay only
+// over long steps, so they are not compiled for these rigs.
 template <class System>
 inline constexpr int stages_at_most = System::papers_rig ? 16 : 12;
 
-// Of scenes with couples, sliding or torques, in which pieces are short and a right-hand side is
-// long enough to hide what wider lanes would save, there are kernels for the baseline alone: they
-// would take compilers as long as all others together.
+// Coupled scenes (losses, sliding, torques, linkages, pushes) have kernels for the baseline only.
+// Their pieces are short, and their right-hand sides so long that wider lanes would save little.
+// These kernels would take as long to compile as all others together.
 template <class Isa, class System>
 inline constexpr bool is_compiled = Isa::lanes == 2 || !model::is_coupled<System>;
 

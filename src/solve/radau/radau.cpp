@@ -35,7 +35,7 @@ bool is_open_loop(const model::Model& model) {
                     model.system);
 }
 
-// How fast the gimbal's angles turn in their sines, or a reference about its centre, rad/s.
+// The fastest rate of the gimbal's sines of angles, or of a reference, rad/s.
 double tempo(const model::Model& model) {
   return std::visit(
       [&](const auto& system) {
@@ -49,7 +49,7 @@ double tempo(const model::Model& model) {
       model.system);
 }
 
-// z such that (z/2)^s / s! = tolerance: half a step of a sinusoid, in radians, whose s-th
+// Returns z with (z/2)^s / s! = tolerance. Over a step of 2 z radians of a sinusoid, the s-th
 // Legendre coefficient has just fallen to the tolerance.
 double resolved(int stages, double tolerance) {
   double factorial = 1;
@@ -57,7 +57,7 @@ double resolved(int stages, double tolerance) {
   return 2 * std::pow(tolerance * factorial, 1.0 / stages);
 }
 
-// For rigs beyond the paper's, 16 stages find the kernel of 12 (kernels.hpp).
+// For rigs beyond the paper's, the entry for 16 stages has the kernel for 12 (kernels.hpp).
 const Kernel& find_kernel(const StepKernels& kernels, int stages, const model::Model& model) {
   const std::size_t order = stages == 8 ? 0 : stages == 12 ? 1 : 2;
   const Kernel& kernel = kernels.kernels[order][model.system.index()];
@@ -69,7 +69,7 @@ std::size_t size_of_view(const model::Model& model) {
   return std::visit([](const auto& system) { return sizeof(system.view()); }, model.system);
 }
 
-// The size of the greatest state; infinite if one is no number.
+// The magnitude of the largest state; infinite if a state is not finite.
 double size_of(const std::vector<double>& state) {
   double size = 0;
   for (const double value : state) {
@@ -82,7 +82,7 @@ double size_of(const std::vector<double>& state) {
 }  // namespace
 
 int choose_stages(const model::Model& model, double rtol) {
-  // Substitution, which has no linear systems to solve, takes hardly longer over more stages.
+  // Substitution solves no linear systems, so more stages take hardly longer.
   const double for_most = is_open_loop(model) ? 1e-6 : 3e-9;
   return rtol > 3e-6 ? 8 : rtol > for_most ? 12 : 16;
 }
@@ -112,7 +112,7 @@ void RadauStepper::renew(const model::Model& model, int stages, double end) {
     view_ = static_cast<std::byte*>(workspace_) + kernel_->workspace;
   }
   highest_frequency_ = highest_frequency(model);
-  // A sinusoid shorter than the distance between nodes would be mistaken for a longer one.
+  // Nodes would alias a sinusoid shorter than their distance to a longer one.
   widest_ = highest_frequency_ > 0 ? 1.6 * kernel_->stages / highest_frequency_
                                    : std::numeric_limits<double>::max();
   tempo_ = tempo(model);
@@ -124,7 +124,7 @@ void RadauStepper::renew(const model::Model& model, int stages, double end) {
   least_end_ = 0;
 }
 
-// The kernel's own view of the system, in its present mode.
+// Makes the kernel's own view of the system in its present mode.
 void RadauStepper::look_at_model() {
   std::visit(
       [this](const auto& system) {
@@ -139,9 +139,10 @@ std::size_t RadauStepper::detail() const {
   return static_cast<std::size_t>(kernel_->stages);
 }
 
-// Coefficients of the accelerations fall as the powers of the step's length up to the tolerance at
-// the last one, and those of products of two states half as fast. What depends on the time alone
-// need not show in the error: its coefficients fall from as many as there are radians on.
+// The Legendre coefficients of the accelerations fall geometrically, to the tolerance at the last
+// stage. Those of products of two states fall half as fast, so they need twice as many. Explicit
+// functions of time need not show in the error estimate: their coefficients fall only beyond as
+// many as the step has radians.
 std::size_t RadauStepper::parts() const {
   constexpr double least = 8, of_products = 2, a_radian = 3, most = 128;
   const double parts = std::max(of_products * kernel_->stages * fill_,
@@ -176,11 +177,14 @@ void RadauStepper::start(double t, const double* z) {
   if (next_step_ > 0) return;
   const double rate = std::max(kernel_->rate(workspace_, t), highest_frequency_);
   next_step_ = rate > 0 ? 2 * reach_ / rate : end_;
-  if (!(rate > 0)) least_end_ = std::numeric_limits<double>::infinity();  // it has made this step
+  if (!(rate > 0))
+    // The first step depends on `end`.
+    least_end_ = std::numeric_limits<double>::infinity();
   if (!(next_step_ > 0)) next_step_ = end_ * 1e-6;
 }
 
-// Whether the motion is on its way to infinity. A rig may be stopped by an event on the way.
+// Whether the motion is about to reach infinity. A hybrid rig is exempt, because an event may stop
+// it first.
 bool RadauStepper::diverges(double step, double t) {
   return shrinking_.diverges(step, t, [this] { return size_of(state()); }) && !model_->hybrid();
 }
@@ -192,7 +196,7 @@ std::optional<Failure> RadauStepper::step(double limit) {
   bool rejected = false;
   for (;;) {
     double h = std::min(next_step_, widest_);
-    // Four steps or more from its end a run makes them as if there were none: see stride().
+    // Beyond 3.01 steps from the limit, steps are the same as without a limit: see stride().
     if (std::isinf(limit)) least_end_ = std::max(least_end_, t + 3.01 * h);
     const auto [step, arrives] = stride(left, h);
     if (!arrives && is_lost(step, t)) return step_is_lost;
@@ -220,7 +224,7 @@ std::optional<Failure> RadauStepper::step(double limit) {
     h = std::min(h, shrinking_.bound(attempt.error, step * factor, stages));
     accepted_step_ = step;
     fill_ = std::min(1.0, step_safety / factor);
-    // A step that the limit cut short says little of how long the next may be.
+    // A step that the limit cut short says little about the length of the next.
     next_step_ = arrives && !rejected ? std::max(h, next_step_) : h;
     return {};
   }
@@ -232,7 +236,7 @@ void RadauStepper::archive(Archive& archive) {
           least_end_, statistics_);
   archive.require(is_finite(time_, turned_, accepted_step_, fill_) && is_number(least_end_) &&
                   worst_state_ < model_->size());
-  // The kernel's memory: how it goes on, and after its head plain numbers.
+  // The kernel's memory: three flags of its head, and plain numbers after the head.
   auto& head = *static_cast<WorkspaceHead*>(workspace_);
   archive(head.newton, head.has_guess, head.accepted);
   archive.bytes(static_cast<std::byte*>(workspace_) + sizeof head,

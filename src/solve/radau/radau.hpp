@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// bbsim's own integrator: Radau IIA collocation of high order, its stages in SIMD lanes.
+// bbsim's own integrator: Radau IIA collocation of high order, with the stages in SIMD lanes.
 #pragma once
 
 #include <cstddef>
@@ -20,35 +20,36 @@ namespace bbsim::solve::radau {
 
 [[nodiscard]] const StepKernels& kernels_for(simd::InstructionSet set);
 
-// Those of the instruction set that was chosen. Throws InputError if the environment variable
-// BBSIM_SIMD names none of this processor.
+// The kernels of the chosen instruction set. Throws InputError if the environment variable
+// BBSIM_SIMD names no instruction set of this processor.
 [[nodiscard]] const StepKernels& choose_kernels();
 
-// How many stages suit a model and a relative tolerance: 8, 12 or 16, of which open loops take 16
-// sooner. Rigs beyond the paper's have kernels of 8 and 12, and take 12 for 16.
+// The number of stages for a model and a relative tolerance: 8, 12 or 16. Open loops take 16 at
+// looser tolerances. Rigs beyond the paper's have kernels of 8 and 12 stages only, and run with 12
+// for 16.
 [[nodiscard]] int choose_stages(const model::Model& model, double rtol);
 
-// How many stages a model gets that is asked to take so many.
+// The number of stages that a model runs with if `stages` are asked for.
 [[nodiscard]] int stages_of(const model::Model& model, int stages);
 
-// L-stable and superconvergent: stiff servos cost no more steps than the motion itself does. The
-// collocation polynomial gives the rows between steps. gamma is the polynomial's integral, under
-// error control.
+// The method is L-stable and superconvergent: a stiff servo costs no more steps than the motion
+// itself. Rows between steps are values of the collocation polynomial. gamma is the polynomial's
+// integral, under error control.
 //
-// A step never goes over a time of the model's stops, if the driver makes them its limits, nor over
-// a time at which a sinusoid of the input would pass between two nodes unseen. Allocates nothing
-// once it is made, but where steps shrink one after another. Keeps a reference to the model.
+// Steps end at the model's stops if the driver passes these as limits. A step is short enough that
+// no sinusoid of the input passes unseen between two nodes. After construction the stepper
+// allocates only where steps shrink one after another. Keeps a reference to the model.
 class RadauStepper : public Stepper {
  public:
-  // `end` (s) scales the first step where nothing moves.
+  // `end` (s): the length of the first step if nothing moves.
   RadauStepper(const model::Model& model, const StepKernels& kernels, int stages,
                Tolerances tolerances, double end);
 
-  // Makes the stepper as if it were made anew for another model, with the memory of the last one.
+  // Resets the stepper for another model. Reuses the memory of the last model if it can.
   void renew(const model::Model& model, int stages, double end);
 
-  // Rows then have the positions alone; what else is in them is left as it is. To be called before
-  // start().
+  // If `yes`, evaluate() writes only the positions of a row, and leaves its other numbers
+  // unchanged. Call it before start().
   void leave_out_velocities(bool yes) { positions_only_ = yes; }
 
   void start(double t, const double* z) override;
@@ -78,17 +79,18 @@ class RadauStepper : public Stepper {
   const Kernel* kernel_ = nullptr;
   Tolerances tolerances_;
   double end_ = 0, highest_frequency_ = 0, reach_ = 0, widest_ = 0;
-  double tempo_ = 0;  // of what depends on the time alone, rad/s
+  double tempo_ = 0;  // rate of explicit functions of time, rad/s
   bool positions_only_ = false;
   std::unique_ptr<std::byte[]> memory_;  // of the two that follow
   void* workspace_ = nullptr;
   void* view_ = nullptr;
   double time_ = 0;
   double next_step_ = 0;    // s; 0: not known yet
-  bool attempted_ = false;  // a step was made, and is not yet the present state
+  bool attempted_ = false;  // a step was made that is not yet the present state
   double turned_ = 0;       // integral of u until start(), m
   Shrinking shrinking_;
-  double accepted_step_ = 0, fill_ = 1;  // its length (s), and part of what would have passed
+  // Length of the accepted step (s), and its fraction of the length that would have passed
+  double accepted_step_ = 0, fill_ = 1;
   std::size_t worst_state_ = 0;
   double least_end_ = 0;  // see least_end(), s
   Statistics statistics_;

@@ -3,17 +3,20 @@
 
 // The collocation step, for one system, number of stages and instruction set.
 //
-// Radau IIA with s stages (Hairer and Wanner, Solving Ordinary Differential Equations II, IV.5
-// and IV.8), written for second-order systems q'' = a(t, q, q'): the unknowns are the
-// accelerations k_i at the s nodes alone, for
-//     v_i = v + h sum_j A_ij k_j,     q_i = q + h c_i v + h^2 sum_j (A A)_ij k_j,
-// which halves the linear systems. A velocity without a position (the spin) has no q.
+// Radau IIA with s stages (Hairer and Wanner, Solving Ordinary Differential Equations II, IV.5 and
+// IV.8), written for second-order systems q'' = a(t, q, q'). The only unknowns are the
+// accelerations k_i at the s nodes:
 //
-// Of a loop with servos a is a(t, q, q', k): the ball's accelerations are taken where the gimbal's
-// are the unknowns, which leaves nothing that is stiff but what is linear.
+//     v_i = v + h sum_j A_ij k_j,     q_i = q + h c_i v + h^2 sum_j (A A)_ij k_j.
+//
+// This halves the linear systems. A velocity without a position (the spin) has no q.
+//
+// In a loop with servos, a is a(t, q, q', k): the ball's accelerations are evaluated with the
+// gimbal's accelerations among the unknowns. The only stiff part left is then linear.
 //
 // The stages lie in SIMD lanes: one evaluation of the right-hand side serves several stages. The
-// Newton systems, made block diagonal by the eigenvectors of A, lie in lanes too:
+// eigenvectors of A make the Newton system block diagonal. Its blocks also lie in lanes:
+//
 //     (I - Jk - h l_k Jv - h^2 l_k^2 Jq) y_k = (T^-1 residual)_k,   k = 1 ... s/2, complex.
 #pragma once
 
@@ -33,8 +36,8 @@ const T& instance();  // for its type only
 template <int count, int lanes>
 inline constexpr int padded = (count + lanes - 1) / lanes* lanes;
 
-// The tables of RadauTable, aligned and padded to whole packs. Padded stages repeat the last one,
-// padded eigenvalues are zero.
+// The tables of RadauTable, aligned and padded to whole packs. Padding stages repeat the last
+// stage; padding eigenvalues are zero.
 template <class Isa, int s>
 struct alignas(64) PackedTable {
   static constexpr int stages = padded<s, Isa::lanes>;
@@ -72,12 +75,13 @@ struct alignas(64) PackedTable {
   }
 };
 
-// All of a step that is the same for systems whose states are alike: what works on numbers that are
-// there. The long parts are functions of their own, since it would take compilers twice as long to
-// see them again for each system. Those are in place whose results would change: which product of a
-// sum of two is fused may depend on what a compiler sees around it.
+// The parts of a step that depend on the layout of the states but not on the system. The long
+// functions are noinline: compilers would take twice as long to compile them again for each system.
+// Functions stay inline where that would change results: which of two products in a sum is fused
+// may depend on the surrounding code.
 //
-// The accelerations first_turning to first_turning + turning - 1 are unknowns to the system itself.
+// The accelerations first_turning to first_turning + turning - 1 are arguments of the system's own
+// right-hand side.
 template <class Isa, auto state_motions, int n, int first_turning, int turning, int s>
 struct Collocation {
   using Table = PackedTable<Isa, s>;
@@ -91,14 +95,14 @@ struct Collocation {
   using P = simd::Pack<Isa, lanes>;
   using E = simd::Pack<Isa, Table::eigen_lanes>;
 
-  // One value a stage, for each velocity or position.
+  // One value per stage, for each velocity or position.
   template <int rows>
   struct alignas(64) Stages {
     double of[rows][Table::stages];
   };
 
   struct alignas(64) Workspace : WorkspaceHead {
-    double contraction;   // remembered from the last step
+    double contraction;   // of the last step's iteration
     double t, h;          // of the last attempt
     double q[nv], v[nv];  // present state; q of a velocity without position is its integral
     double q_weight[nv], v_weight[nv];
@@ -107,10 +111,10 @@ struct Collocation {
     double jv[nv][nv], jq[nv][nv], jk[nv][turning + 1];
     E m_re[eigen_packs][nv][nv], m_im[eigen_packs][nv][nv];
     alignas(64) double r_re[nv][Table::pairs], r_im[nv][Table::pairs];
-    double q_series[nv][s + 2], v_series[nv][s + 1];  // of scaled polynomials
+    double q_series[nv][s + 2], v_series[nv][s + 1];  // in scaled Legendre polynomials
   };
 
-  // out[v][i] = sum_j column[j][i] in[v][j]; `finish` takes each pack of the result.
+  // out[v][i] = sum_j column[j][i] in[v][j]. Passes each pack of the result to `finish`.
   template <int rows, int length, int width, class Result, class Finish>
   BBSIM_INLINE static void apply(const double (&column)[length][width], const double* in,
                                  int in_stride, Finish finish) {
@@ -146,7 +150,7 @@ struct Collocation {
     }
   }
 
-  // Takes k to the stages of v and q; returns the weighted mean square of their change.
+  // Computes v and q at the stages from k. Returns the weighted mean square of their change.
   template <bool measured>
   BBSIM_INLINE static double integrate_stages(Workspace& w) {
     P change[4] = {P(0.0), P(0.0), P(0.0), P(0.0)};
@@ -174,8 +178,8 @@ struct Collocation {
     return sum((change[0] + change[1]) + (change[2] + change[3])) / Table::stages;
   }
 
-  // The matrices I - Jk - h l Jv - h^2 l^2 Jq for all eigenvalues l, and their LU factors in place,
-  // without pivoting; the diagonal holds its own inverse.
+  // Makes the matrices I - Jk - h l Jv - h^2 l^2 Jq for all eigenvalues l, and factors them in
+  // place without pivoting (LU). The diagonal holds its own inverse.
   [[gnu::noinline]] static void factor(Workspace& w) {
     for (int e = 0; e < eigen_packs; ++e) {
       const E re = w.h * E::load(&table.lambda_re[e * E::size]);
@@ -222,7 +226,7 @@ struct Collocation {
     }
   }
 
-  // Adds the Newton correction to k; the residual f - k is formed in place of f.
+  // Adds the Newton correction to k. Overwrites f with the residual f - k.
   [[gnu::noinline]] static void correct(Workspace& w) {
     for (int i = 0; i < nv; ++i) {
       for (int p = 0; p < packs; ++p) {
@@ -275,8 +279,8 @@ struct Collocation {
                                        });
   }
 
-  // The first values of k, and the stages that come of it, for the step that w.t and w.h tell:
-  // accelerations that stay as they are at its start.
+  // Sets the first values of k, and v and q at the stages, for the step at w.t of length w.h:
+  // accelerations stay constant over the step.
   BBSIM_INLINE static void hold(Workspace& w, const double (&k)[nv]) {
     for (int p = 0; p < packs; ++p) {
       const P time = w.h * P::load(&table.c[p * lanes]);
@@ -292,7 +296,7 @@ struct Collocation {
     }
   }
 
-  // The same by the polynomial of the rejected, longer attempt from t over h.
+  // Sets the same from the polynomial of the rejected, longer attempt at t of length h.
   [[gnu::noinline]] static void extrapolate(Workspace& w, double t, double h) {
     for (int p = 0; p < packs; ++p) {
       const P x = (2 * (w.t - t) / h - 1) + (2 * w.h / h) * P::load(&table.c[p * lanes]);
@@ -316,7 +320,7 @@ struct Collocation {
     }
   }
 
-  // From a state.
+  // Begins from a state.
   static void prepare(Workspace& w, const Start& from) {
     w.rtol = from.rtol;
     w.atol = from.atol;
@@ -336,14 +340,15 @@ struct Collocation {
     weigh(w);
   }
 
-  // Whether gamma is wanted, and velocity i the spin: the first of those without a position.
+  // Whether gamma is wanted and velocity i is the spin, the first velocity without a position.
   BBSIM_INLINE static bool turns(const Workspace& w, int i) {
     return i == nq && w.gamma;
   }
 
-  // Rounding in an acceleration, which a shorter step would not lessen: that of the right-hand
-  // side, or, where a stiff equation ties the acceleration to the position, the position's own
-  // after the polynomial is differentiated twice.
+  // The rounding error of acceleration i, which a shorter step would not reduce. It is the smaller
+  // of two bounds: the rounding of the right-hand side, and the rounding of the position
+  // differentiated twice. The second holds where a stiff equation ties the acceleration to the
+  // position.
   static double noise(const Workspace& w, int i) {
     if (!w.newton || i >= nq) return 0;
     double from_rates = 0;
@@ -362,8 +367,9 @@ struct Collocation {
     return 2.2e-16 * (from_rates < from_position ? from_rates : from_position) + from_turning;
   }
 
-  // Takes k to its Legendre coefficients, the series. The error is from the fall of the last of
-  // them: the first one left out, integrated once for a velocity, twice for a position.
+  // Computes the Legendre coefficients of k, `series`, and the error. The decay of the last
+  // coefficients predicts the first coefficient left out. The error is its integral for a velocity,
+  // and its second integral for a position.
   [[gnu::noinline]] static void estimate(Workspace& w, Attempt& a) {
     apply<nv, s, Table::stages, P>(
         table.legendre, w.k.of[0], Table::stages,
@@ -394,8 +400,9 @@ struct Collocation {
     }
   }
 
-  // Rows are sums of p_m = P_m / scale[m], whose recurrence is the shortest that has no product
-  // next to another: p_(m+1) = rise[m] x p_m - p_(m-1).
+  // Rows are sums of p_m = P_m / scale[m]. With this scale the recurrence is p_(m+1) = rise[m] x
+  // p_m - p_(m-1). It is the shortest one, and it has no sum of two products, which compilers could
+  // fuse either way.
   struct ScaledLegendre {
     double scale[s + 3]{}, rise[s + 2]{};
     consteval ScaledLegendre() {
@@ -408,8 +415,8 @@ struct Collocation {
   };
   static constexpr ScaledLegendre polynomials{};
 
-  // The integral from -1 of a series is out_m = before[m] in_(m-1) - after[m] in_(m+1), m > 0.
-  // Products are cheaper than quotients.
+  // The integral of a series from -1 has the terms out_m = before[m] in_(m-1) - after[m] in_(m+1),
+  // m > 0. Products with these tables are cheaper than quotients.
   template <bool of_scaled>
   struct Integration {
     double before[s + 2]{}, after[s + 2]{};
@@ -424,7 +431,7 @@ struct Collocation {
   template <bool of_scaled>
   static constexpr Integration<of_scaled> integration{};
 
-  // (h/2) times the integral from -1 of a series, plus its value there.
+  // (h/2) times the integral of a series from -1, plus its value there.
   template <int length, bool of_scaled>
   BBSIM_INLINE static void integrate_series(const double* k, double half, double from,
                                             double* out) {
@@ -443,7 +450,7 @@ struct Collocation {
       if (i < nq) {
         w.q[i] = w.q_stage.of[i][s - 1];
       } else if (turns(w, i)) {
-        // The integral of an integral: q + h v + (h/2)^2 times that of the series.
+        // The double integral over the step: q + h v + (h/2)^2 times that of the series.
         const double* const k = w.series.of[i];
         w.q[i] += w.h * (w.v[i] + w.h / 2 * (k[0] - k[1] / 3));
       }
@@ -465,8 +472,8 @@ struct Collocation {
     }
   }
 
-  // Expands velocities and positions in one place for all that evaluate: how a compiler fuses the
-  // products of a sum of two is then no matter of who asks.
+  // Expands velocities and positions here for all callers, so that all of them get the same fused
+  // products.
   [[gnu::noinline]] static void expand(Workspace& w) {
     const double half = w.h / 2;
     for (int i = 0; i < nv; ++i) {
@@ -477,13 +484,13 @@ struct Collocation {
     }
   }
 
-  // Positions are the same to the bit, with velocities and the integral of u or without, and
-  // however many times there are.
+  // Positions are the same to the bit, with or without velocities and the integral of u, and for
+  // any number of times.
   template <bool velocities, bool turned>
   BBSIM_INLINE static void evaluate_rows(Workspace& w, const double* times, std::size_t count,
                                          double* rows) {
     constexpr int row = n + (turned ? 1 : 0);
-    // Two packs of times at once: the recurrence waits for itself.
+    // Evaluates two packs of times at once to hide the latency of the recurrence.
     while (count > lanes) {
       const std::size_t some = count < 2 * lanes ? count : 2 * lanes;
       evaluate_some<velocities, turned, 2>(w, times, static_cast<int>(some), rows);
@@ -551,7 +558,7 @@ struct Collocation {
   }
 };
 
-// What a system's rates are, and what its states add to them, whatever the number of stages.
+// The right-hand side and Jacobian of a system, for any number of stages.
 template <class Isa, class System>
 struct SystemRates {
   static constexpr int n = System::size;
@@ -562,7 +569,8 @@ struct SystemRates {
   using P = simd::Pack<Isa, lanes>;
   using Inputs = decltype(instance<System>().inputs(P()));
 
-  // Of accelerations that are unknowns to the system: how many, and which is the first.
+  // The number of accelerations that are arguments of the system's right-hand side, and the index
+  // of the first.
   static constexpr int turning = [] {
     if constexpr (requires { System::first_axis; }) return System::axes;
     return 0;
@@ -574,8 +582,9 @@ struct SystemRates {
   template <class Real>
   using Given = Real[turning + 1];
 
-  // Whether a Jacobian next to a state may be off by decades: that of a direction is, where the
-  // velocity is nearly none. Newton's corrections are then small for want of sense, not of error.
+  // Whether the Jacobian may change by decades close to a state: the direction of a friction force
+  // does so where the velocity is near zero. Newton's corrections can then be small although the
+  // error is not.
   static constexpr bool steep = requires { System::steep; };
 
   template <class Real>
@@ -590,8 +599,8 @@ struct SystemRates {
     }
   }
 
-  // d k_i / d v_j, d k_i / d q_j and, of those that are given, d k_i / d k_j, at (t, q, v, k),
-  // exactly.
+  // The exact derivatives d k_i / d v_j, d k_i / d q_j and, for accelerations that are arguments, d
+  // k_i / d k_j at (t, q, v, k).
   BBSIM_INLINE static void differentiate(const System& system, double t, const double* q,
                                          const double* v, const double* k, double (&jv)[nv][nv],
                                          double (&jq)[nv][nv], double (&jk)[nv][turning + 1]) {
@@ -603,7 +612,7 @@ struct SystemRates {
   }
 
  private:
-  // Long right-hand sides stand once.
+  // A long right-hand side is compiled once.
   [[gnu::noinline]] static void call_rates(const System& system, const Inputs& in, const P* z,
                                            P* dz) {
     system.derivative_of(in, z, dz);
@@ -657,7 +666,7 @@ struct Step
   static constexpr int n = System::size;
   static constexpr bool steep = Rates::steep;
 
-  // Begins with what Collocation works on.
+  // Starts with the workspace of Collocation.
   struct alignas(64) Workspace : Base::Workspace {
     typename Rates::Inputs inputs[packs];
   };
@@ -682,7 +691,7 @@ struct Step
     }
   }
 
-  // The accelerations where a step starts.
+  // The accelerations at the start of a step.
   static void accelerations(Workspace& w, double (&k)[nv]) {
     static_assert(turning == 0);
     P z[n], dz[n], given[1];
@@ -694,7 +703,7 @@ struct Step
     for (int i = 0; i < nv; ++i) k[i] = dz[motions.of[i].velocity].v[0];
   }
 
-  // The first values of k, and the stages that come of it.
+  // Sets the first values of k, and v and q at the stages.
   BBSIM_INLINE static void guess(Workspace& w, double t, double h) {
     const double last_t = w.t, last_h = w.h;
     w.t = t;
@@ -711,7 +720,7 @@ struct Step
     Base::hold(w, k);
   }
 
-  // How far the stages are from solving their equations, as a velocity in the tolerance's weights.
+  // The stages' residual, as a velocity relative to the tolerance.
   static double residual(Workspace& w) {
     evaluate_rates(w);
     double square = 0;
@@ -737,7 +746,7 @@ struct Step
     Rates::differentiate(system_of(w), t, w.q, w.v, still, w.jv, w.jq, w.jk);
     double jv = 0, jq = 0;
     for (int i = 0; i < nv; ++i) {
-      // With what comes by way of the gimbal's accelerations.
+      // Includes the path through the gimbal's accelerations.
       double row_v = 0, row_q = 0;
       for (int j = 0; j < nv; ++j) {
         double by_v = w.jv[i][j], by_q = j < nq ? w.jq[i][j] : 0;
@@ -772,7 +781,7 @@ struct Step
       evaluate_rates(w);
       if (w.newton) {
         if (!factored) {
-          // The Jacobian in mid-step.
+          // The Jacobian at mid-step.
           double q[nv], v[nv], k[nv];
           for (int i = 0; i < nv; ++i) {
             v[i] = w.v_stage.of[i][s / 2];
@@ -819,7 +828,7 @@ struct Step
         }
       }
       last = change;
-      // No contraction is known yet after the first.
+      // The contraction is not known after the first iteration.
       if (change <= stop.enough || stop.passes(change, a.iterations > 1 ? contraction : 1)) break;
       if (a.iterations >= most_iterations) {
         w.contraction = 1;
@@ -827,7 +836,8 @@ struct Step
       }
     }
     if constexpr (steep) {
-      constexpr double hardly_solved = 30;  // stiff motors magnify what Newton's iteration leaves
+      // Stiff motors magnify the residual of Newton's iteration.
+      constexpr double hardly_solved = 30;
       a.right_hand_sides += s;
       if (!(residual(w) <= hardly_solved)) {
         w.contraction = 1;

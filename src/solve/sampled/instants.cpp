@@ -10,7 +10,7 @@
 namespace bbsim::solve::sampled {
 namespace {
 
-// What is left of a time by whole periods, s.
+// The remainder of a time after whole periods, s.
 double between(double time, double period) {
   return time - std::floor(time / period) * period;
 }
@@ -19,7 +19,7 @@ double between(double time, double period) {
 
 Instants::Instants(const model::SampledLoop& loop) {
   const Sampling& sampling = loop.sampling;
-  // A command is held for a period; and until the first one comes.
+  // A command is held for one period. The first piece lasts until the first command.
   lengths_ = {sampling.period, between(sampling.delay, sampling.period)};
   samples_[0].after = lengths_[0] - lengths_[1];  // a sample, after a command
   samples_[1].after = between(-loop.sensor.delay - lengths_[1], lengths_[0]);

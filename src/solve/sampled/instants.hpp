@@ -1,8 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// What comes again from period to period of a sampled loop: how long its pieces are, and when
-// within them samples are taken.
+// The recurring times of a sampled loop: lengths of its pieces, and samples within them.
 #pragma once
 
 #include <array>
@@ -13,28 +12,29 @@
 
 namespace bbsim::solve::sampled {
 
-// Of a loop whose periods are all alike.
+// For a loop whose periods are all alike.
 class Instants {
  public:
   explicit Instants(const model::SampledLoop& loop);
 
-  // Instants n * period differ by roundings of the time (s). Pieces between them get the length
-  // that they are meant to have: one table serves all, and the lengths add up to the times
-  // themselves.
+  // The nominal length (s) of a piece that starts at `time`. Instants n * period differ by
+  // roundings of the time. With nominal lengths one table serves all pieces, and the lengths add up
+  // to the times themselves.
   [[nodiscard]] double nominal(double time, double length) const;
 
-  // The time that is meant by `after` (s), after the beginning of a piece that ends at `time` or so
-  // and has that length, if both come again from period to period.
+  // The exact recurring time that `after` stands for: both are in s from the start of a piece and
+  // differ by rounding. Empty if it or the piece's length does not recur. The piece has `length` s
+  // and ends near `time`.
   [[nodiscard]] std::optional<double> recurring(double time, double after, double length) const;
 
-  // The answer to an impulse so long after the beginning of such a piece, kept for the instants at
-  // which samples are taken. Valid until the next call.
+  // The impulse response `after` seconds into a piece that ends near `time`. Kept for the instants
+  // of samples. Valid until the next call.
   [[nodiscard]] const model::ImpulseAnswer& answer(const model::HeldLaw& law, double time,
                                                    double after);
 
  private:
   struct Kept {
-    double after = -1;  // the piece's start, s
+    double after = -1;  // from the piece's start, s
     bool known = false;
     model::HeldLaw law{};
     model::ImpulseAnswer answer{};

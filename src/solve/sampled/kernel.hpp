@@ -1,11 +1,11 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// One piece of a rig between two instants, its command held: what the stepper sees of it, whatever
-// the instruction set.
+// The stepper's interface to one piece of a rig between two instants under a held command, for
+// every instruction set.
 //
-// Plain data and pointers to functions only; nothing here may become code that two instruction
-// sets share.
+// Has only plain data and pointers to functions. Code here could be compiled for one instruction
+// set and run on another.
 #pragma once
 
 #include <cstddef>
@@ -16,43 +16,44 @@ namespace bbsim::solve::sampled {
 
 inline constexpr int nodes = 8;  // of Radau IIA
 
-// A servo's motion (model/servo/held_motion.hpp) at the nodes of a piece: what its rate and its
-// acceleration at the start add to each of the three. It depends on the law and the length alone.
+// A servo's motion (model/servo/held_motion.hpp) at the nodes of a piece: the contributions of its
+// initial rate and acceleration to its angle, rate and acceleration. Depends only on the law and
+// the length.
 struct alignas(64) MotionTable {
   enum Row { angle, rate, acceleration, rows };
   double by_rate[rows][nodes], by_acceleration[rows][nodes];
-  // The greatest sizes of the angle's.
+  // The greatest magnitudes of the angle's contributions.
   double most_by_rate, most_by_acceleration;
-  // What the polynomial through the accelerations at the nodes says of the start, less what is
-  // there: a jump that is over before the first node leaves no other trace.
+  // The initial acceleration of the polynomial through the nodes, minus the true one. A jump that
+  // is over before the first node leaves no other trace.
   double missed_by_rate, missed_by_acceleration;
-  // What the accelerations at the nodes, integrated, leave out of the rate and of the angle at the
-  // end: of a motion that is over between two nodes, all. `lost` if it is more than rounding.
+  // The rate and angle at the end that integrating the nodal accelerations misses. A motion that is
+  // over between two nodes is missed completely. `lost`: whether this exceeds rounding.
   bool lost;
   double lost_rate_by_rate, lost_rate_by_acceleration;
   double lost_angle_by_rate, lost_angle_by_acceleration;
 };
 
-// One axis: its servo at the piece's start, and how the plane's angle follows it.
+// One axis: its servo at the start of the piece, and the linear map from its angle to the plate's.
 struct Axis {
   const MotionTable* table;
   double angle, rate, acceleration;
   double ratio, offset;
 };
 
-// What stays the same over a run.
+// Constants of a run.
 struct Scene {
   double radius, mass, gravity;
   model::GeneralRolling rolling;
   model::Turned turned;
   double rtol, atol;
-  bool gamma;         // the integral of u is under the tolerance too
-  double friction;    // coefficient up to which the ball rolls; 0: nobody asks
-  bool force, loads;  // whether somebody asks for forces, and for the motors' torques
+  bool gamma;         // whether the integral of u is under error control too
+  double friction;    // friction coefficient up to which the ball rolls; 0: not monitored
+  bool force, loads;  // whether forces and the motors' torques are wanted
 };
 
-// Everything about the last piece. The ball's velocities are x', y' and u = r gamma'; its positions
-// x, y and the integral of u.
+// All numbers of the last piece. The ball's velocities are x', y' and u = r gamma'; its positions
+// are x, y and the integral of u.
 struct alignas(64) Piece {
   double velocity_at[3][nodes], position_at[2][nodes], acceleration_at[3][nodes];
   struct Plane {
@@ -61,8 +62,8 @@ struct alignas(64) Piece {
   // Shifted Legendre coefficients of the accelerations times the length.
   double series[3][nodes];
   double position[3], velocity[3];          // at the start
-  double position_end[3], velocity_end[3];  // and at the end
-  double guess[3];     // of the accelerations: those that the last piece ended with
+  double position_end[3], velocity_end[3];  // at the end
+  double guess[3];     // of the accelerations: those at the end of the last piece
   double contraction;  // of the last pieces' iterations
   double length;       // s
   Axis axis[2];
@@ -70,19 +71,19 @@ struct alignas(64) Piece {
 
 struct Attempt {
   bool converged;
-  double error;     // estimated local error in the tolerance's weights: at most 1 is good
-  int worst_state;  // the state with the largest estimate
+  double error;     // estimated local error relative to the tolerance; passes at 1 or below
+  int worst_state;  // the state with the largest error estimate
   int iterations;
 };
 
-// Things that are looked at, smooth ones alone: a square in place of a root.
+// Quantities that are evaluated for events and loads. They are smooth: squares in place of roots.
 enum Look : int {
   x,
   y,
   distance_squared,
-  up,            // of the plane's normal, the part against gravity
+  up,            // the upward component of the plate's normal
   normal,        // force over mass, m/s^2
-  grip,          // (friction N)^2 - F_t^2, each over the mass
+  grip,          // (friction N)^2 - F_t^2, both per mass
   torque_phi,    // of the motors, N m
   torque_theta,  // N m
   power,         // W
@@ -93,40 +94,40 @@ struct Range {
   double least, most;
 };
 
-// What is looked at are the start and the nodes but the first, which is next to it. How far beyond
-// its values there a polynomial may go within the piece, as a part of their range: (L - 1) / 2 of
-// the points' Lebesgue constant L = 3.5806.
+// Quantities are evaluated at the start and at all nodes but the first, which is close to the
+// start. Within the piece a polynomial may exceed the range of these values by this fraction of it:
+// (L - 1) / 2, where L = 3.5806 is the points' Lebesgue constant.
 inline constexpr double overshoot = 1.2904;
 
-// The motors' loads at the start and at the nodes but the first.
+// The motors' loads at the start and at all nodes but the first.
 struct alignas(64) Loads {
-  double at[3][nodes];  // of torque_phi and those after it
+  double at[3][nodes];  // torque_phi, torque_theta, power
 };
 
-// How far a polynomial of degree 7 may go beyond its values at 32 Chebyshev points, as a part of
-// their range: (1 / cos(7 pi / 64) - 1) / 2 (Ehlich and Zeller, Math. Z. 86:41, 1964).
+// A polynomial of degree 7 may exceed its range at 32 Chebyshev points by this fraction of it:
+// (1 / cos(7 pi / 64) - 1) / 2 (Ehlich and Zeller, Math. Z. 86:41, 1964).
 inline constexpr int close_points = 32;
 inline constexpr double close_overshoot = 0.0313;
 
-// What a servo answers to an impulse (model/servo/held_motion.hpp), at the nodes of a piece.
+// A servo's impulse response (model/servo/held_motion.hpp) at the nodes of a piece.
 struct alignas(64) NodeAnswers {
   double integral[nodes], value[nodes], slope[nodes];
 };
 
 struct Kernels {
-  // For the paper's rig, and for any.
+  // For the paper's rig, and for any rig.
   struct Of {
     // Solves for the ball over the piece, from its start, length and axes.
     void (*attempt)(Piece& piece, const Scene& scene, Attempt& result);
-    // The ranges over start and nodes; those that nobody asks for are left as they are.
+    // Computes the ranges over the start and nodes. Leaves ranges that are not wanted unchanged.
     void (*look)(const Piece& piece, const Scene& scene, Range* ranges, Loads& loads);
   } papers, general;
-  // By power series: for pieces whose length suits it (model::suits_series()).
+  // Uses power series, so the length must suit these (model::suits_series()).
   void (*answers)(double damping, double stiffness, double length, NodeAnswers& answers);
   // The ranges of the three loads over the Chebyshev points.
   void (*look_closely)(const Loads& loads, Range* ranges);
-  // Positions and velocities of the ball at `count` times after the piece's start, by its
-  // polynomial: x, y, x', y', u and the integral of u at each.
+  // Evaluates the ball at `count` times (s) after the start of the piece, on its polynomial: x, y,
+  // x', y', u and the integral of u.
   void (*evaluate)(const Piece& piece, const double* times, std::size_t count, double (*ball)[6]);
 };
 

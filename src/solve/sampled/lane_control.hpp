@@ -13,7 +13,7 @@
 
 namespace bbsim::solve::sampled {
 
-// Loads the packs that begin at a lane.
+// Loads the packs that start at lane `first`.
 template <class P>
 struct LoadLanes {
   int first;
@@ -35,7 +35,7 @@ struct LoadLanes {
     model::SampledLaw<P> law;
     law.law.kind = from.law.kind;
     law.integrates = from.integrates;
-    // What the law does not look at is left as it is.
+    // Leaves numbers that this law does not use uninitialized.
     if (from.law.kind == model::LawKind::gravity_compensation) {
       each(law.law.kv, from.law.kv);
       each(law.law.kp, from.law.kp);

@@ -10,7 +10,7 @@ LaneControllers::LaneControllers(const LaneKernels& kernels)
 
 void LaneControllers::begin() {
   *control_ = {};
-  // Lanes of one pack look at each other to know when they are done: numbers that do no harm.
+  // A pack iterates until all its lanes are done. Unused lanes therefore need harmless numbers.
   for (double& elapsed : control_->elapsed.of) elapsed = 1;
   asked_ = {};
   any_ = false;

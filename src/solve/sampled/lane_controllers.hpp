@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The sampled controllers of rigs that go together: those that sample in one turn compute together,
-// whatever their times.
+// The sampled controllers of rigs in lanes. Those that sample in the same turn are computed
+// together, whatever their times.
 #pragma once
 
 #include <array>
@@ -14,18 +14,18 @@
 
 namespace bbsim::solve::sampled {
 
-// The runs' own controllers (HybridSystem::computer()) stay what they were when they were taken
-// over: their law and their memory are here from there on.
+// Holds the law and memory of each controller from take_over() on. The runs' own controllers
+// (HybridSystem::computer()) no longer change.
 class LaneControllers {
  public:
   explicit LaneControllers(const LaneKernels& kernels);
 
-  // A new group: no lane has a controller.
+  // Starts a new group without controllers.
   void begin();
   void take_over(std::size_t lane, const model::SampledController& from);
 
-  // The sample of a lane's run that is due at t, from states z; `run` lives until finish(), and
-  // learns its command then.
+  // Takes the sample of a lane's run that is due at t (s), from states z. finish() computes the
+  // commands and passes them to the runs, which must live until then.
   void sample(std::size_t lane, model::HybridSystem& run, double t, const double* z);
   void finish();
 
@@ -34,7 +34,7 @@ class LaneControllers {
   std::unique_ptr<LaneControl> control_;  // aligned
   std::array<model::SinceSeen, group> since_{};
   std::array<model::HybridSystem*, group> asked_{};  // since the last finish()
-  bool any_ = false;                                 // whether some of them see the ball
+  bool any_ = false;                                 // whether any of these sees the ball
 };
 
 }  // namespace bbsim::solve::sampled

@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Rigs between two instants, another one in each lane, for one instruction set: as piece.hpp, whose
-// nodes lie in the lanes, but for what follows from that. A case that is alone in a register leaves
-// no lane without work, and sums over nodes need no shuffles.
+// Sampled rigs between two instants, with one rig in each lane, for one instruction set. The method
+// is that of piece.hpp, which has the nodes in the lanes. With rigs in the lanes, every lane has
+// work and sums over nodes need no shuffles.
 #pragma once
 
 #include "solve/collocation/convergence.hpp"
@@ -23,12 +23,12 @@ struct LaneKernel {
   static constexpr int lanes = Isa::lanes;
   static constexpr auto& table = One::table;
 
-  // What of x, y, x', y', u the paper's x'', y'' and u' depend on.
+  // Which of x, y, x', y', u the paper's x'', y'' and u' depend on.
   static constexpr bool depends[3][5] = {{true, true, false, true, true},
                                          {true, true, true, false, true},
                                          {false, false, true, true, false}};
 
-  // The accelerations at a node, as they depend on the state.
+  // The accelerations at a node as affine functions of the state.
   struct Rates {
     P value[3], by[3][5];
 
@@ -100,7 +100,8 @@ struct LaneKernel {
       };
       const P t = of(length), damping = of(servo.damping), stiffness = of(servo.stiffness);
       const P d = damping * t, k = stiffness * t * t;
-      // model::answer()'s terms at the pieces' ends; at a part c they are as c^n.
+      // The terms of model::answer() at the end of the pieces. At a fraction c of a piece, term n
+      // has the factor c^n.
       P value[most_terms + 1], slope[most_terms + 1], integral[most_terms + 1];
       P before(0.0), last(1.0);
       int terms = 0;
@@ -150,7 +151,7 @@ struct LaneKernel {
     }
   }
 
-  // The plane's axis at a node, kept for those who look.
+  // The plate's axis at a node. Stores it for look().
   BBSIM_INLINE static model::Axis<P> plane_axis(LaneAxis& axis, int node, int first, bool small) {
     const P start_rate = P::load(axis.rate + first);
     const P start_acceleration = P::load(axis.acceleration + first);
@@ -200,7 +201,7 @@ struct LaneKernel {
                           model::u_acceleration<Ball>(phi, theta, ball, r)};
 #pragma GCC unroll 3
       for (int i = 0; i < 3; ++i) {
-        // With the length, so that a node's k is its acceleration times that.
+        // Includes the length, so that k at a node is the acceleration times h.
         rates[n].value[i] = h * of[i].value;
 #pragma GCC unroll 5
         for (int s = 0; s < 5; ++s) {
@@ -215,7 +216,8 @@ struct LaneKernel {
       if (i < 2) position[i] = P::load(pieces.position[i] + first);
       weight[i] = larger_of(P(1.0), h) / (P(scene.rtol) * size_of(velocity[i]) + P(scene.atol));
     }
-    // Accelerations times h at the nodes: at first those of a ball that goes on as it did.
+    // Accelerations times h at the nodes. First guess: the accelerations at the end of the last
+    // piece stay constant.
     P k[nodes][3];
 #pragma GCC unroll 1
     for (int n = 0; n < nodes; ++n) {
@@ -231,10 +233,9 @@ struct LaneKernel {
 
     constexpr int most_iterations = 25;
     const StopTest stop(1e-3, scene.rtol);
-    // From node to node, each taking what is new at once: an integral is about the sum of what came
-    // before it.
-    // Each lane has its own contraction, and is done once what is left is small enough or will not
-    // get there: one that goes wild does not touch the others.
+    // Goes from node to node and uses new values at once: an integral mostly depends on earlier
+    // nodes. Each lane has its own contraction. It is done once its error is small enough or will
+    // not get there. A lane that diverges does not affect the others.
     P contraction = P::load(pieces.contraction + first), last(0.0);
     Mask solved{};
     int iterations = 0;
@@ -321,7 +322,7 @@ struct LaneKernel {
     P::of(good ? error.v : P(hopeless).v).store(pieces.error + first);
   }
 
-  // Not less than what Kernel::estimate() says.
+  // An upper bound of Kernel::estimate().
   BBSIM_INLINE static P estimate(const LanePieces& pieces, const LaneScene& scene, int first,
                                  const P (&tail)[3]) {
     constexpr double once = 1.0 / (2 * nodes + 1);
@@ -540,7 +541,7 @@ struct LaneKernel {
       const P h = of(pieces.length);
       const P whole = P::of(h.v > Vector{} ? h.v : P(1.0).v);
       const P s = P(2.0) * of(times) / whole - P(1.0);
-      // Legendre polynomials at s, to the degree of the positions.
+      // Legendre polynomials at s, up to the degree of the positions.
       P legendre[nodes + 2];
       legendre[0] = P(1.0);
       legendre[1] = s;

@@ -26,17 +26,17 @@ void answer_at_nodes(const Kernels& kernels, const model::HeldLaw& law, double l
   }
 }
 
-// What is left out of a sum to `whole`; nothing if that is rounding beside the motion itself. (Of
-// what an acceleration at the start does, that is all where it is over in a millionth of the
-// length: it is what `missed` is of.)
+// The part of `whole` that `sum` lacks, or 0 if it is rounding relative to `motion`. An initial
+// acceleration that decays within a millionth of the length counts as rounding here; `missed`
+// covers it.
 double lost_of(double whole, double sum, double motion) {
   constexpr double rounding = 1e-13;
   const double left = whole - sum;
   return std::abs(left) > rounding * motion ? left : 0;
 }
 
-// The quadrature of the accelerations at the nodes, against the closed form. Where a power series
-// gives that, eight nodes are exact to rounding.
+// Compares the integrals of the nodal accelerations with the closed form. It is not needed where a
+// power series gives the motion: eight nodes are then exact to rounding.
 void find_lost(MotionTable& table, double h) {
   using Rule = radau::RadauTable<nodes>;
   constexpr int end = nodes - 1;

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Servos' motions at the nodes of pieces, kept for lengths that come again.
+// Keeps the motions of servos at the nodes of pieces, for piece lengths that recur.
 #pragma once
 
 #include <vector>
@@ -15,18 +15,18 @@ class MotionTables {
  public:
   explicit MotionTables(const Kernels& kernels) : kernels_(kernels) {}
 
-  // Valid until two others were asked for.
+  // The table of a law for pieces of `length` s. Valid until two other tables are asked for.
   [[nodiscard]] const MotionTable& of(const model::HeldLaw& law, double length);
 
  private:
-  // A rig's pieces have two lengths, unless something cuts them, and a servo moves by two laws: as
-  // it is, and with its acceleration given.
+  // Uncut pieces of a rig have two lengths. A servo has two laws: free, and with its acceleration
+  // given.
   static constexpr std::size_t kept = 12;
 
   struct Entry {
     model::HeldLaw law;
     double length;
-    long used = 0;  // when it was asked for last
+    long used = 0;  // the last request
     MotionTable table;
   };
   const Kernels& kernels_;

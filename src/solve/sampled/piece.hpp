@@ -1,17 +1,22 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// A rig between two instants, for one instruction set.
+// A piece of a rig between two instants, for one instruction set.
 //
-// Under a held command the servos move in closed form (model/servo/held_motion.hpp), the gimbal's
-// motion is therefore given, and the ball's equation linear in its five states. At the nodes of
-// Radau IIA, which lie in the lanes, it is
+// Under a held command the servos move in closed form (model/servo/held_motion.hpp). The gimbal's
+// motion is then given, and the ball's equation is linear in its five states. At the nodes of Radau
+// IIA, which lie in the lanes, it is
+//
 //     k = f + A (x, y, x', y', u)
-// with coefficients that are computed once, all nodes together. What is left is
+//
+// The coefficients are computed once, for all nodes together. Substitution solves the remaining
+// equations:
+//
 //     v = v(0) + h A1 k,    q = q(0) + c h v(0) + h^2 A2 k
-// and substitution solves it: over so short a time it contracts by hundreds or thousands at each
-// turn. The fall of the Legendre coefficients of k tells the error, as it does for radau/step.hpp,
-// of which this is the special case without a Jacobian, a system, or a state of the servos.
+//
+// Pieces are so short that each iteration contracts the error by hundreds or thousands. The decay
+// of the Legendre coefficients of k gives the error estimate, as in radau/step.hpp. This is the
+// special case without a Jacobian, a linear system or servo states.
 #pragma once
 
 #include "model/servo/impulse_series.hpp"
@@ -26,14 +31,14 @@ namespace bbsim::solve::sampled {
 
 using simd::is_finite, simd::larger_of, simd::size_of, simd::smaller_of;
 
-// A number that the compiler knows.
+// A number known at compile time.
 template <int i>
 struct Index {
   // NOLINTNEXTLINE(google-explicit-constructor): it is that number
   [[gnu::always_inline]] constexpr operator int() const { return i; }
 };
 
-// Calls f(0), f(1), ... with such numbers.
+// Calls f(0), f(1), ... with compile-time numbers.
 template <int count, int from = 0, class F>
 BBSIM_INLINE void for_each(F f) {
   if constexpr (from < count) {
@@ -67,7 +72,7 @@ struct Kernel {
   };
   static constexpr Tables table{};
 
-  // From values at the start and the nodes but the first to those at Chebyshev points.
+  // Interpolates from the start and all nodes but the first to the Chebyshev points.
   struct alignas(64) CloseTable {
     double share[nodes][close_points]{};
     consteval CloseTable() {
@@ -92,7 +97,7 @@ struct Kernel {
   };
   static constexpr CloseTable close_table{};
 
-  // The greatest lane, or the least, by halves.
+  // Reduces the lanes to one number by halves, with `choose` for each pair.
   template <class Choose>
   BBSIM_INLINE static double reduced(P a, Choose choose) {
     if constexpr (lanes == 8) {
@@ -134,7 +139,7 @@ struct Kernel {
     return mask;
   }
 
-  // The plane's axis at the nodes of a pack.
+  // The plate's axis at the nodes of a pack.
   BBSIM_INLINE static model::Axis<P> plane_axis(const Axis& axis, int p, bool small) {
     const MotionTable& motion = *axis.table;
     const auto row = [&](MotionTable::Row of) __attribute__((always_inline)) {
@@ -148,7 +153,7 @@ struct Kernel {
             ratio * row(MotionTable::acceleration)};
   }
 
-  // Whether the plane's angle stays within a quarter of pi.
+  // Whether the plate's angle stays within pi/4.
   BBSIM_INLINE static bool is_small(const Axis& axis) {
     const double moves = axis.table->most_by_rate * size_of(axis.rate) +
                          axis.table->most_by_acceleration * size_of(axis.acceleration);
@@ -183,10 +188,11 @@ struct Kernel {
   }
 
   static constexpr int most_iterations = 25;
-  // That a plane stood still, within backlash, says nothing of the piece in which it is moved.
+  // A plate that stood still within backlash gives no contraction, but this says nothing about the
+  // next piece.
   static constexpr double least_contraction = 1e-2;
 
-  // Flat: a coefficient that the equation does not have is known to be zero where it is all in one.
+  // With everything inlined the compiler sees which coefficients are zero.
   template <bool papers>
   [[gnu::flatten]] static void attempt(Piece& piece, const Scene& scene, Attempt& result) {
     const double h = piece.length;
@@ -210,7 +216,8 @@ struct Kernel {
     for (int i = 0; i < 3; ++i) {
       weight[i] = larger_of(1, h) / (scene.rtol * size_of(piece.velocity[i]) + scene.atol);
     }
-    // Accelerations times h at the nodes: at first those of a ball that goes on as it did.
+    // Accelerations times h at the nodes. First guess: the accelerations at the end of the last
+    // piece stay constant.
     alignas(64) double k[3][nodes];
     P now[packs][3];
     for_each<packs>([&](auto p) __attribute__((always_inline)) {
@@ -239,7 +246,7 @@ struct Kernel {
       P changes[3] = {P(0.0), P(0.0), P(0.0)};
       P next[packs][3];
       for_each<packs>([&](auto p) __attribute__((always_inline)) {
-        // In halves: a chain of sums waits for each of its members.
+        // Two half sums are shorter chains of dependent additions.
         P v[3], q[2], half_v[2][3], half_q[2][2];
 #pragma GCC unroll 8
         for (int j = 0; j < nodes; ++j) {
@@ -324,10 +331,10 @@ struct Kernel {
     estimate(piece, scene, result);
   }
 
-  // What a servo that moves faster than the nodes show makes of the ball's motion, at most: a
-  // gimbal's acceleration acts at the ball's height above its axes, and by the sine of the tilt at
-  // its distance. A jump that is over by the first node has, in the mean, half of what it begins
-  // with.
+  // An upper bound of the effect on the ball of a servo motion that is too fast for the nodes. A
+  // gimbal acceleration acts on the ball at its height above the axes, and at its distance times
+  // the sine of the tilt. A jump that is over by the first node has on average half of its initial
+  // value.
   BBSIM_INLINE static double unseen(const Piece& piece, const Scene& scene) {
     double acceleration = 0, lost = 0, tilt = 0;
     for (int i = 0; i < 2; ++i) {
@@ -335,7 +342,8 @@ struct Kernel {
       const MotionTable& motion = *axis.table;
       acceleration += size_of(axis.ratio * (motion.missed_by_rate * axis.rate +
                                             motion.missed_by_acceleration * axis.acceleration));
-      // From the start to the end: what is over by the first node may have begun far from there.
+      // The larger tilt of start and end: a motion that is over by the first node may start far
+      // away.
       tilt += larger_of(size_of(piece.plane[i].sin[nodes - 1]),
                         smaller_of(size_of(axis.ratio * axis.angle + axis.offset), 1.0));
       if (!motion.lost) continue;
@@ -351,8 +359,8 @@ struct Kernel {
             tilt * (size_of(piece.position[0]) + size_of(piece.position[1])));
   }
 
-  // The error from the fall of the last Legendre coefficients, as in radau/step.hpp: the first one
-  // left out, integrated once for a velocity, twice for a position.
+  // The error from the decay of the last Legendre coefficients, as in radau/step.hpp: the first
+  // coefficient left out, integrated once for a velocity and twice for a position.
   BBSIM_INLINE static void estimate(const Piece& piece, const Scene& scene, Attempt& result) {
     constexpr double once = 1.0 / (2 * nodes + 1);
     result.error = unseen(piece, scene) / (scene.rtol * smaller_of(size_of(piece.velocity[0]),
@@ -363,7 +371,7 @@ struct Kernel {
       const double* const k = piece.series[i];
       const double tail = larger_of(size_of(k[nodes - 1]), size_of(k[nodes - 2]));
       const bool moves = i < 2 || scene.gamma;
-      // Mostly it is nothing beside the tolerance, and needs no closer look.
+      // Mostly this bound is far below the tolerance and decides alone.
       const double most = once * tail * (moves ? larger_of(1, once * piece.length) : 1.0);
       if (most <= 1e-3 * scene.atol) {
         result.error = larger_of(result.error, most / scene.atol);
@@ -399,7 +407,7 @@ struct Kernel {
 #pragma GCC unroll 16
     for (int i = 0; i < looks; ++i) least[i] = most[i] = P(0.0);
     const bool force = scene.force || scene.loads;
-    // At the start, by the polynomial of the accelerations, and by the servos.
+    // At the start: from the polynomial of the accelerations and from the servos.
     double started[2];
     Vector angles{};
 #pragma GCC unroll 2
@@ -418,7 +426,7 @@ struct Kernel {
         least[i] = p == 0 ? value : smaller_of(least[i], value);
         most[i] = p == 0 ? value : larger_of(most[i], value);
       };
-      // The start in place of the first node.
+      // The start replaces the first node.
       const auto at = [&](const double* values, double start) __attribute__((always_inline)) {
         const P all = P::load(values + p * lanes);
         return p == 0 ? P::of(first_lane() ? P(start).v : all.v) : all;
@@ -487,7 +495,7 @@ struct Kernel {
     }
   }
 
-  // The terms of model::answer()'s series, all nodes together.
+  // The series of model::answer(), for all nodes together.
   static void answers(double damping, double stiffness, double length, NodeAnswers& answers) {
     for_each<packs>([&](auto p) __attribute__((always_inline)) {
       const P t = P(length) * P::load(table.c + p * lanes);
@@ -500,7 +508,7 @@ struct Kernel {
         value += next;
         slope += P(n + 1.0) * next;
         integral += next * P(model::term_parts<P>.of[n + 2]);
-        // Terms are as powers of the times, of which the last lane has the longest.
+        // Terms grow with the time. The last lane has the longest.
         const double largest = next.v[lanes - 1], other = before.v[lanes - 1];
         if (size_of(largest) + size_of(other) < 1e-18) break;
       }
@@ -519,7 +527,7 @@ struct Kernel {
   };
   static constexpr OddParts odd_parts{};
 
-  // (h/2) times the integral from -1 of a Legendre series, plus its value there; `length` terms.
+  // `half` times the integral from -1 of a Legendre series of `length` terms, plus its value there.
   template <int length>
   BBSIM_INLINE static void integrate(const double* k, double half, double from, double* out) {
     out[0] = from + half * (k[0] - k[1] * odd_parts.of[1]);
@@ -530,7 +538,7 @@ struct Kernel {
     }
   }
 
-  // Times lie in the lanes; each is evaluated alike, whatever is asked for beside it.
+  // Times lie in the lanes. A row does not depend on the other times.
   static void evaluate(const Piece& piece, const double* times, std::size_t count,
                        double (*ball)[6]) {
     double velocity[3][nodes + 1], position[3][nodes + 2];

@@ -17,7 +17,7 @@ namespace {
 constexpr auto angle_state = static_cast<std::size_t>(model::RigLayout::angle);
 constexpr auto rate_state = static_cast<std::size_t>(model::RigLayout::rate);
 
-// A piece that is cut so often is for who runs one by one, and can say why it fails.
+// A lane with more rejections is left to a single run, which can report why it fails.
 constexpr int most_rejections = 40;
 
 const model::RigLoop<false>& loop_of(const model::Model& model) {
@@ -28,7 +28,7 @@ bool same_instants(const Sampling& a, const Sampling& b) {
   return a.period == b.period && a.delay == b.delay;
 }
 
-// All motions show at the nodes.
+// Marks all motions as resolved by the nodes.
 void lose_nothing(LaneAxis& axis) {
   axis.lost = false;
   for (double* const lost : {axis.lost_rate_by_rate, axis.lost_rate_by_acceleration,
@@ -58,7 +58,7 @@ Range LaneStep::bounds(Size size, std::size_t lane) const {
   return {range.least - beyond, range.most + beyond};
 }
 
-// How it goes on from the piece's start.
+// The motion of a lane's servo from the start of its piece.
 model::HeldMotion LaneStep::servo(std::size_t lane, std::size_t i) const {
   const LaneServo& servo = servos_->of[i];
   const LaneAxis& axis = pieces_->axis[i];
@@ -168,14 +168,14 @@ void RigLanes::take_monitors(std::size_t l, const model::Model& model) {
       scene_.least[look][l] = std::max(scene_.least[look][l], least);
       scene_.most[look][l] = std::min(scene_.most[look][l], most);
     };
-    // Nothing stays below what is lowest.
+    // No value is within this range, so the lane is given up.
     if (!for_each_side(monitor, model.events->plate, stays)) {
       stays(Look::x, model::unlimited, -model::unlimited);
     }
   }
 }
 
-// A lane without a rig, or with one that was given up, holds numbers that do no harm.
+// Puts harmless numbers into a lane without a rig, or with one that was given up.
 void RigLanes::clear(std::size_t l) {
   for (std::size_t i = 0; i < 3; ++i) {
     pieces_->velocity[i][l] = pieces_->guess[i][l] = 0;
@@ -218,7 +218,7 @@ void RigLanes::take_mode(std::size_t l) {
   }
 }
 
-// Puts a lane's state where its next piece begins.
+// Makes a lane's state the start of its next piece.
 void RigLanes::put_start(std::size_t l) {
   const Lane& lane = lanes_[l];
   for (std::size_t i = 0; i < 3; ++i) {
@@ -239,7 +239,7 @@ void RigLanes::foresee(std::size_t l) {
   lane.fall = lane.run->next_fall(lane.time, {step_.servo(l, 0), step_.servo(l, 1)}, lane.foreseen);
 }
 
-// Finds how the servos of an axis move over the pieces: mostly all alike.
+// Finds the motion of the servos of an axis over the pieces. Mostly all lanes share one table.
 void RigLanes::load_tables(std::size_t i) {
   const LaneServo& servo = servos_->of[i];
   LaneAxis& axis = pieces_->axis[i];
@@ -307,7 +307,7 @@ void RigLanes::load_tables(std::size_t i) {
   }
 }
 
-// Gives a piece to each lane. False once none is left.
+// Plans a piece for each lane. Returns false if no lane is left.
 bool RigLanes::plan() {
   bool any = false;
   kernels_.start(*pieces_, *servos_);
@@ -322,7 +322,7 @@ bool RigLanes::plan() {
     if (lane.unforeseen) foresee(l);
     const double limit = std::min(lane.run->next_change(), lane.fall.time);
     const double left = limit - lane.time;
-    if (!(left > 0)) {  // two guards at one instant: nothing moves
+    if (!(left > 0)) {  // two guards fall at one instant: nothing moves
       lane.until = lane.time;
       if (++lane.rejections > most_rejections) lane.alive = lane.moved = false;
       continue;
@@ -336,7 +336,7 @@ bool RigLanes::plan() {
   return any;
 }
 
-// Keeps the pieces that are exact enough, and shortens the others.
+// Accepts the pieces that are accurate enough, and shortens the others.
 void RigLanes::judge() {
   for (std::size_t l = 0; l < group; ++l) {
     Lane& lane = lanes_[l];
@@ -346,7 +346,7 @@ void RigLanes::judge() {
     double error = pieces_->error[l];
     const bool solved = error < hopeless;
     const bool arrives = lane.until >= std::min(lane.run->next_change(), lane.fall.time);
-    // A step that its limit cut short says little of how long the next may be.
+    // A step that its limit cut short says little about the length of the next.
     const bool tells = !arrives || lane.rejections > 0 || lane.next_step < most_growth * lane.step;
     if (solved && (error > 1 || tells)) {
       error = kernels_.closer_error(*pieces_, scene_, static_cast<int>(l));
@@ -369,10 +369,10 @@ void RigLanes::judge() {
   }
 }
 
-// The reference where it is looked at: the start and the nodes but the first.
+// Evaluates the reference at the start and all nodes but the first.
 void RigLanes::fill_reference() {
   LaneReference& reference = *reference_;
-  std::size_t last = group;  // of whose piece reference.one is
+  std::size_t last = group;  // the lane whose piece reference.one is for
   reference.shared = true;
   for (std::size_t l = 0; l < group; ++l) {
     if (!step_.has_[l]) continue;
@@ -408,11 +408,11 @@ void RigLanes::look() {
   }
 }
 
-// The state within a lane's piece, or at its end, where servos have theirs in any case; what `ball`
-// holds is of that time.
+// Sets the state at t within a lane's piece, or at its end. `ball` must hold the balls at t. Sets
+// the servos' states if `servos`, and always at the end.
 void RigLanes::state_at(std::size_t l, double t, const double (*ball)[group], bool servos) {
   Lane& lane = lanes_[l];
-  if (pieces_->length[l] == 0) return;  // it is the one that it was
+  if (pieces_->length[l] == 0) return;  // the state is unchanged
   const bool at_end = t >= lane.until;
   for (std::size_t i = 0; i < 3; ++i) {
     lane.z[2 + i] = at_end ? pieces_->velocity_end[i][l] : ball[2 + i][l];
@@ -443,7 +443,8 @@ void RigLanes::end_lane(std::size_t l, double t, LaneSink& sink) {
   lane.alive = false;
 }
 
-// Takes samples, applies commands and tells of rows, each at its time, up to the pieces' ends.
+// Takes samples, applies commands and hands on rows, each at its time, up to the ends of the
+// pieces.
 void RigLanes::pass_instants(LaneSink& sink) {
   alignas(64) double after[group], ball[5][group];
   double when[group];
@@ -457,7 +458,7 @@ void RigLanes::pass_instants(LaneSink& sink) {
       const double due = lane.run->next_time_event(), row = grid_[lane.next_row];
       is_event[l] = !(row < due - lane.run->rounding(due));
       when[l] = is_event[l] ? due : row;
-      // What is seen and what is applied at one instant differ by roundings.
+      // A sample and a command at one instant may differ by rounding. The command's time counts.
       if (is_event[l] && lane.run->changes_at(due)) when[l] = lane.run->next_change();
       const double last = lane.until + (is_event[l] ? 0 : lane.run->rounding(lane.until));
       if (when[l] > last) {
@@ -505,7 +506,7 @@ void RigLanes::pass_instants(LaneSink& sink) {
   }
 }
 
-// From the end of its piece.
+// Continues from the end of a lane's piece.
 void RigLanes::go_on(std::size_t l) {
   Lane& lane = lanes_[l];
   if (pieces_->length[l] > 0) {

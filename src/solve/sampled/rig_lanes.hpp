@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Many sampled rigs at once, for studies of their gains: another rig in each SIMD lane.
+// Integrates many sampled rigs at once for sweeps, with one rig in each SIMD lane.
 #pragma once
 
 #include <array>
@@ -23,37 +23,37 @@
 
 namespace bbsim::solve::sampled {
 
-// Whether RigLanes carries rigs like this one: knows() does, it is the paper's but for its servos
-// and its controller, and the program itself is the controller.
+// Whether RigLanes can integrate the model: it passes knows(), it is the paper's rig but for its
+// servos and controller, and its law is built in.
 [[nodiscard]] bool carries(const model::Model& model);
 
-// Whether two rigs that it carries can go together: their instants are the same, and so is the kind
-// of their law. Their references have to be one too, which it does not look at.
+// Whether two such rigs can share a group: same instants and same kind of law. Their references
+// must be the same too; this is not checked.
 [[nodiscard]] bool go_together(const model::Model& one, const model::Model& other);
 
-// A piece of each lane, to be looked at before the next one.
+// A piece of each lane. Valid only until the next pieces.
 class LaneStep {
  public:
-  // Where the ball is and how the plane stands.
+  // The position of the ball and the angles and rates of the plate.
   struct Track {
     double x, y, phi, theta, phi_rate, theta_rate;
   };
 
-  // Whether the lane has a piece, and its times (s). The last one ends with the run, though what
-  // is looked at goes on.
+  // Whether the lane has a piece, and its times, s. to() is at most the end of the run; if the
+  // piece goes on beyond, is_whole() is false and at_nodes() includes that part.
   [[nodiscard]] bool has(std::size_t lane) const { return has_[lane]; }
   [[nodiscard]] double from(std::size_t lane) const { return from_[lane]; }
   [[nodiscard]] double to(std::size_t lane) const { return to_[lane]; }
   [[nodiscard]] bool is_whole(std::size_t lane) const { return whole_[lane]; }
 
-  // What a size is at the lane's start and nodes, and what it is there and between.
+  // The range of a size at the lane's start and nodes, and bounds over the whole piece.
   [[nodiscard]] Range at_nodes(Size size, std::size_t lane) const {
     const auto i = static_cast<std::size_t>(size);
     return {looks_.least_size[i][lane], looks_.most_size[i][lane]};
   }
   [[nodiscard]] Range bounds(Size size, std::size_t lane) const;
 
-  // At `count` times (s) within a lane's piece.
+  // Evaluates `count` times (s) within a lane's piece.
   void evaluate(std::size_t lane, const double* times, std::size_t count, Track* track) const;
 
  private:
@@ -70,37 +70,37 @@ class LaneStep {
   std::array<double, group> from_{}, to_{};
 };
 
-// Is told of rigs that go together. What it is told of a lane that is given up later means nothing.
+// Receives the motion of the rigs of a group. Data of a lane that is given up later mean nothing.
 class LaneSink {
  public:
   virtual ~LaneSink() = default;
   virtual void accept(const LaneStep& step) = 0;
-  // Output row `row` of a lane: the ball's x and y alone.
+  // Output row `row` of a lane: only x and y of the ball.
   virtual void accept_row(std::size_t lane, std::size_t row, double x, double y) = 0;
-  // The lane's last row, whole (Model::row_size() numbers).
+  // The lane's last row, complete: Model::row_size() numbers.
   virtual void accept_end(std::size_t lane, double t, std::span<const double> row) = 0;
 };
 
-// What a sink looks at beside the ball's place.
+// What a sink needs beside the ball's position.
 struct LaneAsked {
-  bool gimbal = false, reference = false;  // the plane's tilt and rate; the tracking error
+  bool gimbal = false, reference = false;  // the plate's tilt and rate; the tracking error
 };
 
-// Integrates groups of rigs from t = 0 over an output grid. Each has its HybridSystem, and so its
-// own sensor, servos and limits; laws are computed together (LaneControllers), and between its
-// switches the balls go together, as HeldStepper takes one. What switches in one lane cuts its
-// piece alone, and it is behind the others from there on: nobody waits.
+// Integrates groups of rigs from t = 0 over an output grid. Each rig keeps its HybridSystem with
+// its own sensor, servos and limits. Laws are computed together (LaneControllers), and so are the
+// balls between switches, each as in HeldStepper. A switch in one lane cuts only that lane's piece.
+// The lane is then behind the others, and lanes do not wait for each other.
 //
-// A rig in which an event occurs, or may occur as far as the bounds tell, is given up: it is for
-// whoever runs one by one. A rig's rows depend, within the tolerance, on its companions, and on
-// nothing else. Allocates little once it has run a group; one for each thread.
+// A rig is given up if an event occurs in it, or if bounds cannot exclude one. It must then be run
+// alone. Within the tolerance, a rig's rows depend on its companions, and on nothing else. After
+// its first group the object allocates little. Use one object per thread.
 class RigLanes {
  public:
   RigLanes(Tolerances tolerances, const OutputGrid& grid, const LaneAsked& asked);
 
-  // The first `count` models, 1 <= count <= group, which carries() says yes to and which go
-  // together; they have one reference. Whether each was carried to the end; none more once `stop`
-  // is true.
+  // Integrates the first `count` models, 1 <= count <= group. carries() and go_together() must hold
+  // for them, and they must have the same reference. Returns for each whether it reached the end.
+  // Stops early once `stop` is true.
   std::array<bool, group> integrate(const model::Model* const* models, std::size_t count,
                                     LaneSink& sink, const std::atomic<bool>& stop);
 
@@ -114,20 +114,21 @@ class RigLanes {
     MotionTables tables{choose_kernels()};
     std::array<double, size> z{};  // at `time`
     double time = 0;               // s
-    double until = 0;              // the end of the present piece
-    double step = 0;               // its length, as it was asked for
+    double until = 0;              // end of the present piece, s
+    double step = 0;               // its length before rounding to the nominal one, s
     double next_step = std::numeric_limits<double>::infinity();
     model::HybridSystem::Fall fall;
-    double foreseen = 0;  // until when `fall` tells, s
+    double foreseen = 0;  // falls are predicted up to here, s
     std::size_t next_row = 1;
     int rejections = 0;
     Standstill standstill;
     bool alive = false, feeds_servos_back = false;
-    bool moved = false, settled = false;      // with the last attempt
-    bool restarts = false, switched = false;  // by a command, or by more than that
+    bool moved = false, settled = false;  // by the last attempt
+    // A command restarts the servos, or something else switched.
+    bool restarts = false, switched = false;
     bool unforeseen = false;
   };
-  // Which table an axis of pieces_ shares, or one of its columns holds.
+  // The law and length of the table that an axis of pieces_ has in a lane, or in all.
   struct Loaded {
     model::HeldLaw law{};
     double length = -1;

@@ -20,7 +20,7 @@ constexpr std::size_t angle = model::RigLayout::angle, rate = model::RigLayout::
 
 bool knows(const model::Model& model) {
   if (!model.rig || !model.rig->sampled || model.dry) return false;
-  // Pieces of a few lengths, whose tables are made once.
+  // Even sampling gives pieces of a few lengths, whose tables are made once.
   return model.rig->sampled->sampling.is_even() &&
          std::holds_alternative<model::RigLoop<false>>(model.system);
 }
@@ -73,7 +73,7 @@ void HeldStepper::start(double t, const double* z) {
   settle();
 }
 
-// Makes what was reached the present state.
+// Makes the end of the last step the present state.
 void HeldStepper::settle() {
   if (attempted_) {
     for (int i = 0; i < 3; ++i) piece_.guess[i] = piece_.acceleration_at[i][nodes - 1];
@@ -98,7 +98,7 @@ void HeldStepper::prepare(double length) {
   for (std::size_t i = 0; i < 2; ++i) {
     const model::HeldMotion& servo = servo_[i];
     Axis& axis = piece_.axis[i];
-    // Both servos mostly move by one law.
+    // Both servos mostly have the same law.
     axis.table = i == 1 && servo.law == servo_[0].law ? piece_.axis[0].table
                                                       : &tables_.of(servo.law, length);
     axis.angle = servo.angle;
@@ -112,7 +112,7 @@ std::optional<Failure> HeldStepper::step(double limit) {
   began_ = time_;
   looked_ = false;
   const double left = limit - time_;
-  // Two guards may fall at one instant, but for a time that is lost beside it: nothing moves.
+  // Two guards may fall at one instant, apart only by the rounding of the time. Nothing moves then.
   if (!(left > 0)) return {};
   bool rejected = false;
   for (;;) {
@@ -135,7 +135,7 @@ std::optional<Failure> HeldStepper::step(double limit) {
     last_error_ = attempt.error;
     ++statistics_.steps;
     constexpr double most_growth = 8;
-    // A step that the limit cut short says little of how long the next may be.
+    // A step that the limit cut short says little about the length of the next.
     if (!arrives || rejected || next_step_ < most_growth * step) {
       const double factor = step_growth(attempt.error, nodes);
       const double next = step * (rejected ? std::min(factor, 1.0) : factor);
@@ -146,7 +146,7 @@ std::optional<Failure> HeldStepper::step(double limit) {
   }
 }
 
-// Takes over where the step ended.
+// Takes the states at the end of the step.
 void HeldStepper::finish() {
   attempted_ = true;
   reached_[0] = piece_.position_end[0];
@@ -184,7 +184,7 @@ void HeldStepper::Shares::evaluate(const Piece& piece, double (&ball)[6]) const 
   }
 }
 
-// Of the last step, at an instant that comes again in each like it; null at others.
+// The shares at an instant of the last step that recurs in similar steps; null at other instants.
 const HeldStepper::Shares* HeldStepper::shares(double after) {
   const std::optional<double> meant = instants_.recurring(time_, after, piece_.length);
   if (!meant) return nullptr;
@@ -197,7 +197,7 @@ const HeldStepper::Shares* HeldStepper::shares(double after) {
   made.length = piece_.length;
   for (int first = 0; first < nodes; first += 3) {
     const int count = std::min(3, nodes - first);
-    Piece one{};  // whose series are single polynomials
+    Piece one{};  // single polynomials as its series
     one.length = piece_.length;
     for (int i = 0; i < count; ++i) one.series[i][first + i] = 1;
     double ball[1][6];
@@ -225,7 +225,7 @@ void HeldStepper::evaluate_some(const double* times, std::size_t count, double* 
   if (others) kernels_.evaluate(piece_, after, count, ball);
   for (std::size_t i = 0; i < count; ++i) {
     double* const row = rows + i * (size + (model_->gamma ? 1 : 0));
-    if (is_end(i)) {  // a row at an instant is the state there, whoever asks
+    if (is_end(i)) {  // rows at an instant are always the state there
       std::copy(reached_.begin(), reached_.end(), row);
       if (model_->gamma) row[size] = turned_;
       continue;
@@ -250,7 +250,7 @@ std::vector<double> HeldStepper::state() const {
   return {reached_.begin(), reached_.end()};
 }
 
-// As for radau, of what 8 nodes just show; mostly half of them would do.
+// As for radau, for a motion that 8 nodes just resolve. Mostly half of them would do.
 std::size_t HeldStepper::parts() const {
   constexpr double least = 8, of_products = 2, a_radian = 3, most = 128;
   const double parts = std::max(last_error_ < 1e-3 ? least : of_products * nodes,

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Rigs whose controller samples: from one instant to the next in one piece, servos in closed form.
+// Integrates sampled rigs from one instant to the next in one piece, with servos in closed form.
 #pragma once
 
 #include <array>
@@ -19,17 +19,18 @@
 
 namespace bbsim::solve::sampled {
 
-// Those of the instruction set that was chosen. Throws InputError if the environment variable
-// BBSIM_SIMD names none of this processor.
+// The kernels of the chosen instruction set. Throws InputError if the environment variable
+// BBSIM_SIMD names no instruction set of this processor.
 [[nodiscard]] const Kernels& choose_kernels();
 
-// Whether all modes of the model are such: its command is held, and its servos move by themselves.
+// Whether HeldStepper can run the model: its command is held between samples, and its servos move
+// in closed form in every mode.
 [[nodiscard]] bool knows(const model::Model& model);
 
-// For models that knows() says yes to. A step goes as far as its limit, mostly: pieces are short.
-// Where the ball's motion has more detail than 8 nodes show, as after a jump of a stiff servo,
-// steps are as long as the tolerance allows. Of when a servo switches it knows nothing; limits are
-// where it does, at the latest. Allocates nothing once its tables are made.
+// A stepper for models that pass knows(). A step mostly reaches its limit, because pieces are
+// short. Steps get shorter where 8 nodes do not resolve the ball's motion, as after a jump of a
+// stiff servo. The stepper does not know when a servo switches: the caller must pass a limit no
+// later than the next switch. Once its tables are made it does not allocate.
 class HeldStepper : public Stepper {
  public:
   HeldStepper(const model::Model& model, const Kernels& kernels, Tolerances tolerances);
@@ -56,8 +57,8 @@ class HeldStepper : public Stepper {
   using Loop = model::RigLoop<false>;
   static constexpr std::size_t size = Loop::size;
 
-  // What each coefficient of an acceleration's series adds to the velocity and to the position, so
-  // long after the beginning of a piece of that length, s.
+  // The contribution of each coefficient of an acceleration's series to the velocity and to the
+  // position, `after` seconds into a piece of `length` s.
   struct Shares {
     double after = -1, length = -1;
     double of_velocity[nodes], of_position[nodes];
@@ -84,21 +85,21 @@ class HeldStepper : public Stepper {
   Piece piece_{};
   MotionTables tables_;
   Instants instants_;
-  std::array<Shares, 4> shares_{};  // each of two lengths has two instants within
+  std::array<Shares, 4> shares_{};  // two instants within pieces of each of two lengths
   std::size_t next_shares_ = 0;
-  std::array<model::HeldMotion, 2> servo_{};  // from the start of the last step on
+  std::array<model::HeldMotion, 2> servo_{};  // from the start of the last step
   std::array<double, size> reached_{};        // states at its end
   std::array<Range, looks> ranges_{};         // of the last step
   Loads at_points_{};
   std::array<Range, 3> close_{};
-  double closely_ = -1;  // looked at the loads of the step that began there, s
+  double closely_ = -1;  // start of the step whose loads were evaluated closely, s
   bool looked_ = false;
   const model::BallConstants* loads_of_ = nullptr;
   double began_ = 0, time_ = 0;                                 // the last step, s
   double next_step_ = std::numeric_limits<double>::infinity();  // s
   double last_error_ = 0;
   double tempo_ = 0;        // of the reference, rad/s
-  bool attempted_ = false;  // a step was made, and is not yet the present state
+  bool attempted_ = false;  // a step was made that is not yet the present state
   double turned_ = 0;       // integral of u at the step's end, m
   std::size_t worst_state_ = 0;
   Statistics statistics_;

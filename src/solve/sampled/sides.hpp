@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Whether a monitor stays on its side over a whole piece, by the ranges of what it watches.
+// Checks by ranges whether a monitor stays on its side over a whole piece.
 #pragma once
 
 #include <cmath>
@@ -11,15 +11,14 @@
 
 namespace bbsim::solve::sampled {
 
-// What a smooth number takes at most, and at least.
+// The range of a smooth quantity over the whole piece, from its range at the nodes.
 [[nodiscard]] inline Range widened(const Range& at_nodes) {
   const double beyond = overshoot * (at_nodes.most - at_nodes.least);
   return {at_nodes.least - beyond, at_nodes.most + beyond};
 }
 
-// What a monitor for which nothing happens is told by: use(Look, least, most), for each thing that
-// is looked at, says between which numbers it has to stay. Returns false for one that is not told
-// by such things.
+// Calls use(Look, least, most) for each quantity of a monitor, with the range in which nothing
+// happens. Returns false if these quantities cannot decide this monitor.
 template <class Use>
 [[nodiscard]] bool for_each_side(const model::Monitor& monitor, const Plate& plate, Use use) {
   constexpr double unlimited = model::unlimited;
@@ -37,7 +36,7 @@ template <class Use>
       }
       return true;
     case Kind::slip:
-      // Where nothing presses, the square says nothing.
+      // The squared grip says nothing without a contact force, so the force must be positive too.
       use(Look::grip, 0, unlimited);
       use(Look::normal, 0, unlimited);
       return true;
@@ -54,7 +53,7 @@ template <class Use>
   return false;
 }
 
-// `range(Look)` is the range at the start and the nodes. If it cannot be told, the answer is no.
+// `range(Look)` is the range at the start and the nodes. Returns false if the ranges cannot decide.
 template <class RangeOf>
 [[nodiscard]] bool keeps_its_side(const model::Monitor& monitor, const Plate& plate, bool happening,
                                   RangeOf range) {

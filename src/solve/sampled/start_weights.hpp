@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// What the polynomial through values at the nodes of a piece has of each at the piece's start.
+// The weight of each nodal value in the node polynomial's value at the start of a piece.
 #pragma once
 
 #include "solve/collocation/radau_table.hpp"
