@@ -41,8 +41,7 @@ class EdgeNote : public solve::StateSink {
   const solve::OutputGrid& grid_;
   solve::StateSink& next_;
   std::size_t row_size_;
-  std::optional<std::size_t> x_,
-      y_;  // indices of the states; empty if symmetry keeps the state at 0
+  std::optional<std::size_t> x_, y_;  // indices of states; empty if symmetry keeps the state at 0
   std::optional<OffPlate> left_;
 };
 

@@ -61,8 +61,7 @@ class Extremes : public solve::PieceSink {
   Rows columns_;
   std::vector<std::optional<solve::Load>> loads_;  // for each column, if it is a load
   bool loads_alone_ = false;                       // all columns are loads
-  std::vector<double>
-      signs_;  // -1 if the least value is sought, as the greatest of the negated column
+  std::vector<double> signs_;  // -1 to seek the least value: the greatest of the negated column
   const model::Model* model_ = nullptr;
   const model::BallConstants* constants_ = nullptr;
   std::vector<Extreme> greatest_;
