@@ -323,7 +323,7 @@ void measure_threads(const std::string& folder) {
               ratio >= 1.85 ? "holds" : "FAILS");
 }
 
-// A sweep of which a third grows without bound, beside one of which no case does.
+// A sweep in which a third of the cases grow without bound, beside one in which none does.
 void measure_blow_ups(const std::string& folder) {
   const std::string file = folder + "/scenarios/fig2b.yaml";
   const auto seconds = [&](const char* gains) {

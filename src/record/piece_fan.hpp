@@ -21,7 +21,7 @@ class PieceFan : public solve::PieceSink {
   void accept(const solve::Piece& piece) override {
     for (solve::PieceSink* const sink : sinks_) sink->accept(piece);
   }
-  // The sink for the pieces; null if nobody needs them.
+  // The sink for the pieces; null if there is none.
   [[nodiscard]] solve::PieceSink* sink() {
     if (sinks_.size() > 1) return this;
     return sinks_.empty() ? nullptr : sinks_.front();

@@ -25,7 +25,7 @@
 
 namespace bbsim::record {
 
-// What to record of each run.
+// The request for each run.
 struct Asked {
   std::vector<const scenario::Column*> columns{};  // of its rows, for a table
   std::vector<scenario::Measure> measures{};

@@ -14,8 +14,8 @@
 
 namespace bbsim::record {
 
-// Evaluates columns, a block of rows at a time, and computes only what they need. A position needs
-// neither the control law nor the sines of a given motion.
+// Evaluates columns, a block of rows at a time, and computes only the quantities that they need. A
+// position needs neither the control law nor the sines of a given motion.
 class Rows {
  public:
   explicit Rows(std::vector<const scenario::Column*> columns);

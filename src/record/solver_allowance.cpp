@@ -65,7 +65,7 @@ double largest(const file::CellColumn& column) {
   return size;
 }
 
-// What a file says about its accuracy.
+// A file's statement of its accuracy.
 struct Claim {
   double rtol = 0, atol = 0;            // both 0 if unknown
   std::optional<double> error_bound{};  // m

@@ -147,7 +147,7 @@ void write_summary(const std::string& file, const RunSummary& summary) {
 file::Attributes to_attributes(const RunSummary& summary, const std::string& scenario_text) {
   file::Attributes attributes;
   const auto add = [&](const std::string_view name, const auto& value) {
-    // Equal runs give the same bytes, whatever their output file and their duration.
+    // Equal runs give the same bytes, even with other output files and durations.
     if (name != "output" && name != "cpu_seconds") attributes.emplace_back(name, to_value(value));
   };
   for_each_member(summary, add);

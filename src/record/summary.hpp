@@ -56,7 +56,7 @@ struct RunSummary {
   std::size_t rows = 0;
   std::string output;                    // file, "-" for standard output
   std::vector<std::string> states;       // names of the integrated states
-  std::vector<std::string> model_notes;  // what is modelled and why, one sentence each
+  std::vector<std::string> model_notes;  // of modelling, with reasons, one sentence each
   std::string method;
   double rtol = 0, atol = 0;
   std::vector<EventRecord> events;
@@ -64,7 +64,7 @@ struct RunSummary {
   std::vector<std::pair<std::string, double>> measures;
   std::vector<ExpectationRecord> expectations;
   std::optional<MotorPeaks> peaks;  // if a column needs forces, or with plate.inertia
-  // With solver.error only: the bound asked for and the estimate reached, m.
+  // With solver.error only: the requested bound and the estimate reached, m.
   std::optional<double> error_bound, error_estimate;
   struct {
     std::size_t steps = 0, rhs_evaluations = 0, jacobian_evaluations = 0;

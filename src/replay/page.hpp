@@ -27,7 +27,7 @@ namespace bbsim::replay {
 // Reads the template from the first of these folders that has it.
 [[nodiscard]] std::string page_template(const std::vector<std::string>& folders);
 
-// Identifies a page of bbsim; stands at the beginning of the template.
+// Identifies a page of bbsim; found at the beginning of the template.
 inline constexpr const char* page_mark = "A replay made by bbsim";
 
 // The file that page_template() reads; empty if it is not there.

@@ -14,7 +14,7 @@
 
 namespace bbsim::sweep {
 
-// Checks every row that it reads, whoever wrote it. Functions throw OutputError.
+// Checks every row that it reads, also its own ones. Functions throw OutputError.
 class CasePart {
  public:
   CasePart(const std::string& target, const CaseFileLayout& layout, const std::string& plan,

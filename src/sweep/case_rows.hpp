@@ -61,8 +61,8 @@ class RowReader {
   // numbers, so these are read as text.
   explicit RowReader(const std::string& header);
 
-  // Splits a row. Returns a text that says what `bbsim sweep` would not have written; empty if the
-  // row is sound.
+  // Splits a row. Returns the first difference from a row of `bbsim sweep`; empty if the row is
+  // sound.
   [[nodiscard]] std::string read(std::string_view line);
 
   // The content of the last row, if it was sound.

@@ -18,7 +18,7 @@
 namespace bbsim::sweep {
 
 // Bytes go to TARGET.part, beside the file itself if the target is a link. TARGET.plan beside it
-// says what is computed, so that no other sweep resumes the part. commit() gives the part its final
+// identifies the sweep, so that no other sweep resumes the part. commit() gives the part its final
 // name. Without commit(), the destructor leaves both files, unless the part has nothing worth
 // keeping. The part is locked and read through the same descriptor, so a change of its name does no
 // harm.

@@ -19,7 +19,7 @@ struct PlanDifference {
 [[nodiscard]] PlanDifference compare_plans(const std::string& one, const std::string& two,
                                            bool of_shards = false);
 
-// The number of cases of the whole sweep; empty if the plan has no such number.
+// The number of cases of the whole sweep; empty if the plan lacks it.
 [[nodiscard]] std::optional<std::size_t> cases_in(const std::string& plan);
 
 // "unknown" if the plan has none.

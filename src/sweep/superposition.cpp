@@ -67,8 +67,8 @@ constexpr int most_halvings = 12;
 }  // namespace
 
 // The solutions for each term with a factor of 1: x and y of all terms at the same times. The times
-// are the Chebyshev points of stretches. Stretches are so short that polynomials through these
-// points represent the motions, whatever the output times are.
+// are the Chebyshev points of stretches, independent of the output times. Stretches are so short
+// that polynomials through these points represent the motions.
 struct Superposed {
   struct Term {
     const LinearPart* part;  // null: everything that does not vary

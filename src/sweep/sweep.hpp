@@ -44,7 +44,7 @@ struct CaseRange {
 // delivery.
 //
 // Stops soon after `stop` becomes true and delivers all cases before that point. Returns whether
-// all cases were delivered. Throws what the callbacks throw.
+// all cases were delivered. Throws the exceptions of the callbacks.
 [[nodiscard]] bool run_sweep(const Engine& engine, CaseRange range, std::size_t threads,
                              const std::atomic<bool>& stop,
                              const std::function<void(CaseResults&)>& prepare,

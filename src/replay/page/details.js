@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 'use strict';
-// Describes what was run: the scenario's text, the outcome, the model, poles, statistics.
+// Describes the run: the scenario's text, the outcome, the model, poles, statistics.
 bbsim.makeDetails = (container) => {
   const {data, text} = bbsim;
   const {element} = text;

@@ -3,7 +3,7 @@
 
 'use strict';
 // The picture from above, drawn flat in the plate's frame, for browsers with slow 3D or without 3D.
-// It draws static parts once, and then only what changes.
+// It draws static parts once, and then only the changes.
 bbsim.makeFlat = (canvas) => {
   const {scene, runs, shown} = bbsim.data;
   const {stage} = scene;

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 'use strict';
-// Adds what can wait until the first picture is on the screen: plots, details, sweeps.
+// Adds the parts that can wait until the first picture is on the screen: plots, details, sweeps.
 (() => {
   const {data, clock, palette, text} = bbsim;
   const {element} = text;

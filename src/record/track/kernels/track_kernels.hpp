@@ -48,7 +48,7 @@ struct TrackKernels {
   // Squared distances from the origin.
   double (*distances)(const double* x, const double* y, std::size_t rows, double* squares);
   double (*sum)(const double* values, std::size_t rows);
-  // Writes 1 for each `row_padding` values of which any exceeds the limit, and 0 for the others.
+  // Writes 1 for each `row_padding` values if any of them exceeds the limit, otherwise 0.
   void (*above)(const double* values, std::size_t rows, double limit, unsigned char* any);
   void (*wave)(double frequency, const double* times, std::size_t rows, double* sines,
                double* cosines);
