@@ -39,8 +39,8 @@ struct CaseRange {
 
 // Computes the cases of `range`; range.first must be a multiple of the group size. Calls `prepare`
 // with each block of cases on the thread that computed it. Then calls `deliver` with the blocks in
-// the order of the cases, one call at a time. Holds few more blocks than the threads compute at
-// once. If the system grants fewer threads, calls `fewer` once with their number, perhaps during a
+// the order of the cases, one call at a time. About 8 blocks for each thread can wait for delivery.
+// If the system grants fewer threads, calls `fewer` once with their number, perhaps during a
 // delivery.
 //
 // Stops soon after `stop` becomes true and delivers all cases before that point. Returns whether
