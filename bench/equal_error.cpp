@@ -13,9 +13,10 @@ struct Cost {
   double error, seconds;
 };
 
-// From the most accurate to the fastest.
+// The points that no other point betters in both error and time, from the most accurate to the
+// fastest.
 std::vector<Cost> unbettered(const std::vector<Point>& points, const std::string& tool) {
-  constexpr double rounding = 1e-18;  // m; a logarithm has no zero
+  constexpr double rounding = 1e-18;  // m; the logarithm of zero does not exist
   std::vector<Cost> all, front;
   for (const Point& point : points) {
     if (point.tool == tool) all.push_back({std::max(point.error, rounding), point.seconds});

@@ -1,8 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Tools asked for the same tolerance are not equally accurate; what compares them is their time at
-// the same error.
+// Compares the times of tools at equal error, because their errors differ at equal tolerance.
 #pragma once
 
 #include <optional>
@@ -13,10 +12,9 @@
 
 namespace bbsim::bench {
 
-// The time (s) at which `tool` gets an error of `error` (m): log-log interpolation between those of
-// its points that no other of its points betters in both error and time. A tool whose every such
-// point is more accurate than asked takes what its fastest takes; nothing if none is accurate
-// enough.
+// The time (s) at which `tool` reaches an error of `error` (m). Log-log interpolation between the
+// points of the tool that no other of its points betters in both error and time. If all of these
+// are more accurate than `error`, the time of the fastest. Empty if none is accurate enough.
 [[nodiscard]] std::optional<double> seconds_at(const std::vector<Point>& points,
                                                const std::string& tool, double error);
 

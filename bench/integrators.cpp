@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// bbsim's integrator beside odeint's Dormand-Prince 5(4) and CVODE's BDF and Adams: processor time
-// at equal error, over scenes with a quad-precision reference.
+// Compares bbsim's integrator with odeint's Dormand-Prince 5(4) and CVODE's BDF and Adams:
+// processor time at equal error, over scenes with a quad-precision reference.
 #include <CLI/App.hpp>
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
@@ -27,7 +27,7 @@ struct Arguments {
   double budget = 0.1;
 };
 
-// Two rungs a decade, from 1e-2 to 1e-14.
+// Two tolerances for each decade, from 1e-2 to 1e-14.
 std::vector<double> tolerance_ladder() {
   std::vector<double> ladder;
   for (int i = 4; i <= 28; ++i)

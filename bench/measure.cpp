@@ -12,9 +12,9 @@
 namespace bbsim::bench {
 namespace {
 
-// The clock itself takes about a microsecond: it is read once for runs of this many seconds.
+// Reading the clock takes about a microsecond, so it is read once for runs of this total time, s.
 constexpr double least_batch = 1e-4;
-// A least time stands if this many batches in a row did not lower it by more than a part in 200.
+// The least time is final once this many batches in a row have not lowered it by more than 1/200.
 constexpr int standing = 30;
 constexpr double lowered = 0.995;
 
@@ -37,7 +37,7 @@ void run_batch(Candidate& candidate, const Scene& scene, Rows& rows) {
   point.seconds = std::min(point.seconds, each);
   point.runs += candidate.batch;
   candidate.total += all;
-  if (all < least_batch) candidate.batch *= 2;  // the first run, by which it was chosen, was cold
+  if (all < least_batch) candidate.batch *= 2;  // the first run, which set the batch size, was cold
 }
 
 }  // namespace

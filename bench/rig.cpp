@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// configs/rig.yaml beside the same rig written by hand (rig_by_hand.hpp): processor time of a run,
-// and how far it is from the solution.
+// Compares configs/rig.yaml with the same rig written by hand (rig_by_hand.hpp): processor time of
+// a run, and distance from the solution.
 #include <CLI/App.hpp>
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
@@ -36,7 +36,7 @@ namespace {
 
 using namespace bbsim;
 
-// Takes columns and forgets them, but for x and y, by which an error is told.
+// Takes columns and keeps only x and y, for the error.
 class Taken : public file::TableWriter {
  public:
   void append(std::span<const double* const> columns, std::size_t rows) override {
@@ -61,7 +61,7 @@ class Prepared {
   Prepared(const Prepared&) = delete;
   Prepared& operator=(const Prepared&) = delete;
 
-  // A run as `bbsim run` makes it, up to the text of its rows.
+  // A run as in `bbsim run`, without writing its rows as text.
   void run(Taken& taken) const {
     for (auto& column : taken.kept) column.clear();
     record::Recorder recorder({columns_, {}, true});
@@ -79,7 +79,7 @@ class Prepared {
   std::vector<const scenario::Column*> columns_;
 };
 
-// The scene swept over gains and seeds of the noise, its default measures taken.
+// A sweep of the scene over gains and seeds of the noise, with its default measures.
 class Swept {
  public:
   Swept(const std::string& file, std::size_t cases)
@@ -94,7 +94,8 @@ class Swept {
 
   [[nodiscard]] const std::string& engine() const { return engine_.name; }
   [[nodiscard]] std::size_t cases() const { return plan_.cases(); }
-  // A few at a time, each as long as a run of the others: a second is never quiet from end to end.
+  // Times a few cases at once, for as long as a run of the others: other load interrupts any longer
+  // time.
   void run() {
     for (std::size_t i = 0; i < least_.size(); ++i) {
       const solve::CpuClock clock;
@@ -102,12 +103,12 @@ class Swept {
       least_[i] = std::min(least_[i], clock.seconds());
     }
   }
-  // The least that all of them took, s.
+  // The least time of all cases, s.
   [[nodiscard]] double seconds() const {
     return std::accumulate(least_.begin(), least_.end(), 0.0);
   }
 
-  // The largest difference of a length from that of the case by itself, over the first cases, m.
+  // The largest difference of a length from that of a single run, over the first cases, m.
   [[nodiscard]] double error(std::size_t looked_at) {
     sweep::CaseResults alone;
     static_cast<void>(runner_->run(0, looked_at, results_, goes_on));
@@ -145,7 +146,7 @@ class Swept {
   sweep::SweepTask task_;
   sweep::Engine engine_;
   std::unique_ptr<sweep::CaseRunner> runner_;
-  std::vector<double> least_;  // of each group, s
+  std::vector<double> least_;  // for each group, s
   sweep::CaseResults results_;
 };
 
@@ -153,8 +154,8 @@ struct Candidate {
   std::string name;
   std::function<void()> run;
   std::function<double()> error;    // of the last run, or of a sweep's first cases, m
-  double most = 0;                  // of dopri5's time at rtol 1e-8; 0: nothing is asked
-  double cases = 1;                 // of one call
+  double most = 0;                  // relative to dopri5 at rtol 1e-8; 0: no target
+  double cases = 1;                 // in one call
   std::function<double()> least{};  // of all calls, s, if that is not the least call
   double seconds = std::numeric_limits<double>::infinity();
 };
@@ -169,8 +170,7 @@ double largest_difference(const Taken& a, const Taken& b) {
   return largest;
 }
 
-// The most that a run may take, as a part of dopri5's time at rtol 1e-8; nothing is asked of pairs
-// of lanes.
+// The longest time of a run relative to dopri5 at rtol 1e-8. There is no target for lanes in pairs.
 double target(double by_avx512, double by_avx2) {
   const std::string kernels = simd::name_of(simd::chosen_instruction_set());
   return kernels == "avx512" ? by_avx512 : kernels == "avx2" ? by_avx2 : 0;
@@ -186,7 +186,7 @@ void measure(const std::string& file, bool noise, double budget) {
   Prepared(finest).run(exact);
   Scenario least = all;
   least.events = {};
-  least.plate.inertia.reset();  // nor anybody's peaks of torques
+  least.plate.inertia.reset();  // no peak torques either
   least.output.columns = {"t", "x", "y", "phi", "theta", "phi_command", "theta_command"};
 
   const Prepared whole(all), plain(least);
@@ -220,7 +220,7 @@ void measure(const std::string& file, bool noise, double budget) {
                           [&] { return swept->error(16); }, target(0.1, 0.2),
                           static_cast<double>(swept->cases()), [&] { return swept->seconds(); }});
   }
-  // In turns, so that whatever else the machine does hits all alike.
+  // In turns, so that other load on the machine affects all alike.
   std::vector<double> errors(candidates.size());
   constexpr int turns = 10;
   for (int turn = 0; turn < turns; ++turn) {

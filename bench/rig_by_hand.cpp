@@ -31,7 +31,7 @@ using State = std::array<double, 9>;
 struct Rig {
   double command[2]{0, 0};  // that the servos follow
 
-  // Equation (27) and two servos. Of what they share, products are formed once.
+  // Equation (27) and two servos. Shared products are computed once.
   void operator()(const State& z, State& dz, double) const {
     const double x = z[0], y = z[1], x_dot = z[2], y_dot = z[3], u = z[4];
     const double p = z[7], q = z[8];
@@ -66,7 +66,7 @@ class Dopri5 {
       : stepper_(odeint::make_controlled(rtol / 100, rtol, odeint::runge_kutta_dopri5<State>())) {}
 
   void advance(const Rig& rig, State& z, double from, double to) {
-    stepper_.reset();  // the command has jumped: no slope is kept
+    stepper_.reset();  // the command has jumped, so the old slope is invalid
     double t = from, step = std::min(step_, to - from);
     while (to - t > 1e-13 * to) {
       const bool cut = step >= to - t;
@@ -99,7 +99,7 @@ bool run(Integrator integrator, bool noise, HandRow* rows) {
   Rig rig;
   State z{0.05};
   Noise draws(1);
-  double given[2] = {0, 0};  // of the sample, on its way to the servos
+  double given[2] = {0, 0};  // of the sample, before it reaches the servos
   const auto see = [&](double(&at)[2]) {
     for (int i = 0; i < 2; ++i) {
       const double drawn = noise ? sensor_noise * draws.normal() : 0.0;
@@ -111,7 +111,7 @@ bool run(Integrator integrator, bool noise, HandRow* rows) {
   const double keep = filter / (filter + period);
   for (std::size_t n = 0;; ++n) {
     const double t = static_cast<double>(n) * period;
-    // What was exposed half a period ago.
+    // The exposure of half a period ago.
     for (int i = 0; i < 2; ++i) {
       const double slope = n > 0 ? (exposed[i] - seen[i]) / period : 0;
       velocity[i] = keep * velocity[i] + (1 - keep) * slope;

@@ -1,12 +1,12 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// configs/rig.yaml as one would write it by hand, for that one rig, with a library of one's own
-// choice: what bbsim's rigs are measured against.
+// configs/rig.yaml written by hand for this one rig, with odeint: the program that bbsim's rigs are
+// compared with.
 //
-// The same sensor, controller, delays and commands, without events and limits as such: angles and
-// rates are clamped, and whether the ball is on the plate is looked at once a piece. Numbers stand
-// in the code, the equations are written out, nothing is virtual or allocated.
+// It has the same sensor, controller, delays and commands, but no events and no limits of bbsim's
+// kind. Angles and rates are clamped, and the edge of the plate is checked once a piece. Numbers
+// are constants, the equations are written out, nothing is virtual or allocated.
 #pragma once
 
 #include <cstddef>
@@ -18,9 +18,8 @@ struct HandRow {
 };
 
 struct HandRun {
-  bool noise = true;  // of the sensor, bbsim's own generator
-  // Of odeint's Dormand-Prince 5(4); 0: classical Runge-Kutta with two steps from instant to
-  // instant.
+  bool noise = true;  // of the sensor, by bbsim's generator
+  // Of odeint's Dormand-Prince 5(4). 0: classical Runge-Kutta with two steps between instants.
   double rtol = 1e-8;
 };
 

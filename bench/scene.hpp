@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// A scene to measure with: its model, its output times, and its solution.
+// A scene for measurements: its model, its output times and its solution.
 #pragma once
 
 #include <algorithm>
@@ -15,7 +15,7 @@
 
 namespace bbsim::bench {
 
-// Takes the rows of a run into memory that is there before the clock starts, for every tool alike.
+// Takes the rows of a run. Its memory is allocated before the clock starts, for every tool alike.
 class Rows : public solve::StateSink {
  public:
   Rows(std::size_t rows, std::size_t row_size) : row_size_(row_size), values_(rows * row_size) {}
@@ -36,16 +36,16 @@ struct Scene {
   std::string name;
   model::Model model;  // without gamma
   solve::OutputGrid grid;
-  std::vector<double> times;  // those of the grid, s
-  std::vector<double> x, y;   // of the reference solution at the output times, m
+  std::vector<double> times;  // of the grid, s
+  std::vector<double> x, y;   // the reference solution at the output times, m
   double radius = 0, gravity = 0;
 };
 
-// NAME of FOLDER/scenarios/NAME.yaml, whose solution is FOLDER/reference/NAME.csv. Throws
-// InputError if either is not there or not valid, or if their output times differ.
+// Loads FOLDER/scenarios/NAME.yaml and its solution FOLDER/reference/NAME.csv. Throws InputError if
+// either is missing or invalid, or if their output times differ.
 [[nodiscard]] Scene load_scene(const std::string& folder, const std::string& name);
 
-// max |dx|, |dy| over the output times, m; infinity if any is not finite.
+// max |dx|, |dy| over the output times, m; infinity if a value is not finite.
 [[nodiscard]] double largest_error(const Scene& scene, const Rows& rows);
 
 }  // namespace bbsim::bench

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Sweeps beside the same cases one by one with odeint's Dormand-Prince 5(4) and CVODE's BDF:
-// processor time a case at equal error.
+// Compares sweeps with the same cases run one by one with odeint's Dormand-Prince 5(4) and CVODE's
+// BDF: processor time for each case at equal error.
 #include <CLI/App.hpp>
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
@@ -35,11 +35,11 @@ const std::atomic<bool> goes_on{false};
 
 struct Job {
   std::string name;
-  std::string scene;  // of tests/data/scenarios
+  std::string scene;  // in tests/data/scenarios
   std::vector<Variation> vary;
-  double error;       // m, at which the tools are compared
-  std::string other;  // the tool to be compared with
-  double ratio;       // the least wanted of its time over the sweep's
+  double error;       // m, for the comparison
+  std::string other;  // the tool to compare with
+  double ratio;       // target for the other time over the sweep's
 };
 
 const std::vector<Job> jobs{
@@ -86,7 +86,7 @@ const std::vector<Job> jobs{
      150},
 };
 
-// Whose solutions are known.
+// The number of cases with a known solution.
 constexpr double known_cases = 64;
 
 std::vector<scenario::Measure> default_measures(bool loop) {
@@ -101,7 +101,7 @@ bool is_length(const scenario::Measure& measure) {
   return measure.column->unit == "m";
 }
 
-// A sweep with all that it refers to.
+// A sweep and everything that it refers to.
 class Cases {
  public:
   Cases(const std::string& file, const Job& job, double samples, solve::Tolerances tolerances)
@@ -137,7 +137,7 @@ class Cases {
   sweep::Engine engine_;
 };
 
-// The largest difference of the measures that are lengths, m.
+// The largest difference of those measures that are lengths, m.
 double largest_error(const sweep::SweepTask& task, const std::vector<double>& numbers,
                      const std::vector<double>& exact) {
   double largest = 0;
@@ -151,7 +151,7 @@ double largest_error(const sweep::SweepTask& task, const std::vector<double>& nu
   return largest;
 }
 
-// The least time of `work` that stood for a while, s.
+// The least time of `work` that has not changed for a while, s.
 template <class Work>
 double least_seconds(double budget, Work work) {
   double least = std::numeric_limits<double>::infinity(), total = 0;
@@ -169,11 +169,11 @@ double least_seconds(double budget, Work work) {
 // A point whose time is still being measured.
 struct Candidate {
   Point point;
-  std::function<double(double budget)> seconds;  // a case, the least within the budget
+  std::function<double(double budget)> seconds;  // for each case, the least within the budget
 };
 
-// Errors of the few cases whose solution is known; times of many, so that what is done once a sweep
-// does not count.
+// Takes errors over the few cases with a known solution, and times over many cases, so that the
+// setup of a sweep does not count.
 Candidate sweep_point(const std::string& file, const Job& job, const sweep::CaseResults& exact,
                       solve::Tolerances tolerances) {
   constexpr double many = 4096;
@@ -192,8 +192,8 @@ Candidate sweep_point(const std::string& file, const Job& job, const sweep::Case
           }};
 }
 
-// The measures over the rows alone, of those that are lengths: what tools give that have no other
-// idea of the motion between them.
+// Takes the measures that are lengths over the rows alone, as with tools that give nothing between
+// rows.
 void add_row_measures(const sweep::SweepTask& task, const bench::Scene& scene,
                       const bench::Rows& rows, std::vector<double>& numbers) {
   using Kind = scenario::Measure::Kind;
@@ -216,7 +216,7 @@ void add_row_measures(const sweep::SweepTask& task, const bench::Scene& scene,
   }
 }
 
-// The tool over the known cases, its models made and its memory there before the clock starts.
+// Runs the tool over the known cases. Models and memory are made before the clock starts.
 Candidate tool_point(const bench::Tool& tool, const Cases& cases, solve::Tolerances tolerances) {
   const sweep::SweepTask& task = cases.task();
   const auto scenes = std::make_shared<std::vector<bench::Scene>>();
@@ -255,7 +255,8 @@ Candidate tool_point(const bench::Tool& tool, const Cases& cases, solve::Toleran
           }};
 }
 
-// Two rungs a decade, from 1e-2 down, until the error is a hundredth of what is asked.
+// Two tolerances for each decade, from 1e-2 down, until the error is a hundredth of the one asked
+// for.
 template <class Make>
 void add_ladder(double error, std::vector<Candidate>& candidates, Make make) {
   for (int i = 4; i <= 24; ++i) {
@@ -282,7 +283,7 @@ void measure(const Job& job, const std::string& folder, double budget) {
     add_ladder(job.error, candidates,
                [&](solve::Tolerances tolerances) { return tool_point(tool, finest, tolerances); });
   }
-  // In turns, so that whatever else the machine does hits all alike.
+  // In turns, so that other load on the machine affects all alike.
   std::vector<Point> points;
   constexpr int turns = 5;
   for (int turn = 0; turn < turns; ++turn) {
@@ -303,7 +304,7 @@ void measure(const Job& job, const std::string& folder, double budget) {
   std::fflush(stdout);
 }
 
-// Wall time of a sweep on one thread over that on two.
+// The wall time of a sweep on one thread over that on two.
 void measure_threads(const std::string& folder) {
   const Cases cases(folder + "/scenarios/fig2b.yaml", jobs[1], 20000, {1e-8, 1e-10});
   double least[2] = {1e99, 1e99};
@@ -322,11 +323,11 @@ void measure_threads(const std::string& folder) {
               ratio >= 1.85 ? "holds" : "FAILS");
 }
 
-// A sweep of which a third blows up, beside one of which none does.
+// A sweep in which a third of the cases grow without bound, beside one in which none does.
 void measure_blow_ups(const std::string& folder) {
   const std::string file = folder + "/scenarios/fig2b.yaml";
   const auto seconds = [&](const char* gains) {
-    // A sign turned over makes the loop unstable: its motion overflows before the end.
+    // A gain of the other sign makes the loop unstable: its motion overflows before the end.
     const Job job{"", "fig2b", {{"controller.pd.kv.0.0", gains}, {"ball.mass", "uniform:1:2"}},
                   0,  "",      0};
     const Cases cases(file, job, 1000, {1e-8, 1e-10});

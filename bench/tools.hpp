@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The integrators that are compared, each behind the same call.
+// The integrators to compare, each behind the same call.
 #pragma once
 
 #include <vector>
@@ -13,11 +13,11 @@ namespace bbsim::bench {
 
 struct Tool {
   const char* name;
-  // Integrates the scene from its start to its end; all rows, or false if it gave up.
+  // Integrates the scene from its start to its end and fills all rows; false if it gave up.
   bool (*run)(const Scene& scene, solve::Tolerances tolerances, Rows& rows);
 };
 
-// bbsim's own first.
+// bbsim's integrator comes first.
 [[nodiscard]] const std::vector<Tool>& all_tools();
 
 }  // namespace bbsim::bench

@@ -1,12 +1,14 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Rolling resistance against MuJoCo, an engine with soft contacts (Todorov, Erez and Tassa 2012).
+// Compares rolling resistance with MuJoCo, an engine with soft contacts (Todorov, Erez and Tassa
+// 2012).
 //
-// A ball rolls along a level plate to rest, and stands on one that is tilted by half of what it
-// bears. Both have a couple c_rr N r against the rolling. MuJoCo makes friction a constraint that
-// gives: as good as dry friction as long as the ball rolls, and a creep at rest, which shrinks with
-// the constraint's time constant (solref), and that with the step.
+// One ball rolls along a level plate to rest. Another one rests on a plate tilted by half of the
+// angle that the resistance holds. Both have a couple c_rr N r against rolling. MuJoCo makes
+// friction a soft constraint. This equals dry friction while the ball rolls, and lets it creep at
+// rest. The creep shrinks with the constraint's time constant (solref), and the time constant with
+// the step.
 //
 //     crosscheck_losses
 #include <mujoco/mujoco.h>
@@ -34,7 +36,7 @@ std::string text(double number) {
   return digits;
 }
 
-// Where the ball is at the end, m.
+// The position of the ball at the end, m.
 double by_bbsim(double tilt, double velocity, double end) {
   const bbsim::Scenario scene = bbsim::parse_scenario(
       "gravity: " + text(gravity) + "\nball: {radius: " + text(radius) + ", mass: " + text(mass) +
@@ -51,7 +53,8 @@ double by_bbsim(double tilt, double velocity, double end) {
 }
 
 double by_mujoco(double tilt, double velocity, double end, double step) {
-  // Its coefficients of rolling and torsion are lengths. Twice the step is the stiffest it takes.
+  // MuJoCo's coefficients of rolling and torsion are lengths. Twice the step is the stiffest
+  // permitted time constant.
   std::ostringstream xml;
   xml << "<mujoco><option timestep='" << text(step) << "' cone='elliptic' "
       << "impratio='100' tolerance='1e-14' iterations='200' gravity='"

@@ -1,11 +1,11 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Equation (27) against a multibody engine that does not know it.
+// Compares equation (27) with a multibody engine that derives its own equations.
 //
 // Simbody (Sherman, Seth and Delp 2011) gets two pins, a plate, a free ball and its ideal
 // sphere-on-plane constraint with rolling, and integrates its own equations of motion. The pins are
-// prescribed, or torques act on them. The paths of the contact point are compared, and the angles.
+// prescribed, or torques act on them. The paths of the contact point and the angles are compared.
 //
 //     crosscheck SCENARIO.yaml...    open loops and given torques; prints the largest differences
 #include <algorithm>
@@ -25,7 +25,7 @@ struct Differences {
   double position = 0;  // of x and y at the worst output time, m
   double angle = 0;     // of phi and theta, rad
   double extent = 0;    // the largest coordinate, m
-  double tilt = 0;      // the largest of the angles, rad
+  double tilt = 0;      // the largest angle, rad
 };
 
 crosscheck::Driven driven_by(const bbsim::Scenario& scene,

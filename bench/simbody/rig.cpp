@@ -13,7 +13,7 @@ namespace {
 
 using namespace SimTK;
 
-// One gimbal angle with its derivatives, as Simbody wants a function of time.
+// A gimbal angle and its derivatives as a Simbody function of time.
 class Angle : public Function {
  public:
   Angle(const Rig& rig, int axis) : rig_(rig), axis_(axis) {}
@@ -30,7 +30,7 @@ class Angle : public Function {
   int axis_;
 };
 
-// What the motors give to the gimbal's two pins, less what its bearings take.
+// The motors' torques on the two pins of the gimbal, minus the viscous torques of its bearings.
 class Torques : public Force::Custom::Implementation {
  public:
   Torques(const Driven& driven, const MobilizedBody::Pin& phi, const MobilizedBody::Pin& theta)
@@ -52,13 +52,13 @@ class Torques : public Force::Custom::Implementation {
 };
 
 Body::Rigid ring_of(const Rig& rig) {
-  // It turns about one axis, about which the rotor of phi's motor turns with it.
+  // The ring turns about one axis only, and the rotor of phi's motor turns with it.
   const double about = rig.driven ? rig.driven->ring_inertia + rig.driven->rotor_inertia : 1;
   return Body::Rigid(MassProperties(1, Vec3(0), Inertia(about)));
 }
 
-// Its inertia is about the gimbal's centre, which stays: there its mass does nothing, and its
-// weight is a force of its own.
+// The inertia is about the gimbal's center, which is fixed. The mass has no effect there; the
+// weight is a separate force.
 Body::Rigid plate_of(const Rig& rig) {
   if (!rig.driven) return Body::Rigid(MassProperties(1, Vec3(0), Inertia(1)));
   const auto& [x, y, z] = rig.driven->plate_inertia;
@@ -73,7 +73,7 @@ std::vector<std::array<double, 4>> simulate(const Rig& rig, const std::vector<do
   GeneralForceSubsystem forces(system);
   Force::Gravity gravity(forces, matter, Vec3(0, 0, -rig.gravity));
 
-  // A pin turns about the z axis of its frames: turn that to the y axis, then to the x axis.
+  // A pin turns about the z axis of its frames. These rotations turn that axis to y and to x.
   const Transform about_y(Rotation(-Pi / 2, XAxis)), about_x(Rotation(Pi / 2, YAxis));
   MobilizedBody::Pin outer(matter.Ground(), about_y, ring_of(rig), about_y);
   MobilizedBody::Pin plate(outer, about_x, plate_of(rig), about_x);
@@ -85,7 +85,7 @@ std::vector<std::array<double, 4>> simulate(const Rig& rig, const std::vector<do
     Force::Custom(forces, new Torques(*rig.driven, outer, plate));
     Force::ConstantForce(forces, plate, Vec3(0, 0, rig.driven->centre_of_mass),
                          Vec3(0, 0, -rig.driven->plate_mass * rig.gravity));
-    // The rotor of theta's motor turns as the plate does in the ring, about an axis that stays.
+    // The rotor of theta's motor turns like the plate in the ring, but about a fixed axis.
     const double inertia = rig.driven->rotor_inertia;
     if (inertia > 0) {
       rotor.emplace(matter.Ground(), about_x,

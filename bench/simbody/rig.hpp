@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The rig in Simbody, behind an interface that C++17 and C++20 both take: Simbody 3.7 is not C++20.
+// The rig in Simbody, behind an interface for C++17 and C++20: Simbody 3.7 is not C++20.
 #pragma once
 
 #include <array>
@@ -11,9 +11,9 @@
 
 namespace crosscheck {
 
-// A gimbal that torques move, and what they move.
+// A gimbal driven by torques, and its inertias.
 struct Driven {
-  std::array<double, 3> plate_inertia{};                // about the gimbal's centre, kg m^2
+  std::array<double, 3> plate_inertia{};                // about the gimbal's center, kg m^2
   double plate_mass = 0, centre_of_mass = 0;            // kg; m along the normal
   double ring_inertia = 0, rotor_inertia = 0;           // kg m^2
   double viscous = 0;                                   // N m s
@@ -27,11 +27,11 @@ struct Rig {
   double spin = 0;                               // rad/s
   // Value (order 0), rate (1) or acceleration (2) of phi (axis 0) or theta (1) at a time.
   std::function<double(double time, int axis, int order)> angle{};
-  std::optional<Driven> driven{};  // in the place of that
+  std::optional<Driven> driven{};  // instead of `angle`
 };
 
-// The contact point and the gimbal's angles (x, y, phi, theta) at each of the times, which start
-// at 0.
+// The contact point and the gimbal's angles (x, y, phi, theta) at each of the times, which start at
+// 0.
 std::vector<std::array<double, 4>> simulate(const Rig& rig, const std::vector<double>& times);
 
 }  // namespace crosscheck

@@ -13,7 +13,7 @@
 namespace bbsim::record {
 namespace {
 
-// One of the rows.
+// A single row.
 struct Row {
   const model::Sample& sample;
   const model::BallConstants& constants;
@@ -137,7 +137,7 @@ static_assert(in_order(), "each column has its value, in the catalogue's order")
 
 namespace {
 
-// A number of one's own controller, by its place.
+// A number that the user's controller gives, by its index.
 template <std::size_t place>
 void fill_own(const RowBlock& rows, double* column) {
   for (std::size_t i = 0; i < rows.count; ++i) {

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// What the columns (scenario/columns.hpp) are: numbers of a row.
+// Computes the columns (scenario/columns.hpp) from rows of a run.
 #pragma once
 
 #include <cstddef>
@@ -15,8 +15,8 @@
 
 namespace bbsim::record {
 
-// Some rows. `dynamics` and `orientations`, from the ball's own frame to the plane's, are null
-// where no column needs them.
+// Some rows. `dynamics` and `orientations` (from the ball's frame to the plane's) are null if no
+// column needs them.
 struct RowBlock {
   std::size_t count;
   const model::Sample* samples;
@@ -25,11 +25,11 @@ struct RowBlock {
   const Quaternion* orientations;
 };
 
-// Writes a column of the rows, as many numbers as there are rows.
+// Writes a column: one number for each row.
 using FillColumn = void (*)(const RowBlock& rows, double* column);
 
-// `own_columns` are those that the scene's own controller gives: Model::own_columns(). One that is
-// not among them is no number.
+// `own_columns` are the columns of the scene's controller, Model::own_columns(). A controller's
+// column that is not among them is NaN.
 [[nodiscard]] FillColumn fill_of(const scenario::Column& column,
                                  const std::vector<std::string>& own_columns);
 

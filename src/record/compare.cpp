@@ -21,7 +21,7 @@ ValuePair compare_numbers(double a, double b, const Allowance& allowance) {
   }
   if (a == b || (std::isnan(a) && std::isnan(b))) return pair;
   pair.difference = std::abs(a - b);
-  if (!std::isfinite(pair.difference)) {  // also what overflows
+  if (!std::isfinite(pair.difference)) {  // also after an overflow
     pair.difference = infinity;
     pair.allowance = 0;
   }
@@ -29,7 +29,7 @@ ValuePair compare_numbers(double a, double b, const Allowance& allowance) {
   return pair;
 }
 
-// A number and a text differ, even if the text looks like it.
+// A number and a text differ, even if they look alike.
 ValuePair compare_texts(const file::CellColumn& a, const file::CellColumn& b, std::size_t i) {
   ValuePair pair{.of_text = true};
   if (a.has_text(i) && b.has_text(i) && a.texts[i] == b.texts[i]) return pair;
@@ -39,7 +39,7 @@ ValuePair compare_texts(const file::CellColumn& a, const file::CellColumn& b, st
 }
 
 bool is_worse(const ValuePair& one, const ValuePair& other) {
-  // A quotient may round to 1 on either side of it.
+  // The excess may round to 1 from either side, so alike() decides first.
   const bool one_differs = !one.alike();
   const bool other_differs = !other.alike();
   return std::tie(one_differs, one.excess, one.difference) >
@@ -99,7 +99,7 @@ void require_tolerance(const char* name, double value) {
                    "; a tolerance is finite and not negative");
 }
 
-// t of a row; or, of a column whose rows are as t is, of a number in it.
+// t in the worst row; in a series, t at the worst position.
 std::optional<double> time_of(const file::CellTable& table, const ColumnComparison& column) {
   const file::CellColumn* const time = table.find("t");
   if (time == nullptr || time->width != table.find(column.name)->width) return {};

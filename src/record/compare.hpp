@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Are two tables alike, and if not, where are they most different?
+// Compares two tables and finds where they differ most.
 #pragma once
 
 #include <cstddef>
@@ -15,32 +15,33 @@
 namespace bbsim::record {
 
 // Values a and b are alike if |a - b| <= atol + rtol max(|a|, |b|), if both are the same infinity,
-// or if both are NaN; texts if they are equal. The defaults forgive rounding, and little more.
+// or if both are NaN. Texts are alike if they are equal. The defaults allow little more than
+// rounding.
 struct Allowance {
   double rtol = 1e-9;
-  double atol = 1e-12;  // in each column's own unit
+  double atol = 1e-12;  // in the unit of the column
 };
 
-// What is forgiven in each column.
+// The tolerances of all columns.
 struct Allowances {
   Allowances() = default;
   Allowances(const Allowance& allowance) : standard(allowance) {}
   Allowances(double rtol, double atol) : standard{rtol, atol} {}
 
   Allowance standard{};
-  std::map<std::string, Allowance> by_column{};  // instead of the standard
-  std::string reason{};  // why these, after "within": empty of the standard ones
+  std::map<std::string, Allowance> by_column{};  // replace the standard one
+  std::string reason{};  // reported after "allowed: "; empty for the standard
 
   [[nodiscard]] const Allowance& of(const std::string& column) const;
 };
 
-// The values of one row of a column in the two tables.
+// A value of a column in the two tables.
 struct ValuePair {
   std::size_t row = 0;       // of the data, from 0
-  std::size_t position = 0;  // in the row, where a row has several numbers
+  std::size_t position = 0;  // within the row, if it has several numbers
   double a = 0, b = 0;
-  double difference = 0;  // |a - b|; infinite where that is not finite and they are not alike
-  double allowance = 0;   // atol + rtol max(|a|, |b|); 0 where nothing is forgiven
+  double difference = 0;  // |a - b|; infinite if that is not finite and they are not alike
+  double allowance = 0;   // atol + rtol max(|a|, |b|); 0 if nothing is allowed
   double excess = 0;      // difference / allowance
   bool of_text = false;   // at least one of the two is a text
 
@@ -52,34 +53,34 @@ struct ColumnComparison {
   ValuePair largest;  // where the difference is largest
   ValuePair worst;    // where the excess is largest
   std::size_t different_rows = 0;
-  std::string text_a{}, text_b{};  // what is worst, if it is of text
+  std::string text_a{}, text_b{};  // the worst values, if they are texts
 };
 
-// A column whose rows have other numbers of values in the two tables.
+// A column whose rows have different numbers of values in the two tables.
 struct WidthDifference {
   std::string name;
   std::size_t a = 0, b = 0;
 };
 
 struct Comparison {
-  std::vector<ColumnComparison> columns;  // compared ones, in the order of A or as asked for
+  std::vector<ColumnComparison> columns;  // compared columns, in the order of A or as selected
   std::vector<std::string> only_in_a, only_in_b;
   std::vector<WidthDifference> widths;
-  std::size_t rows_a = 0, rows_b = 0;  // the common ones are compared
-  std::optional<std::size_t> worst;    // index into columns; nothing if there are no rows
-  std::optional<double> worst_time;    // t of A where the worst column is worst
+  std::size_t rows_a = 0, rows_b = 0;  // only common rows are compared
+  std::optional<std::size_t> worst;    // index into columns; empty if there are no rows
+  std::optional<double> worst_time;    // t in A where the worst column is worst
 
   [[nodiscard]] bool alike() const;
 };
 
-// Compares columns by name, whatever their order. `columns` picks some of them; if it is empty,
-// all are compared and one that is missing on either side is a difference. Throws InputError for
-// a name of `columns` that a table lacks, and for a tolerance that is negative or not finite.
+// Compares columns by name, in any order. `columns` selects some of them. If it is empty, all are
+// compared, and a column that one table lacks is a difference. Throws InputError if a table lacks a
+// selected column, and for a tolerance that is negative or not finite.
 [[nodiscard]] Comparison compare(const file::CellTable& a, const file::CellTable& b,
                                  const Allowances& allowances = {},
                                  const std::vector<std::string>& columns = {});
 
-// What `bbsim compare` prints: a table of the columns, then the verdict.
+// The report of `bbsim compare`: a table of the columns, then the verdict.
 [[nodiscard]] std::string to_text(const Comparison& comparison, const std::string& name_a,
                                   const std::string& name_b, const Allowances& allowances);
 

@@ -13,7 +13,7 @@
 namespace bbsim::record {
 namespace {
 
-// Three digits are enough to judge an error by.
+// Three digits suffice to judge an error.
 std::string rounded(double value) {
   char text[32];
   const int size = std::snprintf(text, sizeof text, "%.3g", value);
@@ -24,7 +24,7 @@ std::string counted(std::size_t count, const std::string& noun) {
   return std::to_string(count) + " " + noun + (count == 1 ? "" : "s");
 }
 
-// A text has no difference but that it is another.
+// Texts that differ have no numeric difference.
 std::string difference_text(const ValuePair& pair) {
   return pair.of_text ? "text" : rounded(pair.difference);
 }
@@ -32,7 +32,7 @@ std::string difference_text(const ValuePair& pair) {
 using Line = std::vector<std::string>;
 
 std::string table_of(const Comparison& comparison, const Allowances& allowances) {
-  // What is allowed in a column matters where it is another in each.
+  // The allowance is shown only if it varies between columns.
   const bool own = !allowances.by_column.empty();
   std::vector<Line> lines{{"column", "largest |a - b|", "in row"}};
   if (own) lines[0].emplace_back("allowed");

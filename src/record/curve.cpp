@@ -12,11 +12,11 @@
 namespace bbsim::record {
 namespace {
 
-// Where `f`, which has different signs at both ends and is 0 at neither, is zero: by halves, to
-// rounding.
+// The zero of `f` by bisection, to rounding. `f` has different signs at both ends and is 0 at
+// neither.
 template <class Function>
 double root(double low, double high, Function f) {
-  const double rising = f(low) < 0 ? 1 : -1;  // one that falls is one that rises, turned over
+  const double rising = f(low) < 0 ? 1 : -1;  // a falling function rises after a change of sign
   for (;;) {
     const double middle = low + (high - low) / 2;
     if (middle <= low || middle >= high) return middle;
@@ -24,10 +24,10 @@ double root(double low, double high, Function f) {
   }
 }
 
-// How far a value of a piece may be off by rounding alone: that of its polynomial, by Higham (IMA
-// J. Numer. Anal. 24:547, 2004) at most (6 n + 6) u times the Lebesgue constant and the largest
-// value at the n + 1 points; and as far as it goes, at its steepest, in the rounding of a time,
-// since a switch at its end stands at a time that is rounded.
+// The greatest rounding error of a value of a piece, in two parts. The polynomial's error is at
+// most (6 n + 6) u times the Lebesgue constant and the largest value at the n + 1 points (Higham,
+// IMA J. Numer. Anal. 24:547, 2004). A switch at the end of a piece has a rounded time, during
+// which the value changes at most at its steepest slope.
 double rounding_of_piece(double from, double to, const ChebyshevPoints& points,
                          const double* values, const double* slopes) {
   const std::size_t count = points.size();
@@ -40,7 +40,7 @@ double rounding_of_piece(double from, double to, const ChebyshevPoints& points,
   const double lebesgue = 1 + 2 * points.overshoot();
   const double of_polynomial = 6 * static_cast<double>(count) * unit_roundoff * lebesgue * size;
   const auto [least, most] = std::minmax_element(values, values + count);
-  // No further than over all of a piece that is as short as rounding itself.
+  // A piece as short as the rounding of its time changes by no more than its range.
   const double part = to - from > rounding_of(to) ? rounding_of(to) / (to - from) : 1;
   return of_polynomial + std::min(part * steepest, *most - *least);
 }
@@ -115,13 +115,13 @@ void Curve::add_piece(double from, double to, const ChebyshevPoints& points, con
     const double turn = root(low, high, slope);
     end_arc(turn, this->value(number, turn));
   };
-  // The turns are where the slope changes its sign, at the points and between them.
+  // The slope changes its sign at each turn, at the points and between them.
   for (std::size_t i = 0; i + 1 < count; ++i) {
     const double middle = points[i] + (points[i + 1] - points[i]) / 2;
     const double middle_slope = slope(middle);
     look_between(points[i], slopes_[i], middle, middle_slope);
     look_between(middle, middle_slope, points[i + 1], slopes_[i + 1]);
-    // A turn at a point itself.
+    // A turn exactly at a point.
     if (i + 2 < count && slopes_[i + 1] == 0) end_arc(points[i + 1], values[i + 1]);
   }
   end_arc(1, values[count - 1]);
@@ -169,8 +169,8 @@ bool Curve::ends_at_least(double sign, double level) const {
 std::optional<Curve::Place> Curve::crossing(double level, scenario::Instant::Way way,
                                             std::size_t number) const {
   using Way = scenario::Instant::Way;
-  std::optional<Place> last, reached;  // reached: where it came to the level and stands at it
-  int side_before = 0;                 // of the level, where it was
+  std::optional<Place> last, reached;  // reached: where it came to the level and stayed
+  int side_before = 0;                 // the side of the level before
   std::size_t found = 0;
   const auto look = [&](int now, const Place& at) {
     if (now == 0) {
@@ -214,7 +214,7 @@ Curve::Extreme Curve::greatest(double sign, const std::optional<Place>& from) co
 
 std::optional<Curve::Place> Curve::place_at(double t) const {
   if (pieces_.empty() || !(t >= pieces_.front().from)) return {};
-  // The last piece that has begun; what lies between two pieces is a switch, as short as rounding.
+  // The last piece that has begun. A gap between two pieces is a switch, as short as rounding.
   const auto after =
       std::upper_bound(pieces_.begin(), pieces_.end(), t,
                        [](double time, const Piece& piece) { return time < piece.from; });

@@ -1,8 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// A number of a run over time, as arcs on each of which it only rises or only falls: what crosses
-// what, when, and how far it goes.
+// A number of a run over time, cut into monotone arcs. Finds crossings of levels and extremes.
 #pragma once
 
 #include <cstddef>
@@ -14,11 +13,11 @@
 
 namespace bbsim::record {
 
-// Made of pieces in order of time, which may jump from one to the next. A piece is a polynomial
+// Consists of pieces in the order of time, with jumps allowed between them. A piece is a polynomial
 // through values at Chebyshev points, a straight line between rows of a file, or an instant.
 class Curve {
  public:
-  // An instant of the curve, on one of its pieces. Curves of one run have the same pieces.
+  // An instant on one of the pieces. Curves of one run have the same pieces.
   struct Place {
     double t;  // s
     std::size_t piece;
@@ -30,46 +29,45 @@ class Curve {
   };
 
   void clear();
-  // Pieces with a value that is no finite number are left out of all that is asked.
+  // Pieces with a value that is not finite are ignored by all queries but last_value().
   void add_piece(double from, double to, const ChebyshevPoints& points, const double* values);
   void add_line(double from, double to, double from_value, double to_value);
-  // What the curve is worth at its very end, after what switches there.
+  // Sets the value at the very end, after a switch there.
   void end_at(double t, double value);
 
   [[nodiscard]] bool empty() const { return arcs_.empty(); }
   [[nodiscard]] double start() const { return arcs_.front().from.t; }
   [[nodiscard]] double start_value() const { return arcs_.front().from_value; }
   [[nodiscard]] double end_value() const { return arcs_.back().to_value; }
-  // That at the end of the last piece, even where it is no finite number, or there is no piece.
+  // The value at the end of the last piece, even if it is not finite; NaN if there is no piece.
   [[nodiscard]] double last_value() const;
 
-  // Where a piece comes no further beyond a level than its rounding, it stands at the level: that
-  // is no crossing of it.
+  // A value that exceeds a level by no more than the rounding of its piece is at the level.
+  // Reaching a level is not crossing it.
 
   // The first instant at which sign * value >= level.
   [[nodiscard]] std::optional<Place> first_at_least(double sign, double level) const;
-  // The last one.
+  // The last instant at which sign * value >= level.
   [[nodiscard]] std::optional<Place> last_at_least(double sign, double level) const;
-  // Whether the end is one.
+  // Whether sign * value >= level at the end.
   [[nodiscard]] bool ends_at_least(double sign, double level) const;
-  // The instant at which the curve passes through the level for the number-th time, from 1; 0 is
-  // the last time. It does not where it turns back, and not at its start.
+  // The instant at which the curve crosses the level for the number-th time, counted from 1; 0
+  // means the last time. A turn at the level is no crossing, nor is a start at it.
   [[nodiscard]] std::optional<Place> crossing(double level, scenario::Instant::Way way,
                                               std::size_t number) const;
-  // The greatest sign * value from there on (from the start where there is no place), and its
-  // first time.
+  // The value for which sign * value is greatest, from `from` or the start on, and its first time.
   [[nodiscard]] Extreme greatest(double sign, const std::optional<Place>& from = {}) const;
-  // The value at a place, of this curve or another one of the run.
+  // The value at a place of this curve or of another curve of the run.
   [[nodiscard]] double value(const Place& place) const;
-  // At a time; of an instant at which it jumps, after it.
+  // The place at a time (s). At a jump, it is the place after the jump.
   [[nodiscard]] std::optional<Place> place_at(double t) const;
 
  private:
   struct Piece {
     double from, to;                // s
-    const ChebyshevPoints* points;  // null of a straight line
-    std::size_t first;              // of its values
-    double rounding;                // of a value between its ends
+    const ChebyshevPoints* points;  // null for a straight line
+    std::size_t first;              // index of its first value
+    double rounding;                // greatest rounding error of a value within it
   };
   struct Arc {
     Place from, to;
@@ -77,14 +75,14 @@ class Curve {
   };
   [[nodiscard]] double value(std::size_t piece, double part) const;
   [[nodiscard]] Place place(std::size_t piece, double part) const;
-  // The side of the level that a value of a piece is on: 1, -1, or 0 where it stands at it.
+  // The side of the level on which a value of a piece is: 1, -1, or 0 if it is at the level.
   [[nodiscard]] int side(double value, double level, std::size_t piece) const;
-  // Where the arc, of whose ends one at most stands at the level, is at it.
+  // Where the arc is at the level. At most one of its ends is at the level.
   [[nodiscard]] Place at_level(const Arc& arc, double level) const;
   void add_line(double from, double to, double from_value, double to_value, double rounding);
 
   std::vector<Piece> pieces_;
-  std::vector<double> values_, slopes_;  // slopes_: of the piece that is added
+  std::vector<double> values_, slopes_;  // slopes_: of the piece being added
   std::vector<Arc> arcs_;
 };
 

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Where a ball left a plate of known size, in scenes that do not watch for it: seen on the rows as
-// they pass, at the price of two comparisons a row.
+// Notes where a ball leaves a plate of known size, in scenes that have no event for it. This checks
+// rows as they pass, with two comparisons a row.
 #pragma once
 
 #include <cstddef>
@@ -22,10 +22,10 @@ struct OffPlate {
 
 class EdgeNote : public solve::StateSink {
  public:
-  // Whether the scene has a plate that ends, and no event at its edge.
+  // Whether the scene's plate has a size and no event at its edge.
   [[nodiscard]] static bool wanted(const Scenario& scenario);
 
-  // Hands all rows on to `next`.
+  // Passes all rows on to `next`.
   EdgeNote(const model::Model& model, const Plate& plate, const solve::OutputGrid& grid,
            solve::StateSink& next);
 
@@ -41,7 +41,7 @@ class EdgeNote : public solve::StateSink {
   const solve::OutputGrid& grid_;
   solve::StateSink& next_;
   std::size_t row_size_;
-  std::optional<std::size_t> x_, y_;  // among the states; what symmetry keeps at zero is none
+  std::optional<std::size_t> x_, y_;  // indices of states; empty if symmetry keeps the state at 0
   std::optional<OffPlate> left_;
 };
 

@@ -12,11 +12,12 @@
 namespace bbsim::record {
 namespace {
 
-// Points are doubled up to so many intervals where they do not show the number.
+// Bounds on the number of intervals. Points are doubled while they do not resolve a column.
 constexpr std::size_t fewest_parts = 8, most_parts = 64;
-// They show it, if what they leave out is so small a part of its changes that no maximum is missed.
+// Points resolve a column if the remainder is at most this part of its range. No maximum is then
+// missed.
 constexpr double shown = 1e-4;
-// What is nearer than this is no greater, but rounded differently.
+// Smaller relative differences are due to rounding.
 constexpr double rounding = 1e-14;
 
 std::vector<const scenario::Column*> columns_of(const std::vector<Extremes::Sought>& sought) {
@@ -100,11 +101,11 @@ bool Extremes::may_matter(std::size_t i, const ChebyshevPoints& points) const {
     least = std::min(least, values[p]);
     most = std::max(most, values[p]);
   }
-  // Where there is no number too.
+  // Also true if a value is NaN.
   return !(most + points.overshoot() * (most - least) <= greatest_[i].value);
 }
 
-// Overflows, and what is no number, more points would not show either.
+// More points would not resolve an overflow or a NaN either.
 bool Extremes::is_shown(std::size_t i, const ChebyshevPoints& points) const {
   const double* const values = &values_[i * points.size()];
   const auto [least, most] = std::minmax_element(values, values + points.size());
@@ -123,7 +124,7 @@ void Extremes::climb_within(std::size_t i, const solve::Piece& piece,
     return signs_[i] * columns_[i][0];
   };
   const auto climb_there = [&](Bracket bracket) {
-    // Values that were refined are the polynomial's, good to `shown` alone.
+    // Refined values are those of the polynomial, and only as good as `shown`.
     for (Peak* const peak : {&bracket.from, &bracket.best, &bracket.to}) {
       peak->value = value_at(peak->at);
     }
@@ -145,11 +146,11 @@ bool Extremes::may_exceed(std::size_t i, const std::optional<solve::Bounds>& bou
   return !(std::max(signs_[i] * bounds->least, signs_[i] * bounds->most) <= greatest_[i].value);
 }
 
-// Whether nothing within the piece is greater than it was before, by what the integrator says
-// without being asked for a row.
+// Whether no value in the piece exceeds the greatest so far, by bounds of the integrator that need
+// no rows.
 bool Extremes::matters_not(const solve::Piece& piece) const {
   if (!loads_alone_) return false;
-  // The greatest and the least of one load stand next to each other.
+  // The greatest and the least value of one load are neighbors and share the bounds.
   std::optional<solve::Bounds> bounds;
   bool close = false;
   for (std::size_t i = 0; i < size(); ++i) {
@@ -167,7 +168,7 @@ bool Extremes::matters_not(const solve::Piece& piece) const {
 
 void Extremes::accept(const solve::Piece& piece) {
   if (matters_not(piece)) return;
-  // Half as many points as there may be need of mostly show all numbers.
+  // Half of the points that may be needed usually resolve all columns.
   const std::size_t enough = piece.parts();
   std::size_t parts = std::max(fewest_parts, (enough + 1) / 2);
   for (;; parts *= 2) {

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The greatest and least values that columns of a run take, over its continuous motion.
+// Finds the greatest and least values of columns over the continuous motion of a run.
 #pragma once
 
 #include <cstddef>
@@ -16,9 +16,9 @@
 
 namespace bbsim::record {
 
-// Looks at each piece of a run at as many points as the integrator's polynomial has detail there,
-// both ends included, hence at both sides of every switch. Where a number may be greater between
-// two points than it was anywhere before, it goes for that maximum on the polynomial.
+// Evaluates each piece of a run at as many points as the integrator's polynomial has detail there.
+// Both ends are included, hence both sides of every switch. If a value between two points may
+// exceed the greatest so far, a search on the polynomial finds it.
 class Extremes : public solve::PieceSink {
  public:
   struct Sought {
@@ -30,13 +30,13 @@ class Extremes : public solve::PieceSink {
     double t;  // s
   };
 
-  // What is no number is passed over. No column may need orientations, which come of rows in turn.
+  // Ignores NaN. No column may need orientations, which depend on the rows before.
   explicit Extremes(std::vector<Sought> sought);
 
-  // Begins anew; the two outlive the run.
+  // Begins a run. Both arguments must outlive it.
   void begin(const model::Model& model, const model::BallConstants& constants);
-  // A row that may be of no piece, such as the start of a run that ends there, or the end where it
-  // switches.
+  // Takes a row that may belong to no piece: the start of a run that ends there, or the end after a
+  // switch.
   void note(double t, const double* row);
   void note(const model::Sample& sample);
 
@@ -44,7 +44,7 @@ class Extremes : public solve::PieceSink {
   void accept(const solve::Piece& piece) override;
 
   [[nodiscard]] std::size_t size() const { return greatest_.size(); }
-  // No number before there was one.
+  // NaN until there is a value.
   [[nodiscard]] Extreme operator[](std::size_t i) const {
     return {signs_[i] * greatest_[i].value, greatest_[i].t};
   }
@@ -59,16 +59,16 @@ class Extremes : public solve::PieceSink {
   void climb_within(std::size_t i, const solve::Piece& piece, const ChebyshevPoints& points);
 
   Rows columns_;
-  std::vector<std::optional<solve::Load>> loads_;  // of each column, if it is one
-  bool loads_alone_ = false;                       // whether all are
-  std::vector<double> signs_;  // -1 where the least value is the greatest of the column turned over
+  std::vector<std::optional<solve::Load>> loads_;  // for each column, if it is a load
+  bool loads_alone_ = false;                       // all columns are loads
+  std::vector<double> signs_;  // -1 to seek the least value: the greatest of the negated column
   const model::Model* model_ = nullptr;
   const model::BallConstants* constants_ = nullptr;
   std::vector<Extreme> greatest_;
   ChebyshevTables tables_;
   std::vector<double> times_, rows_;
-  std::vector<double> values_, finer_;  // of each column, its values at the points
-  std::vector<std::size_t> matter_;     // those that may be greater in this piece than before
+  std::vector<double> values_, finer_;  // for each column, its values at the points
+  std::vector<std::size_t> matter_;  // columns that may exceed their greatest value in this piece
 };
 
 }  // namespace bbsim::record

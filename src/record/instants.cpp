@@ -20,12 +20,12 @@ Measured nothing(const char* why) {
   return {no_number, why};
 }
 
-// From where the column starts to where it is meant to be at the end.
+// A step of a column, from its start to the value that it should reach.
 struct Step {
   double start, end;
   [[nodiscard]] double size() const { return std::abs(end - start); }
   [[nodiscard]] double sign() const { return end < start ? -1 : 1; }
-  // To the rounding of the difference.
+  // Whether start and end differ by rounding only.
   [[nodiscard]] bool is_none() const {
     return !(size() > rounding_of(std::max(std::abs(start), std::abs(end))));
   }
@@ -38,8 +38,8 @@ Measured peak(const Curve& curve, StepMetric metric, double start) {
   return {metric == StepMetric::peak ? std::abs(most.value) : most.t - curve.start()};
 }
 
-// As python-control's step_info() has them, of all instants in place of its samples, and of a step
-// that may start anywhere.
+// As in python-control's step_info(), but over all instants instead of samples, and for a step that
+// may start anywhere.
 Measured step_metric(const Curve& curve, StepMetric metric, const Step& step) {
   if (step.is_none()) return nothing("it is to end where it starts, a step of 0");
   const double size = step.size(), sign = step.sign();
@@ -93,7 +93,7 @@ Found place_of(const Instant& instant, const Curve& curve) {
     case Instant::Kind::stays_above:
       break;
   }
-  // Above is below, turned over.
+  // A change of sign turns above into below.
   const double sign = instant.kind == Instant::Kind::stays_below ? 1 : -1;
   if (curve.ends_at_least(sign, sign * instant.level)) return {{}, "it does not stay there"};
   const auto last = curve.last_at_least(sign, sign * instant.level);

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Measures of curves: step metrics, and what there is where something crosses something.
+// Measures of curves: step metrics, times of events on a curve, and values at these times.
 #pragma once
 
 #include <functional>
@@ -14,7 +14,7 @@ namespace bbsim::record {
 // The curve of a column.
 using CurveOf = std::function<const Curve&(const scenario::Column&)>;
 
-// What was measured; of what is no number, why, in a few words.
+// The value of a measure; if it is NaN, `why` says why in a few words.
 struct Measured {
   double value;
   const char* why = nullptr;
@@ -23,7 +23,7 @@ struct Measured {
 // The value of a measure of kind step, when or find.
 [[nodiscard]] Measured measured(const scenario::Measure& measure, const CurveOf& curve_of);
 
-// Whether a measure is of one of these kinds.
+// Whether the measure is of one of these kinds.
 [[nodiscard]] inline bool is_of_curves(const scenario::Measure& measure) {
   using Kind = scenario::Measure::Kind;
   return measure.kind == Kind::step || measure.kind == Kind::when || measure.kind == Kind::find;

@@ -100,7 +100,7 @@ StoredRun::Cut StoredRun::cut_of(const scenario::Window& window) const {
 
 std::vector<double> StoredRun::cut(const std::vector<double>& values, const Cut& cut) const {
   const std::vector<double>& times = *times_;
-  // Row i is the first one behind the time.
+  // The value at time t, between rows i - 1 and i.
   const auto between = [&](std::size_t i, double t) {
     const double part = (t - times[i - 1]) / (times[i] - times[i - 1]);
     return values[i - 1] + part * (values[i] - values[i - 1]);

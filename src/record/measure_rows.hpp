@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Measures of a stored run: its rows, with straight lines between.
+// Measures of a stored run: its rows, with straight lines between them.
 #pragma once
 
 #include <cstddef>
@@ -15,34 +15,35 @@
 
 namespace bbsim::record {
 
-// A table of a run, whose columns need not be bbsim's own.
+// The table of a run. Its columns need not be known to bbsim.
 class StoredRun {
  public:
-  // Throws InputError where the table, of that name, has no t, no rows, or times that fall.
+  // `name` is the file's name in messages. Throws InputError if the table has no t, no rows, or
+  // times that decrease or are not finite.
   StoredRun(file::TableData table, const std::string& name);
-  StoredRun(const StoredRun&) = delete;  // columns look at this one's names
+  StoredRun(const StoredRun&) = delete;  // columns_ refer to the names in table_
   StoredRun& operator=(const StoredRun&) = delete;
 
   // The measures of these names. Throws InputError.
   [[nodiscard]] std::vector<scenario::Measure> measures_named(
       const std::vector<std::string>& names) const;
 
-  // Columns go straight from row to row, and so they begin and end within a window; rms_ is of the
-  // rows. What is no finite number is passed over.
+  // Interpolates columns linearly between rows, also at the ends of a window; rms_ uses rows only.
+  // Ignores NaN.
   [[nodiscard]] Measured value_of(const scenario::Measure& measure) const;
 
-  // The reference that a step of the column is meant to reach, by its name, if the column has one
-  // and the file does not; empty otherwise.
+  // The name of the reference that a step of the column should reach, if the file lacks it; empty
+  // otherwise.
   [[nodiscard]] std::string lacks_reference(const scenario::Measure& measure) const;
 
-  // Of a column that a measure is of.
+  // The values of a column that a measure refers to.
   [[nodiscard]] const std::vector<double>& values_of(const scenario::Column& column) const;
 
  private:
-  // The rows of a window, and the columns' values at its ends where no row is.
+  // The rows of a window, and its ends where there is no row.
   struct Cut {
     std::size_t first, last;              // rows within it: [first, last)
-    std::optional<double> before, after;  // times of its ends, s
+    std::optional<double> before, after;  // times of its ends, s, if interpolation is needed there
   };
   [[nodiscard]] Cut cut_of(const scenario::Window& window) const;
   [[nodiscard]] std::vector<double> cut(const std::vector<double>& values, const Cut& cut) const;

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The most that the motors of an ideal gimbal have to give in a run.
+// The peak loads of an ideal gimbal's motors in a run.
 #pragma once
 
 #include "model/model.hpp"
@@ -14,14 +14,14 @@ class MotorLoads {
  public:
   MotorLoads();
 
-  // Begins a run; the two outlive it.
+  // Begins a run. Both arguments must outlive it.
   void begin(const model::Model& model, const model::BallConstants& constants);
-  // Who is to be told of the run's motion, and of its first row.
+  // Needs the pieces and the first row of the run.
   [[nodiscard]] Extremes& extremes() { return extremes_; }
   [[nodiscard]] MotorPeaks peaks() const;
 
  private:
-  Extremes extremes_;  // the greatest and the least of each load
+  Extremes extremes_;  // the greatest and the least value of each load
   bool with_plate_ = false;
 };
 

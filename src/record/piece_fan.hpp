@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// One run's motion for all who look at it.
+// Passes the pieces of one run to several sinks.
 #pragma once
 
 #include <vector>
@@ -10,7 +10,7 @@
 
 namespace bbsim::record {
 
-// Passes pieces on to any number of sinks, in their order.
+// Passes each piece to all sinks, in the order in which they were added.
 class PieceFan : public solve::PieceSink {
  public:
   void clear() { sinks_.clear(); }
@@ -21,7 +21,7 @@ class PieceFan : public solve::PieceSink {
   void accept(const solve::Piece& piece) override {
     for (solve::PieceSink* const sink : sinks_) sink->accept(piece);
   }
-  // Who is to be told: null if nobody asks.
+  // The sink for the pieces; null if there is none.
   [[nodiscard]] solve::PieceSink* sink() {
     if (sinks_.size() > 1) return this;
     return sinks_.empty() ? nullptr : sinks_.front();

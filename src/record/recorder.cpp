@@ -16,7 +16,7 @@ using scenario::Measure;
 
 namespace {
 
-// Of a run that an event stopped.
+// The sample at which an event stopped the run.
 model::Sample end_of(const solve::Outcome& outcome) {
   const model::Occurrence& at = outcome.occurrences.back();
   model::Sample end = at.sample;
@@ -26,7 +26,7 @@ model::Sample end_of(const solve::Outcome& outcome) {
 
 constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
 
-// The measures by their windows, each of which comes once.
+// Groups the measures by their windows.
 std::vector<std::unique_ptr<WindowMeasures>> by_window(const std::vector<Measure>& measures) {
   std::vector<std::vector<std::size_t>> groups;
   for (std::size_t m = 0; m < measures.size(); ++m) {
@@ -42,7 +42,7 @@ std::vector<std::unique_ptr<WindowMeasures>> by_window(const std::vector<Measure
   return windows;
 }
 
-// Columns, and behind them those that windows want the rows of.
+// The columns, followed by those whose rows the windows need.
 std::vector<const scenario::Column*> with_columns_of(
     std::vector<const scenario::Column*> columns,
     const std::vector<std::unique_ptr<WindowMeasures>>& windows) {
@@ -108,7 +108,7 @@ void Recorder::accept(std::size_t first, std::size_t count, const double* values
   if (count == 0) return;
   times_.resize(count);
   for (std::size_t i = 0; i < count; ++i) times_[i] = (*grid_)[first + i];
-  // A run may end before its first step.
+  // A run may end before its first step, without a piece.
   if (first == 0 && with_loads_) loads_->extremes().note(times_[0], values);
   if (quick_) {
     track_->accept(first, count, values);

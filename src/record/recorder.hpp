@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Run -> columns of its rows, in a table, and measures of its motion (scenario/measures.hpp).
+// Records a run: columns of its rows in a table, and measures of its motion
+// (scenario/measures.hpp).
 #pragma once
 
 #include <cstddef>
@@ -24,39 +25,41 @@
 
 namespace bbsim::record {
 
-// What is asked of each run.
+// The request for each run.
 struct Asked {
   std::vector<const scenario::Column*> columns{};  // of its rows, for a table
   std::vector<scenario::Measure> measures{};
-  // The peaks of the motors' loads, if a column needs the forces or the plate's inertia is known.
+  // Peaks of the motors' loads; taken only if a column needs forces or the plate's inertia is
+  // known.
   bool peaks = false;
 };
 
-// How a run is looked at.
+// How to record a run.
 struct Manner {
-  // The usual measures of a smooth model by TrackMeasures, which looks at many instants at a time:
-  // the same numbers but for their rounding.
+  // Takes the usual measures of a smooth model by TrackMeasures, which evaluates many instants at a
+  // time. The numbers differ by rounding only.
   bool quick = false;
   // The motion or reference, and the grid, are those of the run before.
   bool same_signals = false;
 };
 
-// Records one run after another. A measure leaves out values that are no number, but for `end`; one
-// without a value is no number.
+// Records one run after another. All measures but `end` ignore NaN; a measure without a value is
+// NaN.
 class Recorder : public solve::StateSink {
  public:
   explicit Recorder(Asked asked);
-  Recorder(const Recorder&) = delete;  // fan_ looks at this one's
+  Recorder(const Recorder&) = delete;  // fan_ refers to members
   Recorder& operator=(const Recorder&) = delete;
 
-  // Begins a run; all outlive it. `table` gets the columns, and is null if there are none.
+  // Begins a run. All arguments must outlive it. `table` receives the columns, and is null if there
+  // are none.
   void begin(const model::Model& model, const model::BallConstants& constants,
              const solve::OutputGrid& grid, file::TableWriter* table = nullptr,
              const Manner& manner = {});
 
-  // Whether this run is looked at in the quick manner.
+  // Whether this run is recorded in the quick manner.
   [[nodiscard]] bool is_quick() const { return quick_; }
-  // Whether no more than positions is looked at.
+  // Whether only positions are needed.
   [[nodiscard]] bool wants_positions_only() const;
 
   // Throws OutputError.
@@ -64,20 +67,20 @@ class Recorder : public solve::StateSink {
   [[nodiscard]] solve::PieceSink* pieces() override { return fan_.sink(); }
   [[nodiscard]] bool wants_rows() const override;
 
-  // Writes the run's measures, one after the other.
+  // Writes the measures of the run, one after the other.
   void finish(const solve::Outcome& outcome, double* results);
-  // Why those that are no number are none, after finish(): of each measure.
+  // After finish(): why each measure is NaN, or null if it is not.
   [[nodiscard]] const scenario::Whys& whys() const { return whys_; }
 
-  // The columns at the instant at which an event stopped the run, if no row is of that instant;
-  // else nothing. Comes after the last row.
+  // The columns at the instant at which an event stopped the run; empty if a row has this instant.
+  // Call it after the last row.
   [[nodiscard]] std::vector<double> end_row(const solve::Outcome& outcome);
 
-  // The peaks of a run that finish() was told of.
+  // After finish(): the peaks of the run, if they were taken.
   [[nodiscard]] std::optional<MotorPeaks> peaks() const;
 
-  // Why some of the rows so far hold a number that is not finite, in the first `columns` columns;
-  // empty if all are.
+  // Reports values that are not finite in the first `columns` columns of the rows so far; empty if
+  // there are none.
   [[nodiscard]] std::string why_not_finite(
       std::size_t columns = std::numeric_limits<std::size_t>::max()) const;
 
@@ -87,12 +90,12 @@ class Recorder : public solve::StateSink {
   void finish_each(const solve::Outcome& outcome, double* results);
 
   Asked asked_;
-  // Of each window that the measures are of; and which columns of rows_ each begins at.
+  // One for each window of the measures, and the index of its first column in rows_.
   std::vector<std::unique_ptr<WindowMeasures>> windows_;
   std::vector<std::size_t> first_columns_;
   Rows rows_;  // columns of the table, then of the windows' means
   scenario::Whys whys_;
-  std::optional<TrackMeasures> track_;  // takes the place of all these, if it can
+  std::optional<TrackMeasures> track_;  // replaces windows_ in the quick manner
   std::optional<MotorLoads> loads_;
   PieceFan fan_;
 
@@ -102,14 +105,14 @@ class Recorder : public solve::StateSink {
   bool quick_ = false, with_loads_ = false;
 
   struct Gaps {
-    std::size_t rows = 0;  // that are no finite number
-    double from = 0;       // the time of the first, s
+    std::size_t rows = 0;  // with a value that is not finite
+    double from = 0;       // time of the first one, s
   };
-  std::vector<Gaps> gaps_;            // of each column of the table
+  std::vector<Gaps> gaps_;            // for each column of the table
   std::vector<const double*> block_;  // columns of a block of rows
-  std::vector<double> times_;         // of them
-  double last_time_ = 0;              // s
-  std::vector<double> last_;          // row
+  std::vector<double> times_;         // of these rows, s
+  double last_time_ = 0;              // of the last row, s
+  std::vector<double> last_;          // the last row
 };
 
 }  // namespace bbsim::record

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Rows of a run as columns: the one way from states to numbers, for tables, measures and sweeps.
+// Evaluates columns from rows of a run, for tables, measures and sweeps.
 #pragma once
 
 #include <cstddef>
@@ -14,35 +14,35 @@
 
 namespace bbsim::record {
 
-// Evaluates columns, a block of rows at a time, and of each row what they need and no more: the
-// controller's law is not computed for a position, nor are sines of a given motion.
+// Evaluates columns, a block of rows at a time, and computes only the quantities that they need. A
+// position needs neither the control law nor the sines of a given motion.
 class Rows {
  public:
   explicit Rows(std::vector<const scenario::Column*> columns);
 
-  // Begins a run; the two outlive it.
+  // Begins a run. Both arguments must outlive it.
   void begin(const model::Model& model, const model::BallConstants& constants);
 
-  // Evaluates `count` rows (Model::row_size() numbers each) at their times (s). Orientations go on
-  // from the row before.
+  // Evaluates `count` rows (Model::row_size() numbers each) at their times (s). Orientations
+  // continue from the row before.
   void evaluate(const double* times, const double* rows, std::size_t count);
-  // A row that is a sample already.
+  // Evaluates a single row, given as a sample.
   void evaluate(const model::Sample& sample);
 
   [[nodiscard]] const std::vector<const scenario::Column*>& columns() const { return columns_; }
   [[nodiscard]] bool need_dynamics() const { return needs_dynamics_; }
-  // A column of the rows that were evaluated last.
+  // A column of the rows evaluated last.
   [[nodiscard]] const double* operator[](std::size_t column) const {
     return numbers_.data() + column * count_;
   }
 
  private:
-  // Of a block so many rows are samples at a time: they stay in the processor's first cache, and
-  // take a start of the program little memory.
+  // The number of rows that are samples at a time. They fit into the first-level cache and keep the
+  // program's memory small at its start.
   static constexpr std::size_t strip = 32;
 
   void resize(std::size_t count);
-  // The columns of the rows that are samples, from row `first` of the block on.
+  // Fills the columns from the samples; the first one is row `first` of the block.
   void fill(std::size_t first);
 
   std::vector<const scenario::Column*> columns_;
@@ -53,8 +53,8 @@ class Rows {
   const model::BallConstants* constants_ = nullptr;
   std::optional<BallTurn> turn_;
 
-  std::size_t count_ = 0;               // rows of the block
-  std::vector<model::Sample> samples_;  // of a strip of it, as what follows from them
+  std::size_t count_ = 0;               // of the block
+  std::vector<model::Sample> samples_;  // of a strip of the block, like the next two
   std::vector<model::Dynamics> dynamics_;
   std::vector<Quaternion> orientations_;
   std::vector<double> numbers_;  // column after column

@@ -16,7 +16,7 @@ template <class Archive>
 void archive_of(Archive& archive, RunState& state) {
   archive(state.version, state.instruction_set, state.identity, state.gamma, state.endless,
           state.end, state.least_end, state.time, state.next_row, state.state);
-  // A state is kept behind the first row.
+  // A state is saved only after the first row.
   archive.require(state.next_row > 0 && is_finite(state.end, state.time) &&
                   is_number(state.least_end));
 }

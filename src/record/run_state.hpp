@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The state of a run as a file: what `run --save-state` writes and `run --from-state` goes on from.
+// The file that `run --save-state` writes and from which `run --from-state` continues.
 #pragma once
 
 #include <cstddef>
@@ -11,27 +11,27 @@
 
 namespace bbsim::record {
 
-// A state is of one build, one kind of machine, and one scene: only then are the rows that follow
-// those of the one run.
+// The state of a run. It is valid for one build, one instruction set and one scene. Otherwise the
+// rows that follow would differ from those of a single run.
 struct RunState {
   std::string version, instruction_set;
-  std::string identity;  // of the scene: its text, what was set, its tables
-  bool gamma = false;    // whether the ball's turn is integrated
-  bool endless = false;  // whether the run's end was not known
-  double end = 0;        // s; of a run whose end was
-  double least_end = 0;  // s; of one whose end was not: its steps are those of an end from here on
-  double time = 0;       // of the last row before it, s
+  std::string identity;  // of the scene: its text, overrides and tables
+  bool gamma = false;    // whether the ball's spin angle is integrated
+  bool endless = false;  // whether the end of the run is unknown
+  double end = 0;        // of the run, s; unless it is endless
+  double least_end = 0;  // s; the steps of an endless run are those for any later end
+  double time = 0;       // of the last row before the state, s
   std::size_t next_row = 0;
   std::string state;  // solve::Part::state
 };
 
-// Of any bytes: against damage, not against malice.
+// Detects damage, not malice.
 [[nodiscard]] std::uint64_t check_sum(std::string_view bytes);
 
 [[nodiscard]] std::string to_bytes(RunState state);
 
-// Throws InputError, with the file's name, where it holds no such state, whole and unchanged. A
-// file that does not begin as one is not read to its end.
+// Throws InputError with the file's name unless the file is a complete, undamaged state. If the
+// file does not begin like a state, the rest is not read.
 [[nodiscard]] RunState read_state(const std::string& file);
 
 }  // namespace bbsim::record

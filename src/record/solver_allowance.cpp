@@ -24,7 +24,7 @@ namespace {
 
 using yaml::Dimension;
 
-constexpr double growth = 100;  // of the errors of steps
+constexpr double growth = 100;  // of errors from one step to all
 
 std::optional<std::string> attribute(const file::CellTable& table, std::string_view name) {
   for (const auto& [key, value] : table.attributes) {
@@ -33,7 +33,7 @@ std::optional<std::string> attribute(const file::CellTable& table, std::string_v
   return {};
 }
 
-// A number above zero.
+// The attribute as a number above 0.
 std::optional<double> number(const file::CellTable& table, std::string_view name) {
   const std::optional<std::string> text = attribute(table, name);
   double value = 0;
@@ -56,7 +56,7 @@ Source source_of(const file::CellTable& table) {
   return source;
 }
 
-// The largest finite size.
+// The largest finite |value|.
 double largest(const file::CellColumn& column) {
   double size = 0;
   for (const double value : column.numbers) {
@@ -65,9 +65,9 @@ double largest(const file::CellColumn& column) {
   return size;
 }
 
-// What a file says of how well it was computed.
+// A file's statement of its accuracy.
 struct Claim {
-  double rtol = 0, atol = 0;            // both 0 if there is none
+  double rtol = 0, atol = 0;            // both 0 if unknown
   std::optional<double> error_bound{};  // m
   double spin_unit = 1, gamma_unit = 1, acceleration_unit = 1;
 };
@@ -77,7 +77,7 @@ Claim claim_of(const file::CellTable& table) {
   const std::optional<double> rtol = number(table, "rtol"), atol = number(table, "atol");
   if (rtol && atol) claim = {*rtol, *atol};
   if (const auto bound = number(table, "error_bound")) {
-    // A run that could not keep to it says what it kept to.
+    // A run that missed the bound states the error that it reached.
     claim.error_bound = std::max(*bound, number(table, "error_estimate").value_or(0));
   }
   const Source source = source_of(table);
@@ -105,7 +105,7 @@ Claim claim_of(const file::CellTable& table) {
   return claim;
 }
 
-// The column that a table's column holds, or is a measure of; null if states do not make it.
+// The column of this name, or of this measure; null if it is not computed from states.
 const Column* computed(const std::string& name) {
   const Column* column = find_column(name);
   if (column == nullptr) {
@@ -117,9 +117,9 @@ const Column* computed(const std::string& name) {
   return column;
 }
 
-// Columns of one kind share the size of their errors.
+// Columns of one kind have errors of one scale.
 std::string_view kind_of(const Column& column) {
-  if (column.needs == Needs::orientation) return "gamma";  // angles of the ball, both
+  if (column.needs == Needs::orientation) return "gamma";  // both are angles of the ball
   return column.name == "spin" || column.name == "gamma" ? column.name : column.unit;
 }
 
@@ -151,7 +151,7 @@ std::optional<Allowances> solver_allowances(const file::CellTable& a, const file
   }
   if (texts.empty()) return {};
 
-  std::map<std::string_view, double> sizes;  // by kind
+  std::map<std::string_view, double> sizes;  // largest values, by kind
   for (const file::CellTable* table : {&a, &b}) {
     for (std::size_t c = 0; c < table->names.size(); ++c) {
       const Column* const column = computed(table->names[c]);

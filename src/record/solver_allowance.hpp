@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// How far two results may be apart by what their solver was asked for.
+// How far two results may differ according to the tolerances of their solvers.
 #pragma once
 
 #include <optional>
@@ -10,20 +10,20 @@
 
 namespace bbsim::record {
 
-// From what HDF5 files carry: tolerances (attributes rtol, atol), or a bound on the error of the
-// positions (error_bound). Nothing if neither file carries any, as CSV cannot.
+// Reads HDF5 attributes: the tolerances rtol and atol, or the bound error_bound on the error of
+// positions. Empty if neither file has any; CSV cannot.
 //
-// Tolerances hold for a step; the errors of all steps together are allowed to be a hundred times
-// that, as they are of the golden files. So each file may be off, in a column, by
+// Tolerances hold for a step. The errors of all steps together may be a hundred times as large, as
+// in the golden files. Each file may therefore be off, in a column, by
 //
 //     100 (rtol size + atol unit)
 //
-// and two files by the sum. `size` is the largest value in any column that is of the column's kind
-// (where x goes, y may come, with the error of x). `unit` is what a state's error of 1 in its own
-// unit makes of the column: 1 of most; 1/r of the spin, which is integrated as r spin; that times
-// the length of the run, of gamma, its integral; and omega_n^2 + 2 zeta omega_n of the gimbal's
-// accelerations behind a servo. Columns that are not computed from states, such as t, a sweep's
-// keys and texts, are compared by the standard tolerances.
+// and two files by the sum. `size` is the largest value in any column of the same kind: where x
+// goes, y may come, with the error of x. `unit` is the change of the column for a change of 1 in
+// the integrated state. It is 1 for most columns; 1/r for the spin, which is integrated as r spin;
+// 1/r times the length of the run for gamma, the integral of the spin; and omega_n^2 + 2 zeta
+// omega_n for the gimbal's accelerations behind a servo. Columns that are not computed from states,
+// like t, a sweep's keys and texts, have the standard tolerances.
 [[nodiscard]] std::optional<Allowances> solver_allowances(const file::CellTable& a,
                                                           const file::CellTable& b);
 

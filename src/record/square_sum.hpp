@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// A sum of squares that neither overflows nor vanishes where its root does not.
+// A sum of squares that neither overflows nor vanishes unless its root does.
 #pragma once
 
 #include <cmath>
@@ -9,8 +9,8 @@
 
 namespace bbsim::record {
 
-// Squares of what is large and of what is small are summed apart, scaled by powers of two (Blue,
-// ACM Transactions on Mathematical Software 4, 1978); all others as they are.
+// Sums the squares of large and of small values separately, scaled by powers of two (Blue, ACM
+// Transactions on Mathematical Software 4, 1978).
 class SquareSum {
  public:
   void add(double value) {
@@ -22,7 +22,7 @@ class SquareSum {
     sum += scaled * scaled;
   }
 
-  // The root of the mean square of so many values.
+  // The root mean square of `count` values.
   [[nodiscard]] double root_mean(std::size_t count) const {
     const auto n = static_cast<double>(count);
     if (of_large_ > 0) {
@@ -33,7 +33,7 @@ class SquareSum {
   }
 
  private:
-  // A billion squares of what is between them are within the range of doubles.
+  // A billion squares of values between these bounds stay within the range of doubles.
   static constexpr double large = 1e140, small = 1e-140;
   static constexpr int shift = 540;
   double of_large_ = 0, rest_ = 0, of_small_ = 0;

@@ -12,7 +12,7 @@
 namespace bbsim::record {
 namespace {
 
-// The one list of names, for both forms. Calls add(name, value) for each.
+// The names of all members, once for both formats. Calls add(name, value) for each.
 template <class Add>
 void for_each_member(const RunSummary& summary, Add add) {
   add("version", summary.version);
@@ -67,7 +67,7 @@ file::AttributeValue to_value(const std::vector<std::string>& values) {
   return text;
 }
 
-// The one list of an event's names, for both forms.
+// The names in an event, once for both formats.
 template <class Add>
 void for_each_member(const EventRecord& event, Add add) {
   add("t", event.t);
@@ -147,7 +147,7 @@ void write_summary(const std::string& file, const RunSummary& summary) {
 file::Attributes to_attributes(const RunSummary& summary, const std::string& scenario_text) {
   file::Attributes attributes;
   const auto add = [&](const std::string_view name, const auto& value) {
-    // Runs that are alike give the same bytes, wherever they go and however long they take.
+    // Equal runs give the same bytes, even with other output files and durations.
     if (name != "output" && name != "cpu_seconds") attributes.emplace_back(name, to_value(value));
   };
   for_each_member(summary, add);

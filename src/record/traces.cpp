@@ -11,7 +11,7 @@ namespace bbsim::record {
 namespace {
 
 constexpr std::size_t most_intervals = 64;
-// What more points would change is of this size, relative to the values.
+// Points suffice if the remainder is at most this part of the values.
 constexpr double unseen = 1e-14;
 
 }  // namespace

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Follows columns over the continuous motion of a run, and keeps them as curves.
+// Follows columns over the continuous motion of a run and keeps them as curves.
 #pragma once
 
 #include <cstddef>
@@ -16,19 +16,19 @@
 
 namespace bbsim::record {
 
-// Each piece of the run is looked at in as many points as it takes to have its columns to rounding,
-// or in 64 where they are not smooth.
+// Evaluates each piece at enough points to represent its columns to rounding, or at 64 intervals
+// where they are not smooth.
 class Traces : public solve::PieceSink {
  public:
-  // No column may need orientations, which come of rows in turn.
+  // No column may need orientations, which depend on the rows before.
   explicit Traces(std::vector<const scenario::Column*> columns);
 
-  // Begins anew; the two outlive the run.
+  // Begins a run. Both arguments must outlive it.
   void begin(const model::Model& model, const model::BallConstants& constants);
   void begin_run() override;
   void accept(const solve::Piece& piece) override;
-  // The run ends at `t`, where the columns have these values; if it ended before its first step,
-  // that is all.
+  // Ends the run at `t` (s), where the columns have these values. If the run ended before its first
+  // step, the curves have only this point.
   void finish(double t, const Rows& last);
 
   [[nodiscard]] const std::vector<const scenario::Column*>& columns() const {

@@ -40,7 +40,8 @@ std::vector<const Column*> columns_of(const std::vector<Measure>& measures,
   return columns;
 }
 
-// Each once: those of curves, and those that the window's end tells of where the run may go on.
+// Each column once: those of curves, and those of `end` measures whose window may end before the
+// run.
 std::vector<const Column*> traced_by(const std::vector<Measure>& measures) {
   std::vector<const Column*> columns;
   for (const Measure& measure : measures) {
@@ -110,7 +111,7 @@ void WindowMeasures::Sum::add(const scenario::Window& window, double t, double v
 
 const Curve& WindowMeasures::curve_of(const Column& column) const {
   static const Curve none;
-  // An open loop's reference is nowhere.
+  // An open loop has no reference.
   if (column.needs == scenario::Needs::controller && !model_->closed_loop()) return none;
   return traces_.of(column);
 }
@@ -127,7 +128,7 @@ void WindowMeasures::finish(const RunEnd& end, double* results, scenario::Whys& 
   const char* const none = before ? "the run ends before its window" : "there is no finite value";
   for (Rows* const rows : {&end_, &traces_end_}) rows->evaluate(end.sample);
   if (within) {
-    // The last piece ends before what switches at its end.
+    // The last piece does not include a switch at its end.
     if (!of_motion_.empty() && model_->hybrid()) extremes_.note(end.sample);
     if (!traces_.columns().empty()) traces_.finish(end.t, traces_end_);
   }

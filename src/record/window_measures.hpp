@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Measures of one window of a run, or of the whole of it (scenario/measures.hpp).
+// Takes the measures of one window of a run, or of the whole run (scenario/measures.hpp).
 #pragma once
 
 #include <cstddef>
@@ -19,29 +19,30 @@
 
 namespace bbsim::record {
 
-// Where a run ended: the row there, or the instant at which it was stopped.
+// The end of a run: its last row, or the instant at which an event stopped it.
 struct RunEnd {
   double t;  // s
   model::Sample sample;
 };
 
-// Takes measures of one window, of one run after another. Values that are no number are left out,
-// but for `end`; a measure without a value is no number.
+// Takes the measures of one window, of one run after another. All measures but `end` ignore NaN; a
+// measure without a value is NaN.
 class WindowMeasures {
  public:
-  // `which` of the measures are of the window.
+  // `which` has the indices of the window's measures.
   WindowMeasures(const std::vector<scenario::Measure>& measures, std::vector<std::size_t> which);
-  WindowMeasures(const WindowMeasures&) = delete;  // its pieces go to this one's
+  WindowMeasures(const WindowMeasures&) = delete;  // members refer to each other
   WindowMeasures& operator=(const WindowMeasures&) = delete;
 
-  // Begins a run; both outlive it. Adds those to the fan who look at its pieces.
+  // Begins a run. Model and constants must outlive it. Adds the sinks that need its pieces to the
+  // fan.
   void begin(const model::Model& model, const model::BallConstants& constants, PieceFan& fan);
 
-  // The columns whose rows are wanted, in the order in which accept_rows() gets them.
+  // The columns whose rows are needed, in the order of accept_rows().
   [[nodiscard]] std::vector<const scenario::Column*> row_columns() const;
-  // The first row of the run, which may be of no piece.
+  // Takes the first row of the run, which may belong to no piece.
   void accept_start(double t, const double* row);
-  // column(k) is that of row_columns()[k] in so many rows.
+  // Takes some rows: column(k) has the values of row_columns()[k].
   template <class ColumnOf>
   void accept_rows(const std::vector<double>& times, ColumnOf column) {
     for (std::size_t k = 0; k < sums_.size(); ++k) {
@@ -49,7 +50,7 @@ class WindowMeasures {
     }
   }
 
-  // Writes the measures to their places among all.
+  // Writes the measures to their indices among all.
   void finish(const RunEnd& end, double* results, scenario::Whys& whys);
 
  private:
@@ -64,16 +65,16 @@ class WindowMeasures {
   [[nodiscard]] const Curve& curve_of(const scenario::Column& column) const;
 
   std::vector<scenario::Measure> measures_;  // of the window
-  std::vector<std::size_t> places_;          // of each among all
+  std::vector<std::size_t> places_;          // index of each among all
   scenario::Window window_;
-  // Which of measures_: at the end, extremes, means, and step metrics and instants.
+  // Indices into measures_: values at the end, extremes, means, and step metrics and instants.
   std::vector<std::size_t> at_end_, of_motion_, of_rows_, of_curves_;
   Rows end_;
   Extremes extremes_;
   Traces traces_;
   Rows traces_end_;
   WindowPieces extreme_pieces_, trace_pieces_;
-  std::vector<Sum> sums_;  // of of_rows_
+  std::vector<Sum> sums_;  // for each of of_rows_
   const model::Model* model_ = nullptr;
 };
 

@@ -18,7 +18,7 @@ class PiecePart : public solve::Piece {
   void evaluate(const double* times, std::size_t count, double* rows) const override {
     whole_.evaluate(times, count, rows);
   }
-  // The whole's hold for the part.
+  // Bounds of the whole piece hold for its part.
   [[nodiscard]] std::optional<solve::Bounds> bounds(solve::Load load,
                                                     const model::BallConstants& constants,
                                                     bool closely) const override {

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The motion within a window of time, for a sink that knows of no other.
+// Limits the motion that a sink gets to a window of time.
 #pragma once
 
 #include "scenario/window.hpp"
@@ -9,8 +9,8 @@
 
 namespace bbsim::record {
 
-// Passes on what of each piece is within the window, the whole of it or a part; no part that is
-// shorter than the rounding of its time. Both outlive it.
+// Passes on each piece, or the part of it within the window, unless the part is shorter than the
+// rounding of its time. Window and sink must outlive it.
 class WindowPieces : public solve::PieceSink {
  public:
   WindowPieces(const scenario::Window& window, solve::PieceSink& sink)

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Numbers as text that a page reads at once: base64 of their bytes, little-endian.
+// Writes numbers as text that a page can decode: base64 of their little-endian bytes.
 #pragma once
 
 #include <span>
@@ -11,14 +11,14 @@ namespace bbsim::replay {
 
 [[nodiscard]] std::string base64(std::span<const unsigned char> bytes);
 
-// Values beyond what a float holds become infinite.
+// Values beyond the range of a float become infinite.
 [[nodiscard]] std::string base64_of_floats(std::span<const double> values);
 [[nodiscard]] std::string base64_of_doubles(std::span<const double> values);
 
-// The values are from -1 to 1, and are kept in steps of 1/32767.
+// Values from -1 to 1, in steps of 1/32767.
 [[nodiscard]] std::string base64_of_parts(std::span<const double> values);
 
-// The nearest float; not an overflow, which is undefined, but an infinity.
+// The nearest float; infinite on overflow, where a plain conversion is undefined.
 [[nodiscard]] float to_float(double value);
 
 }  // namespace bbsim::replay

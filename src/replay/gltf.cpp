@@ -26,7 +26,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 using Vector = std::array<double, 3>;
 
-// glTF writes the scalar last.
+// glTF puts the scalar last.
 Json gltf_rotation(const Quaternion& q) {
   return {q[1], q[2], q[3], q[0]};
 }
@@ -35,7 +35,8 @@ std::array<float, 4> rounded(const Quaternion& q) {
   return {to_float(q[1]), to_float(q[2]), to_float(q[3]), to_float(q[0])};
 }
 
-// A column's values in some rows, 0 without it; what is not finite repeats what was before it.
+// The values of a column in some rows, or 0 without the column. A value that is not finite repeats
+// the last finite one.
 std::vector<double> values_of(const Run& run, std::string_view name,
                               const std::vector<std::size_t>& rows) {
   const Series* series = find_series(run, name);
@@ -83,7 +84,7 @@ class Writer {
  private:
   enum Material { plate_colour, frame_colour, ball_light, ball_dark, ghost_dark, path_colour };
 
-  // The meshes of unit size that nodes scale.
+  // Meshes of unit size, scaled by nodes.
   struct Meshes {
     std::size_t plate, frame_box, frame_ring;
     std::array<std::array<std::optional<std::size_t>, 2>, 2>
@@ -135,7 +136,7 @@ class Writer {
     dark_ = primitive(octants(true), ball_dark);
   }
 
-  // A ball with its marks, or of one colour where nobody knows how it turns.
+  // A ball with marks; a ball of one color if its rotation is unknown.
   std::size_t ball_mesh(bool leads, bool turns_known) {
     std::optional<std::size_t>& made = made_.balls[leads ? 0 : 1][turns_known ? 0 : 1];
     if (made) return *made;
@@ -171,7 +172,7 @@ class Writer {
         {{"sampler", samplers_.size() - 1}, {"target", {{"node", node}, {"path", path}}}});
   }
 
-  // The ring about the plate, its axles and the posts of the base, as large as the plate asks for.
+  // The posts of the base and the axles of phi, sized for the plate.
   void add_base(std::size_t base) {
     const double bar = static_cast<double>(bar_part) * std::max(stage_.width, stage_.depth);
     const double y = stage_.depth / 2 + 5 * bar, post = 0.5 * std::max(stage_.width, stage_.depth);
@@ -207,7 +208,7 @@ class Writer {
     }
   }
 
-  // The plate's node of a gimbal of the run's own, animated by its angles.
+  // Adds a gimbal for the run, animated by its angles, and returns the node of its plane.
   std::size_t add_gimbal(const Run& run, std::size_t root, std::size_t times,
                          const std::vector<std::size_t>& rows) {
     const std::size_t base =
@@ -255,7 +256,8 @@ class Writer {
               {{"name", "path of " + name}, {"mesh", add_mesh("path", Json::array({line}))}});
   }
 
-  // Kept rows whose times differ as floats, which have to increase, and are counted from the start.
+  // The kept rows with increasing times as floats, which animations require. Times count from
+  // start_.
   std::vector<std::size_t> animated_rows(const Run& run, const std::vector<Quaternion>& orientation,
                                          std::vector<float>& times) const {
     std::vector<std::size_t> rows;
@@ -292,8 +294,8 @@ class Writer {
       centres.push_back({to_float(x[i]), to_float(y[i]), to_float(height)});
       if (!turns_known) continue;
       Quaternion q = orientation[rows[i]];
-      // Two quaternions are the same rotation: the nearer one is taken, for players that do not
-      // look.
+      // q and -q are the same rotation. Takes the one nearer to the last, because some players do
+      // not.
       if (q[0] * last[0] + q[1] * last[1] + q[2] * last[2] + q[3] * last[3] < 0) {
         for (double& component : q) component = -component;
       }
@@ -308,7 +310,7 @@ class Writer {
     add_path(run.name, plane, centres, to_float(0.98 * radius));
   }
 
-  // The width of the frame's bars, in parts of the plate.
+  // The width of the frame's bars, relative to the plate.
   static constexpr float bar_part = 0.025F;
 
   const Scene& scene_;
@@ -319,7 +321,7 @@ class Writer {
   Json samplers_ = Json::array(), channels_ = Json::array();
   Meshes made_{};
   Json light_, dark_;      // octants of the ball
-  double start_ = 0;       // s, of what comes first
+  double start_ = 0;       // earliest time of all runs, s
   std::size_t plane_ = 0;  // of the leading run
 };
 

@@ -11,7 +11,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-// Numbers that glTF 2.0 gives to types and uses.
+// Numbers of types and uses in glTF 2.0.
 constexpr int float_component = 5126, short_component = 5123;
 constexpr int no_target = 0, vertex_target = 34962, index_target = 34963;
 

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The binary part of a glTF file and the JSON that says what is where in it.
+// The binary part of a glTF file, and the JSON that describes its content.
 #pragma once
 
 #include <array>
@@ -15,18 +15,17 @@ namespace bbsim::replay {
 
 class GltfBuffer {
  public:
-  // Each returns the number of the new accessor. Attributes of vertices and what animations read
-  // are kept apart, as the format asks.
+  // Each function returns the index of the new accessor. The format requires that vertices and
+  // animations use separate views.
   std::size_t add_scalars(
       std::span<const float> values);  // with their bounds: an animation's times
   std::size_t add_vectors(std::span<const std::array<float, 3>> values);
   std::size_t add_quaternions(std::span<const std::array<float, 4>> values);
-  // With bounds, which positions have to have.
+  // With bounds, which glTF requires of positions.
   std::size_t add_vertices(std::span<const std::array<float, 3>> values, bool bounds);
   std::size_t add_indices(std::span<const std::uint16_t> values);
 
-  // Puts "accessors", "bufferViews" and "buffers" into `json`; returns the file: header, JSON,
-  // bytes.
+  // Adds "accessors", "bufferViews" and "buffers" to `json`. Returns the file: header, JSON, bytes.
   [[nodiscard]] std::string file(nlohmann::ordered_json json) const;
 
  private:

@@ -11,7 +11,7 @@
 namespace bbsim::replay {
 namespace {
 
-// The rows of the least and the greatest finite value of a column in [begin, end).
+// Keeps the rows of the least and the greatest finite value of a column in [begin, end).
 void keep_extremes(const std::vector<double>& values, std::size_t begin, std::size_t end,
                    std::vector<std::size_t>& kept) {
   std::size_t least = end, greatest = end;
@@ -47,7 +47,7 @@ std::vector<std::size_t> rows_of_plots(const Run& run, std::size_t buckets, std:
   return kept;
 }
 
-// How far interpolation between two rows is off at a row between them, in tolerances.
+// The error of interpolation between two rows at a row between them, in tolerances.
 class Motion {
  public:
   Motion(const Run& run, const std::vector<Quaternion>& orientation)
@@ -71,13 +71,13 @@ class Motion {
     for (const Line& line : lines_) {
       const std::vector<double>& v = *line.values;
       const double off = std::abs(v[from] + part * (v[to] - v[from]) - v[row]) / line.tolerance;
-      if (off > worst) worst = off;  // a NaN is not
+      if (off > worst) worst = off;  // false for NaN
     }
     return orientation_.empty() ? worst : std::max(worst, turn_error(from, to, row, part));
   }
 
-  // Two kept rows are not to be so far apart that the ball's turn between them is ambiguous; the
-  // sum of its small turns is what counts, since the ball may turn a whole number of times.
+  // Whether the ball turns so far between two kept rows that interpolation is ambiguous. Adds up
+  // its small turns, because it may turn a whole number of times.
   [[nodiscard]] bool turns_too_far(std::size_t from, std::size_t to) const {
     if (orientation_.empty()) return false;
     double turned = 0;
@@ -106,7 +106,7 @@ class Motion {
     return 2 * std::acos(std::min(1.0, std::abs(dot(a, b))));
   }
 
-  // Against spherical linear interpolation, which is what the page does.
+  // The page interpolates orientations by spherical linear interpolation.
   [[nodiscard]] double turn_error(std::size_t from, std::size_t to, std::size_t row,
                                   double part) const {
     const Quaternion& a = orientation_[from];
@@ -134,7 +134,7 @@ class Motion {
   std::vector<Line> lines_;
 };
 
-// A stretch between two kept rows, and the row in it that interpolation is furthest off at.
+// The rows between two kept rows, with the one where interpolation is worst.
 struct Stretch {
   double error;
   std::size_t from, to, worst;
@@ -152,7 +152,7 @@ Stretch stretch(const Motion& motion, std::size_t from, std::size_t to) {
     }
   }
   if (result.error < 2 && to - from > 1 && motion.turns_too_far(from, to)) {
-    result.error = 2;  // beyond the tolerance
+    result.error = 2;  // above the tolerance
     result.worst = from + (to - from) / 2;
   }
   return result;

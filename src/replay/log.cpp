@@ -21,7 +21,7 @@ namespace {
 struct Mapped {
   const scenario::Column* column;
   std::string from;
-  double unit = 1;  // in SI
+  double unit = 1;  // in SI units
 };
 
 [[noreturn]] void refuse(const std::string& part, const std::string& what) {
@@ -92,7 +92,7 @@ void require_numbers(const plot::Result& log, const plot::Column& column) {
 
 Run run_of_log(plot::Result log, const std::string& map, const std::string& name) {
   if (map.empty()) {
-    log.units_known = true;  // as --data says
+    log.units_known = true;  // as --data states
     return run_of_result(std::move(log), name);
   }
   std::vector<Mapped> all = read_map(map);

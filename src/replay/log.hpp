@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The log of a real rig: any CSV, with names and units that are its own.
+// Reads the log of a real rig: any CSV, with any column names and units.
 #pragma once
 
 #include <string>
@@ -11,10 +11,10 @@
 
 namespace bbsim::replay {
 
-// `map` says which columns are what, "x=Ballx:mm,y=Bally:mm,t=Time:ms": a column of `bbsim
-// columns`, the log's, and its unit, SI if none is given. Without t in it, the log's own column t
-// is the time in seconds. With an empty map the log's columns are named and measured as bbsim's
-// are. Throws InputError: the log's row, or the place in the map, what was found, what is allowed.
+// `map` assigns columns: "x=Ballx:mm,y=Bally:mm,t=Time:ms" gives a column of `bbsim columns`, the
+// log's column and its unit, SI by default. Without t in the map, the log's column t is the time in
+// seconds. With an empty map, the log has the names and units of bbsim. Throws InputError with the
+// row of the log or the place in the map, the text found and the texts allowed.
 [[nodiscard]] Run run_of_log(plot::Result log, const std::string& map, const std::string& name);
 
 }  // namespace bbsim::replay

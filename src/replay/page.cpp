@@ -65,7 +65,7 @@ std::string orientation_text(const std::vector<Quaternion>& orientation,
   return base64_of_parts(numbers);
 }
 
-// Times i * step from a start, to the bit, are these three numbers; others are all there.
+// Times that equal start + i * step to the bit need only three numbers; others are all listed.
 Json times_json(const std::vector<double>& t) {
   const double start = t.front(), step = t.size() > 1 ? t[1] - t[0] : 0;
   bool even = true;
@@ -78,8 +78,7 @@ Json times_json(const std::vector<double>& t) {
 
 Json events_json(const Run& run) {
   Json events = Json::array();
-  // Where there are very many events, the first ones are kept, and the last, which may have stopped
-  // the run.
+  // Of too many events, keeps the first ones and the last one, which may have stopped the run.
   for (std::size_t i = 0; i < run.events.size(); ++i) {
     if (i + 1 >= most_events && i + 1 < run.events.size()) continue;
     const Event& event = run.events[i];
@@ -92,7 +91,7 @@ Json events_json(const Run& run) {
   return events;
 }
 
-// Whether all points between two are that near to the line from one to the other.
+// Whether all points between two are this close to the line from one to the other.
 bool near_chord(const std::vector<std::array<double, 2>>& path, std::size_t from, std::size_t to,
                 double tolerance) {
   const double dx = path[to][0] - path[from][0], dy = path[to][1] - path[from][1];
@@ -106,8 +105,8 @@ bool near_chord(const std::vector<std::array<double, 2>>& path, std::size_t from
   return true;
 }
 
-// As many points of the reference path as a line through them needs to be nowhere further from the
-// path than a 5000th of its extent.
+// The points of the reference path that a polyline needs to stay within 1/5000 of the path's
+// extent.
 std::string reference_text(const Run& run) {
   const auto& path = run.reference;
   double extent = 0;
@@ -183,7 +182,7 @@ Json sweep_json(const Sweep& sweep, std::size_t sweeps) {
       sweep, std::max<std::size_t>(1, std::min(most_cases, most_sweep_numbers / numbers) / sweeps));
   Json json = {{"name", sweep.name}, {"title", sweep.title}, {"cases", sweep.status.size()}};
   json["numbers"] = base64_of_doubles(picked(sweep.cases, cases));
-  // Most cases end alike: each way once, and its position for every case.
+  // Most cases end alike. Lists each ending once, and its index for every case.
   std::vector<std::string> ways;
   Json status = Json::array();
   for (const std::size_t i : cases) {
@@ -227,8 +226,8 @@ Json scene_json(const Scene& scene) {
   return json;
 }
 
-// JSON to stand in a <script>: these characters are in strings only, where their escapes mean the
-// same, and without them nothing ends the script or a line of it.
+// JSON for a <script> element. These characters occur only in strings, where the escapes mean the
+// same. Without them, nothing ends the script or one of its lines.
 std::string script_text(const Json& json) {
   const std::string text = json.dump(-1, ' ', false, Json::error_handler_t::replace);
   std::string result;
@@ -258,7 +257,7 @@ std::string script_text(const Json& json) {
   return result;
 }
 
-// Text to stand in HTML. Bytes that are no UTF-8 are replaced as in the JSON.
+// Text for HTML. Replaces bytes that are not UTF-8 as the JSON does.
 std::string html_text(const std::string& raw) {
   const std::string text =
       Json::parse(Json(raw).dump(-1, ' ', false, Json::error_handler_t::replace))
@@ -285,7 +284,8 @@ std::string html_text(const std::string& raw) {
   return result;
 }
 
-// The template without its parts between <!--NAME--> and <!--/NAME-->: a sweep needs no three.js.
+// Removes the parts of the template between <!--NAME--> and <!--/NAME-->. A sweep, for example,
+// needs no three.js.
 std::string without(const std::string& name, std::string_view page_template) {
   const std::string begin = "<!--" + name + "-->", end = "<!--/" + name + "-->";
   std::string result;
@@ -313,8 +313,7 @@ std::size_t place_of(std::string_view mark, std::string_view text) {
 }  // namespace
 
 std::size_t rows_allowed(const Scene& scene) {
-  // A row's bytes in the run with the most columns: time, its other columns, the ball's
-  // orientation.
+  // The bytes of a row in the run with the most columns: time, other columns, orientation.
   std::size_t bytes = 1;
   for (const Run& run : scene.runs) {
     bytes = std::max(bytes, sizeof(double) + (run.columns.size() + 1) * sizeof(float));
@@ -348,7 +347,7 @@ std::string page_template(const std::vector<std::string>& folders) {
   for (const std::string& folder : folders) {
     try {
       return file::read_whole(std::filesystem::path(folder) / template_name);
-    } catch (const InputError&) {  // it is looked for in the next one
+    } catch (const InputError&) {  // try the next folder
     }
     looked_in.append(looked_in.empty() ? "" : " and ").append(folder);
   }
@@ -361,7 +360,7 @@ std::string page_template(const std::vector<std::string>& folders) {
 
 namespace {
 
-// Where the template may be, in order.
+// The folders to try, in order.
 std::vector<std::string> template_folders() {
   if (const char* folder = std::getenv("BBSIM_SHARE_PATH"); folder != nullptr && *folder != '\0') {
     return {folder};

@@ -36,7 +36,7 @@ std::vector<Quaternion> rolled(const std::vector<double>& x, const std::vector<d
 
 namespace {
 
-// The integral from the first row on, by trapezoids; rows without a number add nothing.
+// The integral from the first row on, by trapezoids. Rows that are not finite add nothing.
 std::vector<double> integral(const std::vector<double>& t, const std::vector<double>& rate) {
   std::vector<double> sum(t.size(), 0);
   for (std::size_t row = 1; row < t.size(); ++row) {
@@ -46,7 +46,7 @@ std::vector<double> integral(const std::vector<double>& t, const std::vector<dou
   return sum;
 }
 
-// The way that the ball would have gone with this turn, had it rolled: without what it slipped.
+// The path that the ball would have rolled with its rotation: its path minus the slip.
 std::vector<double> way_rolled(const Run& run, const char* axis, const char* slip) {
   std::vector<double> way = coordinate(run, axis);
   if (const Series* const rate = find_series(run, slip)) {

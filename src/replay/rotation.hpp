@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Rotations: of the gimbal's links and of the ball that rolls on the plane.
+// Rotations of the gimbal's links and of the ball on the plane.
 #pragma once
 
 #include <cstddef>
@@ -12,20 +12,20 @@
 
 namespace bbsim::replay {
 
-// From the plane's frame to the world's: R of docs/explanation/model.md, (M15).
+// From the plane's frame to the world's: R of docs/explanation/model.md, (M15). Angles in rad.
 [[nodiscard]] Quaternion plane_orientation(const Mounting& mounting, double phi, double theta);
 
-// Orientations of the ball in the plane's frame, from the identity, if between two rows it rolls
-// straight and pivots evenly: by the rotation (-dy/r, dx/r, dgamma). Second order in the rows'
-// distance; where a run has the integrated rotation, that is better. `gamma` may be nullptr: no
-// pivoting. Rows in which something is not finite repeat the last orientation.
+// Orientations of a rolling ball in the plane's frame, with the identity in the first row. Between
+// two rows the ball rolls straight and pivots evenly, by the rotation (-dy/r, dx/r, dgamma). This
+// is of second order in the distance of rows; the integrated rotation of a run is better. A null
+// `gamma` means no pivoting. Rows with a value that is not finite repeat the last orientation.
 [[nodiscard]] std::vector<Quaternion> rolled(const std::vector<double>& x,
                                              const std::vector<double>& y,
                                              const std::vector<double>* gamma, double radius);
 
-// The run's own orientations; or where it has none those of a ball of this radius that rolls
-// (rolled()), or slips as columns slip_x and slip_y say, off by the square of the rows' distance,
-// and pivots as gamma or spin do. Empty where the columns do not tell how the ball turns.
+// The recorded orientations of the run, if it has them. Otherwise rolled() with this radius, the
+// pivoting of gamma or spin, and the slip of columns slip_x and slip_y; the error of the slip is of
+// second order in the distance of rows. Empty if the columns do not determine the rotation.
 [[nodiscard]] std::vector<Quaternion> orientation_of(const Run& run, double radius);
 
 }  // namespace bbsim::replay

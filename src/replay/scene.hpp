@@ -1,11 +1,11 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// What a replay shows: plain data, from wherever it came.
+// The content of a replay, as plain data from any source.
 //
-// Frames as in docs/explanation/model.md, (M15): the plane's frame is turned from the world's
-// by R = R_x(base_tilt) R_y(phi) R_z(skew) R_x(theta) R_z(yaw - skew), about the gimbal's centre.
-// SI units and radians.
+// Frames as in docs/explanation/model.md, (M15): R = R_x(base_tilt) R_y(phi) R_z(skew) R_x(theta)
+// R_z(yaw - skew) turns the world's frame into the plane's about the gimbal's center. SI units and
+// radians.
 #pragma once
 
 #include <array>
@@ -22,10 +22,10 @@ namespace bbsim::replay {
 
 struct Series {
   std::string name, unit, meaning;  // as in `bbsim columns`; unit "1" if dimensionless
-  std::vector<double> values;       // one a row; NaN where there is none
+  std::vector<double> values;       // one for each row; NaN if missing
 };
 
-// Something that happened: "edge" at 0.54 s, which stopped the run.
+// An event: "edge" at 0.54 s, which stopped the run.
 struct Event {
   double t = 0;
   std::string name, action;  // action: stop or note
@@ -39,66 +39,68 @@ struct Plate {
 };
 
 struct Mounting {
-  double height = 0;  // of the plane of contact above the gimbal's centre
+  double height = 0;  // of the plane of contact above the gimbal's center
   double skew = 0, yaw = 0, base_tilt = 0;
 };
 
-// Poles of the loop about home: of a continuous one in 1/s, of a sampled one those of a period.
+// Poles of the loop about home: in 1/s for a continuous loop, in the z plane for a sampled one.
+// `period` is that of the sampled loop, s.
 struct Poles {
   std::vector<std::complex<double>> values;
   std::optional<double> period{};
 };
 
-// A run, or the log of a rig. Only the columns t and x or y have to be there: without the other,
-// the ball stays on its axis.
+// A run, or the log of a rig. It needs only the columns t and x or y. If x or y is missing, the
+// ball stays on the other axis.
 struct Run {
-  std::string name;                 // what tells it from other runs: its file
+  std::string name;                 // its file, which identifies it
   std::string title;                // of its scenario
-  std::string status, reason;       // done, failed, interrupted or stopped; why, if it ended early
-  double end = 0;                   // time that was asked for; 0 if it is not known
-  std::optional<double> reached{};  // when it ended, s, which may be after its last row
-  // Whether the last row is none of its file, but the instant at which an event stopped the run.
+  std::string status, reason;       // done, failed, interrupted or stopped; why it ended early
+  double end = 0;                   // time requested, s; 0 if unknown
+  std::optional<double> reached{};  // time of the end, s; may be after the last row
+  // Whether the last row is not from the file but the instant at which an event stopped the run.
   bool has_end_row = false;
-  bool units_known = true;  // else columns without a unit are in whatever it is
+  bool units_known = true;  // otherwise columns without a unit have an unknown one
   std::vector<Series> columns;
-  // Rotations from the ball's own frame to the plane's, one a row. Where it is empty,
-  // orientation_of() says what the columns tell.
+  // Rotations from the ball's frame to the plane's, one for each row. If empty, orientation_of()
+  // derives them from the columns.
   std::vector<Quaternion> orientation;
-  // Whether its way tells how the ball turns: not if it may slide, or if nobody knows.
+  // Whether the path determines the ball's rotation. It does not if the ball may slide, or if that
+  // is unknown.
   bool rolls = true;
   std::vector<Event> events;
   Plate plate;
   std::optional<double> ball_radius{};
   Mounting mounting;
   std::vector<std::array<double, 2>> reference;  // points of the whole path, plane frame
-  std::optional<double> friction{};              // coefficient that friction_demand is held against
+  std::optional<double> friction{};              // coefficient to compare friction_demand with
   std::string scenario_file, scenario_text;
   std::vector<std::string> overrides;  // each "key.path=value"
-  std::string summary;                 // JSON, as `run --summary` writes it; empty: unknown
-  std::vector<std::string> check;      // what `bbsim check` prints, line by line
+  std::string summary;                 // JSON of `run --summary`; empty if unknown
+  std::vector<std::string> check;      // the lines of `bbsim check`
   std::optional<Poles> poles{};
-  std::string version;  // of the bbsim that ran it
+  std::string version;  // of the bbsim that computed it
 };
 
-// One column of a sweep's table: numbers, or words such as solver.method's.
+// A column of a sweep's table: numbers, or words like those of solver.method.
 struct SweepColumn {
   std::string name, unit;
   std::vector<double> values;
   std::vector<std::string> words;  // instead of values
-  bool drawn = false;              // a key's values are by chance
-  std::string along{};             // the first key with which this one's values always go
+  bool drawn = false;              // the values of a key are random
+  std::string along{};             // the first key to which this one is tied
 
   [[nodiscard]] std::size_t rows() const { return words.empty() ? values.size() : words.size(); }
 };
 
-// Many runs of one scene. All columns have one row a case.
+// Many runs of one scene. All columns have one row for each case.
 struct Sweep {
   std::string name, title;
   std::vector<SweepColumn> keys, measures;
   std::vector<double> cases;        // their numbers
   std::vector<std::string> status;  // "done", or why a case ended early
   std::string scenario_file, scenario_text;
-  std::vector<std::string> overrides;  // that held for all cases
+  std::vector<std::string> overrides;  // of all cases
 };
 
 struct Scene {
@@ -108,20 +110,20 @@ struct Scene {
   std::string version;  // of the bbsim that makes the page
 };
 
-// The column of that name, or nullptr.
+// The column of this name, or nullptr.
 [[nodiscard]] const Series* find_series(const Run& run, std::string_view name);
 
-// The number of rows in its column t.
+// The number of rows in column t.
 [[nodiscard]] std::size_t row_count(const Run& run);
 
-// The same, of its file: without the row that is its end.
+// The number of rows in the run's file: without an end row that is not from the file.
 [[nodiscard]] std::size_t rows_of_file(const Run& run);
 
-// Its column x or y; zeros where it has none.
+// Column x or y; zeros if the run does not have it.
 [[nodiscard]] std::vector<double> coordinate(const Run& run, std::string_view name);
 
-// Throws InputError where a scene cannot be shown: nothing in it, a run without t, without x and y
-// or without rows, columns of different lengths, times that do not increase.
+// Throws InputError if a scene cannot be shown: it is empty, a run has no t, neither x nor y or no
+// rows, columns differ in length, or times do not increase.
 void check_scene(const Scene& scene);
 
 }  // namespace bbsim::replay

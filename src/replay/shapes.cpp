@@ -26,8 +26,8 @@ void add_quad(Mesh& mesh, std::uint16_t a, std::uint16_t b, std::uint16_t c, std
   for (const std::uint16_t corner : {a, b, c, a, c, d}) mesh.triangles.push_back(corner);
 }
 
-// A grid of rows x columns vertices that place(row, column) has added; faces look to the left of a
-// walk along the rows.
+// Adds a grid of rows x columns vertices, which place(row, column) adds. Faces point to the left of
+// the direction along the rows.
 template <class Place>
 void add_grid(Mesh& mesh, std::size_t rows, std::size_t columns, Place place) {
   const std::size_t first = mesh.positions.size();
@@ -57,7 +57,7 @@ Mesh unit_box() {
       const auto corner = [&](float u, float v) {
         Point position{};
         position[axis] = side / 2;
-        position[(axis + 1) % 3] = u * side / 2;  // mirrored, so that the order stays outward
+        position[(axis + 1) % 3] = u * side / 2;  // mirrored, to stay counterclockwise
         position[(axis + 2) % 3] = v / 2;
         return add(mesh, position, normal);
       };
@@ -107,7 +107,7 @@ Mesh ring(float tube_radius) {
 }
 
 Mesh octants(bool odd) {
-  constexpr std::size_t steps = 8;  // of an eighth of the sphere, along each edge
+  constexpr std::size_t steps = 8;  // of an octant, along each edge
   constexpr double quarter = turn / 4;
   Mesh mesh;
   for (std::size_t sector = 0; sector < 4; ++sector) {

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The few solids that the rig is made of, as triangles.
+// The solids of the rig, as triangles.
 #pragma once
 
 #include <array>
@@ -18,14 +18,14 @@ struct Mesh {
 // A box from -1/2 to 1/2 along each axis.
 [[nodiscard]] Mesh unit_box();
 
-// Diameter 1 about the z axis, from z = -1/2 to 1/2.
+// A cylinder of diameter 1 about the z axis, from z = -1/2 to 1/2.
 [[nodiscard]] Mesh unit_cylinder();
 
-// About the z axis: a tube whose middle has radius 1.
+// A torus about the z axis; the center line of its tube has radius 1.
 [[nodiscard]] Mesh ring(float tube_radius);
 
-// Every other octant of the unit sphere: with the others in another colour it is the engineer's
-// mark of a centre of mass, on which every rotation is seen.
+// Every other octant of the unit sphere. In two colors, octants are the engineer's mark of a center
+// of mass and show every rotation.
 [[nodiscard]] Mesh octants(bool odd);
 
 }  // namespace bbsim::replay

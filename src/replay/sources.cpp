@@ -25,7 +25,7 @@ namespace {
 constexpr std::array<std::string_view, 4> orientation_columns = {"ball_qw", "ball_qx", "ball_qy",
                                                                  "ball_qz"};
 
-// One lap of what goes round, else the whole scene.
+// One lap of a circle, otherwise the whole scene.
 double duration_of(const Reference& reference, double end) {
   const auto* circle = std::get_if<CircleReference>(&reference);
   if (circle == nullptr || circle->rate == 0) return end;
@@ -48,7 +48,7 @@ std::vector<std::array<double, 2>> path_of(const Reference& reference, double en
 std::optional<Poles> poles_of(const model::Model& model) {
   if (!model.closed_loop()) return {};
   if (model.rig && model.rig->sampled && model.rig->sampled->law.kind == model::LawKind::held) {
-    return {};  // only the controller knows them
+    return {};  // only the controller could know them
   }
   if (model.rig && model.rig->sampled) {
     const model::SampledLoop& loop = *model.rig->sampled;
@@ -58,7 +58,7 @@ std::optional<Poles> poles_of(const model::Model& model) {
   return Poles{model::closed_loop_poles(model), {}};
 }
 
-// The unit of a measure is that of the column that it names after "max_" and the like, or before
+// The unit of a measure is that of its column, whose name follows "max_" and the like or precedes
 // "_end".
 std::string unit_of_measure(const std::string& name) {
   if (name == "end_time") return "s";
@@ -78,7 +78,7 @@ Series series_of(const std::string& name, std::vector<double> values, bool unit_
           std::move(values)};
 }
 
-// What a loop commands: angles, as `bbsim columns` has it, or what the gimbal is driven by.
+// Commands are angles, as in `bbsim columns`, or what drives the gimbal.
 void set_unit_of_commands(Run& run, Drives driven) {
   const char* unit = "rad";
   if (driven == Drives::acceleration) unit = "rad/s^2";
@@ -89,7 +89,7 @@ void set_unit_of_commands(Run& run, Drives driven) {
   }
 }
 
-// To the instant at which an event stopped the run the ball rolls on from its last row.
+// Rolls the ball from the last row to the instant at which an event stopped the run.
 void turn_to_the_end(Run& run) {
   if (!run.has_end_row || !run.rolls || !run.ball_radius || run.orientation.size() < 2) return;
   const std::vector<double> x = coordinate(run, "x"), y = coordinate(run, "y");
@@ -99,8 +99,8 @@ void turn_to_the_end(Run& run) {
               run.orientation[end - 1]);
 }
 
-// Where all four parts of the ball's orientation are recorded, they are that, and no plots. A row
-// without one repeats the last.
+// If all four parts of the ball's orientation are recorded, makes them the run's orientation and
+// removes their columns. A row without a finite orientation repeats the last one.
 void take_orientation(Run& run) {
   std::array<std::size_t, 4> places{};
   for (std::size_t part = 0; part < places.size(); ++part) {
@@ -130,7 +130,7 @@ SweepColumn sweep_column(plot::Column column) {
           column.texts};
 }
 
-// Which keys were drawn, and which go along with another.
+// Notes which keys were drawn, and which are tied to another key.
 void relate(std::vector<SweepColumn>& keys, const plot::SweepTable& table) {
   for (SweepColumn& key : keys) {
     const auto of = std::ranges::find(table.keys, key.name, &plot::Key::name);
@@ -189,7 +189,7 @@ Run run_of_result(plot::Result result, const std::string& name) {
   run.summary = std::move(result.summary);
   run.reached = result.end_time;
   run.units_known = result.units_known;
-  // How it pivots has to be told, too; along one axis it does not.
+  // The run must also say how the ball pivots. On a beam it does not pivot.
   run.rolls =
       result.scenario && (result.find("gamma") != nullptr || result.find("spin") != nullptr ||
                           result.find("x") == nullptr || result.find("y") == nullptr);
@@ -237,7 +237,7 @@ Sweep sweep_of_result(plot::Result result, const std::string& name) {
   for (std::size_t i = 0; i < reasons.size() && i < sweep.status.size(); ++i) {
     if (!reasons[i].empty()) sweep.status[i] += ": " + reasons[i];
   }
-  // What one looks for comes first; when a case ended is known for most.
+  // Measures of interest come first; the end time is known for most cases.
   std::stable_partition(sweep.measures.begin(), sweep.measures.end(),
                         [](const SweepColumn& measure) { return measure.name != "end_time"; });
   return sweep;

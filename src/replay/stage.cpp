@@ -11,7 +11,7 @@
 namespace bbsim::replay {
 namespace {
 
-// How far the runs and their references go from home, along each axis.
+// The greatest distances of the runs and their references from home, along each axis.
 struct Extent {
   double x = 0, y = 0;
 
@@ -32,7 +32,7 @@ Extent extent(const Scene& scene) {
   return all;
 }
 
-// A plate that they fit on with some air, and a ball of that radius.
+// Makes a plate with some margin around the paths, for a ball of this radius.
 void fit_plate(Stage& stage, const Extent& paths, double ball) {
   constexpr double margin = 1.2, thin = 1e-6, beam = 1.0 / 8;
   const double far = std::max(paths.x, paths.y);
@@ -69,7 +69,7 @@ Stage stage_of(const Scene& scene) {
   if (!stage.plate_given) {
     fit_plate(stage, extent(scene), stage.ball_given ? *sized->ball_radius : 0);
   }
-  // On a beam it may be as large as on a plate of that length.
+  // On a beam, the ball may be as large as on a plate of the same length.
   constexpr double ball_part = 1.0 / 30;
   const double side =
       stage.plate_given ? std::min(stage.width, stage.depth) : std::max(stage.width, stage.depth);

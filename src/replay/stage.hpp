@@ -1,27 +1,26 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The sizes of what is drawn around the ball: as the scene gives them, or such that the path fits.
+// The sizes of the plate and the ball in a picture, given by the scene or fitted to the paths.
 #pragma once
 
 #include "replay/scene.hpp"
 
 namespace bbsim::replay {
 
-// What is further away is not drawn: a float, of which pictures are made, holds its square no more.
+// The page draws with floats, which cannot hold the square of a larger distance.
 inline constexpr double largest_drawn = 1e15;  // m
 
 struct Stage {
   double width = 0, depth = 0;  // of the plate along x and y, m
   bool round = false;
-  bool plate_given = false;  // else it is drawn to fit the paths
-  double ball_radius = 0;    // of the leading run
-  bool ball_given = false;   // else it is a thirtieth of the plate
+  bool plate_given = false;  // otherwise it fits the paths
+  double ball_radius = 0;    // of the leading run, m
+  bool ball_given = false;   // otherwise a thirtieth of the plate
 };
 
-// The stage for all runs of the scene; the first run that has a plate says what the plate is. One
-// that is drawn to fit holds all paths and references, as far as they are drawn at all; where these
-// stay on an axis it is a beam.
+// The stage for all runs of the scene. The first run with a plate defines the plate. Otherwise the
+// plate fits all paths and references that are drawn; if these stay on an axis, it is a beam.
 [[nodiscard]] Stage stage_of(const Scene& scene);
 
 }  // namespace bbsim::replay

@@ -11,7 +11,7 @@
 namespace bbsim::replay {
 namespace {
 
-// The position of each case's value among the key's values, in their order.
+// The rank of each case's value among the distinct values of a key.
 struct Levels {
   std::vector<std::size_t> of_case;
   std::size_t count = 0;

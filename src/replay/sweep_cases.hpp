@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Which cases of a large sweep a page shows.
+// Selects the cases of a large sweep that a page shows.
 #pragma once
 
 #include <cstddef>
@@ -11,9 +11,9 @@
 
 namespace bbsim::replay {
 
-// All, if there are at most `most`. Of a grid, where every combination of the keys' values is there
-// once, every 2nd, 4th, 8th, ... value of the keys with the most values, so that what is left is a
-// grid with the same first values; of others every n-th case.
+// Returns all cases if there are at most `most`. A grid has every combination of its keys' values
+// once. It keeps every 2nd, 4th, 8th, ... value of the keys with the most values, so that the rest
+// is a grid with the same first values. Other sweeps keep every n-th case.
 [[nodiscard]] std::vector<std::size_t> cases_kept(const Sweep& sweep, std::size_t most);
 
 }  // namespace bbsim::replay

@@ -15,8 +15,8 @@
 namespace bbsim::sweep {
 namespace {
 
-// A pipe, a device, standard output: rows as they come, so that an end before the last one takes
-// none of them.
+// Standard output, a pipe or a device. Rows go out as they come, so all of them stay if the run
+// ends early.
 class Stream : public CaseFile {
  public:
   Stream(const std::string& target, const CaseFileLayout& layout) : file_(target) {
@@ -26,7 +26,7 @@ class Stream : public CaseFile {
   [[nodiscard]] const KeptRows& kept() const override { return kept_; }
   [[nodiscard]] std::string part() const override { return ""; }
   void append(std::string_view lines, std::size_t /*rows*/,
-              const std::vector<std::vector<double>>& /*there are none*/) override {
+              const std::vector<std::vector<double>>& /*CSV has no series*/) override {
     file_.write(lines);
     file_.flush();
   }
@@ -50,7 +50,7 @@ class Csv : public CaseFile {
     return part_.file().in_place() ? part_.file().name() : "";
   }
   void append(std::string_view lines, std::size_t rows,
-              const std::vector<std::vector<double>>& /*there are none*/) override {
+              const std::vector<std::vector<double>>& /*CSV has no series*/) override {
     part_.append(lines, rows);
   }
   void interrupt() override { part_.file().sync(); }

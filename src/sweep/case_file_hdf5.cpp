@@ -15,7 +15,7 @@
 namespace bbsim::sweep {
 namespace {
 
-// So many bytes of series, at most, are in memory at a time.
+// The greatest size of series data in memory at a time.
 constexpr std::size_t most_bytes = std::size_t{1} << 22U;
 constexpr std::size_t most_rows = 1024;
 
@@ -46,7 +46,8 @@ class Hdf5Cases : public CaseFile {
 
   void append(std::string_view lines, std::size_t rows,
               const std::vector<std::vector<double>>& series) override {
-    if (series_) series_->append(series, rows);  // before the lines, which say how many there are
+    // First, because the lines say how many cases are complete.
+    if (series_) series_->append(series, rows);
     part_.append(lines, rows);
   }
 
@@ -99,7 +100,7 @@ class Hdf5Cases : public CaseFile {
     }
   }
 
-  // Returns the number of rows, of which `first` is the first one.
+  // Writes the block's rows; `first` is the index of the first one. Returns their number.
   std::size_t hand_on(file::Hdf5TableWriter& writer, file::Hdf5Block& block, std::size_t first) {
     if (series_) {
       series_->read(first, block.rows, numbers_);
@@ -125,7 +126,7 @@ class Hdf5Cases : public CaseFile {
   std::string target_;
   CaseFileLayout layout_;
   CasePart part_;
-  std::size_t series_numbers_ = 0;  // a case
+  std::size_t series_numbers_ = 0;  // of each case
   std::unique_ptr<SeriesPart> series_;
   std::vector<double> numbers_;
   bool done_ = false;
@@ -135,7 +136,7 @@ class Hdf5Cases : public CaseFile {
 
 std::unique_ptr<CaseFile> open_case_file_hdf5(const std::string& target, CaseFileLayout layout,
                                               const std::string& plan, bool resume) {
-  file::require_hdf5(target);  // before any case is run
+  file::require_hdf5(target);  // fails before any case is run
   return std::make_unique<Hdf5Cases>(target, std::move(layout), plan, resume);
 }
 

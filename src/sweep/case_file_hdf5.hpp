@@ -11,8 +11,8 @@
 
 namespace bbsim::sweep {
 
-// An HDF5 file that was not closed is of no use, so the part is CSV, and for the series a file of
-// plain numbers; finish() makes the HDF5 file of them.
+// An HDF5 file that was not closed is useless. The part is therefore CSV, with a file of plain
+// numbers for the series. finish() makes the HDF5 file from both.
 [[nodiscard]] std::unique_ptr<CaseFile> open_case_file_hdf5(const std::string& target,
                                                             CaseFileLayout layout,
                                                             const std::string& plan, bool resume);

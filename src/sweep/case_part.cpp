@@ -57,10 +57,10 @@ void CasePart::take_up(std::size_t most) {
   RowReader reader(layout_.columns);
   std::string_view line;
   std::string fault;
-  off_t end = 0;  // of the header, and of whole groups
+  off_t end = 0;  // of the header and the whole groups
   StatusCounts of_group;
   std::size_t in_group = 0;
-  // What was cut off by the end of an earlier run is no trouble: a line without its break.
+  // A last line without a line break is no fault: the earlier run was cut off there.
   if (lines.next(line) && (fault = fault_of_header(line, lines.whole())).empty()) end = lines.end();
   if (!fault.empty() && !lines.whole() && header_.starts_with(line)) fault.clear();
   while (end > 0 && kept_.rows + in_group < most && lines.next(line)) {

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The rows of a sweep's cases in its part.
+// Reads and writes the rows of cases in the part of a sweep.
 #pragma once
 
 #include <cstddef>
@@ -14,14 +14,15 @@
 
 namespace bbsim::sweep {
 
-// Knows what each row must be, whoever wrote it. Functions throw OutputError.
+// Checks every row that it reads, also its own ones. Functions throw OutputError.
 class CasePart {
  public:
   CasePart(const std::string& target, const CaseFileLayout& layout, const std::string& plan,
            bool resume);
 
-  // Looks at each row that is there, and keeps them up to the first that is not as it was written,
-  // or whose trajectories are not: those of `most` are. To be called once, before append().
+  // Reads the rows that an earlier run left. Keeps whole groups, up to the first damaged row and no
+  // further than the first `most` cases, whose trajectories are sound. Call it once, before
+  // append().
   void take_up(std::size_t most);
   [[nodiscard]] const KeptRows& kept() const { return kept_; }
 
@@ -33,8 +34,7 @@ class CasePart {
   void check_complete(std::size_t rows) const;
   void check_complete() const { check_complete(rows_); }
 
-  // Hands each row to use(reader), and throws where one is not as it should be; returns how many
-  // there are.
+  // Calls use(reader) for each row and throws if a row is damaged. Returns the number of rows.
   template <class Use>
   std::size_t read(Use use) const {
     PartLines lines(file_.descriptor(), file_.name(), Blame::output);

@@ -19,7 +19,7 @@ namespace {
 constexpr std::size_t at_once = 262144;                              // bytes
 constexpr std::size_t longest_line = std::size_t{64} * 1024 * 1024;  // bytes: no row is that long
 
-// nan and inf are among what std::to_chars writes and from_chars reads.
+// std::to_chars writes nan and inf, and from_chars reads them.
 template <class Number>
 bool is_number(std::string_view text, Number& value) {
   const char* const end = text.data() + text.size();
@@ -27,8 +27,9 @@ bool is_number(std::string_view text, Number& value) {
   return result.ec == std::errc{} && result.ptr == end;
 }
 
-// The end of the field that begins there: a comma's place or the line's. A quoted one goes to the
-// quote that closes it; nothing if there is none, or something comes after it.
+// Where the field that begins at `start` ends: the index of the comma, or the length of the line. A
+// quoted field ends after its closing quote. npos if the quote is not closed, or if text follows
+// it.
 std::size_t end_of_field(std::string_view line, std::size_t start) {
   if (start >= line.size() || line[start] != '"')
     return std::min(line.find(',', start), line.size());
@@ -58,7 +59,7 @@ void blame(Blame whose, const std::string& message) {
 PartLines::PartLines(int descriptor, std::string name, Blame whose)
     : descriptor_(descriptor), name_(std::move(name)), whose_(whose), buffer_(at_once) {}
 
-// More bytes behind those that wait; false if there are none.
+// Reads more bytes behind those in the buffer; false at the end of the file.
 bool PartLines::fill() {
   if (begin_ > 0) std::memmove(buffer_.data(), buffer_.data() + begin_, size_);
   begin_ = 0;
@@ -126,7 +127,7 @@ RowReader::RowReader(const std::string& header)
 
 std::string RowReader::read(std::string_view line) {
   if (line.find('\0') != std::string_view::npos)
-    return "zero bytes";  // a page that was never written
+    return "zero bytes";  // a disk page that was never written
   std::size_t count = 0;
   for (std::size_t start = 0;; ++count) {
     const std::size_t end = end_of_field(line, start);
@@ -155,7 +156,7 @@ std::string RowReader::text(std::size_t field) const {
   cell = cell.substr(1, cell.size() - 2);
   for (std::size_t i = 0; i < cell.size(); ++i) {
     text += cell[i];
-    if (cell[i] == '"') ++i;  // two for one
+    if (cell[i] == '"') ++i;  // a doubled quote stands for one
   }
   return text;
 }

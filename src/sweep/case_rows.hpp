@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The one reader of a sweep's CSV rows: every read is checked, and so is every row.
+// Reads the CSV rows of sweeps, and checks every read and every row.
 #pragma once
 
 #include <sys/types.h>
@@ -16,23 +16,24 @@
 
 namespace bbsim::sweep {
 
-// Whose fault it is that a file cannot be read: it was given to us, or it is where results go.
+// Where a file that cannot be read comes from: the user gave it, or it holds results. This selects
+// the type of the error.
 enum class Blame { input, output };
 
-// Throws an InputError or an OutputError.
+// Throws InputError or OutputError.
 [[noreturn]] void blame(Blame whose, const std::string& message);
 
-// A file's lines, from its beginning, through a descriptor that stays the caller's.
+// Reads the lines of a file from its beginning. The descriptor stays the caller's.
 class PartLines {
  public:
   PartLines(int descriptor, std::string name, Blame whose);
 
-  // The next line, without its break, valid until the next call; false at the file's end. Throws
-  // where the system cannot read.
+  // Gets the next line without its line break, valid until the next call; false at the end of the
+  // file. Throws if the system cannot read.
   [[nodiscard]] bool next(std::string_view& line);
-  // Whether the last line had its break.
+  // Whether the last line had its line break.
   [[nodiscard]] bool whole() const { return whole_; }
-  // Where the last line ended: bytes from the file's beginning.
+  // Where the last line ended, in bytes from the beginning of the file.
   [[nodiscard]] off_t end() const { return end_; }
 
  private:
@@ -42,27 +43,29 @@ class PartLines {
   std::string name_;
   Blame whose_;
   std::vector<char> buffer_;
-  std::size_t begin_ = 0, size_ = 0;  // of what of the buffer is not yet handed out
+  std::size_t begin_ = 0, size_ = 0;  // of the bytes in the buffer that were not handed out yet
   off_t place_ = 0, end_ = 0;         // of the next read; of the last line
   bool whole_ = false;
 };
 
-// Takes rows apart. The first column is the case, a whole number.
+// Splits rows into fields. The first field is the number of the case.
 class RowReader {
  public:
-  // What a field may hold.
+  // The permitted content of a field.
   enum class Field { whole_number, number, text };
 
   explicit RowReader(std::vector<Field> fields);
-  // Rows have the columns that CSV has: all but series.
+  // Expects the columns of the CSV text: all but the series.
   explicit RowReader(const std::vector<file::Hdf5Column>& columns);
-  // Rows are as the header says, which tells no numbers from texts before the status.
+  // Takes the columns from a CSV header. It does not say which fields before the status are
+  // numbers, so these are read as text.
   explicit RowReader(const std::string& header);
 
-  // Takes a row; returns what was found that is not as `bbsim sweep` writes it, empty if all is.
+  // Splits a row. Returns the first difference from a row of `bbsim sweep`; empty if the row is
+  // sound.
   [[nodiscard]] std::string read(std::string_view line);
 
-  // What the last row held, if it was as it should be.
+  // The content of the last row, if it was sound.
   [[nodiscard]] std::size_t case_number() const { return case_number_; }
   [[nodiscard]] double number(std::size_t field) const { return numbers_[field]; }
   [[nodiscard]] std::string text(std::size_t field) const;
@@ -74,14 +77,14 @@ class RowReader {
   std::size_t case_number_ = 0;
 };
 
-// How many cases ended in which way.
+// How many cases ended with each status.
 struct StatusCounts {
   std::map<std::string, std::size_t, std::less<>> words;  // by status
-  std::size_t not_finite = 0;  // done, with a reason: a measure is no finite number
+  std::size_t not_finite = 0;  // status done with a reason: a measure is not finite
 
   void add(const std::string& status, std::string_view reason);
   void add(const StatusCounts& others);
-  [[nodiscard]] std::size_t early() const;  // that did not come to their end
+  [[nodiscard]] std::size_t early() const;  // cases that ended before their end time
 };
 
 }  // namespace bbsim::sweep

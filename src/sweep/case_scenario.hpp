@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The scenario of a case: numbers put in place where no rule minds, read anew otherwise.
+// Makes the scenario of a case. It puts numbers in place if no rule relates their keys to other
+// keys, and reads the scenario again otherwise.
 #pragma once
 
 #include <cstddef>
@@ -18,15 +19,15 @@ class CaseScenario {
   CaseScenario(const CaseScenario&) = delete;  // places_ point into scenario_
   CaseScenario& operator=(const CaseScenario&) = delete;
 
-  // The scenario is valid until the next call. `values` are those of the plan for that case, which
-  // has been checked.
+  // Returns the scenario of case `number`, valid until the next call. `values` are the plan's
+  // values for that case, already checked.
   [[nodiscard]] const Scenario& at(std::size_t number, const double* values);
 
  private:
   const SweepTask& task_;
   Scenario scenario_;
   bool in_place_ = true;
-  std::vector<std::vector<double*>> places_;  // of each axis
+  std::vector<std::vector<double*>> places_;  // for each axis
 };
 
 }  // namespace bbsim::sweep

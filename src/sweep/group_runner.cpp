@@ -38,7 +38,7 @@ class GroupRunner : public CaseRunner {
   }
 
  private:
-  // How many were run before `stop` became true.
+  // Returns how many cases were run before `stop` became true.
   std::size_t run_group(std::size_t place, std::size_t count, CaseResults& into,
                         const std::atomic<bool>& stop) {
     const std::size_t axes = task_.plan.axes().size(), numbers = 1 + task_.measures.size();
@@ -62,7 +62,7 @@ class GroupRunner : public CaseRunner {
         }
         continue;
       }
-      // What the lanes did not come to is not for single runs either.
+      // A case that the lanes left because of `stop` is not run singly either.
       if (stop.load(std::memory_order_relaxed)) return at - place;
       if (single_->run(one.number, 1, alone_, stop) == 0) return at - place;
       std::copy(alone_.numbers.begin(), alone_.numbers.end(), results);

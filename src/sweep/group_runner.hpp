@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Cases that go together in lanes, a group at a time, and those that do not fit by themselves.
+// Runs groups of cases in lanes, and the cases that do not fit one by one.
 #pragma once
 
 #include <atomic>
@@ -16,25 +16,25 @@
 namespace bbsim::sweep {
 
 struct GroupCase {
-  std::size_t number;    // in the sweep
-  const double* values;  // of the axes
-  double* measures;      // where they go
-  bool carried = false;  // as far as it goes, and the measures are there
-  // Where the motion grew without bound, s; none where it went to the end.
+  std::size_t number;    // of the case, in the sweep
+  const double* values;  // one number for each axis
+  double* measures;      // the results
+  bool carried = false;  // run to its end, with its measures written
+  // Time at which the motion grew without bound, s; empty if it reached the end.
   std::optional<double> unbounded_at = {};
 };
 
-// What carries a group of cases in lanes.
+// Integrates a group of cases in lanes.
 class GroupCarrier {
  public:
   virtual ~GroupCarrier() = default;
-  // One group, or fewer at the sweep's end. Cases that are not marked as carried are run alone.
-  // May return when `stop` becomes true.
+  // Carries one group; the last group of the sweep may be smaller. Cases that it does not mark as
+  // carried are run singly. May return early once `stop` is true.
   virtual void carry(std::span<GroupCase> cases, const std::atomic<bool>& stop) = 0;
 };
 
-// `first` is the sweep's first case: those that are carried end at the same time, and have all
-// measures. The task outlives the runner.
+// `first` is the scenario of the sweep's first case. All carried cases share its end time and have
+// all measures. The task must outlive the runner.
 [[nodiscard]] std::unique_ptr<CaseRunner> group_runner(const SweepTask& task, const Scenario& first,
                                                        std::size_t group,
                                                        std::unique_ptr<GroupCarrier> carrier);

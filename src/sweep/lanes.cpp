@@ -27,7 +27,7 @@ bool has_single_harmonic(const Reference& reference) {
          std::holds_alternative<CircleReference>(reference);
 }
 
-// A loop of the paper's, in the numbers that a lane has.
+// Converts a loop of the paper to the numbers of a lane.
 LoopCase loop_case(const Scenario& scenario, const model::Model& model,
                    const model::SignalView& reference) {
   LoopCase loop{};
@@ -53,8 +53,8 @@ LoopCase loop_case(const Scenario& scenario, const model::Model& model,
   return loop;
 }
 
-// Cases that go through the lanes one after the other. When the last ones are on their way some
-// lanes are empty: of so many cases that hardly counts.
+// Cases that share one call of the lanes. Some lanes are empty while the last cases finish; among
+// this many cases that costs little.
 constexpr std::size_t in_turn = 1024;
 
 class LoopCarrier : public GroupCarrier, private solve::loop::LoopStudy {
@@ -102,7 +102,7 @@ class LoopCarrier : public GroupCarrier, private solve::loop::LoopStudy {
     std::optional<Loop>& loop = loops_[number];
     const auto greatest = extremes(run);
     const bool unbounded = run.ending == LoopEnding::unbounded;
-    // Of the last row before infinity the place is all that is known.
+    // In the last row before infinity only x and y are known.
     if (run.ending != LoopEnding::given_up && greatest && (!unbounded || ends_at_places_)) {
       track_.begin(loop->model, loop->constants, grid_, same_signals_);
       std::array<double, solve::loop::states> last;
@@ -119,7 +119,7 @@ class LoopCarrier : public GroupCarrier, private solve::loop::LoopStudy {
     loop.reset();
   }
 
-  // None where squares were too large or too small for a double.
+  // Empty if a square overflows or vanishes.
   [[nodiscard]] static std::optional<record::TrackExtremes> extremes(
       const solve::loop::LoopRun& run) {
     const double distance = run.greatest[solve::loop::distance_squared];
@@ -135,10 +135,10 @@ class LoopCarrier : public GroupCarrier, private solve::loop::LoopStudy {
   solve::OutputGrid grid_;
   solve::loop::LoopLanes lanes_;
   bool same_signals_;
-  bool ends_at_places_;  // of columns at the end there are x and y alone
+  bool ends_at_places_;  // measures at the end are of x and y only
   std::span<GroupCase> cases_;
   std::size_t begun_ = 0;
-  std::vector<std::optional<Loop>> loops_;  // of the cases that are on their way
+  std::vector<std::optional<Loop>> loops_;  // of cases that are in a lane
 };
 
 }  // namespace
@@ -148,8 +148,8 @@ bool can_use_lanes(const SweepTask& task) {
       !task.plan.independent()) {
     return false;
   }
-  // Planar cases among others are carried as these are; a sweep of planar ones alone has less to
-  // integrate one by one. Whatever else is asked here is the same in all cases.
+  // Among others, planar cases are carried with all states. A sweep of only planar cases has fewer
+  // states, and runs singly. Everything else tested here is the same in all cases.
   const Scenario scenario = task.family.read(task.plan.general_settings());
   return scenario.controller && !scenario.solver.error &&
          solve::choose_method(scenario.solver.method) == Method::radau &&

@@ -1,23 +1,23 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Loops of one kind, a case in each SIMD lane.
+// Sweeps of continuous control loops, with a case in each SIMD lane.
 #pragma once
 
 #include "sweep/task.hpp"
 
 namespace bbsim::sweep {
 
-// Whether the sweep is of loops under equation (31) at tolerances where lanes are ahead of single
-// runs, and all its measures are those of a track.
+// Whether all cases are loops under equation (31) that lanes can carry, and all measures are track
+// measures (record/track/track_measures.hpp).
 [[nodiscard]] bool can_use_lanes(const SweepTask& task);
 
-// Cases that begin together.
+// The number of cases in a group.
 [[nodiscard]] std::size_t lane_group();
 
-// The task is one for which can_use_lanes() holds, and outlives the runner. A case that the
-// lanes give up is run by itself, and so is one that grows without bound, if more than x and y are
-// asked of its end.
+// Requires can_use_lanes(task). The task must outlive the runner. A case that the lanes give up is
+// run singly. So is a case that grows without bound, if the sweep has a measure at the end other
+// than x and y.
 [[nodiscard]] std::unique_ptr<CaseRunner> lane_runner(const SweepTask& task);
 
 }  // namespace bbsim::sweep

@@ -26,7 +26,7 @@ struct ShardName {
   std::size_t number, of;
 };
 
-// "...-2of3.csv"
+// Reads the numbers in "...-2of3.csv".
 std::optional<ShardName> shard_in(const std::string& file) {
   const std::string stem = std::filesystem::path(file).stem();
   const std::size_t dash = stem.rfind('-');

@@ -24,7 +24,7 @@ constexpr off_t largest_plan = off_t{64} * 1024 * 1024;  // bytes
 
 struct CsvPart {
   std::string file, header;
-  std::size_t first = 0;  // case; of a part without rows it comes before all
+  std::size_t first = 0;  // first case; 0 if the part has no rows, so that it comes first
   dev_t device = 0;
   ino_t inode = 0;
 };
@@ -33,7 +33,7 @@ struct CsvPart {
   throw InputError("cannot read " + file + ": " + reason);
 }
 
-// Parts are opened one at a time, however many there are.
+// Parts are opened one at a time, so any number of them can be merged.
 file::Descriptor open_part(const std::string& file, struct stat& status) {
   file::Descriptor opened = file::above_standard_streams(
       open(file.c_str(), O_RDONLY | O_NONBLOCK | O_NOCTTY | O_CLOEXEC));
@@ -69,8 +69,8 @@ CsvPart look_at(const std::string& file) {
   return part;
 }
 
-// What says of which sweep the part is. While a sweep to the same name has not ended, what stands
-// there is its own.
+// Reads the plan of a part, if it has one. While a sweep to the same name is unfinished, the plan
+// there belongs to that sweep.
 std::optional<std::string> read_plan(const std::string& part) {
   const std::string file = plan_of_part(part);
   if (file.empty()) return {};
@@ -93,7 +93,7 @@ struct Agreed {
   InstructionSets instruction_sets;
 };
 
-// Parts that have no plan are passed over.
+// Skips parts that have no plan.
 Agreed compare_plans_of(const std::vector<std::string>& files) {
   Agreed agreed;
   std::string first_file, first_plan;
@@ -116,8 +116,8 @@ Agreed compare_plans_of(const std::vector<std::string>& files) {
   return agreed;
 }
 
-// Writes the part's rows, of which `next` is the first that may come; counts it on. False if it was
-// interrupted.
+// Writes the rows of a part. Checks that their cases count on from `next`, and advances it. False
+// if interrupted.
 bool copy_rows(const CsvPart& part, file::AtomicFile& out, std::size_t& next,
                const std::atomic<bool>& stop) {
   struct stat status {};
@@ -141,7 +141,8 @@ bool copy_rows(const CsvPart& part, file::AtomicFile& out, std::size_t& next,
       refuse_row(part.file, found, row);
     check_case(part.file, reader.case_number(), next);
     ++next;
-    out.write({line.data(), line.size() + 1});  // with its break, which stands behind it
+    // The line break follows the line in the buffer.
+    out.write({line.data(), line.size() + 1});
   }
   return true;
 }

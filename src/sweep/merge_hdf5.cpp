@@ -14,7 +14,7 @@
 namespace bbsim::sweep {
 namespace {
 
-// Numbers of series in memory at a time, about.
+// About this many numbers of series are in memory at a time.
 constexpr std::size_t most_numbers = std::size_t{1} << 19U;
 constexpr std::size_t most_at_a_time = 1024;
 
@@ -23,7 +23,7 @@ constexpr const char* instruction_set = "instruction_set";
 struct Hdf5Part {
   std::string file;
   file::Hdf5TableReader table;
-  std::size_t first = 0;  // case
+  std::size_t first = 0;  // number of the first case
 };
 
 std::size_t rows_at_a_time(const std::vector<file::Hdf5Column>& columns) {
@@ -35,7 +35,7 @@ std::size_t rows_at_a_time(const std::vector<file::Hdf5Column>& columns) {
 }
 
 std::size_t case_in(const std::string& file, double number) {
-  constexpr double most = 9007199254740992;  // up to where doubles tell whole numbers apart
+  constexpr double most = 9007199254740992;  // 2^53: doubles represent all whole numbers up to here
   if (number >= 0 && number <= most && number == std::floor(number)) {
     return static_cast<std::size_t>(number);
   }
@@ -61,7 +61,7 @@ InstructionSets instruction_sets_of(const std::vector<Hdf5Part>& parts) {
   return all;
 }
 
-// Whether all are alike to the bit, numbers that are none included.
+// Compares bits, so that equal NaNs count as equal.
 bool same_data(const file::TableData& a, const file::TableData& b) {
   return a.names == b.names &&
          std::equal(a.columns.begin(), a.columns.end(), b.columns.begin(), b.columns.end(),
@@ -72,7 +72,7 @@ bool same_data(const file::TableData& a, const file::TableData& b) {
                     });
 }
 
-// Whether the scenarios read the same.
+// Whether the scenarios read the same tables.
 bool same_inputs(const std::vector<file::InputTable>& a, const std::vector<file::InputTable>& b) {
   return std::equal(a.begin(), a.end(), b.begin(), b.end(),
                     [](const file::InputTable& one, const file::InputTable& other) {

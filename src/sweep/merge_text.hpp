@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// What both sides of merge.hpp say.
+// Checks and texts that both formats of merge.hpp share.
 #pragma once
 
 #include <cstddef>
@@ -10,17 +10,17 @@
 
 namespace bbsim::sweep {
 
-// Each throws InputError where the two differ.
+// Both throw InputError if the numbers differ.
 void check_case(const std::string& file, std::size_t found, std::size_t expected);
 void check_all_there(std::size_t found, std::size_t expected);
 
-// The instruction sets by which the parts were computed.
+// The instruction sets that computed the parts.
 class InstructionSets {
  public:
   void add(const std::string& name);
   // "avx2 and avx512"
   [[nodiscard]] std::string names() const;
-  // What to say if there are several; empty if not.
+  // A note for the user if there are several sets; empty otherwise.
   [[nodiscard]] std::string note() const;
 
  private:

@@ -25,8 +25,8 @@ namespace {
 using solve::open::GivenMotion, solve::open::OpenCase, solve::open::OpenLanes, solve::open::Reached;
 using Kind = scenario::Measure::Kind;
 
-// A small sweep would spend more on measuring its pace than on its cases; and where a case goes on
-// for so many radians of its motion, the first one would be long in coming.
+// In a smaller sweep, measuring the pace would cost more than the cases. In a longer motion, it
+// would delay the first case too long.
 constexpr std::size_t worth_it = 32;
 constexpr double longest = 3000;  // rad
 
@@ -34,7 +34,7 @@ model::Model model_of(const Scenario& scenario) {
   return model::assemble(scenario, false, model::Symmetry::ignored);
 }
 
-// The case in the numbers that a lane has. Tables do not vary, and are those of `tables`.
+// Converts the case to the numbers of a lane. Tables do not vary; `tables` has them for all cases.
 void set(OpenCase& one, const Scenario& scenario, const model::SignalView& tables) {
   const Ball& ball = scenario.ball;
   one.radius = ball.radius;
@@ -97,7 +97,7 @@ class OpenCarrier : public GroupCarrier {
     return name == "distance" ? Take::distance : name == "tilt" ? Take::tilt : Take::tilt_rate;
   }
 
-  // The measures of a lane's case; false of one whose squares overflow or vanish.
+  // Writes the measures of a lane's case. False if a square overflows or vanishes.
   bool take(std::size_t lane, const GroupCase& one) {
     const Reached reached = lanes_.reached(static_cast<int>(lane));
     if (!record::is_square(reached.distance_squared)) return false;
@@ -138,7 +138,8 @@ class OpenCarrier : public GroupCarrier {
     return true;
   }
 
-  // Of motions with tables, which are not looked at in lanes, or of one that all cases have.
+  // Lanes do not search tables, so a motion with tables is searched here: once if all cases share
+  // it, otherwise for each case.
   record::GimbalExtremes::Greatest turning(const GroupCase& one, const Reached& reached) {
     if (motion_.view().table_count == 0) {
       return {record::tilt_of(reached.versine), std::sqrt(reached.rate_squared)};
@@ -151,7 +152,7 @@ class OpenCarrier : public GroupCarrier {
 
   const SweepTask& task_;
   const double end_time_;           // s
-  const model::SignalPair motion_;  // whose tables are those of all
+  const model::SignalPair motion_;  // its tables are those of all cases
   CaseScenario scenario_;
   OpenLanes lanes_;
   std::vector<Take> take_;
@@ -169,7 +170,7 @@ bool can_use_open_lanes(const SweepTask& task) {
       !record::are_track_measures(task.measures)) {
     return false;
   }
-  // Planar cases are carried like the others. Whatever is asked here is the same in all cases.
+  // Planar cases are carried like the others. Everything tested here is the same in all cases.
   const Scenario scenario = task.family.read(task.plan.settings(0));
   return scenario.gimbal.motion && !scenario.solver.error &&
          solve::choose_method(scenario.solver.method) == Method::radau &&

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Balls under given motions in step, a case in each SIMD lane.
+// Sweeps of balls under prescribed motions, in lock step with a case in each SIMD lane.
 #pragma once
 
 #include <optional>
@@ -11,19 +11,18 @@
 
 namespace bbsim::sweep {
 
-// Whether the sweep is of scenes with a given motion under equation (27), whatever varies, and all
-// its measures are those of a track.
+// Whether all cases have a prescribed motion under equation (27) that lanes can carry, and all
+// measures are track measures (record/track/track_measures.hpp).
 [[nodiscard]] bool can_use_open_lanes(const SweepTask& task);
 
-// How long steps are at first, measured on some cases from all over the sweep; nothing if lanes
-// cannot carry these. The task is one for which can_use_open_lanes() holds.
+// Measures the first step and the number of nodes on 32 cases from all over the sweep. Empty if
+// lanes cannot carry these cases. Requires can_use_open_lanes(task).
 [[nodiscard]] std::optional<solve::open::Pace> open_lane_pace(const SweepTask& task);
 
-// Cases that step together.
+// The number of cases in a group.
 [[nodiscard]] std::size_t open_lane_group();
 
-// The task outlives the runner. A case that does not fit among the others of its group is run by
-// itself.
+// The task must outlive the runner. A case that does not fit into its group is run singly.
 [[nodiscard]] std::unique_ptr<CaseRunner> open_lane_runner(const SweepTask& task,
                                                            const solve::open::Pace& pace);
 

@@ -40,7 +40,7 @@ PartFile::PartFile(const std::string& target, std::string plan, bool resume)
         fail("write", error);
     }
   } catch (...) {
-    if (!worth_keeping_) discard();  // no destructor runs for a constructor that throws
+    if (!worth_keeping_) discard();  // the destructor does not run if the constructor throws
     throw;
   }
   flusher_ = file::Flusher(size_);
@@ -55,9 +55,9 @@ std::vector<std::string> PartFile::names_beside(const std::string& target) {
   return {path + ".part", path + ".plan", path + ".part.series"};
 }
 
-// Comes before anything else: the plan of a part belongs to whoever writes to the part.
+// Comes before anything else: the plan belongs to the process that writes to the part.
 void PartFile::open_and_lock() {
-  constexpr int most_attempts = 100;  // while other processes begin and end
+  constexpr int most_attempts = 100;  // other processes may begin and end meanwhile
   for (int attempt = 0; attempt < most_attempts; ++attempt) {
     descriptor_ = std::move(file::open_own_file(part_).descriptor);
     int locked = 0;
@@ -69,12 +69,12 @@ void PartFile::open_and_lock() {
           part_ +
           ": another bbsim is writing to it; wait until it ends, or choose another name with -o");
     }
-    // Some file systems of clusters know no locks; what they are for is seldom.
+    // Some cluster file systems have no locks. Go on there: two sweeps to one target are rare.
     if (locked != 0 && errno != ENOSYS && errno != ENOLCK && errno != EOPNOTSUPP) {
       fail("lock", errno);
     }
     if (!file::is_name_of(part_, descriptor_.get()))
-      continue;  // another process just finished with it
+      continue;  // another process has just finished with it
     struct stat status {};
     if (fstat(descriptor_.get(), &status) != 0) fail("look at", errno);
     size_ = status.st_size;
@@ -83,7 +83,7 @@ void PartFile::open_and_lock() {
   fail("lock", EBUSY);
 }
 
-// The part was there before: it may be gone on with only by the same plan.
+// Only a sweep with the same plan may resume an existing part.
 void PartFile::check_plan(bool resume) const {
   if (!resume) {
     throw InputError(part_ +
@@ -177,9 +177,9 @@ void PartFile::commit(bool keep_plan) {
     if (!keep_plan) file::remove_own_file(plan_, plan_descriptor_.get());
     if (const int error = file::sync_folder(target_.folder())) fail("sync the folder of", error);
   } else {
-    copy_to_target();  // the names beside it are another sweep's now, if they are there
+    copy_to_target();  // the names beside the target may now be another sweep's
   }
-  if (const int error = descriptor_.close()) fail("write", error);  // and unlocked, at last
+  if (const int error = descriptor_.close()) fail("write", error);  // also unlocks
 }
 
 void PartFile::copy_to_target() const {
@@ -200,7 +200,7 @@ void PartFile::discard() {
   if (!descriptor_.is_open()) return;
   if (in_place()) {  // otherwise the plan is another sweep's
     file::remove_own_file(part_, descriptor_.get());
-    // One that cannot be removed keeps what says what it is of.
+    // A part that cannot be removed keeps its plan.
     if (plan_descriptor_.is_open() && !in_place())
       file::remove_own_file(plan_, plan_descriptor_.get());
   }

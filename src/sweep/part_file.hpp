@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// A file that grows over a long run, stays when the run ends early, and can be taken up again.
+// A file that grows during a long run. It stays if the run ends early, and a later run can resume
+// it.
 #pragma once
 
 #include <sys/types.h>
@@ -16,28 +17,28 @@
 
 namespace bbsim::sweep {
 
-// Bytes go to TARGET.part, beside the file itself if the target is a link; beside it TARGET.plan
-// says what is being done, so that nothing else is taken up in its place. commit() gives the part
-// its final name. Destroyed without it, both stay, unless there is nothing in the part that was
-// worth keeping. The part is locked, and read through the same descriptor: what happens to its name
-// meanwhile cannot change what becomes of it.
+// Bytes go to TARGET.part, beside the file itself if the target is a link. TARGET.plan beside it
+// identifies the sweep, so that no other sweep resumes the part. commit() gives the part its final
+// name. Without commit(), the destructor leaves both files, unless the part has nothing worth
+// keeping. The part is locked and read through the same descriptor, so a change of its name does no
+// harm.
 //
-// Every function throws OutputError where the system refuses something.
+// Every function throws OutputError if the system refuses an operation.
 class PartFile {
  public:
-  // A part that is there already is an InputError, unless `resume` is set and its plan is the same.
-  // A part that another process writes to is an InputError too.
+  // Throws InputError if a part exists, unless `resume` is set and the plans are the same. Throws
+  // InputError if another process writes to the part.
   PartFile(const std::string& target, std::string plan, bool resume);
   ~PartFile();
   PartFile(const PartFile&) = delete;
   PartFile& operator=(const PartFile&) = delete;
 
-  // All names that a sweep to this target writes to, but for the target's own.
+  // All names that a sweep to this target writes to, except the target.
   [[nodiscard]] static std::vector<std::string> names_beside(const std::string& target);
 
   [[nodiscard]] const std::string& name() const { return part_; }
   [[nodiscard]] int descriptor() const { return descriptor_.get(); }
-  // Bytes that were kept and appended.
+  // The number of bytes kept and appended.
   [[nodiscard]] off_t size() const { return size_; }
   // Whether the part still has its name.
   [[nodiscard]] bool in_place() const;
@@ -45,20 +46,19 @@ class PartFile {
   void keep_only(off_t size);
   // Hands bytes to the system at once, and to the disk within seconds.
   void append(std::string_view bytes);
-  // Says whether the part is to stay should the run end early.
+  // Says whether the part stays if the run ends early.
   void set_worth_keeping(bool worth) { worth_keeping_ = worth; }
   [[nodiscard]] bool is_worth_keeping() const { return worth_keeping_; }
-  // What is there now survives a power cut.
+  // Makes all bytes so far survive a power cut.
   void sync();
 
-  // Puts the part under the target's name, with the permissions of what it replaces; should the
-  // part have lost its own name, a copy of it. The plan goes, unless it is to stay beside the
-  // result.
+  // Renames the part to the target, with the permissions of the file that it replaces. If the part
+  // has lost its name, writes a copy instead. Removes the plan unless `keep_plan` is set.
   void commit(bool keep_plan);
-  // Removes part and plan: what they hold is elsewhere now.
+  // Removes part and plan, whose content is now elsewhere.
   void discard();
 
-  // Throws OutputError for an errno that something met.
+  // Throws OutputError: "cannot DOING PART: ", and the system's text for the errno.
   [[noreturn]] void fail(const std::string& doing, int error) const;
 
  private:

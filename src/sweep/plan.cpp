@@ -23,8 +23,8 @@ using Setting = ScenarioFamily::Setting;
 
 constexpr double most_cases = 1e12;
 
-// SplitMix64 (Steele, Lea and Flood, OOPSLA 2014): a bijection that leaves no pattern of its
-// argument, so that counting through arguments is as good as a generator with a state.
+// SplitMix64 (Steele, Lea and Flood, OOPSLA 2014). It is a bijection that hides every pattern of
+// its argument, so hashing a counter is as good as a generator with a state.
 std::uint64_t mixed(std::uint64_t x) {
   x += 0x9E3779B97F4A7C15U;
   x = (x ^ (x >> 30U)) * 0xBF58476D1CE4E5B9U;
@@ -39,7 +39,7 @@ std::uint64_t hash(const std::string& text) {
   return value;
 }
 
-// a b + c d, rounded once or twice: round numbers stay round.
+// a b + c d with one or two roundings, so that round numbers stay round.
 double sum_of_products(double a, double b, double c, double d) {
   const double ab = a * b, cd = c * d, sum = ab + cd;
   const double lost_in_sum = std::abs(ab) > std::abs(cd) ? (ab - sum) + cd : (cd - sum) + ab;
@@ -57,7 +57,7 @@ double spaced(const Axis& axis, std::size_t i) {
     return std::copysign(std::exp((first * after + last * before) / all), axis.from);
   }
   const double sum = sum_of_products(axis.from, after, axis.to, before);
-  // Where the products overflow, or all of a difference would.
+  // The products may overflow although the value does not.
   return std::isfinite(sum) ? sum / all : axis.from * (after / all) + axis.to * (before / all);
 }
 
@@ -66,8 +66,8 @@ double listed(const Axis& axis, std::size_t i) {
   return axis.numeric ? axis.numbers[i] : static_cast<double>(i);
 }
 
-// A number of the axis that is not 0, if there is one: of those that are equally far apart it is
-// among the first two, and of a distribution it may be any that stands in its place.
+// A value of the axis other than 0, if it has one. Of two evenly spaced values one is not 0. A
+// distribution is represented by one of its two parameters.
 double not_zero(const Axis& axis) {
   if (axis.random()) return axis.from != 0 ? axis.from : axis.to;
   const std::size_t look_at =
@@ -82,7 +82,7 @@ std::string value_text(const Axis& axis, double value) {
   return axis.numeric ? number_text(value) : axis.texts[static_cast<std::size_t>(value)];
 }
 
-// Whether the path goes on from another one.
+// Whether `path` is a key below `other`.
 bool within(const std::string& path, const std::string& other) {
   return yaml::american(path).starts_with(yaml::american(other) + '.');
 }
@@ -91,7 +91,7 @@ bool within(const std::string& path, const std::string& other) {
   throw InputError(yaml::shown(key) + ": " + message);
 }
 
-// A key that varies must not be another one's, nor a part of it.
+// A key that varies must not be, contain or lie within another one.
 void check_apart(const std::string& key, const std::vector<Setting>& others) {
   for (const Setting& other : others) {
     if (yaml::american(other.key) == yaml::american(key)) {
@@ -106,7 +106,7 @@ void check_apart(const std::string& key, const std::vector<Setting>& others) {
   }
 }
 
-// What --set gives to a key that varies would not be in any case.
+// No case would have the value that --set gives to a key that varies.
 void check_overrides(const std::string& key, const Source& source) {
   for (const std::string& set : source.overrides) {
     const std::string set_key = set.substr(0, set.find('='));
@@ -117,7 +117,7 @@ void check_overrides(const std::string& key, const Source& source) {
   }
 }
 
-// A variation, taken apart.
+// A variation, parsed.
 struct Varied {
   scenario::VariationSpec spec;
   std::vector<scenario::TiedKey> keys;
@@ -144,8 +144,9 @@ std::vector<Varied> varied(const Sweep& sweep, const Source& source) {
   return all;
 }
 
-// Which of the values that are written stands beside value i of another variation in some case: in
-// a grid the first one; of those that are zipped the one of the same case, or the end nearer to it.
+// The index of the written value of `other` that goes with value i of `own` in some case. In a grid
+// this is the first one. When zipped it is the one of the same case, or of the nearer end if either
+// is a range.
 std::size_t beside(const scenario::VariationSpec& other, const scenario::VariationSpec& own,
                    std::size_t i, Combine combine) {
   if (combine != Combine::zip || other.random() || own.random()) return 0;
@@ -154,7 +155,7 @@ std::size_t beside(const scenario::VariationSpec& other, const scenario::Variati
   return 2 * i >= own.values.size() ? last : 0;
 }
 
-// What is wrong with the scenario itself.
+// Problems of the scenario without any settings.
 std::vector<Problem> own_problems(const ScenarioFamily& family) {
   try {
     static_cast<void>(family.read({}));
@@ -164,8 +165,8 @@ std::vector<Problem> own_problems(const ScenarioFamily& family) {
   return {};
 }
 
-// Reads a case of these settings by `read`. What is wrong with it, and not with any case, is told
-// with its number and the value at fault, or all of its values where the fault stands elsewhere.
+// Calls read() for a case with these settings. Adds the case's number to its problems, and all of
+// its values unless the problem names one. Leaves the scenario's own problems unchanged.
 template <class Read>
 auto read_case(const ScenarioFamily& family, std::size_t number,
                const std::vector<Setting>& settings, const Read& read) {
@@ -196,8 +197,8 @@ auto read_case(const ScenarioFamily& family, std::size_t number,
 struct SweepPlan::Variations {
   std::vector<Varied> all;
 
-  // The first case in which a variation has the value i of those that are written, and the others
-  // those beside it; nothing where that is a bound of what is drawn.
+  // The first case in which variation `which` has its written value i. Empty if that value is a
+  // parameter of a distribution.
   [[nodiscard]] std::optional<std::size_t> first_case(std::size_t which, std::size_t i,
                                                       const Sweep& sweep) const {
     const auto count = [](const Varied& one) {
@@ -212,8 +213,8 @@ struct SweepPlan::Variations {
     return number * static_cast<std::size_t>(sweep.samples.value_or(1));
   }
 
-  // Of every key, where variation `which` has its value i: the scenario need not be complete
-  // without the others.
+  // Settings of all keys, with variation `which` at its written value i and the others beside it.
+  // The scenario may be incomplete without the others.
   [[nodiscard]] std::vector<Setting> settings(std::size_t which, std::size_t i,
                                               Combine combine) const {
     std::vector<Setting> settings;
@@ -241,7 +242,7 @@ void SweepPlan::add_axes(const ScenarioFamily& family, const Sweep& sweep,
   axis.kind = spec.kind;
   axis.count = spec.random() ? 1 : spec.count;
   axis.lead = lead;
-  // Both spellings of a key draw the same values.
+  // The British and the American spelling of a key draw the same values.
   axis.stream = mixed(mixed(seed_) ^ hash(yaml::british(keys[0].path)));
   std::vector<double> numbers;  // of the first key
   for (std::size_t i = 0; i < spec.values.size(); ++i) {
@@ -337,7 +338,7 @@ SweepPlan::SweepPlan(const ScenarioFamily& family, const Sweep& sweep)
   cases_ = static_cast<std::size_t>(cases);
 
   Scenario first = family.read(settings(0));
-  // All of them or none: a key of another sort may change what the others mean.
+  // Holds for all axes or for none: a key of another kind may change the meaning of the others.
   const bool independent = std::all_of(axes_.begin(), axes_.end(), [&](const Axis& axis) {
     return axis.numeric && !independent_number(first, axis.key).empty();
   });
@@ -376,7 +377,7 @@ void SweepPlan::values(std::size_t number, double* values) const {
     }
   }
   for (std::size_t a = 0; a < axes_.size(); ++a) {
-    // Adding 0 takes the sign off a zero.
+    // Adding 0 turns -0 into +0.
     if (!is_lead(a)) values[a] = axes_[a].factor * values[axes_[a].lead] + 0.0;
   }
 }
@@ -419,7 +420,8 @@ bool SweepPlan::check(const ScenarioFamily& family, std::size_t first, std::size
     }
     return true;
   }
-  // Ranges have no holes, and the ends of what is listed or drawn between bounds have been read.
+  // Ranges have no holes, and the constructor has read all bounds. Normal draws have no bounds, so
+  // read their extremes.
   for (std::size_t a = 0; a < axes_.size(); ++a) {
     const Axis& axis = axes_[a];
     if (axis.kind != Way::normal || !is_lead(a)) continue;

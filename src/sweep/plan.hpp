@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Which cases a sweep has: what its keys vary over, combined and numbered.
+// Lists the cases of a sweep: combines and numbers the values of its keys.
 #pragma once
 
 #include <cstddef>
@@ -17,58 +17,57 @@
 namespace bbsim::sweep {
 
 // One key that varies. Keys may be tied: all but the first then take its values times a factor, and
-// add no cases of their own.
+// add no cases.
 struct Axis {
   std::string key;
-  std::size_t lead = 0;  // the axis whose values it takes; its own number if it is tied to none
-  double factor = 1;     // by which it takes them
+  std::size_t lead = 0;  // the axis whose values it takes; its own index if it is not tied
+  double factor = 1;     // multiplies these values
   scenario::VariationSpec::Kind kind = scenario::VariationSpec::Kind::list;
-  bool numeric = true;      // single numbers, in SI units; otherwise texts in YAML
-  std::size_t count = 1;    // of values; 1 of what is drawn
-  double from = 0, to = 0;  // of linear, log and uniform; mean and standard deviation of normal
+  bool numeric = true;               // single numbers in SI units; otherwise texts in YAML
+  std::size_t count = 1;             // number of values; 1 if they are drawn
+  double from = 0, to = 0;           // bounds; mean and standard deviation of normal
   std::vector<double> numbers{};     // of a list
   std::vector<std::string> texts{};  // of a list that is not numeric
-  std::uint64_t stream = 0;          // tells its draws from those of other keys
-  // No rule relates the number at any of the varied keys to another key: for all axes or none.
+  std::uint64_t stream = 0;          // seeds the draws of this key
+  // No rule relates the number at any varied key to another key. The same for all axes.
   bool independent = false;
 
-  [[nodiscard]] bool random() const {  // of a lead
+  [[nodiscard]] bool random() const {
     return kind == scenario::VariationSpec::Kind::uniform ||
            kind == scenario::VariationSpec::Kind::normal;
   }
 };
 
-// Cases are numbered from 0. In a grid the first key varies slowest; zipped, all keys go on
-// together from case to case; either way each combination comes `samples` times in a row, with
-// other draws.
+// Cases are numbered from 0. In a grid the first key varies slowest. Zipped keys all advance from
+// case to case. Each combination occurs `samples` times in a row, with new draws.
 class SweepPlan {
  public:
-  // Reads all values that are listed, and so checks them. Throws InputError, which names the case
-  // that a value is refused in; so does check().
+  // Reads all listed values, which checks them. Throws InputError with the number of the case in
+  // which a value is refused, as check() does.
   SweepPlan(const ScenarioFamily& family, const Sweep& sweep);
 
   [[nodiscard]] std::size_t cases() const { return cases_; }
   [[nodiscard]] const std::vector<Axis>& axes() const { return axes_; }
 
-  // Whether no rule relates the number at any of the varied keys to another key.
+  // Whether no rule relates the number at any varied key to another key.
   [[nodiscard]] bool independent() const { return axes_.front().independent; }
 
-  // Whether all cases have one motion or reference, at the same times.
+  // Whether all cases have the same motion or reference at the same times.
   [[nodiscard]] bool shares_signals() const;
 
-  // The number of each axis in a case, or the position of its text in the list.
+  // Writes the number of each axis in a case, or the index of its text in the list.
   void values(std::size_t number, double* values) const;
 
   // The values of a case as settings of a scenario.
   [[nodiscard]] std::vector<ScenarioFamily::Setting> settings(std::size_t number) const;
 
-  // Settings of which no number is 0 if its key takes any that is not: of a scene that is symmetric
-  // only if every case is. Of keys that are independent(); no case need have them.
+  // Settings in which a number is 0 only if its key takes no other value. Their scene is symmetric
+  // only if every case is. Requires independent(). No case need have these settings.
   [[nodiscard]] std::vector<ScenarioFamily::Setting> general_settings() const;
 
-  // Puts cases first ... last - 1 to the scenario's checks: one by one where keys depend on each
-  // other, by the extremes where they do not. `goes_on` is told how far it is, from 0 to 1, and may
-  // end it by returning false; check() then returns false. Throws InputError.
+  // Runs the scenario's checks on cases first ... last - 1: on each case if keys depend on each
+  // other, otherwise on the extremes. Calls goes_on() with the fraction done, 0 to 1; if it returns
+  // false, check() stops and returns false. Throws InputError.
   [[nodiscard]] bool check(const ScenarioFamily& family, std::size_t first, std::size_t last,
                            const std::function<bool(double)>& goes_on) const;
 

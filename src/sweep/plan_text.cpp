@@ -11,7 +11,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-// Discarded if it is none.
+// Returns a discarded value if the text is not JSON.
 Json parsed(const std::string& plan) {
   return parse_json(plan);
 }

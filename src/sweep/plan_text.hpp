@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The text beside a sweep's rows that says all that they depend on: JSON, an object.
+// The plan beside a sweep's rows: a JSON object with everything that the rows depend on.
 #pragma once
 
 #include <array>
@@ -11,21 +11,21 @@
 
 namespace bbsim::sweep {
 
-// How two plans differ, but for the shard that each is of, if they are `of_shards`.
+// How two plans differ. `of_shards` ignores the shard.
 struct PlanDifference {
-  std::string other;  // what differs beside the instruction set: "seed, vary"; empty if nothing
-  std::array<std::string, 2> instruction_sets;  // of the two, if they differ
+  std::string other;  // keys that differ, except the instruction set: "seed, vary"; empty if none
+  std::array<std::string, 2> instruction_sets;  // of both plans, if they differ
 };
 [[nodiscard]] PlanDifference compare_plans(const std::string& one, const std::string& two,
                                            bool of_shards = false);
 
-// The number of cases of the whole sweep, if the plan tells it.
+// The number of cases of the whole sweep; empty if the plan lacks it.
 [[nodiscard]] std::optional<std::size_t> cases_in(const std::string& plan);
 
-// "unknown" if it does not tell.
+// "unknown" if the plan has none.
 [[nodiscard]] std::string instruction_set_in(const std::string& plan);
 
-// Whether it is a plan at all.
+// Whether the text is a JSON object.
 [[nodiscard]] bool is_plan(const std::string& text);
 
 }  // namespace bbsim::sweep

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// A run's contact point at any time: the integrator's own polynomials, kept.
+// Keeps the integrator's polynomials of a run and evaluates the contact point at any time.
 #pragma once
 
 #include <array>
@@ -14,10 +14,10 @@
 
 namespace bbsim::sweep {
 
-// The motion of a ball that may be anywhere on the plane.
+// Records runs whose rows begin with x and y.
 class RecordedMotion : public solve::StateSink, public solve::PieceSink {
  public:
-  // x and y are polynomials of this degree over each piece; rows are so long.
+  // `degree` is that of x and y over each piece; `row_size` is the number of values in a row.
   RecordedMotion(std::size_t degree, std::size_t row_size);
 
   void accept(std::size_t, std::size_t, const double*) override {}
@@ -26,9 +26,9 @@ class RecordedMotion : public solve::StateSink, public solve::PieceSink {
   void begin_run() override { pieces_.clear(); }
   void accept(const solve::Piece& piece) override;
 
-  // x and y at t, s; within the run.
+  // x and y at time t (s) within the run, m.
   [[nodiscard]] std::array<double, 2> at(double t) const;
-  // The greatest size of x or y in the pieces that times between the two lie in.
+  // The greatest |x| or |y| at the points of the pieces that touch from ... to (s), m.
   [[nodiscard]] double size(double from, double to) const;
 
  private:

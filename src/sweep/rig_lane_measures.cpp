@@ -18,10 +18,11 @@ using solve::sampled::LaneStep;
 using solve::sampled::Range;
 using solve::sampled::Size;
 
-// Polynomials of degree 9 and their squares, and a servo's sines, over a piece or a part of one.
+// Intervals that resolve, over a piece or a part of one, polynomials of degree 9, their squares and
+// the sines of a servo.
 constexpr std::size_t parts = 16;
 
-// What promises less than this part more is about as great.
+// A piece is searched if its bound exceeds the greatest value so far by this fraction.
 constexpr double worth = 1e-9;
 
 Size size_of(std::string_view column) {
@@ -135,7 +136,7 @@ void RigLaneMeasures::accept_end(std::size_t lane, double t, std::span<const dou
   last_row_[lane].assign(row.begin(), row.end());
 }
 
-// The last piece ends before what switches at its end.
+// The last piece does not include a switch at its end, so the end is taken by itself.
 void RigLaneMeasures::take_end(std::size_t lane, const model::Model& model) {
   const model::Sample end =
       model.sample(last_time_[lane], last_row_[lane].data(), model::Detail::gimbal);

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Measures of sampled rigs that go together, a case in each lane.
+// Takes the measures of sampled rigs in lanes, with a case in each lane.
 #pragma once
 
 #include <array>
@@ -19,20 +19,21 @@ namespace bbsim::sweep {
 
 class RigLaneMeasures : public solve::sampled::LaneSink {
  public:
-  // Of measures that record::are_track_measures() says yes to.
+  // Requires record::are_track_measures(measures).
   RigLaneMeasures(const std::vector<scenario::Measure>& measures, const solve::OutputGrid& grid);
 
   [[nodiscard]] solve::sampled::LaneAsked asks_for() const;
 
-  // Begins a group whose cases have this reference, which outlives it; all groups have the same.
+  // Begins a group whose cases have this reference, which must outlive the group. All groups have
+  // the same reference.
   void begin(const model::SignalPair& reference);
 
   void accept(const solve::sampled::LaneStep& step) override;
   void accept_row(std::size_t lane, std::size_t row, double x, double y) override;
   void accept_end(std::size_t lane, double t, std::span<const double> row) override;
 
-  // Writes a lane's measures, one after the other. False for a case that is for another runner,
-  // since a square overflowed or vanished.
+  // Writes the measures of a lane, one after the other. False if a square overflowed or vanished:
+  // the case then needs another runner.
   [[nodiscard]] bool finish(std::size_t lane, const model::Model& model,
                             const model::BallConstants& constants, double* results);
 
@@ -53,10 +54,10 @@ class RigLaneMeasures : public solve::sampled::LaneSink {
   const solve::OutputGrid& grid_;
   std::array<bool, sizes> wants_{};
   bool wants_rms_ = false;
-  record::Rows end_;  // the columns that are wanted of the last row
+  record::Rows end_;  // evaluates columns at the last row
 
   const model::SignalPair* reference_ = nullptr;
-  std::vector<std::array<double, 2>> at_rows_;  // the reference there, m
+  std::vector<std::array<double, 2>> at_rows_;  // the reference at each output row, m
   std::array<std::array<double, group>, sizes> greatest_{};
   std::array<record::SquareSum, group> squares_{};
   std::array<std::vector<double>, group> last_row_;
@@ -65,8 +66,8 @@ class RigLaneMeasures : public solve::sampled::LaneSink {
   record::SpanSearch search_;
   const ChebyshevPoints& points_;
   std::vector<double> times_, values_;
-  std::vector<solve::sampled::LaneStep::Track> track_;  // at them
-  std::size_t track_of_ = group;                        // the lane, in the present step
+  std::vector<solve::sampled::LaneStep::Track> track_;  // at times_
+  std::size_t track_of_ = group;                        // the lane in track_; `group` if none
 };
 
 }  // namespace bbsim::sweep

@@ -63,14 +63,14 @@ class RigCarrier : public GroupCarrier {
   }
 
  private:
-  // A case on its way through a lane.
+  // A case in a lane.
   struct Rig {
     GroupCase* of;
     model::Model model;
     model::BallConstants constants;
   };
 
-  // Gives the case a lane, if it can be carried among those of its group.
+  // Gives the case a lane if it fits into its group.
   void take(GroupCase& one) {
     try {
       const Scenario& scenario = scenario_.at(one.number, one.values);
@@ -84,7 +84,7 @@ class RigCarrier : public GroupCarrier {
         return;
       }
       rigs_.push_back({&one, std::move(model), model::constants_of(scenario)});
-    } catch (const InputError&) {  // which whoever runs it alone tells of
+    } catch (const InputError&) {  // the single run reports it
     }
   }
 
@@ -100,7 +100,7 @@ class RigCarrier : public GroupCarrier {
 }  // namespace
 
 bool can_use_rig_lanes(const SweepTask& task) {
-  // Fewer would leave lanes empty, and are those of `bbsim run` to the bit.
+  // Fewer cases would leave lanes empty, and single runs give the bits of `bbsim run`.
   if (task.plan.cases() < solve::sampled::group || !task.series.empty() ||
       !record::are_track_measures(task.measures) || !share_reference(task.plan)) {
     return false;
@@ -113,7 +113,7 @@ bool can_use_rig_lanes(const SweepTask& task) {
           task.family.read(task.plan.settings(sample_case(i, task.plan.cases())));
       if (!scenario.controller) return false;
       if (is_carried(scenario, model::assemble(scenario, false))) ++found;
-    } catch (const InputError&) {  // refused when its turn comes
+    } catch (const InputError&) {  // reported when the case is run
       continue;
     }
   }

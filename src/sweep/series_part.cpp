@@ -19,10 +19,10 @@
 namespace bbsim::sweep {
 namespace {
 
-constexpr std::size_t most_words_at_once = std::size_t{1} << 17U;  // that are looked at
+constexpr std::size_t most_words_at_once = std::size_t{1} << 17U;  // for checking
 
-// FNV-1a, a word at a time, of the numbers and of the case that they are of: a page that was never
-// written, or another case's numbers, does not pass for them.
+// FNV-1a, a word at a time, over the number of the case and its values. It detects a page that was
+// never written, and the values of another case.
 double check_of(std::size_t number, const double* numbers, std::size_t count) {
   std::uint64_t hash = 0xCBF29CE484222325U ^ number;
   for (std::size_t i = 0; i < count; ++i) {
@@ -48,7 +48,7 @@ off_t SeriesPart::place_of(std::size_t cases) const {
   return static_cast<off_t>(cases * words() * sizeof(double));
 }
 
-// Into the buffer; returns how many of them the file has.
+// Reads cases into the buffer; returns how many the file has.
 std::size_t SeriesPart::read_words(std::size_t first, std::size_t count) const {
   buffer_.resize(count * words());
   const std::size_t size = buffer_.size() * sizeof(double);

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The trajectories of a sweep's cases until the sweep is done.
+// Keeps the trajectories of a sweep's cases until the sweep is done.
 #pragma once
 
 #include <cstddef>
@@ -13,29 +13,29 @@
 
 namespace bbsim::sweep {
 
-// Keeps each case's numbers, one series after the other, and a check of them, in a file beside a
-// locked part. Every function throws OutputError.
+// Keeps the numbers of each case, one series after the other, and their checksum, in a file beside
+// a locked part. Every function throws OutputError.
 class SeriesPart {
  public:
   // The file gets the owner and the permissions of the part.
   SeriesPart(std::string name, std::size_t numbers_a_case, int part);
 
-  // Cases that an earlier run left, as they were written; looks at each. Those after the first that
-  // is not are of no use.
+  // Checks all cases that an earlier run left. Returns how many are sound before the first that is
+  // not.
   [[nodiscard]] std::size_t count_kept() const;
   void keep_only(std::size_t cases);
 
-  // Some cases: of each series, cases * width numbers.
+  // Appends `cases` cases: cases * width numbers of each series.
   void append(const std::vector<std::vector<double>>& series, std::size_t cases);
   void sync();
 
-  // Cases first ... first + count - 1, the numbers of each after those of the last.
+  // Reads cases first ... first + count - 1, one case after the other.
   void read(std::size_t first, std::size_t count, std::vector<double>& numbers) const;
 
   void remove() const;
 
  private:
-  [[nodiscard]] std::size_t words() const { return numbers_ + 1; }  // of eight bytes, of a case
+  [[nodiscard]] std::size_t words() const { return numbers_ + 1; }  // of 8 bytes, for each case
   [[nodiscard]] off_t place_of(std::size_t cases) const;
   [[nodiscard]] std::size_t read_words(std::size_t first, std::size_t count) const;
   [[nodiscard]] bool is_sound(std::size_t number, const double* words) const;

@@ -27,7 +27,7 @@ namespace {
 
 constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
 
-// When it ended is a column of its own.
+// The time of the end is not needed here: it has a column.
 CaseStatus status_of(const solve::Outcome& outcome) {
   switch (outcome.ending) {
     case solve::Ending::failed:
@@ -41,7 +41,7 @@ CaseStatus status_of(const solve::Outcome& outcome) {
   return {};
 }
 
-// Where a Recorder puts the columns of one case: its place among the results.
+// Writes a Recorder's columns to the place of one case among the results.
 class SeriesWriter : public file::TableWriter {
  public:
   SeriesWriter(std::vector<std::vector<double>>& series, std::size_t first_row)
@@ -130,14 +130,14 @@ class SingleRunner : public CaseRunner {
       numbers[0] = outcome.reached;
       recorder_.finish(outcome, numbers + 1);
       judge(task_, scenario, numbers + 1, status, recorder_.whys());
-    } catch (const InputError& error) {  // there is no gain of an LQR, say
+    } catch (const InputError& error) {  // for example, an LQR that has no gain
       std::fill_n(numbers, 1 + task_.measures.size(), nothing);
       status = {"refused", error.what()};
     }
     return true;
   }
 
-  // What solve::integrate does with a smooth model, in the memory of the case before.
+  // Integrates a smooth model as solve::integrate() does, in the memory of the case before.
   solve::Outcome run_quickly(const Solver& solver, const model::Model& model,
                              const solve::OutputGrid& grid, const solve::Watch& watch) {
     const solve::Tolerances tolerances{solver.rtol, solver.atol};
@@ -155,8 +155,8 @@ class SingleRunner : public CaseRunner {
   CaseScenario scenario_;
   record::Recorder recorder_;
   const solve::radau::StepKernels& kernels_;
-  std::optional<controller::Host> controllers_;        // of cases that have one of their own
-  std::optional<solve::radau::RadauStepper> stepper_;  // its memory, from case to case
+  std::optional<controller::Host> controllers_;        // of cases that bring a controller
+  std::optional<solve::radau::RadauStepper> stepper_;  // reuses its memory from case to case
   bool same_signals_, same_tolerances_ = true;
   bool gamma_ = false;
 };

@@ -1,14 +1,14 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Cases one by one, each by the integrator that a run of it takes.
+// Runs cases one by one, each with the integrator of `bbsim run`.
 #pragma once
 
 #include "sweep/task.hpp"
 
 namespace bbsim::sweep {
 
-// The same numbers as `bbsim run` gives, to the bit. The task outlives the runner.
+// Gives the numbers of `bbsim run`, to the bit. The task must outlive the runner.
 [[nodiscard]] std::unique_ptr<CaseRunner> single_runner(const SweepTask& task);
 
 }  // namespace bbsim::sweep

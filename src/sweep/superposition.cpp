@@ -28,12 +28,12 @@ namespace {
 
 using Kind = scenario::Measure::Kind;
 
-// A few roundings: these solutions are made once.
+// A few roundings: the solutions are computed only once.
 constexpr solve::Tolerances finest{1e-13, 1e-15};
 
-// What z' = A(t) z + g b_g(t) + r b_r(t) is linear in.
+// A term in which z' = A(t) z + g b_g(t) + r b_r(t) is linear.
 struct LinearPart {
-  std::array<std::string_view, 2> keys;  // that it depends on; u = r gamma' on two
+  std::array<std::string_view, 2> keys;  // keys of the factor; u = r gamma' has two
   double (*factor)(const Scenario& scenario);
 };
 constexpr LinearPart linear_parts[] = {
@@ -59,18 +59,19 @@ bool is_superposed(const scenario::Measure& measure) {
          (name == "distance" || name == "tilt" || name == "tilt_rate");
 }
 
-// What is left out of x and y between points, relative to them: squares are then right to 1e-10.
+// The greatest remainder of x and y between points, relative to them. Squares are then right to
+// 1e-10.
 constexpr double shown = 1e-12;
 constexpr int most_halvings = 12;
 
 }  // namespace
 
-// The solutions for each term with a factor of 1: x and y of all terms at the same times, the
-// Chebyshev points of stretches so short that polynomials through them are all that there is to
-// know, whatever the output times are.
+// The solutions for each term with a factor of 1: x and y of all terms at the same times. The times
+// are the Chebyshev points of stretches, independent of the output times. Stretches are so short
+// that polynomials through these points represent the motions.
 struct Superposed {
   struct Term {
-    const LinearPart* part;  // null: what does not vary
+    const LinearPart* part;  // null: everything that does not vary
     record::PaddedRows x, y;
   };
   std::vector<Term> terms;
@@ -82,13 +83,14 @@ struct Superposed {
 
 namespace {
 
-// Cuts the time into stretches on which polynomials through so many points show all motions.
+// Cuts the time into stretches on which polynomials through a given number of points represent all
+// motions.
 class Stretches {
  public:
   Stretches(const std::vector<RecordedMotion>& motions, std::size_t intervals)
       : motions_(&motions), points_(intervals) {}
 
-  // To be called with one stretch of time after another, in none of which an input has a corner.
+  // Call this with one stretch after the other. No input may have a corner inside one.
   void add(double from, double to, int halvings = 0) {
     const bool is_shown = all_shown_ && are_shown(from, to);
     if (!is_shown && halvings == most_halvings) all_shown_ = false;
@@ -103,14 +105,15 @@ class Stretches {
     }
   }
 
-  // Whether the stretches show the motions. They do not where these are no numbers, or too wild.
+  // Whether the stretches represent the motions. They do not if a motion is not finite or varies
+  // too fast.
   [[nodiscard]] bool all_shown() const { return all_shown_; }
   [[nodiscard]] std::size_t intervals() const { return points_.size() - 1; }
   [[nodiscard]] const std::vector<double>& times() const { return times_; }
 
  private:
-  // Relative to how far each motion goes in the integrator's steps there: it is no more exact
-  // itself.
+  // The remainder is relative to each motion's greatest size in the integrator's steps there,
+  // because the motion itself is no more exact.
   [[nodiscard]] bool are_shown(double from, double to) const {
     std::vector<double> x(points_.size()), y(points_.size());
     return std::all_of(motions_->begin(), motions_->end(), [&](const RecordedMotion& motion) {
@@ -129,8 +132,8 @@ class Stretches {
   bool all_shown_ = true;
 };
 
-// The fewest points that show all motions, if any do. High degrees need fewer of them, unless the
-// inputs have many corners.
+// The division into stretches with the fewest points; empty if none represents all motions. High
+// degrees need fewer points, unless the inputs have many corners.
 std::optional<Stretches> fewest_points(const std::vector<RecordedMotion>& motions,
                                        const model::Model& model, double end) {
   std::optional<Stretches> fewest;
@@ -148,7 +151,7 @@ std::optional<Stretches> fewest_points(const std::vector<RecordedMotion>& motion
   return fewest;
 }
 
-// x and y of all terms at those points.
+// Evaluates x and y of all terms at these points.
 void fill(Superposed& solutions, const std::vector<RecordedMotion>& motions,
           const Stretches& stretches) {
   const std::vector<double>& times = stretches.times();
@@ -185,7 +188,7 @@ bool can_superpose(const SweepTask& task) {
       solve::choose_method(scenario.solver.method) != Method::radau) {
     return false;
   }
-  // A small sweep would spend more on the solutions than on its cases.
+  // In a smaller sweep, the solutions would cost more than the cases.
   constexpr std::size_t worth_it = 32;
   const model::Model model = model::assemble(scenario, false);
   using General = model::OpenLoop<model::Shape::full, model::SignalPair, model::GeneralRolling>;
@@ -204,7 +207,7 @@ std::shared_ptr<const Superposed> solve_superposed(const SweepTask& task) {
       },
       model.system);
 
-  // The factors of all parts, of which those that vary are terms of their own.
+  // Parts that vary become terms; the others have fixed factors in the first term.
   std::array<double, part_count> fixed{};
   auto solutions = std::make_shared<Superposed>();
   solutions->terms.push_back({nullptr, {}, {}});
@@ -231,7 +234,7 @@ std::shared_ptr<const Superposed> solve_superposed(const SweepTask& task) {
     const int stages = solve::radau::choose_stages(model, finest.rtol);
     solve::radau::RadauStepper stepper(model, solve::radau::choose_kernels(), stages, finest,
                                        grid.end());
-    // Accelerations are polynomials through the stages.
+    // Accelerations are polynomials through the stages, so positions have two degrees more.
     RecordedMotion& recorded =
         motions.emplace_back(static_cast<std::size_t>(stages) + 1, model.row_size());
     const solve::Outcome outcome = solve::run_through(stepper, model, grid, recorded, {});
@@ -240,7 +243,7 @@ std::shared_ptr<const Superposed> solve_superposed(const SweepTask& task) {
   const std::optional<Stretches> stretches = fewest_points(motions, model, grid.end());
   if (!stretches) return nullptr;
   fill(*solutions, motions, *stretches);
-  // The tilt is that of the motion, whatever the ball does.
+  // The tilt depends only on the motion of the gimbal.
   solutions->gimbal = record::GimbalExtremes().of(motion, grid.end());
   return solutions;
 }
@@ -318,7 +321,7 @@ class SuperpositionRunner : public CaseRunner {
     double squared = kernels_.superpose(motion, factors_.data(), squares_.data());
     int exponent = 0;
     if (!record::is_square(squared)) {
-      // All of it smaller, or larger, by a power of two.
+      // Scales by a power of two, so that squares neither overflow nor vanish.
       double size = 0;
       for (std::size_t i = 0; i < motion.rows; ++i) {
         size = larger(size, larger(std::abs(at(x_, i)), std::abs(at(y_, i))));
@@ -348,8 +351,8 @@ class SuperpositionRunner : public CaseRunner {
   CaseScenario scenario_;
   std::shared_ptr<const Superposed> solutions_;
   const record::TrackKernels& kernels_;
-  std::vector<Take> take_;            // of each measure
-  std::vector<const double*> x_, y_;  // of each term
+  std::vector<Take> take_;            // for each measure
+  std::vector<const double*> x_, y_;  // for each term
   std::vector<double> factors_;
   record::PaddedRows squares_;
   record::SpanSearch search_;

@@ -23,11 +23,12 @@
 namespace bbsim::sweep {
 namespace {
 
-// What is lost of a thread's work when a sweep is killed, about, and how seldom threads meet.
+// The aim for the time that a thread spends on a block, s. A killed sweep loses about one block a
+// thread; short blocks would make threads wait for each other.
 constexpr double least_seconds = 0.02, most_seconds = 0.1;
 constexpr std::size_t most_in_block = 4096;
 constexpr std::size_t most_series_numbers = std::size_t{1} << 18U;  // in a block
-// So many blocks a thread are done before their turn, at most: what slow cases hold up.
+// The most blocks a thread that wait for delivery while a slow case holds up its block.
 constexpr std::size_t most_ahead = 8;
 
 std::size_t block_limit(const SweepTask& task, std::size_t group) {
@@ -35,7 +36,7 @@ std::size_t block_limit(const SweepTask& task, std::size_t group) {
   return std::max(group, std::min(most_in_block, most_series_numbers / numbers) / group * group);
 }
 
-// Blocks of cases on their way from the threads to whoever wants them in order.
+// Collects blocks of cases from the threads and delivers them in order.
 class Queue {
  public:
   Queue(CaseRange range, std::size_t ahead, const std::atomic<bool>& stop,
@@ -47,7 +48,7 @@ class Queue {
         stop_(stop),
         deliver_(deliver) {}
 
-  // The next cases to be computed, so many at most; none if there are none.
+  // Returns the next cases to compute, at most this many; an empty range at the end.
   CaseRange take(std::size_t cases) {
     std::unique_lock lock(mutex_);
     changed_.wait(lock,
@@ -58,8 +59,7 @@ class Queue {
     return {first, next_};
   }
 
-  // Hands a block in, and delivers what now is in order. What is in `results` afterwards is of
-  // no meaning.
+  // Adds a block and delivers the blocks that are now next in order. Leaves `results` empty.
   void put(CaseResults& results) {
     std::unique_lock lock(mutex_);
     waiting_.emplace(results.first, std::move(results));
@@ -89,14 +89,14 @@ class Queue {
     changed_.notify_all();
   }
 
-  // Wakes threads that wait for blocks to be delivered that will not come.
+  // Wakes threads that wait for the delivery of blocks that will not come.
   void give_up() {
     const std::lock_guard lock(mutex_);
     given_up_ = true;
     changed_.notify_all();
   }
 
-  // Once all threads have ended: whether all was delivered.
+  // Whether all was delivered; call it once all threads have ended.
   [[nodiscard]] bool finished() const {
     if (failure_) std::rethrow_exception(failure_);
     return delivered_ >= range_.last;

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Runs the cases of a sweep, over threads, and delivers them in their order.
+// Runs the cases of a sweep on several threads and delivers them in order.
 #pragma once
 
 #include <atomic>
@@ -14,7 +14,7 @@
 
 namespace bbsim::sweep {
 
-// How cases are computed, chosen for the sweep as a whole.
+// The way to compute the cases, chosen for the sweep as a whole.
 struct Engine {
   std::string name;
   const SweepTask& task;
@@ -24,9 +24,8 @@ struct Engine {
   std::function<std::unique_ptr<CaseRunner>()> runner;
 };
 
-// The fastest that serves the task, which outlives it: superposition where start, radius and
-// gravity vary under one prescribed motion; SIMD lanes where the motion varies too, and for loops
-// at tolerances where they are ahead; and single runs for all else.
+// Chooses the first engine that fits (docs/explanation/sweep-engines.md): superposition, open
+// lanes, lanes, rig lanes, single runs. The task must outlive the engine.
 [[nodiscard]] Engine choose_engine(const SweepTask& task);
 
 // Cases first ... last - 1.
@@ -34,16 +33,18 @@ struct CaseRange {
   std::size_t first = 0, last = 0;
 };
 
-// Part `shard` of `shards`, from 1: whole groups, as even as can be.
+// Part `shard` of `shards`, counted from 1: whole groups, as evenly divided as possible.
 [[nodiscard]] CaseRange shard_range(std::size_t cases, std::size_t group, std::size_t shard,
                                     std::size_t shards);
 
-// `prepare` sees some cases at a time, on the thread that computed them; then `deliver` gets them
-// in their order, whatever the number of threads, and one call at a time. Not many more are held
-// than threads compute at once. Ends soon after `stop` becomes true, with all that came before
-// delivered; returns whether the range was finished. Throws what the two throw. `range.first` is a
-// multiple of the group's size. Where the system has fewer threads, `fewer` is told how many there
-// are, once, perhaps while cases are being delivered.
+// Computes the cases of `range`; range.first must be a multiple of the group size. Calls `prepare`
+// with each block of cases on the thread that computed it. Then calls `deliver` with the blocks in
+// the order of the cases, one call at a time. About 8 blocks for each thread can wait for delivery.
+// If the system grants fewer threads, calls `fewer` once with their number, perhaps during a
+// delivery.
+//
+// Stops soon after `stop` becomes true and delivers all cases before that point. Returns whether
+// all cases were delivered. Throws the exceptions of the callbacks.
 [[nodiscard]] bool run_sweep(const Engine& engine, CaseRange range, std::size_t threads,
                              const std::atomic<bool>& stop,
                              const std::function<void(CaseResults&)>& prepare,

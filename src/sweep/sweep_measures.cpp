@@ -15,14 +15,14 @@ constexpr std::size_t most_looked_at = 4096;
 
 bool any_case_has(const scenario::Measure& measure, const ScenarioFamily& family,
                   const SweepPlan& plan) {
-  // Numbers that no rule relates to another key do not change what there is.
+  // Numbers that no rule relates to another key change neither columns nor windows.
   if (plan.independent()) return false;
   const std::size_t cases = plan.cases(), looks = std::min(cases, most_looked_at);
   for (std::size_t i = 0; i < looks; ++i) {
     const std::size_t number = cases > looks ? sample_case(static_cast<int>(i), cases) : i;
     try {
       if (!scenario::missing(measure, family.read(plan.settings(number)))) return true;
-    } catch (const InputError&) {  // which plan.check() tells of
+    } catch (const InputError&) {  // plan.check() reports it
       continue;
     }
   }

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The measures of a sweep.
+// Finds the measures of a sweep by their names.
 #pragma once
 
 #include <string>
@@ -12,8 +12,9 @@
 
 namespace bbsim::sweep {
 
-// The measures of these names, each given once, which a case of the sweep has the columns and the
-// time for: the first one, or another; not all of many are looked at. Throws InputError.
+// The measures with these names. Throws InputError for a name given twice, and for a measure whose
+// columns or window no case has. Tries the first case, then at most 4096 cases from all over the
+// sweep.
 [[nodiscard]] std::vector<scenario::Measure> sweep_measures(const std::vector<std::string>& names,
                                                             const ScenarioFamily& family,
                                                             const SweepPlan& plan);

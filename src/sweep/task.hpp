@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// A sweep, ready to be run, and what comes of its cases.
+// The input of a sweep and the results of its cases.
 #pragma once
 
 #include <atomic>
@@ -22,33 +22,34 @@ struct SweepTask {
   const ScenarioFamily& family;
   const SweepPlan& plan;
   std::vector<scenario::Measure> measures;
-  // Columns of the output rows that are kept of each case too; all cases must have as many rows.
+  // Columns of the output rows that are kept for each case. All cases must have the same number of
+  // rows.
   std::vector<const scenario::Column*> series{};
   std::size_t series_rows = 0;
-  // Gets what controllers that are programs say on their standard error, from all threads.
+  // Receives the standard error of controller programs, from all threads.
   controller::Tell tell = [](std::string_view) {};
 };
 
 // How a case ended.
 struct CaseStatus {
   std::string word = "done";  // or failed, stopped, inaccurate, refused
-  // Why it ended early, or why a measure of a case that is done is no finite number: a text of any
-  // characters.
+  // Why the case ended early, or why a measure of a done case is not finite. Any characters may
+  // occur.
   std::string reason{};
 };
 
-// Some cases, one after the other.
+// The results of some consecutive cases.
 struct CaseResults {
   std::size_t first = 0, count = 0;
-  std::vector<double> values;   // of the axes: count x axes
-  std::vector<double> numbers;  // the time reached (s), then the measures: count x (1 + measures)
+  std::vector<double> values;   // count x axes
+  std::vector<double> numbers;  // count x (1 + measures): the time reached (s), then the measures
   std::vector<CaseStatus> status;
-  // For each column of the series, count x rows; what a case did not reach is no number.
+  // For each series column, count x rows; NaN where a case did not reach the row.
   std::vector<std::vector<double>> series;
-  std::string text;  // the rows as whoever takes them wants them
+  std::string text;  // the rows as text, which `prepare` of run_sweep() may write
 
   void resize(std::size_t cases, const SweepTask& task);
-  // Keeps the first of them.
+  // Keeps the first `cases` cases.
   void cut(std::size_t cases, const SweepTask& task);
 };
 
@@ -56,8 +57,8 @@ struct CaseResults {
 class CaseRunner {
  public:
   virtual ~CaseRunner() = default;
-  // Cases first ... first + count - 1, all of them in whole groups but for the sweep's last ones.
-  // Returns how many were run, less than `count` only if `stop` became true: whole groups too.
+  // Runs cases first ... first + count - 1, in whole groups except at the end of the sweep. Returns
+  // how many were run, in whole groups too: less than `count` only if `stop` became true.
   virtual std::size_t run(std::size_t first, std::size_t count, CaseResults& into,
                           const std::atomic<bool>& stop) = 0;
 };

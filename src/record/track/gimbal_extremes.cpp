@@ -11,17 +11,17 @@
 namespace bbsim::record {
 namespace {
 
-// Over half a stretch of so many radians, the first coefficient that a polynomial of this degree
-// leaves out is that of a Bessel function, J_17(2) = 3e-15.
+// Over half a stretch, 2 rad, the first coefficient beyond degree 16 is that of a Bessel function,
+// J_17(2) = 3e-15.
 constexpr std::size_t parts = 16;
 constexpr double stretch = 4;  // rad
 
-// A gimbal that turns so often has been everywhere that it goes to.
+// A gimbal that turns more often than this reaches all of its angles anyway.
 constexpr double most_stretches = 1e5;
-constexpr std::size_t together = 60;  // stretches that are looked at in one go
+constexpr std::size_t together = 60;  // stretches evaluated in one call
 
-// What comes after this repeats what was before: a sinusoid of both angles has all of its sizes in
-// one period, and in half of one if the plane is level in the mean.
+// The time after which the motion repeats. A sinusoid of both angles takes all of its values in one
+// period, and in half of one if the plate is level on average.
 double repeats_after(const model::SignalView& motion) {
   const bool repeats = motion.rate[0] == 0 && motion.rate[1] == 0 && motion.table_count == 0 &&
                        motion.harmonic_count == 1;
@@ -59,7 +59,7 @@ GimbalExtremes::Greatest GimbalExtremes::of(const model::SignalPair& motion, dou
   return {tilt_of(versine_most_), std::sqrt(rate_squared_most_)};
 }
 
-// Looks between the knots, if there are any.
+// Adds stretches over a time without knots in it.
 void GimbalExtremes::cover(const model::SignalPair& motion, double from, double to) {
   const double wanted = std::ceil((to - from) * motion.bandwidth(from, to) / stretch);
   const double pieces = std::clamp(wanted, 1.0, most_stretches);

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The greatest tilt, and the greatest size of the angular velocity, of a plane that moves as given
-// functions of time say.
+// The greatest tilt and the greatest angular velocity of a plane whose motion is a given function
+// of time.
 #pragma once
 
 #include <cstddef>
@@ -17,13 +17,13 @@
 
 namespace bbsim::record {
 
-// The tilt whose versine, 1 - cos(tilt), this is, rad.
+// The tilt (rad) that has this versine, 1 - cos(tilt).
 [[nodiscard]] double tilt_of(double versine);
 
 class GimbalExtremes {
  public:
   GimbalExtremes();
-  GimbalExtremes(const GimbalExtremes&) = delete;  // points_ is among its own tables
+  GimbalExtremes(const GimbalExtremes&) = delete;  // points_ refers to search_
   GimbalExtremes& operator=(const GimbalExtremes&) = delete;
 
   struct Greatest {
@@ -40,9 +40,9 @@ class GimbalExtremes {
   const TrackKernels& kernels_;
   SpanSearch search_;
   const ChebyshevPoints& points_;
-  std::vector<Span> spans_;  // that have not been looked at yet
-  std::size_t count_ = 0;    // of their points
-  SignalRows angles_;        // at them
+  std::vector<Span> spans_;  // not searched yet
+  std::size_t count_ = 0;    // number of their points
+  SignalRows angles_;        // at these points
   PaddedRows versine_, rate_squared_;
   double versine_most_ = 0, rate_squared_most_ = 0;
 };

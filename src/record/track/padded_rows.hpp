@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Doubles aligned and padded as kernels want them.
+// Doubles, aligned and padded for the kernels.
 #pragma once
 
 #include <cstddef>
@@ -12,7 +12,7 @@ namespace bbsim::record {
 
 class PaddedRows {
  public:
-  // Values survive only where there was room already.
+  // Keeps the values only if there is room already.
   void resize(std::size_t rows);
   // Repeats the last of `rows` values in the padding.
   void pad(std::size_t rows);

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Two functions of time, a gimbal's motion or a reference, at many times at once.
+// Evaluates two functions of time (a gimbal's motion or a reference) at many times at once.
 #pragma once
 
 #include <cstddef>
@@ -17,10 +17,10 @@ class SignalRows {
  public:
   SignalRows() : kernels_(choose_track_kernels()) {}
 
-  // Where the times are to be put, s; those that were there stay where there was room for them.
+  // The memory for the times, s. Keeps the previous times if there is room already.
   [[nodiscard]] double* times(std::size_t count);
-  // Evaluates the signals at the first `count` of the times. Sinusoids of the frequencies, and at
-  // the times, of the call before are not evaluated again.
+  // Evaluates the signals at the first `count` times. Reuses the sinusoids of the previous call if
+  // the frequency and the times are the same.
   void evaluate(const model::SignalPair& signals, std::size_t count);
 
   [[nodiscard]] const double* value(std::size_t component) const {

@@ -10,13 +10,13 @@
 namespace bbsim::record {
 namespace {
 
-// A polynomial is nowhere further above the values at its Chebyshev points than this part of their
-// range: (L - 1) / 2, of the Lebesgue constant L <= 1 + 2 / pi log(129) up to degree 128.
+// A polynomial exceeds its values at Chebyshev points by at most this part of their range: (L - 1)
+// / 2, with the Lebesgue constant L <= 1 + 2 / pi log(129) up to degree 128.
 constexpr double beyond = 1.55;
 
 }  // namespace
 
-// Since the values are not negative, their range is no more than the greatest of them.
+// The values are not negative, so their range is at most the greatest one.
 double SpanSearch::greatest_between(const std::vector<Span>& spans, const double* values,
                                     Spacing spacing, double greatest) {
   if (spans.empty()) return greatest;

@@ -1,8 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Values at Chebyshev points of one stretch of time after another, and what they are greatest at
-// between the points.
+// Finds the greatest values between Chebyshev points, over many stretches of time.
 #pragma once
 
 #include <cstddef>
@@ -13,7 +12,7 @@
 
 namespace bbsim::record {
 
-// One stretch: the points of so many intervals, from place `first` on.
+// A stretch: the points of `parts` intervals, from index `first` on.
 struct Span {
   std::size_t first, parts;
 };
@@ -23,22 +22,23 @@ struct Span {
   return squared > 1e-280 && squared < 1e300;
 }
 
-// How many points there are to half a wave of the values: enough to see each maximum among them, or
-// enough for the polynomial through them, which then has to be looked at more closely.
+// The density of the points. close: the points themselves show each maximum. wide: only the
+// polynomial through them does, so the search also needs values between them.
 enum class Spacing { close, wide };
 
-// The greatest values of polynomials through values that are not negative.
+// Finds the greatest values of polynomials through values that are not negative.
 class SpanSearch {
  public:
   SpanSearch() : kernels_(choose_track_kernels()) {}
 
   [[nodiscard]] const ChebyshevPoints& points(std::size_t parts) { return tables_.points(parts); }
 
-  // Where they are greater than `greatest`, which is the greatest of the values or more; spans in
-  // their order, from the first value on, which is aligned and padded as for the kernels.
+  // The greatest value over all spans. `greatest` must be at least the greatest of the values, and
+  // is returned if nothing exceeds it. Spans are in order, from the first value on. Values are
+  // aligned and padded for the kernels.
   [[nodiscard]] double greatest_between(const std::vector<Span>& spans, const double* values,
                                         Spacing spacing, double greatest);
-  // Looks in the same way within a single span.
+  // The same within a single span.
   [[nodiscard]] double greatest_within(std::size_t parts, const double* values, Spacing spacing,
                                        double greatest);
 

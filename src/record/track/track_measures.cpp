@@ -17,7 +17,8 @@ namespace {
 
 using Kind = scenario::Measure::Kind;
 
-// Calls `use` with the system, if it is one whose rows are a track.
+// If the rows of the system are a track, calls `use` with its signals and whether its loop is
+// closed.
 template <class Use>
 void with_track(const model::Model& model, Use use) {
   std::visit(
@@ -45,7 +46,7 @@ bool is_track_measure(const scenario::Measure& measure) {
          (name == "tilt" || name == "tilt_rate" || name == "distance");
 }
 
-// Points of pieces that are looked at in one go; a piece has fewer.
+// Points of pieces that are searched in one call; a piece has fewer.
 constexpr std::size_t points_together = 1024;
 
 void subtract(const SignalRows& signals, std::size_t count, PaddedRows& x, PaddedRows& y) {
@@ -116,7 +117,7 @@ void TrackMeasures::begin(const model::Model& model, const model::BallConstants&
   begin_run();
 }
 
-// The start is a point of no piece: a run may end there.
+// The start belongs to no piece, and a run may end there.
 void TrackMeasures::begin_run() {
   greatest_ = {};
   reached_ = 0;
@@ -145,7 +146,7 @@ void TrackMeasures::accept(const solve::Piece& piece) {
       std::copy(times_.begin(), times_.end(), reference_.times(points_together) + points_);
     }
   }
-  // Where not every row is wanted, only the last one is: it is the end of the run.
+  // If rows are not wanted, only the last one is needed: it is the end of the run.
   bool has_row = false;
   if (!wants_rms_) {
     for (; rows_ < grid_->size() && (*grid_)[rows_] <= piece.to(); ++rows_) has_row = true;
@@ -160,8 +161,8 @@ void TrackMeasures::accept(const solve::Piece& piece) {
   if (looks) copy_points(piece_rows_.data(), count);
 }
 
-// States of a ball anywhere on the plane: x, y, x', y', u; then, of a loop, the gimbal's phi,
-// theta, phi', theta'.
+// The states of a ball anywhere on the plane are x, y, x', y', u. In a loop, phi, theta, phi',
+// theta' of the gimbal follow.
 void TrackMeasures::copy_points(const double* rows, std::size_t count) {
   const std::size_t row = model_->row_size();
   const auto copy = [&](std::size_t state, PaddedRows& to) {
@@ -206,7 +207,7 @@ void TrackMeasures::take(std::size_t count, const double* x, const double* y, co
   greatest_ = greatest;
 }
 
-// Takes what is greatest from the pieces so far.
+// Searches the pieces so far for the greatest values.
 void TrackMeasures::look() {
   if (points_ == 0) return;
   if (closed_ && wants_gimbal_) {
@@ -231,7 +232,7 @@ void TrackMeasures::look() {
   points_ = 0;
 }
 
-// The distances are those of x_ and y_, which are left as they are but for what underflows.
+// Searches the distances of (x_, y_). Leaves x_ and y_ unchanged, except for values that underflow.
 void TrackMeasures::look_at_distances(double& greatest) {
   x_.pad(points_);
   y_.pad(points_);
@@ -315,7 +316,7 @@ void TrackMeasures::finish(double* results) {
   }
 }
 
-// The motion is a given one, and may be that of the run before.
+// The motion is given, and may be that of the run before.
 GimbalExtremes::Greatest TrackMeasures::motion_extremes() {
   if (!motion_ || motion_until_ != reached_) {
     motion_ = gimbal_.of(*signals_, reached_);

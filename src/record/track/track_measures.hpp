@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The measures that most sweeps ask for, many instants at a time.
+// Takes the usual measures of sweeps, many instants at a time.
 #pragma once
 
 #include <cstddef>
@@ -22,19 +22,19 @@
 
 namespace bbsim::record {
 
-// Whether all of them can be taken by a TrackMeasures: of any column at the end; the greatest tilt,
-// tilt_rate and distance; the greatest and the root mean square of tracking_error; all of them of
-// the whole run.
+// Whether TrackMeasures can take all of them: any column at the end except gamma; the greatest
+// tilt, tilt_rate and distance; the greatest and the rms of tracking_error. All must be of the
+// whole run.
 [[nodiscard]] bool are_track_measures(const std::vector<scenario::Measure>& measures);
 
-// Whether a TrackMeasures understands the model's rows: a ball anywhere on the plane under equation
+// Whether TrackMeasures can read the rows of the model: a ball anywhere on the plane under equation
 // (27), with a given motion or equation (31).
 [[nodiscard]] bool has_track(const model::Model& model);
 
-// The motion of the model's gimbal, or the reference of its loop. The model has a track.
+// The motion of the model's gimbal, or the reference of its loop. Requires has_track(model).
 [[nodiscard]] const model::SignalPair& signals_of(const model::Model& model);
 
-// What a run was greatest at.
+// The greatest values of a run.
 struct TrackExtremes {
   double versine = 0;       // 1 - cos(tilt)
   double rate_squared = 0;  // of the plane's angular velocity, rad^2/s^2
@@ -42,35 +42,35 @@ struct TrackExtremes {
   double error = 0;         // distance from the reference, m
 };
 
-// Takes the measures of one run after another, as a Recorder does of any measures. Squares of the
-// states are polynomials over each step of the integrator, and what else it looks at is as smooth:
-// their extremes are those of polynomials through values at as many points as they need.
+// Takes the measures of one run after another, as a Recorder does for any measures. Squares of the
+// states are polynomials over each step of the integrator, and the other quantities are as smooth.
+// Polynomials through enough points therefore have the same extremes.
 class TrackMeasures : public solve::PieceSink {
  public:
   explicit TrackMeasures(std::vector<scenario::Measure> measures);
   TrackMeasures(const TrackMeasures&) = delete;
   TrackMeasures& operator=(const TrackMeasures&) = delete;
 
-  // Whether it looks at positions alone.
+  // Whether only positions are needed.
   [[nodiscard]] bool wants_positions_only(const model::Model& model) const;
 
-  // Begins a run; the three outlive it. `same_signals`: the motion or reference, and the grid, are
-  // those of the run before.
+  // Begins a run. The first three arguments must outlive it. `same_signals`: the motion or
+  // reference, and the grid, are those of the run before.
   void begin(const model::Model& model, const model::BallConstants& constants,
              const solve::OutputGrid& grid, bool same_signals);
 
-  // Rows of the run as a StateSink gets them, if they are wanted.
+  // Takes rows of the run as a StateSink does. Needed only if wants_rows().
   void accept(std::size_t first, std::size_t count, const double* values);
   [[nodiscard]] bool wants_rows() const { return wants_rms_; }
   void begin_run() override;
   void accept(const solve::Piece& piece) override;
 
-  // Takes the place of both accept(): a loop's places at its first `count` rows, all states of the
-  // last of them, and what the motion was greatest at.
+  // Replaces both accept(): takes x and y of a loop at its first `count` rows, all states of the
+  // last of these rows, and the greatest values of the motion.
   void take(std::size_t count, const double* x, const double* y, const double* last,
             const TrackExtremes& greatest);
 
-  // Writes the run's measures, one after the other.
+  // Writes the measures of the run, one after the other.
   void finish(double* results);
 
  private:
@@ -89,29 +89,29 @@ class TrackMeasures : public solve::PieceSink {
   bool wants_distance_ = false, wants_gimbal_ = false, wants_error_ = false, wants_rms_ = false;
   bool closed_ = false;
 
-  // The points of the pieces that have not been looked at yet.
+  // The points of pieces that were not searched yet.
   SpanSearch search_;
   std::vector<Span> spans_;
   std::size_t points_ = 0;
   PaddedRows x_, y_, phi_, theta_, phi_rate_, theta_rate_;
-  SignalRows reference_;  // at them
+  SignalRows reference_;  // at these points
   PaddedRows sizes_, more_sizes_;
   std::vector<double> times_, piece_rows_;
 
-  TrackExtremes greatest_;  // so far; of a given motion without its own
+  TrackExtremes greatest_;  // so far; without those of a given motion
   double reached_ = 0;      // s
 
   GimbalExtremes gimbal_;                           // of a given motion
   std::optional<GimbalExtremes::Greatest> motion_;  // up to motion_until_
   double motion_until_ = 0;                         // s
 
-  std::size_t rows_ = 0;  // that came or, where they are not wanted, would have come
+  std::size_t rows_ = 0;  // accepted rows, or passed output times if rows are not wanted
   PaddedRows row_x_, row_y_, row_squares_;
   SignalRows row_reference_;
-  std::optional<solve::OutputGrid> timed_;  // whose times those are
+  std::optional<solve::OutputGrid> timed_;  // the times of row_reference_
   bool has_row_reference_ = false;
-  std::vector<double> last_;  // row
-  Rows end_;                  // the columns that are wanted of it
+  std::vector<double> last_;  // the last row
+  Rows end_;                  // evaluates columns at it
 };
 
 }  // namespace bbsim::record

@@ -2,10 +2,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 'use strict';
-// Time, view and zoom in the page's address, after the #: a link shows what its sender saw.
+// Keeps time, view and zoom in the page's address after the #, so that a link shows what its sender
+// saw.
 bbsim.address = (() => {
   const short = (value) => String(Number(value.toPrecision(5)));
-  // What is no text with an escape in it, as "%", is left as it is.
+  // Leaves a text alone that is no valid escape sequence, like "%".
   function decoded(words) {
     try {
       return decodeURIComponent(words);
@@ -39,7 +40,7 @@ bbsim.address = (() => {
     try {
       if (hash !== location.hash) history.replaceState(null, '', hash);
     } catch {
-      // A page within a page may not have an address of its own to write to.
+      // An embedded page may have no address to write to.
     }
   }
 
@@ -48,7 +49,7 @@ bbsim.address = (() => {
     return range.length === 2 && range.every(Number.isFinite) && range[0] < range[1] ? range : null;
   }
 
-  // What a hash says that makes sense; the rest of it is left alone.
+  // Applies the valid parts of the hash and ignores the others.
   function apply(screen, actions) {
     const said = read();
     if (['light', 'dark'].includes(said.get('theme'))) bbsim.palette.choose(said.get('theme'));

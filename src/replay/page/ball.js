@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 'use strict';
-// The ball: octants in two colours, the engineer's mark of a centre of mass, on which rolling and turning
-// about any axis is seen; one of them has a dot, which tells a whole turn from a half.
+// The ball. Octants in two colors, the engineer's mark of a center of mass, show rotation about any
+// axis. A dot on one of them distinguishes a whole turn from half a turn.
 bbsim.ball = (() => {
   function paint(canvas, cream, colour, plain) {
     const ink = canvas.getContext('2d', {willReadFrequently: true});
@@ -31,7 +31,7 @@ bbsim.ball = (() => {
     ink.fill();
   }
 
-  // A ball of which nobody knows how it turns is plain.
+  // A ball whose rotation is unknown is plain.
   function build(radius, ghost, plain) {
     const canvas = document.createElement('canvas');
     canvas.width = 512;

@@ -2,12 +2,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 'use strict';
-// Where the picture is seen from. The eye orbits in the world, in the plate's own frame, or about the ball on it.
+// The camera. Its eye orbits in the world's frame, in the plate's frame, or about the ball.
 bbsim.makeCamera = (canvas, rig, told) => {
   const fov = 30;
   const camera = new THREE.PerspectiveCamera(fov, 1, 1, 2);
   camera.matrixAutoUpdate = false;
-  const eye = new THREE.PerspectiveCamera(fov, 1, 1, 2);  // in the frame that it orbits in
+  const eye = new THREE.PerspectiveCamera(fov, 1, 1, 2);  // in the frame in which it orbits
   eye.up.set(0, 0, 1);
   let view = 'free', touched = false, moving = null, usual = 1;
   const listeners = [];
@@ -22,14 +22,15 @@ bbsim.makeCamera = (canvas, rig, told) => {
     ended: tell,
   });
   const {yUp, zUp} = controls;
-  // In the longest side of the plate, as the picture has it.
+  // The unit of length is the longest side of the plate, as in the picture.
   const scale = 1 / rig.size, radius = rig.ballRadius * scale;
   controls.minDistance = Math.min(0.05, 3 * radius);
   controls.maxDistance = 20;
   const reduced = matchMedia('(prefers-reduced-motion: reduce)');
   const frameOf = (name) => (name === 'plate' || name === 'ball' ? name : 'world');
 
-  // Where to look from along a direction to have all of the rig in the picture, in its middle.
+  // The position and the target, along a direction, that show all of the rig in the middle of the
+  // picture.
   function fit(direction, up) {
     const back = direction.clone().normalize(), right = up.clone().cross(back).normalize(), over = back.clone().cross(right);
     const half = Math.tan(fov * Math.PI / 360) * 0.93, target = new THREE.Vector3();
@@ -43,7 +44,8 @@ bbsim.makeCamera = (canvas, rig, told) => {
     return {target, position: back.multiplyScalar(far).add(target)};
   }
 
-  // The world's horizontal axis about which the plate is tilted now; phi's where it is level.
+  // The world's horizontal axis about which the plate is tilted now; the axis of phi if it is
+  // level.
   function tiltAxis() {
     const normal = new THREE.Vector3(0, 0, 1).transformDirection(rig.plane.matrixWorld);
     const axis = new THREE.Vector3(-normal.y, normal.x, 0);
@@ -58,7 +60,7 @@ bbsim.makeCamera = (canvas, rig, told) => {
     if (name === 'above') return fit(new THREE.Vector3(0, -1e-4, 1), up);
     if (name === 'front') return fit(new THREE.Vector3(0, -1, 0.09), up);
     if (name === 'axis') return fit(tiltAxis().negate().add(new THREE.Vector3(0, 0, 0.06)), up);
-    // The ball is a sixth of the picture's height.
+    // The ball takes a sixth of the picture's height.
     if (name === 'ball') return {target: new THREE.Vector3(), position: corner().setLength(6 * radius / Math.tan(fov * Math.PI / 360))};
     return fit(corner(), up);
   }
@@ -75,10 +77,10 @@ bbsim.makeCamera = (canvas, rig, told) => {
     const frame = (time) => {
       if (moving !== to) return;
       const part = Math.min(1, (time - begun) / 350), eased = part * part * (3 - 2 * part);
-      // Round the target, not through it.
+      // Moves around the target, not through it.
       const a = new THREE.Spherical().setFromVector3(yUp(from.position.clone().sub(from.target)));
       const b = new THREE.Spherical().setFromVector3(yUp(to.position.clone().sub(to.target)));
-      // Straight from above there is no azimuth to come from or go to.
+      // Straight from above there is no azimuth, so the other one is used.
       if (a.phi < 0.01) a.theta = b.theta;
       if (b.phi < 0.01) b.theta = a.theta;
       const turn = Math.atan2(Math.sin(b.theta - a.theta), Math.cos(b.theta - a.theta));
@@ -113,19 +115,19 @@ bbsim.makeCamera = (canvas, rig, told) => {
   return {
     camera, controls, fov, go,
     get view() { return view; },
-    get touched() { return touched; },  // turned or zoomed away from where the view is from
+    get touched() { return touched; },  // the user has turned or zoomed the view
     onChange: (listener) => listeners.push(listener),
     resize(width, height) {
       for (const c of [camera, eye]) c.aspect = width / height;
     },
-    // All is in the picture, whatever has become of its shape or of what is in it.
+    // Fits the rig into the picture again, unless the user has turned or zoomed the view.
     refit() {
       usual = place('free').position.length();
       if (!touched) this.restore(view);
     },
-    // How much further what is looked at is than in the view from a corner.
+    // The distance to the target, relative to that of the view from a corner.
     farness: () => eye.position.distanceTo(controls.target) / usual,
-    // Before a picture is drawn: the camera, from the eye and the frame that it is in.
+    // Sets the camera from the eye and its frame, before a picture is drawn.
     update() {
       const far = eye.position.distanceTo(controls.target);
       camera.near = Math.max(far / 100, far - 4);

@@ -2,11 +2,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 'use strict';
-// The time that picture, plots and scrubber show, and how it goes on.
+// The time that picture, plots and scrubber show, and its progress.
 bbsim.clock = (() => {
   const {start, end} = bbsim.data;
   const listeners = [], stateListeners = [], relaxed = [];
-  let span = 0, due = 0;  // ms from one call of the relaxed ones to the next, while time goes on
+  let span = 0, due = 0;  // ms between calls of the relaxed listeners while time runs
   let now = start, playing = false, speed = 1, loop = false, last = null;
 
   function tell() {
@@ -23,7 +23,7 @@ bbsim.clock = (() => {
 
   function frame(time) {
     if (!playing) return;
-    // The first frame only says what time it is.
+    // The first frame only gives the time.
     const next = now + (last === null ? 0 : (time - last) / 1000 * speed);
     last = time;
     if (next >= end) {
@@ -76,7 +76,7 @@ bbsim.clock = (() => {
       loop = value;
       tellState();
     },
-    // To a row of the leading run: on or back from where time is now.
+    // Goes to a row of the leading run, forward or back from the current time.
     step(rows) {
       const run = bbsim.data.runs[0];
       clock.pause();
@@ -85,7 +85,7 @@ bbsim.clock = (() => {
       clock.seek(run.t[Math.min(Math.max(next, 0), run.t.length - 1)]);
     },
     onTime: (listener) => listeners.push(listener),
-    // Of what need not follow each picture, where these come slowly.
+    // For listeners that need not follow every frame if frames are slow.
     onTimeRelaxed: (listener) => relaxed.push(listener),
     relax(least) { span = least; },
     onState: (listener) => stateListeners.push(listener),

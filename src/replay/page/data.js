@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 'use strict';
-// The scene that the page was made of: its numbers decoded, and runs that know their state at any time.
+// Decodes the numbers of the page's scene, and makes runs that know their state at any time.
 bbsim.data = (() => {
   function bytes(text) {
     const raw = atob(text);
@@ -15,7 +15,7 @@ bbsim.data = (() => {
 
   const parts = (text) => Float32Array.from(new Int16Array(bytes(text).buffer), (part) => part / 32767);
 
-  // All of them, or where they are evenly spaced their start and step.
+  // Times are listed or, if evenly spaced, given by start, step and count.
   function times(json) {
     if (typeof json === 'string') return doubles(json);
     return Float64Array.from({length: json.count}, (_, i) => json.start + i * json.step);
@@ -42,17 +42,17 @@ bbsim.data = (() => {
         const values = floats(column.data);
         this.columns.set(column.name, {...column, values, ...extent(values)});
       }
-      // A beam is written without the axis that it does not have: the ball stays on the other one.
+      // A beam lacks the column of one axis: the ball stays on the other one.
       this.absent = new Map();
       for (const name of ['x', 'y']) {
         if (!this.columns.has(name)) this.absent.set(name, new Float32Array(this.t.length));
       }
       this.quaternions = parts(json.orientation);
-      this.turns = this.quaternions.length > 0;  // else nobody knows how the ball turns
+      this.turns = this.quaternions.length > 0;  // false if the ball's rotation is unknown
       this.path = floats(json.reference);
       this.start = this.t[0];
       this.last = this.t[this.t.length - 1];
-      if (this.reached === null) this.reached = this.last;  // when it ended, which may be after its last row
+      if (this.reached === null) this.reached = this.last;  // the end, perhaps after the last row
       this.hasAngles = this.columns.has('phi') || this.columns.has('theta');
       this.hasReference = this.columns.has('x_reference') && this.columns.has('y_reference');
       this.isMeasured = this.columns.has('x_measured') && this.columns.has('y_measured');
@@ -64,7 +64,7 @@ bbsim.data = (() => {
       return column ? column.values : this.absent.get(name);
     }
 
-    // The last row at or before t; the first one before that.
+    // The last row at or before t, or else the first row.
     row(t) {
       let low = 0, high = this.t.length - 1;
       while (low < high) {
@@ -75,7 +75,8 @@ bbsim.data = (() => {
       return low;
     }
 
-    // Between two rows on a straight line; `otherwise` where the run has no such column or no number.
+    // Interpolates linearly between two rows. `otherwise` if the run lacks the column or the
+    // number.
     at(t, name, otherwise = NaN) {
       const values = this.values(name);
       if (!values) return otherwise;
@@ -87,12 +88,13 @@ bbsim.data = (() => {
       return Number.isFinite(value) ? value : otherwise;
     }
 
-    // phi or theta; NaN where it is not known. A beam has no angle about the axis along which it has no coordinate.
+    // phi or theta; NaN if unknown. A beam without x has phi = 0, and one without y has theta = 0.
     angleAt(t, name) {
       return this.columns.has(name) ? this.at(t, name) : this.absent.has(name === 'phi' ? 'x' : 'y') ? 0 : NaN;
     }
 
-    // Where the ball is: [x, y], or why it is nowhere: 'missing' from the rows, or 'beyond' what can be drawn.
+    // The ball's place [x, y], or why there is none: 'missing' from the rows, or 'beyond' the range
+    // that can be drawn.
     placeAt(t) {
       const row = this.row(t), between = t > this.t[row] && row + 1 < this.t.length;
       const far = ['x', 'y'].some((name) => {
@@ -104,13 +106,13 @@ bbsim.data = (() => {
       return place.every(Number.isFinite) ? place : 'missing';
     }
 
-    // Of the row that is nearest to t.
+    // The row nearest to t.
     nearest(t) {
       const row = this.row(t);
       return row + 1 < this.t.length && this.t[row + 1] - t < t - this.t[row] ? row + 1 : row;
     }
 
-    // The ball's orientation in the plane's frame, into a THREE.Quaternion.
+    // Writes the ball's orientation in the plane's frame to a THREE.Quaternion.
     orientationAt(t, into) {
       const q = this.quaternions, row = this.row(t), i = 4 * row;
       into.set(q[i + 1], q[i + 2], q[i + 3], q[i]).normalize();
@@ -126,7 +128,7 @@ bbsim.data = (() => {
   const runs = scene.runs.map((run, index) => new Run(run, index));
   const start = Math.min(...runs.map((run) => run.start));
   const end = Math.max(...runs.map((run) => run.last));
-  // What a stretch of the way takes on the plane.
+  // Whether a coordinate can be drawn.
   const shown = (value) => Math.abs(value) <= scene.stage.largest;
 
   return {scene, runs, start, end, floats, doubles, extent, shown};

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 'use strict';
-// What was run: the scenario's text, how it went, what was modelled, the poles, statistics.
+// Describes the run: the scenario's text, the outcome, the model, poles, statistics.
 bbsim.makeDetails = (container) => {
   const {data, text} = bbsim;
   const {element} = text;
@@ -14,7 +14,7 @@ bbsim.makeDetails = (container) => {
         await navigator.clipboard.writeText(words);
         button.textContent = 'Copied';
       } catch {
-        // Without the right to the clipboard: mark it, so that one key copies it.
+        // Without access to the clipboard, selects the text, so that one key copies it.
         getSelection().selectAllChildren(button.closest('.copyable').querySelector('code'));
         button.textContent = 'Marked';
       }
@@ -27,7 +27,7 @@ bbsim.makeDetails = (container) => {
     return element('details', {class: 'card', open: true}, element('summary', {}, element('h3', {}, title)), ...content);
   }
 
-  // A JSON value as rows of names and values.
+  // A JSON object as rows of names and values.
   function rowsOf(value) {
     const list = element('dl', {class: 'rows'});
     for (const [name, member] of Object.entries(value)) {
@@ -65,7 +65,7 @@ bbsim.makeDetails = (container) => {
         `The result file is the record.${end}`;
   }
 
-  // Of rows that the picture leaves out.
+  // Reports rows that the picture leaves out.
   function beyondNote(run) {
     const xs = run.values('x'), ys = run.values('y');
     const far = Array.from(run.t.keys()).filter((i) => [xs[i], ys[i]].some((v) => Math.abs(v) > data.scene.stage.largest));

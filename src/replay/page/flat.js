@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 'use strict';
-// The picture from above, drawn flat in the plate's own axes, for browsers without 3D or in which it is slow. What does
-// not move is drawn once; of each new picture only what has changed.
+// The picture from above, drawn flat in the plate's frame, for browsers with slow 3D or without 3D.
+// It draws static parts once, and then only the changes.
 bbsim.makeFlat = (canvas) => {
   const {scene, runs, shown} = bbsim.data;
   const {stage} = scene;
@@ -15,10 +15,10 @@ bbsim.makeFlat = (canvas) => {
     return made.getContext('2d', {willReadFrequently: true});
   };
   const ink = canvas.getContext('2d', {willReadFrequently: true});
-  const ground = make(), base = make();  // what stays; the same with the trails so far
+  const ground = make(), base = make();  // static parts; these with the trails so far
   let width = 0, height = 0, ratio = 1, scale = 1, waiting = false, stale = true, dirty = [];
-  // What moves with every picture are small canvases of their own above the large one, so that no more is drawn and put
-  // together than they take.
+  // Parts that move in every frame are small canvases above the large one. A frame draws and
+  // composes only these.
   function piece(name) {
     const made = make();
     made.canvas.className = 'piece';
@@ -27,18 +27,19 @@ bbsim.makeFlat = (canvas) => {
     return made;
   }
   const target = piece('where the ball is wanted');
-  // Of each run: up to which row its trail is in the base. Ghosts are below the leading ball.
+  // For each run, the row up to which its trail is in `base`. Ghosts are below the leading ball.
   const actors = runs.map((run) => ({run, until: 0, turn: new THREE.Quaternion(), last: [0, 0]}));
   for (const actor of [...actors].reverse()) actor.sprite = piece(`the ball of ${actor.run.name}`);
 
   // From the plane to the canvas.
   const px = (x) => width / 2 + x * scale, py = (y) => height / 2 - y * scale;
-  const least = 5;  // pixels: a smaller ball has a ring about it
+  const least = 5;  // pixels: a smaller ball gets a ring
 
   function size_(box = canvas.parentElement.getBoundingClientRect(), most = 0) {
     ratio = Math.max(Math.min(Math.max(window.devicePixelRatio || 1, 1), 2), most);
     [width, height] = [Math.max(1, Math.round(box.width * ratio)), Math.max(1, Math.round(box.height * ratio))];
-    // Beside the dial and the buttons, or on a narrow screen between them.
+    // Leaves room for the dial and the buttons: beside the plate, or on a narrow screen above and
+    // below it.
     const [beside, above] = box.width > 560 ? [104, 54] : [14, 88];
     scale = Math.min(Math.max(width - 2 * beside * ratio, 0.5 * width) / stage.width, Math.max(height - 2 * above * ratio, 0.5 * height) / stage.depth);
     for (const one of [ink, ground, base]) [one.canvas.width, one.canvas.height] = [width, height];
@@ -144,7 +145,7 @@ bbsim.makeFlat = (canvas) => {
     });
   }
 
-  // The trails up to now: what is new of them, or all, where time has gone back.
+  // Draws the new part of the trails, or all of it if time has gone back.
   function paintTrails(t) {
     const rows = runs.map((run) => run.row(t));
     if (stale || actors.some((actor, i) => rows[i] < actor.until)) {
@@ -166,7 +167,7 @@ bbsim.makeFlat = (canvas) => {
           if (!shown(xs[k]) || !shown(ys[k])) continue;
           [left, right] = [Math.min(left, px(xs[k])), Math.max(right, px(xs[k]))];
           [top, bottom] = [Math.min(top, py(ys[k])), Math.max(bottom, py(ys[k]))];
-          // Dashes go on from piece to piece.
+          // Dashes continue from piece to piece.
           if (k > actor.until && shown(xs[k - 1])) actor.along = (actor.along || 0) + scale * (Math.hypot(xs[k] - xs[k - 1], ys[k] - ys[k - 1]) || 0);
         }
         if (dirty && left <= right) dirty.push([left - 3 * ratio, top - 3 * ratio, right + 3 * ratio, bottom + 3 * ratio]);
@@ -178,7 +179,7 @@ bbsim.makeFlat = (canvas) => {
   const lamp = [-0.23, 0.5, 0.835];
   const rgb = (colour) => { const c = new THREE.Color(colour); return [c.r * 255, c.g * 255, c.b * 255]; };
 
-  // The ball's face, as it is seen from above: octants, as in ball.js, shaded.
+  // Draws the ball as seen from above: octants as in ball.js, shaded.
   function paintBall(actor, radius) {
     const {sprite, run, turn} = actor, ring = radius < least * ratio;
     const wide = 2 * Math.ceil(Math.max(radius, ring ? 11 * ratio : 0)) + 2, step = Math.max(1, Math.ceil(radius / 60));
@@ -231,7 +232,7 @@ bbsim.makeFlat = (canvas) => {
     target.stroke();
   }
 
-  // Puts the middle of a piece at a place of the canvas, or takes it away.
+  // Centers a piece at a point of the canvas, or hides it.
   function put(one, x, y, on) {
     const half = one.canvas.width / 2;
     one.at = on ? [x - half, y - half] : null;
@@ -240,7 +241,7 @@ bbsim.makeFlat = (canvas) => {
                                      transform: `translate(${(x - half) / ratio}px, ${(y - half) / ratio}px)`});
   }
 
-  // The last points that the sensor saw; answers the rectangles that they take.
+  // Draws the last points of the sensor and returns their rectangles.
   function paintSeen(t) {
     const boxes = [];
     if (!visible.sensor || !lead.isMeasured) return boxes;
@@ -260,7 +261,7 @@ bbsim.makeFlat = (canvas) => {
     return boxes;
   }
 
-  // What need not follow each picture: the trails, and what the sensor saw.
+  // Draws the parts that need not follow every frame: the trails and the points of the sensor.
   function drawBase(t = bbsim.clock.now) {
     if (!flat.active || width === 0) return;
     if (stale) {
@@ -325,7 +326,7 @@ bbsim.makeFlat = (canvas) => {
       size_();
       draw();
     },
-    // All of it in one canvas.
+    // The whole picture in one canvas.
     whole() {
       drawBase();
       drawMoving(bbsim.clock.now);
@@ -347,7 +348,7 @@ bbsim.makeFlat = (canvas) => {
       visible[name] = on;
       invalidate();
     },
-    // The centre of the leading ball in the window, CSS pixels.
+    // The center of the leading ball in the window, CSS pixels.
     ballOnScreen() {
       if (width === 0) size_();
       const box = canvas.getBoundingClientRect(), found = lead.placeAt(bbsim.clock.now);

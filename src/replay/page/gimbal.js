@@ -2,12 +2,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 'use strict';
-// The rig: base, ring that turns by phi, plate that turns by theta in it, at its true size. Frames as in
-// bbsim's docs/explanation/model.md: R = R_x(base tilt) R_y(phi) R_z(skew) R_x(theta) R_z(yaw - skew).
+// The rig at its true size: the base, the ring that turns by phi, and the plate that turns by theta
+// in it. Frames as in docs/explanation/model.md: R = R_x(base tilt) R_y(phi) R_z(skew) R_x(theta)
+// R_z(yaw - skew).
 bbsim.gimbal = (() => {
   const {runs, scene: {stage}} = bbsim.data;
 
-  // A frame of bars with rounded corners around the origin, `half` wide inside, of square section.
+  // A frame of square bars with rounded corners, centered at the origin; halfX and halfY are half
+  // its inner width.
   function frameGeometry(halfX, halfY, bar, round) {
     const outline = (x, y, radius, path) => {
       if (round) return path.absarc(0, 0, x, 0, 2 * Math.PI, false);
@@ -48,14 +50,14 @@ bbsim.gimbal = (() => {
     return mesh;
   }
 
-  // Lines every 1, 2 or 5 times a power of ten, about a dozen across.
+  // Grid lines at 1, 2 or 5 times a power of ten, about a dozen across the plate.
   function gridSpacing() {
     const wanted = Math.max(stage.width, stage.depth) / 10;
     const power = 10 ** Math.floor(Math.log10(wanted));
     return [1, 2, 5, 10].map((n) => n * power).find((spacing) => spacing >= wanted * 0.85);
   }
 
-  // The plate's face: its grid and its rim, in metres from its corner.
+  // The plate's face with its grid and its rim, in meters from its corner.
   function paintPlate(canvas, palette) {
     const ink = canvas.getContext('2d', {willReadFrequently: true}), {width, depth} = stage, size = Math.max(width, depth);
     ink.setTransform(canvas.width / width, 0, 0, canvas.height / depth, 0, 0);
@@ -76,7 +78,7 @@ bbsim.gimbal = (() => {
     }
     ink.strokeStyle = palette.rim;
     ink.lineWidth = 5 * line;
-    ink.setLineDash(stage.plateGiven ? [] : [size / 40, size / 60]);  // no edge: drawn to fit
+    ink.setLineDash(stage.plateGiven ? [] : [size / 40, size / 60]);  // dashed if fitted
     ink.beginPath();
     if (stage.round) ink.arc(width / 2, depth / 2, width / 2 - 2.5 * line, 0, 2 * Math.PI);
     else ink.rect(2.5 * line, 2.5 * line, width - 5 * line, depth - 5 * line);
@@ -131,7 +133,8 @@ bbsim.gimbal = (() => {
     ring.add(cross);
     cross.add(hinge);
     hinge.add(plane);
-    // What has to be in the picture: the posts' ends, the ring's corners and the plate's at all angles that they take.
+    // The points that must be in the picture: ends of the posts, and corners of the ring and the
+    // plate at all of their angles.
     function outlineAt(factor) {
       const angles = (name) => {
         const seen = runs.map((one) => one.columns.get(name)).filter(Boolean);
@@ -177,7 +180,7 @@ bbsim.gimbal = (() => {
     };
   }
 
-  // Of a run that does not lead: its plate's edge, on links of its own.
+  // The gimbal of a run that does not lead: its links and the edge of its plate.
   function buildGhost(run, line) {
     const base = new THREE.Group(), ring = new THREE.Group(), cross = new THREE.Group(), hinge = new THREE.Group(),
           plane = new THREE.Group();

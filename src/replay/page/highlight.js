@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 'use strict';
-// A scenario's YAML in colours, enough to read it by: comments, keys, strings, numbers. It builds text nodes only.
+// Colors a scenario's YAML for reading: comments, keys, strings, numbers. Makes text nodes only.
 bbsim.highlight = (source) => {
   const {element} = bbsim.text;
   const token = /(#[^\n]*)|("(?:[^"\\\n]|\\.)*"?|'(?:[^'\n]|'')*'?)|([A-Za-z_][\w.]*)(?=\s*:(?:\s|$))|([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?(?![\w.]))|([A-Za-z_][\w./()-]*)/g;
@@ -13,7 +13,7 @@ bbsim.highlight = (source) => {
   for (const found of source.matchAll(token)) {
     const kind = kinds[found.slice(1).findIndex((part) => part !== undefined)];
     if (!kind) continue;
-    // A # that is no comment stands right behind something.
+    // A # directly behind other text begins no comment.
     if (kind === 'comment' && found.index > 0 && !/\s/.test(source[found.index - 1])) continue;
     if (found.index > last) spans.push(source.slice(last, found.index));
     spans.push(element('span', {class: kind}, found[0]));

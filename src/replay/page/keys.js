@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 'use strict';
-// The keyboard, and the list of what it does.
+// The keyboard, and the list of its keys.
 bbsim.makeKeys = (actions) => {
   const {element} = bbsim.text;
   const keys = document.getElementById('keys');
@@ -41,7 +41,7 @@ bbsim.makeKeys = (actions) => {
   }
   document.addEventListener('keydown', (event) => {
     if (event.ctrlKey || event.metaKey || event.altKey || document.querySelector('dialog[open]')) return;
-    // Where a key writes, picks or presses, it does not also do something here.
+    // Keys that an input, a list or a button uses have no other effect.
     const tag = event.target.tagName;
     if (tag === 'SELECT' || tag === 'TEXTAREA' || (tag === 'INPUT' && event.target.id !== 'scrub')) return;
     if ((tag === 'BUTTON' || tag === 'SUMMARY' || tag === 'A') && (event.key === ' ' || event.key === 'Enter')) return;

@@ -2,9 +2,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 'use strict';
-// Words beside points of a picture, so that none is printed over another.
+// Places labels beside points of a picture so that they do not overlap.
 bbsim.placeLabels = (wanted) => {
-  // wanted: {x, y, width, height} in pixels, the middle of each; answers how far each goes up, or null: no room for it.
+  // wanted: the middle and the size {x, y, width, height} of each label, pixels. Returns how far
+  // each one moves up, or null if there is no room for it.
   const placed = [];
   return wanted.map(({x, y, width, height}) => {
     for (let up = 0; up <= 4 * height; up += height) {

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 'use strict';
-// Puts the first picture on the screen, then lets the rest follow: see reading.js.
+// Draws the first picture; reading.js then adds the rest.
 (() => {
   const {data, clock, palette, text} = bbsim;
   const {scene, runs} = data;
@@ -25,7 +25,7 @@
                         text.element('b', {class: `status ${run.status}`}, `${statusSigns[run.status] || '○'} ${run.status}${until}`));
   }
 
-  // What went wrong is said as it is, and not taken for a browser without 3D graphics.
+  // Reports the error itself, and does not mistake it for a browser without 3D graphics.
   let picture = null;
   function makePicture() {
     try {
@@ -65,7 +65,7 @@
   bbsim.screen = screen;
   bbsim.picture = picture;
 
-  // 1, 2, 5, ...: what the plate's angles are multiplied by in the picture.
+  // Factors for the plate's angles in the picture.
   const factors = [1, 2, 5, 10, 20, 50];
   function setFactor(value) {
     const nearest = factors.reduce((best, f) => (Math.abs(f - value) < Math.abs(best - value) ? f : best));
@@ -186,6 +186,6 @@
   bbsim.view = () => picture && picture.view();
   if (!screen.isFlat) {
     picture.drawn();
-    bbsim.firstPicture = performance.now();  // ms from when the page was asked for
+    bbsim.firstPicture = performance.now();  // ms since the page was requested
   }
 })();

@@ -2,14 +2,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 'use strict';
-// Turns, moves and zooms an eye about a target, by mouse, wheel and fingers. The page keeps what it scrolls by: a
-// wheel is the view's with Ctrl or once the view was clicked, and so is one finger; two always are.
+// Turns, moves and zooms an eye about a target, by mouse, wheel and fingers. The page can still
+// scroll: a wheel is for the view only with Ctrl or after a click on the view, and one finger only
+// after a tap. Two fingers are always for the view.
 bbsim.makeOrbit = (canvas, eye, told) => {
   const target = new THREE.Vector3(), tiny = 1e-4;
-  const fingers = new Map();  // pointers that are down: where they were last
-  let way = null, last = null, tapped = null;  // where a finger came down that may only have tapped
+  const fingers = new Map();  // pointers that are down: their last positions
+  let way = null, last = null, tapped = null;  // the start of a touch that may be a tap
   const taken = () => document.activeElement === canvas;
-  // Spherical coordinates about z, by three.js's about y.
+  // Converts between spherical coordinates about z and those of three.js, about y.
   const yUp = (v) => new THREE.Vector3(v.y, v.z, v.x), zUp = (v) => new THREE.Vector3(v.z, v.x, v.y);
   const around = () => new THREE.Spherical().setFromVector3(yUp(eye.position.clone().sub(target)));
 
@@ -44,7 +45,7 @@ bbsim.makeOrbit = (canvas, eye, told) => {
     stand(around());
   }
 
-  // The middle of the fingers and how far they are apart.
+  // The middle of the fingers and the distance between them.
   function hand() {
     const [a, b] = [...fingers.values()];
     return b ? {x: (a.x + b.x) / 2, y: (a.y + b.y) / 2, apart: Math.hypot(a.x - b.x, a.y - b.y)} : {...a, apart: 0};
@@ -102,7 +103,7 @@ bbsim.makeOrbit = (canvas, eye, told) => {
     zoom(Math.exp(Math.min(Math.max(event.deltaY, -120), 120) * 5e-4));
     told.ended();
   }, {passive: false});
-  // A finger that is the view's does not scroll the page as well.
+  // A finger that is for the view does not scroll the page as well.
   for (const name of ['focus', 'blur']) canvas.addEventListener(name, () => canvas.classList.toggle('taken', taken()));
 
   const orbit = {target, turn, zoom, around, zUp, yUp, minDistance: 0, maxDistance: Infinity, update: () => stand(around())};

@@ -2,12 +2,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 'use strict';
-// Where pictures come slowly while time goes on, all but the picture follows a few times a second, since what a browser
-// puts together anew is all between what has changed; the picture has fewer pixels; and if that is not enough it is flat.
-// A time that stands still is drawn with all pixels. Who chooses a view keeps it.
+// Adapts the page to slow frames while time runs, in three stages. First, everything but the
+// picture follows only a few times a second, because a browser composes anew all that lies between
+// changed parts. Then the picture gets fewer pixels. If that does not suffice, it becomes flat. A
+// picture at rest has all pixels. A view that the user has chosen stays.
 bbsim.makePace = (screen, tell) => {
   const {clock} = bbsim;
-  const slow = 1000 / 24, tooSlow = 1000 / 15, several = 6;  // ms a picture; so many are looked at
+  const slow = 1000 / 24, tooSlow = 1000 / 15, several = 6;  // ms a frame; frames to judge
   let last = null, spans = [], coarse = false, chosen = false;
 
   function judge() {
@@ -38,7 +39,7 @@ bbsim.makePace = (screen, tell) => {
     if (screen.solid) screen.solid.setPixels(clock.playing && coarse ? 0.5 : 1);
   });
   return {
-    // A view in three dimensions was asked for.
+    // The user has chosen a view in three dimensions.
     choose() { chosen = true; },
     get coarse() { return coarse; },
   };

@@ -2,19 +2,20 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 'use strict';
-// What is painted on the plate: paths as ribbons, marks, and small labels that face the eye.
+// Paints on the plate: paths as ribbons, marks, and small labels that face the eye.
 bbsim.paint = (() => {
-  // A ribbon along points (xs, ys), a quad a segment, cut into dashes [on, off] of that length if given; what is too far
-  // away to be drawn is a gap. Its width is that of its material (`spread`); `width` is the one that it has mostly. The
-  // returned geometry has `until`: how many indices the first n points need, and `reached`: the last of them that the
-  // ribbon comes to.
+  // A ribbon along points (xs, ys), with one quad for each segment. `dash` cuts it into dashes of
+  // lengths [on, off]. Points too far away to be drawn leave a gap. The material sets the ribbon's
+  // width (`spread`); `width` is its usual value. The returned geometry has `until`, the number of
+  // indices for the first n points, and `reached`, the last of these points that the ribbon
+  // reaches.
   function ribbon(xs, ys, width, dash = null) {
     const positions = [], aside = [], indices = [], until = new Uint32Array(xs.length + 1), reached = new Int32Array(xs.length + 1);
     reached[0] = -1;
     let along = 0;
     const quad = (ax, ay, bx, by, ux, uy) => {
       const first = positions.length / 3, nx = -uy / 2, ny = ux / 2;
-      const ox = dash ? 0 : 0.3 * ux, oy = dash ? 0 : 0.3 * uy;  // closes the gaps of corners
+      const ox = dash ? 0 : 0.3 * ux, oy = dash ? 0 : 0.3 * uy;  // closes gaps at corners
       positions.push(ax, ay, 0, bx, by, 0, bx, by, 0, ax, ay, 0);
       aside.push(-ox - nx, -oy - ny, 0, ox - nx, oy - ny, 0, ox + nx, oy + ny, 0, nx - ox, ny - oy, 0);
       indices.push(first, first + 1, first + 2, first, first + 2, first + 3);
@@ -24,7 +25,7 @@ bbsim.paint = (() => {
       if (bbsim.data.shown(xs[i]) && bbsim.data.shown(ys[i])) {
         if (last >= 0) {
           const ax = xs[last], ay = ys[last], length = Math.hypot(xs[i] - ax, ys[i] - ay);
-          // A fifth of the width is less than anybody sees.
+          // A fifth of the width is too short to be seen.
           if (length > width / 5) {
             const ux = (xs[i] - ax) / length, uy = (ys[i] - ay) / length;
             if (!dash) {
@@ -54,7 +55,7 @@ bbsim.paint = (() => {
     }
     const geometry = new THREE.BufferGeometry();
     geometry.setAttribute('position', new THREE.BufferAttribute(new Float32Array(positions), 3));
-    // As all other bodies have them: one way to read them is compiled.
+    // All bodies have the same attributes, so that only one program is compiled.
     geometry.setAttribute('normal', new THREE.BufferAttribute(new Float32Array(aside), 3));
     geometry.setAttribute('uv', new THREE.BufferAttribute(new Float32Array(positions.length / 3 * 2), 2));
     geometry.setIndex(new THREE.BufferAttribute(new Uint32Array(indices), 1));
@@ -69,8 +70,9 @@ bbsim.paint = (() => {
     lampColour: {value: new THREE.Color()}, sky: {value: new THREE.Color()}, earth: {value: new THREE.Color()},
   };
 
-  // All that is drawn shares this one small program, since compiling programs is what a first picture waits for:
-  // light from the sky above and the earth below, one lamp whose gleam moves over a plate that tilts.
+  // One small program draws everything, because the first picture waits for the compilation of
+  // programs. Light comes from the sky above, the earth below and one lamp. The lamp's gleam moves
+  // over a plate that tilts.
   const vertexShader = `
     precision highp float;
     attribute vec3 position, normal;
@@ -111,16 +113,16 @@ bbsim.paint = (() => {
     const made = new THREE.RawShaderMaterial({uniforms, vertexShader, fragmentShader, ...options});
     made.color = uniforms.color.value;
     made.spread = uniforms.spread;
-    made.map = null;  // that is for materials of the library's own
+    made.map = null;  // only materials of three.js itself use it
     return made;
   }
-  // Bodies, and paint on them.
+  // Materials of bodies, and of paint on them.
   const lit = (options = {}) => material(options);
   const flat = (options = {}) => material({
     lit: 0, depthWrite: false, polygonOffset: true, polygonOffsetFactor: -1, polygonOffsetUnits: -4, ...options,
   });
 
-  // A ring with a cross in it: where the ball is wanted.
+  // The mark of the reference: a ring with a cross.
   function target(radius, material) {
     const group = new THREE.Group();
     group.add(new THREE.Mesh(new THREE.RingBufferGeometry(0.88 * radius, radius, 48), material));
@@ -149,25 +151,25 @@ bbsim.paint = (() => {
     return mesh;
   }
 
-  // Where something happened: an octagon where it stopped the run, a diamond where it was noted.
+  // The mark of an event: an octagon if it stopped the run, a diamond if it was noted.
   function eventMark(action, radius, fill, rim) {
     const sides = action === 'stop' ? 8 : 4;
     const group = new THREE.Group();
     const outer = new THREE.Mesh(new THREE.CircleBufferGeometry(radius, sides, action === 'stop' ? Math.PI / 8 : 0), rim);
     const inner = new THREE.Mesh(new THREE.CircleBufferGeometry(0.68 * radius, sides, action === 'stop' ? Math.PI / 8 : 0), fill);
-    inner.renderOrder = 0.5;  // of what lies in one plane, that is above
+    inner.renderOrder = 0.5;  // draws it above the other one, which is in the same plane
     group.add(outer, inner);
     return group;
   }
 
-  // A word that faces the eye, `pixels` high whatever the distance.
+  // A word that faces the eye, `pixels` high at any distance.
   function label(words, colour, halo, pixels = 15) {
     const canvas = document.createElement('canvas');
     const ink = canvas.getContext('2d', {willReadFrequently: true}), zoom = 2;
     const font = `600 ${pixels * zoom}px system-ui, sans-serif`;
     ink.font = font;
     const width = Math.ceil(ink.measureText(words).width + 10 * zoom), height = Math.ceil(1.5 * pixels * zoom);
-    // Powers of two, which every WebGL takes as they are.
+    // Sizes are powers of two, which every WebGL accepts.
     canvas.width = 2 ** Math.ceil(Math.log2(width));
     canvas.height = 2 ** Math.ceil(Math.log2(height));
     ink.font = font;
@@ -189,8 +191,8 @@ bbsim.paint = (() => {
     return mesh;
   }
 
-  // Puts what is measured in pixels at a place, so many pixels higher on the screen, and turns it to the eye: to a camera
-  // for which one pixel at distance 1 is that large.
+  // Places a mesh with sizes in pixels, moves it `up` pixels on the screen and turns it to the
+  // camera. `pixel` is the size of a pixel at distance 1.
   function face(mesh, place, camera, pixel, up = 0) {
     const deep = Math.max(-place.clone().applyMatrix4(camera.matrixWorldInverse).z, 1e-30);
     mesh.quaternion.setFromRotationMatrix(camera.matrixWorld);
@@ -199,7 +201,7 @@ bbsim.paint = (() => {
     mesh.updateMatrixWorld(true);
   }
 
-  // A ring of constant size about a ball that is too small to be seen, in pixels.
+  // A ring of constant size, in pixels, about a ball that is too small to be seen.
   function marker(fill, rim) {
     const group = new THREE.Group();
     for (const [inner, outer, material, order] of [[5.5, 10.5, rim, 14], [6.5, 9.5, fill, 15]]) {
@@ -224,7 +226,7 @@ bbsim.paint = (() => {
     return new THREE.Mesh(new THREE.PlaneBufferGeometry(2, 2), flat({map: new THREE.CanvasTexture(canvas), transparent: true}));
   }
 
-  // An upright cross: where the sensor saw the ball.
+  // The mark of a sensor point: an upright cross.
   function cross(size, material) {
     const group = new THREE.Group();
     group.add(new THREE.Mesh(new THREE.PlaneBufferGeometry(size, 0.22 * size), material),

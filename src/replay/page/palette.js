@@ -2,8 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 'use strict';
-// Colours of light and dark. Those that carry meaning are Okabe and Ito's, which people tell apart whatever
-// their eyes, and never come alone: lines have dashes, marks have shapes, everything has its name.
+// Colors of the light and the dark theme. Colors with a meaning are Okabe and Ito's, which the
+// color-blind can distinguish. They are never the only difference: lines have dashes, marks have
+// shapes, everything has a name.
 bbsim.palette = (() => {
   const light = {
     background: '#eef1f5', ground: '#dfe4ea', ink: '#1d2733', plate: '#eef2f6', grid: '#bcc7d3', rim: '#77869a',
@@ -17,13 +18,13 @@ bbsim.palette = (() => {
     reference: '#cfd8e2', band: '#465463', faint: 0.62, light: 0.6, sky: '#dfe8f2', earth: '#39434e', hemisphere: 0.55,
     runs: ['#ff8a3d', '#5ab4f0', '#2fc99a', '#e28fbd', '#e0c040', '#8fd0ff'],
   };
-  // Of lines of runs, so that no colour stands alone: solid, dashed, dotted, dash-dotted. One more than colours, so that
-  // six times seven runs are told apart.
+  // Dashes for the lines of runs, so that color is not the only difference: solid, dashed, dotted,
+  // dash-dotted. There is one more than colors, so that six times seven runs are distinct.
   const dashes = [null, [8, 4], [2, 3], [9, 3, 2, 3], [14, 4], [5, 2, 1, 2], [3, 6]];
 
   const prefersDark = matchMedia('(prefers-color-scheme: dark)');
-  let chosen = null;  // 'light' or 'dark', or what the system says
-  let printing = false;  // on paper it is light
+  let chosen = null;  // 'light' or 'dark'; null follows the system
+  let printing = false;  // paper is light
   const listeners = [];
 
   const isDark = () => !printing && (chosen ? chosen === 'dark' : prefersDark.matches);

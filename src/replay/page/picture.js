@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 'use strict';
-// The picture: rig, ball, trail, reference, what the sensor saw, and what happened where, at the clock's time.
-// It is drawn when something has changed, and else costs nothing.
+// The picture at the clock's time: rig, ball, trail, reference, sensor points and events. It is
+// drawn only after a change.
 bbsim.makePicture = (canvas, left) => {
   const {scene, runs} = bbsim.data;
   const {stage} = scene;
@@ -11,7 +11,7 @@ bbsim.makePicture = (canvas, left) => {
   const lead = runs[0];
   const size = Math.max(stage.width, stage.depth);
 
-  // As large as it will be from the start: its buffers are made once.
+  // The canvas gets its final size at the start, so that its buffers are made once.
   const sizeOf = () => {
     const box = canvas.parentElement.getBoundingClientRect();
     return [Math.max(1, Math.round(box.width)), Math.max(1, Math.round(box.height))];
@@ -19,10 +19,11 @@ bbsim.makePicture = (canvas, left) => {
   [canvas.width, canvas.height] = sizeOf();
   let [width, height] = sizeOf();
   const renderer = new THREE.WebGLRenderer({canvas, antialias: true, alpha: false});
-  renderer.debug.checkShaderErrors = false;  // asking whether they compiled waits for them one by one
+  renderer.debug.checkShaderErrors = false;  // a check would wait for each shader's compilation
   const sharp = () => Math.min(Math.max(window.devicePixelRatio || 1, 1), 2);
   if (sharp() > 1) renderer.setPixelRatio(sharp());
-  // Metres in the world, whose longest side is 1 for the eye: floats of a graphics card have no room for all sizes.
+  // World coordinates are meters. The eye sees the longest side as 1, because floats of a graphics
+  // card do not cover all sizes.
   const root = new THREE.Scene(), world = new THREE.Group();
   root.background = new THREE.Color();
   world.scale.setScalar(1 / size);
@@ -52,7 +53,7 @@ bbsim.makePicture = (canvas, left) => {
   floor.position.z = -rig.foot - 0.012 * size;
   world.add(floor);
 
-  // Painted on the plate, layer by layer.
+  // Puts an object on the plate, in layer n.
   const layer = (n, near = 1) => lead.mounting.height + n * 0.00025 * size * near;
   const layers = [];
   function onPlate(object, n, plane = rig.plane) {
@@ -67,8 +68,8 @@ bbsim.makePicture = (canvas, left) => {
   const labels = [];
   const parts = {axes: new THREE.Group(), events: new THREE.Group(), reference: new THREE.Group(), sensor: new THREE.Group()};
   for (const group of Object.values(parts)) rig.plane.add(group);
-  const marks = [];  // what is no larger on the screen when the eye comes near
-  const ribbons = [];  // materials of such, and how wide they are at most
+  const marks = [];  // do not grow on the screen when the eye comes near
+  const ribbons = [];  // materials of ribbons, and their greatest widths
 
   function ribbonOf(part, make) {
     const material = paint.flat({spread: part * trailWidth});
@@ -80,7 +81,8 @@ bbsim.makePicture = (canvas, left) => {
     onPlate(paint.arrow(axis, 0.13 * size, 0.0085 * size, materials[axis]), 2, parts.axes);
   }
 
-  // Runs: their balls and trails, the leading one's on the plate, the others' on plates of their own.
+  // The balls and trails of all runs. The leading run is on the rig's plate; a run with angles has
+  // a ghost plate.
   const actors = runs.map((run) => {
     const leads = run === lead;
     const edge = paint.flat({transparent: true, opacity: 0.7});
@@ -94,7 +96,7 @@ bbsim.makePicture = (canvas, left) => {
     const pattern = leads ? null : palette.dash(run.index);
     const dash = pattern && pattern.slice(0, 2).map((n) => n * 0.0022 * size);
     const past = ribbonOf(1, (material) => new THREE.Mesh(paint.ribbon(xs, ys, trailWidth, dash), material));
-    // Of length 1 along x, and as wide as its material says.
+    // Has length 1 along x, and the width of its material.
     const tip = new THREE.Mesh(paint.ribbon([-0.5, 0.5], [0, 0], 1, [2, 0]), past.material);
     const future = ribbonOf(0.9, (material) => new THREE.Mesh(
         leads ? paint.ribbon(xs, ys, 0.9 * trailWidth, [0.02 * size, 0.009 * size]) : past.geometry.clone(), material));
@@ -123,14 +125,14 @@ bbsim.makePicture = (canvas, left) => {
   target.visible = lead.hasReference || lead.path.length === 2;
   const targetLeast = 1.45 * lead.ball.radius / Math.max(1.45 * lead.ball.radius, 0.02 * size);
 
-  // The last points that the sensor saw.
+  // The last points of the sensor.
   const seen = [];
   if (lead.isMeasured) {
     for (let i = 0; i < 12; ++i) seen.push(onPlate(paint.cross(0.016 * size, materials.sensor), 6, parts.sensor));
     marks.push(...seen);
   }
 
-  // Of very many events the first hundred and the last are marked; all are listed beside the picture.
+  // Marks only the first hundred events and the last one.
   const marked = lead.events.filter((_, i) => i < 100 || i === lead.events.length - 1);
   for (const event of marked) {
     const mark = onPlate(paint.eventMark(event.action, 0.016 * size, materials.event, materials.eventRim), 6, parts.events);
@@ -158,7 +160,7 @@ bbsim.makePicture = (canvas, left) => {
     label('y', colours.y, new THREE.Vector3(0, 0.155 * size, high), parts.axes);
     const named = [];
     for (const event of marked) {
-      // One word for those that are close to each other.
+      // Events of the same name that are close to each other share one label.
       if (named.length > 11 || named.some((other) => other.name === event.name &&
           Math.hypot(other.x - event.x, other.y - event.y) < 0.08 * size)) continue;
       named.push(event);
@@ -186,8 +188,8 @@ bbsim.makePicture = (canvas, left) => {
     });
   }
 
-  // What has a size on the screen: ribbons and marks, which do not grow when the eye comes near, and markers of balls
-  // that are too small to be seen.
+  // Adapts sizes to the screen. Ribbons and marks do not grow when the eye comes near. Balls that
+  // are too small to be seen get markers.
   function sizeToScreen() {
     const near = Math.min(1, eyes.farness()), pixel = pixelSize();
     for (const {material, width: most} of ribbons) material.spread.value = most * near;
@@ -203,7 +205,7 @@ bbsim.makePicture = (canvas, left) => {
     root.updateMatrixWorld(true);
   }
 
-  // The plate's colour through which a trail shines that is still to come.
+  // The color of a trail that is still to come: the plate shines through.
   function mixed(colour, part) {
     return new THREE.Color(palette.now().plate).lerp(new THREE.Color(colour), part);
   }
@@ -243,10 +245,10 @@ bbsim.makePicture = (canvas, left) => {
   let factor = 1, waiting = false, forced = false, pixels = 1;
   const turn = new THREE.Quaternion();
   const last = runs.map(() => [0, 0]);
-  // What is not known is drawn level; the page says so.
+  // An unknown angle is drawn level; the page says so.
   const angle = (run, t, name) => run.angleAt(t, name) || 0;
 
-  // Puts everything where it is at time t; answers all numbers that this depends on.
+  // Moves everything to its place at time t. Returns all numbers that the picture depends on.
   function pose(t) {
     const state = [factor * angle(lead, t, 'phi'), factor * angle(lead, t, 'theta')];
     rig.set(...state);
@@ -257,7 +259,8 @@ bbsim.makePicture = (canvas, left) => {
         actor.links.set(...angles);
         state.push(...angles);
       }
-      // Where a row has no number the ball stays where it was; what is too far away is not drawn.
+      // If a row has no number, the ball stays where it was. A ball that is too far away is not
+      // drawn.
       const found = run.placeAt(t), place = Array.isArray(found) ? found : last[run.index];
       last[run.index] = place;
       const [x, y] = place, height = (actor.links ? run : lead).mounting.height;
@@ -273,7 +276,7 @@ bbsim.makePicture = (canvas, left) => {
       actor.past.visible = run.shown && visible.trail;
       actor.future.visible = run.shown && visible.trail && actor.leads;
       actor.past.geometry.setDrawRange(0, until[row + 1]);
-      // From where the ribbon ends to the ball.
+      // The tip connects the end of the ribbon with the ball.
       const from = reached[row + 1], dx = x - run.values('x')[from], dy = y - run.values('y')[from], length = Math.hypot(dx, dy);
       actor.tip.visible = shown && visible.trail && from >= 0 && Array.isArray(found) && length > 0;
       if (actor.tip.visible) {
@@ -290,7 +293,7 @@ bbsim.makePicture = (canvas, left) => {
       target.position.y = lead.at(t, 'y_reference', lead.path[1]);
       state.push(target.position.x, target.position.y);
     }
-    // One point a sample, of which the rows between two have the same.
+    // One point for each sample; the rows between two samples repeat it.
     let row = lead.row(t);
     const xs = lead.values('x_measured'), ys = lead.values('y_measured');
     for (const mark of seen) {
@@ -316,7 +319,7 @@ bbsim.makePicture = (canvas, left) => {
     const state = pose(bbsim.clock.now);
     eyes.update();
     state.push(...eyes.camera.matrixWorld.elements);
-    // A ball at rest is not drawn again and again.
+    // Skips a picture in which nothing has moved.
     if (!whole && state.length === drawn.length && state.every((value, i) => value === drawn[i])) return;
     drawn = state;
     sizeToScreen();
@@ -351,8 +354,8 @@ bbsim.makePicture = (canvas, left) => {
 
   const picture = {
     eyes, rig, actors, visible, hasPath, target, lead, renderer, canvas,
-    active: true,  // whether it is on the screen
-    draws: 0,      // how often it was drawn, for tests
+    active: true,  // is on the screen
+    draws: 0,      // number of drawings, for tests
     get factor() { return factor; },
     get zoom() { return renderer.getPixelRatio(); },
     whole() {
@@ -360,20 +363,20 @@ bbsim.makePicture = (canvas, left) => {
       return canvas;
     },
     invalidate, resize, draw, recolour,
-    // Draws, and comes back when that is done and not only asked for.
+    // Draws, and returns when the drawing is complete.
     drawn() {
       draw();
       const gl = renderer.getContext();
       gl.readPixels(0, 0, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, new Uint8Array(4));
     },
-    // In so many parts of its pixels: fewer are drawn faster.
+    // Draws with this part of the pixels; fewer are faster.
     setPixels(part) {
       if (part === pixels) return;
       pixels = part;
       renderer.setPixelRatio(sharp() * part);
       if (picture.active) draw();
     },
-    // Drawn for paper, in CSS pixels.
+    // Draws for paper; the size is in CSS pixels.
     print(w, h) {
       renderer.setPixelRatio(2);
       setSize(w, h);
@@ -393,7 +396,7 @@ bbsim.makePicture = (canvas, left) => {
       visible[name] = on;
       invalidate();
     },
-    // The centre of the leading ball in the window, CSS pixels.
+    // The center of the leading ball in the window, CSS pixels.
     ballOnScreen() {
       pose(bbsim.clock.now);
       eyes.update();
@@ -401,7 +404,7 @@ bbsim.makePicture = (canvas, left) => {
       const centre = leader.ball.mesh.getWorldPosition(new THREE.Vector3()).project(eyes.camera);
       return [box.left + (centre.x + 1) / 2 * box.width, box.top + (1 - centre.y) / 2 * box.height];
     },
-    // What a test projects by: column-major matrices, and the canvas in the window.
+    // For tests: the matrices of the projection, column-major, and the canvas in the window.
     view() {
       draw();
       const box = canvas.getBoundingClientRect();

@@ -2,17 +2,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 'use strict';
-// Plots over time beside the picture, with one cursor in all of them: the clock's time, or where a pointer is.
+// Plots over time beside the picture, with one cursor in all of them, at the clock's time or at the
+// pointer.
 bbsim.makePlots = (container) => {
   const {clock, palette, text, data} = bbsim;
   const {element} = text;
   const plots = [];
-  // A little more than all, for the number at its end.
+  // Slightly more than the run, to have a number at its end.
   const whole = data.end > data.start ? [data.start, data.end + 1e-6 * (data.end - data.start)] : [data.start - 0.5, data.end + 0.5];
   const timeLabel = data.runs.every((run) => run.unitsKnown) ? 't (s)' : 't';
   let hover = null, zooming = false, printing = false, range = bbsim.address.zoom();
 
-  // Canvases of this size are painted faster where they are than on the way to a graphics card and back.
+  // Canvases of this size are faster to paint in memory than through a graphics card.
   Dygraph.getContext = (canvas) => canvas.getContext('2d', {willReadFrequently: true});
 
   function swatch(curve) {
@@ -28,7 +29,7 @@ bbsim.makePlots = (container) => {
     return line;
   }
 
-  // Points as dots or crosses, so far apart that each is seen and what they lie on as well.
+  // Draws points as dots or crosses, so far apart that each one and the curve below are visible.
   function drawPoint(cross) {
     let last = -Infinity;
     return (graph, name, ink, x, y, colour, size) => {
@@ -51,7 +52,8 @@ bbsim.makePlots = (container) => {
     };
   }
 
-  // Rows of all curves of a plot on one grid of times; where they come from runs with other times, gaps.
+  // The rows of a plot's curves on one grid of times. There are gaps if the runs have different
+  // times.
   function tableOf(curves, factor) {
     const runs = [...new Set(curves.map((curve) => curve.run))];
     const put = (value) => (Number.isFinite(value) ? value * factor : NaN);
@@ -86,7 +88,7 @@ bbsim.makePlots = (container) => {
 
   class Plot {
     constructor({title, unit, curves}) {
-      // What is drawn first is covered by what comes later: references, then points and commands, then the motion.
+      // Later curves cover earlier ones: references, then points and commands, then the motion.
       this.order = [...curves].sort((a, b) => a.layer - b.layer);
       this.curves = curves;
       this.size = Math.max(...curves.map((curve) => data.extent(curve.values).size));
@@ -153,7 +155,7 @@ bbsim.makePlots = (container) => {
       if (this.graph) this.graph.updateOptions({colors: this.order.map((curve) => curve.colour()), ...this.colours()});
     }
 
-    // Events stand in every plot, stops solid and notes dashed.
+    // Every plot shows the events: stops are solid and notes are dashed.
     paintEvents(ink, area, graph) {
       const {events} = data.runs[0];
       ink.save();
@@ -185,7 +187,7 @@ bbsim.makePlots = (container) => {
       const size = this.size * this.shown.factor;
       this.curves.forEach((curve, i) => {
         const value = valueOf(curve, t), out = this.readings[i];
-        // To write what is there already would have the page laid out again.
+        // Writing the same text again would trigger a layout of the page.
         const words = Number.isNaN(value) ? '–' : text.steady(value * this.shown.factor, size);
         if (out.textContent === words) return;
         out.textContent = words;
@@ -194,7 +196,7 @@ bbsim.makePlots = (container) => {
     }
   }
 
-  // All plots show the same stretch of time.
+  // All plots show the same range of time.
   function setRange(next, from = null) {
     range = next;
     zooming = true;
@@ -211,7 +213,7 @@ bbsim.makePlots = (container) => {
     if (String(now) !== String(range)) setRange(now, graph);
     else if (all && (low > whole[0] + slack || high < whole[1] - slack)) setRange(null);
   }
-  // What is zoomed follows the time: when it has gone out at one side, the stretch goes on with it.
+  // The zoomed range follows the time: when the time leaves it, the range moves on.
   function follow(t) {
     if (range === null || hover !== null || (t >= range[0] && t <= range[1])) return;
     const long = range[1] - range[0], from = Math.min(Math.max(t - 0.05 * long, whole[0]), whole[1] - long);
@@ -246,7 +248,8 @@ bbsim.makePlots = (container) => {
     plots.push(plot);
     container.append(plot.root);
   }
-  // A plot is drawn when it comes near the window: many runs have more plots than anybody looks at.
+  // Builds a plot when it comes near the window, because many runs have more plots than anyone
+  // reads.
   const near = new IntersectionObserver((entries) => {
     for (const entry of entries) {
       const plot = plots.find((one) => one.root === entry.target);
@@ -257,7 +260,8 @@ bbsim.makePlots = (container) => {
   }, {rootMargin: '300px'});
   for (const plot of plots) near.observe(plot.root);
 
-  // Cursors go with the time; while it goes on, numbers follow a few times a second, which is as much as one reads.
+  // Cursors follow the time. While it runs, numbers change a few times a second, as fast as one can
+  // read.
   let readAgain = 0;
   clock.onTimeRelaxed((t) => {
     follow(t);
@@ -270,7 +274,7 @@ bbsim.makePlots = (container) => {
     plots, point,
     get range() { return range; },
     zoom: (to) => setRange(to),
-    // All of them at that size, whole; null: as they were.
+    // Prints all plots whole at this size; null restores them.
     print(size) {
       printing = true;
       for (const plot of plots) {

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 'use strict';
-// The loop's poles as a small picture: the s-plane, or of a sampled loop the unit circle.
+// A small picture of the loop's poles: the s plane or, for a sampled loop, the unit circle.
 bbsim.drawPoles = ({period, values}) => {
   const {svg, number} = bbsim.text;
   const finite = values.filter(([re, im]) => Number.isFinite(re) && Number.isFinite(im));

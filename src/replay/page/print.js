@@ -2,17 +2,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 'use strict';
-// A page on paper: the picture as it is now, all plots, and of what was run what two sheets have room for.
+// The page on paper: the current picture, all plots, and as many details of the run as fit on two
+// sheets.
 bbsim.preparePrint = () => {
   const {clock, palette} = bbsim;
   const {element} = bbsim.text;
   const root = document.documentElement;
-  // Of A4 and Letter, less their margins, the narrower and the shorter one, in CSS pixels at 96 an inch.
+  // The smaller width and height of A4 and Letter without their margins, CSS pixels (96 an inch).
   const width = 716, sheet = 970, sheets = 2;
   let copies = [];
 
-  // A canvas that is drawn anew while its page is printed may be printed empty, and one of 3D graphics as well: what is
-  // printed are copies, pixel by pixel.
+  // A canvas that is redrawn during printing may be printed empty, and so may a 3D canvas. Copies
+  // of their pixels are printed instead.
   function copied(from) {
     const made = element('canvas', {class: 'printed'});
     [made.width, made.height] = [from.width, from.height];
@@ -26,7 +27,7 @@ bbsim.preparePrint = () => {
     return made;
   }
 
-  // Cards go while there is too much, the longest of them first; that something ended early stays.
+  // Removes cards while there is too much, the longest first. The reason of an early end stays.
   function shorten(room) {
     const cards = [...document.querySelectorAll('#details .card')].sort((a, b) => b.scrollHeight - a.scrollHeight);
     for (const card of cards) {
@@ -45,8 +46,8 @@ bbsim.preparePrint = () => {
     palette.print(true);
     const box = document.getElementById('screen').getBoundingClientRect();
     document.getElementById('screen').prepend(copied(bbsim.screen.shown.print(box.width, box.height)));
-    // As many plots side by side as it takes for all to fit beneath the picture, with the half of a row to spare at a
-    // sheet's end.
+    // Takes as many columns as it needs to fit all plots below the picture, with half a row to
+    // spare at the end of a sheet.
     const {plots} = bbsim.plots, heads = 50, least = 58;
     const high = document.getElementById('plots').getBoundingClientRect().top + window.scrollY;
     let columns = 2, height = 0;
@@ -75,7 +76,7 @@ bbsim.preparePrint = () => {
 
   window.addEventListener('beforeprint', begin);
   window.addEventListener('afterprint', end);
-  // Where a browser only shows what it would print.
+  // For a browser that only shows a preview.
   matchMedia('print').addEventListener('change', (event) => (event.matches ? begin() : end()));
   bbsim.print = {begin, end};  // for tests
 };

@@ -2,13 +2,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 'use strict';
-// What can wait until the first picture is on the screen: plots, what was run, sweeps.
+// Adds the parts that can wait until the first picture is on the screen: plots, details, sweeps.
 (() => {
   const {data, clock, palette, text} = bbsim;
   const {element} = text;
   const get = (id) => document.getElementById(id);
 
-  // Several runs: which is which, how far from the first now, and whether it is shown.
+  // The list of several runs: their names, their distances from the first run now, and whether they
+  // are shown.
   function makeRuns(container) {
     const {runs} = data;
     const list = element('ul', {class: 'runs'});
@@ -60,10 +61,10 @@
             new Blob([bbsim.sweeps[0].csv()], {type: 'text/csv'}), bbsim.save.fileName(sweeps[0].name, '-page.csv')));
       }
     }
-    // One more frame, for what waits for one.
+    // One more frame, for parts that wait for it.
     requestAnimationFrame(() => setTimeout(() => bbsim.isReady(), 0));
   }
-  // The browser shows the picture first.
+  // Lets the browser show the picture first.
   requestAnimationFrame(() => setTimeout(() => {
     try {
       read();

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 'use strict';
-// What the page gives away: a picture of the view, and its numbers.
+// Saves a picture of the view, and the numbers of the page.
 bbsim.save = (() => {
   const {text} = bbsim;
 
@@ -15,7 +15,7 @@ bbsim.save = (() => {
     setTimeout(() => URL.revokeObjectURL(url), 10000);
   }
 
-  // A file's name, of what names things here; nothing in it that a file system minds.
+  // A file name, made of a result's name without characters that file systems refuse.
   function fileName(name, ending) {
     const stem = name.split('/').pop().replace(/\.(csv|h5|hdf5|yaml|yml)$/i, '').replace(/[^\p{L}\p{N}._-]+/gu, '-');
     return (stem.replace(/^[-.]+/, '') || 'replay') + ending;
@@ -44,7 +44,7 @@ bbsim.save = (() => {
     offer(new Blob([csvOf(run)], {type: 'text/csv'}), fileName(run.name, '-page.csv'));
   }
 
-  // The view with its title and time beneath, as wide as it is on the screen.
+  // The view with its title and time below, as wide as on the screen.
   function png(picture, timeText) {
     const view = picture.whole(), {zoom} = picture;
     const caption = Math.round(34 * zoom);

@@ -2,13 +2,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 'use strict';
-// Which of the two pictures is on the screen: that in three dimensions, if the browser can, or the flat one, which is
-// made when it is wanted.
+// Shows one of two pictures: the one in three dimensions if the browser can draw it, or the flat
+// one, which is made when needed.
 bbsim.makeScreen = (solid, makeFlat) => {
   const get = (id) => document.getElementById(id);
   const listeners = [];
   let isFlat = solid === null, flat = null;
-  const off = new Set();  // of what is switched off
+  const off = new Set();  // parts that are switched off
   function makeIt() {
     flat = makeFlat();
     for (const name of off) flat.show(name, false);
@@ -17,7 +17,7 @@ bbsim.makeScreen = (solid, makeFlat) => {
     solid,
     get isFlat() { return isFlat; },
     get shown() { return isFlat ? flat : solid; },
-    // Goes to the flat picture, or comes back.
+    // Switches to the flat picture, or back.
     setFlat(on) {
       const next = on || solid === null;
       if (next === isFlat && screen.begun) return;

@@ -2,7 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 'use strict';
-// A sweep: a map of a measure over two keys, lines over one, a histogram; a case tells how to run it again.
+// A sweep as a map of a measure over two keys, as lines over one, or as a histogram. A case shows
+// the command that runs it again.
 bbsim.makeSweep = (json, container) => {
   const {text, palette, data} = bbsim;
   const {element, svg, number} = text;
@@ -19,7 +20,7 @@ bbsim.makeSweep = (json, container) => {
     const finite = [...new Set(made.values)].filter(Number.isFinite).sort((a, b) => a - b);
     made.levels = finite;
     made.size = finite.length ? Math.max(Math.abs(finite[0]), Math.abs(finite[finite.length - 1])) : 0;
-    // Factors from level to level that are more alike than differences: a logarithmic axis.
+    // The axis is logarithmic if the ratios of neighboring levels vary less than their differences.
     made.logarithmic = !made.words && finite.length > 2 && finite[0] > 0 && finite[finite.length - 1] / finite[0] > 20 &&
         Math.abs(Math.log(finite[1] / finite[0]) / Math.log(finite[finite.length - 1] / finite[0]) * (finite.length - 1) - 1) < 0.5;
     return made;
@@ -31,11 +32,11 @@ bbsim.makeSweep = (json, container) => {
   const doneIndex = json.statuses.indexOf('done');
   const isDone = (i) => status[i] === doneIndex;
   const statusOf = (i) => json.statuses[status[i]];
-  // Of keys whose values always go along together the first one stands for all.
+  // The first of several tied keys represents all of them.
   const leads = keys.filter((key) => !key.along), listed = leads.filter((key) => !key.drawn);
   const labelOf = (key) => [key, ...keys.filter((other) => other.along === key.name)].map((one) => one.name).join(', ');
-  // How many cases each combination of the listed keys' values has: one in a grid, several where others were drawn; 0 if
-  // they are not alike, or not all there.
+  // The number of cases for each combination of the listed keys' values: one in a grid, several if
+  // other keys were drawn. 0 if the numbers differ or combinations are missing.
   const stack = (() => {
     const cells = listed.reduce((product, key) => product * key.levels.length, 1), tall = new Map();
     if (cells > count) return 0;
@@ -47,7 +48,7 @@ bbsim.makeSweep = (json, container) => {
   })();
   const axes = listed.filter((key) => key.levels.length > 1 && (stack > 0 || key.levels.length <= count / 2));
 
-  // Viridis, which grows lighter evenly and is read in grey as well.
+  // Viridis, which grows lighter evenly, so that it can be read in gray too.
   const stops = [[68, 1, 84], [72, 40, 120], [62, 74, 137], [49, 104, 142], [38, 130, 142], [31, 158, 137], [53, 183, 121],
                  [110, 206, 88], [181, 222, 43], [253, 231, 37]];
   function colourOf(part) {
@@ -58,7 +59,7 @@ bbsim.makeSweep = (json, container) => {
   const valueText = (column, i) => (column.words ? column.words[i] : `${number(column.values[i], 7)}${column.unit && column.unit !== '1' ? ' ' + column.unit : ''}`);
   const shortText = (column, value) => (column.names ? column.names[value] || '' : number(value));
 
-  // As a shell takes it back.
+  // Quotes a word for a shell.
   const quoted = (word) => (/^[\w@%+=:,./-]+$/.test(word) ? word : `'${word.replaceAll("'", `'\\''`)}'`);
   function commandOf(i) {
     const sets = [...json.scenario.overrides, ...keys.map((key) => `${key.name}=${key.words ? key.words[i] : String(key.values[i])}`)];

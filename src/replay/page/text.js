@@ -2,11 +2,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 'use strict';
-// Texts and numbers as people read them. Nothing of a scene is ever put into the page as HTML.
+// Texts and numbers for readers. Nothing of a scene enters the page as HTML.
 window.bbsim = {};
 
 bbsim.text = (() => {
-  // What would not show, or would turn the text around it, as a sign for itself: escape codes, for one.
+  // Replaces invisible characters, and those that change the direction of text, by visible signs.
+  // Escape codes are an example.
   function visible(text) {
     return String(text).replace(
         /[\u0000-\u0008\u000b-\u001f\u007f-\u009f\u200b-\u200f\u202a-\u202e\u2028\u2029\u2060-\u2069\ufeff]/g,
@@ -40,7 +41,7 @@ bbsim.text = (() => {
     return made;
   }
 
-  // Four significant digits, with the sign for minus.
+  // Four significant digits, with a true minus sign.
   function number(value, digits = 4) {
     if (!Number.isFinite(value)) return Number.isNaN(value) ? '–' : value > 0 ? '∞' : '−∞';
     if (value === 0) return '0';
@@ -50,7 +51,7 @@ bbsim.text = (() => {
     return text.replaceAll('-', '−');
   }
 
-  // With as many decimals as a value of that size needs, so that it does not jitter as it runs.
+  // As many decimals as a value of this size needs, so that the text does not jitter.
   function steady(value, size) {
     if (!Number.isFinite(value)) return number(value);
     if (size >= 1e6 || (size > 0 && size < 1e-5)) return number(value);
@@ -63,7 +64,7 @@ bbsim.text = (() => {
   const angles = {'rad': '°', 'rad/s': '°/s', 'rad/s^2': '°/s²'};
   const prefixed = ['m', 'm/s', 'N', 'N m', 'W', 'J', 'N s', 'V', 'A'];
 
-  // The unit in which a quantity of that size is shown: {factor, unit}.
+  // The unit for a quantity of this size: {factor, unit}.
   function shownIn(unit, size) {
     if (unit in angles) return {factor: degrees, unit: angles[unit]};
     const name = unit === '1' ? '' : unit.replace('^2', '²').replace('N m', 'N·m').replace('kg m', 'kg·m');
@@ -77,12 +78,12 @@ bbsim.text = (() => {
 
   const symbols = {phi: 'φ', theta: 'θ', gamma: 'γ'};
 
-  // phi_command: φ command.
+  // Turns phi_command into "φ command".
   function columnName(name) {
     return name.split('_').map((word) => symbols[word] || word).join(' ');
   }
 
-  // Time with as many decimals as rows need.
+  // The number of decimals for times with this step.
   function decimalsOfTime(step) {
     return Math.max(1, Math.min(6, Math.ceil(-Math.log10(step || 0.01) - 1e-9)));
   }

@@ -2,7 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 'use strict';
-// The buttons under the picture, the scrubber with what happened on it, and the level in the picture's corner.
+// The buttons below the picture, the scrubber with its events, and the level in the picture's
+// corner.
 bbsim.makeTransport = () => {
   const {clock, text, data} = bbsim;
   const {start, end, runs} = data;
@@ -13,7 +14,7 @@ bbsim.makeTransport = () => {
   const steps = Number(scrub.max);
 
   const timeText = (t) => t.toFixed(decimals).replace('-', '−');
-  // A run that ended between two rows ended when it says, to six digits.
+  // A run that ended between two rows shows its end time, to six digits.
   const early = lead.status && lead.status !== 'done';
   const isOver = (t) => early && t >= lead.last - 1e-9 * Math.max(1, Math.abs(lead.last));
   const endText = early && end === lead.last && timeText(lead.reached) * 1 !== lead.reached ? text.number(lead.reached, 6) : timeText(end);
@@ -31,7 +32,7 @@ bbsim.makeTransport = () => {
     get('ended').hidden = !isOver(t);
   }
 
-  // What of the picture is not what it seems to be.
+  // Reports parts of the picture that do not show recorded values.
   function showMissing(t) {
     const words = [], place = lead.placeAt(t);
     if (place === 'beyond') words.push(`The ball is ${far(t)}: it is not drawn.`);
@@ -56,7 +57,7 @@ bbsim.makeTransport = () => {
     loop.setAttribute('aria-pressed', String(clock.loop));
   }
 
-  // The level's full scale: the first of these that holds the run's largest tilt.
+  // The full scale of the level: the first of these that holds the run's largest tilt.
   const scale = (() => {
     const largest = Math.hypot(...['phi', 'theta'].map((name) => (lead.columns.get(name) || {size: 0}).size));
     const degrees = text.degrees * (Math.min(largest, Math.PI) + Math.abs(lead.mounting.baseTilt));
@@ -91,7 +92,7 @@ bbsim.makeTransport = () => {
     clock.pause();
     clock.seek(start + scrub.value / steps * (end - start));
   });
-  // The keys of the page do what a slider's own would, by rows.
+  // The page's keys replace those of the slider, and go by rows.
   scrub.addEventListener('keydown', (event) => {
     if (event.key.startsWith('Arrow') || ['Home', 'End', 'PageUp', 'PageDown'].includes(event.key)) event.preventDefault();
   });

@@ -28,7 +28,7 @@ struct RowKernels {
     return P::of(angle.v + (angle.v * u) * p);
   }
 
-  // 1 - cos(phi) cos(theta), without what is lost by such differences.
+  // 1 - cos(phi) cos(theta), without cancellation.
   BBSIM_INLINE static P versine(P sin_half_phi, P sin_half_theta) {
     const P a = sin_half_phi * sin_half_phi, b = sin_half_theta * sin_half_theta;
     return P(2.0) * (a + b) - P(4.0) * (a * b);
@@ -107,7 +107,7 @@ struct RowKernels {
     }
   }
 
-  // What SignalView::at() computes, with the waves at hand.
+  // As SignalView::at(), with the waves already computed.
   static void signals(const model::SignalView& view, const Wave* waves, const double* times,
                       std::size_t rows, double* const values[2], double* const rates[2]) {
     const std::size_t end = padded(rows);
