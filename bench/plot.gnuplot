@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: 2026 the bbsim authors
 # SPDX-License-Identifier: BSD-3-Clause
 
-# Work-precision diagram of one scene: processor time over error, a curve a tool.
+# Work-precision diagram of one scene: processor time over error, with a curve for each tool.
 # gnuplot -c plot.gnuplot POINTS.csv SCENE OUT.png
 csv = ARG1
 scene = ARG2
@@ -10,7 +10,7 @@ set encoding utf8
 set output ARG3
 set datafile separator comma
 
-# Okabe and Ito's colours, which the colour-blind can tell apart.
+# Okabe and Ito's colors, which the color-blind can distinguish.
 tools = 'radau dopri5 bdf adams'
 labels = '"bbsim radau" "odeint dopri5" "CVODE BDF" "CVODE Adams"'
 colours = '#0072B2 #D55E00 #009E73 #CC79A7'
@@ -29,7 +29,7 @@ set key outside right top
 set tics nomirror
 set border 3
 
-# A logarithm has no zero; an error below all rounding is one.
+# Zero has no logarithm. Errors below rounding are drawn at 1e-16.
 within(error) = error > 1e-16 ? error : 1e-16
 chosen(tool) = stringcolumn(1) eq scene && stringcolumn(2) eq tool
 set table $radau

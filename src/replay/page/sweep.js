@@ -68,10 +68,11 @@ bbsim.makeSweep = (json, container) => {
             `-o ${quoted(`${stem}-case-${cases[i]}.csv`)}`].join(' \\\n  ');
   }
 
-  // What is asked for. Of the measures first one that says how well the ball was led, if it is there.
+  // What to show. The first measure shown is one of the tracking, if the sweep has one.
   const telling = ['rms_tracking_error', 'max_tracking_error', 'max_distance'];
   const firstMeasure = Math.max(0, measures.findIndex((m) => m.name === telling.find((name) => measures.some((other) => other.name === name))));
-  // x and y are places among `leads`: as `bbsim plot` has it, of the keys with the most values the first one goes across.
+  // x and y are indices into `leads`. As in `bbsim plot`, the two keys with the most values are the
+  // axes, and the first of them goes across.
   const state = {kind: axes.length >= 2 ? 'map' : axes.length === 1 ? 'lines' : 'histogram', measure: firstMeasure, x: 0, y: 0, fixed: new Map(), chosen: -1};
   const [across, up] = [...axes].sort((a, b) => b.levels.length - a.levels.length).slice(0, 2).map((key) => leads.indexOf(key)).sort((a, b) => a - b);
   if (axes.length > 0) state.x = across;
@@ -87,7 +88,7 @@ bbsim.makeSweep = (json, container) => {
   const controls = element('div', {class: 'controls'});
   const counts = element('ul', {class: 'statuses'});
   const remark = element('p', {class: 'fine remark'});
-  let marks = [];  // of what is drawn: {i, x, y, w, h}, and `all` the cases of which i is the one shown
+  let marks = [];  // of the picture: {i, x, y, w, h}; `all`: the cases that case i represents
 
   function select(label, options, chosen, action) {
     const made = element('select', {'aria-label': label}, ...options.map((words, i) => element('option', {value: String(i)}, words)));
@@ -99,7 +100,7 @@ bbsim.makeSweep = (json, container) => {
     return element('label', {}, `${label} `, made);
   }
 
-  // The cases that stand in the picture: of a grid those at the fixed values of the keys that are no axis.
+  // The cases in the picture. In a grid, the keys that are no axis have fixed values.
   function fixedKeys() {
     if (!stack || state.kind === 'histogram') return [];
     return listed.filter((key) => key !== leads[state.x] && key !== leads[state.y] && key.levels.length > 1);
@@ -149,7 +150,7 @@ bbsim.makeSweep = (json, container) => {
     }
   }
 
-  // The axis of a column: position of a value between two ends, and ticks.
+  // The axis of a column: the position of a value between two ends, and ticks.
   function axisOf(column, from, to, cells) {
     const {levels} = column;
     const list = column.names || (cells && levels.length <= 400);
@@ -206,7 +207,7 @@ bbsim.makeSweep = (json, container) => {
                 svg('text', {x: 0, y: 0, 'text-anchor': 'middle', class: 'name', transform: `translate(13 ${(box.top + bottom) / 2}) rotate(-90)`}, yName));
   }
 
-  // Not done: grey, with a cross where it failed and a stroke where it was stopped.
+  // A case that is not done is gray, with a cross if it failed and a stroke if it was stopped.
   function paintStatus(i, x, y, w, h) {
     const dark = palette.isDark();
     ink.fillStyle = dark ? '#3a434e' : '#d5dae0';
@@ -225,7 +226,7 @@ bbsim.makeSweep = (json, container) => {
     ink.stroke();
   }
 
-  // From the least to the greatest; where a few lie far out, only to the 2nd and 98th of a hundred.
+  // From the least to the greatest value; from the 2nd to the 98th percentile if a few are far out.
   function colourRange(values) {
     values.sort((a, b) => a - b);
     const at = (part) => values[Math.min(values.length - 1, Math.floor(part * values.length))];
@@ -250,7 +251,7 @@ bbsim.makeSweep = (json, container) => {
     }
   }
 
-  // Of cases in one place that in the middle, of those that were done; if none was, the first.
+  // The median of the done cases in one place, or the first case if none is done.
   const isFine = (i, measure) => isDone(i) && Number.isFinite(measure.values[i]);
   function middleOf(all, measure) {
     const fine = all.filter((i) => isFine(i, measure)).sort((a, b) => measure.values[a] - measure.values[b]);
@@ -299,13 +300,13 @@ bbsim.makeSweep = (json, container) => {
     if (low !== undefined) colourBar(low, high, clipped, text.columnName(measure.name) + unitOf(measure));
   }
 
-  // The ends of an axis: of one value, about it.
+  // The ends of an axis; around the value if there is only one.
   const spread = (low, high) => (low < high ? [low, high] : [low - (Math.abs(low) / 2 || 1), low + (Math.abs(low) / 2 || 1)]);
 
   function drawLines(list, measure) {
     const kx = leads[state.x], ky = leads.length > 1 ? leads[state.y] : null;
     const x = axisOf(kx, box.left, width - box.right, Boolean(kx.names));
-    // What a case reached that was not done may lie anywhere.
+    // A case that is not done may have reached any value.
     const fine = list.filter((i) => isFine(i, measure));
     const {least, greatest} = data.extent((fine.length > 0 ? fine : list).map((i) => measure.values[i]));
     const y = axisOf({levels: spread(least, greatest)}, height - box.bottom, box.top, false);
@@ -358,7 +359,7 @@ bbsim.makeSweep = (json, container) => {
       const end = points.filter((point) => isDone(point.i) && Number.isFinite(point.value)).pop();
       if (lined && end) ends.push({y: end.y + 8, words: shortText(ky, line), colour: palette.run(n)});
     });
-    // Names at the lines' ends, moved apart.
+    // Moves the names at the lines' ends apart.
     ends.sort((a, b) => a.y - b.y);
     ends.forEach((end, n) => { if (n > 0) end.y = Math.max(end.y, ends[n - 1].y + 14); });
     if (lined) over.append(svg('text', {x: width - box.right + 10, y: 12, class: 'name'}, ky.name.split('.').slice(-2).join('.')));
@@ -369,7 +370,7 @@ bbsim.makeSweep = (json, container) => {
     }
   }
 
-  // Where many cases stand above one value: a line through their medians.
+  // Draws a line through the medians if many cases share a value.
   function drawMedians(points) {
     const above = new Map();
     for (const point of points) {
@@ -401,7 +402,7 @@ bbsim.makeSweep = (json, container) => {
     }
     const at = (part) => measure.values[values[Math.min(values.length - 1, Math.floor(part * values.length))]];
     const low = measure.values[values[0]], high = measure.values[values[values.length - 1]];
-    // Freedman and Diaconis' width, between 5 and 60 bars.
+    // Bars have the width of Freedman and Diaconis; there are 5 to 60 of them.
     const bar = 2 * (at(0.75) - at(0.25)) / Math.cbrt(values.length) || (high - low) / 10 || 1;
     const bars = Math.min(60, Math.max(5, Math.ceil((high - low) / bar)));
     const heap = Array.from({length: bars}, () => []);
@@ -409,7 +410,7 @@ bbsim.makeSweep = (json, container) => {
     const most = Math.max(...heap.map((h) => h.length));
     const x = axisOf({levels: spread(low, high)}, box.left, width - box.right, false);
     const bottom = height - box.bottom, tall = (n) => n / most * (bottom - box.top - 8);
-    // What is one value is one bar, about it.
+    // A single value has a single bar around it.
     const wide = (x.place(high) - x.place(low)) / bars || 20, from = high > low ? x.place(low) : x.place(low) - wide / 2;
     heap.forEach((cases_, n) => {
       const mark = {x: from + n * wide, y: bottom - tall(cases_.length), w: wide, h: tall(cases_.length), i: cases_[cases_.length >> 1], cases: cases_.length,
@@ -546,14 +547,14 @@ bbsim.makeSweep = (json, container) => {
   }
   side.append(element('p', {class: 'fine'}, 'Choose a case to see its values and the command that runs it again.'));
   refresh();
-  // The only one that there is to look at.
+  // Chooses the only case that is done.
   const done = Array.from(cases.keys()).filter(isDone);
   if (done.length === 1) choose(done[0]);
   new ResizeObserver(() => { if (drawing.clientWidth && Math.abs(drawing.clientWidth - width) > 1) draw(); }).observe(drawing);
   palette.onChange(draw);
   return {
     state, choose, commandOf, refresh,
-    // For tests: where a case is drawn, in the window.
+    // For tests: the place of a case in the window.
     placeOf(number_) {
       const mark = marks.find((m) => cases[m.i] === number_ || (m.all && m.all.some((i) => cases[i] === number_)));
       if (!mark) return null;
