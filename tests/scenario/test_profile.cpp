@@ -56,6 +56,18 @@ TEST_CASE("a ramp") {
   CHECK_THAT(errors(with_phi("{ramp: {start: 1}}")), Contains("phi.ramp.rate: missing"));
 }
 
+TEST_CASE("a pulse") {
+  const Profile profile = phi("{pulse: {start: 500 ms, duration: 100 ms, value: 2 deg}}");
+  const auto& pulse = std::get<Pulse>(profile.at(0));
+  CHECK(pulse.start == 0.5);
+  CHECK(pulse.duration == 0.1);
+  CHECK(pulse.value == Approx(2 * std::numbers::pi / 180));
+  CHECK_THAT(errors(with_phi("{pulse: {start: 1, duration: 0, value: 1}}")),
+             Contains("phi.pulse.duration: found 0; allowed: a time greater than 0"));
+  CHECK_THAT(errors(with_phi("{pulse: {start: 1, duration: 1}}")),
+             Contains("phi.pulse.value: missing"));
+}
+
 TEST_CASE("a list is a sum") {
   const Profile sum =
       phi("[1, {ramp: {start: 0, rate: 1}}, {sinusoid: {amplitude: 1, "
@@ -73,7 +85,7 @@ TEST_CASE("a list is a sum") {
 TEST_CASE("a term is exactly one of the shapes") {
   CHECK(errors(with_phi("{}")) ==
         "scenario.yaml:3:19: gimbal.motion.phi: found none; allowed: exactly one of sinusoid, "
-        "ramp, table");
+        "ramp, pulse, table");
   CHECK_THAT(errors(with_phi("{ramp: {start: 0, rate: 1}, table: {}}")),
              Contains("phi: found ramp, table; allowed: exactly one of"));
   CHECK_THAT(errors(with_phi("[{sinus: {}}]")),
