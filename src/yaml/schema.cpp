@@ -8,6 +8,7 @@
 
 #include "yaml/nearest.hpp"
 #include "yaml/spelling.hpp"
+#include "yaml/synonyms.hpp"
 
 namespace bbsim::yaml {
 
@@ -90,11 +91,15 @@ void Keys::report_unknown(const Entry& entry) const {
   }
   std::vector<std::string_view> names = known_;
   names.insert(names.end(), others.begin(), others.end());
-  const std::string_view nearest = nearest_name(entry.key, names);
+  std::string hint = "known keys here: " + comma_separated(known_);
+  std::string_view meant = synonym(entry.key, known_);
+  if (meant.empty()) meant = nearest_name(entry.key, names);
+  const bool from_the_top = meant.find('.') != std::string_view::npos;
+  if (!meant.empty()) {
+    hint = "did you mean " + (from_the_top ? std::string(meant) : mapping_.path_of(meant)) + "?";
+  }
   context().problems.add(entry.position,
-                         mapping_.path_of(shown(entry.key)) + ": unknown key; " +
-                             (nearest.empty() ? "known keys here: " + comma_separated(known_)
-                                              : "did you mean " + mapping_.path_of(nearest) + "?"));
+                         mapping_.path_of(shown(entry.key)) + ": unknown key; " + hint);
 }
 
 void Keys::finish() const {

@@ -28,6 +28,17 @@ TEST_CASE("an unknown key names the nearest known one") {
         "scenario.yaml:3:3: ball.raduis: unknown key; did you mean ball.radius?");
 }
 
+TEST_CASE("an unknown key that other tools have names bbsim's") {
+  CHECK_THAT(errors("servo: {damping: 1}\n"),
+             Contains("servo: unknown key; did you mean gimbal.servo?"));
+  CHECK_THAT(errors("controller: {pd: {kp: 1, kd: 1}}\n"),
+             Contains("controller.pd.kd: unknown key; did you mean controller.pd.kv?"));
+  CHECK_THAT(errors("controller: {pid: {kp: 1, kd: 1}}\n"),
+             Contains("controller.pid.kd: unknown key; did you mean controller.pid.kv?"));
+  CHECK_THAT(errors("time: {dt: 0.01}\n"),
+             Contains("time.dt: unknown key; did you mean time.step?"));
+}
+
 TEST_CASE("an unknown key like no other lists the known ones") {
   CHECK(errors("ball: {radius: 0.01, colour: red}\n"
                "time: {end: 1, step: 1}\n"
