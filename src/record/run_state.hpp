@@ -25,9 +25,6 @@ struct RunState {
   std::string state;  // solve::Part::state
 };
 
-// Of any bytes: against damage, not against malice.
-[[nodiscard]] std::uint64_t check_sum(std::string_view bytes);
-
 [[nodiscard]] std::string to_bytes(RunState state);
 
 // Throws InputError, with the file's name, where it holds no such state, whole and unchanged. A
