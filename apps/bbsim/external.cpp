@@ -3,8 +3,6 @@
 
 #include "external.hpp"
 
-#include <fcntl.h>
-#include <spawn.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -15,6 +13,7 @@
 
 #include "base/error.hpp"
 #include "file/children.hpp"
+#include "file/start_process.hpp"
 
 namespace bbsim::app {
 namespace {
@@ -48,24 +47,13 @@ struct Purpose {
   }
 };
 
-struct FileActions {
-  FileActions() { posix_spawn_file_actions_init(&actions); }
-  ~FileActions() { posix_spawn_file_actions_destroy(&actions); }
-  FileActions(const FileActions&) = delete;
-  FileActions& operator=(const FileActions&) = delete;
-  void replace(int descriptor, std::FILE* by) {
-    posix_spawn_file_actions_adddup2(&actions, fileno(by), descriptor);
-  }
-  posix_spawn_file_actions_t actions{};
-};
-
 }  // namespace
 
 bool Finished::well() const {
   return WIFEXITED(status) && WEXITSTATUS(status) == 0;
 }
 
-std::optional<Finished> run_program(std::vector<std::string> words, const std::string& input,
+std::optional<Finished> run_program(const std::vector<std::string>& words, const std::string& input,
                                     const std::string& purpose) {
   const Purpose to{purpose};
   const File in = to.temporary(), out = to.temporary(), complaint = to.temporary();
@@ -74,21 +62,9 @@ std::optional<Finished> run_program(std::vector<std::string> words, const std::s
     to.fail("cannot write a temporary file", errno);
   }
   std::rewind(in.get());
-  FileActions files;
-  files.replace(STDIN_FILENO, in.get());
-  files.replace(STDOUT_FILENO, out.get());
-  files.replace(STDERR_FILENO, complaint.get());
-  std::vector<char*> arguments;
-  for (std::string& word : words) arguments.push_back(word.data());
-  arguments.push_back(nullptr);
-  pid_t process = 0;
   int error = 0;
-  {
-    const auto starting = file::while_starting_child();
-    error =
-        posix_spawnp(&process, arguments[0], &files.actions, nullptr, arguments.data(), environ);
-    if (error == 0) file::remember_child(process);
-  }
+  const pid_t process = file::start_process(
+      {words, fileno(in.get()), fileno(out.get()), fileno(complaint.get())}, error);
   if (error == ENOENT) return {};
   if (error != 0) to.fail("cannot start " + words[0], error);
   const std::optional<int> status = file::wait_for_child(process);

@@ -18,7 +18,7 @@ struct Finished {
 
 // Runs words[0], looked for on the PATH, with `input` at its standard input; nothing if there is no
 // such program. Throws OutputError: "cannot `purpose`: why".
-[[nodiscard]] std::optional<Finished> run_program(std::vector<std::string> words,
+[[nodiscard]] std::optional<Finished> run_program(const std::vector<std::string>& words,
                                                   const std::string& input,
                                                   const std::string& purpose);
 

@@ -39,8 +39,9 @@ struct RunArguments {
   PartArguments part;
 };
 
-constexpr file::ColumnHeader position_error{
-    "position_error", "m", "estimate of the error of x and y: the larger one in this row"};
+file::ColumnHeader header_of(const scenario::Column& column) {
+  return {column.name, column.unit, column.meaning};
+}
 
 // Comes before any of them is opened.
 void declare_files(const RunArguments& arguments, const Scenario& scenario,
@@ -124,9 +125,7 @@ ExitCode run(const RunArguments& arguments, const Options& options) {
   declare_files(arguments, scenario, output, part);
   std::vector<file::ColumnHeader> headers;
   headers.reserve(asked.size());
-  for (const scenario::Column* column : asked) {
-    headers.push_back({column->name, column->unit, column->meaning});
-  }
+  for (const scenario::Column* column : asked) headers.push_back(header_of(*column));
   // Before a controller is started, and long before the file is opened.
   file::require_table_name(output);
   if (arguments.output.empty() && !arguments.force) {
@@ -170,7 +169,8 @@ ExitCode run(const RunArguments& arguments, const Options& options) {
     summary.measures.emplace_back(printed[m].name, made.measures[m]);
   }
   judge(expectations, measures, made);
-  if (summary.error_estimate) writer->add_column(position_error, made.row_estimates);
+  if (summary.error_estimate)
+    writer->add_column(header_of(scenario::position_error), made.row_estimates);
   // A controller that does not begin is no reason to lose an earlier run.
   const bool any_rows = summary.rows > 0;
   if (any_rows) writer->finish(record::to_attributes(summary, scenario.source.text));

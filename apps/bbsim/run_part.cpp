@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "base/error.hpp"
+#include "base/fnv1a.hpp"
 #include "base/number_text.hpp"
 #include "controller/host.hpp"
 #include "describe.hpp"
@@ -41,7 +42,7 @@ std::string identity_of(const Scenario& scenario, const std::vector<file::InputT
     if (column->needs == scenario::Needs::own) identity += "\n" + std::string(column->name);
   }
   for (const std::string& file : controller::files_of(scenario)) {
-    identity += "\n" + file + ' ' + std::to_string(record::check_sum(file::read_whole(file)));
+    identity += "\n" + file + ' ' + std::to_string(fnv1a(file::read_whole(file)));
   }
   return identity;
 }

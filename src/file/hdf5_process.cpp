@@ -4,7 +4,6 @@
 #include "file/hdf5_process.hpp"
 
 #include <fcntl.h>
-#include <spawn.h>
 #include <sys/socket.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -19,6 +18,7 @@
 #include "base/shown.hpp"
 #include "file/children.hpp"
 #include "file/hdf5_module.hpp"
+#include "file/start_process.hpp"
 
 namespace bbsim::file {
 namespace {
@@ -40,46 +40,7 @@ std::shared_ptr<Hdf5Process>& current() {
   throw Hdf5Trouble("no process can be had to read it in: " + error_text(error));
 }
 
-// What a new process begins with: all signals as at a login, our ends of the line as its standard
-// streams, and nothing to complain to.
-class Spawning {
- public:
-  Spawning(int requests, int answers) {
-    posix_spawn_file_actions_init(&actions_);
-    posix_spawnattr_init(&attributes_);
-    posix_spawn_file_actions_adddup2(&actions_, requests, STDIN_FILENO);
-    posix_spawn_file_actions_adddup2(&actions_, answers, STDOUT_FILENO);
-    posix_spawn_file_actions_addopen(&actions_, STDERR_FILENO, "/dev/null", O_WRONLY, 0);
-    sigset_t all, none;
-    sigfillset(&all);
-    sigemptyset(&none);
-    posix_spawnattr_setsigdefault(&attributes_, &all);
-    posix_spawnattr_setsigmask(&attributes_, &none);
-    posix_spawnattr_setflags(&attributes_, POSIX_SPAWN_SETSIGDEF | POSIX_SPAWN_SETSIGMASK);
-  }
-  ~Spawning() {
-    posix_spawnattr_destroy(&attributes_);
-    posix_spawn_file_actions_destroy(&actions_);
-  }
-  Spawning(const Spawning&) = delete;
-  Spawning& operator=(const Spawning&) = delete;
-
-  [[nodiscard]] pid_t start(const std::string& program) const {
-    std::string name = program;
-    std::array<char*, 2> arguments{name.data(), nullptr};
-    pid_t process = -1;
-    const int error =
-        posix_spawn(&process, program.c_str(), &actions_, &attributes_, arguments.data(), environ);
-    if (error != 0) no_process(error);
-    return process;
-  }
-
- private:
-  posix_spawn_file_actions_t actions_{};
-  posix_spawnattr_t attributes_{};
-};
-
-std::shared_ptr<Hdf5Process> start_process() {
+std::shared_ptr<Hdf5Process> start_reader() {
   const ModuleFile program = find_hdf5_reader(hdf5_module_folders());
   if (program.path.empty()) throw Hdf5Trouble(program.trouble);
   std::array<int, 2> ends{-1, -1};
@@ -92,10 +53,10 @@ std::shared_ptr<Hdf5Process> start_process() {
   const Descriptor its_answers = above_standard_streams(ends[1]);
   fcntl(answers.get(), F_SETPIPE_SZ, pipe_bytes);  // it does with less
 
-  const Spawning spawning(its_requests.get(), its_answers.get());
-  const auto starting = while_starting_child();
-  const pid_t process = spawning.start(program.path);
-  remember_child(process);
+  int error = 0;
+  const pid_t process =
+      start_process({{program.path}, its_requests.get(), its_answers.get()}, error);
+  if (process == 0) no_process(error);
   return std::make_shared<Hdf5Process>(process, std::move(requests), std::move(answers));
 }
 
@@ -124,7 +85,7 @@ std::shared_ptr<Hdf5Process> Hdf5Process::running() {
   const std::lock_guard lock(current_mutex);
   std::shared_ptr<Hdf5Process>& process = current();
   if (!process || process->process_ == 0 || process->owner_ != getpid()) {
-    auto started = start_process();
+    auto started = start_reader();
     started->expect_ready();  // only now: our copies of its ends of the lines are closed
     process = std::move(started);
   }

@@ -16,8 +16,8 @@ namespace {
 
 // Below this part of its values' size a range is rounding.
 constexpr double rounding = 1e-9;
-// Below this part, tics would need more than four digits to differ.
-constexpr double close_together = 1e-4;
+
+constexpr double tic_size = 13;  // of the font
 
 // What is smaller is nothing: no factor makes numbers of it that a label can show.
 constexpr double smallest = 1e-290;
@@ -91,8 +91,8 @@ Range around(const Range& range) {
 }
 
 // Whether tics over such a width would need many digits to differ.
-bool is_far_off(const Range& range, double width) {
-  return width <= close_together * range.largest();
+bool is_far_off(const Range& range, double width, double close = close_together) {
+  return width <= close * range.largest();
 }
 
 // Labels are differences from a round value near the middle of the range.
@@ -166,9 +166,9 @@ std::string Scale::heading(const std::string& name) const {
   return name + shift + (unit.empty() ? "" : " (" + unit + ")");
 }
 
-Scale choose_scale(const Unit& unit, const Range& range, bool may_shift) {
+Scale choose_scale(const Unit& unit, const Range& range, double close) {
   const double width = range.empty() ? 0 : range.high - range.low;
-  if (may_shift && range.wide() && is_far_off(range, width)) return shifted(unit, range, width);
+  if (range.wide() && is_far_off(range, width, close)) return shifted(unit, range, width);
   Scale scale = prefixed(unit, range.largest());
   shorten_labels(scale, range.largest());
   return scale;
@@ -180,10 +180,10 @@ PlaneScales choose_scales(const Unit& unit, const Range& x, const Range& y) {
   const double width = std::max(x.empty() ? 0 : x.high - x.low, y.empty() ? 0 : y.high - y.low);
   const bool x_off = is_far_off(x, width), y_off = is_far_off(y, width);
   if (!(width > rounding * both.largest()) || (!x_off && !y_off)) {
-    const Scale scale = choose_scale(unit, both, false);
+    const Scale scale = choose_scale(unit, both, 0);
     return {scale, scale};
   }
-  const Scale near = choose_scale(unit, {0, width}, false);
+  const Scale near = choose_scale(unit, {0, width}, 0);
   return {x_off ? shifted(unit, x, width) : near, y_off ? shifted(unit, y, width) : near};
 }
 
@@ -214,6 +214,23 @@ Axis tight_axis(const Range& range, double pixels, double pixels_a_tic) {
   constexpr double most = 8;
   const auto about = static_cast<std::size_t>(std::clamp(pixels / pixels_a_tic, 2.0, most));
   axis.tics = linear_tics(axis.low, axis.high, about);
+  return axis;
+}
+
+Axis across(Axis axis, double pixels) {
+  constexpr double gap = 10;  // pixels, between labels
+  const auto crowded = [&] {
+    for (std::size_t i = 1; i < axis.tics.size(); ++i) {
+      const Tic &left = axis.tics[i - 1], &right = axis.tics[i];
+      const double widths = width_of(left.label, tic_size) + width_of(right.label, tic_size);
+      const double distance = (axis.fraction(right.at) - axis.fraction(left.at)) * pixels;
+      if (distance < widths / 2 + gap) return true;
+    }
+    return false;
+  };
+  for (std::size_t about = axis.tics.size(); about > 1 && crowded(); --about) {
+    axis.tics = linear_tics(axis.low, axis.high, about - 1);
+  }
   return axis;
 }
 

@@ -44,9 +44,13 @@ struct Scale {
   [[nodiscard]] std::string heading(const std::string& name) const;
 };
 
-// For values in SI units. Values that differ by little are drawn as differences from a round one,
-// if `may_shift`.
-[[nodiscard]] Scale choose_scale(const Unit& unit, const Range& range, bool may_shift = true);
+// Below this part of the values' size, tics would need more than four digits to differ.
+inline constexpr double close_together = 1e-3;
+
+// For values in SI units. Those that differ by no more than the part `close` of their size are
+// drawn as differences from a round one.
+[[nodiscard]] Scale choose_scale(const Unit& unit, const Range& range,
+                                 double close = close_together);
 
 // The scales of the two axes of a plane, of one factor.
 struct PlaneScales {
@@ -62,6 +66,9 @@ struct PlaneScales {
 
 // A logarithmic axis over a range above 0.
 [[nodiscard]] Axis log_axis(const Range& range, double pixels, double pixels_a_tic, double air);
+
+// A horizontal axis, with fewer tics where the labels would be too near to each other.
+[[nodiscard]] Axis across(Axis axis, double pixels);
 
 // Whether values above 0 are better seen by their logarithm: they span more than three decades.
 [[nodiscard]] bool better_by_log(const Range& range);

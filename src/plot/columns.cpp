@@ -16,162 +16,7 @@
 namespace bbsim::plot {
 namespace {
 
-// The panels of a picture, in their order.
-enum class Place {
-  x,
-  y,
-  tracking_error,
-  position_error,
-  distance,
-  velocity,
-  spin,
-  gamma,
-  orientation,
-  phi,
-  theta,
-  servos,
-  rates,
-  accelerations,
-  tilt,
-  tilt_rate,
-  friction,
-  forces,
-  torques,
-  motor_torques,
-  given_torques,
-  currents,
-  voltages,
-  slip,
-  power,
-  energy,
-  singularity,
-};
-
-struct Known {
-  std::string_view column, name;
-  Place place;
-  Role role = Role::main;
-  std::string_view short_name{};  // beside others of its kind, if that is another one
-};
-
-// What a panel of several columns is called: the quantity that they have in common.
-std::string_view common_name(Place place) {
-  switch (place) {
-    case Place::orientation:
-      return "ball's orientation";
-    case Place::velocity:
-      return "velocity";
-    case Place::servos:
-      return "servos";
-    case Place::rates:
-      return "rates";
-    case Place::accelerations:
-      return "accelerations";
-    case Place::forces:
-      return "forces";
-    case Place::torques:
-      return "torque";
-    case Place::motor_torques:
-      return "motor torque";
-    case Place::given_torques:
-      return "motors' torque";
-    case Place::currents:
-      return "motors' current";
-    case Place::voltages:
-      return "motors' voltage";
-    case Place::slip:
-      return "slip";
-    case Place::power:
-      return "power";
-    case Place::energy:
-      return "energy";
-    default:
-      return "";
-  }
-}
-
-constexpr std::array known_columns = {
-    Known{"x", "x", Place::x},
-    Known{"x_reference", "x reference", Place::x, Role::reference},
-    Known{"x_measured", "x as seen", Place::x, Role::measured},
-    Known{"y", "y", Place::y},
-    Known{"y_reference", "y reference", Place::y, Role::reference},
-    Known{"y_measured", "y as seen", Place::y, Role::measured},
-    Known{"tracking_error", "tracking error", Place::tracking_error},
-    Known{"position_error", "error of x, y", Place::position_error},
-    Known{"distance", "distance", Place::distance},
-    Known{"vx", "vx", Place::velocity},
-    Known{"vy", "vy", Place::velocity},
-    Known{"spin", "spin", Place::spin},
-    Known{"gamma", "γ", Place::gamma},
-    Known{"ball_qw", "orientation w", Place::orientation, Role::main, "w"},
-    Known{"ball_qx", "orientation x", Place::orientation, Role::main, "x"},
-    Known{"ball_qy", "orientation y", Place::orientation, Role::main, "y"},
-    Known{"ball_qz", "orientation z", Place::orientation, Role::main, "z"},
-    Known{"phi", "φ", Place::phi},
-    Known{"phi_command", "φ command", Place::phi, Role::command},
-    Known{"theta", "θ", Place::theta},
-    Known{"theta_command", "θ command", Place::theta, Role::command},
-    Known{"servo_phi", "servo φ", Place::servos, Role::main, "φ"},
-    Known{"servo_theta", "servo θ", Place::servos, Role::main, "θ"},
-    Known{"servo_third", "third servo", Place::servos, Role::main, "third"},
-    Known{"phi_rate", "φ'", Place::rates},
-    Known{"theta_rate", "θ'", Place::rates},
-    Known{"phi_acceleration", "φ''", Place::accelerations},
-    Known{"theta_acceleration", "θ''", Place::accelerations},
-    Known{"tilt", "tilt", Place::tilt},
-    Known{"tilt_rate", "tilt rate", Place::tilt_rate},
-    Known{"friction_demand", "friction demand", Place::friction},
-    Known{"normal_force", "normal force", Place::forces, Role::main, "normal"},
-    Known{"friction_force", "friction force", Place::forces, Role::main, "friction"},
-    Known{"torque_phi", "torque φ", Place::torques, Role::main, "φ"},
-    Known{"torque_theta", "torque θ", Place::torques, Role::main, "θ"},
-    Known{"motor_torque_phi", "motor torque φ", Place::motor_torques, Role::main, "φ"},
-    Known{"motor_torque_theta", "motor torque θ", Place::motor_torques, Role::main, "θ"},
-    Known{"phi_torque", "φ motor's torque", Place::given_torques, Role::main, "φ"},
-    Known{"phi_torque_asked", "φ torque asked", Place::given_torques, Role::command},
-    Known{"theta_torque", "θ motor's torque", Place::given_torques, Role::main, "θ"},
-    Known{"theta_torque_asked", "θ torque asked", Place::given_torques, Role::command},
-    Known{"phi_current", "φ motor's current", Place::currents, Role::main, "φ"},
-    Known{"theta_current", "θ motor's current", Place::currents, Role::main, "θ"},
-    Known{"phi_voltage", "φ motor's voltage", Place::voltages, Role::main, "φ"},
-    Known{"theta_voltage", "θ motor's voltage", Place::voltages, Role::main, "θ"},
-    Known{"slip_x", "slip x", Place::slip, Role::main, "x"},
-    Known{"slip_y", "slip y", Place::slip, Role::main, "y"},
-    Known{"motor_power", "motor power", Place::power, Role::main, "motors, with plate"},
-    Known{"power", "power", Place::power, Role::main, "motors, ball only"},
-    Known{"electrical_power", "electrical power", Place::power, Role::main, "electrical"},
-    Known{"loss_power", "power lost", Place::power, Role::main, "lost"},
-    Known{"energy", "energy", Place::energy, Role::main, "ball"},
-    Known{"total_energy", "total energy", Place::energy, Role::main, "total"},
-    Known{"energy_lost", "energy lost", Place::energy, Role::main, "lost"},
-    Known{"motor_work", "motors' work", Place::energy, Role::main, "motors' work"},
-    Known{"singularity_distance", "singularity distance", Place::singularity},
-};
-
-const Known* find_known(std::string_view column) {
-  const auto found = std::ranges::find(known_columns, column, &Known::column);
-  return found == known_columns.end() ? nullptr : &*found;
-}
-
-bool is_command(std::string_view column) {
-  return column == "phi_command" || column == "theta_command";
-}
-
-Unit drawn_unit(const std::vector<Result>& runs, std::string_view column, Drives driven) {
-  if (!is_command(column)) return unit_of(runs, column);
-  switch (driven) {
-    case Drives::acceleration:
-      return unit_of(runs, "phi_acceleration");
-    case Drives::torque:
-      return unit_of(runs, "phi_torque");
-    case Drives::voltage:
-      return unit_of(runs, "phi_voltage");
-    case Drives::angle:
-      break;
-  }
-  return unit_of(runs, column);
-}
+using scenario::find_result_column;
 
 Unit drawn(std::string_view unit, bool turns) {
   constexpr double degrees = 180 / std::numbers::pi;
@@ -187,26 +32,16 @@ bool is_turn(std::string_view column) {
   return column == "gamma" || column == "spin";
 }
 
-// Commands stand beside what they command.
-Place place_of(const Known& known, Drives driven) {
-  if (!is_command(known.column)) return known.place;
-  switch (driven) {
-    case Drives::acceleration:
-      return Place::accelerations;
-    case Drives::torque:
-      return Place::given_torques;
-    case Drives::voltage:
-      return Place::voltages;
-    case Drives::angle:
-      break;
-  }
-  return known.place;
+Unit drawn_unit(const std::vector<Result>& runs, std::string_view column, Drives driven) {
+  const bool is_known = std::ranges::all_of(runs, &Result::units_known);
+  if (!is_known || !scenario::is_command(column)) return unit_of(runs, column);
+  return drawn(command_unit(driven), false);
 }
 
 PlannedLine line_of(std::string_view column) {
-  const Known* const known = find_known(column);
+  const scenario::Column* const known = find_result_column(column);
   if (known == nullptr) return {std::string(column), Role::main, std::string(column)};
-  return {std::string(column), known->role, std::string(known->name)};
+  return {std::string(column), known->role, std::string(known->symbol)};
 }
 
 bool is_drawable(const Result& run, std::string_view column) {
@@ -233,14 +68,14 @@ std::size_t count_of(const PlannedPanel& panel, Role role) {
 
 // The quantity that all main lines have in common, if there are several of one.
 std::string_view common_name(const PlannedPanel& panel) {
-  std::optional<Place> place;
+  std::optional<scenario::Panel> common;
   for (const PlannedLine& line : panel.lines) {
-    const Known* const known = find_known(line.column);
+    const scenario::Column* const known = find_result_column(line.column);
     if (line.role != Role::main) continue;
-    if (known == nullptr || (place && *place != known->place)) return "";
-    place = known->place;
+    if (known == nullptr || (common && *common != known->panel)) return "";
+    common = known->panel;
   }
-  return place ? common_name(*place) : "";
+  return common ? scenario::text_of(*common).heading : "";
 }
 
 // The panel's heading, and short names for lines where it says the rest.
@@ -251,8 +86,8 @@ void name_panel(PlannedPanel& panel) {
   if (!common.empty()) {
     panel.name = common;
     for (PlannedLine& line : panel.lines) {
-      const Known* const known = find_known(line.column);
-      if (known != nullptr && !known->short_name.empty()) line.name = known->short_name;
+      const scenario::Column* const known = find_result_column(line.column);
+      if (known != nullptr && !known->beside.empty()) line.name = known->beside;
     }
     return;
   }
@@ -283,11 +118,6 @@ bool flattens(const std::vector<Result>& runs, const PlannedPanel& panel) {
   return widest > 50 * narrowest;
 }
 
-// The axis of phi_command is phi, as that of phi_acceleration is.
-std::string_view axis_of(std::string_view column) {
-  return column.substr(0, column.find('_'));
-}
-
 // A panel for each main line, with what stands beside it.
 void split_into(std::vector<PlannedPanel>& panels, const PlannedPanel& panel) {
   std::vector<PlannedPanel> parts;
@@ -297,7 +127,7 @@ void split_into(std::vector<PlannedPanel>& panels, const PlannedPanel& panel) {
   for (const PlannedLine& line : panel.lines) {
     if (line.role == Role::main) continue;
     const auto partner = std::ranges::find_if(parts, [&](const PlannedPanel& part) {
-      return axis_of(part.lines.front().column) == axis_of(line.column);
+      return scenario::axis_of(part.lines.front().column) == scenario::axis_of(line.column);
     });
     (partner == parts.end() ? parts.front() : *partner).lines.push_back(line);
   }
@@ -372,13 +202,13 @@ std::string columns_of(const std::vector<Result>& runs) {
 }  // namespace
 
 Unit unit_of(std::string_view column) {
-  const scenario::Column* const found = scenario::find_column(column);
+  const scenario::Column* const found = find_result_column(column);
   return found == nullptr ? Unit{} : drawn(found->unit, is_turn(column));
 }
 
 Unit unit_of(const std::vector<Result>& runs, std::string_view column) {
   if (!std::ranges::all_of(runs, &Result::units_known)) return {};
-  const scenario::Column* const known = scenario::find_column(column);
+  const scenario::Column* const known = find_result_column(column);
   if (known != nullptr) return unit_of(column);
   for (const Result& run : runs) {
     const Column* const found = run.find(column);
@@ -404,23 +234,24 @@ Drives driven_quantity(const Result& run) {
 std::vector<PlannedPanel> plan_panels(const std::vector<Result>& runs) {
   const Drives driven = driven_quantity(runs.front());
   std::vector<PlannedPanel> panels;
-  constexpr auto places = static_cast<int>(Place::singularity) + 1;
-  for (int place = 0; place < places; ++place) {
+  for (int place = 0; place < static_cast<int>(scenario::Panel::none); ++place) {
+    const auto at = static_cast<scenario::Panel>(place);
     PlannedPanel panel;
-    for (const Known& known : known_columns) {
-      if (static_cast<int>(place_of(known, driven)) != place || !any_draws(runs, known.column)) {
-        continue;
-      }
-      panel.unit = drawn_unit(runs, known.column, driven);
-      panel.lines.push_back(line_of(known.column));
-    }
+    const auto add = [&](const scenario::Column& column) {
+      const std::string_view unit =
+          scenario::is_command(column.name) ? command_unit(driven) : column.unit;
+      if (scenario::panel_of(column, unit) != at || !any_draws(runs, column.name)) return;
+      panel.unit = drawn_unit(runs, column.name, driven);
+      panel.lines.push_back(line_of(column.name));
+    };
+    std::ranges::for_each(scenario::catalogue, add);
+    add(scenario::position_error);
     if (panel.lines.empty()) continue;
-    const bool pairs =
-        static_cast<Place>(place) == Place::y || static_cast<Place>(place) == Place::theta;
+    const bool pairs = at == scenario::Panel::y || at == scenario::Panel::theta;
     const auto plain = [](const PlannedPanel& one) {
       return one.lines.size() == 1 && one.lines.front().role == Role::main;
     };
-    const std::string_view partner = static_cast<Place>(place) == Place::y ? "x" : "phi";
+    const std::string_view partner = at == scenario::Panel::y ? "x" : "phi";
     if (pairs && !panels.empty() && plain(panel) && plain(panels.back()) &&
         panels.back().lines.front().column == partner) {
       panels.back().lines.push_back(panel.lines.front());

@@ -10,11 +10,11 @@
 
 #include "plot/axis.hpp"
 #include "plot/result.hpp"
+#include "scenario/columns.hpp"
 
 namespace bbsim::plot {
 
-// What a line is to its panel: what the panel is about, or what stands beside it for comparison.
-enum class Role { main, reference, measured, command };
+using scenario::Role;
 
 struct PlannedLine {
   std::string column;

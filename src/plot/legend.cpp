@@ -91,6 +91,28 @@ void place_in_a_row(Picture& picture, std::vector<Entry> entries, double left, d
   place_legend(picture, entries, left, right, y);
 }
 
+double add_heading(Picture& picture, const std::string& title, const std::string& subtitle,
+                   const std::vector<Entry>& legend) {
+  constexpr double title_size = 17, subtitle_size = 12;
+  const double room = picture.width - 60, middle = picture.width / 2;
+  double y = 26;
+  if (!title.empty()) {
+    picture.words.push_back(
+        {Words::Align::centre, middle, y, cut(title, room, title_size), title_size});
+    y += 23;
+  }
+  if (!subtitle.empty()) {
+    picture.words.push_back({Words::Align::centre, middle, y,
+                             cut_middle(subtitle, room, subtitle_size), subtitle_size, "#505050"});
+    y += 20;
+  }
+  if (legend.empty()) return y - 8;
+  const double left = 30, right = picture.width - 30;
+  y += 5 + legend_pitch * static_cast<double>(legend_rows(legend, left, right) - 1);
+  place_legend(picture, legend, left, right, y, Words::Align::centre);
+  return y + 12;
+}
+
 void add_heading(Picture& picture, const Box& box, const std::string& text) {
   constexpr double size = 13;
   const double room = std::max(box.width() * 0.7, 100.0);

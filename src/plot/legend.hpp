@@ -35,6 +35,10 @@ void place_legend(Picture& picture, const std::vector<Entry>& entries, double le
 void place_in_a_row(Picture& picture, std::vector<Entry> entries, double left, double right,
                     double y);
 
+// Title, subtitle and legend at a picture's top, where there are any; where the panels begin.
+double add_heading(Picture& picture, const std::string& title, const std::string& subtitle,
+                   const std::vector<Entry>& legend);
+
 // A panel's heading, above its top left corner.
 void add_heading(Picture& picture, const Box& box, const std::string& text);
 

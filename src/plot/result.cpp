@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <limits>
 
 namespace bbsim::plot {
@@ -12,6 +13,10 @@ namespace bbsim::plot {
 const Column* Result::find(std::string_view name) const {
   const auto found = std::ranges::find(columns, name, &Column::name);
   return found == columns.end() ? nullptr : &*found;
+}
+
+std::string Result::shown_file() const {
+  return file == "-" ? "standard input" : std::filesystem::path(file).filename().string();
 }
 
 bool Result::is_sweep() const {

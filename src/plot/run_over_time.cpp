@@ -90,8 +90,10 @@ void add_time_panel(Picture& picture, const std::vector<Result>& runs, const Pla
   const Scale scale = choose_scale(planned.unit, shown);
   Panel panel;
   panel.box = box;
-  panel.x = tight_axis({abscissa.scale(abscissa.range.low), abscissa.scale(abscissa.range.high)},
-                       box.width(), 70);
+  panel.x =
+      across(tight_axis({abscissa.scale(abscissa.range.low), abscissa.scale(abscissa.range.high)},
+                        box.width(), 70),
+             box.width());
   panel.y = linear_axis({scale(shown.low), scale(shown.high)}, box.height(), 26);
   if (!lowest) {
     for (Tic& tic : panel.x.tics) tic.label.clear();

@@ -183,7 +183,7 @@ void add_path(Picture& picture, const std::vector<Result>& runs, const EventMark
   const double half = 0.54 * (wide > 1e-9 * largest ? wide : largest > 0 ? largest : 1);
   const double x = x_scale(extent.x.low / 2 + extent.x.high / 2);
   const double y = y_scale(extent.y.low / 2 + extent.y.high / 2);
-  panel.x = tight_axis({x - half, x + half}, box.width(), 75);
+  panel.x = across(tight_axis({x - half, x + half}, box.width(), 75), box.width());
   panel.y = tight_axis({y - half / aspect, y + half / aspect}, box.height(), 75);
 
   const auto scaled = [x_scale = x_scale, y_scale = y_scale](Points points) {

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <filesystem>
+#include <utility>
 
 #include "base/error.hpp"
 #include "plot/run_parts.hpp"
@@ -65,56 +65,38 @@ std::string status_text(const Result& run) {
   return text;
 }
 
-std::string base_name(const Result& run) {
-  return run.file == "-" ? "standard input" : std::filesystem::path(run.file).filename().string();
-}
-
 // Names of runs in a comparison: of the files, with their folders if the files have one name.
 std::vector<std::string> labels_of(const std::vector<Result>& runs) {
   std::vector<std::string> names;
   for (const Result& run : runs) {
     const auto same = std::ranges::count_if(
-        runs, [&](const Result& other) { return base_name(other) == base_name(run); });
+        runs, [&](const Result& other) { return other.shown_file() == run.shown_file(); });
     const std::string status = status_text(run);
-    names.push_back((same > 1 ? run.file : base_name(run)) + (status.empty() ? "" : ", " + status));
+    names.push_back((same > 1 ? run.file : run.shown_file()) +
+                    (status.empty() ? "" : ", " + status));
   }
   return names;
 }
 
 // Title, subtitle or legend of the runs; where the panels begin.
 double add_top(Picture& picture, const std::vector<Result>& runs) {
-  const double room = picture.width - 60, middle = picture.width / 2;
+  const Result& first = runs.front();
   const bool one_title =
-      std::ranges::all_of(runs, [&](const Result& run) { return run.title == runs.front().title; });
-  std::string title = one_title ? clean(runs.front().title) : "";
-  std::string subtitle;
-  double y = 26;
+      std::ranges::all_of(runs, [&](const Result& run) { return run.title == first.title; });
+  std::string title = one_title ? clean(first.title) : "";
   if (runs.size() == 1) {
-    subtitle = title.empty() ? "" : clean(base_name(runs.front()));
-    if (title.empty()) title = clean(base_name(runs.front()));
-    const std::string status = status_text(runs.front());
+    std::string subtitle = clean(first.shown_file());
+    if (title.empty()) std::swap(title, subtitle);
+    const std::string status = status_text(first);
     if (!status.empty()) subtitle += (subtitle.empty() ? "" : ", ") + status;
+    return add_heading(picture, title, subtitle, {});
   }
-  if (!title.empty()) {
-    constexpr double size = 17;
-    picture.words.push_back({Words::Align::centre, middle, y, cut(title, room, size), size});
-    y += 23;
-  }
-  if (!subtitle.empty()) {
-    constexpr double size = 12;
-    picture.words.push_back(
-        {Words::Align::centre, middle, y, cut_middle(subtitle, room, size), size, "#505050"});
-    y += 20;
-  }
-  if (runs.size() == 1) return y - 8;
   std::vector<Entry> legend;
   const std::vector<std::string> names = labels_of(runs);
   for (std::size_t r = 0; r < runs.size(); ++r) {
     legend.push_back({names[r], stroke_of_run(runs, runs[r])});
   }
-  y += legend_pitch * static_cast<double>(legend_rows(legend, 30, picture.width - 30) - 1);
-  place_legend(picture, legend, 30, picture.width - 30, y, Words::Align::centre);
-  return y + 10;
+  return add_heading(picture, title, "", legend);
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 #include "plot/columns.hpp"
 #include "plot/sweep_parts.hpp"
@@ -63,13 +64,13 @@ std::vector<Entry> StatusMarks::legend() const {
   return entries;
 }
 
-MeasureAxis::MeasureAxis(const SweepTable& table, const Column& measure) {
+MeasureAxis::MeasureAxis(const SweepTable& table, const Column& measure, double close) {
   Range whole;
   for (std::size_t i = 0; i < measure.numbers.size(); ++i) {
     if (table.done(i)) whole.include(measure.numbers[i]);
   }
   log = better_by_log(whole);
-  scale = choose_scale(unit_of_measure(measure.name), whole, !log);
+  scale = choose_scale(unit_of_measure(measure.name), whole, log ? 0 : close);
   if (!whole.empty()) range = {scale(whole.low), scale(whole.high)};
 }
 
@@ -91,7 +92,7 @@ KeyAxis::KeyAxis(const SweepTable& table, const Key& of) : key(of) {
   log = by_equal_factors(key.distinct);
   Range range;
   range.include(key.distinct);
-  scale = choose_scale({key.unit}, range, !log);
+  scale = choose_scale({key.unit}, range, log ? 0 : close_together);
   label = scale.heading(name);
 }
 
@@ -124,6 +125,11 @@ Axis KeyAxis::axis(double pixels, double pixels_a_tic, bool cells) const {
   const double air = cells ? 0 : 0.02;
   return log ? log_axis(range, pixels, pixels_a_tic, air)
              : linear_axis(range, pixels, pixels_a_tic, air);
+}
+
+Axis KeyAxis::axis_across(double pixels, bool cells) const {
+  Axis made = axis(pixels, 80, cells);
+  return key.is_text() || log ? made : across(std::move(made), pixels);
 }
 
 }  // namespace bbsim::plot

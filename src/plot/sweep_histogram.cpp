@@ -22,6 +22,12 @@ std::size_t bin_count(std::vector<double>& values, double width) {
   return static_cast<std::size_t>(std::clamp(std::ceil(count), 5.0, 60.0));
 }
 
+// Digits that tell a hundredth of a range.
+int digits_between(double low, double high) {
+  const double part = (high - low) / std::max(std::abs(low), std::abs(high));
+  return part > 0 ? std::clamp(2 - static_cast<int>(std::floor(std::log10(part))), 3, 12) : 4;
+}
+
 }  // namespace
 
 void add_histogram(Picture& picture, const SweepTable& table, const Column& measure, Box box) {
@@ -35,6 +41,7 @@ void add_histogram(Picture& picture, const SweepTable& table, const Column& meas
   Panel panel;
   panel.box = box;
   panel.x = along.axis(box.width(), 70, 0.03);
+  if (!along.log) panel.x = across(std::move(panel.x), box.width());
   const auto drawn = [&](double value) { return along.log ? std::exp(value) : value; };
   double most = 1;
   std::vector<Entry> legend;
@@ -62,9 +69,12 @@ void add_histogram(Picture& picture, const SweepTable& table, const Column& meas
     const Stroke median{"#000000", 1.6}, tail{"#000000", 1.2, Dash::dashed};
     const double middle = drawn(quantile(values, 0.5));
     const double below = drawn(quantile(values, 0.05)), above = drawn(quantile(values, 0.95));
+    const int digits = digits_between(drawn(values.front()), drawn(values.back()));
+    const auto text = [digits](double value) { return number(value, digits); };
     quantiles = {{middle, median}, {below, tail}, {above, tail}};
-    legend = {{"median " + number(middle), median},
-              {"5 and 95 %: " + number(below) + ", " + number(above), tail}};
+    legend = {{"median " + text(middle), median},
+              {"5 and 95 %: " + text(below) + ", " + text(above), tail}};
+    if (text(below) == text(above)) legend = {{"all " + text(middle), median}};
   }
   panel.y = linear_axis({0, most * 1.05}, box.height(), 32, 0);
   for (const auto& [value, stroke] : quantiles) {

@@ -45,7 +45,7 @@ void add_marks(Panel& panel, const std::map<double, Bundle>& bundles, const KeyA
 Panel empty_panel(const KeyAxis& along, const MeasureAxis& up, const Box& box, bool lowest) {
   Panel panel;
   panel.box = box;
-  panel.x = along.axis(box.width(), 80, false);
+  panel.x = along.axis_across(box.width(), false);
   panel.y = up.axis(box.height(), 28, 0.08);
   if (!lowest) {
     for (Tic& tic : panel.x.tics) tic.label.clear();

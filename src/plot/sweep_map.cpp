@@ -15,6 +15,8 @@ namespace bbsim::plot {
 namespace {
 
 constexpr std::size_t most_cells = 160;  // along one side; more are drawn as their medians
+// Numbers in cells have three digits.
+constexpr double close_in_cells = 1e-2;
 constexpr unsigned not_done = 0xd9d9d9;
 
 // Viridis, at equal distances: its lightness grows with the value, for print and for all eyes.
@@ -88,12 +90,12 @@ void add_map(Picture& picture, const SweepTable& table, const Column& measure, c
              const Key& against, const StatusMarks& marks, Box box, bool lowest) {
   box.right -= map_scale_width;
   const KeyAxis along(table, over), up(table, against);
-  const MeasureAxis colours(table, measure);
+  const MeasureAxis colours(table, measure, close_in_cells);
   Panel panel;
   panel.box = box;
   panel.grid = false;
   panel.framed = true;
-  panel.x = along.axis(box.width(), 80, true);
+  panel.x = along.axis_across(box.width(), true);
   panel.y = up.axis(box.height(), 30, true);
   if (!lowest) {
     for (Tic& tic : panel.x.tics) tic.label.clear();

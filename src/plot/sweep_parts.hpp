@@ -36,7 +36,7 @@ struct MeasureAxis {
   Range range;  // as drawn, of the cases that are done
   bool log = false;
 
-  MeasureAxis(const SweepTable& table, const Column& measure);
+  MeasureAxis(const SweepTable& table, const Column& measure, double close = close_together);
   [[nodiscard]] Axis axis(double pixels, double pixels_a_tic, double air) const;
 };
 
@@ -51,6 +51,8 @@ struct KeyAxis {
   KeyAxis(const SweepTable& table, const Key& of);
   // Room at both ends for half the distance to the next value if `cells`, otherwise for a marker.
   [[nodiscard]] Axis axis(double pixels, double pixels_a_tic, bool cells) const;
+  // The same, below its panel.
+  [[nodiscard]] Axis axis_across(double pixels, bool cells) const;
   // Edges are between neighbours, and beyond the outermost: where the cell of each value begins,
   // and the last one ends. They are as drawn.
   [[nodiscard]] std::vector<double> edges() const;

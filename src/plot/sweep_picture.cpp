@@ -4,7 +4,6 @@
 #include "plot/sweep_picture.hpp"
 
 #include <algorithm>
-#include <filesystem>
 
 #include "base/error.hpp"
 #include "plot/sweep_parts.hpp"
@@ -133,23 +132,10 @@ std::string taken_over(const SweepTable& table, const Form& form) {
 // Title, subtitle and legend; where the panels begin.
 double add_top(Picture& picture, const Result& sweep, const std::string& remark,
                const std::vector<Entry>& legend) {
-  const double room = picture.width - 60, middle = picture.width / 2;
-  const std::string file = sweep.file == "-"
-                               ? "standard input"
-                               : clean(std::filesystem::path(sweep.file).filename().string());
-  const std::string title = clean(sweep.title);
-  constexpr double title_size = 17, subtitle_size = 12;
-  picture.words.push_back({Words::Align::centre, middle, 26,
-                           cut(title.empty() ? file : title, room, title_size), title_size});
+  const std::string file = clean(sweep.shown_file()), title = clean(sweep.title);
   std::string subtitle = (title.empty() ? "" : file + ", ") + std::to_string(sweep.rows) + " cases";
   if (!remark.empty()) subtitle += "; " + remark;
-  picture.words.push_back({Words::Align::centre, middle, 49, cut(subtitle, room, subtitle_size),
-                           subtitle_size, "#505050"});
-  if (legend.empty()) return 62;
-  const double rows = static_cast<double>(legend_rows(legend, 30, picture.width - 30));
-  const double last = 74 + legend_pitch * (rows - 1);
-  place_legend(picture, legend, 30, picture.width - 30, last, Words::Align::centre);
-  return last + 14;
+  return add_heading(picture, title.empty() ? file : title, subtitle, legend);
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 
 #include "base/archive.hpp"
 #include "base/error.hpp"
+#include "base/fnv1a.hpp"
 #include "file/whole_file.hpp"
 
 namespace bbsim::record {
@@ -23,18 +24,11 @@ void archive_of(Archive& archive, RunState& state) {
 
 }  // namespace
 
-// FNV-1a, 64 bits.
-std::uint64_t check_sum(std::string_view bytes) {
-  std::uint64_t sum = 0xcbf29ce484222325;
-  for (const char c : bytes) sum = (sum ^ static_cast<unsigned char>(c)) * 0x100000001b3;
-  return sum;
-}
-
 std::string to_bytes(RunState state) {
   StateWriter writer;
   archive_of(writer, state);
   std::string bytes = std::string(magic) + writer.bytes();
-  std::uint64_t sum = check_sum(bytes);
+  std::uint64_t sum = fnv1a(bytes);
   StateWriter end;
   end(sum);
   return bytes + end.bytes();
@@ -52,7 +46,7 @@ RunState read_state(const std::string& file) {
     StateReader end(std::string_view(bytes).substr(size));
     end(sum);
   }
-  if (size == 0 || sum != check_sum(std::string_view(bytes).substr(0, size))) {
+  if (size == 0 || sum != fnv1a(std::string_view(bytes).substr(0, size))) {
     throw InputError(file + ": is damaged: its checksum does not match its content");
   }
   try {

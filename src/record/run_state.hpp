@@ -25,9 +25,6 @@ struct RunState {
   std::string state;  // solve::Part::state
 };
 
-// Detects damage, not malice.
-[[nodiscard]] std::uint64_t check_sum(std::string_view bytes);
-
 [[nodiscard]] std::string to_bytes(RunState state);
 
 // Throws InputError with the file's name unless the file is a complete, undamaged state. If the

@@ -18,6 +18,7 @@
 #include "replay/rotation.hpp"
 #include "replay/stage.hpp"
 #include "replay/sweep_cases.hpp"
+#include "scenario/columns.hpp"
 
 namespace bbsim::replay {
 namespace {
@@ -52,6 +53,42 @@ Json columns_json(const Run& run, const std::vector<std::size_t>& rows) {
                        {"data", base64_of_floats(picked(series.values, rows))}});
   }
   return columns;
+}
+
+// The catalogue of columns as plots: what each holds, and how. Commands are in several, in the unit
+// of each.
+Json plots_json() {
+  constexpr const char* roles[] = {"main", "reference", "measured", "command"};
+  Json plots = Json::array();
+  for (const std::string_view title : scenario::plots) {
+    Json columns = Json::array();
+    const auto add = [&](const scenario::Column& column, std::string_view unit) {
+      columns.push_back({{"name", column.name},
+                         {"symbol", column.symbol},
+                         {"unit", unit},
+                         {"role", roles[static_cast<int>(column.role)]},
+                         {"axis", scenario::axis_of(column.name)}});
+    };
+    for (std::size_t p = 0; p < scenario::panels.size(); ++p) {
+      const auto panel = static_cast<scenario::Panel>(p);
+      if (scenario::text_of(panel).plot != title) continue;
+      const auto add_if_here = [&](const scenario::Column& column) {
+        if (column.needs != scenario::Needs::commands) {
+          if (column.panel == panel) add(column, column.unit);
+          return;
+        }
+        for (const Drives drives :
+             {Drives::angle, Drives::acceleration, Drives::torque, Drives::voltage}) {
+          const std::string_view unit = command_unit(drives);
+          if (scenario::panel_of(column, unit) == panel) add(column, unit);
+        }
+      };
+      std::ranges::for_each(scenario::catalogue, add_if_here);
+      add_if_here(scenario::position_error);
+    }
+    plots.push_back({{"title", title}, {"columns", std::move(columns)}});
+  }
+  return plots;
 }
 
 std::string orientation_text(const std::vector<Quaternion>& orientation,
@@ -221,6 +258,7 @@ Json scene_json(const Scene& scene) {
     for (const Run& run : scene.runs) runs.push_back(run_json(run, stage, rows_allowed(scene)));
   }
   for (const Sweep& sweep : scene.sweeps) sweeps.push_back(sweep_json(sweep, scene.sweeps.size()));
+  json["plots"] = plots_json();
   json["runs"] = std::move(runs);
   json["sweeps"] = std::move(sweeps);
   return json;

@@ -80,12 +80,8 @@ Series series_of(const std::string& name, std::vector<double> values, bool unit_
 
 // Commands are angles, as in `bbsim columns`, or what drives the gimbal.
 void set_unit_of_commands(Run& run, Drives driven) {
-  const char* unit = "rad";
-  if (driven == Drives::acceleration) unit = "rad/s^2";
-  if (driven == Drives::torque) unit = "N m";
-  if (driven == Drives::voltage) unit = "V";
   for (Series& series : run.columns) {
-    if (series.name == "phi_command" || series.name == "theta_command") series.unit = unit;
+    if (scenario::is_command(series.name)) series.unit = command_unit(driven);
   }
 }
 

@@ -38,12 +38,17 @@ const Column* find_column(std::string_view name) {
   return known == own.by_name.end() ? nullptr : &known->second;
 }
 
+const Column* find_result_column(std::string_view name) {
+  return name == position_error.name ? &position_error : find_column(name);
+}
+
 const Column& own_column(std::string_view name) {
   OwnColumns& own = all_own_columns();
   const std::lock_guard lock(own.mutex);
   const auto [place, is_new] = own.by_name.try_emplace(std::string(name), Column{});
   if (is_new) {
-    place->second = {place->first, "1", "as the scene's own controller gives it", Needs::own};
+    place->second = {place->first, place->first, "1", "as the scene's own controller gives it",
+                     Needs::own};
   }
   return place->second;
 }
@@ -92,6 +97,31 @@ bool any_needs(const std::vector<const Column*>& columns, Needs what) {
 
 bool need_gamma(const std::vector<const Column*>& columns) {
   return any_needs(columns, Needs::gamma) || any_needs(columns, Needs::orientation);
+}
+
+int axis_of(std::string_view name) {
+  while (!name.empty()) {
+    const std::size_t end = std::min(name.find('_'), name.size());
+    const std::string_view word = name.substr(0, end);
+    if (word == "x" || word == "vx" || word == "phi") return 1;
+    if (word == "y" || word == "vy" || word == "theta") return 2;
+    name.remove_prefix(std::min(end + 1, name.size()));
+  }
+  return 0;
+}
+
+bool is_command(std::string_view name) {
+  const Column* const column = find_column(name);
+  return column != nullptr && column->needs == Needs::commands;
+}
+
+Panel panel_of(const Column& column, std::string_view unit) {
+  if (column.needs == Needs::commands) {
+    if (unit == "rad/s^2") return Panel::accelerations;
+    if (unit == "N m") return Panel::given_torques;
+    if (unit == "V") return Panel::voltages;
+  }
+  return column.panel;
 }
 
 Missing missing(const Column& column, const Scenario& scenario) {

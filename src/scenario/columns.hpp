@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The one table of output columns: CSV headers, HDF5 datasets, `bbsim columns` and the docs. How
-// each is computed is record/column_values.hpp's matter.
+// The one table of output columns: CSV headers, HDF5 datasets, `bbsim columns`, docs/reference,
+// pictures and replays. How each is computed is record/column_values.hpp's matter.
 #pragma once
 
 #include <array>
@@ -42,126 +42,266 @@ enum class Needs {
   pushed
 };
 
+// What a curve is to the picture it is in: what the picture is about, or what stands beside that
+// for comparison.
+enum class Role { main, reference, measured, command };
+
+// The panels of a picture, in their order.
+enum class Panel {
+  x,
+  y,
+  tracking_error,
+  position_error,
+  distance,
+  velocity,
+  spin,
+  gamma,
+  orientation,
+  phi,
+  theta,
+  servos,
+  rates,
+  accelerations,
+  tilt,
+  tilt_rate,
+  friction,
+  forces,
+  push,
+  torques,
+  motor_torques,
+  given_torques,
+  currents,
+  voltages,
+  slip,
+  power,
+  energy,
+  singularity,
+  none
+};
+
+struct PanelText {
+  std::string_view heading;  // of several columns: the quantity that they have in common
+  std::string_view plot;     // the plot of a replay that has its columns; empty: none has
+};
+
+// In the order of Panel. A replay's plots hold more than a picture's panels do.
+inline constexpr std::array panels = {
+    PanelText{"", "Position"},
+    PanelText{"", "Position"},
+    PanelText{"", "Distance"},
+    PanelText{"", "Error of x, y"},
+    PanelText{"", "Distance"},
+    PanelText{"velocity", "Velocity"},
+    PanelText{"", "Rates"},
+    PanelText{"", "Turn of the ball"},
+    PanelText{"ball's orientation", ""},
+    PanelText{"", "Gimbal"},
+    PanelText{"", "Gimbal"},
+    PanelText{"servos", "Servos"},
+    PanelText{"rates", "Rates"},
+    PanelText{"accelerations", "Accelerations"},
+    PanelText{"", "Gimbal"},
+    PanelText{"", "Rates"},
+    PanelText{"", "Friction demand"},
+    PanelText{"forces", "Forces"},
+    PanelText{"push", "Push"},
+    PanelText{"torque", "Torques"},
+    PanelText{"motor torque", "Torques"},
+    PanelText{"motors' torque", "Motors' torque"},
+    PanelText{"motors' current", "Motors' current"},
+    PanelText{"motors' voltage", "Motors' voltage"},
+    PanelText{"slip", "Slip"},
+    PanelText{"power", "Power"},
+    PanelText{"energy", "Energy"},
+    PanelText{"", "Distance from singularity"},
+    PanelText{"", ""},
+};
+static_assert(panels.size() == static_cast<std::size_t>(Panel::none) + 1);
+
+// The plots of a replay, in their order.
+inline constexpr std::array<std::string_view, 20> plots = {
+    "Position",       "Gimbal",          "Servos",           "Distance",
+    "Error of x, y",  "Velocity",        "Turn of the ball", "Rates",
+    "Accelerations",  "Friction demand", "Forces",           "Push",
+    "Motors' torque", "Torques",         "Motors' current",  "Motors' voltage",
+    "Slip",           "Power",           "Energy",           "Distance from singularity"};
+
 struct Column {
   std::string_view name;
+  std::string_view symbol;   // in a legend
   std::string_view unit;     // "1" if dimensionless
   std::string_view meaning;  // one phrase, without a full stop
   Needs needs;
+  Panel panel = Panel::none;
+  Role role = Role::main;
+  std::string_view beside{};  // its symbol below its panel's heading, if that is another one
 };
 
 // All columns, in the order of `bbsim columns`.
 inline constexpr std::array catalogue = {
-    Column{"t", "s", "time", Needs::ball},
-    Column{"x", "m", "contact point along the plate's x axis", Needs::ball},
-    Column{"y", "m", "contact point along the plate's y axis", Needs::ball},
-    Column{"distance", "m", "distance of the contact point from the plate's origin", Needs::ball},
-    Column{"vx", "m/s", "velocity of the contact point in the plate frame, x'", Needs::ball},
-    Column{"vy", "m/s", "velocity of the contact point in the plate frame, y'", Needs::ball},
-    Column{"spin", "rad/s", "ball's rate of turn about the plate's normal, relative to the plate",
-           Needs::ball},
-    Column{"gamma", "rad", "ball's turn about the plate's normal since the start: integral of spin",
-           Needs::gamma},
-    Column{"ball_qw", "1", "ball's orientation in the plate frame, a unit quaternion: scalar part",
-           Needs::orientation},
-    Column{"ball_qx", "1", "ball's orientation: x part of the quaternion, 0 at the start",
-           Needs::orientation},
-    Column{"ball_qy", "1", "ball's orientation: y part", Needs::orientation},
-    Column{"ball_qz", "1", "ball's orientation: z part", Needs::orientation},
-    Column{"phi", "rad", "first (outer) gimbal angle, about the fixed y axis", Needs::gimbal},
-    Column{"theta", "rad", "second (inner) gimbal angle, about the x axis that phi carries",
-           Needs::gimbal},
-    Column{"phi_rate", "rad/s", "rate of phi", Needs::gimbal},
-    Column{"theta_rate", "rad/s", "rate of theta", Needs::gimbal},
-    Column{"phi_acceleration", "rad/s^2", "acceleration of phi", Needs::accelerations},
-    Column{"theta_acceleration", "rad/s^2", "acceleration of theta", Needs::accelerations},
-    Column{"servo_phi", "rad",
+    Column{"t", "t", "s", "time", Needs::ball, Panel::none},
+    Column{"x", "x", "m", "contact point along the plate's x axis", Needs::ball, Panel::x},
+    Column{"y", "y", "m", "contact point along the plate's y axis", Needs::ball, Panel::y},
+    Column{"distance", "distance", "m", "distance of the contact point from the plate's origin",
+           Needs::ball, Panel::distance},
+    Column{"vx", "vx", "m/s", "velocity of the contact point in the plate frame, x'", Needs::ball,
+           Panel::velocity},
+    Column{"vy", "vy", "m/s", "velocity of the contact point in the plate frame, y'", Needs::ball,
+           Panel::velocity},
+    Column{"spin", "spin", "rad/s",
+           "ball's rate of turn about the plate's normal, relative to the plate", Needs::ball,
+           Panel::spin},
+    Column{"gamma", "γ", "rad",
+           "ball's turn about the plate's normal since the start: integral of spin", Needs::gamma,
+           Panel::gamma},
+    Column{"ball_qw", "orientation w", "1",
+           "ball's orientation in the plate frame, a unit quaternion: scalar part",
+           Needs::orientation, Panel::orientation, Role::main, "w"},
+    Column{"ball_qx", "orientation x", "1",
+           "ball's orientation: x part of the quaternion, 0 at the start", Needs::orientation,
+           Panel::orientation, Role::main, "x"},
+    Column{"ball_qy", "orientation y", "1", "ball's orientation: y part", Needs::orientation,
+           Panel::orientation, Role::main, "y"},
+    Column{"ball_qz", "orientation z", "1", "ball's orientation: z part", Needs::orientation,
+           Panel::orientation, Role::main, "z"},
+    Column{"phi", "φ", "rad", "first (outer) gimbal angle, about the fixed y axis", Needs::gimbal,
+           Panel::phi},
+    Column{"theta", "θ", "rad", "second (inner) gimbal angle, about the x axis that phi carries",
+           Needs::gimbal, Panel::theta},
+    Column{"phi_rate", "φ'", "rad/s", "rate of phi", Needs::gimbal, Panel::rates},
+    Column{"theta_rate", "θ'", "rad/s", "rate of theta", Needs::gimbal, Panel::rates},
+    Column{"phi_acceleration", "φ''", "rad/s^2", "acceleration of phi", Needs::accelerations,
+           Panel::accelerations},
+    Column{"theta_acceleration", "θ''", "rad/s^2", "acceleration of theta", Needs::accelerations,
+           Panel::accelerations},
+    Column{"servo_phi", "servo φ", "rad",
            "angle of phi's servo, before backlash and linkage; with three servos, of the first",
-           Needs::servos},
-    Column{"servo_theta", "rad",
+           Needs::servos, Panel::servos, Role::main, "φ"},
+    Column{"servo_theta", "servo θ", "rad",
            "angle of theta's servo, before backlash and linkage; with three servos, of the second",
-           Needs::servos},
-    Column{"servo_third", "rad", "angle of the third of three servos", Needs::third_servo},
-    Column{"push_x", "N", "push on the ball's center along the plate's x axis", Needs::pushed},
-    Column{"push_y", "N", "push on the ball's center along the plate's y axis", Needs::pushed},
-    Column{"x_reference", "m", "where the controller wants x", Needs::controller},
-    Column{"y_reference", "m", "where the controller wants y", Needs::controller},
-    Column{"tracking_error", "m", "distance of the contact point from its reference",
-           Needs::controller},
-    Column{"phi_command", "rad",
+           Needs::servos, Panel::servos, Role::main, "θ"},
+    Column{"servo_third", "third servo", "rad", "angle of the third of three servos",
+           Needs::third_servo, Panel::servos, Role::main, "third"},
+    Column{"push_x", "push x", "N", "push on the ball's center along the plate's x axis",
+           Needs::pushed, Panel::push, Role::main, "x"},
+    Column{"push_y", "push y", "N", "push on the ball's center along the plate's y axis",
+           Needs::pushed, Panel::push, Role::main, "y"},
+    Column{"x_reference", "x reference", "m", "where the controller wants x", Needs::controller,
+           Panel::x, Role::reference},
+    Column{"y_reference", "y reference", "m", "where the controller wants y", Needs::controller,
+           Panel::y, Role::reference},
+    Column{"tracking_error", "tracking error", "m",
+           "distance of the contact point from its reference", Needs::controller,
+           Panel::tracking_error},
+    Column{"phi_command", "φ command", "rad",
            "command for phi: an angle; rad/s^2, N m or V if the controller drives accelerations, "
            "torques or voltages",
-           Needs::commands},
-    Column{"theta_command", "rad",
+           Needs::commands, Panel::phi, Role::command},
+    Column{"theta_command", "θ command", "rad",
            "command for theta: an angle; rad/s^2, N m or V if the controller drives accelerations, "
            "torques or voltages",
-           Needs::commands},
-    Column{"x_measured", "m", "x that the sensor measured last", Needs::samples},
-    Column{"y_measured", "m", "y that the sensor measured last", Needs::samples},
-    Column{"tilt", "rad", "angle between the plate's normal and the vertical", Needs::gimbal},
-    Column{"tilt_rate", "rad/s", "size of the plate's angular velocity", Needs::gimbal},
-    Column{"singularity_distance", "1",
+           Needs::commands, Panel::theta, Role::command},
+    Column{"x_measured", "x as seen", "m", "x that the sensor measured last", Needs::samples,
+           Panel::x, Role::measured},
+    Column{"y_measured", "y as seen", "m", "y that the sensor measured last", Needs::samples,
+           Panel::y, Role::measured},
+    Column{"tilt", "tilt", "rad", "angle between the plate's normal and the vertical",
+           Needs::gimbal, Panel::tilt},
+    Column{"tilt_rate", "tilt rate", "rad/s", "size of the plate's angular velocity", Needs::gimbal,
+           Panel::tilt_rate},
+    Column{"singularity_distance", "singularity distance", "1",
            "distance from the state in which no gimbal accelerations give the ball the wanted "
            "acceleration: 0 there, 1 at home on the paper's gimbal",
-           Needs::gimbal},
-    Column{"normal_force", "N",
-           "force of the plate on the ball along the normal; contact needs > 0", Needs::dynamics},
-    Column{"friction_force", "N", "size of the force of the plate on the ball along the plate",
-           Needs::dynamics},
-    Column{"friction_demand", "1",
+           Needs::gimbal, Panel::singularity},
+    Column{"normal_force", "normal force", "N",
+           "force of the plate on the ball along the normal; contact needs > 0", Needs::dynamics,
+           Panel::forces, Role::main, "normal"},
+    Column{"friction_force", "friction force", "N",
+           "size of the force of the plate on the ball along the plate", Needs::dynamics,
+           Panel::forces, Role::main, "friction"},
+    Column{"friction_demand", "friction demand", "1",
            "friction_force / normal_force; rolling needs it below the friction coefficient, and it "
            "grows to infinity at lift-off; of a sliding ball, its coefficient of friction",
-           Needs::dynamics},
-    Column{"torque_phi", "N m", "motor torque about phi's axis that carries the ball",
-           Needs::dynamics},
-    Column{"torque_theta", "N m", "motor torque about theta's axis that carries the ball",
-           Needs::dynamics},
-    Column{"motor_torque_phi", "N m", "motor torque about phi's axis that carries ball and plate",
-           Needs::plate},
-    Column{"motor_torque_theta", "N m",
-           "motor torque about theta's axis that carries ball and plate", Needs::plate},
-    Column{"motor_power", "W", "power of the two motors with ball and plate", Needs::plate},
-    Column{"energy", "J",
+           Needs::dynamics, Panel::friction},
+    Column{"torque_phi", "torque φ", "N m", "motor torque about phi's axis that carries the ball",
+           Needs::dynamics, Panel::torques, Role::main, "φ"},
+    Column{"torque_theta", "torque θ", "N m",
+           "motor torque about theta's axis that carries the ball", Needs::dynamics, Panel::torques,
+           Role::main, "θ"},
+    Column{"motor_torque_phi", "motor torque φ", "N m",
+           "motor torque about phi's axis that carries ball and plate", Needs::plate,
+           Panel::motor_torques, Role::main, "φ"},
+    Column{"motor_torque_theta", "motor torque θ", "N m",
+           "motor torque about theta's axis that carries ball and plate", Needs::plate,
+           Panel::motor_torques, Role::main, "θ"},
+    Column{"motor_power", "motor power", "W", "power of the two motors with ball and plate",
+           Needs::plate, Panel::power, Role::main, "motors, with plate"},
+    Column{"energy", "energy", "J",
            "ball's kinetic and potential energy; potential is 0 at the gimbal's center",
-           Needs::dynamics},
-    Column{"power", "W",
+           Needs::dynamics, Panel::energy, Role::main, "ball"},
+    Column{"power", "power", "W",
            "power of the two motor torques that carry the ball: the rate of change of energy, "
            "except for losses",
-           Needs::dynamics},
-    Column{"push_power", "W", "power of the push on the ball", Needs::pushed},
-    Column{"total_energy", "J",
+           Needs::dynamics, Panel::power, Role::main, "motors, ball only"},
+    Column{"push_power", "power of the push", "W", "power of the push on the ball", Needs::pushed,
+           Panel::power, Role::main, "push"},
+    Column{"total_energy", "total energy", "J",
            "kinetic and potential energy of ball, plate, ring and the motors' rotors",
-           Needs::dynamics},
-    Column{"slip_x", "m/s", "velocity of the ball's surface over the plate at the contact, along x",
-           Needs::coupled},
-    Column{"slip_y", "m/s", "velocity of the ball's surface over the plate at the contact, along y",
-           Needs::coupled},
-    Column{"loss_power", "W",
+           Needs::dynamics, Panel::energy, Role::main, "total"},
+    Column{"slip_x", "slip x", "m/s",
+           "velocity of the ball's surface over the plate at the contact, along x", Needs::coupled,
+           Panel::slip, Role::main, "x"},
+    Column{"slip_y", "slip y", "m/s",
+           "velocity of the ball's surface over the plate at the contact, along y", Needs::coupled,
+           Panel::slip, Role::main, "y"},
+    Column{"loss_power", "power lost", "W",
            "power lost to the ball's couples, to sliding and in the motors' friction",
-           Needs::coupled},
-    Column{"energy_lost", "J", "energy lost since the start: integral of loss_power",
-           Needs::coupled},
+           Needs::coupled, Panel::power, Role::main, "lost"},
+    Column{"energy_lost", "energy lost", "J", "energy lost since the start: integral of loss_power",
+           Needs::coupled, Panel::energy, Role::main, "lost"},
     Column{
-        "motor_work", "J",
+        "motor_work", "motors' work", "J",
         "work of the motors on ball, plate, ring and rotors since the start, before their friction",
-        Needs::coupled},
-    Column{"phi_torque_asked", "N m", "torque asked of phi's motor, before its limits",
-           Needs::torques},
-    Column{"theta_torque_asked", "N m", "torque asked of theta's motor, before its limits",
-           Needs::torques},
-    Column{"phi_torque", "N m", "torque that phi's motor gives, before its friction",
-           Needs::torques},
-    Column{"theta_torque", "N m", "torque that theta's motor gives, before its friction",
-           Needs::torques},
-    Column{"phi_current", "A", "current of phi's motor", Needs::armature},
-    Column{"theta_current", "A", "current of theta's motor", Needs::armature},
-    Column{"phi_voltage", "V", "voltage of phi's motor", Needs::armature},
-    Column{"theta_voltage", "V", "voltage of theta's motor", Needs::armature},
-    Column{"electrical_power", "W", "voltage times current of the two motors", Needs::armature},
+        Needs::coupled, Panel::energy, Role::main, "motors' work"},
+    Column{"phi_torque_asked", "φ torque asked", "N m",
+           "torque asked of phi's motor, before its limits", Needs::torques, Panel::given_torques,
+           Role::command},
+    Column{"theta_torque_asked", "θ torque asked", "N m",
+           "torque asked of theta's motor, before its limits", Needs::torques, Panel::given_torques,
+           Role::command},
+    Column{"phi_torque", "φ motor's torque", "N m",
+           "torque that phi's motor gives, before its friction", Needs::torques,
+           Panel::given_torques, Role::main, "φ"},
+    Column{"theta_torque", "θ motor's torque", "N m",
+           "torque that theta's motor gives, before its friction", Needs::torques,
+           Panel::given_torques, Role::main, "θ"},
+    Column{"phi_current", "φ motor's current", "A", "current of phi's motor", Needs::armature,
+           Panel::currents, Role::main, "φ"},
+    Column{"theta_current", "θ motor's current", "A", "current of theta's motor", Needs::armature,
+           Panel::currents, Role::main, "θ"},
+    Column{"phi_voltage", "φ motor's voltage", "V", "voltage of phi's motor", Needs::armature,
+           Panel::voltages, Role::main, "φ"},
+    Column{"theta_voltage", "θ motor's voltage", "V", "voltage of theta's motor", Needs::armature,
+           Panel::voltages, Role::main, "θ"},
+    Column{"electrical_power", "electrical power", "W", "voltage times current of the two motors",
+           Needs::armature, Panel::power, Role::main, "electrical"},
 };
+
+// What HDF5 results have beside them; no scenario asks for it.
+inline constexpr Column position_error{
+    "position_error",
+    "error of x, y",
+    "m",
+    "estimate of the error of x and y: the larger one in this row",
+    Needs::ball,
+    Panel::position_error};
 
 // The column of that name, or nullptr. Numbers of one's own controller are found once a scene has
 // asked for them by that name.
 [[nodiscard]] const Column* find_column(std::string_view name);
+
+// The same, of what results may have: position_error, too.
+[[nodiscard]] const Column* find_result_column(std::string_view name);
 
 // The column of a number that one's own controller gives by that name, for which is_own_name()
 // holds and which is not in the catalogue. It stays as long as the program.
@@ -189,6 +329,18 @@ inline constexpr std::size_t most_own_columns = 64;
 
 // Whether one of them is computed from gamma, which the model then integrates.
 [[nodiscard]] bool need_gamma(const std::vector<const Column*>& columns);
+
+// The axis that a column belongs to, by its name: 1 for x and phi, 2 for y and theta, else 0.
+[[nodiscard]] int axis_of(std::string_view name);
+
+// Commands are angles in the table. Those in another unit (command_unit()) stand beside what they
+// command.
+[[nodiscard]] bool is_command(std::string_view name);
+[[nodiscard]] Panel panel_of(const Column& column, std::string_view unit);
+
+[[nodiscard]] constexpr const PanelText& text_of(Panel panel) {
+  return panels[static_cast<std::size_t>(panel)];
+}
 
 // Why the scene cannot fill a column, and which ones it can; both null if it can.
 struct Missing {

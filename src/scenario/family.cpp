@@ -3,11 +3,11 @@
 
 #include "scenario/family.hpp"
 
-#include <bit>
 #include <filesystem>
 #include <map>
 #include <utility>
 
+#include "base/fnv1a.hpp"
 #include "scenario/sections.hpp"
 #include "yaml/check_text.hpp"
 #include "yaml/override.hpp"
@@ -103,11 +103,9 @@ std::vector<std::pair<std::string, std::uint64_t>> ScenarioFamily::table_hashes(
   const std::lock_guard lock(state_->tables->mutex);
   std::vector<std::pair<std::string, std::uint64_t>> hashes;
   for (const auto& [file, table] : state_->tables->by_file) {
-    std::uint64_t hash = 0xCBF29CE484222325U;  // FNV-1a, a word at a time
+    std::uint64_t hash = fnv1a_start;
     for (const auto& column : table.data->columns) {
-      for (const double value : column) {
-        hash = (hash ^ std::bit_cast<std::uint64_t>(value)) * 0x100000001B3U;
-      }
+      for (const double value : column) hash = fnv1a(hash, value);
     }
     hashes.emplace_back(file, hash);
   }

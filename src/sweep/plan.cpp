@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "base/error.hpp"
+#include "base/fnv1a.hpp"
 #include "base/noise.hpp"
 #include "base/number_text.hpp"
 #include "scenario/independent.hpp"
@@ -30,13 +31,6 @@ std::uint64_t mixed(std::uint64_t x) {
   x = (x ^ (x >> 30U)) * 0xBF58476D1CE4E5B9U;
   x = (x ^ (x >> 27U)) * 0x94D049BB133111EBU;
   return x ^ (x >> 31U);
-}
-
-// FNV-1a
-std::uint64_t hash(const std::string& text) {
-  std::uint64_t value = 0xCBF29CE484222325U;
-  for (const char c : text) value = (value ^ static_cast<unsigned char>(c)) * 0x100000001B3U;
-  return value;
 }
 
 // a b + c d with one or two roundings, so that round numbers stay round.
@@ -243,7 +237,7 @@ void SweepPlan::add_axes(const ScenarioFamily& family, const Sweep& sweep,
   axis.count = spec.random() ? 1 : spec.count;
   axis.lead = lead;
   // The British and the American spelling of a key draw the same values.
-  axis.stream = mixed(mixed(seed_) ^ hash(yaml::british(keys[0].path)));
+  axis.stream = mixed(mixed(seed_) ^ fnv1a(yaml::british(keys[0].path)));
   std::vector<double> numbers;  // of the first key
   for (std::size_t i = 0; i < spec.values.size(); ++i) {
     const bool deviation = spec.kind == Way::normal && i == 1;

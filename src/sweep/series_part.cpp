@@ -13,6 +13,7 @@
 #include <utility>
 
 #include "base/error.hpp"
+#include "base/fnv1a.hpp"
 #include "file/own_file.hpp"
 #include "file/target.hpp"
 
@@ -24,10 +25,8 @@ constexpr std::size_t most_words_at_once = std::size_t{1} << 17U;  // for checki
 // FNV-1a, a word at a time, over the number of the case and its values. It detects a page that was
 // never written, and the values of another case.
 double check_of(std::size_t number, const double* numbers, std::size_t count) {
-  std::uint64_t hash = 0xCBF29CE484222325U ^ number;
-  for (std::size_t i = 0; i < count; ++i) {
-    hash = (hash ^ std::bit_cast<std::uint64_t>(numbers[i])) * 0x100000001B3U;
-  }
+  std::uint64_t hash = fnv1a_start ^ number;
+  for (std::size_t i = 0; i < count; ++i) hash = fnv1a(hash, numbers[i]);
   return std::bit_cast<double>(hash);
 }
 

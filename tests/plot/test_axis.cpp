@@ -70,7 +70,7 @@ TEST_CASE("what differs by little is drawn as a difference from a round value") 
   const Scale scale = choose_scale({"m"}, range_of(-0.1, -0.1 + 1e-9));
   CHECK(scale.heading("y") == "y + 0.1 m (nm)");
   CHECK(scale(-0.1 + 1e-9) == Approx(1).margin(1e-6));
-  CHECK(choose_scale({"m"}, range_of(-0.1, -0.1 + 1e-9), false).shift.empty());
+  CHECK(choose_scale({"m"}, range_of(-0.1, -0.1 + 1e-9), 0).shift.empty());
   // What differs by rounding alone is constant.
   CHECK(choose_scale({"m"}, range_of(0.1, std::nextafter(0.1, 1))).shift.empty());
 }
@@ -106,6 +106,17 @@ TEST_CASE("logarithmic axes have tics over any number of decades") {
   CHECK(better_by_log({1e-4, 1}));
   CHECK_FALSE(better_by_log({0, 1}));
   CHECK_FALSE(better_by_log({-1, 1e9}));
+}
+
+TEST_CASE("labels below a panel are not nearer than a letter, however long they are") {
+  for (const double pixels : {120.0, 300.0, 480.0}) {
+    const Axis axis = across(tight_axis({64.00465, 64.02571}, pixels, 40), pixels);
+    REQUIRE(axis.tics.size() >= 2);
+    for (std::size_t i = 1; i < axis.tics.size(); ++i) {
+      const double apart = (axis.fraction(axis.tics[i].at) - axis.fraction(axis.tics[i - 1].at));
+      CHECK(apart * pixels > width_of(axis.tics[i].label, 13) + 8);
+    }
+  }
 }
 
 TEST_CASE("places on an axis do not overflow") {

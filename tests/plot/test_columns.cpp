@@ -53,6 +53,8 @@ TEST_CASE("what belongs together shares a panel") {
             {"phi_torque", "theta_torque", "slip_x", "slip_y", "total_energy", "energy_lost"})})) ==
         "motors' torque: phi_torque theta_torque | slip: slip_x slip_y | "
         "energy: total_energy energy_lost");
+  CHECK(text_of(plot::plan_panels({run_with({"push_x", "push_y", "power", "push_power"})})) ==
+        "push: push_x push_y | power: power push_power");
   CHECK(
       text_of(plot::plan_panels({run_with({"phi_torque", "phi_torque_asked", "theta_torque"})})) ==
       "φ motor's torque: phi_torque phi_torque_asked | θ motor's torque: theta_torque");
@@ -79,7 +81,7 @@ TEST_CASE("commands stand beside what they command: angles, or accelerations") {
   const plot::Result driven =
       run_of({{"phi", angle}, {"phi_command", acceleration}, {"phi_acceleration", acceleration}});
   CHECK(plot::driven_quantity(driven) == Drives::acceleration);
-  CHECK(text_of(plot::plan_panels({driven})) == "φ: phi | φ'': phi_command phi_acceleration");
+  CHECK(text_of(plot::plan_panels({driven})) == "φ: phi | φ'': phi_acceleration phi_command");
   const plot::Result servo = run_of({{"phi", angle}, {"phi_command", angle}});
   CHECK(plot::driven_quantity(servo) == Drives::angle);
 

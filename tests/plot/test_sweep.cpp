@@ -195,6 +195,29 @@ TEST_CASE("measures over decades, constant ones, and none that is done are drawn
   CHECK(says(sweep_picture(draws, {}), "failed: 50 cases"));
 }
 
+TEST_CASE("numbers beside a histogram are told apart, and one that all share stands once") {
+  const Result near =
+      sweep_of({drawn("a", 200)}, [](double n) { return 1.304 + 2e-5 * std::sin(n); });
+  Result same = sweep_of({drawn("a", 200)}, [](double) { return 1.304; });
+  const Picture picture = sweep_picture(near, {}), constant = sweep_picture(same, {});
+  CHECK(collisions(picture) == "");
+  CHECK(says(picture, "x_end − 1.304 m (µm)"));
+  CHECK_FALSE(says(picture, "median 1.304"));
+  CHECK(says(constant, "all 1.304"));
+  CHECK_FALSE(says(constant, "median"));
+  for (std::size_t i = 1; i < picture.panels[0].x.tics.size(); ++i) {
+    CHECK(picture.panels[0].x.tics[i].label != picture.panels[0].x.tics[i - 1].label);
+  }
+}
+
+TEST_CASE("a map's colours and cells differ in three digits") {
+  const Result sweep = sweep_of({repeated("a", 100, 10, 10), repeated("b", 100, 1, 10)},
+                                [](double n) { return 0.2966 + 2e-6 * n; });
+  const Picture picture = sweep_picture(sweep, {});
+  CHECK(says(picture, "x_end − 0.297 m (mm)"));
+  CHECK(collisions(picture) == "");
+}
+
 TEST_CASE("a map of a million cases has no more cells than can be seen") {
   const Picture picture =
       sweep_picture(sweep_of({repeated("a", 250000, 500, 500), repeated("b", 250000, 1, 500)}), {});

@@ -4,6 +4,8 @@
 // A scene arrives in its page: numbers as exact as they are meant to be, texts as texts.
 #include <cmath>
 #include <limits>
+#include <map>
+#include <string>
 
 #include "base/error.hpp"
 #include "catch.hpp"
@@ -12,6 +14,7 @@
 #include "replay/base64.hpp"
 #include "replay/page.hpp"
 #include "replay/stage.hpp"
+#include "scenario/columns.hpp"
 
 using bbsim::InputError;
 using bbsim::OutputError;
@@ -297,4 +300,25 @@ TEST_CASE("a sweep's cases read back: keys exact, each way to end once") {
     CHECK(data.at("statuses").at(data.at("status").at(i).get<std::size_t>()) ==
           scene.sweeps[0].status[i]);
   }
+}
+
+TEST_CASE("a page knows the plots of all columns, and commands beside what they command") {
+  const auto plots = data_of(page(scene_of(circling(50)), small_template)).at("plots");
+  std::map<std::string, std::string> found;  // titles by column and unit
+  for (const auto& plot : plots) {
+    for (const auto& column : plot.at("columns")) {
+      const std::string name = column.at("name"), unit = column.at("unit");
+      const bool is_new = found.emplace(name + ' ' + unit, plot.at("title")).second;
+      CHECK(is_new);
+    }
+  }
+  for (const bbsim::scenario::Column& column : bbsim::scenario::catalogue) {
+    if (column.name == "t" || column.panel == bbsim::scenario::Panel::orientation) continue;
+    CAPTURE(column.name);
+    CHECK(found.contains(std::string(column.name) + ' ' + std::string(column.unit)));
+  }
+  CHECK(found.at("push_y N") == "Push");
+  CHECK(found.at("position_error m") == "Error of x, y");
+  CHECK(found.at("phi_command rad") == "Gimbal");
+  CHECK(found.at("phi_command N m") == found.at("phi_torque N m"));
 }

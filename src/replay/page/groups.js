@@ -4,13 +4,17 @@
 'use strict';
 // Which curves stand in which plot: those that one looks at together, where the runs have them.
 bbsim.groups = (() => {
-  const {runs} = bbsim.data;
+  const {runs, scene} = bbsim.data;
   const {palette, text} = bbsim;
   const lead = runs[0];
 
+  // The program's table of columns, by name. Another name is written as it reads.
+  const symbols = new Map(scene.plots.flatMap(({columns}) => columns.map(({name, symbol}) => [name, symbol])));
+  const labelOf = (name) => symbols.get(name) || text.columnName(name);
+
   // curve: {run, name, label, values, colour(), pattern, width, dots, layer}
   const fromColumn = (run, name, style = {}) => ({
-    run, name, label: text.columnName(name), values: run.values(name), meaning: run.columns.get(name).meaning,
+    run, name, label: labelOf(name), values: run.values(name), meaning: run.columns.get(name).meaning,
     unit: run.columns.get(name).unit, ...style,
   });
 
@@ -33,60 +37,56 @@ bbsim.groups = (() => {
   const secondCommand = {colour: yColour, pattern: [1, 3], width: 2, layer: 1};
   const dots = {colour: sensor, dots: 'circle', layer: 4}, crosses = {colour: sensor, dots: 'cross', layer: 4};
 
-  // Columns of one plot, and how each is drawn.
-  const families = [
-    ['Position', 'm', {x: first, y: second, x_reference: firstBand, y_reference: secondBand, x_measured: dots, y_measured: crosses}],
-    ['Gimbal', 'rad', {phi: first, theta: second, phi_command: firstCommand, theta_command: secondCommand, tilt: third}],
-    ['Distance', 'm', {tracking_error: main, distance: third}],
-    ['Error of x, y', 'm', {position_error: main}],
-    ['Velocity', 'm/s', {speed: third, vx: first, vy: second}],
-    ['Turn of the ball', 'rad', {gamma: main}],
-    ['Rates', 'rad/s', {phi_rate: first, theta_rate: second, tilt_rate: third, spin: {...main, pattern: [2, 3]}}],
-    ['Accelerations', 'rad/s^2', {phi_acceleration: first, theta_acceleration: second, phi_command: firstCommand, theta_command: secondCommand}],
-    ['Friction demand', '1', {friction_demand: main, friction: third}],
-    ['Forces', 'N', {normal_force: first, friction_force: {...main, pattern: [8, 4]}}],
-    ['Motors\' torque', 'N m', {phi_torque: first, theta_torque: second, phi_torque_asked: firstCommand, theta_torque_asked: secondCommand}],
-    ['Commands', 'N m', {phi_command: first, theta_command: second}],
-    ['Commands', 'V', {phi_command: first, theta_command: second}],
-    ['Torques', 'N m', {motor_torque_phi: first, motor_torque_theta: second, torque_phi: {...first, pattern: [2, 3]},
-                        torque_theta: {...second, pattern: [9, 3, 2, 3]}}],
-    ['Power', 'W', {motor_power: main, power: third}],
-    ['Energy', 'J', {energy: main}],
-  ];
+  // As one of several of a kind.
+  const numbered = (curve, n) => ({...curve, colour: () => palette.run(n), pattern: palette.dash(n), layer: 3});
+
+  // How a curve is drawn beside the others of its plot.
+  function styleOf(curve, curves) {
+    const one = (ofFirst, ofSecond) => (curve.axis === 2 ? ofSecond : ofFirst);
+    if (curve.role === 'reference') return one(firstBand, secondBand);
+    if (curve.role === 'measured') return one(dots, crosses);
+    if (curve.role === 'command') return one(firstCommand, secondCommand);
+    const alike = curves.filter((other) => other.role === 'main' && other.axis === curve.axis).indexOf(curve);
+    if (curve.axis > 0) return alike === 0 ? one(first, second) : one({...first, pattern: [2, 3]}, {...second, pattern: [9, 3, 2, 3]});
+    const hasAxes = curves.some((other) => other.role === 'main' && other.axis > 0);
+    return (hasAxes ? [third, {...main, pattern: [2, 3]}] : [main, third])[alike] || numbered({}, alike);
+  }
+
+  // Of what the page computes: curves of a plot that the table does not have.
+  const beside = (plot) => ({plot, role: 'main', axis: 0});
 
   function derived(run) {
     const vx = run.values('vx'), vy = run.values('vy');
     const made = new Map();
-    if (vx && vy) made.set('speed', computed(run, 'speed', 'speed', 'm/s', 'size of (vx, vy)', (i) => Math.hypot(vx[i], vy[i])));
+    if (vx && vy) made.set('speed', computed(run, 'speed', 'speed', 'm/s', 'size of (vx, vy)', (i) => Math.hypot(vx[i], vy[i]), beside('Velocity')));
     if (run.hasReference && !run.columns.has('tracking_error')) {
       const x = run.values('x'), y = run.values('y'), xr = run.values('x_reference'), yr = run.values('y_reference');
       made.set('tracking_error', computed(run, 'tracking_error', 'tracking error', 'm', 'distance from the reference',
                                           (i) => Math.hypot(x[i] - xr[i], y[i] - yr[i])));
     }
     if (run.friction !== null && run.columns.has('friction_demand')) {
-      made.set('friction', computed(run, 'friction', 'coefficient of friction', '1', 'what the surface gives', () => run.friction));
+      made.set('friction', computed(run, 'friction', 'coefficient of friction', '1', 'what the surface gives', () => run.friction, beside('Friction demand')));
     }
     return made;
   }
 
-  // As one of several of a kind.
-  const numbered = (curve, n) => ({...curve, colour: () => palette.run(n), pattern: palette.dash(n), layer: 3});
-
   function ofOneRun() {
     const more = derived(lead), used = new Set(), plots = [];
-    for (const [title, unit, columns] of families) {
+    for (const {title, columns} of scene.plots) {
       const curves = [];
-      for (const [name, style] of Object.entries(columns)) {
+      const added = [...more.values()].filter((curve) => curve.plot === title);
+      for (const {name, unit, role, axis} of [...columns, ...added]) {
         if (used.has(name)) continue;
         const curve = more.get(name) || (lead.columns.has(name) ? fromColumn(lead, name) : null);
         // Of a table without units a name says what it belongs to.
         if (!curve || (curve.unit !== unit && (lead.unitsKnown || curve.unit !== ''))) continue;
         used.add(name);
-        curves.push({...curve, ...style});
+        curves.push({...curve, role, axis});
       }
-      if (curves.length > 0) plots.push({title, unit: curves[0].unit, curves});
+      if (curves.length === 0) continue;
+      plots.push({title, unit: curves[0].unit, curves: curves.map((curve) => ({...curve, ...styleOf(curve, curves)}))});
     }
-    // What no family knows: a plot for each unit, of four at most.
+    // What no plot above has: a plot for each unit, of four at most.
     const rest = new Map();
     for (const [name, column] of lead.columns) {
       if (used.has(name) || name.startsWith('ball_q')) continue;
@@ -99,7 +99,7 @@ bbsim.groups = (() => {
       const {unit} = lead.columns.get(names[0]);
       for (let from = 0; from < names.length; from += 4) {
         const some = names.slice(from, from + 4);
-        plots.push({title: some.map(text.columnName).join(', '), unit, curves: some.map((name, i) => numbered(fromColumn(lead, name), i))});
+        plots.push({title: some.map(labelOf).join(', '), unit, curves: some.map((name, i) => numbered(fromColumn(lead, name), i))});
       }
     }
     return plots;
@@ -132,11 +132,11 @@ bbsim.groups = (() => {
     one('y', 'y');
     plots.push({title: 'Distance between the runs', unit: runs.every((run) => run.unitsKnown) ? 'm' : '', curves: apart});
     const seen = new Set(['x', 'y', 'x_reference', 'y_reference', 'x_measured', 'y_measured']);
-    for (const [, , columns] of families) {
-      for (const name of Object.keys(columns)) {
+    for (const {columns} of scene.plots) {
+      for (const {name} of columns) {
         if (seen.has(name) || runs.filter((run) => run.columns.has(name)).length < 2) continue;
         seen.add(name);
-        one(name, text.columnName(name));
+        one(name, labelOf(name));
       }
     }
     return plots;
