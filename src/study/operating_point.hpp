@@ -1,12 +1,12 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The point of a scene's motion at a time, to linearise it about.
+// The point of a scene's motion at a time, to linearize it about.
 #pragma once
 
 #include <optional>
 
-#include "model/control/linearise.hpp"
+#include "model/control/linearize.hpp"
 #include "model/model.hpp"
 #include "scenario/scenario.hpp"
 #include "solve/outcome.hpp"
