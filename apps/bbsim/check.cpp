@@ -15,8 +15,8 @@
 #include "describe.hpp"
 #include "linear_report.hpp"
 #include "model/control/common_cycle.hpp"
-#include "model/control/sampled_cycle.hpp"
 #include "model/explain.hpp"
+#include "model/spectrum.hpp"
 #include "scenario/family.hpp"
 #include "scenario/reader.hpp"
 #include "solve/choose.hpp"
@@ -68,8 +68,8 @@ void tell_gain(Report& report, const Scenario& scenario, const model::Model& mod
 
 // Of an unstable loop they would mean nothing.
 void tell_margins(Report& report, const Scenario& scenario, const model::Model& model) {
-  const model::Linearisation made =
-      model::linearise(scenario, model, model::LinearKind::loop, model::home_point());
+  const model::Linearization made =
+      model::linearize(scenario, model, model::LinearKind::loop, model::home_point());
   report.line("margins", "of each command's loop, the other one closed");
   for (const LabelledLine& line : margin_lines(made)) report.line(line.label, line.text);
 }

@@ -6,7 +6,6 @@
 
 #include <string>
 
-#include "model/control/sampled_cycle.hpp"
 #include "model/model.hpp"
 #include "model/spectrum.hpp"
 #include "solve/outcome.hpp"

@@ -51,7 +51,7 @@ std::string values_line(const model::Eigenvalues& values) {
 
 }  // namespace
 
-std::vector<LabelledLine> margin_lines(const model::Linearisation& made) {
+std::vector<LabelledLine> margin_lines(const model::Linearization& made) {
   std::vector<LabelledLine> lines;
   for (const model::LoopMargins& loop : made.margins) {
     lines.push_back({"  " + loop.command.substr(0, loop.command.find('_')), text_of(loop.margins)});
@@ -85,7 +85,7 @@ std::vector<LabelledLine> margin_lines(const model::Linearisation& made) {
   return lines;
 }
 
-std::string linear_report(const std::string& of, const model::Linearisation& made) {
+std::string linear_report(const std::string& of, const model::Linearization& made) {
   std::string text;
   const auto line = [&text](const std::string& label, const std::string& what) {
     constexpr std::size_t width = 12;

@@ -101,7 +101,7 @@ ExitCode linearize(const LinearizeArguments& arguments, const Options& options) 
     point = *found.point;
   }
   const model::LinearKind kind = kind_of(arguments, scenario);
-  const model::Linearisation made = model::linearise(scenario, model, kind, point);
+  const model::Linearization made = model::linearize(scenario, model, kind, point);
   if (made.poles.empty()) {
     say("the " + std::string(name_of(kind)) + " about " + at +
         " has poles beyond the range of doubles.");

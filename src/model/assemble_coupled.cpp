@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "model/assemble_rig.hpp"
-#include "model/control/sampled_cycle.hpp"
+#include "model/control/derivatives.hpp"
 #include "scenario/coupled.hpp"
 
 namespace bbsim::model {
@@ -134,7 +134,7 @@ CoupledScene coupled_loop(const Scenario& scene, const CoupledParts& parts, Sign
   // Whatever links servos to the plane, a gain is one of the plane's angles.
   const auto plant = [&](const ServoResponses& servo) {
     const RigLoop<true> held(scene.ball.radius, scene.gravity, parts.ball.rolling, {}, servo, {});
-    return linear_plant(CoupledLoop<>(parts, by, motor, held));
+    return plant_at_home(CoupledLoop<>(parts, by, motor, held));
   };
   AssembledRig<true, Link> assembled = assemble_rig<true, Link>(scene, std::move(input), plant);
   Loop loop(parts, by, motor, assembled.loop);

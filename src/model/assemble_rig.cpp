@@ -8,7 +8,8 @@
 #include <numbers>
 #include <utility>
 
-#include "model/control/sampled_cycle.hpp"
+#include "model/control/derivatives.hpp"
+#include "model/control/riccati.hpp"
 #include "model/servo/linkages.hpp"
 #include "scenario/columns.hpp"
 
@@ -161,8 +162,8 @@ AssembledRig<integrates, Link> assemble_rig(const Scenario& scene, SignalPair re
                                             const PlantOf& plant) {
   const ServoResponses servo = servo_responses(scene);
   const PlantOf ideal = [&scene](const ServoResponses& behind) {
-    return linear_plant(
-        RigLoop<>(scene.ball.radius, scene.gravity, general_rolling(scene), {}, behind, {}));
+    return plant_at_home(
+        RigLoop<true>(scene.ball.radius, scene.gravity, general_rolling(scene), {}, behind, {}));
   };
   const ControlLaw law = control_law(scene, servo, plant ? plant : ideal);
   Rig rig = build_rig(scene, law);

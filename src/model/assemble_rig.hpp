@@ -6,7 +6,7 @@
 
 #include <functional>
 
-#include "model/control/sampled_cycle.hpp"
+#include "model/control/linear_system.hpp"
 #include "model/systems/rig.hpp"
 
 namespace bbsim::model {

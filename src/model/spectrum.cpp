@@ -7,8 +7,8 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <type_traits>
 
+#include "model/control/derivatives.hpp"
 #include "model/control/sampled_cycle.hpp"
 #include "model/eigenvalues.hpp"
 #include "model/exact_eigenvalues.hpp"
@@ -16,26 +16,6 @@
 
 namespace bbsim::model {
 namespace {
-
-// With the plane level at home, whatever its offsets.
-template <class Loop>
-Loop level(Loop loop) {
-  if constexpr (is_rig<Loop>) loop.mode = {};
-  if constexpr (is_coupled_loop<Loop>) {
-    loop.loop.mode = {};
-    using Link = std::decay_t<decltype(loop.loop.link)>;
-    if constexpr (std::is_same_v<Link, Linkages>) loop.loop.link = levelled(loop.loop.link);
-    if constexpr (std::is_same_v<Link, ThreeServos>) {
-      for (int i = 0; i < 2; ++i) {
-        loop.loop.link.cos_offset[i] = 1;
-        loop.loop.link.sin_offset[i] = 0;
-      }
-    }
-    loop.parts.contact = {};
-    for (MotorMode& motor : loop.motors) motor = {};
-  }
-  return loop;
-}
 
 constexpr double epsilon = std::numeric_limits<double>::epsilon();
 
@@ -138,52 +118,42 @@ Eigenvalues eigenvalues(const Model& model, double t, const double* z) {
   return sorted_eigenvalues(matrix);
 }
 
+namespace {
+
+// Whether a law moves the gimbal in continuous time, or given torques do.
+template <class System>
+bool has_loop(const System& system) {
+  if constexpr (is_coupled_loop<System>) {
+    return system.law().kind != LawKind::held || system.by == GimbalBy::given_torques;
+  } else if constexpr (is_rig<System>) {
+    return system.law().kind != LawKind::held;
+  } else {
+    return !System::open_loop && !is_coupled<System>;
+  }
+}
+
+}  // namespace
+
 Eigenvalues closed_loop_poles(const Model& model) {
-  return std::visit(
-      [](const auto& loop) -> Eigenvalues {
-        using Loop = std::decay_t<decltype(loop)>;
-        if constexpr (Loop::open_loop || (is_coupled<Loop> && !is_coupled_loop<Loop>)) {
-          return {};
-        } else {
-          // Where the reference is, is no matter of home.
-          Eigen::MatrixXd full(Loop::size, Loop::size);
-          jacobian_at_home(level(loop), full.data());
-          constexpr int spin = spin_index<Loop>;
-          if constexpr (is_coupled_loop<Loop>) {
-            if (loop.law().kind == LawKind::held && loop.by != GimbalBy::given_torques) return {};
-            using Layout = typename Loop::Layout;
-            std::vector<int> rest{0, 1, 2, 3};
-            for (int i = Layout::angle; i < Layout::integral; ++i) rest.push_back(i);
-            for (int j = 0; j < 2; ++j) {
-              if (loop.law().integrates(static_cast<std::size_t>(j))) {
-                rest.push_back(Layout::integral + j);
-              }
-            }
-            if (loop.motor.from_integral != 0) {
-              rest.insert(rest.end(), {Layout::motor, Layout::motor + 1});
-            }
-            return sorted_eigenvalues(full(rest, rest));
-          } else if constexpr (is_rig<Loop>) {
-            if (loop.law().kind == LawKind::held) return {};
-            // Without the spin, as below, and without an integral part that never changes.
-            std::vector<int> rest{0, 1, 2, 3, 5, 6, 7, 8};
-            for (int i = 9; i < Loop::size; ++i) {
-              if (loop.law().integrates(static_cast<std::size_t>(i - 9))) rest.push_back(i);
-            }
-            return sorted_eigenvalues(full(rest, rest));
-          } else if constexpr (spin < 0) {
-            return sorted_eigenvalues(full);
-          } else {
-            // At home the spin neither feels the other states nor acts on them.
-            std::vector<int> rest;
-            for (int i = 0; i < Loop::size; ++i) {
-              if (i != spin) rest.push_back(i);
-            }
-            return sorted_eigenvalues(full(rest, rest));
-          }
-        }
-      },
-      model.system);
+  if (!std::visit([](const auto& system) { return has_loop(system); }, model.system)) return {};
+  const LoopDerivatives loop = loop_derivatives(model, home_point());
+  const std::vector<int> states = loop_states(loop, moving_axes(model));
+  return sorted_eigenvalues(loop.of_state(states, states));
+}
+
+Eigenvalues plant_poles(const Model& model) {
+  const PlantDerivatives plant = plant_derivatives(model, home_point(), Heave::left_out);
+  const std::vector<int> states =
+      linear_states(plant.places, plant.of_state, moving_axes(model), SpinStands::last);
+  return sorted_eigenvalues(plant.of_state(states, states));
+}
+
+Eigenvalues sampled_poles(const Model& model) {
+  if (!model.rig || !model.rig->sampled || model.rig->sampled->law.kind == LawKind::held) return {};
+  const LinearPoint home = home_point();
+  const PlantDerivatives plant = plant_derivatives(model, home, Heave::left_out);
+  std::vector<int> states;
+  return poles_of_period(SampledCycle(cycle_parts(plant, *model.rig, home, states)).map());
 }
 
 int growing(const Eigenvalues& poles) {

@@ -51,7 +51,7 @@ Json number_or_null(double value) {
 }
 
 std::string title_of(const LinearReport& report) {
-  const LinearSystem& system = report.linearisation.system;
+  const LinearSystem& system = report.linearization.system;
   std::string text =
       "The " + report.kind + " of " + printable_ascii(report.scenario) + " about " + report.at;
   if (report.kind == "sampled") text.replace(0, 11, "The sampled plant");
@@ -105,7 +105,7 @@ std::array<const Eigen::MatrixXd*, 4> matrices_of(const LinearSystem& system) {
 }  // namespace
 
 std::string to_json(const LinearReport& report) {
-  const model::Linearisation& made = report.linearisation;
+  const model::Linearization& made = report.linearization;
   const LinearSystem& system = made.system;
   Json json = Json::object();
   json["scenario"] = report.scenario;
@@ -150,7 +150,7 @@ std::string to_json(const LinearReport& report) {
 }
 
 std::string to_matlab(const LinearReport& report) {
-  const LinearSystem& system = report.linearisation.system;
+  const LinearSystem& system = report.linearization.system;
   constexpr Brackets brackets{"[", "", ", ", "", "; ...\n     ", "];\n"};
   std::string text = opening(report, "%");
   const auto matrices = matrices_of(system);
@@ -178,7 +178,7 @@ std::string to_matlab(const LinearReport& report) {
 }
 
 std::string to_python(const LinearReport& report) {
-  const LinearSystem& system = report.linearisation.system;
+  const LinearSystem& system = report.linearization.system;
   constexpr Brackets brackets{"numpy.array([", "[", ", ", "]", ",\n    ", "])\n"};
   std::string text = opening(report, "#") + "import numpy\n\n";
   const auto matrices = matrices_of(system);
@@ -205,7 +205,7 @@ std::string to_python(const LinearReport& report) {
 }
 
 std::string to_csv(const LinearReport& report) {
-  const LinearSystem& system = report.linearisation.system;
+  const LinearSystem& system = report.linearization.system;
   std::string text = "row";
   for (const Signals* signals : {&system.states, &system.inputs}) {
     for (const LinearSignal& signal : *signals) text += ',' + signal.name;

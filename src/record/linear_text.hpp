@@ -6,14 +6,14 @@
 
 #include <string>
 
-#include "model/control/linearise.hpp"
+#include "model/control/linearize.hpp"
 
 namespace bbsim::record {
 
-// A linearisation, and what it is of.
+// A linearization, and what it is of.
 struct LinearReport {
   std::string scenario, kind, at;  // "loop", "home"
-  const model::Linearisation& linearisation;
+  const model::Linearization& linearization;
 };
 
 // states, inputs, outputs, A, B, C, D, poles and period, which is null in continuous time; and

@@ -11,7 +11,6 @@
 #include <utility>
 
 #include "model/control/common_cycle.hpp"
-#include "model/control/sampled_cycle.hpp"
 #include "model/model.hpp"
 #include "model/signals/reference_path.hpp"
 #include "model/spectrum.hpp"

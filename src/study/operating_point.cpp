@@ -54,12 +54,10 @@ model::LinearPoint point_of(const model::Model& model, double time, const double
           point.reference = system.reference().at(time);
         }
         // The states have the angles of the servos, not of the plate.
-        if constexpr (model::is_rig<Any>) std::copy_n(row, Any::size, point.state.begin());
+        if constexpr (model::is_rig<Any> || model::is_coupled_loop<Any>) {
+          point.state.assign(row, row + Any::size);
+        }
         if constexpr (model::is_coupled_loop<Any>) {
-          point.own.assign(row, row + Any::size);
-          if constexpr (Any::servos == 2) {
-            std::copy_n(row, point.state.size(), point.state.begin());
-          }
           if (system.by == model::GimbalBy::given_torques) {
             for (std::size_t i = 0; i < 2; ++i) point.command[i] = point.reference[i].value;
           }

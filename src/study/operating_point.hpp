@@ -6,7 +6,7 @@
 
 #include <optional>
 
-#include "model/control/linearise.hpp"
+#include "model/control/linearize.hpp"
 #include "model/model.hpp"
 #include "scenario/scenario.hpp"
 #include "solve/outcome.hpp"

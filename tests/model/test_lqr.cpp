@@ -12,6 +12,7 @@
 #include "model/control/common_cycle.hpp"
 #include "model/control/riccati.hpp"
 #include "model/control/sampled_cycle.hpp"
+#include "model/spectrum.hpp"
 #include "support/run_in_memory.hpp"
 #include "support/scenes.hpp"
 
@@ -71,15 +72,15 @@ TEST_CASE("Riccati equations with known solutions") {
   CHECK_THROWS_AS(model::solve_continuous_riccati(a, MatrixXd::Zero(2, 1), q, one(1)), InputError);
 }
 
-TEST_CASE("LQR gains of the rig solve their equation and stabilise it") {
-  const auto built = model::assemble_rig<false>(lqr_scene(false), {});
-  const model::LinearPlant plant = model::linear_plant(built.loop);
+TEST_CASE("LQR gains of the rig solve their equation and stabilize it") {
+  const auto built = model::assemble_rig<true>(lqr_scene(false), {});
+  const model::LinearPlant plant = model::plant_at_home(built.loop);
   const LqrWeights weights = lqr_scene(false).controller->weights;
   const auto gain = model::lqr_gain(plant, weights, 0);
   const MatrixXd closed = plant.a - plant.b * gain;
   for (const auto& pole : closed.eigenvalues()) CHECK(pole.real() < -0.1);
 
-  const model::LinearPlant step = model::after(plant, 0.02);
+  const model::LinearPlant step = model::zero_order_hold(plant, 0.02);
   const auto sampled = model::lqr_gain(plant, weights, 0.02);
   const MatrixXd map = step.a - step.b * sampled;
   for (const auto& pole : map.eigenvalues()) CHECK(std::abs(pole) < 0.999);
@@ -110,8 +111,7 @@ namespace {
 // coefficients are those of M's characteristic polynomial (Cayley and Hamilton).
 void check_recurrence(const Scenario& scene, std::size_t samples) {
   const model::Model model = model::assemble(scene, false);
-  const auto poles =
-      model::sampled_poles(std::get<model::RigLoop<false>>(model.system), *model.rig);
+  const auto poles = model::sampled_poles(model);
   std::vector<std::complex<double>> polynomial{1};  // by falling powers
   for (const auto& pole : poles) {
     polynomial.push_back(0);
@@ -223,8 +223,7 @@ TEST_CASE("delays make a sampled loop unstable where its poles say so") {
   const bool slow = GENERATE(false, true);
   scene.controller->sampling = Sampling{0.02, slow ? 0.12 : 0.01, 0, 0.01};
   const model::Model model = model::assemble(scene, false);
-  const double size =
-      largest(model::sampled_poles(std::get<model::RigLoop<false>>(model.system), *model.rig));
+  const double size = largest(model::sampled_poles(model));
   CHECK((size > 1) == slow);
   scene.time = {4, 0.02};
   const Run run = run_in_memory(scene, Method::automatic, {1e-9, 1e-15}, false);

@@ -9,7 +9,7 @@
 #include <string>
 
 #include "catch.hpp"
-#include "model/control/linearise.hpp"
+#include "model/control/linearize.hpp"
 #include "model/control/sampled_cycle.hpp"
 #include "model/control/transmission_zeros.hpp"
 #include "model/exact_eigenvalues.hpp"
@@ -20,15 +20,15 @@ using namespace bbsim;
 using namespace bbsim_test;
 using Eigen::MatrixXd;
 using model::Eigenvalues;
-using model::Linearisation;
+using model::Linearization;
 using model::LinearKind;
 using model::Margins;
 using Complex = std::complex<double>;
 
 namespace {
 
-Linearisation loop_of(const Scenario& scene) {
-  return model::linearise(scene, model::assemble(scene, false), LinearKind::loop,
+Linearization loop_of(const Scenario& scene) {
+  return model::linearize(scene, model::assemble(scene, false), LinearKind::loop,
                           model::home_point());
 }
 
@@ -172,7 +172,7 @@ TEST_CASE("a margin of phase below 0 is of lead: so much of it brings the loop t
   const Margins margins = loop_of(scene).margins[0].margins;
   REQUIRE(margins.phase < 0);
   // L = K(z) G(z), of the plant that a command is held for.
-  const Linearisation plant = model::linearise(scene, model::assemble(scene, false),
+  const Linearization plant = model::linearize(scene, model::assemble(scene, false),
                                                LinearKind::sampled, model::home_point());
   const auto& system = plant.system;
   const model::FrequencyResponse response(system.a, system.b, system.c, system.d, 0.03);
@@ -189,8 +189,8 @@ TEST_CASE("where the plane turns, what the spin does is no margin") {
   for (const bool sampled : {false, true}) {
     Scenario moving = scene;
     if (sampled) moving.controller->sampling = Sampling{0.01};
-    const Linearisation made =
-        model::linearise(moving, model::assemble(moving, false), LinearKind::loop, at);
+    const Linearization made =
+        model::linearize(moving, model::assemble(moving, false), LinearKind::loop, at);
     REQUIRE(made.system.states[4].name == (sampled ? "phi" : "r*spin"));
     for (const model::LoopMargins& one : made.margins) {
       CAPTURE(sampled, one.command);
@@ -267,7 +267,7 @@ TEST_CASE("zeros are those of the plant behind servos of any speed, and of the l
       CAPTURE(name, speed);
       // 5/7 g is beside r speed^2 in an entry of A: so much of its digits is left.
       const double conditioning = 1e-15 * (1 + r * speed * speed / (5 * scene.gravity / 7));
-      const auto plant = model::linearise(scene, model::assemble(scene, false), LinearKind::plant,
+      const auto plant = model::linearize(scene, model::assemble(scene, false), LinearKind::plant,
                                           model::home_point());
       const Eigenvalues of_plant{beyond, beyond, -beyond, -beyond};
       CHECK(worst_of(plant.zeros, of_plant) < 1e-13 + 10 * conditioning);
@@ -346,7 +346,7 @@ TEST_CASE("a plant under a held command keeps what is slow beside what is 1e13 t
   plant.a(1, 1) = -3;
   plant.a(1, 2) = 1;
   plant.b(2, 0) = 1;
-  const model::LinearPlant later = model::after(plant, 0.02);
+  const model::LinearPlant later = model::zero_order_hold(plant, 0.02);
   CHECK(later.a(1, 1) == Approx(std::exp(-0.06)).epsilon(1e-14));
   CHECK(later.a(1, 2) == Approx(-std::expm1(-0.06) / 3).epsilon(1e-13));
   CHECK(later.a(0, 2) == Approx(later.a(1, 2)).epsilon(1e-11));

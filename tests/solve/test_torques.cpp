@@ -6,7 +6,6 @@
 #include <string>
 
 #include "catch.hpp"
-#include "model/control/sampled_cycle.hpp"
 #include "model/spectrum.hpp"
 #include "support/energy_balance.hpp"
 #include "support/largest.hpp"

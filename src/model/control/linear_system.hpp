@@ -11,6 +11,11 @@
 
 namespace bbsim::model {
 
+// z' = A z + B u; or, with a period, z a period later.
+struct LinearPlant {
+  Eigen::MatrixXd a, b;
+};
+
 struct LinearSignal {
   std::string name, unit;
 };

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "base/error.hpp"
+#include "model/control/sampled_cycle.hpp"
 #include "model/dense.hpp"
 #include "model/eigenvalues.hpp"
 
@@ -70,6 +71,20 @@ RiccatiSolution solve_continuous_riccati(const MatrixXd& a, const MatrixXd& b, c
               2 * shift * product(product(w, q), inverted));
   solution.gain = product(product(inverse(r), b_transposed), solution.cost);
   return solution;
+}
+
+Eigen::Matrix<double, 2, 8> lqr_gain(const LinearPlant& plant, const LqrWeights& weights,
+                                     double period) {
+  Eigen::VectorXd diagonal(8);
+  diagonal << weights.position, weights.position, weights.velocity, weights.velocity, weights.angle,
+      weights.angle, weights.rate, weights.rate;
+  const MatrixXd q = diagonal.asDiagonal();
+  const MatrixXd r = weights.command * MatrixXd::Identity(2, 2);
+  if (period > 0) {
+    const LinearPlant step = zero_order_hold(plant, period);
+    return solve_discrete_riccati(step.a, step.b, q, r).gain;
+  }
+  return solve_continuous_riccati(plant.a, plant.b, q, r).gain;
 }
 
 }  // namespace bbsim::model

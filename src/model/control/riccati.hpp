@@ -6,6 +6,9 @@
 
 #include <Eigen/Core>
 
+#include "model/control/linear_system.hpp"
+#include "scenario/scenario.hpp"
+
 namespace bbsim::model {
 
 // The stabilising solution X of A^T X A - X - A^T X B (R + B^T X B)^-1 B^T X A + Q = 0, and the
@@ -29,5 +32,11 @@ struct RiccatiSolution {
                                                        const Eigen::MatrixXd& b,
                                                        const Eigen::MatrixXd& q,
                                                        const Eigen::MatrixXd& r);
+
+// The gain K of Law::lqr, u = K (reference - z) with z as plant_at_home() has it: rows phi, theta.
+// Weights are the diagonals of Q and R. `period` (s) > 0 is that of a sampled loop, whose delays
+// the gain does not know; 0 is continuous time. Throws InputError where no gain stabilizes.
+[[nodiscard]] Eigen::Matrix<double, 2, 8> lqr_gain(const LinearPlant& plant,
+                                                   const LqrWeights& weights, double period);
 
 }  // namespace bbsim::model

@@ -15,11 +15,10 @@ BallSensor::BallSensor(const Sensor& sensor) : sensor_(sensor), noise_(sensor.se
 }
 
 bool BallSensor::read(double x, double y, Pair& seen) {
-  double says[2] = {x, y};
+  std::array<double, 2> says{x, y};
   if (!sensor_.is_aligned()) {
-    const double c = std::cos(sensor_.rotation), s = std::sin(sensor_.rotation);
-    says[0] = sensor_.scale[0] * (c * x - s * y) + sensor_.offset[0];
-    says[1] = sensor_.scale[1] * (s * x + c * y) + sensor_.offset[1];
+    says = turned(sensor_, x, y);
+    for (std::size_t i = 0; i < 2; ++i) says[i] += sensor_.offset[i];
   }
   bool missed = false;
   // Each sample draws alike, whatever it sees, so that runs with one seed have one noise.

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <optional>
 
 #include "base/noise.hpp"
@@ -12,6 +13,13 @@
 #include "model/systems/rig.hpp"
 
 namespace bbsim::model {
+
+// What a sensor makes of a position by its rotation and scale, without its offset; m.
+template <class Real>
+[[nodiscard]] std::array<Real, 2> turned(const Sensor& sensor, const Real& x, const Real& y) {
+  const double c = std::cos(sensor.rotation), s = std::sin(sensor.rotation);
+  return {sensor.scale[0] * (c * x - s * y), sensor.scale[1] * (s * x + c * y)};
+}
 
 // A touch screen or a camera, read once a sample.
 class BallSensor {

@@ -4,67 +4,18 @@
 #include "model/control/sampled_cycle.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <deque>
-#include <type_traits>
 #include <utility>
 
 #include "model/control/common_cycle.hpp"
-#include "model/control/linear_law.hpp"
-#include "model/control/riccati.hpp"
 #include "model/dense.hpp"
-#include "model/systems/any_jacobian.hpp"
 
 namespace bbsim::model {
-namespace {
 
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 using Vector2 = Eigen::Vector2d;
-
-// Where the states of LinearPlant are among those of RigLoop.
-constexpr std::array places{0, 1, 2, 3, 5, 6, 7, 8};
-
-template <bool integrates>
-RigLoop<integrates> held(const RigLoop<integrates>& loop) {
-  return {loop.radius(), loop.gravity(), loop.rolling(), ControlLaw{}, loop.servo(), {}};
-}
-
-// With a plane that is level at home, where a linkage's own angle may not be 0.
-RigLoop<true, SignalPair, Linkages> held(const RigLoop<true, SignalPair, Linkages>& loop) {
-  return {loop.radius(),      loop.gravity(), loop.rolling(), ControlLaw{}, loop.servo(), {}, {},
-          levelled(loop.link)};
-}
-
-// Three servos, about home, are two ideal ones.
-RigLoop<true> held(const RigLoop<true, SignalPair, ThreeServos>& loop) {
-  return {loop.radius(), loop.gravity(), loop.rolling(), ControlLaw{}, loop.servo(), {}};
-}
-
-// The states in `of` about home, under commands that are held in `mode`, the loop's own.
-template <class Loop>
-LinearPlant about_home(Loop& loop, RigMode& mode, const std::vector<int>& of) {
-  const double home[Loop::size] = {};
-  MatrixXd full(Loop::size, Loop::size);
-  jacobian(loop, 0.0, home, full.data());
-  double none[Loop::size], one[Loop::size];
-  loop.derivative(0.0, home, none);
-  const auto n = static_cast<Eigen::Index>(of.size());
-  LinearPlant plant{full(of, of), MatrixXd(n, 2)};
-  for (int j = 0; j < 2; ++j) {
-    mode.command[j] = 1;
-    loop.derivative(0.0, home, one);
-    mode.command[j] = 0;
-    for (Eigen::Index i = 0; i < n; ++i) {
-      const int place = of[static_cast<std::size_t>(i)];
-      plant.b(i, j) = one[place] - none[place];
-    }
-  }
-  return plant;
-}
-
-}  // namespace
 
 using Pairs = Eigen::Matrix<double, 2, Eigen::Dynamic>;
 
@@ -80,14 +31,32 @@ struct SampledCycle::Outputs {
   Pairs seen, law;
 };
 
-void CycleParts::take_controller(const Rig& rig, const LinearLaw& law) {
-  of_feedback = law.of_feedback;
-  of_reference = law.of_reference;
-  sampling = rig.sampled->sampling;
-  sensor = rig.sampled->sensor;
-  const double(&k)[2][2] = rig.sampled->law.integral;
-  of_integral << k[0][0], k[0][1], k[1][0], k[1][1];
-  for (int i = 0; i < servos; ++i) time_constant[i] = rig.servo[i].time_constant;
+CycleParts cycle_parts(const PlantDerivatives& plant, const Rig& rig, const LinearPoint& at,
+                       std::vector<int>& states) {
+  states = linear_states(plant.places, plant.of_state, {0, 1}, SpinStands::last);
+  const SampledLoop& sampled = *rig.sampled;
+  CycleParts parts;
+  parts.servos = plant.places.servos;
+  parts.a = plant.of_state(states, states);
+  parts.b = plant.of_command(states, Eigen::all);
+  parts.jump = plant.kick(states, Eigen::all);
+  const LawDerivatives law = law_derivatives(sampled.law, plant.fed, at.reference);
+  parts.of_feedback = law.of_feedback;
+  parts.of_reference = law.of_reference;
+  if (plant.believed.size() > 0) parts.fed = plant.believed(Eigen::all, states);
+  if (plant.told.size() > 0 && parts.servos == 2) {
+    // Commands that wait are the servos' own.
+    parts.of_feedback = product(plant.told, law.of_feedback);
+    parts.of_reference = product(plant.told, law.of_reference);
+  } else {
+    parts.told = plant.told;
+  }
+  parts.sampling = sampled.sampling;
+  parts.sensor = sampled.sensor;
+  const double(&k)[2][2] = sampled.law.integral;
+  parts.of_integral << k[0][0], k[0][1], k[1][0], k[1][1];
+  for (int i = 0; i < parts.servos; ++i) parts.time_constant[i] = rig.servo[i].time_constant;
+  return parts;
 }
 
 namespace {
@@ -202,7 +171,7 @@ void SampledCycle::plan() {
       way = static_cast<std::size_t>(known - lengths.begin());
       if (known == lengths.end()) {
         lengths.push_back(length);
-        ways_.push_back(after({parts_.a, parts_.b}, length));
+        ways_.push_back(zero_order_hold({parts_.a, parts_.b}, length));
       }
     }
     steps_.push_back({way, event.act});
@@ -363,158 +332,13 @@ MatrixXd SampledCycle::map() const {
   return run_all(MatrixXd::Identity(size(), size()), {}).states;
 }
 
-LinearPlant linear_plant(const RigLoop<>& loop) {
-  RigLoop<> plain = held(loop);
-  return about_home(plain, plain.mode, {places.begin(), places.end()});
-}
-
-namespace {
-
-template <class Link, class Held>
-LinearPlant coupled_plant(const CoupledLoop<SignalPair, Link>& loop, Held held_loop) {
-  CoupledParts parts = loop.parts;
-  parts.contact = {};
-  CoupledLoop plain(parts, loop.by, loop.motor, std::move(held_loop));
-  std::vector<int> of(places.begin(), places.end());
-  if (loop.motor.from_integral != 0) {
-    of.insert(of.end(), {CoupledLoopLayout::motor, CoupledLoopLayout::motor + 1});
-  }
-  return about_home(plain, plain.loop.mode, of);
-}
-
-}  // namespace
-
-LinearPlant linear_plant(const CoupledLoop<>& loop) {
-  return coupled_plant(loop, held(loop.loop));
-}
-
-LinearPlant linear_plant(const CoupledLoop<SignalPair, Linkages>& loop) {
-  return coupled_plant(loop, held(loop.loop));
-}
-
-LinearPlant linear_plant(const CoupledLoop<SignalPair, ThreeServos>& loop) {
-  return coupled_plant(loop, held(loop.loop));
-}
-
-Eigen::Matrix2d seen_matrix(const Sensor& sensor) {
-  const double c = std::cos(sensor.rotation), s = std::sin(sensor.rotation);
-  Eigen::Matrix2d matrix;
-  matrix << sensor.scale[0] * c, -sensor.scale[0] * s, sensor.scale[1] * s, sensor.scale[1] * c;
-  return matrix;
-}
-
-Linkages levelled(const Linkages& link) {
-  Linkages level = link;
-  for (LinkCurve& one : level.of) {
-    const Turn<double> home = one.plain_turn(0.0);
-    one.set_offsets(0, std::atan2(home.sin, home.cos));
-  }
-  return level;
-}
-
-LinearPlant after(const LinearPlant& plant, double time) {
+LinearPlant zero_order_hold(const LinearPlant& plant, double time) {
   const Eigen::Index n = plant.a.rows();
   MatrixXd both = MatrixXd::Zero(n + 2, n + 2);
   both.topLeftCorner(n, n) = plant.a * time;
   both.topRightCorner(n, 2) = plant.b * time;
   const MatrixXd all = exponential(both);
   return {all.topLeftCorner(n, n), all.topRightCorner(n, 2)};
-}
-
-Eigen::Matrix<double, 2, 8> lqr_gain(const LinearPlant& plant, const LqrWeights& weights,
-                                     double period) {
-  VectorXd diagonal(8);
-  diagonal << weights.position, weights.position, weights.velocity, weights.velocity, weights.angle,
-      weights.angle, weights.rate, weights.rate;
-  const MatrixXd q = diagonal.asDiagonal();
-  const MatrixXd r = weights.command * MatrixXd::Identity(2, 2);
-  if (period > 0) {
-    const LinearPlant step = after(plant, period);
-    return solve_discrete_riccati(step.a, step.b, q, r).gain;
-  }
-  return solve_continuous_riccati(plant.a, plant.b, q, r).gain;
-}
-
-namespace {
-
-// The plant's first eight states are those of LinearPlant, and `loop` kicks the ball as it does.
-template <bool integrates, class Link>
-CycleParts parts_of(const LinearPlant& plant, const RigLoop<integrates, SignalPair, Link>& loop,
-                    const Rig& rig) {
-  using Loop = RigLoop<integrates, SignalPair, Link>;
-  CycleParts parts;
-  parts.a = plant.a;
-  parts.b = plant.b;
-  parts.jump = MatrixXd::Zero(plant.a.rows(), 2);
-  for (int i = 0; i < 2; ++i) {
-    double home[Loop::size] = {};
-    home[Loop::Layout::rate + i] = 1;
-    const auto rates = loop.plane_rates(home);
-    home[Loop::Layout::rate + i] = 0;
-    const auto kick = loop.impulse(home, rates[0], rates[1]);
-    parts.jump.col(i).template head<8>() << 0, 0, kick[0], kick[1], 0, 0, i == 0 ? 1 : 0,
-        i == 0 ? 0 : 1;
-  }
-  parts.take_controller(rig, linear_law(rig.sampled->law, {}, {}));
-  if constexpr (std::is_same_v<Link, Linkages>) {
-    double slope[2];
-    for (int i = 0; i < 2; ++i) slope[i] = loop.link.of[i].slope;
-    parts.link_controller(slope, slope);
-  }
-  return parts;
-}
-
-}  // namespace
-
-void CycleParts::link_controller(const double (&of_command)[2], const double (&of_angle)[2]) {
-  for (int i = 0; i < 2; ++i) {
-    of_feedback.col(4 + i) *= of_angle[i];
-    of_feedback.col(6 + i) *= of_angle[i];
-  }
-  for (int i = 0; i < 2; ++i) {
-    of_feedback.row(i) /= of_command[i];
-    of_reference.row(i) /= of_command[i];
-  }
-}
-
-CycleParts cycle_parts(const RigLoop<>& loop, const Rig& rig) {
-  const RigLoop<> plain = held(loop);
-  return parts_of(linear_plant(plain), plain, rig);
-}
-
-Eigenvalues sampled_poles(const RigLoop<>& loop, const Rig& rig) {
-  if (rig.sampled->law.kind == LawKind::held) return {};
-  return poles_of_period(SampledCycle(cycle_parts(loop, rig)).map());
-}
-
-Eigenvalues sampled_poles(const Model& model) {
-  return std::visit(
-      [&](const auto& any) -> Eigenvalues {
-        using Any = std::decay_t<decltype(any)>;
-        if constexpr (is_coupled_loop<Any>) {
-          if (model.rig->sampled->law.kind == LawKind::held) return {};
-          return poles_of_period(
-              SampledCycle(parts_of(linear_plant(any), held(any.loop), *model.rig)).map());
-        } else if constexpr (std::is_same_v<Any, RigLoop<>>) {
-          return sampled_poles(any, *model.rig);
-        } else {
-          return {};
-        }
-      },
-      model.system);
-}
-
-Eigenvalues plant_poles(const Model& model) {
-  return std::visit(
-      [](const auto& any) -> Eigenvalues {
-        using Any = std::decay_t<decltype(any)>;
-        if constexpr (is_coupled_loop<Any> || std::is_same_v<Any, RigLoop<>>) {
-          return sorted_eigenvalues(linear_plant(any).a);
-        } else {
-          return {};
-        }
-      },
-      model.system);
 }
 
 }  // namespace bbsim::model

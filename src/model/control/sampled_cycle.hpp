@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// A rig as a linear system: for LQR gains, and what a sampled loop does in a period.
+// What a sampled loop does in a period, as a linear map.
 #pragma once
 
 #include <Eigen/Core>
@@ -10,35 +10,14 @@
 #include <string>
 #include <vector>
 
-#include "model/control/linear_law.hpp"
+#include "model/control/derivatives.hpp"
 #include "model/control/linear_system.hpp"
-#include "model/spectrum.hpp"
 #include "model/systems/rig.hpp"
 
 namespace bbsim::model {
 
-// z' = A z + B u for z = (x, y, x', y', phi, theta, phi', theta') and the commands u, about home,
-// without limits, dead band and backlash. The spin, which does not act on them there, is left out.
-struct LinearPlant {
-  // A motor's own loop with an integral has the two integrals after the 8.
-  Eigen::MatrixXd a, b;
-};
-
-[[nodiscard]] LinearPlant linear_plant(const RigLoop<>& loop);
-// Without what is dry, and under the servos' commands.
-[[nodiscard]] LinearPlant linear_plant(const CoupledLoop<>& loop);
-[[nodiscard]] LinearPlant linear_plant(const CoupledLoop<SignalPair, Linkages>& loop);
-// Of three servos together, which about home do what two ideal ones would: under commands of phi
-// and theta.
-[[nodiscard]] LinearPlant linear_plant(const CoupledLoop<SignalPair, ThreeServos>& loop);
-
 // z and u after `time` (s) under a constant command: z(time) = a z + b u.
-[[nodiscard]] LinearPlant after(const LinearPlant& plant, double time);
-
-// The gain of Law::lqr: rows phi, theta; columns as z above. `period` > 0 for a sampled loop, whose
-// delays the gain does not know. Throws InputError where no gain stabilises.
-[[nodiscard]] Eigen::Matrix<double, 2, 8> lqr_gain(const LinearPlant& plant,
-                                                   const LqrWeights& weights, double period);
+[[nodiscard]] LinearPlant zero_order_hold(const LinearPlant& plant, double time);
 
 // What a sampled loop is made of, about any point. The first states of the plant are x, y, x', y',
 // the servos' angles and their rates; others may follow.
@@ -59,19 +38,12 @@ struct CycleParts {
   Sensor sensor;      // which looks for each sample where it has no frames of a known cycle
   Eigen::Matrix2d of_integral = Eigen::Matrix2d::Zero();  // rates of the integral parts, of e
   std::optional<double> time_constant[most_servos]{};     // of servos of first order, s
-
-  // All but the plant: the rig's controller, whose law is near this one.
-  void take_controller(const Rig& rig, const LinearLaw& law);
-  // The law's commands are of the plane's angles, and what it feeds back are: such slopes of the
-  // plane's angles over the servos' has a linkage where it is commanded, and where it is.
-  void link_controller(const double (&of_command)[2], const double (&of_angle)[2]);
 };
 
-// What a sensor says of a position, as a matrix; without its offset.
-[[nodiscard]] Eigen::Matrix2d seen_matrix(const Sensor& sensor);
-
-// A linkage under a plane that is level at home.
-[[nodiscard]] Linkages levelled(const Linkages& link);
+// About a point: of the plant there, and of the rig's sampled controller. `states` gets the numbers
+// of the plant's states that the cycle has.
+[[nodiscard]] CycleParts cycle_parts(const PlantDerivatives& plant, const Rig& rig,
+                                     const LinearPoint& at, std::vector<int>& states);
 
 // What a sampled loop does from a sample on, linear, until samples and frames meet again: to the
 // next sample, if there are no frames, or one for each (common_cycle.hpp). Of its state, in this
@@ -134,20 +106,5 @@ class SampledCycle {
   std::vector<int> skipped_;
   int skipped_last_ = 0;
 };
-
-// About home.
-[[nodiscard]] CycleParts cycle_parts(const RigLoop<>& loop, const Rig& rig);
-
-// The poles of a sampled loop about home: eigenvalues of what a cycle does to the plant, to what
-// is on its way through the delays, and to what the controller remembers. The loop is stable if all
-// lie within the unit circle. By falling size; empty if the gains are too large for numbers, or if
-// the law is not for the model to know.
-[[nodiscard]] Eigenvalues sampled_poles(const RigLoop<>& loop, const Rig& rig);
-// The same of a model whose loop is sampled.
-[[nodiscard]] Eigenvalues sampled_poles(const Model& model);
-
-// The poles of the LinearPlant of a model with a rig under a constant command, 1/s, by falling real
-// part.
-[[nodiscard]] Eigenvalues plant_poles(const Model& model);
 
 }  // namespace bbsim::model

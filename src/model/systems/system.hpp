@@ -194,6 +194,9 @@ class OpenLoop {
   }
 
   [[nodiscard]] const Signals& motion() const { return motion_; }
+  [[nodiscard]] const Equation& equation() const { return equation_; }
+  [[nodiscard]] double radius() const { return r_; }
+  [[nodiscard]] double gravity() const { return g_; }
 
  private:
   template <class Phi, class Theta>
@@ -347,6 +350,10 @@ class ClosedLoop {
   }
 
   [[nodiscard]] const Signals& reference() const { return reference_; }
+  [[nodiscard]] const BasicGains<Scalar>& gains() const { return gains_; }
+  [[nodiscard]] const BasicServoLaw<Scalar>& servo() const { return servo_; }
+  [[nodiscard]] Scalar radius() const { return r_; }
+  [[nodiscard]] Scalar gravity() const { return g_; }
 
  private:
   // One axis of the gimbal: its command, and the servo behind it.

@@ -14,8 +14,7 @@
 #include "base/quad.hpp"
 #include "catch.hpp"
 #include "model/assemble_rig.hpp"
-#include "model/control/linearise.hpp"
-#include "model/control/sampled_cycle.hpp"
+#include "model/control/linearize.hpp"
 #include "model/control/transmission_zeros.hpp"
 #include "model/systems/any_jacobian.hpp"
 #include "support/reading.hpp"
@@ -24,7 +23,7 @@
 using namespace bbsim;
 using namespace bbsim_test;
 using Eigen::MatrixXd;
-using model::Linearisation;
+using model::Linearization;
 using model::LinearKind;
 using Complex = std::complex<double>;
 
@@ -58,9 +57,9 @@ Scenario crooked_scene() {
   return scene;
 }
 
-Linearisation linear(const Scenario& scene, LinearKind kind,
+Linearization linear(const Scenario& scene, LinearKind kind,
                      const model::LinearPoint& at = model::home_point()) {
-  return model::linearise(scene, model::assemble(scene, false), kind, at);
+  return model::linearize(scene, model::assemble(scene, false), kind, at);
 }
 
 // The largest distance from a value to the nearest of the others, relative to 1 + its size.
@@ -117,7 +116,7 @@ TEST_CASE("poles of a linear loop are those that check prints") {
     scene.controller->reference = CircleReference{0.1, 2, 0, {0, 0}};
   }
   const model::Model model = model::assemble(scene, false);
-  const Linearisation made = linear(scene, LinearKind::loop);
+  const Linearization made = linear(scene, LinearKind::loop);
   // Rounding of a non-symmetric matrix's eigenvalues, of two ways to the same matrix.
   CHECK(distance(made.poles, model::closed_loop_poles(model)) < 1e-10);
   CHECK_FALSE(made.system.period);
@@ -135,14 +134,14 @@ TEST_CASE("poles of a sampled loop are those that check prints") {
     scene.gimbal.servo->time_constant = 0.05;
   }
   const model::Model model = model::assemble(scene, false);
-  const Linearisation made = linear(scene, LinearKind::loop);
+  const Linearization made = linear(scene, LinearKind::loop);
   CHECK(made.system.period == 0.02);
   // Poles at zero of the delays are defective: rounding moves them by its root of their number.
   const auto large = [](model::Eigenvalues poles) {
     std::erase_if(poles, [](const Complex& pole) { return std::abs(pole) < 0.05; });
     return poles;
   };
-  const auto poles = model::sampled_poles(std::get<model::RigLoop<>>(model.system), *model.rig);
+  const auto poles = model::sampled_poles(model);
   CHECK(made.poles.size() == poles.size());
   CHECK(distance(large(made.poles), large(poles)) < 1e-9);
 }
@@ -204,7 +203,7 @@ TEST_CASE("behind a linkage A is the derivative of the system, where it rests to
   Eigen::Matrix<double, size, size> full;
   model::jacobian(model.system, 0.0, z, full.data());
   const std::vector<int> states{0, 1, 2, 3, 5, 6, 7, 8};
-  const Linearisation made = linear(scene, LinearKind::loop, at);
+  const Linearization made = linear(scene, LinearKind::loop, at);
   REQUIRE(made.system.a.rows() == 8);
   CHECK((made.system.a - full(states, states)).cwiseAbs().maxCoeff() <
         1e-9 * full.cwiseAbs().maxCoeff());
@@ -229,7 +228,7 @@ TEST_CASE("a turned sensor is in the poles, and in where the ball comes to rest"
 TEST_CASE("A and B of a plant are its differences in quad precision") {
   const Scenario scene = crooked_scene();
   const model::LinearPoint at = somewhere();
-  const Linearisation made = linear(scene, LinearKind::plant, at);
+  const Linearization made = linear(scene, LinearKind::plant, at);
   const auto built = model::assemble_rig<false>(scene, {});
   model::RigLoop<> held(built.loop.radius(), built.loop.gravity(), built.loop.rolling(), {},
                         built.loop.servo(), {}, built.loop.mode);
@@ -278,7 +277,7 @@ TEST_CASE("A and B of a loop are its differences in quad precision") {
     scene.controller->kv = {{{0.3, 0}, {0, 0.3}}};
   }
   const model::LinearPoint at = somewhere();
-  const Linearisation made = linear(scene, LinearKind::loop, at);
+  const Linearization made = linear(scene, LinearKind::loop, at);
   const auto loop = model::assemble_rig<false>(scene, {}).loop;
   constexpr int n = model::RigLoop<>::size;
   REQUIRE(made.system.a.rows() == n);
@@ -316,7 +315,7 @@ TEST_CASE("A and B of a loop are its differences in quad precision") {
 
 TEST_CASE("margins are those of the closed form (M13)") {
   const Scenario scene = pd_scene();
-  const Linearisation made = linear(scene, LinearKind::loop);
+  const Linearization made = linear(scene, LinearKind::loop);
   // s^2 (s^2 + P s + Q) + (Kv s + Kp)(a - r s^2), K = Q k.
   const double r = 0.02, a = 5 * scene.gravity / 7, wn = 30, zeta = 0.8;
   const double p = 2 * zeta * wn, q = wn * wn, kp = q * 0.4, kv = q * 0.35;
@@ -359,7 +358,7 @@ TEST_CASE("a law that is told accelerations has the bandwidth of its feedback") 
   scene.controller->law = Law::gravity_compensation;
   scene.controller->kp = {{{4, 0}, {0, 4}}};
   scene.controller->kv = {{{3, 0}, {0, 3}}};
-  const Linearisation made = linear(scene, LinearKind::loop);
+  const Linearization made = linear(scene, LinearKind::loop);
   const double r = 0.02, a = 5 * scene.gravity / 7, wn = 30, zeta = 0.8;
   const auto response = [&](double w, double told) {
     const Complex s(0, w);
@@ -373,7 +372,7 @@ TEST_CASE("a law that is told accelerations has the bandwidth of its feedback") 
     CHECK(std::abs(response(1e4, 1)) > 1);
     CHECK(std::abs(response(one.of_feedback, 0)) == Approx(1 / std::numbers::sqrt2).epsilon(1e-11));
   }
-  const Linearisation plain = linear(pd_scene(), LinearKind::loop);
+  const Linearization plain = linear(pd_scene(), LinearKind::loop);
   CHECK(plain.bandwidths[0].of_feedback == plain.bandwidths[0].value);
 }
 
@@ -401,7 +400,7 @@ TEST_CASE("zeros of plant and loop are those of equation (27) about home") {
 
 TEST_CASE("a sampled loop's margins are those of its lifted matrix") {
   const Scenario scene = sampled_scene();
-  const Linearisation made = linear(scene, LinearKind::loop);
+  const Linearization made = linear(scene, LinearKind::loop);
   REQUIRE(made.margins.size() == 2);
   const model::Margins& margins = made.margins[0].margins;
   REQUIRE(std::isfinite(margins.gain));
@@ -417,7 +416,7 @@ TEST_CASE("a sampled loop's margins are those of its lifted matrix") {
   CHECK(largest_with(0.99 * margins.gain) < 1);
 
   // The plant under a held command, and the law's own polynomial of z.
-  const Linearisation plant = linear(scene, LinearKind::sampled);
+  const Linearization plant = linear(scene, LinearKind::sampled);
   CHECK(plant.system.outputs[0].name == "x_measured");
   const model::FrequencyResponse response(plant.system.a, plant.system.b, plant.system.c,
                                           plant.system.d, 0.02);
@@ -431,8 +430,8 @@ TEST_CASE("a sampled loop's margins are those of its lifted matrix") {
 
 TEST_CASE("a plant under a held command is the plant's exponential, delayed") {
   const Scenario scene = sampled_scene();
-  const Linearisation plant = linear(scene, LinearKind::plant);
-  const Linearisation sampled = linear(scene, LinearKind::sampled);
+  const Linearization plant = linear(scene, LinearKind::plant);
+  const Linearization sampled = linear(scene, LinearKind::sampled);
   // At low frequency the two differ by delays and half a period of the hold alone.
   const double w = 0.05;
   const model::FrequencyResponse slow(plant.system.a, plant.system.b, plant.system.c,
@@ -489,7 +488,7 @@ TEST_CASE("what a scene does not have cannot be linear") {
   Scenario scene = fig2a();
   CHECK_THROWS_AS(linear(scene, LinearKind::loop), InputError);
   CHECK_THROWS_AS(linear(scene, LinearKind::sampled), InputError);
-  const Linearisation plant = linear(scene, LinearKind::plant);
+  const Linearization plant = linear(scene, LinearKind::plant);
   CHECK(plant.system.inputs[0].name == "phi_acceleration");
   CHECK(plant.system.states.size() == 8);
   CHECK_THROWS_AS(linear(pd_scene(), LinearKind::sampled), InputError);
@@ -541,11 +540,10 @@ model::LinearPoint somewhere_of(int seed, double size) {
   std::mt19937 random(static_cast<unsigned>(seed));
   std::uniform_real_distribution<double> number(-size, size);
   model::LinearPoint at;
-  at.own.assign(Loop::size, 0);
+  at.state.assign(Loop::size, 0);
   for (int i = 0; i < Loop::Layout::integral; ++i) {
-    at.own[static_cast<std::size_t>(i)] = number(random);
+    at.state[static_cast<std::size_t>(i)] = number(random);
   }
-  std::copy_n(at.own.begin(), at.state.size(), at.state.begin());
   for (double& one : at.command) one = number(random);
   return at;
 }
@@ -557,8 +555,8 @@ void check_loop(const Scenario& scene, model::LinearPoint at, const std::vector<
   const auto& loop = std::get<Loop>(model.system);
   at.reference = loop.reference().at(0.0);
   Eigen::Matrix<double, Loop::size, Loop::size> full;
-  model::jacobian(model.system, 0.0, at.own.data(), full.data());
-  const Linearisation made = model::linearise(scene, model, LinearKind::loop, at);
+  model::jacobian(model.system, 0.0, at.state.data(), full.data());
+  const Linearization made = model::linearize(scene, model, LinearKind::loop, at);
   REQUIRE(made.system.a.rows() == std::ssize(states));
   CHECK((made.system.a - full(states, states)).cwiseAbs().maxCoeff() <
         1e-13 * full.cwiseAbs().maxCoeff());
@@ -571,20 +569,20 @@ TEST_CASE("three servos off home are what their closed chain makes of them") {
   const Scenario scene = test::parse(three_legs());
   const model::LinearPoint at = somewhere_of<Loop>(3, 0.2);
   check_loop<Loop>(scene, at, {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10});
-  const Linearisation away = linear(scene, LinearKind::loop, at);
+  const Linearization away = linear(scene, LinearKind::loop, at);
   CHECK(away.system.states[5].name == "servo_phi");
   CHECK(away.system.states[10].name == "servo_third_rate");
   // Where the plate is level and everything rests, all six states of the servos have the poles of
   // two ideal ones, and of the height, which nothing feels.
   model::LinearPoint rest = model::equilibrium(scene);
-  for (const double one : rest.own) CHECK(std::abs(one) < 1e-12);
+  for (const double one : rest.state) CHECK(std::abs(one) < 1e-12);
   model::Eigenvalues expected = linear(scene, LinearKind::loop).poles;
   for (const int sign : {1, -1}) {
     expected.emplace_back(-0.9 * 40, sign * 40 * std::sqrt(1 - 0.9 * 0.9));
   }
   CHECK(distance(linear(scene, LinearKind::loop, rest).poles, expected) < 1e-6);
   // Off it they are others: the slowest one is.
-  rest.own[6] = 0.3;
+  rest.state[6] = 0.3;
   const auto tilted = linear(scene, LinearKind::loop, rest).poles;
   CHECK(std::abs(tilted.front() - linear(scene, LinearKind::loop).poles.front()) > 1e-3);
 }
@@ -610,11 +608,11 @@ TEST_CASE("a gimbal under torques is linear with the ball's losses and the plate
   check_loop<Loop>(scene, somewhere_of<Loop>(5, 0.4), {0, 1, 2, 3, 4, 5, 6, 7, 8});
   const model::Model model = model::assemble(scene, false);
   CHECK(distance(linear(scene, LinearKind::loop).poles, model::closed_loop_poles(model)) < 1e-9);
-  const Linearisation plant = linear(scene, LinearKind::plant);
+  const Linearization plant = linear(scene, LinearKind::plant);
   CHECK(distance(plant.poles, model::plant_poles(model)) < 1e-9);
   CHECK(plant.system.inputs[0].name == "phi_command");
   CHECK(plant.system.inputs[0].unit == "N m");
-  const Linearisation loop = linear(scene, LinearKind::loop);
+  const Linearization loop = linear(scene, LinearKind::loop);
   REQUIRE(loop.margins.size() == 2);
   // A regulator of LQR bears half the gain and 60 degrees.
   for (const model::LoopMargins& one : loop.margins) {
@@ -625,11 +623,11 @@ TEST_CASE("a gimbal under torques is linear with the ball's losses and the plate
 
 TEST_CASE("what torques and commands of three servos add to the rates is their difference") {
   const auto check = [](const Scenario& scene, auto loop, const model::LinearPoint& at) {
-    const Linearisation made = linear(scene, LinearKind::plant, at);
+    const Linearization made = linear(scene, LinearKind::plant, at);
     // Under a held command the system is the plant; what it tells three servos is the law's matter.
     const double step = 1e-5;
     for (int j = 0; j < 2; ++j) {
-      std::vector<double> more(at.own.size()), less(at.own.size());
+      std::vector<double> more(at.state.size()), less(at.state.size());
       for (const double side : {step, -step}) {
         double command[2] = {at.command[0], at.command[1]};
         command[j] += side;
@@ -641,7 +639,7 @@ TEST_CASE("what torques and commands of three servos add to the rates is their d
         } else {
           std::copy_n(command, 2, mode.command);
         }
-        loop.derivative(0.0, at.own.data(), (side > 0 ? more : less).data());
+        loop.derivative(0.0, at.state.data(), (side > 0 ? more : less).data());
       }
       for (int i = 0; i < made.system.b.rows(); ++i) {
         const auto k = static_cast<std::size_t>(i);  // all states are there, in their order
@@ -676,7 +674,7 @@ TEST_CASE("a motor's own integral, and what samples make of torques, are in the 
       "2}}}\n"
       "controller: {pd: {kv: [[0.6, 0], [0, -0.6]], kp: [[0.7, 0], [0, -0.7]]}, drives: angle, "
       "reference: {point: [0, 0]}}\n");
-  const Linearisation made = linear(holds, LinearKind::loop);
+  const Linearization made = linear(holds, LinearKind::loop);
   CHECK(made.system.states.back().name == "theta_integral");
   CHECK(distance(made.poles, model::closed_loop_poles(model::assemble(holds, false))) < 1e-9);
   const Scenario sampled = test::parse(torque_lqr(", sampling: {period: 0.01, delay: 0.003}"));
@@ -689,7 +687,7 @@ TEST_CASE("a plant that loses by its speed has that for a pole") {
   Scenario scene = fig2a();
   scene.ball.mass = 0.05;
   scene.ball.losses.viscous = 4e-6;
-  const Linearisation plant = linear(scene, LinearKind::plant);
+  const Linearization plant = linear(scene, LinearKind::plant);
   CHECK(plant.system.inputs[0].name == "phi_acceleration");
   REQUIRE(plant.system.a.rows() == 8);
   const double rate = 4e-6 / (1.4 * 0.05 * 0.01 * 0.01);
@@ -714,16 +712,12 @@ TEST_CASE("where a push and the plate's weight are balanced everything rests") {
   std::visit(
       [&](const auto& system) {
         std::vector<double> rates(static_cast<std::size_t>(system.size));
-        if (at.own.empty()) {
-          system.derivative(0.0, at.state.data(), rates.data());
-        } else {
-          system.derivative(0.0, at.own.data(), rates.data());
-        }
+        system.derivative(0.0, at.state.data(), rates.data());
         // Newton's last step leaves rounding, which servos multiply by 1600 1/s^2.
         for (const double one : rates) CHECK(std::abs(one) < 1e-11);
       },
       model.system);
-  if (pushed) CHECK(std::abs(at.state[5]) + std::abs(at.own.empty() ? 0 : at.own[5]) > 1e-4);
+  if (pushed) CHECK(std::abs(at.state[5]) > 1e-4);
 }
 
 TEST_CASE("a loss of next to nothing, by other equations, leaves every pole where it was") {

@@ -5,10 +5,10 @@
 // sampled controller sees it. Exact: by differentiating the right-hand side and the law.
 #pragma once
 
-#include <array>
 #include <string>
 #include <vector>
 
+#include "model/control/derivatives.hpp"
 #include "model/control/frequency.hpp"
 #include "model/control/linear_system.hpp"
 #include "model/model.hpp"
@@ -20,23 +20,6 @@ namespace bbsim::model {
 // loop     from the reference to the position; of a sampled controller, from sample to sample
 // sampled  the plant under a command that is held, from sample to sample, with all delays
 enum class LinearKind { plant, loop, sampled };
-
-struct LinearPoint {
-  std::array<double, RigLoop<true>::size> state{};  // as RigLoop<true> packs it
-  // All states, as a CoupledLoop of the scene packs them; if there are none, they are `state`.
-  std::vector<double> own{};
-  double time = 0;     // of the push on the ball, s
-  Pair command{0, 0};  // rad; rad/s^2 where accelerations are driven, or prescribed
-  std::array<Jet<double>, 2> reference{};
-  bool home = false;  // all are zero, and the plane is level there, whatever its offsets
-};
-
-[[nodiscard]] LinearPoint home_point();
-
-// At rest: the plane level, or as a push on the ball asks for; the ball where the controller leads
-// it under the reference of t = 0, or without a controller where it starts. Throws InputError if
-// there is no such point.
-[[nodiscard]] LinearPoint equilibrium(const Scenario& scene);
 
 // What one command's loop bears, the other one closed.
 struct LoopMargins {
@@ -50,7 +33,7 @@ struct Bandwidth {
   double of_feedback;  // of a controller that is not told the reference's accelerations
 };
 
-struct Linearisation {
+struct Linearization {
   LinearSystem system;
   Eigenvalues poles, zeros;          // of a loop, from where the reference is to where the ball is
   std::vector<LoopMargins> margins;  // of a loop
@@ -60,14 +43,11 @@ struct Linearisation {
   std::vector<Bandwidth> bandwidths;  // of a loop
 };
 
-// Why a scene has no linear equations, of which dry friction has none; empty if it has.
-[[nodiscard]] std::string why_not_linear(const Scenario& scene);
-
 // Without limits, dead band, backlash, rounding and noise; without the frames of a sensor of which
 // each sample sees one of another age (common_cycle.hpp), as if it looked for each. The spin is a
 // state where it acts on others, and an integral where the law has it. The scene is one of `model`,
 // which says what symmetry leaves out. Throws InputError where the scene has nothing of that kind.
-[[nodiscard]] Linearisation linearise(const Scenario& scene, const Model& model, LinearKind kind,
+[[nodiscard]] Linearization linearize(const Scenario& scene, const Model& model, LinearKind kind,
                                       const LinearPoint& at);
 
 // What `bbsim linearize` shows of a scene unless it is told.

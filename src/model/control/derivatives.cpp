@@ -1,0 +1,707 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "model/control/derivatives.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <type_traits>
+#include <utility>
+
+#include "base/error.hpp"
+#include "model/assemble_rig.hpp"
+#include "model/control/sampled_controller.hpp"
+#include "model/dense.hpp"
+#include "model/signals/reference_path.hpp"
+#include "scenario/coupled.hpp"
+#include "simd/gradient.hpp"
+
+namespace bbsim::model {
+namespace {
+
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+// A number that knows how a loop's states and six more variables change it. Where there are fewer
+// it is all the same: compilers take ten seconds over right-hand sides with another number.
+constexpr int most_states = 19;
+using Varied = simd::WithGradient<most_states + 6>;
+
+// The gimbal's part of a loop: its law, its servos and what links them to the plane.
+template <class Loop>
+auto& gimbal_of(Loop& loop) {
+  if constexpr (is_coupled_loop<std::remove_const_t<Loop>>) {
+    return loop.loop;
+  } else {
+    return loop;
+  }
+}
+template <class Loop>
+using LinkOf = std::decay_t<decltype(gimbal_of(std::declval<Loop&>()).link)>;
+
+// A linkage under a plane that is level at home, where the servo's own angle may not be 0.
+Linkages levelled(Linkages link) {
+  for (LinkCurve& one : link.of) {
+    const Turn<double> home = one.plain_turn(0.0);
+    one.set_offsets(0, std::atan2(home.sin, home.cos));
+  }
+  return link;
+}
+
+// Measured curves are of the pieces that hold at a point.
+Linkages linkages_at(const Between& between, const LinearPoint& at) {
+  Linkages link = between.at_home();
+  for (std::size_t i = 0; i < between.linkages.size(); ++i) {
+    const Linkage& linkage = between.linkages[i];
+    if (!linkage.table) continue;
+    const auto piece = [&](double servo) {
+      return linkage.table->view().pieces[linkage.piece_at(0, servo, 1)];
+    };
+    link.of[i].piece = piece(at.state[RigLayout::angle + i]);
+    link.of[i].command_piece = piece(at.command[i]);
+  }
+  return link;
+}
+
+// A loop of motors and servos that are within their limits, of a ball that rolls; level at home.
+template <class Loop>
+Loop placed(Loop loop, const Model& model, const LinearPoint& at) {
+  if constexpr (is_coupled_loop<Loop>) {
+    loop.parts.contact = {};
+    for (MotorMode& motor : loop.motors) motor = {};
+  }
+  auto& gimbal = gimbal_of(loop);
+  if (at.home) gimbal.mode = {};
+  if constexpr (std::is_same_v<LinkOf<Loop>, Linkages>) {
+    if (model.rig && !model.rig->between.none()) gimbal.link = linkages_at(model.rig->between, at);
+    if (at.home) gimbal.link = levelled(gimbal.link);
+  }
+  if constexpr (std::is_same_v<LinkOf<Loop>, ThreeServos>) {
+    for (int i = 0; i < 2 && at.home; ++i) {
+      gimbal.link.cos_offset[i] = 1;
+      gimbal.link.sin_offset[i] = gimbal.link.offset[i] = 0;
+    }
+  }
+  return loop;
+}
+
+// Each system as a loop that knows all states and has integrals.
+template <bool integrates>
+RigLoop<true> whole_loop(const RigLoop<integrates>& of) {
+  return {of.radius(), of.gravity(),   of.rolling(), of.law(),
+          of.servo(),  of.reference(), of.mode,      of.link};
+}
+
+template <Shape shape, class Equation>
+RigLoop<true> whole_loop(const OpenLoop<shape, SignalPair, Equation>& of) {
+  GeneralRolling rolling;
+  if constexpr (std::is_same_v<Equation, GeneralRolling>) rolling = of.equation();
+  return {of.radius(), of.gravity(), rolling, {}, {}, {}};
+}
+
+template <Shape shape, Drives drives>
+RigLoop<true> whole_loop(const ClosedLoop<shape, drives>& of) {
+  ControlLaw law;
+  law.kind = LawKind::linear;
+  for (int i = 0; i < 2; ++i) {
+    for (int j = 0; j < 2; ++j) {
+      law.gain[i][j] = of.gains().kp[i][j];
+      law.gain[i][2 + j] = of.gains().kv[i][j];
+    }
+  }
+  ServoResponse servo;
+  if constexpr (drives == Drives::angle) {
+    const double w = of.servo().omega_n;
+    servo = {w * w, w * w, 2 * of.servo().zeta * w};
+  }
+  return {of.radius(), of.gravity(), {}, law, servo, of.reference()};
+}
+
+// Calls use(loop) with the model as a loop about a point.
+template <class Use>
+auto with_loop_at(const Model& model, const LinearPoint& at, Heave heave, const Use& use) {
+  return std::visit(
+      [&](const auto& any) {
+        using Any = std::decay_t<decltype(any)>;
+        if constexpr (std::is_same_v<Any, CoupledLoop<SignalPair, ThreeServos>>) {
+          if (heave == Heave::kept) return use(placed(any, model, at));
+          const auto& rig = any.loop;
+          const CoupledLoop<> two(
+              any.parts, any.by, any.motor,
+              {rig.radius(), rig.gravity(), rig.rolling(), rig.law(), rig.servo(), {}});
+          return use(placed(two, model, at));
+        } else if constexpr (is_coupled_loop<Any>) {
+          return use(placed(any, model, at));
+        } else if constexpr (is_coupled<Any>) {
+          const CoupledBall& ball = any.parts.ball;
+          Push<SignalPair> push;
+          if constexpr (requires { any.push.on; }) push.on = any.push.on;
+          // The plane's offsets are in its angles.
+          const CoupledLoop<SignalPair, Linkages> loop(
+              any.parts, GimbalBy::servos, {}, {ball.r, ball.g, ball.rolling, {}, {}, {}}, push);
+          return use(placed(loop, model, at));
+        } else {
+          return use(placed(whole_loop(any), model, at));
+        }
+      },
+      model.system);
+}
+
+// The same loop with another law and other servos. What moves a gimbal under given torques are then
+// its motors.
+template <class Loop>
+Loop under(const Loop& of, const ControlLaw& law, const ServoResponses& servo,
+           const LinkOf<Loop>& link) {
+  const auto& gimbal = gimbal_of(of);
+  std::decay_t<decltype(gimbal)> other(gimbal.radius(), gimbal.gravity(), gimbal.rolling(), law,
+                                       servo, {}, gimbal.mode, link);
+  if constexpr (is_coupled_loop<Loop>) {
+    const GimbalBy by = of.by == GimbalBy::given_torques ? GimbalBy::torques : of.by;
+    Loop loop(of.parts, by, of.motor, other, of.push);
+    loop.integrate_error(law.integrates());
+    return loop;
+  } else {
+    return other;
+  }
+}
+
+// The plant: under a law that hands on its reference, u = reference - position. Linkages are told
+// what their servos are.
+template <class Loop>
+Loop without_law(const Loop& loop) {
+  ControlLaw law;
+  law.kind = LawKind::linear;
+  law.gain[0][0] = law.gain[1][1] = 1;
+  const auto& gimbal = gimbal_of(loop);
+  LinkOf<Loop> link = gimbal.link;
+  if constexpr (std::is_same_v<LinkOf<Loop>, Linkages>) {
+    for (LinkCurve& one : link.of) one.assumed = Assumed::none;
+  }
+  return under(loop, law, gimbal.servo(), link);
+}
+
+template <class Loop>
+VectorXd states_at(const LinearPoint& at) {
+  VectorXd z = VectorXd::Zero(Loop::size);
+  std::copy_n(at.state.begin(), std::min<std::size_t>(at.state.size(), Loop::size), z.begin());
+  return z;
+}
+
+template <class Loop>
+void vary_states(const LinearPoint& at, Varied (&z)[Loop::size]) {
+  static_assert(Loop::size <= most_states);
+  const VectorXd values = states_at<Loop>(at);
+  for (int i = 0; i < Loop::size; ++i) z[i] = Varied::variable(values[i], i);
+}
+
+// A reference whose values, rates and accelerations are variables from number `first` on.
+std::array<Jet<Varied>, 2> varied(const std::array<Jet<double>, 2>& reference, int first) {
+  std::array<Jet<Varied>, 2> jets;
+  for (std::size_t i = 0; i < 2; ++i) {
+    const int number = first + static_cast<int>(i);
+    jets[i] = {Varied::variable(reference[i].value, number),
+               Varied::variable(reference[i].rate, number + 2),
+               Varied::variable(reference[i].acceleration, number + 4)};
+  }
+  return jets;
+}
+
+// Rates under a reference, and the push of that time.
+template <class Loop, class Number>
+void rates_under(const Loop& loop, const std::array<Jet<Number>, 2>& reference, double time,
+                 const Number* z, Number* dz) {
+  if constexpr (requires { loop.push.on; }) {
+    const auto push = loop.push.on.at(time);
+    const PushedInputs<Number> in{reference, {Number(push[0].value), Number(push[1].value)}};
+    loop.derivative_of(in, z, dz);
+  } else {
+    loop.derivative_of(reference, z, dz);
+  }
+}
+
+// What the law says of an axis: to its servo; where there are three, of the plane.
+template <class Loop, class Axes>
+auto command_of(const Axes& axes, int i) {
+  if constexpr (Loop::servos == 2) {
+    return std::decay_t<decltype(gimbal_of(std::declval<Loop&>()))>::told(axes, i);
+  } else {
+    return axes.command.value[i];
+  }
+}
+
+template <class Loop>
+StatePlaces places_of(const Loop& loop) {
+  StatePlaces places{Loop::servos, Loop::Layout::integral, 0, false};
+  if constexpr (is_coupled_loop<Loop>) {
+    places.motor = Loop::Layout::motor;
+    places.motor_integrates = loop.motor.from_integral != 0;
+  }
+  return places;
+}
+
+// The rates, and what states and commands add to them.
+template <class Loop>
+PlantDerivatives differentiate_plant(const Loop& loop, const LinearPoint& at) {
+  constexpr int n = Loop::size;
+  Varied z[n], dz[n];
+  vary_states<Loop>(at, z);
+  std::array<Jet<Varied>, 2> commands;
+  for (int i = 0; i < 2; ++i) {
+    const auto axis = static_cast<std::size_t>(i);
+    commands[axis] = {z[i] + Varied::variable(at.command[axis], n + i), Varied(0.0), Varied(0.0)};
+  }
+  rates_under(without_law(loop), commands, at.time, z, dz);
+  PlantDerivatives plant;
+  plant.places = places_of(loop);
+  plant.state = states_at<Loop>(at);
+  plant.rates = simd::values(dz);
+  plant.of_state = simd::gradients(dz, 0, n);
+  plant.of_command = simd::gradients(dz, n, 2);
+  return plant;
+}
+
+template <class Loop>
+LoopDerivatives differentiate_loop(const Loop& loop, const LinearPoint& at) {
+  constexpr int n = Loop::size;
+  Varied z[n], dz[n];
+  vary_states<Loop>(at, z);
+  const auto reference = varied(at.reference, n);
+  rates_under(loop, reference, at.time, z, dz);
+  const auto axes = gimbal_of(loop).axes(reference, z);
+  const Varied commands[2] = {command_of<Loop>(axes, 0), command_of<Loop>(axes, 1)};
+  return {places_of(loop), simd::gradients(dz, 0, n), simd::gradients(dz, n, 6),
+          simd::gradients(commands, 0, n)};
+}
+
+template <class Loop>
+MatrixXd kick_of(const Loop& loop, const VectorXd& z) {
+  constexpr int servos = Loop::servos, rate = Loop::Layout::rate;
+  const auto& gimbal = gimbal_of(loop);
+  MatrixXd kick = MatrixXd::Zero(Loop::size, servos);
+  for (int i = 0; i < servos; ++i) {
+    VectorXd kicked = z;
+    kicked.segment<servos>(rate) = Eigen::Matrix<double, servos, 1>::Unit(i);
+    const auto rates = gimbal.plane_rates(kicked.data());
+    const auto jump = gimbal.impulse(z.data(), rates[0], rates[1]);
+    for (int j = 0; j < 3; ++j) kick(2 + j, i) = jump[static_cast<std::size_t>(j)];
+    kick(rate + i, i) = 1;
+  }
+  return kick;
+}
+
+// What the controller knows of the servos, and what it tells them.
+template <class Loop>
+void differentiate_link(const Loop& loop, const LinearPoint& at, PlantDerivatives& plant) {
+  constexpr int servos = Loop::servos, angle = Loop::Layout::angle, n = Loop::size;
+  auto link = gimbal_of(loop).link;
+  Varied z[n], known[2], known_rate[2];
+  vary_states<Loop>(at, z);
+  link.believed(z + angle, z + Loop::Layout::rate, known, known_rate);
+  plant.believed.resize(4, n);
+  plant.believed << simd::gradients(known, 0, n), simd::gradients(known_rate, 0, n);
+
+  const Varied command[2] = {Varied::variable(at.command[0], 0),
+                             Varied::variable(at.command[1], 1)};
+  if constexpr (servos == 2) {
+    // The command is the servos' own: what it would mean to the plane tells what was asked.
+    for (LinkCurve& one : link.of) one.piece = one.command_piece;
+    const Varied resting[2];
+    link.believed(command, resting, known, known_rate);
+    plant.told = inverse(simd::gradients(known, 0, 2));
+  } else {
+    Varied told[servos];
+    link.told(command, told);
+    plant.told = simd::gradients(told, 0, 2);
+  }
+}
+
+// What is fed back at a point, as the controller knows it.
+Feedback<double> feedback_at(const Rig& rig, const StatePlaces& places, const LinearPoint& at,
+                             const VectorXd& z) {
+  Feedback<double> fed{};
+  const int angle = spin_state + 1, rate = angle + places.servos;
+  for (int i = 0; i < 2; ++i) {
+    fed.position[i] = z[i];
+    fed.velocity[i] = z[2 + i];
+    fed.angle[i] = z[angle + i];
+    fed.rate[i] = z[rate + i];
+    fed.integral[i] = z[places.integral + i];
+  }
+  if (rig.sampled && !rig.sampled->sensor.is_aligned()) {
+    const Sensor& sensor = rig.sampled->sensor;
+    const auto position = turned(sensor, z[0], z[1]), velocity = turned(sensor, z[2], z[3]);
+    for (std::size_t i = 0; i < 2; ++i) {
+      fed.position[i] = position[i] + sensor.offset[i];
+      fed.velocity[i] = velocity[i];
+    }
+  }
+  if (!at.home && !rig.between.none()) {
+    double known[4];
+    rig.between.believed(&z[angle], &z[rate], known);
+    std::copy_n(known, 2, fed.angle);
+    std::copy_n(known + 2, 2, fed.rate);
+  }
+  return fed;
+}
+
+}  // namespace
+
+LinearPoint home_point() {
+  LinearPoint point;
+  point.home = true;
+  return point;
+}
+
+PlantDerivatives plant_derivatives(const Model& model, const LinearPoint& at, Heave heave) {
+  return with_loop_at(model, at, heave, [&](const auto& loop) {
+    using Loop = std::decay_t<decltype(loop)>;
+    PlantDerivatives plant = differentiate_plant(loop, at);
+    plant.kick = kick_of(loop, plant.state);
+    if (!model.rig) return plant;
+    plant.fed = feedback_at(*model.rig, plant.places, at, plant.state);
+    if constexpr (!LinkOf<Loop>::direct) {
+      if (!model.rig->between.none()) differentiate_link(loop, at, plant);
+    }
+    return plant;
+  });
+}
+
+LoopDerivatives loop_derivatives(const Model& model, const LinearPoint& at, Heave heave) {
+  return with_loop_at(model, at, heave,
+                      [&](const auto& loop) { return differentiate_loop(loop, at); });
+}
+
+LawDerivatives law_derivatives(const ControlLaw& law, const Feedback<double>& at,
+                               const std::array<Jet<double>, 2>& reference) {
+  LawDerivatives derivatives;
+  if (law.kind == LawKind::held) return derivatives;
+  int next = 0;
+  const auto variables = [&next](const double(&values)[2], Varied(&into)[2]) {
+    for (int i = 0; i < 2; ++i) into[i] = Varied::variable(values[i], next++);
+  };
+  Feedback<Varied> state;
+  variables(at.position, state.position);
+  variables(at.velocity, state.velocity);
+  variables(at.angle, state.angle);
+  variables(at.rate, state.rate);
+  variables(at.integral, state.integral);
+  const auto unlimited_command = [](int, const Varied& raw) { return raw; };
+  const Command<Varied> u = command(law, state, varied(reference, next), unlimited_command);
+  derivatives.of_feedback = simd::gradients(u.value, 0, 10);
+  derivatives.of_reference = simd::gradients(u.value, 10, 6);
+  return derivatives;
+}
+
+std::vector<int> linear_states(const StatePlaces& places, const MatrixXd& of_state,
+                               const std::vector<int>& axes, SpinStands spin) {
+  std::vector<int> states;
+  for (const int first : {0, 2}) {
+    for (const int axis : axes) states.push_back(first + axis);
+  }
+  const auto after_velocities = std::ssize(states);
+  const std::vector<int> three{0, 1, 2};
+  for (const int first : {spin_state + 1, spin_state + 1 + places.servos}) {
+    for (const int servo : places.servos == 3 ? three : axes) states.push_back(first + servo);
+  }
+  if (places.motor_integrates) states.insert(states.end(), {places.motor, places.motor + 1});
+  // Where symmetry leaves an axis out, the spin may still act on that one.
+  const VectorXd acts = of_state.col(spin_state).head(places.integral);
+  if ((acts.array() != 0).count() > (acts[spin_state] != 0 ? 1 : 0)) {
+    states.insert(spin == SpinStands::last ? states.end() : states.begin() + after_velocities,
+                  spin_state);
+  }
+  return states;
+}
+
+std::vector<int> loop_states(const LoopDerivatives& loop, const std::vector<int>& axes) {
+  std::vector<int> states =
+      linear_states(loop.places, loop.of_state, axes, SpinStands::after_velocities);
+  for (const int axis : axes) {
+    const int place = loop.places.integral + axis;
+    if (!loop.of_state.row(place).isZero(0)) states.push_back(place);
+  }
+  return states;
+}
+
+std::vector<int> moving_axes(const Model& model) {
+  const Shape moves = std::visit(
+      [](const auto& system) { return std::decay_t<decltype(system)>::moves; }, model.system);
+  if (moves == Shape::along_x) return {0};
+  if (moves == Shape::along_y) return {1};
+  return {0, 1};
+}
+
+std::vector<LinearSignal> state_signals(const StatePlaces& places,
+                                        const std::string& command_unit) {
+  std::vector<LinearSignal> signals{
+      {"x", "m"}, {"y", "m"}, {"vx", "m/s"}, {"vy", "m/s"}, {spin_name, "m/s"}};
+  const char* const three[] = {"servo_phi", "servo_theta", "servo_third"};
+  const char* const two[] = {"phi", "theta"};
+  for (const bool rates : {false, true}) {
+    for (int i = 0; i < places.servos; ++i) {
+      const std::string name = places.servos == 3 ? three[i] : two[i];
+      signals.push_back({name + (rates ? "_rate" : ""), rates ? "rad/s" : "rad"});
+    }
+  }
+  for (const char* one : {"phi_command_integral", "theta_command_integral"}) {
+    signals.push_back({one, command_unit});
+  }
+  for (const char* one : {"phi_integral", "theta_integral"}) signals.push_back({one, "rad s"});
+  return signals;
+}
+
+namespace {
+
+template <class Loop>
+LinearPlant at_home(const Loop& loop) {
+  const PlantDerivatives plant = differentiate_plant(loop, home_point());
+  // Where everything rests, the spin acts on nothing.
+  const std::vector<int> states =
+      linear_states(plant.places, plant.of_state, {0, 1}, SpinStands::last);
+  return {plant.of_state(states, states), plant.of_command(states, Eigen::all)};
+}
+
+}  // namespace
+
+LinearPlant plant_at_home(const RigLoop<true>& loop) {
+  return at_home(loop);
+}
+
+LinearPlant plant_at_home(const CoupledLoop<>& loop) {
+  return at_home(loop);
+}
+
+Eigen::Matrix2d seen_matrix(const Sensor& sensor) {
+  const auto x = turned(sensor, 1.0, 0.0), y = turned(sensor, 0.0, 1.0);
+  Eigen::Matrix2d matrix;
+  matrix << x[0], y[0], x[1], y[1];
+  return matrix;
+}
+
+namespace {
+
+// What an equilibrium is looked for among, and what has to vanish there.
+struct Rest {
+  std::vector<int> states;     // unknown, of a loop
+  std::vector<int> vanishing;  // rates
+  bool commands = false;       // unknown too: there is no law that gives them
+};
+
+Rest rest_of(const StatePlaces& places, const ControlLaw& law, bool has_law) {
+  Rest rest;
+  rest.vanishing = {2, 3};
+  if (has_law) rest.states = {0, 1};
+  for (int i = 0; i < places.servos; ++i) {
+    rest.states.push_back(spin_state + 1 + i);
+    rest.vanishing.push_back(spin_state + 1 + places.servos + i);
+  }
+  rest.commands = !has_law;
+  const auto both = [&](int place) {
+    rest.states.push_back(place);
+    rest.vanishing.push_back(place);
+  };
+  for (int j = 0; j < 2 && has_law; ++j) {
+    if (law.integrates(static_cast<std::size_t>(j))) both(places.integral + j);
+  }
+  for (int j = 0; j < 2 && places.motor_integrates; ++j) both(places.motor + j);
+  return rest;
+}
+
+// Laws ask for reference - seen, and are given reference - position: moves the reference by what
+// the sensor, if there is one, sees otherwise.
+template <class Number>
+void see_by(const Sensor* sensor, const Number* z, std::array<Jet<Number>, 2>& reference) {
+  if (sensor == nullptr || sensor->is_aligned()) return;
+  const auto seen = turned(*sensor, z[0], z[1]);
+  for (std::size_t i = 0; i < 2; ++i) {
+    reference[i].value = reference[i].value + z[i] - seen[i] - sensor->offset[i];
+  }
+}
+
+// Rates of a loop whose controller sees the ball by its sensor, and what states add to them.
+template <class Loop>
+PlantDerivatives differentiate_seen(const Loop& loop, const Sensor* sensor, const LinearPoint& at) {
+  constexpr int n = Loop::size;
+  Varied z[n], dz[n];
+  vary_states<Loop>(at, z);
+  std::array<Jet<Varied>, 2> reference;
+  for (std::size_t i = 0; i < 2; ++i) reference[i] = {at.reference[i].value, 0.0, 0.0};
+  see_by(sensor, z, reference);
+  rates_under(loop, reference, at.time, z, dz);
+  PlantDerivatives seen;
+  seen.rates = simd::values(dz);
+  seen.of_state = simd::gradients(dz, 0, n);
+  return seen;
+}
+
+// The law's command at a point: to the servos or of the plane, and before what links them.
+template <class Loop>
+std::pair<Pair, Pair> commands_at(const Loop& loop, const Sensor* sensor, const LinearPoint& at) {
+  const VectorXd z = states_at<Loop>(at);
+  std::array<Jet<double>, 2> reference = at.reference;
+  see_by(sensor, z.data(), reference);
+  const auto axes = gimbal_of(loop).axes(reference, z.data());
+  return {{command_of<Loop>(axes, 0), command_of<Loop>(axes, 1)},
+          {axes.command.value[0], axes.command.value[1]}};
+}
+
+}  // namespace
+
+std::string why_not_linear(const Scenario& scene) {
+  const auto dry = [](const std::string& what) {
+    return "found " + what +
+           ", which is dry: it depends on the direction of motion and holds at rest, so no linear "
+           "equations approximate it; allowed: ";
+  };
+  const Losses& losses = scene.ball.losses;
+  const char* const viscous = "ball.losses.viscous alone";
+  if (losses.rolling > 0) return dry("ball.losses.rolling") + viscous;
+  if (losses.pivoting > 0) return dry("ball.losses.pivoting") + viscous;
+  if (scene.events.slip && scene.events.slip->sliding) {
+    return dry("events.slip with action: slide") + "stop or note, with which the ball rolls";
+  }
+  if (scenario::moved_by_torques(scene) && scene.gimbal.motor && scene.gimbal.motor->friction > 0) {
+    return dry("gimbal.motor.friction") + "gimbal.motor.viscous alone";
+  }
+  return "";
+}
+
+void require_linear(const Scenario& scene) {
+  const std::string why = why_not_linear(scene);
+  if (!why.empty()) throw InputError("linearize: " + why);
+}
+
+namespace {
+
+class EquilibriumSearch {
+  template <class Use>
+  auto with_loop(const Use& use) const {
+    return with_loop_at(model_, point_, Heave::kept, use);
+  }
+  template <class Use>
+  auto with_law(const Use& use) const {
+    return with_loop(
+        [&](const auto& loop) { return use(under(loop, law_, at_rest_, gimbal_of(loop).link)); });
+  }
+
+ public:
+  EquilibriumSearch(const Scenario& scene, const Model& model) : model_(model) {
+    Pair position = scene.ball.position;
+    if (scene.controller) {
+      const auto path = reference_path(scene.controller->reference).at(0.0);
+      for (std::size_t i = 0; i < 2; ++i) position[i] = point_.reference[i].value = path[i].value;
+    }
+    with_loop([&](const auto& loop) {
+      law_ = gimbal_of(loop).law();
+      places_ = places_of(loop);
+      point_.state.assign(std::decay_t<decltype(loop)>::size, 0);
+    });
+    std::ranges::copy(position, point_.state.begin());
+    if (model.rig && model.rig->sampled) {
+      law_ = model.rig->sampled->law;
+      sensor_ = &model.rig->sampled->sensor;
+    }
+    // Whatever a servo's answer is like, it rests at its command.
+    if (scene.gimbal.servo) at_rest_ = ServoResponse{1, 1, 0};
+    follows_ = scene.controller && scene.controller->drives == Drives::angle &&
+               !scenario::moved_by_torques(scene) && places_.servos == 2;
+  }
+
+  // With a law, the only point at which everything rests; without, any.
+  [[nodiscard]] std::optional<LinearPoint> find(bool under_law) {
+    const Rest rest = rest_of(places_, law_, under_law);
+    const auto of_states = std::ssize(rest.states);
+    for (int pass = 0; pass < 50; ++pass) {
+      if (under_law) point_.command = commands().first;
+      const PlantDerivatives now = derivatives(under_law);
+      MatrixXd slope(std::ssize(rest.vanishing), of_states + (rest.commands ? 2 : 0));
+      slope.leftCols(of_states) = now.of_state(rest.vanishing, rest.states);
+      if (rest.commands) slope.rightCols(2) = now.of_command(rest.vanishing, Eigen::all);
+      const MatrixXd left = -now.rates(rest.vanishing);
+      const auto solved =
+          under_law ? solve_if_regular(slope, left) : std::optional(solve_consistent(slope, left));
+      if (!solved || !solved->allFinite()) return {};
+      const VectorXd change = *solved;
+      double size = 0;
+      for (Eigen::Index k = 0; k < of_states; ++k) {
+        point_.state[static_cast<std::size_t>(rest.states[static_cast<std::size_t>(k)])] +=
+            change[k];
+      }
+      for (int k = 0; k < 2 && rest.commands; ++k) {
+        point_.command[static_cast<std::size_t>(k)] += change[of_states + k];
+      }
+      for (const double one : point_.state) size = std::hypot(size, one);
+      // Newton's last step: what it leaves is rounding.
+      if (change.norm() > 1e-9 * (1 + size)) continue;
+      if (under_law) point_.command = commands().first;
+      // To the bit, so that nothing turns by its rounding.
+      if (follows_) std::copy_n(&point_.state[RigLayout::angle], 2, point_.command.begin());
+      return point_;
+    }
+    return {};
+  }
+
+  [[nodiscard]] bool has_law() const {
+    return law_.kind == LawKind::linear || law_.kind == LawKind::gravity_compensation;
+  }
+
+  // To the servos or of the plane, and as the law has it.
+  [[nodiscard]] std::pair<Pair, Pair> commands() const {
+    return with_law([&](const auto& loop) { return commands_at(loop, sensor_, point_); });
+  }
+
+ private:
+  [[nodiscard]] PlantDerivatives derivatives(bool under_law) const {
+    return with_law([&](const auto& loop) {
+      return under_law ? differentiate_seen(loop, sensor_, point_)
+                       : differentiate_plant(loop, point_);
+    });
+  }
+
+  const Model& model_;
+  LinearPoint point_;
+  ControlLaw law_;
+  StatePlaces places_{};
+  const Sensor* sensor_ = nullptr;
+  ServoResponses at_rest_;
+  bool follows_ = false;  // servos are where they are told to be
+};
+
+[[noreturn]] void throw_no_equilibrium(const std::string& why) {
+  throw InputError("linearize: there is no equilibrium: " + why);
+}
+
+}  // namespace
+
+LinearPoint equilibrium(const Scenario& scene) {
+  require_linear(scene);
+  const Model model = assemble(scene, false);
+  EquilibriumSearch search(scene, model);
+  const bool has_law = search.has_law();
+  const auto point = search.find(has_law);
+  // What a plate that torques move or three servos carry rests under depends on where the ball is.
+  const bool as_one = scenario::is_coupled(scene) || scene.gimbal.three_servos;
+  if (!point) {
+    if (as_one) {
+      throw_no_equilibrium(
+          "everything rests at no single position, at any angles and commands of this gimbal");
+    }
+    if (has_law && EquilibriumSearch(scene, model).find(false)) {
+      throw_no_equilibrium("the law's command keeps the plate level at no single position");
+    }
+    throw_no_equilibrium("no angles of this gimbal level its plate");
+  }
+  if (!has_law) return *point;
+  const Pair asked = search.commands().second;
+  for (std::size_t axis = 0; axis < 2; ++axis) {
+    if (std::abs(asked[axis]) <= command_limit(*scene.controller, axis).value_or(unlimited)) {
+      continue;
+    }
+    throw_no_equilibrium(std::string("the command that keeps ") +
+                         (as_one ? "the ball at its reference" : "the plate level") +
+                         " is beyond controller.limit");
+  }
+  return *point;
+}
+
+}  // namespace bbsim::model

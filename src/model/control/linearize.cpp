@@ -1,0 +1,431 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "model/control/linearize.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <limits>
+#include <string>
+#include <utility>
+
+#include "base/error.hpp"
+#include "model/control/common_cycle.hpp"
+#include "model/control/sampled_cycle.hpp"
+#include "model/control/transmission_zeros.hpp"
+#include "model/eigenvalues.hpp"
+#include "scenario/coupled.hpp"
+
+namespace bbsim::model {
+
+namespace {
+
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+const char* coordinate(int axis) {
+  return axis == 0 ? "x" : "y";
+}
+
+const char* angle_name(int axis) {
+  return axis == 0 ? "phi" : "theta";
+}
+
+std::vector<LinearSignal> signals_of(const std::vector<LinearSignal>& all,
+                                     const std::vector<int>& states) {
+  std::vector<LinearSignal> signals;
+  signals.reserve(states.size());
+  for (const int i : states) signals.push_back(all[static_cast<std::size_t>(i)]);
+  return signals;
+}
+
+std::string command_unit(const Scenario& scene) {
+  if (scene.gimbal.torque) return "N m";
+  if (!scene.controller) return "rad/s^2";
+  return bbsim::command_unit(scene.controller->drives);
+}
+
+std::vector<LinearSignal> signals_of_commands(const Scenario& scene, const std::vector<int>& axes) {
+  std::vector<LinearSignal> signals;
+  for (const int axis : axes) {
+    const char* const suffix = scene.controller      ? "_command"
+                               : scene.gimbal.torque ? "_torque"
+                                                     : "_acceleration";
+    signals.push_back({std::string(angle_name(axis)) + suffix, command_unit(scene)});
+  }
+  return signals;
+}
+
+std::vector<LinearSignal> signals_of_positions(const std::vector<int>& axes, const char* suffix) {
+  std::vector<LinearSignal> signals;
+  for (const int axis : axes) signals.push_back({std::string(coordinate(axis)) + suffix, "m"});
+  return signals;
+}
+
+// Which of the reference's inputs there are, of values, rates and accelerations: the values, and
+// what else the loop feels.
+std::vector<int> reference_inputs(const MatrixXd& of_reference, const std::vector<int>& axes,
+                                  std::vector<LinearSignal>& signals) {
+  constexpr const char* suffixes[] = {"_reference", "_reference_rate", "_reference_acceleration"};
+  constexpr const char* units[] = {"m", "m/s", "m/s^2"};
+  std::vector<int> columns;
+  for (int order = 0; order < 3; ++order) {
+    if (order > 0 && of_reference.middleCols(2 * order, 2).isZero(0)) continue;
+    for (const int axis : axes) {
+      columns.push_back(2 * order + axis);
+      signals.push_back({std::string(coordinate(axis)) + suffixes[order], units[order]});
+    }
+  }
+  return columns;
+}
+
+// The positions, which are the first states.
+MatrixXd positions_of(Eigen::Index outputs, Eigen::Index states) {
+  return MatrixXd::Identity(outputs, states);
+}
+
+// At home three servos are two ideal ones, unless losses or a push are to be seen beside them.
+Heave heave_of(const Scenario& scene, const LinearPoint& at) {
+  return at.home && !scenario::is_coupled(scene) ? Heave::left_out : Heave::kept;
+}
+
+Linearization plant_about(const Scenario& scene, const Model& model, const LinearPoint& at) {
+  if (scene.gimbal.servo &&
+      (scene.gimbal.servo->time_constant || scene.gimbal.servo_of(1).time_constant)) {
+    throw InputError(
+        "linearize: found --plant and a servo of first order (gimbal.servo.time_constant), whose "
+        "rate jumps with its command; allowed: --sampled or --loop");
+  }
+  const std::vector<int> axes = moving_axes(model);
+  const PlantDerivatives plant = plant_derivatives(model, at, heave_of(scene, at));
+  const std::vector<int> states =
+      linear_states(plant.places, plant.of_state, axes, SpinStands::after_velocities);
+  Linearization made;
+  LinearSystem& system = made.system;
+  system.states = signals_of(state_signals(plant.places, command_unit(scene)), states);
+  system.inputs = signals_of_commands(scene, axes);
+  system.outputs = signals_of_positions(axes, "");
+  system.a = plant.of_state(states, states);
+  system.b = plant.of_command(states, axes);
+  system.c = positions_of(std::ssize(axes), std::ssize(states));
+  system.d = MatrixXd::Zero(std::ssize(axes), std::ssize(axes));
+  made.poles = sorted_eigenvalues(system.a);
+  made.zeros = transmission_zeros(system.a, system.b, system.c, system.d);
+  return made;
+}
+
+// From where the reference is, with the rates that it then has, to where the ball is.
+std::function<std::complex<double>(double)> tracking(const FrequencyResponse& response,
+                                                     const std::vector<int>& columns,
+                                                     const std::vector<int>& axes, int axis) {
+  return [=](double w) {
+    std::complex<double> sum = 0;
+    for (std::size_t j = 0; j < columns.size(); ++j) {
+      if (columns[j] % 2 != axis) continue;
+      const std::complex<double> derivative = std::pow(std::complex<double>(0, w), columns[j] / 2);
+      const auto output = std::find(axes.begin(), axes.end(), axis) - axes.begin();
+      sum += response.at(w, output, static_cast<Eigen::Index>(j)) * derivative;
+    }
+    return sum;
+  };
+}
+
+// A closed loop as its margins and bandwidth are taken from: without the spin, whose pole no
+// command moves. Off home it is next to 0, so that what a response is at rest, on which side of the
+// border the pole is, and by which factor it changes that, say nothing.
+struct PlainLoop {
+  std::vector<int> states;  // of the system's
+  MatrixXd a;
+  Eigenvalues poles;
+  // Gain margins slower than this say nothing either, rad/s: where the gimbal moves, the point has
+  // moved on by then.
+  double slowest;
+};
+
+// Below which frequency a point has moved on before anything happens, rad/s: four times the rates
+// at which the plane turns, and at which it throws the ball as its turn quickens.
+double slowest_at(const PlantDerivatives& plant) {
+  const int angle = spin_state + 1, servos = plant.places.servos;
+  const auto largest = [servos](const VectorXd& of, int first) {
+    return of.segment(first, servos).cwiseAbs().maxCoeff();
+  };
+  return 4 * std::max(largest(plant.rates, angle), std::sqrt(largest(plant.rates, angle + servos) *
+                                                             largest(plant.state, angle)));
+}
+
+PlainLoop plain_loop(Linearization& made, double slowest) {
+  const LinearSystem& system = made.system;
+  PlainLoop plain;
+  plain.slowest = slowest;
+  for (int i = 0; i < static_cast<int>(system.states.size()); ++i) {
+    if (system.states[static_cast<std::size_t>(i)].name != spin_name) plain.states.push_back(i);
+  }
+  plain.a = system.a(plain.states, plain.states);
+  plain.poles = plain.states.size() == system.states.size() ? made.poles
+                : system.period                             ? poles_of_period(plain.a)
+                                                            : sorted_eigenvalues(plain.a);
+  made.stable = system.period ? stable_by_period(plain.poles) : stable(plain.poles);
+  return plain;
+}
+
+void add_bandwidths(Linearization& made, const PlainLoop& plain, const std::vector<int>& columns,
+                    const std::vector<int>& axes) {
+  const LinearSystem& system = made.system;
+  const double period = system.period.value_or(0);
+  const FrequencyResponse response(plain.a, system.b(plain.states, Eigen::all),
+                                   system.c(Eigen::all, plain.states), system.d, period);
+  const std::vector<double> frequencies = frequencies_to_look_at({}, plain.poles, period);
+  // A law that is told the reference's accelerations may follow it at any frequency, by the plant's
+  // own inverse: what its feedback does is seen without them.
+  std::vector<int> fed_back;
+  std::ranges::copy_if(columns, std::back_inserter(fed_back), [](int j) { return j / 2 < 2; });
+  for (const int axis : axes) {
+    const auto width = [&](const std::vector<int>& of) {
+      return bandwidth_of(tracking(response, of, axes, axis), frequencies);
+    };
+    const double whole = width(columns);
+    made.bandwidths.push_back(
+        {coordinate(axis), whole, fed_back.size() == columns.size() ? whole : width(fed_back)});
+  }
+}
+
+// The loop of one command: with what A, B and C it goes once round, open there.
+void add_margins(Linearization& made, const PlainLoop& plain, int axis, const MatrixXd& a,
+                 const VectorXd& b, const Eigen::RowVectorXd& c) {
+  const double period = made.system.period.value_or(0);
+  const std::vector<int>& of = plain.states;
+  const MatrixXd open = a(of, of);
+  // What comes back is taken from the reference: 1 + L.
+  const FrequencyResponse response(open, b(of), -c(of), MatrixXd::Zero(1, 1), period);
+  made.margins.push_back(
+      {std::string(angle_name(axis)) + "_command",
+       margins_of(response, frequencies_to_look_at(eigenvalues_of(open), plain.poles, period),
+                  plain.slowest)});
+}
+
+// What is left of a where b is taken from it, without what only rounding leaves.
+MatrixXd without(const MatrixXd& a, const MatrixXd& b) {
+  constexpr double rounding = 16 * std::numeric_limits<double>::epsilon();
+  return a.binaryExpr(
+      b, [](double p, double q) { return std::abs(p - q) <= rounding * std::abs(q) ? 0 : p - q; });
+}
+
+// Zeros of C (sI - A)^-1 (B0 + s B1 + s^2 B2): those of the system whose states are the
+// reference and its rate too, and whose input is its acceleration. (The powers of s could be had by
+// multiples of A, whose entries would cancel.)
+Eigenvalues tracking_zeros(const MatrixXd& a, const MatrixXd& of_reference, const MatrixXd& c,
+                           const std::vector<int>& axes) {
+  const Eigen::Index n = a.rows(), m = std::ssize(axes);
+  const bool of_accelerations = !of_reference.rightCols(2).isZero(0);
+  const Eigen::Index orders = of_accelerations ? 2 : 1, size = n + orders * m;
+  const auto of_order = [&](Eigen::Index order) -> MatrixXd {
+    return of_reference.middleCols(2 * order, 2)(Eigen::all, axes);
+  };
+  MatrixXd all = MatrixXd::Zero(size, size), input = MatrixXd::Zero(size, m),
+           output = MatrixXd::Zero(c.rows(), size);
+  all.topLeftCorner(n, n) = a;
+  for (Eigen::Index order = 0; order < orders; ++order) {
+    all.block(0, n + order * m, n, m) = of_order(order);
+  }
+  if (of_accelerations) all.block(n, n + m, m, m).setIdentity();
+  input.topRows(n) = of_order(orders);
+  input.bottomRows(m).setIdentity();
+  output.leftCols(n) = c;
+  return transmission_zeros(all, input, output, MatrixXd::Zero(c.rows(), m));
+}
+
+Linearization continuous_loop_about(const Scenario& scene, const Model& model,
+                                    const LinearPoint& at) {
+  const std::vector<int> axes = moving_axes(model);
+  const Heave heave = heave_of(scene, at);
+  const LoopDerivatives loop = loop_derivatives(model, at, heave);
+  const PlantDerivatives plant = plant_derivatives(model, at, heave);
+  const std::vector<int> states = loop_states(loop, axes);
+  Linearization made;
+  LinearSystem& system = made.system;
+  system.states = signals_of(state_signals(loop.places, command_unit(scene)), states);
+  const std::vector<int> columns = reference_inputs(loop.of_reference, axes, system.inputs);
+  system.outputs = signals_of_positions(axes, "");
+  system.a = loop.of_state(states, states);
+  system.b = loop.of_reference(states, columns);
+  system.c = positions_of(std::ssize(axes), std::ssize(states));
+  system.d = MatrixXd::Zero(std::ssize(axes), std::ssize(columns));
+  made.poles = sorted_eigenvalues(system.a);
+
+  made.zeros = tracking_zeros(system.a, loop.of_reference(states, Eigen::all), system.c, axes);
+
+  const PlainLoop plain = plain_loop(made, slowest_at(plant));
+  for (const int axis : axes) {
+    const VectorXd b = plant.of_command(states, axis);
+    const Eigen::RowVectorXd c = loop.command_of_state(axis, states);
+    add_margins(made, plain, axis, without(system.a, b * c), b, c);
+  }
+  add_bandwidths(made, plain, columns, axes);
+  return made;
+}
+
+// From sample to sample: the plant there, a cycle with one sample, and the names of its states.
+struct SampledModel {
+  PlantDerivatives plant;
+  SampledCycle cycle;
+  std::vector<LinearSignal> signals;
+};
+
+SampledModel sampled_about(const Scenario& scene, const Model& model, const LinearPoint& at) {
+  PlantDerivatives plant = plant_derivatives(model, at, heave_of(scene, at));
+  std::vector<int> states;
+  CycleParts parts = cycle_parts(plant, *model.rig, at, states);
+  // There is one system only if each sample looks at a frame of the same age.
+  if (common_cycle(parts.sampling, parts.sensor).samples > 1) parts.sensor.period.reset();
+  SampledCycle cycle(std::move(parts));
+  const std::string unit = command_unit(scene);
+  auto signals = signals_of(state_signals(plant.places, unit), states);
+  std::ranges::move(cycle.memory(unit), std::back_inserter(signals));
+  return {std::move(plant), std::move(cycle), std::move(signals)};
+}
+
+Linearization sampled_loop_about(const Scenario& scene, const Model& model, const LinearPoint& at) {
+  const std::vector<int> axes{0, 1};
+  const auto [plant, cycle, signals] = sampled_about(scene, model, at);
+  const int n = cycle.size();
+  const VectorXd none = VectorXd::Zero(n);
+  MatrixXd of_reference(n, 6);
+  for (int j = 0; j < 6; ++j) {
+    SampledCycle::Input input;
+    input.reference[j] = 1;
+    of_reference.col(j) = cycle.run(none, input).state;
+  }
+  Linearization made;
+  LinearSystem& system = made.system;
+  system.states = signals;
+  const std::vector<int> columns = reference_inputs(of_reference, axes, system.inputs);
+  system.outputs = signals_of_positions(axes, "");
+  system.a = cycle.map();
+  system.b = of_reference(Eigen::all, columns);
+  system.c = positions_of(2, n);
+  system.d = MatrixXd::Zero(2, std::ssize(columns));
+  system.period = scene.controller->sampling->period;
+  made.poles = poles_of_period(system.a);
+  made.zeros =
+      transmission_zeros(system.a, of_reference.leftCols(2), system.c, MatrixXd::Zero(2, 2));
+  const PlainLoop plain = plain_loop(made, slowest_at(plant));
+  for (const int axis : axes) {
+    SampledCycle::Input open;
+    open.open[axis] = true;
+    MatrixXd a(n, n);
+    Eigen::RowVectorXd c(n);
+    for (int j = 0; j < n; ++j) {
+      const SampledCycle::Output out = cycle.run(VectorXd::Unit(n, j), open);
+      a.col(j) = out.state;
+      c[j] = out.law[axis];
+    }
+    open.command[axis] = 1;
+    add_margins(made, plain, axis, a, cycle.run(none, open).state, c);
+  }
+  add_bandwidths(made, plain, columns, axes);
+  return made;
+}
+
+Linearization sampled_plant_about(const Scenario& scene, const Model& model,
+                                  const LinearPoint& at) {
+  if (!scene.controller || !scene.controller->sampling) {
+    throw InputError(
+        "linearize: found --sampled, but the scene has no controller.sampling, which gives the "
+        "period and the delays; allowed: --plant or --loop");
+  }
+  const auto [plant, cycle, signals] = sampled_about(scene, model, at);
+  const int n = cycle.size(), first = cycle.controller_at();
+  // What the controller remembers is no part of the plant.
+  std::vector<int> kept;
+  for (int i = 0; i < n; ++i) {
+    if (i < first || i >= first + cycle.controller_size()) kept.push_back(i);
+  }
+  SampledCycle::Input open;
+  open.open[0] = open.open[1] = true;
+  MatrixXd a(n, n), c(2, n), b(n, 2);
+  for (int j = 0; j < n; ++j) {
+    const SampledCycle::Output out = cycle.run(VectorXd::Unit(n, j), open);
+    a.col(j) = out.state;
+    c.col(j) = out.seen;
+  }
+  for (int j = 0; j < 2; ++j) {
+    SampledCycle::Input input = open;
+    input.command[j] = 1;
+    b.col(j) = cycle.run(VectorXd::Zero(n), input).state;
+  }
+  Linearization made;
+  LinearSystem& system = made.system;
+  for (const int i : kept) system.states.push_back(signals[static_cast<std::size_t>(i)]);
+  system.inputs = signals_of_commands(scene, {0, 1});
+  system.outputs = signals_of_positions({0, 1}, "_measured");
+  system.a = a(kept, kept);
+  system.b = b(kept, Eigen::all);
+  system.c = c(Eigen::all, kept);
+  system.d = MatrixXd::Zero(2, 2);
+  system.period = scene.controller->sampling->period;
+  made.poles = poles_of_period(system.a);
+  made.zeros = transmission_zeros(system.a, system.b, system.c, system.d);
+  return made;
+}
+
+}  // namespace
+
+LinearKind usual_kind(const Scenario& scene) {
+  if (!scene.controller) return LinearKind::plant;
+  return scene.controller->own ? LinearKind::sampled : LinearKind::loop;
+}
+
+namespace {
+
+Linearization linearize_as(const Scenario& scene, const Model& model, LinearKind kind,
+                           const LinearPoint& at) {
+  switch (kind) {
+    case LinearKind::plant:
+      break;
+    case LinearKind::sampled:
+      return sampled_plant_about(scene, model, at);
+    case LinearKind::loop:
+      if (!scene.controller) {
+        throw InputError(
+            "linearize: found --loop, but the scene has no controller; allowed: --plant");
+      }
+      if (scene.controller->own) {
+        throw InputError(
+            "linearize: found --loop with your own controller, whose law bbsim does not know; "
+            "allowed: --plant, --sampled");
+      }
+      return scene.controller->sampling ? sampled_loop_about(scene, model, at)
+                                        : continuous_loop_about(scene, model, at);
+  }
+  return plant_about(scene, model, at);
+}
+
+// -0 is what symmetry makes of 0.
+MatrixXd with_plain_zeros(const MatrixXd& matrix) {
+  return matrix.unaryExpr([](double value) { return value == 0 ? 0.0 : value; });
+}
+
+void make_zeros_plain(Eigenvalues& values) {
+  for (auto& value : values) {
+    if (value.real() == 0) value.real(0);
+    if (value.imag() == 0) value.imag(0);
+  }
+}
+
+}  // namespace
+
+Linearization linearize(const Scenario& scene, const Model& model, LinearKind kind,
+                        const LinearPoint& at) {
+  require_linear(scene);
+  Linearization made = linearize_as(scene, model, kind, at);
+  LinearSystem& system = made.system;
+  for (MatrixXd* matrix : {&system.a, &system.b, &system.c, &system.d}) {
+    *matrix = with_plain_zeros(*matrix);
+  }
+  make_zeros_plain(made.poles);
+  make_zeros_plain(made.zeros);
+  return made;
+}
+
+}  // namespace bbsim::model
