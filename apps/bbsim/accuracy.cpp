@@ -12,9 +12,9 @@
 #include <string>
 #include <vector>
 
-#include "assemble.hpp"
+#include "api/assemble.hpp"
+#include "base/short_number.hpp"
 #include "commands.hpp"
-#include "describe.hpp"
 #include "file/atomic_file.hpp"
 #include "file/format.hpp"
 #include "file/outputs.hpp"
@@ -123,12 +123,10 @@ std::string what_switches(const Scenario& scenario, const model::Model& model) {
 }
 
 ExitCode accuracy(const AccuracyArguments& arguments, const Options& options) {
-  say_if_waiting(arguments.scenario.file, "a scenario", options.quiet);
-  const Scenario scenario = read_scenario(arguments.scenario.file, arguments.scenario.overrides);
+  file::Outputs outputs;
+  const Scenario scenario = read(arguments.scenario, options, outputs);
   const std::vector<Method> methods = methods_named(arguments.methods);
   const std::vector<double> rtols = tolerance_ladder(arguments.rtols);
-  file::Outputs outputs;
-  reads_scenario(outputs, arguments.scenario.file, scenario);
   if (arguments.csv != "-") prints(outputs);
   if (!arguments.csv.empty()) outputs.writes(arguments.csv, "--csv");
   if (!arguments.plot.empty()) outputs.writes(arguments.plot, "--plot");
@@ -143,7 +141,7 @@ ExitCode accuracy(const AccuracyArguments& arguments, const Options& options) {
   }
 
   const auto columns = scenario::columns_named(scenario.output.columns);
-  const model::Model model = assemble(scenario, columns);
+  const model::Model model = api::assemble(scenario, columns);
   if (model.hybrid()) {
     throw InputError(
         scenario.source.file + ": accuracy compares smooth runs; found a switch or an event: " +
@@ -152,9 +150,10 @@ ExitCode accuracy(const AccuracyArguments& arguments, const Options& options) {
   }
   const solve::OutputGrid grid(scenario.time);
   Progress progress("accuracy", options.quiet);
-  const study::AccuracyStudy study = study::measure_accuracy(
-      model, grid, methods, rtols, {&watch_signals(), [&](double part) { progress.update(part); }});
-  progress.clear();
+  const study::AccuracyStudy study =
+      study::measure_accuracy(model, grid, methods, rtols,
+                              {&watch_signals(), [&](double part) { progress.update(part, ""); }});
+  progress.end();
 
   if (!options.quiet) explain_reference(study, grid.end());
   if (csv) {

@@ -5,8 +5,10 @@
 
 #include <filesystem>
 
+#include "api/run.hpp"
 #include "controller/host.hpp"
 #include "scenario/reader.hpp"
+#include "terminal.hpp"
 
 namespace bbsim::app {
 namespace {
@@ -58,6 +60,11 @@ void add_error(Command& command, std::string& error) {
       .takes("E");
 }
 
+ScenarioArguments with_error(ScenarioArguments arguments, const std::string& error) {
+  if (!error.empty()) arguments.overrides.push_back("solver.error=" + error);
+  return arguments;
+}
+
 InputError as_of_error_option(const InputError& error) {
   constexpr std::string_view as_key = "--set solver.error=", key = "solver.error: ";
   std::vector<Problem> problems = error.problems();
@@ -78,6 +85,14 @@ void reads_scenario(file::Outputs& outputs, const std::string& file, const Scena
   reads_parts(outputs, scenario);
 }
 
+Scenario read(const ScenarioArguments& arguments, const Options& options, file::Outputs& outputs,
+              std::vector<file::InputTable>* inputs) {
+  say_if_waiting(arguments.file, "a scenario", options.quiet);
+  Scenario scenario = read_scenario(arguments.file, arguments.overrides, inputs);
+  reads_scenario(outputs, arguments.file, scenario);
+  return scenario;
+}
+
 void reads_with_result(file::Outputs& outputs, const plot::Result& result) {
   if (!result.beside.empty()) outputs.reads(result.beside, "the summary of " + result.file);
   if (result.scenario) reads_parts(outputs, *result.scenario);
@@ -85,6 +100,14 @@ void reads_with_result(file::Outputs& outputs, const plot::Result& result) {
 
 void prints(file::Outputs& outputs) {
   outputs.writes("-", "what is printed");
+}
+
+void tell(const api::RunResult& made, bool quiet) {
+  if (!made.summary.reason.empty()) say(made.summary.reason);
+  for (const std::string& one : made.unmet) say(one);
+  if (quiet) return;
+  for (const std::string& warning : made.summary.warnings) say(warning);
+  if (!made.noted.empty()) say(made.noted);
 }
 
 }  // namespace bbsim::app

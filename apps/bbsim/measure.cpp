@@ -134,13 +134,15 @@ ExitCode measure(const MeasureArguments& arguments, const Options& options) {
     const record::StoredRun run(std::move(numbers), arguments.file);
     const auto measures = run.measures_named(asked);
     std::vector<double> values;
+    std::vector<std::pair<std::string, double>> named;
     scenario::Whys whys;
     for (const scenario::Measure& one : measures) {
       const record::Measured found = run.value_of(one);
       values.push_back(found.value);
+      named.emplace_back(one.name, found.value);
       whys.push_back(found.why);
     }
-    print(measure_text(measures, values));
+    print(measure_text(named));
     if (options.quiet) return ExitCode::done;
     if (is_log) warn_of_units(run, measures, arguments.file);
     tell_of_references(run, measures, arguments.file);

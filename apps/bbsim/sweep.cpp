@@ -15,10 +15,10 @@
 #include <utility>
 #include <vector>
 
-#include "assemble.hpp"
+#include "api/assemble.hpp"
 #include "base/number_text.hpp"
+#include "base/short_number.hpp"
 #include "commands.hpp"
-#include "describe.hpp"
 #include "file/atomic_file.hpp"
 #include "file/default_name.hpp"
 #include "file/outputs.hpp"
@@ -130,11 +130,11 @@ void declare_files(const SweepArguments& arguments, const ScenarioFamily& family
 }
 
 // A controller of one's own that cannot be had is the scenario's fault, and not that of each case.
-void try_controller(const ScenarioFamily& family, Scenario first) {
+void try_controller(const ScenarioFamily& family, Scenario first, api::Watch& watch) {
   if (!first.controller || !first.controller->own) return;
   first.source = family.source();  // where its keys stand
-  controller::Host host = make_host(&watch_signals());
-  static_cast<void>(assemble(first, scenario::columns_named(first.output.columns), host));
+  controller::Host host = api::make_host(watch);
+  static_cast<void>(api::assemble(first, scenario::columns_named(first.output.columns), host));
 }
 
 ExitCode sweep(const SweepArguments& arguments, const Options& options) {
@@ -147,7 +147,8 @@ ExitCode sweep(const SweepArguments& arguments, const Options& options) {
   const sweep::SweepPlan plan(family, sweep);
   const Scenario first = family.read(plan.settings(0));
   sweep::SweepTask task{family, plan, measures_of(sweep, family, plan, first)};
-  task.tell = say_of_controller;
+  Progress progress(family.source().file, options.quiet, true);
+  task.tell = [&](std::string_view line) { progress.controller_says(line); };
   if (arguments.keep_trajectories) keep_trajectories(task, first);
 
   const sweep::Engine engine = sweep::choose_engine(task);
@@ -158,13 +159,12 @@ ExitCode sweep(const SweepArguments& arguments, const Options& options) {
   if (!options.quiet) {
     for (const std::string& remark : first.remarks) say(remark);
   }
-  Progress progress(family.source().file, options.quiet, true);
   const bool checked = plan.check(family, range.first, range.last, [&](double part) {
     progress.update(part, "checking the cases");
     return !stop.load(std::memory_order_relaxed);
   });
   if (!checked) {
-    progress.clear();
+    progress.end();
     say("interrupted before the first case.");
     return ExitCode::interrupted;
   }
@@ -180,7 +180,7 @@ ExitCode sweep(const SweepArguments& arguments, const Options& options) {
   if (arguments.output.empty() && !arguments.force) {
     file::require_like(output, file::table_with(sweep::header_of(layout.columns)));
   }
-  try_controller(family, first);
+  try_controller(family, first, progress);
   const auto summary =
       arguments.summary.empty() ? nullptr : std::make_unique<file::AtomicFile>(arguments.summary);
   const auto file =
@@ -213,7 +213,7 @@ ExitCode sweep(const SweepArguments& arguments, const Options& options) {
         say("the system gave no more than " + std::to_string(had) + " of " +
             std::to_string(threads) + " threads; the sweep continues with these");
       });
-  progress.clear();
+  progress.end();
 
   if (end.finished) {
     file->finish(attributes_of(facts, engine));

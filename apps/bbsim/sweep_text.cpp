@@ -7,7 +7,6 @@
 #include <nlohmann/json.hpp>
 #include <vector>
 
-#include "describe.hpp"
 #include "file/case_text.hpp"
 #include "simd/instruction_set.hpp"
 #include "solve/output_grid.hpp"

@@ -10,8 +10,8 @@
 #include <string>
 #include <vector>
 
+#include "base/short_number.hpp"
 #include "commands.hpp"
-#include "describe.hpp"
 #include "progress.hpp"
 #include "scenario/reader.hpp"
 #include "signals.hpp"
@@ -104,9 +104,10 @@ ExitCode verify(const VerifyArguments& arguments, const Options& options) {
   }
   prints(outputs);
   Progress progress("verify", options.quiet);
-  const solve::Watch watch{&watch_signals(), [&](double fraction) { progress.update(fraction); }};
+  const solve::Watch watch{&watch_signals(),
+                           [&](double fraction) { progress.update(fraction, ""); }};
   const study::Verification verification = study::verify(watch);
-  progress.clear();
+  progress.end();
   print(table_of(verification));
   if (verification.interrupted) {
     say("interrupted.");
