@@ -5,26 +5,12 @@
 
 #include <filesystem>
 
+#include "api/inputs.hpp"
 #include "api/run.hpp"
-#include "controller/host.hpp"
 #include "scenario/reader.hpp"
 #include "terminal.hpp"
 
 namespace bbsim::app {
-namespace {
-
-// The files that a scenario names.
-void reads_parts(file::Outputs& outputs, const Scenario& scenario) {
-  for (const std::string& table : table_files(scenario)) {
-    outputs.reads(table, "a table of the scenario");
-  }
-  for (const std::string& file : controller::files_of(scenario)) {
-    outputs.reads(file, "the scenario's controller");
-  }
-}
-
-}  // namespace
-
 void add_scenario(Command& command, ScenarioArguments& arguments) {
   command.option("SCENARIO", arguments.file, "a YAML file, or - for standard input").required();
   add_overrides(command, arguments.overrides);
@@ -80,22 +66,12 @@ InputError as_of_error_option(const InputError& error) {
   return InputError(std::move(problems));
 }
 
-void reads_scenario(file::Outputs& outputs, const std::string& file, const Scenario& scenario) {
-  outputs.reads(file, "the scenario");
-  reads_parts(outputs, scenario);
-}
-
 Scenario read(const ScenarioArguments& arguments, const Options& options, file::Outputs& outputs,
               std::vector<file::InputTable>* inputs) {
   say_if_waiting(arguments.file, "a scenario", options.quiet);
   Scenario scenario = read_scenario(arguments.file, arguments.overrides, inputs);
-  reads_scenario(outputs, arguments.file, scenario);
+  api::reads_scenario(outputs, arguments.file, scenario);
   return scenario;
-}
-
-void reads_with_result(file::Outputs& outputs, const plot::Result& result) {
-  if (!result.beside.empty()) outputs.reads(result.beside, "the summary of " + result.file);
-  if (result.scenario) reads_parts(outputs, *result.scenario);
 }
 
 void prints(file::Outputs& outputs) {

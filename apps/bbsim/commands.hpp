@@ -10,7 +10,6 @@
 #include "command.hpp"
 #include "file/outputs.hpp"
 #include "file/table_writer.hpp"
-#include "plot/result.hpp"
 #include "scenario/scenario.hpp"
 
 namespace bbsim::api {
@@ -56,15 +55,11 @@ void add_overrides(Command& command, std::vector<std::string>& overrides);
 // What an output is called in messages.
 [[nodiscard]] std::string name_of_output(const std::string& output);
 
-// Says that a command reads a scenario, and with it its tables and what its own controller is made
-// of.
-void reads_scenario(file::Outputs& outputs, const std::string& file, const Scenario& scenario);
-// Reads a scenario, and says that the command does. `inputs`, if it is given, gets its tables.
+// Reads a scenario, and says that the command does, with its tables and its own controller.
+// `inputs`, if it is given, gets its tables.
 [[nodiscard]] Scenario read(const ScenarioArguments& arguments, const Options& options,
                             file::Outputs& outputs,
                             std::vector<file::InputTable>* inputs = nullptr);
-// The same of what was read with a result: its summary, and what its scenario names.
-void reads_with_result(file::Outputs& outputs, const plot::Result& result);
 
 // Says that it prints: nothing it reads may be what its standard output goes to.
 void prints(file::Outputs& outputs);

@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "api/inputs.hpp"
 #include "api/picture.hpp"
 #include "api/run.hpp"
 #include "commands.hpp"
@@ -122,7 +123,7 @@ std::vector<Replayed> read_all(const ReplayArguments& arguments, const Options& 
       } else {
         outputs.reads(files[i], "what is shown");
         source.result = plot::read_result(files[i], arguments.beside);
-        reads_with_result(outputs, *source.result);
+        api::reads_with_result(outputs, *source.result);
       }
       sources.push_back(std::move(source));
     } catch (const InputError& error) {
