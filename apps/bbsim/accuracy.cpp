@@ -1,31 +1,22 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "study/accuracy.hpp"
+#include "api/accuracy.hpp"
 
 #include <algorithm>
-#include <cmath>
-#include <cstdlib>
 #include <filesystem>
 #include <memory>
-#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
-#include "assemble.hpp"
+#include "base/short_number.hpp"
 #include "commands.hpp"
-#include "describe.hpp"
 #include "file/atomic_file.hpp"
 #include "file/format.hpp"
 #include "file/outputs.hpp"
 #include "gnuplot.hpp"
-#include "model/model.hpp"
 #include "progress.hpp"
-#include "scenario/reader.hpp"
-#include "signals.hpp"
-#include "solve/choose.hpp"
-#include "solve/output_grid.hpp"
-#include "study/accuracy_text.hpp"
 #include "terminal.hpp"
 
 namespace bbsim::app {
@@ -59,40 +50,15 @@ std::vector<Method> methods_named(const std::vector<std::string>& names) {
   return methods;
 }
 
-std::optional<double> tolerance(const std::string& text) {
-  char* end = nullptr;
-  const double value = std::strtod(text.c_str(), &end);
-  if (end == text.c_str() || *end != '\0' || !(value >= 1e-14 && value <= 0.1)) return {};
-  return value;
-}
-
-// "1e-3:1e-13": a value a decade from the first to the last; or a single value.
-std::vector<double> tolerance_ladder(const std::string& text) {
-  const std::size_t colon = text.find(':');
-  const auto first = tolerance(text.substr(0, colon));
-  const auto last = colon == std::string::npos ? first : tolerance(text.substr(colon + 1));
-  if (!first || !last || *last > *first) {
-    throw InputError("--rtol: found " + text +
-                     ", allowed is LOOSEST:TIGHTEST such as 1e-3:1e-13, or one value, each from "
-                     "0.1 down to 1e-14");
-  }
-  std::vector<double> ladder;
-  for (int decade = 0;; ++decade) {
-    const double rung = decade == 0 ? *first : study::ten_digits(*first / std::pow(10.0, decade));
-    if (rung < *last) return ladder;
-    ladder.push_back(rung);
-  }
-}
-
-study::Picture picture_of(const std::string& file) {
+api::Picture picture_of(const std::string& file) {
   const std::string ending = file::lower_ending(file);
-  if (ending == ".svg") return study::Picture::svg;
-  if (ending == ".png") return study::Picture::png;
-  if (ending == ".pdf") return study::Picture::pdf;
+  if (ending == ".svg") return api::Picture::svg;
+  if (ending == ".png") return api::Picture::png;
+  if (ending == ".pdf") return api::Picture::pdf;
   throw InputError("--plot: found " + file + ", allowed is a name that ends in .svg, .png or .pdf");
 }
 
-void explain_reference(const study::AccuracyStudy& study, double end) {
+void explain_reference(const api::AccuracyStudy& study, double end) {
   say("the reference's own error: about " + rounded(study.reference_error, 2) + " m");
   if (!study.reference_complete && !study.interrupted) {
     say("the reference solution ended at t = " + short_number(study.reference_reached) + " s of " +
@@ -100,74 +66,40 @@ void explain_reference(const study::AccuracyStudy& study, double end) {
   }
 }
 
-// Of a model that is hybrid().
-std::string what_switches(const Scenario& scenario, const model::Model& model) {
-  std::string list;
-  const auto add = [&list](bool there, const char* what) {
-    if (there) list += (list.empty() ? "" : ", ") + std::string(what);
-  };
-  add(model.events.has_value(), "events");
-  if (model.rig) {
-    const bool by_angles =
-        scenario.controller && scenario.controller->law == Law::gravity_compensation;
-    add(model.rig->sampled.has_value(), "controller.sampling");
-    add(model.rig->limits_commands(),
-        by_angles ? "the command limit, which gravity_compensation always has"
-                  : "controller.limit");
-    add(std::ranges::any_of(model.rig->servo, &model::RigServo::switches),
-        "a limit or the backlash of gimbal.servo");
-    add(model.rig->between.has_pieces(), "a measured curve of gimbal.linkage");
-  }
-  add(model.dry.has_value(), "dry friction, sliding, or a motor's limit");
-  return list;
-}
-
 ExitCode accuracy(const AccuracyArguments& arguments, const Options& options) {
-  say_if_waiting(arguments.scenario.file, "a scenario", options.quiet);
-  const Scenario scenario = read_scenario(arguments.scenario.file, arguments.scenario.overrides);
-  const std::vector<Method> methods = methods_named(arguments.methods);
-  const std::vector<double> rtols = tolerance_ladder(arguments.rtols);
   file::Outputs outputs;
-  reads_scenario(outputs, arguments.scenario.file, scenario);
+  Scenario scenario = read(arguments.scenario, options, outputs);
+  const std::vector<Method> methods = methods_named(arguments.methods);
+  const std::vector<double> rtols = api::tolerance_ladder(arguments.rtols);
   if (arguments.csv != "-") prints(outputs);
   if (!arguments.csv.empty()) outputs.writes(arguments.csv, "--csv");
   if (!arguments.plot.empty()) outputs.writes(arguments.plot, "--plot");
   // What is written is opened, and gnuplot looked for, before the work is done.
   std::unique_ptr<file::AtomicFile> csv, plot;
   if (!arguments.csv.empty()) csv = std::make_unique<file::AtomicFile>(arguments.csv);
-  const study::Picture picture =
-      arguments.plot.empty() ? study::Picture::svg : picture_of(arguments.plot);
+  const api::Picture picture =
+      arguments.plot.empty() ? api::Picture::svg : picture_of(arguments.plot);
   if (!arguments.plot.empty()) {
     require_gnuplot();
     plot = std::make_unique<file::AtomicFile>(arguments.plot);
   }
 
-  const auto columns = scenario::columns_named(scenario.output.columns);
-  const model::Model model = assemble(scenario, columns);
-  if (model.hybrid()) {
-    throw InputError(
-        scenario.source.file + ": accuracy compares smooth runs; found a switch or an event: " +
-        what_switches(scenario, model) +
-        "; allowed: a scene without one (`bbsim run --error` estimates the error of this one)");
-  }
-  const solve::OutputGrid grid(scenario.time);
   Progress progress("accuracy", options.quiet);
-  const study::AccuracyStudy study = study::measure_accuracy(
-      model, grid, methods, rtols, {&watch_signals(), [&](double part) { progress.update(part); }});
-  progress.clear();
-
-  if (!options.quiet) explain_reference(study, grid.end());
-  if (csv) {
-    csv->write(study::accuracy_csv(study));
-    csv->commit();
-  }
+  const double end = scenario.time.end;
   const std::string title = scenario.title.empty()
                                 ? std::filesystem::path(scenario.source.file).stem().string()
                                 : scenario.title;
-  if (arguments.csv != "-") print(study::accuracy_table(study));
-  const bool any = !study::best_by_decade(study).empty();
+  const api::AccuracyStudy study = api::accuracy({std::move(scenario), methods, rtols}, progress);
+
+  if (!options.quiet) explain_reference(study, end);
+  if (csv) {
+    csv->write(api::accuracy_csv(study));
+    csv->commit();
+  }
+  if (arguments.csv != "-") print(api::accuracy_table(study));
+  const bool any = api::any_complete(study);
   if (plot && any) {
-    plot->write(run_gnuplot(study::accuracy_plot(study, title, picture)));
+    plot->write(run_gnuplot(api::accuracy_plot(study, title, picture)));
     plot->commit();
   }
   if (study.interrupted) {

@@ -10,7 +10,7 @@
 #include <system_error>
 #include <utility>
 
-#include "describe.hpp"
+#include "base/short_number.hpp"
 
 namespace bbsim::app {
 

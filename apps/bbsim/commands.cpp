@@ -5,24 +5,12 @@
 
 #include <filesystem>
 
-#include "controller/host.hpp"
+#include "api/inputs.hpp"
+#include "api/run.hpp"
 #include "scenario/reader.hpp"
+#include "terminal.hpp"
 
 namespace bbsim::app {
-namespace {
-
-// The files that a scenario names.
-void reads_parts(file::Outputs& outputs, const Scenario& scenario) {
-  for (const std::string& table : table_files(scenario)) {
-    outputs.reads(table, "a table of the scenario");
-  }
-  for (const std::string& file : controller::files_of(scenario)) {
-    outputs.reads(file, "the scenario's controller");
-  }
-}
-
-}  // namespace
-
 void add_scenario(Command& command, ScenarioArguments& arguments) {
   command.option("SCENARIO", arguments.file, "a YAML file, or - for standard input").required();
   add_overrides(command, arguments.overrides);
@@ -58,6 +46,11 @@ void add_error(Command& command, std::string& error) {
       .takes("E");
 }
 
+ScenarioArguments with_error(ScenarioArguments arguments, const std::string& error) {
+  if (!error.empty()) arguments.overrides.push_back("solver.error=" + error);
+  return arguments;
+}
+
 InputError as_of_error_option(const InputError& error) {
   constexpr std::string_view as_key = "--set solver.error=", key = "solver.error: ";
   std::vector<Problem> problems = error.problems();
@@ -73,18 +66,24 @@ InputError as_of_error_option(const InputError& error) {
   return InputError(std::move(problems));
 }
 
-void reads_scenario(file::Outputs& outputs, const std::string& file, const Scenario& scenario) {
-  outputs.reads(file, "the scenario");
-  reads_parts(outputs, scenario);
-}
-
-void reads_with_result(file::Outputs& outputs, const plot::Result& result) {
-  if (!result.beside.empty()) outputs.reads(result.beside, "the summary of " + result.file);
-  if (result.scenario) reads_parts(outputs, *result.scenario);
+Scenario read(const ScenarioArguments& arguments, const Options& options, file::Outputs& outputs,
+              std::vector<file::InputTable>* inputs) {
+  say_if_waiting(arguments.file, "a scenario", options.quiet);
+  Scenario scenario = read_scenario(arguments.file, arguments.overrides, inputs);
+  api::reads_scenario(outputs, arguments.file, scenario);
+  return scenario;
 }
 
 void prints(file::Outputs& outputs) {
   outputs.writes("-", "what is printed");
+}
+
+void tell(const api::RunResult& made, bool quiet) {
+  if (!made.summary.reason.empty()) say(made.summary.reason);
+  for (const std::string& one : made.unmet) say(one);
+  if (quiet) return;
+  for (const std::string& warning : made.summary.warnings) say(warning);
+  if (!made.noted.empty()) say(made.noted);
 }
 
 }  // namespace bbsim::app

@@ -9,8 +9,12 @@
 
 #include "command.hpp"
 #include "file/outputs.hpp"
-#include "plot/result.hpp"
+#include "file/table_writer.hpp"
 #include "scenario/scenario.hpp"
+
+namespace bbsim::api {
+struct RunResult;
+}
 
 namespace bbsim::app {
 
@@ -27,6 +31,7 @@ struct ScenarioArguments {
 void add_scenario(Command& command, ScenarioArguments& arguments);
 // --error E: a bound in metres, in place of tolerances; as a further override it comes last.
 void add_error(Command& command, std::string& error);
+[[nodiscard]] ScenarioArguments with_error(ScenarioArguments arguments, const std::string& error);
 // --force: see file::require_like().
 void add_force(Command& command, bool& force);
 // What is wrong with solver.error as --error gave it, in --error's words.
@@ -50,14 +55,18 @@ void add_overrides(Command& command, std::vector<std::string>& overrides);
 // What an output is called in messages.
 [[nodiscard]] std::string name_of_output(const std::string& output);
 
-// Says that a command reads a scenario, and with it its tables and what its own controller is made
-// of.
-void reads_scenario(file::Outputs& outputs, const std::string& file, const Scenario& scenario);
-// The same of what was read with a result: its summary, and what its scenario names.
-void reads_with_result(file::Outputs& outputs, const plot::Result& result);
+// Reads a scenario, and says that the command does, with its tables and its own controller.
+// `inputs`, if it is given, gets its tables.
+[[nodiscard]] Scenario read(const ScenarioArguments& arguments, const Options& options,
+                            file::Outputs& outputs,
+                            std::vector<file::InputTable>* inputs = nullptr);
 
 // Says that it prints: nothing it reads may be what its standard output goes to.
 void prints(file::Outputs& outputs);
+
+// Says why a run ended early and what is not as expected, and, unless it is to be quiet, warnings
+// and what was noted.
+void tell(const api::RunResult& made, bool quiet);
 
 void add_run(Command& command, const Options& options);
 void add_check(Command& command, const Options& options);

@@ -9,12 +9,12 @@
 #include <exception>
 #include <new>
 
+#include "api/run.hpp"
 #include "base/end_process.hpp"
 #include "base/error.hpp"
 #include "command_line.hpp"
 #include "commands.hpp"
 #include "file/temporaries.hpp"
-#include "model/control/external_controller.hpp"
 #include "signals.hpp"
 #include "terminal.hpp"
 
@@ -40,7 +40,7 @@ ExitCode run(const Command& command) {
     return say(error.what(), ExitCode::input_at_fault);
   } catch (const bbsim::ReaderGone&) {
     return ExitCode::output_failed;  // quietly: whoever reads has seen enough, as of `| head`
-  } catch (const bbsim::model::ControllerFault& error) {
+  } catch (const bbsim::api::ControllerFault& error) {
     return say(error.what(), error.interrupted() ? ExitCode::interrupted : ExitCode::ended_early);
   } catch (const bbsim::OutputError& error) {
     return say(error.what(), ExitCode::output_failed);

@@ -7,12 +7,9 @@
 
 namespace bbsim::app {
 
-std::string measure_text(const std::vector<scenario::Measure>& measures,
-                         const std::vector<double>& values) {
+std::string measure_text(const std::vector<std::pair<std::string, double>>& measures) {
   std::string text = "measure,value\n";
-  for (std::size_t m = 0; m < measures.size(); ++m) {
-    text += measures[m].name + ',' + number_text(values[m]) + '\n';
-  }
+  for (const auto& [name, value] : measures) text += name + ',' + number_text(value) + '\n';
   return text;
 }
 

@@ -5,16 +5,15 @@
 #pragma once
 
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "command.hpp"
-#include "scenario/measures.hpp"
 
 namespace bbsim::app {
 
 // CSV: measure,value.
-[[nodiscard]] std::string measure_text(const std::vector<scenario::Measure>& measures,
-                                       const std::vector<double>& values);
+[[nodiscard]] std::string measure_text(const std::vector<std::pair<std::string, double>>& measures);
 
 // --measure NAME,...; may be given again.
 Option add_measures(Command& command, std::vector<std::string>& lists, const std::string& what);

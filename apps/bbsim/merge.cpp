@@ -1,15 +1,13 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "sweep/merge.hpp"
-
 #include <memory>
 #include <string>
 #include <vector>
 
+#include "api/sweep.hpp"
 #include "commands.hpp"
-#include "file/outputs.hpp"
-#include "signals.hpp"
+#include "progress.hpp"
 #include "terminal.hpp"
 
 namespace bbsim::app {
@@ -21,20 +19,12 @@ struct MergeArguments {
 };
 
 ExitCode merge(const MergeArguments& arguments, const Options& options) {
-  file::Outputs outputs;
-  for (const std::string& part : arguments.parts) {
-    outputs.reads(part, "a part");
-    if (const std::string plan = sweep::plan_of_part(part); !plan.empty()) {
-      outputs.reads(plan, "the plan of " + part);
-    }
-  }
-  outputs.writes(arguments.output, "-o");
-  const sweep::Merged merged =
-      sweep::merge_cases(arguments.parts, arguments.output, watch_signals());
+  Progress progress("merge", options.quiet);
+  const api::MergeResult merged = api::merge(arguments.parts, arguments.output, progress);
   if (!merged.note.empty() && !options.quiet) say(merged.note);
-  if (merged.interrupted) {
+  if (merged.code != ExitCode::done) {
     say("interrupted; nothing was written.");
-    return ExitCode::interrupted;
+    return merged.code;
   }
   if (!options.quiet) {
     say(name_of_output(arguments.output) + ": " + std::to_string(merged.cases) + " cases from " +

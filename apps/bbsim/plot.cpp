@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "api/inputs.hpp"
 #include "commands.hpp"
 #include "file/atomic_file.hpp"
 #include "file/default_name.hpp"
@@ -153,7 +154,7 @@ void draw(const Task& task, plot::Format format, const PlotArguments& arguments,
   for (const std::string& file : task.files) {
     say_if_waiting(file, "a CSV", options.quiet);
     results.push_back(plot::read_result(file, arguments.beside));
-    reads_with_result(outputs, results.back());
+    api::reads_with_result(outputs, results.back());
     if (!options.quiet && !results.back().left_out.empty()) say(results.back().left_out);
     plot::add_end_row(results.back());
   }

@@ -12,6 +12,7 @@
 
 #include "base/printable.hpp"
 #include "progress_line.hpp"
+#include "signals.hpp"
 #include "terminal.hpp"
 
 namespace bbsim::app {
@@ -30,20 +31,40 @@ std::size_t columns_of_terminal() {
 
 }  // namespace
 
+void Teller::controller_says(std::string_view line) {
+  // In the place of a progress bar, which is drawn again below it.
+  if (draws_on_terminal()) std::fputs(to_clear_line, stderr);
+  say("controller: " + std::string(line));
+}
+
 Progress::Progress(const std::string& label, bool quiet, bool lines)
     : label_(printable(label)),
+      quiet_(quiet),
       bar_(!quiet && draws_on_terminal()),
       lines_(lines && !quiet && !bar_),
       start_(Clock::now()),
       last_(start_) {}
 
 Progress::~Progress() {
-  clear();
+  Progress::end();
 }
 
-void Progress::clear() {
+void Progress::end() {
   if (drawn_) std::fputs(to_clear_line, stderr);
   drawn_ = false;
+}
+
+void Progress::note(const std::string& text) {
+  if (!quiet_) Progress::warn(text);
+}
+
+void Progress::warn(const std::string& text) {
+  end();
+  say(text);
+}
+
+const std::atomic<bool>* Progress::stop() {
+  return &watch_signals();
 }
 
 void Progress::start(double fraction) {

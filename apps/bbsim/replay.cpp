@@ -9,19 +9,18 @@
 #include <utility>
 #include <vector>
 
-#include "assemble.hpp"
+#include "api/inputs.hpp"
+#include "api/picture.hpp"
+#include "api/run.hpp"
 #include "commands.hpp"
 #include "file/default_name.hpp"
 #include "file/format.hpp"
-#include "file/memory_table.hpp"
 #include "plot/read_result.hpp"
+#include "progress.hpp"
 #include "replay/log.hpp"
 #include "replay/page.hpp"
 #include "replay/sources.hpp"
 #include "replay_file.hpp"
-#include "scenario/reader.hpp"
-#include "signals.hpp"
-#include "simulation.hpp"
 #include "terminal.hpp"
 
 namespace bbsim::app {
@@ -53,9 +52,9 @@ std::vector<std::string> names_of(const std::vector<std::string>& files) {
   std::vector<std::string> names;
   for (const std::string& file : files) {
     const auto alike = [&](const std::string& other) {
-      return other != file && short_name(other) == short_name(file);
+      return other != file && api::short_name(other) == api::short_name(file);
     };
-    std::string name = std::ranges::any_of(files, alike) ? file : short_name(file);
+    std::string name = std::ranges::any_of(files, alike) ? file : api::short_name(file);
     const std::string plain = name;
     for (int number = 2; std::ranges::find(names, name) != names.end(); ++number) {
       name = plain + " (" + std::to_string(number) + ")";
@@ -120,12 +119,11 @@ std::vector<Replayed> read_all(const ReplayArguments& arguments, const Options& 
                                                              : arguments.maps[log];
         source.log = replay::run_of_log(plot::read_csv_columns(files[i]), map, names[i]);
       } else if (is_scenario(files[i])) {
-        source.scenario = read_scenario(files[i], arguments.beside.overrides);
-        reads_scenario(outputs, files[i], *source.scenario);
+        source.scenario = read({files[i], arguments.beside.overrides}, options, outputs);
       } else {
         outputs.reads(files[i], "what is shown");
         source.result = plot::read_result(files[i], arguments.beside);
-        reads_with_result(outputs, *source.result);
+        api::reads_with_result(outputs, *source.result);
       }
       sources.push_back(std::move(source));
     } catch (const InputError& error) {
@@ -136,22 +134,16 @@ std::vector<Replayed> read_all(const ReplayArguments& arguments, const Options& 
   return sources;
 }
 
-replay::Run run_scenario(const Replayed& source, const Options& options, ExitCode& code) {
-  const Scenario& scenario = *source.scenario;
-  const auto asked = scenario::columns_named(scenario.output.columns);
-  const auto columns = with_pictured(asked, scenario);
-  controller::Host host = make_host(&watch_signals());
-  const model::Model model = assemble(scenario, columns, host);
-  const solve::OutputGrid grid(scenario.time);
-  file::MemoryTable table(scenario::names_of(columns));
-  const Simulation made =
-      simulate(scenario, model, grid, {columns, asked.size()}, table, options.quiet);
-  host.finish();
+replay::Run run_scenario(Replayed& source, const Options& options, ExitCode& code) {
+  Progress progress(source.scenario->source.file, options.quiet);
+  api::RunRequest request;
+  request.scenario = std::move(*source.scenario);
+  request.pictured = true;
+  api::RunResult made = api::run(request, progress);
   tell(made, options.quiet);
   if (code == ExitCode::done || made.code == ExitCode::interrupted) code = made.code;
-  replay::Run run = run_of(scenario, table.take(), made);
-  run.name = source.name;
-  return run;
+  made.pictured->name = source.name;
+  return std::move(*made.pictured);
 }
 
 std::string title_of(const replay::Scene& scene) {

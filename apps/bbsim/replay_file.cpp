@@ -9,9 +9,8 @@
 #include <optional>
 #include <utility>
 
-#include "base/text.hpp"
-#include "check.hpp"
-#include "commands.hpp"
+#include "api/picture.hpp"
+#include "base/error.hpp"
 #include "file/format.hpp"
 #include "replay/gltf.hpp"
 #include "replay/page.hpp"
@@ -24,11 +23,6 @@ namespace {
 
 bool is_gltf(const std::string& file) {
   return file::lower_ending(file) == ".glb";
-}
-
-void describe_all(replay::Run& run, const Scenario& scenario) {
-  replay::describe(run, scenario);
-  run.check = lines_of(check_report(scenario, false));
 }
 
 std::string size_text(std::size_t bytes) {
@@ -78,44 +72,6 @@ void ReplayFile::write(const replay::Scene& scene, bool quiet) {
   say(target_ + ": " + content_text(scene) + ", " + size_text(content.size()));
 }
 
-std::vector<const scenario::Column*> with_pictured(
-    const std::vector<const scenario::Column*>& columns, const Scenario& scenario) {
-  std::vector<std::string> names{"t",       "x",       "y",       "phi",    "theta",
-                                 "ball_qw", "ball_qx", "ball_qy", "ball_qz"};
-  if (scenario.controller) {
-    for (const char* name : {"x_reference", "y_reference", "phi_command", "theta_command"}) {
-      names.emplace_back(name);
-    }
-    if (scenario.controller->sampling) {
-      names.emplace_back("x_measured");
-      names.emplace_back("y_measured");
-    }
-  }
-  std::vector<const scenario::Column*> all = columns;
-  for (const scenario::Column* column : scenario::columns_named(names)) {
-    if (std::ranges::find(all, column) == all.end()) all.push_back(column);
-  }
-  return all;
-}
-
-replay::Run run_of(const Scenario& scenario, file::TableData rows, const Simulation& made) {
-  record::RunSummary summary = made.summary;
-  for (std::size_t c = 0; c < made.end_row.size(); ++c) rows.columns[c].push_back(made.end_row[c]);
-  replay::Run run = replay::run_of_table(std::move(rows), short_name(scenario.source.file));
-  run.has_end_row = !made.end_row.empty();
-  run.reached = summary.end_time;
-  describe_all(run, scenario);
-  run.status = summary.status;
-  run.reason = summary.reason;
-  run.version = summary.version;
-  for (const record::EventRecord& event : summary.events) {
-    run.events.push_back({event.t, event.name, event.action, event.x, event.y});
-  }
-  summary.scenario_text.clear();  // it has a place of its own
-  run.summary = record::to_json(summary);
-  return run;
-}
-
 replay::Run run_of(plot::Result result, const std::string& name) {
   const std::optional<Scenario> scenario = result.scenario;
   const std::string title = result.title;
@@ -123,7 +79,7 @@ replay::Run run_of(plot::Result result, const std::string& name) {
   if (!scenario) return run;
   const Source& source = scenario->source;
   try {
-    describe_all(run, parse_scenario(source.text, source.file, source.overrides));
+    api::describe(run, parse_scenario(source.text, source.file, source.overrides));
   } catch (const InputError&) {  // its tables are gone, say, or another version wrote it
     replay::describe_sight(run, *scenario);
   }
@@ -137,10 +93,6 @@ replay::Scene scene_of(replay::Run run) {
   scene.title = run.title.empty() ? run.name : run.title;
   scene.runs.push_back(std::move(run));
   return scene;
-}
-
-std::string short_name(const std::string& file) {
-  return file == "-" ? "standard input" : std::filesystem::path(file).filename().string();
 }
 
 }  // namespace bbsim::app

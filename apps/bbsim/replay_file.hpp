@@ -5,16 +5,11 @@
 #pragma once
 
 #include <string>
-#include <vector>
 
 #include "file/atomic_file.hpp"
 #include "file/outputs.hpp"
-#include "file/table_writer.hpp"
 #include "plot/result.hpp"
 #include "replay/scene.hpp"
-#include "scenario/columns.hpp"
-#include "scenario/scenario.hpp"
-#include "simulation.hpp"
 
 namespace bbsim::app {
 
@@ -40,22 +35,11 @@ class ReplayFile {
   file::AtomicFile file_;
 };
 
-// These columns, and after them what a picture of the scene needs and is not among them.
-[[nodiscard]] std::vector<const scenario::Column*> with_pictured(
-    const std::vector<const scenario::Column*>& columns, const Scenario& scenario);
-
-// A scenario that was run, with what `bbsim check` says of it.
-[[nodiscard]] replay::Run run_of(const Scenario& scenario, file::TableData rows,
-                                 const Simulation& made);
-
 // A result with what is known of its scenario: all of it where it and its tables can be read as
 // they were, else what is sound in it.
 [[nodiscard]] replay::Run run_of(plot::Result result, const std::string& name);
 
 // The scene of one run, called by the title of the run, or its name.
 [[nodiscard]] replay::Scene scene_of(replay::Run run);
-
-// What a file is called in a scene: without its folder.
-[[nodiscard]] std::string short_name(const std::string& file);
 
 }  // namespace bbsim::app

@@ -1,31 +1,19 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include <algorithm>
-#include <cmath>
-#include <deque>
+#include "api/run.hpp"
+
 #include <memory>
 #include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
-#include "assemble.hpp"
-#include "base/number_text.hpp"
+#include "base/short_number.hpp"
 #include "commands.hpp"
-#include "describe.hpp"
-#include "file/atomic_file.hpp"
-#include "file/default_name.hpp"
-#include "file/memory_table.hpp"
-#include "file/outputs.hpp"
 #include "measure_text.hpp"
-#include "model/model.hpp"
+#include "progress.hpp"
 #include "replay_file.hpp"
-#include "run_part.hpp"
-#include "scenario/expectation.hpp"
-#include "scenario/reader.hpp"
-#include "signals.hpp"
-#include "simulation.hpp"
 #include "terminal.hpp"
 
 namespace bbsim::app {
@@ -36,19 +24,13 @@ struct RunArguments {
   std::string output, summary, error, replay;
   bool force = false;
   std::vector<std::string> measures, expect;
-  PartArguments part;
+  api::PartRequest part;
 };
 
-file::ColumnHeader header_of(const scenario::Column& column) {
-  return {column.name, column.unit, column.meaning};
-}
-
 // Comes before any of them is opened.
-void declare_files(const RunArguments& arguments, const Scenario& scenario,
-                   const std::string& output, const std::optional<RunPart>& part) {
-  file::Outputs outputs;
-  reads_scenario(outputs, arguments.scenario.file, scenario);
-  if (part) part->declare_read(outputs);
+void declare_files(const RunArguments& arguments, const std::string& output,
+                   file::Outputs& outputs) {
+  if (!arguments.part.from.empty()) outputs.reads(arguments.part.from, "--from-state");
   if (!arguments.measures.empty()) {
     // A pipe is nobody's, but what came of it could not be read.
     for (const auto& [name, option] : {std::pair(output, "-o"), {arguments.summary, "--summary"}}) {
@@ -59,145 +41,52 @@ void declare_files(const RunArguments& arguments, const Scenario& scenario,
     prints(outputs);
   }
   outputs.writes(output, arguments.output.empty() ? "its name by default, without -o" : "-o");
-  if (part) part->declare_written(outputs);
+  if (!arguments.part.save.empty()) outputs.writes(arguments.part.save, "--save-state");
   if (!arguments.summary.empty()) outputs.writes(arguments.summary, "--summary");
   if (!arguments.replay.empty()) declare_replay(outputs, arguments.replay, "--replay");
 }
 
-std::vector<scenario::Expectation> expectations_of(const RunArguments& arguments,
-                                                   const Scenario& scenario) {
-  std::vector<scenario::Expectation> expectations;
-  for (const std::string& text : arguments.expect) {
-    expectations.push_back(scenario::read_expectation("--expect", text, scenario));
-  }
-  return expectations;
-}
-
-// The measures asked for, and behind them the others that something is expected of.
-std::vector<scenario::Measure> with_expected(
-    std::vector<scenario::Measure> measures,
-    const std::vector<scenario::Expectation>& expectations) {
-  for (const scenario::Expectation& one : expectations) {
-    if (std::ranges::find(measures, one.measure.name, &scenario::Measure::name) == measures.end()) {
-      measures.push_back(one.measure);
-    }
-  }
-  return measures;
-}
-
-// What became of the expectations; those that are not met are said.
-void judge(const std::vector<scenario::Expectation>& expectations,
-           const std::vector<scenario::Measure>& measures, Simulation& made) {
-  for (const scenario::Expectation& one : expectations) {
-    const auto at = static_cast<std::size_t>(
-        std::ranges::find(measures, one.measure.name, &scenario::Measure::name) - measures.begin());
-    const double value = made.measures[at];
-    const bool holds = one.holds(value);
-    made.summary.expectations.push_back({one.text, value, holds});
-    if (holds) continue;
-    const std::string unit = one.measure.unit();
-    const char* const why = made.whys[at];
-    made.unmet.push_back("not as expected: " + one.text + ": " + one.measure.name + " is " +
-                         (std::isnan(value)
-                              ? "no number" + (why != nullptr ? std::string(": ") + why : "")
-                              : number_text(value) + (unit == "1" ? "" : ' ' + unit)));
-    if (made.code == ExitCode::done) made.code = ExitCode::ended_early;
-  }
+// "run.csv: 101 of 101 rows, radau, 57 steps"
+std::string written_text(const api::RunResult& made) {
+  const auto& summary = made.summary;
+  const std::string output = name_of_output(summary.output);
+  if (summary.rows == 0) return output + ": not written; there are no rows";
+  std::string line = output + ": " + std::to_string(summary.rows) + " of " +
+                     std::to_string(made.rows_asked) + " rows, " + summary.method + ", " +
+                     std::to_string(summary.statistics.steps) + " steps";
+  if (!summary.error_estimate) return line;
+  return line + ", error about " + short_number(*summary.error_estimate) + " m";
 }
 
 ExitCode run(const RunArguments& arguments, const Options& options) {
   if (!arguments.replay.empty()) require_replay_ending(arguments.replay, "--replay");
-  say_if_waiting(arguments.scenario.file, "a scenario", options.quiet);
-  std::vector<std::string> overrides = arguments.scenario.overrides;
-  if (!arguments.error.empty()) overrides.push_back("solver.error=" + arguments.error);
-  std::vector<file::InputTable> inputs;
-  const Scenario scenario = read_scenario(arguments.scenario.file, overrides, &inputs);
-  const auto asked = scenario::columns_named(scenario.output.columns);
-  const auto columns = arguments.replay.empty() ? asked : with_pictured(asked, scenario);
-  const auto printed =
-      scenario::measures_named(scenario::split_measures(arguments.measures), scenario);
-  const auto expectations = expectations_of(arguments, scenario);
-  const auto measures = with_expected(printed, expectations);
   const std::string output =
       arguments.output.empty() ? default_output(arguments.scenario.file, ".csv") : arguments.output;
-  std::optional<RunPart> part;
-  if (arguments.part.any()) part.emplace(arguments.part, scenario, inputs);
-  declare_files(arguments, scenario, output, part);
-  std::vector<file::ColumnHeader> headers;
-  headers.reserve(asked.size());
-  for (const scenario::Column* column : asked) headers.push_back(header_of(*column));
-  // Before a controller is started, and long before the file is opened.
-  file::require_table_name(output);
-  if (arguments.output.empty() && !arguments.force) {
-    file::require_like(output, file::table_with(file::csv_header(headers)));
-  }
-  controller::Host host = make_host(&watch_signals());
-  auto needed = columns;
-  for (const scenario::Measure& measure : measures) {
-    needed.push_back(measure.column);
-    if (measure.instant.column != nullptr) needed.push_back(measure.instant.column);
-  }
-  const model::Model model = assemble(part ? part->whole() : scenario, needed, host);
-  const solve::OutputGrid grid = part ? part->grid() : solve::OutputGrid(scenario.time);
-  if (part) part->check(model, columns);
-
-  std::deque<std::string> units;  // as the scene's own controller names them
-  for (std::size_t c = 0; c < asked.size(); ++c) {
-    if (asked[c]->needs != scenario::Needs::own) continue;
-    units.push_back(host.unit_of(asked[c]->name).value_or("1"));
-    headers[c].unit = units.back();
-  }
-  if (part) part->open();
+  file::Outputs outputs;
+  api::RunRequest request;
+  request.scenario =
+      read(with_error(arguments.scenario, arguments.error), options, outputs, &request.inputs);
+  declare_files(arguments, output, outputs);
+  request.output = output;
+  request.replaces_its_like_only = arguments.output.empty() && !arguments.force;
+  request.summary = arguments.summary;
+  request.measures = arguments.measures;
+  request.expect = arguments.expect;
+  request.part = arguments.part;
+  request.pictured = !arguments.replay.empty();
   std::optional<ReplayFile> replay;
-  if (!arguments.replay.empty()) replay.emplace(arguments.replay);
-  const auto writer = file::open_table(output, headers);
-  const auto summary_file =
-      arguments.summary.empty() ? nullptr : std::make_unique<file::AtomicFile>(arguments.summary);
-  writer->keep(inputs);
-  std::optional<file::MemoryTable> pictured;
-  if (replay) pictured.emplace(scenario::names_of(columns), writer.get(), asked.size());
+  if (request.pictured) request.ready = [&] { replay.emplace(arguments.replay); };
 
-  const auto simulation = [&] {
-    return simulate(scenario, model, grid, {columns, asked.size(), measures},
-                    pictured ? static_cast<file::TableWriter&>(*pictured) : *writer, options.quiet,
-                    part ? &part->part() : nullptr);
-  };
-  Simulation made = part ? part->going_on(simulation) : simulation();
-  record::RunSummary& summary = made.summary;
-  summary.output = output;
-  for (std::size_t m = 0; m < printed.size(); ++m) {
-    summary.measures.emplace_back(printed[m].name, made.measures[m]);
-  }
-  judge(expectations, measures, made);
-  if (summary.error_estimate)
-    writer->add_column(header_of(scenario::position_error), made.row_estimates);
-  // A controller that does not begin is no reason to lose an earlier run.
-  const bool any_rows = summary.rows > 0;
-  if (any_rows) writer->finish(record::to_attributes(summary, scenario.source.text));
-  if (summary_file) {
-    summary_file->write(record::to_json(summary));
-    summary_file->commit();
-  }
-
-  host.finish();
-  if (!printed.empty()) print(measure_text(printed, made.measures));
-  const std::string state = part ? part->finish(model) : "";
-  const std::size_t rows = part ? part->part().end_row - part->part().first_row : grid.size();
+  Progress progress(request.scenario.source.file, options.quiet);
+  api::RunResult made = api::run(request, progress);
+  if (!arguments.measures.empty()) print(measure_text(made.summary.measures));
   tell(made, options.quiet);
-  if (!options.quiet && !any_rows) {
-    say(name_of_output(output) + ": not written; there are no rows");
-  } else if (!options.quiet) {
-    std::string line = name_of_output(output) + ": " + std::to_string(summary.rows) + " of " +
-                       std::to_string(rows) + " rows, " + summary.method + ", " +
-                       std::to_string(summary.statistics.steps) + " steps";
-    if (summary.error_estimate) {
-      line += ", error about " + short_number(*summary.error_estimate) + " m";
-    }
-    say(line);
+  if (!options.quiet) {
+    say(written_text(made));
+    if (!made.saved.empty()) say(made.saved);
   }
-  if (!state.empty() && !options.quiet) say(state);
-  if (replay && any_rows) {
-    replay->write(scene_of(run_of(scenario, pictured->take(), made)), options.quiet);
+  if (replay && made.summary.rows > 0) {
+    replay->write(scene_of(std::move(*made.pictured)), options.quiet);
   }
   return made.code;
 }
@@ -240,7 +129,21 @@ void add_run(Command& command, const Options& options) {
               "write a summary of the run to FILE.json, or - for standard output: how it ended, "
               "the model, statistics")
       .takes("FILE");
-  add_part(command, arguments->part);
+  command
+      .option("--save-state", arguments->part.save,
+              "write the state at the end of this run, at --until, or at an interruption, for "
+              "--from-state")
+      .takes("FILE");
+  command
+      .option("--from-state", arguments->part.from,
+              "continue from a state of the same scenario; the rows are those of one whole run to "
+              "the bit")
+      .takes("FILE");
+  command
+      .option("--until", arguments->part.until,
+              "with --save-state: end this part of the run at TIME; time.end stays the end of the "
+              "whole run")
+      .takes("TIME");
   command
       .option("--replay", arguments->replay, "also write FILE.html or FILE.glb, like bbsim replay")
       .takes("FILE");

@@ -3,23 +3,18 @@
 
 #include <memory>
 #include <string>
-#include <vector>
 
+#include "api/measure.hpp"
 #include "commands.hpp"
 #include "file/atomic_file.hpp"
-#include "file/cell_table.hpp"
 #include "file/outputs.hpp"
-#include "record/summarise.hpp"
-#include "scenario/measures.hpp"
 #include "terminal.hpp"
 
 namespace bbsim::app {
 namespace {
 
-struct SummarizeArguments {
-  std::string file, output = "-";
-  std::vector<std::string> keys, measures;
-  std::vector<double> quantiles{0.05, 0.25, 0.5, 0.75, 0.95};
+struct SummarizeArguments : api::SummarizeRequest {
+  std::string output = "-";
 };
 
 ExitCode summarize(const SummarizeArguments& arguments, const Options& options) {
@@ -36,11 +31,7 @@ ExitCode summarize(const SummarizeArguments& arguments, const Options& options) 
   outputs.reads(arguments.file, "SWEEP");
   outputs.writes(arguments.output, "-o");
   say_if_waiting(arguments.file, "a CSV", options.quiet);
-  const file::CellTable table = file::read_cells(arguments.file);
-  const auto groups =
-      record::summarise(table, arguments.file, arguments.keys,
-                        scenario::split_measures(arguments.measures), arguments.quantiles);
-  file::write_file(arguments.output, record::to_csv(groups, arguments.keys, arguments.quantiles));
+  file::write_file(arguments.output, api::summarize(arguments));
   return ExitCode::done;
 }
 

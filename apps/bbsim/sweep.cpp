@@ -1,35 +1,20 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "sweep/sweep.hpp"
+#include "api/sweep.hpp"
 
 #include <algorithm>
-#include <chrono>
-#include <cmath>
-#include <cstdint>
-#include <filesystem>
+#include <cstdio>
 #include <memory>
 #include <optional>
 #include <string>
-#include <thread>
-#include <utility>
 #include <vector>
 
-#include "assemble.hpp"
-#include "base/number_text.hpp"
+#include "base/short_number.hpp"
 #include "commands.hpp"
-#include "describe.hpp"
-#include "file/atomic_file.hpp"
-#include "file/default_name.hpp"
-#include "file/outputs.hpp"
 #include "progress.hpp"
 #include "scenario/measures.hpp"
 #include "scenario/variation.hpp"
-#include "signals.hpp"
-#include "solve/output_grid.hpp"
-#include "sweep/case_file.hpp"
-#include "sweep/sweep_measures.hpp"
-#include "sweep_text.hpp"
 #include "terminal.hpp"
 
 namespace bbsim::app {
@@ -44,8 +29,8 @@ struct SweepArguments {
   bool resume = false, keep_trajectories = false, force = false;
 };
 
-Shard read_shard(const std::string& text) {
-  Shard shard;
+api::Shard read_shard(const std::string& text) {
+  api::Shard shard;
   if (text.empty()) return shard;
   int end = 0;
   if (text.find_first_not_of("0123456789/") != std::string::npos || text.size() > 19 ||
@@ -80,171 +65,49 @@ Sweep sweep_of(const SweepArguments& arguments, const Sweep& in_scenario) {
   return sweep;
 }
 
-std::vector<scenario::Measure> measures_of(const Sweep& sweep, const ScenarioFamily& family,
-                                           const sweep::SweepPlan& plan, const Scenario& first) {
-  const bool loop = first.controller.has_value();
-  return sweep::sweep_measures(
-      sweep.measure.empty() ? scenario::default_measures(loop) : sweep.measure, family, plan);
-}
-
-// Columns of the output rows to be kept of each case.
-void keep_trajectories(sweep::SweepTask& task, const Scenario& scenario) {
-  for (const sweep::Axis& axis : task.plan.axes()) {
-    if (axis.key.starts_with("time") || axis.key.starts_with("output")) {
-      throw InputError(
-          "--keep-trajectories: found " + axis.key +
-          " among the keys that vary; allowed: keys that leave all cases with the same rows");
-    }
-  }
-  for (const std::string& name : scenario.output.columns) {
-    if (name != "t") task.series.push_back(scenario::find_column(name));
-  }
-  task.series_rows = solve::OutputGrid(scenario.time).size();
-}
-
 // "-sweep.csv", "-sweep-2of8.csv"
-std::string suffix(const Shard& shard) {
+std::string suffix(const api::Shard& shard) {
   std::string text = "-sweep";
   if (shard.of > 1) text += '-' + std::to_string(shard.number) + "of" + std::to_string(shard.of);
   return text + ".csv";
 }
 
-std::size_t available_threads() {
-  return std::max(1U, std::thread::hardware_concurrency());
-}
-
-// Comes before any of them is opened.
-void declare_files(const SweepArguments& arguments, const ScenarioFamily& family,
-                   const Scenario& first, const std::string& output) {
-  file::Outputs outputs;
-  reads_scenario(outputs, arguments.scenario.file, first);
-  for (const auto& [name, hash] : family.table_hashes()) {
-    outputs.reads(name, "a table of the scenario");
+// "sweep.csv: 41 of 41 cases, by lanes, 0.0123 s"
+std::string written_text(const api::SweepResult& made) {
+  std::string line = name_of_output(made.output) + ": " + std::to_string(made.rows) + " of " +
+                     std::to_string(made.cases) + " cases";
+  if (made.kept > 0) line += ", " + std::to_string(made.kept) + " of them from the earlier run";
+  if (const std::size_t early = made.statuses.early(); early > 0) {
+    line += ", " + std::to_string(early) + " ended early (see status)";
   }
-  const std::string option = arguments.output.empty() ? "its name by default, without -o" : "-o";
-  outputs.writes(output, option);
-  for (const std::string& file : sweep::case_files_beside(output)) {
-    outputs.writes(file, "kept beside " + output + " until the sweep is done");
+  if (made.statuses.not_finite > 0) {
+    line += ", " + std::to_string(made.statuses.not_finite) + " with no finite number (see reason)";
   }
-  if (!arguments.summary.empty()) outputs.writes(arguments.summary, "--summary");
-}
-
-// A controller of one's own that cannot be had is the scenario's fault, and not that of each case.
-void try_controller(const ScenarioFamily& family, Scenario first) {
-  if (!first.controller || !first.controller->own) return;
-  first.source = family.source();  // where its keys stand
-  controller::Host host = make_host(&watch_signals());
-  static_cast<void>(assemble(first, scenario::columns_named(first.output.columns), host));
+  return line + ", by " + made.engine + ", " + rounded(made.seconds, 3) + " s";
 }
 
 ExitCode sweep(const SweepArguments& arguments, const Options& options) {
-  std::vector<std::string> overrides = arguments.scenario.overrides;
-  if (!arguments.error.empty()) overrides.push_back("solver.error=" + arguments.error);
-  const Shard shard = read_shard(arguments.shard);
-  say_if_waiting(arguments.scenario.file, "a scenario", options.quiet);
-  const ScenarioFamily family(arguments.scenario.file, overrides);
-  const Sweep sweep = sweep_of(arguments, family.read_sweep());
-  const sweep::SweepPlan plan(family, sweep);
-  const Scenario first = family.read(plan.settings(0));
-  sweep::SweepTask task{family, plan, measures_of(sweep, family, plan, first)};
-  task.tell = say_of_controller;
-  if (arguments.keep_trajectories) keep_trajectories(task, first);
-
-  const sweep::Engine engine = sweep::choose_engine(task);
-  const sweep::CaseRange range =
-      sweep::shard_range(plan.cases(), engine.group, shard.number, shard.of);
-
-  const std::atomic<bool>& stop = watch_signals();
-  if (!options.quiet) {
-    for (const std::string& remark : first.remarks) say(remark);
-  }
+  const api::Shard shard = read_shard(arguments.shard);
+  const auto& [file, overrides] = with_error(arguments.scenario, arguments.error);
+  say_if_waiting(file, "a scenario", options.quiet);
+  const ScenarioFamily family(file, overrides);
+  api::SweepRequest request{file, family, sweep_of(arguments, family.read_sweep()), shard,
+                            arguments.output};
+  request.by_default = arguments.output.empty();
+  if (request.by_default) request.output = default_output(file, suffix(shard));
+  request.replaces_anything = arguments.force;
+  request.summary = arguments.summary;
+  request.threads = arguments.threads;
+  request.resumes = arguments.resume;
+  request.keeps_rows = arguments.keep_trajectories;
   Progress progress(family.source().file, options.quiet, true);
-  const bool checked = plan.check(family, range.first, range.last, [&](double part) {
-    progress.update(part, "checking the cases");
-    return !stop.load(std::memory_order_relaxed);
-  });
-  if (!checked) {
-    progress.clear();
-    say("interrupted before the first case.");
-    return ExitCode::interrupted;
+  const api::SweepResult made = api::sweep(request, progress);
+  if (made.code != ExitCode::done) {
+    say(made.reason);
+  } else if (!options.quiet) {
+    say(written_text(made));
   }
-
-  const SweepFacts facts{family, sweep, task, first, shard};
-  const std::string output = arguments.output.empty()
-                                 ? default_output(arguments.scenario.file, suffix(shard))
-                                 : arguments.output;
-  declare_files(arguments, family, first, output);
-  sweep::CaseFileLayout layout = layout_of(facts, engine, range);
-  // Before a controller is started.
-  sweep::check_case_target(output, layout, arguments.resume);
-  if (arguments.output.empty() && !arguments.force) {
-    file::require_like(output, file::table_with(sweep::header_of(layout.columns)));
-  }
-  try_controller(family, first);
-  const auto summary =
-      arguments.summary.empty() ? nullptr : std::make_unique<file::AtomicFile>(arguments.summary);
-  const auto file =
-      sweep::open_case_file(output, std::move(layout), plan_text(facts), arguments.resume);
-  if (!file->kept().trouble.empty()) say(file->kept().trouble);
-  const std::size_t kept = file->kept().rows, all = range.last - range.first;
-  SweepEnd end{true, kept, file->kept().statuses, engine.name, output};
-
-  const std::size_t threads = arguments.threads > 0 ? arguments.threads : available_threads();
-  const auto started = std::chrono::steady_clock::now();
-  const auto seconds = [&started] {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
-  };
-  const auto rate = [&] { return static_cast<double>(end.rows - kept) / seconds(); };
-  progress.start(static_cast<double>(kept) / static_cast<double>(all));
-  end.finished = sweep::run_sweep(
-      engine, {range.first + kept, range.last}, threads, stop,
-      [&task](sweep::CaseResults& results) { write_text(task, results); },
-      [&](const sweep::CaseResults& results) {
-        file->append(results.text, results.count, results.series);
-        end.rows += results.count;
-        for (const sweep::CaseStatus& status : results.status) {
-          end.statuses.add(status.word, status.reason);
-        }
-        progress.update(static_cast<double>(end.rows) / static_cast<double>(all),
-                        rounded(rate(), 3) + " cases/s");
-      },
-      [&](std::size_t had) {
-        if (options.quiet) return;
-        say("the system gave no more than " + std::to_string(had) + " of " +
-            std::to_string(threads) + " threads; the sweep continues with these");
-      });
-  progress.clear();
-
-  if (end.finished) {
-    file->finish(attributes_of(facts, engine));
-  } else {
-    file->interrupt();
-  }
-  if (summary) {
-    summary->write(summary_text(facts, end));
-    summary->commit();
-  }
-
-  const std::string counts = std::to_string(end.rows) + " of " + std::to_string(all) + " cases";
-  if (!end.finished) {
-    std::string reason = "interrupted after " + counts + '.';
-    if (!file->part().empty() && end.rows > 0) {
-      reason += "\n  " + file->part() + " keeps them; the same command with --resume goes on.";
-    }
-    say(reason);
-    return ExitCode::interrupted;
-  }
-  if (options.quiet) return ExitCode::done;
-  std::string line = name_of_output(output) + ": " + counts;
-  if (kept > 0) line += ", " + std::to_string(kept) + " of them from the earlier run";
-  if (const std::size_t early = end.statuses.early(); early > 0) {
-    line += ", " + std::to_string(early) + " ended early (see status)";
-  }
-  if (end.statuses.not_finite > 0) {
-    line += ", " + std::to_string(end.statuses.not_finite) + " with no finite number (see reason)";
-  }
-  say(line + ", by " + engine.name + ", " + rounded(seconds(), 3) + " s");
-  return ExitCode::done;
+  return made.code;
 }
 
 }  // namespace

@@ -5,12 +5,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <numbers>
 #include <string>
 #include <type_traits>
 #include <variant>
 
+#include "base/short_number.hpp"
 #include "model/assemble_rig.hpp"
 #include "model/servo/linkages.hpp"
 #include "scenario/coupled.hpp"
@@ -18,15 +18,10 @@
 namespace bbsim::model {
 namespace {
 
-std::string number(double value) {
-  char text[40];
-  std::snprintf(text, sizeof text, "%.6g", value);
-  return text;
-}
-
 // In the smaller unit, unless that overflows.
 std::string in_unit(double value, double units, const char* unit, const char* si) {
-  return std::isfinite(value * units) ? number(value * units) + unit : number(value) + si;
+  return std::isfinite(value * units) ? short_number(value * units) + unit
+                                      : short_number(value) + si;
 }
 
 std::string degrees(double angle) {
@@ -111,7 +106,7 @@ std::string limits_of(const Servo& servo) {
   if (servo.angle_limit) list.add("stops at " + degrees(*servo.angle_limit));
   if (servo.rate_limit) list.add("at most " + degrees(*servo.rate_limit) + "/s");
   if (servo.acceleration_limit)
-    list.add("at most " + number(*servo.acceleration_limit) + " rad/s^2");
+    list.add("at most " + short_number(*servo.acceleration_limit) + " rad/s^2");
   list.add_if(servo.dead_band > 0, "dead band " + degrees(servo.dead_band));
   list.add_if(servo.backlash > 0, "backlash " + degrees(servo.backlash));
   return list.text();
@@ -119,8 +114,8 @@ std::string limits_of(const Servo& servo) {
 
 std::string speed_of(const Servo& servo) {
   if (servo.time_constant) return "time constant " + milliseconds(*servo.time_constant);
-  return "natural frequency " + number(servo.natural_frequency) + " rad/s, damping " +
-         number(servo.damping);
+  return "natural frequency " + short_number(servo.natural_frequency) + " rad/s, damping " +
+         short_number(servo.damping);
 }
 
 std::string limits_note(const Gimbal& gimbal) {
@@ -156,8 +151,8 @@ std::string linkage_note(const Scenario& scene) {
     const double tilt = greatest_tilt(three);
     return "three servos, two tilts and a height, (M58) to (M61); all legs reach a tilt of " +
            degrees(tilt) + "; without the wander of the plate's center, at most " +
-           number(1e3 * three.plate / 2 * (1 - std::cos(tilt))) + " mm there, and " +
-           number(1e3 * three.plate / 2 * (1 - std::cos(0.1))) + " mm at 0.1 rad" +
+           short_number(1e3 * three.plate / 2 * (1 - std::cos(tilt))) + " mm there, and " +
+           short_number(1e3 * three.plate / 2 * (1 - std::cos(0.1))) + " mm at 0.1 rad" +
            assumes_note(scene);
   }
   std::string text;
@@ -172,7 +167,7 @@ std::string linkage_note(const Scenario& scene) {
     text += as_servo
                 ? "push rod, a parallelogram: the plate turns with the servo"
                 : (linkage.table ? "measured curve, slope " : "push rod, (M54) to (M56), slope ") +
-                      number(linkage.curve.slope) + " at home";
+                      short_number(linkage.curve.slope) + " at home";
     const double home = linkage.angle(0);
     if (std::abs(home) > 1e-12) text += ", where the plane is at " + degrees(home);
     if (linkage.curve.high < unlimited) {
@@ -186,23 +181,24 @@ std::string linkage_note(const Scenario& scene) {
 
 std::string losses_note(const Losses& losses) {
   List list;
-  list.add_if(losses.rolling > 0, "rolling resistance " + number(losses.rolling));
-  list.add_if(losses.viscous > 0, "viscous " + number(losses.viscous) + " N m s");
+  list.add_if(losses.rolling > 0, "rolling resistance " + short_number(losses.rolling));
+  list.add_if(losses.viscous > 0, "viscous " + short_number(losses.viscous) + " N m s");
   list.add_if(losses.pivoting > 0, "pivoting " + millimetres(losses.pivoting));
   return list.text();
 }
 
 std::string motor_note(const Motor& motor) {
   List list;
-  list.add_if(motor.viscous > 0, "viscous " + number(motor.viscous) + " N m s");
-  list.add_if(motor.friction > 0, "dry friction " + number(motor.friction) + " N m");
-  if (motor.torque_limit) list.add("at most " + number(*motor.torque_limit) + " N m");
+  list.add_if(motor.viscous > 0, "viscous " + short_number(motor.viscous) + " N m s");
+  list.add_if(motor.friction > 0, "dry friction " + short_number(motor.friction) + " N m");
+  if (motor.torque_limit) list.add("at most " + short_number(*motor.torque_limit) + " N m");
   if (motor.dc && motor.dc->voltage_limit) {
-    list.add("at most " + number(*motor.dc->voltage_limit) + " V");
+    list.add("at most " + short_number(*motor.dc->voltage_limit) + " V");
   }
   if (motor.position_loop) {
-    list.add("position loop kp " + number(motor.position_loop->kp) + ", kd " +
-             number(motor.position_loop->kd) + ", ki " + number(motor.position_loop->ki));
+    list.add("position loop kp " + short_number(motor.position_loop->kp) + ", kd " +
+             short_number(motor.position_loop->kd) + ", ki " +
+             short_number(motor.position_loop->ki));
   }
   return list.text();
 }
@@ -217,7 +213,7 @@ std::string own_law(const OwnController& own) {
   }
   for (std::size_t i = 0; i < own.parameters.size(); ++i) {
     text += (i == 0 ? ", with " : ", ") + own.parameters[i].name + " = " +
-            number(own.parameters[i].value);
+            short_number(own.parameters[i].value);
   }
   return text;
 }
@@ -254,7 +250,7 @@ std::string law_note(const Controller& controller) {
     if (!limit) return std::string("any");
     return controller.drives == Drives::angle
                ? degrees(*limit)
-               : number(*limit) + ' ' + command_unit(controller.drives);
+               : short_number(*limit) + ' ' + command_unit(controller.drives);
   };
   const auto phi = command_limit(controller, 0), theta = command_limit(controller, 1);
   if (phi != theta) {
@@ -293,16 +289,17 @@ std::string sensor_note(const Sensor& sensor) {
   }
   list.add_if(sensor.rotation != 0, "turned by " + degrees(sensor.rotation));
   list.add_if(sensor.scale != Pair{1, 1},
-              "scaled by " + number(sensor.scale[0]) + ", " + number(sensor.scale[1]));
+              "scaled by " + short_number(sensor.scale[0]) + ", " + short_number(sensor.scale[1]));
   list.add_if(sensor.offset != Pair{0, 0},
               "off by " + millimetres(sensor.offset[0]) + ", " + millimetres(sensor.offset[1]));
   list.add_if(sensor.resolution > 0, "resolution " + millimetres(sensor.resolution));
   list.add_if(sensor.noise > 0,
               "noise " + millimetres(sensor.noise) + " (seed " + std::to_string(sensor.seed) + ")");
   list.add_if(sensor.delay > 0, milliseconds(sensor.delay) + " late");
-  list.add_if(sensor.dropout > 0, "misses " + number(100 * sensor.dropout) + " %");
+  list.add_if(sensor.dropout > 0, "misses " + short_number(100 * sensor.dropout) + " %");
   if (sensor.area) {
-    list.add("sees " + number((*sensor.area)[0]) + " m by " + number((*sensor.area)[1]) + " m");
+    list.add("sees " + short_number((*sensor.area)[0]) + " m by " +
+             short_number((*sensor.area)[1]) + " m");
   }
   return list.text().empty() ? "exact" : list.text();
 }
@@ -311,9 +308,9 @@ std::string mounting_note(const Scenario& scene) {
   const Mounting& mounting = scene.gimbal.mounting;
   List list;
   list.add_if(scene.ball.inertia_factor != 0.4,
-              "inertia factor " + number(scene.ball.inertia_factor));
+              "inertia factor " + short_number(scene.ball.inertia_factor));
   list.add_if(mounting.height != 0,
-              "plane " + number(mounting.height) + " m above the gimbal's center");
+              "plane " + short_number(mounting.height) + " m above the gimbal's center");
   list.add_if(mounting.phi_offset != 0, "phi off by " + degrees(mounting.phi_offset));
   list.add_if(mounting.theta_offset != 0, "theta off by " + degrees(mounting.theta_offset));
   list.add_if(mounting.skew != 0, "axes askew by " + degrees(mounting.skew));
@@ -383,9 +380,9 @@ std::vector<Note> explain(const Scenario& scene, const Model& model) {
   if (scene.gimbal.motor) note("motors", motor_note(*scene.gimbal.motor));
   note("losses", losses_note(scene.ball.losses));
   if (scene.events.slip && scene.events.slip->sliding) {
-    note("sliding", "beyond " + number(scene.events.slip->friction) +
-                        " of the normal force, against " + number(*scene.events.slip->sliding) +
-                        " of it");
+    note("sliding", "beyond " + short_number(scene.events.slip->friction) +
+                        " of the normal force, against " +
+                        short_number(*scene.events.slip->sliding) + " of it");
   }
   if (scene.controller) {
     note("law", law_note(*scene.controller));

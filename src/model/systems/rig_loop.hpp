@@ -179,7 +179,7 @@ class RigLoop {
       }
     } else {
       if (law_.kind == LawKind::feedback_linearisation) {
-        loop.command = linearise(reference, z);
+        loop.command = linearize(reference, z);
       } else {
         loop.command = model::command(law_, feedback(z), reference,
                                       [this](int i, const Real& raw) { return limited(i, raw); });
@@ -393,7 +393,7 @@ class RigLoop {
 
   // (27) solved for (phi'', theta''), Cramer's rule.
   template <class Time, class Real>
-  [[nodiscard]] Command<Real> linearise(const std::array<Jet<Time>, 2>& reference,
+  [[nodiscard]] Command<Real> linearize(const std::array<Jet<Time>, 2>& reference,
                                         const Real* z) const {
     const auto state = feedback(z);
     const Inertial<Real> m = coefficients(z);

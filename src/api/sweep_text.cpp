@@ -1,18 +1,17 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "sweep_text.hpp"
+#include "api/sweep_text.hpp"
 
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <vector>
 
-#include "describe.hpp"
 #include "file/case_text.hpp"
 #include "simd/instruction_set.hpp"
 #include "solve/output_grid.hpp"
 
-namespace bbsim::app {
+namespace bbsim::api {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -147,16 +146,16 @@ file::Attributes attributes_of(const SweepFacts& facts, const sweep::Engine& eng
   return attributes;
 }
 
-std::string summary_text(const SweepFacts& facts, const SweepEnd& end) {
+std::string summary_text(const SweepFacts& facts, const SweepResult& result) {
   Json summary = Json::object();
-  summary["status"] = end.finished ? "done" : "interrupted";
+  summary["status"] = result.code == ExitCode::done ? "done" : "interrupted";
   summary["scenario"] = facts.family.source().file;
-  summary["output"] = end.output;
-  summary["engine"] = end.engine;
+  summary["output"] = result.output;
+  summary["engine"] = result.engine;
   for (const auto& [name, value] : accuracy_of(facts)) summary[name] = value;
-  summary["rows"] = end.rows;
+  summary["rows"] = result.rows;
   Json& statuses = summary["statuses"] = Json::object();
-  for (const auto& [word, count] : end.statuses.words) statuses[word] = count;
+  for (const auto& [word, count] : result.statuses.words) statuses[word] = count;
   const Json plan = plan_of(facts);
   for (const auto& [name, value] : plan.items()) summary[name] = value;
   return text_of(summary);
@@ -190,4 +189,4 @@ void write_text(const sweep::SweepTask& task, sweep::CaseResults& results) {
   }
 }
 
-}  // namespace bbsim::app
+}  // namespace bbsim::api

@@ -1,15 +1,16 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "linear_report.hpp"
+#include "api/linear_text.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
-#include "describe.hpp"
+#include "api/loop_text.hpp"
+#include "base/short_number.hpp"
 
-namespace bbsim::app {
+namespace bbsim::api {
 namespace {
 
 std::string degrees(double angle) {
@@ -51,8 +52,8 @@ std::string values_line(const model::Eigenvalues& values) {
 
 }  // namespace
 
-std::vector<LabelledLine> margin_lines(const model::Linearization& made) {
-  std::vector<LabelledLine> lines;
+Report margin_lines(const model::Linearization& made) {
+  Report lines;
   for (const model::LoopMargins& loop : made.margins) {
     lines.push_back({"  " + loop.command.substr(0, loop.command.find('_')), text_of(loop.margins)});
   }
@@ -85,30 +86,26 @@ std::vector<LabelledLine> margin_lines(const model::Linearization& made) {
   return lines;
 }
 
-std::string linear_report(const std::string& of, const model::Linearization& made) {
-  std::string text;
-  const auto line = [&text](const std::string& label, const std::string& what) {
-    constexpr std::size_t width = 12;
-    text += label + std::string(label.size() < width ? width - label.size() : 0, ' ') + ' ' + what +
-            '\n';
-  };
+Report linear_report(const std::string& of, const model::Linearization& made) {
   const model::LinearSystem& system = made.system;
-  line("linear", of);
-  line("states", names_line(system.states));
-  line("inputs", names_line(system.inputs));
-  line("outputs", names_line(system.outputs));
-  line("period", system.period ? short_number(*system.period) + " s" : "continuous time");
-  line("poles", values_line(made.poles));
-  line("zeros", values_line(made.zeros));
+  Report report{{"linear", of},
+                {"states", names_line(system.states)},
+                {"inputs", names_line(system.inputs)},
+                {"outputs", names_line(system.outputs)},
+                {"period", system.period ? short_number(*system.period) + " s" : "continuous time"},
+                {"poles", values_line(made.poles)},
+                {"zeros", values_line(made.zeros)}};
   if (!made.margins.empty()) {
-    line("margins",
+    report.push_back(
+        {"margins",
          std::string("of each command's loop, the other one closed") +
              (made.stable
                   ? ""
-                  : "; the loop is not stable: these are where poles cross the stability limit"));
+                  : "; the loop is not stable: these are where poles cross the stability limit")});
   }
-  for (const LabelledLine& one : margin_lines(made)) line(one.label, one.text);
-  return text;
+  const Report margins = margin_lines(made);
+  report.insert(report.end(), margins.begin(), margins.end());
+  return report;
 }
 
-}  // namespace bbsim::app
+}  // namespace bbsim::api

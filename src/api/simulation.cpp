@@ -1,53 +1,43 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "simulation.hpp"
+#include "api/simulation.hpp"
 
+#include <cmath>
 #include <optional>
 #include <utility>
 
+#include "api/run_text.hpp"
 #include "base/cpu_clock.hpp"
-#include "describe.hpp"
+#include "base/short_number.hpp"
 #include "model/explain.hpp"
-#include "progress.hpp"
 #include "record/edge_note.hpp"
 #include "record/recorder.hpp"
-#include "signals.hpp"
 #include "simd/instruction_set.hpp"
 #include "solve/choose.hpp"
 #include "solve/integrate.hpp"
 #include "study/error_control.hpp"
-#include "terminal.hpp"
-#include "warnings.hpp"
 
-namespace bbsim::app {
+namespace bbsim::api {
 namespace {
 
-const char* status_name(solve::Ending ending) {
-  switch (ending) {
-    case solve::Ending::done:
-      return "done";
-    case solve::Ending::failed:
-      return "failed";
-    case solve::Ending::interrupted:
-      return "interrupted";
-    case solve::Ending::stopped:
-      return "stopped";
-  }
-  return "";
-}
+struct Ended {
+  const char* status;
+  ExitCode code;
+};
 
-ExitCode exit_code(solve::Ending ending) {
+Ended how(solve::Ending ending) {
   switch (ending) {
     case solve::Ending::done:
-      return ExitCode::done;
+      return {"done", ExitCode::done};
     case solve::Ending::failed:
-    case solve::Ending::stopped:
-      return ExitCode::ended_early;
+      return {"failed", ExitCode::ended_early};
     case solve::Ending::interrupted:
-      return ExitCode::interrupted;
+      return {"interrupted", ExitCode::interrupted};
+    case solve::Ending::stopped:
+      return {"stopped", ExitCode::ended_early};
   }
-  return ExitCode::ended_early;
+  return {"", ExitCode::ended_early};
 }
 
 // What was integrated, and how well, as far as the run can tell.
@@ -102,9 +92,7 @@ std::string shortfall(const Scenario& scenario, const model::Model& model,
       return "interrupted at t = " + short_number(made.outcome.reached) + " s of " +
              short_number(end) + " s.";
     case solve::Ending::stopped:
-      return "the run stopped at t = " + short_number(made.outcome.reached) + " s of " +
-             short_number(end) + " s: " + occurrence_text(made.outcome.occurrences.back()) +
-             ".\n  " + stopping_text(scenario, made.outcome.occurrences.back().name);
+      return stopped_text(scenario, made.outcome);
     case solve::Ending::done:
       break;
   }
@@ -116,10 +104,8 @@ std::string shortfall(const Scenario& scenario, const model::Model& model,
          "  Ask for that, or end the scene earlier. The file has the rows of the best run.";
 }
 
-record::RunSummary summarise(const Scenario& scenario, const model::Model& model,
-                             const Integration& made, const std::string& reason, solve::Why why,
-                             const std::vector<std::string>& warnings,
-                             const std::optional<record::MotorPeaks>& peaks) {
+record::RunSummary summary_of(const Scenario& scenario, const model::Model& model,
+                              const Integration& made) {
   const solve::Outcome& outcome = made.outcome;
   record::RunSummary summary;
   summary.version = BBSIM_VERSION;
@@ -128,10 +114,7 @@ record::RunSummary summarise(const Scenario& scenario, const model::Model& model
   summary.scenario_text = scenario.source.text;
   summary.title = scenario.title;
   summary.overrides = scenario.source.overrides;
-  summary.status = status_name(outcome.ending);
-  summary.reason = reason;
-  summary.reason_code = solve::name_of(why);
-  summary.warnings = warnings;
+  summary.status = how(outcome.ending).status;
   summary.end_time = outcome.reached;
   summary.rows = outcome.rows;
   summary.states = model.state_names();
@@ -146,7 +129,6 @@ record::RunSummary summarise(const Scenario& scenario, const model::Model& model
   for (const model::Occurrence& event : outcome.occurrences) {
     summary.events.push_back(record::event_record(event));
   }
-  summary.peaks = peaks;
   summary.statistics = {outcome.statistics.steps,
                         outcome.statistics.rhs_evaluations,
                         outcome.statistics.jacobian_evaluations,
@@ -156,11 +138,22 @@ record::RunSummary summarise(const Scenario& scenario, const model::Model& model
   return summary;
 }
 
+solve::Watch looking_in(Watch& watch, double end) {
+  return {watch.stop(), [&watch, end](double time) { watch.update(time / end, ""); },
+          [&watch](double time, double pace, double steps) {
+            watch.note("note: at t = " + short_number(time) + " s the run takes " +
+                       short_number(pace) + " steps per second of motion, and " +
+                       short_number(steps) +
+                       " more to its end at that pace. Ctrl-C ends it and keeps its rows; a looser "
+                       "solver.rtol or an earlier time.end needs fewer steps.");
+          }};
+}
+
 }  // namespace
 
 Simulation simulate(const Scenario& scenario, const model::Model& model,
                     const solve::OutputGrid& grid, const RowsAndMeasures& wanted,
-                    file::TableWriter& writer, bool quiet, solve::Part* part) {
+                    file::TableWriter& writer, Watch& watch, solve::Part* part) {
   const model::BallConstants constants = model::constants_of(scenario);
   record::Recorder recorder({wanted.columns, wanted.measures, true});
   // A sweep takes them in this manner too: its numbers are these.
@@ -171,54 +164,39 @@ Simulation simulate(const Scenario& scenario, const model::Model& model,
   if (record::EdgeNote::wanted(scenario)) edge.emplace(model, scenario.plate, grid, recorder);
   solve::StateSink& sink = edge ? static_cast<solve::StateSink&>(*edge) : recorder;
 
-  Progress progress(scenario.source.file, quiet);
-  solve::Watch watch{&watch_signals(), [&](double time) { progress.update(time / grid.end()); }};
-  if (!quiet) {
-    watch.slow = [&](double time, double pace, double steps) {
-      progress.clear();
-      say("note: at t = " + short_number(time) + " s the run takes " + short_number(pace) +
-          " steps per second of motion, and " + short_number(steps) +
-          " more to its end at that pace. Ctrl-C ends it and keeps its rows; a looser solver.rtol "
-          "or an earlier time.end needs fewer steps.");
-    };
-  }
-  Integration made = integrate(scenario, model, grid, sink, watch, part);
-  progress.clear();
+  watch.start(0);
+  Integration made = integrate(scenario, model, grid, sink, looking_in(watch, grid.end()), part);
+  watch.end();
 
-  std::string reason = shortfall(scenario, model, made);
-  solve::Why why = made.within_error ? made.outcome.why : solve::Why::error_out_of_reach;
-  const std::string not_finite = recorder.why_not_finite(wanted.finite_columns);
-  if (reason.empty() && !not_finite.empty()) {
-    reason = "the motion was computed to its end, but " + not_finite +
-             ".\n  There it is beyond the range of doubles, or not defined.";
-    why = solve::Why::not_finite;
-  }
   Simulation simulation;
   simulation.measures.resize(wanted.measures.size());
   recorder.finish(made.outcome, simulation.measures.data());
   simulation.end_row = recorder.end_row(made.outcome);
   simulation.whys = recorder.whys();
-  std::vector<std::string> warnings =
-      warnings_of(scenario, model, made.outcome.ending == solve::Ending::failed,
-                  edge ? edge->left() : std::nullopt);
+  simulation.row_estimates = std::move(made.row_estimates);
+
+  RunResult& result = simulation.result;
+  record::RunSummary& summary = result.summary = summary_of(scenario, model, made);
+  summary.reason = shortfall(scenario, model, made);
+  solve::Why why = made.within_error ? made.outcome.why : solve::Why::error_out_of_reach;
+  const std::string not_finite = recorder.why_not_finite(wanted.finite_columns);
+  if (summary.reason.empty() && !not_finite.empty()) {
+    summary.reason = "the motion was computed to its end, but " + not_finite +
+                     ".\n  There it is beyond the range of doubles, or not defined.";
+    why = solve::Why::not_finite;
+  }
+  summary.reason_code = solve::name_of(why);
+  summary.warnings = warnings_of(scenario, model, made.outcome.ending == solve::Ending::failed,
+                                 edge ? edge->left() : std::nullopt);
   const std::string not_measured =
       scenario::why_not_finite(wanted.measures, simulation.measures.data(), simulation.whys);
-  if (!not_measured.empty()) warnings.push_back("note: " + not_measured);
-  simulation.summary = summarise(scenario, model, made, reason, why, warnings, recorder.peaks());
-  simulation.noted = noted_text(made.outcome.occurrences);
-  simulation.row_estimates = std::move(made.row_estimates);
-  simulation.code = exit_code(made.outcome.ending);
+  if (!not_measured.empty()) summary.warnings.push_back("note: " + not_measured);
+  summary.peaks = recorder.peaks();
+  result.noted = noted_text(made.outcome.occurrences);
+  result.code = how(made.outcome.ending).code;
   const bool whole = made.within_error && not_finite.empty();
-  if (simulation.code == ExitCode::done && !whole) simulation.code = ExitCode::ended_early;
+  if (result.code == ExitCode::done && !whole) result.code = ExitCode::ended_early;
   return simulation;
 }
 
-void tell(const Simulation& made, bool quiet) {
-  if (!made.summary.reason.empty()) say(made.summary.reason);
-  for (const std::string& one : made.unmet) say(one);
-  if (quiet) return;
-  for (const std::string& warning : made.summary.warnings) say(warning);
-  if (!made.noted.empty()) say(made.noted);
-}
-
-}  // namespace bbsim::app
+}  // namespace bbsim::api

@@ -1,17 +1,12 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "assemble.hpp"
-
-#include <cstdio>
-#include <string>
+#include "api/assemble.hpp"
 
 #include "base/error.hpp"
 #include "scenario/look_up.hpp"
-#include "terminal.hpp"
 
-namespace bbsim::app {
-
+namespace bbsim::api {
 namespace {
 
 // Calls `make`; what is wrong with a key is thrown with its place.
@@ -35,22 +30,13 @@ model::Model assemble(const Scenario& scenario,
 model::Model assemble(const Scenario& scenario, const std::vector<const scenario::Column*>& columns,
                       controller::Host& host) {
   model::Model model = assemble(scenario, columns);
-  attach(host, scenario, model);
+  with_places(scenario, [&] { host.attach(scenario, model); });
   return model;
 }
 
-void attach(controller::Host& host, const Scenario& scenario, model::Model& model) {
-  with_places(scenario, [&] { host.attach(scenario, model); });
+controller::Host make_host(Watch& watch) {
+  return controller::Host([&watch](std::string_view line) { watch.controller_says(line); },
+                          watch.stop());
 }
 
-void say_of_controller(std::string_view line) {
-  // In the place of a progress bar, which is drawn again below it.
-  if (draws_on_terminal()) std::fputs(to_clear_line, stderr);
-  say("controller: " + std::string(line));
-}
-
-controller::Host make_host(const std::atomic<bool>* stop) {
-  return controller::Host(say_of_controller, stop);
-}
-
-}  // namespace bbsim::app
+}  // namespace bbsim::api

@@ -4,18 +4,14 @@
 // What a sweep's files say: of the sweep, and of each case.
 #pragma once
 
-#include <cstddef>
 #include <string>
 
+#include "api/sweep.hpp"
 #include "scenario/family.hpp"
 #include "sweep/case_file.hpp"
 #include "sweep/sweep.hpp"
 
-namespace bbsim::app {
-
-struct Shard {
-  std::size_t number = 1, of = 1;
-};
+namespace bbsim::api {
 
 // A sweep that is about to be run. `first` is its first case's scenario.
 struct SweepFacts {
@@ -34,18 +30,10 @@ struct SweepFacts {
 
 [[nodiscard]] file::Attributes attributes_of(const SweepFacts& facts, const sweep::Engine& engine);
 
-// How a sweep went.
-struct SweepEnd {
-  bool finished = true;
-  std::size_t rows = 0;
-  sweep::StatusCounts statuses;  // of these
-  std::string engine, output;
-};
-
 // The plan, and how it went, as JSON.
-[[nodiscard]] std::string summary_text(const SweepFacts& facts, const SweepEnd& end);
+[[nodiscard]] std::string summary_text(const SweepFacts& facts, const SweepResult& result);
 
 // The rows of some cases as CSV, into the results' text, on the thread that computed them.
 void write_text(const sweep::SweepTask& task, sweep::CaseResults& results);
 
-}  // namespace bbsim::app
+}  // namespace bbsim::api

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// A run in parts: --save-state, --from-state and --until.
+// Which part of its run is done: --save-state, --from-state and --until.
 #pragma once
 
 #include <memory>
@@ -10,9 +10,7 @@
 #include <vector>
 
 #include "base/archive.hpp"
-#include "command.hpp"
 #include "file/atomic_file.hpp"
-#include "file/outputs.hpp"
 #include "file/table_writer.hpp"
 #include "model/model.hpp"
 #include "record/run_state.hpp"
@@ -22,20 +20,18 @@
 #include "solve/output_grid.hpp"
 #include "solve/part.hpp"
 
-namespace bbsim::app {
+namespace bbsim::api {
 
-struct PartArguments {
+// The files of states, and the time at which the part ends; each may be empty.
+struct PartRequest {
   std::string save, from, until;
   [[nodiscard]] bool any() const { return !save.empty() || !from.empty() || !until.empty(); }
 };
 
-void add_part(Command& command, PartArguments& arguments);
-
-// Which part of its run a command does. Everything throws InputError where bytes could not be those
-// of one run.
+// Everything throws InputError where bytes could not be those of one run.
 class RunPart {
  public:
-  RunPart(const PartArguments& arguments, const Scenario& scenario,
+  RunPart(const PartRequest& request, const Scenario& scenario,
           const std::vector<file::InputTable>& inputs);
 
   // The scene that the model is of: of a run whose end is not known, one that goes on.
@@ -52,11 +48,9 @@ class RunPart {
     try {
       return run();
     } catch (const StateFault& fault) {
-      throw InputError(arguments_.from + ": " + fault.what());
+      throw InputError(request_.from + ": " + fault.what());
     }
   }
-  void declare_read(file::Outputs& outputs) const;
-  void declare_written(file::Outputs& outputs) const;
   void open();
   // Writes the state that the part left; what there is to say of it.
   [[nodiscard]] std::string finish(const model::Model& model);
@@ -64,7 +58,7 @@ class RunPart {
  private:
   void choose_rows();
 
-  PartArguments arguments_;
+  PartRequest request_;
   Scenario whole_;
   std::string identity_;
   std::optional<record::RunState> from_;
@@ -73,4 +67,4 @@ class RunPart {
   std::unique_ptr<file::AtomicFile> file_;
 };
 
-}  // namespace bbsim::app
+}  // namespace bbsim::api

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "run_part.hpp"
+#include "api/run_part.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -11,8 +11,8 @@
 #include "base/error.hpp"
 #include "base/fnv1a.hpp"
 #include "base/number_text.hpp"
+#include "base/short_number.hpp"
 #include "controller/host.hpp"
-#include "describe.hpp"
 #include "file/whole_file.hpp"
 #include "model/control/external_controller.hpp"
 #include "scenario/coupled.hpp"
@@ -20,7 +20,7 @@
 #include "solve/choose.hpp"
 #include "yaml/quantity.hpp"
 
-namespace bbsim::app {
+namespace bbsim::api {
 namespace {
 
 // All that a run depends on but its end, and what it shows.
@@ -49,27 +49,9 @@ std::string identity_of(const Scenario& scenario, const std::vector<file::InputT
 
 }  // namespace
 
-void add_part(Command& command, PartArguments& arguments) {
-  command
-      .option("--save-state", arguments.save,
-              "write the state at the end of this run, at --until, or at an interruption, for "
-              "--from-state")
-      .takes("FILE");
-  command
-      .option("--from-state", arguments.from,
-              "continue from a state of the same scenario; the rows are those of one whole run to "
-              "the bit")
-      .takes("FILE");
-  command
-      .option("--until", arguments.until,
-              "with --save-state: end this part of the run at TIME; time.end stays the end of the "
-              "whole run")
-      .takes("TIME");
-}
-
-RunPart::RunPart(const PartArguments& arguments, const Scenario& scenario,
+RunPart::RunPart(const PartRequest& request, const Scenario& scenario,
                  const std::vector<file::InputTable>& inputs)
-    : arguments_(arguments), whole_(scenario), identity_(identity_of(scenario, inputs)) {
+    : request_(request), whole_(scenario), identity_(identity_of(scenario, inputs)) {
   const Method method = solve::choose_method(scenario.solver.method);
   if (scenario.solver.error) {
     throw InputError(
@@ -88,10 +70,10 @@ RunPart::RunPart(const PartArguments& arguments, const Scenario& scenario,
         "--save-state, --from-state: found with losses, sliding or torques, whose switches are not "
         "saved; allowed: a scene without these");
   }
-  if (!arguments_.from.empty()) {
-    from_ = record::read_state(arguments_.from);
+  if (!request_.from.empty()) {
+    from_ = record::read_state(request_.from);
   }
-  part_.keeps_state = !arguments_.save.empty();
+  part_.keeps_state = !request_.save.empty();
   choose_rows();
 }
 
@@ -99,12 +81,11 @@ void RunPart::choose_rows() {
   const OutputTimes times = whole_.time;
   grid_.emplace(times);
   part_.end_row = grid_->size();
-  if (!arguments_.until.empty()) {
-    const yaml::Quantity until =
-        yaml::read_quantity(arguments_.until, false, yaml::Dimension::time);
+  if (!request_.until.empty()) {
+    const yaml::Quantity until = yaml::read_quantity(request_.until, false, yaml::Dimension::time);
     if (!part_.keeps_state || !until.value || !(*until.value >= times.step) ||
         !(*until.value < times.end)) {
-      throw InputError("--until: found " + arguments_.until +
+      throw InputError("--until: found " + request_.until +
                        "; allowed: with --save-state, a time from time.step to before time.end, " +
                        short_number(times.end) + " s");
     }
@@ -137,7 +118,7 @@ void RunPart::check(const model::Model& model,
         "bbsim_controller_save and bbsim_controller_restore");
   }
   if (!from_) return;
-  const std::string& file = arguments_.from;
+  const std::string& file = request_.from;
   const record::RunState& state = *from_;
   const std::string set = simd::name_of(simd::chosen_instruction_set());
   if (state.version != BBSIM_VERSION || state.instruction_set != set) {
@@ -181,21 +162,13 @@ void RunPart::check(const model::Model& model,
   }
 }
 
-void RunPart::declare_read(file::Outputs& outputs) const {
-  if (!arguments_.from.empty()) outputs.reads(arguments_.from, "--from-state");
-}
-
-void RunPart::declare_written(file::Outputs& outputs) const {
-  if (!arguments_.save.empty()) outputs.writes(arguments_.save, "--save-state");
-}
-
 void RunPart::open() {
-  if (part_.keeps_state) file_ = std::make_unique<file::AtomicFile>(arguments_.save);
+  if (part_.keeps_state) file_ = std::make_unique<file::AtomicFile>(request_.save);
 }
 
 std::string RunPart::finish(const model::Model& model) {
   if (!file_) return "";
-  if (part_.state.empty()) return arguments_.save + ": not written; the run kept no state";
+  if (part_.state.empty()) return request_.save + ": not written; the run kept no state";
   record::RunState state;
   state.version = BBSIM_VERSION;
   state.instruction_set = simd::name_of(simd::chosen_instruction_set());
@@ -209,7 +182,7 @@ std::string RunPart::finish(const model::Model& model) {
   state.state = part_.state;
   file_->write(record::to_bytes(state));
   file_->commit();
-  return arguments_.save + ": the state at t = " + short_number(state.time) + " s";
+  return request_.save + ": the state at t = " + short_number(state.time) + " s";
 }
 
-}  // namespace bbsim::app
+}  // namespace bbsim::api

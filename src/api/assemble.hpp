@@ -1,18 +1,17 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Scenario -> Model, for a command: what is wrong with a key is said with its place.
+// Scenario -> Model: what is wrong with a key is said with its place.
 #pragma once
 
-#include <atomic>
-#include <string_view>
 #include <vector>
 
+#include "api/watch.hpp"
 #include "controller/host.hpp"
 #include "model/model.hpp"
 #include "scenario/columns.hpp"
 
-namespace bbsim::app {
+namespace bbsim::api {
 
 // The model that these columns need, to be looked at. Throws InputError.
 [[nodiscard]] model::Model assemble(const Scenario& scenario,
@@ -23,13 +22,7 @@ namespace bbsim::app {
                                     const std::vector<const scenario::Column*>& columns,
                                     controller::Host& host);
 
-// Gives the scene's model its controller, as Host::attach() does. Throws InputError.
-void attach(controller::Host& host, const Scenario& scenario, model::Model& model);
+// A host whose programs say to the watch what they have to say, and wait no longer than it lets.
+[[nodiscard]] controller::Host make_host(Watch& watch);
 
-// Says a line of a controller's standard error.
-void say_of_controller(std::string_view line);
-
-// A host whose programs say on the terminal what they have to say; `stop` may be null.
-[[nodiscard]] controller::Host make_host(const std::atomic<bool>* stop);
-
-}  // namespace bbsim::app
+}  // namespace bbsim::api

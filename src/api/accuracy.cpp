@@ -1,0 +1,109 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "api/accuracy.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <optional>
+
+#include "api/assemble.hpp"
+#include "base/error.hpp"
+#include "scenario/reader.hpp"
+#include "solve/output_grid.hpp"
+#include "study/verify_references.hpp"
+
+namespace bbsim::api {
+namespace {
+
+std::optional<double> tolerance(const std::string& text) {
+  char* end = nullptr;
+  const double value = std::strtod(text.c_str(), &end);
+  if (end == text.c_str() || *end != '\0' || !(value >= 1e-14 && value <= 0.1)) return {};
+  return value;
+}
+
+// Of a model that is hybrid().
+std::string what_switches(const Scenario& scenario, const model::Model& model) {
+  std::string list;
+  const auto add = [&list](bool there, const char* what) {
+    if (there) list += (list.empty() ? "" : ", ") + std::string(what);
+  };
+  add(model.events.has_value(), "events");
+  if (model.rig) {
+    const bool by_angles =
+        scenario.controller && scenario.controller->law == Law::gravity_compensation;
+    add(model.rig->sampled.has_value(), "controller.sampling");
+    add(model.rig->limits_commands(),
+        by_angles ? "the command limit, which gravity_compensation always has"
+                  : "controller.limit");
+    add(std::ranges::any_of(model.rig->servo, &model::RigServo::switches),
+        "a limit or the backlash of gimbal.servo");
+    add(model.rig->between.has_pieces(), "a measured curve of gimbal.linkage");
+  }
+  add(model.dry.has_value(), "dry friction, sliding, or a motor's limit");
+  return list;
+}
+
+}  // namespace
+
+std::vector<double> tolerance_ladder(const std::string& text) {
+  const std::size_t colon = text.find(':');
+  const auto first = tolerance(text.substr(0, colon));
+  const auto last = colon == std::string::npos ? first : tolerance(text.substr(colon + 1));
+  if (!first || !last || *last > *first) {
+    throw InputError("--rtol: found " + text +
+                     ", allowed is LOOSEST:TIGHTEST such as 1e-3:1e-13, or one value, each from "
+                     "0.1 down to 1e-14");
+  }
+  std::vector<double> ladder;
+  for (int decade = 0;; ++decade) {
+    const double rung = decade == 0 ? *first : study::ten_digits(*first / std::pow(10.0, decade));
+    if (rung < *last) return ladder;
+    ladder.push_back(rung);
+  }
+}
+
+AccuracyStudy accuracy(const AccuracyRequest& request, Watch& watch) {
+  const Scenario& scenario = request.scenario;
+  const model::Model model = assemble(scenario, scenario::columns_named(scenario.output.columns));
+  if (model.hybrid()) {
+    throw InputError(
+        scenario.source.file + ": accuracy compares smooth runs; found a switch or an event: " +
+        what_switches(scenario, model) +
+        "; allowed: a scene without one (`bbsim run --error` estimates the error of this one)");
+  }
+  AccuracyStudy study = study::measure_accuracy(
+      model, solve::OutputGrid(scenario.time), request.methods, request.rtols,
+      {watch.stop(), [&watch](double part) { watch.update(part, ""); }});
+  watch.end();
+  return study;
+}
+
+bool any_complete(const AccuracyStudy& study) {
+  return !study::best_by_decade(study).empty();
+}
+
+Verification verify(Watch& watch) {
+  Verification verification =
+      study::verify({watch.stop(), [&watch](double part) { watch.update(part, ""); }});
+  watch.end();
+  return verification;
+}
+
+FullModelStudy compare_simpler(const Scenario& scenario, Watch& watch) {
+  return study::compare_simpler(scenario, {watch.stop(), {}});
+}
+
+std::vector<Scenario> paper_scenes(const std::vector<std::string>& overrides) {
+  std::vector<Scenario> scenes;
+  for (const study::ReferenceScene& scene : study::reference_scenes) {
+    const std::string name = scene.name;
+    if (name != "fig2a" && name != "fig2b") continue;
+    scenes.push_back(parse_scenario(scene.scenario, name, overrides));
+  }
+  return scenes;
+}
+
+}  // namespace bbsim::api

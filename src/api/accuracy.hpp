@@ -1,0 +1,58 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// How exact this build is: methods and tolerances over a scene, known answers, simpler models.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "api/watch.hpp"
+#include "scenario/scenario.hpp"
+#include "study/accuracy.hpp"
+#include "study/accuracy_text.hpp"
+#include "study/full_model.hpp"
+#include "study/verify.hpp"
+
+namespace bbsim::api {
+
+struct AccuracyRequest {
+  Scenario scenario;
+  std::vector<Method> methods;
+  std::vector<double> rtols;  // tolerance_ladder()
+};
+
+using study::AccuracyStudy;
+using study::Picture;
+
+// Throws InputError for a scene with a switch or an event.
+[[nodiscard]] AccuracyStudy accuracy(const AccuracyRequest& request, Watch& watch);
+
+// "1e-3:1e-13": a value a decade from the first to the last; or a single value. Throws InputError.
+[[nodiscard]] std::vector<double> tolerance_ladder(const std::string& text);
+
+// Whether any run came to the scene's end.
+[[nodiscard]] bool any_complete(const AccuracyStudy& study);
+
+using study::accuracy_csv;
+using study::accuracy_plot;
+using study::accuracy_table;
+
+using study::Verification;
+
+// Checks with known answers; needs no files, and takes about a second.
+[[nodiscard]] Verification verify(Watch& watch);
+
+using study::FullModelStudy;
+using study::require_comparable;
+using study::SimplerModel;
+
+// What the full model of a scene buys, against simpler ones. Throws InputError as
+// require_comparable() does.
+[[nodiscard]] FullModelStudy compare_simpler(const Scenario& scenario, Watch& watch);
+
+// The scenes of the paper's Fig. 2, which are part of the program.
+[[nodiscard]] std::vector<Scenario> paper_scenes(const std::vector<std::string>& overrides);
+
+}  // namespace bbsim::api

@@ -1,0 +1,142 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "api/measure.hpp"
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <cstddef>
+
+#include "base/error.hpp"
+#include "base/number_text.hpp"
+#include "base/shown.hpp"
+#include "file/table_writer.hpp"
+#include "record/measure_rows.hpp"
+#include "scenario/unit_doubts.hpp"
+
+namespace bbsim::api {
+namespace {
+
+// A column of words, as a log may have it for others.
+struct Words {
+  std::string column, first;
+  std::size_t row = 0;  // of the first
+};
+
+// The columns of numbers; of the others, what is there in place of one.
+file::TableData numbers_of(plot::Result result, std::vector<Words>& others) {
+  if (result.is_sweep()) {
+    throw InputError(result.file +
+                     ": is a sweep; allowed: the result of a run. Measures of a sweep "
+                     "are its columns: bbsim summarize " +
+                     result.file);
+  }
+  file::TableData table;
+  for (plot::Column& column : result.columns) {
+    if (column.is_text()) {
+      const auto is_word = [&](std::size_t row) {
+        const bool number = row < column.numbers.size() && !std::isnan(column.numbers[row]);
+        return !number && !column.texts[row].empty();
+      };
+      std::size_t row = 0;
+      while (row + 1 < column.texts.size() && !is_word(row)) ++row;
+      others.push_back({column.name, column.texts[row], row + 1});
+      continue;
+    }
+    table.names.push_back(column.name);
+    table.columns.push_back(std::move(column.numbers));
+  }
+  return table;
+}
+
+// Whether `text` has the name as a part of its own: x of "max_x", "x.Peak" and "when x=1".
+bool has_name(const std::string& text, const std::string& name) {
+  const auto is_letter = [&](std::size_t at) {
+    return at < text.size() && std::isalnum(static_cast<unsigned char>(text[at])) != 0;
+  };
+  for (std::size_t at = text.find(name); at != std::string::npos; at = text.find(name, at + 1)) {
+    if ((at == 0 || !is_letter(at - 1)) && !is_letter(at + name.size())) return true;
+  }
+  return false;
+}
+
+// What is wrong with measures that cannot be taken may be that they are of words.
+[[noreturn]] void refuse(const InputError& error, const std::string& file,
+                         const std::vector<std::string>& asked, const std::vector<Words>& others) {
+  for (const Words& words : others) {
+    const bool is_asked =
+        words.column == "t" || std::ranges::any_of(asked, [&](const std::string& measure) {
+          return has_name(measure, words.column);
+        });
+    if (!is_asked) continue;
+    throw InputError(file + ": column " + shown(words.column) + ", row " +
+                     std::to_string(words.row) + ": found " + bbsim::quoted(words.first) +
+                     ", a number is expected");
+  }
+  throw InputError(error);
+}
+
+// Of a log, in whatever units, columns that are not in bbsim's by their looks.
+void warn_of_units(const record::StoredRun& run, const std::vector<scenario::Measure>& measures,
+                   const std::string& file, std::vector<std::string>& notes) {
+  std::vector<const scenario::Column*> told;
+  for (const scenario::Measure& one : measures) {
+    for (const scenario::Column* column : {one.column, one.instant.column, one.reference}) {
+      if (column == nullptr || std::ranges::find(told, column) != told.end()) continue;
+      told.push_back(column);
+      const double largest = scenario::largest_size(run.values_of(*column));
+      const auto doubt = scenario::doubt_of(largest, column->name);
+      if (!doubt) continue;
+      notes.push_back("warning: " + file + ": " + std::string(column->name) + " goes up to " +
+                      number_text(largest) + ", measured in " + std::string(column->unit) +
+                      ": it looks like " + std::string(doubt->looks_like));
+    }
+  }
+}
+
+// Of step metrics, what they count to for want of a reference.
+void tell_of_references(const record::StoredRun& run,
+                        const std::vector<scenario::Measure>& measures, const std::string& file,
+                        std::vector<std::string>& notes) {
+  std::vector<std::string> told;
+  for (const scenario::Measure& one : measures) {
+    const std::string lacking = run.lacks_reference(one);
+    if (lacking.empty() || std::ranges::find(told, lacking) != told.end()) continue;
+    told.push_back(lacking);
+    notes.push_back("note: " + file + " has no column " + lacking + ": step metrics of " +
+                    std::string(one.column->name) + " count to its own value at the end");
+  }
+}
+
+}  // namespace
+
+Measured measure(plot::Result result, const std::string& file,
+                 const std::vector<std::string>& lists) {
+  const std::vector<std::string> asked = scenario::split_measures(lists);
+  std::vector<Words> others;
+  const bool is_log = result.version.empty();
+  file::TableData numbers = numbers_of(std::move(result), others);
+  try {
+    const record::StoredRun run(std::move(numbers), file);
+    const auto measures = run.measures_named(asked);
+    Measured measured;
+    std::vector<double> values;
+    scenario::Whys whys;
+    for (const scenario::Measure& one : measures) {
+      const record::Measured found = run.value_of(one);
+      measured.values.emplace_back(one.name, found.value);
+      values.push_back(found.value);
+      whys.push_back(found.why);
+    }
+    if (is_log) warn_of_units(run, measures, file, measured.notes);
+    tell_of_references(run, measures, file, measured.notes);
+    const std::string not_measured = scenario::why_not_finite(measures, values.data(), whys);
+    if (!not_measured.empty()) measured.notes.push_back("note: " + not_measured);
+    return measured;
+  } catch (const InputError& error) {
+    refuse(error, file, asked, others);
+  }
+}
+
+}  // namespace bbsim::api

@@ -1,0 +1,51 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// What is found out about results that are there: measures, differences, statistics.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "plot/result.hpp"
+
+namespace bbsim::api {
+
+struct Measured {
+  std::vector<std::pair<std::string, double>> values;
+  // Of what may not be as the user meant it, and of values that are no number.
+  std::vector<std::string> notes;
+};
+
+// Measures of a run's result, which is called `file`; `lists` are those of
+// scenario::split_measures(). Throws InputError.
+[[nodiscard]] Measured measure(plot::Result result, const std::string& file,
+                               const std::vector<std::string>& lists);
+
+struct CompareRequest {
+  std::string a{}, b{};
+  std::optional<double> rtol{}, atol{};  // without either, by the settings of the files' solvers
+  std::vector<std::string> columns{};    // none: all
+};
+
+struct Compared {
+  bool alike = false;
+  std::string text;                   // a table of the columns, then the verdict
+  std::vector<std::string> warnings;  // of columns that look like other units
+};
+
+// Throws InputError.
+[[nodiscard]] Compared compare(const CompareRequest& request);
+
+struct SummarizeRequest {
+  std::string file;                         // the result of a sweep
+  std::vector<std::string> keys, measures;  // no measures: all; these are lists
+  std::vector<double> quantiles{0.05, 0.25, 0.5, 0.75, 0.95};
+};
+
+// CSV: a row for each measure of each group of cases. Throws InputError.
+[[nodiscard]] std::string summarize(const SummarizeRequest& request);
+
+}  // namespace bbsim::api

@@ -1,0 +1,161 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "api/run.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <deque>
+#include <memory>
+#include <utility>
+
+#include "api/assemble.hpp"
+#include "api/picture.hpp"
+#include "api/simulation.hpp"
+#include "base/number_text.hpp"
+#include "file/atomic_file.hpp"
+#include "file/default_name.hpp"
+#include "file/memory_table.hpp"
+#include "scenario/expectation.hpp"
+
+namespace bbsim::api {
+namespace {
+
+using Columns = std::vector<const scenario::Column*>;
+
+// The measures asked for, and behind them the others that something is expected of.
+std::vector<scenario::Measure> with_expected(
+    std::vector<scenario::Measure> measures,
+    const std::vector<scenario::Expectation>& expectations) {
+  for (const scenario::Expectation& one : expectations) {
+    if (std::ranges::find(measures, one.measure.name, &scenario::Measure::name) == measures.end()) {
+      measures.push_back(one.measure);
+    }
+  }
+  return measures;
+}
+
+// What became of the expectations.
+void judge(const std::vector<scenario::Expectation>& expectations,
+           const std::vector<scenario::Measure>& measures, const Simulation& made,
+           RunResult& result) {
+  for (const scenario::Expectation& one : expectations) {
+    const auto at = static_cast<std::size_t>(
+        std::ranges::find(measures, one.measure.name, &scenario::Measure::name) - measures.begin());
+    const double value = made.measures[at];
+    const bool holds = one.holds(value);
+    result.summary.expectations.push_back({one.text, value, holds});
+    if (holds) continue;
+    const std::string unit = one.measure.unit();
+    const char* const why = made.whys[at];
+    result.unmet.push_back("not as expected: " + one.text + ": " + one.measure.name + " is " +
+                           (std::isnan(value)
+                                ? "no number" + (why != nullptr ? std::string(": ") + why : "")
+                                : number_text(value) + (unit == "1" ? "" : ' ' + unit)));
+    if (result.code == ExitCode::done) result.code = ExitCode::ended_early;
+  }
+}
+
+// The columns of the rows, and those that measures look at.
+Columns needed_for(Columns columns, const std::vector<scenario::Measure>& measures) {
+  for (const scenario::Measure& measure : measures) {
+    columns.push_back(measure.column);
+    if (measure.instant.column != nullptr) columns.push_back(measure.instant.column);
+  }
+  return columns;
+}
+
+file::ColumnHeader header_of(const scenario::Column& column) {
+  return {column.name, column.unit, column.meaning};
+}
+
+std::vector<file::ColumnHeader> headers_of(const Columns& columns) {
+  std::vector<file::ColumnHeader> headers;
+  headers.reserve(columns.size());
+  for (const scenario::Column* column : columns) headers.push_back(header_of(*column));
+  return headers;
+}
+
+}  // namespace
+
+RunResult run(const RunRequest& request, Watch& watch) {
+  const Scenario& scenario = request.scenario;
+  const Columns asked = scenario::columns_named(scenario.output.columns);
+  const Columns columns = request.pictured ? with_pictured(asked, scenario) : asked;
+  const auto printed =
+      scenario::measures_named(scenario::split_measures(request.measures), scenario);
+  std::vector<scenario::Expectation> expectations;
+  for (const std::string& text : request.expect) {
+    expectations.push_back(scenario::read_expectation("--expect", text, scenario));
+  }
+  const auto measures = with_expected(printed, expectations);
+  std::optional<RunPart> part;
+  if (request.part.any()) part.emplace(request.part, scenario, request.inputs);
+
+  // Before a controller is started, and long before the file is opened.
+  std::vector<file::ColumnHeader> headers = headers_of(asked);
+  if (!request.output.empty()) file::require_table_name(request.output);
+  if (request.replaces_its_like_only) {
+    file::require_like(request.output, file::table_with(file::csv_header(headers)));
+  }
+  controller::Host host = make_host(watch);
+  const model::Model model =
+      assemble(part ? part->whole() : scenario, needed_for(columns, measures), host);
+  const solve::OutputGrid grid = part ? part->grid() : solve::OutputGrid(scenario.time);
+  if (part) part->check(model, columns);
+  std::deque<std::string> units;  // as the scene's own controller names them
+  for (std::size_t c = 0; c < asked.size(); ++c) {
+    if (asked[c]->needs != scenario::Needs::own) continue;
+    headers[c].unit = units.emplace_back(host.unit_of(asked[c]->name).value_or("1"));
+  }
+
+  if (part) part->open();
+  request.ready();
+  std::unique_ptr<file::TableWriter> writer;
+  if (!request.output.empty()) writer = file::open_table(request.output, headers);
+  std::unique_ptr<file::AtomicFile> summary_file;
+  if (!request.summary.empty()) {
+    summary_file = std::make_unique<file::AtomicFile>(request.summary);
+  }
+  if (writer) writer->keep(request.inputs);
+  std::optional<file::MemoryTable> kept;
+  if (request.pictured || !writer) {
+    kept.emplace(scenario::names_of(columns), writer.get(), asked.size());
+  }
+
+  const auto simulation = [&] {
+    return simulate(scenario, model, grid, {columns, asked.size(), measures},
+                    kept ? static_cast<file::TableWriter&>(*kept) : *writer, watch,
+                    part ? &part->part() : nullptr);
+  };
+  Simulation made = part ? part->going_on(simulation) : simulation();
+  RunResult result = std::move(made.result);
+  record::RunSummary& summary = result.summary;
+  summary.output = request.output;
+  for (std::size_t m = 0; m < printed.size(); ++m) {
+    summary.measures.emplace_back(printed[m].name, made.measures[m]);
+  }
+  judge(expectations, measures, made, result);
+  result.rows_asked = part ? part->part().end_row - part->part().first_row : grid.size();
+  if (writer && summary.error_estimate) {
+    writer->add_column(header_of(scenario::position_error), made.row_estimates);
+  }
+  // A controller that does not begin is no reason to lose an earlier run.
+  if (writer && summary.rows > 0) {
+    writer->finish(record::to_attributes(summary, scenario.source.text));
+  }
+  if (summary_file) {
+    summary_file->write(record::to_json(summary));
+    summary_file->commit();
+  }
+  host.finish();
+  if (part) result.saved = part->finish(model);
+  if (request.pictured) {
+    result.pictured = run_of(scenario, kept->take(), summary, made.end_row);
+  } else if (kept) {
+    result.rows = kept->take();
+  }
+  return result;
+}
+
+}  // namespace bbsim::api

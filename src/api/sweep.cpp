@@ -1,0 +1,191 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "api/sweep.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <memory>
+#include <thread>
+#include <utility>
+
+#include "api/assemble.hpp"
+#include "api/inputs.hpp"
+#include "api/sweep_text.hpp"
+#include "base/short_number.hpp"
+#include "file/atomic_file.hpp"
+#include "file/default_name.hpp"
+#include "scenario/measures.hpp"
+#include "solve/output_grid.hpp"
+#include "sweep/case_file.hpp"
+#include "sweep/merge.hpp"
+#include "sweep/sweep_measures.hpp"
+
+namespace bbsim::api {
+namespace {
+
+const std::atomic<bool>& stop_of(Watch& watch) {
+  static constexpr std::atomic<bool> never{false};
+  const std::atomic<bool>* const stop = watch.stop();
+  return stop != nullptr ? *stop : never;
+}
+
+std::vector<scenario::Measure> measures_of(const Sweep& sweep, const ScenarioFamily& family,
+                                           const sweep::SweepPlan& plan, const Scenario& first) {
+  const bool loop = first.controller.has_value();
+  return sweep::sweep_measures(
+      sweep.measure.empty() ? scenario::default_measures(loop) : sweep.measure, family, plan);
+}
+
+// Columns of the output rows to be kept of each case.
+void keep_rows(sweep::SweepTask& task, const Scenario& scenario) {
+  for (const sweep::Axis& axis : task.plan.axes()) {
+    if (axis.key.starts_with("time") || axis.key.starts_with("output")) {
+      throw InputError(
+          "--keep-trajectories: found " + axis.key +
+          " among the keys that vary; allowed: keys that leave all cases with the same rows");
+    }
+  }
+  for (const std::string& name : scenario.output.columns) {
+    if (name != "t") task.series.push_back(scenario::find_column(name));
+  }
+  task.series_rows = solve::OutputGrid(scenario.time).size();
+}
+
+// Comes before any of them is opened.
+void declare_files(const SweepRequest& request, const Scenario& first) {
+  file::Outputs outputs;
+  reads_scenario(outputs, request.file, first);
+  for (const auto& [name, hash] : request.family.table_hashes()) {
+    outputs.reads(name, "a table of the scenario");
+  }
+  outputs.writes(request.output, request.by_default ? "its name by default, without -o" : "-o");
+  for (const std::string& file : sweep::case_files_beside(request.output)) {
+    outputs.writes(file, "kept beside " + request.output + " until the sweep is done");
+  }
+  if (!request.summary.empty()) outputs.writes(request.summary, "--summary");
+}
+
+// A controller of one's own that cannot be had is the scenario's fault, and not that of each case.
+void try_controller(const ScenarioFamily& family, Scenario first, Watch& watch) {
+  if (!first.controller || !first.controller->own) return;
+  first.source = family.source();  // where its keys stand
+  controller::Host host = make_host(watch);
+  static_cast<void>(assemble(first, scenario::columns_named(first.output.columns), host));
+}
+
+// Runs the cases that the file does not have, and tells `watch` how many a second.
+bool run_cases(const sweep::SweepTask& task, const sweep::Engine& engine, sweep::CaseRange missing,
+               std::size_t threads, sweep::CaseFile& file, SweepResult& result, Watch& watch) {
+  const auto started = std::chrono::steady_clock::now();
+  const auto seconds = [&started] {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
+  };
+  const auto share = [&result] {
+    return static_cast<double>(result.rows) / static_cast<double>(result.cases);
+  };
+  watch.start(share());
+  const bool finished = sweep::run_sweep(
+      engine, missing, threads, stop_of(watch),
+      [&task](sweep::CaseResults& results) { write_text(task, results); },
+      [&](const sweep::CaseResults& results) {
+        file.append(results.text, results.count, results.series);
+        result.rows += results.count;
+        for (const sweep::CaseStatus& status : results.status) {
+          result.statuses.add(status.word, status.reason);
+        }
+        const double rate = static_cast<double>(result.rows - result.kept) / seconds();
+        watch.update(share(), rounded(rate, 3) + " cases/s");
+      },
+      [&](std::size_t had) {
+        watch.note("the system gave no more than " + std::to_string(had) + " of " +
+                   std::to_string(threads) + " threads; the sweep continues with these");
+      });
+  watch.end();
+  result.seconds = seconds();
+  return finished;
+}
+
+}  // namespace
+
+SweepResult sweep(const SweepRequest& request, Watch& watch) {
+  const ScenarioFamily& family = request.family;
+  const sweep::SweepPlan plan(family, request.sweep);
+  const Scenario first = family.read(plan.settings(0));
+  sweep::SweepTask task{family, plan, measures_of(request.sweep, family, plan, first)};
+  task.tell = [&watch](std::string_view line) { watch.controller_says(line); };
+  if (request.keeps_rows) keep_rows(task, first);
+  const sweep::Engine engine = sweep::choose_engine(task);
+  const sweep::CaseRange range =
+      sweep::shard_range(plan.cases(), engine.group, request.shard.number, request.shard.of);
+
+  SweepResult result;
+  result.engine = engine.name;
+  result.output = request.output;
+  result.cases = range.last - range.first;
+  const std::atomic<bool>& stop = stop_of(watch);
+  for (const std::string& remark : first.remarks) watch.note(remark);
+  const bool checked = plan.check(family, range.first, range.last, [&](double part) {
+    watch.update(part, "checking the cases");
+    return !stop.load(std::memory_order_relaxed);
+  });
+  if (!checked) {
+    watch.end();
+    result.code = ExitCode::interrupted;
+    result.reason = "interrupted before the first case.";
+    return result;
+  }
+
+  const SweepFacts facts{family, request.sweep, task, first, request.shard};
+  declare_files(request, first);
+  sweep::CaseFileLayout layout = layout_of(facts, engine, range);
+  // Before a controller is started.
+  sweep::check_case_target(request.output, layout, request.resumes);
+  if (request.by_default && !request.replaces_anything) {
+    file::require_like(request.output, file::table_with(sweep::header_of(layout.columns)));
+  }
+  try_controller(family, first, watch);
+  const auto summary =
+      request.summary.empty() ? nullptr : std::make_unique<file::AtomicFile>(request.summary);
+  const auto file =
+      sweep::open_case_file(request.output, std::move(layout), plan_text(facts), request.resumes);
+  if (!file->kept().trouble.empty()) watch.warn(file->kept().trouble);
+  result.rows = result.kept = file->kept().rows;
+  result.statuses = file->kept().statuses;
+
+  const std::size_t processors = std::max(1U, std::thread::hardware_concurrency());
+  if (run_cases(task, engine, {range.first + result.kept, range.last},
+                request.threads > 0 ? request.threads : processors, *file, result, watch)) {
+    file->finish(attributes_of(facts, engine));
+  } else {
+    file->interrupt();
+    result.code = ExitCode::interrupted;
+    result.reason = "interrupted after " + std::to_string(result.rows) + " of " +
+                    std::to_string(result.cases) + " cases.";
+    if (!file->part().empty() && result.rows > 0) {
+      result.reason +=
+          "\n  " + file->part() + " keeps them; the same command with --resume goes on.";
+    }
+  }
+  if (summary) {
+    summary->write(summary_text(facts, result));
+    summary->commit();
+  }
+  return result;
+}
+
+MergeResult merge(const std::vector<std::string>& parts, const std::string& output, Watch& watch) {
+  file::Outputs outputs;
+  for (const std::string& part : parts) {
+    outputs.reads(part, "a part");
+    if (const std::string plan = sweep::plan_of_part(part); !plan.empty()) {
+      outputs.reads(plan, "the plan of " + part);
+    }
+  }
+  outputs.writes(output, "-o");
+  sweep::Merged merged = sweep::merge_cases(parts, output, stop_of(watch));
+  return {merged.interrupted ? ExitCode::interrupted : ExitCode::done, merged.cases,
+          std::move(merged.note)};
+}
+
+}  // namespace bbsim::api
