@@ -56,7 +56,7 @@ struct Context {
   std::shared_ptr<Tables> tables = std::make_shared<Tables>();
   // If set, receives each single number that is read, by the key's path in American spelling.
   std::map<std::string, NotedNumber>* numbers = nullptr;
-  bool own_controller = false;  // the scenario has an external controller with parameters; once read
+  bool own_controller = false;  // an external controller, which may name columns itself; once read
 };
 
 // A node with the place where the scenario uses it.
