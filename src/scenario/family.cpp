@@ -103,7 +103,7 @@ std::vector<std::pair<std::string, std::uint64_t>> ScenarioFamily::table_hashes(
   const std::lock_guard lock(state_->tables->mutex);
   std::vector<std::pair<std::string, std::uint64_t>> hashes;
   for (const auto& [file, table] : state_->tables->by_file) {
-    std::uint64_t hash = 0xCBF29CE484222325U;  // FNV-1a, a word at a time
+    std::uint64_t hash = 0xCBF29CE484222325U;  // FNV-1a with words instead of bytes
     for (const auto& column : table.data->columns) {
       for (const double value : column) {
         hash = (hash ^ std::bit_cast<std::uint64_t>(value)) * 0x100000001B3U;
