@@ -10,9 +10,9 @@ namespace bbsim::file {
 
 // How a command recognizes a file that it may replace.
 struct Likeness {
-  std::string what;  // for a sentence: "a table with the header t,x,y"
+  std::string what;     // for a sentence: "a table with the header t,x,y"
   std::string start{};  // if not empty, the file begins with this and ends with a line break
-  std::string mark{};  // otherwise, the first or last 4096 bytes contain this
+  std::string mark{};   // otherwise, the first or last 4096 bytes contain this
 };
 
 // For a CSV with this header, given without its line break.

@@ -27,7 +27,7 @@ class Outputs {
  private:
   struct Place {
     dev_t device;
-    ino_t inode;  // of the file, or of its folder if the file does not exist
+    ino_t inode;       // of the file, or of its folder if the file does not exist
     std::string name;  // in the folder; empty if the file exists
 
     bool operator==(const Place&) const = default;

@@ -12,7 +12,7 @@ namespace bbsim::file {
 
 struct OwnFile {
   Descriptor descriptor;  // for reading and appending
-  bool created = false;  // new, and empty
+  bool created = false;   // new, and empty
 };
 
 // Opens or creates a file with a predictable name in a folder that others may write to. Refuses

@@ -18,9 +18,9 @@ namespace {
 
 // The part of a path that exists.
 struct Found {
-  Position position;  // of the last key that exists
+  Position position;           // of the last key that exists
   const Node* node = nullptr;  // its value
-  bool whole = false;  // the whole path exists
+  bool whole = false;          // the whole path exists
 };
 
 Found find(const Node* root, std::string_view path) {

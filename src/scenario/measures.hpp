@@ -49,9 +49,9 @@ struct Instant {
     at  // a given time
   } kind = Kind::crosses;
   enum class Way { either, rise, fall } way = Way::either;
-  std::size_t number = 1;  // which crossing, from 1; 0: the last
+  std::size_t number = 1;          // which crossing, from 1; 0: the last
   const Column* column = nullptr;  // null for `at`
-  double level = 0;  // in the column's unit; for `at`: the time, s
+  double level = 0;                // in the column's unit; for `at`: the time, s
 };
 
 struct Measure {
@@ -66,7 +66,7 @@ struct Measure {
   Instant instant{};
   // For step: the column of the reference, or null. A scene or a file may lack values for it.
   const Column* reference = nullptr;
-  Window window{};  // restricts the measure to this part of the run
+  Window window{};            // restricts the measure to this part of the run
   std::string window_text{};  // as given: "from 5 s"
 
   [[nodiscard]] std::string meaning() const;

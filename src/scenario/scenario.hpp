@@ -15,11 +15,11 @@
 
 namespace bbsim {
 
-// Resistance of the plate against rotation of the ball.
+// Couples of the plate on the ball that resist its rotation.
 struct Losses {
-  double rolling = 0;  // coefficient of rolling resistance: torque over N r
-  double viscous = 0;  // torque over the rotation rate along the plane, N m s
-  double pivoting = 0;  // torque about the normal over N, m
+  double rolling = 0;   // coefficient of rolling resistance: couple over N r
+  double viscous = 0;   // couple over the rotation rate along the plane, N m s
+  double pivoting = 0;  // couple about the normal over N, m
 
   friend bool operator==(const Losses&, const Losses&) = default;
 };
@@ -56,11 +56,11 @@ struct BallPush {
 };
 
 struct Ball {
-  double radius = 0;            // m, > 0, required
-  double mass = 1;  // kg, > 0; needed only for forces, or where the mass affects the motion
-  Pair position{0, 0};          // contact point in the plane frame, m
-  Pair velocity{0, 0};          // of the contact point in the plane frame, m/s
-  double spin = 0;  // about the plane's normal, relative to the plane, rad/s
+  double radius = 0;    // m, > 0, required
+  double mass = 1;      // kg, > 0; needed only for forces, or where the mass affects the motion
+  Pair position{0, 0};  // contact point in the plane frame, m
+  Pair velocity{0, 0};  // of the contact point in the plane frame, m/s
+  double spin = 0;      // about the plane's normal, relative to the plane, rad/s
   double inertia_factor = 0.4;  // moment of inertia over m r^2: 2/5 solid, 2/3 a thin shell
   Losses losses{};
   // Rotation rate about the plane's x and y axes relative to the plane, rad/s. Default: rolling
@@ -94,12 +94,12 @@ struct GimbalStart {
 struct Servo {
   double natural_frequency = 0;                // omega_n, rad/s, > 0
   double damping = 0;                          // zeta, >= 0
-  std::optional<double> time_constant{};  // s, > 0; replaces the two above
-  std::optional<double> angle_limit{};  // hard stops at +-angle_limit, rad
+  std::optional<double> time_constant{};       // s, > 0; replaces the two above
+  std::optional<double> angle_limit{};         // hard stops at +-angle_limit, rad
   std::optional<double> rate_limit{};          // rad/s
   std::optional<double> acceleration_limit{};  // rad/s^2
   double dead_band = 0;  // ignores commands that differ from the last by less, rad
-  double backlash = 0;  // free play between servo and plane, rad
+  double backlash = 0;   // free play between servo and plane, rad
 
   [[nodiscard]] bool plain() const {
     return !time_constant && !angle_limit && !rate_limit && !acceleration_limit && dead_band == 0 &&
@@ -133,10 +133,10 @@ struct ThreeServoPlate {
 
 // How the plane is mounted on the gimbal. The defaults are those of the paper.
 struct Mounting {
-  double height = 0;  // of the contact plane above the gimbal's center, m
+  double height = 0;                        // of the contact plane above the gimbal's center, m
   double phi_offset = 0, theta_offset = 0;  // angle of the plane at the servo's zero, rad
   double skew = 0;  // deviation of theta's axis from square to phi's, about the normal, rad
-  double yaw = 0;  // of the plane's x axis from theta's axis without skew, about the normal, rad
+  double yaw = 0;   // of the plane's x axis from theta's axis without skew, about the normal, rad
   double base_tilt = 0;  // of the base about its x axis, rad
 
   friend bool operator==(const Mounting&, const Mounting&) = default;
@@ -146,7 +146,7 @@ struct Mounting {
 struct DcMotor {
   double resistance = 0;                  // R, ohm, > 0
   double torque_constant = 0;             // k_t, N m/A, > 0
-  double gear = 1;  // motor turns per turn of the axis, > 0
+  double gear = 1;                        // motor turns per turn of the axis, > 0
   std::optional<double> voltage_limit{};  // V
 };
 
@@ -159,9 +159,9 @@ struct PositionLoop {
 
 // The motor of each axis, if torques move the gimbal. Both axes have the same motor.
 struct Motor {
-  double rotor_inertia = 0;  // at the axis, through the gear, kg m^2
+  double rotor_inertia = 0;              // at the axis, through the gear, kg m^2
   double viscous = 0;                    // N m s
-  double friction = 0;  // dry friction, N m
+  double friction = 0;                   // dry friction, N m
   std::optional<double> torque_limit{};  // N m
   std::optional<DcMotor> dc{};
   std::optional<PositionLoop> position_loop{};
@@ -211,7 +211,7 @@ struct LissajousReference {
 struct WaypointReference {
   std::vector<Pair> points;   // m, at least two
   std::vector<double> times;  // s, strictly increasing, one for each point
-  bool rest = false;  // at rest at each point; otherwise only at the first and the last
+  bool rest = false;          // at rest at each point; otherwise only at the first and the last
 };
 
 // A C2 interpolant through (time, x, y): at least four rows with strictly increasing times.
@@ -237,13 +237,13 @@ enum class Drives { acceleration, angle, torque, voltage };
 }
 
 enum class Law {
-  pd,  // u = kv e' + kp e with e = reference - (x, y): equation (31)
-  pid,  // pd plus ki times the integral of e
-  state_feedback,  // u = gain (e, e' [, -angles, -rates])
-  lqr,  // state feedback with the gain that minimizes a quadratic cost
-  gravity_compensation,  // angles at which gravity accelerates the ball by x_d'' + kv e' + kp e
+  pd,                      // u = kv e' + kp e with e = reference - (x, y): equation (31)
+  pid,                     // pd plus ki times the integral of e
+  state_feedback,          // u = gain (e, e' [, -angles, -rates])
+  lqr,                     // state feedback with the gain that minimizes a quadratic cost
+  gravity_compensation,    // angles at which gravity accelerates the ball by x_d'' + kv e' + kp e
   feedback_linearisation,  // gimbal accelerations that accelerate the ball alike
-  own,  // an external program or library (docs/reference/controllers.md)
+  own,                     // an external program or library (docs/reference/controllers.md)
 };
 
 // The cost of lqr: the integral of the weighted squares of the ball's position and velocity, of the
@@ -255,11 +255,11 @@ struct LqrWeights {
 // A discrete-time controller, which holds its command between samples.
 struct Sampling {
   double period = 0;              // s, > 0
-  double delay = 0;  // from a sample to its command taking effect, s
-  double resolution = 0;  // quantization of the command, rad; 0: none
-  double derivative_filter = 0;  // time constant of the filtered derivative, s
-  double jitter = 0;  // standard deviation of the period, s
-  std::string periods_file{};  // measured periods, which replace `jitter`
+  double delay = 0;               // from a sample to its command taking effect, s
+  double resolution = 0;          // quantization of the command, rad; 0: none
+  double derivative_filter = 0;   // time constant of the filtered derivative, s
+  double jitter = 0;              // standard deviation of the period, s
+  std::string periods_file{};     // measured periods, which replace `jitter`
   std::vector<double> periods{};  // s; repeated from the first after the last
 
   [[nodiscard]] bool is_even() const { return jitter == 0 && periods.empty(); }
@@ -267,11 +267,11 @@ struct Sampling {
 
 // The controller's measurement of the ball.
 struct Sensor {
-  double resolution = 0;  // quantization, m; 0: none
+  double resolution = 0;       // quantization, m; 0: none
   double noise = 0;            // standard deviation of each coordinate, m
-  unsigned long seed = 1;  // for noise, dropouts and the jitter of the sampling
-  double delay = 0;  // from the measurement to the sample, s
-  double dropout = 0;  // probability that a sample has no measurement
+  unsigned long seed = 1;      // for noise, dropouts and the jitter of the sampling
+  double delay = 0;            // from the measurement to the sample, s
+  double dropout = 0;          // probability that a sample has no measurement
   std::optional<Pair> area{};  // sides of the field of view, a rectangle, m
   // The measurement of a ball at p, before noise: scale R(rotation) p + offset.
   double rotation = 0;  // rad
@@ -297,8 +297,8 @@ struct Parameter {
 // output.
 struct ControllerProgram {
   std::vector<std::string> command;  // at least one word; no shell interprets them
-  double timeout = 1;  // s, > 0: for each answer
-  double start_timeout = 5;  // s, > 0: for the first answer, including the program's start
+  double timeout = 1;                // s, > 0: for each answer
+  double start_timeout = 5;          // s, > 0: for the first answer, including the program's start
 };
 
 // A shared library with a function for each sample (bbsim/controller.h).
@@ -362,8 +362,8 @@ struct Events {
   std::optional<OnEvent> lift_off{};  // the normal force drops to zero
   std::optional<TiltEvent> tilt{};
   std::optional<SingularityEvent> singularity{};  // of feedback linearization
-  std::optional<OnEvent> rest{};  // rolling resistance brings the ball to rest
-  std::optional<OnEvent> stick{};  // dry friction holds a gimbal axis
+  std::optional<OnEvent> rest{};                  // rolling resistance brings the ball to rest
+  std::optional<OnEvent> stick{};                 // dry friction holds a gimbal axis
 };
 
 // Output at i * step, exactly, and at `end`.
@@ -407,16 +407,16 @@ enum class Combine { grid, zip };
 // Many runs of the scene (`bbsim sweep`). A single run ignores it.
 struct Sweep {
   std::vector<Variation> vary;
-  Combine combine = Combine::grid;  // of keys with listed values, not random ones
-  std::optional<double> samples{};  // number of random cases; an integer
-  double seed = 1;  // of the random values; an integer
+  Combine combine = Combine::grid;     // of keys with listed values, not random ones
+  std::optional<double> samples{};     // number of random cases; an integer
+  double seed = 1;                     // of the random values; an integer
   std::vector<std::string> measure{};  // empty: the default of bbsim sweep --help
 };
 
 // The origin of a scenario, kept for the metadata of its results.
 struct Source {
-  std::string file;  // as the user gave it
-  std::string text;  // the complete text
+  std::string file;                    // as the user gave it
+  std::string text;                    // the complete text
   std::vector<std::string> overrides;  // each "key.path=value", in the given order
 };
 

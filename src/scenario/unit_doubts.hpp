@@ -14,7 +14,7 @@ namespace bbsim::scenario {
 
 struct Doubt {
   std::string_view looks_like;  // "degrees"
-  std::string_view units;  // that explain the numbers: "deg"
+  std::string_view units;       // that explain the numbers: "deg"
 };
 
 // Doubts angles above 1.6 rad and lengths above 1 m, which are rare on a plate.

@@ -13,7 +13,7 @@ namespace bbsim::yaml {
 struct Decimal {
   std::string_view mantissa;  // with a minus sign, without a plus sign
   std::string_view exponent;  // after the e; empty if there is none
-  std::size_t length = 0;  // of the number in the text; 0 if the text starts with no number
+  std::size_t length = 0;     // of the number in the text; 0 if the text starts with no number
 };
 
 [[nodiscard]] Decimal leading_decimal(std::string_view text);

@@ -35,7 +35,7 @@ struct Node {
   Position position;
   std::string text;                // of a scalar
   std::vector<const Node*> items;  // of a sequence
-  std::vector<Entry> entries;  // of a mapping, in the order of the text; a key may occur twice
+  std::vector<Entry> entries;      // of a mapping, in the order of the text; a key may occur twice
 };
 
 // Owns the nodes of a scenario and its overrides. Aliases share one node.

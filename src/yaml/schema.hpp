@@ -52,7 +52,7 @@ struct NotedNumber {
 struct Context {
   Problems& problems;
   std::filesystem::path folder;  // the folder of table files
-  std::optional<double> end{};  // time.end (s), once read
+  std::optional<double> end{};   // time.end (s), once read
   std::shared_ptr<Tables> tables = std::make_shared<Tables>();
   // If set, receives each single number that is read, by the key's path in American spelling.
   std::map<std::string, NotedNumber>* numbers = nullptr;
@@ -62,7 +62,7 @@ struct Context {
 // A node with the place where the scenario uses it.
 struct Value {
   const Node* node;
-  std::string path;  // the key's full path as written; empty at the top
+  std::string path;   // the key's full path as written; empty at the top
   Position position;  // of the key; missing keys inside are reported here
   Context* context;
 

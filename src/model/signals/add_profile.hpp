@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// What a profile says, to whatever adds signals up.
+// Adds a profile's terms to a sum of signals.
 #pragma once
 
 #include <type_traits>
@@ -11,8 +11,8 @@
 
 namespace bbsim::model {
 
-// Gives a profile's constants, sinusoids and ramps to add_constant(component, ...) and its like of
-// `to`, and its tables to add_table(table).
+// Passes constants, sinusoids and ramps to `to`, by add_constant(component, ...) and the like, and
+// tables to add_table(table).
 template <class Signals, class Component, class AddTable>
 void add_profile(const Profile& profile, Component component, Signals& to, AddTable add_table) {
   for (const ProfileTerm& term : profile) {
