@@ -24,7 +24,7 @@ std::string number(double value) {
   return text;
 }
 
-// In the smaller unit, unless that overflows.
+// In the smaller unit, unless the value overflows.
 std::string in_unit(double value, double units, const char* unit, const char* si) {
   return std::isfinite(value * units) ? number(value * units) + unit : number(value) + si;
 }
@@ -41,7 +41,7 @@ std::string millimetres(double length) {
   return in_unit(length, 1e3, " mm", " m");
 }
 
-// A sentence part by part.
+// A comma-separated list.
 class List {
  public:
   void add(const std::string& part) { text_ += (text_.empty() ? "" : ", ") + part; }
@@ -141,7 +141,7 @@ std::string assumes_note(const Scenario& scene) {
                                              : "; the controller assumes the ratio at home";
 }
 
-// Whether a stop lets a servo turn beyond where its curve ends.
+// A warning if the servo's stops lie beyond the ends of the curve.
 std::string beyond_note(const Linkage& linkage, const Servo& servo) {
   const double stop = servo.angle_limit.value_or(unlimited);
   if (stop == unlimited || (linkage.curve.high > stop && linkage.curve.low < -stop)) return "";
@@ -337,7 +337,7 @@ std::string events_note(const Scenario& scene) {
   return list.text();
 }
 
-// Parts that a scene may have and this one has not.
+// The optional parts that this scene does not have.
 std::string without(const Scenario& scene) {
   List list;
   const Servo* servo = scene.gimbal.servo ? &*scene.gimbal.servo : nullptr;
