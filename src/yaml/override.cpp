@@ -128,7 +128,7 @@ class Setter {
   Nodes& nodes_;
 };
 
-// Such text needs no YAML parser, which would take a third of a sweep's time.
+// This text needs no YAML parser, which would take a third of a sweep's time.
 bool is_plain_number(std::string_view text) {
   return text.size() < 40 && text.substr(0, 2) != "--" &&
          text.find_first_not_of("0123456789.eE-+") == std::string_view::npos &&

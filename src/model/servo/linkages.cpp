@@ -371,7 +371,7 @@ void Between::believed(const double* servo, const double* rate, double (&into)[4
 
 CommandRange Between::reach(int axis) const {
   if (three && three->assumed == Assumed::exact) {
-    // The tilt of two such angles together is the greatest tilt.
+    // With both angles at this value, the tilt is the greatest tilt.
     return CommandRange::within(std::acos(std::sqrt(std::cos(greatest_tilt(*three)))));
   }
   if (linkages.empty()) return {};
