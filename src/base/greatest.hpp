@@ -21,8 +21,8 @@ struct Peak {
 // error is quadratic in the place's error, so 1e-7 suffices for a value good to about 1e-14.
 inline constexpr double good_place = 1e-7;
 
-// An interval that may contain a maximum. `from` and `to` are neighboring points; `best` is the
-// point between them that is higher than both, or the higher end. The search starts at `guess`.
+// An interval that may contain a maximum. `best` is at least as high as its neighbors `from` and
+// `to`; at an end of the range, it is one of them. The search starts at `guess`.
 struct Bracket {
   Peak from, best, to;
   double guess = 0;
