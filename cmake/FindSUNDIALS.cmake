@@ -3,12 +3,11 @@
 
 # Finds CVODES, the serial vector, and the dense solver of SUNDIALS 6 or 7, static if possible.
 #
-# SUNDIALS brings a CMake config of its own, but Debian's refuses to load unless every library
-# that it was built with (MPI, hypre, PETSc, SuperLU: 135 packages) is installed. This module
-# needs the five libraries that bbsim links, and nothing else.
+# SUNDIALS has its own CMake config. Debian's version fails to load unless every library from its build is installed
+# (MPI, hypre, PETSc, SuperLU: 135 packages). This module needs only the five libraries that bbsim links.
 #
-# Defines the target SUNDIALS::cvodes. Looks in SUNDIALS_ROOT, then .deps/sundials (where
-# scripts/setup unpacks it), then the system.
+# Defines the target SUNDIALS::cvodes. Searches SUNDIALS_ROOT, then .deps/sundials (where scripts/setup unpacks it),
+# then the system.
 set(_hints ${SUNDIALS_ROOT} ${PROJECT_SOURCE_DIR}/.deps/sundials/usr)
 
 find_path(SUNDIALS_INCLUDE_DIR cvodes/cvodes.h HINTS ${_hints} PATH_SUFFIXES include)
@@ -43,7 +42,7 @@ find_package_handle_standard_args(SUNDIALS
 
 if(SUNDIALS_FOUND AND NOT TARGET SUNDIALS::cvodes)
   add_library(SUNDIALS::cvodes INTERFACE IMPORTED)
-  # The solver modules may be bundled into libsundials_cvodes; where they stand alone, link them.
+  # libsundials_cvodes may contain the solver modules. If they are separate libraries, link them.
   set(_libraries ${SUNDIALS_cvodes_LIBRARY} ${SUNDIALS_nvecserial_LIBRARY}
                  ${SUNDIALS_sunlinsoldense_LIBRARY} ${SUNDIALS_sunmatrixdense_LIBRARY})
   foreach(_part sunnonlinsolnewton sunnonlinsolfixedpoint)

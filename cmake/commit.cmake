@@ -1,8 +1,8 @@
 # SPDX-FileCopyrightText: 2026 the bbsim authors
 # SPDX-License-Identifier: BSD-3-Clause
 
-# cmake -DSOURCE=FOLDER -DINTO=HEADER -P commit.cmake: writes a header that names the commit of the
-# source tree, if that is not what it says already: what includes it is not compiled for nothing.
+# cmake -DSOURCE=FOLDER -DINTO=HEADER -P commit.cmake: writes a header with the commit of the source tree. Leaves an
+# unchanged header alone, so that sources that include it are not compiled again.
 set(_commit "unknown: not built from a work tree of git")
 file(REAL_PATH "${SOURCE}" _source)
 function(ask_git into)
@@ -15,7 +15,7 @@ function(ask_git into)
 endfunction()
 
 ask_git(_top rev-parse --show-toplevel)
-# A tree that was unpacked within another one's is not of that one's commits.
+# A source tree unpacked inside another work tree does not belong to that tree's commits.
 if(_top AND _top STREQUAL _source)
   ask_git(_hash rev-parse --short=12 HEAD)
   ask_git(_changes status --porcelain --untracked-files=no)

@@ -1,13 +1,13 @@
 # SPDX-FileCopyrightText: 2026 the bbsim authors
 # SPDX-License-Identifier: BSD-3-Clause
 
-# Puts an HTML file and the local styles and scripts that it names into one:
+# Combines an HTML file with its local styles and scripts in one file:
 #
 #   cmake -DINDEX=index.html -DLIBRARIES=FILE|FILE -DNOTICES=NAME=FILE|NAME=FILE -DOUTPUT=page.html
 #         -P inline_page.cmake
 #
-# What index.html names stands beside it or is one of LIBRARIES, by its name. The script NAME begins with its notice,
-# the text of FILE, in a comment.
+# Each file that index.html names is beside it or in LIBRARIES, by its name. The script NAME begins with a comment that
+# contains its notice, the text of FILE.
 file(READ "${INDEX}" page)
 get_filename_component(folder "${INDEX}" DIRECTORY)
 string(REPLACE "|" ";" LIBRARIES "${LIBRARIES}")
@@ -22,19 +22,19 @@ function(content_of name result)
     endif()
   endforeach()
   file(READ "${file}" content)
-  # It would end the script that it stands in; a map would be asked for over the network.
+  # The end tag would end the script that contains it. A source map would be requested over the network.
   if(content MATCHES "</(script|style)")
     message(FATAL_ERROR "${file} contains '</${CMAKE_MATCH_1}': it cannot stand in a page")
   endif()
   string(REGEX REPLACE "\n?(//|/[*])# sourceMappingURL=[^\n]*" "" content "${content}")
-  # The page says once under which license it is.
+  # The page states its license once.
   string(REGEX REPLACE "^((//|/[*]) SPDX-[^\n]*\n+)+" "" content "${content}")
-  # The sources are for reading, the page for mailing: without indentation and lines of comment.
+  # Remove indentation and comment lines: the sources are for reading, and the page is for sending.
   if(NOT name MATCHES "[.]min[.]")
     string(REGEX REPLACE "\n[ \t]*//[^\n]*" "" content "${content}")
     string(REGEX REPLACE "\n[ \t\n]+" "\n" content "${content}")
   endif()
-  # A ninth of three.js are the sources of its own shaders; the page has one shader, and it is none of these.
+  # Shader sources are a ninth of three.js. The page uses its own shader instead.
   if(name STREQUAL "three.min.js")
     string(REGEX REPLACE "(var [a-z0-9_]+=)\"[^\"]*\\\\n[^\"]*\"" "\\1\"\"" content "${content}")
   endif()

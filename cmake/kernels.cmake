@@ -1,13 +1,12 @@
 # SPDX-FileCopyrightText: 2026 the bbsim authors
 # SPDX-License-Identifier: BSD-3-Clause
 
-# Code that is compiled once for each instruction set, from one source, and chosen at run time:
+# Compiles one source for several instruction sets; the program chooses at run time:
 #
 #   bbsim_add_kernels(TARGET ROOM)
 #
-# makes an object library of kernels_baseline.cpp and, where the processor may have them,
-# kernels_avx2.cpp and kernels_avx512.cpp of the current folder, and puts it into the library ROOM,
-# where one of them is picked (simd/instruction_set.hpp).
+# creates an object library from kernels_baseline.cpp and, for x86-64, kernels_avx2.cpp and kernels_avx512.cpp of the
+# current folder. Adds it to the library ROOM, which selects one of them (simd/instruction_set.hpp).
 set(BBSIM_X86_KERNELS OFF)
 if(NOT BBSIM_BASELINE_ONLY AND CMAKE_SYSTEM_PROCESSOR MATCHES "^(x86_64|AMD64)$" AND CMAKE_SIZEOF_VOID_P EQUAL 8)
   set(BBSIM_X86_KERNELS ON)
@@ -22,10 +21,10 @@ function(bbsim_add_kernels target room)
 
   target_sources(${room} PRIVATE $<TARGET_OBJECTS:${target}>)
 
-  # Options of a source come last on the command line, after those of bbsim::options, which they are
-  # to override. Kernels agree between instruction sets to the tolerance, not to the bit: products may
-  # be fused. Packs never pass a function's boundary, so how compilers would pass them (-Wpsabi) is no
-  # matter. Instrumented, the unrolled loops take compilers many minutes; all memory is in fixed arrays.
+  # Source options come last on the command line and so override those of bbsim::options. Instruction sets agree to the
+  # tolerance, not to the bit, so products may be fused. Packs never cross a function's boundary, so their calling
+  # convention (-Wpsabi) does not matter. Sanitizers are off, because the unrolled loops would take compilers many
+  # minutes; all memory is in fixed arrays.
   set(options -ffp-contract=fast -Wno-psabi)
   if(BBSIM_SANITIZE)
     list(APPEND options -fno-sanitize=all)

@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: 2026 the bbsim authors
 # SPDX-License-Identifier: BSD-3-Clause
 
-# Puts texts, a rule between each two, into a string of a C++ header:
+# Writes texts, separated by lines of dashes, to a string in a C++ header:
 #
 #   cmake "-DTEXTS=FILE|FILE" -DINTO=FILE.hpp -P licenses.cmake
 string(REPLACE "|" ";" TEXTS "${TEXTS}")

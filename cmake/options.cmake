@@ -1,30 +1,30 @@
 # SPDX-FileCopyrightText: 2026 the bbsim authors
 # SPDX-License-Identifier: BSD-3-Clause
 
-# What every target of the project is compiled with; linked as bbsim::options.
+# The compile options of every target, linked as bbsim::options.
 add_library(bbsim_options INTERFACE)
 add_library(bbsim::options ALIAS bbsim_options)
 
 target_compile_options(bbsim_options INTERFACE -Wall -Wextra -Wpedantic -Wshadow -Wconversion
                                                -Wno-sign-conversion -Wnon-virtual-dtor)
 if(BBSIM_WARNINGS_AS_ERRORS)
-  # What GCC guesses from optimised code stays a warning: GCC 12 suspects its own std::string.
+  # Warnings that GCC infers from optimized code stay warnings: GCC 12 reports its own std::string.
   target_compile_options(bbsim_options INTERFACE -Werror
     $<$<CXX_COMPILER_ID:GNU>:-Wno-error=restrict;-Wno-error=stringop-overflow;-Wno-error=array-bounds;-Wno-error=maybe-uninitialized>)
 endif()
 
 if(BBSIM_UNITY)
-  # What these say of a source among others is not so of the source alone, which preset dev compiles.
+  # These warnings are false for combined sources. The preset dev compiles each source alone and keeps them.
   target_compile_options(bbsim_options INTERFACE -Wno-shadow
     $<$<COMPILE_LANG_AND_ID:CXX,GNU>:-Wno-subobject-linkage>)
 endif()
 
-# a*b + c must mean the same on every machine: results are compared to the bit.
+# a*b + c must give the same result on every machine, because results are compared to the bit.
 target_compile_options(bbsim_options INTERFACE -ffp-contract=off)
 
 if(BBSIM_SANITIZE)
-  # Fuzz targets share the project's objects with the tests; the tests' own sources need no coverage
-  # counters for libFuzzer, which cost compilers a fifth.
+  # Fuzz targets share the project's objects with the tests. The tests' own sources omit libFuzzer's coverage counters,
+  # which cost a fifth of the compile time.
   set(_counted $<AND:$<BOOL:${BBSIM_FUZZ}>,$<NOT:$<BOOL:$<TARGET_PROPERTY:BBSIM_NO_COVERAGE>>>>)
   set(_sanitizers address,undefined$<${_counted}:,fuzzer-no-link>)
   target_compile_options(bbsim_options INTERFACE -fsanitize=${_sanitizers}
@@ -34,9 +34,9 @@ elseif(BBSIM_STATIC_RUNTIME)
   target_link_options(bbsim_options INTERFACE -static-libstdc++ -static-libgcc)
 endif()
 
-# bbsim_spare_from_sanitizers(SOURCE...): sources of the current folder's targets that are little but
-# Eigen's dense algebra. Instrumented they take compilers minutes and a gigabyte each; Eigen's own
-# assertions, on in such a build, see to the bounds.
+# bbsim_spare_from_sanitizers(SOURCE...): compiles sources of the current folder without sanitizers. For sources with
+# mostly dense Eigen algebra, which would take compilers minutes and a gigabyte each. Eigen's own assertions, which are
+# on in these builds, check the bounds.
 function(bbsim_spare_from_sanitizers)
   if(BBSIM_SANITIZE)
     set_property(SOURCE ${ARGN} APPEND PROPERTY COMPILE_OPTIONS -fno-sanitize=all)

@@ -1,15 +1,13 @@
 # SPDX-FileCopyrightText: 2026 the bbsim authors
 # SPDX-License-Identifier: BSD-3-Clause
 
-# Headers that are read once for many targets: half of what compilers do here is to read the standard
-# library's and Eigen's.
+# Precompiles headers once for many targets. Reading the standard library and Eigen is half of the compile time.
 #
 #   bbsim_precompiled(NAME HEADERS <header>... [LIBRARIES <target>...] [OPTIONS <option>...])
 #
-# makes NAME, from which targets of the same options take what is compiled:
-# target_precompile_headers(TARGET REUSE_FROM NAME). The level of -O is one of these: GCC compiles what
-# takes headers of another level with theirs, and says nothing. Sources include what they use all the same:
-# clang-tidy reads them without (preset tidy).
+# creates NAME. Targets with the same options reuse its headers with target_precompile_headers(TARGET REUSE_FROM NAME).
+# The options include the -O level: GCC would silently compile a target with the level of the headers. Sources still
+# include what they use, because clang-tidy reads them without precompiled headers (preset tidy).
 function(bbsim_precompiled name)
   cmake_parse_arguments(_with "" "" "HEADERS;LIBRARIES;OPTIONS" ${ARGN})
   set(_empty ${PROJECT_BINARY_DIR}/${name}.cpp)

@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: 2026 the bbsim authors
 # SPDX-License-Identifier: BSD-3-Clause
 
-# yaml-cpp, static where the system has it: a shared one costs a start of the program 0.3 ms.
+# yaml-cpp, static if the system has it: the shared library adds 0.3 ms to the program's start.
 find_package(yaml-cpp REQUIRED)
 add_library(bbsim_yaml_cpp INTERFACE)
 add_library(bbsim::yaml_cpp ALIAS bbsim_yaml_cpp)

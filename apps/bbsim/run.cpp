@@ -3,12 +3,15 @@
 
 #include "api/run.hpp"
 
+#include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
+#include <system_error>
 #include <utility>
 #include <vector>
 
+#include "base/error.hpp"
 #include "base/short_number.hpp"
 #include "commands.hpp"
 #include "measure_text.hpp"
@@ -46,6 +49,16 @@ void declare_files(const RunArguments& arguments, const std::string& output,
   if (!arguments.replay.empty()) declare_replay(outputs, arguments.replay, "--replay");
 }
 
+// By default a part that continues would have the name of the part before it.
+void keep_part_before(const RunArguments& arguments, const std::string& output) {
+  if (arguments.part.from.empty() || !arguments.output.empty() || arguments.force) return;
+  std::error_code none;
+  if (!std::filesystem::exists(output, none)) return;
+  throw InputError(output +
+                   ": found, and may be the part before this one; allowed: -o FILE, or --force "
+                   "to replace it");
+}
+
 // "run.csv: 101 of 101 rows, radau, 57 steps"
 std::string written_text(const api::RunResult& made) {
   const auto& summary = made.summary;
@@ -67,6 +80,7 @@ ExitCode run(const RunArguments& arguments, const Options& options) {
   request.scenario =
       read(with_error(arguments.scenario, arguments.error), options, outputs, &request.inputs);
   declare_files(arguments, output, outputs);
+  keep_part_before(arguments, output);
   request.output = output;
   request.replaces_its_like_only = arguments.output.empty() && !arguments.force;
   request.summary = arguments.summary;

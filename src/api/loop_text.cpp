@@ -79,20 +79,38 @@ std::string instability(const model::Model& model) {
          " a positive real part (1/s): " + poles_line(poles);
 }
 
-// The scene with all gains of theta's row turned round; nothing under a law that knows the signs.
-std::optional<Scenario> with_theta_turned(const Scenario& scenario) {
-  const auto has_rows = [](Law law) {
-    return law == Law::pd || law == Law::pid || law == Law::state_feedback;
+bool is_pd_or_pid(const Scenario& scenario) {
+  return scenario.controller &&
+         (scenario.controller->law == Law::pd || scenario.controller->law == Law::pid);
+}
+
+// The scene with the signs of theta's row reversed in those gains that `which` has a bit for.
+Scenario with_theta_reversed(const Scenario& scenario, unsigned which) {
+  Scenario reversed = scenario;
+  Controller& controller = *reversed.controller;
+  const auto reverse = [&](Matrix2& gain, unsigned bit) {
+    if ((which & bit) == 0) return;
+    for (double& number : gain[1]) number = -number;
   };
-  if (!scenario.controller || !has_rows(scenario.controller->law)) return {};
-  Scenario turned = scenario;
-  Controller& controller = *turned.controller;
-  for (Matrix2* gain : {&controller.kv, &controller.kp, &controller.ki}) {
-    for (double& number : (*gain)[1]) number = -number;
-  }
-  // Not those on the servo's own angle and rate.
+  reverse(controller.kv, 1);
+  reverse(controller.kp, 2);
+  reverse(controller.ki, 4);
+  // Columns 5 to 8 multiply the servo's own angle and rate.
   for (std::size_t i = 0; i < 4; ++i) controller.gain[1][i] = -controller.gain[1][i];
-  return turned;
+  return reversed;
+}
+
+// Whether the loop is stable with other signs in theta's row.
+bool has_wrong_signs(const Scenario& scenario, const model::Model& model) {
+  const bool state_feedback =
+      scenario.controller && scenario.controller->law == Law::state_feedback;
+  if (!is_pd_or_pid(scenario) && !state_feedback) return false;
+  const unsigned most = state_feedback ? 1 : 7;
+  for (unsigned which = 1; which <= most; ++which) {
+    const Scenario reversed = with_theta_reversed(scenario, which);
+    if (instability(model::assemble(reversed, model.gamma)).empty()) return true;
+  }
+  return false;
 }
 
 }  // namespace
@@ -100,8 +118,11 @@ std::optional<Scenario> with_theta_turned(const Scenario& scenario) {
 std::string instability_warning(const Scenario& scenario, const model::Model& model) {
   std::string warning = instability(model);
   if (warning.empty()) return warning;
-  const std::optional<Scenario> turned = with_theta_turned(scenario);
-  if (turned && instability(model::assemble(*turned, model.gamma)).empty()) {
+  if (is_pd_or_pid(scenario) && scenario.controller->drives == Drives::acceleration) {
+    warning +=
+        "; a law that drives accelerations must feed back the tilt: use drives: angle with "
+        "gimbal.servo, or lqr";
+  } else if (has_wrong_signs(scenario, model)) {
     warning +=
         "; theta's gains have the wrong sign: positive theta drives the ball towards -y, so a gain "
         "k for both is [[k, 0], [0, -k]]";

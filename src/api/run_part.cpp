@@ -82,11 +82,11 @@ void RunPart::choose_rows() {
   grid_.emplace(times);
   part_.end_row = grid_->size();
   if (!request_.until.empty()) {
+    if (!part_.keeps_state) throw InputError("--until: needs --save-state FILE, to continue from");
     const yaml::Quantity until = yaml::read_quantity(request_.until, false, yaml::Dimension::time);
-    if (!part_.keeps_state || !until.value || !(*until.value >= times.step) ||
-        !(*until.value < times.end)) {
+    if (!until.value || !(*until.value >= times.step) || !(*until.value < times.end)) {
       throw InputError("--until: found " + request_.until +
-                       "; allowed: with --save-state, a time from time.step to before time.end, " +
+                       "; allowed: a time from time.step to before time.end, " +
                        short_number(times.end) + " s");
     }
     // Times nearer than this are one, as on the grid.

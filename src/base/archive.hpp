@@ -1,16 +1,16 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The state of objects as bytes, and back: for a run that is gone on with by another process.
+// Writes the state of objects as bytes and reads it back, so that another process can resume a run.
 //
-// A class has one function for both ways, which says what the parts must be like:
+// One function of a class serves both directions and states the conditions on its members:
 //     template <class Archive> void archive(Archive& archive) {
 //       archive(speed_, queue_);
 //       archive.require(is_finite(speed_));
 //     }
-// Bytes are those of this build on this kind of machine: whoever keeps them says which. They may
-// have been changed on the way, on purpose, too: all that is counted, chosen or waited for by them
-// is checked, so that they lead nowhere a run could not.
+// The bytes are valid only for the build and the kind of machine that wrote them; the caller stores
+// both beside them. The bytes may be damaged or forged. The reader therefore checks every count,
+// every index and every time, so that a read state is one that a run can reach.
 #pragma once
 
 #include <array>
@@ -27,7 +27,7 @@
 
 namespace bbsim {
 
-// Numbers alone: what could be no value of its type has a function of its own.
+// A type whose every bit pattern is a valid value. An enumeration is not: see enumerated().
 template <class T>
 concept PlainBytes = std::is_trivially_copyable_v<T> && !std::is_pointer_v<T> && !std::is_enum_v<T>;
 
@@ -47,7 +47,7 @@ inline constexpr bool is_optional = false;
 template <class T>
 inline constexpr bool is_optional<std::optional<T>> = true;
 
-// The bytes are no state of such a run. what() is a sentence's end: "is cut short".
+// The bytes are no state of this run. what() ends a sentence: "is damaged: it is truncated".
 class StateFault : public InputError {
   using InputError::InputError;
 };
@@ -60,19 +60,19 @@ class StateWriter {
   void operator()(Parts&... parts) {
     (put(parts), ...);
   }
-  // One of an enumeration's values, from 0 to `last`.
+  // An enumerator from 0 to `last`.
   template <class Enumeration>
   void enumerated(Enumeration& value, Enumeration /*last*/) {
     bytes(&value, sizeof value);
   }
-  // Numbers, as many as there are in this run.
+  // A list whose length the scenario fixes. The reader checks the length.
   template <Sequence List>
   void fixed(List& list) {
     put(list);
   }
-  // What holds of the state of any run.
+  // A condition that the state of every run meets. The reader checks it.
   static void require(bool /*sound*/) {}
-  // Some bytes that are no object of a type.
+  // Raw bytes without a type.
   void bytes(void* data, std::size_t size) { bytes_.append(static_cast<const char*>(data), size); }
   [[nodiscard]] const std::string& bytes() const { return bytes_; }
 
@@ -98,7 +98,7 @@ class StateWriter {
   std::string bytes_;
 };
 
-// Throws StateFault where the bytes end too soon, or are not what is required.
+// Throws StateFault if the bytes end too soon or a condition fails.
 class StateReader {
  public:
   static constexpr bool reads = true;
@@ -145,7 +145,7 @@ class StateReader {
     } else if constexpr (Sequence<T>) {
       std::size_t size = 0;
       get(size);
-      require_bytes(size);  // no element takes less than a byte
+      require_bytes(size);  // an element takes at least one byte
       part.resize(size);
       for (auto& element : part) get(element);
     } else if constexpr (std::is_same_v<T, bool>) {
@@ -167,7 +167,7 @@ class StateReader {
   std::string_view left_;
 };
 
-// Of objects that are nothing but doubles: whether all are finite.
+// Whether all numbers are finite. Each object must consist of doubles only.
 template <class... Objects>
 [[nodiscard]] bool is_finite(const Objects&... objects) {
   const auto all = [](const auto& object) {
@@ -184,7 +184,7 @@ template <class... Objects>
   return (all(objects) && ...);
 }
 
-// Whether it is a number, or infinite.
+// Whether the value is finite or infinite: not a NaN.
 [[nodiscard]] inline bool is_number(double value) {
   return !std::isnan(value);
 }

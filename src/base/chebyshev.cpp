@@ -10,7 +10,7 @@ namespace bbsim {
 
 namespace {
 
-// Point `number` of so many intervals.
+// Chebyshev point `number` of `intervals` + 1 points on [0, 1].
 double point(std::size_t number, std::size_t intervals) {
   const double part = static_cast<double>(number) / static_cast<double>(intervals);
   const double half_sine = std::sin(std::numbers::pi / 2 * part);
@@ -40,7 +40,7 @@ ChebyshevPoints::ChebyshevPoints(std::size_t intervals) : between_(intervals * (
   }
 }
 
-// Four sums do not wait for each other.
+// Four independent sums keep the processor's pipeline full.
 double ChebyshevPoints::between(const double* values, std::size_t i) const {
   const std::size_t count = points_.size();
   const double* const share = &between_[i * count];
@@ -73,7 +73,7 @@ double ChebyshevPoints::slope_at_start(const double* values) const {
   return slope;
 }
 
-// The points are symmetric.
+// The points are symmetric, so the weights for the start serve here in reverse.
 double ChebyshevPoints::slope_at_end(const double* values) const {
   const std::size_t last = points_.size() - 1;
   double slope = 0;
@@ -83,7 +83,7 @@ double ChebyshevPoints::slope_at_end(const double* values) const {
   return slope;
 }
 
-// Differences from each point's own value: a constant's slope is 0, without rounding.
+// Uses differences from each point's own value, so that the slope of a constant is exactly 0.
 void ChebyshevPoints::slopes(const double* values, double* into) const {
   for (std::size_t i = 0; i < points_.size(); ++i) {
     double slope = 0;
@@ -99,7 +99,7 @@ double ChebyshevPoints::overshoot() const {
   return std::log(static_cast<double>(size())) / std::numbers::pi;
 }
 
-// With T_N = +-1 at the points and T_(N-1) = T_N cos(angle), cos(angle) = 1 - 2 s.
+// Uses T_N = +-1 at the points, and T_(N-1) = T_N cos(angle) with cos(angle) = 1 - 2 s.
 double ChebyshevPoints::tail(const double* values) const {
   double last = 0, before = 0;
   for (std::size_t i = 0; i < points_.size(); ++i) {

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Processor time of this process since the clock was made.
+// Processor time of this process (s) since the construction of the clock.
 #pragma once
 
 #include <ctime>

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// How bbsim itself ends the process at once.
+// Ends the process at once, without cleanup.
 #pragma once
 
 #include <sys/syscall.h>
@@ -9,8 +9,9 @@
 
 namespace bbsim {
 
-// As _exit() does, which in this program says what becomes of a library that calls it
-// (controller/foreign_exit.cpp). A signal handler may call it.
+// Acts like _exit(). bbsim overrides _exit() to catch calls from foreign libraries
+// (controller/foreign_exit.cpp), so it needs this function for itself. A signal handler may call
+// it.
 [[noreturn]] inline void end_process(int status) {
   for (;;) syscall(SYS_exit_group, status);
 }

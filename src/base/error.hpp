@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The errors that reach the person at the terminal, one type for each exit code.
+// The errors that reach the user, one type for each exit code.
 #pragma once
 
 #include <stdexcept>
@@ -10,7 +10,7 @@
 
 namespace bbsim {
 
-// What a process of bbsim returns. Scripts rely on the numbers.
+// The exit codes of bbsim. Scripts rely on the numbers.
 enum class ExitCode : int {
   done = 0,
   ended_early = 1,  // also: compared files differ
@@ -19,13 +19,13 @@ enum class ExitCode : int {
   interrupted = 130,
 };
 
-// One fault of a scenario. `where` is "file:line:column" or "--set key=value".
+// A fault in a scenario. `where` is "file:line:column" or "--set key=value".
 struct Problem {
   std::string where;
-  std::string message;  // key path, what was found, what is allowed
+  std::string message;  // the key's path, then the value found and the values allowed
 };
 
-// The scenario or the command line is at fault. what() has one line a problem.
+// The scenario or the command line is wrong. what() has one line for each problem.
 class InputError : public std::runtime_error {
  public:
   explicit InputError(std::vector<Problem> problems);
@@ -37,8 +37,8 @@ class InputError : public std::runtime_error {
   std::vector<Problem> problems_;
 };
 
-// A key of the scenario is at fault, as only its model can tell, which does not know where the key
-// stands. what() begins with the key.
+// A key of the scenario is wrong in a way that only the model detects. The model does not know the
+// key's place in the file; the caller adds it. what() begins with the key.
 class KeyError : public InputError {
  public:
   KeyError(const std::string& key, const std::string& message)
@@ -50,12 +50,12 @@ class KeyError : public InputError {
   std::string key_;
 };
 
-// The output could not be written: a full disk, a folder without permission.
+// The output cannot be written: the disk is full, or permission is missing.
 class OutputError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-// Nobody reads the pipe any more that the output goes to: `bbsim ... | head` has seen enough.
+// The reader closed the pipe that takes the output, as `head` does in `bbsim ... | head`.
 class ReaderGone : public OutputError {
   using OutputError::OutputError;
 };

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The greatest values of a smooth function, from values at some points of it.
+// Finds the maxima of a smooth function from its values at Chebyshev points.
 #pragma once
 
 #include <algorithm>
@@ -17,25 +17,26 @@ struct Peak {
   double at = 0, value = 0;
 };
 
-// A maximum's value needs its place to the square root of what it is to be good to: to so small a
-// part of the bracket.
+// The precision of a maximum's place, as a fraction of the bracket. Near a maximum, the value's
+// error is quadratic in the place's error, so 1e-7 suffices for a value good to about 1e-14.
 inline constexpr double good_place = 1e-7;
 
-// Where a maximum may lie, by the values at Chebyshev points: between two of them, about a third
-// which is above both, or is the higher of the two. It is looked for at the guess first.
+// An interval that may contain a maximum. `best` is at least as high as its neighbors `from` and
+// `to`; at an end of the range, it is one of them. The search starts at `guess`.
 struct Bracket {
   Peak from, best, to;
   double guess = 0;
 };
 
-// What a function may do between points. Smooth: a little more than the parabola through three of
-// them does. With kinks, as a distance has at 0: it may go on as it comes, up to a corner.
+// The assumption about the function between points. Smooth: it exceeds the values by about as much
+// as the parabola through three of them. Kinks (a distance has one at 0): each side may go on along
+// its chord up to a corner.
 enum class Between { smooth, kinks };
 
-// Values at the points of twice as many intervals, for points that are so few to a wave that a
-// maximum may hide between them: those of the polynomial, where it may be greater than `best`; the
-// lower one of the two beside, where it may not. If it may be at an end, all are the polynomial's:
-// whether a maximum lies within is told by the slope there, which takes them all.
+// Computes values at the points of twice as many intervals, for coarse points that may hide a
+// maximum between them. A new value is the polynomial's where it may exceed `best`. Elsewhere it is
+// the lower one of its two neighbors. If the maximum may lie at an end, all new values are the
+// polynomial's, because for_each_bracket takes the slope at the end from all of them.
 inline void refine(const ChebyshevPoints& points, const double* values, double best,
                    std::vector<double>& finer) {
   const std::size_t last = points.size() - 1;
@@ -56,12 +57,12 @@ inline void refine(const ChebyshevPoints& points, const double* values, double b
   }
 }
 
-// Calls use(bracket) for each place where the function may be greater than `best`, which `use` may
-// raise. What is no number is passed over.
+// Calls use(bracket) for each interval in which the function may exceed `best`. `use` may raise
+// `best`. Values that are NaN are skipped.
 template <class Use>
 void for_each_bracket(const ChebyshevPoints& points, const double* values, const double& best,
                       Between between, Use use) {
-  // A difference as small as that may be of rounding alone.
+  // Relative differences up to this may be rounding.
   constexpr double rounding = 1e-14;
   const auto promises = [&](double promise) { return promise > best + rounding * std::abs(best); };
   const std::size_t last = points.size() - 1;
@@ -83,7 +84,7 @@ void for_each_bracket(const ChebyshevPoints& points, const double* values, const
                   points[i] + slope / (2 * bend)});
       continue;
     }
-    // The maximum may lie at an end, and beyond.
+    // The maximum may lie at an end, or between the end and the next point.
     const std::size_t inner = i == 0 ? 1 : last - 1, next = i == 0 ? 2 : last - 2;
     const double width = std::abs(points[inner] - points[i]);
     const double change = here - values[inner];
@@ -93,13 +94,13 @@ void for_each_bracket(const ChebyshevPoints& points, const double* values, const
                   points[i] + (i == 0 ? way : -way)});
     };
     if (between == Between::kinks) {
-      // Back the way that it goes on, up to a corner.
+      // The chord of the next interval, continued up to a corner, bounds the function.
       const double chord = (values[inner] - values[next]) / std::abs(points[inner] - points[next]);
       if (promises(values[inner] + chord * width)) look_within(width / 2);
       continue;
     }
-    // A maximum lies within if the slope there leads inwards. It takes all values to tell, and no
-    // more than the next two to see that it would lead nowhere.
+    // A maximum lies within if the slope at the end points inwards. The slope takes all values;
+    // this check takes three values and skips most ends that cannot hold a maximum above `best`.
     if (!promises(here + 4 * (change + std::abs(values[inner] - values[next])))) continue;
     const double slope = i == 0 ? points.slope_at_start(values) : -points.slope_at_end(values);
     if (!(slope > 0)) continue;
@@ -108,10 +109,10 @@ void for_each_bracket(const ChebyshevPoints& points, const double* values, const
   }
 }
 
-// The maximum of the function within the bracket: by parabolas, and golden sections where they lead
-// nowhere (Brent, Algorithms for Minimization without Derivatives, 1973, chapter 5). To `precision`
-// of the place, or where a smooth function would gain no more than rounding. Of several it finds
-// one.
+// The maximum of the function within the bracket: parabolic steps, and golden sections where a
+// parabola fails (Brent, Algorithms for Minimization without Derivatives, 1973, chapter 5). Stops
+// when the place is known to `precision`, or when a further step would gain no more than rounding.
+// If the bracket contains several maxima, it finds one of them.
 template <class Function>
 [[nodiscard]] Peak climb(const Bracket& bracket, double precision, Function function) {
   constexpr double golden = 0.3819660112501051;  // the smaller section
@@ -127,7 +128,7 @@ template <class Function>
     const double middle = (low + high) / 2;
     if (std::abs(best.at - middle) <= 2 * precision - (high - low) / 2) break;
     if (i > 0) {
-      // Goes to the top of the parabola through the three, if that is within, and the steps shrink.
+      // The step to the top of the parabola, if it stays within the bracket and the steps shrink.
       const double r = (best.at - second.at) * (best.value - third.value);
       double q = (best.at - third.at) * (best.value - second.value);
       double p = (best.at - third.at) * q - (best.at - second.at) * r;

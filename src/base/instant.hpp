@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Instants that are meant to be one, each computed in its own way.
+// The tolerance for comparing instants that were computed in different ways.
 #pragma once
 
 #include <cmath>
@@ -9,11 +9,11 @@
 
 namespace bbsim {
 
-// Times (s) that differ by no more than this are one. "0.3" may also come as 3 * 0.1 or as 300 of
-// "1 ms": a number is rounded when it is read, again with its unit, and again when it is
-// multiplied, by half an epsilon at most. That is 1.5 for either of two times, and the rounding of
-// a sum or difference, half of one for either, makes 4. What is added up counts with its size: of
-// n * period - delay, `size` is n * period.
+// Times (s) that differ by no more than this are the same instant. "0.3" may also come as 3 * 0.1
+// or as 300 of "1 ms". Each rounding adds at most half an epsilon: the number is rounded when it is
+// read, again with its unit, and again when it is multiplied. That is 1.5 for each of the two
+// times. The rounding of a sum or difference adds a half for each, so the total is 4. `size` is the
+// largest term: for n * period - delay it is n * period.
 [[nodiscard]] inline double rounding_of(double size) {
   return 4 * std::numeric_limits<double>::epsilon() * std::abs(size);
 }

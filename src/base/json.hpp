@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// JSON that others wrote. (For rooms that have nlohmann's library.)
+// Parses JSON from outside. Only rooms that link nlohmann_json can include this header.
 #pragma once
 
 #include <cstddef>
@@ -10,10 +10,10 @@
 
 namespace bbsim {
 
-// The deepest nesting that is read: whoever compares, copies or writes a value recurses.
+// The deepest nesting that is accepted. Comparing, copying and writing a value recurse.
 inline constexpr std::size_t deepest_json = 100;
 
-// How deep a text of JSON nests. Of what is no JSON it says nothing.
+// How deep JSON text nests. Meaningless for other text.
 [[nodiscard]] inline std::size_t json_depth(std::string_view text) {
   std::size_t depth = 0, deepest = 0;
   bool in_string = false;
@@ -32,8 +32,9 @@ inline constexpr std::size_t deepest_json = 100;
   return deepest;
 }
 
-// The value of the text; discarded (is_discarded(), and nothing else it is) if the text is no JSON,
-// or nests deeper. No text that others wrote is parsed but by this.
+// The value of the text. If the text is not JSON or nests deeper than deepest_json, the result is
+// discarded: is_discarded() is true, and no other use is allowed. All JSON from outside goes
+// through this function.
 [[nodiscard]] inline nlohmann::ordered_json parse_json(std::string_view text) {
   using Json = nlohmann::ordered_json;
   if (json_depth(text) > deepest_json) return Json(Json::value_t::discarded);

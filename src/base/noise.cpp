@@ -8,7 +8,7 @@
 namespace bbsim {
 namespace {
 
-// The terms of artanh's series, 1/1, 1/3, ...
+// The coefficients of artanh's series: 1/1, 1/3, ...
 struct OddParts {
   double of[13]{};
   constexpr OddParts() {
@@ -17,8 +17,8 @@ struct OddParts {
 };
 constexpr OddParts odd_parts;
 
-// -log(p) by sums and products alone, which no C library rounds its own way: p = m 2^e, and
-// log m = 2 artanh((m - 1) / (m + 1)).
+// -log(p) from sums and products alone, because C libraries round log() differently. With p = m
+// 2^e, log m = 2 artanh((m - 1) / (m + 1)).
 double minus_log(double p) {
   constexpr double ln_2 = 0.693147180559945309;
   int exponent = 0;
@@ -29,7 +29,7 @@ double minus_log(double p) {
   return -(exponent * ln_2 + 2 * s * series);
 }
 
-constexpr double central = 0.425;  // |p - 1/2| up to which one quotient serves
+constexpr double central = 0.425;  // |p - 1/2| up to here uses one rational function
 
 double central_quantile(double q) {
   const double r = 0.180625 - q * q;
@@ -62,7 +62,7 @@ double normal_quantile(double p) {
 
 void Noise::draw() {
   for (double& p : uniforms_) p = (static_cast<double>(generator_() >> 12U) + 0.5) * 0x1p-52;
-  // Of most numbers: without a branch, for the lanes of a register.
+  // The central formula applies to most numbers. Without a branch, the loop vectorizes.
   for (std::size_t i = 0; i < together; ++i) normals_[i] = central_quantile(uniforms_[i] - 0.5);
   for (std::size_t i = 0; i < together; ++i) {
     if (std::abs(uniforms_[i] - 0.5) > central) normals_[i] = outer_quantile(uniforms_[i]);

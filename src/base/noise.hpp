@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Random numbers that are the same on every machine: a generator whose output the C++ standard
-// fixes, and arithmetic that IEEE 754 fixes.
+// Random numbers that are the same on every machine: the C++ standard fixes the generator's output,
+// and IEEE 754 fixes the arithmetic.
 #pragma once
 
 #include <array>
@@ -14,29 +14,29 @@
 
 namespace bbsim {
 
-// The deviate z with P(Z < z) = p, 0 < p < 1, of the standard normal distribution, within a
-// relative 2e-7: Wichura's algorithm AS 241, PPND7 (Applied Statistics 37, 1988).
+// The inverse normal distribution: the z with P(Z < z) = p, 0 < p < 1, to a relative 2e-7.
+// Wichura's algorithm AS 241, PPND7 (Applied Statistics 37, 1988).
 [[nodiscard]] double normal_quantile(double p);
 
 class Noise {
  public:
   explicit Noise(std::uint64_t seed) : generator_(seed) {}
 
-  // A number in (0, 1), of 52 bits.
+  // A number in (0, 1), with 52 random bits.
   [[nodiscard]] double uniform() { return uniforms_[next()]; }
-  // The normal quantile of such a number.
+  // A standard normal number: the quantile of a uniform number.
   [[nodiscard]] double normal() { return normals_[next()]; }
 
-  // How far it is drawn (base/archive.hpp).
+  // The position in the sequence (base/archive.hpp).
   template <class Archive>
   void archive(Archive& archive) {
-    // (A generator that stands beyond its numbers makes new ones.)
+    // An index beyond the generator's state is harmless: the generator then refills its state.
     archive(generator_, uniforms_, normals_, drawn_);
     archive.require(drawn_ <= together && is_finite(uniforms_, normals_));
   }
 
  private:
-  // Drawn together, so that quantiles overlap in the processor.
+  // Drawn in batches, so that the processor overlaps the quantiles.
   static constexpr std::size_t together = 16;
 
   [[nodiscard]] std::size_t next() {
@@ -47,7 +47,7 @@ class Noise {
 
   std::mt19937_64 generator_;
   std::array<double, together> uniforms_{}, normals_{};
-  std::size_t drawn_ = together;  // of those that are there
+  std::size_t drawn_ = together;  // numbers used of the current batch
 };
 
 }  // namespace bbsim

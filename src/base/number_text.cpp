@@ -12,7 +12,7 @@
 #include <cstring>
 #include <string_view>
 
-// Powers of ten ready made, where fmt would work most of them out for each number.
+// Makes fmt use its full table of powers of ten instead of computing most of them for each number.
 #define FMT_USE_FULL_CACHE_DRAGONBOX 1
 #include <fmt/format.h>
 
@@ -23,7 +23,7 @@ char* write_word(char* to, std::string_view word) {
   return to + word.copy(to, word.size());
 }
 
-// Enough for every double.
+// Every double's shortest form fits.
 constexpr int most_digits = 17;
 
 constexpr auto powers_of_ten = [] {
@@ -36,8 +36,8 @@ constexpr auto powers_of_ten = [] {
   return powers;
 }();
 
-// Eight digits, zeros in front among them, by arithmetic on all of them at once: the first halves
-// and their rests in 32 bits each, then quarters in 16, then digits in 8.
+// Writes eight digits, with leading zeros. Works on all digits at once: splits the number into two
+// halves of 32 bits, these into quarters of 16 bits, and these into digits of 8 bits.
 void write_eight(char* to, std::uint64_t number) {
   if constexpr (std::endian::native == std::endian::little) {
     const std::uint64_t half = number / 10000;
@@ -56,7 +56,7 @@ void write_eight(char* to, std::uint64_t number) {
   }
 }
 
-// Writes most_digits characters, of which the first `count` are `digits`; returns the end of those.
+// Writes most_digits characters, of which the first `count` are `digits`. Returns the end of these.
 char* write_digits(char* to, std::uint64_t digits, int count) {
   constexpr std::uint64_t eight = powers_of_ten[8], sixteen = powers_of_ten[16];
   digits *= powers_of_ten[static_cast<std::size_t>(most_digits - count)];
@@ -67,7 +67,7 @@ char* write_digits(char* to, std::uint64_t digits, int count) {
   return to + count;
 }
 
-// ddd.ddd, of which `whole` digits stand before the point: `count` > `whole` > 0.
+// Writes ddd.ddd with `whole` digits before the point; `count` > `whole` > 0.
 char* write_with_point(char* to, std::uint64_t digits, int count, int whole) {
   char* const end = write_digits(to + 1, digits, count);
   for (int i = 0; i < whole; ++i) to[i] = to[i + 1];
@@ -75,7 +75,7 @@ char* write_with_point(char* to, std::uint64_t digits, int count, int whole) {
   return end;
 }
 
-// d.ddde+xx; `exponent` is that of the first digit.
+// Writes d.ddde+xx; `exponent` belongs to the first digit.
 char* write_scientific(char* to, std::uint64_t digits, int count, int exponent) {
   to = count > 1 ? write_with_point(to, digits, count, 1) : write_digits(to, digits, 1);
   *to++ = 'e';
@@ -89,9 +89,8 @@ char* write_scientific(char* to, std::uint64_t digits, int count, int exponent) 
 
 }  // namespace
 
-// The text is that of std::to_chars, which takes twice as long for the digits of a number and more
-// for those of a short one. Of fixed and scientific notation it takes the shorter, and the fixed
-// one where they are as long.
+// The text equals that of std::to_chars, which takes twice as long for the digits of a long number
+// and longer still for those of a short one. The shorter notation wins; fixed wins a tie.
 char* write_number(char* to, double value) {
   if (std::isnan(value)) return write_word(to, "nan");
   if (std::signbit(value)) {
@@ -108,13 +107,13 @@ char* write_number(char* to, double value) {
   const int fixed = last >= 0 ? count + last : first >= 0 ? count + 1 : count + 1 - first;
   if (scientific < fixed) return write_scientific(to, digits, count, first);
   if (last > 0) {
-    // A whole number is written with all its digits, not with zeros for those that it takes none of
-    // to tell it from its neighbours.
+    // std::to_chars writes a whole number with all its exact digits. Trailing zeros after the
+    // shortest digits would differ.
     return std::to_chars(to, to + longest_number, value).ptr;
   }
   if (last == 0) return write_digits(to, digits, count);
   if (first >= 0) return write_with_point(to, digits, count, first + 1);
-  std::memcpy(to, "0.000000", 8);  // more than ever stand before the first digit, without a branch
+  std::memcpy(to, "0.000000", 8);  // longer than any prefix; copies without a branch
   return write_digits(to + 1 - first, digits, count);
 }
 

@@ -9,11 +9,11 @@
 
 namespace bbsim {
 
-// No double's shortest form is longer ("-2.2250738585072014e-308").
+// The longest shortest form of a double: "-2.2250738585072014e-308".
 inline constexpr std::size_t longest_number = 24;
 
-// Writes `value` at `to`, which has room for longest_number characters; returns the end of the
-// text. A NaN is "nan" whatever its sign and payload; infinities are "inf" and "-inf".
+// Writes `value` at `to`, which has room for longest_number characters, and returns the end of the
+// text. Every NaN becomes "nan"; infinities become "inf" and "-inf".
 char* write_number(char* to, double value);
 
 inline std::string number_text(double value) {

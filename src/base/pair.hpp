@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Two numbers that belong together.
+// Two numbers, and 2x2 matrices.
 #pragma once
 
 #include <array>

@@ -11,7 +11,7 @@
 namespace bbsim {
 namespace {
 
-// A character of UTF-8; no length if none begins here.
+// A UTF-8 character. Length 0: none begins here.
 struct Character {
   std::uint32_t code = 0;
   std::size_t length = 0;
@@ -47,7 +47,7 @@ bool is_control(std::uint32_t code) {
   return code < 0x20 || (code >= 0x7F && code < 0xA0);
 }
 
-// Marks, embeddings, overrides and isolates of direction; separators of lines and paragraphs.
+// Direction marks, embeddings, overrides and isolates; line and paragraph separators.
 bool redirects(std::uint32_t code) {
   return code == 0x061C || code == 0x200E || code == 0x200F || (code >= 0x2028 && code <= 0x202E) ||
          (code >= 0x2066 && code <= 0x2069);

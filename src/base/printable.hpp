@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Text that others wrote, on its way to a terminal.
+// Makes foreign text safe for a terminal.
 #pragma once
 
 #include <string>
@@ -9,13 +9,13 @@
 
 namespace bbsim {
 
-// The text with all that a terminal would act on instead of showing it written as escapes, such as
-// \x1b: control characters but for line breaks and tabs, bytes that are no UTF-8 (some terminals
-// take those from 0x80 to 0x9f for control characters), and the characters that turn the direction
-// of what follows, which can make a name look like another. All else stays as it is.
+// Replaces everything that a terminal would act on by an escape such as \x1b: control characters
+// except line breaks and tabs; bytes that are not UTF-8 (some terminals take 0x80 to 0x9f for
+// control characters); and characters that change the direction of text, which can disguise a name.
+// Keeps everything else.
 [[nodiscard]] std::string printable(std::string_view text);
 
-// The text in one line of printable ASCII, all other bytes as escapes: for a comment in a program.
+// The text as one line of printable ASCII, all other bytes escaped: for a comment in a program.
 [[nodiscard]] std::string printable_ascii(std::string_view text);
 
 }  // namespace bbsim

@@ -1,11 +1,11 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// A 113-bit floating-point number, for reference solutions.
+// A 113-bit floating-point number for reference solutions.
 //
-// On x86-64 with glibc it is __float128, whose sine and cosine the C library has had since 2.26
-// (libquadmath would be one more library to load when the program starts). Elsewhere it is long
-// double: the same 113 bits on AArch64, as many as there are on other machines.
+// On x86-64 with glibc it is __float128; glibc has had its sine and cosine since 2.26. (libquadmath
+// would be one more library to load at the start of the program.) Elsewhere it is long double,
+// which has 113 bits on AArch64 and fewer on some other machines.
 #pragma once
 
 #include <cmath>
@@ -26,8 +26,8 @@ namespace quad_detail {
 #ifdef BBSIM_HAS_FLOAT128
 __extension__ using Storage = __float128;
 inline constexpr int digits = 113;
-// glibc's headers declare it for some compilers only, and not always with this type: hence a name
-// of our own for the same symbol.
+// glibc declares the function only for some compilers, and not always with this type. This
+// declaration gives the same symbol a name of ours.
 extern "C" void bbsim_sincosf128(Storage angle, Storage* sin, Storage* cos) noexcept
     __asm__("sincosf128");
 inline void sin_cos(Storage angle, Storage* sin, Storage* cos) {
@@ -44,7 +44,7 @@ inline void sin_cos(Storage angle, Storage* sin, Storage* cos) {
 
 }  // namespace quad_detail
 
-// A class, not an alias: overloads for it are found by argument-dependent lookup.
+// A class, not an alias, so that argument-dependent lookup finds its overloads.
 class Quad {
  public:
   Quad() = default;
@@ -69,14 +69,14 @@ class Quad {
   constexpr Quad& operator*=(Quad b) { return *this = *this * b; }
   constexpr Quad& operator/=(Quad b) { return *this = *this / b; }
 
-  // The distance from 1 to the next number: 1.9e-34 where there are 113 bits.
+  // The distance from 1 to the next number: 1.9e-34 with 113 bits.
   static constexpr double epsilon() {
     double epsilon = 1;
     for (int bit = 1; bit < quad_detail::digits; ++bit) epsilon /= 2;
     return epsilon;
   }
 
-  // Both at once; `angle` in rad.
+  // Sine and cosine together; `angle` in rad.
   friend void sin_cos(Quad angle, Quad* sin, Quad* cos) {
     quad_detail::sin_cos(angle.value_, &sin->value_, &cos->value_);
   }
@@ -100,7 +100,7 @@ class Quad {
   return static_cast<double>(a);
 }
 
-// Newton's iteration doubles the digits of a double's root each time.
+// Each Newton iteration doubles the number of correct digits, starting from a double's root.
 [[nodiscard]] inline Quad root_along(Quad square, Quad along) {
   Quad root(std::sqrt(plain(square)));
   if (root > Quad(0.0)) {

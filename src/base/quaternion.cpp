@@ -9,7 +9,7 @@ namespace bbsim {
 
 Quaternion rotation_by(const std::array<double, 3>& vector) {
   const double angle = std::hypot(vector[0], vector[1], vector[2]);
-  // sin(angle/2) / angle, which tends to 1/2.
+  // sin(angle/2) / angle tends to 1/2 as the angle tends to 0.
   const double scale = angle < 1e-8 ? 0.5 : std::sin(angle / 2) / angle;
   return {std::cos(angle / 2), scale * vector[0], scale * vector[1], scale * vector[2]};
 }

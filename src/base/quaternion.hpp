@@ -8,18 +8,18 @@
 
 namespace bbsim {
 
-// w, x, y, z.
+// (w, x, y, z).
 using Quaternion = std::array<double, 4>;
 
-// The rotation by the length of `vector` about it.
+// The rotation about `vector` by its length (rad).
 [[nodiscard]] Quaternion rotation_by(const std::array<double, 3>& vector);
 
-// First b, then a.
+// The rotation b followed by the rotation a.
 [[nodiscard]] Quaternion product(const Quaternion& a, const Quaternion& b);
 
 [[nodiscard]] Quaternion conjugate(const Quaternion& q);
 
-// The same rotation by a quaternion of size 1; q is not 0.
+// q scaled to norm 1. q must not be 0.
 [[nodiscard]] Quaternion normalised(const Quaternion& q);
 
 }  // namespace bbsim

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// First in, first out, of a few: mostly without a move of what is left, and without more memory
-// once it has held as many.
+// A first-in first-out queue for a few elements. It rarely moves elements, and it reuses its
+// memory.
 #pragma once
 
 #include <cstddef>
@@ -16,16 +16,16 @@ class Queue {
   [[nodiscard]] bool empty() const { return first_ == all_.size(); }
   [[nodiscard]] std::size_t size() const { return all_.size() - first_; }
   [[nodiscard]] const T& front() const { return all_[first_]; }
-  // One more, to be filled.
+  // Appends an element for the caller to fill.
   T& push() {
-    // Those that are gone make room before there are more of them than of the others.
+    // Erases consumed elements once they outnumber the others.
     if (first_ > 8 && 2 * first_ > all_.size()) {
       all_.erase(all_.begin(), all_.begin() + static_cast<std::ptrdiff_t>(first_));
       first_ = 0;
     }
     return all_.emplace_back();
   }
-  // Of a queue that is not empty.
+  // The queue must not be empty.
   T pop() {
     T one = all_[first_++];
     if (empty()) {
@@ -35,7 +35,7 @@ class Queue {
     return one;
   }
 
-  // base/archive.hpp
+  // See base/archive.hpp.
   template <class Archive>
   void archive(Archive& archive) {
     archive(all_, first_);

@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// What templates on a number type ask of it, for doubles; other types overload it.
+// The functions that templates on a number type need, for doubles. Other number types overload
+// them.
 #pragma once
 
 #include <cmath>
@@ -12,7 +13,7 @@ namespace bbsim {
 inline constexpr double infinity = std::numeric_limits<double>::infinity();
 inline constexpr double no_number = std::numeric_limits<double>::quiet_NaN();
 
-// Sine and cosine together. Overloaded for number types that have a faster way.
+// Sine and cosine together. Number types with a faster way overload sin_cos().
 template <class Real>
 struct SinCos {
   Real sin, cos;
@@ -25,13 +26,13 @@ template <class Real>
   return {sin(angle), cos(angle)};
 }
 
-// The root of `square`, with the sign of `along`: the length of a vector as a coordinate that goes
-// on smoothly through zero, where the vector turns round.
+// The square root of `square` with the sign of `along`. A vector's length with this sign is a
+// coordinate that stays smooth where the vector passes zero and reverses.
 [[nodiscard]] inline double root_along(double square, double along) {
   return std::copysign(std::sqrt(square), along);
 }
 
-// Whether a number exceeds another, and one of two by that: lane by lane, of a type with lanes.
+// A comparison, and a choice by its result. Types with lanes overload both lane by lane.
 [[nodiscard]] inline bool exceeds(double a, double b) {
   return a > b;
 }
@@ -39,20 +40,20 @@ template <class Real>
   return which ? yes : no;
 }
 
-// The larger of two; no number if one of them is none, which std::max() may pass over.
+// The larger number; NaN if one of them is NaN, which std::max() may ignore.
 [[nodiscard]] inline double larger(double a, double b) {
   return a > b || std::isnan(a) ? a : b;
 }
 
-// The nearest integer, of two the even one. At 2^52 the spacing of doubles is one, so that the sum
-// rounds; the C library would have to be called for it.
+// The nearest integer, the even one in a tie. The spacing of doubles at 2^52 is one, so the sum
+// rounds. This avoids a call into the C library.
 [[nodiscard]] inline double nearest_integer(double value) {
   if (!(std::abs(value) < 0x1p52)) return value;
   const double spaced_by_one = std::copysign(0x1p52, value);
   return std::copysign((value + spaced_by_one) - spaced_by_one, value);
 }
 
-// The time as a plain double, to choose an interval by. Overloaded for other number types.
+// The time as a plain double, to choose an interval. Overloaded for other number types.
 [[nodiscard]] inline double plain(double t) {
   return t;
 }

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// A piece of text that others wrote, within a sentence of ours.
+// Shows foreign text within our messages.
 #pragma once
 
 #include <cstddef>
@@ -10,16 +10,16 @@
 
 namespace bbsim {
 
-// The text on one line, fit for a terminal (printable.hpp), and cut off after that many bytes.
+// The text on one line, safe for a terminal (printable.hpp), cut off after `longest` bytes.
 [[nodiscard]] std::string shown(std::string_view text, std::size_t longest = 60);
 
-// The text shown so in quotation marks; "nothing" for an empty one.
+// shown() in quotation marks; "nothing" for an empty text.
 [[nodiscard]] std::string quoted(std::string_view text, std::size_t longest = 60);
 
-// The length for what another program said.
+// The length for messages of other programs.
 inline constexpr std::size_t longest_saying = 200;
 
-// The length for what is never cut off, such as the name of a file.
+// The length for text that must not be cut off, such as a file name.
 inline constexpr std::size_t uncut = static_cast<std::size_t>(-1);
 
 }  // namespace bbsim

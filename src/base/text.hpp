@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// What is done to text everywhere.
+// Common operations on text.
 #pragma once
 
 #include <string>
@@ -10,14 +10,15 @@
 
 namespace bbsim {
 
-// The text without the blanks and tabs at its ends; of nothing else, the empty end of it.
+// The text without blanks and tabs at its ends. Blank text gives an empty view at its end.
 [[nodiscard]] inline std::string_view trimmed(std::string_view text) {
   const std::size_t first = text.find_first_not_of(" \t");
   if (first == std::string_view::npos) return text.substr(text.size());
   return text.substr(first, text.find_last_not_of(" \t") - first + 1);
 }
 
-// Its lines, without their breaks; what follows the last break is one if it is not empty.
+// The lines of the text without line breaks. Text after the last break is a line if it is not
+// empty.
 [[nodiscard]] inline std::vector<std::string> lines_of(std::string_view text) {
   std::vector<std::string> lines;
   while (!text.empty()) {

@@ -18,9 +18,9 @@
 namespace bbsim::file {
 namespace {
 
-constexpr unsigned most_attempts = 100;  // at a name that nobody has
+constexpr unsigned most_attempts = 100;  // to find an unused name
 
-// Short, whatever the target is called, so that it cannot exceed the longest name allowed.
+// The length does not depend on the target's name, so it never exceeds the longest allowed name.
 std::string temporary_name(unsigned attempt) {
   const auto now = std::chrono::steady_clock::now().time_since_epoch().count();
   char text[64];
@@ -30,10 +30,11 @@ std::string temporary_name(unsigned attempt) {
   return {text, static_cast<std::size_t>(size)};
 }
 
-// Gives a file without a name one; false and errno if it does not.
+// Gives an unnamed file a name. On failure, returns false with errno.
 bool name_file(int descriptor, const char* name) {
-  // Linux 6.10 lets whoever opened the file do so, older ones only the privileged: ENOENT. The way
-  // over /proc is open to all, but takes longer: entries there are made for the process.
+  // Linux 6.10 allows this to the process that opened the file; older kernels need privileges and
+  // return ENOENT. The way through /proc works for everyone but is slower, because the kernel
+  // creates entries there for the process.
   if (linkat(descriptor, "", AT_FDCWD, name, AT_EMPTY_PATH) == 0) return true;
   if (errno != ENOENT) return false;
   char self[40];
@@ -41,14 +42,14 @@ bool name_file(int descriptor, const char* name) {
   return linkat(AT_FDCWD, self, AT_FDCWD, name, AT_SYMLINK_FOLLOW) == 0;
 }
 
-// Tries it by a name that is taken.
+// Tries a name that always exists, and expects EEXIST.
 bool can_be_named(int descriptor) {
   return !name_file(descriptor, "/") && errno == EEXIST;
 }
 
-// Lets two files change their names in one step, which is as good as a rename: ext4, asked to
-// rename over a file, starts to write to the disk there and then, which takes longer than a
-// common run of the whole program. False if `path` is no file or the system cannot do it.
+// Exchanges the names of two files in one step, as safe as a rename. When ext4 renames over a file,
+// it starts to write to the disk at once, which takes longer than a typical run of the program.
+// Returns false if `path` is not a regular file or the system does not support the exchange.
 bool exchange_names(const std::string& temporary, const std::string& path) {
   struct stat status {};
   return lstat(path.c_str(), &status) == 0 && S_ISREG(status.st_mode) &&
@@ -60,11 +61,11 @@ bool exchange_names(const std::string& temporary, const std::string& path) {
 AtomicFile::AtomicFile(const std::string& target, Durable durable)
     : target_(find_target(target)),
       durable_(durable),
-      // Left uninitialised on purpose: its pages cost nothing before they are written to.
+      // Uninitialized on purpose: untouched pages cost nothing.
       buffer_(new char[buffer_size]),
       end_(buffer_.get()) {
   if (target_.descriptor) {
-    // A duplicate can be closed, and so tell of errors that only closing brings to light.
+    // A duplicate can be closed, which reveals errors that only closing reports.
     descriptor_ = Descriptor(fcntl(*target_.descriptor, F_DUPFD_CLOEXEC, STDERR_FILENO + 1));
     if (!descriptor_.is_open()) fail(errno);
   } else if (target_.written_directly()) {
@@ -96,7 +97,7 @@ bool AtomicFile::open_unnamed() {
   return false;
 }
 
-// Remembered before it is there, so that no signal comes between.
+// Remembers the name before the file exists, so that a signal in between leaves no file.
 bool AtomicFile::choose_temporary_name(unsigned attempt) {
   if (attempt >= most_attempts) return false;
   temporary_ = std::filesystem::path(target_.folder()) / temporary_name(attempt);
@@ -144,7 +145,7 @@ void AtomicFile::write(std::string_view bytes) {
 
 void AtomicFile::flush() {
   const std::string_view content(buffer_.get(), static_cast<std::size_t>(end_ - buffer_.get()));
-  end_ = buffer_.get();  // also when writing fails: it is not tried again
+  end_ = buffer_.get();  // before writing, so that a failed write is not repeated
   write_through(content);
 }
 
@@ -161,8 +162,8 @@ void AtomicFile::commit() {
   if (durable_ == Durable::yes) {
     if (const int error = sync_content(descriptor_.get())) fail(error);
   }
-  // What only closing brings to light must be known before the file gets its name, and a file
-  // without one is gone once it is closed: so it is a second descriptor that is closed.
+  // Errors that only closing reveals must be known before the file gets its name. Closing an
+  // unnamed file would delete it, so this closes a duplicate descriptor.
   Descriptor second(fcntl(descriptor_.get(), F_DUPFD_CLOEXEC, STDERR_FILENO + 1));
   if (const int error = second.is_open() ? second.close() : errno) fail(error);
   replace_target();
@@ -175,7 +176,7 @@ void AtomicFile::commit() {
 void AtomicFile::replace_target() {
   if (temporary_.empty()) {
     if (name_file(descriptor_.get(), target_.path.c_str())) return;
-    // A file that is there can only be replaced by one that has a name.
+    // Only a file with a name can replace an existing file.
     int error = errno;
     for (unsigned attempt = 0; error == EEXIST && choose_temporary_name(attempt); ++attempt) {
       if (name_file(descriptor_.get(), temporary_.c_str())) break;
@@ -188,7 +189,7 @@ void AtomicFile::replace_target() {
   if (!exchange_names(temporary_, target_.path)) {
     if (std::rename(temporary_.c_str(), target_.path.c_str()) != 0) fail(errno);
   }
-  forget_name();  // after an exchange it is the old file's
+  forget_name();  // after an exchange, this removes the old file
 }
 
 void write_file(const std::string& target, std::string_view content) {

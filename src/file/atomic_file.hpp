@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// A file that appears whole under its final name, or not at all.
+// Writes a file that appears whole under its final name, or not at all.
 #pragma once
 
 #include <cstddef>
@@ -14,23 +14,22 @@
 
 namespace bbsim::file {
 
-// Whether what is committed survives a power cut, too; that takes the disk's time.
+// Whether a committed file survives a power cut. Syncing to the disk takes time.
 enum class Durable { no, yes };
 
-// What is written goes to a file without a name in the target's own folder, which commit() puts
-// under the target's; however the process ends before, nothing stays of it, and a file that was
-// there is left as it was. (Where the file system knows no such files, it is a hidden temporary,
-// which the destructor removes, and remove_temporaries() at a signal.) A symbolic link stays and
-// the file that it points to is replaced. A new file gets the permissions that the umask leaves; a
-// replaced one keeps its own.
+// Writes to an unnamed file in the target's folder; commit() gives it the target's name. If the
+// process ends earlier, nothing remains and an old file stays unchanged. On file systems without
+// unnamed files it uses a hidden temporary, which the destructor removes, or remove_temporaries()
+// at a signal. commit() keeps a symbolic link and replaces the file that it points to. A new file
+// gets its permissions from the umask; a replaced file keeps its own.
 //
-// What is no regular file (a device, a FIFO, "-" for standard output, /dev/stdout and any other
-// name of an open descriptor) is written to directly.
+// Data for anything but a regular file goes there directly: a device, a FIFO, "-" for standard
+// output, /dev/stdout and other names of open descriptors.
 //
-// Every function throws OutputError, with the target's name, the reason, and what to do about it.
+// Every function throws OutputError with the target's name, the reason, and the remedy.
 class AtomicFile {
  public:
-  // Fails here, before any work is done, if the target cannot be written to.
+  // Throws before any work is done if the target cannot be written.
   explicit AtomicFile(const std::string& target, Durable durable = Durable::no);
   ~AtomicFile();
   AtomicFile(const AtomicFile&) = delete;
@@ -38,28 +37,28 @@ class AtomicFile {
 
   void write(std::string_view bytes);
 
-  // Room for at least `size` more bytes, at most buffer_size; what is put there counts once
-  // advance() has been told where it ends.
+  // Returns room for at least `size` more bytes; `size` is at most buffer_size. After writing
+  // there, call advance() with the end of the bytes.
   char* reserve(std::size_t size) {
     if (static_cast<std::size_t>(buffer_end() - end_) < size) flush();
     return end_;
   }
   void advance(char* end) { end_ = end; }
 
-  // Hands all to the system: what is written directly arrives.
+  // Passes all buffered bytes to the system. A target that is written directly then has them.
   void flush();
 
-  // Puts the file under its final name. Nothing may be written afterwards.
+  // Puts the file under its final name. Do not write afterwards.
   void commit();
 
-  // The descriptor is for a library that does the writing itself. It is open for reading, too, if
-  // not a device or pipe.
+  // For a library that writes the file itself. The descriptor is also open for reading, except for
+  // devices and pipes.
   [[nodiscard]] int descriptor() const { return descriptor_.get(); }
 
-  // Throws the OutputError for an errno that writing to descriptor() met.
+  // Throws the OutputError for an errno from a write to descriptor().
   [[noreturn]] void fail(int error_number) const { fail_to_write(target_.name, error_number); }
 
-  // Bytes. Larger ones only cost page faults; smaller ones, calls of write().
+  // Bytes. A larger buffer costs page faults; a smaller one costs more calls of write().
   static constexpr std::size_t buffer_size = 32768;
 
  private:
@@ -74,13 +73,13 @@ class AtomicFile {
 
   Target target_;
   Durable durable_;
-  std::string temporary_;  // the name of a hidden temporary; empty if there is none to remove
+  std::string temporary_;  // the hidden temporary's name; empty if there is none
   Descriptor descriptor_;
   std::unique_ptr<char[]> buffer_;
-  char* end_;  // of what is in the buffer
+  char* end_;  // of the bytes in the buffer
 };
 
-// The whole of a file in one go; "-" is standard output. Throws OutputError.
+// Writes a whole file; "-" is standard output. Throws OutputError.
 void write_file(const std::string& target, std::string_view content);
 
 }  // namespace bbsim::file

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// What a results file says about itself as a whole.
+// The attributes of a results file.
 #pragma once
 
 #include <concepts>
@@ -15,7 +15,7 @@
 
 namespace bbsim::file {
 
-// A text or a number.
+// Text or a number.
 class AttributeValue {
  public:
   using Variant = std::variant<std::string, double, std::int64_t>;
@@ -28,7 +28,7 @@ class AttributeValue {
 
   [[nodiscard]] const Variant& value() const { return value_; }
 
-  // A number in its shortest form.
+  // Numbers in their shortest form.
   [[nodiscard]] std::string text() const {
     if (const auto* real = std::get_if<double>(&value_)) return number_text(*real);
     if (const auto* whole = std::get_if<std::int64_t>(&value_)) return std::to_string(*whole);
@@ -41,7 +41,7 @@ class AttributeValue {
   Variant value_;
 };
 
-// Root attributes of an HDF5 file, in order; CSV has no place for them.
+// Root attributes of an HDF5 file, in order. CSV cannot hold them.
 using Attributes = std::vector<std::pair<std::string, AttributeValue>>;
 
 }  // namespace bbsim::file

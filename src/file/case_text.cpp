@@ -13,7 +13,7 @@ void append_text(std::string& line, std::string_view text) {
   line += '"';
   for (const char c : text) {
     if (c == '\n' || c == '\r') {
-      line += ' ';  // a row is a line, whatever a message holds
+      line += ' ';  // each row must stay on one line
       continue;
     }
     if (c == '"') line += '"';

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Rows of a sweep as CSV text (RFC 4180: a text with a comma, a quote or a line break is quoted).
+// Rows of a sweep as CSV text. Text with a comma, a quote or a line break is quoted (RFC 4180).
 #pragma once
 
 #include <string>
@@ -19,7 +19,7 @@ inline void append_number(std::string& line, double value) {
 
 void append_text(std::string& line, std::string_view text);
 
-// The fields of a line without its line break, unquoted. False if a quote is left open.
+// Splits a line without its line break into unquoted fields. Returns false if a quote stays open.
 [[nodiscard]] bool split_fields(std::string_view line, std::vector<std::string>& fields);
 
 }  // namespace bbsim::file

@@ -47,7 +47,7 @@ CellTable read_hdf5_cells(const std::string& file) {
   }
   for (const auto& [column, values] : reader.axes()) {
     table.names.push_back(column.name);
-    table.columns.emplace_back(values, values.size());  // one row, of its own width
+    table.columns.emplace_back(values, values.size());  // one row with all values of the axis
   }
   table.rows = reader.rows();
   table.attributes = reader.attributes();

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Tables as `bbsim compare` sees them: numbers and texts, of runs and of sweeps, with what their
-// files say of the solver.
+// Tables of numbers and text for `bbsim compare`, from runs and sweeps, with the attributes that
+// describe the solver.
 #pragma once
 
 #include <cstddef>
@@ -16,16 +16,17 @@
 
 namespace bbsim::file {
 
-// One number or text a row; or, of a sweep's trajectories, `width` numbers a row, row after row.
+// A number or a text for each row. In the trajectories of a sweep, each row has `width` numbers,
+// stored row after row.
 struct CellColumn {
   CellColumn() = default;
   CellColumn(std::initializer_list<double> values) : numbers(values) {}
   explicit CellColumn(std::vector<double> values, std::size_t numbers_a_row = 1)
       : numbers(std::move(values)), width(numbers_a_row) {}
 
-  std::vector<double> numbers;  // NaN where there is a text
+  std::vector<double> numbers;  // NaN where there is text
   std::size_t width = 1;
-  // Both are empty in a column without a single text.
+  // Both are empty in a column without text.
   std::vector<std::string> texts{};
   std::vector<bool> is_text{};
 
@@ -35,20 +36,20 @@ struct CellColumn {
   [[nodiscard]] bool has_text(std::size_t i) const { return !is_text.empty() && is_text[i]; }
 };
 
-// By name, in the file's order. Columns that nobody asked for are named, and empty.
+// Columns by name, in the file's order. Columns that were not requested have a name but no values.
 struct CellTable {
   std::vector<std::string> names;
   std::vector<CellColumn> columns;
   std::size_t rows = columns.empty() ? 0 : columns.front().size();
   Attributes attributes{};  // of an HDF5 file's root
 
-  // The column of that name, or null.
+  // The column with this name, or null.
   [[nodiscard]] const CellColumn* find(std::string_view name) const;
 };
 
-// Reads a CSV, in which fields may be quoted, or, by its ending, an HDF5 file; "-" is CSV on
-// standard input. If `wanted` names columns, no others are read from a CSV, but for t. A field that
-// is no number is a text. Throws InputError: where, found, allowed.
+// Reads an HDF5 file (by its ending) or a CSV, whose fields may be quoted; "-" is CSV on standard
+// input. If `wanted` names columns, reads only these and t from a CSV. A field that is not a number
+// is text. Throws InputError: where, found, allowed.
 [[nodiscard]] CellTable read_cells(const std::string& file,
                                    const std::vector<std::string>& wanted = {});
 

@@ -31,10 +31,10 @@ bool is_remembered(pid_t process) {
                              [=](const auto& place) { return place.load() == process; });
 }
 
-// The name of the marks' variable. Their values are this process's id, a point, and a number.
+// The variable that holds the mark. Its value is this process's id, a point, and a number.
 constexpr const char* marks = "BBSIM_CONTROLLER=";
 
-// From here on to bury_children() all is such that a signal handler may call it.
+// All functions from here to bury_children() are safe in a signal handler.
 
 char* put_text(char* to, const char* text) {
   while (*text != '\0') *to++ = *text++;
@@ -52,7 +52,7 @@ char* put_number(char* to, pid_t number) {
   return to;
 }
 
-// Calls use(number) for each number of a text that is read in pieces.
+// Calls use(number) for each number in a text that arrives in pieces.
 class Numbers {
  public:
   template <class Use>
@@ -71,7 +71,7 @@ class Numbers {
   pid_t number_ = 0;
 };
 
-// Calls use(part, size) for each piece of a file of /proc.
+// Calls use(part, size) for each piece of a file in /proc.
 template <class Use>
 void read_pieces(const char* path, Use use) {
   const int file = open(path, O_RDONLY | O_CLOEXEC);
@@ -86,7 +86,7 @@ void read_pieces(const char* path, Use use) {
   close(file);
 }
 
-// Whether /proc is of the processes as this one sees them.
+// Whether /proc shows the same process ids as this process sees (not those of another namespace).
 bool proc_is_ours() {
   std::array<char, 16> link{}, expected{};
   put_number(expected.data(), getpid());
@@ -94,7 +94,7 @@ bool proc_is_ours() {
          std::strcmp(link.data(), expected.data()) == 0;
 }
 
-// Calls use(child) for each child of the process: dead ones that nobody waited for, too.
+// Calls use(child) for each child of the process, including zombies.
 template <class Use>
 void for_each_child(pid_t process, Use use) {
   std::array<char, 80> path{};
@@ -107,7 +107,7 @@ void for_each_child(pid_t process, Use use) {
     const long got = syscall(SYS_getdents64, folder, entries.data(), entries.size());
     if (got <= 0) break;
     for (long at = 0; at < got;) {
-      // ino64_t, off64_t, then the length of the entry, its type and its name.
+      // linux_dirent64: ino64_t, off64_t, then the entry's length, its type and its name.
       const char* const entry = &entries[static_cast<std::size_t>(at)];
       unsigned short length = 0;
       std::memcpy(&length, entry + 16, sizeof length);
@@ -124,12 +124,13 @@ void for_each_child(pid_t process, Use use) {
   close(folder);
 }
 
-// Whether the environment of the process has an entry that begins, or, `whole`, is so.
+// Whether the environment of the process has the entry `wanted` (`whole`), or one that begins with
+// it.
 bool has_entry(pid_t process, const char* wanted, bool whole) {
   std::array<char, 40> path{};
   put_text(put_number(put_text(path.data(), "/proc/"), process), "/environ");
   bool found = false, alike = true;
-  const char* at = wanted;  // of an entry that is alike so far
+  const char* at = wanted;  // in an entry that matches so far
   read_pieces(path.data(), [&](const char* text, std::size_t size) {
     for (const char* c = text; c != text + size; ++c) {
       if (*c == '\0') {
@@ -151,8 +152,9 @@ void wait_a_little() {
   nanosleep(&millisecond, nullptr);
 }
 
-// Ends the children of this process that `is_to_end` says, but for those that are remembered, until
-// there are none, or as many milliseconds have passed. Takes the status of all that have ended.
+// Kills the children of this process that `is_to_end` selects, except remembered ones, and collects
+// their status. Repeats until none are left or the time is over. Collects all other dead children
+// too.
 template <class IsToEnd>
 void bury_children(int milliseconds, IsToEnd is_to_end) {
   for (int i = 0; i < milliseconds; ++i) {
@@ -206,7 +208,7 @@ std::string new_mark() {
 }
 
 void adopt_orphans() {
-  prctl(PR_SET_CHILD_SUBREAPER, 1, 0, 0, 0);  // without it they are the system's, as ever
+  prctl(PR_SET_CHILD_SUBREAPER, 1, 0, 0, 0);  // on failure, orphans go to the system as usual
 }
 
 Family::Family(pid_t head, std::string mark) : head_(head), mark_(std::move(mark)) {
@@ -224,9 +226,9 @@ bool Family::has(pid_t process) const {
 }
 
 void Family::end() const {
-  // While nobody has waited for the head, its id is no other's.
+  // The head was not waited for yet, so its id is not reused.
   kill(-head_, SIGKILL);
-  kill(head_, SIGKILL);  // which may have left its group
+  kill(head_, SIGKILL);  // in case it left its group
   for (const pid_t member : members_) kill(member, SIGKILL);
 }
 

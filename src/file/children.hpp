@@ -1,8 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Processes that run beside this one, and what these have started: whatever ends them takes all of
-// it along.
+// Keeps track of child processes and their descendants, so that all of them end with this process.
 #pragma once
 
 #include <sys/types.h>
@@ -14,37 +13,37 @@
 
 namespace bbsim::file {
 
-// The process of that id, and the group that it leads, are ended by end_children() until it is
-// forgotten, which has to be before anybody waits for the process: afterwards the id may be
-// another's. One that finds no place (of 1100: more than a sweep has threads) is only not ended.
+// end_children() ends this process and its group until forget_child(). Call forget_child() before
+// waiting for the process, because its id may be reused afterwards. There is room for 1100
+// processes, more than a sweep has threads; further ones are not ended.
 void remember_child(pid_t process);
 void forget_child(pid_t process);
 
-// To be held while a process is started and until it is remembered: it is no orphan.
+// Hold this lock from the start of a process until remember_child(). Otherwise bury() may take the
+// process for an orphan.
 [[nodiscard]] std::unique_lock<std::mutex> while_starting_child();
 
-// Waits for a process that is remembered, and forgets it. Its status; nothing if somebody else has
-// taken that.
+// Waits for a remembered process and forgets it. Returns its status, or nothing if other code has
+// already collected it.
 std::optional<int> wait_for_child(pid_t process);
 
-// An entry of the environment, NAME=VALUE, that marks a new process and all that it will start: no
-// other has it.
+// A unique environment entry, NAME=VALUE, that marks a new process and all its descendants.
 [[nodiscard]] std::string new_mark();
 
-// What other processes leave behind comes to this one from now on, and so can be found.
+// From now on, orphaned descendants become children of this process, which can then find them.
 void adopt_orphans();
 
-// A process that is remembered, and all that comes of it: what it has started by now; its group;
-// and what has its mark and came to us.
+// A remembered process with its descendants: those that exist now, its group, and orphans with its
+// mark that this process adopts later.
 class Family {
  public:
-  // Finds what it has started, in whatever groups.
+  // Finds the current descendants, in any group.
   Family(pid_t head, std::string mark);
 
-  // Ends all of that; waits for nothing.
+  // Kills them all without waiting.
   void end() const;
-  // To be called once the head was waited for and is forgotten: ends what it has left to us, and
-  // waits for that, a second at most.
+  // Call this after the head was waited for and forgotten. Kills its orphans and waits for them, at
+  // most one second.
   void bury() const;
 
  private:
@@ -55,8 +54,8 @@ class Family {
   std::vector<pid_t> members_;
 };
 
-// What a signal handler may call: ends all that is remembered, and what is marked and comes to us
-// of it, within a part of a second. Does nothing in a process that was forked off.
+// Ends all remembered processes, their groups, and their adopted orphans, within 200 ms. A signal
+// handler may call it. Does nothing in a forked process.
 void end_children();
 
 }  // namespace bbsim::file

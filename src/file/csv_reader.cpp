@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// A strict reader of CSV: a header of bare names, then as many numbers a row, or, where texts are
-// wanted, as many fields.
+// Reads CSV strictly: a header of bare names, then rows with one number (or one text, if allowed)
+// for each column.
 #include <unistd.h>
 
 #include <algorithm>
@@ -24,8 +24,7 @@
 namespace bbsim::file {
 namespace {
 
-// An input that may go on for ever is read for so many bytes of numbers at most: a half of what
-// this machine has.
+// The most bytes of numbers to keep from an endless input: half of this machine's memory.
 std::size_t most_bytes() {
   const long pages = sysconf(_SC_PHYS_PAGES), page = sysconf(_SC_PAGESIZE);
   if (pages <= 0 || page <= 0) return std::numeric_limits<std::size_t>::max();
@@ -36,21 +35,21 @@ bool is_control(char c) {
   return static_cast<unsigned char>(c) < ' ' || c == '\x7f';
 }
 
-constexpr std::size_t longest_name = 40;  // in a message
+constexpr std::size_t longest_name = 40;  // in messages
 
 std::string what_was_found(std::string_view text) {
   return "found " + quoted(text, longest_name);
 }
 
-// Reads the number that `text` is, as a whole, to the nearest double.
+// Reads the whole text as a number, rounded to the nearest double.
 enum class Reading { number, no_number, too_large };
 Reading read_number(std::string_view text, double& value) {
-  // from_chars knows no plus sign.
+  // std::from_chars refuses a plus sign.
   if (text.size() > 1 && text[0] == '+' && text[1] != '-') text.remove_prefix(1);
   const char* end = text.data() + text.size();
   const auto [stop, error] = std::from_chars(text.data(), end, value);
   if (error == std::errc::invalid_argument || stop != end) return Reading::no_number;
-  if (error == std::errc::result_out_of_range) {  // also a tiny one, whose nearest double is 0
+  if (error == std::errc::result_out_of_range) {  // also for tiny numbers that round to 0
     value = std::strtod(std::string(text).c_str(), nullptr);
     if (std::isinf(value)) return Reading::too_large;
   }
@@ -65,7 +64,7 @@ class Parser {
     read_header();
     const std::size_t columns = table_.names.size();
     table_.columns.resize(columns);
-    // Enough for equally long rows, so that few vectors grow.
+    // A guess of the number of rows that avoids most reallocations.
     const std::size_t rows = lines_.size().value_or(0) / (2 * columns) + 1;
     constexpr std::size_t most = 4096;
     for (auto& column : table_.columns) column.reserve(std::min(rows, most));
@@ -96,8 +95,7 @@ class Parser {
   }
 
  private:
-  // A file may have as many rows as it will; what may go on for ever is bounded by this machine's
-  // memory.
+  // A file may have any number of rows. An endless input is limited by this machine's memory.
   [[nodiscard]] std::size_t room_for_rows() const {
     return lines_.size() ? std::numeric_limits<std::size_t>::max()
                          : most_bytes() / (sizeof(double) * table_.names.size());
@@ -115,13 +113,13 @@ class Parser {
     return line.has_value();
   }
 
-  // Calls use(field, its number) for each field of the line; returns how many there are.
+  // Calls use(field, index) for each field of the line. Returns the number of fields.
   template <class Use>
   std::size_t for_each_field(Use use) const {
     std::size_t count = 0;
     for (std::size_t start = 0;;) {
       const std::size_t comma = text_.find(',', start);
-      use(trimmed(text_.substr(start, comma - start)), count++);  // npos - start: to the end
+      use(trimmed(text_.substr(start, comma - start)), count++);  // npos - start reaches to the end
       if (comma == std::string_view::npos) return count;
       start = comma + 1;
     }
@@ -156,7 +154,7 @@ class Parser {
     });
   }
 
-  // A row of numbers and texts, of the columns that `reads` says.
+  // Reads a row of numbers and text, only in the columns that `reads` selects.
   void read_cells(const std::vector<bool>& reads, CellTable& cells) {
     if (trimmed(text_).empty()) fail(text_, "found a blank line; each line is a row");
     const auto read = [&](std::string_view field, std::size_t c) {
@@ -208,7 +206,7 @@ class Parser {
     require_fields(found, found == 1 ? " number" : " numbers");
   }
 
-  // `at` is a part of the line, for the column of the message.
+  // `at` is a part of the line; the message gives its column.
   [[noreturn]] void fail(std::string_view at, const std::string& message) const {
     const auto column = at.data() == nullptr ? 0 : at.data() - text_.data();
     const std::size_t line = std::max<std::size_t>(lines_.number(), 1);
@@ -217,7 +215,7 @@ class Parser {
   }
 
   LineReader lines_;
-  std::string_view text_;  // the current line, without its end
+  std::string_view text_;  // the current line without its end
   TableData table_;
   std::vector<std::string> fields_;  // of a line with quotation marks
 };

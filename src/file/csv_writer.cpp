@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// CSV: a header of bare names, then numbers in the shortest form that reads back to the same
-// double, "\n" after each row, no comments.
+// Writes CSV: a header of bare names, then numbers in the shortest form that reads back to the same
+// double. Each row ends in "\n". There are no comments.
 #include "base/number_text.hpp"
 #include "file/atomic_file.hpp"
 #include "file/formats.hpp"

@@ -28,7 +28,7 @@ constexpr std::size_t looked_at = 4096;  // bytes, from either end
                    likeness.what + ". Name another file with -o, or replace this one with --force");
 }
 
-// As much as there is.
+// Reads up to `size` bytes.
 std::string bytes_at(const Descriptor& file, off_t place, std::size_t size) {
   std::string bytes(size, '\0');
   bytes.resize(static_cast<std::size_t>(

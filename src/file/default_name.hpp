@@ -1,26 +1,26 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// A file under a name that the user did not give.
+// Protects existing files when a command chooses the output's name itself.
 #pragma once
 
 #include <string>
 
 namespace bbsim::file {
 
-// How a command knows a file that it may write over.
+// How a command recognizes a file that it may replace.
 struct Likeness {
-  std::string what;     // it is, in a sentence: "a table with the header t,x,y"
-  std::string start{};  // what it begins with, and then it ends with a line break; or ...
-  std::string mark{};   // ... what is within its first or last 4096 bytes
+  std::string what;     // for a sentence: "a table with the header t,x,y"
+  std::string start{};  // if not empty, the file begins with this and ends with a line break
+  std::string mark{};   // otherwise, the first or last 4096 bytes contain this
 };
 
-// That of a CSV with this header, which is without its line break.
+// For a CSV with this header, given without its line break.
 [[nodiscard]] Likeness table_with(const std::string& header);
 
-// Throws InputError, with what to do, if a regular file is there that is not like that: what a
-// command would replace, and nobody named. Devices and pipes are not replaced, and of a folder the
-// one that opens it says what is wrong.
+// Throws InputError, with the remedy, if a regular file exists and does not match: the user did not
+// name it, so the command must not replace it. Ignores devices and pipes, which are not replaced,
+// and folders, which fail when the file is opened.
 void require_like(const std::string& target, const Likeness& likeness);
 
 }  // namespace bbsim::file

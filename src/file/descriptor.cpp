@@ -13,7 +13,7 @@
 namespace bbsim::file {
 namespace {
 
-// Some file systems have nothing to make sure of.
+// Some file systems do not support syncing.
 bool cannot_sync(int error) {
   return error == EINVAL || error == ENOSYS || error == EOPNOTSUPP || error == EROFS;
 }
@@ -42,7 +42,7 @@ int write_all(int descriptor, std::string_view bytes) {
       bytes.remove_prefix(static_cast<std::size_t>(written));
     } else if (written == 0) {
       return EIO;
-    } else if (errno == EAGAIN) {  // a pipe that someone made non-blocking
+    } else if (errno == EAGAIN) {  // another process may have made the pipe non-blocking
       pollfd wait{descriptor, POLLOUT, 0};
       poll(&wait, 1, -1);
     } else if (errno != EINTR) {
@@ -72,7 +72,7 @@ int sync_content(int descriptor) {
 
 int sync_folder(const std::string& folder) {
   const Descriptor opened(open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
-  if (!opened.is_open()) return errno == EACCES ? 0 : errno;  // it may be written to, not read
+  if (!opened.is_open()) return errno == EACCES ? 0 : errno;  // writable, not readable
   while (fsync(opened.get()) != 0) {
     if (errno != EINTR) return cannot_sync(errno) ? 0 : errno;
   }

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// File descriptors that close themselves, and calls of the system that do all they are asked for.
+// File descriptors that close themselves, and complete reads and writes.
 #pragma once
 
 #include <sys/types.h>
@@ -26,32 +26,33 @@ class Descriptor {
 
   [[nodiscard]] int get() const { return number_; }
   [[nodiscard]] bool is_open() const { return number_ >= 0; }
-  // Returns the errno of what only closing brings to light, or 0; once is enough.
+  // Returns an errno that only closing reveals, or 0. A second call does nothing.
   int close();
 
  private:
   int number_ = -1;
 };
 
-// What a new file is opened with: the umask takes away what it should.
+// Permissions for a new file; the umask restricts them.
 inline constexpr mode_t any_permissions = 0666;
 
-// 0 to 2 are where messages go: a file that got one of them, because the program was started with
-// it closed, would be written into by accident. Takes the descriptor, and keeps errno.
+// Moves a descriptor above 2. If the program starts with a standard stream closed, a new file may
+// get its number, and messages would go into the file. Takes ownership and keeps errno.
 [[nodiscard]] Descriptor above_standard_streams(int number);
 
-// Writes all bytes, to a pipe that does not block too. Returns an errno, or 0.
+// Writes all bytes, also to a non-blocking pipe. Returns an errno, or 0.
 [[nodiscard]] int write_all(int descriptor, std::string_view bytes);
 
-// Reads at `place` until the buffer is full or the file ends; the bytes read, or -1 and errno.
+// Reads at `place` until the buffer is full or the file ends. Returns the number of bytes, or -1
+// with errno.
 [[nodiscard]] ssize_t read_at(int descriptor, char* to, std::size_t size, off_t place);
 
-// What has been written survives a power cut afterwards. Returns an errno, or 0.
+// Makes the content survive a power cut. Returns an errno, or 0.
 [[nodiscard]] int sync_content(int descriptor);
-// Does the same for the names in a folder.
+// Makes the names in a folder survive a power cut. Returns an errno, or 0.
 [[nodiscard]] int sync_folder(const std::string& folder);
 
-// "no space left on device": the system's text for an errno, to stand within a sentence.
+// The system's text for an errno, for use in a sentence: "no space left on device".
 [[nodiscard]] std::string error_text(int error_number);
 
 }  // namespace bbsim::file

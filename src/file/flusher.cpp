@@ -14,7 +14,7 @@ int Flusher::perform(Due due, int descriptor, off_t size) {
   const off_t sent = sent_;
   sent_ = size;
   if (due == Due::send) {
-    // Only a beginning: where the system cannot do it, the next sync does it all.
+    // A hint only: if the system does not support it, the next sync writes everything.
     [[maybe_unused]] const int ignored =
         sync_file_range(descriptor, sent, size - sent, SYNC_FILE_RANGE_WRITE);
     return 0;

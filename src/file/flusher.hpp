@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Gets a file that grows over a long run to the disk while it does.
+// Syncs a growing file to the disk during a long run.
 #pragma once
 
 #include <sys/types.h>
@@ -10,23 +10,23 @@
 
 namespace bbsim::file {
 
-// What a power cut takes is the work of the last seconds. The disk begins to write, without being
-// waited for, once there is enough to do, so that the waits every few seconds and at the end are
-// short.
+// A power cut loses at most the last few seconds of work. The disk starts to write in the
+// background once enough data has accumulated. This keeps the waits short, every few seconds and at
+// the end.
 class Flusher {
  public:
   using Clock = std::chrono::steady_clock;
 
-  // The first `size` bytes of the file need no care.
+  // The first `size` bytes are already on the disk.
   explicit Flusher(off_t size = 0) : sent_(size), last_(Clock::now()) {}
 
-  // What is to be done once the file has that size.
+  // The action that is due when the file has this size (bytes).
   enum class Due { nothing, send, sync };
   [[nodiscard]] Due due(off_t size) const {
     if (Clock::now() - last_ > std::chrono::seconds(5)) return Due::sync;
     return size - sent_ >= off_t{8} * 1024 * 1024 ? Due::send : Due::nothing;
   }
-  // Does it. Returns an errno, or 0.
+  // Performs the action. Returns an errno, or 0.
   [[nodiscard]] int perform(Due due, int descriptor, off_t size);
 
  private:

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Which format a file's name asks for.
+// The format of a file, by its name.
 #pragma once
 
 #include <string>
@@ -10,10 +10,10 @@ namespace bbsim::file {
 
 enum class Format { csv, hdf5, other };
 
-// The ending of the file's name tells, in capitals or not: .csv, .h5, .hdf5.
+// By the ending, in upper or lower case: .csv, .h5, .hdf5.
 [[nodiscard]] Format format_of(const std::string& file);
 
-// ".svg" of "a.SVG".
+// The ending in lower case: ".svg" for "a.SVG".
 [[nodiscard]] std::string lower_ending(const std::string& file);
 
 }  // namespace bbsim::file

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The formats behind open_table() and read_table(); nobody else needs them.
+// The formats behind open_table() and read_table(). Only these functions use them.
 #pragma once
 
 #include <memory>
@@ -13,13 +13,13 @@
 
 namespace bbsim::file {
 
-// Each throws OutputError.
+// Both throw OutputError.
 [[nodiscard]] std::unique_ptr<TableWriter> open_csv(const std::string& target,
                                                     const std::vector<ColumnHeader>& headers);
 [[nodiscard]] std::unique_ptr<TableWriter> open_hdf5(const std::string& target,
                                                      const std::vector<ColumnHeader>& headers);
 
-// Each throws InputError.
+// All throw InputError.
 [[nodiscard]] TableData read_csv(const std::string& file);  // "-" is standard input
 [[nodiscard]] TableData read_hdf5(const std::string& file);
 [[nodiscard]] CellTable read_csv_cells(const std::string& file,

@@ -30,7 +30,7 @@ LineReader::LineReader(const std::string& file)
   if (fstat(descriptor_, &status) == 0 && S_ISREG(status.st_mode)) {
     size_ = static_cast<std::size_t>(status.st_size);
   }
-  // The buffer has room for all of a small file, and for finding its end.
+  // A small file fits completely, with one byte more to detect its end.
   buffer_.resize(size_ ? std::min(*size_ + 1, read_at_once) : read_at_once);
 }
 

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Rows kept in memory, alone or beside a file.
+// Keeps rows in memory, optionally beside a file.
 #pragma once
 
 #include <string>
@@ -13,15 +13,15 @@ namespace bbsim::file {
 
 class MemoryTable : public TableWriter {
  public:
-  // Columns of these names. `beside`, which may be null, gets the first `columns_beside` columns of
-  // all rows, too, as they come; finishing it is left to its owner.
+  // `beside` may be null. Otherwise it receives the first `columns_beside` columns of all rows as
+  // they arrive; its owner finishes it.
   explicit MemoryTable(std::vector<std::string> names, TableWriter* beside = nullptr,
                        std::size_t columns_beside = 0);
 
   void append(std::span<const double* const> columns, std::size_t rows) override;
   void finish(const Attributes&) override {}
 
-  // What was kept. Nothing is left.
+  // Takes the rows out of the object.
   [[nodiscard]] TableData take();
 
  private:

@@ -32,7 +32,7 @@ void Outputs::reads(const std::string& file, const std::string& what) {
 
 void Outputs::writes(const std::string& file, const std::string& what) {
   auto place = place_of(file, STDOUT_FILENO);
-  if (!place && file == "-") place = Place{0, 0, file};  // two tables in one pipe are none
+  if (!place && file == "-") place = Place{0, 0, file};  // a pipe cannot hold two tables
   if (!place) return;
   const auto shown = [](const std::string& name, const char* stream) {
     return name == "-" ? std::string(stream) : name;

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The one place that knows all files of a command: nothing that it writes to is another of them.
+// Detects conflicts between all files of a command: no output may be another output or an input.
 #pragma once
 
 #include <sys/types.h>
@@ -12,23 +12,23 @@
 
 namespace bbsim::file {
 
-// A command says what it reads, then what it writes, before it opens the latter. Files are told
-// apart by device and inode, so through links, other paths to them and descriptors; one that is not
-// there yet, by its folder and its name there. Devices and pipes are nobody's.
+// A command registers its inputs, then its outputs, before it opens an output. Files are compared
+// by device and inode, so links, other paths and descriptors do not hide a conflict. A file that
+// does not exist yet is compared by its folder and its name. Devices and pipes never conflict.
 class Outputs {
  public:
-  // `what` the file is to the user: "the scenario". "-" is standard input.
+  // `what` describes the file for the user: "the scenario". "-" is standard input.
   void reads(const std::string& file, const std::string& what);
 
-  // `what` names the file: "-o", "--summary". "-" is standard output. Throws InputError, with both
-  // names and what to do, if the file is one of those that were named before.
+  // `what` names the option: "-o", "--summary". "-" is standard output. Throws InputError, with
+  // both names and the remedy, if the file was registered before.
   void writes(const std::string& file, const std::string& what);
 
  private:
   struct Place {
     dev_t device;
-    ino_t inode;       // of the file, or of its folder if it is not there yet
-    std::string name;  // there; empty if it is
+    ino_t inode;       // of the file, or of its folder if the file does not exist
+    std::string name;  // in the folder; empty if the file exists
 
     bool operator==(const Place&) const = default;
   };

@@ -17,7 +17,7 @@ namespace bbsim::file {
 namespace {
 
 constexpr int always = O_NOFOLLOW | O_NONBLOCK | O_NOCTTY | O_CLOEXEC;
-constexpr off_t largest_text = off_t{64} * 1024 * 1024;  // bytes: a scenario has at most 1 MiB
+constexpr off_t largest_text = off_t{64} * 1024 * 1024;  // bytes; a scenario has at most 1 MiB
 
 [[noreturn]] void refuse_kind(const std::string& name, const std::string& found) {
   throw OutputError(
@@ -26,7 +26,7 @@ constexpr off_t largest_text = off_t{64} * 1024 * 1024;  // bytes: a scenario ha
       "another name with -o");
 }
 
-// 0, or ENOENT where another process has just removed the file.
+// Returns 0, or ENOENT if another process has just removed the file.
 int check(const std::string& name, int descriptor) {
   struct stat status {};
   if (fstat(descriptor, &status) != 0) fail_to_write(name, errno);
@@ -38,7 +38,7 @@ int check(const std::string& name, int descriptor) {
   return status.st_nlink == 0 ? ENOENT : 0;
 }
 
-// Nothing and ENOENT if there is none.
+// Returns a closed descriptor with ENOENT if the file does not exist.
 Descriptor open_existing(const std::string& name, int how) {
   Descriptor file = above_standard_streams(open(name.c_str(), how | always));
   if (!file.is_open()) {
@@ -54,7 +54,7 @@ Descriptor open_existing(const std::string& name, int how) {
 }  // namespace
 
 OwnFile open_own_file(const std::string& name) {
-  constexpr int most_attempts = 100;  // while others make it and remove it
+  constexpr int most_attempts = 100;  // in case other processes keep creating and removing it
   for (int attempt = 0; attempt < most_attempts; ++attempt) {
     Descriptor made = above_standard_streams(
         open(name.c_str(), O_RDWR | O_APPEND | O_CREAT | O_EXCL | always, any_permissions));

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Files that a sweep keeps beside its result until it is done.
+// Opens working files that a sweep keeps beside its result until it is done.
 #pragma once
 
 #include <string>
@@ -12,21 +12,21 @@ namespace bbsim::file {
 
 struct OwnFile {
   Descriptor descriptor;  // for reading and appending
-  bool created = false;   // empty, because it was not there
+  bool created = false;   // new, and empty
 };
 
-// Opens or makes a file whose name anybody may foresee, in a folder that others may write to: never
-// through a link, and nothing but a regular file of one's own with no other name, so that nobody
-// can have another file taken for it. Throws OutputError.
+// Opens or creates a file with a predictable name in a folder that others may write to. Refuses
+// links and everything but a regular file of this user with no other name, so that an attacker
+// cannot substitute another file. Throws OutputError.
 [[nodiscard]] OwnFile open_own_file(const std::string& name);
 
-// Whether the name, now, is that of the file behind the descriptor.
+// Whether the name now refers to the file behind the descriptor.
 [[nodiscard]] bool is_name_of(const std::string& name, int descriptor);
 
-// Removes the name if it is.
+// Removes the name if it refers to the file behind the descriptor.
 void remove_own_file(const std::string& name, int descriptor);
 
-// The whole of such a file, if it is there. Throws OutputError.
+// The whole content of the file, if it exists. Throws OutputError.
 struct OwnText {
   std::string text;
   bool there = false;

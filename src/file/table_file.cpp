@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Tables, in the format that their file's name asks for.
+// Chooses the format of a table by its file's name.
 #include "base/error.hpp"
 #include "file/atomic_file.hpp"
 #include "file/format.hpp"

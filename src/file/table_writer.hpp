@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Where rows go: CSV, HDF5 or standard output, whole under its final name or not at all.
+// Writes tables to CSV, HDF5 or standard output, and reads them.
 #pragma once
 
 #include <cstddef>
@@ -19,13 +19,13 @@ struct ColumnHeader {
   std::string_view name, unit, meaning;
 };
 
-// A table, by name, in its file's order. All columns have the same length.
+// Columns by name, in the file's order. All have the same length.
 struct TableData {
   std::vector<std::string> names;
   std::vector<std::vector<double>> columns;
 };
 
-// A table that a scenario read, by the name that it has there.
+// A table that a scenario read, under the file name in the scenario.
 struct InputTable {
   std::string file;
   std::shared_ptr<const TableData> data;
@@ -35,34 +35,35 @@ class TableWriter {
  public:
   virtual ~TableWriter() = default;
 
-  // Appends `rows` rows given as columns: columns[c][row], one pointer a header.
-  // Throws OutputError.
+  // Appends rows given by columns: columns[c][row], with one pointer for each header. Throws
+  // OutputError.
   virtual void append(std::span<const double* const> columns, std::size_t rows) = 0;
 
-  // What only HDF5 has a place for: the tables that the scenario read, and a column that is known
-  // only once all rows are there, with a number for each. Throws OutputError.
+  // Only HDF5 can hold these: the tables that the scenario read, and a column that becomes known
+  // after the last row, with one number for each row. Both throw OutputError.
   virtual void keep(const std::vector<InputTable>& /*inputs*/) {}
   virtual void add_column(const ColumnHeader& /*header*/, const std::vector<double>& /*values*/) {}
 
-  // Completes the file and puts it under its final name. Without this call nothing stays.
-  // Throws OutputError.
+  // Completes the file and puts it under its final name. Without this call no file remains. Throws
+  // OutputError.
   virtual void finish(const Attributes& attributes) = 0;
 };
 
-// Opens `target`: "-" is CSV on standard output; a name ending in .csv, .h5 or .hdf5 picks the
-// format (InputError otherwise). A device or pipe (/dev/full, /dev/stdout, a FIFO) is written
-// to directly, as CSV whatever its name. Throws OutputError if the folder cannot be written to.
+// Opens `target`. "-" is CSV on standard output. Otherwise the ending picks the format: .csv, .h5
+// or .hdf5 (other endings: InputError). A device or pipe (/dev/full, /dev/stdout, a FIFO) is
+// written directly, as CSV whatever its name. Throws OutputError if the folder cannot be written
+// to.
 [[nodiscard]] std::unique_ptr<TableWriter> open_table(const std::string& target,
                                                       const std::vector<ColumnHeader>& headers);
 
-// Throws the InputError of open_table() for a name that picks no format.
+// Throws open_table()'s InputError if the name picks no format.
 void require_table_name(const std::string& target);
 
 // The first line of a CSV with these columns, without its line break.
 [[nodiscard]] std::string csv_header(const std::vector<ColumnHeader>& headers);
 
-// Reads a CSV (RFC 4180 without quoting: a header of bare names, then numbers) or, by its
-// ending, an HDF5 file; "-" is CSV on standard input. Throws InputError: where, found, allowed.
+// Reads an HDF5 file (by its ending) or a CSV (RFC 4180 without quoting: a header of bare names,
+// then numbers). "-" is CSV on standard input. Throws InputError: where, found, allowed.
 [[nodiscard]] TableData read_table(const std::string& file);
 
 }  // namespace bbsim::file

@@ -18,7 +18,7 @@
 namespace bbsim::file {
 namespace {
 
-// N of "-" (1), /proc/self/fd/N and /dev/fd/N.
+// The number N for /proc/self/fd/N and /dev/fd/N; 1 for "-".
 std::optional<int> own_descriptor(std::string_view path) {
   if (path == "-") return STDOUT_FILENO;
   for (std::string_view folder : {"/proc/self/fd/", "/dev/fd/"}) {
@@ -55,7 +55,7 @@ std::string advice(int error_number, const std::string& name) {
 
 std::optional<std::string> follow_links(const std::string& name) {
   std::filesystem::path path = name;
-  constexpr int most_links = 40;  // as many as Linux follows
+  constexpr int most_links = 40;  // Linux's limit
   for (int links = 0; links <= most_links; ++links) {
     struct stat status {};
     if (own_descriptor(path.native())) return path;
@@ -70,7 +70,7 @@ std::optional<std::string> follow_links(const std::string& name) {
       errno = error.value();
       return std::nullopt;
     }
-    path = path.parent_path() / link;  // an absolute link replaces what stands before it
+    path = path.parent_path() / link;  // an absolute link replaces the path
   }
   errno = ELOOP;
   return std::nullopt;
@@ -90,7 +90,7 @@ Target find_target(const std::string& name) {
   Target target{name == "-" ? "standard output" : name, name, own_descriptor(name)};
   if (target.descriptor) return target;
 
-  // Following the links is left to the system first, so that its own rules about them hold.
+  // stat() follows the links first, so that the system's own rules apply.
   struct stat status {};
   const bool exists = stat(name.c_str(), &status) == 0;
   if (!exists && errno != ENOENT) fail_to_write(name, errno);
@@ -121,7 +121,7 @@ int take_after(int descriptor, const struct stat& replaced) {
     [[maybe_unused]] const int ignored = fchown(descriptor, replaced.st_uid, replaced.st_gid);
   }
   constexpr mode_t all_permissions = 07777;
-  // Last: chown clears parts of it.
+  // After fchown(), which clears some of the permission bits.
   return fchmod(descriptor, replaced.st_mode & all_permissions) == 0 ? 0 : errno;
 }
 

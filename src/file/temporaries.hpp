@@ -1,17 +1,17 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Temporary files with a name, which a signal that ends the process must take with it.
+// Keeps track of named temporary files, so that a signal that ends the process removes them.
 #pragma once
 
 namespace bbsim::file {
 
-// `name` is removed by remove_temporaries() until it is forgotten; its characters stay where they
-// are until then. A name that finds no place (of 64) is only not removed.
+// remove_temporaries() removes `name` until forget_temporary(). The characters must stay in place
+// until then. There is room for 64 names; further ones are not removed.
 void remember_temporary(const char* name);
 void forget_temporary(const char* name);
 
-// What a signal handler may call. Does nothing in a process that was forked off.
+// A signal handler may call this. Does nothing in a forked process.
 void remove_temporaries();
 
 }  // namespace bbsim::file

@@ -29,7 +29,7 @@ std::string read_whole(const std::string& file, std::string_view start, std::siz
   struct stat status {};
   if (fstat(input.get(), &status) != 0) refuse(file, error_text(errno));
   const bool regular = S_ISREG(status.st_mode);
-  // Room for all of a regular file, and for finding its end.
+  // Room for the whole file, with one byte more to detect its end.
   const std::size_t room =
       regular ? static_cast<std::size_t>(status.st_size) + 1 : std::size_t{65536};
   std::string bytes;

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The content of a file that somebody named, in one piece.
+// Reads a whole file.
 #pragma once
 
 #include <cstddef>
@@ -10,9 +10,9 @@
 
 namespace bbsim::file {
 
-// Reads a file, a pipe or a device to its end. One that does not begin with `start` is read no
-// further than that shows; what was read of it is returned. Throws InputError, "cannot read FILE:
-// why", for a folder, too, and for more than `most` bytes.
+// Reads a file, a pipe or a device to its end. Stops early if the content does not begin with
+// `start`, and returns the bytes read so far. Throws InputError, "cannot read FILE: why", also for
+// a folder and for more than `most` bytes.
 [[nodiscard]] std::string read_whole(const std::string& file, std::string_view start = {},
                                      std::size_t most = std::size_t{1} << 30U);
 

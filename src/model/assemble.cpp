@@ -17,7 +17,7 @@
 namespace bbsim::model {
 namespace {
 
-// Whether one of the systems of coupled.hpp runs the scene.
+// Whether the scene needs a system of coupled.hpp.
 bool needs_coupled(const Scenario& scene) {
   return scenario::is_coupled(scene) || scenario::is_linked(scene);
 }
@@ -27,7 +27,7 @@ bool zero_row(const Controller& controller, std::size_t row) {
   return zero(controller.kv) && zero(controller.kp);
 }
 
-// Whether a gimbal angle is zero throughout: 0 for phi, 1 for theta.
+// Whether a gimbal angle (0: phi, 1: theta) is zero at all times.
 bool stays_level(const Scenario& scene, const SignalPair& input, std::size_t axis) {
   if (!scene.controller) return input.is_zero(axis);
   const GimbalStart& start = scene.gimbal.start;
@@ -36,8 +36,8 @@ bool stays_level(const Scenario& scene, const SignalPair& input, std::size_t axi
   return at_zero && zero_row(*scene.controller, axis);
 }
 
-// The symmetries of docs/explanation/model.md, "Structure": theta, y and spin stay zero together,
-// or phi, x and spin.
+// The symmetries of docs/explanation/model.md, "Structure": theta, y and the spin stay zero
+// together, or phi, x and the spin.
 Shape choose_shape(const Scenario& scene, const SignalPair& input) {
   if (needs_rig(scene) || needs_coupled(scene) || !is_the_papers(scene)) return Shape::full;
   const Ball& ball = scene.ball;
@@ -116,8 +116,8 @@ std::vector<double> initial_state(const Scenario& scene, Shape shape) {
   return z;
 }
 
-// The integrator stops at those of the ordered knots that are within the run. Of knots that are one
-// but for their rounding it stops at the first: between them there would be nothing to integrate.
+// The integrator's stops: the sorted knots within the run. Knots that differ only by rounding make
+// one stop, because there is nothing to integrate between them.
 std::vector<double> stops_at(const std::vector<double>& knots, double end) {
   std::vector<double> stops;
   double last = 0;
@@ -133,7 +133,7 @@ std::vector<double> stops_at(const std::vector<double>& knots, double end) {
 }  // namespace
 
 Model assemble(const Scenario& scenario, bool gamma, Symmetry symmetry) {
-  // The gimbal's angles where they are given; otherwise what the controller follows.
+  // The gimbal's angles or torques if prescribed; otherwise the controller's reference.
   SignalPair input;
   if (scenario.controller) {
     input = reference_path(scenario.controller->reference);

@@ -94,7 +94,7 @@ SignalPair push_on(const Scenario& scene) {
   return push;
 }
 
-// The loop under given torques.
+// The loop for prescribed torques.
 template <class Link>
 RigLoop<true, SignalPair, Link> torque_loop(const Scenario& scene, const CoupledParts& parts,
                                             SignalPair input) {
@@ -131,7 +131,7 @@ CoupledScene coupled_loop(const Scenario& scene, const CoupledParts& parts, Sign
   }
   const GimbalBy by = torques ? GimbalBy::torques : GimbalBy::servos;
   const MotorLaw motor = torques ? motor_law(scene) : MotorLaw{};
-  // Whatever links servos to the plane, a gain is one of the plane's angles.
+  // LQR gains apply to the plane's angles, so the plant has no linkage.
   const auto plant = [&](const ServoResponses& servo) {
     const RigLoop<true> held(scene.ball.radius, scene.gravity, parts.ball.rolling, {}, servo, {});
     return plant_at_home(CoupledLoop<>(parts, by, motor, held));

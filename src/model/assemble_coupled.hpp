@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Scenes with couples, sliding or torques, from their parts.
+// Builds the systems of scenes with couples, sliding, pushes or torques.
 #pragma once
 
 #include <optional>
@@ -12,21 +12,21 @@
 
 namespace bbsim::model {
 
-// What the scene names beyond ideal rolling.
+// The parts of a coupled scene.
 struct CoupledScene {
   System system;
-  std::optional<Rig> rig{};       // of a controller
-  std::optional<DryParts> dry{};  // where something of it switches
+  std::optional<Rig> rig{};       // with a controller
+  std::optional<DryParts> dry{};  // if it has dry friction, sliding or torque limits
 };
 
-// The scene is one for which scenario::is_coupled() or scenario::is_linked() holds; `input` is the
-// given motion or torque, or what the controller follows. Throws InputError as assemble_rig() does.
+// The scene must satisfy scenario::is_coupled() or scenario::is_linked(). `input` is the prescribed
+// motion or torque, or the reference. Throws InputError as assemble_rig() does.
 [[nodiscard]] CoupledScene assemble_coupled(const Scenario& scene, SignalPair input);
 
-// Times at which derivatives of the push on the ball jump, s.
+// Times at which a derivative of the push on the ball jumps, s.
 [[nodiscard]] std::vector<double> push_knots(const Scenario& scene);
 
-// The states at the start.
+// The initial state, in the system's layout.
 [[nodiscard]] std::vector<double> initial_coupled_state(const Scenario& scene);
 
 }  // namespace bbsim::model

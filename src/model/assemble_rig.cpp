@@ -92,7 +92,7 @@ Rig build_rig(const Scenario& scene, const ControlLaw& law) {
   for (int i = 0; i < rig.servos; ++i) {
     RigServo& servo = rig.servo[i];
     if (scene.gimbal.servo) servo = rig_servo(scene.gimbal.servo_of(i == 1 ? 1 : 0));
-    // What links a servo to the plane has the plane's offset; the servo's horn has none.
+    // With a linkage, the linkage includes the plane's offset.
     if (rig.between.none()) servo.offset = i == 0 ? mounting.phi_offset : mounting.theta_offset;
   }
   CommandRange limits[2];
@@ -133,7 +133,7 @@ bool needs_rig(const Scenario& scene) {
 std::optional<double> command_limit(const Controller& controller, std::size_t axis) {
   const std::optional<double> limit = controller.limit_of(axis);
   if (limit || controller.law != Law::gravity_compensation) return limit;
-  return std::numbers::pi / 4;  // beyond it the sine that is inverted soon has nothing left to give
+  return std::numbers::pi / 4;  // near 90 degrees the inverted sine has no reserve
 }
 
 bool integrates_error(const Scenario& scene) {
@@ -142,11 +142,11 @@ bool integrates_error(const Scenario& scene) {
 
 namespace {
 
-// Of what stands in the rig, and of servos that move the plane themselves.
+// Takes the mechanism from the rig, including servos that turn the plane directly.
 void take_link(const Rig&, Direct&) {}
 void take_link(const Rig& rig, Linkages& link) {
   link = rig.between.at_home();
-  // Of nothing between them, the plane's own offset.
+  // A direct drive has only the plane's offset.
   for (int i = 0; rig.between.none() && i < 2; ++i) {
     link.of[i].set_offsets(rig.servo[i].offset, 0);
   }
@@ -172,7 +172,7 @@ AssembledRig<integrates, Link> assemble_rig(const Scenario& scene, SignalPair re
   take_link(rig, link);
   RigMode mode;
   for (int i = 0; i < 2; ++i) {
-    if (!Link::direct) rig.servo[i].offset = 0;  // the link has it
+    if (!Link::direct) rig.servo[i].offset = 0;  // the link includes it
     mode.axis[i].offset = rig.servo[i].offset;
   }
   return {RigLoop<integrates, SignalPair, Link>(scene.ball.radius, scene.gravity,

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The parts of a built rig that a scenario names.
+// Builds the rig of a scene with a controller.
 #pragma once
 
 #include <functional>
@@ -14,11 +14,11 @@ namespace bbsim::model {
 // Whether the loop is more than equation (31) with an ideal servo on the paper's gimbal.
 [[nodiscard]] bool needs_rig(const Scenario& scene);
 
-// The limit of the controller's command for an axis, rad or rad/s^2; gravity compensation has one
-// of its own if none is given.
+// The limit of the controller's command for an axis, in the command's unit. Gravity compensation
+// has a default limit, rad.
 [[nodiscard]] std::optional<double> command_limit(const Controller& controller, std::size_t axis);
 
-// Whether the loop integrates the error as a state: a law in continuous time with an integral.
+// Whether the loop has the integral of the error as a state: a continuous law with an integral.
 [[nodiscard]] bool integrates_error(const Scenario& scene);
 
 template <bool integrates, class Link = Direct>
@@ -27,12 +27,13 @@ struct AssembledRig {
   Rig rig;
 };
 
-// The plant about home behind servos that respond so.
+// The plant about home with the given servo responses.
 using PlantOf = std::function<LinearPlant(const ServoResponses&)>;
 
-// The scene has a controller; Link is what is between its servos and the plane, and Linkages may be
-// nothing. `plant` is what LQR gains are of: by default a RigLoop's. Throws InputError where no LQR
-// gain stabilises it, and where a linkage does not close.
+// Builds the loop and the rig; the scene must have a controller. Link is the mechanism between
+// servos and plane; Linkages also covers a direct drive. `plant` gives the plant for LQR, by
+// default a RigLoop's. Throws InputError if no LQR gain stabilizes the plant, or a linkage does not
+// close.
 template <bool integrates, class Link = Direct>
 [[nodiscard]] AssembledRig<integrates, Link> assemble_rig(const Scenario& scene,
                                                           SignalPair reference,

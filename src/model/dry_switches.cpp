@@ -18,8 +18,8 @@
 namespace bbsim::model {
 namespace {
 
-// A direction that has been held is given back to the velocity at this many times the speed at
-// which it was taken, so that none is taken again at once.
+// A held direction is released at this multiple of the speed at which it was taken, so that it is
+// not taken again at once.
 constexpr double faster = 2;
 
 double dot(const double (&a)[2], const double (&b)[2]) {
@@ -30,7 +30,7 @@ double size(const double* a) {
   return std::hypot(a[0], a[1]);
 }
 
-// The direction against (x, y); none of nothing.
+// The direction opposite to v; none for zero.
 DryDirection against(const double* v) {
   const double length = size(v);
   if (!(length > 0)) return {};
@@ -39,14 +39,14 @@ DryDirection against(const double* v) {
 
 }  // namespace
 
-// The parts of either kind of coupled scene; of one that is only looked at, constant ones.
+// The parts of either kind of coupled scene. Const types give read-only access.
 template <class Contact, class Motor>
 struct DrySwitches::BasicScene {
   Contact* contact;
   const CoupledBall* ball;
-  Motor* motors = nullptr;  // none where no torques move the gimbal
+  Motor* motors = nullptr;  // null if no torques move the gimbal
   MotorLaw law{};
-  int slip = 0, angle = 0, rate = 0, integral = 0;  // among the states; the motors' integrals
+  int slip = 0, angle = 0, rate = 0, integral = 0;  // indices of states; the motors' integrals
   std::function<Balance<double>(double, const double*)> balance{};
 
   template <class AnyModel, class Use>
@@ -77,7 +77,7 @@ struct DrySwitches::BasicScene {
   }
 };
 
-// What has no velocity, so that it is to be chosen whether it begins to move.
+// The parts with zero velocity, for which settle() decides whether they start to move.
 struct DrySwitches::AtZero {
   bool slip = false, roll = false, spin = false, axis[2] = {false, false};
 };
@@ -90,20 +90,20 @@ void DrySwitches::append_scales(std::vector<double>& scales) const {
   scales.insert(scales.end(), 8, limit);
 }
 
-// The most that a motor gives one way, 1 or -1, at a rate of its axis, N m.
+// The largest torque of a motor in a direction (1 or -1) at a rate of its axis, N m.
 double DrySwitches::most(double side, double rate) const {
   return std::clamp(parts_.by_voltage(side, rate), -parts_.torque_limit, parts_.torque_limit);
 }
 
-// Whether an axis turns so fast that its motor gives the limit of its torque against that, whatever
-// is asked of it: no voltage leaves it less. What is given is then one value from both sides, and
-// more than it is asked on the side of the voltage's limit.
+// Whether an axis turns so fast that its motor brakes with its full torque at every command,
+// because no voltage within the limit reduces it. Both limits of the torque asked of the motor are
+// then equal. The voltage's limit is on the side that asks for less braking.
 bool DrySwitches::overruns(double rate) const {
   return parts_.by_voltage(1, rate) < -parts_.torque_limit ||
          parts_.by_voltage(-1, rate) > parts_.torque_limit;
 }
 
-// How fast the integral adds to what is asked of motor i where it does not wait, N m/s.
+// The rate at which the integral adds to the torque asked of motor i while it does not wait, N m/s.
 template <class AnyScene>
 double DrySwitches::push(const AnyScene& scene, int i, const double* z,
                          const Pair& commanded) const {
@@ -146,12 +146,12 @@ void DrySwitches::note_limit(const Model& model, std::size_t guard) {
   const std::size_t i = (guard - motor_guard) / 4, which = (guard - motor_guard) % 4;
   SeenScene::of(model, [&](const SeenScene& scene) {
     const MotorMode& motor = scene.motors[i];
-    if (motor.along != 0) return;  // leave_limits() has said so
+    if (motor.along != 0) return;  // leave_limits() has recorded it
     if (motor.side == 0) {
       reached_[i] = which % 2 == 0 ? 1 : -1;
       return;
     }
-    // What is asked comes back.
+    // The torque asked of the motor returns to the limit.
     const std::size_t own = motor.by_rate == 0 ? 2 : motor.side > 0 ? 0 : 1;
     if (which == own) reached_[i] = motor.side;
   });
@@ -173,7 +173,7 @@ void DrySwitches::settle_at_limits(Model& model, double t, const double* z,
       const AtLimit place = outward.at_limit(overrun ? outward.beyond_other() : outward.within());
       const bool by_voltage = std::abs(parts_.by_voltage(side, rate)) < parts_.torque_limit;
       const bool within = place == AtLimit::within && !overrun;
-      // Beyond the other side of the same value.
+      // Beyond the same value on the other side.
       const bool other = place == AtLimit::within && overrun;
       motor.factor = within ? 1 : 0;
       motor.side = within ? 0 : other ? -side : side;
@@ -211,8 +211,9 @@ void DrySwitches::settle_limits(Scene& scene, double t, const double* z,
 }
 
 double DrySwitches::slow(double t, const CoupledBall& ball) const {
-  // Steps go on to a velocity of zero by a part of what is left each, and need some roundings of
-  // the time for the last one. Slip is slowed down by friction, and by what that turns the ball.
+  // Integrator steps approach zero velocity by a fraction of the rest each, and the last one needs
+  // some roundings of the time. Friction reduces slip by its force, and by the rotation that it
+  // causes.
   constexpr double roundings = 64;
   const double turns = parts_.slides ? 1 / ball.rolling.k : 0;
   return std::max(resolution_, roundings * rounding_of(t) * (1 + turns) * ball.g);
@@ -230,16 +231,16 @@ void DrySwitches::settle_direction(DryDirection& of, double slow, const double (
   of.along[1] = v[1] / speed;
 }
 
-// Angles nearer than this are one: rounding is 1e-16 of the accelerations that cancel.
+// Angles closer than this are equal: rounding is 1e-16 of the accelerations that cancel.
 constexpr double enough = 1e-14;
 
-// The angle of a motion whose acceleration goes the same way, rad: `turned` gives the angle from a
-// motion to its acceleration, which is `f_last` at the angle `last`.
+// The angle of a motion from rest that is parallel to its acceleration, rad. `turned` gives the
+// angle from a motion to its acceleration; it is `f_last` at the angle `last`.
 template <class Turned>
 double start_angle(const Turned& turned, double last, double f_last) {
   constexpr double half_turn = std::numbers::pi;
   const double at = last;
-  // The direction of the acceleration is often the answer, and a secant's way leads there.
+  // The direction of the acceleration is often the solution; the secant method starts there.
   double next = last + f_last;
   for (int i = 0; i < 12 && std::abs(f_last) > enough; ++i) {
     const double f = turned(next), slope = (f - f_last) / (next - last);
@@ -248,7 +249,7 @@ double start_angle(const Turned& turned, double last, double f_last) {
     if (!(std::abs(next - last) < half_turn)) break;
   }
   if (std::abs(f_last) <= enough || std::abs(next - last) <= enough) return last;
-  // Otherwise all the way round: a place where the angle passes zero, and no half turn.
+  // Otherwise searches the whole circle for a sign change that is not a jump by half a turn.
   constexpr int parts = 32;
   double from = at, f_from = turned(from);
   for (int i = 1; i <= parts; ++i) {
@@ -271,8 +272,8 @@ double start_angle(const Turned& turned, double last, double f_last) {
   return at;
 }
 
-// What starts from rest does so along the acceleration that it gets, which depends on that
-// direction: the plane gives way to what it feels. Turns the directions so that this is so.
+// A motion from rest starts along its acceleration. The acceleration depends on that direction,
+// because the plane yields to the contact's force. Sets the directions to match.
 void DrySwitches::start(Scene& scene, double t, const double* z, bool slip, bool roll) {
   ContactMode& contact = *scene.contact;
   const auto turn = [&](DryDirection& of, const auto& acceleration) {
@@ -283,7 +284,7 @@ void DrySwitches::start(Scene& scene, double t, const double* z, bool slip, bool
       return std::atan2(of.along[0] * a[1] - of.along[1] * a[0], dot(of.along, a));
     };
     const double turned = present();
-    if (std::abs(turned) <= enough) return 0.0;  // the direction stays as it is to the bit
+    if (std::abs(turned) <= enough) return 0.0;  // keep the direction to the bit
     const auto put = [&](double angle) {
       of.along[0] = std::cos(angle);
       of.along[1] = std::sin(angle);
@@ -298,7 +299,7 @@ void DrySwitches::start(Scene& scene, double t, const double* z, bool slip, bool
     put(found);
     return std::abs(found - before);
   };
-  // Each changes the other: a few rounds, of which the second mostly finds nothing to do.
+  // The two directions depend on each other. The second round usually finds no change.
   for (int round = 0; round < 20; ++round) {
     double turned = 0;
     if (slip) {
@@ -317,7 +318,7 @@ void DrySwitches::start(Scene& scene, double t, const double* z, bool slip, bool
   }
 }
 
-// How many of the conditions do not hold under which what is at zero goes on in this mode.
+// The number of violated conditions if the parts at zero continue in this mode.
 int DrySwitches::faults(Scene& scene, double t, const double* z, const AtZero& zero, bool slide,
                         bool rest) const {
   ContactMode& contact = *scene.contact;
@@ -387,7 +388,7 @@ void DrySwitches::settle(Model& model, double t, double* z, const Pair& commande
         p[0] = p[1] = 0;
         if (zero.slip || !parts_.slides) {
           z[2] = z[3] = 0;
-        } else {  // it slides on without rolling
+        } else {  // slides on without rotation
           slip[0] = z[2];
           slip[1] = z[3];
         }
@@ -419,14 +420,14 @@ void DrySwitches::settle(Model& model, double t, double* z, const Pair& commande
       }
     }
 
-    // All ways to go on, those at rest first; what holds is the first without a fault.
+    // Tries all combinations of modes, those at rest first. Takes the first with the fewest faults.
     struct Choice {
       int faults = std::numeric_limits<int>::max();
       ContactMode contact;
       MotorMode motors[2];
     } best;
     constexpr double sign[3] = {0, 1, -1};
-    // In the number of a choice each that is at zero has a digit, the last one counting fastest.
+    // A choice is a number with one digit for each part at zero; the last digit varies fastest.
     const int digits[] = {zero.slip ? 2 : 1, zero.roll ? 2 : 1, zero.spin ? 3 : 1,
                           zero.axis[0] ? 3 : 1, zero.axis[1] ? 3 : 1};
     int choices = 1;
@@ -499,7 +500,8 @@ void DrySwitches::evaluate(const Model& model, double t, const double* z,
             motor.free == 0 ? parts_.friction - std::abs(now.needed[i]) : motor.opposed * rate;
       }
       if (!parts_.limits_torque()) continue;
-      // What is asked against what the voltage gives, and what that leaves against the limit.
+      // Compares the torque asked with the voltage's limits, and the clamped torque with the torque
+      // limit.
       double* const limit = values + 7 + 4 * i;
       const double asked = now.asked[i], most = parts_.torque_limit;
       const double up = parts_.by_voltage(1, rate), down = parts_.by_voltage(-1, rate);
@@ -510,14 +512,14 @@ void DrySwitches::evaluate(const Model& model, double t, const double* z,
         const bool overrun = at_limit && motor.set * motor.side < 0;
         limit[0] = overrun ? outward.beyond_other() : outward.within();
         limit[1] = -outward.beyond();
-        // The other limit takes over, or both become one.
+        // The other kind of limit takes over, or both limits coincide.
         const double given = std::abs(motor.side > 0 ? up : down);
         limit[2] = at_voltage ? most - given : given - most;
         if (at_limit && !overrun) limit[3] = most + (motor.set < 0 ? up : -down);
       } else {
         std::size_t spare = 0;
         if (at_limit) {
-          // What is asked comes back; the voltage's limit takes over.
+          // The torque asked returns to the limit, or the voltage's limit takes over.
           limit[2] = motor.side * (asked - motor.set);
           limit[1] = std::copysign(1.0, motor.set) * (motor.side > 0 ? up : down) - most;
         } else {
@@ -542,7 +544,7 @@ void DrySwitches::evaluate(const Model& model, double t, const double* z,
 
 DrySwitches::State DrySwitches::state(const Model& model) const {
   return SeenScene::of(model, [](const SeenScene& scene) {
-    // A ball that slides without turning is not at rest.
+    // A ball that slides without rotation is not at rest.
     State state{scene.contact->slides, scene.contact->rests && !scene.contact->slides, {}};
     for (int i = 0; i < 2 && scene.motors != nullptr; ++i) {
       state.sticks[i] = scene.motors[i].free == 0;

@@ -1,13 +1,13 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// What switches where friction is dry, contacts slide and motors have limits: which mode a coupled
-// scene is in, and when it leaves it (docs/explanation/losses-and-torques.md).
+// The switches of dry friction, sliding contacts and motor limits: the mode of a coupled scene, and
+// when it ends (docs/explanation/losses-and-torques.md).
 //
-// A dry force keeps something at rest as long as less than its limit is needed for that, and
-// opposes its motion otherwise. Motion along a line is one of two signs, so that only its start and
-// its end switch. In the plane it has any direction, and none at rest: so near rest that neither a
-// position nor a velocity can tell within the tolerance, a direction is held instead.
+// A dry force keeps a part at rest while rest needs less than its limit; otherwise it opposes the
+// motion. Motion along a line has one of two signs, so only its start and end switch. Motion in the
+// plane can have any direction, and at rest it has none. Below the speed that the tolerance
+// resolves, the direction is held constant.
 #pragma once
 
 #include <cstddef>
@@ -19,49 +19,49 @@
 
 namespace bbsim::model {
 
-// What is asked of position loops, as motors have it: rad, and rad/s.
+// The commands to position loops as the motors get them, rad, and their rates, rad/s.
 struct MotorCommands {
   Pair value{0, 0}, rate{0, 0};
 };
 
 class DrySwitches {
  public:
-  // `resolution` (m/s): velocities below it are taken to be near rest.
+  // `resolution` (m/s): slower velocities count as near rest.
   DrySwitches(const DryParts& parts, double resolution) : parts_(parts), resolution_(resolution) {}
 
-  // Contact, rolling, spin and the motors' friction have `motor_guard` guards; each motor's limits
-  // have four after them.
+  // Contact, rolling, spin and motor friction have the first `motor_guard` guards. Each motor has
+  // four more for its limits.
   static constexpr std::size_t motor_guard = 7, guards = motor_guard + 8;
   void append_scales(std::vector<double>& scales) const;
 
-  // Chooses the mode that the model goes on in from here. What has come to rest is put to rest:
-  // changes z. `commanded`: MotorCommands::value.
+  // Chooses the mode from here on. Changes z: sets velocities that have reached zero to exactly
+  // zero. `commanded` is MotorCommands::value.
   void settle(Model& model, double t, double* z, const Pair& commanded) const;
 
-  // Whether a motor's integral may wait at a limit of its torque: MotorCommands count then.
+  // Whether a motor's integral may wait at a torque limit. MotorCommands matter only then.
   [[nodiscard]] bool integrates() const { return parts_.integrates && parts_.limits_torque(); }
 
-  // Whether one moves along a limit: MotorCommands::rate counts then.
+  // Whether a motor's torque moves along a limit. MotorCommands::rate matters only then.
   [[nodiscard]] bool moves_along_limit(const Model& model) const;
 
-  // An integral that moves along a limit is no state meanwhile: it is what keeps the torque there.
-  // It becomes one again before anything else may change. Sets z.
+  // While a torque moves along its limit, its integral is not a state; the limit determines it.
+  // Restores the state in z, before another change.
   void leave_limits(Model& model, double t, double* z);
-  // To be told of a guard that has fallen, before settle(): what is asked of a motor may have come
-  // to a limit.
+  // Records that the torque asked of a motor reached a limit. Call it with the fallen guard before
+  // settle().
   void note_limit(const Model& model, std::size_t guard);
-  // The command of motor i jumps, and with it what is asked: away from a limit where it was.
+  // The command of motor i jumps, so that the torque asked of it leaves the limit.
   void command_jumps(std::size_t i) {
     if (i < 2) reached_[i] = 0;
   }
-  // After settle(): how what is asked of a motor goes on from a limit that it has come to.
+  // Chooses how a torque exactly at its limit continues. Call it after settle().
   void settle_at_limits(Model& model, double t, const double* z, const MotorCommands& commands);
 
-  // Positive as long as nothing switches; `guards` numbers.
+  // Writes `guards` values; all are positive until a switch.
   void evaluate(const Model& model, double t, const double* z, const MotorCommands& commands,
                 double* values) const;
 
-  // What somebody may want to be told of.
+  // The parts of the mode that may be events.
   struct State {
     bool slides = false, rests = false;
     bool sticks[2] = {false, false};
@@ -85,7 +85,7 @@ class DrySwitches {
                                          const MotorCommands& commands) const;
   [[nodiscard]] double most(double side, double rate) const;
   [[nodiscard]] bool overruns(double rate) const;
-  // The speed next to rest, m/s. At a later time, a rounding of the time is more of one.
+  // The speed limit for near rest, m/s. It grows with t, because the rounding of t does.
   [[nodiscard]] double slow(double t, const CoupledBall& ball) const;
   static void settle_direction(DryDirection& of, double slow, const double (&v)[2], bool was_still);
   static void start(Scene& scene, double t, const double* z, bool slip, bool roll);
@@ -94,7 +94,7 @@ class DrySwitches {
 
   DryParts parts_;
   double resolution_;
-  double reached_[2]{0, 0};  // the side of a limit that what is asked of a motor is exactly at
+  double reached_[2]{0, 0};  // side of the limit that a motor's torque is exactly at, or 0
 };
 
 }  // namespace bbsim::model

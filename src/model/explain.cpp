@@ -36,7 +36,7 @@ std::string millimetres(double length) {
   return in_unit(length, 1e3, " mm", " m");
 }
 
-// A sentence part by part.
+// A comma-separated list.
 class List {
  public:
   void add(const std::string& part) { text_ += (text_.empty() ? "" : ", ") + part; }
@@ -136,7 +136,7 @@ std::string assumes_note(const Scenario& scene) {
                                              : "; the controller assumes the ratio at home";
 }
 
-// Whether a stop lets a servo turn beyond where its curve ends.
+// A warning if the servo's stops lie beyond the ends of the curve.
 std::string beyond_note(const Linkage& linkage, const Servo& servo) {
   const double stop = servo.angle_limit.value_or(unlimited);
   if (stop == unlimited || (linkage.curve.high > stop && linkage.curve.low < -stop)) return "";
@@ -334,7 +334,7 @@ std::string events_note(const Scenario& scene) {
   return list.text();
 }
 
-// Parts that a scene may have and this one has not.
+// The optional parts that this scene does not have.
 std::string without(const Scenario& scene) {
   List list;
   const Servo* servo = scene.gimbal.servo ? &*scene.gimbal.servo : nullptr;

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// What is modelled of a scene and what is not, and why: for `bbsim check` and the summary.
+// Explains what the model of a scene includes and omits, for `bbsim check` and the summary.
 #pragma once
 
 #include <string>
@@ -11,12 +11,12 @@
 
 namespace bbsim::model {
 
-// A part of the physics that the scene has, or does without, and why.
+// A part of the physics, and why the model has it or not.
 struct Note {
   std::string part, reason;
 };
 
-// `model` is what assemble() made of the scene.
+// `model` is the result of assemble() for the scene.
 [[nodiscard]] std::vector<Note> explain(const Scenario& scene, const Model& model);
 
 }  // namespace bbsim::model

@@ -16,9 +16,9 @@
 namespace bbsim::model {
 namespace {
 
-constexpr int servo_angle = RigLayout::angle;  // of the first servo, among the states
+constexpr int servo_angle = RigLayout::angle;  // index of the first servo's angle in the states
 
-// Kinetic and potential energy of a ball that rolls and of what turns with the plane, (M51), J.
+// The energy of a rolling ball and of the bodies that turn with the plane, (M51), J.
 double energy_of(const CoupledBall& ball, const double* z, const RigExtras& plane) {
   BallConstants constants{ball.r, ball.m, ball.g, false, ball.rolling};
   std::copy_n(ball.body.plate, 3, constants.plate_inertia.begin());
@@ -37,7 +37,7 @@ double energy_of(const CoupledBall& ball, const double* z, const RigExtras& plan
 template <class Use>
 auto HybridSystem::with_loop(Use use) const {
   using Result = decltype(use(std::declval<const RigLoop<>&>()));
-  // The rig of nearly everybody, asked for several times a sample.
+  // The most common rig first, because each sample calls this several times.
   if (const auto* const plain = std::get_if<RigLoop<>>(&model_.system)) return use(*plain);
   return std::visit(
       [&](const auto& any) -> Result {
@@ -68,7 +68,7 @@ HybridSystem::Wanted HybridSystem::axes(double t, const double* z) const {
   });
 }
 
-// Of the plane, its angles and rates.
+// The plane's angles and rates.
 RigExtras HybridSystem::plane(const double* z) const {
   return with_loop([z](const auto& loop) {
     const double none[std::decay_t<decltype(loop)>::servos] = {};
@@ -97,7 +97,7 @@ HybridSystem::HybridSystem(const Model& model, double resolution) : model_(model
     only_servos_settle_ = rig.sampled && !rig.limits_commands() && !rig.between.has_pieces();
     const ServoResponses servo = with_loop([](const auto& loop) { return loop.servo(); });
     for (int i = 0; i < rig.servos; ++i) {
-      // With backlash the plane rests in mid-gap, whatever the servo's rate.
+      // With backlash, the plane starts at rest in the middle of the gap.
       if (rig.servo[i].backlash > 0) mode_->axis[i].ratio = 0;
       servos_.emplace_back(rig.servo[i], servo.of[i]);
     }
@@ -180,7 +180,7 @@ const std::array<Jet<double>, 2>& HybridSystem::reference_at(double t) {
 void HybridSystem::act(double t, double* z) {
   touched_ = !only_commands_change_ || t == 0;
   settled_ = false;
-  leave_limits(std::nextafter(t, -unlimited), z);  // the input may jump now
+  leave_limits(std::nextafter(t, -unlimited), z);  // the input may jump at t
   if (sampled_) {
     const double now = instant_end(t);
     while (sampled_->exchange.commands_by(now)) apply_command();
@@ -251,7 +251,8 @@ HybridSystem::CommandRates HybridSystem::command_rates(double t, const double* z
   });
 }
 
-// What the error adds to a command, in its unit per second, where its integral part does not wait.
+// The rate that the error adds to a command while its integral part does not wait, in its unit per
+// second.
 double HybridSystem::command_push(int i, double t, const double* z) const {
   return with_loop([&](const auto& loop) {
     return integral_rate(loop.law(), static_cast<std::size_t>(i), z, loop.inputs(t));
@@ -263,8 +264,8 @@ OutwardRate HybridSystem::outward_rate(int i, double side, const CommandRates& r
   return {side * rates.raw[static_cast<std::size_t>(i)], side * command_push(i, t, z)};
 }
 
-// An integral part that moves with its command along a limit is no state meanwhile: it is what
-// leaves the command there. It becomes one again before anything else may change, at t.
+// While a command moves along its limit, its integral part is not a state; the limit determines it.
+// Restores the state at t, before another change.
 void HybridSystem::leave_limits(double t, double* z) {
   if (dry_) dry_->leave_limits(model_, t, z);
   if (!switches_ || !model_.rig->limits_commands()) return;
@@ -289,7 +290,7 @@ void HybridSystem::limit_command(int i, double side, AtLimit place, double push)
   axis.integrate = within || (place == AtLimit::beyond && side * push < 0) ? 1 : 0;
 }
 
-// Whether a continuous law's command is at its limit, and what its integral part does there.
+// Determines whether each continuous command is at its limit, and whether its integral part waits.
 void HybridSystem::settle_commands(double t, const double* z) {
   for (int i = 0; i < 2; ++i) {
     const CommandRange& limit = model_.rig->command_limit[i];
@@ -299,8 +300,8 @@ void HybridSystem::settle_commands(double t, const double* z) {
   }
 }
 
-// Commands that are exactly at their limits: how they move says how they go on. All modes command
-// the same there, so that it does not depend on the present one.
+// Chooses how commands exactly at their limits continue, by their rates. The rates do not depend on
+// the present mode, because all modes give the same command there.
 void HybridSystem::settle_at_limits(double t, const double* z) {
   if (reached_[0] == 0 && reached_[1] == 0) return;
   const CommandRates rates = command_rates(t, z);
@@ -324,7 +325,7 @@ LinkCurve& HybridSystem::curve(std::size_t axis) {
   return std::get<CoupledLoop<SignalPair, Linkages>>(model_.system).loop.link.of[axis];
 }
 
-// Measured curves are looked at one piece at a time, so that the right-hand side is smooth.
+// The system holds one piece of a measured curve at a time, so that the right-hand side is smooth.
 void HybridSystem::put_pieces() {
   for (std::size_t i = 0; i < 2; ++i) {
     const Linkage& linkage = model_.rig->between.linkages[i];
@@ -359,7 +360,7 @@ void HybridSystem::evaluate_pieces(const Wanted& wanted, const double* z, double
     const double horn = axis.ratio * z[static_cast<std::size_t>(servo_angle) + i] + axis.offset;
     const std::size_t last = linkage.table->knots().size() - 2;
     const CommandRange holds = linkage.piece_range(pieces_[i]);
-    // The ends of the whole are a dead point's matter.
+    // The dead_point monitor handles the ends of the whole curve.
     if (pieces_[i] < last) values[0] = holds.high - horn;
     if (pieces_[i] > 0) values[1] = horn - holds.low;
     if (model_.rig->sampled || linkage.curve.assumed != Assumed::exact) continue;
@@ -376,7 +377,7 @@ void HybridSystem::settle(double t, double* z) {
   if (model_.rig) settle_rig(t, z);
   if (dry_) {
     dry_->settle(model_, t, z, motor_commands(t, z, false).value);
-    settle_at_limits(t, z);  // motors are told how fast the commands move then
+    settle_at_limits(t, z);  // before the motors, which need the rates of the commands
     dry_->settle_at_limits(model_, t, z, motor_commands(t, z, true));
   } else {
     settle_at_limits(t, z);
@@ -397,21 +398,21 @@ bool HybridSystem::stays_as_it_is(const double* z) const {
 void HybridSystem::settle_rig(double t, double* z) {
   settled_ = !stays_as_it_is(z);
   if (!settled_) return;
-  // A stop's kick may take the command to its limit, and that the servo from where it was: a few
-  // rounds, of which the second mostly finds nothing to do.
+  // The impulse of a stop may take the command to its limit, and this the servo from its stop. The
+  // second round usually finds no change.
   constexpr int most_rounds = 8;
   for (int round = 0; round < most_rounds; ++round) {
     if (model_.rig->limits_commands()) settle_commands(t, z);
     const bool has_pieces = model_.rig->between.has_pieces();
     if (has_pieces) settle_pieces(t, z);
     if (!settle_servos(t, z)) return;
-    reached_[0] = reached_[1] = 0;        // of the rates that it had
-    if (has_pieces) settle_pieces(t, z);  // with the rates that it has now
+    reached_[0] = reached_[1] = 0;        // the rates have changed
+    if (has_pieces) settle_pieces(t, z);  // with the new rates
   }
   unsettled_ = true;
 }
 
-// Whether a servo was taken from where it was, or a rate of the plane jumped.
+// Returns whether a servo's state or a rate of the plane jumped.
 bool HybridSystem::settle_servos(double t, double* z) {
   const Wanted wanted = axes(t, z);
   const RigExtras before = plane(z);
@@ -429,7 +430,7 @@ bool HybridSystem::settle_servos(double t, double* z) {
   if (jump[0] == 0 && jump[1] == 0) return moved;
   const auto kick = with_loop([&](const auto& loop) { return loop.impulse(z, jump[0], jump[1]); });
   for (int i = 0; i < 3; ++i) z[2 + i] += kick[static_cast<std::size_t>(i)];
-  // The servos do that, whatever it takes: what it adds to the energy is their work.
+  // The servos apply any impulse that this takes. Its energy counts as their work.
   std::visit(
       [&](const auto& any) {
         using Any = std::decay_t<decltype(any)>;
@@ -472,8 +473,8 @@ void HybridSystem::evaluate_guards(double t, const double* z, double* values) co
   }
 }
 
-// Two guards of a continuous law's command: of its limits and, at one of them, of what its integral
-// part does there.
+// Two guards of a continuous command: its limits; and at a limit, the behavior of its integral
+// part.
 void HybridSystem::evaluate_limit(int i, double raw, double t, const double* z,
                                   double* values) const {
   const CommandRange& limit = model_.rig->command_limit[i];
@@ -487,7 +488,8 @@ void HybridSystem::evaluate_limit(int i, double raw, double t, const double* z,
     values[0] = outward.within();
     values[1] = -outward.beyond();
   } else {
-    // It is watched at this limit alone: it can pass to the other in no time.
+    // Only the present limit needs a guard: the command can reach the other only through the range
+    // between.
     const int own = axis.side > 0 ? 0 : 1;
     values[own] = axis.side * (raw - axis.set_command);
     const double push = axis.side * command_push(i, t, z);
@@ -495,7 +497,7 @@ void HybridSystem::evaluate_limit(int i, double raw, double t, const double* z,
   }
 }
 
-// Which limit a command has come to, if that is why guard `fallen` has.
+// Records the limit that a command reached, if guard `fallen` says so.
 void HybridSystem::note_limit(std::size_t fallen) {
   const std::size_t first_dry = first_monitor() - DrySwitches::guards;
   if (dry_ && fallen >= first_dry) dry_->note_limit(model_, fallen - first_dry);
@@ -532,7 +534,8 @@ HybridSystem::Fall HybridSystem::next_fall(double t, const std::array<HeldMotion
   for (std::size_t i = 0; i < 2; ++i) {
     const ServoAxis::Fall fall = servos_[i].first_fall(motions[i], mode_->command[i], t,
                                                        std::min(end, first.time) - t, answers_);
-    // Rounded up: what falls has then fallen, however short the time is beside t.
+    // Rounds up, so that the guard has fallen at that time even if the step is below the rounding
+    // of t.
     double at = t + fall.after;
     if (at - t < fall.after) at = std::nextafter(at, unlimited);
     if (at < first.time) first = {at, i * axis_guards + static_cast<std::size_t>(fall.guard)};
@@ -575,8 +578,8 @@ HybridSystem::Effect HybridSystem::handle_state_event(std::size_t i, double t, d
   return Effect::none;
 }
 
-// What has begun or ended since this was last asked: sliding, always told of, and rests that are
-// events of the scene.
+// Notes the starts and ends of sliding since the last call, and those rests that are events of the
+// scene.
 HybridSystem::Effect HybridSystem::note_dry(double t, const double* z) {
   if (!dry_) return Effect::none;
   const DrySwitches::State now = dry_->state(model_), before = std::exchange(dry_state_, now);

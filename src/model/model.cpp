@@ -60,7 +60,7 @@ std::vector<std::string> Model::state_names() const {
               }
             }
           } else {
-            const bool own = rig && !rig->between.none();  // angles, which are not the plane's
+            const bool own = rig && !rig->between.none();  // servo angles, not the plane's
             for (const char* one : {"phi", "theta", "phi_rate", "theta_rate"}) {
               loop.push_back(std::string(own ? "servo_" : "") + one);
             }

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Scenario -> Model: the smallest system that gives the scene's answer.
+// Assembles a Scenario into a Model: the smallest system that gives the scene's answer.
 #pragma once
 
 #include <cstddef>
@@ -17,17 +17,18 @@
 
 namespace bbsim::model {
 
-// What switches in a coupled scene beside its servos and samples.
+// The parts of a coupled scene that switch, besides servos and samples.
 struct DryParts {
   bool rolling = false, pivoting = false;  // rolling resistance, pivoting friction
   bool slides = false;
-  double static_friction = 0;       // beyond which it does
+  double static_friction = 0;       // sliding starts when friction demand exceeds it
   double friction = 0;              // of the motors, N m
   double torque_limit = unlimited;  // of a motor, N m
-  bool integrates = false;          // its position loop
-  // A voltage at its limit gives stall_torque - torque_by_rate rate one way; infinite without one.
+  bool integrates = false;          // the position loop has an integral
+  // At the voltage limit, the torque in a direction is stall_torque - torque_by_rate rate; infinite
+  // without a voltage limit.
   double stall_torque = unlimited, torque_by_rate = 0;  // N m, N m s
-  std::optional<OnEvent> rest{}, stick{};               // whether they are events
+  std::optional<OnEvent> rest{}, stick{};               // set if the scene has these events
 
   [[nodiscard]] bool limits_torque() const {
     return torque_limit < unlimited || stall_torque < unlimited;
@@ -35,7 +36,7 @@ struct DryParts {
   [[nodiscard]] bool switches() const {
     return rolling || pivoting || slides || friction > 0 || limits_torque();
   }
-  // The most torque that the voltage gives in a direction, 1 or -1, at a rate.
+  // The torque at the voltage limit in direction `sign` (1 or -1), at a rate.
   [[nodiscard]] double by_voltage(double sign, double rate) const {
     return sign * stall_torque - torque_by_rate * rate;
   }
@@ -43,44 +44,42 @@ struct DryParts {
 
 struct Model {
   System system;
-  std::vector<double> initial;  // states at t = 0, as the system packs them
-  bool gamma = false;           // integrate gamma' beside the states
+  std::vector<double> initial;  // states at t = 0, in the system's layout
+  bool gamma = false;           // integrate gamma' along with the states
   double radius = 0;            // m
   std::vector<double> stops;    // times in (0, end) at which a derivative of the input jumps, s
-  std::optional<Rig> rig{};     // of a RigLoop
-  std::optional<EventMonitors> events{};  // there if something is
-  std::optional<DryParts> dry{};          // there if something of it switches
+  std::optional<Rig> rig{};     // for a RigLoop or CoupledLoop
+  std::optional<EventMonitors> events{};  // set if there are events
+  std::optional<DryParts> dry{};          // set if something dry switches
 
   [[nodiscard]] std::size_t size() const { return initial.size(); }
-  // Numbers in a row of output beside the states and gamma.
+  // The numbers in a row of output besides the states and gamma.
   [[nodiscard]] std::size_t extras() const;
-  // Length of a row: the states; r gamma, if it is integrated; the extras.
+  // The length of a row: the states, r gamma if integrated, and the extras.
   [[nodiscard]] std::size_t row_size() const { return size() + (gamma ? 1 : 0) + extras(); }
-  // Sample::gamma of a row that does not have it: 0 where symmetry keeps it so, otherwise no
-  // number.
+  // Sample::gamma if it is not integrated: 0 if symmetry keeps it zero, otherwise NaN.
   [[nodiscard]] double gamma_not_integrated() const;
-  // A row in the paper's symbols.
+  // Converts a row to the paper's symbols.
   [[nodiscard]] Sample sample(double t, const double* row, Detail detail = Detail::all) const;
-  // Whether anything switches, samples or is watched for: model/hybrid_system.hpp runs it then.
+  // Whether the model has switches, samples or events. model/hybrid_system.hpp then runs it.
   [[nodiscard]] bool hybrid() const {
     return events.has_value() || dry.has_value() || (rig && (rig->sampled || rig->switches()));
   }
-  // The names of the numbers that one's own controller gives for columns, in their order.
+  // The names of the columns from an external controller, in order.
   [[nodiscard]] const std::vector<std::string>& own_columns() const;
   [[nodiscard]] std::vector<std::string> state_names() const;
   [[nodiscard]] bool closed_loop() const;
 };
 
-// Whether a ball that symmetry keeps on an axis of the plane is modelled along that axis alone, or
-// as one that may go anywhere: the answers are the same, and one of many scenes may be like the
-// others.
+// Whether a ball that symmetry keeps on an axis gets the reduced system for that axis. The answer
+// is the same; `ignored` gives many scenes the same system.
 enum class Symmetry { used, ignored };
 
-// Builds what the scene needs. `gamma` says whether an output column asks for that angle.
+// Builds the system that the scene needs. `gamma`: whether an output column needs that angle.
 [[nodiscard]] Model assemble(const Scenario& scenario, bool gamma,
                              Symmetry symmetry = Symmetry::used);
 
-// Index of u = r gamma' among the states, or -1 where symmetry keeps it zero.
+// Index of u = r gamma' among the states, or -1 if symmetry keeps it zero.
 template <class AnySystem>
 inline constexpr int spin_index = AnySystem::moves == Shape::full ? 4 : -1;
 

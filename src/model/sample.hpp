@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// One instant of a run in the symbols of the paper: what the columns are computed from.
+// An instant of a run in the paper's symbols, from which the columns are computed.
 #pragma once
 
 #include <array>
@@ -13,7 +13,7 @@
 
 namespace bbsim::model {
 
-// The ball in the plane's own frame, SI units. gamma_dot is the spin.
+// The ball in the plane's frame, SI units. gamma_dot is the spin.
 struct BallMotion {
   double x = 0, y = 0, x_dot = 0, y_dot = 0, gamma_dot = 0;
 };
@@ -25,21 +25,20 @@ struct GimbalState {
   double phi_ddot = 0, theta_ddot = 0;
 };
 
-// How much of a sample is wanted: the ball alone; with the gimbal's angles and rates; with its
-// accelerations; with commands and what was measured; or all, and so the reference too. The rest is
-// left as it is without a value.
+// The parts of a sample to fill, each with those before: the ball; the gimbal's angles and rates;
+// its accelerations; commands and measurements; the reference. Other parts may stay unset.
 enum class Detail { ball, gimbal, motion, loop, all };
 
-// What a scene with couples, sliding or torques has beside that. All of them doubles.
+// The additional quantities of a coupled scene. All are doubles.
 struct CoupledMotion {
   double x_ddot, y_ddot;       // m/s^2
   double couple[3];            // of the plane on the ball, in the plane's frame, N m
   double slip[2];              // velocity of the ball's surface at the contact, m/s
-  double asked[2];             // of the motors: torque before their limits, N m
-  double given[2];             // and behind them
+  double asked[2];             // motor torques before their limits, N m
+  double given[2];             // motor torques within their limits, N m
   double lost_power;           // to couples and friction, W
-  double lost, work;           // energy lost, and given by the motors, since the start, J
-  double sliding = no_number;  // the coefficient of friction, of a ball that slides
+  double lost, work;           // energy lost, and work of the motors, since the start, J
+  double sliding = no_number;  // coefficient of sliding friction while the ball slides
 
   static constexpr int size = 15;
 };
@@ -48,19 +47,19 @@ static_assert(sizeof(CoupledMotion) == CoupledMotion::size * sizeof(double));
 struct Sample {
   double t = 0;  // s
   BallMotion ball{};
-  double gamma = 0;  // rad, 0 at the start and by symmetry; no number if not integrated
+  double gamma = 0;  // rad, 0 at the start and by symmetry; NaN if not integrated
   GimbalState gimbal{};
   Pair reference{0, 0};  // m; (0, 0) in open loop
-  Pair command{0, 0};    // what the gimbal is told, rad or rad/s^2; (0, 0) in open loop
-  Pair measured{0, 0};   // where the controller last saw the ball, m
-  // Of the servos, rad: phi's and theta's, or three; 0 where there are none.
+  Pair command{0, 0};    // to the gimbal, in the command's unit; (0, 0) in open loop
+  Pair measured{0, 0};   // the controller's last measurement of the ball, m
+  // Servo angles, rad: of phi and theta, or of three servos; 0 without servos.
   std::array<double, 3> servo{0, 0, 0};
-  Pair push{0, 0};  // on the ball's centre, along the plane's axes, N
-  // How far what is between the servos and the plane is from where it ends; negative beyond.
+  Pair push{0, 0};  // on the ball's center, along the plane's axes, N
+  // Distance of the linkage from the end of its range; negative beyond it.
   double to_dead_point = std::numeric_limits<double>::infinity();
   std::optional<CoupledMotion> coupled{};
-  // What one's own controller gave beside its last command, in the order of
-  // SampledLoop::own_columns; stands in the row, and is null where there is none.
+  // Numbers that an external controller returned with its last command, in the order of
+  // SampledLoop::own_columns. Points into the row; null without such numbers.
   const double* own = nullptr;
 };
 

@@ -7,19 +7,19 @@
 namespace bbsim::scenario {
 namespace {
 
-// The value at section.key, if it is there.
+// The value at section.key, if present.
 std::optional<yaml::Value> find_in(yaml::Keys& scenario, std::string_view section,
                                    std::string_view key) {
   const std::optional<yaml::Value> mapping = scenario.find(section);
   return mapping ? yaml::Keys(*mapping).find(key) : std::nullopt;
 }
 
-// Reports at the key of `value`.
+// Reports the message at the key of `value`.
 void report(const yaml::Value& value, const std::string& message) {
   value.context->problems.add(value.position, value.path + ": " + message);
 }
 
-// Reports it at gimbal, or at the top where there is no gimbal.
+// Reports the message at `gimbal`, or at the top level without `gimbal`.
 void report_missing(yaml::Keys& scenario, const std::string& message) {
   const std::optional<yaml::Value> gimbal = scenario.find("gimbal");
   const yaml::Value& place = gimbal ? *gimbal : scenario.mapping();
@@ -44,7 +44,7 @@ void check_open_loop(yaml::Keys& scenario) {
   }
 }
 
-// Where `drives` is none of them, it has been reported already, and says nothing of the servo.
+// An invalid value of `drives` was reported before; the servo is not checked then.
 void check_servo(yaml::Keys& scenario) {
   const auto drives = find_in(scenario, "controller", "drives");
   const std::string driven = drives ? drives->node->text : "acceleration";

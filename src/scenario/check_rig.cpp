@@ -14,11 +14,11 @@
 namespace bbsim::scenario {
 namespace {
 
-// What is on its way through a delay is part of the loop's state, and of the matrix that has its
-// poles.
+// The longest delay in periods. Delayed samples are part of the loop's state, and of the matrix
+// whose eigenvalues are the loop's poles.
 constexpr double most_periods = 100;
 
-// The value at a path of keys, if it is there.
+// The value at a path of keys, if present.
 std::optional<yaml::Value> find_at(yaml::Keys& keys, std::initializer_list<std::string_view> path) {
   std::optional<yaml::Value> value = keys.mapping();
   for (const std::string_view key : path) {
@@ -28,7 +28,7 @@ std::optional<yaml::Value> find_at(yaml::Keys& keys, std::initializer_list<std::
   return value;
 }
 
-// Of measured periods, which come again after the last one; the nominal one where none are. s
+// The mean of the measured periods (s); without them, the nominal period.
 double mean_period(const Sampling& sampling) {
   const auto& periods = sampling.periods;
   if (periods.empty()) return sampling.period;
@@ -56,13 +56,13 @@ class Checks {
  private:
   using Path = std::initializer_list<std::string_view>;
 
-  // Reports `why` at the key if it is there.
+  // Reports `why` at the key, if present.
   void refuse(Path path, const std::string& why) {
     const auto value = find_at(keys_, path);
     if (value) value->context->problems.add(value->position, value->path + ": " + why);
   }
 
-  // The law's key, as written.
+  // The law's key in the spelling of the scenario.
   std::string law() {
     const auto value = find_at(keys_, {"controller", "feedback_linearization"});
     return value ? std::string(value->name()) : "feedback_linearization";
@@ -76,7 +76,7 @@ class Checks {
              "found, but no controller.sampling; allowed: only with it, since the controller reads "
              "the sensor at its samples; a continuous law knows the ball exactly");
     }
-    // The keys, not their values: a rig may be tried with its noise at 0.
+    // Checks the keys, not their values: a user may try a rig with noise 0.
     if (!find_at(keys_, {"controller", "sensor", "noise"}) &&
         !find_at(keys_, {"controller", "sensor", "dropout"}) &&
         !find_at(keys_, {"controller", "sampling", "jitter"})) {
@@ -142,10 +142,10 @@ class Checks {
     if (controller.sampling && controller.sampling->period > 0) check_times(controller);
   }
 
-  // How many samples, and how late, of a period that was found.
+  // Limits the number of samples and the delays, if the period is valid.
   void check_times(const Controller& controller) {
     const double period = mean_period(*controller.sampling);
-    if (!(period > 0)) return;  // which has been reported
+    if (!(period > 0)) return;  // reported before
     if (scene_.time.end > 0 && scene_.time.end / period > 1e8) {
       const std::string why =
           "found more than 1e8 samples until time.end; allowed: a longer period";
@@ -167,7 +167,7 @@ class Checks {
     }
   }
 
-  // Frames that are not the controller's samples.
+  // Checks frames with a period other than the controller's.
   void frames(const Controller& controller) {
     if (!controller.sensor) return;
     const Sensor& sensor = *controller.sensor;
@@ -192,7 +192,7 @@ class Checks {
     }
   }
 
-  // The keys of an axis' servo, where it has some of its own.
+  // Refuses a key of one axis's servo: at the axis's own key if present, else at the common key.
   void refuse_of_servo(std::size_t axis, std::string_view key, const std::string& why) {
     const char* const name = axis == 0 ? "phi" : "theta";
     if (find_at(keys_, {"gimbal", "servo", name, key})) {
@@ -405,12 +405,13 @@ class Checks {
     }
   }
 
-  // Moments of inertia are sums of squares of distances over a body's mass.
+  // Warns about moments that no body has: each moment is an integral of squared distances over the
+  // mass.
   void body() {
     const auto inertia = find_at(keys_, {"plate", "inertia"});
     if (!inertia || !scene_.plate.inertia) return;
     const auto& j = *scene_.plate.inertia;
-    // Moments are given with a few digits.
+    // Users give moments with a few digits.
     constexpr double more = 1 + 1e-6;
     constexpr const char* axes[] = {"x", "y", "the normal"};
     for (std::size_t i = 0; i < 3; ++i) {
@@ -446,7 +447,7 @@ class Checks {
       return;
     }
     if (!find_at(keys_, {"ball", "mass"})) {
-      // The ball itself is there: it has a radius, or that is missed too.
+      // The key `ball` is present, or its radius was reported as missing.
       refuse({"ball"},
              "found no mass, but the ball's weight moves the gimbal; allowed: ball.mass given, "
              "since the default of 1 kg is not a realistic ball");
@@ -488,7 +489,7 @@ class Checks {
       const yaml::Value item = columns->item(i);
       const Column* column = find_column(item.node->text);
       if (column == nullptr) continue;
-      // Without motion and controller, that has been reported.
+      // Without motion and controller, check_loop() reported a problem before.
       const bool of_controller =
           column->needs == Needs::controller || column->needs == Needs::commands;
       if (of_controller && !scene_.gimbal.motion) continue;

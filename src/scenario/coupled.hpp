@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Which scenes have more than ideal rolling under a gimbal that moves whatever the torques.
+// Tells which scenes need more than ideal rolling on a gimbal with prescribed motion.
 #pragma once
 
 #include "scenario/scenario.hpp"
@@ -14,10 +14,10 @@ namespace bbsim::scenario {
 // Whether rolling resistance or pivoting friction acts on the ball.
 [[nodiscard]] bool has_dry_losses(const Scenario& scene);
 
-// Whether any loss does, the ball may slide, or torques move the gimbal.
+// Whether a loss or a push acts on the ball, the ball may slide, or torques move the gimbal.
 [[nodiscard]] bool is_coupled(const Scenario& scene);
 
-// Whether push rods, measured curves or three servos stand between the servos and the plane.
+// Whether push rods, measured curves or three servos connect the servos to the plane.
 [[nodiscard]] bool is_linked(const Scenario& scene);
 
 }  // namespace bbsim::scenario

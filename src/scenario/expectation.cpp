@@ -30,7 +30,7 @@ Expectation read_expectation(std::string_view where, std::string_view text,
                              const Scenario& scenario) {
   text = trimmed(text);
   const std::string found = std::string(where) + ": found " + bbsim::quoted(std::string(text));
-  // No measure's name has such a sign.
+  // Names of measures contain neither sign.
   const std::size_t sign = text.find_first_of("<>");
   if (sign == std::string_view::npos) {
     throw InputError(found +

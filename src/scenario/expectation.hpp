@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// What is expected of a measure: "max_tilt < 5 deg".
+// An expected bound on a measure: "max_tilt < 5 deg".
 #pragma once
 
 #include <string>
@@ -17,12 +17,12 @@ struct Expectation {
   Measure measure{};
   double value = 0;  // in the measure's unit
 
-  // What is no number meets no expectation.
+  // False for NaN.
   [[nodiscard]] bool holds(double measured) const;
 };
 
-// Reads "MEASURE < VALUE", or with <=, > or >=; the value may have a unit. Throws InputError, which
-// begins with `where`, also for a measure that the scene does not have.
+// Reads "MEASURE < VALUE", or with <=, > or >=. The value may have a unit. Throws InputError, which
+// begins with `where`; also for a measure that the scene does not have.
 [[nodiscard]] Expectation read_expectation(std::string_view where, std::string_view text,
                                            const Scenario& scenario);
 

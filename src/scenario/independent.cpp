@@ -119,7 +119,7 @@ Numbers in_controller(Controller& controller, Names names) {
   return {};
 }
 
-// A prescribed motion, or equation (31) with an ideal servo, and nothing that is watched.
+// Whether the scene has prescribed motion, or equation (31) with an ideal servo, and no events.
 bool is_plain(const Scenario& scenario) {
   if (bbsim::scenario::is_coupled(scenario)) return false;
   const Events& events = scenario.events;

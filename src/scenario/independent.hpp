@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Keys of a scenario that no rule relates to any other key.
+// Finds keys of a scenario that no rule relates to other keys.
 #pragma once
 
 #include <string_view>
@@ -11,9 +11,9 @@
 
 namespace bbsim {
 
-// Where the number at that key stands in a scenario, more than once for a scalar gain. Empty if
-// other keys decide what it may be, or if the scene has more than a ball on a gimbal that follows a
-// given motion or equation (31): such a scenario has to be read anew for another value.
+// Pointers to the numbers that the key sets in the scenario; a scalar gain sets two. Empty if the
+// valid values depend on other keys, or if the scene has more than a ball on a gimbal with
+// prescribed motion or equation (31). The scenario must then be read again for each value.
 [[nodiscard]] std::vector<double*> independent_number(Scenario& scenario, std::string_view key);
 
 }  // namespace bbsim

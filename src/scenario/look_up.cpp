@@ -16,11 +16,11 @@ using namespace scenario;
 
 namespace {
 
-// As far down a path as there are keys.
+// The part of a path that exists.
 struct Found {
-  Position position;           // of the last key that is there
+  Position position;           // of the last key that exists
   const Node* node = nullptr;  // its value
-  bool whole = false;          // the path
+  bool whole = false;          // the whole path exists
 };
 
 Found find(const Node* root, std::string_view path) {

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Single keys of a scenario's text, looked up without reading the scenario.
+// Looks up single keys in a scenario's text without reading the whole scenario.
 #pragma once
 
 #include <optional>
@@ -13,12 +13,12 @@
 
 namespace bbsim {
 
-// Where a key stands, by its path: "file:line:column", or which override sets it. Of a key that is
-// not there, where the nearest one above it stands.
+// The place of the key: "file:line:column", or the override that sets it. For a missing key, the
+// place of the nearest key above it.
 [[nodiscard]] std::string place_of(const Source& source, std::string_view key);
 
-// The number at a key, in SI units; nothing if there is none. Whatever else is wrong with the text
-// does not matter, and no other file is opened.
+// The number at the key in SI units, or nothing. Ignores all other problems of the text and opens
+// no other files.
 [[nodiscard]] std::optional<double> number_at(const Source& source, std::string_view key,
                                               yaml::Dimension dimension);
 

@@ -30,7 +30,7 @@ constexpr Prefix prefixes[] = {{"min_", Kind::least, "least over the continuous 
 
 struct Metric {
   StepMetric metric;
-  std::string_view name, unit, meaning;  // unit: empty for the column's own
+  std::string_view name, unit, meaning;  // unit: empty for the column's unit
 };
 constexpr Metric metrics[] = {
     {StepMetric::rise_time, "RiseTime", "s", "time from 10 % to 90 % of its step: "},
@@ -51,7 +51,7 @@ const Metric& metric_of(StepMetric metric) {
   return metrics[static_cast<std::size_t>(metric)];
 }
 
-// Takes `word` and the blanks after it from the text's front.
+// Removes `word` and the blanks after it from the front of the text.
 bool take(std::string_view& text, std::string_view word) {
   if (!text.starts_with(word)) return false;
   const std::string_view rest = text.substr(word.size());
@@ -60,7 +60,7 @@ bool take(std::string_view& text, std::string_view word) {
   return true;
 }
 
-// What stands behind rise=, fall= or cross=.
+// Reads the value of rise=, fall= or cross=.
 bool read_number(std::string_view text, std::size_t& number) {
   if (text == "last") {
     number = 0;
@@ -71,11 +71,11 @@ bool read_number(std::string_view text, std::size_t& number) {
 }
 
 bool is_usable(const Column* column) {
-  // A quaternion has no extremes that mean anything.
+  // Extremes of a quaternion's components have no meaning.
   return column != nullptr && column->needs != Needs::orientation;
 }
 
-// "x=0.05 rise=2", "tracking_error stays below 2 mm"
+// Reads "x=0.05 rise=2" or "tracking_error stays below 2 mm".
 std::optional<Instant> read_condition(std::string_view text, const FindColumn& find) {
   Instant instant;
   const std::size_t stays = text.find(" stays ");
@@ -163,13 +163,13 @@ std::optional<Measure> read_when_or_find(std::string_view text, const FindColumn
   return measure;
 }
 
-// Where a column is meant to go.
+// The column of the reference that a column follows.
 const Column* reference_of(const Column& column, const FindColumn& find) {
   return column.name == "x" || column.name == "y" ? find(std::string(column.name) + "_reference")
                                                   : nullptr;
 }
 
-// A measure of the whole run.
+// Reads a measure without a window.
 std::optional<Measure> find_whole(std::string_view name, const FindColumn& find) {
   const std::size_t dot = name.rfind('.');
   if (dot != std::string_view::npos) {

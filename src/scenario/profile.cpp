@@ -11,12 +11,12 @@
 namespace bbsim::scenario {
 namespace {
 
-// A Fourier series fits; a list of aliases that grows out of hand does not.
+// Enough for a Fourier series. Stops lists that grow exponentially through aliases.
 constexpr std::size_t most_terms = 1000;
 
 constexpr yaml::Number angle{yaml::Dimension::angle};
 constexpr yaml::Number angular_rate{yaml::Dimension::angular_rate};
-// What a profile is of.
+// The dimensions and messages for each kind of profile.
 struct OfAngle {
   static constexpr yaml::Dimension value = yaml::Dimension::angle;
   static constexpr yaml::Dimension rate = yaml::Dimension::angular_rate;

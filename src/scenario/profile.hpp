@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// A profile of a gimbal angle, of a motor's torque or of a force: a number, one of the shapes of a
-// ProfileTerm, or a list: their sum.
+// Reads a profile of a gimbal angle, a motor's torque or a force: a number, one of the shapes of
+// ProfileTerm, or a list of these, which means their sum.
 #pragma once
 
 #include <string>

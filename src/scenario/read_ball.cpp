@@ -34,12 +34,12 @@ void read_ball(yaml::Keys& keys, Ball& ball) {
   keys.optional("position", yaml::PairOf{yaml::Dimension::length}, ball.position);
   keys.optional("velocity", yaml::PairOf{yaml::Dimension::velocity}, ball.velocity);
   keys.optional("spin", yaml::Number{yaml::Dimension::angular_rate}, ball.spin);
-  // All mass at the centre has 0, all of it at the surface 2/3.
+  // The factor is 0 with all mass at the center, and 2/3 with all mass at the surface.
   const yaml::Number factor{yaml::Dimension::number, {.at_least = 0, .at_most = 0.67}, "0.4"};
   keys.optional("inertia_factor", factor, ball.inertia_factor);
   keys.section("losses", read_losses, ball.losses);
   keys.optional("rotation", yaml::PairOf{yaml::Dimension::angular_rate}, ball.rotation);
-  static_cast<void>(keys.find("push"));  // which read_ball_push() reads
+  static_cast<void>(keys.find("push"));  // read_ball_push() reads it
 }
 
 void read_ball_push(yaml::Keys& scenario, Ball& ball) {

@@ -40,7 +40,7 @@ void read_lqr(yaml::Keys& keys, Controller& controller) {
                 weights.command);
 }
 
-// Names of one's own, each with a number.
+// Parameters of an external controller: names with numbers.
 struct Parameters {
   [[nodiscard]] static std::string allowed() {
     return "a mapping of names to numbers, such as {kp: 0.7}";
@@ -52,7 +52,7 @@ struct Parameters {
     bool fine = true;
     for (const yaml::Entry& entry : value.node->entries) {
       const std::optional<yaml::Value> found = keys.find(entry.key);
-      if (!found) continue;  // an override leaves it out
+      if (!found) continue;  // an override removed it
       const yaml::Value& number = *found;
       if (!is_own_name(entry.key)) {
         fine = number.report(
@@ -134,7 +134,7 @@ void read_law(yaml::Keys& keys, Controller& controller) {
   keys.section(given[0]->key, given[0]->read, controller);
 }
 
-// A period's standard deviation, or a file of measured periods.
+// The standard deviation of the period, or a file of measured periods.
 struct Jitter {
   [[nodiscard]] static std::string allowed() {
     return number().allowed() + ", or {file: periods.csv, period: column}";
@@ -142,7 +142,7 @@ struct Jitter {
   [[nodiscard]] static yaml::Number number() {
     return {yaml::Dimension::time, {.at_least = 0}, "\"1 ms\""};
   }
-  // Measured periods are about the one that was meant.
+  // Warns if the mean of the measured periods is far from the nominal period.
   static void warn_of_periods(const yaml::Value& table, const Sampling& sampling) {
     const double mean = std::accumulate(sampling.periods.begin(), sampling.periods.end(), 0.0) /
                         static_cast<double>(sampling.periods.size());
@@ -190,7 +190,7 @@ void read_sampling(yaml::Keys& keys, Sampling& sampling) {
   keys.optional("jitter", Jitter{}, sampling);
 }
 
-// A factor, or one for each axis.
+// One factor for both axes, or one for each.
 struct Scale {
   [[nodiscard]] static std::string allowed() {
     return "a number greater than 0, such as 1.02, or two of them, [x, y]";
@@ -236,7 +236,7 @@ void read_sensor(yaml::Keys& keys, Sensor& sensor) {
   keys.optional("phase", yaml::Number{yaml::Dimension::time, {.at_least = 0}}, sensor.phase);
 }
 
-// Of both axes, or of each.
+// One limit for both axes, or one for each.
 struct CommandLimit {
   bool of_angle;
 

@@ -58,7 +58,7 @@ void read_start(yaml::Keys& keys, GimbalStart& start) {
   keys.optional("theta_rate", yaml::Number{yaml::Dimension::angular_rate}, start.theta_rate);
 }
 
-// What these keys say of a servo, over what `servo` is already; nothing of what is missing.
+// Reads the keys into `servo`, over its existing values. Does not report missing keys.
 void read_servo_keys(yaml::Keys& keys, Servo& servo) {
   const yaml::Number time{yaml::Dimension::time, {.above = 0}};
   const yaml::Number frequency{yaml::Dimension::angular_rate, {.above = 0}};
@@ -74,7 +74,7 @@ void read_servo_keys(yaml::Keys& keys, Servo& servo) {
       }
     }
   } else {
-    // Of second order, whatever both axes' common keys say.
+    // An axis's own natural_frequency overrides a common time_constant.
     if (keys.find("natural_frequency")) servo.time_constant.reset();
     constexpr double one_hertz = 2 * std::numbers::pi, any = std::numeric_limits<double>::max();
     keys.optional("natural_frequency", yaml::Usual{frequency, "Hz", any, one_hertz},
@@ -100,7 +100,7 @@ struct BothServos {
   std::optional<Servo> theta{};
 };
 
-// Keys of both axes, and of each under its name, which take the place of the common ones.
+// Reads keys for both axes, and keys for each axis, which override the common ones.
 void read_servo(yaml::Keys& keys, BothServos& both) {
   const auto require = [](yaml::Keys& at, std::string_view key, auto given) {
     const auto allowed = key == "natural_frequency"
@@ -137,7 +137,7 @@ void read_servo(yaml::Keys& keys, BothServos& both) {
   if (both.theta) read_one(theta, *both.theta);
 }
 
-// [servo's angle, plane's angle] of a curve.
+// Reads the (servo angle, plane angle) rows of a curve.
 void read_curve(yaml::Keys& keys, CurveLinkage& curve) {
   FileColumns read;
   if (!read_columns(keys, {"servo", "plate"}, yaml::Dimension::angle, read)) return;
@@ -147,7 +147,7 @@ void read_curve(yaml::Keys& keys, CurveLinkage& curve) {
     warn_of_unit(keys.mapping(), curve.file, "an angle is " + number_text(largest),
                  yaml::Dimension::angle, *doubt, "unit");
   }
-  constexpr std::size_t fewest = 4;  // of a C2 interpolant without end conditions to invent
+  constexpr std::size_t fewest = 4;  // a C2 interpolant needs four without extra end conditions
   if (curve.servo.size() < fewest) {
     keys.mapping().report(yaml::shown(curve.file) + ": found " +
                           std::to_string(curve.servo.size()) + " rows; allowed: at least 4");
@@ -215,7 +215,7 @@ void read_mounting(yaml::Keys& keys, Mounting& mounting) {
   keys.optional("height", yaml::Number{yaml::Dimension::length}, mounting.height);
   keys.optional("phi_offset", yaml::Number{yaml::Dimension::angle}, mounting.phi_offset);
   keys.optional("theta_offset", yaml::Number{yaml::Dimension::angle}, mounting.theta_offset);
-  // At 90 degrees the axes would be one.
+  // At 90 degrees the two axes would coincide.
   keys.optional("skew", yaml::Number{yaml::Dimension::angle, {.at_least = -1.4, .at_most = 1.4}},
                 mounting.skew);
   keys.optional("yaw", yaml::Number{yaml::Dimension::angle}, mounting.yaw);

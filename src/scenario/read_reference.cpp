@@ -10,7 +10,7 @@
 namespace bbsim::scenario {
 namespace {
 
-constexpr std::size_t fewest_waypoints = 2;  // a single one is a `point`
+constexpr std::size_t fewest_waypoints = 2;  // one point alone is a `point`
 constexpr std::size_t most_waypoints = 10000;
 
 void read_circle(yaml::Keys& keys, CircleReference& circle) {
@@ -61,7 +61,7 @@ void read_table_reference(yaml::Keys& keys, TableReference& table) {
   table.y = std::move(rows.values[1]);
 }
 
-// The reference at that key, if it is there.
+// Reads the reference at the key, if present.
 template <class Rule, class Kind>
 void read_kind(yaml::Keys& keys, std::string_view key, const Rule& rule, Kind kind,
                Reference& reference) {

@@ -61,8 +61,8 @@ yaml::NameOf<Method> methods() {
   return rule;
 }
 
-// A bound on the error and tolerances exclude each other; if one of them is from the command line,
-// it is the one that counts.
+// Reports an error bound beside tolerances. If exactly one of them comes from the command line, it
+// overrides the other.
 void check_bound(yaml::Keys& keys, Solver& solver) {
   const auto on_command_line = [](const yaml::Value& value) { return value.position.source > 0; };
   const yaml::Value error = *keys.find("error");

@@ -15,7 +15,7 @@
 namespace bbsim::scenario {
 namespace {
 
-// A mapping from keys of the scenario to what they vary over.
+// A mapping from keys of the scenario to the values they take.
 struct Variations {
   [[nodiscard]] static std::string allowed() {
     return "a mapping from keys to values, such as ball.radius: linear:0.005:0.02:16";
@@ -83,7 +83,7 @@ struct MeasureNames {
 };
 
 void read_whole(yaml::Keys& keys, std::string_view key, double least, double& into) {
-  // Doubles hold integers up to 2^53.
+  // Doubles represent integers exactly up to 2^53.
   const yaml::Number whole{
       yaml::Dimension::number, {.at_least = least, .at_most = 9007199254740992.0}, "1000"};
   if (keys.optional(key, whole, into) && into != std::floor(into)) {

@@ -16,7 +16,7 @@ namespace scenario {
 
 using namespace yaml;
 
-// `time` stands before `gimbal` and what pushes the ball, whose tables must cover the run.
+// Reads `time` before `gimbal` and the ball's push, because their tables must cover the run.
 void read_sections(Keys& keys, Scenario& scenario) {
   keys.optional("title", Text{"a text", true}, scenario.title);
   keys.optional("gravity", Number{Dimension::acceleration, {.at_least = 0}}, scenario.gravity);

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The sections of a scenario, each read by one function (schema.hpp).
+// The readers of a scenario's sections, one function each (schema.hpp).
 #pragma once
 
 #include "scenario/scenario.hpp"
@@ -10,7 +10,7 @@
 namespace bbsim::scenario {
 
 void read_ball(yaml::Keys& keys, Ball& ball);
-// Of the scenario's keys, after read_ball and read_time.
+// Takes the keys of the scenario. Call it after read_ball and read_time.
 void read_ball_push(yaml::Keys& scenario, Ball& ball);
 void read_plate(yaml::Keys& keys, Plate& plate);
 void read_events(yaml::Keys& keys, Events& events);
@@ -22,20 +22,20 @@ void read_solver(yaml::Keys& keys, Solver& solver);
 void read_output(yaml::Keys& keys, Output& output);
 void read_sweep(yaml::Keys& keys, Sweep& sweep);
 
-// All of them.
+// Reads all sections and checks them.
 void read_sections(yaml::Keys& keys, Scenario& scenario);
 
-// The tree of a scenario's text with all overrides applied; nullptr, with the problems reported, if
-// the text holds none.
+// The tree of a scenario's text with all overrides applied. Reports problems; returns nullptr if
+// the text is no tree.
 [[nodiscard]] const yaml::Node* build_tree(const Source& source, yaml::Problems& problems,
                                            yaml::Nodes& nodes);
 
-// What must hold between the sections: whether a controller or a prescribed motion moves the
-// gimbal, and what may stand beside each.
+// Checks conditions between sections: whether a controller or a prescribed motion moves the gimbal,
+// and which keys may accompany each.
 void check_loop(yaml::Keys& scenario);
 
-// What parts of the rig ask of each other: a servo limit of a servo, a sensor of samples, an edge
-// of a plate. After check_loop.
+// Checks conditions between parts of the rig: a servo limit needs a servo, a sensor needs samples,
+// and an edge needs a plate. Call it after check_loop.
 void check_rig(yaml::Keys& keys, const Scenario& scenario);
 
 }  // namespace bbsim::scenario

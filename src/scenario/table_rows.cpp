@@ -15,9 +15,9 @@
 namespace bbsim::scenario {
 namespace {
 
-constexpr std::size_t fewest_rows = 4;  // of a C2 interpolant without end conditions to invent
+constexpr std::size_t fewest_rows = 4;  // a C2 interpolant needs four without extra end conditions
 
-// The file's content, or nullptr after reporting why there is none.
+// The file's content; nullptr after reporting a fault.
 const file::TableData* load(const yaml::Value& file, const std::string& name) {
   yaml::Context& context = *file.context;
   const std::filesystem::path path = context.folder / name;
@@ -48,7 +48,7 @@ const std::vector<double>* find_column(const yaml::Value& key, const std::string
                                        const file::TableData& data) {
   const auto found = std::ranges::find(data.names, name);
   if (found == data.names.end()) {
-    std::vector<std::string> names;  // the file's own, fit for a terminal
+    std::vector<std::string> names;  // the names in the file, safe for a terminal
     for (const std::string& one : data.names) names.push_back(yaml::shown(one));
     yaml::refuse_name(key, {names.begin(), names.end()});
     return nullptr;
@@ -56,7 +56,7 @@ const std::vector<double>* find_column(const yaml::Value& key, const std::string
   return &data.columns[static_cast<std::size_t>(found - data.names.begin())];
 }
 
-// What is wrong with the rows, or nothing: "found ...; allowed: ...".
+// The first fault of the rows as "found ...; allowed: ...", or nothing.
 std::string fault(const TableRows& table, const std::vector<std::string_view>& value_keys,
                   std::string_view noun) {
   const std::size_t rows = table.times.size();
@@ -91,13 +91,13 @@ std::string cover_fault(const TableRows& table, double end) {
          " s; allowed: a table that covers the run, 0 to " + number_text(end) + " s";
 }
 
-// What a value is, without an article: "angle".
+// The dimension's noun without its article: "angle".
 std::string_view bare_noun(yaml::Dimension dimension) {
   const std::string_view noun = yaml::noun(dimension);
   return noun.substr(noun.find(' ') + 1);
 }
 
-// A unit of a dimension, by its name.
+// The name of a unit of the dimension.
 struct UnitOf {
   yaml::Dimension dimension;
 
@@ -124,7 +124,7 @@ void warn_of_units(const yaml::Value& table, const TableRows& rows,
     warn_of_unit(table, rows.file,
                  std::string(value_keys[k]) + " goes up to " + number_text(largest), dimension,
                  *doubt, "unit");
-    break;  // one is enough: all have one unit
+    break;  // one warning suffices, because all values have one unit
   }
   const std::optional<double> run = table.context->end;
   if (has_time_unit || !run || rows.times.empty()) return;

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Values within names of measures and expectations: "5 cm", "0.05".
+// Reads values within names of measures and expectations: "5 cm", "0.05".
 #pragma once
 
 #include <optional>
@@ -9,8 +9,8 @@
 
 namespace bbsim::scenario {
 
-// A finite number, in SI, or a quantity of the dimension that `unit` is the SI unit of: "5 cm" of
-// "m". Of a unit that has no others, such as "%" or "N m", it may stand behind the number.
+// Reads a finite number in SI units, or a quantity with a unit of the same dimension: "5 cm" for
+// "m". A unit without a dimension of its own, such as "%", may follow the number.
 [[nodiscard]] std::optional<double> value_in(std::string_view text, std::string_view unit);
 
 }  // namespace bbsim::scenario

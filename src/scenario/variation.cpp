@@ -34,7 +34,7 @@ constexpr Form forms[] = {{"linear", Way::linear, 3},
                           {"uniform", Way::uniform, 2},
                           {"normal", Way::normal, 2}};
 
-// Parts between separators that stand in no brackets and no quotes.
+// Splits at separators outside brackets and quotes.
 std::vector<std::string> parted(std::string_view text, char separator) {
   std::vector<std::string> parts;
   int depth = 0;
@@ -71,7 +71,7 @@ std::size_t read_count(const Variation& variation, const std::string& text) {
   return count;
 }
 
-// Of a bound, which may stand in quotes. Its unit is read with the key that it belongs to.
+// Whether a bound, possibly in quotes, starts with a number. Its unit is read later, with its key.
 bool starts_with_number(std::string_view bound) {
   if (bound.front() == '"' || bound.front() == '\'') bound.remove_prefix(1);
   return yaml::leading_decimal(bound).length > 0;
@@ -141,7 +141,7 @@ std::string scaled(const std::string& value, double factor) {
   if (decimal.length == 0) return "";
   const yaml::DecimalValue number = yaml::to_double(decimal, 0);
   if (number.magnitude != yaml::Magnitude::fine) return "";
-  // Adding 0 takes the sign off a zero.
+  // Adding 0 turns -0 into 0.
   return number_text(factor * number.value + 0.0) + value.substr(decimal.length);
 }
 

@@ -10,7 +10,7 @@
 namespace bbsim::scenario {
 namespace {
 
-// Takes " WORD TIME" from the text's end, if that is what it ends with.
+// Removes " WORD TIME" from the end of the text, if present.
 std::optional<double> take_last(std::string_view& text, std::string_view word) {
   const std::size_t place = text.rfind(word);
   if (place == std::string_view::npos || place == 0) return {};

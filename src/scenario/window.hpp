@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The part of a run's time that a measure is of.
+// The time window of a measure.
 #pragma once
 
 #include <limits>
@@ -13,7 +13,7 @@
 
 namespace bbsim::scenario {
 
-// From the start of the run on, or to its end, where there is no bound.
+// A missing bound means the start or the end of the run.
 struct Window {
   std::optional<double> from{}, to{};  // s
 
@@ -22,7 +22,7 @@ struct Window {
     return from.value_or(-std::numeric_limits<double>::infinity());
   }
   [[nodiscard]] double end() const { return to.value_or(std::numeric_limits<double>::infinity()); }
-  // Times nearer than rounding are one.
+  // Times within rounding of a bound belong to the window.
   [[nodiscard]] bool holds(double t) const {
     return (!from || t >= *from - rounding_of(*from)) && (!to || t <= *to + rounding_of(*to));
   }
@@ -30,8 +30,8 @@ struct Window {
   friend bool operator==(const Window&, const Window&) = default;
 };
 
-// A name that ends with "from TIME", "to TIME" or both: what stands before, and the window with its
-// text as given. A name that does not is of the whole run.
+// Splits a name that ends in "from TIME", "to TIME" or both into the rest, the window, and the
+// window's text. Other names have the whole run as their window.
 struct WindowedName {
   std::string_view base;
   Window window{};
@@ -39,8 +39,8 @@ struct WindowedName {
 };
 [[nodiscard]] WindowedName split_window(std::string_view name);
 
-// Why a run from `start` to `end` (s) has no such part, "the window is empty; allowed: ...";
-// nothing if it has.
+// Why the window does not fit a run from `start` to `end` (s): "the window is empty; allowed: ...".
+// Empty if it fits.
 [[nodiscard]] std::string window_fault(const Window& window, double start, double end);
 
 }  // namespace bbsim::scenario

@@ -71,8 +71,8 @@ void require_comparable(const Scenario& scenario) {
       !model::is_the_papers(scenario)) {
     throw InputError(scenario.source.file +
                      ": simpler models are compared over scenes with the paper's gimbal and ball, "
-                     "with prescribed motion or under pd, without events and limits; run `bbsim "
-                     "verify` without a scenario");
+                     "with prescribed motion or under pd, without events and limits; try --set "
+                     "events=null, or run `bbsim verify` without a scenario");
   }
 }
 

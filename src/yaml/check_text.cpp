@@ -19,8 +19,8 @@ bool continues(unsigned value) {
   return (value & 0xC0U) == 0x80U;
 }
 
-// The length of the UTF-8 sequence at i, or 0 if it is none (RFC 3629: no overlong forms, no
-// surrogates, nothing above U+10FFFF).
+// The length of the UTF-8 sequence at i, or 0 if the sequence is invalid (RFC 3629: no overlong
+// forms, no surrogates, nothing above U+10FFFF).
 std::size_t sequence_length(std::string_view text, std::size_t i) {
   const unsigned a = byte(text, i);
   const unsigned b = byte(text, i + 1);
@@ -50,8 +50,8 @@ bool is_utf16(std::string_view text) {
   return text.starts_with("\xFF\xFE") || text.starts_with("\xFE\xFF");
 }
 
-// The tab in the indentation of the line that begins at `line`, or npos. Blank lines and comments
-// have no indentation to get wrong.
+// The place of a tab in the indentation of the line that begins at `line`, or npos. Blank lines and
+// comments have no significant indentation.
 std::size_t indenting_tab(std::string_view text, std::size_t line) {
   const std::size_t end = text.find_first_not_of(" \t", line);
   if (end == std::string_view::npos || text[end] == '\n' || text[end] == '\r' || text[end] == '#') {

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The decimal number at the front of a text, and its double.
+// Reads the decimal number at the start of a text as a double.
 #pragma once
 
 #include <cstddef>
@@ -11,16 +11,17 @@ namespace bbsim::yaml {
 
 // [+-] digits [. digits] [e [+-] digits], with a digit on at least one side of the point.
 struct Decimal {
-  std::string_view mantissa;  // with its minus sign, without a plus sign
+  std::string_view mantissa;  // with a minus sign, without a plus sign
   std::string_view exponent;  // after the e; empty if there is none
-  std::size_t length = 0;     // of the whole number in the text; 0 if the text starts with none
+  std::size_t length = 0;     // of the number in the text; 0 if the text starts with no number
 };
 
 [[nodiscard]] Decimal leading_decimal(std::string_view text);
 
 enum class Magnitude { fine, too_large, too_small };
 
-// Too large for a double, or so small that a double would lose digits (a denormal) or be zero.
+// `value` holds only if the magnitude is fine. Too small: a double would lose digits (a denormal)
+// or become zero.
 struct DecimalValue {
   double value = 0;
   Magnitude magnitude = Magnitude::fine;
@@ -29,7 +30,7 @@ struct DecimalValue {
 // The double nearest to decimal * 10^shift.
 [[nodiscard]] DecimalValue to_double(const Decimal& decimal, int shift);
 
-// Whether a double of this value is a full-precision one.
+// Whether the value is a normal double. `zero` says that the exact value is zero.
 [[nodiscard]] Magnitude magnitude_of(double value, bool zero);
 
 }  // namespace bbsim::yaml

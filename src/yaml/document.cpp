@@ -16,7 +16,7 @@ namespace bbsim::yaml {
 namespace {
 
 struct Explanation {
-  std::string_view yaml_cpp;  // how yaml-cpp's message begins
+  std::string_view yaml_cpp;  // the start of yaml-cpp's message
   std::string_view plain;
 };
 
@@ -55,7 +55,7 @@ std::string plain_message(const std::string& message) {
   return "found text that is not YAML (" + message + ")";
 }
 
-// Where yaml-cpp found a fault, but not beyond the end of the text.
+// The position of yaml-cpp's mark, limited to the end of the text.
 Position position(const YAML::Mark& mark, std::string_view text, int source) {
   const auto last = static_cast<int>(std::ranges::count(text, '\n'));
   if (mark.line <= last) return {source, std::max(mark.line, 0) + 1, std::max(mark.column, 0) + 1};
@@ -69,8 +69,8 @@ Position position(const YAML::Mark& mark, std::string_view text, int source) {
 const Node* parse_yaml(std::string_view text, int source, Nodes& nodes) {
   TreeBuilder builder(source, nodes);
   try {
-    // The comment ends what is still open on the last line: without it, yaml-cpp overlooks a
-    // missing closing quote there, and takes an unclosed list for a key.
+    // The comment terminates open constructs on the last line. Without it, yaml-cpp overlooks a
+    // missing closing quote there and takes an unclosed list for a key.
     std::istringstream stream{std::string(text) + "\n#"};
     YAML::Parser parser(stream);
     while (parser.HandleNextDocument(builder)) {
@@ -79,7 +79,7 @@ const Node* parse_yaml(std::string_view text, int source, Nodes& nodes) {
     throw;
   } catch (const YAML::Exception& e) {
     throw TextFault(position(e.mark, text, source), plain_message(e.msg));
-  } catch (const std::exception& e) {  // such as a number out of range inside a directive
+  } catch (const std::exception& e) {  // for example, a number out of range in a directive
     throw TextFault({source, 1, 1}, "found text that is not YAML (" + std::string(e.what()) + ")");
   }
   return builder.root();

@@ -19,7 +19,7 @@ std::string lower(std::string_view text) {
   return result;
 }
 
-// Damerau-Levenshtein distance in its "optimal string alignment" form, by rows of the table.
+// The Damerau-Levenshtein distance (optimal string alignment), row by row.
 std::size_t typing_errors(std::string_view a, std::string_view b) {
   std::vector<std::size_t> before(b.size() + 1);
   std::vector<std::size_t> above(b.size() + 1);

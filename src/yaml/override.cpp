@@ -42,11 +42,11 @@ std::string joined(Path names) {
 
 class Setter {
  public:
-  // A value that is absent removes what is there.
+  // An absent value removes the node at the path.
   Setter(Path path, const Node& value, int source, Nodes& nodes)
       : path_(path), value_(value), source_(source), nodes_(nodes) {}
 
-  // `old` with the value put at the path's names from `level` on; nullptr stands for no node.
+  // `old` with the value set at the path below `level`. nullptr stands for a missing node.
   [[nodiscard]] const Node* set(const Node* old, std::size_t level) const {
     if (level == path_.size()) return &value_;
     if (old == nullptr || old->kind == Node::Kind::null) {
@@ -63,7 +63,8 @@ class Setter {
   }
 
  private:
-  // The key as the mapping spells it. Parameters of a user's own controller have one spelling.
+  // The key in the spelling of the mapping. Parameters of an external controller have one spelling
+  // only.
   [[nodiscard]] std::string key_in(const Node& mapping, std::size_t level) const {
     const auto is_there = [&](std::string_view key) {
       return std::ranges::find(mapping.entries, key, &Entry::key) != mapping.entries.end();
@@ -96,7 +97,7 @@ class Setter {
     const std::string_view name = path_[level];
     std::size_t index = 0;
     const auto result = std::from_chars(name.data(), name.data() + name.size(), index);
-    // One spelling for each position: a sweep would take .00 and .0 for two keys.
+    // Each position has one spelling; otherwise a sweep would take .00 and .0 for two keys.
     const bool number = result.ec == std::errc{} && result.ptr == name.data() + name.size() &&
                         (name.size() == 1 || name.front() != '0');
     const std::size_t size = list.items.size();
@@ -127,7 +128,7 @@ class Setter {
   Nodes& nodes_;
 };
 
-// Digits and what numbers are made of: no need of YAML, which takes a sweep a third of its time.
+// This text needs no YAML parser, which would take a third of a sweep's time.
 bool is_plain_number(std::string_view text) {
   return text.size() < 40 && text.substr(0, 2) != "--" &&
          text.find_first_not_of("0123456789.eE-+") == std::string_view::npos &&

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// --set key.path=value
+// Applies overrides: --set key.path=value.
 #pragma once
 
 #include <string_view>
@@ -10,16 +10,16 @@
 
 namespace bbsim::yaml {
 
-// The tree under `root` with the value of `assignment` ("key.path=value", the value in YAML) at
-// its path: replaced if it was there, created (with mappings on the way) if not. A list's items go
-// by their position from 0, without zeros before it, and the position after the last appends. A
-// value of null (not an empty one) removes the key, if it is there, or the item. The old tree stays
-// as it is, and shares what did not change. `source`, from 1, is where the new nodes
-// say they stand. Throws TextFault.
+// Returns the tree `root` with the value of `assignment` ("key.path=value", the value in YAML) set
+// at the path. Replaces an existing value; otherwise creates it, with the mappings on the path.
+// List items go by position from 0, without leading zeros; the position after the last item
+// appends. The value null (not an empty value) removes the key or the list item; removing a missing
+// key changes nothing. `root` stays unchanged and shares its unchanged nodes with the result.
+// `source`, from 1, becomes the position of the new nodes. Throws TextFault.
 [[nodiscard]] const Node* apply_override(std::string_view assignment, int source, const Node& root,
                                          Nodes& nodes);
 
-// Applies an override whose key's path and value are given apart.
+// The same for a path and a value apart.
 [[nodiscard]] const Node* apply_override(std::string_view path, std::string_view value, int source,
                                          const Node& root, Nodes& nodes);
 

@@ -19,7 +19,7 @@ bool continues_character(char c) {
   return (static_cast<unsigned char>(c) & 0xC0U) == 0x80U;
 }
 
-// The column in characters, of a column in bytes.
+// Converts a column in bytes to a column in characters.
 int character_column(std::string_view text, const Position& position) {
   std::size_t line = 0;
   for (int i = 1; i < position.line && line != std::string_view::npos; ++i) {

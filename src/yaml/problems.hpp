@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Everything that is wrong with a scenario, collected to be reported in one go.
+// Collects all faults of a scenario, to report them together.
 #pragma once
 
 #include <cstddef>
@@ -17,8 +17,8 @@ namespace bbsim::yaml {
 
 class Problems {
  public:
-  // `name` stands for the file in messages; `text` is its content, without a byte order
-  // mark, for columns. After the overrides come the `settings` of one case of a sweep.
+  // `name` is the file's name in messages. `text` is its content without a byte order mark, for
+  // columns. `settings` belong to one case of a sweep; their sources follow those of the overrides.
   Problems(std::string name, std::string_view text, std::vector<std::string> overrides,
            std::vector<std::string> settings = {})
       : name_(std::move(name)),
@@ -28,17 +28,17 @@ class Problems {
 
   void add(const Position& position, std::string message);
 
-  // What is allowed, but may not be what the user meant: "note: ..." or "warning: ...".
+  // Adds a remark on a valid value that may be a mistake: "note: ..." or "warning: ...".
   void remark(const Position& position, std::string message);
 
-  // Throws InputError if there are any: in the order of the text, then of the overrides; the
-  // first 50, and how many more there are.
+  // Throws InputError if there are problems: the first 50 in the order of the text, then of the
+  // overrides, and the number of the others.
   void throw_if_any() const;
 
-  // Each with its place, in the order in which they were made.
+  // Each remark with its place, in the order of the calls.
   [[nodiscard]] const std::vector<std::string>& remarks() const { return remarks_; }
 
-  // "file:line:column", or which override.
+  // "file:line:column", or the override or setting.
   [[nodiscard]] std::string where(const Position& position) const;
 
  private:
@@ -54,10 +54,10 @@ class Problems {
   std::vector<std::string> remarks_;
 };
 
-// A piece of text is shown here as anywhere.
+// Text in messages uses the common shown().
 using bbsim::shown;
 
-// A node in a sentence that begins with "found": -0.01, "10 cm", nothing, a list of 3, a mapping.
+// A node for a sentence that begins with "found": -0.01, "10 cm", nothing, a list of 3, a mapping.
 [[nodiscard]] std::string shown(const Node& node);
 
 }  // namespace bbsim::yaml

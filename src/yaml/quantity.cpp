@@ -15,8 +15,8 @@
 namespace bbsim::yaml {
 namespace {
 
-// 1 unit = 10^power * (factor + rest) in SI. `rest` is what rounding took from the factor, so that
-// one fused multiplication gives the converted value correctly rounded in all but rare cases.
+// 1 unit = 10^power (factor + rest) in SI. `rest` is the rounding error of `factor`; with it, one
+// fused multiplication rounds the converted value correctly in all but rare cases.
 struct Unit {
   std::string_view name;
   int power = 0;
@@ -168,7 +168,7 @@ std::string_view plural(Dimension dimension) {
 }
 std::string_view si_unit(Dimension dimension) {
   const std::span<const Unit> units = description(dimension).units;
-  return units.empty() ? "" : units.front().name;  // the others are told by it
+  return units.empty() ? "" : units.front().name;  // the SI unit is the first
 }
 
 Dimension dimension_of(std::string_view unit) {

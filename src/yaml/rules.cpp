@@ -63,14 +63,14 @@ std::string PairOf::allowed() const {
 
 namespace {
 
-// "0" or "1", as a path of --set or --vary names one of two.
+// "0" or "1": the position of a component in a path of --set or --vary.
 std::optional<std::size_t> position_in_pair(std::string_view key) {
   if (key == "0") return 0;
   if (key == "1") return 1;
   return {};
 }
 
-// Whether the node is what such paths make where there was no list: --set ball.velocity.0=1.
+// Whether an override created this node for a missing pair, as --set ball.velocity.0=1 does.
 bool holds_positions(const Node& node) {
   return node.kind == Node::Kind::mapping && node.position.source > 0 &&
          std::ranges::all_of(node.entries, [](const Entry& entry) {
@@ -82,7 +82,7 @@ bool holds_positions(const Node& node) {
 
 bool PairOf::read(const Value& value, Pair& into) const {
   const Node& node = *value.node;
-  if (holds_positions(node)) {  // the other one keeps its default
+  if (holds_positions(node)) {  // a component without a value keeps its default
     bool fine = true;
     for (const Entry& entry : node.entries) {
       const Value item{entry.value, value.path_of(entry.key), entry.position, value.context};

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// What a value may be, and how it is read: the rules that schema.hpp speaks of.
+// The rules for values: the allowed values and how to read them (schema.hpp).
 #pragma once
 
 #include <algorithm>
@@ -21,7 +21,7 @@
 
 namespace bbsim::yaml {
 
-// Bounds, in SI units; those that are not there do not bind.
+// Bounds in SI units. Empty bounds do not apply.
 struct Range {
   std::optional<double> above{};
   std::optional<double> at_least{};
@@ -35,7 +35,7 @@ struct Range {
 struct Number {
   Dimension dimension = Dimension::number;
   Range range{};
-  std::string_view example{};  // empty: the dimension's own
+  std::string_view example{};  // empty: the dimension's example
 
   [[nodiscard]] std::string allowed() const;
   bool read(const Value& value, double& into) const;
@@ -64,26 +64,26 @@ struct PairOf {
   bool read(const Value& value, Pair& into) const;
 };
 
-// [width, height] of a rectangle, m
+// [width, height] of a rectangle (m).
 struct SidesOf {
   [[nodiscard]] static std::string allowed();
   static bool read(const Value& value, Pair& into);
 };
 
-// [about x, about y, about the normal], kg m^2
+// [about x, about y, about the normal] (kg m^2).
 struct MomentsOf {
   [[nodiscard]] static std::string allowed();
   static bool read(const Value& value, std::array<double, 3>& into);
 };
 
-// Two rows, phi and theta, of four numbers (x, y, vx, vy) or eight (... and phi, theta, their
-// rates)
+// Two rows, for phi and theta, of four gains (for x, y, vx, vy) or eight (also for phi, theta and
+// their rates).
 struct StateGain {
   [[nodiscard]] static std::string allowed();
   static bool read(const Value& value, std::array<std::array<double, 8>, 2>& into);
 };
 
-// A list of values that one rule reads.
+// A list of values; `rule` reads each item.
 template <class Rule, class T>
 struct ListOf {
   Rule rule;
@@ -109,13 +109,13 @@ struct ListOf {
   }
 };
 
-// A number k, which stands for [[k, 0], [0, k]], or a matrix [[a, b], [c, d]].
+// A number k, which means [[k, 0], [0, k]], or a matrix [[a, b], [c, d]].
 struct GainMatrix {
   [[nodiscard]] std::string allowed() const;
   bool read(const Value& value, Matrix2& into) const;
 };
 
-// A text without control characters; line breaks and tabs only where `lines` are allowed.
+// Text without control characters. `lines` allows line breaks and tabs.
 struct Text {
   std::string_view meaning;  // "the name of a column"
   bool lines = false;
@@ -124,10 +124,10 @@ struct Text {
   bool read(const Value& value, std::string& into) const;
 };
 
-// Reports a text that is none of the names, with the nearest of them. Returns false.
+// Reports that the text is not one of the names, and suggests the nearest one. Returns false.
 bool refuse_name(const Value& value, const std::vector<std::string_view>& names);
 
-// One of the names that stand for the values of an enumeration.
+// The name of an enumerator.
 template <class Enum>
 struct NameOf {
   struct Named {

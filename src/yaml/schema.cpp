@@ -103,7 +103,7 @@ void Keys::report_unknown(const Entry& entry) const {
 }
 
 void Keys::finish() const {
-  std::unordered_map<std::string_view, const Entry*> firsts;  // by the known name
+  std::unordered_map<std::string_view, const Entry*> firsts;  // by known name
   for (const Entry& entry : mapping_.node->entries) {
     auto known = std::ranges::find(known_, entry.key);
     if (known == known_.end()) {

@@ -1,17 +1,16 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// How a mapping of the scenario is read into a struct: one function a mapping.
+// Reads mappings of the scenario into structs, with one function for each mapping:
 //
 //     void read_ball(Keys& keys, Ball& ball) {
 //       keys.required("radius", Number{Dimension::length, {.above = 0}}, ball.radius);
 //       keys.optional("spin", Number{Dimension::angular_rate}, ball.spin);
 //     }
 //
-// The keys that the function asks for are the known ones, in either spelling (spelling.hpp): any
-// other is reported, with the nearest known one. A rule (rules.hpp) says what a value may be, in
-// `allowed()`, and reads it, in `read()`, which reports what is wrong and returns whether all is
-// well.
+// The function defines the known keys by reading them, each in either spelling (spelling.hpp). Any
+// other key is reported with the nearest known one. A rule (rules.hpp) describes the allowed values
+// in allowed(). Its read() reads a value, reports its faults, and returns whether it is valid.
 #pragma once
 
 #include <filesystem>
@@ -30,10 +29,10 @@
 
 namespace bbsim::yaml {
 
-// The table files read so far, by path; scenarios of one family share them, over threads.
+// The table files read so far, by path. The scenarios of a family share them across threads.
 struct Tables {
   std::mutex mutex;
-  std::map<std::string, file::InputTable> by_file;  // under the mutex; a table once read stays
+  std::map<std::string, file::InputTable> by_file;  // guarded by `mutex`; entries are never removed
 
   [[nodiscard]] std::vector<file::InputTable> all() {
     const std::lock_guard lock(mutex);
@@ -43,34 +42,33 @@ struct Tables {
   }
 };
 
-// A single number, in SI units.
+// A single number in SI units.
 struct NotedNumber {
   double value = 0;
   Dimension dimension = Dimension::number;
 };
 
-// What reading a scenario shares.
+// The shared state of the readers of one scenario.
 struct Context {
   Problems& problems;
-  std::filesystem::path folder;  // where table files are
-  std::optional<double> end{};   // time.end, s, once it is read
+  std::filesystem::path folder;  // the folder of table files
+  std::optional<double> end{};   // time.end (s), once read
   std::shared_ptr<Tables> tables = std::make_shared<Tables>();
-  // Where each single number goes that is read, if somebody asks, by its key's path in American
-  // spelling.
+  // If set, receives each single number that is read, by the key's path in American spelling.
   std::map<std::string, NotedNumber>* numbers = nullptr;
-  bool own_controller = false;  // which gives numbers of its own names; once it is read
+  bool own_controller = false;  // an external controller, which may name columns itself; once read
 };
 
-// A node on its way into the scenario.
+// A node with the place where the scenario uses it.
 struct Value {
   const Node* node;
-  std::string path;   // its key's full path as written, empty at the top
-  Position position;  // of its key: where something missing inside is reported
+  std::string path;   // the key's full path as written; empty at the top
+  Position position;  // of the key; missing keys inside are reported here
   Context* context;
 
   [[nodiscard]] Value item(std::size_t i) const;
   [[nodiscard]] std::string path_of(std::string_view key) const;
-  // The last name of the path.
+  // The last name in the path.
   [[nodiscard]] std::string_view name() const;
 
   // Reports "path: found <node><remark>; allowed: <allowed>" at the node. Returns false.
@@ -78,12 +76,12 @@ struct Value {
   // Reports "path: <message>" at the node. Returns false.
   bool report(std::string_view message) const;
 
-  // Remarks at the node, with the key's path: "warning: path: <message>".
+  // Adds the remark "warning: path: <message>" at the node.
   void warn(std::string_view message) const;
-  // The same of what is as it should be: "note: path: <message>".
+  // Adds the remark "note: path: <message>" at the node.
   void mention(std::string_view message) const;
 
-  // Says that a single number was read here, in SI units.
+  // Records that a single number was read here, in SI units.
   void note(double number, Dimension dimension) const;
 };
 
@@ -91,42 +89,42 @@ class Keys {
  public:
   explicit Keys(Value mapping) : mapping_(std::move(mapping)) {}
 
-  // The value of that key, if it is there. The key is known from now on.
+  // The key's value, if present. Makes the key known.
   std::optional<Value> find(std::string_view key);
 
-  // Reads the key's value if it is there. Returns false after reporting a problem.
+  // Reads the key's value if present. Returns false after reporting a problem.
   template <class Rule, class T>
   bool optional(std::string_view key, const Rule& rule, T& into) {
     const std::optional<Value> value = find(key);
     return !value || rule.read(*value, into);
   }
 
-  // Reads the value as above; `into` is set if the key is there, and empty if not.
+  // The same; `into` is empty if the key is missing.
   template <class Rule, class T>
   bool optional(std::string_view key, const Rule& rule, std::optional<T>& into) {
     const std::optional<Value> value = find(key);
     return !value || rule.read(*value, into.emplace());
   }
 
-  // Reads the key's value; reports it as missing if it is not there.
+  // Reads the key's value; reports a missing key.
   template <class Rule, class T>
   bool required(std::string_view key, const Rule& rule, T& into) {
     const std::optional<Value> value = find(key);
     return value ? rule.read(*value, into) : missing(key, rule.allowed());
   }
 
-  // Reads a mapping that, where it is not there, reads as an empty one: all defaults, and its own
-  // required keys reported as missing.
+  // Reads a mapping. A missing mapping reads like an empty one: it takes all defaults and reports
+  // its required keys as missing.
   template <class T>
   bool section(std::string_view key, void (*reader)(Keys&, T&), T& into);
 
-  // Reports at the mapping that the key is missing. Returns false.
+  // Reports the missing key at the mapping. Returns false.
   bool missing(std::string_view key, std::string_view allowed);
 
-  // Whether exactly one of the keys is there; reports it if not.
+  // Whether exactly one of the keys is present. Reports it otherwise.
   bool exactly_one(const std::vector<std::string_view>& keys);
 
-  // Reports each key that nobody asked for, and each that is there more than once.
+  // Reports unknown keys and repeated keys.
   void finish() const;
 
   [[nodiscard]] const std::vector<std::string_view>& known() const { return known_; }
@@ -144,14 +142,14 @@ class Keys {
 
 [[nodiscard]] std::string comma_separated(const std::vector<std::string_view>& words);
 
-// The rule of a mapping that `reader` reads.
+// The rule for a mapping that `reader` reads.
 template <class T>
 class MappingOf {
  public:
   using Reader = void (*)(Keys&, T&);
   explicit MappingOf(Reader reader) : reader_(reader) {}
 
-  // The known keys are found by reading a mapping without any.
+  // Reads an empty mapping to find the known keys.
   [[nodiscard]] std::string allowed() const {
     Problems unheard("", "", {});
     Context context{unheard, {}};

@@ -12,10 +12,10 @@ namespace {
 struct Word {
   std::string_view american, british;
 };
-// All words of keys that have two spellings.
+// All words with two spellings that occur in keys.
 constexpr std::array words{Word{"center", "centre"}, Word{"linearization", "linearisation"}};
 
-// Words of a path are separated by underscores and dots.
+// Underscores and dots separate the words of a path.
 bool parts(char c) {
   return c == '_' || c == '.';
 }
@@ -48,7 +48,8 @@ std::string british(std::string_view path) {
 }
 
 std::optional<std::string> other_spelling(std::string_view name) {
-  // Most names have one spelling. A sweep asks for many of them, so no text is made for these.
+  // Most names have one spelling. A sweep looks up many names, so these return without making a
+  // string.
   const auto holds = [&](std::string_view word) {
     return name.find(word) != std::string_view::npos;
   };

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// American and British spellings of one key: center and centre.
+// American and British spellings of keys: center and centre.
 #pragma once
 
 #include <optional>
@@ -10,11 +10,11 @@
 
 namespace bbsim::yaml {
 
-// The same path of keys with its British words spelled the American way, and the other way round.
+// The path with all words in American spelling, or in British spelling.
 [[nodiscard]] std::string american(std::string_view path);
 [[nodiscard]] std::string british(std::string_view path);
 
-// The name in its other spelling, if it has two.
+// The name in its other spelling, if it has one.
 [[nodiscard]] std::optional<std::string> other_spelling(std::string_view name);
 
 }  // namespace bbsim::yaml

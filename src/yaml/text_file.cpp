@@ -21,7 +21,7 @@ constexpr int patience = 5000;  // ms
 
 class File {
  public:
-  // Non-blocking, for a pipe without a writer must not hold us up.
+  // Non-blocking, because opening a pipe without a writer would block.
   explicit File(const std::string& name)
       : descriptor_(name == "-" ? STDIN_FILENO
                                 : ::open(name.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK)) {}

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// A scenario file, a pipe or a device -> bytes.
+// Reads a scenario file, a pipe or a device.
 #pragma once
 
 #include <cstddef>
@@ -11,12 +11,12 @@ namespace bbsim::yaml {
 
 inline constexpr std::size_t largest_text = 1048576;  // bytes, 1 MiB
 
-// Reads a file, a pipe or a device, but never more than largest_text bytes, and never waits longer
-// than five seconds for the next ones. "-" is standard input, where somebody may be typing: that is
-// waited for. Throws InputError: "file: found ...; allowed: ...".
+// Reads at most largest_text bytes. Waits at most five seconds for each piece of data. "-" means
+// standard input, where a user may type: this waits without limit. Throws InputError with "file:
+// found ...; allowed: ...".
 [[nodiscard]] std::string read_text(const std::string& file);
 
-// What the file is called in messages.
+// The file's name in messages.
 [[nodiscard]] std::string name_in_messages(const std::string& file);
 
 }  // namespace bbsim::yaml

@@ -9,7 +9,7 @@
 namespace bbsim::yaml {
 namespace {
 
-// More than any scenario needs, and little memory.
+// More than any scenario needs, at little memory.
 constexpr std::size_t most_nodes = 100'000;
 
 }  // namespace
@@ -32,7 +32,7 @@ Node& TreeBuilder::add(Node::Kind kind, const YAML::Mark& mark) {
   return node;
 }
 
-// yaml-cpp gives untagged plain nodes the tag "?" or none, and quoted ones "!".
+// yaml-cpp gives plain nodes without a tag the tag "?" or none, and quoted nodes "!".
 void TreeBuilder::refuse_tag(const std::string& tag, const YAML::Mark& mark) const {
   if (tag.empty() || tag == "?" || tag == "!") return;
   throw TextFault(at(mark), "found a tag (a word after an exclamation mark); allowed: no tags");
@@ -46,7 +46,7 @@ void TreeBuilder::OnDocumentStart(const YAML::Mark& mark) {
 void TreeBuilder::OnNull(const YAML::Mark& mark, YAML::anchor_t anchor) {
   if (expects_key()) throw TextFault(at(mark), "found an empty key; allowed: a name");
   Node& node = add(Node::Kind::null, mark);
-  // Of a value that is left out the mark is that of whatever comes next, lines below.
+  // yaml-cpp gives a missing value the mark of the next token, which may be lines below.
   if (!open_.empty() && open_.back().key) {
     const Position& key = open_.back().key->position;
     if (key.line != node.position.line) node.position = key;

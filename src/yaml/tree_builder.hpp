@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// yaml-cpp's events -> nodes.
+// Builds nodes from yaml-cpp's events.
 #pragma once
 
 #include <yaml-cpp/eventhandler.h>
@@ -15,7 +15,7 @@
 
 namespace bbsim::yaml {
 
-// Builds the tree of one document; throws TextFault at what a scenario may not hold.
+// Builds the tree of one document. Throws TextFault for content that a scenario may not hold.
 class TreeBuilder : public YAML::EventHandler {
  public:
   TreeBuilder(int source, Nodes& nodes) : source_(source), nodes_(nodes) {}
@@ -40,10 +40,10 @@ class TreeBuilder : public YAML::EventHandler {
     std::string name;
     Position position;
   };
-  struct Open {  // a sequence or mapping whose end is still to come
+  struct Open {  // a sequence or mapping that has not ended
     Node* node;
     YAML::anchor_t anchor;
-    std::optional<Key> key;  // of a mapping: read, its value still to come
+    std::optional<Key> key;  // of a mapping: read, but without its value so far
   };
 
   [[nodiscard]] Position at(const YAML::Mark& mark) const;
@@ -59,7 +59,7 @@ class TreeBuilder : public YAML::EventHandler {
   const Node* root_ = nullptr;
   bool started_ = false;
   std::vector<Open> open_;
-  std::vector<const Node*> anchored_;  // by anchor; nullptr while the node is still open
+  std::vector<const Node*> anchored_;  // by anchor; nullptr while the node is open
 };
 
 }  // namespace bbsim::yaml

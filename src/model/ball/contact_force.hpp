@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The force of the plane on a ball that rolls without losses, and what it and the plate ask of the
-// motors, for every number type (docs/explanation/model.md, "Forces, torques and energy"). All
-// vectors in the plane's own frame.
+// The contact force on a ball that rolls without losses, and the motor torques for ball and plate,
+// for every number type (docs/explanation/model.md, "Forces, torques and energy"). All vectors are
+// in the plane's frame.
 #pragma once
 
 #include "model/ball/general_rolling.hpp"
@@ -25,8 +25,8 @@ template <class Real>
   return a.x * b.x + a.y * b.y + a.z * b.z;
 }
 
-// How the plane moves: the axes about which theta and phi turn it, the upward vertical, its angular
-// velocity and acceleration.
+// The plane's motion: the axes a_theta and a_phi about which the angles turn it, the upward
+// vertical, its angular velocity Omega and acceleration; (M15) to (M17).
 template <class Real>
 struct MovingPlane {
   double theta_axis[2];  // z: 0
@@ -52,9 +52,9 @@ template <class Real>
   return motion;
 }
 
-// The force over the ball's mass, m/s^2: its centre's acceleration and gravity. The ball is at
-// (x, y) in the plane, with the velocity and the acceleration there that `ball` and the last two
-// arguments say; r and the rig's height as in GeneralRolling.
+// The contact force over the ball's mass, m/s^2: (M5). x_ddot and y_ddot are the ball's
+// acceleration in the plane; `height` is that of the plane above the gimbal's center, r the ball's
+// radius (m).
 template <class Real, class Ball, class Scalar>
 [[nodiscard]] inline Vector3<Real> force_by_mass(const MovingPlane<Real>& plane, const Ball& ball,
                                                  const Real& x_ddot, const Real& y_ddot,
@@ -69,10 +69,10 @@ template <class Real, class Ball, class Scalar>
           2 * (omega.x * ball.y_dot - omega.y * ball.x_dot) + swung.z + turned.z + g * plane.up.z};
 }
 
-// What the motors turn beside the ball.
+// The bodies that the motors turn, without the ball.
 struct Turned {
   double inertia[3];            // of the plate about x, y and the normal, kg m^2
-  double imbalance;             // its mass times the height of its centre, kg m
+  double imbalance;             // mass times height of its center, kg m
   double with_phi, with_theta;  // moments of inertia of ring and rotors, kg m^2
 };
 
@@ -81,7 +81,7 @@ struct Torques {
   Real phi, theta;  // N m
 };
 
-// Of a moment about the gimbal's centre, what turns about phi's axis and about theta's.
+// The components of a moment about the gimbal's center along phi's and theta's axes.
 template <class Real>
 [[nodiscard]] inline Torques<Real> about_axes(const MovingPlane<Real>& plane,
                                               const Vector3<Real>& moment) {
@@ -89,7 +89,7 @@ template <class Real>
           plane.theta_axis[0] * moment.x + plane.theta_axis[1] * moment.y};
 }
 
-// What turns the plate itself, and what turns with it.
+// The motor torques for the plate, the ring and the rotors: (M45) and (M46) without the ball.
 template <class Real>
 [[nodiscard]] inline Torques<Real> plate_torques(const MovingPlane<Real>& plane,
                                                  const Axis<Real>& phi, const Axis<Real>& theta,

@@ -42,7 +42,8 @@ Vector3d packed(const Vector3<double>& a) {
   return {a.x, a.y, a.z};
 }
 
-// What forces, torques and energy are computed from. All vectors in the plane frame.
+// The quantities from which forces, torques and energy follow. All vectors are in the plane's
+// frame.
 struct Instant {
   Instant(const Sample& sample, const BallConstants& with)
       : constants(with),
@@ -64,7 +65,7 @@ struct Instant {
     velocity = Vector3d(ball.x_dot, ball.y_dot, 0);
   }
 
-  // The ball's acceleration in the plane, were the gimbal's motion this.
+  // The ball's acceleration in the plane for this motion of the gimbal.
   [[nodiscard]] Vector3d relative(const Axis<double>& p, const Axis<double>& t) const {
     const double r = constants.radius, g = constants.gravity;
     const RollingState<double, double, double> state{ball.x, ball.y, ball.x_dot, ball.y_dot,
@@ -86,13 +87,13 @@ struct Instant {
            push;
   }
 
-  // What the ball asks of the gimbal, about its centre.
+  // The moment about the gimbal's center that carries the ball.
   [[nodiscard]] Vector3d ball_moment(const Vector3d& force) const {
     const Vector3d moment = contact.cross(force);
     return coupled != nullptr ? Vector3d(moment + Vector3d(coupled->couple)) : moment;
   }
 
-  // What turns the plate itself, with what else the motors turn.
+  // The motor torques for the plate, the ring and the rotors.
   [[nodiscard]] Torques<double> of_plate() const {
     return plate_torques(plane, phi, theta, turned_by_motors(constants), constants.gravity);
   }
@@ -100,13 +101,13 @@ struct Instant {
   const BallConstants& constants;
   const GimbalState& gimbal;
   const BallMotion& ball;
-  Vector3d push;                 // on the ball's centre, N
-  const CoupledMotion* coupled;  // null where the ball rolls without losses
+  Vector3d push;                 // on the ball's center, N
+  const CoupledMotion* coupled;  // null if the ball rolls without losses
   Axis<double> phi, theta;
   MovingPlane<double> plane;
-  Vector3d theta_axis, phi_axis, up;   // up: against gravity
-  Vector3d omega;                      // of the plane
-  Vector3d contact, centre, velocity;  // of the ball; velocity in the plane
+  Vector3d theta_axis, phi_axis, up;   // up: the upward vertical
+  Vector3d omega;                      // of the plane, rad/s
+  Vector3d contact, centre, velocity;  // of the ball; velocity relative to the plane
 };
 
 }  // namespace

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Accelerations, contact force, motor torques and energy of one instant (docs/explanation/model.md,
+// Accelerations, contact force, motor torques and energy at an instant (docs/explanation/model.md,
 // "Forces, torques and energy").
 #pragma once
 
@@ -15,10 +15,10 @@ namespace bbsim::model {
 
 struct BallConstants {
   double radius = 0, mass = 1, gravity = 0;  // m, kg, m/s^2
-  bool papers_rig = true;                    // equation (27) holds; otherwise `rolling` does
+  bool papers_rig = true;                    // use equation (27); otherwise `rolling`
   GeneralRolling rolling{};
   std::array<double, 3> plate_inertia{0, 0, 0};  // about x, y and the normal, kg m^2
-  double plate_imbalance = 0;                    // mass times height of its centre, kg m
+  double plate_imbalance = 0;                    // mass times height of its center, kg m
   double ring_inertia = 0, rotor_inertia = 0;    // kg m^2
   struct Armature {
     double resistance = 0, torque_by_current = 1;  // ohm; N m/A, through the gear
@@ -30,21 +30,22 @@ struct BallConstants {
 [[nodiscard]] Turned turned_by_motors(const BallConstants& constants);
 
 struct Dynamics {
-  // Of the plane on the ball in the plane's frame, N; z is the normal force.
+  // Force of the plane on the ball in the plane's frame, N; z is the normal force.
   Eigen::Vector3d force{0, 0, 0};
   double torque_phi = 0;                            // motor torque that carries the ball, N m
   double torque_theta = 0;                          // N m
-  double kinetic_energy = 0, potential_energy = 0;  // J; the latter zero at the gimbal's centre
-  double plate_torque_phi = 0;                      // motor torque that turns the plate itself, N m
+  double kinetic_energy = 0, potential_energy = 0;  // J; potential: 0 at gimbal center
+  double plate_torque_phi = 0;                      // motor torque for the plate itself, N m
   double plate_torque_theta = 0;                    // N m
   double gimbal_energy = 0;           // of plate, ring and rotors, kinetic and potential, J
   double push_power = 0;              // of the push on the ball, W
-  CoupledMotion coupled{};            // all 0, and no sliding, where it rolls without losses
+  CoupledMotion coupled{};            // all 0 without losses and sliding
   Pair current{0, 0}, voltage{0, 0};  // of the motors, A and V
   [[nodiscard]] double energy() const { return kinetic_energy + potential_energy; }
   [[nodiscard]] double normal_force() const { return force.z(); }
   [[nodiscard]] double friction_force() const { return force.head<2>().norm(); }
-  // Of a ball that slides it is known, also where both forces vanish as it lifts off.
+  // While the ball slides, the ratio is the coefficient of sliding friction, even as both forces
+  // vanish at lift-off.
   [[nodiscard]] double friction_demand() const {
     return std::isnan(coupled.sliding) ? friction_force() / normal_force() : coupled.sliding;
   }
@@ -53,17 +54,17 @@ struct Dynamics {
 // The force of the plane on the ball in the plane's frame, N; z is the normal force.
 [[nodiscard]] Eigen::Vector3d contact_force(const Sample& sample, const BallConstants& constants);
 
-// All of it, from the state and the gimbal's motion alone.
+// All quantities, from the state and the gimbal's motion.
 [[nodiscard]] Dynamics dynamics(const Sample& sample, const BallConstants& constants);
 
-// Between the plane's normal and the vertical, rad; of the gimbal's angles alone.
+// The angle between the plane's normal and the vertical, rad. Needs only the gimbal's angles.
 [[nodiscard]] double tilt(const Sample& sample, const BallConstants& constants);
 
-// Size of the plane's angular velocity, rad/s; of the gimbal's angles and rates alone.
+// The magnitude of the plane's angular velocity, rad/s. Needs only the gimbal's angles and rates.
 [[nodiscard]] double tilt_rate(const Sample& sample, const BallConstants& constants);
 
-// The size of the determinant of the coefficients of (phi'', theta'') in (x'', y''), over r^2: 0
-// where they cannot be solved for. It is |7 r cos theta + 5 y sin theta| / (7 r): (28), (29).
+// det M| / r^2 with M the derivative of (x'', y'') with respect to (phi'', theta''): (M32). On the
+// paper's rig |7 r cos theta + 5 y sin theta| / (7 r): (28), (29). At 0, M is singular.
 [[nodiscard]] double singularity_distance(const Sample& sample, const BallConstants& constants);
 
 }  // namespace bbsim::model

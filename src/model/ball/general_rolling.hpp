@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The ball's equation of motion for rigs that are not the paper's: a plane above the gimbal's
-// centre, axes that are not square or not level, a ball of any inertia (docs/explanation/model.md,
-// "Other mountings and other balls").
+// The ball's equation of motion for rigs other than the paper's: a plane above the gimbal's center,
+// axes out of square or out of level, any moment of inertia (docs/explanation/model.md, "Other
+// mountings and other balls").
 #pragma once
 
 #include "model/ball/rolling.hpp"
@@ -11,9 +11,9 @@
 
 namespace bbsim::model {
 
-// The plane's motion is that of Ry(phi) Rz(skew) Rx(theta) Rz(yaw - skew), on a base that is tilted
-// about the x axis. Of the plane, in its own frame: the axes about which theta and phi turn it,
-// how the second moves with theta, and the upward vertical.
+// The plane's kinematics for R = Ry(phi) Rz(skew) Rx(theta) Rz(yaw - skew) on a base tilted about
+// its x axis, in the plane's frame: (M15) to (M17). phi_axis_slope is the derivative of phi_axis
+// with respect to theta.
 template <class Theta, class Both>
 struct PlaneKinematics {
   double theta_axis[2];  // z: 0
@@ -21,11 +21,10 @@ struct PlaneKinematics {
   Both up[3];
 };
 
-// Takes the place of Equation27 in a system. With the paper's rig it is equation (27) in exact
-// arithmetic, and differs from it by rounding.
+// Replaces Equation27 in a system. For the paper's rig it equals (27) up to rounding.
 struct GeneralRolling {
-  double k = 0.4;     // the ball's moment of inertia over m r^2
-  double height = 0;  // of the plane of contact above the gimbal's centre, m
+  double k = 0.4;     // kappa: the ball's moment of inertia over m r^2
+  double height = 0;  // of the contact plane above the gimbal's center, m
   double cos_skew = 1, sin_skew = 0;
   double cos_turn = 1, sin_turn = 0;  // of yaw - skew
   double cos_base = 1, sin_base = 0;
@@ -47,7 +46,7 @@ struct GeneralRolling {
     plane.phi_axis_slope[0] = -((cos_skew * sin_turn) * s);
     plane.phi_axis_slope[1] = -((cos_skew * cos_turn) * s);
     plane.phi_axis_slope[2] = -(cos_skew * c);
-    // Down the chain of rotations, from the base to the plane.
+    // Rotates the vertical from the base to the plane, one rotation at a time.
     const B x0 = B(-(cos_base * phi.sin)), y0 = B(sin_base), z = B(cos_base * phi.cos);
     const B x1 = cos_skew * x0 + sin_skew * y0, y1 = cos_skew * y0 - sin_skew * x0;
     const B y2 = y1 * B(c) + z * B(s);
@@ -62,8 +61,8 @@ struct GeneralRolling {
     Real x, y, u;  // x'', y'' and u' = r gamma'', m/s^2
   };
 
-  // Newton's and Euler's equations of the ball in the plane's frame, the contact's force
-  // eliminated: (M18) to (M20). Shapes, units and symbols as in model/ball/rolling.hpp.
+  // Newton's and Euler's equations of the ball in the plane's frame, with the contact force
+  // eliminated: (M18) to (M20). Arguments as in model/ball/rolling.hpp.
   template <class Real, class Phi, class Theta, class Ball>
   [[nodiscard]] Rates<Real> rates(const Phi& phi, const Theta& theta, const Ball& ball, double r,
                                   double g) const {
@@ -80,7 +79,7 @@ struct GeneralRolling {
     const double above = r + height;
     const T squared = omega[0] * omega[0] + omega[1] * omega[1] + omega[2] * omega[2];
     const Real along = omega[0] * ball.x + omega[1] * ball.y + above * omega[2];
-    // The centre's acceleration without x'' and y'', plus gravity.
+    // A_x + g up_x and A_y + g up_y: the center's acceleration without x'' and y'', plus gravity.
     const Real x_rest = -(2 * (omega[2] * ball.y_dot)) + above * omega_dot[1] -
                         omega_dot[2] * ball.y + omega[0] * along - squared * ball.x +
                         g * plane.up[0];
@@ -96,7 +95,7 @@ struct GeneralRolling {
   }
 };
 
-// Whether the rig is the paper's, which equation (27) describes.
+// Whether the rig is the paper's, to which equation (27) applies.
 [[nodiscard]] bool is_the_papers(const Scenario& scene);
 
 [[nodiscard]] GeneralRolling general_rolling(const Scenario& scene);

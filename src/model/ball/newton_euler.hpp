@@ -1,17 +1,16 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Newton's and Euler's equations of a ball under couples and friction at its contact, and the
-// moments that it and the plate ask of the gimbal (docs/explanation/losses-and-torques.md).
+// Newton's and Euler's equations of a ball with couples and friction at its contact, and the
+// moments for ball and plate about the gimbal (docs/explanation/losses-and-torques.md).
 //
-// Everything follows linearly from what drives the motion, a Cause: so the same function gives the
-// accelerations of a given gimbal, the inertia that a gimbal moved by torques feels, and the force
-// and couple of each. What is dry is a direction here: when directions change is DrySwitches'
-// matter.
+// All results are linear in a Cause. One function therefore gives the accelerations on a prescribed
+// gimbal, the columns of the inertia H of (M47), and the contact's force and couple. Dry friction
+// acts along fixed or moving directions here; DrySwitches decides when they change.
 //
-// Of vectors along the plane, those of the couple and of the ball's rotation are kept turned by a
-// quarter, so that they stand beside the velocity that they act on: p = (r omega_y, -r omega_x),
-// the velocity at which the ball would roll, and (C_y, -C_x) / (m r), an acceleration.
+// Couples and rotations along the plane are stored rotated by a quarter turn, so that they are
+// parallel to the velocities: p = (r omega_y, -r omega_x) is the velocity at which the ball would
+// roll, and (C_y, -C_x) / (m r) is an acceleration.
 #pragma once
 
 #include "base/real.hpp"
@@ -20,7 +19,7 @@
 
 namespace bbsim::model {
 
-// What the contact can do beside rolling.
+// The losses at the contact.
 struct ContactLaw {
   double rolling = 0;   // coefficient of rolling resistance
   double viscous = 0;   // c_v / (m r^2), 1/s
@@ -29,21 +28,21 @@ struct ContactLaw {
   friend bool operator==(const ContactLaw&, const ContactLaw&) = default;
 };
 
-// What something dry opposes: the direction of a velocity, or one that is held while the velocity
-// is too small to have one. `along` is near the former, and says which way is forward: a motion
-// that comes to its end goes smoothly on beyond it, until the end is found.
+// The direction that dry friction opposes: that of the velocity, or a fixed one while the velocity
+// is too small to have a direction. `along` is close to the velocity's direction and gives its
+// sign. A motion that comes to rest thus continues smoothly past zero until its end is located.
 struct DryDirection {
-  double moving = 0;  // 1: the velocity's; 0: `along`
+  double moving = 0;  // 1: use the velocity's direction; 0: use `along`
   double along[2] = {0, 0};
 };
 
-// What holds between two switches.
+// The contact's mode, constant between two switches.
 struct ContactMode {
   bool slides = false;  // otherwise the ball rolls, and p is the velocity
   bool rests = false;   // rolling resistance keeps p at zero
   bool held = false;    // pivoting friction keeps the spin at zero
   DryDirection roll, slip;
-  double turns = 0;  // sign of the spin that pivoting friction opposes
+  double turns = 0;  // sign of the spin, which pivoting friction opposes
 };
 
 template <class Real>
@@ -60,39 +59,39 @@ void direction(const DryDirection& of, const Real& x, const Real& y, Real (&into
   into[1] = of.moving * (y / size) + Real(still * of.along[1]);
 }
 
-// The plate, the ring that turns with phi alone, and the motors' rotors through their gears.
+// The bodies that turn with the gimbal: the plate, the ring (with phi only), and the rotors.
 struct GimbalBody {
-  double plate[3] = {0, 0, 0};  // moments about the gimbal's centre, along the plane's axes, kg m^2
-  double imbalance = 0;         // mass times height of its centre along the normal, kg m
+  double plate[3] = {0, 0, 0};  // moments about the gimbal's center, along the plane's axes, kg m^2
+  double imbalance = 0;         // mass times height of its center along the normal, kg m
   double ring = 0, rotor = 0;   // kg m^2
 };
 
-// The plane's motion, without what phi'' and theta'' add to it.
+// The plane's motion without the contributions of phi'' and theta''.
 template <class Real>
 struct PlaneMotion {
   Real phi_axis[3], theta_axis[3], up[3];
   Real omega[3], omega_dot[3];
 };
 
-// What the accelerations follow from.
+// The terms that determine the accelerations linearly.
 template <class Real>
 struct Cause {
   Real omega_dot[3];  // of the plane, rad/s^2
-  Real rest[3];       // the centre's acceleration without those of x, y and the plane, plus g up
-  Real turn[3];       // r times Omega x omega of the ball relative to the plane, m/s^2
+  Real rest[3];       // A + g up without the terms in Omega'; m/s^2
+  Real turn[3];       // r (Omega x omega_r), m/s^2
   Real drag[2];       // of the viscous couple, m/s^2
 };
 
-// What follows, over the ball's mass.
+// The results. Forces and couples are divided by the ball's mass.
 template <class Real>
 struct Answer {
   Real x, y, u;    // x'', y'' and u' = r gamma'', m/s^2
-  Real slip[2];    // rate of the slip velocity, m/s^2
+  Real slip[2];    // derivative of the slip velocity, m/s^2
   Real force[3];   // of the plane on the ball, m/s^2
   Real couple[3];  // (C_y, -C_x, C_n) / (m r), m/s^2
 };
 
-// The ball of one scene.
+// The constants of a scene, and its equations.
 struct CoupledBall {
   double r = 0, m = 1, g = 0;
   GeneralRolling rolling{};
@@ -116,7 +115,8 @@ struct CoupledBall {
     return plane;
   }
 
-  // All but phi'' and theta''. `p` is the rolling velocity: that of the ball less the slip.
+  // All terms except those of phi'' and theta''. `p` is the rolling velocity: the ball's velocity
+  // minus the slip.
   template <class Real, class Ball>
   [[nodiscard]] Cause<Real> cause(const PlaneMotion<Real>& plane, const Ball& ball,
                                   const Real (&p)[2]) const {
@@ -138,7 +138,7 @@ struct CoupledBall {
     return cause;
   }
 
-  // What an axis' acceleration alone is the cause of, 1 rad/s^2.
+  // The Cause of an acceleration of 1 rad/s^2 about one axis alone.
   template <class Real>
   [[nodiscard]] static Cause<Real> of_axis(const Real (&axis)[3]) {
     const Real none = Real(0.0);
@@ -197,7 +197,7 @@ struct CoupledBall {
     return answer;
   }
 
-  // The power that couples and friction take from ball and plate, W. What rests takes none.
+  // The power lost to couples and friction, W. Parts at rest lose none.
   template <class Real, class Ball>
   [[nodiscard]] Real lost_power(const ContactMode& mode, const Answer<Real>& of, const Ball& ball,
                                 const Real (&p)[2], const Real (&slip)[2]) const {
@@ -208,8 +208,8 @@ struct CoupledBall {
     return -(m * power);
   }
 
-  // The moment that plate and ball ask for, about an axis, N m; without ring and rotors. Of a cause
-  // that has all of the plane's motion, and of one that is an axis' acceleration alone.
+  // The moment for plate and ball about an axis, N m: the terms of (M45) linear in the Cause,
+  // without ring and rotors. `from` is either the full Cause or that of one axis.
   template <class Real, class Ball>
   [[nodiscard]] Real moment(const Real (&axis)[3], const Cause<Real>& from, const Answer<Real>& of,
                             const Ball& ball) const {
@@ -223,7 +223,7 @@ struct CoupledBall {
            axis[2] * (z + body.plate[2] * from.omega_dot[2]);
   }
 
-  // What the plate's turning and its weight ask for beside that, about an axis, N m.
+  // The remaining terms of (M45) about an axis, N m: the plate's gyroscopic moment and its weight.
   template <class Real>
   [[nodiscard]] Real own_moment(const Real (&axis)[3], const PlaneMotion<Real>& plane) const {
     const auto& w = plane.omega;

@@ -1,11 +1,10 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Equation (27): a ball that rolls without slipping on a plane carried by a two-axis gimbal.
+// Equation (27): a ball that rolls without slipping on a plane with a two-axis gimbal.
 //
-// Symbols as in docs/explanation/model.md, which numbers the equations. The spin enters as u = r
-// gamma', a speed like x' and y': gamma' itself grows as 1/r and would spoil the scaling for small
-// balls.
+// Symbols as in docs/explanation/model.md. The spin enters as the speed u = r gamma', which has the
+// size of x' and y'. gamma' itself grows as 1/r and would spoil the scaling for small balls.
 #pragma once
 
 #include "base/real.hpp"
@@ -13,20 +12,20 @@
 
 namespace bbsim::model {
 
-// One gimbal angle: its sine and cosine, its rate (rad/s) and acceleration (rad/s^2).
+// A gimbal angle (rad): its sine and cosine, its rate (rad/s) and acceleration (rad/s^2).
 template <class Real>
 struct Axis {
   Real sin, cos, rate, acceleration;
 };
 
-// An angle that is zero throughout.
+// An angle that is zero at all times.
 struct LockedAxis {
   Zero sin;
   One cos;
   Zero rate, acceleration;
 };
 
-// The ball in the plane's own frame: contact point (m), its velocity (m/s), u = r gamma' (m/s).
+// The ball in the plane's frame: contact point (m), its velocity (m/s), u = r gamma' (m/s).
 template <class X, class Y, class U>
 struct RollingState {
   X x;
@@ -36,12 +35,12 @@ struct RollingState {
   U u;
 };
 
-// The three rows of equation (27), solved for x'' (m/s^2), y'' (m/s^2) and u' = r gamma'' (m/s^2).
+// The three rows of equation (27), solved for x'', y'' and u' = r gamma'' (m/s^2).
 //
-// r is the ball's radius (m) and g is gravity (m/s^2), of type Scalar: a double, or a pack of them
-// with another ball in each lane. Real is the type of the result: double, a dual number, a pack of
-// lanes, a 128-bit float; the arguments may be any types that combine to it, Zero and One among
-// them.
+// r is the ball's radius (m) and g gravity (m/s^2). Their type Scalar is double, or a pack with
+// another ball in each lane. Real is the type of the result: double, a dual number, a pack of
+// lanes, or a 128-bit float. The arguments may have any types that combine to it, including Zero
+// and One.
 template <class Real, class Phi, class Theta, class Ball, class Scalar>
 [[nodiscard]] inline Real x_acceleration(const Phi& phi, const Theta& theta, const Ball& ball,
                                          const Scalar& r, const Scalar& g) {

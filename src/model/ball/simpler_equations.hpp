@@ -1,17 +1,17 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Simpler equations for the ball than (27), to measure what the full one buys.
+// Simpler equations for the ball than (27), for measuring the effect of the full equation.
 //
-// Each is a policy for the systems of model/systems/system.hpp in the place of Equation27. In both
-// the spin stays as it is.
+// Each is a policy for the systems of model/systems/system.hpp and replaces Equation27. In both,
+// the spin stays constant.
 #pragma once
 
 #include "model/ball/rolling.hpp"
 
 namespace bbsim::model {
 
-// A ball rolling down the slope of the moment, as if the plane stood still.
+// A ball that rolls down the present slope as if the plane stood still.
 struct SlopeOnly {
   template <class Real, class Phi, class Theta, class Ball>
   static Real x(const Phi& phi, const Theta&, const Ball&, double, double g) {
@@ -27,8 +27,8 @@ struct SlopeOnly {
   }
 };
 
-// The ball and plate of control textbooks: slope and centrifugal terms, but neither the rolling
-// inertia that a turning plane sees, nor the spin, nor the accelerations of the gimbal.
+// The textbook ball and plate: slope and centrifugal terms, without the effect of the plane's
+// rotation on the rolling inertia, without the spin, and without the gimbal's accelerations.
 struct BallAndPlate {
   template <class Real, class Phi, class Theta, class Ball>
   static Real x(const Phi& phi, const Theta& theta, const Ball& ball, double, double g) {

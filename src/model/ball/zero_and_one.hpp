@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Numbers known at compile time, so that a term which a scene does not have is not computed.
+// Zero and One as types, so that the compiler drops terms that a scene does not have.
 //
-// A planar scene passes Zero for the coordinates that stay zero, and One for the cosine of an
-// angle that does: equation (27) then loses those terms in the compiler, not in a second formula.
+// A planar scene passes Zero for coordinates that stay zero, and One for the cosine of an angle
+// that stays zero. This keeps one formula for equation (27).
 #pragma once
 
 #include <type_traits>
@@ -27,8 +27,8 @@ concept Known = std::is_same_v<T, Zero> || std::is_same_v<T, One>;
 template <class T>
 concept Number = !Known<T>;
 
-// Inlined at every level of optimisation: these have no type of a number in their names, so that
-// a copy compiled for one instruction set could otherwise be linked into code for another.
+// Always inlined. These functions have no number type in their names; otherwise the linker could
+// use a copy compiled for one instruction set in code for another.
 [[gnu::always_inline]] constexpr Zero operator*(Zero, Zero) {
   return {};
 }

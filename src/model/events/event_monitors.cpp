@@ -52,7 +52,7 @@ void EventMonitors::append_scales(std::vector<double>& scales) const {
         scales.push_back(weight);
         break;
       case Kind::edge:
-        scales.push_back(edge_margin({}));  // at the plate's centre
+        scales.push_back(edge_margin({}));  // the margin at the plate's center
         break;
       case Kind::tilt:
       case Kind::singularity:
@@ -82,7 +82,7 @@ void EventMonitors::margins(const Sample& sample, double* values) const {
         value = monitor.limit * now.normal_force() - now.friction_force();
         break;
       case Kind::lift_off:
-        // No force at all is none that holds it.
+        // A force of exactly zero does not hold the ball.
         value = now.normal_force() != 0 ? now.normal_force() : -std::numeric_limits<double>::min();
         break;
       case Kind::tilt:
@@ -106,14 +106,14 @@ EventMonitors event_monitors(const Scenario& scene) {
   if (events.slip && !events.slip->sliding) {
     list.monitors.push_back({Kind::slip, events.slip->action, events.slip->friction});
   }
-  // Friction in proportion to a negative normal force would drive the ball.
+  // Friction proportional to a negative normal force would drive the ball.
   const bool in_proportion =
       scenario::has_dry_losses(scene) || (events.slip && events.slip->sliding);
   if (events.lift_off || in_proportion) {
     list.monitors.push_back({Kind::lift_off, events.lift_off.value_or(OnEvent::stop)});
   }
-  // Feedback linearisation leaves the tilt unstable: it ends in the plane turning over and over,
-  // ever faster.
+  // Feedback linearization leaves the tilt unstable. Without this event, the plane would turn over
+  // faster and faster.
   const bool inverts = scene.controller && scene.controller->law == Law::feedback_linearisation;
   if (events.tilt || inverts) {
     const TiltEvent limit = events.tilt.value_or(TiltEvent{std::numbers::pi / 2, OnEvent::stop});
@@ -123,7 +123,7 @@ EventMonitors event_monitors(const Scenario& scene) {
     const SingularityEvent guard = events.singularity.value_or(SingularityEvent{});
     list.monitors.push_back({Kind::singularity, guard.action, guard.distance});
   }
-  // There is no motion beyond it.
+  // The model has no motion beyond a dead point.
   if (scenario::is_linked(scene)) list.monitors.push_back({Kind::dead_point, OnEvent::stop});
   return list;
 }

@@ -12,7 +12,7 @@
 
 namespace bbsim::model {
 
-// Something that is watched: `margin` falls through zero when it happens.
+// An event, which occurs when its margin falls through zero.
 struct Monitor {
   enum class Kind { edge, slip, lift_off, tilt, singularity, dead_point };
   Kind kind;
@@ -22,24 +22,23 @@ struct Monitor {
   [[nodiscard]] const char* name() const;
 };
 
-// All that a run is watched for.
+// All events of a scene.
 struct EventMonitors {
   std::vector<Monitor> monitors;
   Plate plate;
   BallConstants constants;
 
-  // The size of each monitor's quantity: appends one of each.
+  // Appends the scale of each monitor's margin.
   void append_scales(std::vector<double>& scales) const;
 
-  // Tells how far each monitor is from happening: negative once it does.
+  // Writes each monitor's margin, negative beyond the event.
   void margins(const Sample& sample, double* values) const;
 
  private:
   [[nodiscard]] double edge_margin(const Sample& sample) const;
 };
 
-// Those that the scene asks for, and those that it has to have. A linkage that has dead points is
-// watched for them.
+// The events of the scenario and those that the model requires, such as dead points of a linkage.
 [[nodiscard]] EventMonitors event_monitors(const Scenario& scene);
 
 }  // namespace bbsim::model

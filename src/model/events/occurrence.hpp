@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Something that was watched for and happened.
+// An event that occurred.
 #pragma once
 
 #include <string>
@@ -13,10 +13,10 @@ namespace bbsim::model {
 
 struct Occurrence {
   double t = 0;               // s
-  std::string name;           // as the scenario's key under events
-  bool stopped = false;       // the run
-  Sample sample;              // without Sample::own, which stands here:
-  std::vector<double> own{};  // of one's own controller
+  std::string name;           // the key in the scenario's events
+  bool stopped = false;       // it stopped the run
+  Sample sample;              // without Sample::own; see `own`
+  std::vector<double> own{};  // numbers of an external controller
 };
 
 }  // namespace bbsim::model

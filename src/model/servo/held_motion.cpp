@@ -16,7 +16,7 @@ namespace {
 
 constexpr double never = std::numeric_limits<double>::infinity();
 
-// The answer at t by its terms, term(n) for c_n, one after the other.
+// Sums the series of the response at t, where term(n) gives c_n in order.
 template <class Term>
 ImpulseAnswer sum_of(double t, Term term) {
   double value = 1, slope = 1, integral = 0.5, before = 1;
@@ -31,8 +31,8 @@ ImpulseAnswer sum_of(double t, Term term) {
   return {t * t * integral, t * value, slope};
 }
 
-// Without a sine or an exponential, and without a difference of numbers that are nearly one. For
-// times that are short beside those of the law.
+// The series needs no sine and no exponential, and has no cancellation. It suits times that are
+// short for the law.
 ImpulseAnswer by_series(const HeldLaw& law, double t) {
   const double d = law.damping * t, k = law.stiffness * t * t;
   double last = 1, before = 0;
@@ -42,7 +42,7 @@ ImpulseAnswer by_series(const HeldLaw& law, double t) {
   });
 }
 
-// Half the damping; and the rate at which the two exponentials of h part, or at which it turns.
+// The law's eigenvalues: -decay +- the square root of the discriminant.
 struct Spectrum {
   explicit Spectrum(const HeldLaw& law)
       : decay(law.damping / 2), discriminant(decay * decay - law.stiffness) {}
@@ -72,10 +72,10 @@ ImpulseAnswer answer(const HeldLaw& law, double t) {
                               ? (1 - slope - law.damping * value) / law.stiffness
                           : law.stiffness == 0 ? (t - value) / law.damping
                                                : never;
-  const bool is_soft = law.stiffness * t * t <= 1;  // and is a number
+  const bool is_soft = law.stiffness * t * t <= 1;  // false for NaN
   if (integral < never || !is_soft) return {integral, value, slope};
-  // A soft spring behind strong damping: the steps of the series would not end, and both quotients
-  // lose digits. Half the time, twice: h and its integral of a sum of times.
+  // With low stiffness and strong damping, the series does not converge and both quotients lose
+  // digits. Doubles the response at half the time by the addition formulas for h and its integral.
   const ImpulseAnswer half = answer(law, t / 2);
   const double turned = half.slope + law.damping * half.value;
   return {half.integral + turned * half.integral + half.value * half.value, value, slope};
@@ -111,8 +111,8 @@ HeldMotion held_motion(const ServoResponse& servo, const AxisMode& mode, double 
   return motion;
 }
 
-// An oscillator's energy does not grow, and a servo without a spring changes its rate by no more
-// than its first acceleration says.
+// The energy of an oscillator does not grow. Without stiffness, the rate changes by at most the
+// first acceleration times the time.
 MotionReach reach(const HeldMotion& motion, double end) {
   const double k = motion.law.stiffness;
   if (k > 0) {
@@ -126,7 +126,7 @@ MotionReach reach(const HeldMotion& motion, double end) {
 
 namespace {
 
-// The times at which the line's slope, a h'(t) + b h(t), is zero, in turn.
+// The successive times at which the line's slope, a h'(t) + b h(t), is zero.
 class Turns {
  public:
   Turns(const MotionLine& line, const HeldMotion& motion) {
@@ -135,17 +135,17 @@ class Turns {
     const double a = line.by_angle * motion.rate + line.by_rate * motion.acceleration;
     const double b = line.by_angle * (motion.acceleration + law.damping * motion.rate) -
                      line.by_rate * law.stiffness * motion.rate;
-    const double with = a * of.decay - b;  // a (h'/h + decay) = with
+    const double with = a * of.decay - b;  // at a turn: a (h'/h + decay) = with
     if (of.discriminant < 0) {
       const double turn = std::sqrt(-of.discriminant);
       if (a == 0 && b == 0) return;
-      double phase = std::atan2(a * turn, with);  // tan(turn t)
+      double phase = std::atan2(a * turn, with);  // turn t, by its tangent
       if (phase <= 0) phase += std::numbers::pi;
       next_ = phase / turn;
       period_ = std::numbers::pi / turn;
       return;
     }
-    const double when = a / with;  // where both exponentials are one
+    const double when = a / with;  // the limit for a zero discriminant
     if (!(when > 0)) return;
     const double part = std::sqrt(of.discriminant) * when;
     next_ = part < 1e-5 ? when * (1 + part * part / 3)
@@ -160,12 +160,12 @@ class Turns {
   double next_ = never, period_ = never;
 };
 
-// A function and its slope.
+// A value and its slope.
 struct Fall {
   double value, slope;
 };
 
-// About where the cubic with these values and slopes at 0 and 1 passes zero.
+// An approximate root of the cubic with these values and slopes at 0 and 1.
 double guess(const Fall& first, const Fall& last) {
   const double rise = last.value - first.value;
   const double square = 3 * rise - 2 * first.slope - last.slope;
@@ -180,14 +180,14 @@ double guess(const Fall& first, const Fall& last) {
   return s;
 }
 
-// A function and three of its derivatives.
+// A value and its first three derivatives.
 struct Local {
   double value, slope, curve, third;
 };
 
-// The way from there to the root, by the series of the inverse function, and how far it may be out:
-// what comes after its last term is less than a quarter of that term's parts. They do not vanish
-// together, but of a line.
+// The distance to the root by the series of the inverse function, and a bound on its error. The
+// terms left out are less than a quarter of the parts of the last term. Both parts vanish together
+// only for a straight line.
 struct Way {
   double step, doubt;
 };
@@ -200,10 +200,10 @@ Way way_to_root(const Local& at) {
   return {newton * (1 - bend + bent - twist), std::abs(newton) * (bent + std::abs(twist)) / 4};
 }
 
-// The first time in (from, to] at which a falling function is not positive, to a rounding; it is at
-// `from`, and is not at `to`, where it is `first` and `last`. Steps that are in doubt go beyond
-// where they have come by as much, so that the root is enclosed; a bisection after two that do not
-// halve.
+// The first time in (from, to], up to rounding, at which a falling function is not positive. It is
+// positive at `from` and not at `to`, with `first` and `last` there. A step with a doubtful error
+// goes beyond the estimate by the error, so that it encloses the root. Bisects after two steps that
+// do not halve the bracket.
 template <class Function>
 double root(Function function, double start, double from, Fall first, double to, Fall last) {
   const double length = to - from;
@@ -230,14 +230,14 @@ double root(Function function, double start, double from, Fall first, double to,
   return to;
 }
 
-// Whether the line turns at most once within a time: the next one comes half a swing later.
+// Whether the line turns at most once within the time: turns are half a period apart.
 bool turns_once(const HeldLaw& law, double time) {
   constexpr double pi = std::numbers::pi;
   return -Spectrum(law).discriminant * time * time < pi * pi;
 }
 
-// Whether the line's slope is below zero by more than its terms' roundings. What has died away to
-// next to the smallest of numbers has no slope to go by.
+// Whether the line's slope is negative by more than the rounding of its terms. A motion that has
+// decayed to nearly the smallest double has no reliable slope.
 bool falls_clearly(const MotionLine& line, const HeldMotion& motion, const ImpulseAnswer& at,
                    double slope) {
   constexpr double rounding = 1e-12, nothing = 1e-280;
@@ -274,7 +274,7 @@ double first_fall(const MotionLine& line, const HeldMotion& motion, double clear
     threshold = std::min(0.0, now.value) - clearly;
     now.value -= threshold;
   } else if (turns_once(motion.law, end)) {
-    // Mostly the line's ends tell: by its slopes there it does not dip between.
+    // The common case: by the slopes at its ends, the line has no dip in between.
     const ImpulseAnswer& at_end = answers.at_end(motion.law, end);
     const Fall last = fall(motion.after(at_end));
     if (last.value > 0 && (now.slope >= 0 || falls_clearly(line, motion, at_end, last.slope))) {
@@ -286,7 +286,7 @@ double first_fall(const MotionLine& line, const HeldMotion& motion, double clear
   }
   if (reach(motion, end).least(line) > clearly) return never;
   Turns turns(line, motion);
-  // From turn to turn the line goes one way.
+  // Between two turns the line is monotonic.
   while (from < end) {
     const double to = std::min(turns.next(), end);
     turns.pass();

@@ -1,18 +1,17 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// A servo between two switches under a command that is held: its motion in closed form.
+// The motion of a servo under a held command between two switches, in closed form.
 //
-// In every mode of a rig (free, of first or second order; at its acceleration limit; at its rate
-// limit; at a stop) it moves as
+// In every mode of a servo (free, of first or second order; at its acceleration limit, its rate
+// limit, or a stop) it obeys
 //     q'' = push - damping q' - stiffness q
-// with constants. With a = q''(0) of the start, and h the answer to an impulse (h'' + damping h' +
-// stiffness h = 0, h(0) = 0, h'(0) = 1), g its integral:
+// with constant coefficients. Let a = q''(0), let h be the impulse response (h'' + damping h' +
+// stiffness h = 0, h(0) = 0, h'(0) = 1), and g the integral of h. Then
 //     q   = q(0) + (h + damping g) q'(0) + g a
 //     q'  = (h' + damping h) q'(0) + h a
 //     q'' = -stiffness h q'(0) + h' a
-// which has no case of its own for any of them, and loses nothing where damping or stiffness
-// vanish.
+// These hold in all modes, and stay accurate as damping or stiffness vanish.
 #pragma once
 
 #include <cmath>
@@ -28,21 +27,21 @@ struct HeldLaw {
   bool operator==(const HeldLaw&) const = default;
 };
 
-// h, its derivative and its integral.
+// The impulse response h with its integral and its derivative.
 struct ImpulseAnswer {
   double integral = 0, value = 0, slope = 1;  // s^2, s, 1
 };
 
-// Whether the power series of the answer has at most some twenty terms at `time` (s), and none that
-// is much larger than their sum.
+// Whether the power series of the response has at most about twenty terms at `time` (s), and none
+// that is much larger than the sum.
 [[nodiscard]] inline bool suits_series(const HeldLaw& law, double time) {
   return law.damping * time <= 1.5 && law.stiffness * time * time <= 1;
 }
 
-// At `time` (s) after the impulse.
+// The response at `time` (s) after the impulse.
 [[nodiscard]] ImpulseAnswer answer(const HeldLaw& law, double time);
 
-// Of one servo from some instant on.
+// The motion of one servo from a given instant on.
 struct HeldMotion {
   HeldLaw law;
   double angle = 0, rate = 0, acceleration = 0;  // at the start
@@ -58,11 +57,11 @@ struct HeldMotion {
   }
 };
 
-// In the present mode, from an angle and a rate on.
+// The motion in the given mode from an angle (rad) and a rate (rad/s).
 [[nodiscard]] HeldMotion held_motion(const ServoResponse& servo, const AxisMode& mode,
                                      double command, double angle, double rate);
 
-// Something that depends on the motion alone: constant + by_angle q + by_rate q'.
+// A linear function of the motion: constant + by_angle q + by_rate q'.
 struct MotionLine {
   double constant, by_angle = 0, by_rate = 0;
 
@@ -71,7 +70,7 @@ struct MotionLine {
   }
 };
 
-// Where a motion stays for a time: |angle - centre| <= angle_most, |rate| <= rate_most.
+// Bounds on the motion over a time: |angle - centre| <= angle_most, |rate| <= rate_most.
 struct MotionReach {
   double centre, angle_most, rate_most;
 
@@ -81,8 +80,8 @@ struct MotionReach {
   }
 };
 [[nodiscard]] MotionReach reach(const HeldMotion& motion, double end);
-// The same of a servo with a spring, without taking a root, and up to 1.42 times wider. `root` is
-// that of the stiffness.
+// Bounds for a servo with positive stiffness, without a square root, and up to 1.42 times wider.
+// `root` is the square root of the stiffness.
 [[nodiscard]] inline MotionReach reach_about(const HeldMotion& motion, double root) {
   const double inverse = 1 / root;
   const double spring =
@@ -91,9 +90,9 @@ struct MotionReach {
   return {motion.angle + spring, most, most * root};
 }
 
-// Answers of the law that was last asked for, by the coefficients of its series in powers of the
-// time: no term waits for the one before. And the last one at the end of what is looked at, which
-// lines and servos mostly have in common.
+// Caches series coefficients of the last law's impulse response, so that no term waits for the one
+// before. Also caches the last response at the end of an interval, which most lines and servos
+// share.
 class KnownAnswers {
  public:
   [[nodiscard]] ImpulseAnswer at(const HeldLaw& law, double time);
@@ -110,13 +109,14 @@ class KnownAnswers {
   HeldLaw ending_, law_;
   double end_ = 0;
   ImpulseAnswer answer_;
-  int known_ = 0;                           // coefficients after the first one
-  double coefficients_[most_terms + 1]{1};  // of law_: those of h(t) / t
+  int known_ = 0;                           // of coefficients_, after the first
+  double coefficients_[most_terms + 1]{1};  // of h(t) / t for law_
 };
 
-// The first time within (0, end] at which the line falls to zero, s; infinite if it does not. If it
-// starts no more than `clearly` above zero, it has to fall clearly below, or to have risen clearly
-// above before. To the rounding of the time, which counts from `start`.
+// The first time within (0, end] at which the line falls to zero, s; infinite if it does not fall.
+// If it starts no more than `clearly` above zero, it must fall by `clearly` below zero and below
+// its start, unless it rises above `clearly` first. Exact up to the rounding of the time `start` +
+// t.
 [[nodiscard]] double first_fall(const MotionLine& line, const HeldMotion& motion, double clearly,
                                 double start, double end, KnownAnswers& answers);
 

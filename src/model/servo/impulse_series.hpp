@@ -1,17 +1,18 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The power series of what a servo answers to an impulse (held_motion.hpp), once for every number
-// type: h = t (c_0 + c_1 + ...), c_0 = 1.
+// The power series of a servo's impulse response (held_motion.hpp) for every number type: h = t
+// (c_0 + c_1 + ...), c_0 = 1.
 //
-// Kernels use it with packs alone, and so each has tables of its own.
+// The tables are templates on the number type. Kernels use them with packs, so each kernel has its
+// own copy.
 #pragma once
 
 namespace bbsim::model {
 
 inline constexpr int most_terms = 40;
 
-// 1, 1, 1/2, 1/3, ...: products are cheaper than quotients.
+// 1, 1, 1/2, 1/3, ... Multiplication is faster than division.
 struct TermParts {
   double of[most_terms + 3]{1};
   consteval TermParts() {
@@ -21,8 +22,9 @@ struct TermParts {
 template <class Real>
 inline constexpr TermParts term_parts{};
 
-// c_n, of which `last` is the one before, and `before` the one before that, 0 at first; d is the
-// damping times t, and k the stiffness times t^2. Only one product waits for the last term.
+// The coefficient c_n from c_(n-1) = `last` and c_(n-2) = `before` (0 at first). d is the damping
+// times t, and k the stiffness times t^2. Only one product depends on `last`, which shortens the
+// chain.
 template <class Real>
 [[gnu::always_inline]] inline Real next_term(const Real& d, const Real& k, const Real& last,
                                              const Real& before, int n) {

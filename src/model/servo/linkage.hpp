@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// What stands between a servo and the plane: a horn, a push rod and an arm, or a curve that
-// somebody measured (docs/explanation/rig-model.md, "Linkages"). Plain data and templates for every
-// number type; how they come from a scenario is linkages.hpp's matter.
+// The mechanism between servo and plane: horn, push rod and arm, or a measured curve
+// (docs/explanation/rig-model.md, "Linkages"). Plain data and templates for every number type;
+// linkages.hpp builds them from a scenario.
 #pragma once
 
 #include <algorithm>
@@ -16,20 +16,20 @@
 
 namespace bbsim::model {
 
-// Servos turn the plane themselves: nothing is between.
+// The servos turn the plane directly.
 struct Direct {
   static constexpr bool direct = true;
   static constexpr int servos = 2;
 };
 
-// How an angle follows from a servo's: its sine and cosine, and its two derivatives with respect to
-// the servo's angle.
+// The angle of the plane as a function of the servo's angle: sine, cosine, and the first and second
+// derivative with respect to the servo's angle.
 template <class Real>
 struct Turn {
   Real sin, cos, slope, bend;
 };
 
-// The angle of a direction. Each step of the iteration leaves a sixth of the error's cube.
+// The angle of a direction. Each iteration reduces the error e to e^3 / 6.
 template <class Real>
 [[nodiscard]] Real angle_of(const Real& sine, const Real& cosine) {
   Real angle = sine;
@@ -43,12 +43,12 @@ template <class Real>
   return std::atan2(sine, cosine);
 }
 
-// An angle near the middle of a range, so that one of more than half a turn to either side of 0
-// does not come back a whole turn off.
+// The middle of a range of angles. angle_of() returns angles within half a turn of it, so that
+// angles more than half a turn from 0 do not wrap around.
 struct RangeMiddle {
   double angle = 0, cos = 1, sin = 0;
 
-  // Of a range from `low` to `high`, rad. One well within half a turn of 0 is left about 0.
+  // The middle of `low` to `high`, rad; 0 if the range is well within half a turn of 0.
   [[nodiscard]] static RangeMiddle of(double low, double high) {
     constexpr double well_within = 2.5;
     if (!(high - low < HUGE_VAL) || std::max(-low, high) <= well_within) return {};
@@ -63,11 +63,11 @@ struct RangeMiddle {
   }
 };
 
-// Two bars that turn about axes of their own, joined by a rod between their ends. Lengths in m; the
-// servo's axis is at (0, 0). Each side says which of two positions the other bar has.
+// Two bars on axes of their own, joined by a rod between their ends. Lengths in m; the servo's axis
+// is at (0, 0). arm_side and horn_side select one of the two solutions.
 struct Rods {
   double horn = 0, arm = 0, rod = 0;
-  double x = 0, z = 0;  // of the gimbal's axis
+  double x = 0, z = 0;  // of the arm's axis
   double arm_side = 1, horn_side = 1;
   RangeMiddle horn_middle{}, arm_middle{};
 
@@ -82,7 +82,7 @@ struct Rods {
     Turn<Real> turn;
     turn.cos = (k * vx - root * vz) / v2;
     turn.sin = (k * vz + root * vx) / v2;
-    // Along the rod, and what both its ends do across their bars.
+    // The rod's vector, and its components across both bars.
     const Real px = arm * turn.cos - vx, pz = arm * turn.sin - vz;
     const Real by_arm = arm * (pz * turn.cos - px * turn.sin);
     turn.slope = (horn * (pz * h.cos - px * h.sin)) / by_arm;
@@ -95,7 +95,7 @@ struct Rods {
     return turn;
   }
 
-  // The servo's angle under which the arm has this one.
+  // The servo's angle that gives the arm this angle: (M55) with the bars exchanged.
   template <class Real>
   [[nodiscard]] Real horn_at(const Real& angle) const {
     const SinCos<Real> a = sin_cos(angle);
@@ -107,26 +107,26 @@ struct Rods {
   }
 };
 
-// What a controller takes the curve for: nothing, since its commands are the servo's; the curve
-// itself; or a line with its slope at home.
+// The controller's model of the curve: none, because it commands the servo itself; the exact curve;
+// or a line with the slope at home.
 enum class Assumed { none, exact, ratio };
 
-// One axis' curve, from the servo's angle to the plane's.
+// The curve of one axis, from the servo's angle to the plane's.
 struct LinkCurve {
-  // Ideal: the plane's angle is the servo's, as without a linkage, or with a parallelogram.
+  // Ideal: the plane's angle equals the servo's, without a linkage or with a parallelogram.
   enum class Kind { ideal, rods, table };
   Kind kind = Kind::ideal;
   Assumed assumed = Assumed::none;
   Rods rods{};
-  // The pieces of a measured curve that hold at present: for the servo, and for its command.
+  // The present piece of a measured curve, for the servo and for its command.
   SplineView::Piece piece{}, command_piece{};
-  double shift = 0;                         // taken from the curve, where home is to be level, rad
-  double offset = 0;                        // of the plane, which the controller does not know, rad
+  double shift = 0;                         // subtracted from the curve to level home, rad
+  double offset = 0;                        // of the plane, unknown to the controller, rad
   double cos_offset = 1, sin_offset = 0;    // of offset - shift
   double slope = 1;                         // at home
-  double low = -HUGE_VAL, high = HUGE_VAL;  // servo's angles between which there is a curve, rad
+  double low = -HUGE_VAL, high = HUGE_VAL;  // range of servo angles with a solution, rad
 
-  // Plane and curve are that much apart.
+  // Sets the offset of the plane and the shift of the curve.
   void set_offsets(double of_plane, double of_curve) {
     offset = of_plane;
     shift = of_curve;
@@ -155,7 +155,7 @@ struct LinkCurve {
     return {wave.sin, wave.cos, Real(1.0), Real(0.0)};
   }
 
-  // Of the plane.
+  // The plane's angle with shift and offset.
   template <class Real>
   [[nodiscard]] Turn<Real> turn(const Real& servo) const {
     const Turn<Real> plain = plain_turn(servo);
@@ -163,7 +163,7 @@ struct LinkCurve {
             cos_offset * plain.cos - sin_offset * plain.sin, plain.slope, plain.bend};
   }
 
-  // The curve's angle, without the plane's offset.
+  // The curve's angle without the plane's offset.
   template <class Real>
   [[nodiscard]] Real angle(const Real& servo) const {
     if (kind == Kind::ideal) return servo;
@@ -177,7 +177,7 @@ struct LinkCurve {
     return value - Real(shift);
   }
 
-  // What the servo is told where the controller wants this angle of the plane.
+  // The command to the servo for a plane angle that the controller wants.
   template <class Real>
   [[nodiscard]] Real told(const Real& wanted) const {
     if (assumed == Assumed::none || kind == Kind::ideal) return wanted;
@@ -194,7 +194,7 @@ struct LinkCurve {
     return servo;
   }
 
-  // The angle and rate of the plane that the controller takes the servo's for.
+  // The plane angle and rate that the controller infers from the servo's.
   template <class Real>
   void believed(const Real& servo, const Real& rate, Real* angle_there, Real* rate_there) const {
     if (assumed == Assumed::none || kind == Kind::ideal) {
@@ -210,13 +210,13 @@ struct LinkCurve {
   }
 };
 
-// Between two servos and the two axes of the gimbal.
+// The linkages of both axes.
 struct Linkages {
   static constexpr bool direct = false;
   static constexpr int servos = 2;
   LinkCurve of[2];
 
-  // The plane's axes, of horns with these angles, rates and accelerations.
+  // The plane's axes for these angles, rates and accelerations of the horns.
   template <class Real>
   void planes(const Real (&horn)[2], const Real (&rate)[2], const Real (&acceleration)[2],
               Axis<Real> (&axis)[2]) const {
@@ -238,7 +238,7 @@ struct Linkages {
                 Real (&angle_rate)[2]) const {
     for (int i = 0; i < 2; ++i) of[i].believed(servo[i], rate[i], &angle[i], &angle_rate[i]);
   }
-  // How far the horns are from where the curves end: negative beyond.
+  // The distance of the horns from the ends of the curves, rad; negative beyond them.
   [[nodiscard]] double margin(const double (&horn)[2]) const {
     double least = HUGE_VAL;
     for (int i = 0; i < 2; ++i) {

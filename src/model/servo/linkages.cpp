@@ -15,29 +15,29 @@
 namespace bbsim::model {
 namespace {
 
-// So far a command stays from where a curve ends, rad: next to it the inverse is infinitely steep.
+// Commands stay this far from the ends of a curve, rad, where the inverse is infinitely steep.
 constexpr double inside = 1e-9;
-// A run ends so far before rod and arm are in line, where the plane's rate and acceleration are
-// infinite, rad.
+// A curve ends this far before rod and arm are in line, rad. There the plane's rate and
+// acceleration are infinite.
 constexpr double before_infinity = 1e-9;
-// And before all three bars are in line, where the arm may go either way: next to it the curve's
-// bend is a quotient of numbers that are as small as the cube of the distance, so that rounding is
-// 1e-7 of it.
+// A curve ends this far before all three bars are in line, rad. There the arm may go either way.
+// Near that point the second derivative is a quotient of numbers as small as the cube of the
+// distance; here rounding is 1e-7 of it.
 constexpr double before_change = 1e-3;
 
 constexpr const char* all_in_line = "horn, rod and arm are in line";
 
-// Where two of three bars are in line, or all, and what the servo's and the arm's angles then are.
+// A servo and arm angle at which two bars, or all three, are in line.
 struct DeadPoint {
   double servo, arm;
   const char* why;
-  double before = 0;  // so far from it the curve ends, rad
+  double before = 0;  // the curve ends this far before, rad
 };
 
-// Angles whose cosine, from `from` on, is this.
+// The two angles with a given cosine relative to `from`.
 struct Angles {
-  std::vector<double> of;  // both; none if there is no such angle
-  bool change = false;     // they are one, to rounding: all bars are in line
+  std::vector<double> of;  // two; empty if there are none
+  bool change = false;     // they coincide up to rounding: all bars are in line
 };
 Angles angles_with(double cosine, double from) {
   constexpr double rounding = 1e-12;
@@ -46,8 +46,8 @@ Angles angles_with(double cosine, double from) {
   return {{from + away, from - away}, std::abs(cosine) >= 1 - rounding};
 }
 
-// Whether horn and arm are of one length, and so are the rod and the distance of their axes: the
-// arm is then parallel to the horn.
+// Whether horn and arm have the same length, and rod and distance of the axes too. The arm then
+// stays parallel to the horn.
 bool is_parallelogram(const Rods& of) {
   constexpr double rounding = 1e-15;
   const double scale = std::abs(of.x) + std::abs(of.z) + of.horn + of.arm;
@@ -55,11 +55,11 @@ bool is_parallelogram(const Rods& of) {
          std::abs(of.rod - std::hypot(of.x, of.z)) <= rounding * scale;
 }
 
-// Of both branches.
+// The dead points of both branches.
 std::vector<DeadPoint> dead_points(const Rods& of) {
   std::vector<DeadPoint> found;
   const double distance = std::hypot(of.x, of.z), direction = std::atan2(of.z, of.x);
-  if (distance == 0) return found;  // the rod is carried round, whole
+  if (distance == 0) return found;  // the whole linkage rotates without dead points
   if (is_parallelogram(of)) {
     for (const double bar : {direction, direction + std::numbers::pi}) {
       found.push_back({bar, bar, all_in_line});
@@ -85,7 +85,7 @@ std::vector<DeadPoint> dead_points(const Rods& of) {
     for (const double arm : arms.of) {
       const double bx = of.x + of.arm * std::cos(arm), bz = of.z + of.arm * std::sin(arm);
       const double servo = std::atan2(bz / to_arm, bx / to_arm);
-      // On this branch, and not on the other one.
+      // Keeps only points on this branch.
       const Turn<double> turn = of.arm_at(servo);
       if (std::hypot(turn.cos - std::cos(arm), turn.sin - std::sin(arm)) < 1e-6) {
         found.push_back({servo, std::atan2(std::sin(arm), std::cos(arm)),
@@ -101,8 +101,8 @@ double turned_within(double angle, double from) {
   return angle - 2 * std::numbers::pi * std::floor((angle - from) / (2 * std::numbers::pi));
 }
 
-// The arm's angle, whole turns and all, where the servo has gone from home to `servo`, at which it
-// is `arm` but for them.
+// The arm's angle with whole turns, after the servo has moved from home to `servo`. `arm` is this
+// angle without whole turns.
 double arm_followed(const Rods& rods, double servo, double arm) {
   const Turn<double> home = rods.arm_at(0.0);
   double angle = std::atan2(home.sin, home.cos);
@@ -151,7 +151,7 @@ Linkage make_linkage(const RodLinkage& of, Assumed assumed) {
   const double square = v * v - k * k;
   double home = 0;
   if (square > 1e-12 * v * v) {
-    // The position of the arm that is nearer to home's.
+    // The solution with the arm nearer to its home position.
     double least_angle = unlimited;
     for (const double side : {1.0, -1.0}) {
       rods.arm_side = side;
@@ -186,7 +186,7 @@ Linkage make_linkage(const RodLinkage& of, Assumed assumed) {
   curve.assumed = assumed;
   curve.rods = rods;
   curve.slope = parallel ? 1 : rods.arm_at(0.0).slope;
-  double at_low = -unlimited, at_high = unlimited;  // the arm's angles there
+  double at_low = -unlimited, at_high = unlimited;  // the arm's angles at the ends
   const auto arm_at = [&](const DeadPoint& point, double servo) {
     if (point.before != before_change) return point.arm;
     const Turn<double> turn = rods.arm_at(servo);
@@ -240,7 +240,7 @@ Linkage make_linkage(const CurveLinkage& of, Assumed assumed) {
   for (std::size_t i = 0; i < view.count; ++i) {
     const SplineView::Piece& p = view.pieces[i];
     const double length = of.servo[i + 1] - of.servo[i];
-    // Where its slope is least and greatest.
+    // The least and greatest slope of a piece are at its ends or at this point.
     const double turn = p.c3 != 0 ? std::clamp(-p.c2 / (3 * p.c3), 0.0, length) : 0.0;
     for (const double s : {0.0, turn, length}) {
       const double slope = p.c1 + s * (2 * p.c2 + s * 3 * p.c3);
@@ -263,7 +263,7 @@ double Linkage::angle(double servo) const {
 double Linkage::servo_for(double angle) const {
   double within = angle + curve.shift;
   if (reach.binds()) {
-    // A turn more or less is the same direction.
+    // A full turn more or less is the same direction.
     const double low = reach.low + inside, high = reach.high - inside;
     for (const double turn : {2 * std::numbers::pi, -2 * std::numbers::pi}) {
       if ((within < low || within > high) && within + turn >= low && within + turn <= high) {
@@ -274,7 +274,7 @@ double Linkage::servo_for(double angle) const {
   }
   if (curve.kind == LinkCurve::Kind::ideal) return within;
   if (!table) return curve.rods.horn_at(within);
-  // Newton's iteration, and a half where it leaves what is known to hold the answer.
+  // Newton's iteration, with bisection when it leaves the bracket.
   double low = curve.low, high = curve.high;
   const double sign = curve.slope > 0 ? 1 : -1;
   double servo = std::clamp(within / curve.slope, low, high);
@@ -301,7 +301,7 @@ std::size_t Linkage::piece_at(std::size_t present, double servo, double directio
   const auto above = static_cast<std::size_t>(
       std::upper_bound(knots.begin() + 1, knots.end() - 1, servo) - knots.begin());
   const std::size_t piece = std::min(above - 1, last);
-  // On a knot, the one that it goes to.
+  // On a knot, the piece in the direction of motion.
   for (const std::size_t knot : {piece, piece + 1}) {
     if (knot == 0 || knot > last || std::abs(servo - knots[knot]) > near) continue;
     if (direction == 0) return present == knot || present + 1 == knot ? present : piece;
@@ -314,7 +314,7 @@ std::size_t Linkage::command_piece_at(std::size_t present, double wanted) const 
   const CommandRange holds = command_piece_range(present);
   const std::size_t last = table->knots().size() - 2;
   const double near = 1e-11 * (reach.high - reach.low);
-  // On the end of the present one, the next.
+  // At the end of the present piece, the next piece.
   const bool rises = curve.slope > 0;
   const double angle = wanted + curve.shift;
   if (std::abs(angle - holds.high) <= near) {
@@ -371,7 +371,7 @@ void Between::believed(const double* servo, const double* rate, double (&into)[4
 
 CommandRange Between::reach(int axis) const {
   if (three && three->assumed == Assumed::exact) {
-    // Of two tilts of this size together, none is beyond what the legs reach.
+    // With both angles at this value, the tilt is the greatest tilt.
     return CommandRange::within(std::acos(std::sqrt(std::cos(greatest_tilt(*three)))));
   }
   if (linkages.empty()) return {};
@@ -436,7 +436,7 @@ ThreeServos make_three_servos(const ThreeServoPlate& of, Assumed assumed) {
                        metres(to_joint) + "; allowed: more than " + metres(least) +
                        " and less than " + metres(most) + ", horn and rod folded and stretched");
   }
-  // Of both positions of the knee, the one farther out.
+  // Of the two positions of the knee, the outer one.
   three.side = of.height > 0 ? -1 : 1;
   const double k = (to_joint * to_joint + of.horn * of.horn - of.rod * of.rod) / (2 * of.horn);
   const double root = three.side * std::sqrt(to_joint * to_joint - k * k);
@@ -447,7 +447,7 @@ ThreeServos make_three_servos(const ThreeServoPlate& of, Assumed assumed) {
   ThreeServos::Slopes<double> m[3];
   for (int i = 0; i < 3; ++i) {
     m[i] = three.slopes(i, home, three.sin_home, three.cos_home);
-    // p is phi, and q is -theta.
+    // p corresponds to phi, and q to -theta.
     three.slope[i][0] = -m[i].of[0] / m[i].of_horn;
     three.slope[i][1] = m[i].of[1] / m[i].of_horn;
   }
@@ -464,7 +464,7 @@ ThreeServos make_three_servos(const ThreeServoPlate& of, Assumed assumed) {
 }
 
 double greatest_tilt(const ThreeServos& three) {
-  // Whether all legs reach a tilt in any direction; by symmetry, those of a third of a turn.
+  // Whether all legs reach this tilt in every direction; by symmetry, a third of a turn suffices.
   const auto reached = [&](double tilt) {
     constexpr int directions = 60;
     for (int j = 0; j <= directions; ++j) {
@@ -488,7 +488,7 @@ double greatest_tilt(const ThreeServos& three) {
     const double middle = low + (high - low) / 2;
     (reached(middle) ? low : high) = middle;
   }
-  constexpr double between_those = 0.999;  // of the directions that were looked at
+  constexpr double between_those = 0.999;  // allows for directions between the samples
   return between_those * low;
 }
 

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// What stands between the servos and the plane, with all that is not of one instant: the whole of a
-// measured curve, where curves end, and what may be commanded.
+// The linkages of a scene with the data that do not depend on the instant: whole measured curves,
+// the ends of curves, and the range of commands.
 #pragma once
 
 #include <array>
@@ -20,7 +20,7 @@ namespace bbsim::model {
 
 inline constexpr double unlimited = std::numeric_limits<double>::infinity();
 
-// Between which values a command is kept.
+// Bounds on a command.
 struct CommandRange {
   double low = -unlimited, high = unlimited;
 
@@ -28,58 +28,58 @@ struct CommandRange {
   [[nodiscard]] static CommandRange within(double size) { return {-size, size}; }
 };
 
-// One axis' curve, whole.
+// The whole curve of one axis.
 struct Linkage {
-  LinkCurve curve;                // in the piece that holds at home
-  std::optional<Spline> table{};  // of a measured curve
-  CommandRange reach{};           // angles of the plane that the curve comes to, rad
-  std::string low_end, high_end;  // why the curve ends there: "horn and rod are in line"
+  LinkCurve curve;                // with the piece at home
+  std::optional<Spline> table{};  // a measured curve
+  CommandRange reach{};           // plane angles within the curve's range, rad
+  std::string low_end, high_end;  // why the curve ends: "horn and rod are in line"
 
-  // The angle of the plane, rad; without its offset.
+  // The plane's angle without its offset, rad.
   [[nodiscard]] double angle(double servo) const;
-  // The servo's angle for it. The nearest one for what the curve does not come to.
+  // The servo's angle for a plane angle; the nearest one for angles out of reach.
   [[nodiscard]] double servo_for(double angle) const;
-  // What the servo is told where the controller wants this angle.
+  // The command to the servo for an angle that the controller wants.
   [[nodiscard]] double told(double wanted) const;
 
-  // Which piece of a measured curve holds after `present` did: at a servo's angle that goes in a
-  // direction, and at an angle that is commanded; and between which values a piece holds.
+  // The next piece of a measured curve after `present`: for a servo angle that moves in
+  // `direction`, and for a commanded plane angle; and the range of each piece.
   [[nodiscard]] std::size_t piece_at(std::size_t present, double servo, double direction) const;
   [[nodiscard]] std::size_t command_piece_at(std::size_t present, double wanted) const;
   [[nodiscard]] CommandRange piece_range(std::size_t piece) const;
   [[nodiscard]] CommandRange command_piece_range(std::size_t piece) const;
 };
 
-// All of it: nothing, two linkages, or three servos.
+// The mechanism of a scene: none, two linkages, or three servos.
 struct Between {
-  std::vector<Linkage> linkages{};  // none, or two
+  std::vector<Linkage> linkages{};  // empty, or two
   std::optional<ThreeServos> three{};
 
   [[nodiscard]] bool none() const { return linkages.empty() && !three; }
   [[nodiscard]] bool has_pieces() const;
-  // What servos are told where a law wants these angles: two or three.
+  // The commands to two or three servos for the angles that a law wants.
   [[nodiscard]] std::array<double, 3> told(Pair wanted) const;
-  // What the controller takes the servos' angles and rates for: of phi, of theta, and their rates.
+  // What the controller infers from the servos' angles and rates: phi, theta, and their rates.
   void believed(const double* servo, const double* rate, double (&into)[4]) const;
-  // What the law's commands may be, so that there is an answer to each.
+  // The range of commands of the law that the mechanism can reach.
   [[nodiscard]] CommandRange reach(int axis) const;
 
   [[nodiscard]] Linkages at_home() const;
 };
 
-// Throws InputError for a linkage that does not close at home, or is at a dead point there, and for
-// a measured curve that turns back.
+// Throws InputError for a linkage that does not close at home or has a dead point there, and for a
+// measured curve that is not monotonic.
 [[nodiscard]] Linkage make_linkage(const RodLinkage& of, Assumed assumed);
 [[nodiscard]] Linkage make_linkage(const CurveLinkage& of, Assumed assumed);
 [[nodiscard]] ThreeServos make_three_servos(const ThreeServoPlate& of, Assumed assumed);
 
-// What the scene's controller takes it for: a ratio, as most firmware does, unless it says
-// otherwise; but nobody moves three servos without inverse kinematics.
+// The controller's model of the mechanism. Default: ratio, as in most firmware; exact for three
+// servos, which need inverse kinematics.
 [[nodiscard]] Assumes assumes_of(const Scenario& scene);
 
 [[nodiscard]] Between between_of(const Scenario& scene);
 
-// The greatest tilt, in any direction, that all three legs reach at the height of home, rad.
+// The greatest tilt that all three legs reach in every direction at the height of home, rad.
 [[nodiscard]] double greatest_tilt(const ThreeServos& three);
 
 }  // namespace bbsim::model

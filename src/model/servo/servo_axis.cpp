@@ -69,13 +69,14 @@ void ServoAxis::settle_backlash(const AxisState& state, AxisMode& mode) {
     return;
   }
   if (!started_) plane_ = state.angle + servo_.offset;
-  // While engaged the plane went with the servo.
+  // While engaged, the plane moved with the servo.
   if (started_ && play_ == Play::up) plane_ = state.angle - half + servo_.offset;
   if (started_ && play_ == Play::down) plane_ = state.angle + half + servo_.offset;
   started_ = true;
   const double lead = state.angle + servo_.offset - plane_;
   const double touching = half * at_limit;
-  // A servo at rest moves as it is driven: engaged it would be for no time.
+  // A servo at rest moves in the direction of its drive. Engaging it against that would last no
+  // time.
   const double at_rest = guard_rounding * servo_.backlash;
   const auto moves = [&](int sign) {
     return sign * state.rate > at_rest ||
@@ -92,7 +93,7 @@ void ServoAxis::settle_backlash(const AxisState& state, AxisMode& mode) {
   mode.offset = play_ == Play::gap ? plane_ : servo_.offset + (play_ == Play::up ? -half : half);
 }
 
-// The servo's acceleration; one of first order has none that counts, since its rate is its drive.
+// The servo's acceleration. Zero for first order, where the command sets the rate directly.
 double ServoAxis::drive(const AxisState& state) const {
   if (servo_.time_constant) return 0;
   switch (motion_) {
@@ -132,7 +133,7 @@ void ServoAxis::settle(AxisState& state, AxisMode& mode) {
 
 template <class Use>
 void ServoAxis::for_each_margin(Use use) const {
-  // Below `most` in both directions, of the part of the state that `by` says.
+  // Guards both directions: keeps the component `by` below `most`.
   const auto below = [&](int guard, double most, double AxisMargin::*by, double offset = 0) {
     if (most == unlimited) return;
     for (const int sign : {1, -1}) {
@@ -212,10 +213,10 @@ ServoAxis::Fall ServoAxis::first_fall(const HeldMotion& motion, double command, 
         margin.constant + (margin.by_command + margin.by_demand * response_.from_command) * command,
         margin.by_angle - margin.by_demand * response_.from_angle,
         margin.by_rate - margin.by_demand * response_.from_rate};
-    if (reached.least(line) > guard_rounding * std::abs(line.constant)) return;  // mostly
+    if (reached.least(line) > guard_rounding * std::abs(line.constant)) return;  // the common case
     double sizes[guards];
     scales(sizes);
-    // As for guards that an integrator looks at.
+    // The same thresholds as for the integrators' guards.
     const double after = model::first_fall(line, motion, guard_rounding * sizes[guard], start,
                                            std::min(end, first.after), answers);
     if (after < first.after) first = {after, guard};

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// What one servo does: free, at a limit, at a stop; its backlash and its dead band. Between two
-// switches it is an AxisMode; each switch is where one of the guards falls through zero.
+// The switches of one servo: its limits, stops, backlash and dead band. Between two switches an
+// AxisMode describes its motion; a switch occurs where a guard falls through zero.
 #pragma once
 
 #include <cmath>
@@ -13,14 +13,14 @@
 
 namespace bbsim::model {
 
-// One axis at an instant.
+// The state of an axis at an instant.
 struct AxisState {
   double angle = 0, rate = 0;  // of the servo, rad and rad/s
   double demand = 0;           // acceleration in free motion, rad/s^2
   double command = 0;          // rad
 };
 
-// What is positive until something switches: a sum of parts of an AxisState.
+// A guard's value, positive until a switch: a linear function of an AxisState.
 struct AxisMargin {
   double constant = 0, by_angle = 0, by_rate = 0, by_demand = 0, by_command = 0;
 
@@ -34,19 +34,19 @@ class ServoAxis {
  public:
   static constexpr int guards = 8;
 
-  // The offset of `servo` is where the plane, or the horn, is at its zero.
+  // `servo` includes the offset of the plane, or of the horn, at the servo's zero.
   ServoAxis(const RigServo& servo, const ServoResponse& response)
       : servo_(servo), response_(response), root_(std::sqrt(response.from_angle)) {}
 
-  // The command that the servo follows after it got this one: nearer to the last one than the dead
-  // band it is not followed.
+  // Takes a new command and returns the command that the servo follows. The dead band keeps the old
+  // command if the new one is too close to it.
   [[nodiscard]] double follow(double command) {
     if (std::abs(command - target_) > servo_.dead_band) target_ = command;
     return target_;
   }
 
-  // Whether settle() would find the servo as it left it, free and short of its limits, under the
-  // command that it follows: mostly.
+  // A fast test that succeeds in most cases: whether settle() would leave the servo free and within
+  // its limits, under the command that it follows.
   [[nodiscard]] bool stays_free(double angle, double rate) const {
     if (!(std::abs(angle) < calm_angle_ && std::abs(rate) < calm_rate_)) return false;
     const double most = servo_.acceleration_limit;
@@ -55,29 +55,29 @@ class ServoAxis {
                     response_.from_rate * rate) <= most;
   }
 
-  // Chooses what the servo does from here. May change its rate: a stop takes it, and a servo of
-  // first order has it from its command.
+  // Chooses the mode from here on. May change the rate: a stop sets it to zero, and a first-order
+  // servo takes it from its command.
   void settle(AxisState& state, AxisMode& mode);
 
-  // Positive as long as nothing switches; `guards` numbers.
+  // Writes `guards` values; all are positive until a switch.
   void evaluate(const AxisState& state, double* values) const;
 
-  // The first guard that falls in a motion under a held command, within (0, end]; times count from
+  // The first guard that falls within (0, end] in a motion under a held command. Times count from
   // `start`, s.
   struct Fall {
-    double after = unlimited;  // s; infinite if none does
+    double after = unlimited;  // s; infinite if no guard falls
     int guard = 0;
   };
   [[nodiscard]] Fall first_fall(const HeldMotion& motion, double command, double start, double end,
                                 KnownAnswers& answers) const;
 
-  // While a servo moves freely by a spring's law, what switches it no sooner than its angle, its
-  // rate or its acceleration reaches as much: nothing of it positive if there is more to look at.
+  // Bounds for a free servo with stiffness: no guard falls while its angle, rate and acceleration
+  // stay below them. Bounds of 0 mean that other guards need checking.
   struct Clearance {
     double angle, rate, acceleration;  // rad, rad/s, rad/s^2
     double root;                       // of the stiffness, rad/s
 
-    // Of a motion by that law.
+    // Whether a motion within these bounds, by this law, cannot make a guard fall.
     [[nodiscard]] bool holds(const MotionReach& reached, const HeldLaw& law) const {
       return reached.rate_most < rate && std::abs(reached.centre) + reached.angle_most < angle &&
              law.stiffness * reached.angle_most + law.damping * reached.rate_most < acceleration;
@@ -85,10 +85,10 @@ class ServoAxis {
   };
   [[nodiscard]] Clearance clearance() const;
 
-  // The size of each guard's quantity.
+  // The scale of each guard's value.
   void scales(double* values) const;
 
-  // What it does at present (base/archive.hpp).
+  // The present mode (base/archive.hpp).
   template <class Archive>
   void archive(Archive& archive) {
     archive.enumerated(motion_, Motion::stop_down);
@@ -109,32 +109,32 @@ class ServoAxis {
   };
   enum class Play { none, up, down, gap };
 
-  // Calls use(guard, margin) for each that is looked out for.
+  // Calls use(guard, margin) for each active guard.
   template <class Use>
   void for_each_margin(Use use) const;
   [[nodiscard]] Motion choose(AxisState& state) const;
   void settle_backlash(const AxisState& state, AxisMode& mode);
   [[nodiscard]] double drive(const AxisState& state) const;
-  // What pushes a servo at its rate limit further: an acceleration, or, of first order, what the
-  // rate would be beyond the present one.
+  // What drives a servo at its rate limit further outward: an acceleration; for first order, the
+  // excess of the rate by its law over the present rate.
   [[nodiscard]] AxisMargin push() const;
-  // What pushes it against a stop: an acceleration, or how far the command is beyond.
+  // What presses a servo against a stop: an acceleration; for first order, command minus angle.
   [[nodiscard]] AxisMargin push_at_stop() const;
 
-  // Guards within this part of their scale are zero.
+  // Guards below this fraction of their scale count as zero.
   static constexpr double guard_rounding = 1e-12;
-  // A guard that was found at zero is this near it.
+  // At a limit: within this factor, because guards are found at zero only to rounding.
   static constexpr double at_limit = 1 - 1e-11;
 
-  double target_ = 0;                      // the command that is followed
-  double calm_angle_ = 0, calm_rate_ = 0;  // up to where stays_free()
+  double target_ = 0;                      // the followed command
+  double calm_angle_ = 0, calm_rate_ = 0;  // limits for stays_free()
   RigServo servo_;
   ServoResponse response_;
-  double root_;  // of the stiffness, in free motion
+  double root_;  // of the stiffness in free motion, rad/s
   Motion motion_ = Motion::free;
   Play play_ = Play::none;
   bool started_ = false;
-  double plane_ = 0;  // the plane's angle in the gap, rad
+  double plane_ = 0;  // angle in the gap, rad
 };
 
 }  // namespace bbsim::model

@@ -1,13 +1,13 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// A plate on three legs, 3-RRS: three servos on a circle, each with a horn that turns in the
-// vertical plane through the circle's centre and through the leg's joint, a rod on it, and a ball
-// joint under the plate (docs/explanation/rig-model.md, "Three servos"). Three servos' angles are
-// two tilts and a height.
+// A plate on three legs, 3-RRS (docs/explanation/rig-model.md, "Three servos"). Each of three
+// servos on a circle has a horn that turns in the vertical plane through the circle's center and
+// the leg's joint, a rod, and a ball joint under the plate. The servos' angles determine two tilts
+// and a height.
 //
-// A joint stays in its plane, which makes the plate's centre wander, and leaves the plate without
-// torsion: both are in the closed chain here, and left out of the ball's motion.
+// Each joint stays in its plane. The plate's center therefore shifts, and the plate does not twist.
+// The leg equations include both effects; the ball's motion ignores them.
 #pragma once
 
 #include <cmath>
@@ -18,7 +18,7 @@
 
 namespace bbsim::model {
 
-// A number with its first and second derivative with respect to time.
+// A number with its first and second time derivative.
 template <class Real>
 struct Motion2 {
   Real v, d, dd;
@@ -47,30 +47,31 @@ struct ThreeServos {
   static constexpr bool direct = false;
   static constexpr int servos = 3;
 
-  double base = 0, plate = 0;         // radii of the servos' axes and of the plate's joints, m
+  double base = 0, plate = 0;         // radii of the servo axes and of the joints, m
   double horn = 0, rod = 0;           // m
-  double height = 0;                  // of the plate's joints above the servos' axes, at home, m
-  double cos_home = 1, sin_home = 0;  // of the horns' angle above the horizontal, at home
-  double side = 1;                    // of the leg, on which the knee is
+  double height = 0;                  // of the joints above the servo axes, at home, m
+  double cos_home = 1, sin_home = 0;  // of the horns' elevation at home
+  double side = 1;                    // of the leg on which the knee is
   Assumed assumed = Assumed::none;
-  double slope[3][2] = {};  // of the servos' angles with respect to phi and theta, at home
+  double slope[3][2] = {};  // derivatives of the servo angles by phi and theta, at home
   double cos_offset[2] = {1, 1}, sin_offset[2] = {0, 0}, offset[2] = {0, 0};  // of the plane, rad
   double determinant = 1;                                                     // at home
 
-  // The plate's pose: its normal is (p, q, root(1 - p^2 - q^2)), its joints' centre is at z.
+  // The plate's pose: its normal is (p, q, sqrt(1 - p^2 - q^2)), and the center of its joints is at
+  // z.
   template <class T>
   struct Pose {
     T p, q, z;
   };
 
-  // Where leg i's joint is in its plane, from the servo's axis: (M58), (M59).
+  // The position of leg i's joint in the leg's plane, from the servo's axis: (M58), (M59).
   template <class T>
   struct Joint {
     T x, z;
   };
 
-  // Cosine and sine of the legs' azimuths, 0, 120 and 240 degrees, are written out where they are
-  // used: kernels share no data.
+  // The cosines and sines of the legs' azimuths, 0, 120 and 240 degrees, are constants in the code,
+  // because kernels share no data.
 
   template <class T, class Number>
   [[nodiscard]] Joint<T> joint(int i, const Pose<T>& at, const Number& number) const {
@@ -84,13 +85,13 @@ struct ThreeServos {
     return {plate * (wander - w * (e * e)) + number(plate - base), at.z - plate * e};
   }
 
-  // What a horn's end does to the leg: its rod's two parts.
+  // The rod's vector from the horn's end to the joint.
   template <class T>
   [[nodiscard]] Joint<T> rod_of(const Joint<T>& joint, const T& sine, const T& cosine) const {
     return {joint.x - horn * cosine, joint.z - horn * sine};
   }
 
-  // Slopes of half the rod's square with respect to p, q, z; and to the horn's angle.
+  // Derivatives of half the rod's squared length with respect to p, q, z and to the horn's angle.
   template <class Real>
   struct Slopes {
     Real of[3], of_horn;
@@ -115,7 +116,7 @@ struct ThreeServos {
             horn * (leg.x * sine - leg.z * cosine)};
   }
 
-  // x of m x = right, and m's determinant: Cramer's rule.
+  // Solves m x = right and returns m's determinant, by Cramer's rule.
   template <class Real>
   static Real solve(const Slopes<Real> (&m)[3], const Real (&right)[3], Real (&x)[3]) {
     const auto minor = [&](int i, int j, int k, int l) {
@@ -144,8 +145,8 @@ struct ThreeServos {
     }
   }
 
-  // Newton's iteration from home: (M60). Its last steps do nothing, but for the edge of the
-  // workspace.
+  // Newton's iteration from home for the three leg equations, (M54) with (M59). The last steps
+  // change nothing except near the edge of the workspace.
   template <class Real>
   [[nodiscard]] Pose<Real> pose(const Real (&sine)[3], const Real (&cosine)[3]) const {
     Pose<Real> at{Real(0.0), Real(0.0), Real(height)};
@@ -166,7 +167,7 @@ struct ThreeServos {
     return at;
   }
 
-  // The plane's axes, of servos with these angles (from home), rates and accelerations.
+  // The plane's axes for these servo angles (from home), rates and accelerations.
   template <class Real>
   void planes(const Real (&servo)[3], const Real (&rate)[3], const Real (&acceleration)[3],
               Axis<Real> (&axis)[2]) const {
@@ -180,7 +181,7 @@ struct ThreeServos {
       right[i] = -(m[i].of_horn * rate[i]);
     }
     solve(m, right, first);
-    // What is left of the second derivative without the accelerations of p, q, z.
+    // The second derivative of the leg equations without the accelerations of p, q and z.
     const Real none = Real(0.0);
     const Pose<Motion2<Real>> moving{
         {at.p, first[0], none}, {at.q, first[1], none}, {at.z, first[2], none}};
@@ -198,7 +199,7 @@ struct ThreeServos {
     }
     solve(m, right, second);
 
-    // sin theta = -q, sin phi = p / cos theta: (M61).
+    // sin theta = -q and sin phi = p / cos theta: (M61).
     const Motion2<Real> p{at.p, first[0], second[0]}, q{at.q, first[1], second[1]};
     const Motion2<Real> one = constant(1.0);
     const Motion2<Real> cos_theta = root_along(one - q * q, one);
@@ -216,7 +217,7 @@ struct ThreeServos {
     plane[1] = theta + offset[1];
   }
 
-  // The servos' angles, from home, under which the plate has these tilts at its height.
+  // The servo angles (from home) for these tilts at the height of home: (M60) and (M55).
   template <class Real>
   void told(const Real (&wanted)[2], Real (&servo)[3]) const {
     if (assumed == Assumed::ratio) {
@@ -241,7 +242,7 @@ struct ThreeServos {
   void believed(const Real* servo, const Real* rate, Real (&angle)[2],
                 Real (&angle_rate)[2]) const {
     if (assumed == Assumed::ratio) {
-      // The tilts that are nearest; each column of slopes is as long as the other, and across it.
+      // The least-squares tilts. The two columns of slopes are orthogonal and of equal length.
       const double length =
           slope[0][0] * slope[0][0] + slope[1][0] * slope[1][0] + slope[2][0] * slope[2][0];
       for (int j = 0; j < 2; ++j) {
@@ -266,8 +267,8 @@ struct ThreeServos {
     }
   }
 
-  // How far the legs are from being stretched or folded, and the plate from being held by them no
-  // longer: sines of the angles between horns and rods, and the determinant over that of home.
+  // The distance from the edge of the workspace: the least sine of the angles between horns and
+  // rods, and the determinant over its value at home.
   [[nodiscard]] double margin(const double (&servo)[3]) const {
     double sine[3], cosine[3];
     directions(servo, sine, cosine);

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// What a profile says, to whatever adds signals up.
+// Adds a profile's terms to a sum of signals.
 #pragma once
 
 #include <type_traits>

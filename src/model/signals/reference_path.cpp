@@ -10,7 +10,7 @@
 namespace bbsim::model {
 namespace {
 
-constexpr double quarter_turn = std::numbers::pi / 2;  // a cosine is a sine that leads by it
+constexpr double quarter_turn = std::numbers::pi / 2;  // a cosine is a sine with this phase
 
 struct Path {
   SignalPair operator()(const PointReference& point) const { return constant(point.position); }

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Where a controller wants the ball, as functions of time with their derivatives.
+// The controller's reference for the ball as a function of time.
 #pragma once
 
 #include "model/signals/signal_pair.hpp"
@@ -9,7 +9,7 @@
 
 namespace bbsim::model {
 
-// x and y (m) of the reference at time t (s).
+// x and y (m) of the reference at time t (s), with their derivatives.
 [[nodiscard]] SignalPair reference_path(const Reference& reference);
 
 }  // namespace bbsim::model

@@ -92,7 +92,7 @@ double SignalPair::bandwidth(double from, double to) const {
     const auto [one, other] = at(t);
     most = std::max(most, std::abs(one.rate) + std::abs(other.rate));
   }
-  constexpr double between = 1.5;  // of a polynomial of low degree
+  constexpr double between = 1.5;  // covers the rate between these three times
   return of_sinusoids + between * most;
 }
 

@@ -14,8 +14,8 @@
 
 namespace bbsim::model {
 
-// A sinusoid of both components: sine[i] sin(frequency t) + cosine[i] cos(frequency t). Scalar,
-// here and below, is a double, or a pack of them with other signals in each lane.
+// A sinusoid in both components: sine[i] sin(frequency t) + cosine[i] cos(frequency t). Here and
+// below, Scalar is double, or a pack with other signals in each lane.
 template <class Scalar>
 struct BasicHarmonic {
   Scalar frequency;  // rad/s
@@ -23,16 +23,16 @@ struct BasicHarmonic {
 };
 using Harmonic = BasicHarmonic<double>;
 
-// A spline of one component: a table, or a path past waypoints.
+// A spline in one component: a table, or a path through waypoints.
 struct Tabulated {
   std::size_t component;
   SplineView spline;
 };
 
-// A look at a SignalPair without owning it: what evaluates the signals, for any type of time.
+// A view of a SignalPair that evaluates the signals for any type of time.
 //
-// Plain arrays and no library calls, so that code for one instruction set stays apart from the
-// rest of the program.
+// It uses plain arrays and no library calls, so that code for one instruction set stays separate
+// from the rest of the program.
 template <class Scalar>
 struct BasicSignalView {
   Scalar start[2], rate[2];
@@ -72,10 +72,11 @@ struct BasicSignalView {
 
 using SignalView = BasicSignalView<double>;
 
-// A sum of constants, ramps, sinusoids and splines on each of two components.
+// A sum of constants, ramps, sinusoids and splines in each of two components.
 //
-// A sine costs more than the rest of the right-hand side, so sinusoids of one frequency, on
-// either component and of any phase, share one: a sin(wt + p) = a cos p sin wt + a sin p cos wt.
+// A sine costs more than the rest of the right-hand side. Sinusoids of the same frequency, in
+// either component and of any phase, therefore share one: a sin(wt + p) = a cos p sin wt + a sin p
+// cos wt.
 class SignalPair {
  public:
   void add_constant(std::size_t component, double value) { start_[component] += value; }
@@ -84,18 +85,18 @@ class SignalPair {
   void add_table(std::size_t component, Spline spline);
   void add(std::size_t component, const Profile& profile);
 
-  // Whether a component is zero at all times.
+  // Whether the component is zero at all times.
   [[nodiscard]] bool is_zero(std::size_t component) const;
 
-  // Times at which some derivative jumps: the knots of the splines, sorted.
+  // Times at which a derivative jumps: the knots of the splines, sorted.
   [[nodiscard]] std::vector<double> knots() const;
 
-  // The largest frequency of a sinusoid, rad/s; 0 if there is none.
+  // The highest frequency of a sinusoid, rad/s; 0 without sinusoids.
   [[nodiscard]] double highest_frequency() const;
 
-  // How fast sines of the components change between two times with no knot between them, rad/s: the
-  // bandwidth of the fastest sinusoid, and of the sine of an angle that itself changes fast;
-  // cos(phi) cos(theta) is a mean of cos(phi + theta) and cos(phi - theta).
+  // A bound on how fast sines of the components vary between two times without a knot in between,
+  // rad/s. It adds the bandwidth of the fastest sinusoid to the rates of the angles: cos(phi)
+  // cos(theta) is the mean of cos(phi + theta) and cos(phi - theta).
   [[nodiscard]] double bandwidth(double from, double to) const;
 
   // Both components at time t (s).
@@ -104,7 +105,7 @@ class SignalPair {
     return view().at(t);
   }
 
-  // Valid as long as this pair lives and is not changed.
+  // Valid until this pair changes or ends.
   [[nodiscard]] SignalView view() const {
     return {{start_[0], start_[1]}, {rate_[0], rate_[1]}, harmonics_.data(),
             harmonics_.size(),      tables_.data(),       tables_.size()};

@@ -11,7 +11,7 @@ namespace {
 using Piece = SplineView::Piece;
 using Numbers = std::vector<double>;
 
-// What lies between the knots.
+// Lengths and slopes between the knots.
 struct Intervals {
   Numbers length, slope;
 
@@ -24,13 +24,13 @@ struct Intervals {
   }
 };
 
-// Rows first to last of a tridiagonal system.
+// A tridiagonal system. solve() uses its rows `first` to `last`.
 struct Tridiagonal {
   Numbers lower, diagonal, upper, right;
 
   explicit Tridiagonal(std::size_t size) : lower(size), diagonal(size), upper(size), right(size) {}
 
-  // Elimination needs no pivots: the systems of splines are diagonally dominant.
+  // Elimination without pivoting: a spline's system is diagonally dominant.
   void solve(std::size_t first, std::size_t last, Numbers& m) {
     for (std::size_t i = first + 1; i <= last; ++i) {
       const double factor = lower[i] / diagonal[i - 1];
@@ -44,7 +44,8 @@ struct Tridiagonal {
   }
 };
 
-// The equations for the second derivatives m that make the first one continuous at the inner knots.
+// The equations for the second derivatives m that make the first derivative continuous at inner
+// knots.
 Tridiagonal inner_rows(const Intervals& of) {
   const Numbers& h = of.length;
   Tridiagonal rows(h.size() + 1);
@@ -72,7 +73,7 @@ std::vector<Piece> not_a_knot(const Numbers& times, const Numbers& values) {
   const std::size_t last = times.size() - 1;
   const Intervals of(times, values);
   const Numbers& h = of.length;
-  // The first and last rows take up m[0] and m[last] from the not-a-knot conditions.
+  // The not-a-knot conditions eliminate m[0] and m[last] from the first and last rows.
   Tridiagonal rows = inner_rows(of);
   const double first_ratio = h[0] / h[1];
   const double last_ratio = h[last - 1] / h[last - 2];
@@ -87,7 +88,8 @@ std::vector<Piece> not_a_knot(const Numbers& times, const Numbers& values) {
   return cubics(times, values, of, m);
 }
 
-// Holds the first value before the first knot, and the last one from the last knot on.
+// Adds pieces that hold the first value before the first knot and the last value after the last
+// knot.
 std::vector<Piece> held(std::vector<Piece> pieces, const Numbers& times, const Numbers& values) {
   pieces.insert(pieces.begin(), Piece{times.front(), values.front()});
   pieces.push_back({times.back(), values.back()});
@@ -112,7 +114,7 @@ Spline Spline::at_rest_at_ends(std::vector<double> times, const std::vector<doub
   Numbers m(last + 1);
   rows.solve(0, last, m);
   std::vector<Piece> pieces = cubics(times, values, of, m);
-  pieces.front().c1 = 0;  // not only to rounding
+  pieces.front().c1 = 0;  // exactly, without rounding
   pieces = held(std::move(pieces), times, values);
   return {std::move(times), std::move(pieces)};
 }

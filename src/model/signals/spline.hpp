@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Piecewise polynomials of time: interpolants through tabulated values, and paths past waypoints.
+// Piecewise polynomials in time: interpolants of tables, and paths through waypoints.
 #pragma once
 
 #include <cstddef>
@@ -13,21 +13,21 @@
 
 namespace bbsim::model {
 
-// Value, first and second derivative with respect to time.
+// Value, first and second derivative with respect to time (s).
 template <class Real>
 struct Jet {
   Real value, rate, acceleration;
 };
 
-// A look at a Spline's pieces, without owning them.
+// A view of a Spline's pieces.
 struct SplineView {
   struct Piece {
-    double start, c0, c1 = 0, c2 = 0, c3 = 0, c4 = 0, c5 = 0;  // of the powers of t - start
+    double start, c0, c1 = 0, c2 = 0, c3 = 0, c4 = 0, c5 = 0;  // of powers of t - start
   };
   const Piece* pieces;
   std::size_t count;
 
-  // Outside the knots the end pieces go on.
+  // The end pieces continue outside the knots.
   template <class Time>
   [[nodiscard]] Jet<Time> at(const Time& t) const {
     const Piece& p = pieces[interval(t)];
@@ -38,7 +38,7 @@ struct SplineView {
   }
 
  private:
-  // The last piece that starts at or before t, or the first.
+  // The last piece that starts at or before t, or else the first piece.
   template <class Time>
   [[nodiscard]] std::size_t interval(const Time& t) const {
     const double when = plain(t);
@@ -51,22 +51,22 @@ struct SplineView {
   }
 };
 
-// Pieces of degree 3 or 5 between knots, at which some derivative jumps.
+// Pieces of degree 3 or 5 between knots. The highest derivative jumps at the knots.
 class Spline {
  public:
-  // Cubic spline with not-a-knot ends (de Boor, A Practical Guide to Splines, IV): it reproduces
-  // cubics, and its second derivative, the gimbal's acceleration, is continuous.
-  // `times` strictly increasing, as many as `values`, at least four.
+  // Cubic spline with not-a-knot ends (de Boor, A Practical Guide to Splines, IV). It reproduces
+  // cubics, and its second derivative, the gimbal's acceleration, is continuous. Needs strictly
+  // increasing `times`, as many `values`, and at least four of them.
   Spline(const std::vector<double>& times, const std::vector<double>& values);
 
-  // Cubic spline that starts and ends at rest, and holds the end values outside the knots: its
-  // second derivative is continuous but for the first and last knot.
-  // `times` strictly increasing, as many as `values`, at least two.
+  // Cubic spline that starts and ends at rest and holds the end values outside the knots. Its
+  // second derivative is continuous except at the first and last knot. Needs at least two strictly
+  // increasing `times`, and as many `values`.
   [[nodiscard]] static Spline at_rest_at_ends(std::vector<double> times,
                                               const std::vector<double>& values);
 
-  // A spline that is at rest at every knot, and holds the end values outside: quintics of least
-  // jerk (Flash and Hogan, 1985), each without speed and acceleration at both its ends.
+  // Spline at rest at every knot, which holds the end values outside. Its pieces are the quintics
+  // of least jerk (Flash and Hogan, 1985), with zero velocity and acceleration at both ends: (M14).
   // `times` and `values` as above.
   [[nodiscard]] static Spline at_rest_at_knots(std::vector<double> times,
                                                const std::vector<double>& values);
@@ -76,7 +76,7 @@ class Spline {
     return view().at(t);
   }
 
-  // Valid as long as this spline or a copy of it lives.
+  // Valid while this spline or a copy exists.
   [[nodiscard]] SplineView view() const { return {pieces_->data(), pieces_->size()}; }
 
   // The times at which the highest derivative jumps.
@@ -90,7 +90,7 @@ class Spline {
         pieces_(std::make_shared<const std::vector<Piece>>(std::move(pieces))) {}
 
   std::vector<double> times_;
-  std::shared_ptr<const std::vector<Piece>> pieces_;  // shared by copies: views stay valid
+  std::shared_ptr<const std::vector<Piece>> pieces_;  // copies share them, so views stay valid
 };
 
 }  // namespace bbsim::model

@@ -1,18 +1,19 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The exact Jacobian of whichever system a model is: in one place, since that of all systems takes
-// a compiler longer than all that makes use of it.
+// The exact Jacobian of any system, in one source file: its instantiation for all systems takes the
+// compiler longer than all its callers.
 #pragma once
 
 #include "model/systems/list.hpp"
 
 namespace bbsim::model {
 
-// d f_i / d z_j at (t, z) in matrix[i + size j], of a system of `size` states. No allocation.
+// Writes d f_i / d z_j at (t, z) to matrix[i + size j] for a system of `size` states. Allocates
+// nothing.
 void jacobian(const System& system, double t, const double* z, double* matrix);
 
-// The same at z = 0 under nothing from outside: no reference, no push.
+// The same at z = 0 with zero inputs: no reference, no push.
 void jacobian_at_home(const System& system, double* matrix);
 
 }  // namespace bbsim::model

@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Scenes with couples on the ball, sliding, or a gimbal that torques move
-// (docs/explanation/losses-and-torques.md). Each has all states that such a scene can have; those
-// that it does not use stay zero.
+// Systems for scenes with couples on the ball, sliding, pushes, linkages, or a gimbal moved by
+// torques (docs/explanation/losses-and-torques.md). Each has all states of its kind; unused states
+// stay zero.
 #pragma once
 
 #include <algorithm>
@@ -15,36 +15,36 @@
 
 namespace bbsim::model {
 
-// What holds for one motor between two switches. Its torque is factor * (what is asked of it) + set
-// + by_rate * rate.
+// The mode of one motor between two switches. Its torque is factor * (torque asked) + set + by_rate
+// * rate.
 struct MotorMode {
   double factor = 1, set = 0, by_rate = 0;
   double opposed = 0;    // sign of the rate that dry friction opposes
   double free = 1;       // 0: dry friction holds the axis
-  double integrate = 1;  // the position loop's error; 0 while its integral waits at a limit
-  double side = 0;       // 1 or -1: more or less is asked than is given
-  double along = 0;      // 1: what is asked moves along a limit (control/integral_limit.hpp)
+  double integrate = 1;  // 0: the position loop's integral waits at a limit
+  double side = 0;       // 1 or -1: the torque asked is above or below the torque given
+  double along = 0;      // 1: the torque asked moves along a limit (control/integral_limit.hpp)
 };
 
-// What is asked of a motor, N m: from_command u - from_angle q - from_rate q' + from_integral times
-// the integral of u - q.
+// The torque asked of a motor, N m: from_command u - from_angle q - from_rate q' + from_integral
+// times the integral of u - q. (M49), (M50).
 struct MotorLaw {
   double from_command = 0, from_angle = 0, from_rate = 0, from_integral = 0;
   double viscous = 0, friction = 0;  // N m s, N m
 };
 
-// What a coupled scene does at an instant, in full.
+// All quantities of a coupled scene at an instant.
 template <class Real>
 struct Balance {
-  Real acceleration[most_servos];  // of the axes, or of the servos, rad/s^2
+  Real acceleration[most_servos];  // of the axes or servos, rad/s^2
   Answer<Real> answer;
-  Real p[2], slip[2];       // velocities, m/s
-  Real asked[2], given[2];  // of the motors, N m; of a gimbal that no torques move, what it takes
-  Real needed[2];           // torque beyond the motor's that each axis takes, if friction holds it
+  Real p[2], slip[2];           // velocities, m/s
+  Real asked[2], given[2];      // motor torques, N m; those for the motion if prescribed
+  Real needed[2];               // torque that friction must supply to hold each axis, N m
   Real lost_power, work_power;  // W
 };
 
-// What a row has beside the states, since it changes with the mode.
+// The part of an output row that depends on the mode.
 struct CoupledExtras {
   RigExtras rig;
   CoupledMotion motion;
@@ -59,7 +59,7 @@ struct CoupledExtras {
 };
 static_assert(sizeof(CoupledExtras) == CoupledExtras::size * sizeof(double));
 
-// What both kinds of scene are made of.
+// The common parts of both systems.
 struct CoupledParts {
   CoupledBall ball{};
   ContactMode contact{};
@@ -86,7 +86,7 @@ template <class Real>
   return motion;
 }
 
-// Steps that both take: the directions of what is dry, and the velocities that have them.
+// The velocities at the contact and the directions of dry friction.
 template <class Real, class Ball>
 void look_at_contact(const ContactMode& mode, const Ball& ball, const Real* slip, Real (&p)[2],
                      Real (&s)[2], Directions<Real>& along) {
@@ -98,7 +98,7 @@ void look_at_contact(const ContactMode& mode, const Ball& ball, const Real* slip
   direction(mode.slip, s[0], s[1], along.slip);
 }
 
-// What both kinds have of states alike: the ball, its slip, and the energies.
+// Writes the derivatives that both systems share: the ball, its slip, and the energies.
 template <class Layout, class Real>
 void put_rates(const Balance<Real>& now, const Real* z, Real* dz) {
   dz[0] = z[2];
@@ -112,7 +112,7 @@ void put_rates(const Balance<Real>& now, const Real* z, Real* dz) {
   dz[Layout::work] = now.work_power;
 }
 
-// What a scene with a push on the ball has from outside: the gimbal's part, and the push, N.
+// The inputs with a push on the ball: the gimbal's inputs, and the push, N.
 template <class Time>
 struct PushedInputs {
   std::array<Jet<Time>, 2> of;
@@ -128,7 +128,7 @@ template <class Time>
   return in.of;
 }
 
-// Nothing pushes: no time is spent on it.
+// No push, at no cost.
 struct NoPush {
   static constexpr bool pushes = false;
 };
@@ -144,7 +144,7 @@ struct Push {
   }
 };
 
-// A push on the ball's centre is a cause like gravity: the contact gives what else it takes.
+// A push on the ball's center acts like gravity: (M62).
 template <class Real, class In>
 void add_push(const CoupledBall& ball, const In& in, Cause<Real>& cause) {
   if constexpr (requires { in.push; }) {
@@ -159,7 +159,7 @@ struct CoupledGivenLayout : BallLayout<Shape::full> {
   static constexpr int states = work + 1;
 };
 
-// The gimbal follows a given motion.
+// A coupled scene with a prescribed gimbal motion.
 template <class Signals = SignalPair, bool pushes = false>
 class CoupledGiven {
   template <class Of>
@@ -169,9 +169,9 @@ class CoupledGiven {
   using Layout = CoupledGivenLayout;
   static constexpr Shape moves = Shape::full;
   static constexpr int size = Layout::states;
-  static constexpr bool open_loop = false;  // dry couples are not linear
+  static constexpr bool open_loop = false;  // dry couples are nonlinear
   static constexpr bool papers_rig = false;
-  static constexpr bool steep = true;  // next to rest, where directions turn
+  static constexpr bool steep = true;  // near rest, where directions turn fast
   static constexpr auto motions =
       Motions<7>{{{0, 2}, {1, 3}, {-1, 4}, {-1, 5}, {-1, 6}, {-1, 7}, {-1, 8}}};
 
@@ -286,15 +286,15 @@ struct CoupledLayout : ServoLayout<servos> {
 };
 using CoupledLoopLayout = CoupledLayout<2>;
 
-// How the gimbal of a CoupledLoop moves.
+// What moves the gimbal of a CoupledLoop.
 enum class GimbalBy {
-  servos,        // as in RigLoop
-  torques,       // of motors that a controller commands
-  given_torques  // of motors, functions of time
+  servos,        // servos, as in RigLoop
+  torques,       // motors under a controller's commands
+  given_torques  // prescribed motor torques
 };
 
-// The gimbal moves under a controller, or by torques. With anything between the servos and the
-// plane, or a push on the ball, it is one of those with a Link, which has both.
+// A coupled scene whose gimbal is moved by a controller or by torques. The variants with a Link
+// have both a linkage and a push.
 template <class Signals = SignalPair, class Link = Direct>
 class CoupledLoop {
  public:
@@ -307,7 +307,7 @@ class CoupledLoop {
   static constexpr int size = Layout::states;
   static constexpr bool open_loop = false;
   static constexpr bool papers_rig = false;
-  static constexpr bool steep = true;  // next to rest, where directions turn
+  static constexpr bool steep = true;  // near rest, where directions turn fast
   static constexpr auto motions = [] {
     Motions<11 + servos> all{};
     int next = 0;
@@ -326,8 +326,7 @@ class CoupledLoop {
   GimbalBy by;
   MotorLaw motor;
   MotorMode motors[2]{};
-  RigLoop<true, Signals, Link>
-      loop;  // the law, and servos; torques, where it has none of the latter
+  RigLoop<true, Signals, Link> loop;  // the law and the servos; prescribed torques as its reference
   [[no_unique_address]] PushOf<Signals> push;
 
   template <class Time>
@@ -379,7 +378,7 @@ class CoupledLoop {
     return balance(in, z, command);
   }
 
-  // The inertia that the motors feel at the present mode, H of equation (M47), kg m^2.
+  // The inertia H of (M47) that the motors feel in the present mode, kg m^2.
   [[nodiscard]] std::array<std::array<double, 2>, 2> inertia(const double* z) const {
     const double none[servos] = {};
     Axis<double> axes[2];
@@ -407,7 +406,7 @@ class CoupledLoop {
     }
     extras.motion = coupled_motion(now, parts, z[Layout::lost], z[Layout::work]);
     for (int i = 0; i < 2; ++i) {
-      // What is asked along a limit is the limit: its integral is no state meanwhile.
+      // A torque that moves along a limit equals the limit; its integral is not a state meanwhile.
       if (motors[i].along != 0) extras.motion.asked[i] = now.given[i];
     }
     return extras;
@@ -435,7 +434,7 @@ class CoupledLoop {
   void integrate_error(bool yes) { integrates_ = yes ? 1 : 0; }
 
  private:
-  // With the reference, which the law does not ask for where its command is held.
+  // The inputs with the reference, which loop.inputs() omits while the command is held.
   [[nodiscard]] auto all_inputs(double t) const {
     if constexpr (pushes) {
       return push.with(loop.reference().at(t), t);
@@ -444,7 +443,7 @@ class CoupledLoop {
     }
   }
 
-  // Columns of H, each the moments that an axis' acceleration alone asks for.
+  // The columns of H: the moments for the acceleration of one axis alone.
   template <class Real, class Ball, class Put>
   void felt(const PlaneMotion<Real>& plane, const Ball& ball, const Directions<Real>& along,
             const Put& put) const {

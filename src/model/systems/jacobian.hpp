@@ -13,7 +13,7 @@ namespace bbsim::model {
 template <class System>
 using JacobianOf = Eigen::Matrix<double, System::size, System::size>;
 
-// J(i, j) = d f_i / d z_j at z, under what the system gets from outside. No allocation.
+// J(i, j) = d f_i / d z_j at z for given inputs. Allocates nothing.
 template <class System, class Inputs>
 [[nodiscard]] JacobianOf<System> jacobian_under(const System& system, const Inputs& inputs,
                                                 const double* z) {
@@ -26,7 +26,7 @@ template <class System, class Inputs>
   return matrix;
 }
 
-// The same at (t, z).
+// The Jacobian at (t, z).
 template <class System>
 [[nodiscard]] JacobianOf<System> jacobian(const System& system, double t, const double* z) {
   return jacobian_under(system, system.inputs(t), z);

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The one list of systems: what a model can be, and what integrators have code for.
+// The list of all systems, for models and integrators.
 #pragma once
 
 #include <type_traits>
@@ -36,7 +36,7 @@ using SystemList = std::variant<OpenLoop<Shape::full, Signals>,     //
 using System = SystemList<SignalPair>;
 using SystemViews = SystemList<SignalView>;
 
-// Whether the view of each system stands in the place of the system.
+// Whether each system's view is at the same position in the list of views.
 template <class... Systems, class... Views>
 consteval bool views_in_order(std::type_identity<std::variant<Systems...>>,
                               std::type_identity<std::variant<Views...>>) {

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// What a built rig has beside the right-hand side: what switches and what samples.
+// The data of a rig beside its right-hand side: switches and sampling.
 #pragma once
 
 #include <limits>
@@ -18,26 +18,26 @@ namespace bbsim::model {
 
 class ExternalController;
 
-// A controller in discrete time and its sensor.
+// A sampled controller and its sensor.
 struct SampledLoop {
   Sampling sampling;
   Sensor sensor;
-  ControlLaw law;  // what is computed at each sample; held, if that is not for the model to know
-  CommandRange limit[2];  // phi, theta: of what the law says
-  Between between;        // what makes servos' commands of that
-  // Under a held law: who is asked instead (control/external_controller.hpp), which whoever runs
-  // the model has to see to; and the names of the numbers that it gives for columns.
+  ControlLaw law;         // computed at each sample; `held` for an external controller
+  CommandRange limit[2];  // phi, theta: limits of the law's commands
+  Between between;        // converts commands for the servos
+  // With a held law: the external controller (control/external_controller.hpp), which the caller
+  // must attach before a run; and the names of the columns that it returns.
   std::shared_ptr<ExternalController> external{};
   std::vector<std::string> own_columns{};
 };
 
-// How a servo differs from an ideal one.
+// The deviations of a servo from an ideal one.
 struct RigServo {
   double angle_limit = unlimited;         // rad
   double rate_limit = unlimited;          // rad/s
   double acceleration_limit = unlimited;  // rad/s^2
   double dead_band = 0, backlash = 0;     // rad
-  std::optional<double> time_constant;    // of a servo of first order, s
+  std::optional<double> time_constant;    // of a first-order servo, s
   double offset = 0;                      // angle of the plane at the servo's zero, rad
 
   [[nodiscard]] bool switches() const {
@@ -46,11 +46,11 @@ struct RigServo {
   }
 };
 
-// How the servos and the controller of a closed loop that is a RigLoop differ from ideal ones.
+// The deviations of the servos and the controller of a closed loop from ideal ones.
 struct Rig {
-  int servos = 2;  // phi's, theta's; or three
+  int servos = 2;  // of phi and theta; or three
   RigServo servo[most_servos];
-  // A continuous law's command is kept within it; in gravity compensation, the command's sine.
+  // Limits of a continuous law's command; for gravity compensation, of the command's sine.
   CommandRange command_limit[2];
   Between between;
   std::optional<SampledLoop> sampled;

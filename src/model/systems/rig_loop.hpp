@@ -1,12 +1,11 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The closed loop of a built rig: servos with limits, laws beyond equation (31), controllers that
-// hold their command between samples.
+// The closed loop of a rig: servos with limits, laws beyond equation (31), and sampled controllers.
 //
-// What switches (a servo at its rate limit, a command that a sample changed) is constant between
-// two switches, and stands in a RigMode: the right-hand side has no branch on the state, and is as
-// smooth as equation (27). HybridSystem says when what switches.
+// Everything that switches (a servo at its rate limit, a command that steps) is constant between
+// two switches and part of a RigMode. The right-hand side therefore has no branch on the state and
+// is as smooth as equation (27). HybridSystem decides when the mode switches.
 #pragma once
 
 #include <cstring>
@@ -19,34 +18,34 @@
 
 namespace bbsim::model {
 
-// As many servos as a gimbal has at most.
+// The largest number of servos of a gimbal.
 inline constexpr int most_servos = 3;
 
-// What holds for one axis, or one servo, between two switches.
+// The mode of one axis or servo between two switches.
 struct AxisMode {
-  // Acceleration of the servo = demand_factor * demand + set_acceleration, rad/s^2.
+  // Servo acceleration = demand_factor * demand + set_acceleration, rad/s^2.
   double demand_factor = 1, set_acceleration = 0;
-  // Angle of the plane, or of the horn that moves it, = ratio * angle of the servo + offset, rad.
+  // Angle of the plane, or of the horn that moves it = ratio * servo angle + offset, rad.
   double ratio = 1, offset = 0;
-  // Command behind its limit = command_factor * command + set_command.
+  // Limited command = command_factor * command + set_command.
   double command_factor = 1, set_command = 0;
-  double integrate = 1;  // 0: the integral part of the command waits at the limit
+  double integrate = 1;  // 0: the command's integral part waits at the limit
   double side = 0;       // 1 or -1: the command is at its upper or lower limit
-  double along = 0;      // 1: it moves along that limit (control/integral_limit.hpp)
+  double along = 0;      // 1: the command moves along the limit (control/integral_limit.hpp)
 };
 
 struct RigMode {
-  AxisMode axis[most_servos];            // phi, theta; or of each servo, where there are three
-  double command[most_servos]{0, 0, 0};  // of a controller that holds it, rad or rad/s^2
-  double wanted[2]{0, 0};                // the same before it became three servos', rad
+  AxisMode axis[most_servos];            // phi, theta; or each of three servos
+  double command[most_servos]{0, 0, 0};  // held by a sampled controller, rad or rad/s^2
+  double wanted[2]{0, 0};  // the command before its conversion for linkages or three servos, rad
 };
 
-// A servo's acceleration in free motion: from_command u - from_angle q - from_rate q'.
+// Servo acceleration in free motion: from_command u - from_angle q - from_rate q'.
 struct ServoResponse {
   double from_command = 1, from_angle = 0, from_rate = 0;
 };
 
-// Of each servo.
+// The responses of all servos.
 struct ServoResponses {
   ServoResponse of[most_servos];
 
@@ -58,11 +57,11 @@ struct ServoResponses {
 template <class Real, int servos = 2>
 struct RigAxes {
   Command<Real> command;  // of the law
-  Real told[servos];      // to the servos, where something is between them and the plane, rad
-  Real demand[servos];    // acceleration that the servo would have in free motion, rad/s^2
+  Real told[servos];      // to the servos, if they drive a linkage, rad
+  Real demand[servos];    // servo acceleration in free motion, rad/s^2
 };
 
-// Where a rig's states are, after the ball's five: of phi, and next to it of theta.
+// The layout of a rig's states after the ball's five. phi and theta are adjacent.
 template <int servos>
 struct ServoLayout : BallLayout<Shape::full> {
   static constexpr int angle = BallLayout<Shape::full>::size, rate = angle + servos,
@@ -70,8 +69,8 @@ struct ServoLayout : BallLayout<Shape::full> {
 };
 using RigLayout = ServoLayout<2>;
 
-// What a row of output needs beside the states, since it changes with the mode: of the plane, phi
-// and theta; the commands; and, of a sampled loop, where the ball was seen last.
+// The part of an output row that depends on the mode: the plane's motion (phi, theta), the
+// commands, and the last measurement of the ball of a sampled loop.
 struct RigExtras {
   double angle[2], rate[2], acceleration[2], command[2], measured[2];
 
@@ -85,8 +84,8 @@ struct RigExtras {
 };
 static_assert(sizeof(RigExtras) == RigExtras::size * sizeof(double));
 
-// States: the ball's five, the servos' angles and rates; and the integral parts of the commands, of
-// a law in continuous time that has them. Link is what stands between the servos and the plane.
+// States: the ball's five, the servos' angles and rates, and with `integrates` the integral parts
+// of the commands. Link is the mechanism between servos and plane.
 template <bool integrates = false, class Signals = SignalPair, class Link = Direct>
 class RigLoop {
  public:
@@ -124,7 +123,7 @@ class RigLoop {
   RigMode mode;
   [[no_unique_address]] Link link;
 
-  // The reference, but where the command is held: nothing asks for it then.
+  // The reference. Zero if the command is held, because the right-hand side does not use it.
   template <class Time>
   [[nodiscard]] std::array<Jet<Time>, 2> inputs(const Time& t) const {
     if constexpr (!integrates) {
@@ -166,7 +165,7 @@ class RigLoop {
     Layout::derivative(rolling_, plane[0], plane[1], Layout::unpack(z), r_, g_, dz);
   }
 
-  // What law and servo ask for at a state.
+  // The commands and servo demands at a state.
   template <class Time, class Real>
   [[nodiscard]] Axes<Real> axes(const std::array<Jet<Time>, 2>& reference, const Real* z) const {
     Axes<Real> loop;
@@ -195,7 +194,7 @@ class RigLoop {
     return loop;
   }
 
-  // The command that servo i follows.
+  // The command to servo i.
   template <class Real>
   [[nodiscard]] static const Real& told(const Axes<Real>& loop, int i) {
     if constexpr (Link::direct) {
@@ -205,7 +204,7 @@ class RigLoop {
     }
   }
 
-  // The plane's axes where the servos have these accelerations, rad/s^2.
+  // The plane's axes for these servo accelerations, rad/s^2.
   template <class Real>
   void planes(const Real* z, const Real (&acceleration)[servos], Axis<Real> (&axis)[2]) const {
     if constexpr (Link::direct) {
@@ -236,15 +235,14 @@ class RigLoop {
     }
   }
 
-  // Angles of the horns, behind backlash, rad.
+  // The angles of the horns, after backlash, rad.
   void horns(const double* z, double (&horn)[servos]) const {
     for (int i = 0; i < servos; ++i) {
       horn[i] = mode.axis[i].ratio * z[Layout::angle + i] + mode.axis[i].offset;
     }
   }
 
-  // The jump of (x', y', u) when the rates of phi and theta jump by (phi, theta), rad/s: what
-  // (27) leaves of an instant in which only their accelerations are large.
+  // The jump of (x', y', u) when the rates of phi and theta jump by (phi, theta), rad/s: (M26).
   [[nodiscard]] std::array<double, 3> impulse(const double* z, double phi, double theta) const {
     const Inertial<double> inertial = coefficients(z);
     std::array<double, 3> jump{};
@@ -254,7 +252,7 @@ class RigLoop {
     return jump;
   }
 
-  // All but what was measured, at the present mode.
+  // All extras of the present mode except the measurement.
   [[nodiscard]] RigExtras extras(double t, const double* z) const {
     const Axes<double> loop = axes(inputs(t), z);
     RigExtras extras{};
@@ -268,7 +266,7 @@ class RigLoop {
     return extras;
   }
 
-  // The plane's motion where the servos have these accelerations.
+  // The plane's motion for these servo accelerations.
   void fill(const double* z, const double (&acceleration)[servos], RigExtras& extras) const {
     if constexpr (Link::direct) {
       for (int i = 0; i < 2; ++i) {
@@ -290,7 +288,7 @@ class RigLoop {
     }
   }
 
-  // The command of an axis: its servo's; where there are three, the plane's.
+  // The command of an axis: its servo's; with three servos, the plane's.
   template <class Real>
   [[nodiscard]] Real shown(const Axes<Real>& loop, int i) const {
     if constexpr (servos == 2) {
@@ -319,7 +317,7 @@ class RigLoop {
     return sample;
   }
 
-  // The sample is one of the present mode.
+  // The sample in the present mode.
   [[nodiscard]] Sample sample(double t, const double* z, Detail detail = Detail::all) const {
     return sample(t, z, detail == Detail::ball ? RigExtras{} : extras(t, z), detail);
   }
@@ -332,7 +330,7 @@ class RigLoop {
   [[nodiscard]] double gravity() const { return g_; }
 
  private:
-  // The ball's accelerations where the gimbal has none, and what those of the gimbal add.
+  // The ball's accelerations without gimbal acceleration, and their derivatives by it.
   template <class Real>
   struct Inertial {
     GeneralRolling::Rates<Real> rest;
@@ -391,7 +389,7 @@ class RigLoop {
     return state;
   }
 
-  // (27) solved for (phi'', theta''), Cramer's rule.
+  // Solves (27) for (phi'', theta'') by Cramer's rule: (M30).
   template <class Time, class Real>
   [[nodiscard]] Command<Real> linearize(const std::array<Jet<Time>, 2>& reference,
                                         const Real* z) const {

@@ -1,17 +1,17 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The ordinary differential equations of a scene: equation (27) with what moves the gimbal.
+// The ordinary differential equations of a scene: equation (27) and the motion of the gimbal.
 //
-// A system is a plain value with
+// A system is a value with these members:
 //     size                          the number of states, at compile time
 //     derivative(t, z, dz)          z' = f(t, z), for any number types of time and state
-//     inputs(t)                     all of f that depends on the time alone
+//     inputs(t)                     the part of f that depends only on time
 //     derivative_of(inputs, z, dz)  the rest: f(t, z) = derivative_of(inputs(t), z)
 //     motions                       which states are velocities, and of which other states
-//     view()                        the same system in plain memory, for code of one instruction
+//     view()                        the system in plain memory, for code of one instruction set
 //     sample(t, z, detail)          the instant in the paper's symbols
-// and no knowledge of who integrates it. Which one a scene gets is assemble()'s choice.
+// A system knows nothing of its integrator. assemble() chooses the system of a scene.
 #pragma once
 
 #include <array>
@@ -26,25 +26,25 @@
 
 namespace bbsim::model {
 
-// What can move: the ball anywhere on the plane, or along one axis of it, where symmetry keeps
-// the other coordinate, the spin and the other gimbal angle at zero.
+// The freedom of the ball: anywhere on the plane, or along one axis, where symmetry keeps the other
+// coordinate, the spin and the other gimbal angle at zero.
 enum class Shape { full, along_x, along_y };
 
-// A state that is a velocity and the state that it is the rate of; -1 where that is no state.
+// A velocity among the states, and the state whose rate it is; -1 if that is not a state.
 struct Motion {
   int position, velocity;
 };
 
-// All velocities of a system, those with a position first. Together with the positions they are
-// the whole state.
+// All velocities of a system, those with a position first. Velocities and positions are the whole
+// state.
 template <int velocities>
 struct Motions {
   static constexpr int count = velocities;
   Motion of[velocities];
 };
 
-// The ball's equation of motion, a parameter of the systems below: (27), or a simpler one to be
-// measured against it (model/ball/simpler_equations.hpp).
+// The ball's equation of motion, a parameter of the systems below: (27), or a simpler equation for
+// comparison (model/ball/simpler_equations.hpp).
 struct Equation27 {
   template <class Real, class Phi, class Theta, class Ball, class Scalar>
   static Real x(const Phi& phi, const Theta& theta, const Ball& ball, const Scalar& r,
@@ -62,7 +62,7 @@ struct Equation27 {
   }
 };
 
-// Fields, not indices: the packing of the ball into a solver's vector, and back.
+// Packs the ball's fields into a solver's vector, and back.
 template <Shape shape>
 struct BallLayout;
 
@@ -142,7 +142,7 @@ template <Shape shape, class Ball>
   return {ball.x, ball.y, ball.x_dot, ball.y_dot, static_cast<double>(ball.u) / r};
 }
 
-// The gimbal follows a given motion: its angles are functions of time, not states.
+// The gimbal has a prescribed motion: its angles are functions of time, not states.
 template <Shape shape, class Signals = SignalPair, class Equation = Equation27>
 class OpenLoop {
  public:
@@ -176,7 +176,7 @@ class OpenLoop {
     return {r_, g_, motion_.view(), equation_};
   }
 
-  // The same scene with another equation for the ball.
+  // The same scene with another equation of motion for the ball.
   template <class Other>
   [[nodiscard]] OpenLoop<shape, Signals, Other> with_equation() const {
     return {r_, g_, motion_};
@@ -222,9 +222,9 @@ class OpenLoop {
   [[no_unique_address]] Equation equation_;
 };
 
-// One axis of the gimbal under control. Its acceleration is
+// The control of one gimbal axis. Its acceleration is
 //     acceleration drive:  u                                         equation (31)
-//     angle drive:         omega_n^2 (u - angle) - 2 zeta omega_n angle'   a position servo
+//     angle drive:         omega_n^2 (u - angle) - 2 zeta omega_n angle'   servo, (M11)
 template <class Scalar>
 struct BasicServoLaw {
   Scalar omega_n, zeta;
@@ -240,7 +240,7 @@ struct BasicServoLaw {
 };
 using ServoLaw = BasicServoLaw<double>;
 
-// A controller moves the gimbal: angles and rates are states, after those of the ball.
+// A controller moves the gimbal: angles and rates are states after those of the ball.
 template <Shape shape, Drives drives, class Signals = SignalPair, class Equation = Equation27,
           class Scalar = double>
 class ClosedLoop {
@@ -263,7 +263,7 @@ class ClosedLoop {
     }
     return all;
   }();
-  // Where those of the gimbal's axes are among them.
+  // The index of the first gimbal axis in `motions`.
   static constexpr int first_axis = [] {
     int first = 0;
     while (motions.of[first].position < Layout::size) ++first;
@@ -274,7 +274,7 @@ class ClosedLoop {
              BasicServoLaw<Scalar> servo, Signals reference)
       : r_(radius), g_(gravity), gains_(gains), servo_(servo), reference_(std::move(reference)) {}
 
-  // The reference and its derivatives.
+  // The reference with its derivatives.
   template <class Time>
   [[nodiscard]] std::array<Jet<Time>, 2> inputs(const Time& t) const {
     return reference_.at(t);
@@ -289,7 +289,7 @@ class ClosedLoop {
     return {r_, g_, gains_, servo_, reference_.view()};
   }
 
-  // The same loop around a ball with another equation.
+  // The same loop with another equation of motion for the ball.
   template <class Other>
   [[nodiscard]] ClosedLoop<shape, drives, Signals, Other> with_equation() const {
     return {r_, g_, gains_, servo_, reference_};
@@ -305,9 +305,9 @@ class ClosedLoop {
     put_axes(phi, theta, angles, dz);
   }
 
-  // The same, but the ball's accelerations are those on a gimbal that turns with the accelerations
-  // `turning` of its axes, rad/s^2, whatever its servos do: for integrators that have these as
-  // unknowns. What a stiff servo does at a state is a difference of large numbers.
+  // The same, except that the ball's accelerations use `turning`, the axes' accelerations
+  // (rad/s^2), in place of the servos' own. For integrators with these accelerations as unknowns: a
+  // stiff servo's acceleration at a state is a difference of large numbers.
   template <class Time, class Real>
   void derivative_of(const std::array<Jet<Time>, 2>& reference, const Real* z, const Real* turning,
                      Real* dz) const {
@@ -356,7 +356,7 @@ class ClosedLoop {
   [[nodiscard]] Scalar gravity() const { return g_; }
 
  private:
-  // One axis of the gimbal: its command, and the servo behind it.
+  // A gimbal axis with its command and its servo.
   template <std::size_t row, class Real, class Ball, class Time>
   [[nodiscard]] auto axis(const Ball& ball, const std::array<Jet<Time>, 2>& reference,
                           const Real* angles) const {
