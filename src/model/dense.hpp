@@ -3,7 +3,7 @@
 
 // The algebra of matrices that are small, and whose sizes only the scene tells. Eigen makes code of
 // its own for every expression, of which compilers take seconds each: products of products,
-// transposes and blocks all become one here.
+// transposes and blocks all become one here. In this namespace a b of two matrices is that, too.
 #pragma once
 
 #include <Eigen/Core>
@@ -13,6 +13,12 @@ namespace bbsim::model {
 
 // a b; the shapes have to fit.
 [[nodiscard]] Eigen::MatrixXd product(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b);
+[[nodiscard]] inline Eigen::MatrixXd operator*(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b) {
+  return product(a, b);
+}
+
+// The transposed matrix, as one and not as an expression.
+[[nodiscard]] Eigen::MatrixXd transposed(const Eigen::MatrixXd& a);
 
 // Of a square matrix; not finite if it is singular.
 [[nodiscard]] Eigen::MatrixXd inverse(const Eigen::MatrixXd& a);

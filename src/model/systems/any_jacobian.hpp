@@ -12,7 +12,4 @@ namespace bbsim::model {
 // d f_i / d z_j at (t, z) in matrix[i + size j], of a system of `size` states. No allocation.
 void jacobian(const System& system, double t, const double* z, double* matrix);
 
-// The same at z = 0 under nothing from outside: no reference, no push.
-void jacobian_at_home(const System& system, double* matrix);
-
 }  // namespace bbsim::model
