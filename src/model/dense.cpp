@@ -27,10 +27,6 @@ MatrixXd solve(const MatrixXd& a, const MatrixXd& b) {
   return Eigen::PartialPivLU<MatrixXd>(a).solve(b);
 }
 
-MatrixXd solve_consistent(const MatrixXd& a, const MatrixXd& b) {
-  return Eigen::FullPivLU<MatrixXd>(a).solve(b);
-}
-
 std::optional<MatrixXd> solve_if_regular(const MatrixXd& a, const MatrixXd& b) {
   if (!a.allFinite()) return {};
   const Eigen::FullPivLU<MatrixXd> factors(a);

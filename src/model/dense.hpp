@@ -26,10 +26,7 @@ namespace bbsim::model {
 // x of a x = b, by elimination with pivots of rows; not finite if `a` is singular.
 [[nodiscard]] Eigen::MatrixXd solve(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b);
 
-// By pivots of rows and columns: if `a` is singular one of the solutions, if there are any.
-[[nodiscard]] Eigen::MatrixXd solve_consistent(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b);
-
-// The same; nothing if `a` is singular, or anything not finite.
+// By pivots of rows and columns; nothing if `a` is singular, or anything not finite.
 [[nodiscard]] std::optional<Eigen::MatrixXd> solve_if_regular(const Eigen::MatrixXd& a,
                                                               const Eigen::MatrixXd& b);
 
