@@ -12,7 +12,11 @@ namespace bbsim::model {
 using Eigen::MatrixXd;
 
 MatrixXd product(const MatrixXd& a, const MatrixXd& b) {
-  return a * b;
+  return a.operator*(b);  // Eigen's own
+}
+
+MatrixXd transposed(const MatrixXd& a) {
+  return a.transpose();
 }
 
 MatrixXd inverse(const MatrixXd& a) {
@@ -21,10 +25,6 @@ MatrixXd inverse(const MatrixXd& a) {
 
 MatrixXd solve(const MatrixXd& a, const MatrixXd& b) {
   return Eigen::PartialPivLU<MatrixXd>(a).solve(b);
-}
-
-MatrixXd solve_consistent(const MatrixXd& a, const MatrixXd& b) {
-  return Eigen::FullPivLU<MatrixXd>(a).solve(b);
 }
 
 std::optional<MatrixXd> solve_if_regular(const MatrixXd& a, const MatrixXd& b) {
@@ -49,10 +49,10 @@ MatrixXd exponential(const MatrixXd& a) {
   // e^a - 1 of a small part, by its series, then (e^2a - 1) = (e^a - 1)^2 + 2 (e^a - 1).
   constexpr int terms = 18;  // 0.5^18 / 18! is below rounding
   MatrixXd series = identity;
-  for (int k = terms; k > 1; --k) series = identity + product(part, series) / k;
-  MatrixXd less_one = product(part, series);
+  for (int k = terms; k > 1; --k) series = identity + part * series / k;
+  MatrixXd less_one = part * series;
   for (int i = 0; i < halvings; ++i) {
-    const MatrixXd square = product(less_one, less_one);
+    const MatrixXd square = less_one * less_one;
     less_one = square + 2 * less_one;
   }
   return less_one + identity;

@@ -153,7 +153,7 @@ Eigenvalues sampled_poles(const Model& model) {
   const LinearPoint home = home_point();
   const PlantDerivatives plant = plant_derivatives(model, home, Heave::left_out);
   std::vector<int> states;
-  return poles_of_period(SampledCycle(cycle_parts(plant, *model.rig, home, states)).map());
+  return poles_of_period(SampledCycle(cycle_parts(plant, *model.rig, home, states)).map().a);
 }
 
 int growing(const Eigenvalues& poles) {

@@ -33,15 +33,9 @@ Json json_of(const model::Eigenvalues& values) {
   return list;
 }
 
-Json names_of(const Signals& signals) {
+Json list_of(const Signals& signals, std::string LinearSignal::*what) {
   Json list = Json::array();
-  for (const LinearSignal& signal : signals) list.push_back(signal.name);
-  return list;
-}
-
-Json units_of(const Signals& signals) {
-  Json list = Json::array();
-  for (const LinearSignal& signal : signals) list.push_back(signal.unit);
+  for (const LinearSignal& signal : signals) list.push_back(signal.*what);
   return list;
 }
 
@@ -68,38 +62,64 @@ std::string opening(const LinearReport& report, const std::string& comment) {
          title_of(report) + ".\n";
 }
 
-// The text of a matrix, with what its language puts before, between and behind rows.
-struct Brackets {
-  const char *open, *open_row, *between, *close_row, *next_row, *close;
-};
-
-std::string text_of(const Eigen::MatrixXd& matrix, const Brackets& brackets) {
-  std::string text = brackets.open;
-  for (Eigen::Index i = 0; i < matrix.rows(); ++i) {
-    if (i > 0) text += brackets.next_row;
-    text += brackets.open_row;
-    for (Eigen::Index j = 0; j < matrix.cols(); ++j) {
-      if (j > 0) text += brackets.between;
-      text += number_text(matrix(i, j));
-    }
-    text += brackets.close_row;
-  }
-  return text + brackets.close;
-}
-
-std::string list_of(const Signals& signals, std::string LinearSignal::*what, const char* open,
-                    const char* close) {
-  std::string text = open;
-  for (const LinearSignal& signal : signals) {
-    text += std::string(text.size() > 1 ? ", " : "") + "'" + signal.*what + "'";
-  }
-  return text + close;
-}
-
 constexpr const char* matrix_names[] = {"A", "B", "C", "D"};
 
 std::array<const Eigen::MatrixXd*, 4> matrices_of(const LinearSystem& system) {
   return {&system.a, &system.b, &system.c, &system.d};
+}
+
+// How a language writes what the system is made of.
+struct Language {
+  const char *comment, *before;  // `before`: what it needs first
+  // A matrix, with what stands before, between and behind rows.
+  const char *open, *open_row, *between, *close_row, *next_row, *close;
+  const char *open_list, *close_list, *end;  // `end`: of a statement
+};
+
+std::string text_of(const Eigen::MatrixXd& matrix, const Language& in) {
+  std::string text = in.open;
+  for (Eigen::Index i = 0; i < matrix.rows(); ++i) {
+    if (i > 0) text += in.next_row;
+    text += in.open_row;
+    for (Eigen::Index j = 0; j < matrix.cols(); ++j) {
+      if (j > 0) text += in.between;
+      text += number_text(matrix(i, j));
+    }
+    text += in.close_row;
+  }
+  return text + in.close;
+}
+
+// Sets A, B, C, D, the names, the units and the period.
+std::string definitions(const LinearReport& report, const Language& in) {
+  const LinearSystem& system = report.linearization.system;
+  std::string text = opening(report, in.comment) + in.before;
+  const auto set = [&](const std::string& name, const std::string& value) {
+    text += name + " = " + value + in.end;
+  };
+  const auto matrices = matrices_of(system);
+  for (std::size_t i = 0; i < matrices.size(); ++i) {
+    set(matrix_names[i], text_of(*matrices[i], in));
+    text += '\n';
+  }
+  const auto list = [&](const Signals& signals, std::string LinearSignal::*what) {
+    std::string items;
+    for (const LinearSignal& signal : signals) {
+      items += (items.empty() ? "'" : ", '") + signal.*what + "'";
+    }
+    return in.open_list + items + in.close_list;
+  };
+  const auto name = [&](const std::string& of, const Signals& signals) {
+    set(of + "s", list(signals, &LinearSignal::name));
+    text += '\n';
+    set(of + "_units", list(signals, &LinearSignal::unit));
+    text += '\n';
+  };
+  name("state", system.states);
+  name("input", system.inputs);
+  name("output", system.outputs);
+  set("period", system.period ? number_text(*system.period) : "0");
+  return text + "  " + in.comment + " s; 0 in continuous time\n";
 }
 
 }  // namespace
@@ -111,12 +131,12 @@ std::string to_json(const LinearReport& report) {
   json["scenario"] = report.scenario;
   json["kind"] = report.kind;
   json["at"] = report.at;
-  json["states"] = names_of(system.states);
-  json["inputs"] = names_of(system.inputs);
-  json["outputs"] = names_of(system.outputs);
-  json["state_units"] = units_of(system.states);
-  json["input_units"] = units_of(system.inputs);
-  json["output_units"] = units_of(system.outputs);
+  json["states"] = list_of(system.states, &LinearSignal::name);
+  json["inputs"] = list_of(system.inputs, &LinearSignal::name);
+  json["outputs"] = list_of(system.outputs, &LinearSignal::name);
+  json["state_units"] = list_of(system.states, &LinearSignal::unit);
+  json["input_units"] = list_of(system.inputs, &LinearSignal::unit);
+  json["output_units"] = list_of(system.outputs, &LinearSignal::unit);
   const auto matrices = matrices_of(system);
   for (std::size_t i = 0; i < matrices.size(); ++i) json[matrix_names[i]] = json_of(*matrices[i]);
   json["poles"] = json_of(made.poles);
@@ -150,24 +170,9 @@ std::string to_json(const LinearReport& report) {
 }
 
 std::string to_matlab(const LinearReport& report) {
-  const LinearSystem& system = report.linearization.system;
-  constexpr Brackets brackets{"[", "", ", ", "", "; ...\n     ", "];\n"};
-  std::string text = opening(report, "%");
-  const auto matrices = matrices_of(system);
-  for (std::size_t i = 0; i < matrices.size(); ++i) {
-    text += std::string(matrix_names[i]) + " = " + text_of(*matrices[i], brackets);
-  }
-  const auto add = [&](const char* name, const Signals& signals) {
-    text += std::string(name) + "s = " + list_of(signals, &LinearSignal::name, "{", "};\n");
-    text += std::string(name) + "_units = " + list_of(signals, &LinearSignal::unit, "{", "};\n");
-  };
-  add("state", system.states);
-  add("input", system.inputs);
-  add("output", system.outputs);
-  const std::string period = system.period ? number_text(*system.period) : "0";
-  text += "period = " + period + ";  % s; 0 in continuous time\n";
+  constexpr Language matlab{"%", "", "[", "", ", ", "", "; ...\n     ", "]", "{", "}", ";"};
   // Octave knows ss() once its package is loaded.
-  return text +
+  return definitions(report, matlab) +
          "if exist('OCTAVE_VERSION', 'builtin') && isempty(which('ss'))\n"
          "  try, pkg load control; catch, end\n"
          "end\n"
@@ -178,23 +183,9 @@ std::string to_matlab(const LinearReport& report) {
 }
 
 std::string to_python(const LinearReport& report) {
-  const LinearSystem& system = report.linearization.system;
-  constexpr Brackets brackets{"numpy.array([", "[", ", ", "]", ",\n    ", "])\n"};
-  std::string text = opening(report, "#") + "import numpy\n\n";
-  const auto matrices = matrices_of(system);
-  for (std::size_t i = 0; i < matrices.size(); ++i) {
-    text += std::string(matrix_names[i]) + " = " + text_of(*matrices[i], brackets);
-  }
-  const auto add = [&](const char* name, const Signals& signals) {
-    text += std::string(name) + "s = " + list_of(signals, &LinearSignal::name, "[", "]\n");
-    text += std::string(name) + "_units = " + list_of(signals, &LinearSignal::unit, "[", "]\n");
-  };
-  add("state", system.states);
-  add("input", system.inputs);
-  add("output", system.outputs);
-  text += "period = " + (system.period ? number_text(*system.period) : std::string("0")) +
-          "  # s; 0 in continuous time\n";
-  return text +
+  constexpr Language python{
+      "#", "import numpy\n\n", "numpy.array([", "[", ", ", "]", ",\n    ", "])", "[", "]", ""};
+  return definitions(report, python) +
          "\ntry:\n"
          "    import control\n"
          "except ImportError:\n"

@@ -26,8 +26,8 @@ StoredRun::StoredRun(file::TableData table, const std::string& name)
     : name_(name), table_(std::move(table)) {
   for (const std::string& column : table_.names) {
     const Column* const known = scenario::find_column(column);
-    columns_.push_back(known != nullptr ? *known
-                                        : Column{column, "", column, scenario::Needs::ball});
+    columns_.push_back(
+        known != nullptr ? *known : Column{column, column, "", column, scenario::Needs::ball});
     columns_.back().name = column;
   }
   const Column* const t = find("t");

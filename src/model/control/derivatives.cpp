@@ -487,12 +487,13 @@ struct Rest {
   bool commands = false;       // unknown too: there is no law that gives them
 };
 
-Rest rest_of(const StatePlaces& places, const ControlLaw& law, bool has_law) {
+// Where nothing pulls the ball to a side, angles are as good as any others: they stay.
+Rest rest_of(const StatePlaces& places, const ControlLaw& law, bool has_law, bool angles_stay) {
   Rest rest;
-  rest.vanishing = {2, 3};
   if (has_law) rest.states = {0, 1};
+  if (!angles_stay) rest.vanishing = {2, 3};
   for (int i = 0; i < places.servos; ++i) {
-    rest.states.push_back(spin_state + 1 + i);
+    if (!angles_stay) rest.states.push_back(spin_state + 1 + i);
     rest.vanishing.push_back(spin_state + 1 + places.servos + i);
   }
   rest.commands = !has_law;
@@ -573,6 +574,11 @@ void require_linear(const Scenario& scene) {
 
 namespace {
 
+// What a plate that torques move or three servos carry rests under depends on where the ball is.
+bool is_plain(const Scenario& scene) {
+  return !scenario::is_coupled(scene) && !scene.gimbal.three_servos;
+}
+
 class EquilibriumSearch {
   template <class Use>
   auto with_loop(const Use& use) const {
@@ -603,13 +609,14 @@ class EquilibriumSearch {
     }
     // Whatever a servo's answer is like, it rests at its command.
     if (scene.gimbal.servo) at_rest_ = ServoResponse{1, 1, 0};
+    angles_stay_ = scene.gravity == 0 && is_plain(scene);
     follows_ = scene.controller && scene.controller->drives == Drives::angle &&
                !scenario::moved_by_torques(scene) && places_.servos == 2;
   }
 
-  // With a law, the only point at which everything rests; without, any.
+  // Nothing if there is no such point, or more than one.
   [[nodiscard]] std::optional<LinearPoint> find(bool under_law) {
-    const Rest rest = rest_of(places_, law_, under_law);
+    const Rest rest = rest_of(places_, law_, under_law, angles_stay_);
     const auto of_states = std::ssize(rest.states);
     for (int pass = 0; pass < 50; ++pass) {
       if (under_law) point_.command = commands().first;
@@ -617,10 +624,8 @@ class EquilibriumSearch {
       MatrixXd slope(std::ssize(rest.vanishing), of_states + (rest.commands ? 2 : 0));
       slope.leftCols(of_states) = now.of_state(rest.vanishing, rest.states);
       if (rest.commands) slope.rightCols(2) = now.of_command(rest.vanishing, Eigen::all);
-      const MatrixXd left = -now.rates(rest.vanishing);
-      const auto solved =
-          under_law ? solve_if_regular(slope, left) : std::optional(solve_consistent(slope, left));
-      if (!solved || !solved->allFinite()) return {};
+      const auto solved = solve_if_regular(slope, -now.rates(rest.vanishing));
+      if (!solved) return {};
       const VectorXd change = *solved;
       double size = 0;
       for (Eigen::Index k = 0; k < of_states; ++k) {
@@ -633,8 +638,9 @@ class EquilibriumSearch {
       for (const double one : point_.state) size = std::hypot(size, one);
       // Newton's last step: what it leaves is rounding.
       if (change.norm() > 1e-9 * (1 + size)) continue;
+      // Nothing is to turn, or to act on another, by what rounding leaves.
+      for (double& one : point_.state) one = std::abs(one) < 1e-15 ? 0 : one;
       if (under_law) point_.command = commands().first;
-      // To the bit, so that nothing turns by its rounding.
       if (follows_) std::copy_n(&point_.state[RigLayout::angle], 2, point_.command.begin());
       return point_;
     }
@@ -664,6 +670,7 @@ class EquilibriumSearch {
   StatePlaces places_{};
   const Sensor* sensor_ = nullptr;
   ServoResponses at_rest_;
+  bool angles_stay_ = false;
   bool follows_ = false;  // servos are where they are told to be
 };
 
@@ -679,10 +686,8 @@ LinearPoint equilibrium(const Scenario& scene) {
   EquilibriumSearch search(scene, model);
   const bool has_law = search.has_law();
   const auto point = search.find(has_law);
-  // What a plate that torques move or three servos carry rests under depends on where the ball is.
-  const bool as_one = scenario::is_coupled(scene) || scene.gimbal.three_servos;
   if (!point) {
-    if (as_one) {
+    if (!is_plain(scene)) {
       throw_no_equilibrium(
           "everything rests at no single position, at any angles and commands of this gimbal");
     }
@@ -698,7 +703,7 @@ LinearPoint equilibrium(const Scenario& scene) {
       continue;
     }
     throw_no_equilibrium(std::string("the command that keeps ") +
-                         (as_one ? "the ball at its reference" : "the plate level") +
+                         (is_plain(scene) ? "the plate level" : "the ball at its reference") +
                          " is beyond controller.limit");
   }
   return *point;

@@ -13,7 +13,10 @@
 
 namespace bbsim::model {
 
-// c (s I - A)^-1 b + d at s = i w, or, with a period T > 0, at exp(i w T); w in rad/s.
+// C (s I - A)^-1 B + D at s = i w, or, with a period T (s) > 0, at exp(i w T); w in rad/s.
+// A is n x n, B n x m, C p x n, D p x m, and all are finite.
+// Method: A balanced and in Hessenberg form, so that each frequency takes n^2 operations; Laub,
+// IEEE Trans. Automatic Control 26 (1981).
 class FrequencyResponse {
  public:
   FrequencyResponse(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b, const Eigen::MatrixXd& c,
@@ -61,8 +64,9 @@ struct Margins {
   double delay = none, delay_at = none;  // the shortest, s
 };
 
-// Of the response from the only input to the only output. What rounding of the entries would make
-// or unmake is none. Factors of frequencies below `slowest` (rad/s) do not count.
+// Of a response with one input and one output, L, between frequencies of frequencies_to_look_at();
+// at least one. What rounding of the entries would make or unmake is none. Factors of frequencies
+// below `slowest` (rad/s) do not count. Of an unstable loop they say where poles cross the border.
 [[nodiscard]] Margins margins_of(const FrequencyResponse& open_loop,
                                  const std::vector<double>& frequencies, double slowest = 0);
 

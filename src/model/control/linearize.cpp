@@ -80,9 +80,18 @@ std::vector<int> reference_inputs(const MatrixXd& of_reference, const std::vecto
   return columns;
 }
 
-// The positions, which are the first states.
-MatrixXd positions_of(Eigen::Index outputs, Eigen::Index states) {
-  return MatrixXd::Identity(outputs, states);
+// Whose outputs are the positions, which are the first states.
+LinearSystem system_of(std::vector<LinearSignal> states, std::vector<LinearSignal> inputs,
+                       const std::vector<int>& axes, const MatrixXd& a, const MatrixXd& b) {
+  const Eigen::Index outputs = std::ssize(axes);
+  return {std::move(states),
+          std::move(inputs),
+          signals_of_positions(axes, ""),
+          a,
+          b,
+          MatrixXd::Identity(outputs, a.rows()),
+          MatrixXd::Zero(outputs, b.cols()),
+          {}};
 }
 
 // At home three servos are two ideal ones, unless losses or a push are to be seen beside them.
@@ -103,13 +112,9 @@ Linearization plant_about(const Scenario& scene, const Model& model, const Linea
       linear_states(plant.places, plant.of_state, axes, SpinStands::after_velocities);
   Linearization made;
   LinearSystem& system = made.system;
-  system.states = signals_of(state_signals(plant.places, command_unit(scene)), states);
-  system.inputs = signals_of_commands(scene, axes);
-  system.outputs = signals_of_positions(axes, "");
-  system.a = plant.of_state(states, states);
-  system.b = plant.of_command(states, axes);
-  system.c = positions_of(std::ssize(axes), std::ssize(states));
-  system.d = MatrixXd::Zero(std::ssize(axes), std::ssize(axes));
+  system = system_of(signals_of(state_signals(plant.places, command_unit(scene)), states),
+                     signals_of_commands(scene, axes), axes, plant.of_state(states, states),
+                     plant.of_command(states, axes));
   made.poles = sorted_eigenvalues(system.a);
   made.zeros = transmission_zeros(system.a, system.b, system.c, system.d);
   return made;
@@ -242,17 +247,14 @@ Linearization continuous_loop_about(const Scenario& scene, const Model& model,
   const LoopDerivatives loop = loop_derivatives(model, at, heave);
   const PlantDerivatives plant = plant_derivatives(model, at, heave);
   const std::vector<int> states = loop_states(loop, axes);
+  std::vector<LinearSignal> inputs;
+  const std::vector<int> columns = reference_inputs(loop.of_reference, axes, inputs);
   Linearization made;
   LinearSystem& system = made.system;
-  system.states = signals_of(state_signals(loop.places, command_unit(scene)), states);
-  const std::vector<int> columns = reference_inputs(loop.of_reference, axes, system.inputs);
-  system.outputs = signals_of_positions(axes, "");
-  system.a = loop.of_state(states, states);
-  system.b = loop.of_reference(states, columns);
-  system.c = positions_of(std::ssize(axes), std::ssize(states));
-  system.d = MatrixXd::Zero(std::ssize(axes), std::ssize(columns));
+  system = system_of(signals_of(state_signals(loop.places, command_unit(scene)), states),
+                     std::move(inputs), axes, loop.of_state(states, states),
+                     loop.of_reference(states, columns));
   made.poles = sorted_eigenvalues(system.a);
-
   made.zeros = tracking_zeros(system.a, loop.of_reference(states, Eigen::all), system.c, axes);
 
   const PlainLoop plain = plain_loop(made, slowest_at(plant));
@@ -288,40 +290,21 @@ SampledModel sampled_about(const Scenario& scene, const Model& model, const Line
 Linearization sampled_loop_about(const Scenario& scene, const Model& model, const LinearPoint& at) {
   const std::vector<int> axes{0, 1};
   const auto [plant, cycle, signals] = sampled_about(scene, model, at);
-  const int n = cycle.size();
-  const VectorXd none = VectorXd::Zero(n);
-  MatrixXd of_reference(n, 6);
-  for (int j = 0; j < 6; ++j) {
-    SampledCycle::Input input;
-    input.reference[j] = 1;
-    of_reference.col(j) = cycle.run(none, input).state;
-  }
+  const SampledMap closed = cycle.map();
+  std::vector<LinearSignal> inputs;
+  const std::vector<int> columns = reference_inputs(closed.of_reference, axes, inputs);
   Linearization made;
   LinearSystem& system = made.system;
-  system.states = signals;
-  const std::vector<int> columns = reference_inputs(of_reference, axes, system.inputs);
-  system.outputs = signals_of_positions(axes, "");
-  system.a = cycle.map();
-  system.b = of_reference(Eigen::all, columns);
-  system.c = positions_of(2, n);
-  system.d = MatrixXd::Zero(2, std::ssize(columns));
+  system = system_of(signals, std::move(inputs), axes, closed.a,
+                     closed.of_reference(Eigen::all, columns));
   system.period = scene.controller->sampling->period;
   made.poles = poles_of_period(system.a);
   made.zeros =
-      transmission_zeros(system.a, of_reference.leftCols(2), system.c, MatrixXd::Zero(2, 2));
+      transmission_zeros(system.a, closed.of_reference.leftCols(2), system.c, MatrixXd::Zero(2, 2));
   const PlainLoop plain = plain_loop(made, slowest_at(plant));
   for (const int axis : axes) {
-    SampledCycle::Input open;
-    open.open[axis] = true;
-    MatrixXd a(n, n);
-    Eigen::RowVectorXd c(n);
-    for (int j = 0; j < n; ++j) {
-      const SampledCycle::Output out = cycle.run(VectorXd::Unit(n, j), open);
-      a.col(j) = out.state;
-      c[j] = out.law[axis];
-    }
-    open.command[axis] = 1;
-    add_margins(made, plain, axis, a, cycle.run(none, open).state, c);
+    const SampledMap open = cycle.map(axis == 0, axis == 1);
+    add_margins(made, plain, axis, open.a, open.of_command.col(axis), open.law.row(axis));
   }
   add_bandwidths(made, plain, columns, axes);
   return made;
@@ -341,29 +324,17 @@ Linearization sampled_plant_about(const Scenario& scene, const Model& model,
   for (int i = 0; i < n; ++i) {
     if (i < first || i >= first + cycle.controller_size()) kept.push_back(i);
   }
-  SampledCycle::Input open;
-  open.open[0] = open.open[1] = true;
-  MatrixXd a(n, n), c(2, n), b(n, 2);
-  for (int j = 0; j < n; ++j) {
-    const SampledCycle::Output out = cycle.run(VectorXd::Unit(n, j), open);
-    a.col(j) = out.state;
-    c.col(j) = out.seen;
-  }
-  for (int j = 0; j < 2; ++j) {
-    SampledCycle::Input input = open;
-    input.command[j] = 1;
-    b.col(j) = cycle.run(VectorXd::Zero(n), input).state;
-  }
+  const SampledMap open = cycle.map(true, true);
   Linearization made;
   LinearSystem& system = made.system;
-  for (const int i : kept) system.states.push_back(signals[static_cast<std::size_t>(i)]);
-  system.inputs = signals_of_commands(scene, {0, 1});
-  system.outputs = signals_of_positions({0, 1}, "_measured");
-  system.a = a(kept, kept);
-  system.b = b(kept, Eigen::all);
-  system.c = c(Eigen::all, kept);
-  system.d = MatrixXd::Zero(2, 2);
-  system.period = scene.controller->sampling->period;
+  system = {signals_of(signals, kept),
+            signals_of_commands(scene, {0, 1}),
+            signals_of_positions({0, 1}, "_measured"),
+            open.a(kept, kept),
+            open.of_command(kept, Eigen::all),
+            open.seen(Eigen::all, kept),
+            MatrixXd::Zero(2, 2),
+            scene.controller->sampling->period};
   made.poles = poles_of_period(system.a);
   made.zeros = transmission_zeros(system.a, system.b, system.c, system.d);
   return made;

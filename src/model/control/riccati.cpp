@@ -22,16 +22,16 @@ using Eigen::MatrixXd;
                  "every mode, and gravity greater than 0");
 }
 
-// A, G, H -> H, which tends to the solution; each pass doubles the number of steps it looks ahead.
+// Structured doubling: (A, G, H) of twice as many steps in each pass, and H tends to the solution.
+// Chu, Fan, Lin and Wang (2004), algorithm SDA.
 MatrixXd doubled(MatrixXd a, MatrixXd g, MatrixXd h) {
   const MatrixXd identity = MatrixXd::Identity(a.rows(), a.cols());
   for (int pass = 0; pass < 60; ++pass) {
-    const MatrixXd w = identity + product(g, h), transposed = a.transpose();
-    const MatrixXd wa = solve(w, a);
-    const MatrixXd change = product(product(transposed, h), wa);
-    g += product(product(a, solve(w, g)), transposed);
+    const MatrixXd w = identity + g * h, wa = solve(w, a);
+    const MatrixXd change = transposed(a) * h * wa;
+    g += a * solve(w, g) * transposed(a);
     h += change;
-    a = product(a, wa);
+    a = a * wa;
     if (!h.allFinite() || !g.allFinite()) break;
     // By now a is the closed loop over 2^pass steps: it has to have died away.
     if (change.norm() <= 1e-15 * h.norm() && a.norm() <= 1e-6) return (h + h.transpose()) / 2;
@@ -43,34 +43,29 @@ MatrixXd doubled(MatrixXd a, MatrixXd g, MatrixXd h) {
 
 RiccatiSolution solve_discrete_riccati(const MatrixXd& a, const MatrixXd& b, const MatrixXd& q,
                                        const MatrixXd& r) {
-  RiccatiSolution solution;
-  const MatrixXd b_transposed = b.transpose();
-  solution.cost = doubled(a, product(product(b, inverse(r)), b_transposed), q);
-  const MatrixXd seen = product(b_transposed, solution.cost);
-  solution.gain = solve(r + product(seen, b), product(seen, a));
-  return solution;
+  const MatrixXd x = doubled(a, b * inverse(r) * transposed(b), q);
+  const MatrixXd bx = transposed(b) * x;
+  return {x, solve(r + bx * b, bx * a)};
 }
 
 RiccatiSolution solve_continuous_riccati(const MatrixXd& a, const MatrixXd& b, const MatrixXd& q,
                                          const MatrixXd& r) {
   const MatrixXd identity = MatrixXd::Identity(a.rows(), a.cols());
-  const MatrixXd b_transposed = b.transpose(), g = product(product(b, inverse(r)), b_transposed);
+  const MatrixXd g = b * inverse(r) * transposed(b);
   // Any shift beyond the eigenvalues' sizes does.
   double largest = 1;
   for (const std::complex<double>& value : eigenvalues_of(a)) {
     largest = std::max(largest, std::abs(value));
   }
   const double shift = 1.5 * largest;
-  const MatrixXd shifted = a - shift * identity;
-  const MatrixXd transposed = shifted.transpose(), inverted = inverse(shifted);
-  const MatrixXd w = inverse(transposed + product(product(q, inverted), g));
-  const MatrixXd forward = inverse(shifted + product(product(g, inverse(transposed)), q));
-  RiccatiSolution solution;
-  solution.cost =
-      doubled(identity + 2 * shift * forward, 2 * shift * product(product(inverted, g), w),
-              2 * shift * product(product(w, q), inverted));
-  solution.gain = product(product(inverse(r), b_transposed), solution.cost);
-  return solution;
+  // The Cayley transform of the Hamiltonian matrix, in the form that doubling starts from: Chu, Fan
+  // and Lin (2005).
+  const MatrixXd shifted = a - shift * identity, at = transposed(shifted);
+  const MatrixXd w = inverse(at + q * inverse(shifted) * g);
+  const MatrixXd forward = inverse(shifted + g * inverse(at) * q);
+  const MatrixXd x = doubled(identity + 2 * shift * forward, 2 * shift * (inverse(shifted) * g * w),
+                             2 * shift * (w * q * inverse(shifted)));
+  return {x, inverse(r) * transposed(b) * x};
 }
 
 Eigen::Matrix<double, 2, 8> lqr_gain(const LinearPlant& plant, const LqrWeights& weights,
@@ -78,8 +73,7 @@ Eigen::Matrix<double, 2, 8> lqr_gain(const LinearPlant& plant, const LqrWeights&
   Eigen::VectorXd diagonal(8);
   diagonal << weights.position, weights.position, weights.velocity, weights.velocity, weights.angle,
       weights.angle, weights.rate, weights.rate;
-  const MatrixXd q = diagonal.asDiagonal();
-  const MatrixXd r = weights.command * MatrixXd::Identity(2, 2);
+  const MatrixXd q = diagonal.asDiagonal(), r = weights.command * MatrixXd::Identity(2, 2);
   if (period > 0) {
     const LinearPlant step = zero_order_hold(plant, period);
     return solve_discrete_riccati(step.a, step.b, q, r).gain;

@@ -11,23 +11,28 @@
 
 namespace bbsim::model {
 
-// The stabilising solution X of A^T X A - X - A^T X B (R + B^T X B)^-1 B^T X A + Q = 0, and the
-// gain K = (R + B^T X B)^-1 B^T X A of u = -K z that minimises the sum of z^T Q z + u^T R u under
-// z+ = A z + B u. R is positive definite, Q positive semidefinite.
+// Both solvers:
+//   A is n x n, B n x m, Q n x n and symmetric positive semidefinite, R m x m and symmetric
+//   positive definite; units are those of the caller. None of this is checked but by what comes of
+//   it. (A, B) has to be stabilizable and (A, Q) to have no unobservable mode that does not decay;
+//   otherwise there is no stabilizing solution, and they throw a KeyError of controller.lqr.
 struct RiccatiSolution {
-  Eigen::MatrixXd cost, gain;
+  Eigen::MatrixXd cost;  // X, n x n: z^T X z is the cost from z on
+  Eigen::MatrixXd gain;  // K, m x n, of u = -K z, under which the loop is stable
 };
 
-// Throw InputError if there is no stabilising solution: something that no command moves, or that no
-// weight sees, does not decay. Method: Chu, Fan, Lin and Wang, Int. J. Control 77 (2004).
+// A^T X A - X - A^T X B (R + B^T X B)^-1 B^T X A + Q = 0 and K = (R + B^T X B)^-1 B^T X A, which
+// minimizes the sum of z^T Q z + u^T R u over the steps z+ = A z + B u.
+// Method: Chu, Fan, Lin and Wang, Int. J. Control 77 (2004).
 [[nodiscard]] RiccatiSolution solve_discrete_riccati(const Eigen::MatrixXd& a,
                                                      const Eigen::MatrixXd& b,
                                                      const Eigen::MatrixXd& q,
                                                      const Eigen::MatrixXd& r);
 
-// Does the same for z' = A z + B u and the integral: A^T X + X A - X B R^-1 B^T X + Q = 0,
-// K = R^-1 B^T X. Method: a Cayley transform to the discrete one (Chu, Fan and Lin, Linear Algebra
-// Appl. 396, 2005).
+// A^T X + X A - X B R^-1 B^T X + Q = 0 and K = R^-1 B^T X, which minimizes the integral of
+// z^T Q z + u^T R u under z' = A z + B u.
+// Method: a Cayley transform to the discrete one; Chu, Fan and Lin, Linear Algebra Appl. 396
+// (2005).
 [[nodiscard]] RiccatiSolution solve_continuous_riccati(const Eigen::MatrixXd& a,
                                                        const Eigen::MatrixXd& b,
                                                        const Eigen::MatrixXd& q,

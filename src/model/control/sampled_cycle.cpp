@@ -15,9 +15,6 @@ namespace bbsim::model {
 
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
-using Vector2 = Eigen::Vector2d;
-
-using Pairs = Eigen::Matrix<double, 2, Eigen::Dynamic>;
 
 struct SampledCycle::Parts {
   MatrixXd plant;
@@ -25,10 +22,11 @@ struct SampledCycle::Parts {
   Pairs position, velocity, integral, held;
 };
 
-// Of the cycle's first sample.
-struct SampledCycle::Outputs {
-  MatrixXd states;
-  Pairs seen, law;
+// What comes in from outside in every cycle.
+struct SampledCycle::Inputs {
+  Eigen::Matrix<double, 6, Eigen::Dynamic> reference;
+  Pairs command;   // in place of the law's,
+  bool open[2]{};  // where the loop is open
 };
 
 CycleParts cycle_parts(const PlantDerivatives& plant, const Rig& rig, const LinearPoint& at,
@@ -267,33 +265,33 @@ void SampledCycle::apply(Parts& of) const {
   if (!jump.isZero(0)) of.plant += product(parts_.jump, jump);
 }
 
-void SampledCycle::sample(Parts& of, const Input& input, Outputs& output) const {
+SampledCycle::Pairs SampledCycle::sample(Parts& of, const Inputs& inputs) const {
   const double period = parts_.sampling.period, filter = parts_.sampling.derivative_filter;
   const double keep = filter / (filter + period);
   const Pairs& seen = of.exposures.front();
   of.velocity = (keep * of.velocity + (1 - keep) / period * (seen - of.position)).eval();
   of.position = seen;
-  const Pairs error = (-seen).colwise() + input.reference.head<2>();
-  of.integral += period * product(parts_.of_integral, error);
+  of.integral += period * product(parts_.of_integral, inputs.reference.topRows(2) - seen);
   MatrixXd known(10, of.plant.cols());
   known << of.position, of.velocity, of.plant.middleRows(4, 4), of.integral;
   if (parts_.fed.size() > 0) known.middleRows(4, 4) = product(parts_.fed, of.plant);
-  const Vector2 led = parts_.of_reference * input.reference;
-  const Pairs law = product(parts_.of_feedback, known).colwise() + led;
-  Pairs command = law;
+  const MatrixXd led = product(parts_.of_reference, inputs.reference);
+  Pairs law = product(parts_.of_feedback, known) + led;
+  Pairs& command = of.commands.emplace_back(law);
   for (int i = 0; i < 2; ++i) {
-    if (input.open[i]) command.row(i).setConstant(input.command[i]);
+    if (inputs.open[i]) command.row(i) = inputs.command.row(i);
   }
-  if (output.law.size() == 0) {
-    output.law = law;
-    output.seen = seen;
-  }
-  of.commands.push_back(command);
+  return law;
 }
 
-SampledCycle::Outputs SampledCycle::run_all(const MatrixXd& states, const Input& input) const {
-  Parts of = unpacked(states);
-  Outputs output;
+SampledMap SampledCycle::map(bool phi_open, bool theta_open) const {
+  // A column for each state, and for each input.
+  const int n = size();
+  const Eigen::Index columns = n + 8;
+  Parts of = unpacked(MatrixXd::Identity(n, columns));
+  const MatrixXd inputs = MatrixXd::Identity(columns, columns).bottomRows(8);
+  const Inputs input{inputs.topRows(6), inputs.bottomRows(2), {phi_open, theta_open}};
+  SampledMap map;
   const auto skip = [&of](int count) {
     for (; count > 0; --count) of.exposures.pop_front();
   };
@@ -301,16 +299,20 @@ SampledCycle::Outputs SampledCycle::run_all(const MatrixXd& states, const Input&
   for (const Step& step : steps_) {
     if (step.way > 0) {
       const LinearPlant& way = ways_[step.way];
-      of.plant = product(way.a, of.plant) + product(way.b, of.held);
+      of.plant = way.a * of.plant + product(way.b, of.held);
     }
     switch (step.act) {
       case Act::expose:
         expose(of);
         break;
-      case Act::sample:
+      case Act::sample: {
+        const bool first = next_sample == 0;
         skip(skipped_[next_sample++]);
-        sample(of, input, output);
+        if (first) map.seen = of.exposures.front().leftCols(n);
+        const Pairs law = sample(of, input);
+        if (first) map.law = law.leftCols(n);
         break;
+      }
       case Act::apply:
         apply(of);
         break;
@@ -319,17 +321,11 @@ SampledCycle::Outputs SampledCycle::run_all(const MatrixXd& states, const Input&
         break;
     }
   }
-  output.states = packed(of);
-  return output;
-}
-
-SampledCycle::Output SampledCycle::run(const VectorXd& state, const Input& input) const {
-  const Outputs all = run_all(state, input);
-  return {all.states.col(0), all.seen.col(0), all.law.col(0)};
-}
-
-MatrixXd SampledCycle::map() const {
-  return run_all(MatrixXd::Identity(size(), size()), {}).states;
+  const MatrixXd states = packed(of);
+  map.a = states.leftCols(n);
+  map.of_reference = states.middleCols(n, 6);
+  map.of_command = states.rightCols(2);
+  return map;
 }
 
 LinearPlant zero_order_hold(const LinearPlant& plant, double time) {

@@ -16,7 +16,8 @@
 
 namespace bbsim::model {
 
-// z and u after `time` (s) under a constant command: z(time) = a z + b u.
+// z after `time` (s) under a constant u: z(time) = A z + B u. By the exponential of [A, B; 0, 0]:
+// Van Loan, IEEE Trans. Automatic Control 23 (1978).
 [[nodiscard]] LinearPlant zero_order_hold(const LinearPlant& plant, double time);
 
 // What a sampled loop is made of, about any point. The first states of the plant are x, y, x', y',
@@ -45,6 +46,16 @@ struct CycleParts {
 [[nodiscard]] CycleParts cycle_parts(const PlantDerivatives& plant, const Rig& rig,
                                      const LinearPoint& at, std::vector<int>& states);
 
+// A cycle with n states: what it makes of them, and of a reference (its values, rates and
+// accelerations, two of each) and commands that stay the same throughout.
+struct SampledMap {
+  Eigen::MatrixXd a;             // n x n
+  Eigen::MatrixXd of_reference;  // n x 6
+  Eigen::MatrixXd of_command;    // n x 2; 0 where the loop is closed
+  // 2 x n: what the sample at the cycle's start sees of the states, m, and what the law says then.
+  Eigen::MatrixXd seen, law;
+};
+
 // What a sampled loop does from a sample on, linear, until samples and frames meet again: to the
 // next sample, if there are no frames, or one for each (common_cycle.hpp). Of its state, in this
 // order: the plant's; what was seen and is not yet done with; the position and velocity that the
@@ -53,19 +64,6 @@ struct CycleParts {
 class SampledCycle {
  public:
   explicit SampledCycle(CycleParts parts);
-
-  struct Input {
-    Eigen::Matrix<double, 6, 1> reference = Eigen::Matrix<double, 6, 1>::Zero();
-    // Where the loop is open, this is commanded in place of what the law says.
-    bool open[2]{false, false};
-    Eigen::Vector2d command = Eigen::Vector2d::Zero();
-  };
-  struct Output {
-    Eigen::VectorXd state;  // a cycle later
-    Eigen::Vector2d seen;   // by the sample at the cycle's start, m
-    Eigen::Vector2d law;    // what the law says then
-  };
-  [[nodiscard]] Output run(const Eigen::VectorXd& state, const Input& input) const;
 
   [[nodiscard]] int size() const;
   // How many periods of the samples it takes.
@@ -76,8 +74,8 @@ class SampledCycle {
   [[nodiscard]] int controller_at() const;
   [[nodiscard]] int controller_size() const;
 
-  // What a cycle does to the state, the loop closed.
-  [[nodiscard]] Eigen::MatrixXd map() const;
+  // With the loops of the commands closed; an open one takes its command from outside.
+  [[nodiscard]] SampledMap map(bool phi_open = false, bool theta_open = false) const;
 
  private:
   enum class Act { expose, sample, apply, end };
@@ -86,13 +84,13 @@ class SampledCycle {
     Act act;
   };
   // Of several states at once: a column each.
+  using Pairs = Eigen::Matrix<double, 2, Eigen::Dynamic>;
   struct Parts;
-  struct Outputs;
-  [[nodiscard]] Outputs run_all(const Eigen::MatrixXd& states, const Input& input) const;
+  struct Inputs;
   [[nodiscard]] Parts unpacked(const Eigen::MatrixXd& states) const;
   [[nodiscard]] Eigen::MatrixXd packed(const Parts& parts) const;
   void plan();
-  void sample(Parts& of, const Input& input, Outputs& output) const;
+  Pairs sample(Parts& of, const Inputs& inputs) const;  // returns what the law says
   void expose(Parts& of) const;
   void apply(Parts& of) const;
 

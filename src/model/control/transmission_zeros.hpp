@@ -10,13 +10,13 @@
 
 namespace bbsim::model {
 
-// Where [A - sI, B; C, D] loses rank: the finite ones alone, by falling real part. For as many
-// inputs as outputs; of other systems there are none in general, and none are returned. Units and
-// time scales do not matter: what is 0 is told by the terms of its own sum, and not by the largest
-// entry.
+// The finite s at which [A - sI, B; C, D] loses rank, by falling real part; of a system from sample
+// to sample, the z. A is n x n, B n x m, C m x n, D m x m. Other systems have none in general, and
+// none are returned; nor of matrices that are not finite. Units and time scales do not matter:
+// whether an entry is 0 is told by the terms of its own sum, and not by the largest entry.
 //
 // Method: the steps of Emami-Naeini and Van Dooren, Automatica 18 (1982), by elimination: the
-// system is reduced to one whose D is invertible. A generalised eigenvalue problem has the infinite
+// system is reduced to one whose D is invertible. A generalized eigenvalue problem has the infinite
 // zeros too, which rounding makes large finite ones.
 [[nodiscard]] std::vector<std::complex<double>> transmission_zeros(const Eigen::MatrixXd& a,
                                                                    const Eigen::MatrixXd& b,

@@ -13,7 +13,4 @@ namespace bbsim::model {
 // nothing.
 void jacobian(const System& system, double t, const double* z, double* matrix);
 
-// The same at z = 0 with zero inputs: no reference, no push.
-void jacobian_at_home(const System& system, double* matrix);
-
 }  // namespace bbsim::model
