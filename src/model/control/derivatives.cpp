@@ -165,13 +165,13 @@ Loop under(const Loop& of, const ControlLaw& law, const ServoResponses& servo,
   }
 }
 
-// The plant: under a law that hands on its reference, u = reference - position. Linkages are told
-// what their servos are.
+// The plant: under a law whose commands are their integral parts, which are then commanded.
+// Linkages are told what their servos are.
 template <class Loop>
 Loop without_law(const Loop& loop) {
   ControlLaw law;
   law.kind = LawKind::linear;
-  law.gain[0][0] = law.gain[1][1] = 1;
+  law.integral[0][0] = law.integral[1][1] = 1;
   const auto& gimbal = gimbal_of(loop);
   LinkOf<Loop> link = gimbal.link;
   if constexpr (std::is_same_v<LinkOf<Loop>, Linkages>) {
@@ -245,12 +245,11 @@ PlantDerivatives differentiate_plant(const Loop& loop, const LinearPoint& at) {
   constexpr int n = Loop::size;
   Varied z[n], dz[n];
   vary_states<Loop>(at, z);
-  std::array<Jet<Varied>, 2> commands;
   for (int i = 0; i < 2; ++i) {
-    const auto axis = static_cast<std::size_t>(i);
-    commands[axis] = {z[i] + Varied::variable(at.command[axis], n + i), Varied(0.0), Varied(0.0)};
+    const double command = at.command[static_cast<std::size_t>(i)];
+    z[Loop::Layout::integral + i] = Varied::variable(command, n + i);
   }
-  rates_under(without_law(loop), commands, at.time, z, dz);
+  rates_under(without_law(loop), std::array<Jet<Varied>, 2>{}, at.time, z, dz);
   PlantDerivatives plant;
   plant.places = places_of(loop);
   plant.state = states_at<Loop>(at);
@@ -638,9 +637,8 @@ class EquilibriumSearch {
       for (const double one : point_.state) size = std::hypot(size, one);
       // Newton's last step: what it leaves is rounding.
       if (change.norm() > 1e-9 * (1 + size)) continue;
-      // Nothing is to turn, or to act on another, by what rounding leaves.
-      for (double& one : point_.state) one = std::abs(one) < 1e-15 ? 0 : one;
       if (under_law) point_.command = commands().first;
+      // To the bit, so that nothing turns by its rounding.
       if (follows_) std::copy_n(&point_.state[RigLayout::angle], 2, point_.command.begin());
       return point_;
     }
