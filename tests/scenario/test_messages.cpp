@@ -5,6 +5,7 @@
 #include "catch.hpp"
 #include "support/reading.hpp"
 
+using Catch::Matchers::Contains;
 using namespace bbsim::test;
 
 TEST_CASE("a value out of range") {
