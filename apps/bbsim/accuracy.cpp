@@ -7,7 +7,6 @@
 #include <filesystem>
 #include <memory>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "base/short_number.hpp"
@@ -68,7 +67,7 @@ void explain_reference(const api::AccuracyStudy& study, double end) {
 
 ExitCode accuracy(const AccuracyArguments& arguments, const Options& options) {
   file::Outputs outputs;
-  Scenario scenario = read(arguments.scenario, options, outputs);
+  const Scenario scenario = read(arguments.scenario, options, outputs);
   const std::vector<Method> methods = methods_named(arguments.methods);
   const std::vector<double> rtols = api::tolerance_ladder(arguments.rtols);
   if (arguments.csv != "-") prints(outputs);
@@ -85,13 +84,12 @@ ExitCode accuracy(const AccuracyArguments& arguments, const Options& options) {
   }
 
   Progress progress("accuracy", options.quiet);
-  const double end = scenario.time.end;
   const std::string title = scenario.title.empty()
                                 ? std::filesystem::path(scenario.source.file).stem().string()
                                 : scenario.title;
-  const api::AccuracyStudy study = api::accuracy({std::move(scenario), methods, rtols}, progress);
+  const api::AccuracyStudy study = api::accuracy(scenario, methods, rtols, progress);
 
-  if (!options.quiet) explain_reference(study, end);
+  if (!options.quiet) explain_reference(study, scenario.time.end);
   if (csv) {
     csv->write(api::accuracy_csv(study));
     csv->commit();

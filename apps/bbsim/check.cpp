@@ -16,8 +16,8 @@ ExitCode check(const ScenarioArguments& arguments, const Options& options) {
   file::Outputs outputs;
   const Scenario scenario = read(arguments, options, outputs);
   prints(outputs);
-  Teller teller;
-  print(to_text(api::check(scenario, teller)));
+  Progress progress(scenario.source.file, options.quiet);
+  print(to_text(api::check(scenario, progress)));
   return ExitCode::done;
 }
 

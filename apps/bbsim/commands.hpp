@@ -5,6 +5,7 @@
 #pragma once
 
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "command.hpp"
@@ -51,6 +52,12 @@ void add_overrides(Command& command, std::vector<std::string>& overrides);
 // Where the result goes if nothing else is said: the scenario's name with the suffix, in the
 // current folder; what came from standard input goes to standard output.
 [[nodiscard]] std::string default_output(const std::string& scenario, const std::string& suffix);
+
+// --measure NAME,...; may be given again. What a measure's name may be, for a command's help. And
+// what was measured as CSV: measure,value.
+Option add_measures(Command& command, std::vector<std::string>& lists, const std::string& what);
+[[nodiscard]] std::string measures_footer();
+[[nodiscard]] std::string measure_text(const std::vector<std::pair<std::string, double>>& measures);
 
 // What an output is called in messages.
 [[nodiscard]] std::string name_of_output(const std::string& output);

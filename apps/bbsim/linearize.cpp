@@ -43,8 +43,8 @@ ExitCode linearize(const LinearizeArguments& arguments, const Options& options) 
   if (arguments.loop) request.kind = api::LinearKind::loop;
   if (arguments.sampled) request.kind = api::LinearKind::sampled;
   request.at = arguments.at;
-  Teller teller;
-  const api::Linearized made = api::linearize(request, teller);
+  Progress progress(request.scenario.source.file, options.quiet);
+  const api::Linearized made = api::linearize(request, progress);
   if (made.code != ExitCode::done) {
     say(made.reason);
     return made.code;

@@ -31,7 +31,7 @@ std::size_t columns_of_terminal() {
 
 }  // namespace
 
-void Teller::controller_says(std::string_view line) {
+void Progress::controller_says(std::string_view line) {
   // In the place of a progress bar, which is drawn again below it.
   if (draws_on_terminal()) std::fputs(to_clear_line, stderr);
   say("controller: " + std::string(line));

@@ -12,13 +12,7 @@
 
 namespace bbsim::app {
 
-// Says what controllers write to their standard error.
-class Teller : public api::Watch {
- public:
-  void controller_says(std::string_view line) override;
-};
-
-class Progress : public Teller {
+class Progress : public api::Watch {
  public:
   // Draws on standard error if that is a terminal and `quiet` is not set; a line a minute where it
   // is none, if `lines` is set.
@@ -36,6 +30,7 @@ class Progress : public Teller {
 
   void note(const std::string& text) override;
   void warn(const std::string& text) override;
+  void controller_says(std::string_view line) override;
   // Signals, which end the process at once before this is called.
   [[nodiscard]] const std::atomic<bool>* stop() override;
 

@@ -14,7 +14,6 @@
 #include "base/error.hpp"
 #include "base/short_number.hpp"
 #include "commands.hpp"
-#include "measure_text.hpp"
 #include "progress.hpp"
 #include "replay_file.hpp"
 #include "terminal.hpp"
@@ -24,19 +23,20 @@ namespace {
 
 struct RunArguments {
   ScenarioArguments scenario;
-  std::string output, summary, error, replay;
+  std::string output, error, replay;
   bool force = false;
-  std::vector<std::string> measures, expect;
-  api::PartRequest part;
+  api::RunRequest request;  // as far as words say it
 };
 
 // Comes before any of them is opened.
 void declare_files(const RunArguments& arguments, const std::string& output,
                    file::Outputs& outputs) {
-  if (!arguments.part.from.empty()) outputs.reads(arguments.part.from, "--from-state");
-  if (!arguments.measures.empty()) {
+  if (!arguments.request.part.from.empty())
+    outputs.reads(arguments.request.part.from, "--from-state");
+  if (!arguments.request.measures.empty()) {
     // A pipe is nobody's, but what came of it could not be read.
-    for (const auto& [name, option] : {std::pair(output, "-o"), {arguments.summary, "--summary"}}) {
+    for (const auto& [name, option] :
+         {std::pair(output, "-o"), {arguments.request.summary, "--summary"}}) {
       if (name != "-") continue;
       throw InputError("--measure: prints to standard output, as " + std::string(option) +
                        " - does; allowed: " + option + " FILE");
@@ -44,8 +44,9 @@ void declare_files(const RunArguments& arguments, const std::string& output,
     prints(outputs);
   }
   outputs.writes(output, arguments.output.empty() ? "its name by default, without -o" : "-o");
-  if (!arguments.part.save.empty()) outputs.writes(arguments.part.save, "--save-state");
-  if (!arguments.summary.empty()) outputs.writes(arguments.summary, "--summary");
+  if (!arguments.request.part.save.empty())
+    outputs.writes(arguments.request.part.save, "--save-state");
+  if (!arguments.request.summary.empty()) outputs.writes(arguments.request.summary, "--summary");
   if (!arguments.replay.empty()) declare_replay(outputs, arguments.replay, "--replay");
 }
 
@@ -76,24 +77,20 @@ ExitCode run(const RunArguments& arguments, const Options& options) {
   const std::string output =
       arguments.output.empty() ? default_output(arguments.scenario.file, ".csv") : arguments.output;
   file::Outputs outputs;
-  api::RunRequest request;
+  api::RunRequest request = arguments.request;
   request.scenario =
       read(with_error(arguments.scenario, arguments.error), options, outputs, &request.inputs);
   declare_files(arguments, output, outputs);
   keep_part_before(arguments, output);
   request.output = output;
   request.replaces_its_like_only = arguments.output.empty() && !arguments.force;
-  request.summary = arguments.summary;
-  request.measures = arguments.measures;
-  request.expect = arguments.expect;
-  request.part = arguments.part;
   request.pictured = !arguments.replay.empty();
   std::optional<ReplayFile> replay;
   if (request.pictured) request.ready = [&] { replay.emplace(arguments.replay); };
 
   Progress progress(request.scenario.source.file, options.quiet);
   api::RunResult made = api::run(request, progress);
-  if (!arguments.measures.empty()) print(measure_text(made.summary.measures));
+  if (!arguments.request.measures.empty()) print(measure_text(made.summary.measures));
   tell(made, options.quiet);
   if (!options.quiet) {
     say(written_text(made));
@@ -130,31 +127,31 @@ void add_run(Command& command, const Options& options) {
       .takes("FILE");
   add_force(command, arguments->force);
   add_error(command, arguments->error);
-  add_measures(command, arguments->measures,
+  add_measures(command, arguments->request.measures,
                "print measures of the motion as CSV, measure,value (see below); repeatable");
   command
-      .option("--expect", arguments->expect,
+      .option("--expect", arguments->request.expect,
               "exit with code 1 if this does not hold, such as \"max_tilt < 5 deg\"; any measure, "
               "with <, <=, > or >=; repeatable")
       .takes("\"MEASURE < VALUE\"")
       .may_be_repeated();
   command
-      .option("--summary", arguments->summary,
+      .option("--summary", arguments->request.summary,
               "write a summary of the run to FILE.json, or - for standard output: how it ended, "
               "the model, statistics")
       .takes("FILE");
   command
-      .option("--save-state", arguments->part.save,
+      .option("--save-state", arguments->request.part.save,
               "write the state at the end of this run, at --until, or at an interruption, for "
               "--from-state")
       .takes("FILE");
   command
-      .option("--from-state", arguments->part.from,
+      .option("--from-state", arguments->request.part.from,
               "continue from a state of the same scenario; the rows are those of one whole run to "
               "the bit")
       .takes("FILE");
   command
-      .option("--until", arguments->part.until,
+      .option("--until", arguments->request.part.until,
               "with --save-state: end this part of the run at TIME; time.end stays the end of the "
               "whole run")
       .takes("TIME");

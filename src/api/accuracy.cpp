@@ -65,8 +65,8 @@ std::vector<double> tolerance_ladder(const std::string& text) {
   }
 }
 
-AccuracyStudy accuracy(const AccuracyRequest& request, Watch& watch) {
-  const Scenario& scenario = request.scenario;
+AccuracyStudy accuracy(const Scenario& scenario, const std::vector<Method>& methods,
+                       const std::vector<double>& rtols, Watch& watch) {
   const model::Model model = assemble(scenario, scenario::columns_named(scenario.output.columns));
   if (model.hybrid()) {
     throw InputError(
@@ -74,9 +74,9 @@ AccuracyStudy accuracy(const AccuracyRequest& request, Watch& watch) {
         what_switches(scenario, model) +
         "; allowed: a scene without one (`bbsim run --error` estimates the error of this one)");
   }
-  AccuracyStudy study = study::measure_accuracy(
-      model, solve::OutputGrid(scenario.time), request.methods, request.rtols,
-      {watch.stop(), [&watch](double part) { watch.update(part, ""); }});
+  AccuracyStudy study =
+      study::measure_accuracy(model, solve::OutputGrid(scenario.time), methods, rtols,
+                              {watch.stop(), [&watch](double part) { watch.update(part, ""); }});
   watch.end();
   return study;
 }

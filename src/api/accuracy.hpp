@@ -5,7 +5,6 @@
 #pragma once
 
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "api/watch.hpp"
@@ -17,17 +16,12 @@
 
 namespace bbsim::api {
 
-struct AccuracyRequest {
-  Scenario scenario;
-  std::vector<Method> methods;
-  std::vector<double> rtols;  // tolerance_ladder()
-};
-
 using study::AccuracyStudy;
 using study::Picture;
 
 // Throws InputError for a scene with a switch or an event.
-[[nodiscard]] AccuracyStudy accuracy(const AccuracyRequest& request, Watch& watch);
+[[nodiscard]] AccuracyStudy accuracy(const Scenario& scenario, const std::vector<Method>& methods,
+                                     const std::vector<double>& rtols, Watch& watch);
 
 // "1e-3:1e-13": a value a decade from the first to the last; or a single value. Throws InputError.
 [[nodiscard]] std::vector<double> tolerance_ladder(const std::string& text);

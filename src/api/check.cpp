@@ -10,7 +10,7 @@
 #include <variant>
 
 #include "api/assemble.hpp"
-#include "api/linear_text.hpp"
+#include "api/linearize.hpp"
 #include "api/loop_text.hpp"
 #include "base/short_number.hpp"
 #include "model/control/common_cycle.hpp"
@@ -157,7 +157,8 @@ void tell_sweep(Report& report, const Scenario& scenario) {
 // Tells what comes of starting the controller, if the scene has one of its own.
 void tell_controller(Report& report, const Scenario& scenario, Watch& watch) {
   if (!scenario.controller || !scenario.controller->own) return;
-  controller::Host host = make_host(watch);
+  // Nothing is lost where a signal ends it at once.
+  controller::Host host([&watch](std::string_view line) { watch.controller_says(line); });
   static_cast<void>(assemble(scenario, scenario::columns_named(scenario.output.columns), host));
   std::string label = "controller";
   for (const std::string& line : host.describe()) {

@@ -3,10 +3,12 @@
 
 #include "api/linearize.hpp"
 
+#include <algorithm>
+#include <cmath>
+#include <numbers>
 #include <utility>
 
 #include "api/assemble.hpp"
-#include "api/linear_text.hpp"
 #include "api/loop_text.hpp"
 #include "base/number_text.hpp"
 #include "base/short_number.hpp"
@@ -17,17 +19,45 @@
 namespace bbsim::api {
 namespace {
 
-const char* name_of(LinearKind kind) {
-  switch (kind) {
-    case LinearKind::plant:
-      return "plant";
-    case LinearKind::loop:
-      return "loop";
-    case LinearKind::sampled:
-      return "sampled";
-  }
-  return "";
+std::string degrees(double angle) {
+  return short_number(angle * 180 / std::numbers::pi) + " deg";
 }
+
+std::string at(double frequency) {
+  return " at " + short_number(frequency) + " rad/s";
+}
+
+std::string text_of(const model::Margins& margins) {
+  std::string text;
+  if (std::isfinite(margins.gain)) {
+    text += "gain by " + short_number(margins.gain) + " (" +
+            short_number(20 * std::log10(margins.gain)) + " dB)" + at(margins.gain_at);
+  } else {
+    text += "any gain above";
+  }
+  if (margins.reduction > 0) {
+    text += ", or down by " + short_number(margins.reduction) + at(margins.reduction_at);
+  }
+  if (!std::isfinite(margins.phase)) return text + "; any phase and delay";
+  text += "; phase " + degrees(std::abs(margins.phase)) + (margins.phase < 0 ? " of lead" : "") +
+          at(margins.phase_at);
+  return text + "; delay " + short_number(margins.delay) + " s";
+}
+
+std::string names_line(const std::vector<model::LinearSignal>& signals) {
+  std::string line;
+  for (const model::LinearSignal& signal : signals) {
+    line += (line.empty() ? "" : ", ") + signal.name + " (" + signal.unit + ")";
+  }
+  return line;
+}
+
+std::string values_line(const model::Eigenvalues& values) {
+  return values.empty() ? "none" : poles_line(values);
+}
+
+// In the order of LinearKind.
+constexpr const char* kinds[] = {"plant", "loop", "sampled"};
 
 double read_time(const std::string& text, const Scenario& scenario) {
   const yaml::Quantity time = yaml::read_quantity(text, false, yaml::Dimension::time);
@@ -65,7 +95,7 @@ Linearized linearize(const LinearizeRequest& request, Watch& watch) {
   const LinearKind kind = request.kind.value_or(model::usual_kind(scenario));
   Linearized made;
   made.scenario = scenario.source.file;
-  made.kind = name_of(kind);
+  made.kind = kinds[static_cast<std::size_t>(kind)];
   made.at = request.at;
   model::LinearPoint point = model::home_point();
   if (request.at == "equilibrium") {
@@ -88,10 +118,63 @@ Linearized linearize(const LinearizeRequest& request, Watch& watch) {
   return made;
 }
 
-Report report_of(const Linearized& made) {
-  return linear_report(
-      "the " + made.kind + (made.kind == "sampled" ? " plant" : "") + " about " + made.at,
-      made.linearisation);
+Report margin_lines(const model::Linearization& made) {
+  Report lines;
+  for (const model::LoopMargins& loop : made.margins) {
+    lines.push_back({"  " + loop.command.substr(0, loop.command.find('_')), text_of(loop.margins)});
+  }
+  const auto bandwidths = [&made](double model::Bandwidth::*of) {
+    std::string text;
+    for (const model::Bandwidth& one : made.bandwidths) {
+      text += (text.empty() ? "" : ", ") + one.output + " " +
+              (std::isfinite(one.*of) ? short_number(one.*of) + " rad/s" : "none");
+    }
+    return text;
+  };
+  const auto all_end = [&made](double model::Bandwidth::*of) {
+    return std::ranges::all_of(made.bandwidths,
+                               [of](const auto& one) { return std::isfinite(one.*of); });
+  };
+  if (made.bandwidths.empty()) return lines;
+  if (all_end(&model::Bandwidth::value)) {
+    lines.push_back({"  bandwidth", bandwidths(&model::Bandwidth::value)});
+  } else if (all_end(&model::Bandwidth::of_feedback)) {
+    lines.push_back(
+        {"  bandwidth", bandwidths(&model::Bandwidth::of_feedback) +
+                            ", of the feedback: with the reference's accelerations, which the law "
+                            "knows, the response does not fall to 1/sqrt(2)"});
+  } else {
+    lines.push_back(
+        {"  bandwidth", bandwidths(&model::Bandwidth::value) +
+                            ": the response does not fall to 1/sqrt(2)" +
+                            (made.system.period ? " up to half the sampling rate" : "")});
+  }
+  return lines;
+}
+
+Report report_of(const Linearized& linearized) {
+  const Linearization& made = linearized.linearisation;
+  const model::LinearSystem& system = made.system;
+  Report report{
+      {"linear", "the " + linearized.kind + (linearized.kind == "sampled" ? " plant" : "") +
+                     " about " + linearized.at},
+      {"states", names_line(system.states)},
+      {"inputs", names_line(system.inputs)},
+      {"outputs", names_line(system.outputs)},
+      {"period", system.period ? short_number(*system.period) + " s" : "continuous time"},
+      {"poles", values_line(made.poles)},
+      {"zeros", values_line(made.zeros)}};
+  if (!made.margins.empty()) {
+    report.push_back(
+        {"margins",
+         std::string("of each command's loop, the other one closed") +
+             (made.stable
+                  ? ""
+                  : "; the loop is not stable: these are where poles cross the stability limit")});
+  }
+  const Report margins = margin_lines(made);
+  report.insert(report.end(), margins.begin(), margins.end());
+  return report;
 }
 
 std::string file_text(const Linearized& made, const std::string& file) {

@@ -7,7 +7,7 @@
 #include <optional>
 #include <string>
 
-#include "api/report.hpp"
+#include "api/check.hpp"
 #include "api/watch.hpp"
 #include "base/error.hpp"
 #include "model/control/linearize.hpp"
@@ -35,6 +35,10 @@ struct Linearized {
 // Throws InputError where the scene has no such linear system.
 [[nodiscard]] Linearized linearize(const LinearizeRequest& request, Watch& watch);
 
+// Margins of each command's loop, and the bandwidths.
+[[nodiscard]] Report margin_lines(const Linearization& made);
+
+// Points of operation, names and units, poles, zeros and margins.
 [[nodiscard]] Report report_of(const Linearized& made);
 
 // As a file of that name is written, by its ending: .m, .py, .csv, or else JSON.

@@ -11,7 +11,9 @@
 
 #include "api/assemble.hpp"
 #include "api/picture.hpp"
+#include "api/run_part.hpp"
 #include "api/simulation.hpp"
+#include "base/archive.hpp"
 #include "base/number_text.hpp"
 #include "file/atomic_file.hpp"
 #include "file/default_name.hpp"
@@ -123,12 +125,14 @@ RunResult run(const RunRequest& request, Watch& watch) {
     kept.emplace(scenario::names_of(columns), writer.get(), asked.size());
   }
 
-  const auto simulation = [&] {
-    return simulate(scenario, model, grid, {columns, asked.size(), measures},
+  Simulation made;
+  try {
+    made = simulate(scenario, model, grid, {columns, asked.size(), measures},
                     kept ? static_cast<file::TableWriter&>(*kept) : *writer, watch,
                     part ? &part->part() : nullptr);
-  };
-  Simulation made = part ? part->going_on(simulation) : simulation();
+  } catch (const StateFault& fault) {
+    throw InputError(request.part.from + ": " + fault.what());
+  }
   RunResult result = std::move(made.result);
   record::RunSummary& summary = result.summary;
   summary.output = request.output;

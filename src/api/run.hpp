@@ -10,7 +10,6 @@
 #include <string>
 #include <vector>
 
-#include "api/run_part.hpp"
 #include "api/watch.hpp"
 #include "base/error.hpp"
 #include "file/table_writer.hpp"
@@ -22,6 +21,12 @@
 namespace bbsim::api {
 
 using model::ControllerFault;
+
+// The files of states, and the time at which the part ends; each may be empty.
+struct PartRequest {
+  std::string save, from, until;
+  [[nodiscard]] bool any() const { return !save.empty() || !from.empty() || !until.empty(); }
+};
 
 struct RunRequest {
   Scenario scenario;

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "base/archive.hpp"
+#include "api/run.hpp"
 #include "file/atomic_file.hpp"
 #include "file/table_writer.hpp"
 #include "model/model.hpp"
@@ -21,12 +21,6 @@
 #include "solve/part.hpp"
 
 namespace bbsim::api {
-
-// The files of states, and the time at which the part ends; each may be empty.
-struct PartRequest {
-  std::string save, from, until;
-  [[nodiscard]] bool any() const { return !save.empty() || !from.empty() || !until.empty(); }
-};
 
 // Everything throws InputError where bytes could not be those of one run.
 class RunPart {
@@ -42,15 +36,6 @@ class RunPart {
 
   // Checks the state that is gone on from, and these columns, before files are opened.
   void check(const model::Model& model, const std::vector<const scenario::Column*>& columns) const;
-  // Calls `run`, which goes on from the state; what is wrong with the state is told with its file.
-  template <class Run>
-  auto going_on(Run run) const {
-    try {
-      return run();
-    } catch (const StateFault& fault) {
-      throw InputError(request_.from + ": " + fault.what());
-    }
-  }
   void open();
   // Writes the state that the part left; what there is to say of it.
   [[nodiscard]] std::string finish(const model::Model& model);

@@ -1,13 +1,12 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "api/run_text.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
 
 #include "api/loop_text.hpp"
+#include "api/simulation.hpp"
 #include "base/short_number.hpp"
 
 namespace bbsim::api {

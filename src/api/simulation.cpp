@@ -7,11 +7,9 @@
 #include <optional>
 #include <utility>
 
-#include "api/run_text.hpp"
 #include "base/cpu_clock.hpp"
 #include "base/short_number.hpp"
 #include "model/explain.hpp"
-#include "record/edge_note.hpp"
 #include "record/recorder.hpp"
 #include "simd/instruction_set.hpp"
 #include "solve/choose.hpp"
@@ -26,18 +24,14 @@ struct Ended {
   ExitCode code;
 };
 
+// In the order of solve::Ending.
+constexpr Ended endings[] = {{"done", ExitCode::done},
+                             {"failed", ExitCode::ended_early},
+                             {"interrupted", ExitCode::interrupted},
+                             {"stopped", ExitCode::ended_early}};
+
 Ended how(solve::Ending ending) {
-  switch (ending) {
-    case solve::Ending::done:
-      return {"done", ExitCode::done};
-    case solve::Ending::failed:
-      return {"failed", ExitCode::ended_early};
-    case solve::Ending::interrupted:
-      return {"interrupted", ExitCode::interrupted};
-    case solve::Ending::stopped:
-      return {"stopped", ExitCode::ended_early};
-  }
-  return {"", ExitCode::ended_early};
+  return endings[static_cast<std::size_t>(ending)];
 }
 
 // What was integrated, and how well, as far as the run can tell.

@@ -121,7 +121,8 @@ TEST_CASE("torques that mean nothing are refused with a reason") {
              Contains("no torques move the gimbal"));
   CHECK_THAT(errors(torque_driven, {"output.columns=[t, phi_current]"}),
              Contains("gimbal.motor.dc is not known"));
-  CHECK_THAT(errors(torque_driven, {"gimbal.torque.phi=4 deg"}), Contains("allowed: a torque, such as 0.01 or"));
+  CHECK_THAT(errors(torque_driven, {"gimbal.torque.phi=4 deg"}),
+             Contains("allowed: a torque, such as 0.01 or"));
   CHECK_THAT(errors(commanded, {"controller={lqr: {position: 1, command: 1}, drives: angle, "
                                 "reference: {point: [0, 0]}}",
                                 "gimbal.motor.position_loop.ki=1"}),
