@@ -52,7 +52,7 @@ void declare_files(const RunArguments& arguments, const std::string& output,
 
 // By default a part that continues would have the name of the part before it.
 void keep_part_before(const RunArguments& arguments, const std::string& output) {
-  if (arguments.part.from.empty() || !arguments.output.empty() || arguments.force) return;
+  if (arguments.request.part.from.empty() || !arguments.output.empty() || arguments.force) return;
   std::error_code none;
   if (!std::filesystem::exists(output, none)) return;
   throw InputError(output +
