@@ -299,7 +299,8 @@ struct ControllerProgram {
 
 // A shared library that is called at each sample (bbsim/controller.h).
 struct ControllerLibrary {
-  std::string file;  // as the scenario names it
+  std::string file;    // as the scenario names it, and ...
+  std::string wiring;  // ... of a sketch what its pins are wired to; empty: it is none
 };
 
 // A controller that is not built in.

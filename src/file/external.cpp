@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "external.hpp"
+#include "file/external.hpp"
 
 #include <fcntl.h>
 #include <spawn.h>
@@ -16,7 +16,7 @@
 #include "base/error.hpp"
 #include "file/children.hpp"
 
-namespace bbsim::app {
+namespace bbsim::file {
 namespace {
 
 // Files without a name, which go when they are closed: with them on both sides of the process
@@ -84,16 +84,16 @@ std::optional<Finished> run_program(std::vector<std::string> words, const std::s
   pid_t process = 0;
   int error = 0;
   {
-    const auto starting = file::while_starting_child();
+    const auto starting = while_starting_child();
     error =
         posix_spawnp(&process, arguments[0], &files.actions, nullptr, arguments.data(), environ);
-    if (error == 0) file::remember_child(process);
+    if (error == 0) remember_child(process);
   }
   if (error == ENOENT) return {};
   if (error != 0) to.fail("cannot start " + words[0], error);
-  const std::optional<int> status = file::wait_for_child(process);
+  const std::optional<int> status = wait_for_child(process);
   if (!status) to.fail("cannot wait for " + words[0], ECHILD);
   return Finished{*status, to.content(out.get()), to.content(complaint.get())};
 }
 
-}  // namespace bbsim::app
+}  // namespace bbsim::file

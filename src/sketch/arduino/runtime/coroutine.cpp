@@ -1,0 +1,139 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// The sketch's own stack. Its clock moves by what calls cost (spend), and when it reaches the next
+// sample, control goes back to bbsim in the midst of whatever call that was.
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <sys/mman.h>
+#include <ucontext.h>
+
+#include "Arduino.h"
+#include "runtime/board.hpp"
+
+void serialEvent() __attribute__((weak));
+
+namespace bbsim_board {
+
+Board board;
+
+namespace {
+
+constexpr size_t stack_size = size_t{1} << 20;
+constexpr size_t guard_size = size_t{1} << 16;  // below it: who runs into it ends at once
+// Some 0.3 s of a processor: a sketch that waits for nothing that can come.
+constexpr long most_blocks = 200000000;
+
+ucontext_t outside, inside;
+void* stack = MAP_FAILED;
+bool setup_returned = false;
+long blocks = 0;  // that ran since the clock last moved
+
+void body() {
+  setup();
+  setup_returned = true;
+  if (board.wiring.setup_before != 0) hand_over();
+  while (true) {
+    loop();
+    if (serialEvent != nullptr && Serial.available() > 0) serialEvent();
+    spend(board.costs.loop);
+  }
+}
+
+}  // namespace
+
+bool start_sketch() {
+  stack = mmap(nullptr, stack_size, PROT_READ | PROT_WRITE,
+               MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
+  if (stack == MAP_FAILED || mprotect(stack, guard_size, PROT_NONE) != 0) return false;
+  getcontext(&inside);
+  inside.uc_stack.ss_sp = stack;
+  inside.uc_stack.ss_size = stack_size;
+  inside.uc_link = nullptr;
+  makecontext(&inside, body, 0);
+  return true;
+}
+
+void run_sketch() {
+  board.running = true;
+  swapcontext(&outside, &inside);
+  board.running = false;
+}
+
+void hand_over() {
+  swapcontext(&inside, &outside);
+}
+
+void end_sketch() {
+  if (stack != MAP_FAILED) munmap(stack, stack_size);
+  stack = MAP_FAILED;
+}
+
+bool setup_has_returned() {
+  return setup_returned;
+}
+
+void spend(long long time) {
+  blocks = 0;
+  board.now += time;
+  if (!board.running) return;  // a global variable's constructor
+  while (board.now >= board.horizon) hand_over();
+}
+
+void fail(const char* format, ...) {
+  if (board.said[0] == '\0') {
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(board.said, sizeof board.said, format, arguments);
+    va_end(arguments);
+  }
+  while (board.running) hand_over();
+}
+
+long long now() {
+  return board.now;
+}
+
+}  // namespace bbsim_board
+
+using namespace bbsim_board;
+
+// The sketch's own, in place of the process's.
+extern "C" {
+
+void exit(int status) {
+  fail("it called exit(%d)", status);
+  abort();
+}
+
+// The compiler has every block of the sketch call this (-fsanitize-coverage=trace-pc).
+void __sanitizer_cov_trace_pc() {
+  if (++blocks < most_blocks || !board.running) return;
+  fail("it computes without end: %ld million steps, and no call in them that takes time, such as "
+       "millis() or delay()",
+       most_blocks / 1000000);
+}
+}
+
+unsigned long millis() {
+  spend(board.costs.clock);
+  return static_cast<unsigned long>(board.now / 1000000);
+}
+
+unsigned long micros() {
+  spend(board.costs.clock);
+  return static_cast<unsigned long>(board.now / 1000);
+}
+
+void delay(unsigned long ms) {
+  spend(static_cast<long long>(ms) * 1000000);
+}
+
+void delayMicroseconds(unsigned int us) {
+  spend(static_cast<long long>(us) * 1000);
+}
+
+void yield() {
+  spend(board.costs.clock);
+}

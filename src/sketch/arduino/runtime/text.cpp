@@ -1,0 +1,203 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// Print and Stream: numbers as text and back, as on the boards.
+#include <stdarg.h>
+
+#include "Arduino.h"
+
+size_t Print::write(const uint8_t* bytes, size_t size) {
+  size_t written = 0;
+  while (written < size && write(bytes[written]) == 1) ++written;
+  return written;
+}
+
+size_t Print::print_unsigned(unsigned long long value, int base) {
+  if (base == 0) return write(static_cast<uint8_t>(value));
+  char digits[8 * sizeof value + 1];
+  char* at = digits + sizeof digits - 1;
+  *at = '\0';
+  const auto by = static_cast<unsigned long long>(base < 2 ? 10 : base);
+  do {
+    const auto digit = static_cast<int>(value % by);
+    *--at = static_cast<char>(digit < 10 ? '0' + digit : 'A' + digit - 10);
+    value /= by;
+  } while (value > 0);
+  return write(at);
+}
+
+size_t Print::print_signed(long long value, int base) {
+  if (base != 10) return print_unsigned(static_cast<unsigned long long>(value), base);
+  if (value >= 0) return print_unsigned(static_cast<unsigned long long>(value), 10);
+  return write(static_cast<uint8_t>('-')) + print_unsigned(0ULL - static_cast<unsigned long long>(value), 10);
+}
+
+size_t Print::print(double value, int digits) {
+  if (isnan(value)) return write("nan");
+  if (isinf(value)) return write("inf");
+  if (value > 4294967040.0 || value < -4294967040.0) return write("ovf");
+  size_t written = 0;
+  if (value < 0) {
+    written += write(static_cast<uint8_t>('-'));
+    value = -value;
+  }
+  double rounding = 0.5;
+  for (int i = 0; i < digits; ++i) rounding /= 10;
+  value += rounding;
+  const auto whole = static_cast<unsigned long>(value);
+  double rest = value - static_cast<double>(whole);
+  written += print_unsigned(whole, 10);
+  if (digits > 0) written += write(static_cast<uint8_t>('.'));
+  for (int i = 0; i < digits; ++i) {
+    rest *= 10;
+    const auto digit = static_cast<unsigned>(rest);
+    written += print_unsigned(digit, 10);
+    rest -= digit;
+  }
+  return written;
+}
+
+size_t Print::printf(const char* format, ...) {
+  char text[512];
+  va_list arguments;
+  va_start(arguments, format);
+  vsnprintf(text, sizeof text, format, arguments);
+  va_end(arguments);
+  return write(text);
+}
+
+int Stream::timed(int (Stream::*next)()) {
+  const unsigned long start = millis();
+  do {
+    const int byte = (this->*next)();
+    if (byte >= 0) return byte;
+  } while (millis() - start < timeout_);
+  return -1;
+}
+
+// The next byte that can begin a number, which stays; -1: there is none in time.
+int Stream::start_of_number(bool point) {
+  while (true) {
+    const int byte = timed(&Stream::peek);
+    if (byte < 0 || byte == '-' || (byte >= '0' && byte <= '9') || (point && byte == '.')) {
+      return byte;
+    }
+    read();
+  }
+}
+
+long Stream::parseInt() {
+  int byte = start_of_number(false);
+  const bool negative = byte == '-';
+  long value = 0;
+  if (byte < 0) return 0;
+  do {
+    if (byte != '-') value = value * 10 + byte - '0';
+    read();
+    byte = timed(&Stream::peek);
+  } while (byte >= '0' && byte <= '9');
+  return negative ? -value : value;
+}
+
+float Stream::parseFloat() {
+  int byte = start_of_number(true);
+  const bool negative = byte == '-';
+  bool fraction = false;
+  double value = 0, place = 1;
+  if (byte < 0) return 0;
+  do {
+    if (byte == '.') {
+      fraction = true;
+    } else if (byte != '-') {
+      value = value * 10 + byte - '0';
+      if (fraction) place *= 0.1;
+    }
+    read();
+    byte = timed(&Stream::peek);
+  } while ((byte >= '0' && byte <= '9') || (byte == '.' && !fraction));
+  return static_cast<float>((negative ? -value : value) * place);
+}
+
+size_t Stream::readBytesUntil(char end, char* into, size_t room) {
+  size_t count = 0;
+  while (count < room) {
+    const int byte = timed(&Stream::read);
+    if (byte < 0 || byte == end) break;
+    into[count++] = static_cast<char>(byte);
+  }
+  return count;
+}
+
+size_t Stream::readBytes(char* into, size_t room) {
+  size_t count = 0;
+  while (count < room) {
+    const int byte = timed(&Stream::read);
+    if (byte < 0) break;
+    into[count++] = static_cast<char>(byte);
+  }
+  return count;
+}
+
+String Stream::read_text(int end) {
+  String text;
+  for (int byte = timed(&Stream::read); byte >= 0 && byte != end; byte = timed(&Stream::read)) {
+    text += static_cast<char>(byte);
+  }
+  return text;
+}
+
+bool Stream::find(const char* wanted) {
+  size_t found = 0;
+  while (wanted[found] != '\0') {
+    const int byte = timed(&Stream::read);
+    if (byte < 0) return false;
+    found = byte == wanted[found] ? found + 1 : byte == wanted[0] ? 1 : 0;
+  }
+  return true;
+}
+
+String::String(long value, int base) {
+  char digits[72];
+  text_ = ltoa(value, digits, base);
+}
+
+String::String(unsigned long value, int base) {
+  char digits[72];
+  text_ = ultoa(value, digits, base);
+}
+
+String::String(double value, int digits) {
+  char text[400];
+  snprintf(text, sizeof text, "%.*f", digits < 60 ? digits : 60, value);
+  text_ = text;
+}
+
+String String::substring(unsigned from, unsigned to) const {
+  if (from > to) std::swap(from, to);
+  String part;
+  if (from < length()) part.text_ = text_.substr(from, to - from);
+  return part;
+}
+
+void String::replace(const String& wanted, const String& by) {
+  if (wanted.isEmpty()) return;
+  for (size_t at = 0; (at = text_.find(wanted.text_, at)) != std::string::npos;) {
+    text_.replace(at, wanted.length(), by.text_);
+    at += by.length();
+  }
+}
+
+void String::toLowerCase() {
+  for (char& c : text_) c = static_cast<char>(tolower(static_cast<unsigned char>(c)));
+}
+
+void String::toUpperCase() {
+  for (char& c : text_) c = static_cast<char>(toupper(static_cast<unsigned char>(c)));
+}
+
+void String::trim() {
+  const char* const blanks = " \t\r\n\v\f";
+  const size_t first = text_.find_first_not_of(blanks);
+  if (first == std::string::npos) return text_.clear();
+  text_ = text_.substr(first, text_.find_last_not_of(blanks) - first + 1);
+}
