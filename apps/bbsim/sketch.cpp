@@ -1,8 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "sketch/compile.hpp"
-
 #include <filesystem>
 #include <memory>
 #include <string>
@@ -11,6 +9,7 @@
 #include "commands.hpp"
 #include "file/atomic_file.hpp"
 #include "file/default_name.hpp"
+#include "sketch/compile.hpp"
 #include "terminal.hpp"
 
 namespace bbsim::app {
@@ -30,8 +29,9 @@ std::string hint(const std::string& messages) {
 
 ExitCode make(const SketchArguments& arguments, const Options& options) {
   const std::string& first = arguments.job.files.front();
-  const std::string output =
-      arguments.output.empty() ? std::filesystem::path(first).stem().string() + ".so" : arguments.output;
+  const std::string output = arguments.output.empty()
+                                 ? std::filesystem::path(first).stem().string() + ".so"
+                                 : arguments.output;
   file::Outputs outputs;
   for (const std::string& name : sketch::files_of(arguments.job)) {
     outputs.reads(name, "a source of the sketch");
@@ -57,7 +57,8 @@ void add_sketch(Command& command, const Options& options) {
       .required();
   command
       .option("-o,--output", arguments->output,
-              "write the library to FILE.so; default: the first file's name with .so, in the current folder")
+              "write the library to FILE.so; default: the first file's name with .so, in the "
+              "current folder")
       .takes("FILE");
   command
       .option("-I,--libraries", arguments->job.folders,
@@ -66,7 +67,8 @@ void add_sketch(Command& command, const Options& options) {
       .may_be_repeated();
   add_force(command, arguments->force);
   command.footer(
-      "The compiler is $CXX, or c++, or g++. A scenario runs the library with a file that says what its\n"
+      "The compiler is $CXX, or c++, or g++. A scenario runs the library with a file that says "
+      "what its\n"
       "pins are wired to: controller: {library: {file: FILE.so, wiring: FILE.yaml}, ...}");
   command.does([arguments, &options] { return make(*arguments, options); });
 }

@@ -46,27 +46,23 @@ class TemporaryFolder {
     std::error_code error;
     path_ = (fs::temp_directory_path(error) / "bbsim-XXXXXX").string();
     if (error || mkdtemp(path_.data()) == nullptr) {
-      throw OutputError(std::string("cannot ") + purpose + ": no temporary folder: " +
-                        std::strerror(errno));
+      throw OutputError(std::string("cannot ") + purpose +
+                        ": no temporary folder: " + std::strerror(errno));
     }
-    object_ = path_ + "/board.o";
     library_ = path_ + "/sketch.so";
-    file::remember_temporary(object_.c_str());
     file::remember_temporary(library_.c_str());
   }
   ~TemporaryFolder() {
     std::error_code error;
     fs::remove_all(path_, error);
-    file::forget_temporary(object_.c_str());
     file::forget_temporary(library_.c_str());
   }
   TemporaryFolder(const TemporaryFolder&) = delete;
   TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-  [[nodiscard]] const std::string& object() const { return object_; }
   [[nodiscard]] const std::string& library() const { return library_; }
 
  private:
-  std::string path_, object_, library_;
+  std::string path_, library_;
 };
 
 // The first compiler that there is: its words, and what it said of its version.
@@ -98,11 +94,16 @@ class Compiler {
   }
   // Options of all sources. Symbols are hidden, so that copies of the library share none.
   [[nodiscard]] std::vector<std::string> options(const std::string& board) const {
-    std::vector<std::string> options{"-std=gnu++17", "-O2",
-                                     "-fPIC",        "-fvisibility=hidden",
-                                     "-fvisibility-inlines-hidden", "-ffp-contract=off",
-                                     "-DARDUINO=10819", "-DF_CPU=16000000L",
-                                     "-isystem",     board};
+    std::vector<std::string> options{"-std=gnu++17",
+                                     "-O2",
+                                     "-fPIC",
+                                     "-fvisibility=hidden",
+                                     "-fvisibility-inlines-hidden",
+                                     "-ffp-contract=off",
+                                     "-DARDUINO=10819",
+                                     "-DF_CPU=16000000L",
+                                     "-isystem",
+                                     board};
     if (!clang_) options.emplace_back("-fpermissive");  // as the IDE does
     return options;
   }
@@ -156,22 +157,11 @@ Compiled compile(const Job& job) {
   const TemporaryFolder folder;
 
   std::vector<std::string> words = compiler.options(board);
-  words.insert(words.end(), {"-c", board + "/runtime.cpp", "-o", folder.object()});
-  const auto object = compiler.run(words);
-  if (!object->well()) {
-    throw OutputError(std::string("cannot ") + purpose +
-                      ": the compiler does not compile the board:\n" + object->complaint);
-  }
-
-  words = compiler.options(board);
-  // Blocks are counted, so that a sketch that waits in vain is found out (runtime/coroutine.cpp).
-  words.insert(words.end(), {"-Wall", "-fsanitize-coverage=trace-pc", "-shared", "-s",
-                             "-Wl,-z,defs", "-o", folder.library()});
+  words.insert(words.end(), {"-Wall", "-shared", "-s", "-Wl,-z,defs", "-o", folder.library()});
   for (const std::string& own : sources.own) words.insert(words.end(), {"-I", own});
   for (const std::string& own : sources.libraries.folders) words.insert(words.end(), {"-I", own});
-  words.insert(words.end(), {"-x", "c++", "-"});
+  words.insert(words.end(), {"-x", "c++", "-", board + "/runtime.cpp"});
   for (const std::string& source : sources.libraries.sources) words.push_back(source);
-  words.insert(words.end(), {"-x", "none", folder.object()});
   const auto library = compiler.run(words, joined(sources.files));
   Compiled compiled{"", library->complaint};
   if (library->well()) compiled.library = file::read_whole(folder.library()) + library_mark;

@@ -15,7 +15,7 @@ struct Job {
 };
 
 struct Compiled {
-  std::string library;  // its bytes; empty: it does not compile
+  std::string library;   // its bytes; empty: it does not compile
   std::string messages;  // of the compiler
 };
 

@@ -15,9 +15,9 @@ struct Libraries {
 };
 
 // Looks for the headers `included`, and for what these include in turn, in `own` folders, those of
-// the sketch, then in `given` ones: a folder X.h is in, or has in src/, or has in Name/ or Name/src/.
-// Beside a header of its own a sketch has X.cpp; a library has all sources of the folder. Headers in
-// `ours` are the board's.
+// the sketch, then in `given` ones: a folder X.h is in, or has in src/, or has in Name/ or
+// Name/src/. Beside a header of its own a sketch has X.cpp; a library has all sources of the
+// folder. Headers in `ours` are the board's.
 [[nodiscard]] Libraries find_libraries(const std::vector<std::string>& included,
                                        const std::vector<std::string>& own,
                                        const std::vector<std::string>& given,

@@ -165,13 +165,14 @@ std::string joined(const std::vector<SketchFile>& files) {
     if (one.head == tokens.size() || !tokens[one.head].is("{")) continue;
     const auto function = function_of(tokens, one);
     if (!function) continue;
-    const std::string prototype = whole.place(tokens[one.begin].offset) +
-                                  prototype_of(tokens, one, *function) + '\n';
+    const std::string prototype =
+        whole.place(tokens[one.begin].offset) + prototype_of(tokens, one, *function) + '\n';
     for (std::size_t k = 0; k < i; ++k) {
       const Declaration& earlier = declarations[k];
       if (!uses(tokens, earlier, function->name)) continue;
       const auto its = function_of(tokens, earlier);
-      if (its && its->name == function->name && !tokens[earlier.head].is("{")) break;  // the sketch's own
+      if (its && its->name == function->name && !tokens[earlier.head].is("{"))
+        break;                                           // the sketch's own
       if (its && its->name == function->name) continue;  // another of that name
       prototypes[tokens[earlier.begin].offset] += prototype;
       if (earlier.conditions == 0) break;  // seen by all that follows

@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The words of a C++ source, as far as it takes to find its functions: comments and blanks are gone.
+// The words of a C++ source, as far as it takes to find its functions: comments and blanks are
+// gone.
 #pragma once
 
 #include <cstddef>
@@ -18,8 +19,8 @@ struct Token {
   [[nodiscard]] bool is(std::string_view what) const { return text == what; }
 };
 
-// The text outlives them. Numbers and strings are words, and each other character one of its own but
-// for "::" and "->".
+// The text outlives them. Numbers and strings are words, and each other character one of its own
+// but for "::" and "->".
 [[nodiscard]] std::vector<Token> tokens_of(std::string_view source);
 
 }  // namespace bbsim::sketch

@@ -56,7 +56,8 @@ void read_servo(Keys& keys, bbsim_wired_servo& servo) {
   }
   keys.optional("level", Number{Dimension::time, {.above = 0}, "\"1500 us\""}, servo.level);
   double per_microsecond = servo.scale * 1e-6;
-  if (keys.optional("scale", Number{Dimension::angle, {.above = 0}, "\"0.1 deg\""}, per_microsecond)) {
+  if (keys.optional("scale", Number{Dimension::angle, {.above = 0}, "\"0.1 deg\""},
+                    per_microsecond)) {
     servo.scale = per_microsecond * 1e6;
   }
   int direction = 1;
@@ -67,7 +68,8 @@ void read_servo(Keys& keys, bbsim_wired_servo& servo) {
 void read_servos(Keys& keys, Read& read) {
   keys.optional("phi", MappingOf(read_servo), read.c.servos[0]);
   keys.optional("theta", MappingOf(read_servo), read.c.servos[1]);
-  if (!keys.find("phi") && !keys.find("theta")) keys.missing("phi", MappingOf(read_servo).allowed());
+  if (!keys.find("phi") && !keys.find("theta"))
+    keys.missing("phi", MappingOf(read_servo).allowed());
   keys.optional("ignored", yaml::ListOf<Pin, int>{{}, 1, 70, "pins"}, read.ignored);
   keys.optional("oscillator", Number{Dimension::number, {.above = 0}, "25e6"}, read.c.oscillator);
 }
@@ -80,7 +82,8 @@ bool read_pins(Keys& keys, const char* key, const std::string_view (&names)[coun
   if (!value) return false;
   screen.kind = kind;
   if (value->node->kind != yaml::Node::Kind::mapping) {
-    value->refuse("", "a mapping with " + yaml::comma_separated({std::begin(names), std::end(names)}));
+    value->refuse("",
+                  "a mapping with " + yaml::comma_separated({std::begin(names), std::end(names)}));
     return true;
   }
   Keys pins(*value);
@@ -91,7 +94,8 @@ bool read_pins(Keys& keys, const char* key, const std::string_view (&names)[coun
 
 void read_screen(Keys& keys, bbsim_wired_screen& screen) {
   keys.exactly_one({"four_wire", "five_wire", "voltages", "chip"});
-  read_pins(keys, "four_wire", {"x_plus", "x_minus", "y_plus", "y_minus"}, bbsim_four_wires, screen);
+  read_pins(keys, "four_wire", {"x_plus", "x_minus", "y_plus", "y_minus"}, bbsim_four_wires,
+            screen);
   read_pins(keys, "five_wire", {"upper_left", "upper_right", "lower_left", "lower_right", "sense"},
             bbsim_five_wires, screen);
   read_pins(keys, "voltages", {"x", "y"}, bbsim_voltages, screen);
@@ -159,7 +163,8 @@ void read_costs(Keys& keys, bbsim_call_costs& costs) {
 }
 
 template <class Enum>
-void read_choice(Keys& keys, const char* key, const yaml::NameOf<Enum>& names, std::uint32_t& into) {
+void read_choice(Keys& keys, const char* key, const yaml::NameOf<Enum>& names,
+                 std::uint32_t& into) {
   Enum value = static_cast<Enum>(into);
   keys.optional(key, names, value);
   into = static_cast<std::uint32_t>(value);
@@ -192,7 +197,8 @@ Wiring::Wiring(const std::string& file) : files_{file} {
   try {
     const yaml::Node* const root = yaml::parse_yaml(yaml::check_text(text, 0), 0, nodes);
     if (root == nullptr) {
-      throw yaml::TextFault({}, "found an empty file; allowed: " + MappingOf(read_wiring).allowed());
+      throw yaml::TextFault({},
+                            "found an empty file; allowed: " + MappingOf(read_wiring).allowed());
     }
     yaml::Context context{problems, folder};
     MappingOf(read_wiring).read({root, "", {}, &context}, read);

@@ -32,8 +32,10 @@ namespace bbsim::sketch {
 struct Pin {
   [[nodiscard]] static std::string allowed() { return "a pin, 0 to 53 or A0 to A15"; }
   static bool read(const yaml::Value& value, int& into) {
-    if (value.node->kind == yaml::Node::Kind::scalar) into = pin_of(value.node->text);
-    else into = -1;
+    if (value.node->kind == yaml::Node::Kind::scalar)
+      into = pin_of(value.node->text);
+    else
+      into = -1;
     return into >= 0 || value.refuse("", allowed());
   }
 };

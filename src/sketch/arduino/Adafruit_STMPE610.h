@@ -13,7 +13,9 @@ class TS_Point {
  public:
   TS_Point(int16_t at_x = 0, int16_t at_y = 0, int16_t pressure = 0)
       : x(at_x), y(at_y), z(pressure) {}
-  bool operator==(const TS_Point& other) const { return x == other.x && y == other.y && z == other.z; }
+  bool operator==(const TS_Point& other) const {
+    return x == other.x && y == other.y && z == other.z;
+  }
   bool operator!=(const TS_Point& other) const { return !(*this == other); }
   int16_t x, y, z;
 };

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Arduino.h for a board within bbsim (docs/how-to/arduino.md): pins are numbered as on a Mega, int has
-// 32 bits and double 64.
+// Arduino.h for a board within bbsim (docs/how-to/arduino.md): pins are numbered as on a Mega, int
+// has 32 bits and double 64.
 #pragma once
 
 #include <ctype.h>
@@ -33,6 +33,7 @@
 #define timezone sketch_timezone
 #define daylight sketch_daylight
 #define random sketch_random
+#define exit sketch_exit
 
 typedef bool boolean;
 typedef uint8_t byte;
@@ -40,9 +41,7 @@ typedef unsigned int word;
 
 enum : uint8_t { LOW = 0, HIGH = 1 };
 enum : uint8_t { INPUT = 0, OUTPUT = 1, INPUT_PULLUP = 2 };
-enum : uint8_t {
-  A0 = 54, A1, A2, A3, A4, A5, A6, A7, A8, A9, A10, A11, A12, A13, A14, A15
-};
+enum : uint8_t { A0 = 54, A1, A2, A3, A4, A5, A6, A7, A8, A9, A10, A11, A12, A13, A14, A15 };
 enum : uint8_t { LED_BUILTIN = 13, SDA = 20, SCL = 21, MISO = 50, MOSI = 51, SCK = 52, SS = 53 };
 enum { DEFAULT = 1, INTERNAL = 3, EXTERNAL = 0, AR_DEFAULT = 0 };
 enum { LSBFIRST = 0, MSBFIRST = 1 };
@@ -79,14 +78,22 @@ constexpr auto max(A a, B b) -> decltype(a < b ? b : a) {
   return a < b ? b : a;
 }
 using std::abs;
-constexpr unsigned abs(unsigned value) { return value; }
-constexpr unsigned long abs(unsigned long value) { return value; }
+constexpr unsigned abs(unsigned value) {
+  return value;
+}
+constexpr unsigned long abs(unsigned long value) {
+  return value;
+}
 using std::isfinite;
 using std::isinf;
 using std::isnan;
 
-constexpr word makeWord(word value) { return value; }
-constexpr word makeWord(byte high, byte low) { return static_cast<word>(high << 8 | low); }
+constexpr word makeWord(word value) {
+  return value;
+}
+constexpr word makeWord(byte high, byte low) {
+  return static_cast<word>(high << 8 | low);
+}
 // In whole numbers, as on the boards.
 constexpr long map(long value, long from_low, long from_high, long to_low, long to_high) {
   return (value - from_low) * (to_high - to_low) / (from_high - from_low) + to_low;
@@ -102,6 +109,8 @@ unsigned long micros();
 void delay(unsigned long ms);
 void delayMicroseconds(unsigned int us);
 void yield();
+
+[[noreturn]] void sketch_exit(int status);
 
 void pinMode(int pin, int mode);
 void digitalWrite(int pin, int level);
@@ -135,18 +144,40 @@ char* ultoa(unsigned long value, char* into, int base);
 inline char* itoa(int value, char* into, int base) {
   return base == 10 ? ltoa(value, into, base) : ultoa(static_cast<unsigned>(value), into, base);
 }
-inline char* utoa(unsigned value, char* into, int base) { return ultoa(value, into, base); }
+inline char* utoa(unsigned value, char* into, int base) {
+  return ultoa(value, into, base);
+}
 
-inline bool isAlpha(int c) { return isalpha(c) != 0; }
-inline bool isAlphaNumeric(int c) { return isalnum(c) != 0; }
-inline bool isDigit(int c) { return isdigit(c) != 0; }
-inline bool isHexadecimalDigit(int c) { return isxdigit(c) != 0; }
-inline bool isLowerCase(int c) { return islower(c) != 0; }
-inline bool isUpperCase(int c) { return isupper(c) != 0; }
-inline bool isPrintable(int c) { return isprint(c) != 0; }
-inline bool isPunct(int c) { return ispunct(c) != 0; }
-inline bool isSpace(int c) { return isspace(c) != 0; }
-inline bool isWhitespace(int c) { return c == ' ' || c == '\t'; }
+inline bool isAlpha(int c) {
+  return isalpha(c) != 0;
+}
+inline bool isAlphaNumeric(int c) {
+  return isalnum(c) != 0;
+}
+inline bool isDigit(int c) {
+  return isdigit(c) != 0;
+}
+inline bool isHexadecimalDigit(int c) {
+  return isxdigit(c) != 0;
+}
+inline bool isLowerCase(int c) {
+  return islower(c) != 0;
+}
+inline bool isUpperCase(int c) {
+  return isupper(c) != 0;
+}
+inline bool isPrintable(int c) {
+  return isprint(c) != 0;
+}
+inline bool isPunct(int c) {
+  return ispunct(c) != 0;
+}
+inline bool isSpace(int c) {
+  return isspace(c) != 0;
+}
+inline bool isWhitespace(int c) {
+  return c == ' ' || c == '\t';
+}
 
 #include "HardwareSerial.h"
 #include "avr/pgmspace.h"

@@ -11,7 +11,9 @@ class TSPoint {
  public:
   TSPoint(int16_t at_x = 0, int16_t at_y = 0, int16_t pressure = 0)
       : x(at_x), y(at_y), z(pressure) {}
-  bool operator==(const TSPoint& other) const { return x == other.x && y == other.y && z == other.z; }
+  bool operator==(const TSPoint& other) const {
+    return x == other.x && y == other.y && z == other.z;
+  }
   bool operator!=(const TSPoint& other) const { return !(*this == other); }
   int16_t x, y, z;
 };

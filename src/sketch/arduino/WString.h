@@ -18,9 +18,11 @@ class String {
   String(const char* text = "") : text_(text == nullptr ? "" : text) {}
   String(const __FlashStringHelper* text) : text_(reinterpret_cast<const char*>(text)) {}
   explicit String(char c) : text_(1, c) {}
-  explicit String(unsigned char value, int base = 10) : String(static_cast<unsigned long>(value), base) {}
+  explicit String(unsigned char value, int base = 10)
+      : String(static_cast<unsigned long>(value), base) {}
   explicit String(int value, int base = 10) : String(static_cast<long>(value), base) {}
-  explicit String(unsigned value, int base = 10) : String(static_cast<unsigned long>(value), base) {}
+  explicit String(unsigned value, int base = 10)
+      : String(static_cast<unsigned long>(value), base) {}
   explicit String(long value, int base = 10);
   explicit String(unsigned long value, int base = 10);
   explicit String(float value, int digits = 2) : String(static_cast<double>(value), digits) {}
@@ -32,16 +34,26 @@ class String {
   bool reserve(unsigned size) { return text_.reserve(size), true; }
 
   template <class T>
-  String& operator=(const T& value) { return text_ = String(value).text_, *this; }
+  String& operator=(const T& value) {
+    return text_ = String(value).text_, *this;
+  }
   template <class T>
-  String& operator+=(const T& value) { return text_ += String(value).text_, *this; }
+  String& operator+=(const T& value) {
+    return text_ += String(value).text_, *this;
+  }
   String& operator+=(const String& other) { return text_ += other.text_, *this; }
   template <class T>
-  bool concat(const T& value) { return *this += value, true; }
+  bool concat(const T& value) {
+    return *this += value, true;
+  }
   template <class T>
-  friend String operator+(String left, const T& right) { return left += right; }
+  friend String operator+(String left, const T& right) {
+    return left += right;
+  }
   friend String operator+(const char* left, const String& right) { return String(left) += right; }
-  friend String operator+(const __FlashStringHelper* left, const String& right) { return String(left) += right; }
+  friend String operator+(const __FlashStringHelper* left, const String& right) {
+    return String(left) += right;
+  }
 
   bool operator==(const String& other) const { return text_ == other.text_; }
   bool operator!=(const String& other) const { return text_ != other.text_; }
@@ -50,7 +62,9 @@ class String {
   bool operator<=(const String& other) const { return text_ <= other.text_; }
   bool operator>=(const String& other) const { return text_ >= other.text_; }
   bool equals(const String& other) const { return text_ == other.text_; }
-  bool equalsIgnoreCase(const String& other) const { return strcasecmp(c_str(), other.c_str()) == 0; }
+  bool equalsIgnoreCase(const String& other) const {
+    return strcasecmp(c_str(), other.c_str()) == 0;
+  }
   int compareTo(const String& other) const { return strcmp(c_str(), other.c_str()); }
   bool startsWith(const String& start, unsigned from = 0) const {
     return from <= length() && text_.compare(from, start.length(), start.text_) == 0;
@@ -60,7 +74,9 @@ class String {
   }
 
   char charAt(unsigned at) const { return at < length() ? text_[at] : '\0'; }
-  void setCharAt(unsigned at, char c) { if (at < length()) text_[at] = c; }
+  void setCharAt(unsigned at, char c) {
+    if (at < length()) text_[at] = c;
+  }
   char operator[](unsigned at) const { return charAt(at); }
   char& operator[](unsigned at) {
     static char none;
@@ -74,7 +90,9 @@ class String {
   }
 
   int indexOf(char c, unsigned from = 0) const { return found(text_.find(c, from)); }
-  int indexOf(const String& part, unsigned from = 0) const { return found(text_.find(part.text_, from)); }
+  int indexOf(const String& part, unsigned from = 0) const {
+    return found(text_.find(part.text_, from));
+  }
   int lastIndexOf(char c) const { return found(text_.rfind(c)); }
   int lastIndexOf(const String& part) const { return found(text_.rfind(part.text_)); }
   String substring(unsigned from) const { return substring(from, length()); }
@@ -82,7 +100,9 @@ class String {
 
   void replace(const String& wanted, const String& by);
   void replace(char wanted, char by) { replace(String(wanted), String(by)); }
-  void remove(unsigned from, unsigned count = ~0U) { if (from < length()) text_.erase(from, count); }
+  void remove(unsigned from, unsigned count = ~0U) {
+    if (from < length()) text_.erase(from, count);
+  }
   void toLowerCase();
   void toUpperCase();
   void trim();

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The I2C bus, for the parts that the wiring has, by their own headers; bytes of one's own have nobody
-// who would answer.
+// The I2C bus, for the parts that the wiring has, by their own headers; bytes of one's own have
+// nobody who would answer.
 #pragma once
 
 #include "Arduino.h"
@@ -14,7 +14,7 @@ class TwoWire {
   void setClock(unsigned long) {}
   void setWireTimeout(unsigned long = 0, bool = false) {}
 
-#define BBSIM_NOBODY                                                                      \
+#define BBSIM_NOBODY                                                                         \
   "Wire: no part of the wiring speaks I2C by bytes; the parts that are there have headers: " \
   "Adafruit_STMPE610.h, Adafruit_PWMServoDriver.h"
   BBSIM_LACKS(beginTransmission, BBSIM_NOBODY)

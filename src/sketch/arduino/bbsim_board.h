@@ -21,9 +21,9 @@ inline constexpr bool never = false;
 }  // namespace bbsim_board
 
 // A function that is not there: who calls it gets the hint from the compiler.
-#define BBSIM_LACKS(name, hint)                                        \
-  template <class... Arguments>                                        \
-  int name(Arguments&&...) {                                           \
-    static_assert(bbsim_board::never<Arguments...>, "bbsim: " hint);   \
-    return 0;                                                          \
+#define BBSIM_LACKS(name, hint)                                      \
+  template <class... Arguments>                                      \
+  int name(Arguments&&...) {                                         \
+    static_assert(bbsim_board::never<Arguments...>, "bbsim: " hint); \
+    return 0;                                                        \
   }

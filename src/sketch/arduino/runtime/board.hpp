@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The board that a sketch runs on. There is one in each copy of the library (instances.cpp), so it is
-// a global variable, as the sketch's own are.
+// The board that a sketch runs on. There is one in each copy of the library (instances.cpp), so it
+// is a global variable, as the sketch's own are.
 #pragma once
 
 #include <bbsim/wiring.h>
@@ -29,12 +29,12 @@ struct Costs {
 struct Board {
   bbsim_wiring wiring;
   Costs costs;
-  bbsim_sample sample;   // the newest
-  Nanoseconds now;       // since the board was switched on
-  Nanoseconds horizon;   // of the present step: from there on the next sample is due
-  bool running;          // in the sketch, that is, on the coroutine
-  char said[400];        // what went wrong; empty: nothing did
-  double command[2];     // rad
+  bbsim_sample sample;  // the newest
+  Nanoseconds now;      // since the board was switched on
+  Nanoseconds horizon;  // of the present step: from there on the next sample is due
+  bool running;         // in the sketch, that is, on the coroutine
+  char said[400];       // what went wrong; empty: nothing did
+  double command[2];    // rad
 };
 extern Board board;
 
@@ -45,6 +45,8 @@ void end_sketch();
 bool setup_has_returned();
 // Gives control back from within the sketch, until the next run_sketch().
 void hand_over();
+// Sent to the thread of a sketch that computes without end.
+int watchdog_signal();
 
 // screen.cpp: what a pin reads that the screen is wired to, of 1; false: it is not.
 bool screen_reads(int pin, double& level);
@@ -60,6 +62,5 @@ void send_frames();
 // The last number that was printed after `name` and a colon.
 void watch_columns(const char* const* names, size_t count);
 double column(size_t index);
-
 
 }  // namespace bbsim_board

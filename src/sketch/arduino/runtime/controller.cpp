@@ -5,6 +5,7 @@
 // global variables, so each controller is a copy of this library of its own, which the linker loads
 // from memory: the functions that bbsim calls only pass on to the copy's.
 #include <dlfcn.h>
+#include <signal.h>
 #include <stdio.h>
 #include <sys/mman.h>
 #include <unistd.h>
@@ -16,8 +17,9 @@ namespace bbsim_board {
 namespace {
 
 Nanoseconds switched_on_before = 0;  // t = 0, on the board's clock
-double period = 0;  // s
+double period = 0;                   // s
 size_t column_count = 0;
+constexpr int patience = 5;  // s
 
 template <class T>
 T* copy(const T* from, size_t count) {
@@ -43,9 +45,9 @@ const char* create(const bbsim_setup* setup, const bbsim_wiring* wiring) {
   own.camera.frame = copy(own.camera.frame, strlen(own.camera.frame));
   own.camera.lost = copy(own.camera.lost, strlen(own.camera.lost));
   const bbsim_call_costs& costs = own.costs;
-  board.costs = {nanoseconds(costs.clock),        nanoseconds(costs.digital),
-                 nanoseconds(costs.analog),       nanoseconds(costs.servo),
-                 nanoseconds(costs.serial),       nanoseconds(costs.eeprom_write),
+  board.costs = {nanoseconds(costs.clock),  nanoseconds(costs.digital),
+                 nanoseconds(costs.analog), nanoseconds(costs.servo),
+                 nanoseconds(costs.serial), nanoseconds(costs.eeprom_write),
                  nanoseconds(costs.loop)};
   board.now = 0;
   period = setup->period;
@@ -89,10 +91,19 @@ const char* said() {
   return board.said;
 }
 
+// Called by the watchdog in the midst of the sketch, which is left there for good.
+void stuck() {
+  fail(
+      "it computes without end: %d s of a processor, and no call that takes time, such as millis() "
+      "or delay()",
+      patience);
+}
+
 struct Functions {
   decltype(&create) make;
   decltype(&step) next;
   decltype(&said) why;
+  decltype(&stuck) stop;
   decltype(&end_sketch) end;
 };
 
@@ -122,6 +133,37 @@ struct Image {
 
 thread_local char why_not[400];
 
+// A sketch that waits for what cannot come, as in while (1);, is found out by the processor time
+// that a step takes: each thread has a timer of its own.
+thread_local const Functions* present = nullptr;
+
+class Watchdog {
+ public:
+  Watchdog() {
+    struct sigaction action {};
+    action.sa_handler = [](int) {
+      if (present != nullptr) present->stop();
+    };
+    sigaction(watchdog_signal(), &action, nullptr);
+    sigevent event{};
+    event.sigev_notify = SIGEV_THREAD_ID;
+    event.sigev_signo = watchdog_signal();
+    event._sigev_un._tid = gettid();
+    works_ = timer_create(CLOCK_THREAD_CPUTIME_ID, &event, &timer_) == 0;
+  }
+  ~Watchdog() {
+    if (works_) timer_delete(timer_);
+  }
+  void set(int seconds) {
+    const itimerspec when{{0, 0}, {seconds, 0}};
+    if (works_) timer_settime(timer_, 0, &when, nullptr);
+  }
+
+ private:
+  timer_t timer_{};
+  bool works_ = false;
+};
+
 bool load(Copy& copy) {
   static const Image image;
   copy.file = memfd_create("sketch", MFD_CLOEXEC);
@@ -148,6 +190,11 @@ void drop(Copy* copy) {
 }
 
 }  // namespace
+
+int watchdog_signal() {
+  return SIGRTMIN + 5;
+}
+
 }  // namespace bbsim_board
 
 using namespace bbsim_board;
@@ -155,22 +202,24 @@ using namespace bbsim_board;
 extern "C" {
 
 BBSIM_CONTROLLER_EXPORT extern const Functions bbsim_sketch_functions;
-const Functions bbsim_sketch_functions{create, step, said, end_sketch};
+const Functions bbsim_sketch_functions{create, step, said, stuck, end_sketch};
 
 uint32_t bbsim_controller_abi() {
   return BBSIM_CONTROLLER_ABI;
 }
 
 void* bbsim_controller_create(const bbsim_setup*) {
-  snprintf(why_not, sizeof why_not,
-           "it is a sketch; allowed: with controller.library.wiring, a file that says what its pins "
-           "are wired to");
+  snprintf(
+      why_not, sizeof why_not,
+      "it is a sketch; allowed: with controller.library.wiring, a file that says what its pins "
+      "are wired to");
   return nullptr;
 }
 
 void* bbsim_controller_create_wired(const bbsim_setup* setup, const bbsim_wiring* wiring) {
   if (wiring->version != BBSIM_WIRING_VERSION) {
-    snprintf(why_not, sizeof why_not, "it was made by another version of bbsim sketch; make it anew");
+    snprintf(why_not, sizeof why_not,
+             "it was made by another version of bbsim sketch; make it anew");
     return nullptr;
   }
   Copy* const copy = static_cast<Copy*>(calloc(1, sizeof(Copy)));
@@ -190,7 +239,13 @@ void* bbsim_controller_create_wired(const bbsim_setup* setup, const bbsim_wiring
 
 int bbsim_controller_step(void* controller, const bbsim_sample* sample, double command[2],
                           double* columns) {
-  return static_cast<Copy*>(controller)->functions->next(sample, command, columns);
+  static thread_local Watchdog watchdog;
+  present = static_cast<Copy*>(controller)->functions;
+  watchdog.set(patience);
+  const int code = present->next(sample, command, columns);
+  watchdog.set(0);
+  present = nullptr;
+  return code;
 }
 
 void bbsim_controller_destroy(void* controller) {
@@ -200,7 +255,6 @@ void bbsim_controller_destroy(void* controller) {
 }
 
 const char* bbsim_controller_last_error(const void* controller) {
-  return controller == nullptr ? why_not
-                               : static_cast<const Copy*>(controller)->functions->why();
+  return controller == nullptr ? why_not : static_cast<const Copy*>(controller)->functions->why();
 }
 }

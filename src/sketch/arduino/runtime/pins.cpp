@@ -31,9 +31,10 @@ double level_of(int pin, const char* function) {
     if (input.pin == pin) return pin < first_analog ? input.value : input.value / 1023;
   }
   if (state[pin].high) return 1;  // nothing pulls it down
-  fail("%s(%s): nothing is wired to pin %s; a constant stands in the wiring's inputs: "
-       "inputs: {%s: %s}",
-       function, pin_name(pin), pin_name(pin), pin_name(pin), pin < first_analog ? "0" : "512");
+  fail(
+      "%s(%s): nothing is wired to pin %s; a constant stands in the wiring's inputs: "
+      "inputs: {%s: %s}",
+      function, pin_name(pin), pin_name(pin), pin_name(pin), pin < first_analog ? "0" : "512");
   return 0;
 }
 

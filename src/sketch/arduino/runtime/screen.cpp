@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Touch screens: resistive ones as the network of resistors that they are, so that a sketch may drive
-// and read their electrodes in any order; and a chip that reads one by itself.
+// Touch screens: resistive ones as the network of resistors that they are, so that a sketch may
+// drive and read their electrodes in any order; and a chip that reads one by itself.
 #include "Adafruit_STMPE610.h"
 #include "runtime/board.hpp"
 
@@ -26,8 +26,8 @@ double share(const bbsim_count_map& map, int axis) {
 
 // A plate with an electrode at each end, seen from the place that is touched.
 struct Plate {
-  int plus, minus;        // pins
-  double to_plus, to_minus;  // ohm
+  int plus, minus;                      // pins
+  double to_plus, to_minus;             // ohm
   double conductance = 0, current = 0;  // of what drives it, at 1 V
 
   void add(int pin, double resistance) {
@@ -79,9 +79,11 @@ double five_wires(const bbsim_wired_screen& screen, int pin) {
   for (int i = 0; i < 4; ++i) {
     const Drive drive = drive_of(screen.pins[i]);
     if (drive == Drive::none || drive == Drive::pull_up) {
-      fail("a screen of five wires is read while pin %s drives nothing; allowed: all corners at HIGH "
-           "or LOW",
-           pin_name(screen.pins[i]));
+      fail(
+          "a screen of five wires is read while pin %s drives nothing; allowed: all corners at "
+          "HIGH "
+          "or LOW",
+          pin_name(screen.pins[i]));
     }
     corner[i] = drive == Drive::high ? 1 : 0;
   }
@@ -129,8 +131,9 @@ void Adafruit_STMPE610::access(int registers) const {
 
 void Adafruit_STMPE610::require_chip() const {
   if (board.wiring.screen.kind == bbsim_stmpe610) return;
-  fail("Adafruit_STMPE610: no such chip is wired; the wiring says it so: screen: {chip: stmpe610, "
-       "...}");
+  fail(
+      "Adafruit_STMPE610: no such chip is wired; the wiring says it so: screen: {chip: stmpe610, "
+      "...}");
 }
 
 bool Adafruit_STMPE610::begin(uint8_t) {

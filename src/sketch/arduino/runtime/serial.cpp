@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 // Serial lines: what the sketch prints, and the frames that a camera sends.
-#include <stdarg.h>
 #include <unistd.h>
 
 #include "Arduino.h"
@@ -11,70 +10,44 @@
 namespace bbsim_board {
 namespace {
 
-// What is printed goes out line by line.
-class Lines {
- public:
-  void add(char c) {
-    if (c == '\n' || length_ == sizeof text_ - 1) end();
-    if (c == '\n' || c == '\r') return;
-    text_[length_++] = c;
-  }
-  void watch(const char* const* names, size_t count) {
-    free(watched_);
-    watched_ = static_cast<Watched*>(calloc(count + 1, sizeof(Watched)));
-    if (watched_ == nullptr) return;
-    watched_count_ = count;
-    for (size_t i = 0; i < count; ++i) {
-      snprintf(watched_[i].name, sizeof watched_[i].name, "%s", names[i]);
-    }
-  }
-  double value(size_t index) const { return watched_[index].value; }
+// Numbers that output.columns asks for.
+struct Watched {
+  char name[64];
+  double value;
+};
+Watched* watched = nullptr;
+size_t watched_count = 0;
 
- private:
-  void end() {
-    text_[length_] = '\0';
-    length_ = 0;
-    read_numbers();
-    if (board.wiring.print != 0) say();
-  }
-  // "name:value", several of them parted by commas, tabs or blanks: as for the plotter of the IDE.
-  void read_numbers() {
-    for (char* at = text_; (at = strchr(at, ':')) != nullptr; ++at) {
-      for (size_t i = 0; i < watched_count_; ++i) {
-        const size_t length = strlen(watched_[i].name);
-        const char* const start = at - length;
-        if (start < text_ || strncmp(start, watched_[i].name, length) != 0) continue;
-        if (start > text_ && strchr(", \t", start[-1]) == nullptr) continue;
-        char* end = nullptr;
-        const double number = strtod(at + 1, &end);
-        if (end != at + 1 && isfinite(number)) watched_[i].value = number;
-      }
+// "name:value", several of them parted by commas, tabs or blanks: as for the plotter of the IDE.
+void read_numbers(const char* line) {
+  for (const char* at = line; (at = strchr(at, ':')) != nullptr; ++at) {
+    for (size_t i = 0; i < watched_count; ++i) {
+      const auto length = static_cast<ptrdiff_t>(strlen(watched[i].name));
+      if (at - line < length) continue;
+      const char* const start = at - length;
+      if (strncmp(start, watched[i].name, static_cast<size_t>(length)) != 0) continue;
+      if (start > line && strchr(", \t", start[-1]) == nullptr) continue;
+      char* end = nullptr;
+      const double number = strtod(at + 1, &end);
+      if (end != at + 1 && isfinite(number)) watched[i].value = number;
     }
   }
-  // One call, so that lines of threads do not mix; and nothing that a terminal would obey.
-  void say() const {
-    char line[4 * sizeof text_ + 16];
-    int used = snprintf(line, sizeof line, "controller: ");
-    for (const char* c = text_; *c != '\0'; ++c) {
-      const auto byte = static_cast<unsigned char>(*c);
-      const bool plain = byte >= 0x20 && byte != 0x7F;
-      used += snprintf(line + used, sizeof line - static_cast<size_t>(used),
-                       plain || byte == '\t' ? "%c" : "\\x%02x", byte);
-    }
-    line[used++] = '\n';
-    const ssize_t written = write(STDERR_FILENO, line, static_cast<size_t>(used));
-    static_cast<void>(written);
-  }
+}
 
-  struct Watched {
-    char name[64];
-    double value;
-  };
-  char text_[256] = {};
-  size_t length_ = 0;
-  Watched* watched_ = nullptr;
-  size_t watched_count_ = 0;
-} lines;
+// One call, so that lines of threads do not mix; and nothing that a terminal would obey.
+void say(const char* line) {
+  char text[4 * 256 + 16];
+  int used = snprintf(text, sizeof text, "controller: ");
+  for (const char* c = line; *c != '\0'; ++c) {
+    const auto letter = static_cast<unsigned char>(*c);
+    const bool plain = (letter >= 0x20 && letter != 0x7F) || letter == '\t';
+    used += snprintf(text + used, sizeof text - static_cast<size_t>(used), plain ? "%c" : "\\x%02x",
+                     letter);
+  }
+  text[used++] = '\n';
+  const ssize_t written = write(STDERR_FILENO, text, static_cast<size_t>(used));
+  static_cast<void>(written);
+}
 
 // Bytes on their way to the board, each with the time when it is there.
 struct Byte {
@@ -112,10 +85,16 @@ void send_frame(const char* frame, Nanoseconds from, Nanoseconds per_byte) {
   }
 }
 
+HardwareSerial* const ports[] = {&Serial, &Serial1, &Serial2, &Serial3, &SerialUSB};
+
 HardwareSerial* camera_port() {
-  HardwareSerial* const ports[] = {&Serial, &Serial1, &Serial2, &Serial3, &SerialUSB};
   const int port = board.wiring.camera.port;
   return port < 0 ? nullptr : ports[port];
+}
+
+// When the next frame is taken.
+Nanoseconds frame_time() {
+  return next_frame * nanoseconds(board.wiring.camera.period);
 }
 
 }  // namespace
@@ -124,20 +103,23 @@ void send_frames() {
   HardwareSerial* const port = camera_port();
   if (port == nullptr) return;
   const bbsim_wired_camera& camera = board.wiring.camera;
-  const Nanoseconds period = nanoseconds(camera.period);
-  for (; next_frame * period <= board.now; ++next_frame) {
+  for (; frame_time() <= board.now; ++next_frame) {
     if (!*port) continue;  // nobody listens yet
     const char* const frame = board.sample.seen != 0 ? camera.frame : camera.lost;
-    send_frame(frame, next_frame * period + nanoseconds(camera.delay), port->per_byte());
+    send_frame(frame, frame_time() + nanoseconds(camera.delay), port->per_byte());
   }
 }
 
 void watch_columns(const char* const* names, size_t count) {
-  lines.watch(names, count);
+  watched = static_cast<Watched*>(calloc(count + 1, sizeof(Watched)));
+  watched_count = watched == nullptr ? 0 : count;
+  for (size_t i = 0; i < watched_count; ++i) {
+    snprintf(watched[i].name, sizeof watched[i].name, "%s", names[i]);
+  }
 }
 
 double column(size_t index) {
-  return lines.value(index);
+  return watched[index].value;
 }
 
 }  // namespace bbsim_board
@@ -184,17 +166,28 @@ int HardwareSerial::peek() {
 }
 
 int HardwareSerial::read() {
-  const int byte = peek();
-  if (byte < 0) return byte;
+  const int letter = peek();
+  if (letter < 0) return letter;
   first_ = (first_ + 1) % static_cast<int>(sizeof buffer_);
   --count_;
-  return byte;
+  return letter;
+}
+
+// What is printed goes out line by line.
+void HardwareSerial::add_to_line(char c) {
+  if (c == '\n' || line_length_ == static_cast<int>(sizeof line_) - 1) {
+    line_[line_length_] = '\0';
+    line_length_ = 0;
+    read_numbers(line_);
+    if (board.wiring.print != 0) say(line_);
+  }
+  if (c != '\n' && c != '\r') line_[line_length_++] = c;
 }
 
 // 64 bytes wait for the line without holding up the sketch.
-size_t HardwareSerial::write(uint8_t byte) {
+size_t HardwareSerial::write(uint8_t letter) {
   spend(board.costs.serial);
-  lines.add(static_cast<char>(byte));
+  add_to_line(static_cast<char>(letter));
   if (!begun_) return 0;
   if (line_is_free_ < board.now) line_is_free_ = board.now;
   line_is_free_ += per_byte_;

@@ -9,8 +9,6 @@
 namespace bbsim_board {
 namespace {
 
-
-
 void pulse(int axis, double seconds) {
   const bbsim_wired_servo& servo = board.wiring.servos[axis];
   board.command[axis] = servo.scale * (seconds - servo.level);
@@ -23,9 +21,10 @@ int axis_at_pin(int pin) {
   for (size_t i = 0; i < board.wiring.ignored_count; ++i) {
     if (board.wiring.ignored[i] == pin) return -1;
   }
-  fail("Servo.attach(%s): no servo is wired to pin %s; the wiring's servos name the pins of phi and "
-       "theta, and in `ignored` those of others",
-       pin_name(pin), pin_name(pin));
+  fail(
+      "Servo.attach(%s): no servo is wired to pin %s; the wiring's servos name the pins of phi and "
+      "theta, and in `ignored` those of others",
+      pin_name(pin), pin_name(pin));
   return -1;
 }
 

@@ -29,7 +29,8 @@ size_t Print::print_unsigned(unsigned long long value, int base) {
 size_t Print::print_signed(long long value, int base) {
   if (base != 10) return print_unsigned(static_cast<unsigned long long>(value), base);
   if (value >= 0) return print_unsigned(static_cast<unsigned long long>(value), 10);
-  return write(static_cast<uint8_t>('-')) + print_unsigned(0ULL - static_cast<unsigned long long>(value), 10);
+  return write(static_cast<uint8_t>('-')) +
+         print_unsigned(0ULL - static_cast<unsigned long long>(value), 10);
 }
 
 size_t Print::print(double value, int digits) {
@@ -69,61 +70,62 @@ size_t Print::printf(const char* format, ...) {
 int Stream::timed(int (Stream::*next)()) {
   const unsigned long start = millis();
   do {
-    const int byte = (this->*next)();
-    if (byte >= 0) return byte;
+    const int letter = (this->*next)();
+    if (letter >= 0) return letter;
   } while (millis() - start < timeout_);
   return -1;
 }
 
-// The next byte that can begin a number, which stays; -1: there is none in time.
+// The next letter that can begin a number, which stays; -1: there is none in time.
 int Stream::start_of_number(bool point) {
   while (true) {
-    const int byte = timed(&Stream::peek);
-    if (byte < 0 || byte == '-' || (byte >= '0' && byte <= '9') || (point && byte == '.')) {
-      return byte;
+    const int letter = timed(&Stream::peek);
+    if (letter < 0 || letter == '-' || (letter >= '0' && letter <= '9') ||
+        (point && letter == '.')) {
+      return letter;
     }
     read();
   }
 }
 
 long Stream::parseInt() {
-  int byte = start_of_number(false);
-  const bool negative = byte == '-';
+  int letter = start_of_number(false);
+  const bool negative = letter == '-';
   long value = 0;
-  if (byte < 0) return 0;
+  if (letter < 0) return 0;
   do {
-    if (byte != '-') value = value * 10 + byte - '0';
+    if (letter != '-') value = value * 10 + letter - '0';
     read();
-    byte = timed(&Stream::peek);
-  } while (byte >= '0' && byte <= '9');
+    letter = timed(&Stream::peek);
+  } while (letter >= '0' && letter <= '9');
   return negative ? -value : value;
 }
 
 float Stream::parseFloat() {
-  int byte = start_of_number(true);
-  const bool negative = byte == '-';
+  int letter = start_of_number(true);
+  const bool negative = letter == '-';
   bool fraction = false;
   double value = 0, place = 1;
-  if (byte < 0) return 0;
+  if (letter < 0) return 0;
   do {
-    if (byte == '.') {
+    if (letter == '.') {
       fraction = true;
-    } else if (byte != '-') {
-      value = value * 10 + byte - '0';
+    } else if (letter != '-') {
+      value = value * 10 + letter - '0';
       if (fraction) place *= 0.1;
     }
     read();
-    byte = timed(&Stream::peek);
-  } while ((byte >= '0' && byte <= '9') || (byte == '.' && !fraction));
+    letter = timed(&Stream::peek);
+  } while ((letter >= '0' && letter <= '9') || (letter == '.' && !fraction));
   return static_cast<float>((negative ? -value : value) * place);
 }
 
 size_t Stream::readBytesUntil(char end, char* into, size_t room) {
   size_t count = 0;
   while (count < room) {
-    const int byte = timed(&Stream::read);
-    if (byte < 0 || byte == end) break;
-    into[count++] = static_cast<char>(byte);
+    const int letter = timed(&Stream::read);
+    if (letter < 0 || letter == end) break;
+    into[count++] = static_cast<char>(letter);
   }
   return count;
 }
@@ -131,17 +133,18 @@ size_t Stream::readBytesUntil(char end, char* into, size_t room) {
 size_t Stream::readBytes(char* into, size_t room) {
   size_t count = 0;
   while (count < room) {
-    const int byte = timed(&Stream::read);
-    if (byte < 0) break;
-    into[count++] = static_cast<char>(byte);
+    const int letter = timed(&Stream::read);
+    if (letter < 0) break;
+    into[count++] = static_cast<char>(letter);
   }
   return count;
 }
 
 String Stream::read_text(int end) {
   String text;
-  for (int byte = timed(&Stream::read); byte >= 0 && byte != end; byte = timed(&Stream::read)) {
-    text += static_cast<char>(byte);
+  for (int letter = timed(&Stream::read); letter >= 0 && letter != end;
+       letter = timed(&Stream::read)) {
+    text += static_cast<char>(letter);
   }
   return text;
 }
@@ -149,9 +152,9 @@ String Stream::read_text(int end) {
 bool Stream::find(const char* wanted) {
   size_t found = 0;
   while (wanted[found] != '\0') {
-    const int byte = timed(&Stream::read);
-    if (byte < 0) return false;
-    found = byte == wanted[found] ? found + 1 : byte == wanted[0] ? 1 : 0;
+    const int letter = timed(&Stream::read);
+    if (letter < 0) return false;
+    found = letter == wanted[found] ? found + 1 : letter == wanted[0] ? 1 : 0;
   }
   return true;
 }

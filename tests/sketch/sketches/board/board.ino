@@ -107,7 +107,7 @@ void pins() {
 
 void servos() {
   s.attach(9);
-  EXPECT(s.attached() && s.read() == 93 && s.readMicroseconds() == 1500);
+  EXPECT(s.attached() && s.read() == 92 && s.readMicroseconds() == 1500);
   s.write(90);
   EXPECT(s.readMicroseconds() == 1472 && s.read() == 90);
   s.write(91);

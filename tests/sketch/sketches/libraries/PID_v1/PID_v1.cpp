@@ -9,9 +9,21 @@
 
 #include <PID_v1.h>
 
-PID::PID(double *Input, double *Output, double *Setpoint, double Kp, double Ki, double Kd, int direction)
-    : kp(Kp), ki(Ki), kd(Kd), input(Input), output(Output), setpoint(Setpoint),
-      lastTime(millis()), sum(0), lastInput(0), period(0.1), low(0), high(255), inAuto(false) {
+PID::PID(double* Input, double* Output, double* Setpoint, double Kp, double Ki, double Kd,
+         int direction)
+    : kp(Kp),
+      ki(Ki),
+      kd(Kd),
+      input(Input),
+      output(Output),
+      setpoint(Setpoint),
+      lastTime(millis()),
+      sum(0),
+      lastInput(0),
+      period(0.1),
+      low(0),
+      high(255),
+      inAuto(false) {
   if (direction == REVERSE) {
     kp = -kp;
     ki = -ki;
@@ -43,4 +55,6 @@ void PID::SetOutputLimits(double Min, double Max) {
   high = Max;
 }
 
-void PID::SetSampleTime(int ms) { period = ms / 1000.0; }
+void PID::SetSampleTime(int ms) {
+  period = ms / 1000.0;
+}
