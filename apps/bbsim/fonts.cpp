@@ -10,8 +10,6 @@
 #include <string_view>
 #include <vector>
 
-#include "file/external.hpp"
-
 namespace bbsim::app {
 namespace {
 
