@@ -2,5 +2,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 #pragma once
-
 #include "Arduino.h"
