@@ -31,7 +31,9 @@ if(BBSIM_SANITIZE)
                                                  -fno-sanitize-recover=all -fno-omit-frame-pointer)
   target_link_options(bbsim_options INTERFACE -fsanitize=address,undefined)
 elseif(BBSIM_STATIC_RUNTIME)
-  target_link_options(bbsim_options INTERFACE -static-libstdc++ -static-libgcc)
+  # A library shares the runtime of the program that loads it: its exceptions cross.
+  set(_own $<NOT:$<BOOL:$<TARGET_PROPERTY:BBSIM_SHARED_RUNTIME>>>)
+  target_link_options(bbsim_options INTERFACE $<${_own}:-static-libstdc++> $<${_own}:-static-libgcc>)
 endif()
 
 # bbsim_spare_from_sanitizers(SOURCE...): compiles sources of the current folder without sanitizers. For sources with

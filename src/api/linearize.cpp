@@ -89,6 +89,15 @@ std::optional<model::LinearPoint> point_at(double time, const Scenario& scenario
 
 }  // namespace
 
+std::optional<LinearKind> kind_named(const std::string& name) {
+  if (name.empty()) return {};
+  const auto* const found = std::ranges::find(kinds, name);
+  if (found == std::end(kinds)) {
+    throw InputError("kind: found " + name + "; allowed: plant, loop, sampled");
+  }
+  return static_cast<LinearKind>(found - std::begin(kinds));
+}
+
 Linearized linearize(const LinearizeRequest& request, Watch& watch) {
   const Scenario& scenario = request.scenario;
   const model::Model model = assemble(scenario, {});

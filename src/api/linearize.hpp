@@ -18,6 +18,9 @@ namespace bbsim::api {
 using model::Linearization;
 using model::LinearKind;
 
+// plant, loop or sampled; nothing for an empty name. Throws InputError for another one.
+[[nodiscard]] std::optional<LinearKind> kind_named(const std::string& name);
+
 struct LinearizeRequest {
   Scenario scenario;
   std::optional<LinearKind> kind{};  // without one, what is usual for the scene

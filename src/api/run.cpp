@@ -78,6 +78,24 @@ std::vector<file::ColumnHeader> headers_of(const Columns& columns) {
   return headers;
 }
 
+// Hands rows to a function, and to another table if there is one.
+class RowsTo : public file::TableWriter {
+ public:
+  RowsTo(const RunRequest& request, std::size_t asked, file::TableWriter* next)
+      : request_(request), asked_(asked), next_(next) {}
+
+  void append(std::span<const double* const> columns, std::size_t rows) override {
+    if (request_.rows_to) request_.rows_to(columns.first(asked_), rows);
+    if (next_ != nullptr) next_->append(columns, rows);
+  }
+  void finish(const file::Attributes&) override {}
+
+ private:
+  const RunRequest& request_;
+  std::size_t asked_;
+  file::TableWriter* next_;
+};
+
 }  // namespace
 
 RunResult run(const RunRequest& request, Watch& watch) {
@@ -121,14 +139,14 @@ RunResult run(const RunRequest& request, Watch& watch) {
   }
   if (writer) writer->keep(request.inputs);
   std::optional<file::MemoryTable> kept;
-  if (request.pictured || !writer) {
+  if (request.pictured || request.keeps_rows || (!writer && !request.rows_to)) {
     kept.emplace(scenario::names_of(columns), writer.get(), asked.size());
   }
+  RowsTo rows(request, asked.size(), kept ? &*kept : writer.get());
 
   Simulation made;
   try {
-    made = simulate(scenario, model, grid, {columns, asked.size(), measures},
-                    kept ? static_cast<file::TableWriter&>(*kept) : *writer, watch,
+    made = simulate(scenario, model, grid, {columns, asked.size(), measures}, rows, watch,
                     part ? &part->part() : nullptr);
   } catch (const StateFault& fault) {
     throw InputError(request.part.from + ": " + fault.what());
@@ -138,6 +156,10 @@ RunResult run(const RunRequest& request, Watch& watch) {
   summary.output = request.output;
   for (std::size_t m = 0; m < printed.size(); ++m) {
     summary.measures.emplace_back(printed[m].name, made.measures[m]);
+  }
+  for (const file::ColumnHeader& header : headers) {
+    result.columns.emplace_back(header.name);
+    result.units.emplace_back(header.unit);
   }
   judge(expectations, measures, made, result);
   result.rows_asked = part ? part->part().end_row - part->part().first_row : grid.size();

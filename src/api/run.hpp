@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <functional>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -33,6 +34,9 @@ struct RunRequest {
   std::vector<file::InputTable> inputs{};  // the tables that the scenario read
   // Where the rows of output.columns go, by file::open_table(); empty: nowhere.
   std::string output{};
+  // Gets the rows as they come, by columns: a pointer each.
+  std::function<void(std::span<const double* const> columns, std::size_t rows)> rows_to{};
+  bool keeps_rows = false;  // the result has the rows, also where something else takes them
   // An existing output is replaced only if it is a table with these columns.
   bool replaces_its_like_only = false;
   std::string summary{};                // a JSON file; empty: none
@@ -52,9 +56,10 @@ struct RunResult {
   record::RunSummary summary;
   std::size_t rows_asked = 0;
   std::vector<std::string> unmet;  // what was expected of measures and is not so
-  file::TableData rows;            // of a request without an output or a picture
-  std::string noted;               // how often each thing was noted; empty if nothing was
-  std::string saved;               // what became of the file of a state; empty if none was wanted
+  file::TableData rows;            // of a request that keeps them, or that says nowhere to put them
+  std::vector<std::string> columns, units;  // of output.columns
+  std::string noted;                        // how often each thing was noted; empty if nothing was
+  std::string saved;  // what became of the file of a state; empty if none was wanted
   std::optional<replay::Run> pictured;
 };
 

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <functional>
 #include <memory>
 #include <thread>
 #include <utility>
@@ -74,9 +75,32 @@ void try_controller(const ScenarioFamily& family, Scenario first, Watch& watch) 
   static_cast<void>(assemble(first, scenario::columns_named(first.output.columns), host));
 }
 
-// Runs the cases that the file does not have, and tells `watch` how many a second.
-bool run_cases(const sweep::SweepTask& task, const sweep::Engine& engine, sweep::CaseRange missing,
-               std::size_t threads, sweep::CaseFile& file, SweepResult& result, Watch& watch) {
+// Where the rows of a sweep go. prepare() is called on the threads that compute them.
+struct CaseSink {
+  std::function<void(sweep::CaseResults&)> prepare;
+  std::function<void(const sweep::CaseResults&)> take;
+};
+
+CaseSink into_file(const sweep::SweepTask& task, sweep::CaseFile& file) {
+  return {[&task](sweep::CaseResults& results) { write_text(task, results); },
+          [&file](const sweep::CaseResults& results) {
+            file.append(results.text, results.count, results.series);
+          }};
+}
+
+CaseSink into_table(const sweep::SweepTask& task, const sweep::CaseFileLayout& layout,
+                    SweepTable& table) {
+  for (const file::Hdf5Column& column : layout.columns) {
+    table.columns.push_back(
+        {column.name, column.unit, column.kind == file::Hdf5Kind::text, {}, {}});
+  }
+  return {[](sweep::CaseResults&) {},
+          [&task, &table](const sweep::CaseResults& results) { append(task, results, table); }};
+}
+
+// Runs the cases that are not there yet, and tells `watch` how many a second.
+bool run_cases(const sweep::Engine& engine, sweep::CaseRange missing, std::size_t threads,
+               const CaseSink& sink, SweepResult& result, Watch& watch) {
   const auto started = std::chrono::steady_clock::now();
   const auto seconds = [&started] {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
@@ -86,10 +110,9 @@ bool run_cases(const sweep::SweepTask& task, const sweep::Engine& engine, sweep:
   };
   watch.start(share());
   const bool finished = sweep::run_sweep(
-      engine, missing, threads, stop_of(watch),
-      [&task](sweep::CaseResults& results) { write_text(task, results); },
+      engine, missing, threads, stop_of(watch), sink.prepare,
       [&](const sweep::CaseResults& results) {
-        file.append(results.text, results.count, results.series);
+        sink.take(results);
         result.rows += results.count;
         for (const sweep::CaseStatus& status : results.status) {
           result.statuses.add(status.word, status.reason);
@@ -137,8 +160,21 @@ SweepResult sweep(const SweepRequest& request, Watch& watch) {
   }
 
   const SweepFacts facts{family, request.sweep, task, first, request.shard};
-  declare_files(request, first);
+  const std::size_t processors = std::max(1U, std::thread::hardware_concurrency());
+  const std::size_t threads = request.threads > 0 ? request.threads : processors;
+  const auto interrupted = [&result] {
+    result.code = ExitCode::interrupted;
+    result.reason = "interrupted after " + std::to_string(result.rows) + " of " +
+                    std::to_string(result.cases) + " cases.";
+  };
   sweep::CaseFileLayout layout = layout_of(facts, engine, range);
+  if (request.output.empty()) {
+    try_controller(family, first, watch);
+    const CaseSink sink = into_table(task, layout, result.table);
+    if (!run_cases(engine, range, threads, sink, result, watch)) interrupted();
+    return result;
+  }
+  declare_files(request, first);
   // Before a controller is started.
   sweep::check_case_target(request.output, layout, request.resumes);
   if (request.by_default && !request.replaces_anything) {
@@ -153,15 +189,12 @@ SweepResult sweep(const SweepRequest& request, Watch& watch) {
   result.rows = result.kept = file->kept().rows;
   result.statuses = file->kept().statuses;
 
-  const std::size_t processors = std::max(1U, std::thread::hardware_concurrency());
-  if (run_cases(task, engine, {range.first + result.kept, range.last},
-                request.threads > 0 ? request.threads : processors, *file, result, watch)) {
+  if (run_cases(engine, {range.first + result.kept, range.last}, threads, into_file(task, *file),
+                result, watch)) {
     file->finish(attributes_of(facts, engine));
   } else {
     file->interrupt();
-    result.code = ExitCode::interrupted;
-    result.reason = "interrupted after " + std::to_string(result.rows) + " of " +
-                    std::to_string(result.cases) + " cases.";
+    interrupted();
     if (!file->part().empty() && result.rows > 0) {
       result.reason +=
           "\n  " + file->part() + " keeps them; the same command with --resume goes on.";

@@ -24,7 +24,7 @@ struct SweepRequest {
   const ScenarioFamily& family;
   Sweep sweep;
   Shard shard{};
-  std::string output;  // by sweep::open_case_file()
+  std::string output;  // by sweep::open_case_file(); empty: into the result's table
   // The output's name is none that the user gave: how messages call it, and, unless told otherwise,
   // that only a table with the same columns is replaced.
   bool by_default = false, replaces_anything = false;
@@ -34,6 +34,17 @@ struct SweepRequest {
   bool keeps_rows = false;  // also those of output.columns of each case
 };
 
+// The rows of a sweep, a column each.
+struct SweepTable {
+  struct Column {
+    std::string name, unit;
+    bool is_text = false;
+    std::vector<double> numbers;
+    std::vector<std::string> texts;
+  };
+  std::vector<Column> columns;
+};
+
 struct SweepResult {
   ExitCode code = ExitCode::done;  // or interrupted
   std::string reason;              // why it did not end
@@ -41,6 +52,7 @@ struct SweepResult {
   std::size_t rows = 0, kept = 0;  // that are there now, and of these those of an earlier run
   sweep::StatusCounts statuses;    // of these
   std::string engine, output;
+  SweepTable table;  // of a request without an output
   double seconds = 0;
 };
 

@@ -189,4 +189,26 @@ void write_text(const sweep::SweepTask& task, sweep::CaseResults& results) {
   }
 }
 
+void append(const sweep::SweepTask& task, const sweep::CaseResults& results, SweepTable& table) {
+  const auto& axes = task.plan.axes();
+  const std::size_t numbers = 1 + task.measures.size();
+  for (std::size_t i = 0; i < results.count; ++i) {
+    auto column = table.columns.begin();
+    column++->numbers.push_back(static_cast<double>(results.first + i));
+    for (std::size_t a = 0; a < axes.size(); ++a, ++column) {
+      const double value = results.values[i * axes.size() + a];
+      if (axes[a].numeric) {
+        column->numbers.push_back(value);
+      } else {
+        column->texts.push_back(axes[a].texts[static_cast<std::size_t>(value)]);
+      }
+    }
+    column++->texts.push_back(results.status[i].word);
+    column++->texts.push_back(results.status[i].reason);
+    for (std::size_t n = 0; n < numbers; ++n) {
+      column++->numbers.push_back(results.numbers[i * numbers + n]);
+    }
+  }
+}
+
 }  // namespace bbsim::api

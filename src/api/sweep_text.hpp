@@ -36,4 +36,7 @@ struct SweepFacts {
 // The rows of some cases as CSV, into the results' text, on the thread that computed them.
 void write_text(const sweep::SweepTask& task, sweep::CaseResults& results);
 
+// The same rows into a table whose columns are those of layout_of().
+void append(const sweep::SweepTask& task, const sweep::CaseResults& results, SweepTable& table);
+
 }  // namespace bbsim::api

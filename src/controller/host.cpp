@@ -34,6 +34,10 @@ void Host::attach(const Scenario& scenario, model::Model& model) {
   const OwnController& own = *scenario.controller->own;
   const Setup setup = setup_of(scenario);
   std::shared_ptr<model::ExternalController>& place = model.rig->sampled->external;
+  if (const auto* factory = std::get_if<ControllerFactory>(&own.by)) {
+    place = factory->make(scenario);
+    return;
+  }
   if (std::holds_alternative<ControllerLibrary>(own.by)) {
     if (library_ && library_->is(own)) {
       library_->renew(setup);
@@ -106,6 +110,7 @@ std::vector<std::string> Host::describe() const {
 std::vector<std::string> files_of(const Scenario& scenario) {
   if (!scenario.controller || !scenario.controller->own) return {};
   const OwnController& own = *scenario.controller->own;
+  if (std::holds_alternative<ControllerFactory>(own.by)) return {};
   if (std::holds_alternative<ControllerLibrary>(own.by)) return {Library::path_of(own)};
   std::vector<std::string> files;
   for (const std::string& word : std::get<ControllerProgram>(own.by).command) {

@@ -32,6 +32,28 @@ ModuleFile find_file(const std::string& what, const char* name,
                   "or install bbsim whole, or set BBSIM_MODULE_PATH to the module's folder"};
 }
 
+// The shared library that this code is a part of; empty if it is a part of the program.
+std::filesystem::path own_library() {
+  Dl_info found{};
+  if (dladdr(&module_name, &found) == 0 || found.dli_fname == nullptr) return {};
+  const std::filesystem::path file(found.dli_fname);  // a program's is as it was called
+  if (file.filename().string().find(".so") == std::string::npos) return {};
+  std::error_code error;
+  std::filesystem::path whole = std::filesystem::canonical(file, error);
+  return error ? std::filesystem::path() : whole;
+}
+
+// For a library in PREFIX/lib, or a Python module in PREFIX/lib/python3/dist-packages/bbsim.
+std::vector<std::string> folders_above(const std::filesystem::path& library) {
+  std::vector<std::string> result;
+  std::filesystem::path folder = library.parent_path();
+  for (int up = 0; up < 4 && folder != folder.root_path(); ++up) {
+    result.push_back(folder / "bbsim");
+    folder = folder.parent_path();
+  }
+  return result;
+}
+
 }  // namespace
 
 ModuleFile find_hdf5_reader(const std::vector<std::string>& folders) {
@@ -59,6 +81,9 @@ Hdf5Module open_hdf5_module(const std::vector<std::string>& folders) {
 std::vector<std::string> hdf5_module_folders() {
   if (const char* folder = std::getenv("BBSIM_MODULE_PATH"); folder != nullptr && *folder != '\0') {
     return {folder};
+  }
+  if (const std::filesystem::path library = own_library(); !library.empty()) {
+    return folders_above(library);
   }
   std::error_code error;
   const std::filesystem::path program = std::filesystem::read_symlink("/proc/self/exe", error);

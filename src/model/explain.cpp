@@ -208,8 +208,10 @@ std::string own_law(const OwnController& own) {
   if (const auto* program = std::get_if<ControllerProgram>(&own.by)) {
     text = "your own, a program:";
     for (const std::string& word : program->command) text += ' ' + word;
+  } else if (const auto* library = std::get_if<ControllerLibrary>(&own.by)) {
+    text = "your own, a library: " + library->file;
   } else {
-    text = "your own, a library: " + std::get<ControllerLibrary>(own.by).file;
+    text = "your own, " + std::get<ControllerFactory>(own.by).name;
   }
   for (std::size_t i = 0; i < own.parameters.size(); ++i) {
     text += (i == 0 ? ", with " : ", ") + own.parameters[i].name + " = " +

@@ -25,6 +25,7 @@ struct ScenarioFamily::State {
   Nodes nodes;
   const Node* root = nullptr;
   std::shared_ptr<Tables> tables = std::make_shared<Tables>();
+  std::optional<ControllerFactory> controller;
 
   Scenario read(const std::vector<Setting>& settings,
                 std::map<std::string, NotedNumber>* numbers) const;
@@ -63,7 +64,14 @@ Scenario ScenarioFamily::State::read(const std::vector<Setting>& settings,
   MappingOf(read_sections).read({tree, "", {}, &context}, scenario);
   problems.throw_if_any();
   scenario.remarks = problems.remarks();
+  if (controller && scenario.controller && scenario.controller->own) {
+    scenario.controller->own->by = *controller;
+  }
   return scenario;
+}
+
+void ScenarioFamily::give_controller(ControllerFactory factory) {
+  state_->controller = std::move(factory);
 }
 
 Scenario ScenarioFamily::read(const std::vector<Setting>& settings) const {

@@ -30,6 +30,10 @@ class ScenarioFamily {
   ScenarioFamily(ScenarioFamily&&) noexcept;
   ScenarioFamily& operator=(ScenarioFamily&&) = delete;
 
+  // Scenarios that are read from now on have this controller in place of the program or library
+  // that their text names. Not while another thread reads.
+  void give_controller(ControllerFactory factory);
+
   // A value for the key at a path, in YAML as after --set.
   struct Setting {
     std::string key, value;

@@ -5,6 +5,8 @@
 #pragma once
 
 #include <array>
+#include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -14,6 +16,11 @@
 #include "base/pair.hpp"
 
 namespace bbsim {
+
+namespace model {
+class ExternalController;
+}
+struct Scenario;
 
 // Couples of the plate on the ball that resist its rotation.
 struct Losses {
@@ -312,9 +319,17 @@ struct ControllerLibrary {
   std::string file;  // as in the scenario
 };
 
+// Code of the process that bbsim is a library of. No scenario's text names it:
+// ScenarioFamily::give_controller().
+struct ControllerFactory {
+  std::string name;  // in messages
+  // Makes one for a run of that scene.
+  std::function<std::shared_ptr<model::ExternalController>(const Scenario&)> make;
+};
+
 // An external controller.
 struct OwnController {
-  std::variant<ControllerProgram, ControllerLibrary> by;
+  std::variant<ControllerProgram, ControllerLibrary, ControllerFactory> by;
   std::vector<Parameter> parameters;  // in the file's order
   std::string folder;  // the scenario's; base for file names and working folder of the program
 };

@@ -1,0 +1,112 @@
+# SPDX-FileCopyrightText: 2026 the bbsim authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""bbsim simulates a ball that rolls on a plate tilted about two axes.
+
+    import bbsim
+    result = bbsim.run("configs/fig2b.yaml", set={"ball.radius": "2 cm"})
+    result["x"]        # a numpy array, in m
+    result.plot()
+
+A scenario is the path of a YAML file, YAML text, or a dict. All numbers are in SI units and radians.
+"""
+
+from __future__ import annotations
+
+import os
+from typing import Any, Mapping, Optional, Sequence, Union
+
+import numpy as np
+
+from . import _bbsim
+from ._bbsim import Sample, __version__
+from ._environments import Env, VectorEnv
+from ._errors import ControllerError, Error, InputError, OutputError, Problem
+from ._result import Linearization, Result
+from ._scenario import Scenario, Settings, given, specification
+
+__all__ = [
+    "ControllerError", "Env", "Error", "InputError", "Linearization", "OutputError", "Problem",
+    "Result", "Sample", "VectorEnv", "__version__", "check", "linearize", "run", "sweep",
+]  # fmt: skip
+
+
+def _names(names: Union[str, Sequence[str]]) -> Sequence[str]:
+    return [names] if isinstance(names, str) else list(names)
+
+
+def run(
+    scenario: Scenario,
+    set: Settings = None,
+    error: Union[float, str, None] = None,
+    *,
+    measures: Union[str, Sequence[str], None] = None,
+    expect: Union[str, Sequence[str]] = (),
+    output: Union[str, "os.PathLike[str]", None] = None,
+) -> Result:
+    """Runs a scenario.
+
+    set       values of keys in place of the scenario's: ``{"ball.radius": "2 cm"}``; None removes one
+    error     bounds the error of x and y: 1e-9 (m) or "1 um"; replaces the scenario's tolerances
+    measures  the measures to take; by default the usual ones of ``bbsim sweep``
+    expect    conditions such as "max_tilt < 5 deg"; those that do not hold are in ``Result.unmet``
+    output    also writes the rows to this file, .csv or .h5
+
+    A run that an event stops has the rows until then (``Result.status``). Raises InputError,
+    OutputError, and ControllerError where a callable raised or a controller does not begin.
+    """
+    asked = None if measures is None else _names(measures)
+    file = "" if output is None else os.fspath(output)
+    return Result(_bbsim.run(given(scenario, set, error), asked, _names(expect), file))
+
+
+def check(scenario: Scenario, set: Settings = None) -> str:
+    """What ``bbsim check`` prints: the model, gains, poles and margins. Raises InputError."""
+    return _bbsim.check(given(scenario, set))
+
+
+def linearize(
+    scenario: Scenario, set: Settings = None, *, kind: Optional[str] = None, at: str = "home"
+) -> Linearization:
+    """The scenario as a linear system.
+
+    kind  "plant", "loop" or "sampled"; by default what ``bbsim linearize`` shows of the scene
+    at    "home", "equilibrium", or a time of the run such as "2 s"
+    """
+    return Linearization(_bbsim.linearize(given(scenario, set), kind, at))
+
+
+def sweep(
+    scenario: Scenario,
+    vary: Optional[Mapping[str, Union[str, Sequence[Any]]]] = None,
+    measures: Union[str, Sequence[str]] = (),
+    *,
+    set: Settings = None,
+    error: Union[float, str, None] = None,
+    combine: str = "",
+    samples: Optional[int] = None,
+    seed: Optional[int] = None,
+    threads: int = 0,
+) -> "np.ndarray[Any, np.dtype[np.void]]":
+    """Runs a scenario at many values of its keys; a structured array with a row for each case.
+
+    vary      {KEY: values}: a sequence, or a SPEC such as "linear:0:1:11" or "normal:0:2 mm"
+    measures  the measures to take; by default the usual ones
+    combine   "grid": each value with each (default); "zip": first values together, then second ones
+    samples   the number of cases to draw for "uniform" and "normal"
+    seed      of what is drawn
+    threads   by default as many as there are processors; 1 for a scenario with a callable
+
+    The fields are those of ``bbsim sweep``: case, the keys, status, reason, end_time, the measures.
+    """
+    pairs = [(key, specification(values)) for key, values in (vary or {}).items()]
+    wanted = _bbsim.Variations(pairs, combine, samples, seed, _names(measures))
+    made = _bbsim.sweep(given(scenario, set, error), wanted, threads)
+    fields = {
+        column.name: np.array(column.texts, dtype=np.str_) if column.is_text else column.numbers
+        for column in made.columns
+    }
+    fields["case"] = fields["case"].astype(np.int64)
+    table = np.empty(len(fields["case"]), dtype=[(name, field.dtype) for name, field in fields.items()])
+    for name, field in fields.items():
+        table[name] = field
+    return table

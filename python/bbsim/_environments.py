@@ -1,0 +1,231 @@
+# SPDX-FileCopyrightText: 2026 the bbsim authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""Many runs that go on together, a sample at a time, for learning."""
+
+from __future__ import annotations
+
+from typing import Any, Callable, Dict, List, Mapping, Optional, Sequence, Tuple, Union
+
+import numpy as np
+
+from . import _bbsim
+from ._errors import InputError
+from ._result import Result
+from ._scenario import Scenario, Settings, as_yaml, given
+
+try:
+    import gymnasium
+    from gymnasium.spaces import Box
+    from gymnasium.vector import VectorEnv as _VectorBase
+
+    _EnvBase: Any = gymnasium.Env
+except ImportError:
+    gymnasium = None
+
+    class _VectorBase:  # type: ignore[no-redef]
+        pass
+
+    _EnvBase = object
+
+    class Box:  # type: ignore[no-redef]
+        """As much of gymnasium.spaces.Box as an environment needs."""
+
+        def __init__(self, low: Any, high: Any, shape: Optional[Tuple[int, ...]] = None, dtype: Any = np.float64) -> None:
+            self.dtype = np.dtype(dtype)
+            self.low = np.broadcast_to(np.asarray(low, dtype), shape or np.shape(low)).copy()
+            self.high = np.broadcast_to(np.asarray(high, dtype), shape or np.shape(low)).copy()
+            self.shape = self.low.shape
+            self._random = np.random.default_rng()
+
+        def seed(self, seed: Optional[int] = None) -> None:
+            self._random = np.random.default_rng(seed)
+
+        def sample(self) -> Any:
+            low = np.where(np.isfinite(self.low), self.low, -1.0)
+            high = np.where(np.isfinite(self.high), self.high, 1.0)
+            return self._random.uniform(low, high).astype(self.dtype)
+
+        def contains(self, value: Any) -> bool:
+            array = np.asarray(value)
+            return array.shape == self.shape and bool(np.all(array >= self.low) and np.all(array <= self.high))
+
+        def __contains__(self, value: Any) -> bool:
+            return self.contains(value)
+
+        def __repr__(self) -> str:
+            return f"Box({self.low}, {self.high}, {self.shape}, {self.dtype})"
+
+
+Array = "np.ndarray[Any, Any]"
+Distribution = Union[Tuple[float, float], Callable[[np.random.Generator], Any]]
+Reward = Callable[[Array, Array, Array], Array]
+
+_MOST_SEED = 2**53  # what the scenario's seed may be
+
+
+def minus_squared_distance(observations: Array, actions: Array, terminated: Array) -> Array:
+    """The default reward: minus the squared distance of the ball, as measured, from its reference, m^2."""
+    return -((observations[:, 0] - observations[:, 3]) ** 2 + (observations[:, 1] - observations[:, 4]) ** 2)
+
+
+class VectorEnv(_VectorBase):
+    """``n`` runs of a scenario with Gymnasium's API of vector environments.
+
+    An action is the commands for phi and theta of each run, an array of shape (n, 2), in the unit that the
+    scenario drives; it takes the place of the scenario's law. A step is a sample of the controller, and an
+    episode is a run: truncated at ``time.end``, terminated where an event or a failure ends it earlier. The
+    step after that begins the next episode by itself, with a reward of zero (``AutoresetMode.NEXT_STEP``).
+
+    randomize  {KEY: (low, high)}: drawn uniformly for each episode; or a function of a numpy Generator
+    seed       of what is drawn; ``reset(seed=)`` begins anew
+    reward     a function of the arrays observations, actions and terminated, to an array of n
+    record     keeps the rows of each episode, for ``result()``
+    """
+
+    metadata: Dict[str, Any] = {"render_modes": [], "autoreset_mode": "NextStep"}
+    observation_columns: List[Tuple[str, str, str]] = [tuple(c) for c in _bbsim.Environments.columns]
+    """Name, unit and meaning of each column of an observation."""
+
+    render_mode = None
+    spec = None
+    closed = False
+
+    def __init__(
+        self,
+        scenario: Scenario,
+        n: int,
+        randomize: Optional[Mapping[str, Distribution]] = None,
+        seed: int = 0,
+        *,
+        set: Settings = None,
+        reward: Reward = minus_squared_distance,
+        record: bool = False,
+    ) -> None:
+        if int(n) < 1:
+            raise InputError([("", f"n: found {n}; allowed: a whole number from 1 up")])
+        if gymnasium is not None:
+            self.metadata = {**self.metadata, "autoreset_mode": gymnasium.vector.AutoresetMode.NEXT_STEP}
+        self.num_envs = int(n)
+        self._randomize = dict(randomize or {})
+        self._reward = reward
+        self._runs = _bbsim.Environments(given(scenario, set), self.num_envs, list(self._randomize), record)
+        self._random = np.random.default_rng(seed)
+        self._options: Dict[str, Any] = {}
+        self._over = np.zeros(self.num_envs, dtype=bool)
+        width = len(self.observation_columns)
+        limit = np.array([np.inf if one is None else one for one in self._runs.limits])
+        self.single_observation_space = Box(-np.inf, np.inf, (width,), np.float64)
+        self.observation_space = Box(-np.inf, np.inf, (self.num_envs, width), np.float64)
+        self.single_action_space = Box(-limit, limit, dtype=np.float64)
+        self.action_space = Box(np.tile(-limit, (self.num_envs, 1)), np.tile(limit, (self.num_envs, 1)), dtype=np.float64)
+
+    @property
+    def command_unit(self) -> str:
+        """The unit of an action: rad, rad/s^2, N m or V."""
+        return self._runs.command_unit
+
+    def _begin(self, which: Array) -> None:
+        values, seeds = [], []
+        for _ in which:
+            drawn = []
+            for key, distribution in self._randomize.items():
+                if callable(distribution):
+                    value = distribution(self._random)
+                else:
+                    value = self._random.uniform(*distribution)
+                drawn.append(as_yaml(self._options.get(key, value)))
+            values.append(drawn)
+            seeds.append(int(self._random.integers(_MOST_SEED)))
+        self._runs.begin([int(one) for one in which], values, seeds)
+        self._over[which] = False
+
+    def reset(
+        self, *, seed: Optional[int] = None, options: Optional[Mapping[str, Any]] = None
+    ) -> Tuple[Array, Dict[str, Any]]:
+        """Begins an episode of each run.
+
+        ``options`` are values of keys of ``randomize``, which are then not drawn, until the next
+        ``reset()``; and ``{"reset_mask": mask}`` begins only some.
+        """
+        if seed is not None:
+            self._random = np.random.default_rng(seed)
+        self._options = dict(options or {})
+        mask = self._options.pop("reset_mask", None)
+        for key in self._options:
+            if key not in self._randomize:
+                names = ", ".join(self._randomize) or "none"
+                raise InputError([("", f"options: found {key}; allowed: the keys of randomize, which are: {names}")])
+        self._begin(np.arange(self.num_envs) if mask is None else np.flatnonzero(mask))
+        return self._runs.observations.copy(), {}
+
+    def step(self, actions: Any) -> Tuple[Array, Array, Array, Array, Dict[str, Any]]:
+        """Gives each run its commands, and goes to its next sample."""
+        commands = np.ascontiguousarray(actions, dtype=np.float64)
+        begins = self._over.copy()
+        self._runs.step(commands, ~begins)
+        if begins.any():
+            self._begin(np.flatnonzero(begins))
+        terminated, truncated = self._runs.terminated, self._runs.truncated
+        observations = self._runs.observations.copy()
+        rewards = np.asarray(self._reward(observations, commands, terminated), dtype=np.float64)
+        rewards = np.where(begins, 0.0, rewards)
+        self._over = terminated | truncated
+        return observations, rewards, terminated, truncated, {}
+
+    def result(self, which: int = 0) -> Optional[Result]:
+        """The episode of a run that has just ended; None if it has not."""
+        made = self._runs.result(which)
+        return None if made is None else Result(made)
+
+    def close(self, **_: Any) -> None:
+        self.closed = True
+
+    def __repr__(self) -> str:
+        return f"<bbsim.VectorEnv of {self.num_envs} runs>"
+
+
+class Env(_EnvBase):  # type: ignore[misc]
+    """A single run with Gymnasium's API: ``gymnasium.make("bbsim/BallOnPlate-v0", scenario=...)``."""
+
+    metadata: Dict[str, Any] = {"render_modes": []}
+    render_mode = None
+
+    def __init__(
+        self,
+        scenario: Scenario,
+        randomize: Optional[Mapping[str, Distribution]] = None,
+        seed: int = 0,
+        *,
+        set: Settings = None,
+        reward: Reward = minus_squared_distance,
+        record: bool = False,
+        render_mode: None = None,
+    ) -> None:
+        self._all = VectorEnv(scenario, 1, randomize, seed, set=set, reward=reward, record=record)
+        self.observation_space = self._all.single_observation_space
+        self.action_space = self._all.single_action_space
+
+    def reset(
+        self, *, seed: Optional[int] = None, options: Optional[Mapping[str, Any]] = None
+    ) -> Tuple[Array, Dict[str, Any]]:
+        if gymnasium is not None:
+            super().reset(seed=seed)
+        observations, info = self._all.reset(seed=seed, options=options)
+        return observations[0], info
+
+    def step(self, action: Any) -> Tuple[Array, float, bool, bool, Dict[str, Any]]:
+        if self._all._over[0]:
+            raise RuntimeError("the episode has ended; allowed: reset()")
+        observations, rewards, terminated, truncated, info = self._all.step(np.reshape(action, (1, 2)))
+        return observations[0], float(rewards[0]), bool(terminated[0]), bool(truncated[0]), info
+
+    def result(self) -> Optional[Result]:
+        """The episode that has just ended; None if it has not."""
+        return self._all.result(0)
+
+    def close(self) -> None:
+        self._all.close()
+
+
+if gymnasium is not None:
+    gymnasium.register(id="bbsim/BallOnPlate-v0", entry_point=Env)

@@ -1,0 +1,223 @@
+# SPDX-FileCopyrightText: 2026 the bbsim authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""What a run gives."""
+
+from __future__ import annotations
+
+import html
+import json
+from functools import cached_property
+from typing import TYPE_CHECKING, Any, Dict, Iterator, List, Optional, Sequence
+
+import numpy as np
+
+from . import _bbsim
+
+if TYPE_CHECKING:
+    import matplotlib.figure
+    import pandas
+
+Array = "np.ndarray[Any, np.dtype[np.float64]]"
+
+
+class Result:
+    """The rows of a run, by column, and how the run ended.
+
+    ``result["x"]`` is a numpy array on the memory that the run wrote, in SI units and radians.
+    """
+
+    def __init__(self, run: _bbsim.Run) -> None:
+        self._run = run
+
+    @cached_property
+    def columns(self) -> List[str]:
+        """The names of the columns, in the order of ``output.columns``."""
+        return self._run.columns
+
+    @cached_property
+    def units(self) -> Dict[str, str]:
+        """The unit of each column, such as ``"m"``; ``"1"`` for a number without a unit."""
+        return dict(zip(self.columns, self._run.units))
+
+    @cached_property
+    def summary(self) -> Dict[str, Any]:
+        """What ``bbsim run --summary`` writes."""
+        return json.loads(self._run.summary())  # type: ignore[no-any-return]
+
+    @property
+    def events(self) -> List[Dict[str, Any]]:
+        """The events that occurred, with the state at each."""
+        return self.summary["events"]  # type: ignore[no-any-return]
+
+    @cached_property
+    def measures(self) -> Dict[str, float]:
+        """The measures that were asked for, or the usual ones."""
+        return dict(self._run.measures)
+
+    @property
+    def status(self) -> str:
+        """``done``, ``stopped`` by an event, or ``failed``."""
+        return self._run.status
+
+    @property
+    def reason(self) -> str:
+        """Why the run ended early; empty if it did not."""
+        return self._run.reason
+
+    @property
+    def warnings(self) -> List[str]:
+        """What may not be as it was meant."""
+        return self._run.warnings
+
+    @property
+    def unmet(self) -> List[str]:
+        """Each of ``expect`` that does not hold."""
+        return self._run.unmet
+
+    def __getitem__(self, column: str) -> Array:
+        try:
+            return self._run.column(column)
+        except KeyError:
+            raise KeyError(f"there is no column {column!r}; there are {', '.join(self.columns)}") from None
+
+    def __contains__(self, column: object) -> bool:
+        return column in self.columns
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self.columns)
+
+    def __len__(self) -> int:
+        """The number of rows."""
+        return len(self[self.columns[0]])
+
+    def keys(self) -> List[str]:
+        return self.columns
+
+    def __repr__(self) -> str:
+        title = f"{self._run.title!r}, " if self._run.title else ""
+        return f"<bbsim.Result {title}{self.status}, {len(self)} rows: {', '.join(self.columns)}>"
+
+    def to_pandas(self) -> "pandas.DataFrame":
+        """A pandas DataFrame of the columns; its ``attrs["units"]`` are the units."""
+        import pandas
+
+        frame = pandas.DataFrame({name: self[name] for name in self.columns})
+        frame.attrs["units"] = dict(self.units)
+        return frame
+
+    def plot(self, columns: Optional[Sequence[str]] = None) -> "matplotlib.figure.Figure":
+        """Draws columns over time with matplotlib: all, or those named; a panel for each unit."""
+        import matplotlib.pyplot as plt
+
+        names = list(columns) if columns is not None else [n for n in self.columns if n != "t"]
+        panels: Dict[str, List[str]] = {}
+        for name in names:
+            self[name]  # says which there are
+            panels.setdefault(self.units[name], []).append(name)
+        times = self["t"] if "t" in self else np.arange(len(self))
+        figure, axes = plt.subplots(
+            len(panels), 1, sharex=True, squeeze=False, figsize=(7, 1 + 2 * len(panels)), layout="constrained"
+        )
+        for axis, (unit, members) in zip(axes[:, 0], panels.items()):
+            for name in members:
+                axis.plot(times, self[name], label=name)
+            axis.set_ylabel("" if unit == "1" else unit)
+            axis.legend(loc="best")
+            axis.grid(alpha=0.3)
+        axes[-1, 0].set_xlabel("t in s" if "t" in self else "row")
+        if self._run.title:
+            figure.suptitle(self._run.title)
+        return figure
+
+    def _repr_html_(self) -> str:
+        rows = [("status", self.status)]
+        if self.reason:
+            rows.append(("reason", self.reason))
+        rows.append(("rows", str(len(self))))
+        rows += [(name, f"{value:.6g}") for name, value in self.measures.items()]
+        rows += [("warning", text) for text in self.warnings]
+        table = "".join(
+            f"<tr><th style='text-align:left'>{html.escape(name)}</th>"
+            f"<td style='text-align:left'>{html.escape(text)}</td></tr>"
+            for name, text in rows
+        )
+        title = f"<caption>{html.escape(self._run.title)}</caption>" if self._run.title else ""
+        return (
+            "<div style='display:flex;gap:2em;align-items:flex-start'>"
+            f"<table>{title}{table}</table>{self._path()}</div>"
+        )
+
+    def _path(self) -> str:
+        """The ball's path from above, as SVG; empty if the columns do not tell it."""
+        if "x" not in self or "y" not in self or len(self) == 0:
+            return ""
+        step = max(1, len(self) // 500)
+        x, y = self["x"][::step], self["y"][::step]
+        finite = np.isfinite(x) & np.isfinite(y)
+        x, y = x[finite], -y[finite]  # SVG's y points down
+        if len(x) == 0:
+            return ""
+        size = max(float(np.ptp(x)), float(np.ptp(y)), 1e-9) * 1.1
+        left, top = float(x.min() + x.max()) / 2 - size / 2, float(y.min() + y.max()) / 2 - size / 2
+        scale = 200 / size
+        points = " ".join(f"{(a - left) * scale:.1f},{(b - top) * scale:.1f}" for a, b in zip(x, y))
+        start = points.split(" ", 1)[0].split(",")
+        return (
+            "<svg width='200' height='200' viewBox='0 0 200 200' role='img' aria-label='path of the ball'>"
+            f"<polyline points='{points}' fill='none' stroke='currentColor' stroke-width='1.5'/>"
+            f"<circle cx='{start[0]}' cy='{start[1]}' r='3' fill='currentColor'/></svg>"
+        )
+
+
+class Linearization:
+    """A scene as a linear system: dz = A z + B u, y = C z + D u.
+
+    In continuous time ``dt`` is None and dz is z'; else dz is z a period ``dt`` later.
+    """
+
+    def __init__(self, made: _bbsim.Linearized) -> None:
+        self._made = made
+        self.A: Array = made.A
+        self.B: Array = made.B
+        self.C: Array = made.C
+        self.D: Array = made.D
+        self.dt: Optional[float] = made.dt
+        self.states: List[str] = [name for name, _ in made.states]
+        self.inputs: List[str] = [name for name, _ in made.inputs]
+        self.outputs: List[str] = [name for name, _ in made.outputs]
+        self.units: Dict[str, str] = dict([*made.states, *made.inputs, *made.outputs])
+        self.kind: str = made.kind
+        self.at: str = made.at
+        self.note: str = made.note
+
+    @cached_property
+    def _json(self) -> Dict[str, Any]:
+        return json.loads(self._made.json())  # type: ignore[no-any-return]
+
+    @property
+    def poles(self) -> "np.ndarray[Any, np.dtype[np.complex128]]":
+        return np.array([complex(*pole) for pole in self._json["poles"]])
+
+    @property
+    def margins(self) -> Dict[str, Any]:
+        """The margins of each command's loop, as ``bbsim linearize`` writes them."""
+        return self._json["margins"] or {}
+
+    def to_scipy(self) -> Any:
+        """A ``scipy.signal.StateSpace``."""
+        from scipy.signal import StateSpace
+
+        matrices = (self.A, self.B, self.C, self.D)
+        return StateSpace(*matrices) if self.dt is None else StateSpace(*matrices, dt=self.dt)
+
+    def to_control(self) -> Any:
+        """A state space of python-control."""
+        import control
+
+        return control.ss(
+            self.A, self.B, self.C, self.D, 0 if self.dt is None else self.dt,
+            states=self.states, inputs=self.inputs, outputs=self.outputs,
+        )
+
+    def __repr__(self) -> str:
+        return self._made.report().rstrip("\n")

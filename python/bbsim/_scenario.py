@@ -1,0 +1,100 @@
+# SPDX-FileCopyrightText: 2026 the bbsim authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""Scenarios: a path, YAML text or a dict."""
+
+from __future__ import annotations
+
+import json
+import math
+import os
+from typing import Any, Callable, Iterable, List, Mapping, Optional, Sequence, Tuple, Union
+
+import numpy as np
+
+from . import _bbsim
+from ._errors import InputError
+
+Scenario = Union[str, "os.PathLike[str]", Mapping[str, Any]]
+Settings = Optional[Mapping[str, Any]]
+
+
+def _plain(value: Any) -> Any:
+    """The value as what JSON has: dicts, lists, texts, numbers, booleans and None."""
+    if isinstance(value, (str, bool, int)) or value is None:
+        return value
+    if isinstance(value, (float, np.floating)):
+        number = float(value)
+        if not math.isfinite(number):  # YAML's words, which the reader refuses by the key's name
+            return _Word(".nan" if math.isnan(number) else ".inf" if number > 0 else "-.inf")
+        return number
+    if isinstance(value, Mapping):
+        return {str(key): _plain(one) for key, one in value.items()}
+    if isinstance(value, np.ndarray):
+        return _plain(value.tolist())
+    if isinstance(value, (np.integer, np.bool_)):
+        return value.item()
+    if isinstance(value, os.PathLike):
+        return os.fspath(value)
+    if isinstance(value, Iterable):
+        return [_plain(one) for one in value]
+    raise TypeError(
+        f"found {value!r} of type {type(value).__name__}; "
+        "allowed: numbers, texts, lists, dicts, numpy arrays and None"
+    )
+
+
+class _Word(str):
+    """A word that stands without quotation marks."""
+
+
+def _text(plain: Any) -> str:
+    if isinstance(plain, _Word):
+        return str(plain)
+    if isinstance(plain, dict):
+        return "{" + ", ".join(f"{json.dumps(key)}: {_text(one)}" for key, one in plain.items()) + "}"
+    if isinstance(plain, list):
+        return "[" + ", ".join(map(_text, plain)) + "]"
+    return json.dumps(plain, ensure_ascii=False)
+
+
+def as_yaml(value: Any) -> str:
+    """The value as it stands behind ``KEY=``: texts as they are, all else in YAML's flow style."""
+    return value if isinstance(value, str) else _text(_plain(value))
+
+
+def _without_callable(scenario: Mapping[str, Any]) -> Tuple[Mapping[str, Any], Optional[Callable[..., Any]]]:
+    """A dict's callable, which no YAML holds; a library stands in its place."""
+    controller = scenario.get("controller")
+    if not isinstance(controller, Mapping) or "callable" not in controller:
+        return scenario, None
+    function = controller["callable"]
+    if not callable(function):
+        raise InputError([("", f"controller.callable: found {function!r}; allowed: a callable")])
+    rest = {key: value for key, value in controller.items() if key != "callable"}
+    laws = [key for key in ("program", "library") if key in rest]
+    if laws:
+        raise InputError([("", f"controller.{laws[0]}: found beside callable; allowed: one law")])
+    name = getattr(function, "__qualname__", type(function).__qualname__)
+    return {**scenario, "controller": {"library": {"file": f"Python: {name}"}, **rest}}, function
+
+
+def given(scenario: Scenario, settings: Settings = None, error: Any = None) -> _bbsim.Given:
+    overrides: List[str] = [f"{key}={as_yaml(value)}" for key, value in (settings or {}).items()]
+    if error is not None:
+        overrides.append(f"solver.error={as_yaml(error)}")
+    if isinstance(scenario, Mapping):
+        plain, function = _without_callable(scenario)
+        return _bbsim.Given("<dict>", _text(_plain(plain)), overrides, function)
+    name = os.fspath(scenario)
+    if not isinstance(name, str):
+        raise TypeError(f"found a scenario of type {type(scenario).__name__}; allowed: a path, YAML text or a dict")
+    if isinstance(scenario, str) and ("\n" in name or name.lstrip().startswith("{")):
+        return _bbsim.Given("<text>", name, overrides, None)
+    return _bbsim.Given(name, None, overrides, None)
+
+
+def specification(values: Union[str, Sequence[Any]]) -> str:
+    """A key's values over a sweep, as ``bbsim sweep --vary KEY=`` takes them."""
+    if isinstance(values, str):
+        return values
+    return "list:" + ",".join(map(as_yaml, values))

@@ -1,0 +1,157 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "callable.hpp"
+
+#include <cmath>
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include "api/stepped_run.hpp"
+#include "base/number_text.hpp"
+#include "base/shown.hpp"
+#include "scenario/columns.hpp"
+
+namespace bbsim::python {
+namespace {
+
+using api::Sample;
+using model::ControllerFault;
+
+constexpr const char* allowed =
+    "allowed: (phi, theta), or (phi, theta, {\"NAME\": number}) with the names that output.columns "
+    "asks for";
+
+py::tuple pair(const Pair& of) {
+  return py::make_tuple(of[0], of[1]);
+}
+
+// `function` may be a function, a bound method or an object.
+std::string name_of(const py::object& function) {
+  const py::object named =
+      py::hasattr(function, "__qualname__") ? function : py::object(py::type::of(function));
+  return std::string(py::str(named.attr("__qualname__")));
+}
+
+double number(const py::object& value) {
+  return py::float_(value).cast<double>();
+}
+
+}  // namespace
+
+void define_sample(py::module_& module) {
+  const auto of = [](Pair Sample::*member) {
+    return [member](const Sample& sample) { return pair(sample.*member); };
+  };
+  py::class_<Sample> type(module, "Sample");
+  type.def_readonly("sample", &Sample::number)
+      .def_readonly("t", &Sample::t)
+      .def_property_readonly("ball",
+                             [](const Sample& sample) -> py::object {
+                               return sample.ball ? py::object(pair(*sample.ball))
+                                                  : py::object(py::none());
+                             })
+      .def_property_readonly("reference", of(&Sample::reference))
+      .def_property_readonly("reference_rate", of(&Sample::reference_rate))
+      .def_property_readonly("reference_acceleration", of(&Sample::reference_acceleration))
+      .def_property_readonly("servo", of(&Sample::servo))
+      .def_property_readonly("servo_rate", of(&Sample::servo_rate))
+      .def("__getitem__",
+           [](const py::object& self, const py::str& name) {
+             if (!py::hasattr(self, name)) throw py::key_error(std::string(name));
+             return py::object(self.attr(name));
+           })
+      .def("__repr__", [](const Sample& sample) {
+        return "<bbsim.Sample " + std::to_string(sample.number) +
+               " at t = " + number_text(sample.t) + " s>";
+      });
+}
+
+class Callable::Controller : public model::ExternalController {
+ public:
+  Controller(Callable& callable, Watch& watch, const Scenario& scenario)
+      : callable_(callable), watch_(watch), own_(scenario::own_columns(scenario)) {}
+
+  void begin() override {
+    const py::gil_scoped_acquire lock;
+    ask("to begin", [&] {
+      if (py::hasattr(callable_.function_, "reset")) callable_.function_.attr("reset")();
+    });
+  }
+
+  Pair command(const model::ControllerSample& at, double* own) override {
+    const py::gil_scoped_acquire lock;
+    Pair command{};
+    ask("at sample " + std::to_string(at.number) + " (t = " + number_text(at.t) + " s)",
+        [&] { read(callable_.function_(api::copy_of(at)), command, own); });
+    return command;
+  }
+
+  [[nodiscard]] bool can_save() const override { return false; }
+  [[nodiscard]] std::string save() override { return ""; }
+  void restore(const std::string& /*memory*/) override {}
+
+ private:
+  template <class Question>
+  void ask(const std::string& when, const Question& question) {
+    try {
+      question();
+    } catch (py::error_already_set& error) {
+      const bool interrupted = !error.matches(PyExc_Exception);
+      const std::string fault = "the controller (" + name_of(callable_.function_) + ") failed " +
+                                when + ": " + std::string(py::str(error.type().attr("__name__"))) +
+                                ": " + std::string(py::str(error.value()));
+      if (!callable_.raised_) {
+        callable_.raised_.emplace(std::move(error));
+        callable_.fault_ = fault;
+      }
+      watch_.end_soon();
+      throw ControllerFault(fault, interrupted);
+    }
+  }
+
+  void read(const py::object& answer, Pair& command, double* own) const {
+    const std::size_t most = own_.empty() ? 2 : 3;
+    if (!py::isinstance<py::sequence>(answer) || py::len(answer) != most) refuse(answer);
+    for (std::size_t i = 0; i < 2; ++i) {
+      const py::object one = answer[py::int_(i)];
+      if (PyNumber_Check(one.ptr()) == 0) refuse(answer);
+      command[i] = number(one);
+      if (!std::isfinite(command[i])) refuse(answer);
+    }
+    if (own_.empty()) return;
+    const py::object numbers = answer[py::int_(2)];
+    for (std::size_t i = 0; i < own_.size(); ++i) {
+      if (!numbers.contains(own_[i])) refuse(answer);
+      own[i] = number(numbers[py::str(own_[i])]);
+    }
+  }
+
+  [[noreturn]] void refuse(const py::object& answer) const {
+    const std::string shown = bbsim::shown(std::string(py::repr(answer)), longest_saying);
+    throw py::value_error("its answer was " + shown + "; " + allowed);
+  }
+
+  Callable& callable_;
+  Watch& watch_;
+  std::vector<std::string> own_;
+};
+
+ControllerFactory Callable::factory(Watch& watch) {
+  return {"a Python callable: " + name_of(function_), [this, &watch](const Scenario& scenario) {
+            return std::make_shared<Controller>(*this, watch, scenario);
+          }};
+}
+
+void Callable::throw_if_raised() {
+  if (!raised_) return;
+  py::error_already_set error = std::move(*raised_);
+  raised_.reset();
+  if (!error.matches(PyExc_Exception)) throw error;
+  const py::object type = py::module_::import("bbsim._errors").attr("ControllerError");
+  py::raise_from(error, type.ptr(), fault_.c_str());
+  throw py::error_already_set();
+}
+
+}  // namespace bbsim::python

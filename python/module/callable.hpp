@@ -1,0 +1,42 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// A Python callable as the controller of a scene.
+#pragma once
+
+#include <pybind11/pybind11.h>
+
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "scenario/scenario.hpp"
+#include "watch.hpp"
+
+namespace bbsim::python {
+
+// What a callable is given, with the names of docs/reference/controllers.md.
+void define_sample(py::module_& module);
+
+// Lives as long as the runs that it controls, and is made and destroyed with the interpreter's
+// lock.
+class Callable {
+ public:
+  explicit Callable(py::object function) : function_(std::move(function)) {}
+
+  // The runs of a watch: what the callable raises ends them.
+  [[nodiscard]] ControllerFactory factory(Watch& watch);
+
+  // Raises what the callable raised: an Exception as the cause of a ControllerError, others (such
+  // as KeyboardInterrupt) themselves.
+  void throw_if_raised();
+
+ private:
+  class Controller;
+
+  py::object function_;
+  std::optional<py::error_already_set> raised_;
+  std::string fault_;
+};
+
+}  // namespace bbsim::python

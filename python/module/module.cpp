@@ -1,0 +1,433 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// The compiled part of the Python package bbsim, which has the documented functions.
+#include <pybind11/complex.h>
+#include <pybind11/eigen.h>
+#include <pybind11/numpy.h>
+#include <pybind11/pybind11.h>
+#include <pybind11/stl.h>
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "api/check.hpp"
+#include "api/environments.hpp"
+#include "api/fault.hpp"
+#include "api/inputs.hpp"
+#include "api/linearize.hpp"
+#include "api/run.hpp"
+#include "api/sweep.hpp"
+#include "base/error.hpp"
+#include "callable.hpp"
+#include "file/outputs.hpp"
+#include "scenario/family.hpp"
+#include "scenario/measures.hpp"
+#include "scenario/variation.hpp"
+#include "watch.hpp"
+
+namespace bbsim::python {
+namespace {
+
+// A scenario as the package names it: a file, or a text with a name for messages.
+struct Given {
+  std::string name;
+  std::optional<std::string> text;  // none: the file of that name
+  std::vector<std::string> overrides;
+  py::object callable;  // or None
+};
+
+ScenarioFamily family_of(const Given& given) {
+  if (!given.text) return ScenarioFamily(given.name, given.overrides);
+  return ScenarioFamily(Source{given.name, *given.text, given.overrides});
+}
+
+Scenario first_of(const ScenarioFamily& family) {
+  Scenario scenario = family.read({});
+  scenario.source = family.source();
+  return scenario;
+}
+
+// What the functions below have in common: a callable, a watch, and what was raised meanwhile.
+class Work {
+ public:
+  explicit Work(const Given& given) : given_(given) {
+    if (!given.callable.is_none()) callable_.emplace(given.callable);
+  }
+
+  [[nodiscard]] bool has_callable() const { return callable_.has_value(); }
+  [[nodiscard]] Watch& watch() { return watch_; }
+
+  // Without the interpreter's lock.
+  [[nodiscard]] ScenarioFamily family() {
+    ScenarioFamily family = family_of(given_);
+    if (callable_) family.give_controller(callable_->factory(watch_));
+    return family;
+  }
+
+  template <class Does>
+  auto here(const Does& does) {
+    return finished([&] { return watch_.here(does); });
+  }
+  template <class Does>
+  auto beside(const Does& does) {
+    return finished([&] { return watch_.beside(does); });
+  }
+
+ private:
+  void throw_if_raised() {
+    if (callable_) callable_->throw_if_raised();
+    watch_.throw_if_interrupted();
+  }
+
+  template <class Does>
+  auto finished(const Does& does) {
+    try {
+      auto made = does();
+      throw_if_raised();
+      return made;
+    } catch (const model::ControllerFault&) {
+      throw_if_raised();
+      throw;
+    }
+  }
+
+  const Given& given_;
+  Watch watch_;
+  std::optional<Callable> callable_;
+};
+
+using Column = py::array_t<double>;
+
+// The memory stays that of `owner`, which the array keeps.
+Column view(const std::vector<double>& values, const py::object& owner) {
+  return {{static_cast<py::ssize_t>(values.size())}, {sizeof(double)}, values.data(), owner};
+}
+
+std::size_t place_of_column(const api::RunResult& made, const std::string& name) {
+  const auto found = std::ranges::find(made.columns, name);
+  if (found == made.columns.end()) throw py::key_error(name);
+  return static_cast<std::size_t>(found - made.columns.begin());
+}
+
+std::vector<std::string> measures_of(const std::optional<std::vector<std::string>>& asked,
+                                     const Scenario& scenario) {
+  if (asked) return *asked;
+  return scenario::default_measures(scenario.controller.has_value());
+}
+
+api::RunResult run(const Given& given, const std::optional<std::vector<std::string>>& measures,
+                   const std::vector<std::string>& expect, const std::string& output) {
+  Work work(given);
+  return work.here([&] {
+    const ScenarioFamily family = work.family();
+    api::RunRequest request;
+    request.scenario = first_of(family);
+    request.inputs = family.inputs();
+    request.measures = measures_of(measures, request.scenario);
+    request.expect = expect;
+    request.keeps_rows = true;
+    if (!output.empty()) {
+      file::Outputs outputs;
+      api::reads_scenario(outputs, given.text ? "" : given.name, request.scenario);
+      outputs.writes(output, "output");
+      request.output = output;
+    }
+    return api::run(request, work.watch());
+  });
+}
+
+std::string check(const Given& given) {
+  Work work(given);
+  return work.beside([&] {
+    const ScenarioFamily family = work.family();
+    return to_text(api::check(first_of(family), work.watch()));
+  });
+}
+
+api::Linearized linearize(const Given& given, const std::optional<std::string>& kind,
+                          const std::string& at) {
+  api::LinearizeRequest request;
+  request.kind = api::kind_named(kind.value_or(""));
+  request.at = at;
+  Work work(given);
+  api::Linearized made = work.beside([&] {
+    const ScenarioFamily family = work.family();
+    request.scenario = first_of(family);
+    return api::linearize(request, work.watch());
+  });
+  if (!made.reason.empty()) throw InputError(made.reason);
+  return made;
+}
+
+struct Variations {
+  std::vector<std::pair<std::string, std::string>> vary;  // keys and their SPEC
+  std::string combine;
+  std::optional<double> samples, seed;
+  std::vector<std::string> measures;
+};
+
+// In place of what the scenario says.
+Sweep sweep_of(const Variations& wanted, Sweep sweep) {
+  if (!wanted.vary.empty()) {
+    sweep.vary.clear();
+    for (const auto& [key, spec] : wanted.vary) sweep.vary.push_back({key, spec});
+    const auto random = [](const Variation& one) {
+      return scenario::parse_variation(one).random();
+    };
+    if (std::ranges::none_of(sweep.vary, random)) sweep.samples.reset();
+  }
+  if (!wanted.combine.empty()) {
+    if (wanted.combine != "grid" && wanted.combine != "zip") {
+      throw InputError("combine: found " + wanted.combine + "; allowed: grid, zip");
+    }
+    sweep.combine = wanted.combine == "zip" ? Combine::zip : Combine::grid;
+  }
+  if (wanted.samples) sweep.samples = wanted.samples;
+  if (wanted.seed) sweep.seed = *wanted.seed;
+  if (!wanted.measures.empty()) sweep.measure = scenario::split_measures(wanted.measures);
+  return sweep;
+}
+
+api::SweepResult sweep(const Given& given, const Variations& wanted, std::size_t threads) {
+  Work work(given);
+  return work.beside([&] {
+    const ScenarioFamily family = work.family();
+    api::SweepRequest request{given.name, family, sweep_of(wanted, family.read_sweep()), {}, {}};
+    // A callable is asked by one case after another, which it may remember something of.
+    request.threads = work.has_callable() ? 1 : threads;
+    return api::sweep(request, work.watch());
+  });
+}
+
+void define_run(py::module_& module) {
+  using api::RunResult;
+  const auto text = [](std::string record::RunSummary::*member) {
+    return [member](const RunResult& made) { return made.summary.*member; };
+  };
+  py::class_<RunResult, std::shared_ptr<RunResult>>(module, "Run")
+      .def_readonly("columns", &RunResult::columns)
+      .def_readonly("units", &RunResult::units)
+      .def_readonly("unmet", &RunResult::unmet)
+      .def("column",
+           [](const py::object& self, const std::string& name) {
+             const auto& made = self.cast<const RunResult&>();
+             return view(made.rows.columns[place_of_column(made, name)], self);
+           })
+      .def_property_readonly("measures",
+                             [](const RunResult& made) { return made.summary.measures; })
+      .def_property_readonly("warnings",
+                             [](const RunResult& made) { return made.summary.warnings; })
+      .def_property_readonly("title", text(&record::RunSummary::title))
+      .def_property_readonly("status", text(&record::RunSummary::status))
+      .def_property_readonly("reason", text(&record::RunSummary::reason))
+      .def("summary", [](const RunResult& made) { return record::to_json(made.summary); });
+  module.def("run", &run, py::arg("given"), py::arg("measures"), py::arg("expect"),
+             py::arg("output"));
+}
+
+void define_sweep(py::module_& module) {
+  py::class_<Variations>(module, "Variations")
+      .def(py::init([](std::vector<std::pair<std::string, std::string>> vary, std::string combine,
+                       std::optional<double> samples, std::optional<double> seed,
+                       std::vector<std::string> measures) {
+             return Variations{std::move(vary), std::move(combine), samples, seed,
+                               std::move(measures)};
+           }),
+           py::arg("vary"), py::arg("combine"), py::arg("samples"), py::arg("seed"),
+           py::arg("measures"));
+  using Its = api::SweepTable::Column;
+  py::class_<Its>(module, "SweepColumn")
+      .def_readonly("name", &Its::name)
+      .def_readonly("unit", &Its::unit)
+      .def_readonly("is_text", &Its::is_text)
+      .def_readonly("texts", &Its::texts)
+      .def_property_readonly("numbers", [](const py::object& self) {
+        return view(self.cast<const Its&>().numbers, self);
+      });
+  py::class_<api::SweepResult>(module, "Sweep")
+      .def_readonly("engine", &api::SweepResult::engine)
+      .def_property_readonly(
+          "columns",
+          [](const api::SweepResult& made) -> const std::vector<Its>& {
+            return made.table.columns;
+          },
+          py::return_value_policy::reference_internal);
+  module.def("sweep", &sweep, py::arg("given"), py::arg("wanted"), py::arg("threads"));
+}
+
+void define_linearize(py::module_& module) {
+  using api::Linearized;
+  const auto matrix = [](Eigen::MatrixXd model::LinearSystem::*member) {
+    return [member](const Linearized& made) { return made.linearisation.system.*member; };
+  };
+  const auto signals = [](std::vector<model::LinearSignal> model::LinearSystem::*member) {
+    return [member](const Linearized& made) {
+      std::vector<std::pair<std::string, std::string>> names;
+      for (const model::LinearSignal& signal : made.linearisation.system.*member) {
+        names.emplace_back(signal.name, signal.unit);
+      }
+      return names;
+    };
+  };
+  using model::LinearSystem;
+  py::class_<Linearized>(module, "Linearized")
+      .def_property_readonly("A", matrix(&LinearSystem::a))
+      .def_property_readonly("B", matrix(&LinearSystem::b))
+      .def_property_readonly("C", matrix(&LinearSystem::c))
+      .def_property_readonly("D", matrix(&LinearSystem::d))
+      .def_property_readonly(
+          "dt", [](const Linearized& made) { return made.linearisation.system.period; })
+      .def_property_readonly("states", signals(&LinearSystem::states))
+      .def_property_readonly("inputs", signals(&LinearSystem::inputs))
+      .def_property_readonly("outputs", signals(&LinearSystem::outputs))
+      .def_readonly("kind", &Linearized::kind)
+      .def_readonly("at", &Linearized::at)
+      .def_readonly("note", &Linearized::note)
+      .def("json", [](const Linearized& made) { return api::file_text(made, ".json"); })
+      .def("report", [](const Linearized& made) { return to_text(api::report_of(made)); });
+  module.def("linearize", &linearize, py::arg("given"), py::arg("kind"), py::arg("at"));
+}
+
+using Commands = py::array_t<double, py::array::c_style | py::array::forcecast>;
+using Flags = py::array_t<bool, py::array::c_style | py::array::forcecast>;
+using api::Environments;
+
+std::unique_ptr<Environments> environments(const Given& given, std::size_t count,
+                                           std::vector<std::string> keys, bool keeps_rows) {
+  return std::make_unique<Environments>(family_of(given), count, std::move(keys), keeps_rows);
+}
+
+// Begins the runs of these numbers, each with its texts of values and its seed.
+void begin(Environments& its, const std::vector<std::size_t>& which,
+           const std::vector<std::vector<std::string>>& values,
+           const std::vector<std::size_t>& seeds) {
+  if (values.size() != which.size() || seeds.size() != which.size()) {
+    throw py::value_error("found lists of different lengths");
+  }
+  const py::gil_scoped_release unlocked;
+  for (std::size_t i = 0; i < which.size(); ++i) its.begin(which[i], values[i], seeds[i]);
+}
+
+// Steps the runs that are flagged.
+void step(Environments& its, const Commands& commands, const Flags& which) {
+  const auto count = static_cast<py::ssize_t>(its.count());
+  if (commands.ndim() != 2 || commands.shape(0) != count || commands.shape(1) != 2 ||
+      which.ndim() != 1 || which.shape(0) != count) {
+    throw py::value_error("actions: found another shape; allowed: (" + std::to_string(count) +
+                          ", 2)");
+  }
+  const double* const of = commands.data();
+  const bool* const steps = which.data();
+  const py::gil_scoped_release unlocked;
+  for (std::size_t i = 0; i < its.count(); ++i) {
+    if (steps[i]) its.step(i, {of[2 * i], of[2 * i + 1]});
+  }
+}
+
+void define_environments(py::module_& module) {
+  const auto flags = [](bool (Environments::*of)(std::size_t) const) {
+    return [of](const Environments& its) {
+      py::array_t<bool> all(static_cast<py::ssize_t>(its.count()));
+      for (std::size_t i = 0; i < its.count(); ++i) all.mutable_data()[i] = (its.*of)(i);
+      return all;
+    };
+  };
+  py::class_<Environments>(module, "Environments")
+      .def(py::init(&environments), py::arg("given"), py::arg("count"), py::arg("keys"),
+           py::arg("keeps_rows"))
+      .def_property_readonly_static("columns",
+                                    [](const py::object& /*type*/) {
+                                      std::vector<std::array<std::string, 3>> all;
+                                      for (const auto& one : Environments::columns()) {
+                                        all.push_back({std::string(one.name), std::string(one.unit),
+                                                       std::string(one.meaning)});
+                                      }
+                                      return all;
+                                    })
+      .def_property_readonly(
+          "command_unit",
+          [](const Environments& its) { return command_unit(its.scenario().controller->drives); })
+      .def_property_readonly("limits",
+                             [](const Environments& its) {
+                               const Controller& controller = *its.scenario().controller;
+                               return std::pair(controller.limit_of(0), controller.limit_of(1));
+                             })
+      .def("begin", &begin, py::arg("which"), py::arg("values"), py::arg("seeds"))
+      .def("step", &step, py::arg("commands"), py::arg("which"))
+      .def_property_readonly("observations",
+                             [](const py::object& self) {
+                               const auto& its = self.cast<const Environments&>();
+                               const auto width =
+                                   static_cast<py::ssize_t>(Environments::columns().size());
+                               return Column({static_cast<py::ssize_t>(its.count()), width},
+                                             its.observations().data(), self);
+                             })
+      .def_property_readonly("terminated", flags(&Environments::terminated))
+      .def_property_readonly("truncated", flags(&Environments::truncated))
+      .def(
+          "result",
+          [](const Environments& its, std::size_t which) -> std::shared_ptr<api::RunResult> {
+            const api::SteppedRun* const run = which < its.count() ? its.run(which) : nullptr;
+            if (run == nullptr || !run->is_over()) return nullptr;
+            return std::make_shared<api::RunResult>(run->result());
+          },
+          py::arg("which"));
+}
+
+void raise(const char* type, const py::object& argument) {
+  const py::object its = py::module_::import("bbsim._errors").attr(type);
+  PyErr_SetObject(its.ptr(), its(argument).ptr());
+}
+
+void translate(std::exception_ptr pointer) {
+  try {
+    if (pointer) std::rethrow_exception(pointer);
+  } catch (const InputError& error) {
+    py::list problems;
+    for (const Problem& problem : error.problems()) {
+      problems.append(py::make_tuple(problem.where, problem.message));
+    }
+    raise("InputError", problems);
+  } catch (const OutputError& error) {
+    raise("OutputError", py::str(error.what()));
+  } catch (const model::ControllerFault& fault) {
+    raise("ControllerError", py::str(fault.what()));
+  }
+}
+
+}  // namespace
+}  // namespace bbsim::python
+
+PYBIND11_MODULE(_bbsim, module) {
+  using namespace bbsim::python;
+  module.doc() = "The compiled part of bbsim.";
+  module.attr("__version__") = BBSIM_VERSION;
+  py::register_exception_translator(translate);
+  py::class_<Given>(module, "Given")
+      .def(py::init([](std::string name, std::optional<std::string> text,
+                       std::vector<std::string> overrides, py::object callable) {
+             return Given{std::move(name), std::move(text), std::move(overrides),
+                          std::move(callable)};
+           }),
+           py::arg("name"), py::arg("text"), py::arg("overrides"), py::arg("callable"));
+  define_sample(module);
+  define_run(module);
+  define_sweep(module);
+  define_linearize(module);
+  define_environments(module);
+  module.def("check", &check, py::arg("given"));
+  module.def(
+      "key_and_hint",
+      [](const std::string& message) {
+        const bbsim::api::KeyAndHint found = bbsim::api::key_and_hint(message);
+        return std::pair(found.key, found.hint);
+      },
+      py::arg("message"));
+}

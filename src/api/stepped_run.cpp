@@ -1,0 +1,112 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "api/stepped_run.hpp"
+
+#include <cmath>
+#include <utility>
+
+#include "api/fiber.hpp"
+#include "base/error.hpp"
+#include "base/number_text.hpp"
+
+namespace bbsim::api {
+
+struct SteppedRun::State {
+  explicit State(RunRequest of) : request(std::move(of)), fiber([this] { run(); }) {}
+
+  void run() { result = api::run(request, watch); }
+
+  RunRequest request;
+  Watch watch;
+  Sample sample;
+  Pair command{};
+  bool given_up = false;
+  RunResult result;
+  Fiber fiber;
+};
+
+Sample copy_of(const model::ControllerSample& sample) {
+  const auto& [x, y] = sample.reference;
+  return {sample.number,
+          sample.t,
+          sample.seen,
+          {x.value, y.value},
+          {x.rate, y.rate},
+          {x.acceleration, y.acceleration},
+          {sample.servo[0], sample.servo[1]},
+          {sample.servo[2], sample.servo[3]}};
+}
+
+namespace {
+
+// Waits at each sample for who steps the run.
+template <class State>
+class Waiting : public model::ExternalController {
+ public:
+  explicit Waiting(State& state) : state_(state) {}
+
+  void begin() override {}
+  Pair command(const model::ControllerSample& sample, double* /*own*/) override {
+    state_.sample = copy_of(sample);
+    state_.fiber.wait();
+    if (state_.given_up) throw ControllerFault("the run was given up", true);
+    return state_.command;
+  }
+  [[nodiscard]] bool can_save() const override { return false; }
+  [[nodiscard]] std::string save() override { return ""; }
+  void restore(const std::string& /*memory*/) override {}
+
+ private:
+  State& state_;
+};
+
+}  // namespace
+
+SteppedRun::SteppedRun(const Scenario& scenario, RunRequest request) {
+  request.scenario = scenario;
+  if (!scenario.controller || !scenario.controller->sampling) {
+    throw InputError(
+        "controller.sampling: found none; allowed: {period: \"20 ms\"}, as commands from outside "
+        "are given once a sample");
+  }
+  state_ = std::make_unique<State>(std::move(request));
+  Controller& controller = *state_->request.scenario.controller;
+  controller.law = Law::own;
+  controller.own.emplace().by = ControllerFactory{
+      "commands from outside",
+      [state = state_.get()](const Scenario&) { return std::make_shared<Waiting<State>>(*state); }};
+  state_->fiber.resume();
+}
+
+SteppedRun::~SteppedRun() {
+  if (!state_ || is_over()) return;
+  state_->given_up = true;
+  try {
+    state_->fiber.resume();
+  } catch (...) {  // it is given up
+  }
+}
+
+bool SteppedRun::is_over() const {
+  return state_->fiber.has_ended();
+}
+
+const Sample& SteppedRun::sample() const {
+  return state_->sample;
+}
+
+void SteppedRun::step(Pair command) {
+  if (!std::isfinite(command[0]) || !std::isfinite(command[1])) {
+    throw InputError("commands: found [" + number_text(command[0]) + ", " +
+                     number_text(command[1]) + "]; allowed: finite numbers");
+  }
+  state_->command = command;
+  state_->fiber.resume();
+}
+
+const RunResult& SteppedRun::result() const {
+  return state_->result;
+}
+
+}  // namespace bbsim::api

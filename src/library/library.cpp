@@ -1,0 +1,320 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// The public library, on the front door. Its names stand in an inline namespace of their own.
+#include <Eigen/Core>
+#include <algorithm>
+#include <utility>
+
+#include "api/check.hpp"
+#include "api/fault.hpp"
+#include "api/inputs.hpp"
+#include "api/linearize.hpp"
+#include "api/run.hpp"
+#include "api/stepped_run.hpp"
+#include "api/sweep.hpp"
+#include "base/error.hpp"
+#include "base/number_text.hpp"
+#include "file/outputs.hpp"
+#include "scenario/family.hpp"
+#include "scenario/measures.hpp"
+
+namespace bbsim::house {
+using Scenario = bbsim::Scenario;
+}
+
+#include "bbsim/bbsim.hpp"
+
+namespace bbsim {
+inline namespace v0 {
+
+std::string_view library_version() noexcept {
+  return BBSIM_VERSION;
+}
+
+Error::~Error() = default;
+FileError::~FileError() = default;
+ControllerError::~ControllerError() = default;
+ScenarioError::ScenarioError(const std::string& text, std::vector<Fault> faults)
+    : Error(text), faults_(std::move(faults)) {}
+ScenarioError::~ScenarioError() = default;
+
+namespace {
+
+// Does the work; what the house throws is thrown as the public errors.
+template <class Work>
+auto guarded(const Work& work) {
+  try {
+    return work();
+  } catch (const InputError& error) {
+    std::vector<Fault> faults;
+    for (const Problem& problem : error.problems()) {
+      const api::KeyAndHint found = api::key_and_hint(problem.message);
+      faults.push_back({problem.where, problem.message, found.key, found.hint});
+    }
+    throw ScenarioError(error.what(), std::move(faults));
+  } catch (const OutputError& error) {
+    throw FileError(error.what());
+  } catch (const model::ControllerFault& fault) {
+    throw ControllerError(fault.what());
+  }
+}
+
+[[noreturn]] void refuse(const std::string& message) {
+  const api::KeyAndHint found = api::key_and_hint(message);
+  throw ScenarioError(message, {{"", message, found.key, found.hint}});
+}
+
+class Watch : public api::Watch {
+ public:
+  explicit Watch(std::function<bool(double)> goes_on) : goes_on_(std::move(goes_on)) {}
+
+  void update(double fraction, const std::string& /*detail*/) override {
+    if (goes_on_ && !goes_on_(fraction)) stop_ = true;
+  }
+  void note(const std::string& /*text*/) override {}
+  [[nodiscard]] const std::atomic<bool>* stop() override { return &stop_; }
+
+ private:
+  std::function<bool(double)> goes_on_;
+  std::atomic<bool> stop_{false};
+};
+
+}  // namespace
+
+struct Scenario::State {
+  Source source;
+  bool is_file = false;
+
+  [[nodiscard]] ScenarioFamily family() const { return ScenarioFamily(source); }
+  [[nodiscard]] static house::Scenario first(const ScenarioFamily& family) {
+    house::Scenario scenario = family.read({});
+    scenario.source = family.source();
+    return scenario;
+  }
+};
+
+Scenario::Scenario(std::unique_ptr<State> state) : state_(std::move(state)) {}
+Scenario::Scenario(const Scenario& other) : state_(std::make_unique<State>(*other.state_)) {}
+Scenario::Scenario(Scenario&&) noexcept = default;
+Scenario& Scenario::operator=(const Scenario& other) {
+  return *this = Scenario(other);
+}
+Scenario& Scenario::operator=(Scenario&&) noexcept = default;
+Scenario::~Scenario() = default;
+
+Scenario Scenario::from_file(const std::string& file) {
+  return guarded([&] {
+    return Scenario(std::make_unique<State>(State{ScenarioFamily(file, {}).source(), true}));
+  });
+}
+
+Scenario Scenario::from_text(const std::string& text, const std::string& name) {
+  return guarded([&] {
+    return Scenario(
+        std::make_unique<State>(State{ScenarioFamily(Source{name, text, {}}).source(), false}));
+  });
+}
+
+Scenario& Scenario::set(const std::string& key, const std::string& value) {
+  state_->source.overrides.push_back(key + '=' + value);
+  return *this;
+}
+
+Scenario& Scenario::set(const std::string& key, double value) {
+  return set(key, number_text(value));
+}
+
+std::string Scenario::check() const {
+  return guarded([&] {
+    Watch watch({});
+    const ScenarioFamily family = state_->family();
+    return to_text(api::check(State::first(family), watch));
+  });
+}
+
+namespace {
+
+// The sink's functions and a row of its own.
+struct RowSink {
+  std::function<void(std::span<const double>)> sink;
+  std::vector<double> row{};
+
+  void operator()(std::span<const double* const> columns, std::size_t rows) {
+    row.resize(columns.size());
+    for (std::size_t r = 0; r < rows; ++r) {
+      for (std::size_t c = 0; c < columns.size(); ++c) row[c] = columns[c][r];
+      sink(row);
+    }
+  }
+};
+
+api::RunRequest request_of(const Scenario& scenario, const RunOptions& options) {
+  const Scenario::State& state = scenario.state();
+  const ScenarioFamily family = state.family();
+  api::RunRequest request;
+  request.scenario = Scenario::State::first(family);
+  request.inputs = family.inputs();
+  request.measures = options.measures;
+  request.keeps_rows = options.keep_rows;
+  if (options.sink) {
+    request.rows_to = RowSink{options.sink};
+  } else if (!options.keep_rows) {
+    request.rows_to = [](auto&&...) {};
+  }
+  if (!options.file.empty()) {
+    file::Outputs outputs;
+    api::reads_scenario(outputs, state.is_file ? state.source.file : "", request.scenario);
+    outputs.writes(options.file, "file");
+    request.output = options.file;
+  }
+  return request;
+}
+
+Result result_of(api::RunResult made) {
+  Result result;
+  const std::string& status = made.summary.status;
+  result.status = status == "done"      ? Status::done
+                  : status == "stopped" ? Status::stopped
+                  : status == "failed"  ? Status::failed
+                                        : Status::interrupted;
+  result.summary = record::to_json(made.summary);
+  result.reason = std::move(made.summary.reason);
+  result.columns = std::move(made.columns);
+  result.units = std::move(made.units);
+  result.values = std::move(made.rows.columns);
+  result.measures = std::move(made.summary.measures);
+  result.warnings = std::move(made.summary.warnings);
+  return result;
+}
+
+std::size_t place_in(const std::vector<std::string>& names, std::string_view name) {
+  const auto found = std::ranges::find(names, name);
+  if (found == names.end()) refuse("there is no column " + std::string(name));
+  return static_cast<std::size_t>(found - names.begin());
+}
+
+}  // namespace
+
+const std::vector<double>& Result::column(std::string_view name) const {
+  const std::size_t place = place_in(columns, name);
+  if (place >= values.size()) refuse("found no rows; allowed: RunOptions::keep_rows");
+  return values[place];
+}
+
+Result run(const Scenario& scenario, const RunOptions& options) {
+  return guarded([&] {
+    Watch watch(options.goes_on);
+    return result_of(api::run(request_of(scenario, options), watch));
+  });
+}
+
+struct Stepper::State {
+  std::optional<api::SteppedRun> run;
+  Sample sample;
+
+  void copy_sample() {
+    const api::Sample& of = run->sample();
+    sample = {of.number,         of.t,
+              of.ball,           of.reference,
+              of.reference_rate, of.reference_acceleration,
+              of.servo,          of.servo_rate};
+  }
+};
+
+Stepper::Stepper(const Scenario& scenario, const RunOptions& options)
+    : state_(std::make_unique<State>()) {
+  guarded([&] {
+    api::RunRequest request = request_of(scenario, options);
+    const house::Scenario its = std::move(request.scenario);
+    state_->run.emplace(its, std::move(request));
+    state_->copy_sample();
+  });
+}
+Stepper::~Stepper() = default;
+Stepper::Stepper(Stepper&&) noexcept = default;
+Stepper& Stepper::operator=(Stepper&&) noexcept = default;
+
+bool Stepper::is_over() const {
+  return state_->run->is_over();
+}
+
+const Sample& Stepper::sample() const {
+  return state_->sample;
+}
+
+void Stepper::step(const Command& command) {
+  if (is_over()) refuse("the run is over; allowed: result()");
+  guarded([&] {
+    state_->run->step(command);
+    state_->copy_sample();
+  });
+}
+
+Result Stepper::result() const {
+  if (!is_over()) refuse("the run is not over; allowed: step()");
+  return result_of(state_->run->result());
+}
+
+Table sweep(const Scenario& scenario, const SweepOptions& options) {
+  return guarded([&] {
+    const ScenarioFamily family = scenario.state().family();
+    Sweep wanted = family.read_sweep();
+    if (!options.vary.empty()) {
+      wanted.vary.clear();
+      for (const auto& [key, spec] : options.vary) wanted.vary.push_back({key, spec});
+      wanted.combine = options.zip ? Combine::zip : Combine::grid;
+      wanted.samples.reset();
+    }
+    if (options.samples) wanted.samples = static_cast<double>(*options.samples);
+    if (options.seed) wanted.seed = static_cast<double>(*options.seed);
+    if (!options.measures.empty()) wanted.measure = scenario::split_measures(options.measures);
+    api::SweepRequest request{scenario.state().source.file, family, wanted, {}, {}};
+    request.threads = options.threads;
+    Watch watch(options.goes_on);
+    api::SweepResult made = api::sweep(request, watch);
+    Table table;
+    table.complete = made.code == ExitCode::done;
+    for (api::SweepTable::Column& column : made.table.columns) {
+      table.columns.push_back({std::move(column.name), std::move(column.unit),
+                               std::move(column.numbers), std::move(column.texts)});
+    }
+    return table;
+  });
+}
+
+const Table::Column& Table::column(std::string_view name) const {
+  const auto found = std::ranges::find(columns, name, &Column::name);
+  if (found == columns.end()) refuse("there is no column " + std::string(name));
+  return *found;
+}
+
+LinearSystem linearize(const Scenario& scenario, const std::string& kind, const std::string& at) {
+  return guarded([&] {
+    const ScenarioFamily family = scenario.state().family();
+    api::LinearizeRequest request{Scenario::State::first(family), api::kind_named(kind), at};
+    Watch watch({});
+    const api::Linearized made = api::linearize(request, watch);
+    if (!made.reason.empty()) refuse(made.reason);
+    const model::LinearSystem& its = made.linearisation.system;
+    const auto rows = [](const Eigen::MatrixXd& matrix) {
+      std::vector<std::vector<double>> all;
+      for (Eigen::Index i = 0; i < matrix.rows(); ++i) {
+        std::vector<double>& row = all.emplace_back();
+        for (Eigen::Index j = 0; j < matrix.cols(); ++j) row.push_back(matrix(i, j));
+      }
+      return all;
+    };
+    const auto names = [](const std::vector<model::LinearSignal>& signals) {
+      std::vector<std::string> all;
+      for (const model::LinearSignal& signal : signals) all.push_back(signal.name);
+      return all;
+    };
+    return LinearSystem{names(its.states), names(its.inputs), names(its.outputs),
+                        rows(its.a),       rows(its.b),       rows(its.c),
+                        rows(its.d),       its.period,        api::file_text(made, ".json")};
+  });
+}
+
+}  // namespace v0
+}  // namespace bbsim

@@ -1,0 +1,492 @@
+# SPDX-FileCopyrightText: 2026 the bbsim authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""The Python package against the program. Needs BBSIM (the program) and BBSIM_SOURCE in the environment."""
+
+import csv
+import io
+import json
+import math
+import os
+import signal
+import subprocess
+import sys
+import tempfile
+import threading
+import unittest
+from pathlib import Path
+
+import numpy as np
+
+import bbsim
+
+PROGRAM = os.environ["BBSIM"]
+CONFIGS = Path(os.environ["BBSIM_SOURCE"]) / "configs"
+
+
+def program(*words):
+    return subprocess.run([PROGRAM, *map(str, words)], check=True, capture_output=True, text=True).stdout
+
+
+def rows_of(text):
+    header, *rows = csv.reader(io.StringIO(text))
+    return {name: [row[i] for row in rows] for i, name in enumerate(header)}
+
+
+def numbers_of(text):
+    return {name: np.array([float(one) for one in column]) for name, column in rows_of(text).items()}
+
+
+# The circle of fig2b by a sampled PD, which SampledPd repeats.
+LOOP = {
+    "gravity": 9.81,
+    "ball": {"radius": "1 cm", "position": ["5 cm", 0]},
+    "gimbal": {"servo": {"natural_frequency": 10, "damping": 1}},
+    "controller": {
+        "pd": {"kv": [[0.5, 0], [0, -0.5]], "kp": [[0.7, 0], [0, -0.7]]},
+        "drives": "angle",
+        "limit": 0.2,
+        "reference": {"circle": {"radius": "5 cm", "rate": -0.3}},
+        "sampling": {"period": "20 ms", "delay": "5 ms", "derivative_filter": "30 ms"},
+        "sensor": {"noise": "0.2 mm", "resolution": "0.3 mm", "delay": "10 ms", "dropout": 0.05},
+    },
+    "time": {"end": 6, "step": 0.02},
+    "output": {"columns": ["t", "x", "y", "phi", "theta", "phi_command", "theta_command"]},
+}
+
+
+class SampledPd:
+    """The built-in pd, operation by operation."""
+
+    def __init__(self, kp=0.7, kv=0.5, period=0.02, filter=0.03):
+        self.kp, self.kv, self.period, self.filter = kp, kv, period, filter
+        self.reset()
+
+    def reset(self):
+        self.position, self.velocity = [0.0, 0.0], [0.0, 0.0]
+        self.seen, self.unseen, self.command = False, 0, (0.0, 0.0)
+
+    def __call__(self, sample):
+        if sample.ball is None:
+            self.unseen += 1
+            return self.command
+        elapsed = (1 + self.unseen if self.seen else 1) * self.period
+        keep = self.filter / (self.filter + elapsed)
+        for i in range(2):
+            difference = (sample.ball[i] - self.position[i]) / elapsed if self.seen else 0.0
+            self.velocity[i] = keep * self.velocity[i] + (1.0 - keep) * difference
+            self.position[i] = sample.ball[i]
+        self.seen, self.unseen = True, 0
+        rate = [sample.reference_rate[i] - self.velocity[i] for i in range(2)]
+        error = [sample.reference[i] - self.position[i] for i in range(2)]
+        u = [
+            kp[0] * error[0] + kv[0] * rate[0] + (kp[1] * error[1] + kv[1] * rate[1])
+            for kv, kp in (((self.kv, 0.0), (self.kp, 0.0)), ((0.0, -self.kv), (0.0, -self.kp)))
+        ]
+        self.command = tuple(min(max(one, -0.2), 0.2) for one in u)
+        return self.command
+
+
+def with_callable(function, **more):
+    controller = {key: value for key, value in LOOP["controller"].items() if key != "pd"}
+    return {**LOOP, "controller": {"callable": function, **controller}, **more}
+
+
+class Runs(unittest.TestCase):
+    def test_equals_the_program(self):
+        for name in ("fig2a", "fig2b", "rig", "step"):
+            with self.subTest(name):
+                file = CONFIGS / f"{name}.yaml"
+                told = numbers_of(program("run", file, "-o", "-", "-q"))
+                made = bbsim.run(file)
+                self.assertEqual(made.columns, list(told))
+                for column, values in told.items():
+                    np.testing.assert_array_equal(made[column], values)
+                    self.assertEqual(made[column].dtype, np.float64)
+
+    def test_path_text_and_dict_are_alike(self):
+        text = (CONFIGS / "fig2b.yaml").read_text()
+        of_file = bbsim.run(str(CONFIGS / "fig2b.yaml"))
+        np.testing.assert_array_equal(of_file["x"], bbsim.run(text)["x"])
+        np.testing.assert_array_equal(bbsim.run(LOOP)["x"], bbsim.run(json.dumps(LOOP))["x"])
+
+    def test_numpy_values_in_a_dict(self):
+        scene = {**LOOP, "ball": {"radius": np.float64(0.01), "position": np.array([0.05, 0.0])}}
+        np.testing.assert_array_equal(bbsim.run(scene)["x"], bbsim.run(LOOP)["x"])
+
+    def test_set_and_error(self):
+        file = CONFIGS / "fig2b.yaml"
+        told = numbers_of(program("run", file, "--set", "ball.radius=2 cm", "--set", "ball.position=[0.04, 0.01]",
+                                  "--error", "1 um", "-o", "-", "-q"))  # fmt: skip
+        made = bbsim.run(file, {"ball.radius": "2 cm", "ball.position": (0.04, 0.01)}, "1 um")
+        np.testing.assert_array_equal(made["x"], told["x"])
+        self.assertLess(made.summary["error_estimate"], 1e-6)
+
+    def test_columns_share_memory(self):
+        made = bbsim.run(CONFIGS / "fig2b.yaml")
+        x = made["x"]
+        self.assertTrue(np.shares_memory(x, made["x"]))
+        self.assertFalse(x.flags.owndata)
+        end = x[-1]
+        del made
+        self.assertEqual(x[-1], end)
+
+    def test_what_a_result_tells(self):
+        made = bbsim.run(CONFIGS / "rig.yaml", measures=["max_tilt", "rms_x from 5 s"], expect="max_tilt < 1 deg")
+        self.assertEqual(made.units["x"], "m")
+        self.assertEqual(made.units["phi"], "rad")
+        self.assertEqual(made.status, "done")
+        self.assertEqual(made.summary["rows"], len(made))
+        told = rows_of(program("run", CONFIGS / "rig.yaml", "-o", "/dev/null", "-q", "--measure",
+                               "max_tilt,rms_x from 5 s"))  # fmt: skip
+        self.assertEqual(list(made.measures), told["measure"])
+        self.assertEqual([repr(float(v)) for v in told["value"]], [repr(v) for v in made.measures.values()])
+        self.assertEqual(len(made.unmet), 1)
+        self.assertEqual(made.events, made.summary["events"])
+        self.assertIn("x", made)
+        with self.assertRaisesRegex(KeyError, "there is no column 'z'"):
+            made["z"]
+
+    def test_a_stopped_run_is_a_result(self):
+        made = bbsim.run(CONFIGS / "rig.yaml", {"plate.size": ["4 cm", "4 cm"], "ball.position": [0, 0]})
+        self.assertEqual(made.status, "stopped")
+        self.assertIn("edge", made.events[-1]["name"])
+        self.assertTrue(made.reason)
+
+    def test_output(self):
+        with tempfile.TemporaryDirectory() as folder:
+            for name in ("fig.csv", "fig.h5"):
+                file = Path(folder) / name
+                made = bbsim.run(CONFIGS / "fig2b.yaml", output=file)
+                self.assertTrue(file.exists())
+                if name.endswith(".csv"):
+                    np.testing.assert_array_equal(numbers_of(file.read_text())["x"], made["x"])
+            with self.assertRaises(bbsim.OutputError):
+                bbsim.run(CONFIGS / "fig2b.yaml", output=Path(folder) / "none" / "fig.csv")
+            copy = Path(folder) / "copy.csv"
+            copy.write_text((CONFIGS / "fig2b.yaml").read_text())
+            with self.assertRaises(bbsim.InputError):
+                bbsim.run(copy, output=copy)
+
+    def test_for_notebooks(self):
+        made = bbsim.run(CONFIGS / "fig2b.yaml")
+        shown = made._repr_html_()
+        self.assertIn("<svg", shown)
+        self.assertIn("max_tilt", shown)
+        self.assertIn("fig2b" if not made.summary["title"] else "Fig. 2(b)", repr(made))
+        try:
+            import pandas
+        except ImportError:
+            pass
+        else:
+            frame = made.to_pandas()
+            self.assertIsInstance(frame, pandas.DataFrame)
+            self.assertEqual(list(frame.columns), made.columns)
+        try:
+            import matplotlib
+        except ImportError:
+            return
+        matplotlib.use("Agg")
+        self.assertEqual(len(made.plot(["x", "y", "phi"]).axes), 2)
+
+    def test_threads(self):
+        scenes = [CONFIGS / "fig2b.yaml", CONFIGS / "rig.yaml", with_callable(SampledPd())]
+        alone = [bbsim.run(scene)["x"].tobytes() for scene in scenes]
+        found = []
+
+        def work(number):
+            scene = scenes[number % 2] if number % 3 else with_callable(SampledPd())
+            found.append((alone[number % 2] if number % 3 else alone[2]) == bbsim.run(scene)["x"].tobytes())
+
+        threads = [threading.Thread(target=work, args=(number,)) for number in range(8)]
+        for thread in threads:
+            thread.start()
+        for thread in threads:
+            thread.join()
+        self.assertEqual(found, [True] * 8)
+
+
+class Callables(unittest.TestCase):
+    def test_pd_equals_the_built_in_one(self):
+        built_in, own = bbsim.run(LOOP), bbsim.run(with_callable(SampledPd()))
+        for column in built_in:
+            np.testing.assert_array_equal(own[column], built_in[column])
+
+    def test_samples(self):
+        samples = []
+
+        def law(sample):
+            samples.append(sample)
+            return 0, np.float64(0.01)
+
+        made = bbsim.run(with_callable(law, time={"end": 1, "step": 0.1}))
+        self.assertEqual([one.sample for one in samples], list(range(len(samples))))
+        self.assertEqual(samples[3].t, 3 * 0.02)
+        self.assertEqual(samples[0]["reference"], samples[0].reference)
+        with self.assertRaises(KeyError):
+            samples[0]["ref"]
+        self.assertEqual(made["theta_command"][-1], 0.01)
+        self.assertIn("Python", bbsim.check(with_callable(law)))
+
+    def test_columns_of_its_own(self):
+        def law(sample):
+            return 0, 0, {"twice": 2 * sample.t}
+
+        made = bbsim.run(with_callable(law, output={"columns": ["t", "twice"]}))
+        self.assertAlmostEqual(made["twice"][-1], 2 * made["t"][-1], delta=0.05)
+
+    def test_what_it_raises(self):
+        def law(sample):
+            if sample.t > 0.5:
+                raise ZeroDivisionError("no more")
+            return 0, 0
+
+        with self.assertRaisesRegex(bbsim.ControllerError, "at sample 26 .*ZeroDivisionError: no more") as caught:
+            bbsim.run(with_callable(law))
+        self.assertIsInstance(caught.exception.__cause__, ZeroDivisionError)
+        for answer in (None, (1,), ("a", 0), (math.nan, 0), (1, 2, 3)):
+            with self.assertRaisesRegex(bbsim.ControllerError, "its answer was"):
+                bbsim.run(with_callable(lambda sample, answer=answer: answer))
+        with self.assertRaises(bbsim.ControllerError):
+            bbsim.sweep(with_callable(law), {"ball.radius": [0.01, 0.02]})
+
+    def test_sweep(self):
+        vary = {"ball.position.0": [0.01, 0.02, 0.03]}
+        own, built_in = (bbsim.sweep(scene, vary, "end_x") for scene in (with_callable(SampledPd()), LOOP))
+        np.testing.assert_allclose(own["end_x"], built_in["end_x"], rtol=0, atol=1e-6)
+
+    def test_no_callable(self):
+        with self.assertRaises(bbsim.InputError) as caught:
+            bbsim.run(with_callable(3))
+        self.assertEqual(caught.exception.key, "controller.callable")
+
+
+class Sweeps(unittest.TestCase):
+    def test_equals_the_program(self):
+        for file, vary, spec in (
+            ("fig2a.yaml", {"ball.position.0": np.linspace(-0.1, 0.1, 41)}, "ball.position.0=linear:-0.1:0.1:41"),
+            ("rig.yaml", {"ball.radius": ["1 cm", "2 cm"], "gravity": [9.8, 9.81]}, None),
+        ):
+            with self.subTest(file):
+                words = []
+                for key, values in vary.items():
+                    listed = ",".join(v if isinstance(v, str) else repr(float(v)) for v in values)
+                    words += ["--vary", f"{key}=list:{listed}"]
+                told = rows_of(program("sweep", CONFIGS / file, *words, "-o", "-", "-q"))
+                made = bbsim.sweep(CONFIGS / file, vary)
+                self.assertEqual(list(made.dtype.names), list(told))
+                for name in made.dtype.names:
+                    if made.dtype[name].kind == "U":
+                        self.assertEqual(made[name].tolist(), told[name])
+                    else:
+                        np.testing.assert_array_equal(made[name], np.array([float(v) for v in told[name]]))
+                if spec is None:
+                    continue
+                np.testing.assert_allclose(made["end_time"], bbsim.sweep(CONFIGS / file,
+                                           dict([spec.split("=")]))["end_time"])  # fmt: skip
+
+    def test_measures_and_draws(self):
+        made = bbsim.sweep(CONFIGS / "fig2b.yaml", {"ball.position.0": "normal:5 cm:2 mm"}, ["max_tilt", "end_x"],
+                           samples=5, seed=3)  # fmt: skip
+        self.assertEqual(made.shape, (5,))
+        self.assertEqual(made.dtype.names[-2:], ("max_tilt", "end_x"))
+        self.assertEqual(made["case"].tolist(), [0, 1, 2, 3, 4])
+        self.assertEqual(made["case"].dtype, np.int64)
+
+
+class Linear(unittest.TestCase):
+    def test_equals_the_program(self):
+        for name in ("fig2b", "rig"):
+            with tempfile.TemporaryDirectory() as folder:
+                file = Path(folder) / "linear.json"
+                program("linearize", CONFIGS / f"{name}.yaml", "-o", file)
+                told = json.loads(file.read_text())
+            made = bbsim.linearize(CONFIGS / f"{name}.yaml")
+            for matrix in "ABCD":
+                np.testing.assert_array_equal(getattr(made, matrix), np.array(told[matrix]))
+            self.assertEqual(made.dt, told["period"])
+            self.assertEqual(made.states, [one for one in told["states"]])
+            self.assertEqual(len(made.poles), len(told["poles"]))
+        self.assertIsNone(bbsim.linearize(CONFIGS / "fig2b.yaml", kind="plant").dt)
+        with self.assertRaises(bbsim.InputError):
+            bbsim.linearize(CONFIGS / "fig2b.yaml", kind="plants")
+
+    def test_scipy(self):
+        try:
+            from scipy.linalg import solve_continuous_are
+        except ImportError:
+            self.skipTest("there is no SciPy")
+        plant = bbsim.linearize(CONFIGS / "fig2b.yaml", kind="plant")
+        self.assertEqual(plant.to_scipy().A.shape, plant.A.shape)
+        self.assertEqual(plant.B.shape, (len(plant.states), 2))
+        spin_free = [i for i, name in enumerate(plant.states) if name != "spin"]
+        a, b = plant.A[np.ix_(spin_free, spin_free)], plant.B[spin_free]
+        cost = solve_continuous_are(a, b, np.eye(len(a)), np.eye(2))
+        self.assertTrue(np.all(np.linalg.eigvals(a - b @ b.T @ cost).real < 0))
+
+
+class Environments(unittest.TestCase):
+    SCENE = {**LOOP, "time": {"end": 0.5, "step": 0.02}, "plate": {"size": ["20 cm", "20 cm"]},
+             "events": {"edge": "stop"}}  # fmt: skip
+
+    def test_equals_a_run_with_the_same_actions(self):
+        envs = bbsim.VectorEnv(self.SCENE, 3, {"ball.position.0": (0.03, 0.05)}, seed=5, record=True,
+                               set={"controller.sensor": None})  # fmt: skip
+        observations, _ = envs.reset()
+        first = observations[:, 0].copy()
+        actions = np.random.default_rng(1).uniform(-0.05, 0.05, (26, 3, 2))
+        seen = [observations]
+        for action in actions:
+            observations, _, terminated, truncated, _ = envs.step(action)
+            seen.append(observations)
+            if truncated.any():
+                break
+        self.assertTrue(truncated.all())
+        self.assertFalse(terminated.any())
+        for i in range(3):
+            given = iter(actions[:, i])
+            heard = []
+
+            def law(sample):
+                heard.append(sample)
+                return next(given)
+
+            controller = {"callable": law, **{k: v for k, v in LOOP["controller"].items() if k not in ("pd", "sensor")}}
+            made = bbsim.run({**self.SCENE, "controller": controller}, {"ball.position.0": float(first[i])})
+            for column in made:
+                np.testing.assert_array_equal(envs.result(i)[column], made[column])
+            np.testing.assert_array_equal([s.ball for s in heard], [o[i, :2] for o in seen[: len(heard)]])
+
+    def test_seeds(self):
+        def episode(seed):
+            envs = bbsim.VectorEnv(self.SCENE, 2, {"ball.position.1": (-0.01, 0.01)})
+            observations, _ = envs.reset(seed=seed)
+            return np.stack([observations] + [envs.step(np.zeros((2, 2)))[0] for _ in range(60)])
+
+        np.testing.assert_array_equal(episode(3), episode(3))
+        self.assertFalse(np.array_equal(episode(3), episode(4)))
+        self.assertTrue(np.isfinite(episode(3)).all())
+
+    def test_episodes_begin_by_themselves(self):
+        envs = bbsim.VectorEnv(self.SCENE, 2, seed=1)
+        envs.reset()
+        ends = []
+        for step in range(80):
+            observations, rewards, terminated, truncated, _ = envs.step(np.zeros((2, 2)))
+            self.assertEqual(observations.shape, (2, 11))
+            if ends and ends[-1] == step - 1:
+                self.assertEqual(rewards.tolist(), [0.0, 0.0])
+            if truncated.all():
+                ends.append(step)
+        self.assertGreater(len(ends), 1)
+
+    def test_the_ball_falls_off(self):
+        envs = bbsim.VectorEnv(self.SCENE, 1, set={"time.end": 20})
+        envs.reset()
+        for _ in range(1000):
+            _, reward, terminated, truncated, _ = envs.step(np.full((1, 2), 0.2))
+            if terminated[0]:
+                break
+        self.assertTrue(terminated[0])
+        self.assertFalse(truncated[0])
+        self.assertEqual(envs.result().status, "stopped")
+
+    def test_spaces_options_and_faults(self):
+        envs = bbsim.VectorEnv(self.SCENE, 2, {"ball.position.0": (0.0, 0.01)}, set={"controller.sensor": None})
+        self.assertEqual(envs.action_space.shape, (2, 2))
+        self.assertEqual(envs.single_action_space.high.tolist(), [0.2, 0.2])
+        self.assertIn(envs.action_space.sample(), envs.action_space)
+        observations, _ = envs.reset(options={"ball.position.0": 0.02})
+        self.assertEqual(observations[:, 0].tolist(), [0.02, 0.02])
+        with self.assertRaises(bbsim.InputError):
+            envs.reset(options={"gravity": 3})
+        with self.assertRaises(ValueError):
+            envs.step(np.zeros((3, 2)))
+        envs.reset()
+        with self.assertRaises(bbsim.InputError):
+            envs.step(np.full((2, 2), np.nan))
+        with self.assertRaises(bbsim.InputError):
+            bbsim.VectorEnv(CONFIGS / "fig2b.yaml", 1).reset()
+        with self.assertRaises(bbsim.InputError):
+            bbsim.VectorEnv(self.SCENE, 0)
+
+    def test_single(self):
+        env = bbsim.Env(self.SCENE, seed=2)
+        observation, info = env.reset(seed=2)
+        self.assertEqual((observation.shape, info), ((11,), {}))
+        over = False
+        while not over:
+            observation, reward, terminated, truncated, _ = env.step(env.action_space.sample() * 0)
+            self.assertIsInstance(reward, float)
+            over = terminated or truncated
+        with self.assertRaises(RuntimeError):
+            env.step([0, 0])
+
+
+class Faults(unittest.TestCase):
+    def test_input(self):
+        with self.assertRaises(bbsim.InputError) as caught:
+            bbsim.run({**LOOP, "ball": {"radius": -1, "position": [0, 0]}, "gravty": 3})
+        error = caught.exception
+        self.assertIsInstance(error, ValueError)
+        self.assertEqual({problem.key for problem in error.problems}, {"ball.radius", "gravty"})
+        hints = {problem.key: problem.hint for problem in error.problems}
+        self.assertIn("gravity", hints["gravty"])
+        self.assertIn("allowed", hints["ball.radius"])
+        self.assertNotIn("<dict>", str(error))
+
+    def test_file_and_settings(self):
+        with self.assertRaises(bbsim.InputError):
+            bbsim.run("no-such-file.yaml")
+        with self.assertRaises(bbsim.InputError) as caught:
+            bbsim.run(CONFIGS / "fig2b.yaml", {"ball.radius": float("nan")})
+        self.assertEqual(caught.exception.key, "ball.radius")
+        with self.assertRaises(bbsim.InputError) as caught:
+            bbsim.sweep(CONFIGS / "fig2b.yaml", {"ball.radios": [1, 2]})
+        self.assertIn("radius", str(caught.exception))
+        with self.assertRaises(TypeError):
+            bbsim.run({**LOOP, "ball": object()})
+
+    def test_it_can_be_pickled(self):
+        import pickle
+
+        try:
+            bbsim.run(LOOP, {"ball.radius": -1})
+        except bbsim.InputError as error:
+            again = pickle.loads(pickle.dumps(error))
+            self.assertEqual((str(again), again.key), (str(error), error.key))
+
+    def test_check(self):
+        self.assertEqual(bbsim.check(CONFIGS / "rig.yaml"), program("check", CONFIGS / "rig.yaml"))
+
+
+class Interruptions(unittest.TestCase):
+    def interrupted(self, work):
+        """How long after a Ctrl-C a process that does this work ends, by KeyboardInterrupt."""
+        script = f"import bbsim, sys\nprint('ready', flush=True)\ntry:\n    {work}\nexcept KeyboardInterrupt:\n    sys.exit(42)"
+        with subprocess.Popen([sys.executable, "-c", script], stdout=subprocess.PIPE, text=True) as child:
+            self.assertEqual(child.stdout.readline(), "ready\n")
+            try:
+                child.wait(0.5)
+            except subprocess.TimeoutExpired:
+                pass
+            child.send_signal(signal.SIGINT)
+            try:
+                self.assertEqual(child.wait(20), 42)
+            finally:
+                child.kill()
+
+    def test_run(self):
+        self.interrupted(f"bbsim.run('{CONFIGS}/rig.yaml', {{'time.end': 1e6}})")
+
+    def test_sweep(self):
+        self.interrupted(f"bbsim.sweep('{CONFIGS}/rig.yaml', {{'gravity': 'linear:9:10:10000000'}})")
+
+    def test_callable(self):
+        self.interrupted(
+            f"s = dict(controller=dict(callable=lambda sample: (0, 0), drives='angle', sampling=dict(period='20 ms'), "
+            f"reference=dict(point=[0, 0])), ball=dict(radius=0.01), time=dict(end=1e6, step=1), "
+            f"gimbal=dict(servo=dict(natural_frequency=10, damping=1))); bbsim.run(s)")
+
+
+if __name__ == "__main__":
+    unittest.main()
