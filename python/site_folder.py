@@ -8,8 +8,9 @@ import sysconfig
 
 prefix = sys.argv[1]
 for folder in sys.path:
-    if folder.startswith(prefix + os.sep) and os.path.basename(folder) in ("dist-packages", "site-packages"):
-        print(os.path.relpath(folder, prefix))
+    below = os.path.relpath(folder, prefix)
+    if below.startswith("lib") and os.path.basename(below) in ("dist-packages", "site-packages"):
+        print(below)
         break
 else:
     variables = {"base": prefix, "platbase": prefix}
