@@ -91,6 +91,8 @@ void read_library(yaml::Keys& keys, Controller& controller) {
   OwnController& own = controller.own.emplace();
   ControllerLibrary library;
   keys.required("file", yaml::Text{"the name of a shared library"}, library.file);
+  keys.optional("wiring", yaml::Text{"the name of a file that says what a sketch is wired to"},
+                library.wiring);
   keys.optional("parameters", Parameters{}, own.parameters);
   own.by = std::move(library);
   own.folder = keys.context().folder.string();

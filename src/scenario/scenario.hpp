@@ -309,7 +309,8 @@ struct ControllerProgram {
 
 // A shared library with a function for each sample (bbsim/controller.h).
 struct ControllerLibrary {
-  std::string file;  // as in the scenario
+  std::string file;    // as in the scenario
+  std::string wiring;  // file that says what a sketch's pins are wired to; empty without a sketch
 };
 
 // An external controller.

@@ -2,4 +2,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 #pragma once
+
 #include "Arduino.h"

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-namespace bbsim::app {
+namespace bbsim::file {
 
 struct Finished {
   int status = 0;  // as of waitpid
@@ -22,4 +22,4 @@ struct Finished {
                                                   const std::string& input,
                                                   const std::string& purpose);
 
-}  // namespace bbsim::app
+}  // namespace bbsim::file

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "external.hpp"
+#include "file/external.hpp"
 
 #include <sys/wait.h>
 #include <unistd.h>
@@ -15,7 +15,7 @@
 #include "file/children.hpp"
 #include "file/start_process.hpp"
 
-namespace bbsim::app {
+namespace bbsim::file {
 namespace {
 
 // Files without a name, which go when they are closed: with them on both sides of the process
@@ -67,9 +67,9 @@ std::optional<Finished> run_program(const std::vector<std::string>& words, const
       {words, fileno(in.get()), fileno(out.get()), fileno(complaint.get())}, error);
   if (error == ENOENT) return {};
   if (error != 0) to.fail("cannot start " + words[0], error);
-  const std::optional<int> status = file::wait_for_child(process);
+  const std::optional<int> status = wait_for_child(process);
   if (!status) to.fail("cannot wait for " + words[0], ECHILD);
   return Finished{*status, to.content(out.get()), to.content(complaint.get())};
 }
 
-}  // namespace bbsim::app
+}  // namespace bbsim::file

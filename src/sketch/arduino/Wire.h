@@ -1,0 +1,30 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// The I2C bus, for the parts that the wiring has, by their own headers; bytes of one's own have
+// nobody who would answer.
+#pragma once
+
+#include "Arduino.h"
+
+class TwoWire {
+ public:
+  void begin() {}
+  void end() {}
+  void setClock(unsigned long) {}
+  void setWireTimeout(unsigned long = 0, bool = false) {}
+
+#define BBSIM_NOBODY                                                                         \
+  "Wire: no part of the wiring speaks I2C by bytes; the parts that are there have headers: " \
+  "Adafruit_STMPE610.h, Adafruit_PWMServoDriver.h"
+  BBSIM_LACKS(beginTransmission, BBSIM_NOBODY)
+  BBSIM_LACKS(endTransmission, BBSIM_NOBODY)
+  BBSIM_LACKS(requestFrom, BBSIM_NOBODY)
+  BBSIM_LACKS(write, BBSIM_NOBODY)
+  BBSIM_LACKS(available, BBSIM_NOBODY)
+  BBSIM_LACKS(read, BBSIM_NOBODY)
+  BBSIM_LACKS(onReceive, "Wire.onReceive: no other board asks this one")
+  BBSIM_LACKS(onRequest, "Wire.onRequest: no other board asks this one")
+#undef BBSIM_NOBODY
+};
+inline TwoWire Wire, Wire1;

@@ -1,0 +1,12 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// All of the board in one source, as `bbsim sketch` compiles it beside each sketch.
+#include "runtime/controller.cpp"
+#include "runtime/core.cpp"
+#include "runtime/coroutine.cpp"
+#include "runtime/pins.cpp"
+#include "runtime/screen.cpp"
+#include "runtime/serial.cpp"
+#include "runtime/servos.cpp"
+#include "runtime/text.cpp"
