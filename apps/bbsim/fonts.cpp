@@ -10,6 +10,8 @@
 #include <string_view>
 #include <vector>
 
+#include "file/external.hpp"
+
 namespace bbsim::app {
 namespace {
 
