@@ -9,8 +9,8 @@
 #include <variant>
 
 #include "solve/cvode/cvode.hpp"
-#include "solve/held/held.hpp"
 #include "solve/radau/radau.hpp"
+#include "solve/sampled/sampled.hpp"
 
 namespace bbsim::solve {
 
@@ -38,8 +38,8 @@ std::unique_ptr<Stepper> make_stepper(const model::Model& model, Method method,
   tolerances = of_each_step(model, method, tolerances);
   switch (method) {
     case Method::radau:
-      if (held::knows(model)) {
-        return std::make_unique<held::HeldStepper>(model, held::choose_kernels(), tolerances);
+      if (sampled::knows(model)) {
+        return std::make_unique<sampled::HeldStepper>(model, sampled::choose_kernels(), tolerances);
       }
       return std::make_unique<radau::RadauStepper>(model, radau::choose_kernels(),
                                                    radau::choose_stages(model, tolerances.rtol),

@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "solve/shrinking.hpp"
+#include "solve/collocation/shrinking.hpp"
 #include "sweep/single.hpp"
 #include "sweep/verdict.hpp"
 

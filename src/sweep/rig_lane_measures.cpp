@@ -8,15 +8,15 @@
 #include <string_view>
 
 #include "record/track/gimbal_extremes.hpp"
-#include "solve/held/sides.hpp"
+#include "solve/sampled/sides.hpp"
 
 namespace bbsim::sweep {
 namespace {
 
 using Kind = scenario::Measure::Kind;
-using solve::held::LaneStep;
-using solve::held::Range;
-using solve::held::Size;
+using solve::sampled::LaneStep;
+using solve::sampled::Range;
+using solve::sampled::Size;
 
 // Polynomials of degree 9 and their squares, and a servo's sines, over a piece or a part of one.
 constexpr std::size_t parts = 16;
@@ -53,7 +53,7 @@ RigLaneMeasures::RigLaneMeasures(const std::vector<scenario::Measure>& measures,
   }
 }
 
-solve::held::LaneAsked RigLaneMeasures::asks_for() const {
+solve::sampled::LaneAsked RigLaneMeasures::asks_for() const {
   return {wants(Size::versine) || wants(Size::rate_squared), wants(Size::error_squared)};
 }
 
@@ -80,7 +80,8 @@ void RigLaneMeasures::accept(const LaneStep& step) {
       double& greatest = greatest_[i][lane];
       if (step.is_whole(lane)) greatest = larger(greatest, range.most);
       const double promises = (1 + worth) * greatest;
-      if (solve::held::widened(range).most > promises && step.bounds(size, lane).most > promises) {
+      if (solve::sampled::widened(range).most > promises &&
+          step.bounds(size, lane).most > promises) {
         look_closer(step, size, lane);
       }
     }

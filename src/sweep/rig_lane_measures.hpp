@@ -13,21 +13,21 @@
 #include "record/square_sum.hpp"
 #include "record/track/spans.hpp"
 #include "scenario/measures.hpp"
-#include "solve/held/rig_lanes.hpp"
+#include "solve/sampled/rig_lanes.hpp"
 
 namespace bbsim::sweep {
 
-class RigLaneMeasures : public solve::held::LaneSink {
+class RigLaneMeasures : public solve::sampled::LaneSink {
  public:
   // Of measures that record::are_track_measures() says yes to.
   RigLaneMeasures(const std::vector<scenario::Measure>& measures, const solve::OutputGrid& grid);
 
-  [[nodiscard]] solve::held::LaneAsked asks_for() const;
+  [[nodiscard]] solve::sampled::LaneAsked asks_for() const;
 
   // Begins a group whose cases have this reference, which outlives it; all groups have the same.
   void begin(const model::SignalPair& reference);
 
-  void accept(const solve::held::LaneStep& step) override;
+  void accept(const solve::sampled::LaneStep& step) override;
   void accept_row(std::size_t lane, std::size_t row, double x, double y) override;
   void accept_end(std::size_t lane, double t, std::span<const double> row) override;
 
@@ -37,11 +37,11 @@ class RigLaneMeasures : public solve::held::LaneSink {
                             const model::BallConstants& constants, double* results);
 
  private:
-  static constexpr std::size_t group = solve::held::group;
-  using Size = solve::held::Size;
-  static constexpr std::size_t sizes = solve::held::sizes;
+  static constexpr std::size_t group = solve::sampled::group;
+  using Size = solve::sampled::Size;
+  static constexpr std::size_t sizes = solve::sampled::sizes;
 
-  void look_closer(const solve::held::LaneStep& step, Size size, std::size_t lane);
+  void look_closer(const solve::sampled::LaneStep& step, Size size, std::size_t lane);
   [[nodiscard]] double& greatest(Size size, std::size_t lane) {
     return greatest_[static_cast<std::size_t>(size)][lane];
   }
@@ -65,8 +65,8 @@ class RigLaneMeasures : public solve::held::LaneSink {
   record::SpanSearch search_;
   const ChebyshevPoints& points_;
   std::vector<double> times_, values_;
-  std::vector<solve::held::LaneStep::Track> track_;  // at them
-  std::size_t track_of_ = group;                     // the lane, in the present step
+  std::vector<solve::sampled::LaneStep::Track> track_;  // at them
+  std::size_t track_of_ = group;                        // the lane, in the present step
 };
 
 }  // namespace bbsim::sweep

@@ -13,7 +13,7 @@
 #include "model/model.hpp"
 #include "record/track/track_measures.hpp"
 #include "solve/choose.hpp"
-#include "solve/held/rig_lanes.hpp"
+#include "solve/sampled/rig_lanes.hpp"
 #include "sweep/case_scenario.hpp"
 #include "sweep/group_runner.hpp"
 #include "sweep/rig_lane_measures.hpp"
@@ -24,7 +24,7 @@ namespace {
 
 bool is_carried(const Scenario& scenario, const model::Model& model) {
   return !scenario.solver.error && solve::choose_method(scenario.solver.method) == Method::radau &&
-         solve::held::carries(model);
+         solve::sampled::carries(model);
 }
 
 const model::SignalPair& reference_of(const model::Model& model) {
@@ -51,7 +51,7 @@ class RigCarrier : public GroupCarrier {
     rigs_.clear();
     for (GroupCase& one : cases) take(one);
     if (rigs_.empty()) return;
-    std::array<const model::Model*, solve::held::group> models{};
+    std::array<const model::Model*, solve::sampled::group> models{};
     for (std::size_t lane = 0; lane < rigs_.size(); ++lane) models[lane] = &rigs_[lane].model;
     measures_.begin(reference_of(rigs_.front().model));
     const auto carried = lanes_.integrate(models.data(), rigs_.size(), measures_, stop);
@@ -77,7 +77,7 @@ class RigCarrier : public GroupCarrier {
       model::Model model = model::assemble(scenario, false);
       if (!is_carried(scenario, model) || solve::OutputGrid(scenario.time) != grid_ ||
           scenario.solver.rtol != tolerances_.rtol || scenario.solver.atol != tolerances_.atol ||
-          (!rigs_.empty() && !solve::held::go_together(rigs_.front().model, model)) ||
+          (!rigs_.empty() && !solve::sampled::go_together(rigs_.front().model, model)) ||
           std::ranges::any_of(task_.measures, [&](const scenario::Measure& measure) {
             return bool(scenario::missing(measure, scenario));
           })) {
@@ -93,7 +93,7 @@ class RigCarrier : public GroupCarrier {
   solve::OutputGrid grid_;
   solve::Tolerances tolerances_;
   RigLaneMeasures measures_;
-  solve::held::RigLanes lanes_;
+  solve::sampled::RigLanes lanes_;
   std::vector<Rig> rigs_;
 };
 
@@ -101,7 +101,7 @@ class RigCarrier : public GroupCarrier {
 
 bool can_use_rig_lanes(const SweepTask& task) {
   // Fewer would leave lanes empty, and are those of `bbsim run` to the bit.
-  if (task.plan.cases() < solve::held::group || !task.series.empty() ||
+  if (task.plan.cases() < solve::sampled::group || !task.series.empty() ||
       !record::are_track_measures(task.measures) || !share_reference(task.plan)) {
     return false;
   }
@@ -121,12 +121,13 @@ bool can_use_rig_lanes(const SweepTask& task) {
 }
 
 std::size_t rig_group() {
-  return solve::held::group;
+  return solve::sampled::group;
 }
 
 std::unique_ptr<CaseRunner> rig_lane_runner(const SweepTask& task) {
   const Scenario first = task.family.read(task.plan.settings(0));
-  return group_runner(task, first, solve::held::group, std::make_unique<RigCarrier>(task, first));
+  return group_runner(task, first, solve::sampled::group,
+                      std::make_unique<RigCarrier>(task, first));
 }
 
 }  // namespace bbsim::sweep

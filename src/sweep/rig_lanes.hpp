@@ -8,8 +8,8 @@
 
 namespace bbsim::sweep {
 
-// Whether most cases of the sweep are rigs that solve::held::RigLanes carries, as far as some from
-// all over it tell, and all its measures are those of a track.
+// Whether most cases of the sweep are rigs that solve::sampled::RigLanes carries, as far as some
+// from all over it tell, and all its measures are those of a track.
 [[nodiscard]] bool can_use_rig_lanes(const SweepTask& task);
 
 // Cases that go together.

@@ -8,7 +8,7 @@
 
 #include "catch.hpp"
 #include "simd/pack.hpp"
-#include "solve/radau/tables.hpp"
+#include "solve/collocation/radau_table.hpp"
 
 using namespace bbsim::solve::radau;
 

@@ -10,7 +10,7 @@
 #include <new>
 #include <utility>
 
-#include "solve/step_growth.hpp"
+#include "solve/collocation/step_length.hpp"
 
 namespace bbsim::solve::loop {
 
@@ -207,12 +207,10 @@ double LoopLanes::size(int lane) const {
 }
 
 void LoopLanes::plan(int lane, Way& way) {
-  // The steps to the end are alike.
-  const double left = end_ - way.t;
-  const double pieces = std::ceil(left / way.next * (1 - 1e-3));
-  way.arrives = !(pieces > 1);
+  const Stride next = stride(end_ - way.t, way.next);
+  way.arrives = next.arrives;
   spans_.from[lane] = way.t;
-  spans_.length[lane] = way.arrives ? left : pieces < 4 ? left / pieces : way.next;
+  spans_.length[lane] = next.length;
 }
 
 // Whether the lane's attempt is accepted; `ending` then or otherwise, if it is its last.

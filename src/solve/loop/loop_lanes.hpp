@@ -12,10 +12,10 @@
 #include <vector>
 
 #include "scenario/scenario.hpp"
+#include "solve/collocation/shrinking.hpp"
 #include "solve/loop/kernel.hpp"
 #include "solve/outcome.hpp"
 #include "solve/output_grid.hpp"
-#include "solve/shrinking.hpp"
 
 namespace bbsim::solve::loop {
 

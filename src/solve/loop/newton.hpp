@@ -9,7 +9,7 @@
 // Included only by the kernels; see simd/pack.hpp for why all is inlined or tagged.
 #pragma once
 
-#include "solve/lane_rule.hpp"
+#include "solve/collocation/node_rows.hpp"
 #include "solve/loop/lane_loops.hpp"
 
 namespace bbsim::solve::loop {
@@ -22,7 +22,7 @@ struct Newton : LaneLoops<Isa, drives> {
   using Rule = radau::RadauTable<s>;
   static constexpr int pairs = s / 2;
 
-  struct alignas(64) Rows : LaneRule<Isa, s> {
+  struct alignas(64) Rows : NodeRows<Isa, s> {
     double lambda_re[pairs]{}, lambda_im[pairs]{};
     double forward_re[s][pairs]{}, forward_im[s][pairs]{};
     double back_re[s][pairs]{}, back_im[s][pairs]{};

@@ -19,7 +19,8 @@
 // a step: three corrections do.
 #pragma once
 
-#include "solve/lane_error.hpp"
+#include "solve/collocation/convergence.hpp"
+#include "solve/collocation/error_estimate.hpp"
 #include "solve/loop/looking.hpp"
 #include "solve/loop/rows_within.hpp"
 
@@ -241,8 +242,8 @@ struct Step : Work<Isa, drives, s> {
       differentiate(loop, of.reference[middle], of.q_at[middle], of.v_at[middle], turning, at);
       Base::factor(at, h, of.newton);
     }
-    constexpr double enough = 1e-2, slow = 0.7, rounding = 30 * 2.2e-16;
-    const P floor(rounding / w.rtol);
+    constexpr double slow = 0.7;
+    const StopTest stop(1e-2, w.rtol);
     P last(0.0);
     Mask resting{}, active = ~Mask{};
     for (turns = 1;; ++turns) {
@@ -253,8 +254,9 @@ struct Step : Work<Isa, drives, s> {
       if (turns == 1) weigh(w, loop, of);
       const P now = weighted(of, change);
       // What is not finite is at rest: the states tell.
-      Mask rests = (Mask)(now.v <= P(enough).v) | (Mask)(now.v <= floor.v) | ~is_finite(now);
-      if (turns > 1) rests |= (Mask)((now * now).v <= (P(enough) * (last - now)).v);
+      const P contraction = turns > 1 ? P::of(now.v / last.v) : P(1.0);
+      const Mask rests =
+          (Mask)(now.v <= P(stop.enough).v) | stop.passes(now, contraction) | ~is_finite(now);
       resting |= active & rests;
       active &= ~rests;
       if (turns > 3) active &= ~(Mask)(now.v > (P(slow) * last).v);

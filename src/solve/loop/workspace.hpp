@@ -6,7 +6,7 @@
 // Included only by the kernels; see simd/pack.hpp for why all is inlined or tagged.
 #pragma once
 
-#include "solve/lane_courses.hpp"
+#include "solve/collocation/dense_output.hpp"
 #include "solve/loop/newton.hpp"
 
 namespace bbsim::solve::loop {
@@ -17,7 +17,7 @@ struct Work : Newton<Isa, drives, nodes> {
   using Base::nq, Base::nv, Base::packs, Base::rows;
   using typename Base::P, typename Base::Mask, typename Base::Matrices, typename Base::Reference;
   static constexpr int s = nodes;
-  using Courses = LaneCourses<P, s, 2>;
+  using Courses = DenseOutput<P, s, 2>;
   enum Half : int { places, angles };  // of the positions, and their velocities
 
   struct Pack {

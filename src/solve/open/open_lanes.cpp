@@ -10,7 +10,7 @@
 #include <numbers>
 #include <utility>
 
-#include "solve/step_growth.hpp"
+#include "solve/collocation/step_length.hpp"
 
 namespace bbsim::solve::open {
 namespace {
@@ -159,13 +159,8 @@ bool OpenLanes::go(double from, double to) {
   int rejections = 0;
   while (t < to) {
     if (lost_.all()) return false;
-    // The steps to the end are alike.
-    const double left = to - t;
-    const double pieces = std::ceil(left / next_ * (1 - 1e-3));
-    const bool arrives = !(pieces > 1);
-    const double h = arrives ? left : pieces < 10 ? left / pieces : next_;
-    const bool at_limit =
-        rejections >= most_rejections || !(h > 4 * std::numeric_limits<double>::epsilon() * t);
+    const auto [h, arrives] = stride(to - t, next_);
+    const bool at_limit = rejections >= most_rejections || is_lost(h, t);
     Attempt attempt;
     kernel_->attempt(workspace_.get(), t, h, attempt);
     statistics_.nonlinear_iterations += static_cast<std::size_t>(attempt.iterations);

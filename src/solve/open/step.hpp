@@ -17,9 +17,10 @@
 #include "model/systems/system.hpp"
 #include "simd/affine.hpp"
 #include "simd/peaks.hpp"
-#include "solve/lane_courses.hpp"
-#include "solve/lane_error.hpp"
-#include "solve/lane_rule.hpp"
+#include "solve/collocation/convergence.hpp"
+#include "solve/collocation/dense_output.hpp"
+#include "solve/collocation/error_estimate.hpp"
+#include "solve/collocation/node_rows.hpp"
 #include "solve/open/kernel.hpp"
 
 namespace bbsim::solve::open {
@@ -159,7 +160,7 @@ struct Step : Lanes<Isa> {
   using Ball = simd::Affine<P, states>;
   static constexpr int nv = 3, nq = 2;  // x', y', u; x, y
 
-  static constexpr LaneRule<Isa, s> rows{};
+  static constexpr NodeRows<Isa, s> rows{};
 
   // Equation (27) at a node, times h: x'' has no part of x', y'' none of y', and u' none of x, y,
   // u.
@@ -294,8 +295,7 @@ struct Step : Lanes<Isa> {
       const P q[nq] = {of.q[0] + time * of.v[0], of.q[1] + time * of.v[1]};
       w.at[i].at(q, of.v, of.k[i]);
     }
-    constexpr double enough = 1e-2, rounding = 30 * 2.2e-16;
-    const double floor = rounding / w.rtol;
+    const StopTest stop(1e-2, w.rtol);
     double last = 0;
     for (iterations = 1;; ++iterations) {
       P change[nv] = {P(0.0), P(0.0), P(0.0)};
@@ -323,7 +323,7 @@ struct Step : Lanes<Isa> {
       const double now = simd::largest_of(most * of.weight);
       if (!simd::is_finite(now)) return true;  // the states tell
       const double contraction = iterations > 1 ? now / last : 1;
-      if (now <= floor || now * contraction <= enough * (1 - contraction)) return true;
+      if (stop.passes(now, contraction)) return true;
       if (iterations >= most_iterations || (iterations > 3 && contraction > 0.5)) return false;
       last = now;
     }
@@ -398,7 +398,7 @@ struct Step : Lanes<Isa> {
 #pragma GCC unroll 1
     for (int i = 0; i + 1 < s; ++i) put(places[i + 1], P(rows.c[i]), of.q_at[i], of.v_at[i]);
     put(places[s], P(1.0), of.q_end, of.v_end);
-    LaneCourses<P, s, nq> path;
+    DenseOutput<P, s, nq> path;
     bool made = false;
     simd::raise_to_peak<s>(places, s + 1, of.distance_squared, [&](P part, P& value, P& slope) {
       if (!made) {

@@ -11,7 +11,7 @@
 #include <type_traits>
 #include <variant>
 
-#include "solve/step_growth.hpp"
+#include "solve/collocation/step_length.hpp"
 
 namespace bbsim::solve::radau {
 namespace {
@@ -192,15 +192,10 @@ std::optional<Failure> RadauStepper::step(double limit) {
   bool rejected = false;
   for (;;) {
     double h = std::min(next_step_, widest_);
-    // Four steps or more from its end a run makes them as if there were none: see `pieces`.
+    // Four steps or more from its end a run makes them as if there were none: see stride().
     if (std::isinf(limit)) least_end_ = std::max(least_end_, t + 3.01 * h);
-    // The steps to the limit are alike.
-    const double pieces = std::ceil(left / h * (1 - 1e-3));
-    const bool arrives = pieces <= 1;
-    const double step = arrives ? left : pieces < 4 ? left / pieces : h;
-    if (!(step > 4 * std::numeric_limits<double>::epsilon() * t) && !arrives) {
-      return step_is_lost;
-    }
+    const auto [step, arrives] = stride(left, h);
+    if (!arrives && is_lost(step, t)) return step_is_lost;
     Attempt attempt;
     kernel_->attempt(workspace_, t, step, &attempt);
     statistics_.rhs_evaluations += static_cast<std::size_t>(attempt.right_hand_sides);

@@ -10,10 +10,10 @@
 
 #include "model/model.hpp"
 #include "simd/instruction_set.hpp"
+#include "solve/collocation/shrinking.hpp"
 #include "solve/outcome.hpp"
 #include "solve/output_grid.hpp"
 #include "solve/radau/kernel.hpp"
-#include "solve/shrinking.hpp"
 #include "solve/stepper.hpp"
 
 namespace bbsim::solve::radau {

@@ -19,8 +19,9 @@
 
 #include "simd/compare.hpp"
 #include "simd/dual.hpp"
+#include "solve/collocation/convergence.hpp"
+#include "solve/collocation/radau_table.hpp"
 #include "solve/radau/kernel.hpp"
-#include "solve/radau/tables.hpp"
 
 namespace bbsim::solve::radau {
 
@@ -766,7 +767,7 @@ struct Step
     }
     bool factored = false;
     double last = 0, contraction = w.contraction;
-    const double enough = 0.02, floor = 30 * 2.2e-16 / w.rtol;
+    const StopTest stop(0.02, w.rtol);
     for (;;) {
       evaluate_rates(w);
       if (w.newton) {
@@ -805,7 +806,7 @@ struct Step
       }
       if (a.iterations > 1) {
         contraction = change / last;
-        if (change > floor && contraction > (w.newton ? 0.9 : 0.3)) {
+        if (change > stop.floor && contraction > (w.newton ? 0.9 : 0.3)) {
           if (!w.newton) {
             w.newton = true;
             last = change;
@@ -818,11 +819,8 @@ struct Step
         }
       }
       last = change;
-      if (change <= floor || change <= enough) break;
-      if (a.iterations > 1 && contraction < 0.95 &&
-          change * contraction / (1 - contraction) <= enough) {
-        break;
-      }
+      // No contraction is known yet after the first.
+      if (change <= stop.enough || stop.passes(change, a.iterations > 1 ? contraction : 1)) break;
       if (a.iterations >= most_iterations) {
         w.contraction = 1;
         return;

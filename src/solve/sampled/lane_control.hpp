@@ -9,9 +9,9 @@
 
 #include "simd/arcsine.hpp"
 #include "simd/compare.hpp"
-#include "solve/held/lane_kernel.hpp"
+#include "solve/sampled/lane_kernel.hpp"
 
-namespace bbsim::solve::held {
+namespace bbsim::solve::sampled {
 
 // Loads the packs that begin at a lane.
 template <class P>
@@ -86,4 +86,4 @@ template <class P>
   }
 }
 
-}  // namespace bbsim::solve::held
+}  // namespace bbsim::solve::sampled

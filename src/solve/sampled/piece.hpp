@@ -18,10 +18,11 @@
 #include "model/systems/system.hpp"
 #include "simd/affine.hpp"
 #include "simd/compare.hpp"
-#include "solve/held/kernel.hpp"
-#include "solve/radau/tables.hpp"
+#include "solve/collocation/convergence.hpp"
+#include "solve/collocation/radau_table.hpp"
+#include "solve/sampled/kernel.hpp"
 
-namespace bbsim::solve::held {
+namespace bbsim::solve::sampled {
 
 using simd::is_finite, simd::larger_of, simd::size_of, simd::smaller_of;
 
@@ -231,8 +232,7 @@ struct Kernel {
       }
     });
     result = {false, 0, 0, 0};
-    constexpr double enough = 1e-3, rounding = 30 * 2.2e-16;
-    const double floor = rounding / scene.rtol;
+    const StopTest stop(1e-3, scene.rtol);
     double last = 0, contraction = piece.contraction;
     for (;;) {
       double change = 0;
@@ -288,7 +288,7 @@ struct Kernel {
       ++result.iterations;
       if (!is_finite(change)) return;
       if (result.iterations > 1) contraction = change / last;
-      if (change <= floor || change * contraction <= enough * (1 - contraction)) break;
+      if (stop.passes(change, contraction)) break;
       if (result.iterations >= most_iterations || (result.iterations > 2 && contraction > 0.3)) {
         piece.contraction = 1;
         return;
@@ -582,4 +582,4 @@ struct Kernel {
                                    &evaluate};
 };
 
-}  // namespace bbsim::solve::held
+}  // namespace bbsim::solve::sampled

@@ -8,12 +8,12 @@
 
 #include "catch.hpp"
 #include "record/recorder.hpp"
-#include "solve/held/held.hpp"
-#include "solve/held/lane_kernel.hpp"
-#include "solve/held/motion_tables.hpp"
 #include "solve/hybrid_driver.hpp"
 #include "solve/make_stepper.hpp"
 #include "solve/radau/radau.hpp"
+#include "solve/sampled/lane_kernel.hpp"
+#include "solve/sampled/motion_tables.hpp"
+#include "solve/sampled/sampled.hpp"
 #include "support/run_in_memory.hpp"
 
 using namespace bbsim;
@@ -36,8 +36,8 @@ solve::MakeStepper generally(const solve::OutputGrid& grid) {
 
 solve::MakeStepper by_pieces(const solve::OutputGrid&, solve::Tolerances tolerances = tight) {
   return [tolerances](const model::Model& model) {
-    return std::make_unique<solve::held::HeldStepper>(model, solve::held::choose_kernels(),
-                                                      tolerances);
+    return std::make_unique<solve::sampled::HeldStepper>(model, solve::sampled::choose_kernels(),
+                                                         tolerances);
   };
 }
 
@@ -139,7 +139,7 @@ TEST_CASE("a rig by pieces is the rig in general, whatever its servos, law and m
     INFO(one.what);
     const Scenario scene = scene_of(text_of(one, sampling, "t, x, gamma"));
     const model::Model model = model::assemble(scene, true);
-    REQUIRE(solve::held::knows(model));
+    REQUIRE(solve::sampled::knows(model));
     const solve::OutputGrid grid(scene.time);
     const Both general = run_of(model, grid, generally(grid));
     const Both pieces = run_of(model, grid, by_pieces(grid));
@@ -166,7 +166,7 @@ TEST_CASE("integrate() takes sampled rigs by pieces, and leaves others alone") {
   Scenario continuous = scene;
   continuous.controller->sampling.reset();
   continuous.controller->sensor.reset();
-  CHECK_FALSE(solve::held::knows(model::assemble(continuous, false)));
+  CHECK_FALSE(solve::sampled::knows(model::assemble(continuous, false)));
 }
 
 TEST_CASE("pieces that are longer than their tolerance allows are cut") {
@@ -235,37 +235,36 @@ TEST_CASE("events of a rig by pieces are found where they lie, between instants 
 }
 
 TEST_CASE("servos' tables of all lanes together are those of each") {
-  namespace held = solve::held;
-  using Table = held::MotionTable;
+  using Table = solve::sampled::MotionTable;
   struct Lane {
     model::HeldLaw law;
     double length;
   };
   // As it is, at a limit, without a spring, without a damper; a lane without a piece.
-  const Lane lanes[held::group]{{{986.96, 50.27}, 0.02}, {{986.96, 50.27}, 0.0137},
-                                {{0, 0}, 0.02},          {{0, 25}, 0.02},
-                                {{2000, 0}, 0.02},       {{986.96, 50.27}, 0},
-                                {{4e6, 3200}, 4e-4},     {{986.96, 50.27}, 3e-9}};
-  const auto axis = std::make_unique<held::LaneAxis>();
-  const auto servo = std::make_unique<held::LaneServo>();
-  alignas(64) double length[held::group];
-  for (int l = 0; l < held::group; ++l) {
+  const Lane lanes[solve::sampled::group]{{{986.96, 50.27}, 0.02}, {{986.96, 50.27}, 0.0137},
+                                          {{0, 0}, 0.02},          {{0, 25}, 0.02},
+                                          {{2000, 0}, 0.02},       {{986.96, 50.27}, 0},
+                                          {{4e6, 3200}, 4e-4},     {{986.96, 50.27}, 3e-9}};
+  const auto axis = std::make_unique<solve::sampled::LaneAxis>();
+  const auto servo = std::make_unique<solve::sampled::LaneServo>();
+  alignas(64) double length[solve::sampled::group];
+  for (int l = 0; l < solve::sampled::group; ++l) {
     servo->stiffness[l] = lanes[l].law.stiffness;
     servo->damping[l] = lanes[l].law.damping;
     length[l] = lanes[l].length;
   }
-  held::choose_lane_kernels().tables(*axis, *servo, length);
-  for (int l = 0; l < held::group; ++l) {
+  solve::sampled::choose_lane_kernels().tables(*axis, *servo, length);
+  for (int l = 0; l < solve::sampled::group; ++l) {
     const auto [law, h] = lanes[l];
     if (h == 0) continue;
     INFO(law.stiffness << " " << law.damping << " over " << h);
-    held::MotionTables tables(held::choose_kernels());
+    solve::sampled::MotionTables tables(solve::sampled::choose_kernels());
     const Table& wanted = tables.of(law, h);
     // Some roundings of each sum's largest term; the sizes of the start's weights add up to 5.5.
     constexpr double rounding = 20 * 2.2e-16, summed = 5.5 * rounding;
     const double size[Table::rows] = {h, 1, 1 / h};  // by a rate; by an acceleration h times that
     for (int row = 0; row < Table::rows; ++row) {
-      for (int n = 0; n < held::nodes; ++n) {
+      for (int n = 0; n < solve::sampled::nodes; ++n) {
         CHECK(std::abs(axis->by_rate[row][n][l] - wanted.by_rate[row][n]) <= rounding * size[row]);
         CHECK(std::abs(axis->by_acceleration[row][n][l] - wanted.by_acceleration[row][n]) <=
               rounding * h * size[row]);

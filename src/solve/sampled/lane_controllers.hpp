@@ -10,9 +10,9 @@
 #include <memory>
 
 #include "model/hybrid_system.hpp"
-#include "solve/held/lane_kernel.hpp"
+#include "solve/sampled/lane_kernel.hpp"
 
-namespace bbsim::solve::held {
+namespace bbsim::solve::sampled {
 
 // The runs' own controllers (HybridSystem::computer()) stay what they were when they were taken
 // over: their law and their memory are here from there on.
@@ -37,4 +37,4 @@ class LaneControllers {
   bool any_ = false;                                 // whether some of them see the ball
 };
 
-}  // namespace bbsim::solve::held
+}  // namespace bbsim::solve::sampled

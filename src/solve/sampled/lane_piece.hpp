@@ -6,12 +6,13 @@
 // no lane without work, and sums over nodes need no shuffles.
 #pragma once
 
-#include "solve/held/lane_control.hpp"
-#include "solve/held/lane_kernel.hpp"
-#include "solve/held/piece.hpp"
-#include "solve/held/start_weights.hpp"
+#include "solve/collocation/convergence.hpp"
+#include "solve/sampled/lane_control.hpp"
+#include "solve/sampled/lane_kernel.hpp"
+#include "solve/sampled/piece.hpp"
+#include "solve/sampled/start_weights.hpp"
 
-namespace bbsim::solve::held {
+namespace bbsim::solve::sampled {
 
 template <class Isa>
 struct LaneKernel {
@@ -229,8 +230,7 @@ struct LaneKernel {
     }
 
     constexpr int most_iterations = 25;
-    constexpr double enough = 1e-3, rounding = 30 * 2.2e-16;
-    const double floor = rounding / scene.rtol;
+    const StopTest stop(1e-3, scene.rtol);
     // From node to node, each taking what is new at once: an integral is about the sum of what came
     // before it.
     // Each lane has its own contraction, and is done once what is left is small enough or will not
@@ -271,8 +271,7 @@ struct LaneKernel {
       }
       ++iterations;
       if (iterations > 1) contraction = P::of(weighted.v / (last.v > 0.0 ? last.v : P(1.0).v));
-      solved = (weighted.v <= floor) |
-               ((weighted * contraction).v <= (P(enough) * (P(1.0) - contraction)).v);
+      solved = stop.passes(weighted, contraction);
       Mask settled = solved | ~is_finite(weighted);
       if (iterations > 2) settled |= contraction.v > 0.3;
       if (simd::all_of<P>(settled) || iterations >= most_iterations) break;
@@ -584,4 +583,4 @@ struct LaneKernel {
                                        &evaluate};
 };
 
-}  // namespace bbsim::solve::held
+}  // namespace bbsim::solve::sampled

@@ -3,8 +3,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Writes the constants of Radau IIA collocation, and those of the sine and cosine of packs.
 
-    python3 src/solve/radau/make_tables.py radau > src/solve/radau/tables.hpp
-    python3 src/solve/radau/make_tables.py sine > src/simd/sine_table.hpp
+    python3 src/solve/collocation/make_tables.py radau > src/solve/collocation/radau_table.hpp
+    python3 src/solve/collocation/make_tables.py sine > src/simd/sine_table.hpp
 
 Needs mpmath; works with 60 digits and prints 25, more than a double can tell apart.
 

@@ -10,9 +10,9 @@
 
 #include "model/control/sampled_law.hpp"
 #include "model/signals/signal_pair.hpp"
-#include "solve/held/kernel.hpp"
+#include "solve/sampled/kernel.hpp"
 
-namespace bbsim::solve::held {
+namespace bbsim::solve::sampled {
 
 // Rigs that go together; the same on every processor, so that each case of a sweep has the same
 // companions everywhere.
@@ -139,4 +139,4 @@ struct LaneKernels {
 // BBSIM_SIMD names none of this processor.
 [[nodiscard]] const LaneKernels& choose_lane_kernels();
 
-}  // namespace bbsim::solve::held
+}  // namespace bbsim::solve::sampled

@@ -7,9 +7,9 @@
 #include <cmath>
 
 #include "model/events/event_monitors.hpp"
-#include "solve/held/kernel.hpp"
+#include "solve/sampled/kernel.hpp"
 
-namespace bbsim::solve::held {
+namespace bbsim::solve::sampled {
 
 // What a smooth number takes at most, and at least.
 [[nodiscard]] inline Range widened(const Range& at_nodes) {
@@ -71,4 +71,4 @@ template <class RangeOf>
   return told && (happening ? beyond && presses : within);
 }
 
-}  // namespace bbsim::solve::held
+}  // namespace bbsim::solve::sampled

@@ -12,7 +12,7 @@
 
 #include "model/ball/contact_force.hpp"
 
-namespace bbsim::solve::held {
+namespace bbsim::solve::sampled {
 
 inline constexpr int nodes = 8;  // of Radau IIA
 
@@ -130,4 +130,4 @@ struct Kernels {
   void (*evaluate)(const Piece& piece, const double* times, std::size_t count, double (*ball)[6]);
 };
 
-}  // namespace bbsim::solve::held
+}  // namespace bbsim::solve::sampled

@@ -11,13 +11,13 @@
 #include <vector>
 
 #include "model/model.hpp"
-#include "solve/held/instants.hpp"
-#include "solve/held/kernel.hpp"
-#include "solve/held/motion_tables.hpp"
 #include "solve/outcome.hpp"
+#include "solve/sampled/instants.hpp"
+#include "solve/sampled/kernel.hpp"
+#include "solve/sampled/motion_tables.hpp"
 #include "solve/stepper.hpp"
 
-namespace bbsim::solve::held {
+namespace bbsim::solve::sampled {
 
 // Those of the instruction set that was chosen. Throws InputError if the environment variable
 // BBSIM_SIMD names none of this processor.
@@ -104,4 +104,4 @@ class HeldStepper : public Stepper {
   Statistics statistics_;
 };
 
-}  // namespace bbsim::solve::held
+}  // namespace bbsim::solve::sampled

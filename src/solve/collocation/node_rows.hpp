@@ -5,15 +5,15 @@
 // and the nodes in a loop. A copy of each instruction set's own, since sets may share nothing.
 #pragma once
 
-#include "solve/radau/tables.hpp"
+#include "solve/collocation/radau_table.hpp"
 
 namespace bbsim::solve {
 
 template <class Isa, int s>
-struct alignas(64) LaneRule {
+struct alignas(64) NodeRows {
   double c[s]{}, a[s][s]{}, a_squared[s][s]{};
   double legendre[s][s]{};  // what node j adds to coefficient m
-  consteval LaneRule() {
+  consteval NodeRows() {
     using Rule = radau::RadauTable<s>;
     for (int i = 0; i < s; ++i) {
       c[i] = Rule::c[i];

@@ -1,17 +1,17 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "solve/held/rig_lanes.hpp"
+#include "solve/sampled/rig_lanes.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <vector>
 
 #include "model/model.hpp"
-#include "solve/held/sides.hpp"
-#include "solve/step_growth.hpp"
+#include "solve/collocation/step_length.hpp"
+#include "solve/sampled/sides.hpp"
 
-namespace bbsim::solve::held {
+namespace bbsim::solve::sampled {
 namespace {
 
 constexpr auto angle_state = static_cast<std::size_t>(model::RigLayout::angle);
@@ -327,12 +327,9 @@ bool RigLanes::plan() {
       if (++lane.rejections > most_rejections) lane.alive = lane.moved = false;
       continue;
     }
-    // The steps to the limit are alike, as HeldStepper's are.
-    const double pieces =
-        left <= lane.next_step ? 1 : std::ceil(left / lane.next_step * (1 - 1e-3));
-    const bool arrives = pieces <= 1;
-    lane.step = arrives ? left : pieces < 4 ? left / pieces : lane.next_step;
-    lane.until = arrives ? limit : lane.time + lane.step;
+    const Stride next = stride(left, lane.next_step);
+    lane.step = next.length;
+    lane.until = next.arrives ? limit : lane.time + lane.step;
     pieces_->length[l] = lane.instants->nominal(lane.time, lane.step);
   }
   for (std::size_t i = 0; i < 2; ++i) load_tables(i);
@@ -564,4 +561,4 @@ std::array<bool, group> RigLanes::integrate(const model::Model* const* models, s
   return carried;
 }
 
-}  // namespace bbsim::solve::held
+}  // namespace bbsim::solve::sampled

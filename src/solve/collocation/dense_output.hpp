@@ -12,7 +12,7 @@
 namespace bbsim::solve {
 
 template <class P, int s, int coordinates>
-struct LaneCourses {
+struct DenseOutput {
   P k[coordinates][s], v[coordinates][s + 1], q[coordinates][s + 2];
 
   // From the accelerations times h at the nodes, at(j, i), and from the coordinates and velocities

@@ -4,10 +4,10 @@
 // What the polynomial through values at the nodes of a piece has of each at the piece's start.
 #pragma once
 
-#include "solve/held/kernel.hpp"
-#include "solve/radau/tables.hpp"
+#include "solve/collocation/radau_table.hpp"
+#include "solve/sampled/kernel.hpp"
 
-namespace bbsim::solve::held {
+namespace bbsim::solve::sampled {
 
 struct StartWeights {
   double of[nodes]{};
@@ -23,4 +23,4 @@ struct StartWeights {
   }
 };
 
-}  // namespace bbsim::solve::held
+}  // namespace bbsim::solve::sampled

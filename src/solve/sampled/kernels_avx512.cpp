@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "solve/held/lane_piece.hpp"
+#include "solve/sampled/lane_piece.hpp"
 
-namespace bbsim::solve::held {
+namespace bbsim::solve::sampled {
 
 struct Avx512 {
   static constexpr int lanes = 8;
@@ -14,4 +14,4 @@ constinit const Kernels kernels_avx512 = Kernel<Avx512>::kernels;
 extern const LaneKernels lane_kernels_avx512;
 constinit const LaneKernels lane_kernels_avx512 = LaneKernel<Avx512>::kernels;
 
-}  // namespace bbsim::solve::held
+}  // namespace bbsim::solve::sampled

@@ -13,15 +13,15 @@
 #include <span>
 
 #include "model/hybrid_system.hpp"
-#include "solve/held/held.hpp"
-#include "solve/held/instants.hpp"
-#include "solve/held/lane_controllers.hpp"
-#include "solve/held/lane_kernel.hpp"
 #include "solve/outcome.hpp"
 #include "solve/output_grid.hpp"
+#include "solve/sampled/instants.hpp"
+#include "solve/sampled/lane_controllers.hpp"
+#include "solve/sampled/lane_kernel.hpp"
+#include "solve/sampled/sampled.hpp"
 #include "solve/standstill.hpp"
 
-namespace bbsim::solve::held {
+namespace bbsim::solve::sampled {
 
 // Whether RigLanes carries rigs like this one: knows() does, it is the paper's but for its servos
 // and its controller, and the program itself is the controller.
@@ -170,4 +170,4 @@ class RigLanes {
   std::array<MotionTable, 2> shared_tables_{};
 };
 
-}  // namespace bbsim::solve::held
+}  // namespace bbsim::solve::sampled

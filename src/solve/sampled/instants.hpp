@@ -11,7 +11,7 @@
 #include "model/servo/held_motion.hpp"
 #include "model/systems/rig.hpp"
 
-namespace bbsim::solve::held {
+namespace bbsim::solve::sampled {
 
 // Of a loop whose periods are all alike.
 class Instants {
@@ -44,4 +44,4 @@ class Instants {
   Kept other_;
 };
 
-}  // namespace bbsim::solve::held
+}  // namespace bbsim::solve::sampled

@@ -6,8 +6,8 @@
 
 #include <algorithm>
 
+#include "solve/collocation/step_length.hpp"
 #include "solve/outcome.hpp"
-#include "solve/step_growth.hpp"
 
 namespace bbsim::solve {
 

@@ -1,15 +1,15 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "solve/held/motion_tables.hpp"
+#include "solve/sampled/motion_tables.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-#include "solve/held/start_weights.hpp"
-#include "solve/radau/tables.hpp"
+#include "solve/collocation/radau_table.hpp"
+#include "solve/sampled/start_weights.hpp"
 
-namespace bbsim::solve::held {
+namespace bbsim::solve::sampled {
 namespace {
 
 void answer_at_nodes(const Kernels& kernels, const model::HeldLaw& law, double length,
@@ -115,4 +115,4 @@ const MotionTable& MotionTables::of(const model::HeldLaw& law, double length) {
   return oldest.table;
 }
 
-}  // namespace bbsim::solve::held
+}  // namespace bbsim::solve::sampled

@@ -2,10 +2,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 #include "simd/instruction_set.hpp"
-#include "solve/held/held.hpp"
-#include "solve/held/lane_kernel.hpp"
+#include "solve/sampled/lane_kernel.hpp"
+#include "solve/sampled/sampled.hpp"
 
-namespace bbsim::solve::held {
+namespace bbsim::solve::sampled {
 
 extern const Kernels kernels_baseline;
 extern const LaneKernels lane_kernels_baseline;
@@ -33,4 +33,4 @@ const LaneKernels& choose_lane_kernels() {
 #endif
 }
 
-}  // namespace bbsim::solve::held
+}  // namespace bbsim::solve::sampled

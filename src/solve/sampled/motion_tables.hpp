@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "model/servo/held_motion.hpp"
-#include "solve/held/kernel.hpp"
+#include "solve/sampled/kernel.hpp"
 
-namespace bbsim::solve::held {
+namespace bbsim::solve::sampled {
 
 class MotionTables {
  public:
@@ -34,4 +34,4 @@ class MotionTables {
   long asked_ = 0;
 };
 
-}  // namespace bbsim::solve::held
+}  // namespace bbsim::solve::sampled

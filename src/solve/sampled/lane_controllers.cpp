@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "solve/held/lane_controllers.hpp"
+#include "solve/sampled/lane_controllers.hpp"
 
-namespace bbsim::solve::held {
+namespace bbsim::solve::sampled {
 
 LaneControllers::LaneControllers(const LaneKernels& kernels)
     : kernels_(kernels), control_(std::make_unique<LaneControl>()) {}
@@ -91,4 +91,4 @@ void LaneControllers::finish() {
   }
 }
 
-}  // namespace bbsim::solve::held
+}  // namespace bbsim::solve::sampled

@@ -1,17 +1,17 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "solve/held/held.hpp"
+#include "solve/sampled/sampled.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
 #include "base/instant.hpp"
-#include "solve/held/sides.hpp"
-#include "solve/step_growth.hpp"
+#include "solve/collocation/step_length.hpp"
+#include "solve/sampled/sides.hpp"
 
-namespace bbsim::solve::held {
+namespace bbsim::solve::sampled {
 namespace {
 
 constexpr std::size_t angle = model::RigLayout::angle, rate = model::RigLayout::rate;
@@ -116,13 +116,8 @@ std::optional<Failure> HeldStepper::step(double limit) {
   if (!(left > 0)) return {};
   bool rejected = false;
   for (;;) {
-    // The steps to the limit are alike, as they are in radau.
-    const double pieces = left <= next_step_ ? 1 : std::ceil(left / next_step_ * (1 - 1e-3));
-    const bool arrives = pieces <= 1;
-    const double step = arrives ? left : pieces < 4 ? left / pieces : next_step_;
-    if (!(step > 4 * std::numeric_limits<double>::epsilon() * time_) && !arrives) {
-      return step_is_lost;
-    }
+    const auto [step, arrives] = stride(left, next_step_);
+    if (!arrives && is_lost(step, time_)) return step_is_lost;
     prepare(instants_.nominal(time_, step));
     Attempt attempt;
     kernel_.attempt(piece_, scene_, attempt);
@@ -329,4 +324,4 @@ void HeldStepper::restore(StateReader& from) {
   settle();
 }
 
-}  // namespace bbsim::solve::held
+}  // namespace bbsim::solve::sampled

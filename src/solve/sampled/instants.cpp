@@ -1,13 +1,13 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "solve/held/instants.hpp"
+#include "solve/sampled/instants.hpp"
 
 #include <cmath>
 
 #include "base/instant.hpp"
 
-namespace bbsim::solve::held {
+namespace bbsim::solve::sampled {
 namespace {
 
 // What is left of a time by whole periods, s.
@@ -56,4 +56,4 @@ const model::ImpulseAnswer& Instants::answer(const model::HeldLaw& law, double t
   return other_.answer;
 }
 
-}  // namespace bbsim::solve::held
+}  // namespace bbsim::solve::sampled
