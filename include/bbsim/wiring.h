@@ -73,7 +73,9 @@ typedef struct bbsim_call_costs {
   double analog;       /* analogRead */
   double servo;        /* of Servo, each */
   double serial;       /* of Serial, each byte; the line's own time comes on top */
-  double eeprom_write; /* each byte that changes */
+  double wire;         /* each transaction on I2C; its bits come on top */
+  double spi;          /* each byte on SPI; its bits come on top */
+  double eeprom_write; /* each byte that is written */
   double loop;         /* each loop(), for what it computes */
 } bbsim_call_costs;
 

@@ -45,7 +45,7 @@ bbsim_wiring by_default() {
   c.oscillator = 25e6;
   c.screen = {bbsim_no_screen, {-1, -1, -1, -1, -1}, {}, {}, 0, {300, 300}, 300, 0.01};
   c.camera.port = -1;
-  c.costs = {2e-6, 4e-6, 112e-6, 5e-6, 5e-6, 3.3e-3, 1e-6};
+  c.costs = {2e-6, 4e-6, 112e-6, 5e-6, 5e-6, 20e-6, 5e-6, 3.3e-3, 1e-6};
   return c;
 }
 
@@ -158,6 +158,8 @@ void read_costs(Keys& keys, bbsim_call_costs& costs) {
   keys.optional("analog", time, costs.analog);
   keys.optional("servo", time, costs.servo);
   keys.optional("serial", time, costs.serial);
+  keys.optional("wire", time, costs.wire);
+  keys.optional("spi", time, costs.spi);
   keys.optional("eeprom_write", time, costs.eeprom_write);
   keys.optional("loop", some, costs.loop);
 }

@@ -11,7 +11,8 @@ class TwoWire {
  public:
   void begin() {}
   void end() {}
-  void setClock(unsigned long) {}
+  void setClock(unsigned long rate) { rate_ = rate == 0 ? rate_ : rate; }
+  long long clock_rate() const { return static_cast<long long>(rate_); }
   void setWireTimeout(unsigned long = 0, bool = false) {}
 
 #define BBSIM_NOBODY                                                                         \
@@ -26,5 +27,8 @@ class TwoWire {
   BBSIM_LACKS(onReceive, "Wire.onReceive: no other board asks this one")
   BBSIM_LACKS(onRequest, "Wire.onRequest: no other board asks this one")
 #undef BBSIM_NOBODY
+
+ private:
+  unsigned long rate_ = 100000;  // Hz
 };
 inline TwoWire Wire, Wire1;

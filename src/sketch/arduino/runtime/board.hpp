@@ -23,7 +23,7 @@ constexpr int first_analog = 54;
 
 // What the calls cost.
 struct Costs {
-  Nanoseconds clock, digital, analog, servo, serial, eeprom_write, loop;
+  Nanoseconds clock, digital, analog, servo, serial, wire, spi, eeprom_write, loop;
 };
 
 struct Board {
@@ -56,6 +56,10 @@ double counts_at(const bbsim_count_map& map, double position);
 enum class Drive { none, pull_up, low, high };
 Drive drive_of(int pin);
 const char* pin_name(int pin);
+
+// core.cpp: so many bytes go over a bus, behind the address of who is meant.
+void over_wire(int bytes);
+void over_spi(int bytes);
 
 // serial.cpp: the camera's frames up to now are on their way.
 void send_frames();

@@ -45,10 +45,10 @@ const char* create(const bbsim_setup* setup, const bbsim_wiring* wiring) {
   own.camera.frame = copy(own.camera.frame, strlen(own.camera.frame));
   own.camera.lost = copy(own.camera.lost, strlen(own.camera.lost));
   const bbsim_call_costs& costs = own.costs;
-  board.costs = {nanoseconds(costs.clock),  nanoseconds(costs.digital),
-                 nanoseconds(costs.analog), nanoseconds(costs.servo),
-                 nanoseconds(costs.serial), nanoseconds(costs.eeprom_write),
-                 nanoseconds(costs.loop)};
+  board.costs = {
+      nanoseconds(costs.clock), nanoseconds(costs.digital),      nanoseconds(costs.analog),
+      nanoseconds(costs.servo), nanoseconds(costs.serial),       nanoseconds(costs.wire),
+      nanoseconds(costs.spi),   nanoseconds(costs.eeprom_write), nanoseconds(costs.loop)};
   board.now = 0;
   period = setup->period;
   column_count = setup->column_count;

@@ -1,8 +1,9 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// What is left of Arduino.h: random numbers, numbers as text, the EEPROM.
+// What is left of Arduino.h: random numbers, numbers as text, the EEPROM, the buses.
 #include "EEPROM.h"
+#include "Wire.h"
 #include "runtime/board.hpp"
 
 namespace bbsim_board {
@@ -33,6 +34,15 @@ unsigned char read_cell(int address) {
 void write_cell(int address, unsigned char value) {
   cell(address) = value;
   spend(board.costs.eeprom_write);
+}
+
+void over_wire(int bytes) {
+  const long long bits = 9LL * (bytes + 1) + 2;
+  spend(board.costs.wire + bits * 1000000000LL / Wire.clock_rate());
+}
+
+void over_spi(int bytes) {
+  spend(bytes * (board.costs.spi + 8000));  // at 1 MHz
 }
 
 int cells() {

@@ -124,9 +124,16 @@ bool screen_reads(int pin, double& level) {
 
 using namespace bbsim_board;
 
-// Register accesses of two bytes: over I2C at 100 kHz, or SPI at 1 MHz.
+// Each register is named in a byte, and then has one or two.
 void Adafruit_STMPE610::access(int registers) const {
-  spend(static_cast<long long>(registers) * (over_wire_ ? 450000 : 40000));
+  for (int i = 0; i < registers; ++i) {
+    if (!over_wire_) {
+      over_spi(3);
+      continue;
+    }
+    over_wire(1);
+    over_wire(2);
+  }
 }
 
 void Adafruit_STMPE610::require_chip() const {

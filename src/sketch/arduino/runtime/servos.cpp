@@ -74,11 +74,6 @@ void Servo::send() {
   if (pin_ >= 0 && axis_ >= 0) pulse(axis_, us_ * 1e-6);
 }
 
-// A register over I2C at 100 kHz: an address and two bytes, of 9 bits.
-static void access_register(int bytes) {
-  spend(static_cast<long long>(9 * (bytes + 1) + 2) * 10000);
-}
-
 bool Adafruit_PWMServoDriver::begin(uint8_t prescale) {
   if (address_ != address_of_driver) {
     fail("Adafruit_PWMServoDriver: nothing answers at address 0x%02X; allowed: the one at 0x40",
@@ -95,7 +90,7 @@ bool Adafruit_PWMServoDriver::begin(uint8_t prescale) {
 }
 
 void Adafruit_PWMServoDriver::reset() {
-  access_register(2);
+  over_wire(2);
   delay(10);
 }
 
@@ -104,17 +99,17 @@ void Adafruit_PWMServoDriver::setPWMFreq(float frequency) {
   float scale = static_cast<float>(oscillator_ / (frequency * 4096.0) + 0.5 - 1);
   scale = scale < 3 ? 3 : scale > 255 ? 255 : scale;
   prescale_ = static_cast<uint8_t>(scale);
-  for (int i = 0; i < 4; ++i) access_register(2);
+  for (int i = 0; i < 4; ++i) over_wire(2);
   delay(5);
 }
 
 uint8_t Adafruit_PWMServoDriver::readPrescale() {
-  access_register(2);
+  over_wire(2);
   return prescale_;
 }
 
 uint8_t Adafruit_PWMServoDriver::setPWM(uint8_t channel, uint16_t on, uint16_t off) {
-  access_register(5);
+  over_wire(5);
   // Wholly on or off, or as long as it is on of 4096 steps.
   if (((on | off) & 4096) != 0) return 0;
   const int steps = (off - on) & 4095;
