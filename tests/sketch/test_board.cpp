@@ -66,28 +66,35 @@ TEST_CASE("the compiler's messages show the sketch's own lines; warnings stay wa
 }
 
 TEST_CASE("what a sketch does that its wiring has nothing for ends the run, with the cure") {
-  struct Wrong {
-    std::string body, told;
-  };
-  const auto [body, told] = GENERATE(values<Wrong>({
-      {"analogRead(A7);",
-       "analogRead(A7): nothing is wired to pin A7; a constant stands in the wiring's inputs"},
-      {"Servo s; s.attach(3);", "Servo.attach(3): no servo is wired to pin 3"},
-      {"analogWrite(9, 10);", "a servo is wired to pin 9, which needs the pulses of Servo.h"},
-      {"EEPROM.read(5000);", "EEPROM: there is no address 5000; allowed: 0 to 1023"},
-      {"exit(4);", "it called exit(4)"},
-      {"delay(700000);", "setup() has not returned within 600 s of the board's clock"},
-      {"digitalWrite(99, 1);", "digitalWrite(99): there is no such pin"},
-  }));
+  const Folder folder;
   const Sketch sketch(
-      "#include <Servo.h>\n#include <EEPROM.h>\nvoid setup() { " + body + " }\nvoid loop() {}\n",
+      "#include <Servo.h>\n#include <EEPROM.h>\nServo s;\nvoid loop() {}\nvoid setup() {\n"
+      "  switch (analogRead(A0)) {\n"
+      "    case 1: analogRead(A7); break;\n    case 2: s.attach(3); break;\n"
+      "    case 3: analogWrite(9, 10); break;\n    case 4: EEPROM.read(5000); break;\n"
+      "    case 5: exit(4);\n    case 6: delay(700000); break;\n"
+      "    case 7: digitalWrite(99, 1); break;\n  }\n}\n",
       plain_wiring);
-  CAPTURE(body, sketch.made.err);
+  CAPTURE(sketch.made.err);
   REQUIRE(sketch.made.exit_code == 0);
-  const Result result = bbsim(sketch.words("run", {"-o", "-"}));
-  CAPTURE(result.err);
-  CHECK(result.exit_code == 1);
-  CHECK(contains(result.err, "failed at sample 0 (t = 0 s): it returned 1: " + told));
+  const std::vector<std::string> told = {
+      "analogRead(A7): nothing is wired to pin A7; a constant stands in the wiring's inputs",
+      "Servo.attach(3): no servo is wired to pin 3",
+      "analogWrite(9, ...): a servo is wired to pin 9, which needs the pulses of Servo.h",
+      "EEPROM: there is no address 5000; allowed: 0 to 1023",
+      "it called exit(4)",
+      "setup() has not returned within 600 s of the board's clock",
+      "digitalWrite(99): there is no such pin",
+  };
+  for (std::size_t i = 0; i < told.size(); ++i) {
+    const std::string wiring = folder.write(
+        "wiring.yaml", plain_wiring + ("inputs: {A0: " + std::to_string(i + 1) + "}\n"));
+    const Result result =
+        bbsim(sketch.words("run", {"--set", "controller.library.wiring=" + wiring, "-o", "-"}));
+    CAPTURE(result.err);
+    CHECK(result.exit_code == 1);
+    CHECK(contains(result.err, "failed at sample 0 (t = 0 s): it returned 1: " + told[i]));
+  }
 }
 
 TEST_CASE("a sketch that waits for what cannot come is found out", "[slow]") {

@@ -3,6 +3,7 @@
 
 // All of the board in one source, as `bbsim sketch` compiles it beside each sketch.
 #include "runtime/controller.cpp"
+#include "runtime/copies.cpp"
 #include "runtime/core.cpp"
 #include "runtime/coroutine.cpp"
 #include "runtime/pins.cpp"

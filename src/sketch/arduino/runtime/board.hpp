@@ -48,6 +48,17 @@ void hand_over();
 // Sent to the thread of a sketch that computes without end.
 int watchdog_signal();
 
+// controller.cpp: what a copy of the library does.
+struct Functions {
+  const char* (*make)(const bbsim_setup* setup, const bbsim_wiring* wiring);  // why not; null: done
+  int (*next)(const bbsim_sample* sample, double* command, double* columns);
+  const char* (*why)();
+  void (*stop)();
+  void (*end)();
+};
+extern const Functions functions;
+constexpr int patience = 5;  // s of a processor that a step may take
+
 // screen.cpp: what a pin reads that the screen is wired to, of 1; false: it is not.
 bool screen_reads(int pin, double& level);
 double counts_at(const bbsim_count_map& map, double position);

@@ -1,15 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The controller that bbsim calls (bbsim/controller.h, bbsim/wiring.h). A sketch keeps its state in
-// global variables, so each controller is a copy of this library of its own, which the linker loads
-// from memory: the functions that bbsim calls only pass on to the copy's.
-#include <dlfcn.h>
-#include <signal.h>
-#include <stdio.h>
-#include <sys/mman.h>
-#include <unistd.h>
-
+// The sketch as a controller: what a copy of the library does for bbsim (copies.cpp).
 #include "Arduino.h"
 #include "runtime/board.hpp"
 
@@ -19,7 +11,6 @@ namespace {
 Nanoseconds switched_on_before = 0;  // t = 0, on the board's clock
 double period = 0;                   // s
 size_t column_count = 0;
-constexpr int patience = 5;  // s
 
 template <class T>
 T* copy(const T* from, size_t count) {
@@ -99,162 +90,8 @@ void stuck() {
       patience);
 }
 
-struct Functions {
-  decltype(&create) make;
-  decltype(&step) next;
-  decltype(&said) why;
-  decltype(&stuck) stop;
-  decltype(&end_sketch) end;
-};
-
-struct Copy {
-  int file;  // stays open: its number is the copy's name
-  void* library;
-  const Functions* functions;
-};
-
-// This library's own file.
-struct Image {
-  void* bytes = nullptr;
-  size_t size = 0;
-  Image() {
-    Dl_info found{};
-    if (dladdr(reinterpret_cast<const void*>(&bbsim_controller_abi), &found) == 0) return;
-    std::FILE* const file = fopen(found.dli_fname, "rb");
-    if (file == nullptr) return;
-    fseek(file, 0, SEEK_END);
-    const long length = ftell(file);
-    rewind(file);
-    bytes = length > 0 ? malloc(static_cast<size_t>(length)) : nullptr;
-    if (bytes != nullptr) size = fread(bytes, 1, static_cast<size_t>(length), file);
-    fclose(file);
-  }
-};
-
-thread_local char why_not[400];
-
-// A sketch that waits for what cannot come, as in while (1);, is found out by the processor time
-// that a step takes: each thread has a timer of its own.
-thread_local const Functions* present = nullptr;
-
-class Watchdog {
- public:
-  Watchdog() {
-    struct sigaction action {};
-    action.sa_handler = [](int) {
-      if (present != nullptr) present->stop();
-    };
-    sigaction(watchdog_signal(), &action, nullptr);
-    sigevent event{};
-    event.sigev_notify = SIGEV_THREAD_ID;
-    event.sigev_signo = watchdog_signal();
-    event._sigev_un._tid = gettid();
-    works_ = timer_create(CLOCK_THREAD_CPUTIME_ID, &event, &timer_) == 0;
-  }
-  ~Watchdog() {
-    if (works_) timer_delete(timer_);
-  }
-  void set(int seconds) {
-    const itimerspec when{{0, 0}, {seconds, 0}};
-    if (works_) timer_settime(timer_, 0, &when, nullptr);
-  }
-
- private:
-  timer_t timer_{};
-  bool works_ = false;
-};
-
-bool load(Copy& copy) {
-  static const Image image;
-  copy.file = memfd_create("sketch", MFD_CLOEXEC);
-  if (image.size == 0 || copy.file < 0 ||
-      ::write(copy.file, image.bytes, image.size) != static_cast<ssize_t>(image.size)) {
-    snprintf(why_not, sizeof why_not, "its file cannot be copied");
-    return false;
-  }
-  char name[40];
-  snprintf(name, sizeof name, "/proc/self/fd/%d", copy.file);
-  copy.library = dlopen(name, RTLD_NOW | RTLD_LOCAL);
-  if (copy.library == nullptr) {
-    snprintf(why_not, sizeof why_not, "its copy cannot be opened: %s", dlerror());
-    return false;
-  }
-  copy.functions = static_cast<const Functions*>(dlsym(copy.library, "bbsim_sketch_functions"));
-  return copy.functions != nullptr;
-}
-
-void drop(Copy* copy) {
-  if (copy->library != nullptr) dlclose(copy->library);
-  if (copy->file >= 0) close(copy->file);
-  free(copy);
-}
-
 }  // namespace
 
-int watchdog_signal() {
-  return SIGRTMIN + 5;
-}
+const Functions functions{create, step, said, stuck, end_sketch};
 
 }  // namespace bbsim_board
-
-using namespace bbsim_board;
-
-extern "C" {
-
-BBSIM_CONTROLLER_EXPORT extern const Functions bbsim_sketch_functions;
-const Functions bbsim_sketch_functions{create, step, said, stuck, end_sketch};
-
-uint32_t bbsim_controller_abi() {
-  return BBSIM_CONTROLLER_ABI;
-}
-
-void* bbsim_controller_create(const bbsim_setup*) {
-  snprintf(
-      why_not, sizeof why_not,
-      "it is a sketch; allowed: with controller.library.wiring, a file that says what its pins "
-      "are wired to");
-  return nullptr;
-}
-
-void* bbsim_controller_create_wired(const bbsim_setup* setup, const bbsim_wiring* wiring) {
-  if (wiring->version != BBSIM_WIRING_VERSION) {
-    snprintf(why_not, sizeof why_not,
-             "it was made by another version of bbsim sketch; make it anew");
-    return nullptr;
-  }
-  Copy* const copy = static_cast<Copy*>(calloc(1, sizeof(Copy)));
-  if (copy == nullptr) return nullptr;
-  if (!load(*copy)) {
-    drop(copy);
-    return nullptr;
-  }
-  if (const char* const why = copy->functions->make(setup, wiring)) {
-    snprintf(why_not, sizeof why_not, "%s", why);
-    copy->functions->end();
-    drop(copy);
-    return nullptr;
-  }
-  return copy;
-}
-
-int bbsim_controller_step(void* controller, const bbsim_sample* sample, double command[2],
-                          double* columns) {
-  static thread_local Watchdog watchdog;
-  present = static_cast<Copy*>(controller)->functions;
-  watchdog.set(patience);
-  const int code = present->next(sample, command, columns);
-  watchdog.set(0);
-  present = nullptr;
-  return code;
-}
-
-void bbsim_controller_destroy(void* controller) {
-  Copy* const copy = static_cast<Copy*>(controller);
-  copy->functions->end();
-  drop(copy);
-}
-
-const char* bbsim_controller_last_error(const void* controller) {
-  return controller == nullptr ? why_not : static_cast<const Copy*>(controller)->functions->why();
-}
-}
