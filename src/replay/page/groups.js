@@ -45,7 +45,11 @@ bbsim.groups = (() => {
     const one = (ofFirst, ofSecond) => (curve.axis === 2 ? ofSecond : ofFirst);
     if (curve.role === 'reference') return one(firstBand, secondBand);
     if (curve.role === 'measured') return one(dots, crosses);
-    if (curve.role === 'command') return one(firstCommand, secondCommand);
+    if (curve.role === 'command') {
+      // A law's command and the torque asked of a motor may stand in one plot.
+      const again = curves.filter((other) => other.role === 'command' && other.axis === curve.axis).indexOf(curve) > 0;
+      return again ? one({...firstCommand, pattern: [6, 2]}, {...secondCommand, pattern: [6, 2, 1, 2]}) : one(firstCommand, secondCommand);
+    }
     const alike = curves.filter((other) => other.role === 'main' && other.axis === curve.axis).indexOf(curve);
     if (curve.axis > 0) return alike === 0 ? one(first, second) : one({...first, pattern: [2, 3]}, {...second, pattern: [9, 3, 2, 3]});
     const hasAxes = curves.some((other) => other.role === 'main' && other.axis > 0);
