@@ -29,7 +29,7 @@ struct Candidate {
 
 void run_batch(Candidate& candidate, const Scene& scene, Rows& rows) {
   Point& point = candidate.point;
-  const solve::CpuClock clock;
+  const CpuClock clock;
   for (int i = 0; i < candidate.batch; ++i) candidate.tool->run(scene, point.tolerances, rows);
   const double all = clock.seconds();
   const double each = all / candidate.batch;
@@ -48,7 +48,7 @@ std::vector<Point> measure(const Scene& scene, const std::vector<double>& rtols,
   for (const double rtol : rtols) {
     for (const Tool& tool : all_tools()) {
       Candidate candidate{&tool, {tool.name, {rtol, rtol / 100}}};
-      const solve::CpuClock clock;
+      const CpuClock clock;
       if (!tool.run(scene, candidate.point.tolerances, rows)) continue;
       const double once = clock.seconds();
       candidate.point.error = largest_error(scene, rows);

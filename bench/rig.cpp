@@ -98,7 +98,7 @@ class Swept {
   // time.
   void run() {
     for (std::size_t i = 0; i < least_.size(); ++i) {
-      const solve::CpuClock clock;
+      const CpuClock clock;
       static_cast<void>(runner_->run(i * together, together, results_, goes_on));
       least_[i] = std::min(least_[i], clock.seconds());
     }
@@ -228,7 +228,7 @@ void measure(const std::string& file, bool noise, double budget) {
       Candidate& one = candidates[i];
       double spent = 0;
       while (spent < budget / turns) {
-        const solve::CpuClock clock;
+        const CpuClock clock;
         one.run();
         const double seconds = clock.seconds();
         one.seconds = std::min(one.seconds, (one.least ? one.least() : seconds) / one.cases);

@@ -156,7 +156,7 @@ template <class Work>
 double least_seconds(double budget, Work work) {
   double least = std::numeric_limits<double>::infinity(), total = 0;
   for (int since = 0, runs = 0; since < 10 && (runs < 2 || total < budget); ++runs, ++since) {
-    const solve::CpuClock clock;
+    const CpuClock clock;
     work();
     const double seconds = clock.seconds();
     if (seconds < 0.995 * least) since = 0;

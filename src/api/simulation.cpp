@@ -47,7 +47,7 @@ struct Integration {
 Integration integrate(const Scenario& scenario, const model::Model& model,
                       const solve::OutputGrid& grid, solve::StateSink& sink,
                       const solve::Watch& watch, solve::Part* part) {
-  const solve::CpuClock clock;
+  const CpuClock clock;
   const Solver& solver = scenario.solver;
   Integration made;
   if (solver.error) {

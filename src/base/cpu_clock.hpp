@@ -6,7 +6,7 @@
 
 #include <ctime>
 
-namespace bbsim::solve {
+namespace bbsim {
 
 class CpuClock {
  public:
@@ -22,4 +22,4 @@ class CpuClock {
   double start_;
 };
 
-}  // namespace bbsim::solve
+}  // namespace bbsim

@@ -393,7 +393,7 @@ std::string page_template(const std::vector<std::string>& folders) {
   throw OutputError(std::string("cannot make a page: its template ") + template_name +
                     " is not in " + looked_in +
                     "; it is made where bbsim is built with three.js and dygraphs (Debian: "
-                    "libjs-three, libjs-dygraphs; scripts/setup installs them):build bbsim again, "
+                    "libjs-three, libjs-dygraphs; scripts/setup installs them): build bbsim again, "
                     "or set BBSIM_SHARE_PATH to the template's folder");
 }
 

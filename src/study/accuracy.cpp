@@ -55,7 +55,7 @@ AccuracyPoint measure(const model::Model& model, const solve::OutputGrid& grid, 
   double total = 0;
   while (times.size() < least_repeats || total < least_seconds) {
     solve::Trajectory rows(reference.row_size);
-    const solve::CpuClock clock;
+    const CpuClock clock;
     const solve::Outcome outcome =
         solve::integrate(model, method, point.tolerances, grid, rows, watch);
     times.push_back(clock.seconds());

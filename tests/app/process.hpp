@@ -10,21 +10,9 @@
 #include <string>
 #include <vector>
 
-namespace bbsim_test {
+#include "support/sanitizers.hpp"
 
-// Programs under sanitizers are slow, and have memory and descriptors of their own: limits on these
-// are not for them.
-#if defined(__SANITIZE_ADDRESS__)
-inline constexpr bool under_sanitizers = true;
-#elif defined(__has_feature)
-#if __has_feature(address_sanitizer)
-inline constexpr bool under_sanitizers = true;
-#else
-inline constexpr bool under_sanitizers = false;
-#endif
-#else
-inline constexpr bool under_sanitizers = false;
-#endif
+namespace bbsim_test {
 
 struct Result {
   int exit_code = -1;  // 128 + n if signal n ended it

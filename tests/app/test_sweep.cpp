@@ -8,6 +8,7 @@
 #include <map>
 #include <sstream>
 #include <string>
+#include <system_error>
 #include <vector>
 
 #include "catch.hpp"
@@ -47,6 +48,17 @@ const std::vector<std::string> long_sweep{
 std::vector<std::string> with(std::vector<std::string> one, const std::vector<std::string>& more) {
   one.insert(one.end(), more.begin(), more.end());
   return one;
+}
+
+// A sweep to s.csv that a signal cuts off once there are some rows.
+Result cut_off(const std::vector<std::string>& arguments, const Folder& folder, int signal) {
+  Launch launch{arguments, folder.path(), signal};
+  launch.signal_when = [&folder] {
+    std::error_code none;
+    const auto size = std::filesystem::file_size(folder / "s.csv.part", none);
+    return !none && size > 1000;
+  };
+  return bbsim(launch);
 }
 
 }  // namespace
@@ -127,8 +139,7 @@ TEST_CASE("an interrupted sweep keeps its cases and goes on to the same bytes") 
   const auto arguments =
       with({"sweep", config("fig2a.yaml")}, with(long_sweep, {"-j", "1", "-o", "s.csv"}));
   const int signal = GENERATE(2, 9);
-  const Result cut =
-      bbsim(Launch{arguments, folder.path(), signal, std::chrono::milliseconds(200)});
+  const Result cut = cut_off(arguments, folder, signal);
   REQUIRE(cut.exit_code != 0);
   if (signal == 2) {
     CHECK(cut.exit_code == 130);
@@ -381,8 +392,7 @@ TEST_CASE("a sweep of tied keys that was interrupted goes on to the same bytes")
       "200000",
       "-j",
       "1"};
-  const Result cut = bbsim(
-      Launch{with(arguments, {"-o", "s.csv"}), folder.path(), 2, std::chrono::milliseconds(200)});
+  const Result cut = cut_off(with(arguments, {"-o", "s.csv"}), folder, 2);
   REQUIRE(cut.exit_code == 130);
   CHECK(bbsim(with(arguments, {"-o", "s.csv", "--resume"}), folder.path()).exit_code == 0);
   CHECK(bbsim(with(arguments, {"-o", "t.csv"}), folder.path()).exit_code == 0);
