@@ -3,9 +3,6 @@
 
 // The sketches of sketches/, each in the style of those that people publish, run unchanged and
 // balance.
-#include <sys/resource.h>
-
-#include <algorithm>
 #include <cstdlib>
 #include <string>
 #include <vector>
@@ -36,15 +33,6 @@ const Style styles[] = {
     {"calibration"},
     {"forward", {"helpers.ino"}},
 };
-
-double processor_seconds() {
-  rusage used{};
-  getrusage(RUSAGE_CHILDREN, &used);
-  const auto seconds = [](const timeval& time) {
-    return static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec);
-  };
-  return seconds(used.ru_utime) + seconds(used.ru_stime);
-}
 
 }  // namespace
 
@@ -108,20 +96,6 @@ TEST_CASE("threads of a sweep have boards of their own") {
       bbsim(sketch.words("run", {"--set", "ball.position.0=0.05", "--measure", "end_x", "-q"}));
   const std::string end_x = single.out.substr(single.out.rfind(',') + 1);
   CHECK(contains(alone.out, end_x.substr(0, end_x.find('\n'))));
-}
-
-TEST_CASE("ten seconds of a sketch at 100 Hz take less than a fifth of a second") {
-  if (under_sanitizers) return;
-  const Sketch sketch("pid_touch");
-  const std::vector<std::string> words =
-      sketch.words("run", {"--set", "controller.sampling.period=0.01", "-o", "-", "-q"});
-  double least = 1;
-  for (int i = 0; i < 5; ++i) {
-    const double before = processor_seconds();
-    CHECK(bbsim(words).exit_code == 0);
-    least = std::min(least, processor_seconds() - before);
-  }
-  CHECK(least < 0.2);
 }
 
 TEST_CASE("the public PID_v1 compiles as it is") {
