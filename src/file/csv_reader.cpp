@@ -233,34 +233,36 @@ class Parser {
       fail(text_, "found no header; the first row names the columns");
     }
     if (!given.empty()) return take_given(given);
+    const Line remark = remark_;
     constexpr std::size_t most_lines = 50;
     for (std::size_t i = 0; i < most_lines && look(i + 1); ++i) {
       const Fit found = best_fit(ahead_[i].text, ahead_[i + 1].text);
       if (found.numbers == 0) continue;
       delimiter_ = found.delimiter;
       const auto names = fields_of(ahead_[i].text, delimiter_);
-      const bool units = std::ranges::all_of(*names, is_unit);
-      const auto above = units && i > 0 ? fields_of(ahead_[i - 1].text, delimiter_) : std::nullopt;
-      const bool two_lines = above && above->size() == names->size();
-      tell_of_lines_before(two_lines ? i - 1 : i);
-      take(two_lines ? i - 1 : i);
+      // Lines above it with as many fields are no banner: the first of them is the header.
+      std::size_t header = i;
+      while (header > 0 && names->size() > 1) {
+        const auto above = fields_of(ahead_[header - 1].text, delimiter_);
+        if (!above || above->size() != names->size()) break;
+        --header;
+      }
+      tell_of_lines_before(header);
+      take(header);
       take_names();
-      if (!two_lines) return;
-      take(i);
-      for (std::size_t c = 0; c < cells_.names.size(); ++c) {
-        const std::string unit((*names)[c]);
-        if (unit.empty() || unit == "-" || cells_.names[c].empty()) continue;
-        cells_.names[c] += unit.ends_with(']') || unit.ends_with(')') ? ' ' + unit : " [" + unit + ']';
+      if (header + 1 == i && std::ranges::all_of(*names, is_unit)) {
+        add_units(*names);
+        take(i);
       }
       return;
     }
     // A remark may name the columns, as numpy.savetxt writes it.
-    if (remark_.number != 0 && remark_.number < ahead_[0].number) {
-      const Fit found = best_fit(remark_.text, ahead_[0].text);
+    if (remark.number != 0) {
+      const Fit found = best_fit(remark.text, ahead_[0].text);
       if (found.numbers > 0) {
         delimiter_ = found.delimiter;
-        text_ = remark_.text;
-        number_ = remark_.number;
+        text_ = remark.text;
+        number_ = remark.number;
         take_names();
         next_ahead_ = 0;
         return;
@@ -271,6 +273,15 @@ class Parser {
       if (text_.find(delimiter) != std::string_view::npos) delimiter_ = delimiter;
     }
     take_names();
+  }
+
+  void add_units(const std::vector<std::string>& units) {
+    for (std::size_t c = 0; c < cells_.names.size(); ++c) {
+      const std::string& unit = units[c];
+      if (unit.empty() || unit == "-") continue;
+      const bool brackets = unit.ends_with(']') || unit.ends_with(')');
+      cells_.names[c] += brackets ? ' ' + unit : " [" + unit + ']';
+    }
   }
 
   void tell_of_lines_before(std::size_t header) {
@@ -400,7 +411,10 @@ class Parser {
 
   [[nodiscard]] std::string count_text(std::size_t found) const {
     const std::size_t expected = cells_.names.size();
-    return "found " + std::to_string(found) + (found == 1 ? " field" : " fields") +
+    const auto fields = fields_of(text_, delimiter_);
+    const bool numbers = std::ranges::all_of(*fields, is_number);
+    return "found " + std::to_string(found) + (numbers ? " number" : " field") +
+           (found == 1 ? "" : "s") +
            "; the header names " + std::to_string(expected) +
            (expected == 1 ? " column" : " columns");
   }
@@ -452,7 +466,7 @@ class Parser {
   std::size_t number_ = 1;  // of the current line
   std::vector<Line> ahead_;  // the rows that were looked at in search of the header
   std::size_t next_ahead_ = 0;
-  Line remark_;  // the last one
+  Line remark_{};  // the last one
   char delimiter_ = ',';
   std::string header_;
   CellTable cells_;
