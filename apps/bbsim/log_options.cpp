@@ -15,12 +15,12 @@ void add_log_options(Command& command, plot::LogChoice& choice) {
               "name, in SI units or in the unit that the name gives; repeatable")
       .takes("MAP")
       .may_be_repeated();
-  command
-      .option("--header", choice.header, "the names of the columns of a log without a header")
+  command.option("--header", choice.header, "the names of the columns of a log without a header")
       .takes("NAME,...")
       .parted_by_commas();
   command
-      .option("--period", choice.period, "the time between rows of a log without a clock: 0.1, "
+      .option("--period", choice.period,
+              "the time between rows of a log without a clock: 0.1, "
               "\"100 ms\"")
       .takes("TIME");
   command

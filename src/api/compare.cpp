@@ -106,8 +106,8 @@ Compared compare_log(const CompareRequest& request) {
     const double allowed = request.atol.value_or(0) + request.rtol.value_or(0) * larger;
     if (!judges || column.greatest <= allowed) continue;
     made.alike = false;
-    made.text += "different: " + shown(column.name) + " is more than " + number_text(allowed) +
-                 " apart\n";
+    made.text +=
+        "different: " + shown(column.name) + " is more than " + number_text(allowed) + " apart\n";
   }
   return made;
 }

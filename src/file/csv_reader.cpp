@@ -82,8 +82,9 @@ bool is_number(std::string_view field) {
 
 // Whether a field below a name is its unit, as some loggers write them in a second line.
 bool is_unit(std::string_view field) {
-  constexpr std::array<std::string_view, 16> units = {
-      "", "-", "s", "ms", "us", "m", "cm", "mm", "deg", "°", "rad", "deg/s", "rad/s", "m/s", "V", "A"};
+  constexpr std::array<std::string_view, 16> units = {"",      "-",   "s",   "ms", "us",  "m",
+                                                      "cm",    "mm",  "deg", "°",  "rad", "deg/s",
+                                                      "rad/s", "m/s", "V",   "A"};
   if (std::ranges::find(units, field) != units.end()) return true;
   return (field.starts_with('[') && field.ends_with(']')) ||
          (field.starts_with('(') && field.ends_with(')'));
@@ -287,7 +288,8 @@ class Parser {
   void tell_of_lines_before(std::size_t header) {
     if (header == 0) return;
     cells_.notes.push_back("note: " + lines_.name() + ": the header is line " +
-                           std::to_string(ahead_[header].number) + "; the lines before it are left out");
+                           std::to_string(ahead_[header].number) +
+                           "; the lines before it are left out");
   }
 
   // The user names the columns, in place of a header if there is one.
@@ -298,8 +300,7 @@ class Parser {
       for (const char delimiter : {',', ';', '\t'}) {
         const auto fields = fields_of(ahead_[first].text, delimiter);
         if (!fields || fields->size() < given.size()) continue;
-        const auto found =
-            static_cast<std::size_t>(std::ranges::count_if(*fields, is_number));
+        const auto found = static_cast<std::size_t>(std::ranges::count_if(*fields, is_number));
         if (found > numbers) {
           numbers = found;
           delimiter_ = delimiter;
@@ -352,8 +353,8 @@ class Parser {
         const auto fields =
             has_rows ? fields_of(ahead_[next_ahead_].text, delimiter_) : std::nullopt;
         const bool index = c == 0 && !last && fields;
-        const bool trailing =
-            c > 0 && last && fields && fields->size() == cells_.names.size() && (*fields)[c].empty();
+        const bool trailing = c > 0 && last && fields && fields->size() == cells_.names.size() &&
+                              (*fields)[c].empty();
         if (!index && !trailing) fail(text_.substr(at), "a column's name is empty");
         if (trailing) {
           cells_.names.pop_back();
@@ -414,8 +415,7 @@ class Parser {
     const auto fields = fields_of(text_, delimiter_);
     const bool numbers = std::ranges::all_of(*fields, is_number);
     return "found " + std::to_string(found) + (numbers ? " number" : " field") +
-           (found == 1 ? "" : "s") +
-           "; the header names " + std::to_string(expected) +
+           (found == 1 ? "" : "s") + "; the header names " + std::to_string(expected) +
            (expected == 1 ? " column" : " columns");
   }
 
@@ -426,7 +426,8 @@ class Parser {
                       ": commas seem to stand both between columns and in numbers; separate the "
                       "columns by semicolons or tabs");
     }
-    if (rows_beyond_++ == 0) first_beyond_ = lines_.name() + ':' + std::to_string(number_) + ": " + count_text(found);
+    if (rows_beyond_++ == 0)
+      first_beyond_ = lines_.name() + ':' + std::to_string(number_) + ": " + count_text(found);
   }
 
   void tell_of_rows() {
@@ -456,14 +457,14 @@ class Parser {
 
   // `at` is a part of the line; the message gives its column.
   [[noreturn]] void fail(std::string_view at, const std::string& message) const {
-    throw InputError({Problem{lines_.name() + ":" + std::to_string(number_) + ":" +
-                                  std::to_string(column_of(at)),
-                              message}});
+    throw InputError({Problem{
+        lines_.name() + ":" + std::to_string(number_) + ":" + std::to_string(column_of(at)),
+        message}});
   }
 
   LineReader lines_;
-  std::string_view text_;   // the current line without its end
-  std::size_t number_ = 1;  // of the current line
+  std::string_view text_;    // the current line without its end
+  std::size_t number_ = 1;   // of the current line
   std::vector<Line> ahead_;  // the rows that were looked at in search of the header
   std::size_t next_ahead_ = 0;
   Line remark_{};  // the last one

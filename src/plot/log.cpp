@@ -312,8 +312,7 @@ void make_log(Result& log, const LogChoice& choice, bool only_mapped,
   set_clock(log, choice, tell);
 }
 
-Result read_log(const std::string& file, const LogChoice& choice,
-                std::vector<std::string>& notes) {
+Result read_log(const std::string& file, const LogChoice& choice, std::vector<std::string>& notes) {
   Result log = read_csv_columns(file, choice.header, notes);
   make_log(log, choice, false, notes);
   return log;

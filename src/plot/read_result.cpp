@@ -238,8 +238,7 @@ Result read_result(const std::string& file, const Beside& beside, const LogChoic
   }
   std::vector<std::string> ignored;
   std::vector<std::string>& told = notes == nullptr ? ignored : *notes;
-  Result result =
-      is_hdf5(file) ? read_hdf5_result(file) : read_csv_columns(file, log.header, told);
+  Result result = is_hdf5(file) ? read_hdf5_result(file) : read_csv_columns(file, log.header, told);
   if (!beside.summary.empty()) {
     read_summary(result, beside.summary);
   } else if (!result.is_sweep()) {

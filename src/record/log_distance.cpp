@@ -159,7 +159,8 @@ LogDistance log_distance(const file::TableData& log, const std::string& log_name
                          const file::TableData& run, const std::string& run_name,
                          const std::vector<std::string>& columns) {
   const std::vector<Pair> pairs = pairs_of(log, log_name, run, run_name, columns);
-  const Line log_clock(*find(log, "t"), *find(log, "t")), run_clock(*find(run, "t"), *find(run, "t"));
+  const Line log_clock(*find(log, "t"), *find(log, "t")),
+      run_clock(*find(run, "t"), *find(run, "t"));
   LogDistance made;
   made.rows_of_log = log_clock.times().size();
   bool any = false;
@@ -257,16 +258,17 @@ double time_offset(const file::TableData& log, const std::string& log_name,
 
 std::string to_text(const LogDistance& distance, const std::string& log_name,
                     const std::string& run_name) {
-  std::vector<std::vector<std::string>> lines{{"column", "rms", "greatest", "at t", "in the log", "in the run", "rows"}};
+  std::vector<std::vector<std::string>> lines{
+      {"column", "rms", "greatest", "at t", "in the log", "in the run", "rows"}};
   for (const ColumnDistance& column : distance.columns) {
     const bool any = column.rows > 0;
     const auto number = [any](double value) { return any ? rounded(value) : std::string("-"); };
     lines.push_back({column.name, number(column.rms), number(column.greatest), number(column.at),
                      number(column.log), number(column.run), std::to_string(column.rows)});
   }
-  return aligned(lines) + log_name + " from " + run_name + ": " + std::to_string(distance.rows) + " of " +
-         std::to_string(distance.rows_of_log) + " rows, " + rounded(distance.from) + " to " +
-         rounded(distance.to) + " s\n";
+  return aligned(lines) + log_name + " from " + run_name + ": " + std::to_string(distance.rows) +
+         " of " + std::to_string(distance.rows_of_log) + " rows, " + rounded(distance.from) +
+         " to " + rounded(distance.to) + " s\n";
 }
 
 }  // namespace bbsim::record

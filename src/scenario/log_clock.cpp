@@ -22,9 +22,7 @@ std::string rows_text(std::size_t count, const char* what, std::size_t first) {
 }  // namespace
 
 std::optional<std::string> unwrap(std::vector<double>& times) {
-  const auto is_counter = [](double t) {
-    return std::abs(t) <= two_to_32 && t == std::trunc(t);
-  };
+  const auto is_counter = [](double t) { return std::abs(t) <= two_to_32 && t == std::trunc(t); };
   double added = 0, before = std::nan("");
   std::size_t wraps = 0, first = 0;
   for (std::size_t i = 0; i < times.size(); ++i) {
@@ -61,9 +59,8 @@ Clock clock_of(const std::vector<double>& times) {
   }
   if (unsorted > 0) {
     std::ranges::stable_sort(clock.rows, {}, [&](std::size_t row) { return times[row]; });
-    clock.done.push_back(
-        rows_text(unsorted, " earlier than the one before", first_unsorted) +
-        "; sorted by time. If the clock started again there, split the file");
+    clock.done.push_back(rows_text(unsorted, " earlier than the one before", first_unsorted) +
+                         "; sorted by time. If the clock started again there, split the file");
   }
   std::size_t doubled = 0, first_doubled = 0;
   const auto same = [&](std::size_t a, std::size_t b) {
@@ -74,9 +71,8 @@ Clock clock_of(const std::vector<double>& times) {
   const auto rest = std::unique(clock.rows.begin(), clock.rows.end(), same);
   clock.rows.erase(rest, clock.rows.end());
   if (doubled > 0) {
-    clock.done.push_back(rows_text(doubled, " at the time of another", first_doubled) +
-                         " (t = " + number_text(times[first_doubled]) +
-                         " s); only the first of each is kept");
+    clock.done.push_back(rows_text(doubled, " at the time of another", first_doubled) + " (t = " +
+                         number_text(times[first_doubled]) + " s); only the first of each is kept");
   }
   clock.changed = !clock.done.empty();
   return clock;

@@ -18,7 +18,7 @@ namespace bbsim::scenario {
 // The rows of a log in the order of their times (s), each time once, without rows that have none.
 struct Clock {
   std::vector<std::size_t> rows;
-  bool changed = false;            // they are not all rows in their order
+  bool changed = false;           // they are not all rows in their order
   std::vector<std::string> done;  // what was done, in words
 };
 [[nodiscard]] Clock clock_of(const std::vector<double>& times);

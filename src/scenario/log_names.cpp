@@ -27,8 +27,7 @@ Parts parts_of(std::string_view name) {
   for (const std::string_view brackets : {"[]", "()"}) {
     const std::size_t open = name.rfind(brackets[0]);
     if (open == std::string_view::npos || open == 0 || name.back() != brackets[1]) continue;
-    return {trimmed(name.substr(0, open)),
-            trimmed(name.substr(open + 1, name.size() - open - 2))};
+    return {trimmed(name.substr(0, open)), trimmed(name.substr(open + 1, name.size() - open - 2))};
   }
   const std::size_t line = name.rfind('_');
   if (line == std::string_view::npos || line == 0) return {name, {}};

@@ -243,7 +243,8 @@ bool read_changes(yaml::Keys& keys, std::size_t columns, yaml::Dimension dimensi
   bool fine = read_for_each(keys, "scale", yaml::Number{}, into.scales);
   fine = read_for_each(keys, "offset", OffsetOf{dimension, unit}, into.offsets) && fine;
   fine = keys.optional("delay", yaml::Number{yaml::Dimension::time}, into.delay) && fine;
-  if (const auto given = keys.find("time_offset")) fine = TimeOffsetRule::read(*given, into) && fine;
+  if (const auto given = keys.find("time_offset"))
+    fine = TimeOffsetRule::read(*given, into) && fine;
   return fine;
 }
 

@@ -177,9 +177,8 @@ TEST_CASE("what is no number is refused") {
   CHECK(refusal("t,x\n1,\n") == "a.csv:2:3: column x: found nothing, a number is expected");
   CHECK(refusal("t\n1e400\n") ==
         "a.csv:2:1: column t: found \"1e400\", too large for a double (at most 1.8e308)");
-  for (const char* text :
-       {"0x10", "1.5.2", "1 2",   "+-1",  "--1", "+",  "-",  ".",    "e5",
-        "1e",   "1;2",   "1_000", "one",   "\x01", "0x", "1f", "nanx", "inf2"}) {
+  for (const char* text : {"0x10", "1.5.2", "1 2", "+-1", "--1", "+", "-", ".", "e5", "1e", "1;2",
+                           "1_000", "one", "\x01", "0x", "1f", "nanx", "inf2"}) {
     CAPTURE(text);
     CHECK_THAT(refusal(std::string("t\n") + text + "\n"),
                Contains("a.csv:2:1: column t: found ") && Contains("a number is expected"));
