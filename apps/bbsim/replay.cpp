@@ -147,7 +147,7 @@ void check_arguments(const ReplayArguments& arguments) {
   }
 }
 
-void tell(const std::vector<std::string>& notes, const Options& options) {
+void say_all(const std::vector<std::string>& notes, const Options& options) {
   for (const std::string& note : notes) {
     if (!options.quiet) say(note);
   }
@@ -173,14 +173,14 @@ std::vector<Replayed> read_all(const ReplayArguments& arguments, const Options& 
         std::vector<std::string> notes;
         plot::Result read = plot::read_csv_columns(files[i], choice.header, notes);
         source.log = replay::run_of_log(std::move(read), choice, names[i], notes);
-        tell(notes, options);
+        say_all(notes, options);
       } else if (is_scenario(files[i])) {
         source.scenario = read({files[i], arguments.beside.overrides}, options, outputs);
       } else {
         outputs.reads(files[i], "what is shown");
         std::vector<std::string> notes;
         source.result = plot::read_result(files[i], arguments.beside, {}, &notes);
-        tell(notes, options);
+        say_all(notes, options);
         api::reads_with_result(outputs, *source.result);
       }
       sources.push_back(std::move(source));

@@ -13,6 +13,7 @@
 #include <limits>
 #include <optional>
 #include <string_view>
+#include <unordered_set>
 
 #include "base/error.hpp"
 #include "base/shown.hpp"
@@ -264,8 +265,8 @@ class Parser {
         delimiter_ = found.delimiter;
         text_ = remark.text;
         number_ = remark.number;
-        take_names();
         next_ahead_ = 0;
+        take_names();
         return;
       }
     }
@@ -317,6 +318,7 @@ class Parser {
   void take_names() {
     if (trimmed(text_).empty()) fail(text_, "found no header; the first row names the columns");
     header_ = std::string(text_);
+    std::unordered_set<std::string> seen;
     const auto take_name = [&](std::string_view name, std::size_t) {
       if (std::ranges::any_of(name, is_control)) {
         fail(name, "found a control character in the header; a CSV file is plain text");
@@ -326,7 +328,7 @@ class Parser {
         fail(name, "found the number " + quoted(name, longest_name) +
                        "; the first row names the columns, or --header NAME,... does");
       }
-      if (!name.empty() && std::ranges::find(cells_.names, name) != cells_.names.end()) {
+      if (!name.empty() && !seen.emplace(name).second) {
         fail(name, "column " + quoted(name, longest_name) + " is there twice");
       }
       cells_.names.emplace_back(name);
