@@ -236,12 +236,12 @@ struct TimeOffsetRule {
   }
 };
 
-bool read_changes(yaml::Keys& keys, std::size_t columns, yaml::Dimension dimension,
-                  const std::optional<yaml::UnitScale>& unit, Changes& into) {
+// All but the offset, which waits for the table's unit.
+bool read_changes(yaml::Keys& keys, std::size_t columns, Changes& into) {
   into.scales.assign(columns, 1);
   into.offsets.assign(columns, 0);
   bool fine = read_for_each(keys, "scale", yaml::Number{}, into.scales);
-  fine = read_for_each(keys, "offset", OffsetOf{dimension, unit}, into.offsets) && fine;
+  static_cast<void>(keys.find("offset"));
   fine = keys.optional("delay", yaml::Number{yaml::Dimension::time}, into.delay) && fine;
   if (const auto given = keys.find("time_offset"))
     fine = TimeOffsetRule::read(*given, into) && fine;
@@ -388,24 +388,25 @@ void read_table_rows(yaml::Keys& keys, const std::vector<std::string_view>& valu
     named = UnitOf{yaml::Dimension::time}.read(*given, time_unit) && named;
   }
 
-  named = read_changes(keys, value_keys.size(), dimension, unit, changes) && named;
+  named = read_changes(keys, value_keys.size(), changes) && named;
   if (!named) return;
   const file::TableData* data = load(*keys.find("file"), into.file);
   if (data == nullptr) return;
   const auto times = find_column(*keys.find("time"), time_name, yaml::Dimension::time, *data);
   std::vector<std::string> found_names;
   std::vector<std::vector<double>> values;
-  bool has_unit = unit.has_value();
+  std::optional<yaml::UnitScale> own_unit = unit;
   for (std::size_t k = 0; k < names.size(); ++k) {
     const auto found = find_column(*keys.find(value_keys[k]), names[k], dimension, *data);
     if (!found) continue;
     found_names.push_back(found->name);
     values.push_back(*found->numbers);
     const auto named_unit = unit ? unit : unit_in_name(found->name, dimension);
-    has_unit = has_unit || named_unit;
+    if (!own_unit) own_unit = named_unit;
     put_in_si(named_unit, values.back());
   }
   if (!times || values.size() < names.size()) return;
+  if (!read_for_each(keys, "offset", OffsetOf{dimension, own_unit}, changes.offsets)) return;
   into.times = *times->numbers;
   into.values = std::move(values);
   found_names.push_back(times->name);
@@ -426,7 +427,8 @@ void read_table_rows(yaml::Keys& keys, const std::vector<std::string_view>& valu
     wrong = cover_fault(into, *keys.context().end);
   }
   if (!wrong.empty()) keys.mapping().report(yaml::shown(into.file) + ": " + wrong);
-  warn_of_units(keys.mapping(), into, value_keys, dimension, has_unit, time_unit.has_value());
+  warn_of_units(keys.mapping(), into, value_keys, dimension, own_unit.has_value(),
+                time_unit.has_value());
   change_values(changes, into);
 }
 

@@ -162,6 +162,7 @@ TEST_CASE("a table is moved, scaled and delayed") {
   CHECK(moved.values[3] == Approx(-15 * degree));
   CHECK(read("time_offset: 0.5").times == std::vector<double>{-0.5, 4.5, 14.5, 19.5});
   CHECK(read("unit: rad, offset: 1").values[1] == 101);
+  CHECK(read("offset: 1").values[1] == Approx(101 * degree));
   CHECK(read("unit: deg, offset: 1").values[1] == Approx(101 * degree));
   const Table delayed = read("delay: 2 s");
   CHECK(delayed.times == std::vector<double>{-INFINITY, 1, 6, 16, 21, INFINITY});
