@@ -350,11 +350,11 @@ TEST_CASE("a log is measured by its own names, units and clock") {
   const std::vector<std::string> words{"measure",      "log.csv",  "--header", "px,mode",  "--map",
                                        "x=-0.5*px:mm", "--period", "100 ms",   "--measure"};
   auto peak = words;
-  peak.emplace_back("min_x,find x at 0.05");
+  peak.emplace_back("min_x,find x at 0.1");
   const Result made = bbsim(peak, folder.path());
   CAPTURE(made.out, made.err);
   CHECK(made.exit_code == 0);
-  CHECK(made.out == "measure,value\nmin_x,-0.02\nfind x at 0.05,-0.0075\n");
+  CHECK(made.out == "measure,value\nmin_x,-0.02\nfind x at 0.1,-0.01\n");
   CHECK(made.err.empty());
   auto aligned = words;
   aligned.insert(aligned.end(), {"min_x", "--time-offset", "auto"});
