@@ -252,7 +252,7 @@ bool falls_clearly(const MotionLine& line, const HeldMotion& motion, const Impul
 
 }  // namespace
 
-double first_fall(const MotionLine& line, const HeldMotion& motion, double clearly, double start,
+double first_crossing(const MotionLine& line, const HeldMotion& motion, double clearly, double start,
                   double end, KnownAnswers& answers) {
   double threshold = 0;
   const auto fall = [&](const HeldMotion::Instant& at) {

@@ -202,9 +202,10 @@ ServoAxis::Clearance ServoAxis::clearance() const {
           clearly * servo_.acceleration_limit, root_};
 }
 
-ServoAxis::Fall ServoAxis::first_fall(const HeldMotion& motion, double command, double start,
-                                      double end, KnownAnswers& answers) const {
-  Fall first;
+ServoAxis::Crossing ServoAxis::first_crossing(const HeldMotion& motion, double command,
+                                              double start, double end,
+                                              KnownAnswers& answers) const {
+  Crossing first;
   const bool springs = root_ > 0 && motion.law.stiffness == response_.from_angle;
   const MotionReach reached = springs ? reach_about(motion, root_) : reach(motion, end);
   if (springs && clearance().holds(reached, motion.law)) return first;
@@ -217,8 +218,8 @@ ServoAxis::Fall ServoAxis::first_fall(const HeldMotion& motion, double command, 
     double sizes[guards];
     scales(sizes);
     // The same thresholds as for the integrators' guards.
-    const double after = model::first_fall(line, motion, guard_rounding * sizes[guard], start,
-                                           std::min(end, first.after), answers);
+    const double after = model::first_crossing(line, motion, guard_rounding * sizes[guard], start,
+                                               std::min(end, first.after), answers);
     if (after < first.after) first = {after, guard};
   });
   return first;
