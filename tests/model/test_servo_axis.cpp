@@ -46,8 +46,8 @@ TEST_CASE("a servo within its limits is free, and its guards are the distances t
   const std::vector<double> guards = guards_of(axis, state);
   const double expected[] = {25, 55, 2.5, 3.5, 0.4, 0.6};
   for (std::size_t i = 0; i < 6; ++i) CHECK(guards[i] == Approx(expected[i]).epsilon(1e-12));
-  CHECK(guards[6] == unlimited);  // no backlash
-  CHECK(guards[7] == unlimited);
+  CHECK(guards[ServoAxis::gap_up] == unlimited);  // no backlash
+  CHECK(guards[ServoAxis::gap_down] == unlimited);
 }
 
 TEST_CASE("a servo at its acceleration limit leaves it when less is demanded") {
@@ -58,10 +58,16 @@ TEST_CASE("a servo at its acceleration limit leaves it when less is demanded") {
   axis.settle(state, mode);
   CHECK(mode.demand_factor == 0);
   CHECK(mode.set_acceleration == sign * 12);
-  CHECK(guards_of(axis, state)[sign > 0 ? 0 : 1] == Approx(8));
-  CHECK(guards_of(axis, state)[sign > 0 ? 1 : 0] == unlimited);
+  CHECK(guards_of(axis,
+                  state)[sign > 0 ? ServoAxis::acceleration_up : ServoAxis::acceleration_down] ==
+        Approx(8));
+  CHECK(guards_of(axis,
+                  state)[sign > 0 ? ServoAxis::acceleration_down : ServoAxis::acceleration_up] ==
+        unlimited);
   state = state_of(sign * 0.1, 0, sign * 0.2);  // demands 10
-  CHECK(guards_of(axis, state)[sign > 0 ? 0 : 1] == Approx(-2));
+  CHECK(guards_of(axis,
+                  state)[sign > 0 ? ServoAxis::acceleration_up : ServoAxis::acceleration_down] ==
+        Approx(-2));
   axis.settle(state, mode);
   CHECK(mode.demand_factor == 1);
 }
@@ -74,8 +80,8 @@ TEST_CASE("a servo at its rate limit turns evenly until it is driven back") {
   CHECK(state.rate == 2);
   CHECK(mode.demand_factor == 0);
   CHECK(mode.set_acceleration == 0);
-  CHECK(guards_of(axis, state)[2] == Approx(80));  // the demand beyond the limit
-  state = state_of(0.9, 2, 1);                     // demands -10
+  CHECK(guards_of(axis, state)[ServoAxis::rate_up] == Approx(80));  // the demand beyond the limit
+  state = state_of(0.9, 2, 1);                                      // demands -10
   axis.settle(state, mode);
   CHECK(mode.demand_factor == 1);
   CHECK(state.rate == 2);
@@ -91,7 +97,7 @@ TEST_CASE("a stop takes a servo's rate, and holds it while it is pressed") {
   CHECK(state.angle == sign * 0.5);
   CHECK(state.demand == Approx(sign * 20));  // without the damping of the rate
   CHECK(mode.demand_factor == 0);
-  CHECK(guards_of(axis, state)[sign > 0 ? 4 : 5] == Approx(20));
+  CHECK(guards_of(axis, state)[sign > 0 ? ServoAxis::stop_up : ServoAxis::stop_down] == Approx(20));
   // A command within the stop takes the servo off it.
   state = state_of(sign * 0.5, 0, sign * 0.4);
   axis.settle(state, mode);
@@ -112,7 +118,7 @@ TEST_CASE("a servo of first order takes its rate from the command") {
   axis.settle(state, mode);
   CHECK(state.rate == 2);
   CHECK(mode.demand_factor == 0);
-  CHECK(guards_of(axis, state)[2] == Approx(2));
+  CHECK(guards_of(axis, state)[ServoAxis::rate_up] == Approx(2));
 }
 
 TEST_CASE("the plane rests in the gap until the servo has taken up the backlash") {
@@ -125,13 +131,13 @@ TEST_CASE("the plane rests in the gap until the servo has taken up the backlash"
   axis.settle(state, mode);  // the plane starts in the middle of the gap
   CHECK(mode.ratio == 0);
   CHECK(mode.offset == Approx(0.4));
-  CHECK(guards_of(axis, state)[6] == Approx(0.01));
-  CHECK(guards_of(axis, state)[7] == Approx(0.01));
+  CHECK(guards_of(axis, state)[ServoAxis::gap_up] == Approx(0.01));
+  CHECK(guards_of(axis, state)[ServoAxis::gap_down] == Approx(0.01));
   state = state_of(0.11, 1, 1);
   axis.settle(state, mode);
   CHECK(mode.ratio == 1);
   CHECK(mode.ratio * state.angle + mode.offset == Approx(0.4));  // no jump
-  CHECK(guards_of(axis, state)[6] == 1);                         // the rate
+  CHECK(guards_of(axis, state)[ServoAxis::gap_up] == 1);         // the rate
   // The servo turns back. The plane stays.
   state = state_of(0.2, -1e-6, -1);
   axis.settle(state, mode);
@@ -157,12 +163,12 @@ TEST_CASE("under a held acceleration the guards cross where a parabola says") {
   KnownAnswers answers;
   const HeldMotion from_rest{{0, 0}, 0, 0, 10};
   const ServoAxis::Crossing rate = axis.first_crossing(from_rest, 10, 0, 1, answers);
-  CHECK(rate.guard == 2);
+  CHECK(rate.guard == ServoAxis::rate_up);
   CHECK(rate.after == Approx(0.3).epsilon(1e-12));
   // From nearer the stop, the angle is first.
   const HeldMotion nearer{{0, 0}, 0.3, 0, 10};
   const ServoAxis::Crossing angle = axis.first_crossing(nearer, 10, 0, 1, answers);
-  CHECK(angle.guard == 4);
+  CHECK(angle.guard == ServoAxis::stop_up);
   CHECK(angle.after == Approx(0.2).epsilon(1e-12));
   CHECK(axis.first_crossing(from_rest, 10, 0, 0.29, answers).after == unlimited);
 }

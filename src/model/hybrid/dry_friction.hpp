@@ -12,8 +12,7 @@
 
 #include <vector>
 
-#include "model/hybrid/dry_scene.hpp"
-#include "model/hybrid/event_log.hpp"
+#include "model/hybrid/monitors.hpp"
 #include "model/hybrid/part.hpp"
 
 namespace bbsim::model {

@@ -10,7 +10,6 @@
 #include <vector>
 
 #include "model/control/integral_limit.hpp"
-#include "model/hybrid/dry_scene.hpp"
 #include "model/hybrid/part.hpp"
 
 namespace bbsim::model {

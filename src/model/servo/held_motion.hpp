@@ -117,7 +117,8 @@ class KnownAnswers {
 // If it starts no more than `clearly` above zero, it must fall by `clearly` below zero and below
 // its start, unless it rises above `clearly` first. Exact up to the rounding of the time `start` +
 // t.
-[[nodiscard]] double first_crossing(const MotionLine& line, const HeldMotion& motion, double clearly,
-                                double start, double end, KnownAnswers& answers);
+[[nodiscard]] double first_crossing(const MotionLine& line, const HeldMotion& motion,
+                                    double clearly, double start, double end,
+                                    KnownAnswers& answers);
 
 }  // namespace bbsim::model

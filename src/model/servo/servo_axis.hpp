@@ -32,7 +32,19 @@ struct AxisMargin {
 
 class ServoAxis {
  public:
-  static constexpr int guards = 8;
+  // The guards: limits in both directions, which at a limit are what leaves it; and backlash, where
+  // the first one alone is the end of contact.
+  enum Guard {
+    acceleration_up,
+    acceleration_down,
+    rate_up,
+    rate_down,
+    stop_up,
+    stop_down,
+    gap_up,
+    gap_down,
+    guards
+  };
 
   // `servo` includes the offset of the plane, or of the horn, at the servo's zero.
   ServoAxis(const RigServo& servo, const ServoResponse& response)
