@@ -232,7 +232,7 @@ class HybridIntegration {
       if (at_ >= stepper_->time()) guards_.state_at(at_, outcome_.last_state);
       return false;
     }
-    if (watch_.slow && pace_.looked() && pace_.is_news()) {
+    if (watch_.slow && pace_.completed_window() && pace_.is_news()) {
       watch_.slow(at_, pace_.steps_per_second(), pace_.steps_left());
     }
     if (watch_.progress && ++advances_ % 256 == 0) watch_.progress(at_);

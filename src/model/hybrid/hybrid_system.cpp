@@ -32,7 +32,7 @@ HybridSystem::HybridSystem(const Model& model, double resolution)
         ((first_guard_[next + 1] = first_guard_[next] + (part ? part->guards() : 0), ++next), ...);
       },
       parts_);
-  for_each([this](const auto& part) { part.append_scales(guard_scales_); });
+  for_each(parts_, [this](const auto& part) { part.append_scales(guard_scales_); });
 }
 
 void HybridSystem::handle_time_event(double t, double* z) {
@@ -43,20 +43,20 @@ void HybridSystem::handle_time_event(double t, double* z) {
 
 void HybridSystem::observe(double t, const double* z) {
   const double end = instant_end(t);
-  for_each([&](auto& part) { part.observe(end, z); });
+  for_each(parts_, [&](auto& part) { part.observe(end, z); });
 }
 
 void HybridSystem::act(double t, double* z) {
   touched_ = !only_commands_change_ || t == 0;
   const double before = std::nextafter(t, -unlimited);  // the input may jump at t
-  for_each([&](auto& part) { part.leave_mode(before, z); });
+  for_each(parts_, [&](auto& part) { part.leave_mode(before, z); });
   const double end = instant_end(t);
   while (sampling() != nullptr && sampling()->commands_by(end)) {
     const auto jumps = servos()->follow(sampling()->take_command(model_.mode()));
     for (std::size_t i = 0; i < jumps.size(); ++i) {
       if (!jumps[i]) continue;
       touched_ = true;
-      for_each([i](auto& part) { part.jump_command(i); });
+      for_each(parts_, [i](auto& part) { part.jump_command(i); });
     }
   }
   if (touched_) reset(t, z);
@@ -69,15 +69,15 @@ void HybridSystem::reset(double t, double* z) {
   const auto any_jumps = [&](auto&... part) { return ((part && part->reset(t, z)) || ...); };
   int round = 0;
   for (; round < most_rounds && std::apply(any_jumps, parts_); ++round) {
-    for_each([&](auto& part) { part.after_jump(t, z); });
+    for_each(parts_, [&](auto& part) { part.after_jump(t, z); });
   }
   unsettled_ = unsettled_ || round == most_rounds;
-  for_each([&](auto& part) { part.reset_at_limits(t, z); });
+  for_each(parts_, [&](auto& part) { part.reset_at_limits(t, z); });
 }
 
 void HybridSystem::evaluate_guards(double t, const double* z, double* values) const {
   const GuardContext now(model_, t, z);
-  for_each([&](const auto& part) {
+  for_each(parts_, [&](const auto& part) {
     part.evaluate(now, values);
     values += part.guards();
   });
@@ -86,27 +86,29 @@ void HybridSystem::evaluate_guards(double t, const double* z, double* values) co
 template <class Use>
 void HybridSystem::with_part_of(std::size_t guard, Use use) {
   std::size_t next = 0;
-  for_each([&](auto& part) {
+  for_each(parts_, [&](auto& part) {
     if (guard >= next && guard < next + part.guards()) use(part, guard - next);
     next += part.guards();
   });
 }
 
 Effect HybridSystem::handle_state_event(std::size_t i, double t, double* z) {
-  if (i >= first_monitor()) return part<Monitors>()->change(i - first_monitor(), t, z);
-  for_each([&](auto& part) { part.leave_mode(t, z); });
+  if (i >= first_monitor()) return part_of<Monitors>(parts_)->change(i - first_monitor(), t, z);
+  for_each(parts_, [&](auto& part) { part.leave_mode(t, z); });
   with_part_of(i, [](auto& part, std::size_t guard) { part.cross(guard); });
   reset(t, z);
   return note_dry(t, z) == Effect::stop ? Effect::stop : Effect::restart;
 }
 
 Effect HybridSystem::note_dry(double t, const double* z) {
-  return part<DryFriction>() != nullptr ? part<DryFriction>()->note_events(t, z) : Effect::none;
+  DryFriction* const dry = part_of<DryFriction>(parts_);
+  return dry != nullptr ? dry->note_events(t, z) : Effect::none;
 }
 
 Effect HybridSystem::check_events(double t, const double* z) {
   if (note_dry(t, z) == Effect::stop) return Effect::stop;
-  return part<Monitors>() != nullptr ? part<Monitors>()->check(t, z) : Effect::none;
+  Monitors* const monitors = part_of<Monitors>(parts_);
+  return monitors != nullptr ? monitors->check(t, z) : Effect::none;
 }
 
 void HybridSystem::write_extras(double t, const double* z, double* out) const {

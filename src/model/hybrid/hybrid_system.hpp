@@ -26,6 +26,19 @@
 
 namespace bbsim::model {
 
+// The part of a type in a tuple of optional ones; null if there is none.
+template <class Part, class Parts>
+[[nodiscard]] auto* part_of(Parts& parts) {
+  auto& part = std::get<std::optional<Part>>(parts);
+  return part ? &*part : nullptr;
+}
+
+// Calls `use` with each part that there is.
+template <class Parts, class Use>
+void for_each(Parts& parts, Use use) {
+  std::apply([&](auto&... part) { ((part ? use(*part) : void()), ...); }, parts);
+}
+
 class HybridSystem {
  public:
   // `resolution`: the smallest velocity that the integrator distinguishes from rest, m/s.
@@ -64,8 +77,8 @@ class HybridSystem {
   }
   void act(double t, double* z);
   // Of a sampled rig; otherwise null.
-  [[nodiscard]] Sampling* sampling() { return part<Sampling>(); }
-  [[nodiscard]] const Sampling* sampling() const { return part<Sampling>(); }
+  [[nodiscard]] Sampling* sampling() { return part_of<Sampling>(parts_); }
+  [[nodiscard]] const Sampling* sampling() const { return part_of<Sampling>(parts_); }
   // The end of the instant t, s.
   [[nodiscard]] double instant_end(double t) const {
     return sampling() != nullptr ? sampling()->instant_end(t) : t + rounding_of(t);
@@ -90,16 +103,17 @@ class HybridSystem {
   // sign.
   [[nodiscard]] const std::vector<char>& occurring() const {
     static const std::vector<char> none;
-    return part<Monitors>() != nullptr ? part<Monitors>()->occurring() : none;
+    const auto* const monitors = part_of<Monitors>(parts_);
+    return monitors != nullptr ? monitors->occurring() : none;
   }
   // Whether guard i stops the run when it crosses zero.
   [[nodiscard]] bool stops(std::size_t i) const {
-    return i >= first_monitor() && part<Monitors>()->stops(i - first_monitor());
+    return i >= first_monitor() && part_of<Monitors>(parts_)->stops(i - first_monitor());
   }
 
   // The servos of a rig; otherwise null. Their guards are the first of a sampled rig.
-  [[nodiscard]] Servos* servos() { return part<Servos>(); }
-  [[nodiscard]] const Servos* servos() const { return part<Servos>(); }
+  [[nodiscard]] Servos* servos() { return part_of<Servos>(parts_); }
+  [[nodiscard]] const Servos* servos() const { return part_of<Servos>(parts_); }
 
   // Handles the crossing of guard i at t. May change z.
   Effect handle_state_event(std::size_t i, double t, double* z);
@@ -122,7 +136,7 @@ class HybridSystem {
   template <class Archive>
   void archive(Archive& archive) {
     archive(model_);
-    for_each([&](auto& part) { archive(part); });
+    for_each(parts_, [&](auto& part) { archive(part); });
   }
 
  private:
@@ -133,29 +147,11 @@ class HybridSystem {
                  std::optional<DryFriction>, std::optional<Monitors>>;
   static constexpr std::size_t monitors_at = std::tuple_size_v<Parts> - 1;
 
-  template <class Part>
-  [[nodiscard]] const Part* part() const {
-    const auto& of = std::get<std::optional<Part>>(parts_);
-    return of ? &*of : nullptr;
-  }
-  template <class Part>
-  [[nodiscard]] Part* part() {
-    auto& of = std::get<std::optional<Part>>(parts_);
-    return of ? &*of : nullptr;
-  }
-  template <class Use>
-  void for_each(Use use) {
-    std::apply([&](auto&... part) { ((part ? use(*part) : void()), ...); }, parts_);
-  }
-  template <class Use>
-  void for_each(Use use) const {
-    std::apply([&](const auto&... part) { ((part ? use(*part) : void()), ...); }, parts_);
-  }
   // The least of a time of each part, s.
   template <class Time>
   [[nodiscard]] double first_of(Time time) const {
     double first = unlimited;
-    for_each([&](const auto& part) { first = std::min(first, time(part)); });
+    for_each(parts_, [&](const auto& part) { first = std::min(first, time(part)); });
     return first;
   }
   // Calls `use` with the part of guard i, and the guard's place in it.
