@@ -15,8 +15,8 @@
 
 void serialEvent() __attribute__((weak));
 
-// Of the leak sanitizer, where bbsim is built with it: what a sketch holds while it is left for good
-// is no leak.
+// Of the leak sanitizer, where bbsim is built with it: what a sketch holds while it is left for
+// good is no leak.
 extern "C" {
 void __lsan_disable() __attribute__((weak));
 void __lsan_enable() __attribute__((weak));
