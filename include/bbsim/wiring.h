@@ -16,7 +16,7 @@ extern "C" {
 #endif
 
 /* Grows when anything below changes. */
-#define BBSIM_WIRING_VERSION 1u
+#define BBSIM_WIRING_VERSION 2u
 
 /* counts = counts[0] + (position - position[0]) (counts[1] - counts[0]) / (position[1] - position[0]) */
 typedef struct bbsim_count_map {
@@ -85,6 +85,7 @@ typedef struct bbsim_wiring {
   uint32_t print;               /* 1: what the sketch prints goes to standard error */
   bbsim_wired_servo servos[2];  /* phi, theta */
   double oscillator;            /* of the PCA9685, Hz */
+  uint32_t ignored_channels;    /* bit n: channel n of the PCA9685 has a servo the scene does not */
   bbsim_wired_screen screen;
   bbsim_wired_camera camera;
   size_t input_count;

@@ -30,6 +30,7 @@ struct Read {
   std::string frame, lost;
   std::vector<bbsim_wired_input> inputs;
   std::vector<int> ignored;
+  std::vector<int> ignored_channels;
   std::string eeprom_file;
   int eeprom_size = 1024;
   bool has_size = false;
@@ -71,6 +72,9 @@ void read_servos(Keys& keys, Read& read) {
   if (!keys.find("phi") && !keys.find("theta"))
     keys.missing("phi", MappingOf(read_servo).allowed());
   keys.optional("ignored", yaml::ListOf<Pin, int>{{}, 1, 70, "pins"}, read.ignored);
+  keys.optional("ignored_channels", yaml::ListOf<Whole, int>{Whole{0, 15}, 1, 16, "channels"},
+                read.ignored_channels);
+  for (const int channel : read.ignored_channels) read.c.ignored_channels |= 1U << channel;
   keys.optional("oscillator", Number{Dimension::number, {.above = 0}, "25e6"}, read.c.oscillator);
 }
 

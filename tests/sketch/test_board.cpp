@@ -31,6 +31,48 @@ TEST_CASE("a board has what sketches use, as the boards have it") {
   CHECK(contains(result.out, "t,phi_command,theta_command,loops\n0,0,0,"));
 }
 
+TEST_CASE("screens and a servo driver give the numbers that their libraries give") {
+  const Folder folder;
+  const Sketch sketch(
+      "#include <Adafruit_PWMServoDriver.h>\n#include <Adafruit_STMPE610.h>\n#include "
+      "<TouchScreen.h>\n"
+      "Adafruit_PWMServoDriver pwm;\nTouchScreen screen(A0, A1, A2, A3, 300);\n"
+      "Adafruit_STMPE610 chip(8);\nvoid loop() { delay(1); }\nvoid setup() {\n"
+      "  SerialUSB.begin(115200);\n  pwm.begin();\n  pwm.setOscillatorFrequency(27000000);\n"
+      "  pwm.setPWMFreq(50);\n  for (int i = 0; i < 16; i++) pwm.setPWM(i, 0, 4096);\n"
+      "  pwm.setPWM(0, 0, 307);\n  pwm.writeMicroseconds(1, 1600);\n  pwm.setPWM(2, 0, 300);\n"
+      "  int x, y, z;\n  if (digitalRead(7)) {\n    chip.begin();\n"
+      "    TS_Point p = chip.getPoint();\n    x = p.x; y = p.y; z = p.z;\n  } else {\n"
+      "    TSPoint p = screen.getPoint();\n    x = p.x; y = p.y; z = p.z;\n  }\n"
+      "  SerialUSB.println(String(x) + ' ' + y + ' ' + z);\n}\n",
+      plain_wiring);
+  CAPTURE(sketch.made.err);
+  REQUIRE(sketch.made.exit_code == 0);
+  const auto run = [&](const std::string& parts) {
+    const std::string wiring = folder.write(
+        "wiring.yaml",
+        "servos: {phi: {channel: 0}, theta: {channel: 1}, ignored_channels: [2], oscillator: "
+        "27e6}\n" +
+            parts);
+    return bbsim(sketch.words("run", {"--set", "controller.library.wiring=" + wiring, "--set",
+                                      "output.columns=[t, phi_command, theta_command]", "--set",
+                                      "time.end=0.02", "-o", "-", "-q"}));
+  };
+  // A step is 132 of 27e6 s; 307 of them are 1500.9 us, 28.9 us above level.
+  const Result wires = run(
+      "inputs: {7: 0}\nscreen:\n  four_wire: {x_plus: A0, y_plus: A1, x_minus: A2, y_minus: A3}\n"
+      "  x: {counts: [112, 912], position: [-0.16, 0.16]}\n"
+      "  y: {counts: [212, 812], position: [-0.12, 0.12]}\n");
+  CHECK(wires.err == "controller: 636 436 299\n");
+  CHECK(contains(wires.out, "\n0,0.0488"));
+  CHECK(contains(wires.out, ",0.2144"));
+  const Result chip =
+      run("inputs: {7: 1}\nscreen:\n  chip: stmpe610\n"
+          "  x: {counts: [300, 3700], position: [-0.16, 0.16]}\n"
+          "  y: {counts: [300, 3700], position: [-0.12, 0.12]}\n");
+  CHECK(chip.err == "controller: 1469 2425 64\n");
+}
+
 TEST_CASE("what a board lacks is an error of the compiler, with a hint") {
   const Sketch sketch(
       "#include <Wire.h>\n#include <SPI.h>\nvoid tick() {}\nvoid setup() {\n"
@@ -51,7 +93,7 @@ TEST_CASE("what a board lacks is an error of the compiler, with a hint") {
   CHECK(sketch.folder().files() == std::vector<std::string>{"own.ino", "wiring.yaml"});
 }
 
-TEST_CASE("the compiler's messages show the sketch's own lines; warnings stay warnings") {
+TEST_CASE("the compiler's messages show the sketch's own lines, and warnings stay warnings") {
   const Sketch wrong(
       "void loop() {\n  later();\n  nobody();\n}\nvoid setup() {}\nvoid later() {}\n",
       plain_wiring);
@@ -68,12 +110,14 @@ TEST_CASE("the compiler's messages show the sketch's own lines; warnings stay wa
 TEST_CASE("what a sketch does that its wiring has nothing for ends the run, with the cure") {
   const Folder folder;
   const Sketch sketch(
-      "#include <Servo.h>\n#include <EEPROM.h>\nServo s;\nvoid loop() {}\nvoid setup() {\n"
+      "#include <Servo.h>\n#include <EEPROM.h>\n#include <Adafruit_PWMServoDriver.h>\n"
+      "Adafruit_PWMServoDriver pwm;\nServo s;\nvoid loop() {}\nvoid setup() {\n"
       "  switch (analogRead(A0)) {\n"
       "    case 1: analogRead(A7); break;\n    case 2: s.attach(3); break;\n"
       "    case 3: analogWrite(9, 10); break;\n    case 4: EEPROM.read(5000); break;\n"
       "    case 5: exit(4);\n    case 6: delay(700000); break;\n"
-      "    case 7: digitalWrite(99, 1); break;\n  }\n}\n",
+      "    case 7: digitalWrite(99, 1); break;\n    case 8: pwm.setPWM(2, 0, 300); break;\n  "
+      "}\n}\n",
       plain_wiring);
   CAPTURE(sketch.made.err);
   REQUIRE(sketch.made.exit_code == 0);
@@ -85,6 +129,7 @@ TEST_CASE("what a sketch does that its wiring has nothing for ends the run, with
       "it called exit(4)",
       "setup() has not returned within 600 s of the board's clock",
       "digitalWrite(99): there is no such pin",
+      "Adafruit_PWMServoDriver.setPWM(2, ...): no servo is wired to channel 2",
   };
   for (std::size_t i = 0; i < told.size(); ++i) {
     const std::string wiring = folder.write(

@@ -69,12 +69,12 @@ enum { DEC = 10, HEX = 16, OCT = 8, BIN = 2 };
 #define bitWrite(value, b, to) ((to) ? bitSet(value, b) : bitClear(value, b))
 #define word(...) makeWord(__VA_ARGS__)
 
-template <class A, class B>
-constexpr auto min(A a, B b) -> decltype(a < b ? a : b) {
+template <class Left, class Right>
+constexpr auto min(Left a, Right b) -> decltype(a < b ? a : b) {
   return a < b ? a : b;
 }
-template <class A, class B>
-constexpr auto max(A a, B b) -> decltype(a < b ? b : a) {
+template <class Left, class Right>
+constexpr auto max(Left a, Right b) -> decltype(a < b ? b : a) {
   return a < b ? b : a;
 }
 using std::abs;

@@ -30,14 +30,14 @@ class EEPROMClass {
   void update(int address, uint8_t value) { EEPROMCell{address} = value; }
   int length() const { return bbsim_board::cells(); }
 
-  template <class T>
-  T& get(int address, T& into) const {
+  template <class Any>
+  Any& get(int address, Any& into) const {
     auto* const bytes = reinterpret_cast<uint8_t*>(&into);
     for (size_t i = 0; i < sizeof into; ++i) bytes[i] = read(address + static_cast<int>(i));
     return into;
   }
-  template <class T>
-  const T& put(int address, const T& from) {
+  template <class Any>
+  const Any& put(int address, const Any& from) {
     const auto* const bytes = reinterpret_cast<const uint8_t*>(&from);
     for (size_t i = 0; i < sizeof from; ++i) update(address + static_cast<int>(i), bytes[i]);
     return from;

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The board that a sketch runs on. There is one in each copy of the library (instances.cpp), so it
+// The board that a sketch runs on. There is one in each copy of the library (copies.cpp), so it
 // is a global variable, as the sketch's own are.
 #pragma once
 

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 // The sketch as a controller: what a copy of the library does for bbsim (copies.cpp).
+#include <vector>
+
 #include "Arduino.h"
 #include "runtime/board.hpp"
 
@@ -12,11 +14,16 @@ Nanoseconds switched_on_before = 0;  // t = 0, on the board's clock
 double period = 0;                   // s
 size_t column_count = 0;
 
-template <class T>
-T* copy(const T* from, size_t count) {
-  T* const made = static_cast<T*>(calloc(count + 1, sizeof(T)));
-  if (made != nullptr && count > 0) memcpy(made, from, count * sizeof(T));
-  return made;
+// What board.wiring points to; freed with the copy of the library, as all its variables.
+std::vector<bbsim_wired_input> inputs;
+std::vector<int32_t> ignored;
+std::vector<unsigned char> eeprom;
+std::string frame, lost;
+
+template <class Any>
+const Any* keep(std::vector<Any>& in, const Any* from, size_t count) {
+  in.assign(from, from + count);
+  return in.data();
 }
 
 // In a copy of the library. Returns why there can be no controller, if so.
@@ -30,11 +37,11 @@ const char* create(const bbsim_setup* setup, const bbsim_wiring* wiring) {
   }
   board.wiring = *wiring;
   bbsim_wiring& own = board.wiring;
-  own.inputs = copy(own.inputs, own.input_count);
-  own.ignored = copy(own.ignored, own.ignored_count);
-  own.eeprom = copy(own.eeprom, own.eeprom_size);
-  own.camera.frame = copy(own.camera.frame, strlen(own.camera.frame));
-  own.camera.lost = copy(own.camera.lost, strlen(own.camera.lost));
+  own.inputs = keep(inputs, own.inputs, own.input_count);
+  own.ignored = keep(ignored, own.ignored, own.ignored_count);
+  own.eeprom = keep(eeprom, own.eeprom, own.eeprom_size);
+  own.camera.frame = (frame = own.camera.frame).c_str();
+  own.camera.lost = (lost = own.camera.lost).c_str();
   const bbsim_call_costs& costs = own.costs;
   board.costs = {
       nanoseconds(costs.clock), nanoseconds(costs.digital),      nanoseconds(costs.analog),

@@ -4,6 +4,8 @@
 // Serial lines: what the sketch prints, and the frames that a camera sends.
 #include <unistd.h>
 
+#include <vector>
+
 #include "Arduino.h"
 #include "runtime/board.hpp"
 
@@ -15,21 +17,20 @@ struct Watched {
   char name[64];
   double value;
 };
-Watched* watched = nullptr;
-size_t watched_count = 0;
+std::vector<Watched> watched;
 
 // "name:value", several of them parted by commas, tabs or blanks: as for the plotter of the IDE.
 void read_numbers(const char* line) {
   for (const char* at = line; (at = strchr(at, ':')) != nullptr; ++at) {
-    for (size_t i = 0; i < watched_count; ++i) {
-      const auto length = static_cast<ptrdiff_t>(strlen(watched[i].name));
+    for (Watched& one : watched) {
+      const auto length = static_cast<ptrdiff_t>(strlen(one.name));
       if (at - line < length) continue;
       const char* const start = at - length;
-      if (strncmp(start, watched[i].name, static_cast<size_t>(length)) != 0) continue;
+      if (strncmp(start, one.name, static_cast<size_t>(length)) != 0) continue;
       if (start > line && strchr(", \t", start[-1]) == nullptr) continue;
       char* end = nullptr;
       const double number = strtod(at + 1, &end);
-      if (end != at + 1 && isfinite(number)) watched[i].value = number;
+      if (end != at + 1 && isfinite(number)) one.value = number;
     }
   }
 }
@@ -111,9 +112,8 @@ void send_frames() {
 }
 
 void watch_columns(const char* const* names, size_t count) {
-  watched = static_cast<Watched*>(calloc(count + 1, sizeof(Watched)));
-  watched_count = watched == nullptr ? 0 : count;
-  for (size_t i = 0; i < watched_count; ++i) {
+  watched.resize(count);
+  for (size_t i = 0; i < count; ++i) {
     snprintf(watched[i].name, sizeof watched[i].name, "%s", names[i]);
   }
 }

@@ -110,12 +110,20 @@ uint8_t Adafruit_PWMServoDriver::readPrescale() {
 
 uint8_t Adafruit_PWMServoDriver::setPWM(uint8_t channel, uint16_t on, uint16_t off) {
   over_wire(5);
-  // Wholly on or off, or as long as it is on of 4096 steps.
-  if (((on | off) & 4096) != 0) return 0;
+  // Wholly on or off is no pulse; else it is on for so many of 4096 steps.
   const int steps = (off - on) & 4095;
+  if (((on | off) & 4096) != 0 || steps == 0) return 0;
+  bool wired = channel < 16 && (board.wiring.ignored_channels >> channel & 1U) != 0;
   for (int axis = 0; axis < 2; ++axis) {
     if (board.wiring.servos[axis].channel != channel) continue;
     pulse(axis, steps * (prescale_ + 1) / board.wiring.oscillator);
+    wired = true;
+  }
+  if (!wired) {
+    fail(
+        "Adafruit_PWMServoDriver.setPWM(%d, ...): no servo is wired to channel %d; the wiring's "
+        "servos name the channels of phi and theta, and in `ignored_channels` those of others",
+        channel, channel);
   }
   return 0;
 }
