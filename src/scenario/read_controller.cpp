@@ -47,7 +47,7 @@ struct Parameters {
   }
 
   [[nodiscard]] static yaml::Declared declared() {
-    yaml::Declared value{.kind = yaml::Declared::Kind::names};
+    yaml::Declared value(yaml::Declared::Kind::names);
     value.parts.push_back(yaml::Declared::number(yaml::Dimension::number));
     return value;
   }
@@ -265,7 +265,7 @@ struct CommandLimit {
   // Which of the two is a matter of `drives`: relations.cpp.
   [[nodiscard]] static yaml::Declared declared() {
     const auto one = yaml::Declared::number(yaml::Dimension::angle, {.above = 0});
-    yaml::Declared axes{.kind = yaml::Declared::Kind::mapping};
+    yaml::Declared axes(yaml::Declared::Kind::mapping);
     axes.keys = {{"phi", one, false, {}}, {"theta", one, false, {}}};
     axes.choices = {{{{"phi", "theta"}}, true}};
     return yaml::Declared::any({one, axes});

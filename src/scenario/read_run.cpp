@@ -23,11 +23,10 @@ struct Columns {
   [[nodiscard]] static std::string allowed() { return "a list of columns, such as [t, x, y]"; }
   // Any name that is no column is a number of the controller's own, if it has one.
   [[nodiscard]] static yaml::Declared declared() {
-    yaml::Declared column{.kind = yaml::Declared::Kind::name};
+    yaml::Declared column(yaml::Declared::Kind::name);
     for (const std::string_view name : column_names()) column.names.emplace_back(name);
-    yaml::Declared columns =
-        yaml::Declared::list(1, yaml::Declared::unbounded,
-                             yaml::Declared::any({column, {.kind = yaml::Declared::Kind::text}}));
+    yaml::Declared columns = yaml::Declared::list(
+        1, yaml::Declared::unbounded, yaml::Declared::any({column, yaml::Declared::Kind::text}));
     columns.distinct = true;
     return columns;
   }

@@ -21,8 +21,8 @@ struct Variations {
     return "a mapping from keys to values, such as ball.radius: linear:0.005:0.02:16";
   }
   [[nodiscard]] static yaml::Declared declared() {
-    yaml::Declared variations{.kind = yaml::Declared::Kind::names};
-    variations.parts.push_back({.kind = yaml::Declared::Kind::text});
+    yaml::Declared variations(yaml::Declared::Kind::names);
+    variations.parts.push_back(yaml::Declared::Kind::text);
     return variations;
   }
   static bool read(const yaml::Value& value, std::vector<Variation>& into) {
@@ -68,7 +68,7 @@ struct MeasureNames {
   }
   [[nodiscard]] static yaml::Declared declared() {
     yaml::Declared measures =
-        yaml::Declared::list(1, yaml::Declared::unbounded, {.kind = yaml::Declared::Kind::text});
+        yaml::Declared::list(1, yaml::Declared::unbounded, yaml::Declared::Kind::text);
     measures.distinct = true;
     return measures;
   }

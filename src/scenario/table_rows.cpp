@@ -103,7 +103,9 @@ struct UnitOf {
 
   [[nodiscard]] std::string allowed() const { return "one of " + yaml::unit_names(dimension); }
   [[nodiscard]] yaml::Declared declared() const {
-    return {.kind = yaml::Declared::Kind::unit, .dimension = dimension};
+    yaml::Declared unit(yaml::Declared::Kind::unit);
+    unit.dimension = dimension;
+    return unit;
   }
   bool read(const yaml::Value& value, yaml::UnitScale& into) const {
     if (value.node->kind != yaml::Node::Kind::scalar) return value.refuse("", allowed());

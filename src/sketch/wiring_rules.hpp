@@ -31,6 +31,7 @@ namespace bbsim::sketch {
 
 struct Pin {
   [[nodiscard]] static std::string allowed() { return "a pin, 0 to 53 or A0 to A15"; }
+  [[nodiscard]] static yaml::Declared declared() { return yaml::Declared::Kind::text; }
   static bool read(const yaml::Value& value, int& into) {
     if (value.node->kind == yaml::Node::Kind::scalar)
       into = pin_of(value.node->text);
@@ -45,6 +46,12 @@ struct Whole {
 
   [[nodiscard]] std::string allowed() const {
     return "a whole number from " + std::to_string(least) + " to " + std::to_string(most);
+  }
+  [[nodiscard]] yaml::Declared declared() const {
+    yaml::Declared number = yaml::Declared::number(
+        yaml::Dimension::number, {.at_least = double(least), .at_most = double(most)});
+    number.whole = true;
+    return number;
   }
   bool read(const yaml::Value& value, int& into) const {
     double number = 0;
@@ -61,6 +68,11 @@ struct Whole {
 
 struct Direction {
   [[nodiscard]] static std::string allowed() { return "1 or -1"; }
+  [[nodiscard]] static yaml::Declared declared() {
+    yaml::Declared sign(yaml::Declared::Kind::name);
+    sign.names = {"1", "-1"};
+    return sign;
+  }
   static bool read(const yaml::Value& value, int& into) {
     if (value.node->kind != yaml::Node::Kind::scalar ||
         (value.node->text != "1" && value.node->text != "-1")) {
@@ -85,6 +97,7 @@ struct CountMap {
     }
     map = {{counts[0], counts[1]}, {position[0], position[1]}};
   }
+  [[nodiscard]] static yaml::Declared declared() { return yaml::MappingOf(read_keys).declared(); }
   static bool read(const yaml::Value& value, bbsim_count_map& into) {
     if (value.node->kind != yaml::Node::Kind::mapping) return value.refuse("", allowed());
     return yaml::MappingOf(read_keys).read(value, into);
@@ -95,6 +108,11 @@ struct CountMap {
 struct Inputs {
   [[nodiscard]] static std::string allowed() {
     return "a mapping of pins to what they read, such as {A5: 512, 7: 1}";
+  }
+  [[nodiscard]] static yaml::Declared declared() {
+    yaml::Declared pins(yaml::Declared::Kind::names);
+    pins.parts.push_back(yaml::Declared::number(yaml::Dimension::number));
+    return pins;
   }
   static bool read(const yaml::Value& value, std::vector<bbsim_wired_input>& into) {
     if (value.node->kind != yaml::Node::Kind::mapping) return value.refuse("", allowed());

@@ -28,14 +28,14 @@ std::string Range::text() const {
 }
 
 Declared Declared::number(Dimension dimension, Range range) {
-  Declared value{.kind = Kind::number};
+  Declared value(Kind::number);
   value.dimension = dimension;
   value.range = range;
   return value;
 }
 
 Declared Declared::list(std::size_t fewest, std::size_t most, Declared item) {
-  Declared value{.kind = Kind::list};
+  Declared value(Kind::list);
   value.fewest = fewest;
   value.most = most;
   value.parts.push_back(std::move(item));
@@ -43,7 +43,7 @@ Declared Declared::list(std::size_t fewest, std::size_t most, Declared item) {
 }
 
 Declared Declared::any(std::vector<Declared> parts) {
-  Declared value{.kind = Kind::any};
+  Declared value(Kind::any);
   value.parts = std::move(parts);
   return value;
 }

@@ -49,7 +49,7 @@ struct Declared {
   };
   static constexpr std::size_t unbounded = std::numeric_limits<std::size_t>::max();
 
-  Kind kind = Kind::none;
+  Kind kind;
   Dimension dimension = Dimension::number;
   Range range{};
   bool whole = false;  // a number without a fraction
@@ -57,9 +57,10 @@ struct Declared {
   std::vector<Declared> parts{};
   std::size_t fewest = 1, most = unbounded;
   bool distinct = false;  // no item occurs twice
-  std::vector<DeclaredKey> keys{};
+  std::vector<DeclaredKey> keys;
   std::vector<Choice> choices{};
 
+  Declared(Kind of = Kind::none);  // NOLINT: a kind alone is a declaration
   [[nodiscard]] static Declared number(Dimension dimension, Range range = {});
   [[nodiscard]] static Declared list(std::size_t fewest, std::size_t most, Declared item);
   [[nodiscard]] static Declared any(std::vector<Declared> parts);
@@ -79,5 +80,7 @@ struct DeclaredKey {
 
   [[nodiscard]] bool must_be_given() const { return required || (section && value.needs_keys()); }
 };
+
+inline Declared::Declared(Kind of) : kind(of) {}
 
 }  // namespace bbsim::yaml

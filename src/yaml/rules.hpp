@@ -144,7 +144,7 @@ struct Text {
   bool lines = false;
 
   [[nodiscard]] std::string allowed() const { return std::string(meaning); }
-  [[nodiscard]] static Declared declared() { return {.kind = Declared::Kind::text}; }
+  [[nodiscard]] static Declared declared() { return Declared::Kind::text; }
   bool read(const Value& value, std::string& into) const;
 };
 
@@ -167,7 +167,7 @@ struct NameOf {
   }
   [[nodiscard]] std::string allowed() const { return "one of " + comma_separated(names()); }
   [[nodiscard]] Declared declared() const {
-    Declared name{.kind = Declared::Kind::name};
+    Declared name(Declared::Kind::name);
     for (const Named& choice : choices) name.names.emplace_back(choice.name);
     return name;
   }

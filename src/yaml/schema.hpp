@@ -199,7 +199,7 @@ class MappingOf {
 
   // A key that is known but not declared has the kind `none`.
   [[nodiscard]] Declared declared() const {
-    Declared result{.kind = Declared::Kind::mapping};
+    Declared result(Declared::Kind::mapping);
     std::vector<std::string_view> known;
     read_empty(&result, known);
     for (const std::string_view key : known) {
