@@ -18,7 +18,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 using scenario::Condition;
-using scenario::KeyRelation;
+using scenario::Relation;
 using yaml::Choice;
 using yaml::Declared;
 using yaml::DeclaredKey;
@@ -248,7 +248,7 @@ Json holds(const Condition& condition) {
   return {{"anyOf", {there, unless(at(condition.path, nullptr, true))}}};
 }
 
-Json schema_of(const KeyRelation& relation) {
+Json schema_of(const Relation& relation) {
   std::vector<Json> alternatives;
   for (const auto& alternative : relation.alternatives()) {
     std::vector<Json> all;
@@ -257,7 +257,7 @@ Json schema_of(const KeyRelation& relation) {
   }
   const Json any = any_of(std::move(alternatives));
   return {{"if", holds(Condition(relation.key))},
-          {"then", relation.kind == KeyRelation::Kind::needs ? any : unless(any)}};
+          {"then", relation.kind == Relation::Kind::needs ? any : unless(any)}};
 }
 
 const Declared& declared_at(std::string_view path) {
@@ -299,7 +299,7 @@ std::string scenario_json_schema() {
     const Declared& profile = declared_at(path);
     schema["definitions"][profile_name(profile)] = schema_of(profile, "profile");
   }
-  for (const KeyRelation& relation : scenario::relations()) {
+  for (const Relation& relation : scenario::relations()) {
     schema["allOf"].push_back(schema_of(relation));
   }
   schema["allOf"].push_back(limit_of_numbers());

@@ -9,10 +9,10 @@
 namespace bbsim::scenario {
 namespace {
 
-constexpr auto needs = KeyRelation::Kind::needs;
-constexpr auto excludes = KeyRelation::Kind::excludes;
+constexpr auto needs = Relation::Kind::needs;
+constexpr auto excludes = Relation::Kind::excludes;
 
-constexpr KeyRelation table[] = {
+constexpr Relation table[] = {
     // What moves the gimbal.
     {"time", needs, "gimbal.motion or gimbal.torque or controller"},
     {"gimbal.motion", excludes, "gimbal.torque or controller"},
@@ -151,7 +151,7 @@ bool holds(yaml::Keys& keys, const Condition& condition) {
 }
 
 struct Check {
-  const KeyRelation* relation;
+  const Relation* relation;
   Condition key;
   std::vector<std::vector<Condition>> others;
 };
@@ -159,7 +159,7 @@ struct Check {
 const std::vector<Check>& checks() {
   static const std::vector<Check> all = [] {
     std::vector<Check> list;
-    for (const KeyRelation& one : table) {
+    for (const Relation& one : table) {
       if (!one.message.empty()) list.push_back({&one, Condition(one.key), one.alternatives()});
     }
     return list;
@@ -180,7 +180,7 @@ void report_if_broken(yaml::Keys& keys, const Check& check) {
 }
 
 // Of what moves the gimbal: check_loop() asks for these alone.
-bool of_loop(const KeyRelation& relation) {
+bool of_loop(const Relation& relation) {
   return relation.others == "gimbal.motion" || relation.others == "gimbal.torque" ||
          relation.others.find("controller.drives") != std::string_view::npos;
 }
@@ -199,7 +199,7 @@ Condition::Condition(std::string_view text) {
   or_absent = std::erase(values, "") > 0;
 }
 
-std::vector<std::vector<Condition>> KeyRelation::alternatives() const {
+std::vector<std::vector<Condition>> Relation::alternatives() const {
   std::vector<std::vector<Condition>> all;
   for (const std::string_view alternative : split(others, " or ")) {
     auto& one = all.emplace_back();
@@ -210,7 +210,7 @@ std::vector<std::vector<Condition>> KeyRelation::alternatives() const {
   return all;
 }
 
-std::span<const KeyRelation> relations() {
+std::span<const Relation> relations() {
   return table;
 }
 

@@ -26,7 +26,7 @@ struct Condition {
 
 // If the condition `key` holds, then one of `others` holds (`needs`), or none of them (`excludes`).
 // `others` are conditions with " or " between; of each, all those with " and " between.
-struct KeyRelation {
+struct Relation {
   enum class Kind { needs, excludes };
   std::string_view key;
   Kind kind;
@@ -37,7 +37,7 @@ struct KeyRelation {
 
   [[nodiscard]] std::vector<std::vector<Condition>> alternatives() const;
 };
-[[nodiscard]] std::span<const KeyRelation> relations();
+[[nodiscard]] std::span<const Relation> relations();
 
 // Reports the relations with a message that do not hold. With `others`, only those of just these.
 void check_relations(yaml::Keys& scenario, std::string_view others);
