@@ -102,14 +102,10 @@ struct UnitOf {
   yaml::Dimension dimension;
 
   [[nodiscard]] std::string allowed() const { return "one of " + yaml::unit_names(dimension); }
-  [[nodiscard]] yaml::Declared declared() const {
-    return {.kind = yaml::Declared::Kind::unit, .dimension = dimension};
-  }
-  bool read(const yaml::Value& value, yaml::UnitScale& into) const {
+  bool read(const yaml::Value& value, std::optional<yaml::UnitScale>& into) const {
     if (value.node->kind != yaml::Node::Kind::scalar) return value.refuse("", allowed());
-    const auto scale = yaml::unit_scale(value.node->text, dimension);
-    if (scale) into = *scale;
-    return scale ? true : value.refuse("", allowed());
+    into = yaml::unit_scale(value.node->text, dimension);
+    return into ? true : value.refuse("", allowed());
   }
 };
 
@@ -160,12 +156,11 @@ bool read_columns(yaml::Keys& keys, const std::vector<std::string_view>& column_
         named;
   }
   std::optional<yaml::UnitScale> unit;
-  named = keys.optional("unit", UnitOf{dimension}, unit) && named;
+  if (const auto given = keys.find("unit")) named = UnitOf{dimension}.read(*given, unit) && named;
   if (dimension == yaml::Dimension::time) {
-    keys.exclusive({{"unit"}, {"time_unit"}});
-    named = keys.optional("time_unit", UnitOf{dimension}, unit) && named;
-    if (const auto given = keys.find("time_unit"); given && keys.find("unit")) {
-      named = given->report("found beside unit; allowed: one of them");
+    if (const auto given = keys.find("time_unit")) {
+      named = UnitOf{dimension}.read(*given, unit) && named;
+      if (keys.find("unit")) named = given->report("found beside unit; allowed: one of them");
     }
   }
   if (!named) return false;
@@ -204,8 +199,10 @@ void read_table_rows(yaml::Keys& keys, const std::vector<std::string_view>& valu
     named = keys.required(value_keys[k], column, names[k]) && named;
   }
   std::optional<yaml::UnitScale> unit, time_unit;
-  named = keys.optional("unit", UnitOf{dimension}, unit) && named;
-  named = keys.optional("time_unit", UnitOf{yaml::Dimension::time}, time_unit) && named;
+  if (const auto given = keys.find("unit")) named = UnitOf{dimension}.read(*given, unit) && named;
+  if (const auto given = keys.find("time_unit")) {
+    named = UnitOf{yaml::Dimension::time}.read(*given, time_unit) && named;
+  }
   if (!named) return;
 
   const file::TableData* data = load(*keys.find("file"), into.file);
