@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// What values of a wiring may be, beside those of yaml/rules.hpp.
+// Rules for values of a wiring, in addition to those of yaml/rules.hpp.
 #pragma once
 
 #include <bbsim/wiring.h>
@@ -15,7 +15,7 @@
 
 namespace bbsim::sketch {
 
-// The pin of that name; -1: there is none.
+// The number of the pin with this name, or -1.
 [[nodiscard]] inline int pin_of(std::string_view name) {
   const bool analog = name.starts_with('A');
   if (analog) name.remove_prefix(1);
@@ -91,7 +91,7 @@ struct CountMap {
   }
 };
 
-// Pins, each with what it reads.
+// Pins with the values that they read.
 struct Inputs {
   [[nodiscard]] static std::string allowed() {
     return "a mapping of pins to what they read, such as {A5: 512, 7: 1}";

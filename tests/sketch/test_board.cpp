@@ -73,6 +73,17 @@ TEST_CASE("screens and a servo driver give the numbers that their libraries give
   CHECK(contains(chip.err, "controller: 1469 2425 64\n"));
 }
 
+TEST_CASE("a global variable that uses the board is refused, with where to use it") {
+  const std::string use = GENERATE("EEPROM.read(0)", "analogRead(A5)", "digitalRead(7)");
+  const Sketch sketch(
+      "#include <EEPROM.h>\nint start = " + use + ";\nvoid setup() {}\nvoid loop() {}\n",
+      plain_wiring);
+  REQUIRE(sketch.made.exit_code == 0);
+  const Result run = bbsim(sketch.words("run", {"-o", "-", "-q"}));
+  CHECK(run.exit_code == 2);
+  CHECK(contains(run.err, "a global variable uses the board before setup()"));
+}
+
 TEST_CASE("what a board lacks is an error of the compiler, with a hint") {
   const Sketch sketch(
       "#include <Wire.h>\n#include <SPI.h>\nvoid tick() {}\nvoid setup() {\n"
@@ -103,8 +114,7 @@ TEST_CASE("the compiler's messages show the sketch's own lines, and warnings sta
   CHECK(warned.made.exit_code == 0);
   CHECK(contains(warned.made.err, "own.ino:3:7: warning: unused variable"));
   const Sketch missing("#include <FancySensor.h>\nvoid loop() {}\nvoid setup() {}\n", plain_wiring);
-  CHECK(contains(missing.made.err,
-                 "headers of libraries are looked for in the folders that -I names"));
+  CHECK(contains(missing.made.err, "name the folder of a library with -I"));
 }
 
 TEST_CASE("what a sketch does that its wiring has nothing for ends the run, with the cure") {
@@ -122,7 +132,7 @@ TEST_CASE("what a sketch does that its wiring has nothing for ends the run, with
   CAPTURE(sketch.made.err);
   REQUIRE(sketch.made.exit_code == 0);
   const std::vector<std::string> told = {
-      "analogRead(A7): nothing is wired to pin A7; a constant stands in the wiring's inputs",
+      "analogRead(A7): nothing is wired to pin A7; set a constant in the wiring: inputs: {A7: 512}",
       "Servo.attach(3): no servo is wired to pin 3",
       "analogWrite(9, ...): a servo is wired to pin 9, which needs the pulses of Servo.h",
       "EEPROM: there is no address 5000; allowed: 0 to 1023",
@@ -149,7 +159,7 @@ TEST_CASE("a sketch that waits for what cannot come is found out", "[slow]") {
   CAPTURE(result.err);
   CHECK(result.exit_code == 1);
   CHECK(contains(result.err,
-                 "it computes without end: 5 s of a processor, and no call that takes time"));
+                 "it is in an endless loop: 5 s of processor time without a call that takes time"));
   CHECK(contains(result.out, "\n0.08,"));  // the rows before
 }
 

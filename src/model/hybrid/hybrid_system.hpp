@@ -4,7 +4,7 @@
 // A run of a scene with switches: the model in its present mode, the next event, and its effect.
 // The integrator needs no other knowledge of a rig.
 //
-// Every kind of switch is a Part (part.hpp) with a file of its own in this folder. HybridSystem has
+// Every kind of switch is a Part (part.hpp) in its own file of this folder. HybridSystem has
 // those that the scene needs, puts their guards one after another, and resets all of them together.
 #pragma once
 

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// EEPROM.h: cells of a byte, whose content at the start is the wiring's file; what is written lasts
-// for the run.
+// EEPROM.h: cells of one byte. A run starts with the content of the wiring's file, and loses what
+// it writes.
 #pragma once
 
 #include "Arduino.h"
@@ -43,7 +43,7 @@ class EEPROMClass {
     return from;
   }
 
-  // Of boards whose EEPROM is a part of their flash.
+  // For boards that keep their EEPROM in flash memory.
   bool begin(size_t) { return true; }
   bool commit() { return true; }
   void end() {}

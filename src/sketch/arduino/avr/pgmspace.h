@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Constants in the program's memory, which is all there is here.
+// Constants in program memory. Here, all memory is the same.
 #pragma once
 
 #include <stdint.h>

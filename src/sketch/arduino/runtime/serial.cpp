@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Serial lines: what the sketch prints, and the frames that a camera sends.
+// Serial ports: the text that the sketch prints, and the frames of a camera.
 #include <unistd.h>
 
 #include <vector>
@@ -19,7 +19,7 @@ struct Watched {
 };
 std::vector<Watched> watched;
 
-// "name:value", several of them parted by commas, tabs or blanks: as for the plotter of the IDE.
+// Reads "name:value" pairs, separated by commas, tabs or blanks, as the plotter of the IDE does.
 void read_numbers(const char* line) {
   for (const char* at = line; (at = strchr(at, ':')) != nullptr; ++at) {
     for (Watched& one : watched) {
@@ -35,7 +35,8 @@ void read_numbers(const char* line) {
   }
 }
 
-// One call, so that lines of threads do not mix; and nothing that a terminal would obey.
+// One call, so that the lines of threads do not mix. Control characters are replaced, because a
+// terminal would obey them.
 void say(const char* line) {
   char text[4 * 256 + 16];
   int used = snprintf(text, sizeof text, "controller: ");
@@ -50,7 +51,7 @@ void say(const char* line) {
   static_cast<void>(written);
 }
 
-// Bytes on their way to the board, each with the time when it is there.
+// Bytes that are being sent to the board, with their times of arrival.
 struct Byte {
   Nanoseconds arrives;
   char value;
@@ -62,7 +63,7 @@ Nanoseconds line_is_free = 0;
 long long next_frame = 0;
 
 void send(char value, Nanoseconds earliest, Nanoseconds per_byte) {
-  if (sent_count == most_bytes) return;  // nobody reads
+  if (sent_count == most_bytes) return;  // the sketch does not read
   line_is_free = (earliest > line_is_free ? earliest : line_is_free) + per_byte;
   sent[(first_sent + sent_count++) % most_bytes] = {line_is_free, value};
 }
@@ -93,7 +94,7 @@ HardwareSerial* camera_port() {
   return port < 0 ? nullptr : ports[port];
 }
 
-// When the next frame is taken.
+// The time of the next frame.
 Nanoseconds frame_time() {
   return next_frame * nanoseconds(board.wiring.camera.period);
 }
@@ -105,7 +106,7 @@ void send_frames() {
   if (port == nullptr) return;
   const bbsim_wired_camera& camera = board.wiring.camera;
   for (; frame_time() <= board.now; ++next_frame) {
-    if (!*port) continue;  // nobody listens yet
+    if (!*port) continue;  // before begin()
     const char* const frame = board.sample.seen != 0 ? camera.frame : camera.lost;
     send_frame(frame, frame_time() + nanoseconds(camera.delay), port->per_byte());
   }
@@ -140,7 +141,7 @@ void HardwareSerial::end() {
   begun_ = false;
 }
 
-// What has arrived by now goes into the buffer, or is lost.
+// Bytes that have arrived go into the buffer. Bytes that do not fit are lost.
 void HardwareSerial::receive() {
   if (camera_port() != this) return;
   send_frames();
@@ -173,7 +174,7 @@ int HardwareSerial::read() {
   return letter;
 }
 
-// What is printed goes out line by line.
+// Output is written a line at a time.
 void HardwareSerial::add_to_line(char c) {
   if (c == '\n' || line_length_ == static_cast<int>(sizeof line_) - 1) {
     line_[line_length_] = '\0';
@@ -184,7 +185,7 @@ void HardwareSerial::add_to_line(char c) {
   if (c != '\n' && c != '\r') line_[line_length_++] = c;
 }
 
-// 64 bytes wait for the line without holding up the sketch.
+// The sketch continues while at most 64 bytes wait to be sent.
 size_t HardwareSerial::write(uint8_t letter) {
   spend(board.costs.serial);
   add_to_line(static_cast<char>(letter));
