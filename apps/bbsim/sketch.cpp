@@ -21,10 +21,10 @@ struct SketchArguments {
   bool force = false;
 };
 
-// What only the compiler's words do not say.
+// A cure that the compiler's messages do not name.
 std::string hint(const std::string& messages) {
   if (messages.find("No such file or directory") == std::string::npos) return "";
-  return "\nheaders of libraries are looked for in the folders that -I names";
+  return "\nname the folder of a library with -I";
 }
 
 ExitCode make(const SketchArguments& arguments, const Options& options) {
@@ -67,9 +67,9 @@ void add_sketch(Command& command, const Options& options) {
       .may_be_repeated();
   add_force(command, arguments->force);
   command.footer(
-      "The compiler is $CXX, or c++, or g++. A scenario runs the library with a file that says "
-      "what its\n"
-      "pins are wired to: controller: {library: {file: FILE.so, wiring: FILE.yaml}, ...}");
+      "The compiler is $CXX, c++ or g++. A scenario names the library, and the wiring of its "
+      "pins:\n"
+      "controller: {library: {file: FILE.so, wiring: FILE.yaml}, ...}");
   command.does([arguments, &options] { return make(*arguments, options); });
 }
 

@@ -1,11 +1,11 @@
 /* SPDX-FileCopyrightText: 2026 the bbsim authors
  * SPDX-License-Identifier: BSD-3-Clause */
 
-/* What a sketch's board is wired to, as controller.library.wiring says it (docs/reference/wiring.md).
+/* The wiring of a sketch's board, as read from controller.library.wiring (docs/reference/wiring.md).
  * A library that defines bbsim_controller_create_wired() is created with it in place of
- * bbsim_controller_create(); all else is as in controller.h. `bbsim sketch` makes such libraries.
+ * bbsim_controller_create(); the rest is as in controller.h. `bbsim sketch` makes such libraries.
  *
- * SI units and radians. A pin of -1 is none. Pointers hold for the call alone. */
+ * SI units and radians. Pin -1 means no pin. Pointers are valid during the call only. */
 #ifndef BBSIM_WIRING_H
 #define BBSIM_WIRING_H
 
@@ -15,8 +15,8 @@
 extern "C" {
 #endif
 
-/* Grows when anything below changes. */
-#define BBSIM_WIRING_VERSION 1u
+/* Increases when anything below changes. */
+#define BBSIM_WIRING_VERSION 2u
 
 /* counts = counts[0] + (position - position[0]) (counts[1] - counts[0]) / (position[1] - position[0]) */
 typedef struct bbsim_count_map {
@@ -66,7 +66,7 @@ typedef struct bbsim_wired_input {
   double value;
 } bbsim_wired_input;
 
-/* What calls take, s. */
+/* Duration of calls, s. */
 typedef struct bbsim_call_costs {
   double clock;        /* millis, micros */
   double digital;      /* pinMode, digitalRead, digitalWrite, analogWrite */
@@ -85,18 +85,19 @@ typedef struct bbsim_wiring {
   uint32_t print;               /* 1: what the sketch prints goes to standard error */
   bbsim_wired_servo servos[2];  /* phi, theta */
   double oscillator;            /* of the PCA9685, Hz */
+  uint32_t ignored_channels;    /* bit n: channel n of the PCA9685 drives a servo that is not in the scene */
   bbsim_wired_screen screen;
   bbsim_wired_camera camera;
   size_t input_count;
   const bbsim_wired_input *inputs;
   size_t ignored_count;
-  const int32_t *ignored; /* pins of servos that the scene does not have */
+  const int32_t *ignored; /* pins of servos that are not in the scene */
   size_t eeprom_size;     /* bytes */
   const unsigned char *eeprom;
   bbsim_call_costs costs;
 } bbsim_wiring;
 
-/* As bbsim_controller_create(), which such a library has too and which refuses. */
+/* Like bbsim_controller_create(), which such a library also has, and which refuses. */
 BBSIM_CONTROLLER_EXPORT void *bbsim_controller_create_wired(const bbsim_setup *setup,
                                                             const bbsim_wiring *wiring);
 

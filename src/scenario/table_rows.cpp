@@ -165,10 +165,16 @@ struct UnitOf {
   yaml::Dimension dimension;
 
   [[nodiscard]] std::string allowed() const { return "one of " + yaml::unit_names(dimension); }
-  bool read(const yaml::Value& value, std::optional<yaml::UnitScale>& into) const {
+  [[nodiscard]] yaml::Declared declared() const {
+    yaml::Declared unit(yaml::Declared::Kind::unit);
+    unit.dimension = dimension;
+    return unit;
+  }
+  bool read(const yaml::Value& value, yaml::UnitScale& into) const {
     if (value.node->kind != yaml::Node::Kind::scalar) return value.refuse("", allowed());
-    into = yaml::unit_scale(value.node->text, dimension);
-    return into ? true : value.refuse("", allowed());
+    const auto scale = yaml::unit_scale(value.node->text, dimension);
+    if (scale) into = *scale;
+    return scale ? true : value.refuse("", allowed());
   }
 };
 
@@ -190,6 +196,7 @@ struct OffsetOf {
   const std::optional<yaml::UnitScale>& unit;
 
   [[nodiscard]] std::string allowed() const { return yaml::Number{dimension}.allowed(); }
+  [[nodiscard]] yaml::Declared declared() const { return yaml::Declared::number(dimension); }
   bool read(const yaml::Value& value, double& into) const {
     const yaml::Quantity bare =
         value.node->kind == yaml::Node::Kind::scalar
@@ -203,24 +210,36 @@ struct OffsetOf {
 
 // A value for all columns, or a list with one for each.
 template <class Rule>
-bool read_for_each(yaml::Keys& keys, std::string_view key, const Rule& rule,
-                   std::vector<double>& into) {
-  const auto given = keys.find(key);
-  if (!given) return true;
-  if (given->node->kind == yaml::Node::Kind::sequence && into.size() > 1) {
-    const std::size_t count = into.size();
-    return yaml::ListOf<Rule, double>{rule, count, count, "numbers, one for each column"}.read(
-        *given, into);
+struct ForEach {
+  Rule rule;
+  std::size_t columns;
+
+  [[nodiscard]] std::string allowed() const { return rule.allowed(); }
+  [[nodiscard]] yaml::Declared declared() const {
+    if (columns == 1) return rule.declared();
+    return yaml::Declared::any(
+        {rule.declared(), yaml::Declared::list(columns, columns, rule.declared())});
   }
-  double one = 0;
-  if (!rule.read(*given, one)) return false;
-  into.assign(into.size(), one);
-  return true;
-}
+  bool read(const yaml::Value& value, std::vector<double>& into) const {
+    if (value.node->kind == yaml::Node::Kind::sequence && columns > 1) {
+      return yaml::ListOf<Rule, double>{rule, columns, columns, "numbers, one for each column"}
+          .read(value, into);
+    }
+    double one = 0;
+    if (!rule.read(value, one)) return false;
+    into.assign(columns, one);
+    return true;
+  }
+};
 
 struct TimeOffsetRule {
   [[nodiscard]] static std::string allowed() {
     return yaml::Number{yaml::Dimension::time}.allowed() + ", or start";
+  }
+  [[nodiscard]] static yaml::Declared declared() {
+    yaml::Declared start(yaml::Declared::Kind::name);
+    start.names = {"start"};
+    return yaml::Declared::any({yaml::Declared::number(yaml::Dimension::time), start});
   }
   static bool read(const yaml::Value& value, Changes& into) {
     const bool scalar = value.node->kind == yaml::Node::Kind::scalar;
@@ -237,15 +256,14 @@ struct TimeOffsetRule {
 };
 
 // All but the offset, which waits for the table's unit.
-bool read_changes(yaml::Keys& keys, std::size_t columns, Changes& into) {
+bool read_changes(yaml::Keys& keys, std::size_t columns, yaml::Dimension dimension,
+                  Changes& into) {
   into.scales.assign(columns, 1);
   into.offsets.assign(columns, 0);
-  bool fine = read_for_each(keys, "scale", yaml::Number{}, into.scales);
-  static_cast<void>(keys.find("offset"));
+  bool fine = keys.optional("scale", ForEach{yaml::Number{}, columns}, into.scales);
+  static_cast<void>(keys.find("offset", ForEach{yaml::Number{dimension}, columns}));
   fine = keys.optional("delay", yaml::Number{yaml::Dimension::time}, into.delay) && fine;
-  if (const auto given = keys.find("time_offset"))
-    fine = TimeOffsetRule::read(*given, into) && fine;
-  return fine;
+  return keys.optional("time_offset", TimeOffsetRule{}, into) && fine;
 }
 
 void move_times(const Changes& changes, std::vector<double>& times) {
@@ -331,11 +349,12 @@ bool read_columns(yaml::Keys& keys, const std::vector<std::string_view>& column_
         named;
   }
   std::optional<yaml::UnitScale> unit;
-  if (const auto given = keys.find("unit")) named = UnitOf{dimension}.read(*given, unit) && named;
+  named = keys.optional("unit", UnitOf{dimension}, unit) && named;
   if (dimension == yaml::Dimension::time) {
-    if (const auto given = keys.find("time_unit")) {
-      named = UnitOf{dimension}.read(*given, unit) && named;
-      if (keys.find("unit")) named = given->report("found beside unit; allowed: one of them");
+    keys.exclusive({{"unit"}, {"time_unit"}});
+    named = keys.optional("time_unit", UnitOf{dimension}, unit) && named;
+    if (const auto given = keys.find("time_unit"); given && keys.find("unit")) {
+      named = given->report("found beside unit; allowed: one of them");
     }
   }
   if (!named) return false;
@@ -383,12 +402,10 @@ void read_table_rows(yaml::Keys& keys, const std::vector<std::string_view>& valu
   }
   std::optional<yaml::UnitScale> unit, time_unit;
   Changes changes;
-  if (const auto given = keys.find("unit")) named = UnitOf{dimension}.read(*given, unit) && named;
-  if (const auto given = keys.find("time_unit")) {
-    named = UnitOf{yaml::Dimension::time}.read(*given, time_unit) && named;
-  }
+  named = keys.optional("unit", UnitOf{dimension}, unit) && named;
+  named = keys.optional("time_unit", UnitOf{yaml::Dimension::time}, time_unit) && named;
 
-  named = read_changes(keys, value_keys.size(), changes) && named;
+  named = read_changes(keys, value_keys.size(), dimension, changes) && named;
   if (!named) return;
   const file::TableData* data = load(*keys.find("file"), into.file);
   if (data == nullptr) return;
@@ -406,7 +423,10 @@ void read_table_rows(yaml::Keys& keys, const std::vector<std::string_view>& valu
     put_in_si(named_unit, values.back());
   }
   if (!times || values.size() < names.size()) return;
-  if (!read_for_each(keys, "offset", OffsetOf{dimension, own_unit}, changes.offsets)) return;
+  if (const auto given = keys.find("offset");
+      given && !ForEach{OffsetOf{dimension, own_unit}, names.size()}.read(*given, changes.offsets)) {
+    return;
+  }
   into.times = *times->numbers;
   into.values = std::move(values);
   found_names.push_back(times->name);

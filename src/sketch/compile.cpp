@@ -26,7 +26,7 @@ namespace fs = std::filesystem;
 
 constexpr const char* purpose = "compile the sketch";
 
-// Where the board's headers and its source are.
+// The folder of the board's headers and sources.
 std::string board_folder() {
   std::string looked_in;
   for (const std::string& share : file::share_folders()) {
@@ -39,7 +39,7 @@ std::string board_folder() {
                     looked_in + "; install bbsim whole, or set BBSIM_SHARE_PATH to share/bbsim");
 }
 
-// Goes with what compilers have put into it.
+// Removed at the end, with all files in it.
 class TemporaryFolder {
  public:
   TemporaryFolder() {
@@ -65,7 +65,7 @@ class TemporaryFolder {
   std::string path_, library_;
 };
 
-// The first compiler that there is: its words, and what it said of its version.
+// The first compiler that runs, of $CXX or of c++ and g++.
 class Compiler {
  public:
   Compiler() {
@@ -92,7 +92,7 @@ class Compiler {
     words.insert(words.end(), arguments.begin(), arguments.end());
     return file::run_program(words, input, purpose);
   }
-  // Options of all sources. Symbols are hidden, so that copies of the library share none.
+  // Options for all sources. Symbols are hidden, so that copies of the library share none.
   [[nodiscard]] std::vector<std::string> options(const std::string& board) const {
     std::vector<std::string> options{"-std=gnu++17",
                                      "-O2",

@@ -15,11 +15,11 @@ struct Job {
 };
 
 struct Compiled {
-  std::string library;   // its bytes; empty: it does not compile
+  std::string library;   // its bytes; empty if the sketch does not compile
   std::string messages;  // of the compiler
 };
 
-// By which a library made so is known: it stands at its end.
+// The last bytes of a library that compile() made.
 inline constexpr const char* library_mark = "bbsim sketch\n";
 
 // The files that compile() would read of the sketch itself and of its libraries.

@@ -21,7 +21,7 @@ bool is_file(const fs::path& path) {
   return fs::is_regular_file(path, error);
 }
 
-// What is in a folder, in an order that no file system chooses.
+// The entries of a folder, sorted, because the order of a file system is arbitrary.
 std::vector<fs::path> entries(const fs::path& folder) {
   std::vector<fs::path> found;
   std::error_code error;

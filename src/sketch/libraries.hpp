@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Where the headers are that a sketch includes, and which sources belong to them.
+// Finds the libraries of the headers that a sketch includes, and their sources.
 #pragma once
 
 #include <string>
@@ -11,13 +11,13 @@ namespace bbsim::sketch {
 
 struct Libraries {
   std::vector<std::string> folders;  // of headers
-  std::vector<std::string> sources;  // to be compiled with the sketch
+  std::vector<std::string> sources;  // compiled with the sketch
 };
 
-// Looks for the headers `included`, and for what these include in turn, in `own` folders, those of
-// the sketch, then in `given` ones: a folder X.h is in, or has in src/, or has in Name/ or
-// Name/src/. Beside a header of its own a sketch has X.cpp; a library has all sources of the
-// folder. Headers in `ours` are the board's.
+// Searches for the headers `included`, and for those that these include: first in the folders `own`
+// of the sketch, then in each folder `given` and its src/, Name/ and Name/src/. A header X.h of the
+// sketch brings X.cpp with it; a header of a library brings all sources of its folder. The board
+// has the headers in the folder `ours`.
 [[nodiscard]] Libraries find_libraries(const std::vector<std::string>& included,
                                        const std::vector<std::string>& own,
                                        const std::vector<std::string>& given,

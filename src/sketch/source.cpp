@@ -16,11 +16,11 @@ namespace {
 
 using Tokens = std::vector<Token>;
 
-// From its first word to its semicolon, or to the brace that ends its body: words [begin, end).
+// Tokens [begin, end): up to its semicolon, or to the closing brace of its body.
 struct Declaration {
   std::size_t begin, end;
-  std::size_t head;  // where its head ends: at its first brace, or at its end
-  int conditions;    // #if around it
+  std::size_t head;  // its first brace, or its end
+  int conditions;    // number of #if around it
 };
 
 std::size_t after_brace(const Tokens& tokens, std::size_t open) {
@@ -59,11 +59,11 @@ std::vector<Declaration> declarations_of(const Tokens& tokens) {
   return found;
 }
 
-// A function that the declaration's head names.
+// The function that a declaration names.
 struct Function {
   std::string_view name;
-  std::size_t open;   // the word "(" of its parameters
-  std::size_t close;  // and ")"
+  std::size_t open;   // the "(" of its parameters
+  std::size_t close;  // and the ")"
 };
 
 std::optional<Function> function_of(const Tokens& tokens, const Declaration& one) {
@@ -78,7 +78,7 @@ std::optional<Function> function_of(const Tokens& tokens, const Declaration& one
     if (tokens[open].is(")")) ++depth;
     if (tokens[open].is("(") && --depth == 0) break;
   }
-  if (open < one.begin + 2) return {};  // without a type
+  if (open < one.begin + 2) return {};  // has no type
   for (std::size_t i = one.begin; i < open; ++i) {
     if (std::ranges::find(others, tokens[i].text) != std::end(others)) return {};
   }
@@ -88,7 +88,7 @@ std::optional<Function> function_of(const Tokens& tokens, const Declaration& one
   return Function{name.text, open, close};
 }
 
-// Without what its parameters are by default.
+// Leaves out default arguments, because the definition repeats them.
 std::string prototype_of(const Tokens& tokens, const Declaration& one, const Function& function) {
   std::string text;
   int depth = 0;
@@ -127,7 +127,7 @@ std::string line_directive(std::size_t line, std::string_view file) {
   return text + "\"\n";
 }
 
-// The files in one text, and which of their lines is where.
+// The files as one text, with the place of each line.
 class Joined {
  public:
   explicit Joined(const std::vector<SketchFile>& files) : files_(files) {
@@ -159,7 +159,7 @@ std::string joined(const std::vector<SketchFile>& files) {
   const Joined whole(files);
   const Tokens tokens = tokens_of(whole.text());
   const std::vector<Declaration> declarations = declarations_of(tokens);
-  std::map<std::size_t, std::string> prototypes;  // by the offset that they are to stand at
+  std::map<std::size_t, std::string> prototypes;  // by their offsets in the text
   for (std::size_t i = 0; i < declarations.size(); ++i) {
     const Declaration& one = declarations[i];
     if (one.head == tokens.size() || !tokens[one.head].is("{")) continue;
@@ -172,10 +172,10 @@ std::string joined(const std::vector<SketchFile>& files) {
       if (!uses(tokens, earlier, function->name)) continue;
       const auto its = function_of(tokens, earlier);
       if (its && its->name == function->name && !tokens[earlier.head].is("{"))
-        break;                                           // the sketch's own
-      if (its && its->name == function->name) continue;  // another of that name
+        break;                                           // the sketch has a prototype
+      if (its && its->name == function->name) continue;  // an overload
       prototypes[tokens[earlier.begin].offset] += prototype;
-      if (earlier.conditions == 0) break;  // seen by all that follows
+      if (earlier.conditions == 0) break;  // the rest of the text sees it
     }
   }
   std::string source = "#include <Arduino.h>\n";

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Files of a sketch -> one C++ source, as the Arduino IDE makes it.
+// Makes one C++ source of the files of a sketch, as the Arduino IDE does.
 #pragma once
 
 #include <string>
@@ -10,13 +10,13 @@
 namespace bbsim::sketch {
 
 struct SketchFile {
-  std::string name;  // as messages of the compiler show it
+  std::string name;  // shown in the compiler's messages
   std::string text;
 };
 
 // Joins the files in their order, below #include <Arduino.h>. A function that is used above its
-// definition gets a prototype above that use, as late as can be, so that it sees the same types.
-// Messages of a compiler name the files' own lines (#line).
+// definition gets a prototype directly above the declaration that uses it first, where its types
+// are known. The compiler's messages name the files' own lines (#line).
 [[nodiscard]] std::string joined(const std::vector<SketchFile>& files);
 
 // The names between <> or "" of all #include in the text.

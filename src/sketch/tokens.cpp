@@ -68,12 +68,12 @@ class Scanner {
   [[nodiscard]] bool next_is(std::string_view what) const {
     return source_.substr(at_).starts_with(what);
   }
-  // Behind the next `what`, or at the end of all.
+  // Behind the next `what`, or the end of the text.
   [[nodiscard]] std::size_t after(std::string_view what, std::size_t from) const {
     const std::size_t found = source_.find(what, from);
     return found == std::string_view::npos ? source_.size() : found + what.size();
   }
-  // Where the line ends, and those that a backslash adds.
+  // The end of the line, with the lines that a backslash joins to it.
   [[nodiscard]] std::size_t end_of_line(std::size_t from) const {
     while (true) {
       const std::size_t end = std::min(source_.find('\n', from), source_.size());

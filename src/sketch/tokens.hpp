@@ -1,8 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The words of a C++ source, as far as it takes to find its functions: comments and blanks are
-// gone.
+// The tokens of a C++ source, without comments and blanks. They suffice to find its functions.
 #pragma once
 
 #include <cstddef>
@@ -13,14 +12,14 @@ namespace bbsim::sketch {
 
 struct Token {
   enum class Kind { name, other, directive } kind;
-  std::string_view text;  // of the source; a directive's lines from # on
+  std::string_view text;  // part of the source; for a directive, its lines from # on
   std::size_t offset;     // in the source
 
   [[nodiscard]] bool is(std::string_view what) const { return text == what; }
 };
 
-// The text outlives them. Numbers and strings are words, and each other character one of its own
-// but for "::" and "->".
+// The source must outlive the tokens. A number or a string is one token; so is each other
+// character, but for "::" and "->".
 [[nodiscard]] std::vector<Token> tokens_of(std::string_view source);
 
 }  // namespace bbsim::sketch

@@ -24,12 +24,13 @@ using yaml::Number;
 
 constexpr double degree = 3.14159265358979323846 / 180;
 
-// What is read, before pointers go into it.
+// The values read. Pointers of `c` are not set yet.
 struct Read {
   bbsim_wiring c{};
   std::string frame, lost;
   std::vector<bbsim_wired_input> inputs;
   std::vector<int> ignored;
+  std::vector<int> ignored_channels;
   std::string eeprom_file;
   int eeprom_size = 1024;
   bool has_size = false;
@@ -40,7 +41,7 @@ bbsim_wiring by_default() {
   c.version = BBSIM_WIRING_VERSION;
   c.setup_before = 1;
   c.print = 1;
-  // What Servo.h makes of 90 degrees, and of one.
+  // The pulse that Servo.h gives for 90 degrees, and its degrees per pulse.
   for (bbsim_wired_servo& servo : c.servos) servo = {-1, -1, 1472e-6, 180 * degree / 1856e-6};
   c.oscillator = 25e6;
   c.screen = {bbsim_no_screen, {-1, -1, -1, -1, -1}, {}, {}, 0, {300, 300}, 300, 0.01};
@@ -71,10 +72,13 @@ void read_servos(Keys& keys, Read& read) {
   if (!keys.find("phi") && !keys.find("theta"))
     keys.missing("phi", MappingOf(read_servo).allowed());
   keys.optional("ignored", yaml::ListOf<Pin, int>{{}, 1, 70, "pins"}, read.ignored);
+  keys.optional("ignored_channels", yaml::ListOf<Whole, int>{Whole{0, 15}, 1, 16, "channels"},
+                read.ignored_channels);
+  for (const int channel : read.ignored_channels) read.c.ignored_channels |= 1U << channel;
   keys.optional("oscillator", Number{Dimension::number, {.above = 0}, "25e6"}, read.c.oscillator);
 }
 
-// The screen's pins, by the names of what they are wired to.
+// The screen's pins, by the names of its electrodes.
 template <std::size_t count>
 bool read_pins(Keys& keys, const char* key, const std::string_view (&names)[count],
                bbsim_screen_kind kind, bbsim_wired_screen& screen) {
@@ -151,7 +155,7 @@ void read_eeprom(Keys& keys, Read& read) {
 
 void read_costs(Keys& keys, bbsim_call_costs& costs) {
   const Number time{Dimension::time, {.at_least = 0, .at_most = 1}, "\"100 us\""};
-  // So that a sketch that only asks for the time sees it go by.
+  // Above 0: time must pass for a sketch that only asks for it.
   const Number some{Dimension::time, {.at_least = 1e-7, .at_most = 1}, "\"2 us\""};
   keys.optional("clock", some, costs.clock);
   keys.optional("digital", time, costs.digital);
@@ -219,7 +223,7 @@ Wiring::Wiring(const std::string& file) : files_{file} {
     eeprom_ = file::read_whole(files_.back(), {}, most);
     if (!read.has_size) read.eeprom_size = std::max(static_cast<int>(eeprom_.size()), 1);
   }
-  eeprom_.resize(static_cast<std::size_t>(read.eeprom_size), '\xFF');  // as it is when it is new
+  eeprom_.resize(static_cast<std::size_t>(read.eeprom_size), '\xFF');  // as a new chip
   c_ = read.c;
   c_.camera.frame = frame_.c_str();
   c_.camera.lost = lost_.c_str();

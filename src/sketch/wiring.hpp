@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// What a sketch's board is wired to: a YAML file (docs/reference/wiring.md) -> bbsim_wiring.
+// Reads the wiring of a sketch's board from YAML (docs/reference/wiring.md).
 #pragma once
 
 #include <bbsim/wiring.h>
@@ -11,7 +11,7 @@
 
 namespace bbsim::sketch {
 
-// Holds what the C structure points to, and so stays where it is.
+// Holds the data that the C structure points to. Cannot be copied or moved.
 class Wiring {
  public:
   // Reads the file. Throws InputError with every problem found, "file:line:column: key: found ...,

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// What values of a wiring may be, beside those of yaml/rules.hpp.
+// Rules for values of a wiring, in addition to those of yaml/rules.hpp.
 #pragma once
 
 #include <bbsim/wiring.h>
@@ -15,7 +15,7 @@
 
 namespace bbsim::sketch {
 
-// The pin of that name; -1: there is none.
+// The number of the pin with this name, or -1.
 [[nodiscard]] inline int pin_of(std::string_view name) {
   const bool analog = name.starts_with('A');
   if (analog) name.remove_prefix(1);
@@ -31,6 +31,7 @@ namespace bbsim::sketch {
 
 struct Pin {
   [[nodiscard]] static std::string allowed() { return "a pin, 0 to 53 or A0 to A15"; }
+  [[nodiscard]] static yaml::Declared declared() { return yaml::Declared::Kind::text; }
   static bool read(const yaml::Value& value, int& into) {
     if (value.node->kind == yaml::Node::Kind::scalar)
       into = pin_of(value.node->text);
@@ -45,6 +46,12 @@ struct Whole {
 
   [[nodiscard]] std::string allowed() const {
     return "a whole number from " + std::to_string(least) + " to " + std::to_string(most);
+  }
+  [[nodiscard]] yaml::Declared declared() const {
+    yaml::Declared number = yaml::Declared::number(
+        yaml::Dimension::number, {.at_least = double(least), .at_most = double(most)});
+    number.whole = true;
+    return number;
   }
   bool read(const yaml::Value& value, int& into) const {
     double number = 0;
@@ -61,6 +68,11 @@ struct Whole {
 
 struct Direction {
   [[nodiscard]] static std::string allowed() { return "1 or -1"; }
+  [[nodiscard]] static yaml::Declared declared() {
+    yaml::Declared sign(yaml::Declared::Kind::name);
+    sign.names = {"1", "-1"};
+    return sign;
+  }
   static bool read(const yaml::Value& value, int& into) {
     if (value.node->kind != yaml::Node::Kind::scalar ||
         (value.node->text != "1" && value.node->text != "-1")) {
@@ -85,16 +97,22 @@ struct CountMap {
     }
     map = {{counts[0], counts[1]}, {position[0], position[1]}};
   }
+  [[nodiscard]] static yaml::Declared declared() { return yaml::MappingOf(read_keys).declared(); }
   static bool read(const yaml::Value& value, bbsim_count_map& into) {
     if (value.node->kind != yaml::Node::Kind::mapping) return value.refuse("", allowed());
     return yaml::MappingOf(read_keys).read(value, into);
   }
 };
 
-// Pins, each with what it reads.
+// Pins with the values that they read.
 struct Inputs {
   [[nodiscard]] static std::string allowed() {
     return "a mapping of pins to what they read, such as {A5: 512, 7: 1}";
+  }
+  [[nodiscard]] static yaml::Declared declared() {
+    yaml::Declared pins(yaml::Declared::Kind::names);
+    pins.parts.push_back(yaml::Declared::number(yaml::Dimension::number));
+    return pins;
   }
   static bool read(const yaml::Value& value, std::vector<bbsim_wired_input>& into) {
     if (value.node->kind != yaml::Node::Kind::mapping) return value.refuse("", allowed());

@@ -31,6 +31,59 @@ TEST_CASE("a board has what sketches use, as the boards have it") {
   CHECK(contains(result.out, "t,phi_command,theta_command,loops\n0,0,0,"));
 }
 
+TEST_CASE("screens and a servo driver give the numbers that their libraries give") {
+  const Folder folder;
+  const Sketch sketch(
+      "#include <Adafruit_PWMServoDriver.h>\n#include <Adafruit_STMPE610.h>\n#include "
+      "<TouchScreen.h>\n"
+      "Adafruit_PWMServoDriver pwm;\nTouchScreen screen(A0, A1, A2, A3, 300);\n"
+      "Adafruit_STMPE610 chip(8);\nvoid loop() { delay(1); }\nvoid setup() {\n"
+      "  SerialUSB.begin(115200);\n  pwm.begin();\n  pwm.setOscillatorFrequency(27000000);\n"
+      "  pwm.setPWMFreq(50);\n  for (int i = 0; i < 16; i++) pwm.setPWM(i, 0, 4096);\n"
+      "  pwm.setPWM(0, 0, 307);\n  pwm.writeMicroseconds(1, 1600);\n  pwm.setPWM(2, 0, 300);\n"
+      "  int x, y, z;\n  if (digitalRead(7)) {\n    chip.begin();\n"
+      "    TS_Point p = chip.getPoint();\n    x = p.x; y = p.y; z = p.z;\n  } else {\n"
+      "    TSPoint p = screen.getPoint();\n    x = p.x; y = p.y; z = p.z;\n  }\n"
+      "  SerialUSB.println(String(x) + ' ' + y + ' ' + z);\n}\n",
+      plain_wiring);
+  CAPTURE(sketch.made.err);
+  REQUIRE(sketch.made.exit_code == 0);
+  const auto run = [&](const std::string& parts) {
+    const std::string wiring = folder.write(
+        "wiring.yaml",
+        "servos: {phi: {channel: 0}, theta: {channel: 1}, ignored_channels: [2], oscillator: "
+        "27e6}\n" +
+            parts);
+    return bbsim(sketch.words("run", {"--set", "controller.library.wiring=" + wiring, "--set",
+                                      "output.columns=[t, phi_command, theta_command]", "--set",
+                                      "time.end=0.02", "-o", "-", "-q"}));
+  };
+  // A step is 132 of 27e6 s; 307 of them are 1500.9 us, 28.9 us above level.
+  const Result wires = run(
+      "inputs: {7: 0}\nscreen:\n  four_wire: {x_plus: A0, y_plus: A1, x_minus: A2, y_minus: A3}\n"
+      "  x: {counts: [112, 912], position: [-0.16, 0.16]}\n"
+      "  y: {counts: [212, 812], position: [-0.12, 0.12]}\n");
+  CHECK(contains(wires.err, "controller: 636 436 299\n"));
+  CHECK(contains(wires.out, "\n0,0.0488"));
+  CHECK(contains(wires.out, ",0.2144"));
+  const Result chip =
+      run("inputs: {7: 1}\nscreen:\n  chip: stmpe610\n"
+          "  x: {counts: [300, 3700], position: [-0.16, 0.16]}\n"
+          "  y: {counts: [300, 3700], position: [-0.12, 0.12]}\n");
+  CHECK(contains(chip.err, "controller: 1469 2425 64\n"));
+}
+
+TEST_CASE("a global variable that uses the board is refused, with where to use it") {
+  const std::string use = GENERATE("EEPROM.read(0)", "analogRead(A5)", "digitalRead(7)");
+  const Sketch sketch(
+      "#include <EEPROM.h>\nint start = " + use + ";\nvoid setup() {}\nvoid loop() {}\n",
+      plain_wiring);
+  REQUIRE(sketch.made.exit_code == 0);
+  const Result run = bbsim(sketch.words("run", {"-o", "-", "-q"}));
+  CHECK(run.exit_code == 2);
+  CHECK(contains(run.err, "a global variable uses the board before setup()"));
+}
+
 TEST_CASE("what a board lacks is an error of the compiler, with a hint") {
   const Sketch sketch(
       "#include <Wire.h>\n#include <SPI.h>\nvoid tick() {}\nvoid setup() {\n"
@@ -51,7 +104,7 @@ TEST_CASE("what a board lacks is an error of the compiler, with a hint") {
   CHECK(sketch.folder().files() == std::vector<std::string>{"own.ino", "wiring.yaml"});
 }
 
-TEST_CASE("the compiler's messages show the sketch's own lines; warnings stay warnings") {
+TEST_CASE("the compiler's messages show the sketch's own lines, and warnings stay warnings") {
   const Sketch wrong(
       "void loop() {\n  later();\n  nobody();\n}\nvoid setup() {}\nvoid later() {}\n",
       plain_wiring);
@@ -61,30 +114,32 @@ TEST_CASE("the compiler's messages show the sketch's own lines; warnings stay wa
   CHECK(warned.made.exit_code == 0);
   CHECK(contains(warned.made.err, "own.ino:3:7: warning: unused variable"));
   const Sketch missing("#include <FancySensor.h>\nvoid loop() {}\nvoid setup() {}\n", plain_wiring);
-  CHECK(contains(missing.made.err,
-                 "headers of libraries are looked for in the folders that -I names"));
+  CHECK(contains(missing.made.err, "name the folder of a library with -I"));
 }
 
 TEST_CASE("what a sketch does that its wiring has nothing for ends the run, with the cure") {
   const Folder folder;
   const Sketch sketch(
-      "#include <Servo.h>\n#include <EEPROM.h>\nServo s;\nvoid loop() {}\nvoid setup() {\n"
+      "#include <Servo.h>\n#include <EEPROM.h>\n#include <Adafruit_PWMServoDriver.h>\n"
+      "Adafruit_PWMServoDriver pwm;\nServo s;\nvoid loop() {}\nvoid setup() {\n"
       "  switch (analogRead(A0)) {\n"
       "    case 1: analogRead(A7); break;\n    case 2: s.attach(3); break;\n"
       "    case 3: analogWrite(9, 10); break;\n    case 4: EEPROM.read(5000); break;\n"
       "    case 5: exit(4);\n    case 6: delay(700000); break;\n"
-      "    case 7: digitalWrite(99, 1); break;\n  }\n}\n",
+      "    case 7: digitalWrite(99, 1); break;\n    case 8: pwm.setPWM(2, 0, 300); break;\n  "
+      "}\n}\n",
       plain_wiring);
   CAPTURE(sketch.made.err);
   REQUIRE(sketch.made.exit_code == 0);
   const std::vector<std::string> told = {
-      "analogRead(A7): nothing is wired to pin A7; a constant stands in the wiring's inputs",
+      "analogRead(A7): nothing is wired to pin A7; set a constant in the wiring: inputs: {A7: 512}",
       "Servo.attach(3): no servo is wired to pin 3",
       "analogWrite(9, ...): a servo is wired to pin 9, which needs the pulses of Servo.h",
       "EEPROM: there is no address 5000; allowed: 0 to 1023",
       "it called exit(4)",
       "setup() has not returned within 600 s of the board's clock",
       "digitalWrite(99): there is no such pin",
+      "Adafruit_PWMServoDriver.setPWM(2, ...): no servo is wired to channel 2",
   };
   for (std::size_t i = 0; i < told.size(); ++i) {
     const std::string wiring = folder.write(
@@ -104,7 +159,7 @@ TEST_CASE("a sketch that waits for what cannot come is found out", "[slow]") {
   CAPTURE(result.err);
   CHECK(result.exit_code == 1);
   CHECK(contains(result.err,
-                 "it computes without end: 5 s of a processor, and no call that takes time"));
+                 "it is in an endless loop: 5 s of processor time without a call that takes time"));
   CHECK(contains(result.out, "\n0.08,"));  // the rows before
 }
 

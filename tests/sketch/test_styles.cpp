@@ -55,7 +55,7 @@ TEST_CASE(
   for (int i = 0; i < 3; ++i) CHECK(bbsim(words).out == first.out);
 }
 
-TEST_CASE("a hundred runs of a sketch give the same bytes ", "[slow]") {
+TEST_CASE("a hundred runs of a sketch give the same bytes", "[slow]") {
   const std::string name = GENERATE("pid_touch", "camera");
   const Sketch sketch(name);
   const std::vector<std::string> words = sketch.words("run", {"-o", "-", "-q"});
@@ -93,7 +93,8 @@ TEST_CASE("threads of a sweep have boards of their own") {
   REQUIRE(alone.exit_code == 0);
   CHECK(bbsim(four).out == alone.out);
   const Result single =
-      bbsim(sketch.words("run", {"--set", "ball.position.0=0.05", "--measure", "end_x", "-q"}));
+      bbsim(sketch.words("run", {"--set", "ball.position.0=0.05", "--measure", "end_x", "-q", "-o",
+                                 sketch.folder() / "run.csv"}));
   const std::string end_x = single.out.substr(single.out.rfind(',') + 1);
   CHECK(contains(alone.out, end_x.substr(0, end_x.find('\n'))));
 }

@@ -57,6 +57,7 @@ servos:
   phi: {channel: 3, level: "1510 us", scale: "0.1 deg", direction: -1}
   theta: {pin: 4}
   ignored: [5, A0]
+  ignored_channels: [2, 15]
   oscillator: 27e6
 screen:
   four_wire: {x_plus: A0, x_minus: A2, y_plus: A1, y_minus: 8}
@@ -76,6 +77,7 @@ costs: {analog: "20 us"}
   CHECK(c.servos[0].scale == Approx(-0.1 * 3.14159265358979 / 180 * 1e6).epsilon(1e-14));
   CHECK(c.ignored_count == 2);
   CHECK(c.ignored[1] == 54);
+  CHECK(c.ignored_channels == 0x8004);
   CHECK(c.screen.kind == bbsim_four_wires);
   CHECK(c.screen.pins[3] == 8);
   CHECK(c.screen.x.position[1] == 0.16);

@@ -19,7 +19,7 @@
 
 #include "bbsim_board.h"
 
-// Names that the boards' C library has not, and that sketches give to their own variables.
+// The C library of boards lacks these names, and sketches use them for their own variables.
 #define y0 sketch_y0
 #define y1 sketch_y1
 #define yn sketch_yn
@@ -69,12 +69,12 @@ enum { DEC = 10, HEX = 16, OCT = 8, BIN = 2 };
 #define bitWrite(value, b, to) ((to) ? bitSet(value, b) : bitClear(value, b))
 #define word(...) makeWord(__VA_ARGS__)
 
-template <class A, class B>
-constexpr auto min(A a, B b) -> decltype(a < b ? a : b) {
+template <class Left, class Right>
+constexpr auto min(Left a, Right b) -> decltype(a < b ? a : b) {
   return a < b ? a : b;
 }
-template <class A, class B>
-constexpr auto max(A a, B b) -> decltype(a < b ? b : a) {
+template <class Left, class Right>
+constexpr auto max(Left a, Right b) -> decltype(a < b ? b : a) {
   return a < b ? b : a;
 }
 using std::abs;
@@ -94,7 +94,7 @@ constexpr word makeWord(word value) {
 constexpr word makeWord(byte high, byte low) {
   return static_cast<word>(high << 8 | low);
 }
-// In whole numbers, as on the boards.
+// Computes with integers, as on the boards.
 constexpr long map(long value, long from_low, long from_high, long to_low, long to_high) {
   return (value - from_low) * (to_high - to_low) / (from_high - from_low) + to_low;
 }
@@ -121,7 +121,7 @@ void analogReadResolution(int bits);
 void analogWriteResolution(int bits);
 void analogReference(int reference);
 
-// Nothing interrupts a sketch here, and nobody hears it.
+// There are no interrupts and no loudspeaker, so these do nothing.
 inline void interrupts() {}
 inline void noInterrupts() {}
 inline void cli() {}

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// EEPROM.h: cells of a byte, whose content at the start is the wiring's file; what is written lasts
-// for the run.
+// EEPROM.h: cells of one byte. A run starts with the content of the wiring's file, and loses what
+// it writes.
 #pragma once
 
 #include "Arduino.h"
@@ -30,20 +30,20 @@ class EEPROMClass {
   void update(int address, uint8_t value) { EEPROMCell{address} = value; }
   int length() const { return bbsim_board::cells(); }
 
-  template <class T>
-  T& get(int address, T& into) const {
+  template <class Any>
+  Any& get(int address, Any& into) const {
     auto* const bytes = reinterpret_cast<uint8_t*>(&into);
     for (size_t i = 0; i < sizeof into; ++i) bytes[i] = read(address + static_cast<int>(i));
     return into;
   }
-  template <class T>
-  const T& put(int address, const T& from) {
+  template <class Any>
+  const Any& put(int address, const Any& from) {
     const auto* const bytes = reinterpret_cast<const uint8_t*>(&from);
     for (size_t i = 0; i < sizeof from; ++i) update(address + static_cast<int>(i), bytes[i]);
     return from;
   }
 
-  // Of boards whose EEPROM is a part of their flash.
+  // For boards that keep their EEPROM in flash memory.
   bool begin(size_t) { return true; }
   bool commit() { return true; }
   void end() {}

@@ -114,11 +114,11 @@ class HardwareSerial : public Stream {
   long long per_byte_ = 0, line_is_free_ = 0;
   char buffer_[64] = {};
   int first_ = 0, count_ = 0;
-  char line_[256] = {};  // that is being printed
+  char line_[256] = {};  // not yet printed
   int line_length_ = 0;
 };
 
 enum { SERIAL_8N1 = 0x06 };
 
-// What a camera sends comes in on the port that the wiring names; all ports print.
+// A camera's text arrives at the port that the wiring names. All ports print.
 extern HardwareSerial Serial, Serial1, Serial2, Serial3, SerialUSB;

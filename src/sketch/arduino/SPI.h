@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The SPI bus, for the parts that the wiring has, by their own headers.
+// The SPI bus. The parts of the wiring have headers of their own that use it.
 #pragma once
 
 #include "Arduino.h"

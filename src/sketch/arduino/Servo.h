@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Servo.h of the boards: a value of 544 and more is microseconds; 90 degrees are 1472 us, and a
-// degree 10.3, unless attach() says otherwise.
+// Servo.h, as on the boards: values from 544 on are microseconds. 90 degrees are 1472 us and a
+// degree is 10.3 us, unless attach() sets other limits.
 #pragma once
 
 #include "Arduino.h"

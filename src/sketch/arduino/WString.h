@@ -33,21 +33,21 @@ class String {
   const char* c_str() const { return text_.c_str(); }
   bool reserve(unsigned size) { return text_.reserve(size), true; }
 
-  template <class T>
-  String& operator=(const T& value) {
+  template <class Any>
+  String& operator=(const Any& value) {
     return text_ = String(value).text_, *this;
   }
-  template <class T>
-  String& operator+=(const T& value) {
+  template <class Any>
+  String& operator+=(const Any& value) {
     return text_ += String(value).text_, *this;
   }
   String& operator+=(const String& other) { return text_ += other.text_, *this; }
-  template <class T>
-  bool concat(const T& value) {
+  template <class Any>
+  bool concat(const Any& value) {
     return *this += value, true;
   }
-  template <class T>
-  friend String operator+(String left, const T& right) {
+  template <class Any>
+  friend String operator+(String left, const Any& right) {
     return left += right;
   }
   friend String operator+(const char* left, const String& right) { return String(left) += right; }

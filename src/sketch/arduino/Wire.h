@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The I2C bus, for the parts that the wiring has, by their own headers; bytes of one's own have
-// nobody who would answer.
+// The I2C bus. The parts of the wiring have headers of their own that use it. Nothing answers other
+// bytes.
 #pragma once
 
 #include "Arduino.h"

@@ -1,18 +1,18 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// What the headers here share: the board's clock, and the words for what it lacks.
+// Shared by the headers here: the board's clock, and errors for functions that the board lacks.
 #pragma once
 
 #include <stddef.h>
 
 namespace bbsim_board {
 
-// The call took that long, in ns: the board's clock moves, and other calls see what is then.
+// Advances the board's clock by the duration of a call, ns. The call may return in a later sample.
 void spend(long long time);
 long long now();  // ns
 
-// The run ends with that reason.
+// Ends the run with this reason. Does not return, except to the constructor of a global variable.
 __attribute__((format(printf, 1, 2))) void fail(const char* format, ...);
 
 template <class...>
@@ -20,7 +20,7 @@ inline constexpr bool never = false;
 
 }  // namespace bbsim_board
 
-// A function that is not there: who calls it gets the hint from the compiler.
+// A function that the board lacks. A call is an error of the compiler, with this hint.
 #define BBSIM_LACKS(name, hint)                                      \
   template <class... Arguments>                                      \
   int name(Arguments&&...) {                                         \

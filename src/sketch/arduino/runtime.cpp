@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// All of the board in one source, as `bbsim sketch` compiles it beside each sketch.
+// The whole board as one source, which `bbsim sketch` compiles with each sketch.
 #include "runtime/controller.cpp"
 #include "runtime/copies.cpp"
 #include "runtime/core.cpp"

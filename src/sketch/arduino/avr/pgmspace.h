@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Constants in the program's memory, which is all there is here.
+// Constants in program memory. Here, all memory is the same.
 #pragma once
 
 #include <stdint.h>
@@ -11,9 +11,9 @@
 #define PGM_P const char*
 #define PSTR(text) (text)
 
-template <class T>
-constexpr T bbsim_read(const void* from) {
-  return *static_cast<const T*>(from);
+template <class Any>
+constexpr Any bbsim_read(const void* from) {
+  return *static_cast<const Any*>(from);
 }
 #define pgm_read_byte(from) bbsim_read<uint8_t>(from)
 #define pgm_read_word(from) bbsim_read<uint16_t>(from)

@@ -1,40 +1,49 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The sketch as a controller: what a copy of the library does for bbsim (copies.cpp).
+// The sketch as a controller. Runs in a copy of the library (copies.cpp).
+#include <vector>
+
 #include "Arduino.h"
 #include "runtime/board.hpp"
 
 namespace bbsim_board {
 namespace {
 
-Nanoseconds switched_on_before = 0;  // t = 0, on the board's clock
+Nanoseconds switched_on_before = 0;  // time of t = 0 on the board's clock
 double period = 0;                   // s
 size_t column_count = 0;
 
-template <class T>
-T* copy(const T* from, size_t count) {
-  T* const made = static_cast<T*>(calloc(count + 1, sizeof(T)));
-  if (made != nullptr && count > 0) memcpy(made, from, count * sizeof(T));
-  return made;
+// The data that board.wiring points to. They end with the copy of the library.
+std::vector<bbsim_wired_input> inputs;
+std::vector<int32_t> ignored;
+std::vector<unsigned char> eeprom;
+std::string frame, lost;
+
+template <class Any>
+const Any* keep(std::vector<Any>& in, const Any* from, size_t count) {
+  in.assign(from, from + count);
+  return in.data();
 }
 
-// In a copy of the library. Returns why there can be no controller, if so.
+// Returns null, or the reason why it refuses the setup.
 const char* create(const bbsim_setup* setup, const bbsim_wiring* wiring) {
+  if (board.said[0] != '\0') return board.said;  // by a global variable's constructor
   static char why[200];
   if (setup->drives_acceleration != 0) return "a sketch moves servos; allowed: drives: angle";
   if (setup->parameter_count > 0) {
-    snprintf(why, sizeof why, "a sketch takes no parameters, found %.60s; its numbers stand in it",
+    snprintf(why, sizeof why,
+             "a sketch takes no parameters, found %.60s; set the numbers in the sketch",
              setup->parameters[0].name);
     return why;
   }
   board.wiring = *wiring;
   bbsim_wiring& own = board.wiring;
-  own.inputs = copy(own.inputs, own.input_count);
-  own.ignored = copy(own.ignored, own.ignored_count);
-  own.eeprom = copy(own.eeprom, own.eeprom_size);
-  own.camera.frame = copy(own.camera.frame, strlen(own.camera.frame));
-  own.camera.lost = copy(own.camera.lost, strlen(own.camera.lost));
+  own.inputs = keep(inputs, own.inputs, own.input_count);
+  own.ignored = keep(ignored, own.ignored, own.ignored_count);
+  own.eeprom = keep(eeprom, own.eeprom, own.eeprom_size);
+  own.camera.frame = (frame = own.camera.frame).c_str();
+  own.camera.lost = (lost = own.camera.lost).c_str();
   const bbsim_call_costs& costs = own.costs;
   board.costs = {
       nanoseconds(costs.clock), nanoseconds(costs.digital),      nanoseconds(costs.analog),
@@ -44,11 +53,11 @@ const char* create(const bbsim_setup* setup, const bbsim_wiring* wiring) {
   period = setup->period;
   column_count = setup->column_count;
   watch_columns(setup->columns, column_count);
-  return start_sketch() ? nullptr : "there is no memory for its stack";
+  return start_sketch() ? nullptr : "out of memory for its stack";
 }
 
-// The board is on until setup() has returned; what it sees is the first sample. Then, for t = 0, it
-// waits for the end of a whole number of periods.
+// Runs setup() before t = 0. It sees the first sample. t = 0 is then the next whole number of
+// sampling periods on the board's clock.
 void set_up() {
   board.horizon = 600 * 1000000000LL;
   run_sketch();
@@ -66,7 +75,7 @@ int step(const bbsim_sample* sample, double* command, double* columns) {
   board.sample = *sample;
   if (board.said[0] == '\0' && sample->number == 0 && board.wiring.setup_before != 0) set_up();
   if (board.said[0] == '\0') {
-    const double next = static_cast<double>(sample->number + 1) * period;  // sample's t
+    const double next = static_cast<double>(sample->number + 1) * period;  // s
     board.horizon = switched_on_before + nanoseconds(next);
     send_frames();
     if (board.now < board.horizon) run_sketch();
@@ -82,11 +91,11 @@ const char* said() {
   return board.said;
 }
 
-// Called by the watchdog in the midst of the sketch, which is left there for good.
+// The watchdog calls this while the sketch runs. The sketch is not resumed.
 void stuck() {
   fail(
-      "it computes without end: %d s of a processor, and no call that takes time, such as millis() "
-      "or delay()",
+      "it is in an endless loop: %d s of processor time without a call that takes time, such as "
+      "millis() or delay()",
       patience);
 }
 

@@ -3,8 +3,8 @@
 
 // The functions that bbsim calls (bbsim/controller.h, bbsim/wiring.h). A sketch keeps its state in
 // global variables, so each controller is a copy of this library, which the linker loads from
-// memory: what is called here is passed on to the copy's. None of it uses variables of threads:
-// each copy would have a set of them in each thread.
+// memory. The functions here call those of the copy. The code has no thread_local variables,
+// because each copy would have them in each thread.
 #include <dlfcn.h>
 #include <pthread.h>
 #include <signal.h>
@@ -20,7 +20,7 @@ namespace bbsim_board {
 namespace {
 
 struct Copy {
-  int file;  // stays open: its number is the copy's name
+  int file;  // stays open, because its number is in the copy's name
   void* library;
   const Functions* functions;
 };
@@ -43,9 +43,9 @@ struct Image {
   }
 };
 
-// What each thread has of its own.
+// The data of one thread.
 struct Thread {
-  char why_not[400];  // of its last create()
+  char why_not[400];  // the error of the last create()
   const Functions* running;
   timer_t timer;
   bool has_timer;
@@ -65,8 +65,7 @@ pthread_key_t key() {
   return made;
 }
 
-// A sketch that waits for what cannot come, as in while (1);, is found out by the processor time
-// that a step takes.
+// Stops a sketch in an endless loop, such as while (1);, by the processor time of a step.
 void watch(Thread& thread) {
   struct sigaction action {};
   action.sa_flags = SA_RESTART;
@@ -110,14 +109,14 @@ bool load(Copy& copy) {
   copy.file = memfd_create("sketch", MFD_CLOEXEC);
   if (image.size == 0 || copy.file < 0 ||
       ::write(copy.file, image.bytes, image.size) != static_cast<ssize_t>(image.size)) {
-    refuse("its file cannot be copied");
+    refuse("cannot copy its file");
     return false;
   }
   char name[40];
   snprintf(name, sizeof name, "/proc/self/fd/%d", copy.file);
   copy.library = dlopen(name, RTLD_NOW | RTLD_LOCAL);
   if (copy.library == nullptr) {
-    refuse("its copy cannot be opened: %s", dlerror());
+    refuse("cannot open its copy: %s", dlerror());
     return false;
   }
   copy.functions = static_cast<const Functions*>(dlsym(copy.library, "bbsim_sketch_functions"));
@@ -158,7 +157,7 @@ void* bbsim_controller_create(const bbsim_setup*) {
 
 void* bbsim_controller_create_wired(const bbsim_setup* setup, const bbsim_wiring* wiring) {
   if (wiring->version != BBSIM_WIRING_VERSION) {
-    refuse("it was made by another version of bbsim sketch; make it anew");
+    refuse("another version of bbsim sketch compiled it; compile it again");
     return nullptr;
   }
   Copy* const copy = static_cast<Copy*>(calloc(1, sizeof(Copy)));

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// What is left of Arduino.h: random numbers, numbers as text, the EEPROM, the buses.
+// Other functions of Arduino.h: random numbers, numbers as text, the EEPROM, the buses.
 #include "EEPROM.h"
 #include "Wire.h"
 #include "runtime/board.hpp"
@@ -23,6 +23,8 @@ unsigned char& cell(int address) {
   if (address < 0 || static_cast<size_t>(address) >= board.wiring.eeprom_size) {
     fail("EEPROM: there is no address %d; allowed: 0 to %zu (the wiring's eeprom.size)", address,
          board.wiring.eeprom_size - 1);
+    static unsigned char none;  // fail() returns to a global variable's constructor
+    return none = 255;
   }
   return const_cast<unsigned char*>(board.wiring.eeprom)[address];
 }

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The sketch's own stack. Its clock moves by what calls cost (spend), and when it reaches the next
-// sample, control goes back to bbsim in the midst of whatever call that was.
+// Runs the sketch on its own stack. Calls advance the board's clock by their duration (spend). When
+// the clock reaches the next sample, the call returns control to bbsim, and continues later.
 #include <signal.h>
 #include <stdarg.h>
 #include <stdio.h>
@@ -15,6 +15,12 @@
 
 void serialEvent() __attribute__((weak));
 
+// Defined by the leak sanitizer. A sketch never returns, so the memory that it holds is not a leak.
+extern "C" {
+void __lsan_disable() __attribute__((weak));
+void __lsan_enable() __attribute__((weak));
+}
+
 namespace bbsim_board {
 
 Board board;
@@ -22,7 +28,7 @@ Board board;
 namespace {
 
 constexpr size_t stack_size = size_t{1} << 20;
-constexpr size_t guard_size = size_t{1} << 16;  // below it: who runs into it ends at once
+constexpr size_t guard_size = size_t{1} << 16;  // an overflow of the stack ends the process
 ucontext_t outside, inside;
 void* stack = MAP_FAILED;
 bool setup_returned = false;
@@ -55,7 +61,9 @@ bool start_sketch() {
 
 void run_sketch() {
   board.running = true;
+  if (__lsan_disable != nullptr) __lsan_disable();
   swapcontext(&outside, &inside);
+  if (__lsan_enable != nullptr) __lsan_enable();
   board.running = false;
 }
 
@@ -79,7 +87,11 @@ void spend(long long time) {
 }
 
 void fail(const char* format, ...) {
-  if (board.said[0] == '\0') {
+  if (board.wiring.version == 0) {
+    snprintf(board.said, sizeof board.said,
+             "a global variable uses the board before setup(); allowed: pins, servos, screens and "
+             "the EEPROM from setup() on");
+  } else if (board.said[0] == '\0') {
     va_list arguments;
     va_start(arguments, format);
     vsnprintf(board.said, sizeof board.said, format, arguments);

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Pins by number: modes and levels as an AVR has them, and what is wired to them.
+// Pins: their modes and levels, as on an AVR, and the parts that are wired to them.
 #include "Arduino.h"
 #include "runtime/board.hpp"
 
@@ -10,7 +10,7 @@ namespace {
 
 struct Pin {
   bool output;
-  bool high;  // of an input: it is pulled up
+  bool high;  // of an input: has its pull-up
 } state[pins];
 
 int analog_bits = 10;
@@ -21,7 +21,7 @@ int checked(int pin, const char* function) {
   return 0;
 }
 
-// What is wired to the pin, or what it does itself, of 1.
+// The level of a pin, 0 to 1: its own output, or that of the part that is wired to it.
 double level_of(int pin, const char* function) {
   double level = 0;
   if (state[pin].output) return state[pin].high ? 1 : 0;
@@ -32,7 +32,7 @@ double level_of(int pin, const char* function) {
   }
   if (state[pin].high) return 1;  // nothing pulls it down
   fail(
-      "%s(%s): nothing is wired to pin %s; a constant stands in the wiring's inputs: "
+      "%s(%s): nothing is wired to pin %s; set a constant in the wiring: "
       "inputs: {%s: %s}",
       function, pin_name(pin), pin_name(pin), pin_name(pin), pin < first_analog ? "0" : "512");
   return 0;
@@ -78,13 +78,13 @@ int digitalRead(int number) {
 }
 
 int analogRead(int number) {
-  if (number >= 0 && number < 16) number += first_analog;  // a channel
+  if (number >= 0 && number < 16) number += first_analog;  // a channel number
   if (checked(number, "analogRead") < first_analog) {
     fail("analogRead(%d): pin %d is not analog; allowed: A0 to A15", number, number);
   }
   const double most = static_cast<double>((1L << analog_bits) - 1);
   const double counts = level_of(number, "analogRead") * most;
-  spend(board.costs.analog);  // it holds what it saw at its start
+  spend(board.costs.analog);  // the converter samples at its start
   return static_cast<int>(lround(counts < 0 ? 0 : counts > most ? most : counts));
 }
 

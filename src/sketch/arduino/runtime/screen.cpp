@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Touch screens: resistive ones as the network of resistors that they are, so that a sketch may
-// drive and read their electrodes in any order; and a chip that reads one by itself.
+// Touch screens. A resistive screen is a network of resistors, so a sketch may drive and read its
+// electrodes in any order. There is also a chip that reads a screen by itself.
 #include "Adafruit_STMPE610.h"
 #include "runtime/board.hpp"
 
@@ -19,16 +19,16 @@ double limited(double value, double most) {
   return value < 0 ? 0 : value > most ? most : value;
 }
 
-// Where the ball is on the screen, of 1, from the minus electrode to the plus.
+// The ball's place on the screen, from 0 at the minus electrode to 1 at the plus electrode.
 double share(const bbsim_count_map& map, int axis) {
   return limited(counts_at(map, board.sample.ball[axis]) / 1023, 1);
 }
 
-// A plate with an electrode at each end, seen from the place that is touched.
+// A plate with an electrode at each end, seen from the touched place.
 struct Plate {
   int plus, minus;                      // pins
   double to_plus, to_minus;             // ohm
-  double conductance = 0, current = 0;  // of what drives it, at 1 V
+  double conductance = 0, current = 0;  // of the pins that drive it, at 1 V
 
   void add(int pin, double resistance) {
     const Drive drive = drive_of(pin);
@@ -55,7 +55,7 @@ double four_wires(const bbsim_wired_screen& screen, int pin) {
   const int own = pin == plates[0].plus || pin == plates[0].minus ? 0 : 1;
   const Plate& plate = plates[own];
   const Plate& other = plates[1 - own];
-  // The other plate joins in through the touch.
+  // The touch connects the other plate.
   double conductance = plate.conductance, current = plate.current;
   if (touch && other.conductance > 0) {
     const double joint = 1 / (1 / other.conductance + screen.contact);
@@ -124,7 +124,7 @@ bool screen_reads(int pin, double& level) {
 
 using namespace bbsim_board;
 
-// Each register is named in a byte, and then has one or two.
+// A register takes a byte for its address, and one or two for its value.
 void Adafruit_STMPE610::access(int registers) const {
   for (int i = 0; i < registers; ++i) {
     if (!over_wire_) {
@@ -139,7 +139,7 @@ void Adafruit_STMPE610::access(int registers) const {
 void Adafruit_STMPE610::require_chip() const {
   if (board.wiring.screen.kind == bbsim_stmpe610) return;
   fail(
-      "Adafruit_STMPE610: no such chip is wired; the wiring says it so: screen: {chip: stmpe610, "
+      "Adafruit_STMPE610: the wiring has no such chip; add screen: {chip: stmpe610, "
       "...}");
 }
 
@@ -160,7 +160,7 @@ uint8_t Adafruit_STMPE610::bufferSize() {
   require_chip();
   access(1);
   const long long interval = nanoseconds(board.wiring.screen.interval);
-  // What is not touched makes no points.
+  // A screen that is not touched gives no points.
   if (!::bbsim_board::touched()) return 0;
   const long long points = now() / interval - read_ / interval;
   return static_cast<uint8_t>(points > 128 ? 128 : points);
@@ -183,7 +183,7 @@ void Adafruit_STMPE610::readData(uint16_t* x, uint16_t* y, uint8_t* z) {
 }
 
 TS_Point Adafruit_STMPE610::getPoint() {
-  // All that waits is read; the last one counts.
+  // Reads all waiting points and returns the last.
   do {
     uint16_t x = 0, y = 0;
     uint8_t z = 0;

@@ -1,8 +1,10 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Serial lines: what the sketch prints, and the frames that a camera sends.
+// Serial ports: the text that the sketch prints, and the frames of a camera.
 #include <unistd.h>
+
+#include <vector>
 
 #include "Arduino.h"
 #include "runtime/board.hpp"
@@ -15,26 +17,26 @@ struct Watched {
   char name[64];
   double value;
 };
-Watched* watched = nullptr;
-size_t watched_count = 0;
+std::vector<Watched> watched;
 
-// "name:value", several of them parted by commas, tabs or blanks: as for the plotter of the IDE.
+// Reads "name:value" pairs, separated by commas, tabs or blanks, as the plotter of the IDE does.
 void read_numbers(const char* line) {
   for (const char* at = line; (at = strchr(at, ':')) != nullptr; ++at) {
-    for (size_t i = 0; i < watched_count; ++i) {
-      const auto length = static_cast<ptrdiff_t>(strlen(watched[i].name));
+    for (Watched& one : watched) {
+      const auto length = static_cast<ptrdiff_t>(strlen(one.name));
       if (at - line < length) continue;
       const char* const start = at - length;
-      if (strncmp(start, watched[i].name, static_cast<size_t>(length)) != 0) continue;
+      if (strncmp(start, one.name, static_cast<size_t>(length)) != 0) continue;
       if (start > line && strchr(", \t", start[-1]) == nullptr) continue;
       char* end = nullptr;
       const double number = strtod(at + 1, &end);
-      if (end != at + 1 && isfinite(number)) watched[i].value = number;
+      if (end != at + 1 && isfinite(number)) one.value = number;
     }
   }
 }
 
-// One call, so that lines of threads do not mix; and nothing that a terminal would obey.
+// One call, so that the lines of threads do not mix. Control characters are replaced, because a
+// terminal would obey them.
 void say(const char* line) {
   char text[4 * 256 + 16];
   int used = snprintf(text, sizeof text, "controller: ");
@@ -49,7 +51,7 @@ void say(const char* line) {
   static_cast<void>(written);
 }
 
-// Bytes on their way to the board, each with the time when it is there.
+// Bytes that are being sent to the board, with their times of arrival.
 struct Byte {
   Nanoseconds arrives;
   char value;
@@ -61,7 +63,7 @@ Nanoseconds line_is_free = 0;
 long long next_frame = 0;
 
 void send(char value, Nanoseconds earliest, Nanoseconds per_byte) {
-  if (sent_count == most_bytes) return;  // nobody reads
+  if (sent_count == most_bytes) return;  // the sketch does not read
   line_is_free = (earliest > line_is_free ? earliest : line_is_free) + per_byte;
   sent[(first_sent + sent_count++) % most_bytes] = {line_is_free, value};
 }
@@ -92,7 +94,7 @@ HardwareSerial* camera_port() {
   return port < 0 ? nullptr : ports[port];
 }
 
-// When the next frame is taken.
+// The time of the next frame.
 Nanoseconds frame_time() {
   return next_frame * nanoseconds(board.wiring.camera.period);
 }
@@ -104,16 +106,15 @@ void send_frames() {
   if (port == nullptr) return;
   const bbsim_wired_camera& camera = board.wiring.camera;
   for (; frame_time() <= board.now; ++next_frame) {
-    if (!*port) continue;  // nobody listens yet
+    if (!*port) continue;  // before begin()
     const char* const frame = board.sample.seen != 0 ? camera.frame : camera.lost;
     send_frame(frame, frame_time() + nanoseconds(camera.delay), port->per_byte());
   }
 }
 
 void watch_columns(const char* const* names, size_t count) {
-  watched = static_cast<Watched*>(calloc(count + 1, sizeof(Watched)));
-  watched_count = watched == nullptr ? 0 : count;
-  for (size_t i = 0; i < watched_count; ++i) {
+  watched.resize(count);
+  for (size_t i = 0; i < count; ++i) {
     snprintf(watched[i].name, sizeof watched[i].name, "%s", names[i]);
   }
 }
@@ -140,7 +141,7 @@ void HardwareSerial::end() {
   begun_ = false;
 }
 
-// What has arrived by now goes into the buffer, or is lost.
+// Bytes that have arrived go into the buffer. Bytes that do not fit are lost.
 void HardwareSerial::receive() {
   if (camera_port() != this) return;
   send_frames();
@@ -173,7 +174,7 @@ int HardwareSerial::read() {
   return letter;
 }
 
-// What is printed goes out line by line.
+// Output is written a line at a time.
 void HardwareSerial::add_to_line(char c) {
   if (c == '\n' || line_length_ == static_cast<int>(sizeof line_) - 1) {
     line_[line_length_] = '\0';
@@ -184,7 +185,7 @@ void HardwareSerial::add_to_line(char c) {
   if (c != '\n' && c != '\r') line_[line_length_++] = c;
 }
 
-// 64 bytes wait for the line without holding up the sketch.
+// The sketch continues while at most 64 bytes wait to be sent.
 size_t HardwareSerial::write(uint8_t letter) {
   spend(board.costs.serial);
   add_to_line(static_cast<char>(letter));

@@ -36,7 +36,7 @@ constexpr double nominal_oscillator = 25e6;  // Hz
 
 using namespace bbsim_board;
 
-// Limits are kept in steps of 4 us, in a byte each, as the library of the boards does.
+// As on the boards, a limit is one byte in steps of 4 us.
 uint8_t Servo::attach(int pin, int min, int max) {
   if (pin < 0 || pin >= pins) {
     fail("Servo.attach(%d): there is no such pin; allowed: 0 to 53 and A0 to A15", pin);
@@ -50,7 +50,7 @@ uint8_t Servo::attach(int pin, int min, int max) {
 }
 
 void Servo::detach() {
-  pin_ = -1;  // a servo without pulses stays where it is
+  pin_ = -1;  // a servo without pulses keeps its angle
 }
 
 void Servo::write(int value) {
@@ -110,12 +110,21 @@ uint8_t Adafruit_PWMServoDriver::readPrescale() {
 
 uint8_t Adafruit_PWMServoDriver::setPWM(uint8_t channel, uint16_t on, uint16_t off) {
   over_wire(5);
-  // Wholly on or off, or as long as it is on of 4096 steps.
-  if (((on | off) & 4096) != 0) return 0;
+  // A channel that is always on or off has no pulse. Otherwise it is on for this many of 4096
+  // steps.
   const int steps = (off - on) & 4095;
+  if (((on | off) & 4096) != 0 || steps == 0) return 0;
+  bool wired = channel < 16 && (board.wiring.ignored_channels >> channel & 1U) != 0;
   for (int axis = 0; axis < 2; ++axis) {
     if (board.wiring.servos[axis].channel != channel) continue;
     pulse(axis, steps * (prescale_ + 1) / board.wiring.oscillator);
+    wired = true;
+  }
+  if (!wired) {
+    fail(
+        "Adafruit_PWMServoDriver.setPWM(%d, ...): no servo is wired to channel %d; the wiring's "
+        "servos name the channels of phi and theta, and in `ignored_channels` those of others",
+        channel, channel);
   }
   return 0;
 }

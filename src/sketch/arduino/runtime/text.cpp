@@ -76,7 +76,7 @@ int Stream::timed(int (Stream::*next)()) {
   return -1;
 }
 
-// The next letter that can begin a number, which stays; -1: there is none in time.
+// The next character that can begin a number, without reading it; -1 after the timeout.
 int Stream::start_of_number(bool point) {
   while (true) {
     const int letter = timed(&Stream::peek);

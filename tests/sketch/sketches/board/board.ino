@@ -163,6 +163,9 @@ void lines() {
   EXPECT(Serial2.parseInt() == 30 && Serial2.parseInt() == 0);
   EXPECT(Serial2.readStringUntil('\n') == ";");
   EXPECT(Serial2.readStringUntil('\n') == "x-50.0y30.0;");
+  while (!Serial2.available())
+    ;
+  EXPECT(Serial2.peek() == 'x' && Serial2.read() == 'x' && Serial2.parseFloat() == -50.0f);
 }
 
 void setup() {

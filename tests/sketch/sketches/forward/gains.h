@@ -2,6 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 #pragma once
+#define A 0  // before Arduino.h, as published sketches number their legs
+#define B 1
+#define T 0.02
 #include <Arduino.h>
 
 struct Axis {
