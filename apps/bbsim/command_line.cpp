@@ -12,6 +12,7 @@
 
 #include "help.hpp"
 #include "licenses.hpp"
+#include "scenario/json_schema.hpp"
 #include "terminal.hpp"
 #include "version.hpp"
 #include "yaml/nearest.hpp"
@@ -125,7 +126,11 @@ ExitCode parsing_ended(const CLI::App& app, const CLI::ParseError& error) {
                    " --help for more information.");
 }
 
-void add_licenses(CLI::App& app) {
+// Options that print one text and end.
+void add_texts(CLI::App& app) {
+  app.add_flag_callback(
+      "--schema", [] { throw CLI::CallForVersion(scenario_json_schema(), 0); },
+      "print the JSON Schema of scenarios, and exit");
   app.add_flag_callback(
       "--licenses", [] { throw CLI::CallForVersion(licenses(), 0); },
       "print the licenses of bbsim and of the libraries in it, and exit");
@@ -151,10 +156,10 @@ void add_help(CLI::App& app, Chosen& chosen) {
   });
 }
 
-// Adds the commands, and --licenses. All of them and their options take longer to make than many a
-// run: where the first word names a command, only those are made that a word names; where it names
-// none, all are, for help and for what is said of a mistake. Options are made of those that are
-// named.
+// Adds the commands, --schema and --licenses. All of them and their options take longer to make
+// than many a run: where the first word names a command, only those are made that a word names;
+// where it names none, all are, for help and for what is said of a mistake. Options are made of
+// those that are named.
 void add_commands(CLI::App& app, std::span<char* const> words,
                   std::span<const NamedCommand> commands, const Options& options, Chosen& chosen) {
   const auto calls = [](std::string_view word, const NamedCommand& command) {
@@ -168,7 +173,7 @@ void add_commands(CLI::App& app, std::span<char* const> words,
   const bool names_one =
       first != words.end() &&
       std::ranges::any_of(commands, [&](const NamedCommand& one) { return calls(*first, one); });
-  if (!names_one) add_licenses(app);
+  if (!names_one) add_texts(app);
   for (const NamedCommand& command : commands) {
     const bool named = is_named(command);
     if (names_one && !named) continue;

@@ -16,6 +16,9 @@
 namespace bbsim::api {
 struct RunResult;
 }
+namespace bbsim::plot {
+struct LogChoice;
+}
 
 namespace bbsim::app {
 
@@ -48,6 +51,9 @@ ExitCode with_error_option(const std::string& error, const What& what) {
   }
 }
 void add_overrides(Command& command, std::vector<std::string>& overrides);
+
+// --map, --header, --period and --time-offset of a log.
+void add_log_options(Command& command, plot::LogChoice& choice);
 
 // Where the result goes if nothing else is said: the scenario's name with the suffix, in the
 // current folder; what came from standard input goes to standard output.
@@ -86,6 +92,7 @@ void add_columns(Command& command, const Options& options);
 void add_accuracy(Command& command, const Options& options);
 void add_sweep(Command& command, const Options& options);
 void add_merge(Command& command, const Options& options);
+void add_sketch(Command& command, const Options& options);
 void add_plot(Command& command, const Options& options);
 void add_replay(Command& command, const Options& options);
 

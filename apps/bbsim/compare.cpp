@@ -33,8 +33,16 @@ void add_compare(Command& command, const Options& all) {
       "atol + rtol max(|a|, |b|). NaN is like NaN, and an infinity like the same infinity. Texts, "
       "such as a sweep's status, must be equal. Without --rtol and --atol, the tolerances follow "
       "from the solver settings that HDF5 files carry; for other files they are 1e-9 and 1e-12.\n"
+      "With one of --map, --header, --period and --time-offset, A is the log of a rig and B a run. "
+      "bbsim then prints, for each column in common, the distance of the log's rows from the run "
+      "at "
+      "their times; --rtol and --atol say what is alike.\n"
       "The exit code is 0 if the files are alike, 1 if they differ, 2 if one cannot be read or "
-      "lacks a named column.");
+      "lacks a named column.\n"
+      "\n"
+      "Examples:\n"
+      "  bbsim compare old.h5 new.h5\n"
+      "  bbsim compare log.csv rig.csv --map t=millis:ms,x=Ballx:mm --time-offset auto");
   const auto request = std::make_shared<api::CompareRequest>();
   command.option("A", request->a, "CSV, HDF5 (.h5, .hdf5), or - for CSV on standard input")
       .required();
@@ -52,6 +60,7 @@ void add_compare(Command& command, const Options& all) {
               "difference")
       .takes("NAME,...")
       .parted_by_commas();  // a file may follow
+  add_log_options(command, request->log);
   command.does([request, &all] { return compare(*request, all); });
 }
 

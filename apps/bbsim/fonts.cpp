@@ -10,7 +10,7 @@
 #include <string_view>
 #include <vector>
 
-#include "external.hpp"
+#include "file/external.hpp"
 
 namespace bbsim::app {
 namespace {
@@ -21,8 +21,8 @@ struct Letters {
 
 // A line a font: hexadecimal ranges, "20-7e a0 a2-17f".
 std::vector<Letters> letters_of_fonts() {
-  const std::optional<Finished> listed =
-      run_program({"fc-list", "--format", "%{charset}\n"}, "", "list the fonts");
+  const std::optional<file::Finished> listed =
+      file::run_program({"fc-list", "--format", "%{charset}\n"}, "", "list the fonts");
   std::vector<Letters> letters;
   if (!listed || !listed->well()) return letters;
   const char* at = listed->output.data();

@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "base/error.hpp"
-#include "external.hpp"
+#include "file/external.hpp"
 
 namespace bbsim::app {
 
@@ -18,8 +18,8 @@ void require_gnuplot() {
 
 std::string run_gnuplot(const std::string& script) {
   // What a user has set for plots of their own is not for ours.
-  std::optional<Finished> finished =
-      run_program({"gnuplot", "--default-settings", "-"}, script, "draw the plot");
+  std::optional<file::Finished> finished =
+      file::run_program({"gnuplot", "--default-settings", "-"}, script, "draw the plot");
   if (!finished) {
     throw OutputError(
         "cannot draw the plot: gnuplot is not on the PATH; install it (Debian: apt install "

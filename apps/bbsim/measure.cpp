@@ -20,11 +20,14 @@ namespace {
 struct MeasureArguments {
   std::string file;
   std::vector<std::string> measures;
+  plot::LogChoice log;
 };
 
 ExitCode measure(const MeasureArguments& arguments, const Options& options) {
   say_if_waiting(arguments.file, "a CSV", options.quiet);
-  plot::Result result = plot::read_result(arguments.file, {});
+  plot::refuse_auto(arguments.log);
+  std::vector<std::string> notes;
+  plot::Result result = plot::read_result(arguments.file, {}, arguments.log, &notes);
   file::Outputs outputs;
   outputs.reads(arguments.file, "FILE");
   api::reads_with_result(outputs, result);
@@ -32,6 +35,7 @@ ExitCode measure(const MeasureArguments& arguments, const Options& options) {
   const api::Measured made = api::measure(std::move(result), arguments.file, arguments.measures);
   print(measure_text(made.values));
   if (options.quiet) return ExitCode::done;
+  for (const std::string& note : notes) say(note);
   for (const std::string& note : made.notes) say(note);
   return ExitCode::done;
 }
@@ -68,6 +72,7 @@ void add_measure(Command& command, const Options& options) {
       "\n\nExamples:\n"
       "  bbsim measure step.csv --measure x.RiseTime,x.Overshoot\n"
       "  bbsim measure rig.csv --measure \"rms_tracking_error from 5 s\"\n"
+      "  bbsim measure log.csv --map t=millis:ms,x=Ballx:mm --measure x.RiseTime\n"
       "  bbsim measure rig.h5 --measure \"when tracking_error stays below 2 mm\"");
   const auto arguments = std::make_shared<MeasureArguments>();
   command
@@ -75,6 +80,7 @@ void add_measure(Command& command, const Options& options) {
               "the result of a run: CSV, HDF5 (.h5, .hdf5), or - for CSV on standard input")
       .required();
   add_measures(command, arguments->measures, "measures to take; repeatable").required();
+  add_log_options(command, arguments->log);
   command.does([arguments, &options] { return measure(*arguments, options); });
 }
 

@@ -33,6 +33,7 @@ struct PlotArguments {
   bool overlay = false, force = false;
   std::vector<std::string> columns, over;
   plot::Beside beside;
+  plot::LogChoice log;
 };
 
 struct NamedFormat {
@@ -153,7 +154,11 @@ void draw(const Task& task, plot::Format format, const PlotArguments& arguments,
   file::Outputs outputs;
   for (const std::string& file : task.files) {
     say_if_waiting(file, "a CSV", options.quiet);
-    results.push_back(plot::read_result(file, arguments.beside));
+    std::vector<std::string> notes;
+    results.push_back(plot::read_result(file, arguments.beside, arguments.log, &notes));
+    for (const std::string& note : notes) {
+      if (!options.quiet) say(note);
+    }
     api::reads_with_result(outputs, results.back());
     if (!options.quiet && !results.back().left_out.empty()) say(results.back().left_out);
     plot::add_end_row(results.back());
@@ -185,6 +190,7 @@ ExitCode plot_files(const PlotArguments& arguments, const Options& options) {
   if (!arguments.beside.overrides.empty() && arguments.beside.scenario.empty()) {
     throw InputError("--set: allowed with --scenario, in which it sets a key");
   }
+  plot::refuse_auto(arguments.log);
   declare_files(tasks, arguments);
   require_gnuplot();
   // What can be drawn is drawn, whatever is wrong with other files.
@@ -241,6 +247,7 @@ void add_plot(Command& command, const Options& options) {
       .option("--set", arguments->beside.overrides,
               "key.path=value that was set in that scenario; repeatable")
       .may_be_repeated();
+  add_log_options(command, arguments->log);
   command.does([arguments, &options] { return plot_files(*arguments, options); });
 }
 

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "api/inputs.hpp"
+#include "api/measure.hpp"
 #include "api/picture.hpp"
 #include "api/run.hpp"
 #include "commands.hpp"
@@ -17,6 +18,7 @@
 #include "file/format.hpp"
 #include "plot/read_result.hpp"
 #include "progress.hpp"
+#include "record/log_distance.hpp"
 #include "replay/log.hpp"
 #include "replay/page.hpp"
 #include "replay/sources.hpp"
@@ -30,13 +32,53 @@ struct ReplayArguments {
   std::vector<std::string> files;
   std::string output, title;
   bool force = false;
-  std::vector<std::string> logs, maps;
+  std::vector<std::string> logs;
+  plot::LogChoice log;
   plot::Beside beside;
 };
 
 bool is_scenario(const std::string& file) {
   const std::string ending = file::lower_ending(file);
   return ending == ".yaml" || ending == ".yml";
+}
+
+file::TableData table_of(const replay::Run& run) {
+  file::TableData table;
+  for (const replay::Series& column : run.columns) {
+    table.names.push_back(column.name);
+    table.columns.push_back(column.values);
+  }
+  return table;
+}
+
+bool have_in_common(const replay::Run& log, const replay::Run& run) {
+  return std::ranges::any_of(log.columns, [&](const replay::Series& column) {
+    return column.name != "t" && replay::find_series(run, column.name) != nullptr;
+  });
+}
+
+// Aligns the last run of the scene, a log, with the first one, and says how far it is from it.
+void place_log(replay::Scene& scene, const plot::LogChoice& choice, const Options& options) {
+  replay::Run& log = scene.runs.back();
+  const replay::Run& lead = scene.runs.front();
+  file::TableData ours = table_of(log);
+  const file::TableData theirs = table_of(lead);
+  const auto t = std::ranges::find(log.columns, "t", &replay::Series::name);
+  if (choice.aligns()) {
+    const double offset = record::time_offset(ours, log.name, theirs, lead.name);
+    for (double& time : t->values) time += offset;
+    ours = table_of(log);
+    if (!options.quiet) say(api::moved_text(log.name, offset));
+  }
+  if (options.quiet || t == log.columns.end() || !have_in_common(log, lead)) return;
+  try {
+    std::string text = record::to_text(record::log_distance(ours, log.name, theirs, lead.name),
+                                       log.name, lead.name);
+    text.pop_back();
+    say(text);
+  } catch (const InputError& error) {  // they have no time in common, and can still be shown
+    say("warning: " + std::string(error.what()));
+  }
 }
 
 // One of the files, read; a scenario is yet to be run.
@@ -91,12 +133,24 @@ void check_arguments(const ReplayArguments& arguments) {
   if (!arguments.beside.overrides.empty() && scenarios == 0 && arguments.beside.scenario.empty()) {
     throw InputError("--set: allowed with a scenario, in which it sets a key");
   }
-  const std::size_t maps = arguments.maps.size(), logs = arguments.logs.size();
-  if (maps > 1 && maps != logs) {
+  const std::size_t maps = arguments.log.maps.size(), logs = arguments.logs.size();
+  if (maps > 1 && logs > 1 && maps != logs) {
     throw InputError("--map: found " + std::to_string(maps) + " for " + std::to_string(logs) +
                      " of --data; allowed: one for all, or one for each in their order");
   }
   if (maps > 0 && logs == 0) throw InputError("--map: allowed with --data, whose columns it names");
+  if (arguments.log.given() && logs == 0) {
+    throw InputError("--header, --period, --time-offset: allowed with --data, a log");
+  }
+  if (arguments.log.aligns() && arguments.files.empty()) {
+    throw InputError("--time-offset: found auto, without a run to align the log with");
+  }
+}
+
+void say_all(const std::vector<std::string>& notes, const Options& options) {
+  for (const std::string& note : notes) {
+    if (!options.quiet) say(note);
+  }
 }
 
 // All of them, and all that is wrong with them at once.
@@ -114,15 +168,19 @@ std::vector<Replayed> read_all(const ReplayArguments& arguments, const Options& 
       if (i >= arguments.files.size()) {
         outputs.reads(files[i], "--data");
         const std::size_t log = i - arguments.files.size();
-        const std::string map = arguments.maps.empty()       ? ""
-                                : arguments.maps.size() == 1 ? arguments.maps.front()
-                                                             : arguments.maps[log];
-        source.log = replay::run_of_log(plot::read_csv_columns(files[i]), map, names[i]);
+        plot::LogChoice choice = arguments.log;
+        if (arguments.logs.size() > 1 && choice.maps.size() > 1) choice.maps = {choice.maps[log]};
+        std::vector<std::string> notes;
+        plot::Result read = plot::read_csv_columns(files[i], choice.header, notes);
+        source.log = replay::run_of_log(std::move(read), choice, names[i], notes);
+        say_all(notes, options);
       } else if (is_scenario(files[i])) {
         source.scenario = read({files[i], arguments.beside.overrides}, options, outputs);
       } else {
         outputs.reads(files[i], "what is shown");
-        source.result = plot::read_result(files[i], arguments.beside);
+        std::vector<std::string> notes;
+        source.result = plot::read_result(files[i], arguments.beside, {}, &notes);
+        say_all(notes, options);
         api::reads_with_result(outputs, *source.result);
       }
       sources.push_back(std::move(source));
@@ -192,6 +250,7 @@ ExitCode replay_files(const ReplayArguments& arguments, const Options& options) 
       if (code == ExitCode::interrupted) break;
     } else if (source.log) {
       scene.runs.push_back(std::move(*source.log));
+      if (!arguments.files.empty()) place_log(scene, arguments.log, options);
     } else if (is_sweep(source)) {
       scene.sweeps.push_back(replay::sweep_of_result(std::move(*source.result), source.name));
     } else {
@@ -233,12 +292,7 @@ void add_replay(Command& command, const Options& options) {
       .option("--data", arguments->logs, "LOG.csv of a real rig, shown with the runs; repeatable")
       .takes("LOG")
       .may_be_repeated();
-  command
-      .option("--map", arguments->maps,
-              "COLUMN=NAME[:UNIT],...: the log's column NAME, in UNIT, is bbsim's COLUMN; default: "
-              "columns match by name, in SI units")
-      .takes("MAP")
-      .may_be_repeated();
+  add_log_options(command, arguments->log);
   command.option("--title", arguments->title, "title of the page; default: the scenario's")
       .takes("TEXT");
   command

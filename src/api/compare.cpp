@@ -3,10 +3,18 @@
 
 #include "record/compare.hpp"
 
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <utility>
+
 #include "api/measure.hpp"
+#include "base/error.hpp"
 #include "base/number_text.hpp"
 #include "base/shown.hpp"
 #include "file/cell_table.hpp"
+#include "plot/read_result.hpp"
+#include "record/log_distance.hpp"
 #include "record/solver_allowance.hpp"
 #include "record/summarise.hpp"
 #include "scenario/measures.hpp"
@@ -53,14 +61,76 @@ void warn_of_units(const file::CellTable& table, const std::string& name,
   }
 }
 
+file::TableData numbers_of(plot::Result result) {
+  file::TableData table;
+  for (plot::Column& column : result.columns) {
+    if (column.is_text()) continue;
+    table.names.push_back(std::move(column.name));
+    table.columns.push_back(std::move(column.numbers));
+  }
+  return table;
+}
+
+void warn_of_looks(const file::TableData& log, const std::string& name,
+                   std::vector<std::string>& warnings) {
+  for (std::size_t c = 0; c < log.names.size(); ++c) {
+    const double largest = scenario::largest_size(log.columns[c]);
+    const auto doubt = scenario::doubt_of(largest, log.names[c]);
+    if (!doubt) continue;
+    warnings.push_back("warning: " + name + ": " + shown(log.names[c]) + " goes up to " +
+                       number_text(largest) + ", read in SI: it looks like " +
+                       std::string(doubt->looks_like));
+  }
+}
+
+Compared compare_log(const CompareRequest& request) {
+  Compared made;
+  file::TableData log = numbers_of(plot::read_log(request.a, request.log, made.warnings));
+  const plot::Result result = plot::read_result(request.b, {});
+  if (result.is_sweep()) throw InputError(request.b + ": is a sweep; allowed: the result of a run");
+  const file::TableData run = numbers_of(result);
+  if (request.log.aligns()) {
+    const double offset = record::time_offset(log, request.a, run, request.b, request.columns);
+    const auto t = std::ranges::find(log.names, "t") - log.names.begin();
+    for (double& time : log.columns[static_cast<std::size_t>(t)]) time += offset;
+    made.warnings.push_back(moved_text(request.a, offset));
+  }
+  warn_of_looks(log, request.a, made.warnings);
+  const record::LogDistance distance =
+      record::log_distance(log, request.a, run, request.b, request.columns);
+  made.text = record::to_text(distance, request.a, request.b);
+  const bool judges = request.rtol || request.atol;
+  made.alike = true;
+  for (const record::ColumnDistance& column : distance.columns) {
+    const double larger = std::max(std::abs(column.log), std::abs(column.run));
+    const double allowed = request.atol.value_or(0) + request.rtol.value_or(0) * larger;
+    if (!judges || column.greatest <= allowed) continue;
+    made.alike = false;
+    made.text +=
+        "different: " + shown(column.name) + " is more than " + number_text(allowed) + " apart\n";
+  }
+  return made;
+}
+
 }  // namespace
 
+std::string moved_text(const std::string& log, double offset) {
+  char text[32];
+  const int size = std::snprintf(text, sizeof text, "%.6g", offset);
+  return "note: " + log + ": moved by " + std::string(text, static_cast<std::size_t>(size)) +
+         " s (--time-offset auto)";
+}
+
 Compared compare(const CompareRequest& request) {
-  const file::CellTable a = file::read_cells(request.a, request.columns);
-  const file::CellTable b = file::read_cells(request.b, request.columns);
+  if (request.log.given()) return compare_log(request);
+  const file::CellTable a = file::read_cells(request.a, {request.columns, {}});
+  const file::CellTable b = file::read_cells(request.b, {request.columns, {}});
   const record::Allowances allowances = allowances_of(request, a, b);
   const record::Comparison comparison = record::compare(a, b, allowances, request.columns);
   Compared made{comparison.alike(), to_text(comparison, request.a, request.b, allowances), {}};
+  for (const file::CellTable* table : {&a, &b}) {
+    made.warnings.insert(made.warnings.end(), table->notes.begin(), table->notes.end());
+  }
   warn_of_units(a, request.a, b, request.b, made.warnings);
   warn_of_units(b, request.b, a, request.a, made.warnings);
   return made;

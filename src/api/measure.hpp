@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "plot/log.hpp"
 #include "plot/result.hpp"
 
 namespace bbsim::api {
@@ -28,16 +29,21 @@ struct CompareRequest {
   std::string a{}, b{};
   std::optional<double> rtol{}, atol{};  // without either, by the settings of the files' solvers
   std::vector<std::string> columns{};    // none: all
+  plot::LogChoice log{};                 // if given, `a` is the log of a rig, and `b` a run
 };
 
 struct Compared {
   bool alike = false;
   std::string text;                   // a table of the columns, then the verdict
-  std::vector<std::string> warnings;  // of columns that look like other units
+  std::vector<std::string> warnings;  // of columns that look like other units, and of the log
 };
 
-// Throws InputError.
+// Compares two results row by row; or, of a log, its rows with the run at their times. A log is
+// alike unless `rtol` or `atol` is exceeded. Throws InputError.
 [[nodiscard]] Compared compare(const CompareRequest& request);
+
+// What to say of a log that was aligned with a run.
+[[nodiscard]] std::string moved_text(const std::string& log, double offset);
 
 struct SummarizeRequest {
   std::string file;                         // the result of a sweep

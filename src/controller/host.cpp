@@ -111,7 +111,7 @@ std::vector<std::string> files_of(const Scenario& scenario) {
   if (!scenario.controller || !scenario.controller->own) return {};
   const OwnController& own = *scenario.controller->own;
   if (std::holds_alternative<ControllerFactory>(own.by)) return {};
-  if (std::holds_alternative<ControllerLibrary>(own.by)) return {Library::path_of(own)};
+  if (std::holds_alternative<ControllerLibrary>(own.by)) return Library::files_of(own);
   std::vector<std::string> files;
   for (const std::string& word : std::get<ControllerProgram>(own.by).command) {
     const std::filesystem::path path = std::filesystem::path(own.folder) / word;

@@ -3,7 +3,7 @@
 
 #include "controller/library.hpp"
 
-#include <bbsim/controller.h>
+#include <bbsim/wiring.h>
 #include <dlfcn.h>
 
 #include <cmath>
@@ -21,6 +21,7 @@ namespace bbsim::controller {
 struct LibraryFunctions {
   decltype(&bbsim_controller_abi) abi = nullptr;
   decltype(&bbsim_controller_create) create = nullptr;
+  decltype(&bbsim_controller_create_wired) create_wired = nullptr;  // may be missing
   decltype(&bbsim_controller_step) step = nullptr;
   decltype(&bbsim_controller_reset) reset = nullptr;  // may be missing
   decltype(&bbsim_controller_destroy) destroy = nullptr;
@@ -73,6 +74,7 @@ std::shared_ptr<const LibraryFunctions> open(const std::string& path) {
   require("bbsim_controller_step", functions->step);
   require("bbsim_controller_destroy", functions->destroy);
   require("bbsim_controller_last_error", functions->last_error);
+  static_cast<void>(find(library, "bbsim_controller_create_wired", functions->create_wired));
   static_cast<void>(find(library, "bbsim_controller_reset", functions->reset));
   static_cast<void>(find(library, "bbsim_controller_save", functions->save));
   static_cast<void>(find(library, "bbsim_controller_restore", functions->restore));
@@ -128,12 +130,32 @@ std::string Library::path_of(const OwnController& own) {
   return path.has_parent_path() ? path.string() : "./" + path.string();
 }
 
+std::string Library::wiring_path_of(const OwnController& own) {
+  const std::string& file = std::get<ControllerLibrary>(own.by).wiring;
+  return file.empty() ? "" : (std::filesystem::path(own.folder) / file).string();
+}
+
+std::vector<std::string> Library::files_of(const OwnController& own) {
+  std::vector<std::string> files{path_of(own)};
+  if (const std::string wiring = wiring_path_of(own); !wiring.empty()) {
+    const std::vector<std::string> its = sketch::Wiring(wiring).files();
+    files.insert(files.end(), its.begin(), its.end());
+  }
+  return files;
+}
+
 Library::Library(const OwnController& own, const Setup& setup)
-    : path_(path_of(own)), setup_(setup) {
+    : path_(path_of(own)), wiring_path_(wiring_path_of(own)), setup_(setup) {
+  if (!wiring_path_.empty()) wiring_.emplace(wiring_path_);
   try {
     functions_ = open(path_);
   } catch (const ExitCalled& call) {
     throw fault_of("to begin", call.text());
+  }
+  if (wiring_ && functions_->create_wired == nullptr) {
+    throw KeyError("controller.library.wiring",
+                   "found beside " + shown(path_, uncut) +
+                       ", which is no sketch; allowed: with a library of bbsim sketch");
   }
   create();
 }
@@ -178,8 +200,10 @@ void Library::create() {
   fault_.reset();
   fresh_ = true;
   const CSetup setup(setup_);
+  constexpr auto when = [] { return "to begin"; };
   try {
-    controller_ = ask([] { return "to begin"; }, functions_->create, setup.get());
+    controller_ = wiring_ ? ask(when, functions_->create_wired, setup.get(), wiring_->get())
+                          : ask(when, functions_->create, setup.get());
   } catch (const model::ControllerFault& fault) {
     fault_.emplace(fault);
     return;

@@ -7,9 +7,11 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "controller/setup.hpp"
 #include "model/control/external_controller.hpp"
+#include "sketch/wiring.hpp"
 
 namespace bbsim::controller {
 
@@ -33,14 +35,19 @@ class Library : public model::ExternalController {
   // The next run is of that setup. Throws KeyError.
   void renew(const Setup& setup);
 
-  [[nodiscard]] bool is(const OwnController& own) const { return path_ == path_of(own); }
-  // Where the library is, from this folder.
-  [[nodiscard]] static std::string path_of(const OwnController& own);
+  [[nodiscard]] bool is(const OwnController& own) const {
+    return path_ == path_of(own) && wiring_path_ == wiring_path_of(own);
+  }
+  // The library, and the files of its wiring. Throws InputError.
+  [[nodiscard]] static std::vector<std::string> files_of(const OwnController& own);
 
   // What begin() would throw.
   [[nodiscard]] const std::optional<model::ControllerFault>& fault() const { return fault_; }
 
  private:
+  // Where the library is, from this folder; and its wiring, if it has one.
+  [[nodiscard]] static std::string path_of(const OwnController& own);
+  [[nodiscard]] static std::string wiring_path_of(const OwnController& own);
   void create();
   void destroy();
   template <class When, class Function, class... Arguments>
@@ -49,8 +56,9 @@ class Library : public model::ExternalController {
                                                 const std::string& why) const;
   [[nodiscard]] std::string last_error(const void* controller) const;
 
-  std::string path_;
+  std::string path_, wiring_path_;
   Setup setup_;
+  std::optional<sketch::Wiring> wiring_;
   std::shared_ptr<const LibraryFunctions> functions_;
   void* controller_ = nullptr;  // also where it is left alone
   std::optional<model::ControllerFault> fault_;

@@ -22,7 +22,7 @@ void append_text(std::string& line, std::string_view text) {
   line += '"';
 }
 
-bool split_fields(std::string_view line, std::vector<std::string>& fields) {
+bool split_fields(std::string_view line, std::vector<std::string>& fields, char delimiter) {
   fields.clear();
   std::string field;
   bool quoted = false;
@@ -34,7 +34,7 @@ bool split_fields(std::string_view line, std::vector<std::string>& fields) {
       } else {
         quoted = !quoted;
       }
-    } else if (c == ',' && !quoted) {
+    } else if (c == delimiter && !quoted) {
       fields.push_back(std::move(field));
       field.clear();
     } else {

@@ -20,6 +20,7 @@ inline void append_number(std::string& line, double value) {
 void append_text(std::string& line, std::string_view text);
 
 // Splits a line without its line break into unquoted fields. Returns false if a quote stays open.
-[[nodiscard]] bool split_fields(std::string_view line, std::vector<std::string>& fields);
+[[nodiscard]] bool split_fields(std::string_view line, std::vector<std::string>& fields,
+                                char delimiter = ',');
 
 }  // namespace bbsim::file

@@ -1,14 +1,15 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Reads CSV strictly: a header of bare names, then rows with one number (or one text, if allowed)
-// for each column.
+// Reads CSV as bbsim, loggers, spreadsheets and other programs write it. All commands read it here.
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
 #include <cstdlib>
+#include <functional>
 #include <limits>
 #include <optional>
 #include <string_view>
@@ -56,49 +57,123 @@ Reading read_number(std::string_view text, double& value) {
   return Reading::number;
 }
 
+// What loggers write where there is no value.
+bool is_gap(std::string_view field) {
+  constexpr std::array<std::string_view, 6> words = {"NA", "N/A", "#N/A", "null", "NULL", "None"};
+  return std::ranges::find(words, field) != words.end();
+}
+
+// Also reads a decimal comma, where it is no delimiter.
+Reading read_field(std::string_view field, double& value) {
+  const Reading reading = read_number(field, value);
+  const std::size_t comma = field.find(',');
+  if (reading != Reading::no_number || comma == std::string_view::npos ||
+      field.find('.') != std::string_view::npos) {
+    return reading;
+  }
+  std::string text(field);
+  text[comma] = '.';
+  return read_number(text, value);
+}
+
+bool is_number(std::string_view field) {
+  double ignored = 0;
+  return read_field(field, ignored) != Reading::no_number;
+}
+
+// Whether a field below a name is its unit, as some loggers write them in a second line.
+bool is_unit(std::string_view field) {
+  constexpr std::array<std::string_view, 16> units = {"",      "-",   "s",   "ms", "us",  "m",
+                                                      "cm",    "mm",  "deg", "°",  "rad", "deg/s",
+                                                      "rad/s", "m/s", "V",   "A"};
+  if (std::ranges::find(units, field) != units.end()) return true;
+  return (field.starts_with('[') && field.ends_with(']')) ||
+         (field.starts_with('(') && field.ends_with(')'));
+}
+
+// Calls use(field, index) for each field of the line. Returns the number of fields.
+template <class Use>
+std::size_t for_each_field(std::string_view line, char delimiter, Use use) {
+  std::size_t count = 0;
+  for (std::size_t start = 0;;) {
+    const std::size_t end = line.find(delimiter, start);
+    use(trimmed(line.substr(start, end - start)), count++);  // npos - start reaches to the end
+    if (end == std::string_view::npos) return count;
+    start = end + 1;
+  }
+}
+
+// The fields without quotation marks; nothing if one stays open.
+std::optional<std::vector<std::string>> fields_of(std::string_view line, char delimiter) {
+  std::vector<std::string> fields;
+  if (!split_fields(line, fields, delimiter)) return {};
+  for (std::string& field : fields) field = std::string(trimmed(field));
+  return fields;
+}
+
+// How well a line names the columns of the row below it with this delimiter: the number of numbers
+// in the row; 0 if it does not.
+std::size_t fit(std::string_view header, std::string_view row, char delimiter) {
+  const auto names = fields_of(header, delimiter), fields = fields_of(row, delimiter);
+  if (!names || !fields || fields->size() < names->size()) return 0;
+  if (names->size() == 1 && fields->size() > 1) return 0;
+  for (std::size_t c = 0; c < names->size(); ++c) {
+    const std::string& name = (*names)[c];
+    const bool may_be_empty = c == 0 || (c + 1 == names->size() && (*fields)[c].empty());
+    if (name.empty() ? !may_be_empty || names->size() == 1 : is_number(name)) return 0;
+    if (std::ranges::any_of(name, is_control)) return 0;
+  }
+  return static_cast<std::size_t>(std::ranges::count_if(*fields, is_number));
+}
+
+struct Fit {
+  std::size_t numbers = 0;
+  char delimiter = ',';
+};
+Fit best_fit(std::string_view header, std::string_view row) {
+  Fit best;
+  for (const char delimiter : {',', ';', '\t'}) {
+    const std::size_t numbers = fit(header, row, delimiter);
+    if (numbers > best.numbers) best = {numbers, delimiter};
+  }
+  return best;
+}
+
 class Parser {
  public:
-  explicit Parser(const std::string& file) : lines_(file) {}
+  explicit Parser(const std::string& file) : lines_(file) { cells_.file = lines_.name(); }
 
-  TableData parse() {
-    read_header();
-    const std::size_t columns = table_.names.size();
-    table_.columns.resize(columns);
+  CellTable parse(const CsvChoice& choice) {
+    read_header(choice.header);
+    cells_.columns.resize(cells_.names.size());
+    for (const std::string& name : cells_.names) {
+      reads_.push_back(choice.wanted.empty() || name == "t" ||
+                       std::ranges::find(choice.wanted, name) != choice.wanted.end());
+    }
+    const std::size_t columns = cells_.names.size();
     // A guess of the number of rows that avoids most reallocations.
     const std::size_t rows = lines_.size().value_or(0) / (2 * columns) + 1;
     constexpr std::size_t most = 4096;
-    for (auto& column : table_.columns) column.reserve(std::min(rows, most));
+    for (CellColumn& column : cells_.columns) column.numbers.reserve(std::min(rows, most));
     const std::size_t most_rows = room_for_rows();
-    while (next_line()) {
-      require_room(table_.columns[0].size(), most_rows);
+    while (next_row()) {
+      require_room(cells_.rows, most_rows);
       read_row();
     }
-    return std::move(table_);
-  }
-
-  CellTable parse_cells(const std::vector<std::string>& wanted) {
-    read_header();
-    CellTable cells;
-    cells.names = table_.names;
-    cells.columns.resize(cells.names.size());
-    std::vector<bool> reads;
-    for (const std::string& name : cells.names) {
-      reads.push_back(wanted.empty() || name == "t" ||
-                      std::find(wanted.begin(), wanted.end(), name) != wanted.end());
-    }
-    const std::size_t most_rows = room_for_rows();
-    for (; next_line(); ++cells.rows) {
-      require_room(cells.rows, most_rows);
-      read_cells(reads, cells);
-    }
-    return cells;
+    tell_of_rows();
+    return std::move(cells_);
   }
 
  private:
+  struct Line {
+    std::string text;
+    std::size_t number = 0;
+  };
+
   // A file may have any number of rows. An endless input is limited by this machine's memory.
   [[nodiscard]] std::size_t room_for_rows() const {
     return lines_.size() ? std::numeric_limits<std::size_t>::max()
-                         : most_bytes() / (sizeof(double) * table_.names.size());
+                         : most_bytes() / (sizeof(double) * cells_.names.size());
   }
 
   void require_room(std::size_t rows, std::size_t most) const {
@@ -110,124 +185,334 @@ class Parser {
   bool next_line() {
     const std::optional<std::string_view> line = lines_.next();
     text_ = line.value_or(std::string_view());
+    number_ = std::max<std::size_t>(lines_.number(), 1);
     return line.has_value();
   }
 
-  // Calls use(field, index) for each field of the line. Returns the number of fields.
-  template <class Use>
-  std::size_t for_each_field(Use use) const {
-    std::size_t count = 0;
-    for (std::size_t start = 0;;) {
-      const std::size_t comma = text_.find(',', start);
-      use(trimmed(text_.substr(start, comma - start)), count++);  // npos - start reaches to the end
-      if (comma == std::string_view::npos) return count;
-      start = comma + 1;
+  // The next line that is neither blank nor a remark: of those that were looked at, then of the
+  // file.
+  bool next_row() {
+    if (next_ahead_ < ahead_.size()) {
+      text_ = ahead_[next_ahead_].text;
+      number_ = ahead_[next_ahead_++].number;
+      return true;
+    }
+    while (next_line()) {
+      const std::string_view line = trimmed(text_);
+      if (!line.empty() && line.front() != '#') return true;
+      if (!line.empty()) remark_ = {std::string(line.substr(1)), number_};
+    }
+    return false;
+  }
+
+  // Looks at the row with this index. Returns whether there is one.
+  bool look(std::size_t index) {
+    constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
+    while (ahead_.size() <= index) {
+      next_ahead_ = ahead_.size();
+      if (!next_row()) return false;
+      if (number_ == 1 && text_.starts_with(byte_order_mark)) {
+        text_.remove_prefix(byte_order_mark.size());
+        const std::string_view line = trimmed(text_);
+        if (line.starts_with('#')) remark_ = {std::string(line.substr(1)), number_};
+        if (line.empty() || line.starts_with('#')) continue;
+      }
+      ahead_.push_back({std::string(text_), number_});
+    }
+    return true;
+  }
+
+  // Takes a row that was looked at; next_row() goes on after it.
+  void take(std::size_t index) {
+    text_ = ahead_[index].text;
+    number_ = ahead_[index].number;
+    next_ahead_ = index + 1;
+  }
+
+  void read_header(const std::vector<std::string>& given) {
+    if (!look(0)) {
+      text_ = {};
+      fail(text_, "found no header; the first row names the columns");
+    }
+    if (!given.empty()) return take_given(given);
+    const Line remark = remark_;
+    constexpr std::size_t most_lines = 50;
+    for (std::size_t i = 0; i < most_lines && look(i + 1); ++i) {
+      const Fit found = best_fit(ahead_[i].text, ahead_[i + 1].text);
+      if (found.numbers == 0) continue;
+      delimiter_ = found.delimiter;
+      const auto names = fields_of(ahead_[i].text, delimiter_);
+      // Lines above it with as many fields are no banner: the first of them is the header.
+      std::size_t header = i;
+      while (header > 0 && names->size() > 1) {
+        const auto above = fields_of(ahead_[header - 1].text, delimiter_);
+        if (!above || above->size() != names->size()) break;
+        --header;
+      }
+      tell_of_lines_before(header);
+      take(header);
+      take_names();
+      if (header + 1 == i && std::ranges::all_of(*names, is_unit)) {
+        add_units(*names);
+        take(i);
+      }
+      return;
+    }
+    // A remark may name the columns, as numpy.savetxt writes it.
+    if (remark.number != 0) {
+      const Fit found = best_fit(remark.text, ahead_[0].text);
+      if (found.numbers > 0) {
+        delimiter_ = found.delimiter;
+        text_ = remark.text;
+        number_ = remark.number;
+        next_ahead_ = 0;
+        take_names();
+        return;
+      }
+    }
+    take(0);
+    for (const char delimiter : {'\t', ';', ','}) {
+      if (text_.find(delimiter) != std::string_view::npos) delimiter_ = delimiter;
+    }
+    take_names();
+  }
+
+  void add_units(const std::vector<std::string>& units) {
+    for (std::size_t c = 0; c < cells_.names.size(); ++c) {
+      const std::string& unit = units[c];
+      if (unit.empty() || unit == "-") continue;
+      const bool brackets = unit.ends_with(']') || unit.ends_with(')');
+      cells_.names[c] += brackets ? ' ' + unit : " [" + unit + ']';
     }
   }
 
-  void read_header() {
-    next_line();
-    constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
-    if (text_.starts_with(byte_order_mark)) text_.remove_prefix(byte_order_mark.size());
-    if (trimmed(text_).empty()) fail(text_, "found no header; the first row names the columns");
-    std::unordered_set<std::string_view> seen;
-    for_each_field([&](std::string_view name, std::size_t) {
-      double number = 0;
-      if (name.empty()) fail(name, "a column's name is empty");
-      if (name.find(';') != std::string_view::npos || name.find('\t') != std::string_view::npos) {
-        fail(name, what_was_found(name) + "; commas separate columns");
+  void tell_of_lines_before(std::size_t header) {
+    if (header == 0) return;
+    cells_.notes.push_back("note: " + lines_.name() + ": the header is line " +
+                           std::to_string(ahead_[header].number) +
+                           "; the lines before it are left out");
+  }
+
+  // The user names the columns, in place of a header if there is one.
+  void take_given(const std::vector<std::string>& given) {
+    cells_.names = given;
+    std::size_t numbers = 0, first = 0;
+    for (; first < 50 && look(first) && numbers == 0; ++first) {
+      for (const char delimiter : {',', ';', '\t'}) {
+        const auto fields = fields_of(ahead_[first].text, delimiter);
+        if (!fields || fields->size() < given.size()) continue;
+        const auto found = static_cast<std::size_t>(std::ranges::count_if(*fields, is_number));
+        if (found > numbers) {
+          numbers = found;
+          delimiter_ = delimiter;
+        }
       }
-      if (std::any_of(name.begin(), name.end(), is_control)) {
+    }
+    next_ahead_ = numbers == 0 ? 0 : first - 1;
+    if (next_ahead_ == 0) return;
+    cells_.notes.push_back("note: " + lines_.name() + ": rows begin in line " +
+                           std::to_string(ahead_[next_ahead_].number) +
+                           "; the lines before it are left out");
+  }
+
+  void take_names() {
+    if (trimmed(text_).empty()) fail(text_, "found no header; the first row names the columns");
+    header_ = std::string(text_);
+    std::unordered_set<std::string> seen;
+    const auto take_name = [&](std::string_view name, std::size_t) {
+      if (std::ranges::any_of(name, is_control)) {
         fail(name, "found a control character in the header; a CSV file is plain text");
       }
-      if (name.find('"') != std::string_view::npos) {
-        fail(name, what_was_found(name) + "; names stand without quotation marks");
-      }
+      double number = 0;
       if (read_number(name, number) != Reading::no_number) {
         fail(name, "found the number " + quoted(name, longest_name) +
-                       "; the first row names the columns");
+                       "; the first row names the columns, or --header NAME,... does");
       }
-      if (!seen.insert(name).second) {
+      if (!name.empty() && !seen.emplace(name).second) {
         fail(name, "column " + quoted(name, longest_name) + " is there twice");
       }
-      table_.names.emplace_back(name);
-    });
-  }
-
-  // Reads a row of numbers and text, only in the columns that `reads` selects.
-  void read_cells(const std::vector<bool>& reads, CellTable& cells) {
-    if (trimmed(text_).empty()) fail(text_, "found a blank line; each line is a row");
-    const auto read = [&](std::string_view field, std::size_t c) {
-      if (c >= reads.size() || !reads[c]) return;
-      double value = 0;
-      switch (read_number(field, value)) {
-        case Reading::number:
-          return cells.columns[c].add_number(value);
-        case Reading::no_number:
-          return cells.columns[c].add_text(std::string(field));
-        case Reading::too_large:
-          fail(text_, "column " + table_.names[c] + ": " + what_was_found(field) +
-                          ", too large for a double (at most 1.8e308)");
-      }
+      cells_.names.emplace_back(name);
     };
-    std::size_t found = 0;
     if (text_.find('"') == std::string_view::npos) {
-      found = for_each_field(read);
+      for_each_field(text_, delimiter_, take_name);
+    } else if (const auto names = fields_of(text_, delimiter_)) {
+      for (const std::string& name : *names) take_name(name, 0);
     } else {
-      if (!split_fields(text_, fields_))
-        fail(text_, "found a quotation mark without its closing one");
-      for (const std::string& field : fields_) read(trimmed(field), found++);
+      fail(text_, "found a quotation mark without its closing one");
     }
-    require_fields(found, found == 1 ? " field" : " fields");
+    name_the_nameless();
   }
 
-  void require_fields(std::size_t found, const char* what) const {
-    const std::size_t expected = table_.names.size();
-    if (found == expected) return;
-    fail(text_, "found " + std::to_string(found) + what + "; the header names " +
-                    std::to_string(expected) + (expected == 1 ? " column" : " columns"));
+  // The first column without a name is the index of pandas, the last one what follows a delimiter
+  // at the end of each line.
+  void name_the_nameless() {
+    const bool has_rows = next_ahead_ < ahead_.size();
+    std::size_t at = 0;
+    for (std::size_t c = 0; c < cells_.names.size(); ++c) {
+      std::string& name = cells_.names[c];
+      if (name.empty()) {
+        const bool last = c + 1 == cells_.names.size();
+        const auto fields =
+            has_rows ? fields_of(ahead_[next_ahead_].text, delimiter_) : std::nullopt;
+        const bool index = c == 0 && !last && fields;
+        const bool trailing = c > 0 && last && fields && fields->size() == cells_.names.size() &&
+                              (*fields)[c].empty();
+        if (!index && !trailing) fail(text_.substr(at), "a column's name is empty");
+        if (trailing) {
+          cells_.names.pop_back();
+          return;
+        }
+        name = "index";
+        if (std::ranges::count(cells_.names, name) > 1) name = "row index";
+      }
+      at = std::min(text_.find(delimiter_, at), text_.size() - 1) + 1;
+    }
   }
 
   void read_row() {
-    const std::size_t expected = table_.names.size();
-    const std::size_t found = for_each_field([&](std::string_view field, std::size_t c) {
-      if (c >= expected) return;
-      double value = 0;
-      const Reading reading = read_number(field, value);
-      if (reading == Reading::number) {
-        table_.columns[c].push_back(value);
+    const auto read = [&](std::string_view field, std::size_t c) {
+      if (c >= reads_.size()) {
+        if (!field.empty()) beyond_ = true;
         return;
       }
-      if (trimmed(text_).empty()) fail(field, "found a blank line; each line is a row of numbers");
-      fail(field, "column " + shown(table_.names[c]) + ": " + what_was_found(field) +
-                      (reading == Reading::too_large ? ", too large for a double (at most 1.8e308)"
-                                                     : ", a number is expected"));
-    });
-    require_fields(found, found == 1 ? " number" : " numbers");
+      if (!reads_[c]) return;
+      CellColumn& column = cells_.columns[c];
+      double value = 0;
+      switch (read_field(field, value)) {
+        case Reading::number:
+          return column.add_number(value);
+        case Reading::no_number: {
+          const bool gap = field.empty() || is_gap(field);
+          Place& first = gap ? column.first_gap : column.first_text;
+          if (first.line == 0) first = {number_, column_of(field)};
+          return column.add_text(gap ? std::string() : std::string(field));
+        }
+        case Reading::too_large:
+          fail(field, "column " + shown(cells_.names[c]) + ": " + what_was_found(field) +
+                          ", too large for a double (at most 1.8e308)");
+      }
+    };
+    if (text_ == header_) {
+      ++headers_again_;
+      return;
+    }
+    beyond_ = false;
+    std::size_t found = 0;
+    if (text_.find('"') == std::string_view::npos) {
+      found = for_each_field(text_, delimiter_, read);
+    } else {
+      if (!split_fields(text_, fields_, delimiter_)) {
+        fail(text_, "found a quotation mark without its closing one");
+      }
+      for (const std::string& field : fields_) read(trimmed(field), found++);
+    }
+    const std::size_t expected = cells_.names.size();
+    if (found < expected) fail(text_, count_text(found));
+    if (beyond_) take_beyond(found);
+    ++cells_.rows;
+  }
+
+  [[nodiscard]] std::string count_text(std::size_t found) const {
+    const std::size_t expected = cells_.names.size();
+    const auto fields = fields_of(text_, delimiter_);
+    const bool numbers = std::ranges::all_of(*fields, is_number);
+    return "found " + std::to_string(found) + (numbers ? " number" : " field") +
+           (found == 1 ? "" : "s") + "; the header names " + std::to_string(expected) +
+           (expected == 1 ? " column" : " columns");
+  }
+
+  void take_beyond(std::size_t found) {
+    if (cells_.rows == 0 && delimiter_ == ',' && cells_.names.size() > 1 &&
+        found == 2 * cells_.names.size()) {
+      fail(text_, count_text(found) +
+                      ": commas seem to stand both between columns and in numbers; separate the "
+                      "columns by semicolons or tabs");
+    }
+    if (rows_beyond_++ == 0)
+      first_beyond_ = lines_.name() + ':' + std::to_string(number_) + ": " + count_text(found);
+  }
+
+  void tell_of_rows() {
+    const auto more = [](std::size_t rows) {
+      return rows == 1 ? std::string()
+                       : ", here and in " + std::to_string(rows - 1) +
+                             (rows == 2 ? " more row" : " more rows");
+    };
+    if (rows_beyond_ > 0) {
+      cells_.notes.push_back("warning: " + first_beyond_ + "; the fields beyond are left out" +
+                             more(rows_beyond_));
+    }
+    if (headers_again_ > 0) {
+      cells_.notes.push_back("note: " + lines_.name() + ": the header stands again in " +
+                             std::to_string(headers_again_) +
+                             (headers_again_ == 1 ? " row" : " rows") + ", left out");
+    }
+  }
+
+  // Where a part of the line begins, from 1; 1 if it is no part of it.
+  [[nodiscard]] std::size_t column_of(std::string_view part) const {
+    const std::less_equal<> not_after;
+    const bool within = part.data() != nullptr && not_after(text_.data(), part.data()) &&
+                        not_after(part.data(), text_.data() + text_.size());
+    return within ? static_cast<std::size_t>(part.data() - text_.data()) + 1 : 1;
   }
 
   // `at` is a part of the line; the message gives its column.
   [[noreturn]] void fail(std::string_view at, const std::string& message) const {
-    const auto column = at.data() == nullptr ? 0 : at.data() - text_.data();
-    const std::size_t line = std::max<std::size_t>(lines_.number(), 1);
     throw InputError({Problem{
-        lines_.name() + ":" + std::to_string(line) + ":" + std::to_string(column + 1), message}});
+        lines_.name() + ":" + std::to_string(number_) + ":" + std::to_string(column_of(at)),
+        message}});
   }
 
   LineReader lines_;
-  std::string_view text_;  // the current line without its end
-  TableData table_;
+  std::string_view text_;    // the current line without its end
+  std::size_t number_ = 1;   // of the current line
+  std::vector<Line> ahead_;  // the rows that were looked at in search of the header
+  std::size_t next_ahead_ = 0;
+  Line remark_{};  // the last one
+  char delimiter_ = ',';
+  std::string header_;
+  CellTable cells_;
+  std::vector<bool> reads_;          // for each column
   std::vector<std::string> fields_;  // of a line with quotation marks
+  bool beyond_ = false;              // the row has a field beyond the columns
+  std::size_t rows_beyond_ = 0, headers_again_ = 0;
+  std::string first_beyond_;
 };
 
 }  // namespace
 
 TableData read_csv(const std::string& file) {
-  return Parser(file).parse();
+  CellTable cells = read_csv_cells(file, {});
+  const auto earliest = [](const CellColumn& column) {
+    if (column.first_gap.line == 0) return column.first_text;
+    if (column.first_text.line == 0) return column.first_gap;
+    return std::min(column.first_gap, column.first_text);
+  };
+  std::optional<std::size_t> worst;
+  for (std::size_t c = 0; c < cells.columns.size(); ++c) {
+    const Place place = earliest(cells.columns[c]);
+    if (place.line != 0 && (!worst || place < earliest(cells.columns[*worst]))) worst = c;
+  }
+  if (worst) refuse_text(cells, *worst, earliest(cells.columns[*worst]));
+  TableData table{std::move(cells.names), {}};
+  for (CellColumn& column : cells.columns) table.columns.push_back(std::move(column.numbers));
+  return table;
 }
 
-CellTable read_csv_cells(const std::string& file, const std::vector<std::string>& wanted) {
-  return Parser(file).parse_cells(wanted);
+CellTable read_csv_cells(const std::string& file, const CsvChoice& choice) {
+  return Parser(file).parse(choice);
+}
+
+void refuse_text(const CellTable& table, std::size_t column, const Place& place) {
+  const CellColumn& of = table.columns[column];
+  const bool gap = place == of.first_gap;
+  const auto text = std::ranges::find_if_not(of.texts, &std::string::empty);
+  throw InputError(
+      {Problem{table.file + ":" + std::to_string(place.line) + ":" + std::to_string(place.column),
+               "column " + shown(table.names[column]) + ": " +
+                   what_was_found(gap || text == of.texts.end() ? std::string_view() : *text) +
+                   ", a number is expected"}});
 }
 
 }  // namespace bbsim::file

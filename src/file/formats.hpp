@@ -22,8 +22,7 @@ namespace bbsim::file {
 // All throw InputError.
 [[nodiscard]] TableData read_csv(const std::string& file);  // "-" is standard input
 [[nodiscard]] TableData read_hdf5(const std::string& file);
-[[nodiscard]] CellTable read_csv_cells(const std::string& file,
-                                       const std::vector<std::string>& wanted);
+[[nodiscard]] CellTable read_csv_cells(const std::string& file, const CsvChoice& choice);
 [[nodiscard]] CellTable read_hdf5_cells(const std::string& file);
 
 }  // namespace bbsim::file

@@ -28,8 +28,8 @@ TableData read_table(const std::string& file) {
   return format_of(file) == Format::hdf5 ? read_hdf5(file) : read_csv(file);
 }
 
-CellTable read_cells(const std::string& file, const std::vector<std::string>& wanted) {
-  return format_of(file) == Format::hdf5 ? read_hdf5_cells(file) : read_csv_cells(file, wanted);
+CellTable read_cells(const std::string& file, const CsvChoice& choice) {
+  return format_of(file) == Format::hdf5 ? read_hdf5_cells(file) : read_csv_cells(file, choice);
 }
 
 }  // namespace bbsim::file

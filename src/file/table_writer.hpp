@@ -62,8 +62,8 @@ void require_table_name(const std::string& target);
 // The first line of a CSV with these columns, without its line break.
 [[nodiscard]] std::string csv_header(const std::vector<ColumnHeader>& headers);
 
-// Reads an HDF5 file (by its ending) or a CSV (RFC 4180 without quoting: a header of bare names,
-// then numbers). "-" is CSV on standard input. Throws InputError: where, found, allowed.
+// Reads an HDF5 file (by its ending) or a CSV of numbers, as read_cells() does. "-" is CSV on
+// standard input. Throws InputError: where, found, allowed.
 [[nodiscard]] TableData read_table(const std::string& file);
 
 }  // namespace bbsim::file

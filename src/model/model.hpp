@@ -61,7 +61,8 @@ struct Model {
   [[nodiscard]] double gamma_not_integrated() const;
   // Converts a row to the paper's symbols.
   [[nodiscard]] Sample sample(double t, const double* row, Detail detail = Detail::all) const;
-  // Whether the model has switches, samples or events. model/hybrid_system.hpp then runs it.
+  // Whether the model has switches, samples or events. model/hybrid/hybrid_system.hpp then
+  // runs it.
   [[nodiscard]] bool hybrid() const {
     return events.has_value() || dry.has_value() || (rig && (rig->sampled || rig->switches()));
   }

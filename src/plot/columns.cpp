@@ -207,7 +207,11 @@ Unit unit_of(std::string_view column) {
 }
 
 Unit unit_of(const std::vector<Result>& runs, std::string_view column) {
-  if (!std::ranges::all_of(runs, &Result::units_known)) return {};
+  const auto tells_unit = [&](const Result& run) {
+    const Column* const found = run.find(column);
+    return run.units_known || found == nullptr || !found->unit.empty();
+  };
+  if (!std::ranges::all_of(runs, tells_unit)) return {};
   const scenario::Column* const known = find_result_column(column);
   if (known != nullptr) return unit_of(column);
   for (const Result& run : runs) {

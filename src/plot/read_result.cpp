@@ -230,12 +230,15 @@ std::string summary_beside(const std::string& file) {
   return summary;
 }
 
-Result read_result(const std::string& file, const Beside& beside) {
+Result read_result(const std::string& file, const Beside& beside, const LogChoice& log,
+                   std::vector<std::string>* notes) {
   if (const std::string ending = file::lower_ending(file); ending == ".yaml" || ending == ".yml") {
     throw InputError(file + ": is a scenario; draw its result: bbsim run " + file +
                      " -o run.h5 && bbsim plot run.h5");
   }
-  Result result = is_hdf5(file) ? read_hdf5_result(file) : read_csv_columns(file);
+  std::vector<std::string> ignored;
+  std::vector<std::string>& told = notes == nullptr ? ignored : *notes;
+  Result result = is_hdf5(file) ? read_hdf5_result(file) : read_csv_columns(file, log.header, told);
   if (!beside.summary.empty()) {
     read_summary(result, beside.summary);
   } else if (!result.is_sweep()) {
@@ -244,6 +247,9 @@ Result read_result(const std::string& file, const Beside& beside) {
   if (!beside.scenario.empty()) {
     result.scenario = read_scenario(beside.scenario, beside.overrides);
     result.units_known = true;
+  }
+  if (log.given() || (!result.units_known && result.version.empty())) {
+    make_log(result, log, false, told);
   }
   if (result.scenario && (result.title.empty() || !beside.scenario.empty())) {
     result.title = result.scenario->title;

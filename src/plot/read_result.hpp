@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "plot/log.hpp"
 #include "plot/result.hpp"
 
 namespace bbsim::plot {
@@ -22,12 +23,19 @@ struct Beside {
 // standard input. An HDF5 file tells of its scene itself. For a CSV without a summary named,
 // NAME.json beside NAME.csv is taken if it is the summary of a run into that file, with as many
 // rows. A scenario that is named comes before both. Throws InputError.
-[[nodiscard]] Result read_result(const std::string& file, const Beside& beside);
+// A CSV that nothing tells to be a result of bbsim, or of which `log` says something, is read as a
+// log; what was done to it is added to `notes`, if that is given.
+[[nodiscard]] Result read_result(const std::string& file, const Beside& beside,
+                                 const LogChoice& log = {},
+                                 std::vector<std::string>* notes = nullptr);
 
 // NAME.json beside NAME.csv, as read_result() looks for it: empty if there is none.
 [[nodiscard]] std::string summary_beside(const std::string& file);
 
-// Only the columns, of CSV. Throws InputError with file:line.
-[[nodiscard]] Result read_csv_columns(const std::string& file);
+// Only the columns, of CSV; `header` names them if the file does not. Adds to `notes` what was left
+// out. Throws InputError with file:line:column.
+[[nodiscard]] Result read_csv_columns(const std::string& file,
+                                      const std::vector<std::string>& header,
+                                      std::vector<std::string>& notes);
 
 }  // namespace bbsim::plot

@@ -8,17 +8,11 @@
 #include <vector>
 
 #include "base/number_text.hpp"
+#include "record/aligned.hpp"
 #include "record/compare.hpp"
 
 namespace bbsim::record {
 namespace {
-
-// Three digits suffice to judge an error.
-std::string rounded(double value) {
-  char text[32];
-  const int size = std::snprintf(text, sizeof text, "%.3g", value);
-  return {text, static_cast<std::size_t>(size)};
-}
 
 std::string counted(std::size_t count, const std::string& noun) {
   return std::to_string(count) + " " + noun + (count == 1 ? "" : "s");
@@ -43,19 +37,7 @@ std::string table_of(const Comparison& comparison, const Allowances& allowances)
     line.insert(line.end(), {rounded(column.worst.excess), std::to_string(column.different_rows)});
     lines.push_back(std::move(line));
   }
-  std::vector<std::size_t> widths(lines[0].size());
-  for (const Line& line : lines) {
-    for (std::size_t i = 0; i < line.size(); ++i) widths[i] = std::max(widths[i], line[i].size());
-  }
-  std::string text;
-  for (const Line& line : lines) {
-    text += line[0] + std::string(widths[0] - line[0].size(), ' ');
-    for (std::size_t i = 1; i < line.size(); ++i) {
-      text += "  " + std::string(widths[i] - line[i].size(), ' ') + line[i];
-    }
-    text += '\n';
-  }
-  return text;
+  return aligned(lines);
 }
 
 std::string missing(const std::vector<std::string>& names, const std::string& there,

@@ -5,16 +5,18 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
+#include "plot/log.hpp"
 #include "plot/result.hpp"
 #include "replay/scene.hpp"
 
 namespace bbsim::replay {
 
-// `map` assigns columns: "x=Ballx:mm,y=Bally:mm,t=Time:ms" gives a column of `bbsim columns`, the
-// log's column and its unit, SI by default. Without t in the map, the log's column t is the time in
-// seconds. With an empty map, the log has the names and units of bbsim. Throws InputError with the
+// Without maps, the log has the names and units of bbsim; with them, the run has only the columns
+// that they name, and the log's own t. Adds to `notes` what was done. Throws InputError with the
 // row of the log or the place in the map, the text found and the texts allowed.
-[[nodiscard]] Run run_of_log(plot::Result log, const std::string& map, const std::string& name);
+[[nodiscard]] Run run_of_log(plot::Result log, const plot::LogChoice& choice,
+                             const std::string& name, std::vector<std::string>& notes);
 
 }  // namespace bbsim::replay

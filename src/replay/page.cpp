@@ -12,6 +12,7 @@
 #include "base/error.hpp"
 #include "base/json.hpp"
 #include "file/atomic_file.hpp"
+#include "file/share_folders.hpp"
 #include "file/whole_file.hpp"
 #include "replay/base64.hpp"
 #include "replay/kept_rows.hpp"
@@ -396,30 +397,12 @@ std::string page_template(const std::vector<std::string>& folders) {
                     "or set BBSIM_SHARE_PATH to the template's folder");
 }
 
-namespace {
-
-// The folders to try, in order.
-std::vector<std::string> template_folders() {
-  if (const char* folder = std::getenv("BBSIM_SHARE_PATH"); folder != nullptr && *folder != '\0') {
-    return {folder};
-  }
-  std::error_code error;
-  const std::filesystem::path program = std::filesystem::read_symlink("/proc/self/exe", error);
-  const std::filesystem::path prefix = program.parent_path().parent_path();
-  std::vector<std::string> folders{prefix / "share" / "bbsim"};
-  const std::string installed = prefix / BBSIM_INSTALL_DATADIR / "bbsim";
-  if (installed != folders.front()) folders.push_back(installed);
-  return folders;
-}
-
-}  // namespace
-
 std::string page_template() {
-  return page_template(template_folders());
+  return page_template(file::share_folders());
 }
 
 std::string template_file() {
-  for (const std::string& folder : template_folders()) {
+  for (const std::string& folder : file::share_folders()) {
     const std::filesystem::path file = std::filesystem::path(folder) / template_name;
     std::error_code error;
     if (std::filesystem::exists(file, error)) return file.string();

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "scenario/columns.hpp"
+#include "scenario/relations.hpp"
 #include "scenario/sections.hpp"
 
 namespace bbsim::scenario {
@@ -26,24 +26,6 @@ void report_missing(yaml::Keys& scenario, const std::string& message) {
   place.context->problems.add(place.position, message);
 }
 
-void check_open_loop(yaml::Keys& scenario) {
-  if (const auto start = find_in(scenario, "gimbal", "start")) {
-    report(*start,
-           "found beside gimbal.motion, which determines where the gimbal starts; allowed: only "
-           "with a controller");
-  }
-  if (const auto servo = find_in(scenario, "gimbal", "servo")) {
-    report(*servo,
-           "found beside gimbal.motion, which no servo follows; allowed: only with a "
-           "controller that drives angle");
-  }
-  if (const auto motor = find_in(scenario, "gimbal", "motor")) {
-    report(*motor,
-           "found beside gimbal.motion, which no torque changes; allowed: only with gimbal.torque "
-           "or a controller");
-  }
-}
-
 // An invalid value of `drives` was reported before; the servo is not checked then.
 void check_servo(yaml::Keys& scenario) {
   const auto drives = find_in(scenario, "controller", "drives");
@@ -65,44 +47,13 @@ void check_servo(yaml::Keys& scenario) {
     report(*servo,
            "found beside gimbal.motor, but a servo moves at any torque; allowed: one of the two");
   }
-  if (driven == "acceleration" && servo) {
-    report(*servo,
-           "found, but controller.drives is acceleration, which no servo follows; allowed: "
-           "only with drives: angle");
-  }
-  if (driven == "acceleration" && motor) {
-    report(*motor,
-           "found, but controller.drives is acceleration, at any torque; allowed: only with "
-           "drives: torque or voltage, or angle and a position_loop");
-  }
-  if (driven == "torque" || driven == "voltage") {
-    if (servo) {
-      report(*servo, "found, but controller.drives is " + driven +
-                         ", which no servo follows; allowed: only with drives: angle");
-    }
-    if (loop) {
-      report(*loop, "found, but controller.drives is " + driven +
-                        "; allowed: only with drives: angle, which the loop follows");
-    }
-  }
+  check_relations(scenario, driven == "acceleration"
+                                ? "controller and controller.drives=acceleration|"
+                                : "controller.drives=" + driven);
   if (driven == "voltage" && !(motor && yaml::Keys(*motor).find("dc"))) {
     report_missing(scenario,
                    "gimbal.motor.dc: missing, but controller.drives is voltage; allowed: a mapping "
                    "with resistance, torque_constant");
-  }
-}
-
-void check_torque(yaml::Keys& scenario) {
-  if (const auto servo = find_in(scenario, "gimbal", "servo")) {
-    report(*servo,
-           "found beside gimbal.torque, which no servo follows; allowed: only with a controller "
-           "that drives angle");
-  }
-  const auto motor = find_in(scenario, "gimbal", "motor");
-  if (const auto loop = motor ? yaml::Keys(*motor).find("position_loop") : std::nullopt) {
-    report(*loop,
-           "found beside gimbal.torque, which prescribes the motors' torque; allowed: only with a "
-           "controller that drives angle");
   }
 }
 
@@ -120,9 +71,9 @@ void check_loop(yaml::Keys& scenario) {
     report(*torque, std::string("found beside ") + (motion ? "gimbal.motion" : "controller") +
                         "; allowed: exactly one of gimbal.motion, gimbal.torque and controller");
   } else if (motion) {
-    check_open_loop(scenario);
+    check_relations(scenario, "gimbal.motion");
   } else if (torque) {
-    check_torque(scenario);
+    check_relations(scenario, "gimbal.torque");
   } else if (controller) {
     check_servo(scenario);
   } else {

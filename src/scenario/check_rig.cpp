@@ -9,6 +9,7 @@
 #include "base/number_text.hpp"
 #include "scenario/columns.hpp"
 #include "scenario/coupled.hpp"
+#include "scenario/relations.hpp"
 #include "scenario/sections.hpp"
 
 namespace bbsim::scenario {
@@ -40,6 +41,7 @@ class Checks {
   Checks(yaml::Keys& keys, const Scenario& scene) : keys_(keys), scene_(scene) {}
 
   void all() {
+    check_relations(keys_);
     controller();
     servo();
     linkage();
@@ -71,19 +73,6 @@ class Checks {
   void controller() {
     if (!scene_.controller) return;
     const Controller& controller = *scene_.controller;
-    if (!controller.sampling) {
-      refuse({"controller", "sensor"},
-             "found, but no controller.sampling; allowed: only with it, since the controller reads "
-             "the sensor at its samples; a continuous law knows the ball exactly");
-    }
-    // Checks the keys, not their values: a user may try a rig with noise 0.
-    if (!find_at(keys_, {"controller", "sensor", "noise"}) &&
-        !find_at(keys_, {"controller", "sensor", "dropout"}) &&
-        !find_at(keys_, {"controller", "sampling", "jitter"})) {
-      refuse({"controller", "sensor", "seed"},
-             "found, but neither noise nor dropout, nor sampling.jitter, and nothing else is "
-             "drawn; allowed: only with one of them");
-    }
     frames(controller);
     if (controller.law == Law::own && !controller.sampling) {
       for (const char* key : {"program", "library"}) {
@@ -171,12 +160,7 @@ class Checks {
   void frames(const Controller& controller) {
     if (!controller.sensor) return;
     const Sensor& sensor = *controller.sensor;
-    if (!sensor.period) {
-      refuse({"controller", "sensor", "phase"},
-             "found without sensor.period; allowed: only with it, since a sensor without frames "
-             "measures at the controller's samples");
-      return;
-    }
+    if (!sensor.period) return;
     if (scene_.time.end / *sensor.period > 1e8) {
       refuse({"controller", "sensor", "period"},
              "found more than 1e8 frames until time.end; allowed: a longer period");
@@ -262,18 +246,8 @@ class Checks {
     const Gimbal& gimbal = scene_.gimbal;
     const bool linked = find_at(keys_, {"gimbal", "linkage"}).has_value();
     const bool three = gimbal.three_servos.has_value();
-    if (!linked && !three) {
-      refuse({"controller", "assumes"},
-             "found, but nothing links servos and plate; allowed: only with gimbal.linkage or "
-             "gimbal.three_servos");
-      return;
-    }
+    if (!linked && !three) return;
     const char* const key = linked ? "linkage" : "three_servos";
-    if (linked && three) {
-      refuse({"gimbal", "three_servos"},
-             "found beside gimbal.linkage; allowed: one of the two, since three servos are a "
-             "linkage themselves");
-    }
     if (!scene_.controller) {
       refuse({"gimbal", key},
              "found without a controller, and no servo moves it; allowed: only with a controller "
@@ -311,11 +285,6 @@ class Checks {
 
   void push() {
     if (!scene_.ball.push) return;
-    if (!find_at(keys_, {"ball", "mass"})) {
-      refuse({"ball", "push"},
-             "found, but no ball.mass, and a push moves a lighter ball farther; allowed: only with "
-             "ball.mass");
-    }
     if (inverts()) {
       refuse({"ball", "push"}, "found beside " + law() +
                                    ", whose equations do not include it; allowed: any other law");
@@ -323,10 +292,6 @@ class Checks {
   }
 
   void events() {
-    if (scene_.events.edge && !scene_.plate.size && !scene_.plate.diameter) {
-      refuse({"events", "edge"},
-             "found, but the plate has no edge; allowed: only with plate.size or plate.diameter");
-    }
     if (scene_.events.singularity &&
         !(scene_.controller && scene_.controller->law == Law::feedback_linearisation)) {
       refuse({"events", "singularity"},
@@ -380,11 +345,6 @@ class Checks {
 
   void sliding() {
     const bool slides = scene_.events.slip && scene_.events.slip->sliding;
-    if (scene_.ball.rotation && !slides) {
-      refuse({"ball", "rotation"},
-             "found, but the ball only rolls, which determines how it turns; allowed: only with "
-             "events.slip and its action: slide");
-    }
     if (!slides) return;
     if (scene_.ball.inertia_factor == 0) {
       refuse({"events", "slip", "action"},

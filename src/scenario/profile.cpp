@@ -110,6 +110,22 @@ std::string ProfileRule::allowed() const {
   return std::string(term) + ", or a list of these: their sum";
 }
 
+yaml::Declared ProfileRule::declared() const {
+  const auto sum_of = [](yaml::Dimension dimension, yaml::Declared shapes) {
+    const auto term = yaml::Declared::any({yaml::Declared::number(dimension), std::move(shapes)});
+    return yaml::Declared::any({term, yaml::Declared::list(1, most_terms, term)});
+  };
+  switch (of) {
+    case ProfileOf::torque:
+      return sum_of(OfTorque::value, yaml::MappingOf(read_shapes<OfTorque>).declared());
+    case ProfileOf::force:
+      return sum_of(OfForce::value, yaml::MappingOf(read_shapes<OfForce>).declared());
+    case ProfileOf::angle:
+      break;
+  }
+  return sum_of(OfAngle::value, yaml::MappingOf(read_shapes<OfAngle>).declared());
+}
+
 bool ProfileRule::read(const yaml::Value& value, Profile& into) const {
   const auto term = of == ProfileOf::torque  ? read_term<OfTorque>
                     : of == ProfileOf::force ? read_term<OfForce>

@@ -17,6 +17,7 @@ enum class ProfileOf { angle, torque, force };
 struct ProfileRule {
   ProfileOf of = ProfileOf::angle;
   [[nodiscard]] std::string allowed() const;
+  [[nodiscard]] yaml::Declared declared() const;
   bool read(const yaml::Value& value, Profile& into) const;
 };
 

@@ -39,7 +39,7 @@ void read_ball(yaml::Keys& keys, Ball& ball) {
   keys.optional("inertia_factor", factor, ball.inertia_factor);
   keys.section("losses", read_losses, ball.losses);
   keys.optional("rotation", yaml::PairOf{yaml::Dimension::angular_rate}, ball.rotation);
-  static_cast<void>(keys.find("push"));  // read_ball_push() reads it
+  static_cast<void>(keys.find("push", yaml::MappingOf(read_push)));  // read_ball_push() reads it
 }
 
 void read_ball_push(yaml::Keys& scenario, Ball& ball) {
@@ -49,6 +49,7 @@ void read_ball_push(yaml::Keys& scenario, Ball& ball) {
 }
 
 void read_plate(yaml::Keys& keys, Plate& plate) {
+  keys.exclusive({{"size"}, {"diameter"}});
   keys.optional("size", yaml::SidesOf{}, plate.size);
   const yaml::Number diameter{yaml::Dimension::length, {.above = 0}};
   if (keys.optional("diameter", diameter, plate.diameter) && plate.diameter && plate.size) {

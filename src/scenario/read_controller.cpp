@@ -46,6 +46,11 @@ struct Parameters {
     return "a mapping of names to numbers, such as {kp: 0.7}";
   }
 
+  [[nodiscard]] static yaml::Declared declared() {
+    yaml::Declared value(yaml::Declared::Kind::names);
+    value.parts.push_back(yaml::Declared::number(yaml::Dimension::number));
+    return value;
+  }
   static bool read(const yaml::Value& value, std::vector<Parameter>& into) {
     if (value.node->kind != yaml::Node::Kind::mapping) return value.refuse("", allowed());
     yaml::Keys keys(value);
@@ -91,6 +96,8 @@ void read_library(yaml::Keys& keys, Controller& controller) {
   OwnController& own = controller.own.emplace();
   ControllerLibrary library;
   keys.required("file", yaml::Text{"the name of a shared library"}, library.file);
+  keys.optional("wiring", yaml::Text{"the name of a file that says what a sketch is wired to"},
+                library.wiring);
   keys.optional("parameters", Parameters{}, own.parameters);
   own.by = std::move(library);
   own.folder = keys.context().folder.string();
@@ -118,8 +125,9 @@ void read_law(yaml::Keys& keys, Controller& controller) {
   std::vector<const NamedLaw*> given;
   for (const NamedLaw& law : laws) {
     names.push_back(law.key);
-    if (keys.find(law.key)) given.push_back(&law);
+    if (keys.find(law.key, yaml::MappingOf(law.read))) given.push_back(&law);
   }
+  keys.one_of(names);
   if (given.empty()) {
     keys.missing("pd", yaml::MappingOf(read_pd).allowed() +
                            "; or another law: " + yaml::comma_separated(names));
@@ -171,6 +179,12 @@ struct Jitter {
       return;
     }
   }
+  [[nodiscard]] static yaml::Declared declared() {
+    return yaml::Declared::any({number().declared(), yaml::MappingOf(read_file).declared()});
+  }
+  [[nodiscard]] static std::string text_of(const Sampling& sampling) {
+    return number_text(sampling.jitter);
+  }
   static bool read(const yaml::Value& value, Sampling& into) {
     if (value.node->kind == yaml::Node::Kind::mapping) {
       return yaml::MappingOf(read_file).read(value, into);
@@ -195,6 +209,11 @@ struct Scale {
   [[nodiscard]] static std::string allowed() {
     return "a number greater than 0, such as 1.02, or two of them, [x, y]";
   }
+  [[nodiscard]] static yaml::Declared declared() {
+    const auto factor = yaml::Declared::number(yaml::Dimension::number, {.above = 0});
+    return yaml::Declared::any({factor, yaml::Declared::list(2, 2, factor)});
+  }
+  [[nodiscard]] static std::string text_of(const Pair& scale) { return number_text(scale[0]); }
   static bool read(const yaml::Value& value, Pair& into) {
     const yaml::Number factor{yaml::Dimension::number, {.above = 0}, "1.02"};
     if (value.node->kind == yaml::Node::Kind::sequence) {
@@ -215,12 +234,8 @@ void read_sensor(yaml::Keys& keys, Sensor& sensor) {
   const yaml::Usual fine{length, "mm", 0.05};
   keys.optional("resolution", fine, sensor.resolution);
   keys.optional("noise", fine, sensor.noise);
-  // Doubles hold integers up to 2^53.
-  double seed = static_cast<double>(sensor.seed);
-  const yaml::Number whole{
-      yaml::Dimension::number, {.at_least = 0, .at_most = 9007199254740992.0}, "1"};
-  if (keys.optional("seed", whole, seed)) {
-    if (seed != std::floor(seed)) keys.find("seed")->refuse("", "a whole number of at least 0");
+  auto seed = static_cast<double>(sensor.seed);
+  if (keys.optional("seed", yaml::Whole{0, "1"}, seed)) {
     sensor.seed = static_cast<unsigned long>(seed);
   }
   const yaml::Number delay{yaml::Dimension::time, {.at_least = 0}};
@@ -246,6 +261,14 @@ struct CommandLimit {
   }
   [[nodiscard]] static yaml::Number number() {
     return {yaml::Dimension::number, {.above = 0}, "5"};
+  }
+  // Which of the two is a matter of `drives`: relations.cpp.
+  [[nodiscard]] static yaml::Declared declared() {
+    const auto one = yaml::Declared::number(yaml::Dimension::angle, {.above = 0});
+    yaml::Declared axes(yaml::Declared::Kind::mapping);
+    axes.keys = {{"phi", one, false, {}}, {"theta", one, false, {}}};
+    axes.choices = {{{{"phi", "theta"}}, true}};
+    return yaml::Declared::any({one, axes});
   }
   bool read_one(const yaml::Value& value, double& into) const {
     return of_angle ? yaml::angle_limit({.above = 0}).read(value, into)

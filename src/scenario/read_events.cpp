@@ -32,7 +32,7 @@ void read_slip(yaml::Keys& keys, SlipEvent& slip) {
             "friction");
       }
     }
-  } else if (const auto found = keys.find("sliding_friction")) {
+  } else if (const auto found = keys.find("sliding_friction", sliding)) {
     double unused = 0;
     if (sliding.read(*found, unused)) {
       found->report("found, but action is not slide; allowed: only with action: slide");

@@ -58,11 +58,31 @@ void read_start(yaml::Keys& keys, GimbalStart& start) {
   keys.optional("theta_rate", yaml::Number{yaml::Dimension::angular_rate}, start.theta_rate);
 }
 
+// The width of a gap: none, or so much that rounding does not decide when the servo touches the
+// plane.
+struct Backlash {
+  static constexpr double least = 1e-6;
+
+  [[nodiscard]] static yaml::Usual width() { return yaml::angle_limit({.at_least = 0}, 0.15); }
+  [[nodiscard]] static std::string allowed() { return width().allowed(); }
+  [[nodiscard]] static yaml::Declared declared() {
+    return yaml::Declared::any(
+        {yaml::Declared::number(yaml::Dimension::angle, {.at_least = least}),
+         yaml::Declared::number(yaml::Dimension::angle, {.at_least = 0, .at_most = 0})});
+  }
+  [[nodiscard]] static std::string text_of(double value) { return number_text(value); }
+  static bool read(const yaml::Value& value, double& into) {
+    if (!width().read(value, into)) return false;
+    return into == 0 || into >= least || value.refuse("", "0, or an angle of at least 1e-6 rad");
+  }
+};
+
 // Reads the keys into `servo`, over its existing values. Does not report missing keys.
 void read_servo_keys(yaml::Keys& keys, Servo& servo) {
   const yaml::Number time{yaml::Dimension::time, {.above = 0}};
   const yaml::Number frequency{yaml::Dimension::angular_rate, {.above = 0}};
   const yaml::Number damping{yaml::Dimension::number, {.at_least = 0}};
+  keys.exclusive({{"time_constant"}, {"natural_frequency", "damping"}});
   keys.optional("time_constant", time, servo.time_constant);
   if (keys.find("time_constant")) {
     servo.natural_frequency = servo.damping = 0;
@@ -87,12 +107,7 @@ void read_servo_keys(yaml::Keys& keys, Servo& servo) {
   keys.optional("acceleration_limit", yaml::Number{yaml::Dimension::number, {.above = 0}, "200"},
                 servo.acceleration_limit);
   keys.optional("dead_band", yaml::angle_limit({.at_least = 0}, 0.15), servo.dead_band);
-  // Below that, rounding would decide when the servo touches the plane.
-  constexpr double least_backlash = 1e-6;
-  if (keys.optional("backlash", yaml::angle_limit({.at_least = 0}, 0.15), servo.backlash) &&
-      servo.backlash > 0 && servo.backlash < least_backlash) {
-    keys.find("backlash")->refuse("", "0, or an angle of at least 1e-6 rad");
-  }
+  keys.optional("backlash", Backlash{}, servo.backlash);
 }
 
 struct BothServos {
@@ -110,7 +125,8 @@ void read_servo(yaml::Keys& keys, BothServos& both) {
   };
   Servo common;
   read_servo_keys(keys, common);
-  const auto phi = keys.find("phi"), theta = keys.find("theta");
+  const yaml::MappingOf axis(read_servo_keys);
+  const auto phi = keys.find("phi", axis), theta = keys.find("theta", axis);
   const auto in_common = [&](std::string_view key) { return keys.find(key).has_value(); };
   if (!phi || !theta) {
     for (const char* key : {"natural_frequency", "damping"}) require(keys, key, in_common);
@@ -120,7 +136,7 @@ void read_servo(yaml::Keys& keys, BothServos& both) {
   const auto read_one = [&](const std::optional<yaml::Value>& one, Servo& servo) {
     if (!one) return;
     if (one->node->kind != yaml::Node::Kind::mapping) {
-      one->refuse("", yaml::MappingOf(read_servo_keys).allowed());
+      one->refuse("", axis.allowed());
       return;
     }
     yaml::Keys own(*one);
@@ -177,8 +193,8 @@ void read_table_linkage(yaml::Keys& keys, CurveLinkage& curve) {
   keys.required("table", yaml::MappingOf(read_curve), curve);
 }
 
-void read_axis_linkage(yaml::Keys& keys, std::optional<AxisLinkage>& linkage) {
-  if (keys.find("table")) {
+void read_curve_or_rods(yaml::Keys& keys, std::optional<AxisLinkage>& linkage) {
+  if (keys.find("table", yaml::MappingOf(read_curve))) {
     CurveLinkage curve;
     read_table_linkage(keys, curve);
     if (!curve.servo.empty()) linkage = std::move(curve);
@@ -189,17 +205,24 @@ void read_axis_linkage(yaml::Keys& keys, std::optional<AxisLinkage>& linkage) {
   linkage = rods;
 }
 
+void read_axis_linkage(yaml::Keys& keys, std::optional<AxisLinkage>& linkage) {
+  keys.exclusive({{"table"}, {"horn", "arm", "rod", "offset"}}, true);
+  read_curve_or_rods(keys, linkage);
+}
+
 using BothLinkages = std::array<std::optional<AxisLinkage>, 2>;
 
 void read_linkage(yaml::Keys& keys, BothLinkages& both) {
-  const auto phi = keys.find("phi"), theta = keys.find("theta");
+  keys.exclusive({{"phi", "theta"}, {"table"}, {"horn", "arm", "rod", "offset"}}, true);
+  const yaml::MappingOf axis(read_axis_linkage);
+  const auto phi = keys.find("phi", axis), theta = keys.find("theta", axis);
   if (!phi && !theta) {
-    read_axis_linkage(keys, both[0]);
+    read_curve_or_rods(keys, both[0]);
     both[1] = both[0];
     return;
   }
-  if (phi) yaml::MappingOf(read_axis_linkage).read(*phi, both[0]);
-  if (theta) yaml::MappingOf(read_axis_linkage).read(*theta, both[1]);
+  if (phi) axis.read(*phi, both[0]);
+  if (theta) axis.read(*theta, both[1]);
 }
 
 void read_three_servos(yaml::Keys& keys, ThreeServoPlate& plate) {
@@ -234,9 +257,7 @@ void read_gimbal(yaml::Keys& keys, Gimbal& gimbal) {
     gimbal.servo = servos->phi;
     gimbal.theta_servo = servos->theta;
   }
-  if (const auto linkage = keys.find("linkage")) {
-    yaml::MappingOf(read_linkage).read(*linkage, gimbal.linkage);
-  }
+  keys.optional("linkage", yaml::MappingOf(read_linkage), gimbal.linkage);
   keys.optional("three_servos", yaml::MappingOf(read_three_servos), gimbal.three_servos);
   keys.optional("ring_inertia", yaml::Number{yaml::Dimension::number, {.at_least = 0}, "1e-3"},
                 gimbal.ring_inertia);

@@ -65,7 +65,7 @@ void read_table_reference(yaml::Keys& keys, TableReference& table) {
 template <class Rule, class Kind>
 void read_kind(yaml::Keys& keys, std::string_view key, const Rule& rule, Kind kind,
                Reference& reference) {
-  if (const std::optional<yaml::Value> value = keys.find(key)) {
+  if (const std::optional<yaml::Value> value = keys.find(key, rule)) {
     rule.read(*value, kind);
     reference = std::move(kind);
   }

@@ -21,7 +21,18 @@ std::vector<std::string_view> column_names() {
 
 struct Columns {
   [[nodiscard]] static std::string allowed() { return "a list of columns, such as [t, x, y]"; }
-
+  // Any name that is no column is a number of the controller's own, if it has one.
+  [[nodiscard]] static yaml::Declared declared() {
+    yaml::Declared column(yaml::Declared::Kind::name);
+    for (const std::string_view name : column_names()) column.names.emplace_back(name);
+    yaml::Declared columns = yaml::Declared::list(
+        1, yaml::Declared::unbounded, yaml::Declared::any({column, yaml::Declared::Kind::text}));
+    columns.distinct = true;
+    return columns;
+  }
+  [[nodiscard]] static std::string text_of(const std::vector<std::string>& columns) {
+    return '[' + yaml::comma_separated({columns.begin(), columns.end()}) + ']';
+  }
   static bool read(const yaml::Value& value, std::vector<std::string>& into) {
     if (value.node->kind != yaml::Node::Kind::sequence || value.node->items.empty()) {
       return value.refuse("", allowed());
@@ -103,6 +114,7 @@ void read_time(yaml::Keys& keys, OutputTimes& time) {
 void read_solver(yaml::Keys& keys, Solver& solver) {
   const yaml::Number rtol{yaml::Dimension::number, {.at_least = 1e-14, .at_most = 0.1}, "1e-8"};
   const yaml::Number atol{yaml::Dimension::number, {.above = 0, .at_most = 1}, "1e-10"};
+  keys.exclusive({{"error"}, {"rtol", "atol"}});
   keys.optional("method", methods(), solver.method);
   keys.optional("rtol", rtol, solver.rtol);
   keys.optional("atol", atol, solver.atol);

@@ -20,7 +20,11 @@ struct Variations {
   [[nodiscard]] static std::string allowed() {
     return "a mapping from keys to values, such as ball.radius: linear:0.005:0.02:16";
   }
-
+  [[nodiscard]] static yaml::Declared declared() {
+    yaml::Declared variations(yaml::Declared::Kind::names);
+    variations.parts.push_back(yaml::Declared::Kind::text);
+    return variations;
+  }
   static bool read(const yaml::Value& value, std::vector<Variation>& into) {
     if (value.node->kind != yaml::Node::Kind::mapping || value.node->entries.empty()) {
       return value.refuse("", allowed());
@@ -62,7 +66,12 @@ struct MeasureNames {
   [[nodiscard]] static std::string allowed() {
     return "a list of measures, such as [max_tilt, end_x]";
   }
-
+  [[nodiscard]] static yaml::Declared declared() {
+    yaml::Declared measures =
+        yaml::Declared::list(1, yaml::Declared::unbounded, yaml::Declared::Kind::text);
+    measures.distinct = true;
+    return measures;
+  }
   static bool read(const yaml::Value& value, std::vector<std::string>& into) {
     if (value.node->kind != yaml::Node::Kind::sequence || value.node->items.empty()) {
       return value.refuse("", allowed());
@@ -82,23 +91,14 @@ struct MeasureNames {
   }
 };
 
-void read_whole(yaml::Keys& keys, std::string_view key, double least, double& into) {
-  // Doubles represent integers exactly up to 2^53.
-  const yaml::Number whole{
-      yaml::Dimension::number, {.at_least = least, .at_most = 9007199254740992.0}, "1000"};
-  if (keys.optional(key, whole, into) && into != std::floor(into)) {
-    keys.find(key)->refuse("", "a whole number of at least " + number_text(least));
-  }
-}
-
 }  // namespace
 
 void read_sweep(yaml::Keys& keys, Sweep& sweep) {
   keys.optional("vary", Variations{}, sweep.vary);
   keys.optional("combine", yaml::NameOf<Combine>{{{Combine::grid, "grid"}, {Combine::zip, "zip"}}},
                 sweep.combine);
-  if (keys.find("samples")) read_whole(keys, "samples", 1, sweep.samples.emplace());
-  read_whole(keys, "seed", 0, sweep.seed);
+  keys.optional("samples", yaml::Whole{1, "1000"}, sweep.samples);
+  keys.optional("seed", yaml::Whole{0, "1000"}, sweep.seed);
   keys.optional("measure", MeasureNames{}, sweep.measure);
 }
 

@@ -316,7 +316,8 @@ struct ControllerProgram {
 
 // A shared library with a function for each sample (bbsim/controller.h).
 struct ControllerLibrary {
-  std::string file;  // as in the scenario
+  std::string file;    // as in the scenario
+  std::string wiring;  // file that says what a sketch's pins are wired to; empty without a sketch
 };
 
 // Code of the process that bbsim is a library of. No scenario's text names it:

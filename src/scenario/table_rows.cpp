@@ -10,12 +10,37 @@
 
 #include "base/error.hpp"
 #include "base/number_text.hpp"
+#include "file/cell_table.hpp"
+#include "file/format.hpp"
+#include "scenario/log_clock.hpp"
+#include "scenario/log_names.hpp"
 #include "yaml/rules.hpp"
 
 namespace bbsim::scenario {
 namespace {
 
 constexpr std::size_t fewest_rows = 4;  // a C2 interpolant needs four without extra end conditions
+
+// Texts are NaN: the scenario may not ask for their columns.
+file::TableData read_numbers(const yaml::Value& value, const std::string& path) {
+  if (file::format_of(path) == file::Format::hdf5) return file::read_table(path);
+  file::CellTable cells = file::read_cells(path);
+  for (const std::string& note : cells.notes) {
+    const bool warning = note.starts_with("warning: ");
+    const std::string text = note.substr(note.find(' ') + 1);
+    warning ? value.warn(text) : value.mention(text);
+  }
+  file::TableData table{std::move(cells.names), {}};
+  for (file::CellColumn& column : cells.columns) table.columns.push_back(std::move(column.numbers));
+  return table;
+}
+
+void report(const yaml::Value& file, const InputError& error) {
+  for (const Problem& problem : error.problems()) {
+    const std::string where = problem.where.empty() ? "" : problem.where + ": ";
+    file.report(where + problem.message);
+  }
+}
 
 // The file's content; nullptr after reporting a fault.
 const file::TableData* load(const yaml::Value& file, const std::string& name) {
@@ -32,28 +57,65 @@ const file::TableData* load(const yaml::Value& file, const std::string& name) {
     return nullptr;
   }
   try {
-    auto data = std::make_shared<const file::TableData>(file::read_table(path.string()));
+    auto data = std::make_shared<const file::TableData>(read_numbers(file, path.string()));
     return tables.emplace(path.string(), file::InputTable{name, std::move(data)})
         .first->second.data.get();
   } catch (const InputError& e) {
-    for (const Problem& problem : e.problems()) {
-      const std::string where = problem.where.empty() ? "" : problem.where + ": ";
-      file.report(where + problem.message);
-    }
+    report(file, e);
     return nullptr;
   }
 }
 
-const std::vector<double>* find_column(const yaml::Value& key, const std::string& name,
-                                       const file::TableData& data) {
-  const auto found = std::ranges::find(data.names, name);
-  if (found == data.names.end()) {
-    std::vector<std::string> names;  // the names in the file, safe for a terminal
-    for (const std::string& one : data.names) names.push_back(yaml::shown(one));
-    yaml::refuse_name(key, {names.begin(), names.end()});
-    return nullptr;
+// Whether a column has a text in place of a number; reports it. Puts the rows into `gaps` in which
+// one of the columns has nothing at all.
+bool has_text(const yaml::Value& file, const std::string& name,
+              const std::vector<std::string>& columns, std::vector<bool>& gaps) {
+  const std::string path = (file.context->folder / name).string();
+  if (file::format_of(path) == file::Format::hdf5) return false;
+  try {
+    const file::CellTable cells = file::read_cells(path, {columns, {}});
+    gaps.assign(cells.rows, false);
+    for (std::size_t c = 0; c < cells.columns.size(); ++c) {
+      const file::CellColumn& column = cells.columns[c];
+      if (std::ranges::find(columns, cells.names[c]) == columns.end()) continue;
+      if (column.first_text.line != 0) refuse_text(cells, c, column.first_text);
+      for (std::size_t i = 0; i < column.is_text.size(); ++i) {
+        gaps[i] = gaps[i] || column.is_text[i];
+      }
+    }
+    return false;
+  } catch (const InputError& e) {
+    report(file, e);
+    return true;
   }
-  return &data.columns[static_cast<std::size_t>(found - data.names.begin())];
+}
+
+bool has_nan(const std::vector<double>& numbers) {
+  return std::ranges::any_of(numbers, [](double number) { return std::isnan(number); });
+}
+
+void erase_rows(std::vector<double>& numbers, const std::vector<bool>& rows) {
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < numbers.size(); ++i) {
+    if (!rows[i]) numbers[kept++] = numbers[i];
+  }
+  numbers.resize(kept);
+}
+
+// A column of the file, by its name with or without a unit.
+struct Found {
+  std::string name;
+  const std::vector<double>* numbers;
+};
+std::optional<Found> find_column(const yaml::Value& key, const std::string& name,
+                                 yaml::Dimension dimension, const file::TableData& data) {
+  if (const auto c = find_log_column(data.names, name, dimension)) {
+    return Found{data.names[*c], &data.columns[*c]};
+  }
+  std::vector<std::string> names;  // the names in the file, safe for a terminal
+  for (const std::string& one : data.names) names.push_back(yaml::shown(one));
+  yaml::refuse_name(key, {names.begin(), names.end()});
+  return {};
 }
 
 // The first fault of the rows as "found ...; allowed: ...", or nothing.
@@ -88,7 +150,8 @@ std::string cover_fault(const TableRows& table, double end) {
   const double last = table.times.back();
   if (first <= 0 && last >= end) return "";
   return "found times from " + number_text(first) + " to " + number_text(last) +
-         " s; allowed: a table that covers the run, 0 to " + number_text(end) + " s";
+         " s; allowed: a table that covers the run, 0 to " + number_text(end) + " s" +
+         (first > end ? "; time_offset: start makes its first row t = 0" : "");
 }
 
 // The dimension's noun without its article: "angle".
@@ -102,16 +165,146 @@ struct UnitOf {
   yaml::Dimension dimension;
 
   [[nodiscard]] std::string allowed() const { return "one of " + yaml::unit_names(dimension); }
-  bool read(const yaml::Value& value, std::optional<yaml::UnitScale>& into) const {
+  [[nodiscard]] yaml::Declared declared() const {
+    yaml::Declared unit(yaml::Declared::Kind::unit);
+    unit.dimension = dimension;
+    return unit;
+  }
+  bool read(const yaml::Value& value, yaml::UnitScale& into) const {
     if (value.node->kind != yaml::Node::Kind::scalar) return value.refuse("", allowed());
-    into = yaml::unit_scale(value.node->text, dimension);
-    return into ? true : value.refuse("", allowed());
+    const auto scale = yaml::unit_scale(value.node->text, dimension);
+    if (scale) into = *scale;
+    return scale ? true : value.refuse("", allowed());
   }
 };
 
 void put_in_si(const std::optional<yaml::UnitScale>& unit, std::vector<double>& numbers) {
   if (!unit) return;
   for (double& number : numbers) number = unit->in_si(number);
+}
+
+// What a scenario does to a table: value(t) = offset + scale * table(t - delay).
+struct Changes {
+  std::vector<double> scales, offsets;  // for each column of values; the offsets in SI
+  double delay = 0, time_offset = 0;    // s
+  bool from_start = false;              // the first row is t = 0
+};
+
+// A number in the table's own unit, or a quantity.
+struct OffsetOf {
+  yaml::Dimension dimension;
+  const std::optional<yaml::UnitScale>& unit;
+
+  [[nodiscard]] std::string allowed() const { return yaml::Number{dimension}.allowed(); }
+  [[nodiscard]] yaml::Declared declared() const { return yaml::Declared::number(dimension); }
+  bool read(const yaml::Value& value, double& into) const {
+    const yaml::Quantity bare =
+        value.node->kind == yaml::Node::Kind::scalar
+            ? yaml::read_quantity(value.node->text, value.node->quoted, yaml::Dimension::number)
+            : yaml::Quantity{};
+    if (!bare.value || !unit) return yaml::Number{dimension}.read(value, into);
+    into = unit->in_si(*bare.value);
+    return true;
+  }
+};
+
+// A value for all columns, or a list with one for each.
+template <class Rule>
+struct ForEach {
+  Rule rule;
+  std::size_t columns;
+
+  [[nodiscard]] std::string allowed() const { return rule.allowed(); }
+  [[nodiscard]] yaml::Declared declared() const {
+    if (columns == 1) return rule.declared();
+    return yaml::Declared::any(
+        {rule.declared(), yaml::Declared::list(columns, columns, rule.declared())});
+  }
+  bool read(const yaml::Value& value, std::vector<double>& into) const {
+    if (value.node->kind == yaml::Node::Kind::sequence && columns > 1) {
+      return yaml::ListOf<Rule, double>{rule, columns, columns, "numbers, one for each column"}
+          .read(value, into);
+    }
+    double one = 0;
+    if (!rule.read(value, one)) return false;
+    into.assign(columns, one);
+    return true;
+  }
+};
+
+struct TimeOffsetRule {
+  [[nodiscard]] static std::string allowed() {
+    return yaml::Number{yaml::Dimension::time}.allowed() + ", or start";
+  }
+  [[nodiscard]] static yaml::Declared declared() {
+    yaml::Declared start(yaml::Declared::Kind::name);
+    start.names = {"start"};
+    return yaml::Declared::any({yaml::Declared::number(yaml::Dimension::time), start});
+  }
+  static bool read(const yaml::Value& value, Changes& into) {
+    const bool scalar = value.node->kind == yaml::Node::Kind::scalar;
+    into.from_start = scalar && value.node->text == "start";
+    if (into.from_start) return true;
+    if (!scalar) return value.refuse("", allowed());
+    const yaml::Quantity quantity =
+        yaml::read_quantity(value.node->text, value.node->quoted, yaml::Dimension::time);
+    if (!quantity.value) return value.refuse(quantity.fault, allowed());
+    into.time_offset = *quantity.value;
+    value.note(into.time_offset, yaml::Dimension::time);
+    return true;
+  }
+};
+
+// All but the offset, which waits for the table's unit.
+bool read_changes(yaml::Keys& keys, std::size_t columns, yaml::Dimension dimension,
+                  Changes& into) {
+  into.scales.assign(columns, 1);
+  into.offsets.assign(columns, 0);
+  bool fine = keys.optional("scale", ForEach{yaml::Number{}, columns}, into.scales);
+  static_cast<void>(keys.find("offset", ForEach{yaml::Number{dimension}, columns}));
+  fine = keys.optional("delay", yaml::Number{yaml::Dimension::time}, into.delay) && fine;
+  return keys.optional("time_offset", TimeOffsetRule{}, into) && fine;
+}
+
+void move_times(const Changes& changes, std::vector<double>& times) {
+  if (times.empty()) return;
+  const double offset = changes.from_start ? -times.front() : changes.time_offset;
+  if (offset == 0) return;
+  for (double& time : times) time += offset;
+}
+
+// A delayed table holds its end values outside its rows: Spline does so after a time of -infinity
+// and before one of infinity.
+void change_values(const Changes& changes, TableRows& rows) {
+  for (std::size_t k = 0; k < rows.values.size(); ++k) {
+    const double scale = changes.scales[k], offset = changes.offsets[k];
+    if (scale == 1 && offset == 0) continue;
+    for (double& value : rows.values[k]) value = offset + scale * value;
+  }
+  if (changes.delay == 0 || rows.times.empty()) return;
+  for (double& time : rows.times) time += changes.delay;
+  rows.times.insert(rows.times.begin(), -INFINITY);
+  rows.times.push_back(INFINITY);
+  for (std::vector<double>& values : rows.values) {
+    values.insert(values.begin(), values.front());
+    values.push_back(values.back());
+  }
+}
+
+// Leaves out the rows in which one of the columns has nothing, and says so. Returns false after
+// reporting a text.
+bool leave_out_gaps(yaml::Keys& keys, const std::vector<std::string>& columns, TableRows& rows) {
+  std::vector<bool> gaps;
+  if (has_text(*keys.find("file"), rows.file, columns, gaps)) return false;
+  const auto count = static_cast<std::size_t>(std::ranges::count(gaps, true));
+  if (count == 0) return true;
+  const auto first = static_cast<std::size_t>(std::ranges::find(gaps, true) - gaps.begin());
+  keys.mapping().warn(yaml::shown(rows.file) + ": " + std::to_string(count) +
+                      (count == 1 ? " row lacks" : " rows lack") + " a number, first row " +
+                      std::to_string(first + 1) + " below the header; left out");
+  erase_rows(rows.times, gaps);
+  for (std::vector<double>& values : rows.values) erase_rows(values, gaps);
+  return true;
 }
 
 void warn_of_units(const yaml::Value& table, const TableRows& rows,
@@ -156,11 +349,12 @@ bool read_columns(yaml::Keys& keys, const std::vector<std::string_view>& column_
         named;
   }
   std::optional<yaml::UnitScale> unit;
-  if (const auto given = keys.find("unit")) named = UnitOf{dimension}.read(*given, unit) && named;
+  named = keys.optional("unit", UnitOf{dimension}, unit) && named;
   if (dimension == yaml::Dimension::time) {
-    if (const auto given = keys.find("time_unit")) {
-      named = UnitOf{dimension}.read(*given, unit) && named;
-      if (keys.find("unit")) named = given->report("found beside unit; allowed: one of them");
+    keys.exclusive({{"unit"}, {"time_unit"}});
+    named = keys.optional("time_unit", UnitOf{dimension}, unit) && named;
+    if (const auto given = keys.find("time_unit"); given && keys.find("unit")) {
+      named = given->report("found beside unit; allowed: one of them");
     }
   }
   if (!named) return false;
@@ -169,12 +363,20 @@ bool read_columns(yaml::Keys& keys, const std::vector<std::string_view>& column_
   into.columns.clear();
   into.has_unit = unit.has_value();
   for (std::size_t k = 0; k < names.size(); ++k) {
-    const std::vector<double>* found = find_column(*keys.find(column_keys[k]), names[k], *data);
-    if (found == nullptr) continue;
-    into.columns.push_back(*found);
-    put_in_si(unit, into.columns.back());
+    const auto found = find_column(*keys.find(column_keys[k]), names[k], dimension, *data);
+    if (!found) continue;
+    into.columns.push_back(*found->numbers);
+    names[k] = found->name;
+    const auto named_unit = unit ? unit : unit_in_name(found->name, dimension);
+    into.has_unit = into.has_unit || named_unit;
+    put_in_si(named_unit, into.columns.back());
   }
   if (into.columns.size() < names.size()) return false;
+  std::vector<bool> gaps;
+  if (std::ranges::any_of(into.columns, has_nan) &&
+      has_text(*keys.find("file"), into.file, names, gaps)) {
+    return false;
+  }
   for (std::size_t k = 0; k < into.columns.size(); ++k) {
     const std::vector<double>& column = into.columns[k];
     for (std::size_t i = 0; i < column.size(); ++i) {
@@ -199,31 +401,55 @@ void read_table_rows(yaml::Keys& keys, const std::vector<std::string_view>& valu
     named = keys.required(value_keys[k], column, names[k]) && named;
   }
   std::optional<yaml::UnitScale> unit, time_unit;
-  if (const auto given = keys.find("unit")) named = UnitOf{dimension}.read(*given, unit) && named;
-  if (const auto given = keys.find("time_unit")) {
-    named = UnitOf{yaml::Dimension::time}.read(*given, time_unit) && named;
-  }
-  if (!named) return;
+  Changes changes;
+  named = keys.optional("unit", UnitOf{dimension}, unit) && named;
+  named = keys.optional("time_unit", UnitOf{yaml::Dimension::time}, time_unit) && named;
 
+  named = read_changes(keys, value_keys.size(), dimension, changes) && named;
+  if (!named) return;
   const file::TableData* data = load(*keys.find("file"), into.file);
   if (data == nullptr) return;
-  const std::vector<double>* times = find_column(*keys.find("time"), time_name, *data);
+  const auto times = find_column(*keys.find("time"), time_name, yaml::Dimension::time, *data);
+  std::vector<std::string> found_names;
   std::vector<std::vector<double>> values;
+  std::optional<yaml::UnitScale> own_unit = unit;
   for (std::size_t k = 0; k < names.size(); ++k) {
-    const std::vector<double>* found = find_column(*keys.find(value_keys[k]), names[k], *data);
-    if (found != nullptr) values.push_back(*found);
+    const auto found = find_column(*keys.find(value_keys[k]), names[k], dimension, *data);
+    if (!found) continue;
+    found_names.push_back(found->name);
+    values.push_back(*found->numbers);
+    const auto named_unit = unit ? unit : unit_in_name(found->name, dimension);
+    if (!own_unit) own_unit = named_unit;
+    put_in_si(named_unit, values.back());
   }
-  if (times == nullptr || values.size() < names.size()) return;
-  into.times = *times;
+  if (!times || values.size() < names.size()) return;
+  if (const auto given = keys.find("offset");
+      given && !ForEach{OffsetOf{dimension, own_unit}, names.size()}.read(*given, changes.offsets)) {
+    return;
+  }
+  into.times = *times->numbers;
   into.values = std::move(values);
+  found_names.push_back(times->name);
+  if ((has_nan(into.times) || std::ranges::any_of(into.values, has_nan)) &&
+      !leave_out_gaps(keys, found_names, into)) {
+    into.values.clear();
+    return;
+  }
+  if (const auto done = unwrap(into.times)) {
+    keys.mapping().warn(yaml::shown(into.file) + ": " + *done);
+  }
+  if (!time_unit) time_unit = unit_in_name(times->name, yaml::Dimension::time);
   put_in_si(time_unit, into.times);
-  for (std::vector<double>& one : into.values) put_in_si(unit, one);
+  move_times(changes, into.times);
 
   std::string wrong = fault(into, value_keys, bare_noun(dimension));
-  if (wrong.empty() && keys.context().end) wrong = cover_fault(into, *keys.context().end);
+  if (wrong.empty() && keys.context().end && changes.delay == 0) {
+    wrong = cover_fault(into, *keys.context().end);
+  }
   if (!wrong.empty()) keys.mapping().report(yaml::shown(into.file) + ": " + wrong);
-  warn_of_units(keys.mapping(), into, value_keys, dimension, unit.has_value(),
+  warn_of_units(keys.mapping(), into, value_keys, dimension, own_unit.has_value(),
                 time_unit.has_value());
+  change_values(changes, into);
 }
 
 }  // namespace bbsim::scenario

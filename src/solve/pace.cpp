@@ -7,7 +7,7 @@
 
 namespace bbsim::solve {
 
-bool Pace::look(double time, double event) {
+bool Pace::judge(double time, double event) {
   double& before = advances_[windows_++ % advances_.size()];
   advance_ = time - from_;
   from_ = time;

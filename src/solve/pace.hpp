@@ -28,14 +28,14 @@ class Pace {
   // once per window of steps.
   template <class Event>
   [[nodiscard]] bool creeps(double time, Event event) {
-    return ++steps_ % window == 0 && look(time, event());
+    return ++steps_ % window == 0 && judge(time, event());
   }
   [[nodiscard]] bool creeps(double time) {
     return creeps(time, [] { return std::numeric_limits<double>::infinity(); });
   }
 
   // Whether the last call of creeps() completed a window of 4096 steps and checked the pace.
-  [[nodiscard]] bool looked() const { return steps_ % window == 0; }
+  [[nodiscard]] bool completed_window() const { return steps_ % window == 0; }
 
   // Saves or restores its state (base/archive.hpp).
   template <class Archive>
@@ -46,12 +46,13 @@ class Pace {
     }
   }
 
-  // Steps per second of motion at present, 1/s, and steps left at that pace. Valid after looked().
+  // Steps per second of motion at present, 1/s, and steps left at that pace. Valid after
+  // completed_window().
   [[nodiscard]] double steps_per_second() const { return static_cast<double>(window) / advance_; }
   [[nodiscard]] double steps_left() const { return (end_ - from_) * steps_per_second(); }
 
   // Whether to report a slow run now. True once, if a second of motion takes over a million steps
-  // and the rest takes over a second or so of work. Call it after looked().
+  // and the rest takes over a second or so of work. Call it after completed_window().
   [[nodiscard]] bool is_news() {
     constexpr double a_million = 1e6, some_work = 1e5;
     const bool slow = steps_ > 0 && steps_per_second() > a_million && steps_left() > some_work;
@@ -71,7 +72,7 @@ class Pace {
   // Waits for an event that is at most `soon` windows away, and for at most `most_awaited` windows.
   static constexpr int soon = 64, most_awaited = 128;
 
-  bool look(double time, double event);
+  bool judge(double time, double event);
 
   double end_;
   std::size_t steps_ = 0;

@@ -130,11 +130,11 @@ Outcome run_through(Stepper& stepper, const model::Model& model, const OutputGri
       outcome.last_state.assign(row.begin(),
                                 row.begin() + static_cast<std::ptrdiff_t>(model.size()));
       break;
-    } else if (pace.looked() && has_run_away(model, stepper.state())) {
+    } else if (pace.completed_window() && has_run_away(model, stepper.state())) {
       fail(Why::unbounded,
            "the loop has run away beyond 1e9 m or rad, where only rounding moves it");
       break;
-    } else if (watch.slow && pace.looked() && pace.is_news()) {
+    } else if (watch.slow && pace.completed_window() && pace.is_news()) {
       watch.slow(reached, pace.steps_per_second(), pace.steps_left());
     }
     if (watch.stop != nullptr && watch.stop->load(std::memory_order_relaxed)) {

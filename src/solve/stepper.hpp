@@ -56,9 +56,9 @@ class Stepper {
   // HybridSystem then predicts their switches, and no step crosses one.
   [[nodiscard]] virtual const std::array<model::HeldMotion, 2>* servos() const { return nullptr; }
   // Whether no monitor of the scene's events changes sides within the last step, ends included.
-  // False if that is not certain. `happening` has the present side of each monitor. Call it before
+  // False if that is not certain. `occurring` has the present side of each monitor. Call it before
   // the next step.
-  [[nodiscard]] virtual bool nothing_happens(const std::vector<char>& /*happening*/) {
+  [[nodiscard]] virtual bool no_monitor_changes(const std::vector<char>& /*occurring*/) {
     return false;
   }
   // Bounds over the last step, as Piece::bounds().

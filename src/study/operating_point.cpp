@@ -8,7 +8,7 @@
 #include <variant>
 #include <vector>
 
-#include "model/hybrid_system.hpp"
+#include "model/hybrid/hybrid_system.hpp"
 #include "solve/integrate.hpp"
 #include "solve/output_grid.hpp"
 

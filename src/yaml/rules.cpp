@@ -8,23 +8,6 @@
 
 namespace bbsim::yaml {
 
-bool Range::holds(double value) const {
-  return (!above || value > *above) && (!at_least || value >= *at_least) &&
-         (!at_most || value <= *at_most);
-}
-
-std::string Range::text() const {
-  if (above && at_most) {
-    return " greater than " + number_text(*above) + " and at most " + number_text(*at_most);
-  }
-  if (at_least && at_most)
-    return " from " + number_text(*at_least) + " to " + number_text(*at_most);
-  if (above) return " greater than " + number_text(*above);
-  if (at_least) return " of at least " + number_text(*at_least);
-  if (at_most) return " of at most " + number_text(*at_most);
-  return "";
-}
-
 std::string Number::allowed() const {
   const std::string_view such_as = example.empty() ? yaml::example(dimension) : example;
   return std::string(noun(dimension)) + range.text() + ", such as " + std::string(such_as);
@@ -39,6 +22,18 @@ bool Number::read(const Value& value, double& into) const {
   into = *quantity.value;
   value.note(into, dimension);
   return true;
+}
+
+Declared Whole::declared() const {
+  Declared value = number().declared();
+  value.whole = true;
+  return value;
+}
+
+bool Whole::read(const Value& value, double& into) const {
+  if (!number().read(value, into)) return false;
+  return into == std::floor(into) ||
+         value.refuse("", "a whole number of at least " + number_text(least));
 }
 
 bool Usual::read(const Value& value, double& into) const {
@@ -135,6 +130,13 @@ std::string StateGain::allowed() {
          "phi_rate, theta_rate too)";
 }
 
+Declared StateGain::declared() {
+  const auto row = [](std::size_t size) {
+    return Declared::list(size, size, Declared::number(Dimension::number));
+  };
+  return Declared::list(2, 2, Declared::any({row(4), row(8)}));
+}
+
 bool StateGain::read(const Value& value, std::array<std::array<double, 8>, 2>& into) {
   if (value.node->kind != Node::Kind::sequence || value.node->items.size() != into.size()) {
     return value.refuse("", allowed());
@@ -156,6 +158,11 @@ bool StateGain::read(const Value& value, std::array<std::array<double, 8>, 2>& i
 
 std::string GainMatrix::allowed() const {
   return "a number k, for [[k, 0], [0, k]], or a 2x2 matrix [[a, b], [c, d]]";
+}
+
+Declared GainMatrix::declared() {
+  return Declared::any(
+      {Declared::number(Dimension::number), Declared::list(2, 2, PairOf{}.declared())});
 }
 
 bool GainMatrix::read(const Value& value, Matrix2& into) const {

@@ -21,16 +21,6 @@
 
 namespace bbsim::yaml {
 
-// Bounds in SI units. Empty bounds do not apply.
-struct Range {
-  std::optional<double> above{};
-  std::optional<double> at_least{};
-  std::optional<double> at_most{};
-
-  [[nodiscard]] bool holds(double value) const;
-  [[nodiscard]] std::string text() const;  // " greater than 0"; empty without bounds
-};
-
 // A number in SI units, or a quantity.
 struct Number {
   Dimension dimension = Dimension::number;
@@ -38,6 +28,22 @@ struct Number {
   std::string_view example{};  // empty: the dimension's example
 
   [[nodiscard]] std::string allowed() const;
+  [[nodiscard]] Declared declared() const { return Declared::number(dimension, range); }
+  [[nodiscard]] static std::string text_of(double value) { return number_text(value); }
+  bool read(const Value& value, double& into) const;
+};
+
+// A number without a fraction, from `least` up to 2^53: doubles hold these integers exactly.
+struct Whole {
+  double least;
+  std::string_view example;
+
+  [[nodiscard]] Number number() const {
+    return {Dimension::number, {.at_least = least, .at_most = 9007199254740992.0}, example};
+  }
+  [[nodiscard]] std::string allowed() const { return number().allowed(); }
+  [[nodiscard]] Declared declared() const;
+  [[nodiscard]] static std::string text_of(double value) { return number_text(value); }
   bool read(const Value& value, double& into) const;
 };
 
@@ -50,6 +56,8 @@ struct Usual {
   double least = 0;
 
   [[nodiscard]] std::string allowed() const { return number.allowed(); }
+  [[nodiscard]] Declared declared() const { return number.declared(); }
+  [[nodiscard]] static std::string text_of(double value) { return number_text(value); }
   bool read(const Value& value, double& into) const;
 };
 
@@ -61,18 +69,30 @@ struct PairOf {
   Dimension dimension = Dimension::number;
 
   [[nodiscard]] std::string allowed() const;
+  [[nodiscard]] Declared declared() const {
+    return Declared::list(2, 2, Declared::number(dimension));
+  }
+  [[nodiscard]] static std::string text_of(const Pair& value) {
+    return '[' + number_text(value[0]) + ", " + number_text(value[1]) + ']';
+  }
   bool read(const Value& value, Pair& into) const;
 };
 
 // [width, height] of a rectangle (m).
 struct SidesOf {
   [[nodiscard]] static std::string allowed();
+  [[nodiscard]] static Declared declared() {
+    return Declared::list(2, 2, Declared::number(Dimension::length, {.above = 0}));
+  }
   static bool read(const Value& value, Pair& into);
 };
 
 // [about x, about y, about the normal] (kg m^2).
 struct MomentsOf {
   [[nodiscard]] static std::string allowed();
+  [[nodiscard]] static Declared declared() {
+    return Declared::list(3, 3, Declared::number(Dimension::number, {.at_least = 0}));
+  }
   static bool read(const Value& value, std::array<double, 3>& into);
 };
 
@@ -80,6 +100,7 @@ struct MomentsOf {
 // their rates).
 struct StateGain {
   [[nodiscard]] static std::string allowed();
+  [[nodiscard]] static Declared declared();
   static bool read(const Value& value, std::array<std::array<double, 8>, 2>& into);
 };
 
@@ -94,6 +115,7 @@ struct ListOf {
     return "a list of " + std::to_string(fewest) + " to " + std::to_string(most) + ' ' +
            std::string(items);
   }
+  [[nodiscard]] Declared declared() const { return Declared::list(fewest, most, rule.declared()); }
   bool read(const Value& value, std::vector<T>& into) const {
     const Node& node = *value.node;
     if (node.kind != Node::Kind::sequence || node.items.size() < fewest ||
@@ -112,6 +134,7 @@ struct ListOf {
 // A number k, which means [[k, 0], [0, k]], or a matrix [[a, b], [c, d]].
 struct GainMatrix {
   [[nodiscard]] std::string allowed() const;
+  [[nodiscard]] static Declared declared();
   bool read(const Value& value, Matrix2& into) const;
 };
 
@@ -121,6 +144,7 @@ struct Text {
   bool lines = false;
 
   [[nodiscard]] std::string allowed() const { return std::string(meaning); }
+  [[nodiscard]] static Declared declared() { return Declared::Kind::text; }
   bool read(const Value& value, std::string& into) const;
 };
 
@@ -142,6 +166,14 @@ struct NameOf {
     return list;
   }
   [[nodiscard]] std::string allowed() const { return "one of " + comma_separated(names()); }
+  [[nodiscard]] Declared declared() const {
+    Declared name(Declared::Kind::name);
+    for (const Named& choice : choices) name.names.emplace_back(choice.name);
+    return name;
+  }
+  [[nodiscard]] std::string text_of(Enum value) const {
+    return std::string(std::ranges::find(choices, value, &Named::value)->name);
+  }
 
   bool read(const Value& value, Enum& into) const {
     if (value.node->kind != Node::Kind::scalar) return value.refuse("", allowed());

@@ -48,6 +48,22 @@ void Value::mention(std::string_view message) const {
   context->problems.remark(node->position, "note: " + path + ": " + std::string(message));
 }
 
+void Keys::declare(DeclaredKey key) {
+  if (std::ranges::find(declared_->keys, key.name, &DeclaredKey::name) != declared_->keys.end()) {
+    return;
+  }
+  declared_->keys.push_back(std::move(key));
+}
+
+const Node& empty_mapping() {
+  static const Node empty = [] {
+    Node node;
+    node.kind = Node::Kind::mapping;
+    return node;
+  }();
+  return empty;
+}
+
 void Keys::know(std::string_view key) {
   if (std::ranges::find(known_, key) == known_.end()) known_.push_back(key);
 }
@@ -71,7 +87,14 @@ bool Keys::missing(std::string_view key, std::string_view allowed) {
   return false;
 }
 
+void Keys::one_of(const std::vector<std::string_view>& keys) {
+  if (declared_ == nullptr) return;
+  Choice& choice = declared_->choices.emplace_back(Choice{{}, true});
+  for (const std::string_view key : keys) choice.groups.push_back({key});
+}
+
 bool Keys::exactly_one(const std::vector<std::string_view>& keys) {
+  one_of(keys);
   std::vector<std::string_view> found;
   for (const std::string_view key : keys) {
     if (find(key)) found.push_back(key);

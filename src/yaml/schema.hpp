@@ -10,10 +10,14 @@
 //
 // The function defines the known keys by reading them, each in either spelling (spelling.hpp). Any
 // other key is reported with the nearest known one. A rule (rules.hpp) describes the allowed values
-// in allowed(). Its read() reads a value, reports its faults, and returns whether it is valid.
+// in allowed(), and in declared() as data (declared.hpp). Its read() reads a value, reports its
+// faults, and returns whether it is valid. A rule whose values have a default says its text in
+// text_of().
 #pragma once
 
+#include <algorithm>
 #include <filesystem>
+#include <initializer_list>
 #include <map>
 #include <memory>
 #include <mutex>
@@ -23,6 +27,7 @@
 #include <vector>
 
 #include "file/table_writer.hpp"
+#include "yaml/declared.hpp"
 #include "yaml/document.hpp"
 #include "yaml/problems.hpp"
 #include "yaml/quantity.hpp"
@@ -87,14 +92,26 @@ struct Value {
 
 class Keys {
  public:
-  explicit Keys(Value mapping) : mapping_(std::move(mapping)) {}
+  // With `declared`, the reader of an empty mapping declares its keys there.
+  explicit Keys(Value mapping, Declared* declared = nullptr)
+      : mapping_(std::move(mapping)), declared_(declared) {}
 
   // The key's value, if present. Makes the key known.
   std::optional<Value> find(std::string_view key);
 
+  // The same, of a key that `rule` reads later.
+  template <class Rule>
+  std::optional<Value> find(std::string_view key, const Rule& rule) {
+    if (declared_ != nullptr) declare({std::string(key), rule.declared(), false, {}});
+    return find(key);
+  }
+
   // Reads the key's value if present. Returns false after reporting a problem.
   template <class Rule, class T>
   bool optional(std::string_view key, const Rule& rule, T& into) {
+    if (declared_ != nullptr) {
+      declare({std::string(key), rule.declared(), false, text_of(rule, into)});
+    }
     const std::optional<Value> value = find(key);
     return !value || rule.read(*value, into);
   }
@@ -102,13 +119,14 @@ class Keys {
   // The same; `into` is empty if the key is missing.
   template <class Rule, class T>
   bool optional(std::string_view key, const Rule& rule, std::optional<T>& into) {
-    const std::optional<Value> value = find(key);
+    const std::optional<Value> value = find(key, rule);
     return !value || rule.read(*value, into.emplace());
   }
 
   // Reads the key's value; reports a missing key.
   template <class Rule, class T>
   bool required(std::string_view key, const Rule& rule, T& into) {
+    if (declared_ != nullptr) declare({std::string(key), rule.declared(), true, {}});
     const std::optional<Value> value = find(key);
     return value ? rule.read(*value, into) : missing(key, rule.allowed());
   }
@@ -124,6 +142,16 @@ class Keys {
   // Whether exactly one of the keys is present. Reports it otherwise.
   bool exactly_one(const std::vector<std::string_view>& keys);
 
+  // Declares that exactly one of the keys is there. The reader reports it.
+  void one_of(const std::vector<std::string_view>& keys);
+  // Declares that the keys of a group exclude those of the others. The reader reports it.
+  // `needed`: one group must be there.
+  void exclusive(std::initializer_list<std::initializer_list<std::string_view>> groups,
+                 bool needed = false) {
+    if (declared_ == nullptr) return;
+    declared_->choices.push_back({{groups.begin(), groups.end()}, needed});
+  }
+
   // Reports unknown keys and repeated keys.
   void finish() const;
 
@@ -132,13 +160,27 @@ class Keys {
   [[nodiscard]] Context& context() const { return *mapping_.context; }
 
  private:
+  template <class Rule, class T>
+  static std::string text_of(const Rule& rule, const T& value) {
+    if constexpr (requires { rule.text_of(value); }) {
+      return rule.text_of(value);
+    } else {
+      return "";
+    }
+  }
+
+  void declare(DeclaredKey key);
   void know(std::string_view key);
   void report_unknown(const Entry& entry) const;
   void report_again(const Entry& entry, const Entry& first) const;
 
   Value mapping_;
   std::vector<std::string_view> known_;
+  Declared* declared_;
 };
+
+// A mapping without keys.
+[[nodiscard]] const Node& empty_mapping();
 
 [[nodiscard]] std::string comma_separated(const std::vector<std::string_view>& words);
 
@@ -149,16 +191,23 @@ class MappingOf {
   using Reader = void (*)(Keys&, T&);
   explicit MappingOf(Reader reader) : reader_(reader) {}
 
-  // Reads an empty mapping to find the known keys.
   [[nodiscard]] std::string allowed() const {
-    Problems unheard("", "", {});
-    Context context{unheard, {}};
-    Node empty;
-    empty.kind = Node::Kind::mapping;
-    Keys keys({&empty, "", {}, &context});
-    T scratch{};
-    reader_(keys, scratch);
-    return "a mapping with " + comma_separated(keys.known());
+    std::vector<std::string_view> known;
+    read_empty(nullptr, known);
+    return "a mapping with " + comma_separated(known);
+  }
+
+  // A key that is known but not declared has the kind `none`.
+  [[nodiscard]] Declared declared() const {
+    Declared result(Declared::Kind::mapping);
+    std::vector<std::string_view> known;
+    read_empty(&result, known);
+    for (const std::string_view key : known) {
+      if (std::ranges::find(result.keys, key, &DeclaredKey::name) == result.keys.end()) {
+        result.keys.push_back({std::string(key), {}, false, {}});
+      }
+    }
+    return result;
   }
 
   bool read(const Value& value, T& into) const {
@@ -170,18 +219,25 @@ class MappingOf {
   }
 
  private:
+  void read_empty(Declared* declared, std::vector<std::string_view>& known) const {
+    Problems unheard("", "", {});
+    Context context{unheard, {}};
+    Keys keys({&empty_mapping(), "", {}, &context}, declared);
+    T scratch{};
+    reader_(keys, scratch);
+    known = keys.known();
+  }
+
   Reader reader_;
 };
 
 template <class T>
 bool Keys::section(std::string_view key, void (*reader)(Keys&, T&), T& into) {
-  static const Node empty = [] {
-    Node node;
-    node.kind = Node::Kind::mapping;
-    return node;
-  }();
+  if (declared_ != nullptr) {
+    declare({std::string(key), MappingOf<T>(reader).declared(), false, {}, true});
+  }
   const std::optional<Value> value = find(key);
-  const Value absent{&empty, mapping_.path_of(key), mapping_.position, mapping_.context};
+  const Value absent{&empty_mapping(), mapping_.path_of(key), mapping_.position, mapping_.context};
   return MappingOf<T>(reader).read(value ? *value : absent, into);
 }
 

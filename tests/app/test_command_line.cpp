@@ -250,9 +250,9 @@ TEST_CASE("reports that cannot be written are exit 3") {
   const Folder folder;
   const std::string fig2a = config("fig2a.yaml");
   for (const std::string& words :
-       {std::string("--help"), std::string("--version"), std::string("--licenses"),
-        std::string("run --help"), std::string("help run"), std::string("columns"),
-        "check '" + fig2a + "'"}) {
+       {std::string("--help"), std::string("--version"), std::string("--schema"),
+        std::string("--licenses"), std::string("run --help"), std::string("help run"),
+        std::string("columns"), "check '" + fig2a + "'"}) {
     const Result result = shell("\"$BBSIM\" " + words + " > /dev/full", folder.path());
     CAPTURE(words, result.err);
     CHECK(result.exit_code == 3);

@@ -156,3 +156,23 @@ TEST_CASE("a sweep says what its solver was asked for, unless that varies") {
               .exit_code == 0);
   CHECK(contains(bbsim({"compare", "c.h5", "c.h5"}, folder.path()).out, "within rtol 1e-09"));
 }
+
+TEST_CASE("the log of a rig is compared with a run at its own times") {
+  const Folder folder;
+  folder.write("run.csv", "t,x,vx\n0,0,0\n1,0.01,0.02\n2,0.04,0.04\n3,0.09,0.06\n");
+  folder.write("log.csv", "Rig 3\nmillis;px\n5000;10,0\n5500;12,5\n6000;20,0\n7000;50,0\n");
+  const std::vector<std::string> words{
+      "compare", "log.csv", "run.csv", "--map", "t=millis:ms,x=px-10:mm", "--time-offset"};
+  const Result made = bbsim(with(words, {"start"}), folder.path());
+  CAPTURE(made.out, made.err);
+  CHECK(made.exit_code == 0);
+  CHECK(contains(made.out, "log.csv from run.csv: 4 of 4 rows, 0 to 2 s"));
+  CHECK(contains(made.err, "the header is line 2"));
+  CHECK(bbsim(with(words, {"start", "--atol", "1e-9"}), folder.path()).exit_code == 0);
+  const Result moved = bbsim(with(words, {"-4.5 s", "--atol", "1e-3"}), folder.path());
+  CHECK(moved.exit_code == 1);
+  CHECK(contains(moved.out, "different: x is more than 0.001 apart"));
+  const Result found = bbsim(with(words, {"auto"}), folder.path());
+  CHECK(found.exit_code == 0);
+  CHECK(contains(found.err, "log.csv: moved by "));
+}

@@ -343,3 +343,20 @@ TEST_CASE("a sweep takes step metrics, and they are those of its runs") {
   REQUIRE(bbsim(to_hdf5, folder.path()).exit_code == 0);
   CHECK(bbsim({"compare", "sweep.csv", "sweep.h5"}, folder.path()).exit_code == 0);
 }
+
+TEST_CASE("a log is measured by its own names, units and clock") {
+  const Folder folder;
+  folder.write("log.csv", "10,ok\n20,ok\n40,ok\n");
+  const std::vector<std::string> words{"measure",      "log.csv",  "--header", "px,mode",  "--map",
+                                       "x=-0.5*px:mm", "--period", "100 ms",   "--measure"};
+  auto peak = words;
+  peak.emplace_back("min_x,find x at 0.1");
+  const Result made = bbsim(peak, folder.path());
+  CAPTURE(made.out, made.err);
+  CHECK(made.exit_code == 0);
+  CHECK(made.out == "measure,value\nmin_x,-0.02\nfind x at 0.1,-0.01\n");
+  CHECK(made.err.empty());
+  auto aligned = words;
+  aligned.insert(aligned.end(), {"min_x", "--time-offset", "auto"});
+  CHECK(bbsim(aligned, folder.path()).exit_code == 2);
+}

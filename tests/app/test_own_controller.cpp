@@ -54,8 +54,10 @@ TEST_CASE("the library of the examples gives the built-in PID's trajectory, to t
 }
 
 TEST_CASE("so does the sketch, where servos have steps") {
-  CHECK(csv_of({example("arduino.yaml"), "--set",
-                std::string("controller.program.command=[\"") + BBSIM_EXAMPLE_SKETCH + "\"]"}) ==
+  const Folder folder;
+  REQUIRE(bbsim({"sketch", example("arduino/pid.ino"), "-o", folder / "pid.so"}).exit_code == 0);
+  CHECK(csv_of(
+            {example("arduino.yaml"), "--set", "controller.library.file=" + (folder / "pid.so")}) ==
         csv_of({config("step.yaml"), "--set", "controller.sampling.resolution=\"0.1 deg\""}));
 }
 

@@ -166,8 +166,9 @@ TEST_CASE("long decimals are read to the nearest double") {
 
 TEST_CASE("ragged rows are refused") {
   CHECK(refusal("t,x\n1,2\n3\n") == "a.csv:3:1: found 1 number; the header names 2 columns");
-  CHECK(refusal("t,x\n1,2,3\n") == "a.csv:2:1: found 3 numbers; the header names 2 columns");
-  CHECK(refusal("t\n1,2\n") == "a.csv:2:1: found 2 numbers; the header names 1 column");
+  CHECK(refusal("t,x\n1,2,3,4\n") ==
+        "a.csv:2:1: found 4 numbers; the header names 2 columns: commas seem to stand both between "
+        "columns and in numbers; separate the columns by semicolons or tabs");
 }
 
 TEST_CASE("what is no number is refused") {
@@ -176,9 +177,8 @@ TEST_CASE("what is no number is refused") {
   CHECK(refusal("t,x\n1,\n") == "a.csv:2:3: column x: found nothing, a number is expected");
   CHECK(refusal("t\n1e400\n") ==
         "a.csv:2:1: column t: found \"1e400\", too large for a double (at most 1.8e308)");
-  for (const char* text :
-       {"0x10", "1.5.2", "1 2",   "\"1\"", "+-1",  "--1", "+",  "-",  ".",    "e5",
-        "1e",   "1;2",   "1_000", "one",   "\x01", "#1",  "0x", "1f", "nanx", "inf2"}) {
+  for (const char* text : {"0x10", "1.5.2", "1 2", "+-1", "--1", "+", "-", ".", "e5", "1e", "1;2",
+                           "1_000", "one", "\x01", "0x", "1f", "nanx", "inf2"}) {
     CAPTURE(text);
     CHECK_THAT(refusal(std::string("t\n") + text + "\n"),
                Contains("a.csv:2:1: column t: found ") && Contains("a number is expected"));
@@ -194,22 +194,19 @@ TEST_CASE("what is found is shown fit for a terminal") {
              Contains("found \"" + std::string(40, 'z') + "...\""));
 }
 
-TEST_CASE("a blank line is refused") {
-  CHECK_THAT(refusal("t,x\n1,2\n\n3,4\n"), Contains("a.csv:3:1: found a blank line"));
-  CHECK_THAT(refusal("t\n1\n \r\n"), Contains("a.csv:3:2: found a blank line"));
+TEST_CASE("blank lines and remarks are no rows") {
+  CHECK(parsed("t,x\n1,2\n\n3,4\n").columns[0] == std::vector<double>{1, 3});
+  CHECK(parsed("\n# by hand\nt\n1\n \r\n#2\n").columns[0] == std::vector<double>{1});
 }
 
 TEST_CASE("a header is required, of names that differ") {
   CHECK_THAT(refusal(""), Contains("a.csv:1:1: found no header"));
   CHECK_THAT(refusal("\xEF\xBB\xBF"), Contains("a.csv:1:1: found no header"));
-  CHECK_THAT(refusal("\nt,x\n1,2\n"), Contains("a.csv:1:1: found no header"));
   CHECK_THAT(refusal("t,,x\n"), Contains("a.csv:1:3: a column's name is empty"));
   CHECK_THAT(refusal("t,x,\n"), Contains("a.csv:1:5: a column's name is empty"));
   CHECK_THAT(refusal("t,x,t\n"), Contains("a.csv:1:5: column \"t\" is there twice"));
   CHECK_THAT(refusal("0,0.1\n1,2\n"), Contains("a.csv:1:1: found the number \"0\""));
-  CHECK_THAT(refusal("t,\"x\"\n"), Contains("a.csv:1:3:") && Contains("quotation marks"));
-  CHECK_THAT(refusal("t;x\n0;1\n"), Contains("commas separate columns"));
-  CHECK_THAT(refusal("t\tx\n0\t1\n"), Contains("commas separate columns"));
+  CHECK_THAT(refusal("t,\"x\n"), Contains("a.csv:1:1: found a quotation mark without"));
   CHECK_THAT(refusal(std::string("t\0x\n", 4)), Contains("a control character"));
   CHECK_THAT(refusal("t,x\r1,2\r"), Contains("a control character"));  // line ends of old
 }

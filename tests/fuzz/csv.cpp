@@ -15,6 +15,7 @@
 #include "file/cell_table.hpp"
 #include "file/table_writer.hpp"
 #include "fuzz.hpp"
+#include "plot/log.hpp"
 #include "record/compare.hpp"
 
 namespace {
@@ -70,6 +71,17 @@ void must_be_like_itself(const file::CellTable& table) {
   must(!record::to_text(comparison, "a", "b", {}).empty());
 }
 
+// A log has as many numbers in each column, and increasing times.
+void must_be_a_log(const std::string& name) {
+  std::vector<std::string> notes;
+  const bbsim::plot::Result log =
+      bbsim::plot::read_log(name, {{"x=-2*x+1:mm", "y=y"}, {}, "", "start"}, notes);
+  for (const auto& column : log.columns) must(column.numbers.size() == log.rows);
+  const auto* t = log.find("t");
+  must(t != nullptr);
+  for (std::size_t i = 1; i < log.rows; ++i) must(t->numbers[i] >= t->numbers[i - 1]);
+}
+
 // The fields of a line are the same again once they are written as a row has them.
 void must_split_again(std::string_view line) {
   std::vector<std::string> fields, again;
@@ -94,6 +106,10 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const std::string_view text = text_of(data, size);
   may_refuse([&] { must_be_a_table(file::read_table(NamedMemory(text).name())); });
   may_refuse([&] { must_be_like_itself(file::read_cells(NamedMemory(text).name())); });
+  may_refuse([&] {
+    must_be_like_itself(file::read_cells(NamedMemory(text).name(), {{}, {"t", "x"}}));
+  });
+  may_refuse([&] { must_be_a_log(NamedMemory(text).name()); });
   for (std::string_view rest = text; !rest.empty();) must_split_again(take_line(rest));
   return 0;
 }

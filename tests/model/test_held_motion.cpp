@@ -109,7 +109,7 @@ TEST_CASE("the first fall of a line in a held motion is found wherever it is") {
              {MotionLine{0.14, -1, 0}, MotionLine{0.2, 1, 0}, MotionLine{0.9, 0, -1},
               MotionLine{2.05, 0, 1}, MotionLine{5, -20, -1}, MotionLine{1, 3, 0.2}}) {
           constexpr double end = 0.8;
-          const double at = first_fall(line, motion, 1e-12, 0, end, answers);
+          const double at = first_crossing(line, motion, 1e-12, 0, end, answers);
           INFO(law.stiffness << " " << law.damping << ": " << rate << " " << acceleration << ": "
                              << line.constant << " " << line.by_angle << " " << line.by_rate);
           // Never below before, by a look from close by.
@@ -152,7 +152,7 @@ TEST_CASE("a dip is found that has died away by the end, to nothing at all") {
   const MotionLine below_limit{1, 0, -1};
   for (const double end : {0.05, 0.5, 1.0, 10.0}) {
     CAPTURE(frequency, damping, end);
-    const double at = first_fall(below_limit, motion, 1e-12, 0, end, answers);
+    const double at = first_crossing(below_limit, motion, 1e-12, 0, end, answers);
     REQUIRE(at < end);
     CHECK(motion.after(at).rate == Approx(1).epsilon(1e-9));
   }
@@ -161,7 +161,7 @@ TEST_CASE("a dip is found that has died away by the end, to nothing at all") {
 TEST_CASE("a line that starts where it fell waits until it was clearly above, or is below") {
   const auto fall = [](const MotionLine& line, const HeldMotion& motion, double start) {
     KnownAnswers answers;
-    return first_fall(line, motion, 1e-12, start, 1, answers);
+    return first_crossing(line, motion, 1e-12, start, 1, answers);
   };
   // Free from a rate limit: the rate falls off at once.
   const HeldMotion slows{{100, 20}, 0, 1, -3};

@@ -53,14 +53,14 @@ TEST_CASE("what is no CSV of rows is refused with its place") {
     }
     return std::string("taken");
   };
-  CHECK_THAT(refused(""), Contains("a.csv: is empty"));
+  CHECK_THAT(refused(""), Contains("a.csv:1:1: found no header"));
   CHECK_THAT(refused("t,x\n"), Contains("has a header and no rows"));
-  CHECK_THAT(refused("1,2\n3,4\n"), Contains("a.csv:1: is a row of numbers"));
-  CHECK_THAT(refused("t,x\n1,2\n3\n"), Contains("a.csv:3: found 1 fields; the header names 2"));
-  CHECK_THAT(refused("t,t\n1,2\n"), Contains("the column t is there twice"));
+  CHECK_THAT(refused("1,2\n3,4\n"), Contains("a.csv:1:1: found the number"));
+  CHECK_THAT(refused("t,x\n1,2\n3\n"), Contains("a.csv:3:1: found 1 number; the header names 2"));
+  CHECK_THAT(refused("t,t\n1,2\n"), Contains("column \"t\" is there twice"));
   CHECK_THAT(refused("t,\n1,2\n"), Contains("a column's name is empty"));
-  CHECK_THAT(refused("t,x\n1,\"2\n"), Contains("a.csv:2: a quote is left open"));
-  CHECK_THAT(refused(std::string("\0\1\2", 3)), Contains("is no header"));
+  CHECK_THAT(refused("t,x\n1,\"2\n"), Contains("a.csv:2:1: found a quotation mark"));
+  CHECK_THAT(refused(std::string("\0\1\2", 3)), Contains("a control character in the header"));
   CHECK_THROWS_WITH(read("/dev/zero"), Contains("more than 1048576 bytes"));
   CHECK_THROWS_WITH(read(folder / "none.csv"), Contains("no such file"));
   CHECK_THROWS_WITH(read(folder.name()), Contains("is a directory"));

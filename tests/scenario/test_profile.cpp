@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 // Profiles of the gimbal angles.
+#include <cmath>
 #include <numbers>
 
 #include "catch.hpp"
@@ -140,6 +141,45 @@ TEST_CASE("a table must be usable") {
         "gimbal.motion.phi.table.file: found ., which is no regular file; allowed: a table file");
   CHECK_THAT(refused(five_rows("5,3,4"), "{file: motion.csv, time: t}"),
              Contains("gimbal.motion.phi.table.value: missing"));
+}
+
+TEST_CASE("a table is moved, scaled and delayed") {
+  const TemporaryFolder folder;
+  static_cast<void>(folder.write("log.csv",
+                                 "millis;mode;servo [deg]\n-1000;a;90\n4000;b;100\n9000;c;\n"
+                                 "14000;d;110\n19000;e;120\n"));
+  const auto read = [&](const std::string& keys) {
+    const std::string scenario = folder.write(
+        "scenario.yaml",
+        with_phi("{table: {file: log.csv, time: millis, time_unit: ms, value: servo, " + keys +
+                 "}}"));
+    return std::get<Table>(read_scenario(scenario).gimbal.motion->phi[0]);
+  };
+  constexpr double degree = std::numbers::pi / 180;
+  const Table moved = read("time_offset: start, scale: -0.5, offset: 45 deg");
+  CHECK(moved.times == std::vector<double>{0, 5, 15, 20});
+  CHECK(moved.values[0] == Approx(0).margin(1e-15));
+  CHECK(moved.values[3] == Approx(-15 * degree));
+  CHECK(read("time_offset: 0.5").times == std::vector<double>{-0.5, 4.5, 14.5, 19.5});
+  CHECK(read("unit: rad, offset: 1").values[1] == 101);
+  CHECK(read("offset: 1").values[1] == Approx(101 * degree));
+  CHECK(read("unit: deg, offset: 1").values[1] == Approx(101 * degree));
+  const Table delayed = read("delay: 2 s");
+  CHECK(delayed.times == std::vector<double>{-INFINITY, 1, 6, 16, 21, INFINITY});
+  CHECK(delayed.values.front() == delayed.values[1]);
+  CHECK(delayed.values.back() == delayed.values[4]);
+}
+
+TEST_CASE("a clock of 32 bits that wraps drives a scene") {
+  const TemporaryFolder folder;
+  static_cast<void>(
+      folder.write("log.csv", "us,a\n4290000000,1\n4294000000,2\n32704,3\n9032704,4\n"));
+  const std::string scenario =
+      folder.write("scenario.yaml",
+                   with_phi("{table: {file: log.csv, time: us, value: a, unit: rad, time_unit: us, "
+                            "time_offset: start}}"));
+  const Scenario read = read_scenario(scenario);
+  CHECK(std::get<Table>(read.gimbal.motion->phi[0]).times == std::vector<double>{0, 4, 5, 14});
 }
 
 TEST_CASE("a table must cover a run that an override makes longer") {

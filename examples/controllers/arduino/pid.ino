@@ -1,11 +1,10 @@
 /* SPDX-FileCopyrightText: 2026 the bbsim authors
  * SPDX-License-Identifier: BSD-3-Clause */
 
-/* The PID of configs/step.yaml as one writes it for a board: it goes to the rig as it stands, and to
- * bbsim, with the Arduino.h beside it:
+/* The PID of configs/step.yaml as one writes it for a board: it goes to the rig and to bbsim as it
+ * stands.
  *
- *     c++ -std=c++17 -O2 -ffp-contract=off -I examples/controllers/arduino -include Arduino.h \
- *         -x c++ examples/controllers/arduino/pid.ino -o examples/controllers/arduino/pid
+ *     bbsim sketch examples/controllers/arduino/pid.ino -o examples/controllers/arduino/pid.so
  *     bbsim run examples/controllers/arduino.yaml
  *
  * (On boards with an 8-bit processor a double is a float: there it rounds more than on the desktop.) */

@@ -6,7 +6,7 @@
 //
 // All results are linear in a Cause. One function therefore gives the accelerations on a prescribed
 // gimbal, the columns of the inertia H of (M47), and the contact's force and couple. Dry friction
-// acts along fixed or moving directions here; DrySwitches decides when they change.
+// acts along fixed or moving directions here; DryFriction decides when they change.
 //
 // Couples and rotations along the plane are stored rotated by a quarter turn, so that they are
 // parallel to the velocities: p = (r omega_y, -r omega_x) is the velocity at which the ball would

@@ -161,12 +161,12 @@ class Turns {
 };
 
 // A value and its slope.
-struct Fall {
+struct LineValue {
   double value, slope;
 };
 
 // An approximate root of the cubic with these values and slopes at 0 and 1.
-double guess(const Fall& first, const Fall& last) {
+double guess(const LineValue& first, const LineValue& last) {
   const double rise = last.value - first.value;
   const double square = 3 * rise - 2 * first.slope - last.slope;
   const double cube = first.slope + last.slope - 2 * rise;
@@ -205,7 +205,8 @@ Way way_to_root(const Local& at) {
 // goes beyond the estimate by the error, so that it encloses the root. Bisects after two steps that
 // do not halve the bracket.
 template <class Function>
-double root(Function function, double start, double from, Fall first, double to, Fall last) {
+double root(Function function, double start, double from, LineValue first, double to,
+            LineValue last) {
   const double length = to - from;
   first.slope *= length;
   last.slope *= length;
@@ -252,12 +253,12 @@ bool falls_clearly(const MotionLine& line, const HeldMotion& motion, const Impul
 
 }  // namespace
 
-double first_fall(const MotionLine& line, const HeldMotion& motion, double clearly, double start,
-                  double end, KnownAnswers& answers) {
+double first_crossing(const MotionLine& line, const HeldMotion& motion, double clearly,
+                      double start, double end, KnownAnswers& answers) {
   double threshold = 0;
-  const auto fall = [&](const HeldMotion::Instant& at) {
-    return Fall{line.at(at.angle, at.rate) - threshold,
-                line.by_angle * at.rate + line.by_rate * at.acceleration};
+  const auto value_at = [&](const HeldMotion::Instant& at) {
+    return LineValue{line.at(at.angle, at.rate) - threshold,
+                     line.by_angle * at.rate + line.by_rate * at.acceleration};
   };
   const auto local = [&](double t) {
     const HeldMotion::Instant at = motion.after(answers.at(motion.law, t));
@@ -269,14 +270,14 @@ double first_fall(const MotionLine& line, const HeldMotion& motion, double clear
                  line.by_angle * third + line.by_rate * fourth};
   };
   double from = 0;
-  Fall now = fall({motion.angle, motion.rate, motion.acceleration});
+  LineValue now = value_at({motion.angle, motion.rate, motion.acceleration});
   if (!(now.value > clearly)) {
     threshold = std::min(0.0, now.value) - clearly;
     now.value -= threshold;
   } else if (turns_once(motion.law, end)) {
     // The common case: by the slopes at its ends, the line has no dip in between.
     const ImpulseAnswer& at_end = answers.at_end(motion.law, end);
-    const Fall last = fall(motion.after(at_end));
+    const LineValue last = value_at(motion.after(at_end));
     if (last.value > 0 && (now.slope >= 0 || falls_clearly(line, motion, at_end, last.slope))) {
       return never;
     }
@@ -292,7 +293,7 @@ double first_fall(const MotionLine& line, const HeldMotion& motion, double clear
     turns.pass();
     if (to <= from) continue;
     const HeldMotion::Instant at = motion.after(answers.at(motion.law, to));
-    const Fall reached = fall(at);
+    const LineValue reached = value_at(at);
     if (!(reached.value > 0)) {
       if (!std::isfinite(reached.value)) return never;
       return root(local, start, from, now, to, reached);

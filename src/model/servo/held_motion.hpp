@@ -113,11 +113,12 @@ class KnownAnswers {
   double coefficients_[most_terms + 1]{1};  // of h(t) / t for law_
 };
 
-// The first time within (0, end] at which the line falls to zero, s; infinite if it does not fall.
+// The first time within (0, end] at which the line falls to zero, s; infinite if it does not.
 // If it starts no more than `clearly` above zero, it must fall by `clearly` below zero and below
 // its start, unless it rises above `clearly` first. Exact up to the rounding of the time `start` +
 // t.
-[[nodiscard]] double first_fall(const MotionLine& line, const HeldMotion& motion, double clearly,
-                                double start, double end, KnownAnswers& answers);
+[[nodiscard]] double first_crossing(const MotionLine& line, const HeldMotion& motion,
+                                    double clearly, double start, double end,
+                                    KnownAnswers& answers);
 
 }  // namespace bbsim::model

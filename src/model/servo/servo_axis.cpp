@@ -149,42 +149,42 @@ void ServoAxis::for_each_margin(Use use) const {
   const double most = servo_.acceleration_limit;
   switch (motion_) {
     case Motion::free:
-      if (!servo_.time_constant) below(0, most, &AxisMargin::by_demand);
+      if (!servo_.time_constant) below(acceleration_up, most, &AxisMargin::by_demand);
       break;
     case Motion::accelerating_up:
-      use(0, AxisMargin{-most, 0, 0, 1, 0});
+      use(acceleration_up, AxisMargin{-most, 0, 0, 1, 0});
       break;
     case Motion::accelerating_down:
-      use(1, AxisMargin{-most, 0, 0, -1, 0});
+      use(acceleration_down, AxisMargin{-most, 0, 0, -1, 0});
       break;
     case Motion::rate_up:
-      use(2, push());
+      use(rate_up, push());
       break;
     case Motion::rate_down:
-      use(3, turned(push()));
+      use(rate_down, turned(push()));
       break;
     case Motion::stop_up:
-      use(4, push_at_stop());
+      use(stop_up, push_at_stop());
       break;
     case Motion::stop_down:
-      use(5, turned(push_at_stop()));
+      use(stop_down, turned(push_at_stop()));
       break;
   }
   const bool limited = motion_ == Motion::rate_up || motion_ == Motion::rate_down;
   const bool halted = motion_ == Motion::stop_up || motion_ == Motion::stop_down;
-  if (!limited && !halted) below(2, servo_.rate_limit, &AxisMargin::by_rate);
-  if (!halted) below(4, servo_.angle_limit, &AxisMargin::by_angle);
+  if (!limited && !halted) below(rate_up, servo_.rate_limit, &AxisMargin::by_rate);
+  if (!halted) below(stop_up, servo_.angle_limit, &AxisMargin::by_angle);
   switch (play_) {
     case Play::none:
       break;
     case Play::up:
-      use(6, AxisMargin{0, 0, 1, 0, 0});
+      use(gap_up, AxisMargin{0, 0, 1, 0, 0});
       break;
     case Play::down:
-      use(6, AxisMargin{0, 0, -1, 0, 0});
+      use(gap_up, AxisMargin{0, 0, -1, 0, 0});
       break;
     case Play::gap:
-      below(6, servo_.backlash / 2, &AxisMargin::by_angle, servo_.offset - plane_);
+      below(gap_up, servo_.backlash / 2, &AxisMargin::by_angle, servo_.offset - plane_);
       break;
   }
 }
@@ -202,9 +202,10 @@ ServoAxis::Clearance ServoAxis::clearance() const {
           clearly * servo_.acceleration_limit, root_};
 }
 
-ServoAxis::Fall ServoAxis::first_fall(const HeldMotion& motion, double command, double start,
-                                      double end, KnownAnswers& answers) const {
-  Fall first;
+ServoAxis::Crossing ServoAxis::first_crossing(const HeldMotion& motion, double command,
+                                              double start, double end,
+                                              KnownAnswers& answers) const {
+  Crossing first;
   const bool springs = root_ > 0 && motion.law.stiffness == response_.from_angle;
   const MotionReach reached = springs ? reach_about(motion, root_) : reach(motion, end);
   if (springs && clearance().holds(reached, motion.law)) return first;
@@ -217,8 +218,8 @@ ServoAxis::Fall ServoAxis::first_fall(const HeldMotion& motion, double command, 
     double sizes[guards];
     scales(sizes);
     // The same thresholds as for the integrators' guards.
-    const double after = model::first_fall(line, motion, guard_rounding * sizes[guard], start,
-                                           std::min(end, first.after), answers);
+    const double after = model::first_crossing(line, motion, guard_rounding * sizes[guard], start,
+                                               std::min(end, first.after), answers);
     if (after < first.after) first = {after, guard};
   });
   return first;
@@ -227,10 +228,10 @@ ServoAxis::Fall ServoAxis::first_fall(const HeldMotion& motion, double command, 
 void ServoAxis::scales(double* values) const {
   const auto finite = [](double value) { return value < unlimited ? value : 1.0; };
   const double acceleration = finite(servo_.acceleration_limit);
-  values[0] = values[1] = acceleration;
-  values[2] = values[3] = finite(servo_.rate_limit);
-  values[4] = values[5] = finite(servo_.angle_limit);
-  values[6] = values[7] = servo_.backlash > 0 ? servo_.backlash : 1.0;
+  values[acceleration_up] = values[acceleration_down] = acceleration;
+  values[rate_up] = values[rate_down] = finite(servo_.rate_limit);
+  values[stop_up] = values[stop_down] = finite(servo_.angle_limit);
+  values[gap_up] = values[gap_down] = servo_.backlash > 0 ? servo_.backlash : 1.0;
 }
 
 }  // namespace bbsim::model

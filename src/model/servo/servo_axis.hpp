@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 // The switches of one servo: its limits, stops, backlash and dead band. Between two switches an
-// AxisMode describes its motion; a switch occurs where a guard falls through zero.
+// AxisMode describes its motion; a switch occurs where a guard crosses zero.
 #pragma once
 
 #include <cmath>
@@ -32,7 +32,19 @@ struct AxisMargin {
 
 class ServoAxis {
  public:
-  static constexpr int guards = 8;
+  // The guards: limits in both directions, which at a limit are what leaves it; and backlash, where
+  // the first one alone is the end of contact.
+  enum Guard {
+    acceleration_up,
+    acceleration_down,
+    rate_up,
+    rate_down,
+    stop_up,
+    stop_down,
+    gap_up,
+    gap_down,
+    guards
+  };
 
   // `servo` includes the offset of the plane, or of the horn, at the servo's zero.
   ServoAxis(const RigServo& servo, const ServoResponse& response)
@@ -62,22 +74,22 @@ class ServoAxis {
   // Writes `guards` values; all are positive until a switch.
   void evaluate(const AxisState& state, double* values) const;
 
-  // The first guard that falls within (0, end] in a motion under a held command. Times count from
-  // `start`, s.
-  struct Fall {
-    double after = unlimited;  // s; infinite if no guard falls
+  // The first guard that crosses zero within (0, end] in a motion under a held command. Times count
+  // from `start`, s.
+  struct Crossing {
+    double after = unlimited;  // s; infinite if none crosses
     int guard = 0;
   };
-  [[nodiscard]] Fall first_fall(const HeldMotion& motion, double command, double start, double end,
-                                KnownAnswers& answers) const;
+  [[nodiscard]] Crossing first_crossing(const HeldMotion& motion, double command, double start,
+                                        double end, KnownAnswers& answers) const;
 
-  // Bounds for a free servo with stiffness: no guard falls while its angle, rate and acceleration
-  // stay below them. Bounds of 0 mean that other guards need checking.
+  // Bounds for a free servo with stiffness: no guard crosses zero while its angle, rate and
+  // acceleration stay below them. Bounds of 0 mean that other guards need checking.
   struct Clearance {
     double angle, rate, acceleration;  // rad, rad/s, rad/s^2
     double root;                       // of the stiffness, rad/s
 
-    // Whether a motion within these bounds, by this law, cannot make a guard fall.
+    // Whether a motion within these bounds, by this law, cannot make a guard cross zero.
     [[nodiscard]] bool holds(const MotionReach& reached, const HeldLaw& law) const {
       return reached.rate_most < rate && std::abs(reached.centre) + reached.angle_most < angle &&
              law.stiffness * reached.angle_most + law.damping * reached.rate_most < acceleration;

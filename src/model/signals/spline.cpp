@@ -3,6 +3,7 @@
 
 #include "model/signals/spline.hpp"
 
+#include <cmath>
 #include <utility>
 
 namespace bbsim::model {
@@ -99,7 +100,16 @@ std::vector<Piece> held(std::vector<Piece> pieces, const Numbers& times, const N
 }  // namespace
 
 Spline::Spline(const std::vector<double>& times, const std::vector<double>& values)
-    : Spline(times, not_a_knot(times, values)) {}
+    : Spline(std::isinf(times.front()) ? held_outside(times, values)
+                                       : Spline(times, not_a_knot(times, values))) {}
+
+Spline Spline::held_outside(const std::vector<double>& times, const std::vector<double>& values) {
+  Numbers inner_times(times.begin() + 1, times.end() - 1);
+  const Numbers inner_values(values.begin() + 1, values.end() - 1);
+  std::vector<Piece> pieces =
+      held(not_a_knot(inner_times, inner_values), inner_times, inner_values);
+  return {std::move(inner_times), std::move(pieces)};
+}
 
 Spline Spline::at_rest_at_ends(std::vector<double> times, const std::vector<double>& values) {
   const std::size_t last = times.size() - 1;

@@ -56,7 +56,8 @@ class Spline {
  public:
   // Cubic spline with not-a-knot ends (de Boor, A Practical Guide to Splines, IV). It reproduces
   // cubics, and its second derivative, the gimbal's acceleration, is continuous. Needs strictly
-  // increasing `times`, as many `values`, and at least four of them.
+  // increasing `times`, as many `values`, and at least four of them that are finite. Between a
+  // first time of -infinity and a last one of infinity, it holds the values of the other ends.
   Spline(const std::vector<double>& times, const std::vector<double>& values);
 
   // Cubic spline that starts and ends at rest and holds the end values outside the knots. Its
@@ -84,6 +85,8 @@ class Spline {
 
  private:
   using Piece = SplineView::Piece;
+
+  static Spline held_outside(const std::vector<double>& times, const std::vector<double>& values);
 
   Spline(std::vector<double> times, std::vector<Piece> pieces)
       : times_(std::move(times)),

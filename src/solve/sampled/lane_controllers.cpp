@@ -50,8 +50,9 @@ void LaneControllers::take_over(std::size_t l, const model::SampledController& f
 
 void LaneControllers::sample(std::size_t l, model::HybridSystem& run, double t, const double* z) {
   LaneControl& control = *control_;
-  asked_[l] = &run;
-  const std::optional<Pair> seen = run.begin_sample(t);
+  model::Sampling& sampling = *run.sampling();
+  asked_[l] = &sampling;
+  const std::optional<Pair> seen = sampling.begin(run.instant_end(t));
   if (!seen) {
     since_[l].miss();
     return;
@@ -63,7 +64,7 @@ void LaneControllers::sample(std::size_t l, model::HybridSystem& run, double t, 
   since_[l].see();
   constexpr auto angle = static_cast<std::size_t>(model::RigLayout::angle);
   constexpr auto rate = static_cast<std::size_t>(model::RigLayout::rate);
-  const auto& reference = run.reference_at(t);
+  const auto& reference = sampling.reference_at(t);
   for (std::size_t i = 0; i < 2; ++i) {
     control.reference[i][0].of[l] = reference[i].value;
     control.reference[i][1].of[l] = reference[i].rate;
@@ -86,7 +87,7 @@ void LaneControllers::finish() {
   };
   for (std::size_t l = 0; l < group; ++l) {
     if (asked_[l] == nullptr) continue;
-    asked_[l]->end_sample(both(control.command, l), both(control.memory.position, l));
+    asked_[l]->end(both(control.command, l), both(control.memory.position, l));
     asked_[l] = nullptr;
   }
 }

@@ -9,13 +9,13 @@
 #include <cstddef>
 #include <memory>
 
-#include "model/hybrid_system.hpp"
+#include "model/hybrid/hybrid_system.hpp"
 #include "solve/sampled/lane_kernel.hpp"
 
 namespace bbsim::solve::sampled {
 
 // Holds the law and memory of each controller from take_over() on. The runs' own controllers
-// (HybridSystem::computer()) no longer change.
+// (Sampling::controller()) no longer change.
 class LaneControllers {
  public:
   explicit LaneControllers(const LaneKernels& kernels);
@@ -33,8 +33,8 @@ class LaneControllers {
   const LaneKernels& kernels_;
   std::unique_ptr<LaneControl> control_;  // aligned
   std::array<model::SinceSeen, group> since_{};
-  std::array<model::HybridSystem*, group> asked_{};  // since the last finish()
-  bool any_ = false;                                 // whether any of these sees the ball
+  std::array<model::Sampling*, group> asked_{};  // since the last finish()
+  bool any_ = false;                             // whether any of these sees the ball
 };
 
 }  // namespace bbsim::solve::sampled

@@ -129,7 +129,7 @@ RigLanes::RigLanes(Tolerances tolerances, const OutputGrid& grid, const LaneAske
 void RigLanes::begin(std::size_t l, const model::Model& model, LaneSink& sink) {
   Lane& lane = lanes_[l];
   lane.run.emplace(model, tolerances_.atol);
-  lane.run->share_reference(shared_reference_);
+  lane.run->sampling()->share_reference(shared_reference_);
   lane.feeds_servos_back = model.rig->sampled->law.feeds_servos_back();
   lane.instants.emplace(*model.rig->sampled);
   std::copy(model.initial.begin(), model.initial.end(), lane.z.begin());
@@ -139,10 +139,10 @@ void RigLanes::begin(std::size_t l, const model::Model& model, LaneSink& sink) {
   lane.rejections = 0;
   lane.standstill = {};
   lane.run->handle_time_event(0, lane.z.data());
-  controllers_.take_over(l, lane.run->computer());
-  const std::vector<char>& happening = lane.run->happening();
-  lane.alive = lane.run->check_events(0, lane.z.data()) == model::HybridSystem::Effect::none &&
-               std::find(happening.begin(), happening.end(), 1) == happening.end();
+  controllers_.take_over(l, lane.run->sampling()->controller());
+  const std::vector<char>& occurring = lane.run->occurring();
+  lane.alive = lane.run->check_events(0, lane.z.data()) == model::Effect::none &&
+               std::find(occurring.begin(), occurring.end(), 1) == occurring.end();
   scene_.radius[l] = model.radius;
   scene_.gravity[l] = loop_of(model).gravity();
   take_monitors(l, model);
@@ -150,7 +150,7 @@ void RigLanes::begin(std::size_t l, const model::Model& model, LaneSink& sink) {
   sink.accept_row(l, 0, lane.z[0], lane.z[1]);
   take_mode(l);
   put_start(l);
-  lane.unforeseen = true;
+  lane.unpredicted = true;
 }
 
 void RigLanes::take_monitors(std::size_t l, const model::Model& model) {
@@ -207,7 +207,7 @@ void RigLanes::take_mode(std::size_t l) {
     servo.by_command[l] = free * response.from_command;
     servo.stiffness[l] = free * response.from_angle;
     servo.damping[l] = free * response.from_rate;
-    const model::ServoAxis::Clearance clear = run.clearance(i);
+    const model::ServoAxis::Clearance clear = run.servos()->axis(i).clearance();
     servo.angle_most[l] = clear.angle;
     servo.rate_most[l] = clear.rate;
     servo.acceleration_most[l] = clear.acceleration;
@@ -230,13 +230,14 @@ void RigLanes::put_start(std::size_t l) {
   }
 }
 
-void RigLanes::foresee(std::size_t l) {
+void RigLanes::predict_crossing(std::size_t l) {
   Lane& lane = lanes_[l];
-  lane.unforeseen = false;
-  lane.foreseen = lane.run->next_change();
-  lane.fall = {};
+  lane.unpredicted = false;
+  lane.predicted_to = lane.run->next_change();
+  lane.crossing = {};
   if (servos_->clear[l] != 0) return;
-  lane.fall = lane.run->next_fall(lane.time, {step_.servo(l, 0), step_.servo(l, 1)}, lane.foreseen);
+  lane.crossing = lane.run->servos()->next_crossing(
+      lane.time, {step_.servo(l, 0), step_.servo(l, 1)}, lane.predicted_to);
 }
 
 // Finds the motion of the servos of an axis over the pieces. Mostly all lanes share one table.
@@ -319,10 +320,10 @@ bool RigLanes::plan() {
     pieces_->length[l] = 0;
     if (!lane.alive) clear(l);
     if (!lane.moved) continue;
-    if (lane.unforeseen) foresee(l);
-    const double limit = std::min(lane.run->next_change(), lane.fall.time);
+    if (lane.unpredicted) predict_crossing(l);
+    const double limit = std::min(lane.run->next_change(), lane.crossing.time);
     const double left = limit - lane.time;
-    if (!(left > 0)) {  // two guards fall at one instant: nothing moves
+    if (!(left > 0)) {  // two guards cross zero at one instant: nothing moves
       lane.until = lane.time;
       if (++lane.rejections > most_rejections) lane.alive = lane.moved = false;
       continue;
@@ -345,7 +346,7 @@ void RigLanes::judge() {
     constexpr double most_growth = 8;
     double error = pieces_->error[l];
     const bool solved = error < hopeless;
-    const bool arrives = lane.until >= std::min(lane.run->next_change(), lane.fall.time);
+    const bool arrives = lane.until >= std::min(lane.run->next_change(), lane.crossing.time);
     // A step that its limit cut short says little about the length of the next.
     const bool tells = !arrives || lane.rejections > 0 || lane.next_step < most_growth * lane.step;
     if (solved && (error > 1 || tells)) {
@@ -479,7 +480,7 @@ void RigLanes::pass_instants(LaneSink& sink) {
       const bool last = grid_.end() - t <= lane.run->rounding(t);
       state_at(l, t, ball, (is_event[l] && lane.feeds_servos_back) || last);
       if (!is_event[l]) continue;
-      lane.run->see(t, lane.z.data());
+      lane.run->observe(t, lane.z.data());
       if (lane.run->samples_at(t)) controllers_.sample(l, *lane.run, t, lane.z.data());
     }
     controllers_.finish();
@@ -516,8 +517,8 @@ void RigLanes::go_on(std::size_t l) {
   }
   if (!lane.restarts) {
     state_at(l, lane.until, nullptr, true);
-    if (lane.until >= lane.fall.time) {
-      lane.run->handle_state_event(lane.fall.guard, lane.until, lane.z.data());
+    if (lane.until >= lane.crossing.time) {
+      lane.run->handle_state_event(lane.crossing.guard, lane.until, lane.z.data());
       lane.restarts = lane.switched = true;
     }
   }
@@ -530,7 +531,7 @@ void RigLanes::go_on(std::size_t l) {
   } else if (lane.restarts) {
     take_commands(l);
   }
-  lane.unforeseen = lane.restarts || lane.foreseen < lane.run->next_change();
+  lane.unpredicted = lane.restarts || lane.predicted_to < lane.run->next_change();
 }
 
 std::array<bool, group> RigLanes::integrate(const model::Model* const* models, std::size_t count,

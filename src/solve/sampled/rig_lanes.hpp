@@ -12,7 +12,7 @@
 #include <optional>
 #include <span>
 
-#include "model/hybrid_system.hpp"
+#include "model/hybrid/hybrid_system.hpp"
 #include "solve/outcome.hpp"
 #include "solve/output_grid.hpp"
 #include "solve/sampled/instants.hpp"
@@ -117,8 +117,8 @@ class RigLanes {
     double until = 0;              // end of the present piece, s
     double step = 0;               // its length before rounding to the nominal one, s
     double next_step = std::numeric_limits<double>::infinity();
-    model::HybridSystem::Fall fall;
-    double foreseen = 0;  // falls are predicted up to here, s
+    model::Crossing crossing;
+    double predicted_to = 0;  // crossings are predicted up to here, s
     std::size_t next_row = 1;
     int rejections = 0;
     Standstill standstill;
@@ -126,7 +126,7 @@ class RigLanes {
     bool moved = false, settled = false;  // by the last attempt
     // A command restarts the servos, or something else switched.
     bool restarts = false, switched = false;
-    bool unforeseen = false;
+    bool unpredicted = false;
   };
   // The law and length of the table that an axis of pieces_ has in a lane, or in all.
   struct Loaded {
@@ -141,7 +141,7 @@ class RigLanes {
   void take_commands(std::size_t lane);
   void take_mode(std::size_t lane);
   void put_start(std::size_t lane);
-  void foresee(std::size_t lane);
+  void predict_crossing(std::size_t lane);
   bool plan();
   void load_tables(std::size_t axis);
   void judge();
@@ -164,7 +164,7 @@ class RigLanes {
   LaneControllers controllers_;
   LaneScene scene_{};
   LaneStep step_;
-  model::HybridSystem::SharedReference shared_reference_;
+  model::SharedReference shared_reference_;
   std::array<Lane, group> lanes_;
   std::array<std::array<Loaded, group>, 2> loaded_{};
   std::array<Loaded, 2> shared_{};

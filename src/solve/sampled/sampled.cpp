@@ -112,7 +112,8 @@ std::optional<Failure> HeldStepper::step(double limit) {
   began_ = time_;
   looked_ = false;
   const double left = limit - time_;
-  // Two guards may fall at one instant, apart only by the rounding of the time. Nothing moves then.
+  // Two guards may cross zero at one instant, apart only by the rounding of the time. Nothing moves
+  // then.
   if (!(left > 0)) return {};
   bool rejected = false;
   for (;;) {
@@ -264,11 +265,11 @@ const Range& HeldStepper::range(Look of) {
   return ranges_[static_cast<std::size_t>(of)];
 }
 
-bool HeldStepper::nothing_happens(const std::vector<char>& happening) {
+bool HeldStepper::no_monitor_changes(const std::vector<char>& occurring) {
   if (!attempted_) return false;
-  for (std::size_t m = 0; m < happening.size(); ++m) {
+  for (std::size_t m = 0; m < occurring.size(); ++m) {
     const auto range_of = [this](Look look) { return range(look); };
-    if (!keeps_its_side(model_->events->monitors[m], model_->events->plate, happening[m] != 0,
+    if (!keeps_its_side(model_->events->monitors[m], model_->events->plate, occurring[m] != 0,
                         range_of)) {
       return false;
     }

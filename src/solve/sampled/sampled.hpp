@@ -49,7 +49,7 @@ class HeldStepper : public Stepper {
   void restore(StateReader& from) override;
 
   [[nodiscard]] const std::array<model::HeldMotion, 2>* servos() const override { return &servo_; }
-  [[nodiscard]] bool nothing_happens(const std::vector<char>& happening) override;
+  [[nodiscard]] bool no_monitor_changes(const std::vector<char>& occurring) override;
   [[nodiscard]] std::optional<Bounds> bounds(Load load, const model::BallConstants& constants,
                                              bool closely) override;
 

@@ -55,19 +55,19 @@ template <class Use>
 
 // `range(Look)` is the range at the start and the nodes. Returns false if the ranges cannot decide.
 template <class RangeOf>
-[[nodiscard]] bool keeps_its_side(const model::Monitor& monitor, const Plate& plate, bool happening,
+[[nodiscard]] bool keeps_its_side(const model::Monitor& monitor, const Plate& plate, bool occurring,
                                   RangeOf range) {
   bool within = true, beyond = false, presses = true;
   const bool told = for_each_side(monitor, plate, [&](Look look, double least, double most) {
     const Range of = widened(range(look));
     within = within && of.least > least && of.most < most;
-    if (happening && look == Look::normal && monitor.kind == model::Monitor::Kind::slip) {
+    if (occurring && look == Look::normal && monitor.kind == model::Monitor::Kind::slip) {
       presses = of.least > least;
     } else {
       beyond = beyond || of.most < least || of.least > most;
     }
   });
-  return told && (happening ? beyond && presses : within);
+  return told && (occurring ? beyond && presses : within);
 }
 
 }  // namespace bbsim::solve::sampled

@@ -1,0 +1,33 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// The options that say what the columns and the clock of a log are.
+#include "commands.hpp"
+#include "plot/log.hpp"
+
+namespace bbsim::app {
+
+void add_log_options(Command& command, plot::LogChoice& choice) {
+  command
+      .option("--map", choice.maps,
+              "COLUMN=[FACTOR*]NAME[+OFFSET][:UNIT],...: bbsim's COLUMN is FACTOR times the log's "
+              "column NAME plus OFFSET, in UNIT; -NAME changes its sign; default: columns match by "
+              "name, in SI units or in the unit that the name gives; repeatable")
+      .takes("MAP")
+      .may_be_repeated();
+  command.option("--header", choice.header, "the names of the columns of a log without a header")
+      .takes("NAME,...")
+      .parted_by_commas();
+  command
+      .option("--period", choice.period,
+              "the time between rows of a log without a clock: 0.1, "
+              "\"100 ms\"")
+      .takes("TIME");
+  command
+      .option("--time-offset", choice.time_offset,
+              "a time that is added to the log's times, or start: its first row is t = 0, or, in "
+              "compare and replay, auto: by cross-correlation with the run")
+      .takes("TIME|start|auto");
+}
+
+}  // namespace bbsim::app

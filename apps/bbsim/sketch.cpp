@@ -1,0 +1,76 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "commands.hpp"
+#include "file/atomic_file.hpp"
+#include "file/default_name.hpp"
+#include "sketch/compile.hpp"
+#include "terminal.hpp"
+
+namespace bbsim::app {
+namespace {
+
+struct SketchArguments {
+  sketch::Job job;
+  std::string output;
+  bool force = false;
+};
+
+// A cure that the compiler's messages do not name.
+std::string hint(const std::string& messages) {
+  if (messages.find("No such file or directory") == std::string::npos) return "";
+  return "\nname the folder of a library with -I";
+}
+
+ExitCode make(const SketchArguments& arguments, const Options& options) {
+  const std::string& first = arguments.job.files.front();
+  const std::string output = arguments.output.empty()
+                                 ? std::filesystem::path(first).stem().string() + ".so"
+                                 : arguments.output;
+  file::Outputs outputs;
+  for (const std::string& name : sketch::files_of(arguments.job)) {
+    outputs.reads(name, "a source of the sketch");
+  }
+  outputs.writes(output, "-o");
+  if (arguments.output.empty() && !arguments.force) {
+    file::require_like(output, {"a library of bbsim sketch", "", sketch::library_mark});
+  }
+  const sketch::Compiled compiled = sketch::compile(arguments.job);
+  if (compiled.library.empty()) {
+    throw InputError(compiled.messages + first + " does not compile" + hint(compiled.messages));
+  }
+  file::write_file(output, compiled.library);
+  if (!options.quiet) say(compiled.messages + name_of_output(output) + ": a controller.library");
+  return ExitCode::done;
+}
+
+}  // namespace
+
+void add_sketch(Command& command, const Options& options) {
+  const auto arguments = std::make_shared<SketchArguments>();
+  command.option("FILES", arguments->job.files, "the sketch: one .ino, or several, in their order")
+      .required();
+  command
+      .option("-o,--output", arguments->output,
+              "write the library to FILE.so; default: the first file's name with .so, in the "
+              "current folder")
+      .takes("FILE");
+  command
+      .option("-I,--libraries", arguments->job.folders,
+              "look for libraries in FOLDER: a library's own, or one of several; may be repeated")
+      .takes("FOLDER")
+      .may_be_repeated();
+  add_force(command, arguments->force);
+  command.footer(
+      "The compiler is $CXX, c++ or g++. A scenario names the library, and the wiring of its "
+      "pins:\n"
+      "controller: {library: {file: FILE.so, wiring: FILE.yaml}, ...}");
+  command.does([arguments, &options] { return make(*arguments, options); });
+}
+
+}  // namespace bbsim::app

@@ -1,0 +1,108 @@
+/* SPDX-FileCopyrightText: 2026 the bbsim authors
+ * SPDX-License-Identifier: BSD-3-Clause */
+
+/* The wiring of a sketch's board, as read from controller.library.wiring (docs/reference/wiring.md).
+ * A library that defines bbsim_controller_create_wired() is created with it in place of
+ * bbsim_controller_create(); the rest is as in controller.h. `bbsim sketch` makes such libraries.
+ *
+ * SI units and radians. Pin -1 means no pin. Pointers are valid during the call only. */
+#ifndef BBSIM_WIRING_H
+#define BBSIM_WIRING_H
+
+#include <bbsim/controller.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* Increases when anything below changes. */
+#define BBSIM_WIRING_VERSION 2u
+
+/* counts = counts[0] + (position - position[0]) (counts[1] - counts[0]) / (position[1] - position[0]) */
+typedef struct bbsim_count_map {
+  double counts[2];
+  double position[2]; /* m */
+} bbsim_count_map;
+
+/* angle = scale * (pulse - level) */
+typedef struct bbsim_wired_servo {
+  int32_t pin;     /* of the board; or ... */
+  int32_t channel; /* ... of the PCA9685 */
+  double level;    /* s */
+  double scale;    /* rad/s of the pulse, with the direction's sign */
+} bbsim_wired_servo;
+
+enum bbsim_screen_kind {
+  bbsim_no_screen = 0,
+  bbsim_four_wires = 1, /* pins: x plus, x minus, y plus, y minus */
+  bbsim_five_wires = 2, /* pins: upper left, upper right, lower left, lower right, sense */
+  bbsim_voltages = 3,   /* pins: x, y */
+  bbsim_stmpe610 = 4    /* a chip: counts are its own */
+};
+
+typedef struct bbsim_wired_screen {
+  uint32_t kind;
+  int32_t pins[5];
+  bbsim_count_map x, y;
+  double untouched;       /* counts of a pin that floats */
+  double resistance[2];   /* of the x and the y plate, ohm */
+  double contact;         /* resistance of the touch, ohm */
+  double interval;        /* of the chip's points, s */
+} bbsim_wired_screen;
+
+typedef struct bbsim_wired_camera {
+  int32_t port;      /* 0: Serial, 1 to 3: Serial1 to Serial3, 4: SerialUSB; -1: no camera */
+  uint32_t decimals; /* of the numbers */
+  double period;     /* from frame to frame, s */
+  double delay;      /* from a frame to its first byte, s */
+  bbsim_count_map x, y;
+  const char *frame; /* {x} and {y} stand for the numbers */
+  const char *lost;  /* sent while the ball is not seen; empty: nothing is */
+} bbsim_wired_camera;
+
+/* An analog pin's counts of 10 bits, or a digital pin's level, 0 or 1. */
+typedef struct bbsim_wired_input {
+  int32_t pin;
+  double value;
+} bbsim_wired_input;
+
+/* Duration of calls, s. */
+typedef struct bbsim_call_costs {
+  double clock;        /* millis, micros */
+  double digital;      /* pinMode, digitalRead, digitalWrite, analogWrite */
+  double analog;       /* analogRead */
+  double servo;        /* of Servo, each */
+  double serial;       /* of Serial, each byte; the line's own time comes on top */
+  double wire;         /* each transaction on I2C; its bits come on top */
+  double spi;          /* each byte on SPI; its bits come on top */
+  double eeprom_write; /* each byte that is written */
+  double loop;         /* each loop(), for what it computes */
+} bbsim_call_costs;
+
+typedef struct bbsim_wiring {
+  uint32_t version;             /* BBSIM_WIRING_VERSION */
+  uint32_t setup_before;        /* 1: setup() has returned at t = 0; 0: the board starts then */
+  uint32_t print;               /* 1: what the sketch prints goes to standard error */
+  bbsim_wired_servo servos[2];  /* phi, theta */
+  double oscillator;            /* of the PCA9685, Hz */
+  uint32_t ignored_channels;    /* bit n: channel n of the PCA9685 drives a servo that is not in the scene */
+  bbsim_wired_screen screen;
+  bbsim_wired_camera camera;
+  size_t input_count;
+  const bbsim_wired_input *inputs;
+  size_t ignored_count;
+  const int32_t *ignored; /* pins of servos that are not in the scene */
+  size_t eeprom_size;     /* bytes */
+  const unsigned char *eeprom;
+  bbsim_call_costs costs;
+} bbsim_wiring;
+
+/* Like bbsim_controller_create(), which such a library also has, and which refuses. */
+BBSIM_CONTROLLER_EXPORT void *bbsim_controller_create_wired(const bbsim_setup *setup,
+                                                            const bbsim_wiring *wiring);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

@@ -1,0 +1,59 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// The pieces of measured curves between servos and plane. The system holds one piece of a curve at
+// a time, so that the right-hand side is smooth.
+#pragma once
+
+#include "model/hybrid/part.hpp"
+
+namespace bbsim::model {
+
+class CurvePieces : public Part {
+ public:
+  explicit CurvePieces(SwitchedModel& model);
+
+  [[nodiscard]] static std::size_t guards() { return std::size_t{2} * Guard::count; }
+  static void append_scales(std::vector<double>& scales) {
+    scales.insert(scales.end(), guards(), 1.0);
+  }
+  void evaluate(const GuardContext& now, double* values) const;
+  [[nodiscard]] bool reset(double t, double* z) {
+    choose(t, z);
+    return false;
+  }
+  // The direction of the motion may have changed.
+  void after_jump(double t, const double* z) { choose(t, z); }
+
+  template <class Archive>
+  void archive(Archive& archive) {
+    archive(pieces_, command_pieces_);
+    for (std::size_t i = 0; i < 2; ++i) {
+      const Linkage& of = linkage(i);
+      const std::size_t pieces = of.table ? of.table->knots().size() - 1 : 1;
+      archive.require(pieces_[i] < pieces && command_pieces_[i] < pieces);
+    }
+    put();
+  }
+
+ private:
+  // Of each axis: the ends of the piece that the horn is on, and of the command's.
+  struct Guard {
+    enum : std::size_t { high, low, command_high, command_low, count };
+  };
+
+  [[nodiscard]] const Linkage& linkage(std::size_t axis) const {
+    return model_.rig().between.linkages[axis];
+  }
+  // Whether a continuous law's command goes through the curve, too.
+  [[nodiscard]] bool converts_commands(const Linkage& linkage) const {
+    return !model_.rig().sampled && linkage.curve.assumed == Assumed::exact;
+  }
+  void choose(double t, const double* z);
+  void put();
+
+  SwitchedModel& model_;
+  std::size_t pieces_[2]{0, 0}, command_pieces_[2]{0, 0};
+};
+
+}  // namespace bbsim::model

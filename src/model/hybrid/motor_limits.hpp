@@ -1,0 +1,81 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// The limits of the motors' torques, with the integrals that wait there
+// (docs/explanation/losses-and-torques.md).
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "model/control/integral_limit.hpp"
+#include "model/hybrid/part.hpp"
+
+namespace bbsim::model {
+
+class MotorLimits : public Part {
+ public:
+  explicit MotorLimits(SwitchedModel& model)
+      : model_(model), parts_(*model.get().dry), scene_(DryScene::of(model)) {}
+
+  [[nodiscard]] static std::size_t guards() { return std::size_t{2} * Guard::count; }
+  void append_scales(std::vector<double>& scales) const {
+    scales.insert(scales.end(), guards(),
+                  parts_.torque_limit < unlimited ? parts_.torque_limit : 1);
+  }
+  void evaluate(const GuardContext& now, double* values) const;
+  // Records that the torque asked of a motor reached a limit.
+  void cross(std::size_t guard);
+  // While a torque moves along its limit, its integral is not a state; the limit determines it.
+  void leave_mode(double t, double* z);
+  // The torque asked of the motor leaves the limit.
+  void jump_command(std::size_t motor) {
+    if (motor < 2) reached_[motor] = 0;
+  }
+  [[nodiscard]] bool reset(double t, double* z);
+  void reset_at_limits(double t, const double* z);
+
+ private:
+  // Of each motor: the limits by its voltage and by its torque. At a limit, the spare ones are the
+  // behavior of the integral and the change to the other kind of limit.
+  struct Guard {
+    enum : std::size_t { voltage_up, voltage_down, torque_up, torque_down, count };
+  };
+
+  // The limits of a motor at a rate of its axis, N m.
+  struct Range {
+    double up, down;  // by the voltage
+    double torque;
+
+    [[nodiscard]] double by_voltage(double side) const { return side > 0 ? up : down; }
+    // The torque at the limit on a side (1 or -1).
+    [[nodiscard]] double at(double side) const {
+      return std::clamp(by_voltage(side), -torque, torque);
+    }
+    // Whether the voltage's limit on a side is within the torque's.
+    [[nodiscard]] bool is_by_voltage(double side) const {
+      return std::abs(by_voltage(side)) < torque;
+    }
+    // Whether the axis turns so fast that its motor brakes with its full torque at every command,
+    // because no voltage within the limit reduces it. Both limits of the torque asked of the motor
+    // are then equal. The voltage's limit is on the side that asks for less braking.
+    [[nodiscard]] bool overruns() const { return up < -torque || down > torque; }
+  };
+  [[nodiscard]] Range range(std::size_t i, const double* z) const {
+    const double rate = z[scene_.rate + i];
+    return {parts_.by_voltage(1, rate), parts_.by_voltage(-1, rate), parts_.torque_limit};
+  }
+
+  [[nodiscard]] double push(std::size_t i, const GuardContext& now) const;
+  [[nodiscard]] OutwardRate outward_rate(std::size_t i, double side, const GuardContext& now) const;
+  void evaluate_along(std::size_t i, const GuardContext& now, double* values) const;
+  void evaluate_not_along(std::size_t i, const GuardContext& now, double* values) const;
+
+  SwitchedModel& model_;
+  const DryParts& parts_;
+  DryScene scene_;
+  double reached_[2]{0, 0};  // side of the limit that a motor's torque is exactly at, or 0
+};
+
+}  // namespace bbsim::model

@@ -1,0 +1,93 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// A sampled controller in a run: its sensor, its law or program, and its commands on their way.
+#pragma once
+
+#include <array>
+#include <bit>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "base/archive.hpp"
+#include "model/control/external_controller.hpp"
+#include "model/control/sample_exchange.hpp"
+#include "model/control/sampled_controller.hpp"
+#include "model/hybrid/part.hpp"
+
+namespace bbsim::model {
+
+// The reference at a time.
+struct KnownReference {
+  double t = -1;  // s
+  std::array<Jet<double>, 2> value{};
+};
+
+// A cache of references for runs that advance together.
+class SharedReference {
+ public:
+  // The cache entry for t, which may hold another time.
+  [[nodiscard]] KnownReference& at(double t) {
+    return known_[std::bit_cast<std::uint64_t>(t) * 0x9e3779b97f4a7c15u >> (64 - bits)];
+  }
+
+ private:
+  static constexpr int bits = 5;
+  std::array<KnownReference, std::size_t{1} << bits> known_;
+};
+
+class Sampling : public Part {
+ public:
+  explicit Sampling(const SwitchedModel& model);
+
+  [[nodiscard]] double next_time() const { return exchange_.next(); }
+  [[nodiscard]] double next_change() const { return exchange_.next_command(); }
+  // Exposes what is due by t.
+  void observe(double t, const double* z) {
+    while (exchange_.exposes_by(t)) exchange_.expose(z[0], z[1]);
+  }
+
+  [[nodiscard]] double rounding(double t) const { return exchange_.rounding(t); }
+  [[nodiscard]] double instant_end(double t) const { return exchange_.instant_end(t); }
+
+  // A sample at t, whose instant ends at `end`: begin(), then end() with the command of the law. Or
+  // take(), which computes the law.
+  [[nodiscard]] bool samples_by(double end) const { return exchange_.samples_by(end); }
+  [[nodiscard]] std::optional<Pair> begin(double end) { return exchange_.begin_sample(end); }
+  void end(const Pair& command, const Pair& measured) {
+    exchange_.end_sample(command[0], command[1]);
+    measured_ = measured;
+  }
+  void take(double t, double end, const double* z);
+  [[nodiscard]] const std::array<Jet<double>, 2>& reference_at(double t);
+  void share_reference(SharedReference& shared) { shared_reference_ = &shared; }
+
+  // Takes the next command that arrives by `end`. Returns the commands to the servos.
+  [[nodiscard]] bool commands_by(double end) const { return exchange_.commands_by(end); }
+  [[nodiscard]] std::array<double, most_servos> take_command(RigMode& mode);
+
+  // The last measurement of the ball, m, and the last numbers from an external controller.
+  [[nodiscard]] const Pair& measured() const { return measured_; }
+  [[nodiscard]] const std::vector<double>& own() const { return own_; }
+  [[nodiscard]] const SampledController& controller() const { return controller_; }
+
+  template <class Archive>
+  void archive(Archive& archive) {
+    archive(exchange_, controller_, measured_);
+    archive.require(is_finite(measured_));
+    archive.fixed(own_);
+  }
+
+ private:
+  const SwitchedModel& model_;
+  bool is_direct_;  // servos follow commands without a linkage
+  Pair measured_{0, 0};
+  SampleExchange exchange_;
+  SampledController controller_;
+  std::vector<double> own_;
+  KnownReference known_reference_;  // used without a shared cache
+  SharedReference* shared_reference_ = nullptr;
+};
+
+}  // namespace bbsim::model

@@ -1,0 +1,149 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "model/hybrid/servos.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "model/ball/dynamics.hpp"
+
+namespace bbsim::model {
+namespace {
+
+// The energy of a rolling ball and of the bodies that turn with the plane, (M51), J.
+double energy_of(const CoupledBall& ball, const double* z, const RigExtras& plane) {
+  BallConstants constants{ball.r, ball.m, ball.g, false, ball.rolling};
+  std::copy_n(ball.body.plate, 3, constants.plate_inertia.begin());
+  constants.plate_imbalance = ball.body.imbalance;
+  constants.ring_inertia = ball.body.ring;
+  constants.rotor_inertia = ball.body.rotor;
+  Sample sample;
+  sample.ball = ball_motion<Shape::full>(RigLayout::unpack(z), ball.r);
+  sample.gimbal = {plane.angle[0], plane.angle[1], plane.rate[0], plane.rate[1], 0, 0};
+  const Dynamics now = dynamics(sample, constants);
+  return now.energy() + now.gimbal_energy;
+}
+
+}  // namespace
+
+Servos::Servos(SwitchedModel& model) : model_(model) {
+  const Rig& rig = model.rig();
+  const ServoResponses responses = model.with_loop([](const auto& loop) { return loop.servo(); });
+  bool switches = false;
+  for (std::size_t i = 0; i < static_cast<std::size_t>(rig.servos); ++i) {
+    // With backlash, the plane starts at rest in the middle of the gap.
+    if (rig.servo[i].backlash > 0) model.mode().axis[i].ratio = 0;
+    switches = switches || rig.servo[i].switches();
+    axes_.emplace_back(rig.servo[i], responses.of[i]);
+  }
+  if (switches) guards_ = axes_.size() * ServoAxis::guards;
+}
+
+void Servos::append_scales(std::vector<double>& scales) const {
+  scales.resize(scales.size() + guards_);
+  double* of = scales.data() + scales.size() - guards_;
+  for (std::size_t g = 0; g < guards_; g += ServoAxis::guards) {
+    axes_[g / ServoAxis::guards].scales(of + g);
+  }
+}
+
+void Servos::evaluate(const GuardContext& now, double* values) const {
+  if (guards_ == 0) return;
+  for (std::size_t i = 0; i < axes_.size(); ++i, values += ServoAxis::guards) {
+    axes_[i].evaluate(state(i, now.demands(), now.z), values);
+  }
+}
+
+// A fast test for sampled rigs, whose servos mostly stay in their modes.
+bool Servos::stay_free(const double* z) const {
+  if (!model_.rig().sampled) return false;
+  for (std::size_t i = 0; i < axes_.size(); ++i) {
+    if (!axes_[i].stays_free(z[SwitchedModel::angle + i], z[model_.rate() + i])) return false;
+  }
+  return true;
+}
+
+bool Servos::reset(double t, double* z) {
+  chose_ = !stay_free(z);
+  if (!chose_) return false;
+  const Demands demands = model_.demands(t, z);
+  const RigExtras before = model_.plane(z);
+  const std::array<double, 5> ball_before{z[0], z[1], z[2], z[3], z[4]};
+  bool jumped = false;
+  for (std::size_t i = 0; i < axes_.size(); ++i) {
+    AxisState axis = state(i, demands, z);
+    axes_[i].settle(axis, model_.mode().axis[i]);
+    double& angle = z[SwitchedModel::angle + i];
+    double& rate = z[model_.rate() + i];
+    jumped = jumped || axis.angle != angle || axis.rate != rate;
+    angle = axis.angle;
+    rate = axis.rate;
+  }
+  const RigExtras now = model_.plane(z);
+  if (now.rate[0] == before.rate[0] && now.rate[1] == before.rate[1]) return jumped;
+  kick_ball(z, ball_before, before, now);
+  return true;
+}
+
+// The ball's velocity jumps with the rates of the plane.
+void Servos::kick_ball(double* z, const std::array<double, 5>& before,
+                       const RigExtras& plane_before, const RigExtras& plane) {
+  const auto kick = model_.with_loop([&](const auto& loop) {
+    return loop.impulse(z, plane.rate[0] - plane_before.rate[0],
+                        plane.rate[1] - plane_before.rate[1]);
+  });
+  for (std::size_t i = 0; i < 3; ++i) z[2 + i] += kick[i];
+  // The servos apply any impulse that this takes. Its energy counts as their work.
+  std::visit(
+      [&](const auto& any) {
+        using Any = std::decay_t<decltype(any)>;
+        if constexpr (is_coupled_loop<Any>) {
+          const CoupledBall& ball = any.parts.ball;
+          z[Any::Layout::work] +=
+              energy_of(ball, z, plane) - energy_of(ball, before.data(), plane_before);
+        }
+      },
+      model_.get().system);
+}
+
+std::array<bool, most_servos> Servos::follow(const std::array<double, most_servos>& told) {
+  std::array<bool, most_servos> jumps{};
+  RigMode& mode = model_.mode();
+  for (std::size_t i = 0; i < axes_.size(); ++i) {
+    const double follows = axes_[i].follow(told[i]);
+    jumps[i] = follows != mode.command[i];
+    if (jumps[i]) mode.command[i] = follows;
+  }
+  return jumps;
+}
+
+std::array<HeldMotion, 2> Servos::held_motions(const double* z) const {
+  return model_.with_loop([&](const auto& loop) {
+    std::array<HeldMotion, 2> motions;
+    for (std::size_t i = 0; i < 2; ++i) {
+      motions[i] = held_motion(loop.servo().of[i], loop.mode.axis[i], loop.mode.command[i],
+                               z[SwitchedModel::angle + i], z[model_.rate() + i]);
+    }
+    return motions;
+  });
+}
+
+Crossing Servos::next_crossing(double t, const std::array<HeldMotion, 2>& motions, double end) {
+  Crossing first;
+  if (guards_ == 0) return first;
+  for (std::size_t i = 0; i < 2; ++i) {
+    const ServoAxis::Crossing next = axes_[i].first_crossing(
+        motions[i], model_.mode().command[i], t, std::min(end, first.time) - t, answers_);
+    // Rounds up, so that the guard has crossed at that time even if the step is below the rounding
+    // of t.
+    double at = t + next.after;
+    if (at - t < next.after) at = std::nextafter(at, unlimited);
+    if (at < first.time) {
+      first = {at, i * ServoAxis::guards + static_cast<std::size_t>(next.guard)};
+    }
+  }
+  return first;
+}
+
+}  // namespace bbsim::model

@@ -1,0 +1,65 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// The servos of a rig: their modes (servo/servo_axis.hpp), and the jump of the ball's velocity when
+// one of them stops.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "model/hybrid/part.hpp"
+#include "model/servo/servo_axis.hpp"
+
+namespace bbsim::model {
+
+// The first zero crossing of a guard.
+struct Crossing {
+  double time = unlimited;  // s; infinite if no guard crosses
+  std::size_t guard = 0;
+};
+
+class Servos : public Part {
+ public:
+  explicit Servos(SwitchedModel& model);
+
+  [[nodiscard]] std::size_t guards() const { return guards_; }
+  void append_scales(std::vector<double>& scales) const;
+  void evaluate(const GuardContext& now, double* values) const;
+  [[nodiscard]] bool reset(double t, double* z);
+
+  // Takes a command to each servo. Returns whether servo i follows it, by its jump.
+  [[nodiscard]] std::array<bool, most_servos> follow(const std::array<double, most_servos>& told);
+  // Whether the last reset() may have changed a mode.
+  [[nodiscard]] bool chose() const { return chose_; }
+
+  // The motions of phi's and theta's servos from the states z, in the present mode, while their
+  // commands are held. For rigs without linkages.
+  [[nodiscard]] std::array<HeldMotion, 2> held_motions(const double* z) const;
+  // The first crossing within (t, end], for servos with these motions from t.
+  [[nodiscard]] Crossing next_crossing(double t, const std::array<HeldMotion, 2>& motions,
+                                       double end);
+  [[nodiscard]] const ServoAxis& axis(std::size_t i) const { return axes_[i]; }
+
+  template <class Archive>
+  void archive(Archive& archive) {
+    for (ServoAxis& axis : axes_) archive(axis);
+  }
+
+ private:
+  [[nodiscard]] AxisState state(std::size_t i, const Demands& demands, const double* z) const {
+    return {z[SwitchedModel::angle + i], z[model_.rate() + i], demands.demand[i],
+            demands.servo_command[i]};
+  }
+  [[nodiscard]] bool stay_free(const double* z) const;
+  void kick_ball(double* z, const std::array<double, 5>& before, const RigExtras& plane_before,
+                 const RigExtras& plane);
+
+  SwitchedModel& model_;
+  std::vector<ServoAxis> axes_;
+  std::size_t guards_ = 0;
+  bool chose_ = true;
+  KnownAnswers answers_;
+};
+
+}  // namespace bbsim::model

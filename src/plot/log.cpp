@@ -1,0 +1,328 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "plot/log.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <optional>
+#include <string_view>
+#include <utility>
+
+#include "base/error.hpp"
+#include "base/number_text.hpp"
+#include "base/shown.hpp"
+#include "base/text.hpp"
+#include "plot/read_result.hpp"
+#include "scenario/columns.hpp"
+#include "scenario/log_clock.hpp"
+#include "scenario/log_names.hpp"
+#include "yaml/nearest.hpp"
+#include "yaml/quantity.hpp"
+
+namespace bbsim::plot {
+namespace {
+
+// FACTOR * COLUMN + OFFSET, a number in a unit.
+struct Mapped {
+  const scenario::Column* column;
+  std::size_t from;  // the log's column
+  double factor = 1, offset = 0;
+  std::optional<yaml::UnitScale> unit{};
+};
+
+[[noreturn]] void refuse(std::string_view part, const std::string& what) {
+  throw InputError("--map: found " + bbsim::quoted(part, uncut) + what);
+}
+
+yaml::UnitScale unit_of(std::string_view part, const scenario::Column& column,
+                        std::string_view unit) {
+  if (unit == column.unit) return {};
+  const yaml::Dimension dimension = yaml::dimension_of(column.unit);
+  if (const auto known = scenario::log_unit(unit, dimension)) return *known;
+  const yaml::Quantity one = yaml::read_quantity("1 " + std::string(unit), false, dimension);
+  refuse(part, ": " + std::string(column.name) + " is in " + std::string(column.unit) +
+                   "; allowed: no unit, or a unit of the same quantity" + one.fault);
+}
+
+std::string near(std::string_view name, const std::vector<std::string_view>& names) {
+  const std::string_view nearest = yaml::nearest_name(name, names);
+  return nearest.empty() ? "" : "; did you mean " + std::string(nearest) + "?";
+}
+
+std::optional<double> number_of(std::string_view text) {
+  text = trimmed(text);
+  if (text.starts_with('+')) text.remove_prefix(1);
+  double value = 0;
+  const auto [stop, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (text.empty() || error != std::errc() || stop != text.data() + text.size()) return {};
+  return std::isfinite(value) ? std::optional(value) : std::nullopt;
+}
+
+std::vector<std::string> names_of(const Result& log) {
+  std::vector<std::string> names;
+  for (const Column& column : log.columns) names.push_back(column.name);
+  return names;
+}
+
+const scenario::Column& target_of(std::string_view part, std::string_view name) {
+  if (const scenario::Column* const column = scenario::find_column(name)) return *column;
+  std::vector<std::string_view> names;
+  for (const scenario::Column& one : scenario::catalogue) names.push_back(one.name);
+  refuse(part, ": there is no column " + bbsim::quoted(name) + near(name, names) +
+                   "; allowed: those of `bbsim columns`");
+}
+
+// Reads one part of a map. A column's name may have signs, colons and stars of its own: what is
+// the name of a column is that.
+class PartReader {
+ public:
+  PartReader(std::string_view part, const Result& log)
+      : part_(part), log_(log), names_(names_of(log)) {}
+
+  Mapped read() {
+    const std::size_t equals = part_.find('=');
+    if (equals == std::string_view::npos || equals == 0 || equals + 1 == part_.size()) {
+      refuse(part_,
+             "; allowed: COLUMN=NAME or COLUMN=NAME:UNIT, such as x=Ballx:mm, or "
+             "COLUMN=FACTOR*NAME+OFFSET:UNIT");
+    }
+    made_.column = &target_of(part_, trimmed(part_.substr(0, equals)));
+    dimension_ = yaml::dimension_of(made_.column->unit);
+    std::string_view from = trimmed(part_.substr(equals + 1));
+    if (!is_column(from)) {
+      if (const std::size_t colon = from.rfind(':'); colon != std::string_view::npos) {
+        made_.unit = unit_of(part_, *made_.column, trimmed(from.substr(colon + 1)));
+        from = trimmed(from.substr(0, colon));
+      }
+      read_sum(from);
+    }
+    if (!made_.unit) made_.unit = scenario::unit_in_name(names_[made_.from], dimension_);
+    return made_;
+  }
+
+ private:
+  bool is_column(std::string_view name) {
+    const auto found = scenario::find_log_column(names_, name, dimension_);
+    if (found) made_.from = *found;
+    return found.has_value();
+  }
+
+  void read_sum(std::string_view text) {
+    if (is_column(text)) return;
+    if (const std::size_t star = text.find('*'); star != std::string_view::npos) {
+      if (const auto factor = number_of(text.substr(0, star))) {
+        made_.factor = *factor;
+        text = trimmed(text.substr(star + 1));
+      }
+    } else if (text.starts_with('-')) {
+      made_.factor = -1;
+      text = trimmed(text.substr(1));
+    }
+    if (is_column(text)) return;
+    std::string_view rest = text;  // without its offset
+    for (std::size_t at = text.size(); at-- > 1;) {
+      if (text[at] != '+' && text[at] != '-') continue;
+      const auto offset = number_of(text.substr(at));
+      if (!offset) continue;
+      rest = trimmed(text.substr(0, at));
+      made_.offset = *offset;
+      if (is_column(rest)) return;
+    }
+    std::vector<std::string_view> names(names_.begin(), names_.end());
+    std::string known;
+    for (const std::string_view name : names) known += (known.empty() ? "" : ", ") + shown(name);
+    throw InputError("--map: " + log_.file + " has no column " + bbsim::quoted(rest) +
+                     near(rest, names) + "; it has " + known);
+  }
+
+  std::string_view part_;
+  const Result& log_;
+  std::vector<std::string> names_;
+  yaml::Dimension dimension_ = yaml::Dimension::number;
+  Mapped made_{};
+};
+
+std::vector<Mapped> read_maps(const std::vector<std::string>& maps, const Result& log) {
+  std::vector<Mapped> all;
+  for (const std::string& map : maps) {
+    for (std::size_t start = 0; start <= map.size();) {
+      const std::size_t end = std::min(map.find(',', start), map.size());
+      const std::string_view part = std::string_view(map).substr(start, end - start);
+      all.push_back(PartReader(part, log).read());
+      if (std::ranges::count(all, all.back().column, &Mapped::column) > 1) {
+        refuse(part, ": " + std::string(all.back().column->name) + " is there twice");
+      }
+      start = end + 1;
+    }
+  }
+  return all;
+}
+
+void require_numbers(const Result& log, const Column& column) {
+  for (std::size_t row = 0; row < column.texts.size(); ++row) {
+    if (column.texts[row].empty() || !std::isnan(column.numbers[row])) continue;
+    throw InputError(log.file + ": column " + shown(column.name) + ", row " +
+                     std::to_string(row + 1) + ": found " + bbsim::quoted(column.texts[row]) +
+                     "; allowed: numbers, or an empty field");
+  }
+}
+
+// Says of a log what was done to it.
+class Teller {
+ public:
+  Teller(const Result& log, std::vector<std::string>& notes) : file_(log.file), notes_(notes) {}
+  void operator()(const std::string& done) const {
+    notes_.push_back("warning: " + shown(file_, uncut) + ": " + done);
+  }
+
+ private:
+  std::string file_;
+  std::vector<std::string>& notes_;
+};
+
+// The log's column as bbsim's.
+Column made_of(const Result& log, const Mapped& mapped, const Teller& tell) {
+  const Column& from = log.columns[mapped.from];
+  require_numbers(log, from);
+  Column made{std::string(mapped.column->name), from.numbers};
+  made.unit = mapped.column->unit;
+  if (made.name == "t") {
+    if (const auto done = scenario::unwrap(made.numbers)) tell(*done);
+  }
+  for (double& number : made.numbers) {
+    if (mapped.factor != 1) number *= mapped.factor;
+    if (mapped.offset != 0) number += mapped.offset;
+    if (mapped.unit) number = mapped.unit->in_si(number);
+  }
+  return made;
+}
+
+// Columns that are called as bbsim's with a unit beside the name, and the clock.
+std::vector<Mapped> by_their_names(const Result& log, const std::vector<Mapped>& mapped) {
+  std::vector<Mapped> more;
+  const std::vector<std::string> names = names_of(log);
+  for (const scenario::Column& column : scenario::catalogue) {
+    if (std::ranges::find(mapped, &column, &Mapped::column) != mapped.end()) continue;
+    const yaml::Dimension dimension = yaml::dimension_of(column.unit);
+    const auto found = scenario::find_log_column(names, column.name, dimension);
+    if (!found) continue;
+    if (names[*found] == column.name) {
+      if (column.name == "t") more.push_back({&column, *found});
+    } else {
+      more.push_back({&column, *found, 1, 0, scenario::unit_in_name(names[*found], dimension)});
+    }
+  }
+  return more;
+}
+
+Column* find_column(Result& log, std::string_view name) {
+  const auto found = std::ranges::find(log.columns, name, &Column::name);
+  return found == log.columns.end() ? nullptr : &*found;
+}
+
+double time_of(std::string_view option, const std::string& text, const char* more) {
+  const yaml::Quantity quantity = yaml::read_quantity(text, false, yaml::Dimension::time);
+  if (quantity.value) return *quantity.value;
+  throw InputError(std::string(option) + ": found " + bbsim::quoted(text) + quantity.fault +
+                   "; allowed: a time, such as 0.1 or \"100 ms\"" + more);
+}
+
+void add_clock(Result& log, const std::string& period) {
+  if (period.empty()) return;
+  if (log.find("t") != nullptr) {
+    throw InputError("--period: " + log.file +
+                     " has a column t; allowed: --period for rows without a clock");
+  }
+  const double seconds = time_of("--period", period, "");
+  if (!(seconds > 0)) throw InputError("--period: found " + period + "; allowed: more than 0 s");
+  Column t{"t", {}};
+  t.unit = "s";
+  for (std::size_t row = 0; row < log.rows; ++row) {
+    t.numbers.push_back(static_cast<double>(row) * seconds);
+  }
+  log.columns.insert(log.columns.begin(), std::move(t));
+}
+
+void keep_rows(Result& log, const std::vector<std::size_t>& rows) {
+  for (Column& column : log.columns) {
+    Column kept{column.name, {}, {}, column.unit};
+    for (const std::size_t row : rows) {
+      kept.numbers.push_back(column.numbers[row]);
+      if (column.is_text()) kept.texts.push_back(std::move(column.texts[row]));
+    }
+    column = std::move(kept);
+  }
+  log.rows = rows.size();
+}
+
+void set_clock(Result& log, const LogChoice& choice, const Teller& tell) {
+  Column* t = find_column(log, "t");
+  if (t == nullptr || t->is_text()) {
+    if (choice.time_offset.empty()) return;
+    throw InputError("--time-offset: " + log.file +
+                     " has no column t; --map t=NAME:UNIT names it, --period gives the rows one");
+  }
+  const scenario::Clock clock = scenario::clock_of(t->numbers);
+  for (const std::string& done : clock.done) tell(done);
+  if (clock.changed) keep_rows(log, clock.rows);
+  t = find_column(log, "t");
+  if (t->numbers.empty()) return;
+  double offset = 0;
+  if (choice.time_offset == "start") {
+    offset = -t->numbers.front();
+  } else if (!choice.time_offset.empty() && !choice.aligns()) {
+    offset = time_of("--time-offset", choice.time_offset, ", start, or auto");
+  } else if (scenario::counts_from_epoch(t->numbers)) {
+    offset = -t->numbers.front();
+    tell("its times count from an epoch (" + number_text(t->numbers.front()) +
+         " s); the first row is t = 0");
+  }
+  if (offset == 0) return;
+  for (double& time : t->numbers) time += offset;
+}
+
+}  // namespace
+
+void make_log(Result& log, const LogChoice& choice, bool only_mapped,
+              std::vector<std::string>& notes) {
+  const Teller tell(log, notes);
+  std::vector<Mapped> mapped = read_maps(choice.maps, log);
+  const bool maps = !mapped.empty();
+  for (Mapped& one : by_their_names(log, mapped)) {
+    const bool is_time = one.column->name == "t";
+    if (is_time && !choice.period.empty()) continue;  // add_clock() refuses t
+    if (!only_mapped || !maps || is_time) mapped.push_back(one);
+  }
+  std::vector<Column> made;
+  for (const Mapped& one : mapped) made.push_back(made_of(log, one, tell));
+  if (only_mapped && maps) log.columns.clear();
+  for (Column& column : made) {
+    Column* const there = find_column(log, column.name);
+    if (there != nullptr) {
+      const bool told = maps || !there->unit.empty();
+      if (!told) column.unit = there->unit;  // nobody says that it is in SI
+      *there = std::move(column);
+    } else {
+      log.columns.push_back(std::move(column));
+    }
+  }
+  add_clock(log, choice.period);
+  set_clock(log, choice, tell);
+}
+
+Result read_log(const std::string& file, const LogChoice& choice, std::vector<std::string>& notes) {
+  Result log = read_csv_columns(file, choice.header, notes);
+  make_log(log, choice, false, notes);
+  return log;
+}
+
+void refuse_auto(const LogChoice& choice) {
+  if (!choice.aligns()) return;
+  throw InputError(
+      "--time-offset: found \"auto\", which needs a run; allowed here: a time or start, and auto "
+      "in `bbsim compare` and `bbsim replay`");
+}
+
+}  // namespace bbsim::plot

@@ -1,0 +1,310 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "scenario/json_schema.hpp"
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string_view>
+#include <vector>
+
+#include "scenario/keys.hpp"
+#include "scenario/relations.hpp"
+#include "yaml/spelling.hpp"
+
+namespace bbsim {
+namespace {
+
+using Json = nlohmann::ordered_json;
+using scenario::Condition;
+using scenario::KeyRelation;
+using yaml::Choice;
+using yaml::Declared;
+using yaml::DeclaredKey;
+
+void replace_all(std::string& text, std::string_view from, std::string_view to) {
+  for (auto at = text.find(from); at != std::string::npos; at = text.find(from, at + to.size())) {
+    text.replace(at, from.size(), to);
+  }
+}
+
+// Markdown without its marks: [text](link), $formula$, `code`.
+std::string plain(std::string text) {
+  for (auto link = text.find("]("); link != std::string::npos; link = text.find("](")) {
+    text.erase(link, text.find(')', link) - link + 1);
+    text.erase(text.rfind('[', link), 1);
+  }
+  std::erase(text, '`');
+  std::erase(text, '$');
+  std::erase(text, '\\');
+  return text;
+}
+
+// A pattern for a number with a unit. Of the bounds, it knows those at zero.
+std::string pattern_of(const Declared& number) {
+  const yaml::Range& range = number.range;
+  const bool zero = range.at_least == 0.0 && range.at_most == 0.0;
+  const bool positive = range.above >= 0.0 || (range.at_least && *range.at_least > 0);
+  const bool negative = !positive && !(range.at_least >= 0.0);
+  std::string units = yaml::unit_names(number.dimension);
+  replace_all(units, ", ", "|");
+  replace_all(units, "^2", "(\\^2|²)");
+  replace_all(units, "um", "[uµμ]m");
+  replace_all(units, "us", "[uµμ]s");
+  replace_all(units, "deg", "(deg|°)");
+  const std::string digits = zero ? "(0+\\.?0*|\\.0+)" : "([0-9]+\\.?[0-9]*|\\.[0-9]+)";
+  return std::string("^\\s*") + (negative || zero ? "[-+]?" : "\\+?") +
+         (positive ? "(?=[0-9.]*[1-9])" : "") + digits + "([eE][-+]?[0-9]+)?\\s*(" + units +
+         ")\\s*$";
+}
+
+Json number_schema(const Declared& number) {
+  Json schema;
+  if (number.dimension == yaml::Dimension::number) {
+    schema["type"] = number.whole ? "integer" : "number";
+  } else {
+    schema["type"] = {"number", "string"};
+    schema["pattern"] = pattern_of(number);
+  }
+  const yaml::Range& range = number.range;
+  if (range.above) schema["exclusiveMinimum"] = *range.above;
+  if (range.at_least) schema["minimum"] = *range.at_least;
+  if (range.at_most) schema["maximum"] = *range.at_most;
+  return schema;
+}
+
+// Holds if the mapping has the key, in either spelling.
+Json has(std::string_view key) {
+  Json schema = {{"required", {key}}};
+  if (const auto other = yaml::other_spelling(key)) {
+    schema = {{"anyOf", {schema, {{"required", {*other}}}}}};
+  }
+  return schema;
+}
+
+Json any_of(std::vector<Json> parts) {
+  return parts.size() == 1 ? parts.front() : Json{{"anyOf", std::move(parts)}};
+}
+
+Json has_any(const std::vector<std::string_view>& keys) {
+  std::vector<Json> parts;
+  for (const std::string_view key : keys) parts.push_back(has(key));
+  return any_of(std::move(parts));
+}
+
+Json unless(Json schema) {
+  return {{"not", std::move(schema)}};
+}
+
+// The keys of a group exclude all others; those of a group that is there may be required.
+void add_choice(const Choice& choice, const Declared& mapping, Json& all) {
+  std::vector<std::string_view> every;
+  for (const auto& group : choice.groups) every.insert(every.end(), group.begin(), group.end());
+  if (choice.needed) all.push_back(has_any(every));
+  for (const auto& group : choice.groups) {
+    std::vector<std::string_view> others;
+    std::ranges::copy_if(every, std::back_inserter(others), [&](std::string_view key) {
+      return std::ranges::find(group, key) == group.end();
+    });
+    Json then = Json::array();
+    if (!others.empty()) then.push_back(unless(has_any(others)));
+    for (const DeclaredKey& key : mapping.keys) {
+      if (key.required && std::ranges::find(group, key.name) != group.end()) {
+        then.push_back(has(key.name));
+      }
+    }
+    if (!then.empty()) all.push_back({{"if", has_any(group)}, {"then", {{"allOf", then}}}});
+  }
+}
+
+// The default as JSON, where it is a value and not only words.
+std::optional<Json> standard_of(const DeclaredKey& key) {
+  if (key.standard.empty()) return {};
+  Json value = Json::parse(key.standard, nullptr, false);
+  if (!value.is_discarded()) return value;
+  if (key.value.kind == Declared::Kind::list) return {};
+  return key.standard;
+}
+
+std::string description_of(const scenario::KeyText& row, const Declared& value) {
+  std::string text = plain(std::string(row.meaning));
+  const bool number = value.kind == Declared::Kind::number;
+  const std::string unit(row.unit.empty() && number ? yaml::si_unit(value.dimension) : row.unit);
+  if (!unit.empty() && unit != "-" && unit != "below") text += " (" + unit + ')';
+  return text;
+}
+
+Json schema_of(const Declared& value, const std::string& path);
+
+// The dimension of a profile's values names its definition.
+std::string profile_name(const Declared& profile) {
+  std::string name =
+      "profile of " + std::string(yaml::noun(profile.parts.front().parts.front().dimension));
+  std::ranges::replace(name, ' ', '_');
+  return name;
+}
+
+Json reference_to(const Declared& profile) {
+  return {{"allOf", {{{"$ref", "#/definitions/" + profile_name(profile)}}}}};
+}
+
+Json mapping_schema(const Declared& mapping, const std::string& path) {
+  Json properties = Json::object(), required = Json::array(), all = Json::array();
+  for (const DeclaredKey& key : mapping.keys) {
+    const std::string its =
+        scenario::path_in_tables(path.empty() ? key.name : path + '.' + key.name);
+    const bool profile = scenario::path_in_tables(its + '.') == "profile.";
+    Json schema = profile ? reference_to(key.value) : schema_of(key.value, its);
+    if (const scenario::KeyText* row = scenario::text_of_key(its)) {
+      schema["description"] = description_of(*row, key.value);
+    }
+    if (const auto standard = standard_of(key)) schema["default"] = *standard;
+    properties[key.name] = schema;
+    if (const auto other = yaml::other_spelling(key.name)) {
+      properties[*other] = schema;
+      all.push_back(unless({{"required", {key.name, *other}}}));
+    }
+    if (key.must_be_given() && mapping.choice_of(key.name) == nullptr) {
+      required.push_back(key.name);
+    }
+  }
+  for (const Choice& choice : mapping.choices) add_choice(choice, mapping, all);
+  Json schema = {{"type", "object"}, {"properties", properties}, {"additionalProperties", false}};
+  if (!required.empty()) schema["required"] = required;
+  if (!all.empty()) schema["allOf"] = all;
+  return schema;
+}
+
+Json schema_of(const Declared& value, const std::string& path) {
+  switch (value.kind) {
+    case Declared::Kind::number:
+      return number_schema(value);
+    case Declared::Kind::text:
+      return {{"type", {"string", "number", "boolean"}}, {"minLength", 1}};
+    case Declared::Kind::name: {
+      Json names = value.names;
+      // YAML reads these names as booleans.
+      if (std::ranges::count(value.names, "true") > 0) names.insert(names.end(), {true, false});
+      return {{"enum", names}};
+    }
+    case Declared::Kind::unit: {
+      std::string units = yaml::unit_names(value.dimension);
+      replace_all(units, ", ", "|");
+      replace_all(units, "^2", "(\\^2|²)");
+      return {{"type", "string"}, {"pattern", "^\\s*([µμ°]|" + units + ").*$"}};
+    }
+    case Declared::Kind::list: {
+      Json schema = {{"type", "array"},
+                     {"minItems", value.fewest},
+                     {"items", schema_of(value.parts.front(), path)}};
+      if (value.most != Declared::unbounded) schema["maxItems"] = value.most;
+      if (value.distinct) schema["uniqueItems"] = true;
+      return schema;
+    }
+    case Declared::Kind::mapping:
+      return mapping_schema(value, path);
+    case Declared::Kind::names:
+      return {{"type", "object"}, {"additionalProperties", schema_of(value.parts.front(), path)}};
+    case Declared::Kind::any: {
+      Json parts = Json::array();
+      for (const Declared& part : value.parts) parts.push_back(schema_of(part, path));
+      return {{"anyOf", parts}};
+    }
+    case Declared::Kind::none:
+      break;
+  }
+  return Json::object();
+}
+
+// The schema at a path of keys of a mapping, in either spelling.
+Json at(std::string_view path, const Json& schema, bool must_be_there) {
+  const std::size_t dot = path.find('.');
+  const std::string key(path.substr(0, dot));
+  const Json inner =
+      dot == std::string_view::npos ? schema : at(path.substr(dot + 1), schema, must_be_there);
+  const auto with = [&](const std::string& name) {
+    Json one = Json::object();
+    if (!inner.is_null()) one["properties"] = {{name, inner}};
+    if (must_be_there) one["required"] = {name};
+    return one;
+  };
+  const auto other = yaml::other_spelling(key);
+  if (!other) return with(key);
+  return {{must_be_there ? "anyOf" : "allOf", {with(key), with(*other)}}};
+}
+
+Json holds(const Condition& condition) {
+  Json value;
+  if (!condition.values.empty()) value["enum"] = condition.values;
+  if (condition.positive) {
+    value = {{"anyOf",
+              {{{"type", "number"}, {"exclusiveMinimum", 0}},
+               {{"type", "string"}, {"pattern", "^\\s*\\+?[0-9.]*[1-9]"}},
+               {{"type", {"object", "array"}}}}}};
+  }
+  const Json there = at(condition.path, value, true);
+  if (!condition.or_absent) return there;
+  return {{"anyOf", {there, unless(at(condition.path, nullptr, true))}}};
+}
+
+Json schema_of(const KeyRelation& relation) {
+  std::vector<Json> alternatives;
+  for (const auto& alternative : relation.alternatives()) {
+    std::vector<Json> all;
+    for (const Condition& condition : alternative) all.push_back(holds(condition));
+    alternatives.push_back(all.size() == 1 ? all.front() : Json{{"allOf", all}});
+  }
+  const Json any = any_of(std::move(alternatives));
+  return {{"if", holds(Condition(relation.key))},
+          {"then", relation.kind == KeyRelation::Kind::needs ? any : unless(any)}};
+}
+
+const Declared& declared_at(std::string_view path) {
+  const Declared* value = &scenario::declared_keys();
+  while (!path.empty()) {
+    const std::string_view key = path.substr(0, path.find('.'));
+    value = &std::ranges::find(value->keys, key, &DeclaredKey::name)->value;
+    path.remove_prefix(std::min(key.size() + 1, path.size()));
+  }
+  return *value;
+}
+
+// Commands that are no angles have limits without a unit.
+Json limit_of_numbers() {
+  const Json number = {{"not", {{"type", "string"}}}};
+  return {{"if", unless(holds(Condition("controller.drives=angle")))},
+          {"then",
+           at("controller.limit",
+              {{"not", {{"type", "string"}}}, {"properties", {{"phi", number}, {"theta", number}}}},
+              false)}};
+}
+
+// Only a controller of one's own gives other columns than bbsim's.
+Json known_columns() {
+  const Declared& columns = declared_at("output.columns");
+  const Declared& name = columns.parts.front().parts.front();
+  return {{"if", unless(any_of({holds(Condition("controller.program")),
+                                holds(Condition("controller.library"))}))},
+          {"then", at("output.columns", {{"items", schema_of(name, "")}}, false)}};
+}
+
+}  // namespace
+
+std::string scenario_json_schema() {
+  Json schema = {{"$schema", "http://json-schema.org/draft-07/schema#"},
+                 {"title", "Scenario of bbsim"}};
+  schema.update(schema_of(scenario::declared_keys(), ""));
+  for (const char* path : {"gimbal.motion.phi", "gimbal.torque.phi", "ball.push.x"}) {
+    const Declared& profile = declared_at(path);
+    schema["definitions"][profile_name(profile)] = schema_of(profile, "profile");
+  }
+  for (const KeyRelation& relation : scenario::relations()) {
+    schema["allOf"].push_back(schema_of(relation));
+  }
+  schema["allOf"].push_back(limit_of_numbers());
+  schema["allOf"].push_back(known_columns());
+  return schema.dump(1);
+}
+
+}  // namespace bbsim

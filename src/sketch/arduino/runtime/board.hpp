@@ -1,0 +1,81 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// The board that a sketch runs on. Each copy of the library has one (copies.cpp), so it is a global
+// variable, like those of the sketch.
+#pragma once
+
+#include <bbsim/wiring.h>
+
+#include "bbsim_board.h"
+
+namespace bbsim_board {
+
+using Nanoseconds = long long;
+
+inline Nanoseconds nanoseconds(double seconds) {
+  const double exact = seconds * 1e9;
+  return static_cast<Nanoseconds>(exact < 0 ? exact - 0.5 : exact + 0.5);
+}
+
+constexpr int pins = 70;  // as on a Mega: A0 is pin 54
+constexpr int first_analog = 54;
+
+// The duration of calls.
+struct Costs {
+  Nanoseconds clock, digital, analog, servo, serial, wire, spi, eeprom_write, loop;
+};
+
+struct Board {
+  bbsim_wiring wiring;
+  Costs costs;
+  bbsim_sample sample;  // the newest
+  Nanoseconds now;      // since the board was switched on
+  Nanoseconds horizon;  // the time of the next sample
+  bool running;         // whether the coroutine is running
+  char said[400];       // the first error, or empty
+  double command[2];    // rad
+};
+extern Board board;
+
+// coroutine.cpp: runs the sketch until its clock reaches board.horizon, or an error.
+bool start_sketch();  // false: out of memory
+void run_sketch();
+void end_sketch();
+bool setup_has_returned();
+// Suspends the sketch until the next run_sketch().
+void hand_over();
+// The signal that stops a sketch in an endless loop. It is sent to the thread of the sketch.
+int watchdog_signal();
+
+// controller.cpp: the functions of a copy of the library.
+struct Functions {
+  const char* (*make)(const bbsim_setup* setup, const bbsim_wiring* wiring);  // null, or the error
+  int (*next)(const bbsim_sample* sample, double* command, double* columns);
+  const char* (*why)();
+  void (*stop)();
+  void (*end)();
+};
+extern const Functions functions;
+constexpr int patience = 5;  // most processor time of a step, s
+
+// screen.cpp: the level (0 to 1) of a pin of the screen. Returns false for other pins.
+bool screen_reads(int pin, double& level);
+double counts_at(const bbsim_count_map& map, double position);
+
+// pins.cpp: how a pin drives its wire.
+enum class Drive { none, pull_up, low, high };
+Drive drive_of(int pin);
+const char* pin_name(int pin);
+
+// core.cpp: the time of a transaction of this many bytes on a bus, without its address.
+void over_wire(int bytes);
+void over_spi(int bytes);
+
+// serial.cpp: sends the camera's frames up to the present sample.
+void send_frames();
+// The last number that was printed after `name` and a colon.
+void watch_columns(const char* const* names, size_t count);
+double column(size_t index);
+
+}  // namespace bbsim_board

@@ -1,0 +1,137 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// Runs the sketch on its own stack. Calls advance the board's clock by their duration (spend). When
+// the clock reaches the next sample, the call returns control to bbsim, and continues later.
+#include <signal.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <sys/mman.h>
+#include <ucontext.h>
+
+#include "Arduino.h"
+#include "runtime/board.hpp"
+
+void serialEvent() __attribute__((weak));
+
+// Defined by the leak sanitizer. A sketch never returns, so the memory that it holds is not a leak.
+extern "C" {
+void __lsan_disable() __attribute__((weak));
+void __lsan_enable() __attribute__((weak));
+}
+
+namespace bbsim_board {
+
+Board board;
+
+namespace {
+
+constexpr size_t stack_size = size_t{1} << 20;
+constexpr size_t guard_size = size_t{1} << 16;  // an overflow of the stack ends the process
+ucontext_t outside, inside;
+void* stack = MAP_FAILED;
+bool setup_returned = false;
+
+void body() {
+  setup();
+  setup_returned = true;
+  if (board.wiring.setup_before != 0) hand_over();
+  while (true) {
+    loop();
+    if (serialEvent != nullptr && Serial.available() > 0) serialEvent();
+    spend(board.costs.loop);
+  }
+}
+
+}  // namespace
+
+bool start_sketch() {
+  stack = mmap(nullptr, stack_size, PROT_READ | PROT_WRITE,
+               MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
+  if (stack == MAP_FAILED || mprotect(stack, guard_size, PROT_NONE) != 0) return false;
+  getcontext(&inside);
+  inside.uc_stack.ss_sp = stack;
+  inside.uc_stack.ss_size = stack_size;
+  inside.uc_link = nullptr;
+  sigdelset(&inside.uc_sigmask, watchdog_signal());
+  makecontext(&inside, body, 0);
+  return true;
+}
+
+void run_sketch() {
+  board.running = true;
+  if (__lsan_disable != nullptr) __lsan_disable();
+  swapcontext(&outside, &inside);
+  if (__lsan_enable != nullptr) __lsan_enable();
+  board.running = false;
+}
+
+void hand_over() {
+  swapcontext(&inside, &outside);
+}
+
+void end_sketch() {
+  if (stack != MAP_FAILED) munmap(stack, stack_size);
+  stack = MAP_FAILED;
+}
+
+bool setup_has_returned() {
+  return setup_returned;
+}
+
+void spend(long long time) {
+  board.now += time;
+  if (!board.running) return;  // a global variable's constructor
+  while (board.now >= board.horizon) hand_over();
+}
+
+void fail(const char* format, ...) {
+  if (board.wiring.version == 0) {
+    snprintf(board.said, sizeof board.said,
+             "a global variable uses the board before setup(); allowed: pins, servos, screens and "
+             "the EEPROM from setup() on");
+  } else if (board.said[0] == '\0') {
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(board.said, sizeof board.said, format, arguments);
+    va_end(arguments);
+  }
+  while (board.running) hand_over();
+}
+
+long long now() {
+  return board.now;
+}
+
+}  // namespace bbsim_board
+
+using namespace bbsim_board;
+
+// exit() of a sketch (Arduino.h).
+void sketch_exit(int status) {
+  fail("it called exit(%d)", status);
+  abort();
+}
+
+unsigned long millis() {
+  spend(board.costs.clock);
+  return static_cast<unsigned long>(board.now / 1000000);
+}
+
+unsigned long micros() {
+  spend(board.costs.clock);
+  return static_cast<unsigned long>(board.now / 1000);
+}
+
+void delay(unsigned long ms) {
+  spend(static_cast<long long>(ms) * 1000000);
+}
+
+void delayMicroseconds(unsigned int us) {
+  spend(static_cast<long long>(us) * 1000);
+}
+
+void yield() {
+  spend(board.costs.clock);
+}

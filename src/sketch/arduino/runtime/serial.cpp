@@ -1,0 +1,208 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// Serial ports: the text that the sketch prints, and the frames of a camera.
+#include <unistd.h>
+
+#include <vector>
+
+#include "Arduino.h"
+#include "runtime/board.hpp"
+
+namespace bbsim_board {
+namespace {
+
+// Numbers that output.columns asks for.
+struct Watched {
+  char name[64];
+  double value;
+};
+std::vector<Watched> watched;
+
+// Reads "name:value" pairs, separated by commas, tabs or blanks, as the plotter of the IDE does.
+void read_numbers(const char* line) {
+  for (const char* at = line; (at = strchr(at, ':')) != nullptr; ++at) {
+    for (Watched& one : watched) {
+      const auto length = static_cast<ptrdiff_t>(strlen(one.name));
+      if (at - line < length) continue;
+      const char* const start = at - length;
+      if (strncmp(start, one.name, static_cast<size_t>(length)) != 0) continue;
+      if (start > line && strchr(", \t", start[-1]) == nullptr) continue;
+      char* end = nullptr;
+      const double number = strtod(at + 1, &end);
+      if (end != at + 1 && isfinite(number)) one.value = number;
+    }
+  }
+}
+
+// One call, so that the lines of threads do not mix. Control characters are replaced, because a
+// terminal would obey them.
+void say(const char* line) {
+  char text[4 * 256 + 16];
+  int used = snprintf(text, sizeof text, "controller: ");
+  for (const char* c = line; *c != '\0'; ++c) {
+    const auto letter = static_cast<unsigned char>(*c);
+    const bool plain = (letter >= 0x20 && letter != 0x7F) || letter == '\t';
+    used += snprintf(text + used, sizeof text - static_cast<size_t>(used), plain ? "%c" : "\\x%02x",
+                     letter);
+  }
+  text[used++] = '\n';
+  const ssize_t written = write(STDERR_FILENO, text, static_cast<size_t>(used));
+  static_cast<void>(written);
+}
+
+// Bytes that are being sent to the board, with their times of arrival.
+struct Byte {
+  Nanoseconds arrives;
+  char value;
+};
+constexpr int most_bytes = 4096;
+Byte sent[most_bytes];
+int first_sent = 0, sent_count = 0;
+Nanoseconds line_is_free = 0;
+long long next_frame = 0;
+
+void send(char value, Nanoseconds earliest, Nanoseconds per_byte) {
+  if (sent_count == most_bytes) return;  // the sketch does not read
+  line_is_free = (earliest > line_is_free ? earliest : line_is_free) + per_byte;
+  sent[(first_sent + sent_count++) % most_bytes] = {line_is_free, value};
+}
+
+void send_frame(const char* frame, Nanoseconds from, Nanoseconds per_byte) {
+  const bbsim_wired_camera& camera = board.wiring.camera;
+  char number[48];
+  for (const char* c = frame; *c != '\0'; ++c) {
+    const bool x = strncmp(c, "{x}", 3) == 0;
+    if (!x && strncmp(c, "{y}", 3) != 0) {
+      send(*c, from, per_byte);
+      continue;
+    }
+    const double counts =
+        x ? counts_at(camera.x, board.sample.ball[0]) : counts_at(camera.y, board.sample.ball[1]);
+    snprintf(number, sizeof number, "%.*f", static_cast<int>(camera.decimals), counts);
+    // No minus before a zero.
+    const char* digits = strtod(number, nullptr) == 0 && number[0] == '-' ? number + 1 : number;
+    for (; *digits != '\0'; ++digits) send(*digits, from, per_byte);
+    c += 2;
+  }
+}
+
+HardwareSerial* const ports[] = {&Serial, &Serial1, &Serial2, &Serial3, &SerialUSB};
+
+HardwareSerial* camera_port() {
+  const int port = board.wiring.camera.port;
+  return port < 0 ? nullptr : ports[port];
+}
+
+// The time of the next frame.
+Nanoseconds frame_time() {
+  return next_frame * nanoseconds(board.wiring.camera.period);
+}
+
+}  // namespace
+
+void send_frames() {
+  HardwareSerial* const port = camera_port();
+  if (port == nullptr) return;
+  const bbsim_wired_camera& camera = board.wiring.camera;
+  for (; frame_time() <= board.now; ++next_frame) {
+    if (!*port) continue;  // before begin()
+    const char* const frame = board.sample.seen != 0 ? camera.frame : camera.lost;
+    send_frame(frame, frame_time() + nanoseconds(camera.delay), port->per_byte());
+  }
+}
+
+void watch_columns(const char* const* names, size_t count) {
+  watched.resize(count);
+  for (size_t i = 0; i < count; ++i) {
+    snprintf(watched[i].name, sizeof watched[i].name, "%s", names[i]);
+  }
+}
+
+double column(size_t index) {
+  return watched[index].value;
+}
+
+}  // namespace bbsim_board
+
+using namespace bbsim_board;
+
+HardwareSerial Serial, Serial1, Serial2, Serial3, SerialUSB;
+
+void HardwareSerial::begin(unsigned long baud) {
+  if (baud == 0) fail("Serial.begin(0): allowed: bits in a second, such as 115200");
+  per_byte_ = 10 * 1000000000LL / static_cast<long long>(baud);
+  if (this == &SerialUSB) per_byte_ = 1000;
+  begun_ = true;
+}
+
+void HardwareSerial::end() {
+  flush();
+  begun_ = false;
+}
+
+// Bytes that have arrived go into the buffer. Bytes that do not fit are lost.
+void HardwareSerial::receive() {
+  if (camera_port() != this) return;
+  send_frames();
+  while (sent_count > 0 && sent[first_sent].arrives <= board.now) {
+    if (count_ < static_cast<int>(sizeof buffer_)) {
+      buffer_[(first_ + count_++) % static_cast<int>(sizeof buffer_)] = sent[first_sent].value;
+    }
+    first_sent = (first_sent + 1) % most_bytes;
+    --sent_count;
+  }
+}
+
+int HardwareSerial::available() {
+  spend(board.costs.clock);
+  receive();
+  return count_;
+}
+
+int HardwareSerial::peek() {
+  spend(board.costs.clock);
+  receive();
+  return count_ == 0 ? -1 : static_cast<unsigned char>(buffer_[first_]);
+}
+
+int HardwareSerial::read() {
+  const int letter = peek();
+  if (letter < 0) return letter;
+  first_ = (first_ + 1) % static_cast<int>(sizeof buffer_);
+  --count_;
+  return letter;
+}
+
+// Output is written a line at a time.
+void HardwareSerial::add_to_line(char c) {
+  if (c == '\n' || line_length_ == static_cast<int>(sizeof line_) - 1) {
+    line_[line_length_] = '\0';
+    line_length_ = 0;
+    read_numbers(line_);
+    if (board.wiring.print != 0) say(line_);
+  }
+  if (c != '\n' && c != '\r') line_[line_length_++] = c;
+}
+
+// The sketch continues while at most 64 bytes wait to be sent.
+size_t HardwareSerial::write(uint8_t letter) {
+  spend(board.costs.serial);
+  add_to_line(static_cast<char>(letter));
+  if (!begun_) return 0;
+  if (line_is_free_ < board.now) line_is_free_ = board.now;
+  line_is_free_ += per_byte_;
+  const long long wait = line_is_free_ - board.now - 64 * per_byte_;
+  if (wait > 0) spend(wait);
+  return 1;
+}
+
+int HardwareSerial::availableForWrite() {
+  const long long waiting =
+      line_is_free_ > board.now ? (line_is_free_ - board.now + per_byte_ - 1) / per_byte_ : 0;
+  return static_cast<int>(64 - waiting);
+}
+
+void HardwareSerial::flush() {
+  if (line_is_free_ > board.now) spend(line_is_free_ - board.now);
+}

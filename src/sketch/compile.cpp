@@ -1,0 +1,171 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "sketch/compile.hpp"
+
+#include <cerrno>
+#include <cstdlib>
+#include <cstring>
+#include <filesystem>
+#include <optional>
+#include <sstream>
+#include <system_error>
+
+#include "base/error.hpp"
+#include "file/external.hpp"
+#include "file/share_folders.hpp"
+#include "file/temporaries.hpp"
+#include "file/whole_file.hpp"
+#include "sketch/libraries.hpp"
+#include "sketch/source.hpp"
+
+namespace bbsim::sketch {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* purpose = "compile the sketch";
+
+// The folder of the board's headers and sources.
+std::string board_folder() {
+  std::string looked_in;
+  for (const std::string& share : file::share_folders()) {
+    const fs::path folder = fs::path(share) / "arduino";
+    std::error_code error;
+    if (fs::exists(folder / "runtime.cpp", error)) return folder.string();
+    looked_in.append(looked_in.empty() ? "" : " and ").append(folder.string());
+  }
+  throw OutputError(std::string("cannot ") + purpose + ": the board's sources are not in " +
+                    looked_in + "; install bbsim whole, or set BBSIM_SHARE_PATH to share/bbsim");
+}
+
+// Removed at the end, with all files in it.
+class TemporaryFolder {
+ public:
+  TemporaryFolder() {
+    std::error_code error;
+    path_ = (fs::temp_directory_path(error) / "bbsim-XXXXXX").string();
+    if (error || mkdtemp(path_.data()) == nullptr) {
+      throw OutputError(std::string("cannot ") + purpose +
+                        ": no temporary folder: " + std::strerror(errno));
+    }
+    library_ = path_ + "/sketch.so";
+    file::remember_temporary(library_.c_str());
+  }
+  ~TemporaryFolder() {
+    std::error_code error;
+    fs::remove_all(path_, error);
+    file::forget_temporary(library_.c_str());
+  }
+  TemporaryFolder(const TemporaryFolder&) = delete;
+  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+  [[nodiscard]] const std::string& library() const { return library_; }
+
+ private:
+  std::string path_, library_;
+};
+
+// The first compiler that runs, of $CXX or of c++ and g++.
+class Compiler {
+ public:
+  Compiler() {
+    const char* const chosen = std::getenv("CXX");
+    const bool choice = chosen != nullptr && *chosen != '\0';
+    for (const char* name : {choice ? chosen : "c++", choice ? "" : "g++"}) {
+      std::istringstream words(name);
+      words_.clear();
+      for (std::string word; words >> word;) words_.push_back(word);
+      if (words_.empty()) break;
+      const auto version = run({"--version"});
+      if (version && version->well()) {
+        clang_ = version->output.find("clang") != std::string::npos;
+        return;
+      }
+    }
+    throw OutputError(std::string("cannot ") + purpose + ": there is no C++ compiler" +
+                      (choice ? " " + std::string(chosen) + " (CXX)" : "") +
+                      "; install one (Debian: apt install g++), or let CXX name one");
+  }
+  [[nodiscard]] std::optional<file::Finished> run(const std::vector<std::string>& arguments,
+                                                  const std::string& input = "") const {
+    std::vector<std::string> words = words_;
+    words.insert(words.end(), arguments.begin(), arguments.end());
+    return file::run_program(words, input, purpose);
+  }
+  // Options for all sources. Symbols are hidden, so that copies of the library share none.
+  [[nodiscard]] std::vector<std::string> options(const std::string& board) const {
+    std::vector<std::string> options{"-std=gnu++17",
+                                     "-O2",
+                                     "-fPIC",
+                                     "-fvisibility=hidden",
+                                     "-fvisibility-inlines-hidden",
+                                     "-ffp-contract=off",
+                                     "-DARDUINO=10819",
+                                     "-DF_CPU=16000000L",
+                                     "-isystem",
+                                     board};
+    if (!clang_) options.emplace_back("-fpermissive");  // as the IDE does
+    return options;
+  }
+
+ private:
+  std::vector<std::string> words_;
+  bool clang_ = false;
+};
+
+struct Sources {
+  std::vector<SketchFile> files;
+  std::vector<std::string> own;  // folders
+  Libraries libraries;
+};
+
+Sources read(const Job& job, const std::string& board) {
+  Sources sources;
+  std::vector<std::string> included;
+  for (const std::string& name : job.files) {
+    std::string text = file::read_whole(name);
+    if (text.starts_with("\xEF\xBB\xBF")) text.erase(0, 3);
+    for (const std::string& header : includes_of(text)) included.push_back(header);
+    sources.files.push_back({name, std::move(text)});
+    const std::string folder = fs::path(name).parent_path().string();
+    sources.own.push_back(folder.empty() ? "." : folder);
+  }
+  for (const std::string& folder : job.folders) {
+    std::error_code error;
+    if (!fs::is_directory(folder, error)) {
+      throw InputError("-I " + folder + ": found no folder; allowed: a folder of libraries");
+    }
+  }
+  sources.libraries = find_libraries(included, sources.own, job.folders, board);
+  return sources;
+}
+
+}  // namespace
+
+std::vector<std::string> files_of(const Job& job) {
+  std::vector<std::string> files = job.files;
+  for (std::string& source : read(job, board_folder()).libraries.sources) {
+    files.push_back(std::move(source));
+  }
+  return files;
+}
+
+Compiled compile(const Job& job) {
+  const std::string board = board_folder();
+  const Sources sources = read(job, board);
+  const Compiler compiler;
+  const TemporaryFolder folder;
+
+  std::vector<std::string> words = compiler.options(board);
+  words.insert(words.end(), {"-Wall", "-shared", "-s", "-Wl,-z,defs", "-o", folder.library()});
+  for (const std::string& own : sources.own) words.insert(words.end(), {"-I", own});
+  for (const std::string& own : sources.libraries.folders) words.insert(words.end(), {"-I", own});
+  words.insert(words.end(), {"-x", "c++", "-", board + "/runtime.cpp"});
+  for (const std::string& source : sources.libraries.sources) words.push_back(source);
+  const auto library = compiler.run(words, joined(sources.files));
+  Compiled compiled{"", library->complaint};
+  if (library->well()) compiled.library = file::read_whole(folder.library()) + library_mark;
+  return compiled;
+}
+
+}  // namespace bbsim::sketch

@@ -1,0 +1,206 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "sketch/source.hpp"
+
+#include <algorithm>
+#include <map>
+#include <optional>
+#include <string_view>
+#include <utility>
+
+#include "sketch/tokens.hpp"
+
+namespace bbsim::sketch {
+namespace {
+
+using Tokens = std::vector<Token>;
+
+// Tokens [begin, end): up to its semicolon, or to the closing brace of its body.
+struct Declaration {
+  std::size_t begin, end;
+  std::size_t head;  // its first brace, or its end
+  int conditions;    // number of #if around it
+};
+
+std::size_t after_brace(const Tokens& tokens, std::size_t open) {
+  int depth = 0;
+  for (std::size_t i = open; i < tokens.size(); ++i) {
+    if (tokens[i].is("{")) ++depth;
+    if (tokens[i].is("}") && --depth == 0) return i + 1;
+  }
+  return tokens.size();
+}
+
+std::vector<Declaration> declarations_of(const Tokens& tokens) {
+  std::vector<Declaration> found;
+  int conditions = 0;
+  for (std::size_t i = 0; i < tokens.size();) {
+    if (tokens[i].kind == Token::Kind::directive) {
+      const std::string_view text = tokens[i].text;
+      const std::size_t word = std::min(text.find_first_not_of(" \t", 1), text.size());
+      if (text.substr(word).starts_with("if")) ++conditions;
+      if (text.substr(word).starts_with("endif")) --conditions;
+      ++i;
+      continue;
+    }
+    Declaration one{i, i, 0, conditions};
+    while (i < tokens.size() && !tokens[i].is(";") && !tokens[i].is("{") &&
+           tokens[i].kind != Token::Kind::directive) {
+      ++i;
+    }
+    one.head = i;
+    if (i < tokens.size() && tokens[i].is("{")) i = after_brace(tokens, i);
+    if (i < tokens.size() && tokens[i].is(";")) ++i;
+    one.end = std::max(i, one.begin + 1);
+    i = one.end;
+    found.push_back(one);
+  }
+  return found;
+}
+
+// The function that a declaration names.
+struct Function {
+  std::string_view name;
+  std::size_t open;   // the "(" of its parameters
+  std::size_t close;  // and the ")"
+};
+
+std::optional<Function> function_of(const Tokens& tokens, const Declaration& one) {
+  static constexpr std::string_view others[] = {"template", "typedef", "using",     "namespace",
+                                                "operator", "auto",    "constexpr", "="};
+  std::size_t close = one.head;
+  while (close > one.begin && tokens[close - 1].is("noexcept")) --close;
+  if (close == one.begin || !tokens[close - 1].is(")")) return {};
+  --close;
+  std::size_t open = close;
+  for (int depth = 0; open > one.begin; --open) {
+    if (tokens[open].is(")")) ++depth;
+    if (tokens[open].is("(") && --depth == 0) break;
+  }
+  if (open < one.begin + 2) return {};  // has no type
+  for (std::size_t i = one.begin; i < open; ++i) {
+    if (std::ranges::find(others, tokens[i].text) != std::end(others)) return {};
+  }
+  const Token& name = tokens[open - 1];
+  const Token& before = tokens[open - 2];
+  if (name.kind != Token::Kind::name || before.is("::") || before.is(".")) return {};
+  return Function{name.text, open, close};
+}
+
+// Leaves out default arguments, because the definition repeats them.
+std::string prototype_of(const Tokens& tokens, const Declaration& one, const Function& function) {
+  std::string text;
+  int depth = 0;
+  bool by_default = false;
+  for (std::size_t i = one.begin; i <= function.close; ++i) {
+    const Token& token = tokens[i];
+    if (i > function.open && i < function.close) {
+      if (token.is("(") || token.is("{") || token.is("[")) ++depth;
+      if (token.is(")") || token.is("}") || token.is("]")) --depth;
+      if (token.is("=") && depth == 0) by_default = true;
+      if (token.is(",") && depth == 0) by_default = false;
+      if (by_default) continue;
+    }
+    text.append(token.text).push_back(' ');
+  }
+  text.back() = ';';
+  return text;
+}
+
+bool uses(const Tokens& tokens, const Declaration& one, std::string_view name) {
+  for (std::size_t i = one.begin; i < one.end; ++i) {
+    if (tokens[i].kind != Token::Kind::name || !tokens[i].is(name)) continue;
+    if (i == 0 || !(tokens[i - 1].is(".") || tokens[i - 1].is("->") || tokens[i - 1].is("::"))) {
+      return true;
+    }
+  }
+  return false;
+}
+
+std::string line_directive(std::size_t line, std::string_view file) {
+  std::string text = "#line " + std::to_string(line) + " \"";
+  for (const char c : file) {
+    if (c == '"' || c == '\\') text.push_back('\\');
+    text.push_back(c);
+  }
+  return text + "\"\n";
+}
+
+// The files as one text, with the place of each line.
+class Joined {
+ public:
+  explicit Joined(const std::vector<SketchFile>& files) : files_(files) {
+    for (const SketchFile& file : files) {
+      text_ += line_directive(1, file.name);
+      starts_.push_back(text_.size());
+      text_ += file.text + '\n';
+    }
+  }
+  [[nodiscard]] const std::string& text() const { return text_; }
+  [[nodiscard]] std::string place(std::size_t offset) const {
+    const auto behind = std::ranges::upper_bound(starts_, offset);
+    const auto file = static_cast<std::size_t>(behind - starts_.begin()) - 1;
+    const auto begin = text_.begin() + static_cast<std::ptrdiff_t>(starts_[file]);
+    const auto end = text_.begin() + static_cast<std::ptrdiff_t>(offset);
+    return line_directive(static_cast<std::size_t>(std::count(begin, end, '\n')) + 1,
+                          files_[file].name);
+  }
+
+ private:
+  const std::vector<SketchFile>& files_;
+  std::vector<std::size_t> starts_;
+  std::string text_;
+};
+
+}  // namespace
+
+std::string joined(const std::vector<SketchFile>& files) {
+  const Joined whole(files);
+  const Tokens tokens = tokens_of(whole.text());
+  const std::vector<Declaration> declarations = declarations_of(tokens);
+  std::map<std::size_t, std::string> prototypes;  // by their offsets in the text
+  for (std::size_t i = 0; i < declarations.size(); ++i) {
+    const Declaration& one = declarations[i];
+    if (one.head == tokens.size() || !tokens[one.head].is("{")) continue;
+    const auto function = function_of(tokens, one);
+    if (!function) continue;
+    const std::string prototype =
+        whole.place(tokens[one.begin].offset) + prototype_of(tokens, one, *function) + '\n';
+    for (std::size_t k = 0; k < i; ++k) {
+      const Declaration& earlier = declarations[k];
+      if (!uses(tokens, earlier, function->name)) continue;
+      const auto its = function_of(tokens, earlier);
+      if (its && its->name == function->name && !tokens[earlier.head].is("{"))
+        break;                                           // the sketch has a prototype
+      if (its && its->name == function->name) continue;  // an overload
+      prototypes[tokens[earlier.begin].offset] += prototype;
+      if (earlier.conditions == 0) break;  // the rest of the text sees it
+    }
+  }
+  std::string source = "#include <Arduino.h>\n";
+  std::size_t done = 0;
+  for (const auto& [offset, text] : prototypes) {
+    source.append(whole.text(), done, offset - done).append("\n" + text + whole.place(offset));
+    done = offset;
+  }
+  return source.append(whole.text(), done);
+}
+
+std::vector<std::string> includes_of(const std::string& text) {
+  std::vector<std::string> names;
+  for (const Token& token : tokens_of(text)) {
+    if (token.kind != Token::Kind::directive) continue;
+    const std::size_t word = token.text.find_first_not_of(" \t", 1);
+    if (word == std::string_view::npos || !token.text.substr(word).starts_with("include")) continue;
+    const std::size_t open = token.text.find_first_of("<\"", word);
+    if (open == std::string_view::npos) continue;
+    const std::size_t close = token.text.find(token.text[open] == '<' ? '>' : '"', open + 1);
+    if (close != std::string_view::npos) {
+      names.emplace_back(token.text.substr(open + 1, close - open - 1));
+    }
+  }
+  return names;
+}
+
+}  // namespace bbsim::sketch

@@ -1,0 +1,239 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "sketch/wiring.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <utility>
+
+#include "base/error.hpp"
+#include "file/whole_file.hpp"
+#include "sketch/wiring_rules.hpp"
+#include "yaml/check_text.hpp"
+#include "yaml/text_file.hpp"
+
+namespace bbsim::sketch {
+namespace {
+
+using yaml::Dimension;
+using yaml::Keys;
+using yaml::MappingOf;
+using yaml::Number;
+
+constexpr double degree = 3.14159265358979323846 / 180;
+
+// The values read. Pointers of `c` are not set yet.
+struct Read {
+  bbsim_wiring c{};
+  std::string frame, lost;
+  std::vector<bbsim_wired_input> inputs;
+  std::vector<int> ignored;
+  std::vector<int> ignored_channels;
+  std::string eeprom_file;
+  int eeprom_size = 1024;
+  bool has_size = false;
+};
+
+bbsim_wiring by_default() {
+  bbsim_wiring c{};
+  c.version = BBSIM_WIRING_VERSION;
+  c.setup_before = 1;
+  c.print = 1;
+  // The pulse that Servo.h gives for 90 degrees, and its degrees per pulse.
+  for (bbsim_wired_servo& servo : c.servos) servo = {-1, -1, 1472e-6, 180 * degree / 1856e-6};
+  c.oscillator = 25e6;
+  c.screen = {bbsim_no_screen, {-1, -1, -1, -1, -1}, {}, {}, 0, {300, 300}, 300, 0.01};
+  c.camera.port = -1;
+  c.costs = {2e-6, 4e-6, 112e-6, 5e-6, 5e-6, 20e-6, 5e-6, 3.3e-3, 1e-6};
+  return c;
+}
+
+void read_servo(Keys& keys, bbsim_wired_servo& servo) {
+  if (keys.exactly_one({"pin", "channel"})) {
+    keys.optional("pin", Pin{}, servo.pin);
+    keys.optional("channel", Whole{0, 15}, servo.channel);
+  }
+  keys.optional("level", Number{Dimension::time, {.above = 0}, "\"1500 us\""}, servo.level);
+  double per_microsecond = servo.scale * 1e-6;
+  if (keys.optional("scale", Number{Dimension::angle, {.above = 0}, "\"0.1 deg\""},
+                    per_microsecond)) {
+    servo.scale = per_microsecond * 1e6;
+  }
+  int direction = 1;
+  keys.optional("direction", Direction{}, direction);
+  servo.scale *= direction;
+}
+
+void read_servos(Keys& keys, Read& read) {
+  keys.optional("phi", MappingOf(read_servo), read.c.servos[0]);
+  keys.optional("theta", MappingOf(read_servo), read.c.servos[1]);
+  if (!keys.find("phi") && !keys.find("theta"))
+    keys.missing("phi", MappingOf(read_servo).allowed());
+  keys.optional("ignored", yaml::ListOf<Pin, int>{{}, 1, 70, "pins"}, read.ignored);
+  keys.optional("ignored_channels", yaml::ListOf<Whole, int>{Whole{0, 15}, 1, 16, "channels"},
+                read.ignored_channels);
+  for (const int channel : read.ignored_channels) read.c.ignored_channels |= 1U << channel;
+  keys.optional("oscillator", Number{Dimension::number, {.above = 0}, "25e6"}, read.c.oscillator);
+}
+
+// The screen's pins, by the names of its electrodes.
+template <std::size_t count>
+bool read_pins(Keys& keys, const char* key, const std::string_view (&names)[count],
+               bbsim_screen_kind kind, bbsim_wired_screen& screen) {
+  const auto value = keys.find(key);
+  if (!value) return false;
+  screen.kind = kind;
+  if (value->node->kind != yaml::Node::Kind::mapping) {
+    value->refuse("",
+                  "a mapping with " + yaml::comma_separated({std::begin(names), std::end(names)}));
+    return true;
+  }
+  Keys pins(*value);
+  for (std::size_t i = 0; i < count; ++i) pins.required(names[i], Pin{}, screen.pins[i]);
+  pins.finish();
+  return true;
+}
+
+void read_screen(Keys& keys, bbsim_wired_screen& screen) {
+  keys.exactly_one({"four_wire", "five_wire", "voltages", "chip"});
+  read_pins(keys, "four_wire", {"x_plus", "x_minus", "y_plus", "y_minus"}, bbsim_four_wires,
+            screen);
+  read_pins(keys, "five_wire", {"upper_left", "upper_right", "lower_left", "lower_right", "sense"},
+            bbsim_five_wires, screen);
+  read_pins(keys, "voltages", {"x", "y"}, bbsim_voltages, screen);
+  if (const auto chip = keys.find("chip")) {
+    bbsim_screen_kind kind = bbsim_stmpe610;
+    yaml::NameOf<bbsim_screen_kind>{{{bbsim_stmpe610, "stmpe610"}}}.read(*chip, kind);
+    screen.kind = kind;
+  }
+  keys.required("x", CountMap{}, screen.x);
+  keys.required("y", CountMap{}, screen.y);
+  keys.optional("untouched", Number{Dimension::number, {.at_least = 0, .at_most = 1023}, "0"},
+                screen.untouched);
+  const Number ohms{Dimension::number, {.above = 0}, "300"};
+  keys.optional("x_resistance", ohms, screen.resistance[0]);
+  keys.optional("y_resistance", ohms, screen.resistance[1]);
+  keys.optional("contact_resistance", ohms, screen.contact);
+  keys.optional("interval", Number{Dimension::time, {.above = 0}, "\"10 ms\""}, screen.interval);
+}
+
+void read_camera(Keys& keys, Read& read) {
+  bbsim_wired_camera& camera = read.c.camera;
+  camera.port = 0;
+  enum Port { serial, serial1, serial2, serial3, serial_usb } port = serial;
+  keys.optional("port",
+                yaml::NameOf<Port>{{{serial, "Serial"},
+                                    {serial1, "Serial1"},
+                                    {serial2, "Serial2"},
+                                    {serial3, "Serial3"},
+                                    {serial_usb, "SerialUSB"}}},
+                port);
+  camera.port = port;
+  camera.period = 1;
+  keys.required("period", Number{Dimension::time, {.above = 0}, "\"33 ms\""}, camera.period);
+  keys.optional("delay", Number{Dimension::time, {.at_least = 0}, "\"20 ms\""}, camera.delay);
+  keys.required("x", CountMap{}, camera.x);
+  keys.required("y", CountMap{}, camera.y);
+  int decimals = 0;
+  keys.optional("decimals", Whole{0, 9}, decimals);
+  camera.decimals = static_cast<std::uint32_t>(decimals);
+  const yaml::Text text{"a text such as \"{x},{y}\\n\"", true};
+  if (keys.required("frame", text, read.frame) && read.frame.find("{x}") == std::string::npos &&
+      read.frame.find("{y}") == std::string::npos && keys.find("frame")) {
+    keys.find("frame")->refuse(", without a number", "a text with {x} and {y}");
+  }
+  keys.optional("lost", text, read.lost);
+}
+
+void read_eeprom(Keys& keys, Read& read) {
+  read.has_size = keys.find("size").has_value();
+  keys.optional("size", Whole{1, 65536}, read.eeprom_size);
+  keys.optional("file", yaml::Text{"the name of a file"}, read.eeprom_file);
+}
+
+void read_costs(Keys& keys, bbsim_call_costs& costs) {
+  const Number time{Dimension::time, {.at_least = 0, .at_most = 1}, "\"100 us\""};
+  // Above 0: time must pass for a sketch that only asks for it.
+  const Number some{Dimension::time, {.at_least = 1e-7, .at_most = 1}, "\"2 us\""};
+  keys.optional("clock", some, costs.clock);
+  keys.optional("digital", time, costs.digital);
+  keys.optional("analog", time, costs.analog);
+  keys.optional("servo", time, costs.servo);
+  keys.optional("serial", time, costs.serial);
+  keys.optional("wire", time, costs.wire);
+  keys.optional("spi", time, costs.spi);
+  keys.optional("eeprom_write", time, costs.eeprom_write);
+  keys.optional("loop", some, costs.loop);
+}
+
+template <class Enum>
+void read_choice(Keys& keys, const char* key, const yaml::NameOf<Enum>& names,
+                 std::uint32_t& into) {
+  Enum value = static_cast<Enum>(into);
+  keys.optional(key, names, value);
+  into = static_cast<std::uint32_t>(value);
+}
+
+void read_wiring(Keys& keys, Read& read) {
+  read.c = by_default();
+  keys.section("servos", read_servos, read);
+  keys.optional("screen", MappingOf(read_screen), read.c.screen);
+  keys.optional("camera", MappingOf(read_camera), read);
+  keys.optional("inputs", Inputs{}, read.inputs);
+  keys.optional("eeprom", MappingOf(read_eeprom), read);
+  enum class Setup { during, before };
+  read_choice<Setup>(keys, "setup", {{{Setup::before, "before"}, {Setup::during, "during"}}},
+                     read.c.setup_before);
+  enum class Print { off, standard_error };
+  read_choice<Print>(keys, "print", {{{Print::standard_error, "stderr"}, {Print::off, "off"}}},
+                     read.c.print);
+  keys.optional("costs", MappingOf(read_costs), read.c.costs);
+}
+
+}  // namespace
+
+Wiring::Wiring(const std::string& file) : files_{file} {
+  const std::string text = yaml::read_text(file);
+  yaml::Problems problems(yaml::name_in_messages(file), yaml::without_byte_order_mark(text), {});
+  yaml::Nodes nodes;
+  Read read;
+  const std::filesystem::path folder = std::filesystem::path(file).parent_path();
+  try {
+    const yaml::Node* const root = yaml::parse_yaml(yaml::check_text(text, 0), 0, nodes);
+    if (root == nullptr) {
+      throw yaml::TextFault({},
+                            "found an empty file; allowed: " + MappingOf(read_wiring).allowed());
+    }
+    yaml::Context context{problems, folder};
+    MappingOf(read_wiring).read({root, "", {}, &context}, read);
+  } catch (const yaml::TextFault& fault) {
+    problems.add(fault.position, fault.what());
+  }
+  problems.throw_if_any();
+
+  frame_ = std::move(read.frame);
+  lost_ = std::move(read.lost);
+  inputs_ = std::move(read.inputs);
+  ignored_ = std::move(read.ignored);
+  if (!read.eeprom_file.empty()) {
+    files_.push_back((folder / read.eeprom_file).string());
+    const auto most = static_cast<std::size_t>(read.has_size ? read.eeprom_size : 65536);
+    eeprom_ = file::read_whole(files_.back(), {}, most);
+    if (!read.has_size) read.eeprom_size = std::max(static_cast<int>(eeprom_.size()), 1);
+  }
+  eeprom_.resize(static_cast<std::size_t>(read.eeprom_size), '\xFF');  // as a new chip
+  c_ = read.c;
+  c_.camera.frame = frame_.c_str();
+  c_.camera.lost = lost_.c_str();
+  c_.input_count = inputs_.size();
+  c_.inputs = inputs_.data();
+  c_.ignored_count = ignored_.size();
+  c_.ignored = ignored_.data();
+  c_.eeprom_size = eeprom_.size();
+  // NOLINTNEXTLINE(cppcoreguidelines-pro-type-reinterpret-cast): bytes as C has them
+  c_.eeprom = reinterpret_cast<const unsigned char*>(eeprom_.data());
+}
+
+}  // namespace bbsim::sketch

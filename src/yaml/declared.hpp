@@ -1,0 +1,86 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// What the readers of a scenario declare as they read: the keys, and the values that each takes.
+// The tables of the documents and the JSON Schema are made of it.
+#pragma once
+
+#include <cstddef>
+#include <limits>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "yaml/quantity.hpp"
+
+namespace bbsim::yaml {
+
+// Bounds in SI units. Empty bounds do not apply.
+struct Range {
+  std::optional<double> above{};
+  std::optional<double> at_least{};
+  std::optional<double> at_most{};
+
+  [[nodiscard]] bool holds(double value) const;
+  [[nodiscard]] std::string text() const;  // " greater than 0"; empty without bounds
+};
+
+// Keys of a mapping that exclude those of the other groups.
+struct Choice {
+  std::vector<std::vector<std::string_view>> groups;
+  bool needed = false;  // one of the groups must be there
+};
+
+struct DeclaredKey;
+
+// The values that a key takes.
+struct Declared {
+  enum class Kind {
+    none,     // nothing was declared
+    number,   // of a dimension, in a range
+    text,     // any text
+    name,     // one of `names`
+    unit,     // the name of a unit of the dimension
+    list,     // `fewest` to `most` items, each as the first of `parts`
+    mapping,  // of `keys`
+    names,    // a mapping of any names to values as the first of `parts`
+    any,      // as any of `parts`
+  };
+  static constexpr std::size_t unbounded = std::numeric_limits<std::size_t>::max();
+
+  Kind kind;
+  Dimension dimension = Dimension::number;
+  Range range{};
+  bool whole = false;  // a number without a fraction
+  std::vector<std::string> names{};
+  std::vector<Declared> parts{};
+  std::size_t fewest = 1, most = unbounded;
+  bool distinct = false;  // no item occurs twice
+  std::vector<DeclaredKey> keys;
+  std::vector<Choice> choices{};
+
+  Declared(Kind of = Kind::none);  // NOLINT: a kind alone is a declaration
+  [[nodiscard]] static Declared number(Dimension dimension, Range range = {});
+  [[nodiscard]] static Declared list(std::size_t fewest, std::size_t most, Declared item);
+  [[nodiscard]] static Declared any(std::vector<Declared> parts);
+
+  // Whether some key of this mapping must be given.
+  [[nodiscard]] bool needs_keys() const;
+  // The choice that the key belongs to; nullptr if there is none.
+  [[nodiscard]] const Choice* choice_of(std::string_view key) const;
+};
+
+struct DeclaredKey {
+  std::string name;  // in American spelling
+  Declared value;
+  bool required = false;
+  std::string standard;  // the value of a key that is not given, if it has a text
+  bool section = false;  // a mapping that, not given, reads like an empty one
+
+  [[nodiscard]] bool must_be_given() const { return required || (section && value.needs_keys()); }
+};
+
+inline Declared::Declared(Kind of) : kind(of) {}
+
+}  // namespace bbsim::yaml

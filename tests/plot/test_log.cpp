@@ -1,0 +1,167 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// Small logs as loggers, spreadsheets and sketches write them.
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "base/error.hpp"
+#include "catch.hpp"
+#include "plot/log.hpp"
+#include "support/folder.hpp"
+
+using namespace bbsim;
+using Catch::Matchers::Contains;
+using plot::LogChoice;
+
+namespace {
+
+constexpr double gap = NAN;
+
+struct Log {
+  const char* style;
+  std::string content;
+  LogChoice choice{};
+  std::vector<double> t{}, x{};  // as read
+  std::string says{};            // a part of a note; or of the refusal, if t is empty
+};
+
+bool same(const std::vector<double>& a, const std::vector<double>& b) {
+  if (a.size() != b.size()) return false;
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    if (std::isnan(a[i]) && std::isnan(b[i])) continue;
+    if (!(std::abs(a[i] - b[i]) <= 1e-8)) return false;
+  }
+  return true;
+}
+
+std::vector<double> numbers(const plot::Result& log, const char* name) {
+  const plot::Column* const column = log.find(name);
+  return column == nullptr ? std::vector<double>{} : column->numbers;
+}
+
+const std::vector<double> t{0, 0.5}, x{0.01, 0.02};
+
+const std::vector<Log> logs = {
+    {"plain", "t,x\n0,0.01\n0.5,0.02\n", {}, t, x},
+    {"semicolons and decimal commas", "t;x\n0;0,01\n0,5;0,02\n", {}, t, x},
+    {"tabs", "t\tx\n0\t0.01\n0.5\t0.02\n", {}, t, x},
+    {"tabs and decimal commas", "t\tx\n0\t0,01\n0,5\t0,02\n", {}, t, x},
+    {"mark and line ends of Windows", "\xEF\xBB\xBFt,x\r\n0,0.01\r\n0.5,0.02\r\n", {}, t, x},
+    {"remarks", "# rig 3\nt,x\n# begin\n0,0.01\n0.5,0.02\n# end\n", {}, t, x},
+    {"a header in a remark", "# t,x\n0,0.01\n0.5,0.02\n", {}, t, x},
+    {"banner", "Ball balancer v2.1\nReady.\nt,x\n0,0.01\n0.5,0.02\n", {}, t, x, "line 3"},
+    {"index of pandas", ",t,x\n0,0,0.01\n1,0.5,0.02\n", {}, t, x},
+    {"quoted names and numbers", "\"t\",\"x\"\n\"0\",\"0.01\"\n0.5,\"0.02\"\n", {}, t, x},
+    {"quoted decimal commas", "t,x\n\"0\",\"0,01\"\n\"0,5\",\"0,02\"\n", {}, t, x},
+    {"no header", "0,0.01\n0.5,0.02\n", {{}, {"t", "x"}, "", ""}, t, x},
+    {"no header, unasked", "0,0.01\n0.5,0.02\n", {}, {}, {}, "log.csv:1:1: found the number \"0\""},
+    {"units in square brackets", "t [ms],x [mm]\n0,10\n500,20\n", {}, t, x},
+    {"units in parentheses", "t (s),x (cm)\n0,1\n0.5,2\n", {}, t, x},
+    {"units as endings", "t_ms,x_mm\n0,10\n500,20\n", {}, t, x},
+    {"a line of units", "t,x\nms,mm\n0,10\n500,20\n", {}, t, x},
+    {"units of mapped names",
+     "timestamp_ms,ball [mm]\n0,10\n500,20\n",
+     {{"t=timestamp_ms,x=ball"}, {}, "", ""},
+     t,
+     x},
+    {"text that nobody asks for", "t,mode,x\n0,auto,0.01\n0.5,hold,0.02\n", {}, t, x},
+    {"text that is asked for",
+     "t,mode\n0,auto\n0.5,hold\n",
+     {{"x=mode"}, {}, "", ""},
+     {},
+     {},
+     "column mode, row 1: found \"auto\""},
+    {"more fields than names",
+     "t,x\n0,0.01,7\n0.5,0.02\n",
+     {},
+     t,
+     x,
+     "log.csv:2: found 3 numbers; the header names 2 columns"},
+    {"a delimiter at the end of each line", "t,x,\n0,0.01,\n0.5,0.02,\n", {}, t, x},
+    {"fewer fields than names", "t,x\n0,0.01\n0.5\n", {}, {}, {}, "log.csv:3:1: found 1 number"},
+    {"gaps", "t,x\n0,\n0.5,0.02\n", {}, t, {gap, 0.02}},
+    {"gaps in words", "t,x\n0,NA\n0.5,0.02\n", {}, t, {gap, 0.02}},
+    {"decimal commas between commas",
+     "t,x\n0,0,0,01\n0,5,0,02\n",
+     {},
+     {},
+     {},
+     "separate the columns by semicolons or tabs"},
+    {"a quote left open", "t,x\n0,\"0.01\n", {}, {}, {}, "log.csv:2:1: found a quotation mark"},
+    {"a name twice", "t,x,x\n0,1,2\n", {}, {}, {}, "log.csv:1:5: column \"x\" is there twice"},
+    {"a header again",
+     "t,x\n0,0.01\nt,x\n0.5,0.02\n",
+     {},
+     t,
+     x,
+     "the header stands again in 1 row"},
+    {"factor, offset and unit", "t,px\n0,200\n0.5,240\n", {{"x=0.25*px-40:mm"}, {}, "", ""}, t, x},
+    {"another sign", "t,px\n0,-10\n0.5,-20\n", {{"x=-px:mm"}, {}, "", ""}, t, x},
+    {"signs within names", "t,p-1\n0,-8\n0.5,-18\n", {{"x=-1*p-1+2:mm"}, {}, "", ""}, t, x},
+    {"an unknown name",
+     "t,px\n0,1\n0.5,2\n",
+     {{"x=qx:mm"}, {}, "", ""},
+     {},
+     {},
+     "has no column \"qx\"; did you mean px?; it has t, px"},
+    {"no clock", "x\n0.01\n0.02\n", {{}, {}, "500 ms", ""}, t, x},
+    {"a clock beside a period", "t,x\n0,1\n1,2\n", {{}, {}, "1", ""}, {}, {}, "has a column t"},
+    {"a clock that starts late", "t,x\n7,0.01\n7.5,0.02\n", {{}, {}, "", "start"}, t, x},
+    {"a clock that is moved", "t,x\n7,0.01\n7.5,0.02\n", {{}, {}, "", "-7 s"}, t, x},
+    {"epoch seconds", "t,x\n1700000000,0.01\n1700000000.5,0.02\n", {}, t, x, "an epoch"},
+    {"millis() that wraps",
+     "t,x\n4294967046,0.01\n250,0.02\n",
+     {{"t=t:ms"}, {}, "", "start"},
+     t,
+     x,
+     "wraps once, first in row 2"},
+    {"doubled times", "t,x\n0,0.01\n0,0.01\n0.5,0.02\n", {}, t, x, "first in row 2"},
+    {"unsorted times", "t,x\n0.5,0.02\n0,0.01\n", {}, t, x, "sorted by time"},
+    {"rows without a time", "t,x\n0,0.01\n,0.015\n0.5,0.02\n", {}, t, x, "1 row without a time"},
+};
+
+}  // namespace
+
+TEST_CASE("logs of many styles are read, or refused with row and cure") {
+  for (const Log& log : logs) {
+    const Folder folder;
+    const std::string file = folder.put("log.csv", log.content);
+    CAPTURE(log.style);
+    std::vector<std::string> notes;
+    std::string said;
+    try {
+      const plot::Result read = plot::read_log(file, log.choice, notes);
+      CHECK(same(numbers(read, "t"), log.t));
+      CHECK(same(numbers(read, "x"), log.x));
+      for (const std::string& note : notes) said += note + '\n';
+      CHECK(notes.empty() == log.says.empty());
+    } catch (const InputError& error) {
+      said = error.what();
+      CAPTURE(said);
+      CHECK(log.t.empty());
+    }
+    CHECK_THAT(said, Contains(log.says));
+  }
+}
+
+TEST_CASE("a map is refused where its place is wrong") {
+  const Folder folder;
+  const std::string file = folder.put("log.csv", "t,px\n0,1\n1,2\n");
+  const auto refused = [&](const LogChoice& choice) {
+    std::vector<std::string> notes;
+    try {
+      static_cast<void>(plot::read_log(file, choice, notes));
+    } catch (const InputError& error) {
+      return std::string(error.what());
+    }
+    return std::string("taken");
+  };
+  CHECK_THAT(refused({{"x"}, {}, "", ""}), Contains("COLUMN=NAME:UNIT"));
+  CHECK_THAT(refused({{"x=px:s"}, {}, "", ""}), Contains("x=px:s\": x is in m"));
+  CHECK_THAT(refused({{"xx=px"}, {}, "", ""}), Contains("there is no column \"xx\""));
+  CHECK_THAT(refused({{"x=px", "x=t"}, {}, "", ""}), Contains("x is there twice"));
+  CHECK_THAT(refused({{}, {}, "", "later"}), Contains("--time-offset: found \"later\""));
+  CHECK_THAT(refused({{}, {}, "0 s", ""}), Contains("--period"));
+}

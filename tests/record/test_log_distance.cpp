@@ -1,0 +1,76 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include <cmath>
+#include <string>
+
+#include "base/error.hpp"
+#include "catch.hpp"
+#include "record/log_distance.hpp"
+
+using bbsim::InputError;
+using bbsim::file::TableData;
+using bbsim::record::log_distance;
+using bbsim::record::LogDistance;
+using bbsim::record::time_offset;
+using Catch::Matchers::Contains;
+
+namespace {
+
+double motion(double t) {
+  return std::sin(t) * std::exp(-0.2 * t);
+}
+
+// Rows `step` apart of the motion from `start` on, on a clock that is `early`.
+TableData rows(double start, double end, double step, double early, double wrong) {
+  TableData table{{"t", "x"}, {{}, {}}};
+  for (double t = start; t <= end; t += step) {
+    table.columns[0].push_back(t + early);
+    table.columns[1].push_back(motion(t) + wrong);
+  }
+  return table;
+}
+
+}  // namespace
+
+TEST_CASE("the distance of a log is taken at its rows, within the run") {
+  const TableData run = rows(0, 10, 0.01, 0, 0);
+  const LogDistance made = log_distance(rows(-1, 12, 0.3, 0, 0.25), "log", run, "run");
+  REQUIRE(made.columns.size() == 1);
+  CHECK(made.columns[0].name == "x");
+  CHECK(made.columns[0].rms == Approx(0.25).epsilon(1e-4));
+  CHECK(made.columns[0].greatest == Approx(0.25).epsilon(1e-4));
+  CHECK(made.from >= 0);
+  CHECK(made.to <= 10);
+  CHECK(made.rows < made.rows_of_log);
+  CHECK(made.columns[0].rows == made.rows);
+  CHECK_THAT(to_text(made, "log", "run"), Contains("column") && Contains("log from run: "));
+}
+
+TEST_CASE("rates of the run bend the lines between its rows") {
+  const TableData line{{"t", "x"}, {{0, 1}, {0, 1}}};
+  const TableData curve{{"t", "x", "vx"}, {{0, 1}, {0, 1}, {0, 2}}};  // t^2
+  const TableData log{{"t", "x"}, {{0.5}, {0.25}}};
+  CHECK(log_distance(log, "log", line, "run").columns[0].greatest == Approx(0.25));
+  CHECK(log_distance(log, "log", curve, "run").columns[0].greatest == Approx(0).margin(1e-15));
+}
+
+TEST_CASE("cross-correlation finds the offset of a log's clock") {
+  const TableData run = rows(0, 10, 0.01, 0, 0);
+  for (const double early : {-3.5, 0.0, 0.123, 1700.0}) {
+    CAPTURE(early);
+    const double offset = time_offset(rows(1, 9, 0.05, early, 0.1), "log", run, "run");
+    CHECK(offset == Approx(-early).margin(1e-3));
+  }
+}
+
+TEST_CASE("what cannot be compared is refused with the cure") {
+  const TableData run = rows(0, 1, 0.1, 0, 0);
+  CHECK_THROWS_WITH(log_distance(rows(0, 1, 0.1, 100, 0), "log", run, "run"),
+                    Contains("no time in common") && Contains("--time-offset"));
+  CHECK_THROWS_WITH(log_distance({{"ms", "x"}, {{0}, {0}}}, "log", run, "run"),
+                    Contains("--map t=NAME:UNIT"));
+  CHECK_THROWS_WITH(log_distance({{"t", "px"}, {{0}, {0}}}, "log", run, "run"),
+                    Contains("no column in common"));
+  CHECK_THROWS_AS(time_offset({{"t", "x"}, {{0, 1, 2}, {1, 1, 1}}}, "log", run, "run"), InputError);
+}

@@ -1,0 +1,218 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// What a board has and what it lacks, and what is said where a sketch, its wiring or its scenario
+// is at fault.
+#include <string>
+#include <vector>
+
+#include "catch.hpp"
+#include "sketch/sketch.hpp"
+
+using namespace bbsim_test;
+
+namespace {
+
+const char* const plain_wiring = "servos: {phi: {pin: 9}, theta: {pin: 10}}\n";
+
+}  // namespace
+
+TEST_CASE("a board has what sketches use, as the boards have it") {
+  const Sketch sketch("board");
+  CAPTURE(sketch.made.err);
+  REQUIRE(sketch.made.exit_code == 0);
+  const Result result = bbsim(
+      sketch.words("run", {"--set", "output.columns=[t, phi_command, theta_command, loops]",
+                           "--set", "time.end=0.1", "--set", "time.step=0.02", "-o", "-", "-q"}));
+  CAPTURE(result.err);
+  CHECK(result.exit_code == 0);
+  CHECK(contains(result.err, "controller: printf 7\ncontroller: all is well\n"));
+  // Both servos are level; setup() took half a second of serial lines and ended before t = 0.
+  CHECK(contains(result.out, "t,phi_command,theta_command,loops\n0,0,0,"));
+}
+
+TEST_CASE("screens and a servo driver give the numbers that their libraries give") {
+  const Folder folder;
+  const Sketch sketch(
+      "#include <Adafruit_PWMServoDriver.h>\n#include <Adafruit_STMPE610.h>\n#include "
+      "<TouchScreen.h>\n"
+      "Adafruit_PWMServoDriver pwm;\nTouchScreen screen(A0, A1, A2, A3, 300);\n"
+      "Adafruit_STMPE610 chip(8);\nvoid loop() { delay(1); }\nvoid setup() {\n"
+      "  SerialUSB.begin(115200);\n  pwm.begin();\n  pwm.setOscillatorFrequency(27000000);\n"
+      "  pwm.setPWMFreq(50);\n  for (int i = 0; i < 16; i++) pwm.setPWM(i, 0, 4096);\n"
+      "  pwm.setPWM(0, 0, 307);\n  pwm.writeMicroseconds(1, 1600);\n  pwm.setPWM(2, 0, 300);\n"
+      "  int x, y, z;\n  if (digitalRead(7)) {\n    chip.begin();\n"
+      "    TS_Point p = chip.getPoint();\n    x = p.x; y = p.y; z = p.z;\n  } else {\n"
+      "    TSPoint p = screen.getPoint();\n    x = p.x; y = p.y; z = p.z;\n  }\n"
+      "  SerialUSB.println(String(x) + ' ' + y + ' ' + z);\n}\n",
+      plain_wiring);
+  CAPTURE(sketch.made.err);
+  REQUIRE(sketch.made.exit_code == 0);
+  const auto run = [&](const std::string& parts) {
+    const std::string wiring = folder.write(
+        "wiring.yaml",
+        "servos: {phi: {channel: 0}, theta: {channel: 1}, ignored_channels: [2], oscillator: "
+        "27e6}\n" +
+            parts);
+    return bbsim(sketch.words("run", {"--set", "controller.library.wiring=" + wiring, "--set",
+                                      "output.columns=[t, phi_command, theta_command]", "--set",
+                                      "time.end=0.02", "-o", "-", "-q"}));
+  };
+  // A step is 132 of 27e6 s; 307 of them are 1500.9 us, 28.9 us above level.
+  const Result wires = run(
+      "inputs: {7: 0}\nscreen:\n  four_wire: {x_plus: A0, y_plus: A1, x_minus: A2, y_minus: A3}\n"
+      "  x: {counts: [112, 912], position: [-0.16, 0.16]}\n"
+      "  y: {counts: [212, 812], position: [-0.12, 0.12]}\n");
+  CHECK(contains(wires.err, "controller: 636 436 299\n"));
+  CHECK(contains(wires.out, "\n0,0.0488"));
+  CHECK(contains(wires.out, ",0.2144"));
+  const Result chip =
+      run("inputs: {7: 1}\nscreen:\n  chip: stmpe610\n"
+          "  x: {counts: [300, 3700], position: [-0.16, 0.16]}\n"
+          "  y: {counts: [300, 3700], position: [-0.12, 0.12]}\n");
+  CHECK(contains(chip.err, "controller: 1469 2425 64\n"));
+}
+
+TEST_CASE("a global variable that uses the board is refused, with where to use it") {
+  const std::string use = GENERATE("EEPROM.read(0)", "analogRead(A5)", "digitalRead(7)");
+  const Sketch sketch(
+      "#include <EEPROM.h>\nint start = " + use + ";\nvoid setup() {}\nvoid loop() {}\n",
+      plain_wiring);
+  REQUIRE(sketch.made.exit_code == 0);
+  const Result run = bbsim(sketch.words("run", {"-o", "-", "-q"}));
+  CHECK(run.exit_code == 2);
+  CHECK(contains(run.err, "a global variable uses the board before setup()"));
+}
+
+TEST_CASE("what a board lacks is an error of the compiler, with a hint") {
+  const Sketch sketch(
+      "#include <Wire.h>\n#include <SPI.h>\nvoid tick() {}\nvoid setup() {\n"
+      "  attachInterrupt(2, tick, 1);\n  Wire.requestFrom(0x68, 6);\n  SPI.transfer(3);\n"
+      "  pulseIn(7, HIGH);\n  shiftOut(1, 2, MSBFIRST, 3);\n}\nISR(TIMER1_COMPA_vect) { tick(); }\n"
+      "void loop() {}\n",
+      plain_wiring);
+  CAPTURE(sketch.made.err);
+  CHECK(sketch.made.exit_code == 2);
+  for (const char* hint :
+       {"bbsim: attachInterrupt: no interrupts; call what it would do from loop()",
+        "bbsim: Wire: no part of the wiring speaks I2C by bytes",
+        "bbsim: SPI: no part of the wiring speaks SPI by bytes", "bbsim: pulseIn: no sensor",
+        "bbsim: shiftOut: no part of the wiring", "bbsim: ISR: no interrupts",
+        "own.ino does not compile"}) {
+    CHECK(contains(sketch.made.err, hint));
+  }
+  CHECK(sketch.folder().files() == std::vector<std::string>{"own.ino", "wiring.yaml"});
+}
+
+TEST_CASE("the compiler's messages show the sketch's own lines, and warnings stay warnings") {
+  const Sketch wrong(
+      "void loop() {\n  later();\n  nobody();\n}\nvoid setup() {}\nvoid later() {}\n",
+      plain_wiring);
+  CHECK(wrong.made.exit_code == 2);
+  CHECK(contains(wrong.made.err, "own.ino:3:3: error: "));
+  const Sketch warned("void loop() {}\nvoid setup() {\n  int unused;\n}\n", plain_wiring);
+  CHECK(warned.made.exit_code == 0);
+  CHECK(contains(warned.made.err, "own.ino:3:7: warning: unused variable"));
+  const Sketch missing("#include <FancySensor.h>\nvoid loop() {}\nvoid setup() {}\n", plain_wiring);
+  CHECK(contains(missing.made.err, "name the folder of a library with -I"));
+}
+
+TEST_CASE("what a sketch does that its wiring has nothing for ends the run, with the cure") {
+  const Folder folder;
+  const Sketch sketch(
+      "#include <Servo.h>\n#include <EEPROM.h>\n#include <Adafruit_PWMServoDriver.h>\n"
+      "Adafruit_PWMServoDriver pwm;\nServo s;\nvoid loop() {}\nvoid setup() {\n"
+      "  switch (analogRead(A0)) {\n"
+      "    case 1: analogRead(A7); break;\n    case 2: s.attach(3); break;\n"
+      "    case 3: analogWrite(9, 10); break;\n    case 4: EEPROM.read(5000); break;\n"
+      "    case 5: exit(4);\n    case 6: delay(700000); break;\n"
+      "    case 7: digitalWrite(99, 1); break;\n    case 8: pwm.setPWM(2, 0, 300); break;\n  "
+      "}\n}\n",
+      plain_wiring);
+  CAPTURE(sketch.made.err);
+  REQUIRE(sketch.made.exit_code == 0);
+  const std::vector<std::string> told = {
+      "analogRead(A7): nothing is wired to pin A7; set a constant in the wiring: inputs: {A7: 512}",
+      "Servo.attach(3): no servo is wired to pin 3",
+      "analogWrite(9, ...): a servo is wired to pin 9, which needs the pulses of Servo.h",
+      "EEPROM: there is no address 5000; allowed: 0 to 1023",
+      "it called exit(4)",
+      "setup() has not returned within 600 s of the board's clock",
+      "digitalWrite(99): there is no such pin",
+      "Adafruit_PWMServoDriver.setPWM(2, ...): no servo is wired to channel 2",
+  };
+  for (std::size_t i = 0; i < told.size(); ++i) {
+    const std::string wiring = folder.write(
+        "wiring.yaml", plain_wiring + ("inputs: {A0: " + std::to_string(i + 1) + "}\n"));
+    const Result result =
+        bbsim(sketch.words("run", {"--set", "controller.library.wiring=" + wiring, "-o", "-"}));
+    CAPTURE(result.err);
+    CHECK(result.exit_code == 1);
+    CHECK(contains(result.err, "failed at sample 0 (t = 0 s): it returned 1: " + told[i]));
+  }
+}
+
+TEST_CASE("a sketch that waits for what cannot come is found out", "[slow]") {
+  const Sketch sketch("void setup() {}\nvoid loop() { if (millis() > 100) while (1); }\n",
+                      plain_wiring);
+  const Result result = bbsim(sketch.words("run", {"-o", "-"}));
+  CAPTURE(result.err);
+  CHECK(result.exit_code == 1);
+  CHECK(contains(result.err,
+                 "it is in an endless loop: 5 s of processor time without a call that takes time"));
+  CHECK(contains(result.out, "\n0.08,"));  // the rows before
+}
+
+TEST_CASE("a scenario that a sketch cannot serve is refused") {
+  const Sketch sketch("void setup() {}\nvoid loop() {}\n", plain_wiring);
+  struct Wrong {
+    std::vector<std::string> settings;
+    std::string told;
+  };
+  const std::vector<Wrong> all = {
+      {{"controller.library.wiring=null"},
+       "it is a sketch; allowed: with controller.library.wiring"},
+      {{"controller.library.parameters={kp: 1}"}, "a sketch takes no parameters, found kp"},
+      {{"controller.drives=acceleration", "controller.limit=null", "gimbal.servo=null"},
+       "a sketch moves servos; allowed: drives: angle"},
+      {{"controller.library.wiring=/no/such.yaml"}, "/no/such.yaml: cannot be read"},
+      {{std::string("controller.library.file=") + BBSIM_EXAMPLE_LIBRARY},
+       "which is no sketch; allowed: with a library of bbsim sketch"},
+  };
+  for (const Wrong& one : all) {
+    std::vector<std::string> more{"-o", "-"};
+    for (const std::string& setting : one.settings) more.insert(more.end(), {"--set", setting});
+    const Result result = bbsim(sketch.words("run", more));
+    CAPTURE(one.told, result.err);
+    CHECK(result.exit_code == 2);
+    CHECK(contains(result.err, one.told));
+  }
+  const Result parts =
+      bbsim(sketch.words("run", {"--save-state", sketch.folder() / "state", "-o", "-"}));
+  CHECK(parts.exit_code == 2);
+  CHECK(contains(parts.err, "found with a controller that cannot save its state"));
+  // What it reads is not written over.
+  for (const char* name : {"sketch.so", "wiring.yaml"}) {
+    CHECK(bbsim(sketch.words("run", {"-o", sketch.folder() / name})).exit_code == 2);
+  }
+}
+
+TEST_CASE("the library has a name by default, which replaces nothing else") {
+  const Folder folder;
+  folder.write("a.ino", "void setup() {}\nvoid loop() {}\n");
+  CHECK(bbsim({"sketch", "a.ino"}, folder.path()).err == "a.so: a controller.library\n");
+  CHECK(bbsim({"sketch", "a.ino", "-q"}, folder.path()).exit_code == 0);
+  folder.write("a.so", "mine\n");
+  const Result kept = bbsim({"sketch", "a.ino"}, folder.path());
+  CHECK(kept.exit_code == 2);
+  CHECK(folder.read("a.so") == "mine\n");
+  CHECK(bbsim({"sketch", "a.ino", "--force", "-q"}, folder.path()).exit_code == 0);
+  CHECK(bbsim({"sketch", "a.ino", "-o", "a.ino"}, folder.path()).exit_code == 2);
+  CHECK(bbsim({"sketch", "b.ino"}, folder.path()).exit_code == 2);
+  CHECK(bbsim({"sketch", "a.ino", "-I", "nowhere"}, folder.path()).exit_code == 2);
+  Launch launch{{"sketch", "a.ino"}, folder.path(), 0, {}, {}, {}};
+  launch.prepare = [] { setenv("CXX", "no-such-compiler", 1); };
+  const Result without = bbsim(launch);
+  CHECK(without.exit_code == 3);
+  CHECK(contains(without.err, "there is no C++ compiler no-such-compiler (CXX)"));
+}

@@ -1,0 +1,117 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// The wiring's file.
+#include <string>
+
+#include "app/process.hpp"
+#include "base/error.hpp"
+#include "catch.hpp"
+#include "sketch/wiring.hpp"
+
+using bbsim::sketch::Wiring;
+
+namespace {
+
+// What is wrong with a wiring of that text.
+std::string fault_of(const std::string& text) {
+  const bbsim_test::Folder folder;
+  try {
+    const Wiring wiring(folder.write("w.yaml", text));
+  } catch (const bbsim::InputError& error) {
+    return error.what();
+  }
+  return "none";
+}
+
+bool contains(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
+
+}  // namespace
+
+TEST_CASE("a wiring has defaults") {
+  const bbsim_test::Folder folder;
+  const Wiring wiring(folder.write("w.yaml", "servos: {phi: {pin: A3}}\n"));
+  const bbsim_wiring& c = *wiring.get();
+  CHECK(c.version == BBSIM_WIRING_VERSION);
+  CHECK(c.servos[0].pin == 57);
+  CHECK(c.servos[1].pin == -1);
+  CHECK(c.servos[0].level == 1472e-6);
+  // 180 degrees are 544 to 2400 us.
+  CHECK(c.servos[0].scale * 1856e-6 == Approx(3.14159265358979).epsilon(1e-14));
+  CHECK(c.setup_before == 1);
+  CHECK(c.print == 1);
+  CHECK(c.screen.kind == bbsim_no_screen);
+  CHECK(c.camera.port == -1);
+  CHECK(c.eeprom_size == 1024);
+  CHECK(c.eeprom[1023] == 255);
+  CHECK(c.costs.analog == 112e-6);
+}
+
+TEST_CASE("a wiring is read in SI units") {
+  const bbsim_test::Folder folder;
+  folder.write("cells", "abc");
+  const Wiring wiring(folder.write("w.yaml", R"(
+servos:
+  phi: {channel: 3, level: "1510 us", scale: "0.1 deg", direction: -1}
+  theta: {pin: 4}
+  ignored: [5, A0]
+  ignored_channels: [2, 15]
+  oscillator: 27e6
+screen:
+  four_wire: {x_plus: A0, x_minus: A2, y_plus: A1, y_minus: 8}
+  x: {counts: [100, 900], position: ["-16 cm", 0.16]}
+  y: {counts: [900, 100], position: ["-12 cm", "12 cm"]}
+camera: {port: SerialUSB, period: "33 ms", x: {counts: [0, 1], position: [0, 1]},
+         y: {counts: [0, 1], position: [0, 1]}, frame: "{x} {y}\n", decimals: 2}
+inputs: {A5: 300, 7: 1}
+eeprom: {file: cells}
+setup: during
+print: off
+costs: {analog: "20 us"}
+)"));
+  const bbsim_wiring& c = *wiring.get();
+  CHECK(c.servos[0].channel == 3);
+  CHECK(c.servos[0].pin == -1);
+  CHECK(c.servos[0].scale == Approx(-0.1 * 3.14159265358979 / 180 * 1e6).epsilon(1e-14));
+  CHECK(c.ignored_count == 2);
+  CHECK(c.ignored[1] == 54);
+  CHECK(c.ignored_channels == 0x8004);
+  CHECK(c.screen.kind == bbsim_four_wires);
+  CHECK(c.screen.pins[3] == 8);
+  CHECK(c.screen.x.position[1] == 0.16);
+  CHECK(c.camera.port == 4);
+  CHECK(c.camera.decimals == 2);
+  CHECK(std::string(c.camera.frame) == "{x} {y}\n");
+  CHECK(c.inputs[1].pin == 7);
+  CHECK(c.eeprom_size == 3);
+  CHECK(c.eeprom[2] == 'c');
+  CHECK(wiring.files().size() == 2);
+  CHECK(c.setup_before == 0);
+  CHECK(c.print == 0);
+  CHECK(c.costs.analog == 20e-6);
+}
+
+TEST_CASE("what is wrong with a wiring is told with its place, all of it at once") {
+  const std::string fault = fault_of(
+      "servos: {phi: {pin: 99}, theta: {pni: 3}, ignore: [4]}\n"
+      "screen: {four_wire: {x_plus: A0}, x: {counts: [1, 2], position: [1, 1]}, y: 3}\n"
+      "inputs: {A77: 3, 7: 5}\ncosts: {loop: 0}\nprint: stdout\ncamra: {}\n");
+  CAPTURE(fault);
+  for (const char* part :
+       {"w.yaml:1:21: servos.phi.pin: found 99; allowed: a pin, 0 to 53 or A0 to A15",
+        "w.yaml:1:34: servos.theta.pni: unknown key; did you mean servos.theta.pin?",
+        "servos.ignore: unknown key; did you mean servos.ignored?",
+        "screen.four_wire.x_minus: missing",
+        "screen.x.position: found a list of 2; allowed: two different lengths",
+        "screen.y: found 3; allowed: two places", "inputs.A77: found no pin",
+        "inputs.7: found 5; allowed: a whole number from 0 to 1",
+        "costs.loop: found 0; allowed: a time", "print: found stdout; allowed: one of stderr, off",
+        "camra: unknown key; did you mean camera?"}) {
+    CHECK(contains(fault, part));
+  }
+  CHECK(contains(fault_of(""), "w.yaml:1:1: found an empty file; allowed: a mapping with servos"));
+  CHECK(contains(fault_of("servos: {}"), "servos.phi: missing"));
+  CHECK(contains(fault_of("servos: {phi: {pin: 1}}\neeprom: {file: nowhere}"), "nowhere"));
+}
