@@ -365,6 +365,8 @@ constexpr KeyText own_controller[] = {
      .standard = "5, at least `timeout`"},
     {"controller.library.file", "the shared library, relative to the scenario"},
     {"controller.library.parameters", "names and numbers that bbsim passes to the library"},
+    {"controller.library.wiring",
+     "of a sketch: the [wiring](wiring.md) of its board, relative to the scenario"},
 };
 
 constexpr KeyTable tables[] = {
