@@ -99,7 +99,7 @@ class Callable::Controller : public model::ExternalController {
       question();
     } catch (py::error_already_set& error) {
       const bool interrupted = !error.matches(PyExc_Exception);
-      const std::string fault = "the controller (" + name_of(callable_.function_) + ") failed " +
+      const std::string fault = "the controller (" + callable_.name_ + ") failed " +
                                 when + ": " + std::string(py::str(error.type().attr("__name__"))) +
                                 ": " + std::string(py::str(error.value()));
       if (!callable_.raised_) {
@@ -138,8 +138,11 @@ class Callable::Controller : public model::ExternalController {
   std::vector<std::string> own_;
 };
 
+Callable::Callable(py::object function)
+    : function_(std::move(function)), name_(name_of(function_)) {}
+
 ControllerFactory Callable::factory(Watch& watch) {
-  return {"a Python callable: " + name_of(function_), [this, &watch](const Scenario& scenario) {
+  return {"a Python callable: " + name_, [this, &watch](const Scenario& scenario) {
             return std::make_shared<Controller>(*this, watch, scenario);
           }};
 }

@@ -22,9 +22,9 @@ void define_sample(py::module_& module);
 // lock.
 class Callable {
  public:
-  explicit Callable(py::object function) : function_(std::move(function)) {}
+  explicit Callable(py::object function);
 
-  // The runs of a watch: what the callable raises ends them.
+  // For the runs of a watch: what the callable raises ends them. Needs no lock.
   [[nodiscard]] ControllerFactory factory(Watch& watch);
 
   // Raises what the callable raised: an Exception as the cause of a ControllerError, others (such
@@ -35,6 +35,7 @@ class Callable {
   class Controller;
 
   py::object function_;
+  std::string name_;  // in messages
   std::optional<py::error_already_set> raised_;
   std::string fault_;
 };
