@@ -12,13 +12,13 @@
 #include "api/inputs.hpp"
 #include "api/measure.hpp"
 #include "api/picture.hpp"
+#include "api/place_log.hpp"
 #include "api/run.hpp"
 #include "commands.hpp"
 #include "file/default_name.hpp"
 #include "file/format.hpp"
 #include "plot/read_result.hpp"
 #include "progress.hpp"
-#include "record/log_distance.hpp"
 #include "replay/log.hpp"
 #include "replay/page.hpp"
 #include "replay/sources.hpp"
@@ -40,45 +40,6 @@ struct ReplayArguments {
 bool is_scenario(const std::string& file) {
   const std::string ending = file::lower_ending(file);
   return ending == ".yaml" || ending == ".yml";
-}
-
-file::TableData table_of(const replay::Run& run) {
-  file::TableData table;
-  for (const replay::Series& column : run.columns) {
-    table.names.push_back(column.name);
-    table.columns.push_back(column.values);
-  }
-  return table;
-}
-
-bool have_in_common(const replay::Run& log, const replay::Run& run) {
-  return std::ranges::any_of(log.columns, [&](const replay::Series& column) {
-    return column.name != "t" && replay::find_series(run, column.name) != nullptr;
-  });
-}
-
-// Aligns the last run of the scene, a log, with the first one, and says how far it is from it.
-void place_log(replay::Scene& scene, const plot::LogChoice& choice, const Options& options) {
-  replay::Run& log = scene.runs.back();
-  const replay::Run& lead = scene.runs.front();
-  file::TableData ours = table_of(log);
-  const file::TableData theirs = table_of(lead);
-  const auto t = std::ranges::find(log.columns, "t", &replay::Series::name);
-  if (choice.aligns()) {
-    const double offset = record::time_offset(ours, log.name, theirs, lead.name);
-    for (double& time : t->values) time += offset;
-    ours = table_of(log);
-    if (!options.quiet) say(api::moved_text(log.name, offset));
-  }
-  if (options.quiet || t == log.columns.end() || !have_in_common(log, lead)) return;
-  try {
-    std::string text = record::to_text(record::log_distance(ours, log.name, theirs, lead.name),
-                                       log.name, lead.name);
-    text.pop_back();
-    say(text);
-  } catch (const InputError& error) {  // they have no time in common, and can still be shown
-    say("warning: " + std::string(error.what()));
-  }
 }
 
 // One of the files, read; a scenario is yet to be run.
@@ -250,7 +211,7 @@ ExitCode replay_files(const ReplayArguments& arguments, const Options& options) 
       if (code == ExitCode::interrupted) break;
     } else if (source.log) {
       scene.runs.push_back(std::move(*source.log));
-      if (!arguments.files.empty()) place_log(scene, arguments.log, options);
+      if (!arguments.files.empty()) say_all(api::place_log(scene, arguments.log.aligns()), options);
     } else if (is_sweep(source)) {
       scene.sweeps.push_back(replay::sweep_of_result(std::move(*source.result), source.name));
     } else {

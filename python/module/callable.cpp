@@ -99,9 +99,9 @@ class Callable::Controller : public model::ExternalController {
       question();
     } catch (py::error_already_set& error) {
       const bool interrupted = !error.matches(PyExc_Exception);
-      const std::string fault = "the controller (" + callable_.name_ + ") failed " +
-                                when + ": " + std::string(py::str(error.type().attr("__name__"))) +
-                                ": " + std::string(py::str(error.value()));
+      const std::string fault = "the controller (" + callable_.name_ + ") failed " + when + ": " +
+                                std::string(py::str(error.type().attr("__name__"))) + ": " +
+                                std::string(py::str(error.value()));
       if (!callable_.raised_) {
         callable_.raised_.emplace(std::move(error));
         callable_.fault_ = fault;
@@ -130,7 +130,8 @@ class Callable::Controller : public model::ExternalController {
 
   [[noreturn]] void refuse(const py::object& answer) const {
     const std::string shown = bbsim::shown(std::string(py::repr(answer)), longest_saying);
-    throw py::value_error("its answer was " + shown + "; " + allowed);
+    PyErr_SetString(PyExc_ValueError, ("its answer was " + shown + "; " + allowed).c_str());
+    throw py::error_already_set();
   }
 
   Callable& callable_;

@@ -114,7 +114,9 @@ void call_foreign(void (*function)(void*), void* data) {
 }  // namespace bbsim::controller
 
 // Functions of the C library by which a process ends, for all that is loaded into this program.
-// None of them returns, as its header says.
+// None of them returns, as its header says. The program exports them; bbsim as a library keeps them
+// to itself.
+#pragma GCC visibility push(default)
 extern "C" {
 
 void exit(int status) noexcept {
@@ -137,3 +139,4 @@ void _Exit(int status) noexcept {
   bbsim::end_process(status);
 }
 }
+#pragma GCC visibility pop

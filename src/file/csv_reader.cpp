@@ -117,6 +117,9 @@ std::size_t fit(std::string_view header, std::string_view row, char delimiter) {
   const auto names = fields_of(header, delimiter), fields = fields_of(row, delimiter);
   if (!names || !fields || fields->size() < names->size()) return 0;
   if (names->size() == 1 && fields->size() > 1) return 0;
+  // One column of decimal commas, but not a row of names between commas.
+  if (names->size() == 1 && delimiter != ',' && header.find(',') != std::string_view::npos)
+    return 0;
   for (std::size_t c = 0; c < names->size(); ++c) {
     const std::string& name = (*names)[c];
     const bool may_be_empty = c == 0 || (c + 1 == names->size() && (*fields)[c].empty());

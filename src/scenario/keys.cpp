@@ -239,10 +239,11 @@ constexpr KeyText reference_paths[] = {
                 "gives x and y their own",
      .unit = "-",
      .standard = "1, 0"},
-    {.keys = "table.delay", .meaning = "value(t) = table(t − delay)", .standard = "0"},
+    {"table.delay", "value(t) = table(t − delay)"},
     {.keys = "table.time_offset",
      .meaning = "added to the table's times; `start`: its first row is t = 0",
-     .standard = "0"},
+     .standard = "0",
+     .range = "a time, `start`"},
 };
 
 constexpr KeyText sampling[] = {
@@ -350,7 +351,8 @@ constexpr KeyText profiles[] = {
     {"table.delay", "value(t) = table(t − delay)"},
     {.keys = "table.time_offset",
      .meaning = "added to the table's times; `start`: its first row is t = 0",
-     .standard = "0"},
+     .standard = "0",
+     .range = "a time, `start`"},
 };
 
 constexpr KeyText own_controller[] = {

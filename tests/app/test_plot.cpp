@@ -251,7 +251,7 @@ TEST_CASE("what cannot be drawn is told in a line") {
   folder.write("empty.csv", "");
   folder.write("sweep.csv", "case,ball.radius,status,end_time,x_end\n0,1,done,1,1\n1,2,done,1,2\n");
   CHECK_THAT(fault({"none.csv"}, folder), Contains("cannot read none.csv: no such file"));
-  CHECK_THAT(fault({"empty.csv"}, folder), Contains("empty.csv: is empty"));
+  CHECK_THAT(fault({"empty.csv"}, folder), Contains("empty.csv:1:1: found no header"));
   CHECK_THAT(fault({"none.h5"}, folder), Contains("none.h5"));
   CHECK_THAT(fault({config("rig.yaml")}, folder), Contains("is a scenario"));
   CHECK_THAT(fault({"run.csv", "-o", "a.gif"}, folder), Contains(".svg, .png or .pdf"));

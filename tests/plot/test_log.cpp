@@ -105,7 +105,7 @@ const std::vector<Log> logs = {
      {{"x=qx:mm"}, {}, "", ""},
      {},
      {},
-     "has no column \"qx\"; did you mean px?; it has t, px"},
+     "has no column \"qx\"; it has t, px"},
     {"no clock", "x\n0.01\n0.02\n", {{}, {}, "500 ms", ""}, t, x},
     {"a clock beside a period", "t,x\n0,1\n1,2\n", {{}, {}, "1", ""}, {}, {}, "has a column t"},
     {"a clock that starts late", "t,x\n7,0.01\n7.5,0.02\n", {{}, {}, "", "start"}, t, x},

@@ -149,7 +149,7 @@ class Runs(unittest.TestCase):
     def test_a_stopped_run_is_a_result(self):
         made = bbsim.run(CONFIGS / "rig.yaml", {"plate.size": ["4 cm", "4 cm"], "ball.position": [0, 0]})
         self.assertEqual(made.status, "stopped")
-        self.assertIn("edge", made.events[-1]["name"])
+        self.assertIn("edge", made.events[-1]["event"])
         self.assertTrue(made.reason)
 
     def test_output(self):

@@ -176,5 +176,7 @@ TEST_CASE("a reference table is read from beside the scenario") {
   CHECK(refused(rows, "{file: path.csv, time: t, x: a}") ==
         key + ".table.y: missing; allowed: the name of a column of the file");
   CHECK(refused(rows, "{file: path.csv, time: t, x: a, y: b, value: c}") ==
-        key + ".table.value: unknown key; known keys here: file, time, x, y, unit, time_unit");
+        key +
+            ".table.value: unknown key; known keys here: file, time, x, y, unit, "
+            "time_unit, scale, offset, delay, time_offset");
 }

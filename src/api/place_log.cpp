@@ -1,0 +1,56 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "api/place_log.hpp"
+
+#include <algorithm>
+
+#include "api/measure.hpp"
+#include "base/error.hpp"
+#include "record/log_distance.hpp"
+
+namespace bbsim::api {
+namespace {
+
+file::TableData table_of(const replay::Run& run) {
+  file::TableData table;
+  for (const replay::Series& column : run.columns) {
+    table.names.push_back(column.name);
+    table.columns.push_back(column.values);
+  }
+  return table;
+}
+
+bool have_in_common(const replay::Run& log, const replay::Run& run) {
+  return std::ranges::any_of(log.columns, [&](const replay::Series& column) {
+    return column.name != "t" && replay::find_series(run, column.name) != nullptr;
+  });
+}
+
+}  // namespace
+
+std::vector<std::string> place_log(replay::Scene& scene, bool align) {
+  replay::Run& log = scene.runs.back();
+  const replay::Run& lead = scene.runs.front();
+  std::vector<std::string> said;
+  file::TableData ours = table_of(log);
+  const file::TableData theirs = table_of(lead);
+  const auto t = std::ranges::find(log.columns, "t", &replay::Series::name);
+  if (align) {
+    const double offset = record::time_offset(ours, log.name, theirs, lead.name);
+    for (double& time : t->values) time += offset;
+    ours = table_of(log);
+    said.push_back(moved_text(log.name, offset));
+  }
+  if (t == log.columns.end() || !have_in_common(log, lead)) return said;
+  try {
+    said.push_back(record::to_text(record::log_distance(ours, log.name, theirs, lead.name),
+                                   log.name, lead.name));
+    said.back().pop_back();
+  } catch (const InputError& error) {  // they have no time in common, and can still be shown
+    said.push_back("warning: " + std::string(error.what()));
+  }
+  return said;
+}
+
+}  // namespace bbsim::api
