@@ -231,6 +231,8 @@ struct ForEach {
     return true;
   }
 };
+template <class Rule>
+ForEach(Rule, std::size_t) -> ForEach<Rule>;  // clang 14 deduces none of aggregates
 
 struct TimeOffsetRule {
   [[nodiscard]] static std::string allowed() {
