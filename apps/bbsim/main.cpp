@@ -84,6 +84,7 @@ constexpr bbsim::app::NamedCommand commands[] = {
      bbsim::app::add_summarize, "summarise"},
     {"new", "Write a controller to begin with, in Python, C or for an Arduino",
      bbsim::app::add_new},
+    {"examples", "List example scenarios, or write one", bbsim::app::add_examples},
     {"sketch", "Compile an Arduino sketch into a controller", bbsim::app::add_sketch},
     {"plot", "Draw runs and sweeps", bbsim::app::add_plot},
     {"replay", "Write one HTML file that replays runs or sweeps", bbsim::app::add_replay},
