@@ -32,11 +32,13 @@ std::string first_sentence(std::string_view text) {
     sentence += (sentence.empty() ? "" : " ") + std::string(text.substr(2, end - 2));
     text.remove_prefix(end + 1);
   }
-  for (std::size_t dot = sentence.find(". "); dot < sentence.size() - 2;
-       dot = sentence.find(". ", dot + 1)) {
-    // "Fig. 2" goes on.
-    if (std::isupper(static_cast<unsigned char>(sentence[dot + 2])) != 0) sentence.resize(dot + 1);
+  for (std::size_t i = 0; i + 2 < sentence.size(); ++i) {
+    const bool ends = sentence[i] == '.' && sentence[i + 1] == ' ';
+    if (ends && std::isdigit(static_cast<unsigned char>(sentence[i + 2])) == 0) {  // not "Fig. 2"
+      sentence.resize(i + 1);
+    }
   }
+  if (sentence.ends_with(':')) sentence.back() = '.';
   return sentence;
 }
 
@@ -83,14 +85,12 @@ ExitCode copy(const ExampleArguments& arguments, const Options& options) {
     copies.push_back({(folder / one.name).string(), one.text});
   }
   write_copies(copies, named, arguments.force);
-  if (options.quiet || (output == "-" && tables.empty())) return ExitCode::done;
-  std::string message = name_of_output(output) + ": written";
-  if (!tables.empty()) {
-    message += output == "-"
-                   ? "; it reads " + tables + ", which bbsim examples " + tables + " writes"
-                   : ", with its table " + tables;
+  if (options.quiet) return ExitCode::done;
+  if (output != "-") {
+    say(output + ": written" + (tables.empty() ? "" : ", with its table " + tables));
+  } else if (!tables.empty()) {
+    say("it reads " + tables + ": bbsim examples " + tables);
   }
-  say(message);
   return ExitCode::done;
 }
 
