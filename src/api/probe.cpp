@@ -18,6 +18,7 @@
 #include "model/control/derivatives.hpp"
 #include "model/control/external_controller.hpp"
 #include "model/control/sampled_controller.hpp"
+#include "model/dense.hpp"
 #include "model/hybrid/switched_model.hpp"
 
 namespace bbsim::api {
@@ -72,14 +73,25 @@ class Bench {
   std::vector<double> own_;
 };
 
-// How much a positive command, in phi and theta, moves the ball along x and y in the end: by the
-// angle that it turns the plate to. The jerk at first, which may be the other way, is left out.
-Eigen::Matrix2d effect_of(const model::Model& model) {
+// How much a positive command, in phi and theta, moves the ball along x and y: by the angle that it
+// turns the plate to. What the ball does while the plate accelerates may be the other way, and is
+// left out.
+Eigen::MatrixXd effect_of(const model::Model& model) {
   const model::PlantDerivatives plant =
       model::plant_derivatives(model, model::home_point(), model::Heave::left_out);
-  const int servos = plant.places.servos, angle = model::spin_state + 1, rate = angle + servos;
-  return plant.of_state.block(2, angle, 2, servos) *
-         (plant.of_command.middleRows(angle, servos) + plant.of_command.middleRows(rate, servos));
+  constexpr int speed = 2, angle = model::spin_state + 1, rate = angle + 2;
+  Eigen::MatrixXd turned = plant.of_command.block(rate, 0, 2, 2);
+  for (int i = 0; i < 2; ++i) {
+    if (!model.rig->servo[i].time_constant) continue;
+    // One of first order takes its rate from the command, and no acceleration.
+    turned.row(i).setZero();
+    turned(i, i) = 1;
+  }
+  // Of angles under commands that hold them.
+  const Eigen::MatrixXd holding = model::solve(turned, plant.of_state.block(rate, angle, 2, 2));
+  const Eigen::MatrixXd of_angle = plant.of_state.block(speed, angle, 2, 2) -
+                                   model::product(plant.of_command.block(speed, 0, 2, 2), holding);
+  return model::product(of_angle, turned);
 }
 
 // How far from the reference the ball is put, m: less where the plate or what the sensor sees ends.
@@ -210,7 +222,7 @@ Report probe(const Scenario& scenario, const model::Model& model) {
     report.push_back(
         {"", "it answers to where the ball is from sample " + std::to_string(sample) + " on"});
   }
-  const Eigen::Matrix2d effect = effect_of(model);
+  const Eigen::MatrixXd effect = effect_of(model);
   const std::string unit = command_unit(scenario.controller->drives);
   for (const int one : axes) {
     const auto command = static_cast<std::size_t>(one);
