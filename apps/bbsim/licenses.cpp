@@ -3,12 +3,19 @@
 
 #include "licenses.hpp"
 
-#include "bbsim_licenses.hpp"  // cmake/licenses.cmake
+#include "embedded.hpp"
 
 namespace bbsim::app {
 
 std::string licenses() {
-  return {bbsim_licenses, sizeof bbsim_licenses - 2};
+  const std::string rule = '\n' + std::string(80, '-') + "\n\n";
+  std::string texts;
+  for (const EmbeddedFile& one : license_files()) {
+    if (!texts.empty()) texts += rule;
+    texts += one.text;
+  }
+  texts.pop_back();  // the line break, which who prints it adds
+  return texts;
 }
 
 }  // namespace bbsim::app

@@ -5,13 +5,17 @@
 
 #include <cmath>
 #include <cstddef>
+#include <functional>
+#include <set>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <variant>
 
 #include "api/assemble.hpp"
 #include "api/linearize.hpp"
 #include "api/loop_text.hpp"
+#include "api/probe.hpp"
 #include "base/short_number.hpp"
 #include "model/control/common_cycle.hpp"
 #include "model/explain.hpp"
@@ -154,16 +158,25 @@ void tell_sweep(Report& report, const Scenario& scenario) {
   report.push_back({"sweep", std::to_string(plan.cases()) + " cases of bbsim sweep, over " + keys});
 }
 
-// Tells what comes of starting the controller, if the scene has one of its own.
+// Tells what comes of starting the controller and asking it, if the scene has one of its own.
 void tell_controller(Report& report, const Scenario& scenario, Watch& watch) {
   if (!scenario.controller || !scenario.controller->own) return;
-  // Nothing is lost where a signal ends it at once.
-  controller::Host host([&watch](std::string_view line) { watch.controller_says(line); });
-  static_cast<void>(assemble(scenario, scenario::columns_named(scenario.output.columns), host));
+  // What it says at each of its starts is of interest once. Nothing is lost where a signal ends it
+  // at once.
+  std::set<std::string, std::less<>> said;
+  controller::Host host([&](std::string_view line) {
+    if (said.emplace(line).second) watch.controller_says(line);
+  });
+  const model::Model model =
+      assemble(scenario, scenario::columns_named(scenario.output.columns), host);
   std::string label = "controller";
   for (const std::string& line : host.describe()) {
     report.push_back({std::exchange(label, ""), line});
   }
+  // A function of a program that calls bbsim has no other life than this one.
+  if (std::holds_alternative<ControllerFactory>(scenario.controller->own->by)) return;
+  const Report found = probe(scenario, model);
+  report.insert(report.end(), found.begin(), found.end());
 }
 
 Report report_of(const Scenario& scenario, bool sweep) {

@@ -35,7 +35,8 @@ using Report = std::vector<Line>;
 [[nodiscard]] Report describe(const Scenario& scenario);
 
 // The same, with the cases of the scenario's sweep block, all of which are checked, and with what
-// its own controller says when it is started; it is asked for nothing.
+// its own controller answers when it is started and asked (probe.hpp). Throws
+// model::ControllerFault.
 [[nodiscard]] Report check(const Scenario& scenario, Watch& watch);
 
 }  // namespace bbsim::api

@@ -22,10 +22,22 @@ namespace {
 
 constexpr std::size_t looked_at = 4096;  // bytes, from either end
 
+constexpr const char* remedy = ". Name another file with -o, or replace this one with --force";
+
 [[noreturn]] void refuse(const std::string& target, const std::string& found,
                          const Likeness& likeness) {
   throw InputError(target + ": is there, " + found + "; allowed without -o: to replace " +
-                   likeness.what + ". Name another file with -o, or replace this one with --force");
+                   likeness.what + remedy);
+}
+
+// Whether it is a file that would be replaced.
+bool is_file(const std::string& target, struct stat& status) {
+  return !is_written_directly(target) && stat(target.c_str(), &status) == 0 &&
+         S_ISREG(status.st_mode);
+}
+
+Descriptor opened(const std::string& target) {
+  return Descriptor(open(target.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY));
 }
 
 // Reads up to `size` bytes.
@@ -48,11 +60,8 @@ Likeness table_with(const std::string& header) {
 
 void require_like(const std::string& target, const Likeness& likeness) {
   struct stat status {};
-  if (is_written_directly(target) || stat(target.c_str(), &status) != 0 ||
-      !S_ISREG(status.st_mode)) {
-    return;
-  }
-  const Descriptor file(open(target.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY));
+  if (!is_file(target, status)) return;
+  const Descriptor file = opened(target);
   if (!file.is_open()) {
     refuse(target, "and cannot be read: " + error_text(errno), likeness);
   }
@@ -70,6 +79,16 @@ void require_like(const std::string& target, const Likeness& likeness) {
       end.find(likeness.mark) == std::string::npos) {
     refuse(target, first_line(start), likeness);
   }
+}
+
+void require_new(const std::string& target, const std::string_view* content) {
+  struct stat status {};
+  if (!is_file(target, status)) return;
+  if (content != nullptr) {
+    const Descriptor file = opened(target);
+    if (file.is_open() && bytes_at(file, 0, content->size() + 1) == *content) return;
+  }
+  throw InputError(target + ": is there; allowed: to write a new file" + remedy);
 }
 
 }  // namespace bbsim::file

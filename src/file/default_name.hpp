@@ -5,6 +5,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 
 namespace bbsim::file {
 
@@ -22,5 +23,8 @@ struct Likeness {
 // name it, so the command must not replace it. Ignores devices and pipes, which are not replaced,
 // and folders, which fail when the file is opened.
 void require_like(const std::string& target, const Likeness& likeness);
+
+// The same, of a file that must be new, or have `content`, which may be null.
+void require_new(const std::string& target, const std::string_view* content);
 
 }  // namespace bbsim::file

@@ -22,8 +22,8 @@ bool contains(const std::string& text, const std::string& part) {
   return text.find(part) != std::string::npos;
 }
 
-const Names commands{"run",    "check",   "sweep",    "merge", "compare",
-                     "verify", "columns", "accuracy", "help"};
+const Names commands{"run",     "check",    "sweep", "merge",    "compare", "verify",
+                     "columns", "accuracy", "new",   "examples", "help"};
 
 }  // namespace
 

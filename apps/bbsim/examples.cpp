@@ -1,0 +1,118 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include <algorithm>
+#include <cctype>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "commands.hpp"
+#include "embedded.hpp"
+#include "terminal.hpp"
+#include "yaml/nearest.hpp"
+
+namespace bbsim::app {
+namespace {
+
+constexpr std::string_view ending = ".yaml";
+
+struct ExampleArguments {
+  std::string name, output;
+  bool force = false;
+};
+
+// The first sentence of the comment that a scenario begins with.
+std::string first_sentence(std::string_view text) {
+  std::string sentence;
+  while (text.starts_with("# ")) {
+    const std::size_t end = text.find('\n');
+    sentence += (sentence.empty() ? "" : " ") + std::string(text.substr(2, end - 2));
+    text.remove_prefix(end + 1);
+  }
+  for (std::size_t i = 0; i + 2 < sentence.size(); ++i) {
+    const bool ends = sentence[i] == '.' && sentence[i + 1] == ' ';
+    if (ends && std::isdigit(static_cast<unsigned char>(sentence[i + 2])) == 0) {  // not "Fig. 2"
+      sentence.resize(i + 1);
+    }
+  }
+  if (sentence.ends_with(':')) sentence.back() = '.';
+  return sentence;
+}
+
+ExitCode list() {
+  constexpr std::size_t width = 16;
+  std::string report;
+  for (const EmbeddedFile& one : example_files()) {
+    if (!one.name.ends_with(ending)) continue;
+    std::string name(one.name.substr(0, one.name.size() - ending.size()));
+    name.resize(std::max(width, name.size()), ' ');
+    report += name + ' ' + first_sentence(one.text) + '\n';
+  }
+  print(report);
+  return ExitCode::done;
+}
+
+// A scenario, with or without its ending, or a table.
+const EmbeddedFile& example(const std::string& name) {
+  const auto files = example_files();
+  const auto found = std::ranges::find_if(files, [&](const EmbeddedFile& one) {
+    return one.name == name || one.name == name + std::string(ending);
+  });
+  if (found != files.end()) return *found;
+  std::vector<std::string_view> known;
+  for (const EmbeddedFile& one : files) known.push_back(one.name.substr(0, one.name.find('.')));
+  const std::string near(yaml::nearest_name(name, known));
+  throw InputError("unknown example " + name +
+                   (near.empty() ? "; bbsim examples lists them" : "; did you mean " + near + "?"));
+}
+
+ExitCode copy(const ExampleArguments& arguments, const Options& options) {
+  const EmbeddedFile& scenario = example(arguments.name);
+  const bool named = !arguments.output.empty();
+  const std::string output = named ? arguments.output : std::string(scenario.name);
+  std::vector<Copy> copies{{output, scenario.text}};
+  std::string tables;
+  for (const EmbeddedFile& one : example_files()) {
+    if (one.name.ends_with(ending) || scenario.text.find(one.name) == std::string_view::npos) {
+      continue;
+    }
+    tables += (tables.empty() ? "" : ", ") + std::string(one.name);
+    if (output == "-") continue;
+    const auto folder = std::filesystem::path(output).parent_path();
+    copies.push_back({(folder / one.name).string(), one.text});
+  }
+  write_copies(copies, named, arguments.force);
+  if (options.quiet) return ExitCode::done;
+  if (output != "-") {
+    say(output + ": written" + (tables.empty() ? "" : ", with its table " + tables));
+  } else if (!tables.empty()) {
+    say("it reads " + tables + ": bbsim examples " + tables);
+  }
+  return ExitCode::done;
+}
+
+ExitCode examples(const ExampleArguments& arguments, const Options& options) {
+  if (!arguments.name.empty()) return copy(arguments, options);
+  if (arguments.output.empty()) return list();
+  throw InputError("-o: found without an example's NAME; bbsim examples lists them");
+}
+
+}  // namespace
+
+void add_examples(Command& command, const Options& options) {
+  const auto arguments = std::make_shared<ExampleArguments>();
+  command.option("NAME", arguments->name, "the scenario to write; default: list all");
+  command
+      .option("-o,--output", arguments->output,
+              "write it to FILE.yaml, and its table beside it; default: NAME.yaml in the current "
+              "folder; - is standard output")
+      .takes("FILE");
+  command.flag("--force", arguments->force,
+               "replace files that -o does not name, whatever they hold");
+  command.does([arguments, &options] { return examples(*arguments, options); });
+}
+
+}  // namespace bbsim::app

@@ -1,0 +1,234 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "api/probe.hpp"
+
+#include <Eigen/Core>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <functional>
+#include <limits>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/short_number.hpp"
+#include "model/control/derivatives.hpp"
+#include "model/control/external_controller.hpp"
+#include "model/control/sampled_controller.hpp"
+#include "model/dense.hpp"
+#include "model/hybrid/switched_model.hpp"
+
+namespace bbsim::api {
+namespace {
+
+// Most answer at the first sample; a sketch that filters or waits takes some.
+constexpr std::size_t samples = 25;
+using Commands = std::vector<Pair>;
+
+constexpr std::array<const char*, 2> coordinates{"x", "y"}, angles{"phi", "theta"};
+
+// Gives the controller samples of a plate at rest.
+class Bench {
+ public:
+  explicit Bench(const model::Model& model)
+      : model_(model),
+        sensor_(without_chance(model.rig->sampled->sensor)),
+        own_(model.own_columns().size()) {}
+
+  [[nodiscard]] std::array<model::Jet<double>, 2> reference_at(double t) const {
+    return model_.with_loop([t](const auto& loop) { return loop.reference().at(t); });
+  }
+
+  // The answers to a ball that is away(sample) from the reference, m.
+  Commands commands(const std::function<Pair(double)>& away) {
+    const model::SampledLoop& loop = *model_.rig().sampled;
+    const double servo[4] = {};
+    Commands commands;
+    loop.external->begin();
+    for (std::size_t i = 0; i < samples; ++i) {
+      const auto number = static_cast<double>(i);
+      const double t = number * loop.sampling.period;
+      const auto reference = reference_at(t);
+      const Pair from = away(number);
+      std::optional<Pair> seen = Pair{};
+      if (!sensor_.read(reference[0].value + from[0], reference[1].value + from[1], *seen)) {
+        seen.reset();
+      }
+      commands.push_back(loop.external->command({i, t, seen, servo, reference}, own_.data()));
+    }
+    return commands;
+  }
+
+ private:
+  static Sensor without_chance(Sensor sensor) {
+    sensor.noise = sensor.dropout = 0;
+    return sensor;
+  }
+
+  model::SwitchedModel model_;
+  model::BallSensor sensor_;
+  std::vector<double> own_;
+};
+
+// How much a positive command, in phi and theta, moves the ball along x and y: by the angle that it
+// turns the plate to. What the ball does while the plate accelerates may be the other way, and is
+// left out.
+Eigen::MatrixXd effect_of(const model::Model& model) {
+  const model::PlantDerivatives plant =
+      model::plant_derivatives(model, model::home_point(), model::Heave::left_out);
+  constexpr int speed = 2, angle = model::spin_state + 1, rate = angle + 2;
+  Eigen::MatrixXd turned = plant.of_command.block(rate, 0, 2, 2);
+  for (int i = 0; i < 2; ++i) {
+    if (!model.rig->servo[i].time_constant) continue;
+    // One of first order takes its rate from the command, and no acceleration.
+    turned.row(i).setZero();
+    turned(i, i) = 1;
+  }
+  // Of angles under commands that hold them.
+  const Eigen::MatrixXd holding = model::solve(turned, plant.of_state.block(rate, angle, 2, 2));
+  const Eigen::MatrixXd of_angle = plant.of_state.block(speed, angle, 2, 2) -
+                                   model::product(plant.of_command.block(speed, 0, 2, 2), holding);
+  return model::product(of_angle, turned);
+}
+
+// How far from the reference the ball is put, m: less where the plate or what the sensor sees ends.
+double greatest_distance(const Scenario& scenario, std::size_t axis, double reference) {
+  double half = std::numeric_limits<double>::infinity();
+  if (scenario.plate.size) half = (*scenario.plate.size)[axis] / 2;
+  if (scenario.plate.diameter) half = *scenario.plate.diameter / 2;
+  const auto& sensor = scenario.controller->sensor;
+  if (sensor && sensor->area) half = std::min(half, (*sensor->area)[axis] / 2);
+  const double room = 0.8 * (half - std::abs(reference));
+  return room > 0 ? std::min(room, 0.05) : 0.05;
+}
+
+// The controller's answers on either side of the reference along an axis.
+struct Sides {
+  double distance;  // m
+  Commands up, down;
+
+  // By how much a command rises with the coordinate, in its unit per m.
+  [[nodiscard]] double slope(std::size_t sample, std::size_t command) const {
+    return (up[sample][command] - down[sample][command]) / (2 * distance);
+  }
+};
+
+// Along x and y.
+struct Answers {
+  std::array<std::optional<Sides>, 2> near, far;
+
+  // Whether any command of the sample depends on where the ball is.
+  [[nodiscard]] bool depend(std::size_t sample) const {
+    for (const auto* sides : {&near, &far}) {
+      for (const auto& one : *sides) {
+        if (one && one->up[sample] != one->down[sample]) return true;
+      }
+    }
+    return false;
+  }
+};
+
+Answers ask(Bench& bench, const Scenario& scenario, const std::vector<int>& axes) {
+  const auto reference = bench.reference_at(0);
+  Answers answers;
+  for (const int one : axes) {
+    const auto axis = static_cast<std::size_t>(one);
+    const auto at = [&](double distance) {
+      const auto commands = [&](double away) {
+        Pair from{0, 0};
+        from[axis] = away;
+        return bench.commands([from](double) { return from; });
+      };
+      return Sides{distance, commands(distance), commands(-distance)};
+    };
+    const double far = greatest_distance(scenario, axis, reference[axis].value);
+    answers.near[axis] = at(far / 5);
+    answers.far[axis] = at(far);
+  }
+  return answers;
+}
+
+std::string centimeters(double meters) {
+  return short_number(100 * meters) + " cm";
+}
+
+// What there is to say of phi's command, or theta's. `effect` is effect_of() it: on x and y.
+Line line_of(const Answers& answers, std::size_t sample, std::size_t command,
+             const Eigen::Vector2d& effect, const std::string& unit) {
+  constexpr const char* warning = "WARNING";
+  const std::string name = std::string(angles[command]) + ": ";
+  const std::size_t axis = std::abs(effect[0]) >= std::abs(effect[1]) ? 0 : 1, other = 1 - axis;
+  const auto slope = [&](const std::array<std::optional<Sides>, 2>& sides, std::size_t along) {
+    return sides[along] ? sides[along]->slope(sample, command) : 0;
+  };
+  const auto gain_of = [&](std::size_t along) {
+    const double near = slope(answers.near, along);
+    return near != 0 ? near : slope(answers.far, along);
+  };
+  const double gain = gain_of(axis), cross = gain_of(other);
+  if (gain == 0) {
+    return {warning, name + (cross == 0 ? "does not depend on where the ball is"
+                                        : std::string("depends on ") + coordinates[other] +
+                                              ", but moves the ball along " + coordinates[axis] +
+                                              "; exchange the commands, or the coordinates")};
+  }
+  std::string gains = "gain " + short_number(gain) + ' ' + unit + " per m of " + coordinates[axis];
+  if (std::abs(cross) > 1e-3 * std::abs(gain)) {
+    gains += ", " + short_number(cross) + " per m of " + coordinates[other];
+  }
+  const double far = slope(answers.far, axis);
+  const auto words = [&](double one) {
+    return one * effect[static_cast<Eigen::Index>(axis)] < 0 ? "towards the reference"
+                                                             : "away from the reference";
+  };
+  if (far * gain < 0) {
+    return {warning, name + "pushes the ball " + words(gain) + " at " +
+                         centimeters(answers.near[axis]->distance) + ", and " + words(far) +
+                         " at " + centimeters(answers.far[axis]->distance) + "; " + gains};
+  }
+  const std::string does = name + "pushes the ball " + words(gain);
+  const double push = effect[static_cast<Eigen::Index>(axis)];
+  if (gain * push < 0) return {"", does + "; " + gains};
+  return {warning, does + "; change the sign: positive " + angles[command] +
+                       " drives the ball towards " + (push > 0 ? "+" : "-") + coordinates[axis] +
+                       "; " + gains};
+}
+
+}  // namespace
+
+Report probe(const Scenario& scenario, const model::Model& model) {
+  Bench bench(model);
+  Report report;
+  // A ball that moves, so that a controller takes differences and divides them by time.
+  const auto moves = [](double sample) { return Pair{0.01 - 0.001 * sample, 0.0007 * sample}; };
+  if (bench.commands(moves) != bench.commands(moves)) {
+    report.push_back({"WARNING",
+                      "the controller answers differently to the same samples; does it read a "
+                      "wall clock?"});
+  }
+  const std::vector<int> axes = model::moving_axes(model);
+  const Answers answers = ask(bench, scenario, axes);
+  std::size_t sample = 0;
+  while (sample < samples && !answers.depend(sample)) ++sample;
+  if (sample == samples) {
+    report.push_back({"WARNING", "its commands do not depend on where the ball is, in " +
+                                     std::to_string(samples) + " samples"});
+    return report;
+  }
+  if (sample > 0) {
+    report.push_back(
+        {"", "it answers to where the ball is from sample " + std::to_string(sample) + " on"});
+  }
+  const Eigen::MatrixXd effect = effect_of(model);
+  const std::string unit = command_unit(scenario.controller->drives);
+  for (const int one : axes) {
+    const auto command = static_cast<std::size_t>(one);
+    report.push_back(line_of(answers, sample, command, effect.col(one), unit));
+  }
+  return report;
+}
+
+}  // namespace bbsim::api

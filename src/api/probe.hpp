@@ -1,0 +1,17 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// What a controller of one's own does about a ball that is not at its reference.
+#pragma once
+
+#include "api/check.hpp"
+#include "model/model.hpp"
+
+namespace bbsim::api {
+
+// Puts the ball beside the reference, on each axis and either side, and asks the model's controller
+// for commands: where they drive the ball, and the gain. Whether they are right is for the model to
+// say. Runs the controller about ten times for half a second. Throws model::ControllerFault.
+[[nodiscard]] Report probe(const Scenario& scenario, const model::Model& model);
+
+}  // namespace bbsim::api
