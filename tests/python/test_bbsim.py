@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The Python package against the program. Needs BBSIM (the program) and BBSIM_SOURCE in the environment."""
 
+import contextlib
 import csv
 import io
 import json
@@ -486,6 +487,32 @@ class Interruptions(unittest.TestCase):
             f"s = dict(controller=dict(callable=lambda sample: (0, 0), drives='angle', sampling=dict(period='20 ms'), "
             f"reference=dict(point=[0, 0])), ball=dict(radius=0.01), time=dict(end=1e6, step=1), "
             f"gimbal=dict(servo=dict(natural_frequency=10, damping=1))); bbsim.run(s)")
+
+
+class Documents(unittest.TestCase):
+    def test_the_notebook_runs(self):
+        try:
+            import matplotlib
+            import pandas  # noqa: F401
+            import scipy  # noqa: F401
+        except ImportError as lacking:
+            self.skipTest(str(lacking))
+        matplotlib.use("Agg")
+        text = (CONFIGS.parent / "docs/tutorials/notebook.md").read_text()
+        blocks = text.split("```python\n")[1:]
+        self.assertGreater(len(blocks), 6)
+        names = {}
+        folder = os.getcwd()
+        os.chdir(CONFIGS.parent)
+        try:
+            with contextlib.redirect_stdout(io.StringIO()) as said:
+                for block in blocks:
+                    exec(block.split("```")[0], names)
+        finally:
+            os.chdir(folder)
+        self.assertIn("ball.radius - allowed: ", said.getvalue())
+        worse, better = (bbsim.run(names[one], measures="rms_tracking_error") for one in ("loop", "designed"))
+        self.assertLess(3 * better.measures["rms_tracking_error"], worse.measures["rms_tracking_error"])
 
 
 if __name__ == "__main__":
