@@ -107,7 +107,8 @@ Rig build_rig(const Scenario& scene, const ControlLaw& law) {
                                     controller.sensor.value_or(Sensor{}),
                                     law,
                                     {limits[0], limits[1]},
-                                    rig.between});
+                                    rig.between,
+                                    controller.drives == Drives::legs});
     if (controller.own) rig.sampled->own_columns = scenario::own_columns(scene);
   } else {
     for (int i = 0; i < 2; ++i) {

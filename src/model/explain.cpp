@@ -81,6 +81,7 @@ std::string gimbal_note(const Scenario& scene) {
         return states + "to (M47), of motors under the controller's voltages";
       case Drives::angle:
       case Drives::acceleration:
+      case Drives::legs:
         break;
     }
     return states + "to (M47), of motors whose position loops follow the controller's angles";
@@ -131,7 +132,11 @@ std::string limits_note(const Gimbal& gimbal) {
 }
 
 std::string assumes_note(const Scenario& scene) {
-  if (scene.controller->own) return "; your controller commands the servos itself";
+  const bool two_of_three =
+      scene.gimbal.three_servos && scene.controller->drives == Drives::angle;
+  if (scene.controller->own && !two_of_three) {
+    return "; your controller commands the servos itself";
+  }
   return assumes_of(scene) == Assumes::exact ? "; the controller inverts the curve"
                                              : "; the controller assumes the ratio at home";
 }
@@ -250,7 +255,7 @@ std::string law_note(const Controller& controller) {
   }
   const auto shown = [&](const std::optional<double>& limit) {
     if (!limit) return std::string("any");
-    return controller.drives == Drives::angle
+    return drives_servos(controller.drives)
                ? degrees(*limit)
                : short_number(*limit) + ' ' + command_unit(controller.drives);
   };

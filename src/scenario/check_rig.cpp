@@ -89,7 +89,8 @@ class Checks {
       }
       if (controller.drives != Drives::acceleration) {
         refuse({"controller", "drives"},
-               std::string("found ") + (controller.drives == Drives::angle ? "angle" : "torques") +
+               std::string("found ") +
+                   (drives_servos(controller.drives) ? name_of(controller.drives) : "torques") +
                    ", but " + law() +
                    " gives the gimbal's accelerations; allowed: "
                    "acceleration");
@@ -123,12 +124,31 @@ class Checks {
                "its sine; allowed: at most that");
       }
     }
-    if (controller.drives != Drives::angle && controller.sampling &&
+    if (controller.drives == Drives::legs) legs(controller);
+    if (!drives_servos(controller.drives) && controller.sampling &&
         controller.sampling->resolution > 0) {
       refuse({"controller", "sampling", "resolution"},
              "found, but controller.drives is not angle; allowed: only with drives: angle");
     }
     if (controller.sampling && controller.sampling->period > 0) check_times(controller);
+  }
+
+  void legs(const Controller& controller) {
+    if (!scene_.gimbal.three_servos) {
+      refuse({"controller", "drives"},
+             "found legs, but there are no three servos; allowed: angle, or gimbal.three_servos "
+             "given");
+    }
+    if (controller.law != Law::own) {
+      refuse({"controller", "drives"},
+             "found legs beside a law that gives two angles; allowed: angle, or your own program or "
+             "library, which gives an angle for each servo");
+    }
+    if (controller.axis_limits) {
+      refuse({"controller", "limit"},
+             "found limits of phi and theta, but the commands are those of three servos; allowed: "
+             "one angle for all");
+    }
   }
 
   // Limits the number of samples and the delays, if the period is valid.
@@ -254,14 +274,16 @@ class Checks {
              "that drives angle");
       return;
     }
-    if (scene_.controller->drives != Drives::angle || gimbal.motor) {
+    const bool driven = three ? drives_servos(scene_.controller->drives)
+                              : scene_.controller->drives == Drives::angle;
+    if (!driven || gimbal.motor) {
       refuse({"gimbal", key},
              std::string("found, but ") +
                  (gimbal.motor ? "gimbal.motor moves the axes themselves"
                                : "controller.drives is not angle, and no servo moves it") +
                  "; allowed: only with drives: angle and gimbal.servo");
     }
-    if (scene_.controller->own) {
+    if (scene_.controller->own && (!three || scene_.controller->drives == Drives::legs)) {
       refuse({"controller", "assumes"},
              "found with your own controller, which commands the servos itself; allowed: only with "
              "a built-in law");
@@ -276,10 +298,6 @@ class Checks {
         gimbal.start.theta_rate != 0) {
       refuse({"gimbal", "start"},
              "found beside gimbal.three_servos, which start at home; allowed: no start");
-    }
-    if (scene_.controller->own) {
-      refuse({"gimbal", "three_servos"},
-             "found with your own controller, which has two commands; allowed: a built-in law");
     }
   }
 

@@ -301,10 +301,11 @@ void read_controller(yaml::Keys& keys, Controller& controller) {
                 yaml::NameOf<Drives>{{{Drives::acceleration, name_of(Drives::acceleration)},
                                       {Drives::angle, name_of(Drives::angle)},
                                       {Drives::torque, name_of(Drives::torque)},
-                                      {Drives::voltage, name_of(Drives::voltage)}}},
+                                      {Drives::voltage, name_of(Drives::voltage)},
+                                      {Drives::legs, name_of(Drives::legs)}}},
                 controller.drives);
   keys.section("reference", read_reference, controller.reference);
-  keys.optional("limit", CommandLimit{controller.drives == Drives::angle}, controller);
+  keys.optional("limit", CommandLimit{drives_servos(controller.drives)}, controller);
   keys.optional("assumes",
                 yaml::NameOf<Assumes>{{{Assumes::exact, "exact"}, {Assumes::ratio, "ratio"}}},
                 controller.assumes);

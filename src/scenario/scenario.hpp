@@ -237,15 +237,18 @@ struct TableReference {
 using Reference = std::variant<PointReference, CircleReference, LissajousReference,
                                WaypointReference, TableReference>;
 
-enum class Drives { acceleration, angle, torque, voltage };
+enum class Drives { acceleration, angle, torque, voltage, legs };  // legs: three servos' angles
 
 // The word in scenarios, and the unit of a command.
 [[nodiscard]] constexpr const char* name_of(Drives drives) {
-  constexpr const char* names[] = {"acceleration", "angle", "torque", "voltage"};
+  constexpr const char* names[] = {"acceleration", "angle", "torque", "voltage", "legs"};
   return names[static_cast<std::size_t>(drives)];
 }
+[[nodiscard]] constexpr bool drives_servos(Drives drives) {
+  return drives == Drives::angle || drives == Drives::legs;
+}
 [[nodiscard]] constexpr const char* command_unit(Drives drives) {
-  constexpr const char* units[] = {"rad/s^2", "rad", "N m", "V"};
+  constexpr const char* units[] = {"rad/s^2", "rad", "N m", "V", "rad"};
   return units[static_cast<std::size_t>(drives)];
 }
 

@@ -48,7 +48,7 @@ SampledController::SampledController(const SampledLoop& loop)
   law_.integrates = loop.law.integrates();
   law_.filter = loop.sampling.derivative_filter;
   // What is between the servos and the plane makes steps of its own.
-  const double step = loop.between.none() ? loop.sampling.resolution : 0;
+  const double step = loop.between.none() || loop.legs ? loop.sampling.resolution : 0;
   law_.resolution = step;
   for (std::size_t i = 0; i < 2; ++i) {
     const CommandRange& limit = loop.limit[i];

@@ -353,6 +353,13 @@ std::array<double, 3> Between::told(Pair wanted) const {
   return {linkages[0].told(wanted[0]), linkages[1].told(wanted[1]), 0};
 }
 
+Pair Between::tilt(const std::array<double, 3>& servo) const {
+  const double at[3] = {servo[0], servo[1], servo[2]};
+  double plane[2];
+  three->angles(at, plane);
+  return {plane[0] - three->offset[0], plane[1] - three->offset[1]};
+}
+
 void Between::believed(const double* servo, const double* rate, double (&into)[4]) const {
   double angle[2] = {servo[0], servo[1]}, angle_rate[2] = {rate[0], rate[1]};
   if (three) three->believed(servo, rate, angle, angle_rate);
@@ -395,7 +402,10 @@ Between between_of(const Scenario& scene) {
   Between between;
   if (!scenario::is_linked(scene) || !scene.controller) return between;
   const Controller& controller = *scene.controller;
-  const Assumed assumed = controller.own                        ? Assumed::none
+  // Your own code commands linked servos itself; three of them only as it drives legs.
+  const bool itself =
+      controller.own && (!scene.gimbal.three_servos || controller.drives == Drives::legs);
+  const Assumed assumed = itself                                ? Assumed::none
                           : assumes_of(scene) == Assumes::exact ? Assumed::exact
                                                                 : Assumed::ratio;
   const Mounting& mounting = scene.gimbal.mounting;

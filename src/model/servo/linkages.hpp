@@ -59,6 +59,9 @@ struct Between {
   [[nodiscard]] bool has_pieces() const;
   // The commands to two or three servos for the angles that a law wants.
   [[nodiscard]] std::array<double, 3> told(Pair wanted) const;
+  // The tilt that three servos at these angles give the plate, without its offsets; NaN where no
+  // tilt does.
+  [[nodiscard]] Pair tilt(const std::array<double, 3>& servo) const;
   // What the controller infers from the servos' angles and rates: phi, theta, and their rates.
   void believed(const double* servo, const double* rate, double (&into)[4]) const;
   // The range of commands of the law that the mechanism can reach.
