@@ -209,12 +209,16 @@ class Checks {
   template <class Holds>
   [[nodiscard]] bool any_servo(Holds holds) const {
     const Gimbal& gimbal = scene_.gimbal;
-    return gimbal.servo &&
-           (holds(*gimbal.servo) || (gimbal.theta_servo && holds(*gimbal.theta_servo)));
+    if (!gimbal.servo) return false;
+    for (std::size_t leg = 0; leg < 3 && gimbal.three_servos; ++leg) {
+      if (holds(gimbal.servo_of(leg))) return true;
+    }
+    return holds(*gimbal.servo) || (gimbal.theta_servo && holds(*gimbal.theta_servo));
   }
 
   void servo() {
     if (!scene_.controller || !scene_.gimbal.servo) return;
+    leg_servos();
     for (std::size_t axis = 0; axis < (scene_.gimbal.theta_servo ? 2U : 1U); ++axis) servo(axis);
     const GimbalStart& start = scene_.gimbal.start;
     const Servo &phi = scene_.gimbal.servo_of(0), &theta = scene_.gimbal.servo_of(1);
@@ -232,8 +236,30 @@ class Checks {
           "rate_limit");
   }
 
+  void leg_servos() {
+    const auto& three = scene_.gimbal.three_servos;
+    for (std::size_t i = 0; three && three->legs && i < 3; ++i) {
+      const auto& servo = (*three->legs)[i].servo;
+      if (!servo) continue;
+      const auto refuse_leg = [&](const std::string& why) {
+        refuse({"gimbal", "three_servos", "legs"},
+               "found a servo of leg " + std::to_string(i + 1) + " with " + why);
+      };
+      if (servo->time_constant && !scene_.controller->sampling) {
+        refuse_leg("time_constant, but no controller.sampling; allowed: only with it");
+      }
+      if (servo->time_constant && servo->acceleration_limit) {
+        refuse_leg("time_constant and acceleration_limit; allowed: one of the two");
+      }
+      if (servo->dead_band > 0 && !scene_.controller->sampling) {
+        refuse_leg("dead_band, but no controller.sampling; allowed: only with it");
+      }
+    }
+  }
+
   void servo(std::size_t axis) {
-    const Servo& servo = scene_.gimbal.servo_of(axis);
+    const Servo& servo =
+        axis == 0 ? *scene_.gimbal.servo : scene_.gimbal.servo_of(axis);
     if (servo.time_constant) {
       if (!scene_.controller->sampling) {
         refuse_of_servo(axis, "time_constant",
@@ -287,6 +313,11 @@ class Checks {
       refuse({"controller", "assumes"},
              "found with your own controller, which commands the servos itself; allowed: only with "
              "a built-in law");
+    }
+    if (scene_.controller->assumed_legs && (!three || !scene_.controller->sampling)) {
+      refuse({"controller", "assumes"},
+             "found legs; allowed: only with gimbal.three_servos and controller.sampling, since it "
+             "is firmware that takes its legs for others");
     }
     if (!three) return;
     if (gimbal.theta_servo) {

@@ -137,11 +137,30 @@ struct CurveLinkage {
 
 using AxisLinkage = std::variant<RodLinkage, CurveLinkage>;
 
-// Three servos on a circle below the plate, each with a horn, a rod and a ball joint: 3-RRS.
-struct ThreeServoPlate {
-  double radius_base = 0, radius_plate = 0;  // of the servo axes and of the joints, m, > 0
+// One of three legs under the plate: a servo with a horn, a rod and a ball joint.
+struct ServoLeg {
+  double radius_base = 0, radius_plate = 0;  // of the servo's axis and of the joint, m, > 0
   double horn = 0, rod = 0;                  // m, > 0
-  double height = 0;  // of the joints above the servo axes with the plate level, m, > 0
+  double height = 0;           // of the joint above the servo's axis with the plate level, m, > 0
+  double angle = 0;            // azimuth, from the plate's x axis, rad
+  double joint_height = 0;     // of the joint in the plate, from any level that all legs share, m
+  double offset = 0;           // of the horn from home where the servo is at zero, rad
+  int direction = 1;           // -1: the horn falls as the servo's angle grows
+  std::optional<Servo> servo{};  // if it differs from gimbal.servo
+};
+
+// Three servos below the plate: 3-RRS. At 0, 120 and 240 degrees and alike, or as `legs` says.
+struct ThreeServoPlate {
+  double radius_base = 0, radius_plate = 0;  // as of ServoLeg
+  double horn = 0, rod = 0;
+  double height = 0;
+  std::optional<std::array<ServoLeg, 3>> legs{};
+
+  [[nodiscard]] ServoLeg leg(std::size_t i) const {
+    if (legs) return (*legs)[i];
+    constexpr double third = 2.0943951023931953;  // of a turn
+    return {radius_base, radius_plate, horn, rod, height, third * static_cast<double>(i)};
+  }
 };
 
 // How the plane is mounted on the gimbal. The defaults are those of the paper.
@@ -193,8 +212,12 @@ struct Gimbal {
   std::optional<ThreeServoPlate> three_servos{};
   Mounting mounting;
 
-  // The servo of phi (0) or theta (1). Requires a servo.
+  // The servo of phi (0) or theta (1), or of a leg. Requires a servo.
   [[nodiscard]] const Servo& servo_of(std::size_t axis) const {
+    if (three_servos) {
+      const auto& legs = three_servos->legs;
+      return legs && (*legs)[axis].servo ? *(*legs)[axis].servo : *servo;
+    }
     return axis == 1 && theta_servo ? *theta_servo : *servo;
   }
 };
@@ -354,6 +377,7 @@ struct Controller {
   // Separate limits for phi and theta, which replace `limit`.
   std::optional<std::array<std::optional<double>, 2>> axis_limits{};
   std::optional<Assumes> assumes{};  // only with a linkage or three servos
+  std::optional<ThreeServoPlate> assumed_legs{};  // exact, but for legs that may not be those
   std::optional<Sampling> sampling{};
   std::optional<Sensor> sensor{};  // only with sampling
 

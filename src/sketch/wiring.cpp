@@ -64,7 +64,7 @@ void read_servo(Keys& keys, bbsim_wired_servo& servo) {
     servo.scale = per_microsecond * 1e6;
   }
   int direction = 1;
-  keys.optional("direction", Direction{}, direction);
+  keys.optional("direction", yaml::Sign{}, direction);
   servo.scale *= direction;
 }
 

@@ -369,21 +369,22 @@ TEST_CASE("three servos: a leg's ends stay apart by the rod's length, in its own
   // The joints in space, by the rotation that takes the vertical to the normal the shortest way.
   const double n[3] = {at.p, at.q, std::sqrt(1 - at.p * at.p - at.q * at.q)};
   const double w = 1 / (1 + n[2]);
-  const double wander[2] = {three.plate / 2 * w * (n[1] * n[1] - n[0] * n[0]),
-                            three.plate * w * n[0] * n[1]};
+  const ThreeServos::Leg& leg = three.leg[0];
+  const double wander[2] = {leg.plate / 2 * w * (n[1] * n[1] - n[0] * n[0]),
+                            leg.plate * w * n[0] * n[1]};
   for (int i = 0; i < 3; ++i) {
     const double azimuth = 2 * std::numbers::pi / 3 * i;
     const double e[2] = {std::cos(azimuth), std::sin(azimuth)};
     const double along = e[0] * n[0] + e[1] * n[1];
     double joint[3];
     for (int k = 0; k < 2; ++k) {
-      joint[k] = wander[k] + three.plate * (e[k] - w * along * n[k]);
+      joint[k] = wander[k] + leg.plate * (e[k] - w * along * n[k]);
     }
-    joint[2] = at.z - three.plate * along;
+    joint[2] = at.z - leg.plate * along;
     CHECK(std::abs(joint[1] * e[0] - joint[0] * e[1]) < 1e-16);  // in the leg's plane
     const double out = joint[0] * e[0] + joint[1] * e[1];
-    CHECK(std::hypot(out - three.base - three.horn * cosine[i], joint[2] - three.horn * sine[i]) ==
-          Approx(three.rod).epsilon(1e-14));
+    CHECK(std::hypot(out - leg.base - leg.horn * cosine[i], joint[2] - leg.horn * sine[i]) ==
+          Approx(leg.rod).epsilon(1e-14));
   }
 }
 
