@@ -111,7 +111,7 @@ TEST_CASE("an answer may be written as libraries write it") {
     CAPTURE(line);
     const Read answer = read(line);
     CHECK(answer.fault.empty());
-    CHECK(answer.command == Pair{0.5, -0.001});
+    CHECK(answer.command == std::vector{0.5, -0.001});
   }
   const Read named = read("{\"b\": 2, \"command\": [0, 1], \"a\": -1.5e3, \"c\": 9}", {"a", "b"});
   CHECK(named.fault.empty());
@@ -222,7 +222,8 @@ TEST_CASE("a hello says what the run is like, and its answer what the controller
   for (const auto& [drives, word, unit] :
        {std::tuple{Drives::angle, "angle", "rad"},
         std::tuple{Drives::acceleration, "acceleration", "rad/s^2"},
-        std::tuple{Drives::torque, "torque", "N m"}, std::tuple{Drives::voltage, "voltage", "V"}}) {
+        std::tuple{Drives::torque, "torque", "N m"}, std::tuple{Drives::voltage, "voltage", "V"},
+        std::tuple{Drives::legs, "legs", "rad"}}) {
     setup.drives = drives;
     const json driven = json::parse(controller::hello_line(setup));
     CHECK(driven.at("drives") == word);
@@ -243,4 +244,17 @@ TEST_CASE("a hello says what the run is like, and its answer what the controller
     CAPTURE(wrong);
     CHECK_FALSE(controller::read_ready(wrong).fault.empty());
   }
+}
+
+TEST_CASE("three legs: a sample has three servos, and an answer three commands") {
+  const double servo[6] = {0.1, 0.2, 0.3, 1, 2, 3};
+  const std::string line = sample_line(0, 0, std::nullopt, servo, {});
+  CHECK(line.ends_with("\"servo\":[0.1,0.2,0.3],\"servo_rate\":[1.0,2.0,3.0]}\n"));
+  const Read answer = read("{\"command\": [0.1, -0.2, 0.3]}", {}, 3);
+  CHECK(answer.fault.empty());
+  CHECK(answer.command == std::vector{0.1, -0.2, 0.3});
+  CHECK(read("{\"command\": [0.1, 0.2]}", {}, 3)
+            .fault.ends_with("found a command that is not three numbers; allowed: {\"command\": [S1, "
+                             "S2, S3]}, optionally with \"NAME\": NUMBER"));
+  CHECK(!read("{\"command\": [0.1, 0.2, 1e999]}", {}, 3).fault.empty());
 }

@@ -120,6 +120,28 @@ TEST_CASE("clocks, frames and sensors are read in SI units") {
   CHECK(std::get<double>(pushed.ball.push->x[0]) == 0.01);
 }
 
+TEST_CASE("legs take what they lack from all legs") {
+  const Scenario scene = parse(
+      base, {"gimbal.three_servos={radius_base: \"6 cm\", radius_plate: 0.09, horn: 0.04, rod: 0.1, "
+             "height: 0.11, legs: [{offset: \"2 deg\", direction: -1}, {angle: \"100 deg\", radius: "
+             "0.07, servo: {angle_limit: \"40 deg\"}}, {rod: 0.102, joint_height: 0.004}]}"});
+  const auto& legs = *scene.gimbal.three_servos->legs;
+  CHECK(legs[0].angle == 0);
+  CHECK(legs[0].offset == Approx(0.03490658503988659).epsilon(1e-15));
+  CHECK(legs[0].direction == -1);
+  CHECK(legs[0].radius_base == 0.06);
+  CHECK(legs[1].angle == Approx(1.7453292519943295).epsilon(1e-15));
+  CHECK(legs[1].radius_base == 0.07);
+  CHECK(legs[1].radius_plate == 0.07);
+  CHECK(legs[1].rod == 0.1);
+  CHECK(legs[1].servo->angle_limit == Approx(0.6981317007977318));
+  CHECK(legs[1].servo->natural_frequency == scene.gimbal.servo->natural_frequency);
+  CHECK(!legs[0].servo);
+  CHECK(legs[2].angle == Approx(4.1887902047863905).epsilon(1e-15));
+  CHECK(legs[2].rod == 0.102);
+  CHECK(legs[2].joint_height == 0.004);
+}
+
 TEST_CASE("what makes no sense of these keys is refused, with why") {
   struct Case {
     std::vector<std::string> overrides;
@@ -142,6 +164,22 @@ TEST_CASE("what makes no sense of these keys is refused, with why") {
        "gimbal.start: found beside gimbal.three_servos"},
       {{"gimbal.three_servos=" + three, "gimbal.servo.theta={damping: 1}"},
        "gimbal.servo: found keys for phi and theta beside gimbal.three_servos"},
+      {{"gimbal.three_servos={radius_base: 0.06, radius_plate: 0.09, horn: 0.04, rod: 0.1}"},
+       "gimbal.three_servos.height: missing"},
+      {{"gimbal.three_servos={radius_base: 0.06, horn: 0.04, rod: 0.1, height: 0.11, legs: "
+        "[{radius_plate: 0.09}, {radius_plate: 0.09}, {}]}"},
+       "gimbal.three_servos.radius_plate: missing"},
+      {{"gimbal.three_servos={radius_base: 0.06, legs: [{}, {}]}"},
+       "gimbal.three_servos.legs: found a list; allowed: a list of three mappings"},
+      {{"gimbal.three_servos=" + three, "gimbal.three_servos.legs=[{radius: 0.1, radius_base: 0.1}, "
+        "{direction: 2}, {heigth: 1}]"},
+       "gimbal.three_servos.legs.2.heigth: unknown key"},
+      {{"controller.drives=legs"}, "controller.drives: found legs, but there are no three servos"},
+      {{"gimbal.three_servos=" + three, "controller.drives=legs"},
+       "controller.drives: found legs beside a law that gives two angles"},
+      {{"gimbal.three_servos=" + three, "controller.assumes=" + three},
+       "controller.assumes: found legs; allowed: only with gimbal.three_servos and "
+       "controller.sampling"},
       {{with_rods, "gimbal.servo.time_constant=0.1"}, "gimbal.servo.natural_frequency: given"},
       {{"controller.sampling={period: 0.02}", "controller.sensor={phase: 0.01}"},
        "controller.sensor.phase: found without sensor.period"},
