@@ -103,6 +103,8 @@ Rig build_rig(const Scenario& scene, const ControlLaw& law) {
         command_limit(controller, static_cast<std::size_t>(i)).value_or(unlimited));
     limits[i] = {std::max(limits[i].low, reach.low), std::min(limits[i].high, reach.high)};
   }
+  // In a groove the ball needs one axis only, and the plate has no other.
+  if (controller.sampling && scene.ball.groove) limits[1 - scene.ball.groove->axis] = {0, 0};
   if (controller.sampling) {
     rig.sampled.emplace(SampledLoop{*controller.sampling,
                                     controller.sensor.value_or(Sensor{}),

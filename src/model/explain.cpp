@@ -354,6 +354,10 @@ std::string sensor_note(const Sensor& sensor) {
 std::string mounting_note(const Scenario& scene) {
   const Mounting& mounting = scene.gimbal.mounting;
   List list;
+  if (scene.ball.groove) {
+    list.add("in a groove along " + std::string(scene.ball.groove->axis == 0 ? "x" : "y") +
+             " the ball acts as one of radius " + millimetres(scene.ball.radius));
+  }
   list.add_if(scene.ball.inertia_factor != 0.4,
               "inertia factor " + short_number(scene.ball.inertia_factor));
   list.add_if(mounting.height != 0,

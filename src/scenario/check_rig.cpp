@@ -9,6 +9,7 @@
 #include "base/number_text.hpp"
 #include "scenario/columns.hpp"
 #include "scenario/coupled.hpp"
+#include "scenario/groove.hpp"
 #include "scenario/relations.hpp"
 #include "scenario/sections.hpp"
 
@@ -46,6 +47,7 @@ class Checks {
     servo();
     linkage();
     push();
+    groove();
     events();
     plate();
     losses();
@@ -337,6 +339,23 @@ class Checks {
     if (inverts()) {
       refuse({"ball", "push"}, "found beside " + law() +
                                    ", whose equations do not include it; allowed: any other law");
+    }
+  }
+
+  void groove() {
+    if (!scene_.ball.groove) return;
+    const std::string along_x = why_not_along(0, scene_), along_y = why_not_along(1, scene_);
+    if (!along_x.empty() && !along_y.empty()) {
+      refuse({"ball", "rolling_radius"},
+             "found, but the scene moves along two axes: not along x alone, as " + along_x +
+                 "; not along y alone, as " + along_y +
+                 "; allowed: only for a ball that rolls along one axis, in a groove or between "
+                 "rails");
+    }
+    if (scene_.events.slip) {
+      refuse({"events", "slip"},
+             "found beside ball.rolling_radius, and the friction of two contacts is not that of "
+             "one; allowed: any other event");
     }
   }
 

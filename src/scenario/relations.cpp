@@ -91,6 +91,7 @@ constexpr KeyRelation table[] = {
     {"ball.losses.viscous>0", needs, "ball.mass"},
     {"ball.losses.rolling>0", excludes, "controller.feedback_linearization"},
     {"ball.losses.pivoting>0", excludes, "controller.feedback_linearization"},
+    {"ball.rolling_radius", excludes, "events.slip or gimbal.three_servos or ball.rotation"},
     {"ball.rotation", needs, "events.slip.action=slide",
      "found, but the ball only rolls, which determines how it turns; allowed: only with "
      "events.slip and its action: slide"},

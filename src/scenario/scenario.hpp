@@ -68,13 +68,21 @@ struct BallPush {
   Profile x, y;
 };
 
+// A ball between two rails, or in a groove, rolls about the axis through its two contacts.
+struct Groove {
+  double ball_radius = 0;  // m
+  int axis = 0;            // along x, or 1: along y
+};
+
 struct Ball {
-  double radius = 0;    // m, > 0, required
+  double radius = 0;    // m, > 0, required; in a groove, the distance from center to the contacts' axis
   double mass = 1;      // kg, > 0; needed only for forces, or where the mass affects the motion
   Pair position{0, 0};  // contact point in the plane frame, m
   Pair velocity{0, 0};  // of the contact point in the plane frame, m/s
   double spin = 0;      // about the plane's normal, relative to the plane, rad/s
-  double inertia_factor = 0.4;  // moment of inertia over m r^2: 2/5 solid, 2/3 a thin shell
+  // Moment of inertia over m r^2: 2/5 solid, 2/3 a thin shell; more in a groove.
+  double inertia_factor = 0.4;
+  std::optional<Groove> groove{};
   Losses losses{};
   // Rotation rate about the plane's x and y axes relative to the plane, rad/s. Default: rolling
   // without slip.
@@ -312,6 +320,7 @@ struct Sensor {
   double delay = 0;            // from the measurement to the sample, s
   double dropout = 0;          // probability that a sample has no measurement
   std::optional<Pair> area{};  // sides of the field of view, a rectangle, m
+  std::optional<int> only{};   // in a groove, the coordinate that it measures; the other is 0
   // The measurement of a ball at p, before noise: scale R(rotation) p + offset.
   double rotation = 0;  // rad
   Pair scale{1, 1};

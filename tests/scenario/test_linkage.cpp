@@ -142,6 +142,45 @@ TEST_CASE("legs take what they lack from all legs") {
   CHECK(legs[2].joint_height == 0.004);
 }
 
+TEST_CASE("a ball in a groove is a smaller one with more inertia, along one axis") {
+  const std::string beam =
+      "ball: {radius: 0.02, mass: 0.05, rolling_radius: \"1.2 cm\", position: [0.1, 0]}\n"
+      "gimbal: {servo: {natural_frequency: \"5 Hz\", damping: 0.8}}\n"
+      "controller:\n"
+      "  pd: {kv: 1, kp: 1}\n"
+      "  drives: angle\n"
+      "  reference: {point: [0.05, 0]}\n"
+      "  sampling: {period: 0.02}\n"
+      "  sensor: {noise: 0.001, rotation: 0.1}\n"
+      "time: {end: 1, step: 0.1}\n";
+  const Scenario scene = parse(beam, {});
+  CHECK(scene.ball.radius == 0.012);
+  CHECK(scene.ball.inertia_factor == Approx(0.4 / 0.36).epsilon(1e-15));
+  CHECK(scene.ball.groove->ball_radius == 0.02);
+  CHECK(scene.ball.groove->axis == 0);
+  CHECK(scene.controller->sensor->only == 0);
+  const Scenario along_y =
+      parse(beam, {"ball.position=[0, 0.1]", "controller.reference.point=[0, 0.05]"});
+  CHECK(along_y.ball.groove->axis == 1);
+  CHECK_THAT(errors(beam, {"ball.rolling_radius=0.021"}),
+             Contains("ball.rolling_radius: found 0.021; allowed: a length of at most "
+                      "ball.radius, 0.02 m"));
+  CHECK_THAT(errors(beam, {"ball.rolling_radius=0"}), Contains("ball.rolling_radius: found 0"));
+  CHECK_THAT(errors(beam, {"ball.velocity=[0, 0.1]"}),
+             Contains("ball.rolling_radius: found, but the scene moves along two axes: not along x "
+                      "alone, as ball.velocity is not 0 across it; not along y alone, as "
+                      "ball.position is not 0 across it"));
+  CHECK_THAT(errors(beam, {"controller.reference.point=[0.1, 0.1]"}),
+             Contains("controller.reference is not 0 across it"));
+  CHECK_THAT(errors(beam, {"gimbal.three_servos=" + three}),
+             Contains("three servos tilt the plate in all directions"));
+  CHECK_THAT(errors(beam, {"events.slip={friction: 0.3}"}),
+             Contains("events.slip: found beside ball.rolling_radius"));
+  CHECK_THAT(errors(beam, {"controller.sampling=null", "controller.sensor=null",
+                           "controller.pd.kp=[[1, 0], [0.1, 1]]"}),
+             Contains("the law's gains move both axes"));
+}
+
 TEST_CASE("what makes no sense of these keys is refused, with why") {
   struct Case {
     std::vector<std::string> overrides;

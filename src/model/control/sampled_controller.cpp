@@ -30,6 +30,7 @@ bool BallSensor::read(double x, double y, Pair& seen) {
     missed = missed || std::abs(x) > (*sensor_.area)[0] / 2 || std::abs(y) > (*sensor_.area)[1] / 2;
   }
   for (std::size_t i = 0; i < 2; ++i) seen[i] = in_steps(says[i], sensor_.resolution);
+  if (sensor_.only) seen[*sensor_.only == 0 ? 1 : 0] = 0;
   return !missed;
 }
 
