@@ -156,7 +156,7 @@ struct ThreeServos {
             number(0.0) - (b * c + a * root) / square};
   }
 
-  // (M62) to (M65).
+  // (M66) to (M69).
   template <class T, class Number>
   void unequal_joints(const Pose<T>& at, const Number& number, Joint<T> (&joint)[3]) const {
     const T one = number(1.0);
