@@ -58,7 +58,8 @@ typedef struct bbsim_parameter {
 typedef struct bbsim_setup {
   uint32_t abi;                      /* BBSIM_CONTROLLER_ABI of bbsim */
   uint32_t drives_acceleration;      /* commands are 0: angles, rad; 1: accelerations, rad/s^2;
-                                      * 2: torques, N m; 3: voltages, V */
+                                      * 2: torques, N m; 3: voltages, V; 4: angles of the servos
+                                      * of three legs, rad */
   double period;                     /* from sample to sample, s, > 0 */
   double delay;                      /* from a sample to its command, s: sampling.delay */
   double resolution;                 /* that commands are rounded to; 0: none */
@@ -83,6 +84,8 @@ typedef struct bbsim_sample {
   double reference_acceleration[2]; /* its second derivative, m/s^2 */
   double servo[2];                  /* angles of the servos (of the gimbal, without them), rad */
   double servo_rate[2];             /* their rates, rad/s */
+  double third_servo;               /* where the commands are those of three servos, the third's */
+  double third_servo_rate;          /* angle and rate; 0 otherwise */
 } bbsim_sample;
 
 /* Returns BBSIM_CONTROLLER_ABI, of the header that the library was compiled with. */
@@ -94,10 +97,11 @@ BBSIM_CONTROLLER_EXPORT uint32_t bbsim_controller_abi(void);
 BBSIM_CONTROLLER_EXPORT void *bbsim_controller_create(const bbsim_setup *setup);
 
 /* A sample. Writes the commands for phi and theta, which have to be finite, and, of each of
- * setup->columns, a number into `columns`, in their order. Returns 0; any other number ends the run
+ * setup->columns, a number into `columns`, in their order. Where drives_acceleration is 4, `command`
+ * has room for three: one for each servo. Returns 0; any other number ends the run
  * with exit code 1, and bbsim says what bbsim_controller_last_error() returns. */
 BBSIM_CONTROLLER_EXPORT int bbsim_controller_step(void *controller, const bbsim_sample *sample,
-                                                  double command[2], double *columns);
+                                                  double *command, double *columns);
 
 /* Another run begins, perhaps with another setup: the controller is to be as if it had just been
  * created. Returns 0 if it is; otherwise bbsim destroys it and creates another. This function may

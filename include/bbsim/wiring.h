@@ -16,7 +16,7 @@ extern "C" {
 #endif
 
 /* Increases when anything below changes. */
-#define BBSIM_WIRING_VERSION 2u
+#define BBSIM_WIRING_VERSION 3u
 
 /* counts = counts[0] + (position - position[0]) (counts[1] - counts[0]) / (position[1] - position[0]) */
 typedef struct bbsim_count_map {
@@ -83,7 +83,7 @@ typedef struct bbsim_wiring {
   uint32_t version;             /* BBSIM_WIRING_VERSION */
   uint32_t setup_before;        /* 1: setup() has returned at t = 0; 0: the board starts then */
   uint32_t print;               /* 1: what the sketch prints goes to standard error */
-  bbsim_wired_servo servos[2];  /* phi, theta */
+  bbsim_wired_servo servos[3];  /* phi, theta and none; or those of three legs */
   double oscillator;            /* of the PCA9685, Hz */
   uint32_t ignored_channels;    /* bit n: channel n of the PCA9685 drives a servo that is not in the scene */
   bbsim_wired_screen screen;

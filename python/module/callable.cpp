@@ -22,6 +22,9 @@ using model::ControllerFault;
 constexpr const char* allowed =
     "allowed: (phi, theta), or (phi, theta, {\"NAME\": number}) with the names that output.columns "
     "asks for";
+constexpr const char* allowed_of_legs =
+    "allowed: (s1, s2, s3), or (s1, s2, s3, {\"NAME\": number}) with the names that "
+    "output.columns asks for";
 
 py::tuple pair(const Pair& of) {
   return py::make_tuple(of[0], of[1]);
@@ -44,6 +47,13 @@ void define_sample(py::module_& module) {
   const auto of = [](Pair Sample::*member) {
     return [member](const Sample& sample) { return pair(sample.*member); };
   };
+  const auto of_servos = [](std::array<double, 3> Sample::*member) {
+    return [member](const Sample& sample) -> py::tuple {
+      const auto& all = sample.*member;
+      return sample.commands == 3 ? py::make_tuple(all[0], all[1], all[2])
+                                  : py::make_tuple(all[0], all[1]);
+    };
+  };
   py::class_<Sample> type(module, "Sample");
   type.def_readonly("sample", &Sample::number)
       .def_readonly("t", &Sample::t)
@@ -55,8 +65,8 @@ void define_sample(py::module_& module) {
       .def_property_readonly("reference", of(&Sample::reference))
       .def_property_readonly("reference_rate", of(&Sample::reference_rate))
       .def_property_readonly("reference_acceleration", of(&Sample::reference_acceleration))
-      .def_property_readonly("servo", of(&Sample::servo))
-      .def_property_readonly("servo_rate", of(&Sample::servo_rate))
+      .def_property_readonly("servo", of_servos(&Sample::servo))
+      .def_property_readonly("servo_rate", of_servos(&Sample::servo_rate))
       .def("__getitem__",
            [](const py::object& self, const py::str& name) {
              if (!py::hasattr(self, name)) throw py::key_error(std::string(name));
@@ -80,9 +90,10 @@ class Callable::Controller : public model::ExternalController {
     });
   }
 
-  Pair command(const model::ControllerSample& at, double* own) override {
+  model::Commands command(const model::ControllerSample& at, double* own) override {
     const py::gil_scoped_acquire lock;
-    Pair command{};
+    model::Commands command{};
+    commands_ = at.servo.size();
     ask("at sample " + std::to_string(at.number) + " (t = " + number_text(at.t) + " s)",
         [&] { read(callable_.function_(api::copy_of(at)), command, own); });
     return command;
@@ -111,17 +122,17 @@ class Callable::Controller : public model::ExternalController {
     }
   }
 
-  void read(const py::object& answer, Pair& command, double* own) const {
-    const std::size_t most = own_.empty() ? 2 : 3;
+  void read(const py::object& answer, model::Commands& command, double* own) const {
+    const std::size_t most = commands_ + (own_.empty() ? 0 : 1);
     if (!py::isinstance<py::sequence>(answer) || py::len(answer) != most) refuse(answer);
-    for (std::size_t i = 0; i < 2; ++i) {
+    for (std::size_t i = 0; i < commands_; ++i) {
       const py::object one = answer[py::int_(i)];
       if (PyNumber_Check(one.ptr()) == 0) refuse(answer);
       command[i] = number(one);
       if (!std::isfinite(command[i])) refuse(answer);
     }
     if (own_.empty()) return;
-    const py::object numbers = answer[py::int_(2)];
+    const py::object numbers = answer[py::int_(commands_)];
     for (std::size_t i = 0; i < own_.size(); ++i) {
       if (!numbers.contains(own_[i])) refuse(answer);
       own[i] = number(numbers[py::str(own_[i])]);
@@ -130,13 +141,16 @@ class Callable::Controller : public model::ExternalController {
 
   [[noreturn]] void refuse(const py::object& answer) const {
     const std::string shown = bbsim::shown(std::string(py::repr(answer)), longest_saying);
-    PyErr_SetString(PyExc_ValueError, ("its answer was " + shown + "; " + allowed).c_str());
+    const std::string text =
+        "its answer was " + shown + "; " + (commands_ == 3 ? allowed_of_legs : allowed);
+    PyErr_SetString(PyExc_ValueError, text.c_str());
     throw py::error_already_set();
   }
 
   Callable& callable_;
   Watch& watch_;
   std::vector<std::string> own_;
+  std::size_t commands_ = 2;  // that the sample asks for
 };
 
 Callable::Callable(py::object function)

@@ -3,6 +3,7 @@
 
 #include "api/stepped_run.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -28,14 +29,16 @@ struct SteppedRun::State {
 
 Sample copy_of(const model::ControllerSample& sample) {
   const auto& [x, y] = sample.reference;
-  return {sample.number,
-          sample.t,
-          sample.seen,
-          {x.value, y.value},
-          {x.rate, y.rate},
-          {x.acceleration, y.acceleration},
-          {sample.servo[0], sample.servo[1]},
-          {sample.servo[2], sample.servo[3]}};
+  Sample copy{sample.number,
+              sample.t,
+              sample.seen,
+              {x.value, y.value},
+              {x.rate, y.rate},
+              {x.acceleration, y.acceleration},
+              sample.servo.size()};
+  std::ranges::copy(sample.servo, copy.servo.begin());
+  std::ranges::copy(sample.servo_rate, copy.servo_rate.begin());
+  return copy;
 }
 
 namespace {
@@ -47,11 +50,11 @@ class Waiting : public model::ExternalController {
   explicit Waiting(State& state) : state_(state) {}
 
   void begin() override {}
-  Pair command(const model::ControllerSample& sample, double* /*own*/) override {
+  model::Commands command(const model::ControllerSample& sample, double* /*own*/) override {
     state_.sample = copy_of(sample);
     state_.fiber.wait();
     if (state_.given_up) throw ControllerFault("the run was given up", true);
-    return state_.command;
+    return {state_.command[0], state_.command[1], 0};
   }
   [[nodiscard]] bool can_save() const override { return false; }
   [[nodiscard]] std::string save() override { return ""; }
@@ -69,6 +72,11 @@ SteppedRun::SteppedRun(const Scenario& scenario, RunRequest request) {
     throw InputError(
         "controller.sampling: found none; allowed: {period: \"20 ms\"}, as commands from outside "
         "are given once a sample");
+  }
+  if (scenario.controller->drives == Drives::legs) {
+    throw InputError(
+        "controller.drives: found legs; allowed: angle, as commands from outside are for phi and "
+        "theta");
   }
   state_ = std::make_unique<State>(std::move(request));
   Controller& controller = *state_->request.scenario.controller;

@@ -23,7 +23,8 @@ struct Sample {
   double t = 0;
   std::optional<Pair> ball;
   Pair reference{}, reference_rate{}, reference_acceleration{};
-  Pair servo{}, servo_rate{};
+  std::size_t commands = 2;  // that it asks for: three, of as many servos, under drives: legs
+  std::array<double, 3> servo{}, servo_rate{};
 };
 
 [[nodiscard]] Sample copy_of(const model::ControllerSample& sample);

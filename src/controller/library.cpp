@@ -6,8 +6,11 @@
 #include <bbsim/wiring.h>
 #include <dlfcn.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <span>
+#include <string>
 #include <vector>
 
 #include "base/error.hpp"
@@ -92,6 +95,8 @@ std::uint32_t c_drives(Drives drives) {
       return 2;
     case Drives::voltage:
       return 3;
+    case Drives::legs:
+      return 4;
   }
   return 0;
 }
@@ -269,7 +274,7 @@ void Library::restore(const std::string& memory) {
   throw fault_of(when(), "it returned " + std::to_string(code) + ": " + last_error(controller_));
 }
 
-Pair Library::command(const model::ControllerSample& sample, double* own) {
+model::Commands Library::command(const model::ControllerSample& sample, double* own) {
   const auto& [x, y] = sample.reference;
   const Pair ball = sample.seen.value_or(Pair{0, 0});
   const bbsim_sample given{sample.number,
@@ -280,19 +285,22 @@ Pair Library::command(const model::ControllerSample& sample, double* own) {
                            {x.rate, y.rate},
                            {x.acceleration, y.acceleration},
                            {sample.servo[0], sample.servo[1]},
-                           {sample.servo[2], sample.servo[3]}};
+                           {sample.servo_rate[0], sample.servo_rate[1]},
+                           sample.servo.size() == 3 ? sample.servo[2] : 0,
+                           sample.servo.size() == 3 ? sample.servo_rate[2] : 0};
   const auto when = [&] {
     return "at sample " + std::to_string(sample.number) + " (t = " + number_text(sample.t) + " s)";
   };
   const auto fail = [&](const std::string& why) { return fault_of(when(), why); };
-  Pair command{std::nan(""), std::nan("")};
+  model::Commands command;
+  command.fill(std::nan(""));
   const int code = ask(when, functions_->step, controller_, &given, command.data(), own);
   if (code != 0) throw fail("it returned " + std::to_string(code) + ": " + last_error(controller_));
-  for (const double one : command) {
-    if (!std::isfinite(one)) {
-      throw fail("its command is [" + number_text(command[0]) + ", " + number_text(command[1]) +
-                 "]; allowed: finite numbers");
-    }
+  const std::span<const double> given_back(command.data(), sample.servo.size());
+  if (!std::ranges::all_of(given_back, [](double one) { return std::isfinite(one); })) {
+    std::string all;
+    for (const double one : given_back) all += (all.empty() ? "" : ", ") + number_text(one);
+    throw fail("its command is [" + all + "]; allowed: finite numbers");
   }
   return command;
 }

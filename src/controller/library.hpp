@@ -27,7 +27,7 @@ class Library : public model::ExternalController {
   Library& operator=(const Library&) = delete;
 
   void begin() override;
-  Pair command(const model::ControllerSample& sample, double* own) override;
+  model::Commands command(const model::ControllerSample& sample, double* own) override;
   [[nodiscard]] bool can_save() const override;
   [[nodiscard]] std::string save() override;
   void restore(const std::string& memory) override;

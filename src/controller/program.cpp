@@ -115,13 +115,15 @@ void Program::ask(std::string_view line, When when, Read read) {
   }
 }
 
-Pair Program::command(const model::ControllerSample& sample, double* own) {
+model::Commands Program::command(const model::ControllerSample& sample, double* own) {
   char line[longest_sample];
   const std::size_t size = write_sample(sample, ready_.fields, line);
-  Pair command{};
+  model::Commands command{};
   ask(
       {line, size}, [&] { return at_sample(sample); },
-      [&](std::string_view answer) { return read_answer(answer, setup_.columns, command, own); });
+      [&](std::string_view answer) {
+        return read_answer(answer, setup_.columns, {command.data(), setup_.commands()}, own);
+      });
   return command;
 }
 

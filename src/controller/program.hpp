@@ -20,7 +20,7 @@ class Program : public model::ExternalController {
   Program(const OwnController& own, const Setup& setup, Tell tell, const std::atomic<bool>* stop);
 
   void begin() override;
-  Pair command(const model::ControllerSample& sample, double* own) override;
+  model::Commands command(const model::ControllerSample& sample, double* own) override;
   // One that is at fault can, until begin() or restore() says what is wrong.
   [[nodiscard]] bool can_save() const override { return fault_ || ready_.save; }
   [[nodiscard]] std::string save() override;

@@ -36,13 +36,14 @@ char* write_text(char* to, std::string_view text) {
 }
 
 // "name":[a,b]
-char* write_pair(char* to, std::string_view name, double a, double b) {
+char* write_list(char* to, std::string_view name, std::span<const double> numbers) {
   to = write_text(to, ",\"");
   to = write_text(to, name);
   to = write_text(to, "\":[");
-  to = write_real(to, a);
-  *to++ = ',';
-  to = write_real(to, b);
+  for (std::size_t i = 0; i < numbers.size(); ++i) {
+    if (i > 0) *to++ = ',';
+    to = write_real(to, numbers[i]);
+  }
   *to++ = ']';
   return to;
 }
@@ -134,8 +135,10 @@ std::string misspelt(std::string_view line, const std::string& lacks) {
   return "";
 }
 
-constexpr const char* form =
-    "allowed: {\"command\": [PHI, THETA]}, optionally with \"NAME\": NUMBER";
+std::string form_of(std::size_t commands) {
+  return std::string("allowed: {\"command\": [") + (commands == 2 ? "PHI, THETA" : "S1, S2, S3") +
+         "]}, optionally with \"NAME\": NUMBER";
+}
 
 // The text of {"error": "..."}, if it is that.
 std::optional<std::string> error_of(std::string_view line) {
@@ -250,10 +253,11 @@ std::size_t write_sample(const model::ControllerSample& sample, Fields wanted,
   char* to = write_text(line, "{\"sample\":");
   to = std::to_chars(to, to + longest_number, sample.number).ptr;
   std::size_t next = 0;  // of the fields, in their order
-  const auto pair = [&](double a, double b) {
-    if (wanted[next]) to = write_pair(to, fields[next].name, a, b);
+  const auto list = [&](std::span<const double> numbers) {
+    if (wanted[next]) to = write_list(to, fields[next].name, numbers);
     ++next;
   };
+  const auto pair = [&](double a, double b) { list(Pair{a, b}); };
   if (wanted[next++]) {
     to = write_text(to, ",\"t\":");
     to = write_real(to, sample.t);
@@ -267,28 +271,39 @@ std::size_t write_sample(const model::ControllerSample& sample, Fields wanted,
   pair(x.value, y.value);
   pair(x.rate, y.rate);
   pair(x.acceleration, y.acceleration);
-  pair(sample.servo[0], sample.servo[1]);
-  pair(sample.servo[2], sample.servo[3]);
+  list(sample.servo);
+  list(sample.servo_rate);
   to = write_text(to, "}\n");
   return static_cast<std::size_t>(to - line);
 }
 
-std::string read_answer(std::string_view line, std::span<const std::string> names, Pair& command,
-                        double* own) {
+std::string read_answer(std::string_view line, std::span<const std::string> names,
+                        std::span<double> command, double* own) {
+  // What is wrong, and then what is allowed.
+  const auto refuse_form = [&](const std::string& why) {
+    return refusal(line, why + form_of(command.size()));
+  };
   const auto refuse = [line](const std::string& why) { return refusal(line, why); };
+  const auto take_command = [&](Reader& reader) {
+    for (std::size_t i = 0; i < command.size(); ++i) {
+      if (!reader.take(i == 0 ? '[' : ',') || !reader.take_number(command[i])) return false;
+    }
+    return reader.take(']');
+  };
   Reader reader(line);
-  if (!reader.take('{')) return refuse(form);
+  if (!reader.take('{')) return refuse_form("");
   constexpr double missing = std::numeric_limits<double>::quiet_NaN();
   std::fill_n(own, names.size(), missing);
   bool commanded = false;
   do {
     std::string_view name;
-    if (!reader.take_name(name) || !reader.take(':')) return refuse(form);
+    if (!reader.take_name(name) || !reader.take(':')) return refuse_form("");
     if (name == "command") {
-      commanded = reader.take('[') && reader.take_number(command[0]) && reader.take(',') &&
-                  reader.take_number(command[1]) && reader.take(']');
-      if (!commanded)
-        return refuse("found a command that is not two numbers; " + std::string(form));
+      commanded = take_command(reader);
+      if (!commanded) {
+        return refuse_form(std::string("found a command that is not ") +
+                           (command.size() == 2 ? "two" : "three") + " numbers; ");
+      }
     } else {
       double number = 0;
       if (!reader.take_number(number)) {
@@ -296,8 +311,7 @@ std::string read_answer(std::string_view line, std::span<const std::string> name
         known.insert(known.end(), names.begin(), names.end());
         const std::string meant = hint(name, known);
         const char* const kind = name == "error" ? " that is no text" : " that is no number";
-        return refuse("found " + bbsim::quoted(name) + (meant.empty() ? kind : meant) + "; " +
-                      form);
+        return refuse_form("found " + bbsim::quoted(name) + (meant.empty() ? kind : meant) + "; ");
       }
       const auto wanted = std::ranges::find(names, name);
       if (wanted == names.end()) continue;
@@ -307,9 +321,9 @@ std::string read_answer(std::string_view line, std::span<const std::string> name
       own[wanted - names.begin()] = number;
     }
   } while (reader.take(','));
-  if (!reader.take('}') || !reader.at_end()) return refuse(form);
-  if (!commanded) return refuse("found no command" + misspelt(line, "command") + "; " + form);
-  if (!std::isfinite(command[0]) || !std::isfinite(command[1])) {
+  if (!reader.take('}') || !reader.at_end()) return refuse_form("");
+  if (!commanded) return refuse_form("found no command" + misspelt(line, "command") + "; ");
+  if (!std::ranges::all_of(command, [](double one) { return std::isfinite(one); })) {
     return refuse("found a command that is no finite number");
   }
   for (std::size_t i = 0; i < names.size(); ++i) {

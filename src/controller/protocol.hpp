@@ -76,10 +76,11 @@ inline constexpr std::size_t longest_sample = 1024;
 [[nodiscard]] std::size_t write_sample(const model::ControllerSample& sample, Fields wanted,
                                        char (&line)[longest_sample]);
 
-// Reads an answer, a line without its break: the commands, and the numbers of these names into
+// Reads an answer, a line without its break: as many commands as there is room for, two or three,
+// and the numbers of these names into
 // `own`. Returns what is wrong with it, "its answer ..."; empty if nothing is. Takes no memory
 // unless something is wrong.
 [[nodiscard]] std::string read_answer(std::string_view line, std::span<const std::string> names,
-                                      Pair& command, double* own);
+                                      std::span<double> command, double* own);
 
 }  // namespace bbsim::controller

@@ -4,6 +4,7 @@
 // What one's own controller is told of a run before its first sample.
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -18,6 +19,8 @@ struct Setup {
   double limit = 0;  // of the command; infinite if there is none
   double end = 0;    // of the run, s
   std::vector<Parameter> parameters;
+  // How many commands it gives, and of how many servos it is told.
+  [[nodiscard]] std::size_t commands() const { return drives == Drives::legs ? 3 : 2; }
   std::vector<std::string> columns;  // names of the numbers that it is asked for
 };
 

@@ -215,10 +215,14 @@ struct Stepper::State {
 
   void copy_sample() {
     const api::Sample& of = run->sample();
-    sample = {of.number,         of.t,
-              of.ball,           of.reference,
-              of.reference_rate, of.reference_acceleration,
-              of.servo,          of.servo_rate};
+    sample = {of.number,
+              of.t,
+              of.ball,
+              of.reference,
+              of.reference_rate,
+              of.reference_acceleration,
+              {of.servo[0], of.servo[1]},
+              {of.servo_rate[0], of.servo_rate[1]}};
   }
 };
 

@@ -24,8 +24,9 @@ ServoResponse response_of(const Servo& servo) {
 
 ServoResponses servo_responses(const Scenario& scene) {
   if (!scene.gimbal.servo) return {};
-  ServoResponses all(response_of(*scene.gimbal.servo));
+  ServoResponses all(response_of(scene.gimbal.servo_of(0)));
   all.of[1] = response_of(scene.gimbal.servo_of(1));
+  if (scene.gimbal.three_servos) all.of[2] = response_of(scene.gimbal.servo_of(2));
   return all;
 }
 
@@ -91,7 +92,7 @@ Rig build_rig(const Scenario& scene, const ControlLaw& law) {
   const Mounting& mounting = scene.gimbal.mounting;
   for (int i = 0; i < rig.servos; ++i) {
     RigServo& servo = rig.servo[i];
-    if (scene.gimbal.servo) servo = rig_servo(scene.gimbal.servo_of(i == 1 ? 1 : 0));
+    if (scene.gimbal.servo) servo = rig_servo(scene.gimbal.servo_of(static_cast<std::size_t>(i)));
     // With a linkage, the linkage includes the plane's offset.
     if (rig.between.none()) servo.offset = i == 0 ? mounting.phi_offset : mounting.theta_offset;
   }
@@ -102,12 +103,15 @@ Rig build_rig(const Scenario& scene, const ControlLaw& law) {
         command_limit(controller, static_cast<std::size_t>(i)).value_or(unlimited));
     limits[i] = {std::max(limits[i].low, reach.low), std::min(limits[i].high, reach.high)};
   }
+  // In a groove the ball needs one axis only, and the plate has no other.
+  if (controller.sampling && scene.ball.groove) limits[1 - scene.ball.groove->axis] = {0, 0};
   if (controller.sampling) {
     rig.sampled.emplace(SampledLoop{*controller.sampling,
                                     controller.sensor.value_or(Sensor{}),
                                     law,
                                     {limits[0], limits[1]},
-                                    rig.between});
+                                    rig.between,
+                                    controller.drives == Drives::legs});
     if (controller.own) rig.sampled->own_columns = scenario::own_columns(scene);
   } else {
     for (int i = 0; i < 2; ++i) {

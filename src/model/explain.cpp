@@ -81,6 +81,7 @@ std::string gimbal_note(const Scenario& scene) {
         return states + "to (M47), of motors under the controller's voltages";
       case Drives::angle:
       case Drives::acceleration:
+      case Drives::legs:
         break;
     }
     return states + "to (M47), of motors whose position loops follow the controller's angles";
@@ -119,6 +120,17 @@ std::string speed_of(const Servo& servo) {
 }
 
 std::string limits_note(const Gimbal& gimbal) {
+  if (gimbal.three_servos && gimbal.three_servos->legs) {
+    const auto& legs = *gimbal.three_servos->legs;
+    std::string text = limits_of(*gimbal.servo);
+    for (std::size_t i = 0; i < 3; ++i) {
+      if (!legs[i].servo) continue;
+      const std::string limits = limits_of(*legs[i].servo);
+      text += (text.empty() ? "leg " : "; leg ") + std::to_string(i + 1) + ": " +
+              speed_of(*legs[i].servo) + (limits.empty() ? "" : ", " + limits);
+    }
+    return text;
+  }
   if (!gimbal.theta_servo) return limits_of(*gimbal.servo);
   std::string text;
   for (std::size_t i = 0; i < 2; ++i) {
@@ -130,8 +142,23 @@ std::string limits_note(const Gimbal& gimbal) {
   return text;
 }
 
+// The tilt that the plate has where the controller wants it level.
+std::string believed_level(const Scenario& scene) {
+  const Between between = between_of(scene);
+  const Pair tilt = between.tilt(between.told({0, 0}));
+  return "phi is " + degrees(tilt[0]) + " and theta " + degrees(tilt[1]);
+}
+
 std::string assumes_note(const Scenario& scene) {
-  if (scene.controller->own) return "; your controller commands the servos itself";
+  const bool two_of_three =
+      scene.gimbal.three_servos && scene.controller->drives == Drives::angle;
+  if (scene.controller->own && !two_of_three) {
+    return "; your controller commands the servos itself";
+  }
+  if (scene.controller->assumed_legs) {
+    return "; the controller takes the legs for others: where it wants the plate level, " +
+           believed_level(scene);
+  }
   return assumes_of(scene) == Assumes::exact ? "; the controller inverts the curve"
                                              : "; the controller assumes the ratio at home";
 }
@@ -143,17 +170,35 @@ std::string beyond_note(const Linkage& linkage, const Servo& servo) {
   return "; WARNING: its stops at " + degrees(stop) + " lie beyond that";
 }
 
+// What only unequal legs, and controllers that command legs, need to know.
+std::string legs_note(const Scenario& scene, const Between& between) {
+  const ThreeServos& three = *between.three;
+  std::string text;
+  if (!three.equal) {
+    text += "; the legs twist the plate by at most " + degrees(greatest_twist(three, 0.1)) +
+            " at 0.1 rad, which the ball does not feel";
+  }
+  if (!three.equal || scene.controller->drives == Drives::legs) {
+    List horns;
+    for (const ThreeServos::Leg& leg : three.leg) horns.add(degrees(leg.home));
+    text += "; at home the horns are at " + horns.text() + " above the horizontal";
+  }
+  return text;
+}
+
 std::string linkage_note(const Scenario& scene) {
   if (!scenario::is_linked(scene)) return "";
   const Between between = between_of(scene);
   if (between.three) {
     const ThreeServos& three = *between.three;
     const double tilt = greatest_tilt(three);
+    double plate = 0;
+    for (const ThreeServos::Leg& leg : three.leg) plate = std::max(plate, leg.plate);
     return "three servos, two tilts and a height, (M58) to (M61); all legs reach a tilt of " +
            degrees(tilt) + "; without the wander of the plate's center, at most " +
-           short_number(1e3 * three.plate / 2 * (1 - std::cos(tilt))) + " mm there, and " +
-           short_number(1e3 * three.plate / 2 * (1 - std::cos(0.1))) + " mm at 0.1 rad" +
-           assumes_note(scene);
+           short_number(1e3 * plate / 2 * (1 - std::cos(tilt))) + " mm there, and " +
+           short_number(1e3 * plate / 2 * (1 - std::cos(0.1))) + " mm at 0.1 rad" +
+           legs_note(scene, between) + assumes_note(scene);
   }
   std::string text;
   for (std::size_t i = 0; i < 2; ++i) {
@@ -250,7 +295,7 @@ std::string law_note(const Controller& controller) {
   }
   const auto shown = [&](const std::optional<double>& limit) {
     if (!limit) return std::string("any");
-    return controller.drives == Drives::angle
+    return drives_servos(controller.drives)
                ? degrees(*limit)
                : short_number(*limit) + ' ' + command_unit(controller.drives);
   };
@@ -309,6 +354,10 @@ std::string sensor_note(const Sensor& sensor) {
 std::string mounting_note(const Scenario& scene) {
   const Mounting& mounting = scene.gimbal.mounting;
   List list;
+  if (scene.ball.groove) {
+    list.add("in a groove along " + std::string(scene.ball.groove->axis == 0 ? "x" : "y") +
+             " the ball acts as one of radius " + millimetres(scene.ball.radius));
+  }
   list.add_if(scene.ball.inertia_factor != 0.4,
               "inertia factor " + short_number(scene.ball.inertia_factor));
   list.add_if(mounting.height != 0,

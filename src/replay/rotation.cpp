@@ -73,7 +73,7 @@ std::vector<Quaternion> orientation_of(const Run& run, double radius) {
     turned = integral(find_series(run, "t")->values, spin->values);
   }
   return rolled(way_rolled(run, "x", "slip_x"), way_rolled(run, "y", "slip_y"),
-                turned.empty() ? nullptr : &turned, radius);
+                turned.empty() ? nullptr : &turned, run.rolling_radius.value_or(radius));
 }
 
 }  // namespace bbsim::replay

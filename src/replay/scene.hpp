@@ -71,6 +71,7 @@ struct Run {
   std::vector<Event> events;
   Plate plate;
   std::optional<double> ball_radius{};
+  std::optional<double> rolling_radius{};  // if it is another
   Mounting mounting;
   std::vector<std::array<double, 2>> reference;  // points of the whole path, plane frame
   std::optional<double> friction{};              // coefficient to compare friction_demand with

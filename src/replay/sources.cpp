@@ -90,7 +90,8 @@ void turn_to_the_end(Run& run) {
   const std::vector<double> x = coordinate(run, "x"), y = coordinate(run, "y");
   const std::size_t end = x.size() - 1;
   run.orientation[end] =
-      product(rolled({x[end - 1], x[end]}, {y[end - 1], y[end]}, nullptr, *run.ball_radius).back(),
+      product(rolled({x[end - 1], x[end]}, {y[end - 1], y[end]}, nullptr,
+                     run.rolling_radius.value_or(*run.ball_radius)).back(),
               run.orientation[end - 1]);
 }
 
@@ -153,6 +154,10 @@ void describe_sight(Run& run, const Scenario& scenario) {
   run.end = scenario.time.end;
   run.plate = {scenario.plate.size, scenario.plate.diameter};
   run.ball_radius = scenario.ball.radius;
+  if (scenario.ball.groove) {
+    run.rolling_radius = run.ball_radius;
+    run.ball_radius = scenario.ball.groove->ball_radius;
+  }
   const bbsim::Mounting& mounting = scenario.gimbal.mounting;
   run.mounting = {mounting.height, mounting.skew, mounting.yaw, mounting.base_tilt};
   if (scenario.events.slip) run.friction = scenario.events.slip->friction;

@@ -33,10 +33,9 @@ void check_servo(yaml::Keys& scenario) {
   const auto servo = find_in(scenario, "gimbal", "servo");
   const auto motor = find_in(scenario, "gimbal", "motor");
   const auto loop = motor ? yaml::Keys(*motor).find("position_loop") : std::nullopt;
-  if (driven == "angle" && !servo && !motor) {
-    report_missing(scenario,
-                   "gimbal.servo: missing, but controller.drives is angle; allowed: a mapping with "
-                   "natural_frequency, damping");
+  if ((driven == "angle" && !servo && !motor) || (driven == "legs" && !servo)) {
+    report_missing(scenario, "gimbal.servo: missing, but controller.drives is " + driven +
+                                 "; allowed: a mapping with natural_frequency, damping");
   }
   if (driven == "angle" && motor && !servo && !loop) {
     report(*motor,

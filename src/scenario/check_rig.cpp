@@ -9,6 +9,7 @@
 #include "base/number_text.hpp"
 #include "scenario/columns.hpp"
 #include "scenario/coupled.hpp"
+#include "scenario/groove.hpp"
 #include "scenario/relations.hpp"
 #include "scenario/sections.hpp"
 
@@ -46,6 +47,7 @@ class Checks {
     servo();
     linkage();
     push();
+    groove();
     events();
     plate();
     losses();
@@ -89,7 +91,8 @@ class Checks {
       }
       if (controller.drives != Drives::acceleration) {
         refuse({"controller", "drives"},
-               std::string("found ") + (controller.drives == Drives::angle ? "angle" : "torques") +
+               std::string("found ") +
+                   (drives_servos(controller.drives) ? name_of(controller.drives) : "torques") +
                    ", but " + law() +
                    " gives the gimbal's accelerations; allowed: "
                    "acceleration");
@@ -123,12 +126,31 @@ class Checks {
                "its sine; allowed: at most that");
       }
     }
-    if (controller.drives != Drives::angle && controller.sampling &&
+    if (controller.drives == Drives::legs) legs(controller);
+    if (!drives_servos(controller.drives) && controller.sampling &&
         controller.sampling->resolution > 0) {
       refuse({"controller", "sampling", "resolution"},
              "found, but controller.drives is not angle; allowed: only with drives: angle");
     }
     if (controller.sampling && controller.sampling->period > 0) check_times(controller);
+  }
+
+  void legs(const Controller& controller) {
+    if (!scene_.gimbal.three_servos) {
+      refuse({"controller", "drives"},
+             "found legs, but there are no three servos; allowed: angle, or gimbal.three_servos "
+             "given");
+    }
+    if (controller.law != Law::own) {
+      refuse({"controller", "drives"},
+             "found legs beside a law that gives two angles; allowed: angle, or your own program or "
+             "library, which gives an angle for each servo");
+    }
+    if (controller.axis_limits) {
+      refuse({"controller", "limit"},
+             "found limits of phi and theta, but the commands are those of three servos; allowed: "
+             "one angle for all");
+    }
   }
 
   // Limits the number of samples and the delays, if the period is valid.
@@ -189,12 +211,16 @@ class Checks {
   template <class Holds>
   [[nodiscard]] bool any_servo(Holds holds) const {
     const Gimbal& gimbal = scene_.gimbal;
-    return gimbal.servo &&
-           (holds(*gimbal.servo) || (gimbal.theta_servo && holds(*gimbal.theta_servo)));
+    if (!gimbal.servo) return false;
+    for (std::size_t leg = 0; leg < 3 && gimbal.three_servos; ++leg) {
+      if (holds(gimbal.servo_of(leg))) return true;
+    }
+    return holds(*gimbal.servo) || (gimbal.theta_servo && holds(*gimbal.theta_servo));
   }
 
   void servo() {
     if (!scene_.controller || !scene_.gimbal.servo) return;
+    leg_servos();
     for (std::size_t axis = 0; axis < (scene_.gimbal.theta_servo ? 2U : 1U); ++axis) servo(axis);
     const GimbalStart& start = scene_.gimbal.start;
     const Servo &phi = scene_.gimbal.servo_of(0), &theta = scene_.gimbal.servo_of(1);
@@ -212,8 +238,30 @@ class Checks {
           "rate_limit");
   }
 
+  void leg_servos() {
+    const auto& three = scene_.gimbal.three_servos;
+    for (std::size_t i = 0; three && three->legs && i < 3; ++i) {
+      const auto& servo = (*three->legs)[i].servo;
+      if (!servo) continue;
+      const auto refuse_leg = [&](const std::string& why) {
+        refuse({"gimbal", "three_servos", "legs"},
+               "found a servo of leg " + std::to_string(i + 1) + " with " + why);
+      };
+      if (servo->time_constant && !scene_.controller->sampling) {
+        refuse_leg("time_constant, but no controller.sampling; allowed: only with it");
+      }
+      if (servo->time_constant && servo->acceleration_limit) {
+        refuse_leg("time_constant and acceleration_limit; allowed: one of the two");
+      }
+      if (servo->dead_band > 0 && !scene_.controller->sampling) {
+        refuse_leg("dead_band, but no controller.sampling; allowed: only with it");
+      }
+    }
+  }
+
   void servo(std::size_t axis) {
-    const Servo& servo = scene_.gimbal.servo_of(axis);
+    const Servo& servo =
+        axis == 0 ? *scene_.gimbal.servo : scene_.gimbal.servo_of(axis);
     if (servo.time_constant) {
       if (!scene_.controller->sampling) {
         refuse_of_servo(axis, "time_constant",
@@ -254,17 +302,24 @@ class Checks {
              "that drives angle");
       return;
     }
-    if (scene_.controller->drives != Drives::angle || gimbal.motor) {
+    const bool driven = three ? drives_servos(scene_.controller->drives)
+                              : scene_.controller->drives == Drives::angle;
+    if (!driven || gimbal.motor) {
       refuse({"gimbal", key},
              std::string("found, but ") +
                  (gimbal.motor ? "gimbal.motor moves the axes themselves"
                                : "controller.drives is not angle, and no servo moves it") +
                  "; allowed: only with drives: angle and gimbal.servo");
     }
-    if (scene_.controller->own) {
+    if (scene_.controller->own && (!three || scene_.controller->drives == Drives::legs)) {
       refuse({"controller", "assumes"},
              "found with your own controller, which commands the servos itself; allowed: only with "
              "a built-in law");
+    }
+    if (scene_.controller->assumed_legs && (!three || !scene_.controller->sampling)) {
+      refuse({"controller", "assumes"},
+             "found legs; allowed: only with gimbal.three_servos and controller.sampling, since it "
+             "is firmware that takes its legs for others");
     }
     if (!three) return;
     if (gimbal.theta_servo) {
@@ -277,10 +332,6 @@ class Checks {
       refuse({"gimbal", "start"},
              "found beside gimbal.three_servos, which start at home; allowed: no start");
     }
-    if (scene_.controller->own) {
-      refuse({"gimbal", "three_servos"},
-             "found with your own controller, which has two commands; allowed: a built-in law");
-    }
   }
 
   void push() {
@@ -288,6 +339,23 @@ class Checks {
     if (inverts()) {
       refuse({"ball", "push"}, "found beside " + law() +
                                    ", whose equations do not include it; allowed: any other law");
+    }
+  }
+
+  void groove() {
+    if (!scene_.ball.groove) return;
+    const std::string along_x = why_not_along(0, scene_), along_y = why_not_along(1, scene_);
+    if (!along_x.empty() && !along_y.empty()) {
+      refuse({"ball", "rolling_radius"},
+             "found, but the scene moves along two axes: not along x alone, as " + along_x +
+                 "; not along y alone, as " + along_y +
+                 "; allowed: only for a ball that rolls along one axis, in a groove or between "
+                 "rails");
+    }
+    if (scene_.events.slip) {
+      refuse({"events", "slip"},
+             "found beside ball.rolling_radius, and the friction of two contacts is not that of "
+             "one; allowed: any other event");
     }
   }
 

@@ -121,7 +121,7 @@ Numbers in_controller(Controller& controller, Names names) {
 
 // Whether the scene has prescribed motion, or equation (31) with an ideal servo, and no events.
 bool is_plain(const Scenario& scenario) {
-  if (bbsim::scenario::is_coupled(scenario)) return false;
+  if (bbsim::scenario::is_coupled(scenario) || scenario.ball.groove) return false;
   const Events& events = scenario.events;
   if (events.edge || events.slip || events.lift_off || events.tilt || events.singularity) {
     return false;

@@ -273,7 +273,7 @@ const Declared& declared_at(std::string_view path) {
 // Commands that are no angles have limits without a unit.
 Json limit_of_numbers() {
   const Json number = {{"not", {{"type", "string"}}}};
-  return {{"if", unless(holds(Condition("controller.drives=angle")))},
+  return {{"if", unless(holds(Condition("controller.drives=angle|legs")))},
           {"then",
            at("controller.limit",
               {{"not", {{"type", "string"}}}, {"properties", {{"phi", number}, {"theta", number}}}},

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
+#include "base/number_text.hpp"
 #include "scenario/profile.hpp"
 #include "scenario/sections.hpp"
 #include "yaml/rules.hpp"
@@ -37,6 +38,18 @@ void read_ball(yaml::Keys& keys, Ball& ball) {
   // The factor is 0 with all mass at the center, and 2/3 with all mass at the surface.
   const yaml::Number factor{yaml::Dimension::number, {.at_least = 0, .at_most = 0.67}, "0.4"};
   keys.optional("inertia_factor", factor, ball.inertia_factor);
+  std::optional<double> rolling;
+  keys.optional("rolling_radius", yaml::Usual{length, "mm", 1}, rolling);
+  if (rolling && *rolling > ball.radius && ball.radius > 0) {
+    keys.find("rolling_radius")
+        ->refuse("", "a length of at most ball.radius, " + number_text(ball.radius) + " m");
+  } else if (rolling && *rolling > 0) {
+    // It acts as a ball of this radius, whose inertia is that of the whole ball.
+    const double ratio = ball.radius / *rolling;
+    ball.groove = Groove{ball.radius};
+    ball.inertia_factor *= ratio * ratio;
+    ball.radius = *rolling;
+  }
   keys.section("losses", read_losses, ball.losses);
   keys.optional("rotation", yaml::PairOf{yaml::Dimension::angular_rate}, ball.rotation);
   static_cast<void>(keys.find("push", yaml::MappingOf(read_push)));  // read_ball_push() reads it

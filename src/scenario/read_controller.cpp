@@ -251,6 +251,30 @@ void read_sensor(yaml::Keys& keys, Sensor& sensor) {
   keys.optional("phase", yaml::Number{yaml::Dimension::time, {.at_least = 0}}, sensor.phase);
 }
 
+// How the controller converts angles of the plate: a name, or the legs that it takes for real.
+struct AssumesRule {
+  [[nodiscard]] static yaml::NameOf<Assumes> names() {
+    return {{{Assumes::exact, "exact"}, {Assumes::ratio, "ratio"}}};
+  }
+  [[nodiscard]] static std::string allowed() {
+    return names().allowed() + ", or three legs as in gimbal.three_servos";
+  }
+  [[nodiscard]] static yaml::Declared declared() {
+    return yaml::Declared::any(
+        {names().declared(), yaml::MappingOf(read_three_servos).declared()});
+  }
+  static bool read(const yaml::Value& value, Controller& into) {
+    if (value.node->kind != yaml::Node::Kind::mapping) {
+      return names().read(value, into.assumes.emplace());
+    }
+    ThreeServos legs;
+    const bool fine = yaml::MappingOf(read_three_servos).read(value, legs);
+    into.assumes = Assumes::exact;
+    into.assumed_legs = legs.plate;
+    return fine;
+  }
+};
+
 // One limit for both axes, or one for each.
 struct CommandLimit {
   bool of_angle;
@@ -301,13 +325,12 @@ void read_controller(yaml::Keys& keys, Controller& controller) {
                 yaml::NameOf<Drives>{{{Drives::acceleration, name_of(Drives::acceleration)},
                                       {Drives::angle, name_of(Drives::angle)},
                                       {Drives::torque, name_of(Drives::torque)},
-                                      {Drives::voltage, name_of(Drives::voltage)}}},
+                                      {Drives::voltage, name_of(Drives::voltage)},
+                                      {Drives::legs, name_of(Drives::legs)}}},
                 controller.drives);
   keys.section("reference", read_reference, controller.reference);
-  keys.optional("limit", CommandLimit{controller.drives == Drives::angle}, controller);
-  keys.optional("assumes",
-                yaml::NameOf<Assumes>{{{Assumes::exact, "exact"}, {Assumes::ratio, "ratio"}}},
-                controller.assumes);
+  keys.optional("limit", CommandLimit{drives_servos(controller.drives)}, controller);
+  keys.optional("assumes", AssumesRule{}, controller);
   keys.optional("sampling", yaml::MappingOf(read_sampling), controller.sampling);
   keys.optional("sensor", yaml::MappingOf(read_sensor), controller.sensor);
 }

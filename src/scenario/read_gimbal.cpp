@@ -1,6 +1,8 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
+#include <algorithm>
+#include <array>
 #include <limits>
 #include <numbers>
 #include <string>
@@ -225,14 +227,94 @@ void read_linkage(yaml::Keys& keys, BothLinkages& both) {
   if (theta) axis.read(*theta, both[1]);
 }
 
-void read_three_servos(yaml::Keys& keys, ThreeServoPlate& plate) {
-  const yaml::Number length{yaml::Dimension::length, {.above = 0}};
-  keys.required("radius_base", length, plate.radius_base);
-  keys.required("radius_plate", length, plate.radius_plate);
-  keys.required("horn", length, plate.horn);
-  keys.required("rod", length, plate.rod);
-  keys.required("height", length, plate.height);
+const yaml::Number leg_length{yaml::Dimension::length, {.above = 0}};
+
+// Reads the lengths that all legs, or one leg, may have.
+template <class Leg>
+void read_leg_lengths(yaml::Keys& keys, Leg& leg) {
+  const auto length = [&](const char* key, double& into) {
+    if (const auto given = keys.find(key, leg_length)) leg_length.read(*given, into);
+  };
+  length("radius_base", leg.radius_base);
+  length("radius_plate", leg.radius_plate);
+  length("horn", leg.horn);
+  length("rod", leg.rod);
+  length("height", leg.height);
 }
+
+// A leg over the values that all have.
+void read_leg(yaml::Keys& keys, ServoLeg& leg) {
+  const yaml::Number azimuth{yaml::Dimension::angle};
+  if (const auto given = keys.find("angle", azimuth)) azimuth.read(*given, leg.angle);
+  if (const auto given = keys.find("radius", leg_length)) {
+    leg_length.read(*given, leg.radius_base);
+    leg.radius_plate = leg.radius_base;
+  }
+  keys.exclusive({{"radius"}, {"radius_base", "radius_plate"}});
+  for (const char* other : {"radius_base", "radius_plate"}) {
+    const auto given = keys.find("radius") ? keys.find(other) : std::nullopt;
+    if (given) {
+      given->report("found beside radius, which is both radii; allowed: radius, or radius_base and "
+                    "radius_plate");
+    }
+  }
+  read_leg_lengths(keys, leg);
+  keys.optional("joint_height", yaml::Number{yaml::Dimension::length}, leg.joint_height);
+  keys.optional("offset", yaml::Number{yaml::Dimension::angle}, leg.offset);
+  keys.optional("direction", yaml::Sign{}, leg.direction);
+  const yaml::MappingOf servo(read_servo_keys);
+  if (const auto given = keys.find("servo", servo)) {
+    if (!leg.servo) leg.servo.emplace();
+    servo.read(*given, *leg.servo);
+  } else {
+    leg.servo.reset();
+  }
+}
+
+struct Legs {
+  [[nodiscard]] static std::string allowed() {
+    return "a list of three mappings, such as {angle: \"120 deg\", radius: \"9 cm\"}";
+  }
+  [[nodiscard]] static yaml::Declared declared() {
+    return yaml::Declared::list(3, 3, yaml::MappingOf(read_leg).declared());
+  }
+  static bool read(const yaml::Value& value, std::array<ServoLeg, 3>& legs) {
+    const yaml::Node& node = *value.node;
+    if (node.kind != yaml::Node::Kind::sequence || node.items.size() != legs.size()) {
+      return value.refuse("", allowed());
+    }
+    bool fine = true;
+    for (std::size_t i = 0; i < legs.size(); ++i) {
+      fine = yaml::MappingOf(read_leg).read(value.item(i), legs[i]) && fine;
+    }
+    return fine;
+  }
+};
+
+}  // namespace
+
+void read_three_servos(yaml::Keys& keys, ThreeServos& of) {
+  ThreeServoPlate& plate = of.plate;
+  read_leg_lengths(keys, plate);
+  const auto given = keys.find("legs", Legs{});
+  std::array<ServoLeg, 3> legs;
+  for (std::size_t i = 0; i < legs.size(); ++i) {
+    legs[i] = plate.leg(i);
+    legs[i].servo = of.servo;
+  }
+  if (given && Legs::read(*given, legs)) plate.legs = legs;
+  const auto require = [&](const char* key, double ServoLeg::*length) {
+    const auto lacks = [&](const ServoLeg& leg) { return !(leg.*length > 0); };
+    if (!keys.find(key) && std::ranges::any_of(legs, lacks)) keys.missing(key, leg_length.allowed());
+  };
+  require("radius_base", &ServoLeg::radius_base);
+  require("radius_plate", &ServoLeg::radius_plate);
+  require("horn", &ServoLeg::horn);
+  require("rod", &ServoLeg::rod);
+  require("height", &ServoLeg::height);
+}
+
+namespace {
 
 void read_mounting(yaml::Keys& keys, Mounting& mounting) {
   keys.optional("height", yaml::Number{yaml::Dimension::length}, mounting.height);
@@ -258,7 +340,12 @@ void read_gimbal(yaml::Keys& keys, Gimbal& gimbal) {
     gimbal.theta_servo = servos->theta;
   }
   keys.optional("linkage", yaml::MappingOf(read_linkage), gimbal.linkage);
-  keys.optional("three_servos", yaml::MappingOf(read_three_servos), gimbal.three_servos);
+  const yaml::MappingOf three_servos(read_three_servos);
+  if (const auto given = keys.find("three_servos", three_servos)) {
+    ThreeServos read{{}, gimbal.servo};
+    three_servos.read(*given, read);
+    gimbal.three_servos = read.plate;
+  }
   keys.optional("ring_inertia", yaml::Number{yaml::Dimension::number, {.at_least = 0}, "1e-3"},
                 gimbal.ring_inertia);
   keys.optional("motor", yaml::MappingOf(read_motor), gimbal.motor);

@@ -5,6 +5,7 @@
 
 #include <filesystem>
 
+#include "scenario/groove.hpp"
 #include "scenario/sections.hpp"
 #include "yaml/check_text.hpp"
 #include "yaml/override.hpp"
@@ -30,6 +31,7 @@ void read_sections(Keys& keys, Scenario& scenario) {
   keys.section("solver", read_solver, scenario.solver);
   keys.section("output", read_output, scenario.output);
   keys.section("sweep", read_sweep, scenario.sweep);
+  place_groove(scenario);
   check_loop(keys);
   check_rig(keys, scenario);
 }

@@ -64,16 +64,24 @@ constexpr KeyRelation table[] = {
     {"controller.assumes", needs, "gimbal.linkage or gimbal.three_servos",
      "found, but nothing links servos and plate; allowed: only with gimbal.linkage or "
      "gimbal.three_servos"},
-    {"controller.assumes", excludes, "controller.program or controller.library"},
+    {"controller.assumes", excludes,
+     "controller.drives=legs or gimbal.linkage and controller.program or gimbal.linkage and "
+     "controller.library"},
     {"gimbal.three_servos", excludes, "gimbal.linkage",
      "found beside gimbal.linkage; allowed: one of the two, since three servos are a linkage "
      "themselves"},
     {"gimbal.linkage", needs, "controller.drives=angle"},
     {"gimbal.linkage", excludes, "gimbal.motor"},
-    {"gimbal.three_servos", needs, "controller.drives=angle"},
-    {"gimbal.three_servos", excludes,
-     "gimbal.motor or gimbal.servo.phi or gimbal.servo.theta or controller.program or "
-     "controller.library"},
+    {"gimbal.three_servos", needs, "controller.drives=angle|legs"},
+    {"gimbal.three_servos", needs,
+     "gimbal.three_servos.legs or gimbal.three_servos.radius_base and "
+     "gimbal.three_servos.radius_plate and gimbal.three_servos.horn and gimbal.three_servos.rod and "
+     "gimbal.three_servos.height"},
+    {"gimbal.three_servos", excludes, "gimbal.motor or gimbal.servo.phi or gimbal.servo.theta"},
+    {"controller.drives=legs", needs,
+     "gimbal.three_servos and gimbal.servo and controller.program or gimbal.three_servos and "
+     "gimbal.servo and controller.library"},
+    {"controller.drives=legs", excludes, "controller.limit.phi or controller.limit.theta"},
 
     // Ball, plate and torques.
     {"ball.push", needs, "ball.mass",
@@ -83,6 +91,7 @@ constexpr KeyRelation table[] = {
     {"ball.losses.viscous>0", needs, "ball.mass"},
     {"ball.losses.rolling>0", excludes, "controller.feedback_linearization"},
     {"ball.losses.pivoting>0", excludes, "controller.feedback_linearization"},
+    {"ball.rolling_radius", excludes, "events.slip or gimbal.three_servos or ball.rotation"},
     {"ball.rotation", needs, "events.slip.action=slide",
      "found, but the ball only rolls, which determines how it turns; allowed: only with "
      "events.slip and its action: slide"},
@@ -99,7 +108,7 @@ constexpr KeyRelation table[] = {
     {"controller.feedback_linearization", excludes, "controller.sampling"},
     {"controller.feedback_linearization", needs, "controller.drives=acceleration|"},
     {"controller.gravity_compensation", needs, "controller.drives=angle"},
-    {"controller.sampling.resolution>0", needs, "controller.drives=angle"},
+    {"controller.sampling.resolution>0", needs, "controller.drives=angle|legs"},
     {"controller.sensor", needs, "controller.sampling",
      "found, but no controller.sampling; allowed: only with it, since the controller reads the "
      "sensor at its samples; a continuous law knows the ball exactly"},

@@ -68,13 +68,21 @@ struct BallPush {
   Profile x, y;
 };
 
+// A ball between two rails, or in a groove, rolls about the axis through its two contacts.
+struct Groove {
+  double ball_radius = 0;  // m
+  int axis = 0;            // along x, or 1: along y
+};
+
 struct Ball {
-  double radius = 0;    // m, > 0, required
+  double radius = 0;    // m, > 0, required; in a groove, the distance from center to the contacts' axis
   double mass = 1;      // kg, > 0; needed only for forces, or where the mass affects the motion
   Pair position{0, 0};  // contact point in the plane frame, m
   Pair velocity{0, 0};  // of the contact point in the plane frame, m/s
   double spin = 0;      // about the plane's normal, relative to the plane, rad/s
-  double inertia_factor = 0.4;  // moment of inertia over m r^2: 2/5 solid, 2/3 a thin shell
+  // Moment of inertia over m r^2: 2/5 solid, 2/3 a thin shell; more in a groove.
+  double inertia_factor = 0.4;
+  std::optional<Groove> groove{};
   Losses losses{};
   // Rotation rate about the plane's x and y axes relative to the plane, rad/s. Default: rolling
   // without slip.
@@ -137,11 +145,30 @@ struct CurveLinkage {
 
 using AxisLinkage = std::variant<RodLinkage, CurveLinkage>;
 
-// Three servos on a circle below the plate, each with a horn, a rod and a ball joint: 3-RRS.
-struct ThreeServoPlate {
-  double radius_base = 0, radius_plate = 0;  // of the servo axes and of the joints, m, > 0
+// One of three legs under the plate: a servo with a horn, a rod and a ball joint.
+struct ServoLeg {
+  double radius_base = 0, radius_plate = 0;  // of the servo's axis and of the joint, m, > 0
   double horn = 0, rod = 0;                  // m, > 0
-  double height = 0;  // of the joints above the servo axes with the plate level, m, > 0
+  double height = 0;           // of the joint above the servo's axis with the plate level, m, > 0
+  double angle = 0;            // azimuth, from the plate's x axis, rad
+  double joint_height = 0;     // of the joint in the plate, from any level that all legs share, m
+  double offset = 0;           // of the horn from home where the servo is at zero, rad
+  int direction = 1;           // -1: the horn falls as the servo's angle grows
+  std::optional<Servo> servo{};  // if it differs from gimbal.servo
+};
+
+// Three servos below the plate: 3-RRS. At 0, 120 and 240 degrees and alike, or as `legs` says.
+struct ThreeServoPlate {
+  double radius_base = 0, radius_plate = 0;  // as of ServoLeg
+  double horn = 0, rod = 0;
+  double height = 0;
+  std::optional<std::array<ServoLeg, 3>> legs{};
+
+  [[nodiscard]] ServoLeg leg(std::size_t i) const {
+    if (legs) return (*legs)[i];
+    constexpr double third = 2.0943951023931953;  // of a turn
+    return {radius_base, radius_plate, horn, rod, height, third * static_cast<double>(i)};
+  }
 };
 
 // How the plane is mounted on the gimbal. The defaults are those of the paper.
@@ -193,8 +220,12 @@ struct Gimbal {
   std::optional<ThreeServoPlate> three_servos{};
   Mounting mounting;
 
-  // The servo of phi (0) or theta (1). Requires a servo.
+  // The servo of phi (0) or theta (1), or of a leg. Requires a servo.
   [[nodiscard]] const Servo& servo_of(std::size_t axis) const {
+    if (three_servos) {
+      const auto& legs = three_servos->legs;
+      return legs && (*legs)[axis].servo ? *(*legs)[axis].servo : *servo;
+    }
     return axis == 1 && theta_servo ? *theta_servo : *servo;
   }
 };
@@ -237,15 +268,18 @@ struct TableReference {
 using Reference = std::variant<PointReference, CircleReference, LissajousReference,
                                WaypointReference, TableReference>;
 
-enum class Drives { acceleration, angle, torque, voltage };
+enum class Drives { acceleration, angle, torque, voltage, legs };  // legs: three servos' angles
 
 // The word in scenarios, and the unit of a command.
 [[nodiscard]] constexpr const char* name_of(Drives drives) {
-  constexpr const char* names[] = {"acceleration", "angle", "torque", "voltage"};
+  constexpr const char* names[] = {"acceleration", "angle", "torque", "voltage", "legs"};
   return names[static_cast<std::size_t>(drives)];
 }
+[[nodiscard]] constexpr bool drives_servos(Drives drives) {
+  return drives == Drives::angle || drives == Drives::legs;
+}
 [[nodiscard]] constexpr const char* command_unit(Drives drives) {
-  constexpr const char* units[] = {"rad/s^2", "rad", "N m", "V"};
+  constexpr const char* units[] = {"rad/s^2", "rad", "N m", "V", "rad"};
   return units[static_cast<std::size_t>(drives)];
 }
 
@@ -286,6 +320,7 @@ struct Sensor {
   double delay = 0;            // from the measurement to the sample, s
   double dropout = 0;          // probability that a sample has no measurement
   std::optional<Pair> area{};  // sides of the field of view, a rectangle, m
+  std::optional<int> only{};   // in a groove, the coordinate that it measures; the other is 0
   // The measurement of a ball at p, before noise: scale R(rotation) p + offset.
   double rotation = 0;  // rad
   Pair scale{1, 1};
@@ -351,6 +386,7 @@ struct Controller {
   // Separate limits for phi and theta, which replace `limit`.
   std::optional<std::array<std::optional<double>, 2>> axis_limits{};
   std::optional<Assumes> assumes{};  // only with a linkage or three servos
+  std::optional<ThreeServoPlate> assumed_legs{};  // exact, but for legs that may not be those
   std::optional<Sampling> sampling{};
   std::optional<Sensor> sensor{};  // only with sampling
 

@@ -16,6 +16,12 @@ void read_plate(yaml::Keys& keys, Plate& plate);
 void read_events(yaml::Keys& keys, Events& events);
 void read_time(yaml::Keys& keys, OutputTimes& time);
 void read_gimbal(yaml::Keys& keys, Gimbal& gimbal);
+// Three servos, and the one of legs without their own.
+struct ThreeServos {
+  ThreeServoPlate plate;
+  std::optional<Servo> servo{};
+};
+void read_three_servos(yaml::Keys& keys, ThreeServos& of);
 void read_controller(yaml::Keys& keys, Controller& controller);
 void read_reference(yaml::Keys& keys, Reference& reference);
 void read_solver(yaml::Keys& keys, Solver& solver);

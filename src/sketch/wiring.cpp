@@ -36,13 +36,15 @@ struct Read {
   bool has_size = false;
 };
 
+// The pulse that Servo.h gives for 90 degrees, and its degrees per pulse.
+constexpr bbsim_wired_servo usual_servo{-1, -1, 1472e-6, 180 * degree / 1856e-6};
+
 bbsim_wiring by_default() {
   bbsim_wiring c{};
   c.version = BBSIM_WIRING_VERSION;
   c.setup_before = 1;
   c.print = 1;
-  // The pulse that Servo.h gives for 90 degrees, and its degrees per pulse.
-  for (bbsim_wired_servo& servo : c.servos) servo = {-1, -1, 1472e-6, 180 * degree / 1856e-6};
+  std::ranges::fill(c.servos, usual_servo);
   c.oscillator = 25e6;
   c.screen = {bbsim_no_screen, {-1, -1, -1, -1, -1}, {}, {}, 0, {300, 300}, 300, 0.01};
   c.camera.port = -1;
@@ -62,14 +64,33 @@ void read_servo(Keys& keys, bbsim_wired_servo& servo) {
     servo.scale = per_microsecond * 1e6;
   }
   int direction = 1;
-  keys.optional("direction", Direction{}, direction);
+  keys.optional("direction", yaml::Sign{}, direction);
   servo.scale *= direction;
 }
 
+struct LegServo {
+  [[nodiscard]] static std::string allowed() { return MappingOf(read_servo).allowed(); }
+  [[nodiscard]] static yaml::Declared declared() { return MappingOf(read_servo).declared(); }
+  static bool read(const yaml::Value& value, bbsim_wired_servo& servo) {
+    servo = usual_servo;
+    return MappingOf(read_servo).read(value, servo);
+  }
+};
+
 void read_servos(Keys& keys, Read& read) {
+  keys.exclusive({{"phi", "theta"}, {"legs"}});
   keys.optional("phi", MappingOf(read_servo), read.c.servos[0]);
   keys.optional("theta", MappingOf(read_servo), read.c.servos[1]);
-  if (!keys.find("phi") && !keys.find("theta"))
+  std::vector<bbsim_wired_servo> legs;
+  if (keys.optional("legs", yaml::ListOf<LegServo, bbsim_wired_servo>{{}, 3, 3, "servos"}, legs)) {
+    std::ranges::copy(legs, read.c.servos);
+    for (const char* axis : {"phi", "theta"}) {
+      if (const auto given = keys.find(axis)) {
+        given->report("found beside legs; allowed: phi and theta, or the servos of three legs");
+      }
+    }
+  }
+  if (!keys.find("phi") && !keys.find("theta") && !keys.find("legs"))
     keys.missing("phi", MappingOf(read_servo).allowed());
   keys.optional("ignored", yaml::ListOf<Pin, int>{{}, 1, 70, "pins"}, read.ignored);
   keys.optional("ignored_channels", yaml::ListOf<Whole, int>{Whole{0, 15}, 1, 16, "channels"},

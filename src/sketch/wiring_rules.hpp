@@ -66,23 +66,6 @@ struct Whole {
   }
 };
 
-struct Direction {
-  [[nodiscard]] static std::string allowed() { return "1 or -1"; }
-  [[nodiscard]] static yaml::Declared declared() {
-    yaml::Declared sign(yaml::Declared::Kind::name);
-    sign.names = {"1", "-1"};
-    return sign;
-  }
-  static bool read(const yaml::Value& value, int& into) {
-    if (value.node->kind != yaml::Node::Kind::scalar ||
-        (value.node->text != "1" && value.node->text != "-1")) {
-      return value.refuse("", allowed());
-    }
-    into = value.node->text == "1" ? 1 : -1;
-    return true;
-  }
-};
-
 // {counts: [low, high], position: [low, high]}
 struct CountMap {
   [[nodiscard]] static std::string allowed() {

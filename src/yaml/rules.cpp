@@ -30,6 +30,20 @@ Declared Whole::declared() const {
   return value;
 }
 
+Declared Sign::declared() {
+  return Declared::any({Declared::number(Dimension::number, {.at_least = 1, .at_most = 1}),
+                        Declared::number(Dimension::number, {.at_least = -1, .at_most = -1})});
+}
+
+bool Sign::read(const Value& value, int& into) {
+  const Node& node = *value.node;
+  if (node.kind != Node::Kind::scalar || (node.text != "1" && node.text != "-1")) {
+    return value.refuse("", allowed());
+  }
+  into = node.text == "1" ? 1 : -1;
+  return true;
+}
+
 bool Whole::read(const Value& value, double& into) const {
   if (!number().read(value, into)) return false;
   return into == std::floor(into) ||

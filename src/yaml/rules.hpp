@@ -131,6 +131,14 @@ struct ListOf {
   }
 };
 
+// The sign of a direction.
+struct Sign {
+  [[nodiscard]] static std::string allowed() { return "1 or -1"; }
+  [[nodiscard]] static Declared declared();
+  [[nodiscard]] static std::string text_of(int sign) { return std::to_string(sign); }
+  static bool read(const Value& value, int& into);
+};
+
 // A number k, which means [[k, 0], [0, k]], or a matrix [[a, b], [c, d]].
 struct GainMatrix {
   [[nodiscard]] std::string allowed() const;

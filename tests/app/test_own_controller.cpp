@@ -99,6 +99,50 @@ TEST_CASE("parameters of a program are keys: they are set, and vary over a sweep
 }
 #endif
 
+TEST_CASE("a library with inverse kinematics balances on three legs, as the built-in law does") {
+  const Folder folder;
+  const std::string legs = std::string("controller.library.file=") + BBSIM_EXAMPLE_LEGS;
+  const std::string own = folder / "own.csv", built_in = folder / "built-in.csv";
+  const Result run = bbsim({"run", example("three-legs.yaml"), "--set", legs, "-o", own});
+  CAPTURE(run.err);
+  REQUIRE(run.exit_code == 0);
+  // The same law and tilts, whose inverse is bbsim's.
+  REQUIRE(bbsim({"run", example("three-legs.yaml"), "--set", "controller.library=null", "--set",
+                 "controller.pd={kp: [[0.9, 0], [0, -0.9]], kv: [[0.7, 0], [0, -0.7]]}", "--set",
+                 "controller.drives=angle", "--set", "controller.limit=0.2", "-o", built_in})
+              .exit_code == 0);
+  const Result compared = bbsim({"compare", own, built_in, "--rtol", "0", "--atol", "1e-8"});
+  CAPTURE(compared.out, compared.err);
+  CHECK(compared.exit_code == 0);
+  // Under drives: angle, the same library is refused.
+  const Result refused = bbsim({"run", example("three-legs.yaml"), "--set", legs, "--set",
+                                "controller.drives=angle", "-o", "-"});
+  CHECK(refused.exit_code == 2);
+  CHECK(contains(refused.err, "it commands the servos of three legs"));
+}
+
+TEST_CASE("your own program may give tilts to three legs, and bbsim inverts them") {
+  const Folder folder;
+  const std::string own = folder / "own.csv", built_in = folder / "built-in.csv";
+  const std::vector<std::string> three{
+      "--set",
+      "gimbal.three_servos={radius_base: 0.06, radius_plate: 0.09, horn: 0.04, rod: 0.1, height: "
+      "0.11}",
+      "--set", "output.columns=[t, x, y, phi, theta, servo_third, phi_command]"};
+  const auto run = [&](const std::string& file, const std::string& into,
+                       std::vector<std::string> more) {
+    std::vector<std::string> words{"run", file, "-o", into};
+    words.insert(words.end(), three.begin(), three.end());
+    words.insert(words.end(), more.begin(), more.end());
+    const Result result = bbsim(words);
+    CAPTURE(result.err);
+    CHECK(result.exit_code == 0);
+  };
+  run(example("library.yaml"), own, {"--set", library});
+  run(config("step.yaml"), built_in, {});
+  CHECK(bbsim({"compare", own, built_in, "--rtol", "0", "--atol", "0"}).exit_code == 0);
+}
+
 TEST_CASE("a library's file begins at the scenario's folder, and so does its name") {
   const Folder folder;
   std::filesystem::create_directory(folder / "scene");

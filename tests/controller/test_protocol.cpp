@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <nlohmann/json.hpp>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -18,20 +19,27 @@ using nlohmann::json;
 
 namespace {
 
-std::string sample_line(const model::ControllerSample& sample,
+std::string sample_line(std::size_t number, double t, const std::optional<Pair>& seen,
+                        std::span<const double> servo,
+                        const std::array<model::Jet<double>, 2>& reference,
                         controller::Fields wanted = controller::Fields().set()) {
   char line[controller::longest_sample];
-  return {line, controller::write_sample(sample, wanted, line)};
+  const std::size_t half = servo.size() / 2;  // angles, then rates
+  return {line,
+          controller::write_sample(
+              {number, t, seen, servo.first(half), servo.last(half), reference}, wanted, line)};
 }
 
 struct Read {
   std::string fault;
-  Pair command{};
+  std::vector<double> command;
   std::vector<double> own;
 };
 
-Read read(const std::string& line, const std::vector<std::string>& names = {}) {
+Read read(const std::string& line, const std::vector<std::string>& names = {},
+          std::size_t commands = 2) {
   Read read;
+  read.command.resize(commands);
   read.own.resize(names.size());
   read.fault = read_answer(line, names, read.command, read.own.data());
   return read;
@@ -48,7 +56,7 @@ TEST_CASE("a sample's numbers read back to the same double, and none to an integ
     const std::array<model::Jet<double>, 2> reference{
         {{number(), number(), number()}, {number(), number(), number()}}};
     const double t = std::abs(number());
-    const json read = json::parse(sample_line({7, t, seen, servo, reference}));
+    const json read = json::parse(sample_line(7, t, seen, servo, reference));
     CHECK(read.at("sample") == 7);
     CHECK(read.at("t").get<double>() == t);
     CHECK(read.at("ball") == json{(*seen)[0], (*seen)[1]});
@@ -69,10 +77,10 @@ TEST_CASE("the longest sample fits its line; zeros keep their sign; what was not
       {{longest, longest, longest}, {longest, longest, longest}}};
   const std::optional<Pair> seen{{longest, longest}};
   const std::size_t most = std::numeric_limits<std::size_t>::max();
-  CHECK(sample_line({most, longest, seen, servo, reference}).size() < controller::longest_sample);
+  CHECK(sample_line(most, longest, seen, servo, reference).size() < controller::longest_sample);
 
   const double zeros[4] = {0.0, -0.0, 1, 1e22};
-  const std::string line = sample_line({0, 0, std::nullopt, zeros, {}});
+  const std::string line = sample_line(0, 0, std::nullopt, zeros, {});
   CHECK(
       line ==
       "{\"sample\":0,\"t\":0.0,\"ball\":null,\"reference\":[0.0,0.0],\"reference_rate\":[0.0,0.0],"
@@ -84,12 +92,12 @@ TEST_CASE("a controller is told those fields alone that it asks for") {
       controller::read_ready("{\"protocol\": 1, \"fields\": [\"servo\", \"ball\", \"sample\"]}");
   CHECK(ready.fault.empty());
   const double servo[4] = {1, 2, 3, 4};
-  CHECK(sample_line({3, 0.06, std::nullopt, servo, {}}, ready.fields) ==
+  CHECK(sample_line(3, 0.06, std::nullopt, servo, {}, ready.fields) ==
         "{\"sample\":3,\"ball\":null,\"servo\":[1.0,2.0]}\n");
   const std::optional<Pair> seen{{0.5, -0.25}};
-  CHECK(sample_line({3, 0.06, seen, servo, {}}, ready.fields) ==
+  CHECK(sample_line(3, 0.06, seen, servo, {}, ready.fields) ==
         "{\"sample\":3,\"ball\":[0.5,-0.25],\"servo\":[1.0,2.0]}\n");
-  CHECK(sample_line({3, 0.06, seen, servo, {}}, {}) == "{\"sample\":3}\n");
+  CHECK(sample_line(3, 0.06, seen, servo, {}, {}) == "{\"sample\":3}\n");
   const std::string wrong =
       controller::read_ready("{\"protocol\": 1, \"fields\": [\"bal\"]}").fault;
   CHECK(wrong.find("found a field \"bal\" (did you mean ball?); allowed: those of the hello") !=
@@ -103,7 +111,7 @@ TEST_CASE("an answer may be written as libraries write it") {
     CAPTURE(line);
     const Read answer = read(line);
     CHECK(answer.fault.empty());
-    CHECK(answer.command == Pair{0.5, -0.001});
+    CHECK(answer.command == std::vector{0.5, -0.001});
   }
   const Read named = read("{\"b\": 2, \"command\": [0, 1], \"a\": -1.5e3, \"c\": 9}", {"a", "b"});
   CHECK(named.fault.empty());
@@ -207,14 +215,15 @@ TEST_CASE("a hello says what the run is like, and its answer what the controller
   CHECK(hello.at("columns") == json::array({"u"}));
   // All that a sample has, with its unit, and no more.
   const double servo[4] = {};
-  const json sample = json::parse(sample_line({0, 0, std::nullopt, servo, {}}));
+  const json sample = json::parse(sample_line(0, 0, std::nullopt, servo, {}));
   CHECK(hello.at("fields").size() == sample.size());
   for (const auto& [name, unit] : hello.at("fields").items()) CHECK(sample.contains(name));
 
   for (const auto& [drives, word, unit] :
        {std::tuple{Drives::angle, "angle", "rad"},
         std::tuple{Drives::acceleration, "acceleration", "rad/s^2"},
-        std::tuple{Drives::torque, "torque", "N m"}, std::tuple{Drives::voltage, "voltage", "V"}}) {
+        std::tuple{Drives::torque, "torque", "N m"}, std::tuple{Drives::voltage, "voltage", "V"},
+        std::tuple{Drives::legs, "legs", "rad"}}) {
     setup.drives = drives;
     const json driven = json::parse(controller::hello_line(setup));
     CHECK(driven.at("drives") == word);
@@ -235,4 +244,17 @@ TEST_CASE("a hello says what the run is like, and its answer what the controller
     CAPTURE(wrong);
     CHECK_FALSE(controller::read_ready(wrong).fault.empty());
   }
+}
+
+TEST_CASE("three legs: a sample has three servos, and an answer three commands") {
+  const double servo[6] = {0.1, 0.2, 0.3, 1, 2, 3};
+  const std::string line = sample_line(0, 0, std::nullopt, servo, {});
+  CHECK(line.ends_with("\"servo\":[0.1,0.2,0.3],\"servo_rate\":[1.0,2.0,3.0]}\n"));
+  const Read answer = read("{\"command\": [0.1, -0.2, 0.3]}", {}, 3);
+  CHECK(answer.fault.empty());
+  CHECK(answer.command == std::vector{0.1, -0.2, 0.3});
+  CHECK(read("{\"command\": [0.1, 0.2]}", {}, 3)
+            .fault.ends_with("found a command that is not three numbers; allowed: {\"command\": [S1, "
+                             "S2, S3]}, optionally with \"NAME\": NUMBER"));
+  CHECK(!read("{\"command\": [0.1, 0.2, 1e999]}", {}, 3).fault.empty());
 }

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 // What stands between servos and plane: push rods, measured curves, three servos.
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <random>
@@ -9,6 +11,8 @@
 #include <vector>
 
 #include "base/error.hpp"
+#include "base/noise.hpp"
+#include "base/quad.hpp"
 #include "catch.hpp"
 #include "model/servo/linkages.hpp"
 #include "simd/gradient.hpp"
@@ -331,11 +335,79 @@ ThreeServoPlate hobby_plate() {
   return {0.06, 0.09, 0.04, 0.1, 0.11};
 }
 
+// Three legs of which no two are alike.
+ThreeServoPlate unequal_plate() {
+  ThreeServoPlate plate = hobby_plate();
+  auto& legs = plate.legs.emplace();
+  legs[0] = {0.06, 0.09, 0.04, 0.1, 0.11, 0.1, 0.003, 0.05, 1, {}};
+  legs[1] = {0.07, 0.085, 0.045, 0.105, 0.115, 2.0, -0.004, 0, -1, {}};
+  legs[2] = {0.055, 0.1, 0.038, 0.11, 0.1, 4.3, 0.001, -0.03, 1, {}};
+  return plate;
+}
+
+// The pose of the plate from the legs' lengths alone: phi, theta, the turn about the normal, and
+// the place of the center. Newton's iteration in quad precision on the distances in space, with
+// differences for derivatives.
+std::array<Quad, 6> pose_in_space(const ThreeServoPlate& plate, const std::array<Quad, 3>& horn) {
+  const auto residuals = [&](const std::array<Quad, 6>& x, std::array<Quad, 6>& out) {
+    const auto phi = sin_cos(x[0]), theta = sin_cos(x[1]), turn = sin_cos(x[2]);
+    for (std::size_t i = 0; i < 3; ++i) {
+      const ServoLeg leg = plate.leg(i);
+      const auto azimuth = sin_cos(Quad(leg.angle)), elevation = sin_cos(horn[i]);
+      // R_y(phi) R_x(theta) R_z(turn) of the joint.
+      const Quad px = Quad(leg.radius_plate) * azimuth.cos;
+      const Quad py = Quad(leg.radius_plate) * azimuth.sin;
+      const Quad ax = turn.cos * px - turn.sin * py, ay = turn.sin * px + turn.cos * py;
+      const Quad az = leg.joint_height;
+      const Quad bx = ax, by = theta.cos * ay - theta.sin * az;
+      const Quad bz = theta.sin * ay + theta.cos * az;
+      const Quad cx = x[3] + phi.cos * bx + phi.sin * bz, cy = x[4] + by;
+      const Quad cz = x[5] + phi.cos * bz - phi.sin * bx;
+      const Quad out_of_axis = cx * azimuth.cos + cy * azimuth.sin - Quad(leg.radius_base);
+      const Quad above = cz - Quad(leg.joint_height) + Quad(leg.height);
+      const Quad dx = out_of_axis - Quad(leg.horn) * elevation.cos;
+      const Quad dz = above - Quad(leg.horn) * elevation.sin;
+      out[i] = cy * azimuth.cos - cx * azimuth.sin;
+      out[3 + i] = dx * dx + dz * dz - Quad(leg.rod) * Quad(leg.rod);
+    }
+  };
+  std::array<Quad, 6> x;
+  x.fill(Quad(0.0));
+  for (int pass = 0; pass < 14; ++pass) {
+    std::array<Quad, 6> at, moved;
+    Quad a[6][7];
+    residuals(x, at);
+    constexpr double h = 1e-14;
+    for (std::size_t j = 0; j < 6; ++j) {
+      std::array<Quad, 6> beside = x;
+      beside[j] += Quad(h);
+      residuals(beside, moved);
+      for (std::size_t i = 0; i < 6; ++i) a[i][j] = (moved[i] - at[i]) / Quad(h);
+    }
+    for (std::size_t i = 0; i < 6; ++i) a[i][6] = -at[i];
+    for (int k = 0; k < 6; ++k) {  // Gauss and Jordan, with pivots
+      int best = k;
+      for (int i = k + 1; i < 6; ++i) {
+        if (abs(a[i][k]) > abs(a[best][k])) best = i;
+      }
+      std::swap(a[k], a[best]);
+      for (int i = 0; i < 6; ++i) {
+        if (i == k) continue;
+        const Quad factor = a[i][k] / a[k][k];
+        for (int j = k; j < 7; ++j) a[i][j] -= factor * a[k][j];
+      }
+    }
+    for (std::size_t j = 0; j < 6; ++j) x[j] += a[j][6] / a[j][j];
+  }
+  return x;
+}
+
 }  // namespace
 
 TEST_CASE(
     "three servos: what the inverse says, the closed chain gives, over all of the workspace") {
-  const ThreeServos three = make_three_servos(hobby_plate(), Assumed::exact);
+  const ThreeServos three =
+      make_three_servos(GENERATE(hobby_plate(), unequal_plate()), Assumed::exact);
   const double most = greatest_tilt(three);
   CHECK(most > 0.2);
   int poses = 0;
@@ -354,6 +426,7 @@ TEST_CASE(
     }
   }
   CHECK(poses > 200);
+  if (!three.equal) return;
   const double level[2] = {0, 0};
   double servo[3];
   three.told(level, servo);
@@ -369,26 +442,28 @@ TEST_CASE("three servos: a leg's ends stay apart by the rod's length, in its own
   // The joints in space, by the rotation that takes the vertical to the normal the shortest way.
   const double n[3] = {at.p, at.q, std::sqrt(1 - at.p * at.p - at.q * at.q)};
   const double w = 1 / (1 + n[2]);
-  const double wander[2] = {three.plate / 2 * w * (n[1] * n[1] - n[0] * n[0]),
-                            three.plate * w * n[0] * n[1]};
+  const ThreeServos::Leg& leg = three.leg[0];
+  const double wander[2] = {leg.plate / 2 * w * (n[1] * n[1] - n[0] * n[0]),
+                            leg.plate * w * n[0] * n[1]};
   for (int i = 0; i < 3; ++i) {
     const double azimuth = 2 * std::numbers::pi / 3 * i;
     const double e[2] = {std::cos(azimuth), std::sin(azimuth)};
     const double along = e[0] * n[0] + e[1] * n[1];
     double joint[3];
     for (int k = 0; k < 2; ++k) {
-      joint[k] = wander[k] + three.plate * (e[k] - w * along * n[k]);
+      joint[k] = wander[k] + leg.plate * (e[k] - w * along * n[k]);
     }
-    joint[2] = at.z - three.plate * along;
+    joint[2] = at.z - leg.plate * along;
     CHECK(std::abs(joint[1] * e[0] - joint[0] * e[1]) < 1e-16);  // in the leg's plane
     const double out = joint[0] * e[0] + joint[1] * e[1];
-    CHECK(std::hypot(out - three.base - three.horn * cosine[i], joint[2] - three.horn * sine[i]) ==
-          Approx(three.rod).epsilon(1e-14));
+    CHECK(std::hypot(out - leg.base - leg.horn * cosine[i], joint[2] - leg.horn * sine[i]) ==
+          Approx(leg.rod).epsilon(1e-14));
   }
 }
 
 TEST_CASE("three servos: rates and accelerations of the plane are derivatives of its angles") {
-  const ThreeServos three = make_three_servos(hobby_plate(), Assumed::exact);
+  const ThreeServos three =
+      make_three_servos(GENERATE(hobby_plate(), unequal_plate()), Assumed::exact);
   const auto servo_at = [](double t, double(&servo)[3]) {
     servo[0] = 0.2 + 0.3 * t + 0.5 * t * t;
     servo[1] = -0.1 + 0.7 * t - 0.2 * t * t;
@@ -415,6 +490,98 @@ TEST_CASE("three servos: rates and accelerations of the plane are derivatives of
     CHECK(axis[i].rate == Approx(first).epsilon(1e-9));
     CHECK(axis[i].acceleration == Approx(second).epsilon(1e-6));
   }
+}
+
+TEST_CASE("unequal legs: the closed chain is the one that quad precision finds in space") {
+  const ThreeServoPlate plate = unequal_plate();
+  const ThreeServos three = make_three_servos(plate, Assumed::none);
+  CHECK_FALSE(three.equal);
+  Noise noise(11);
+  double largest = 0, twist = 0;
+  for (int k = 0; k < 60; ++k) {
+    double servo[3], plane[2];
+    std::array<Quad, 3> horn;
+    for (std::size_t i = 0; i < 3; ++i) {
+      servo[i] = k == 0 ? 0 : 0.5 * (2 * noise.uniform() - 1);
+      const ServoLeg leg = plate.leg(i);
+      horn[i] = Quad(three.leg[i].home) + Quad(leg.offset) + Quad(leg.direction * servo[i]);
+    }
+    three.angles(servo, plane);
+    if (!(three.margin(servo) > 0.1)) continue;
+    const std::array<Quad, 6> exact = pose_in_space(plate, horn);
+    CHECK(std::abs(plain(exact[0] - Quad(plane[0]))) < 1e-12);
+    CHECK(std::abs(plain(exact[1] - Quad(plane[1]))) < 1e-12);
+    largest = std::max(largest, std::abs(plane[0]));
+    twist = std::max(twist, std::abs(plain(exact[2])));
+  }
+  CHECK(largest > 0.2);
+  CHECK(twist > 1e-3);
+  // Level at home, where the offsets are made up for.
+  const double level[2] = {0, 0};
+  double servo[3], plane[2];
+  three.told(level, servo);
+  CHECK(servo[0] == Approx(-0.05));
+  CHECK(servo[1] == Approx(0).margin(1e-15));
+  CHECK(servo[2] == Approx(0.03));
+  three.angles(servo, plane);
+  CHECK(std::abs(plane[0]) < 1e-15);
+  CHECK(std::abs(plane[1]) < 1e-15);
+}
+
+TEST_CASE("unequal legs of equal lengths are equal legs") {
+  // A little off, so that the general equations are used.
+  ThreeServoPlate plate = hobby_plate();
+  auto& legs = plate.legs.emplace();
+  for (std::size_t i = 0; i < 3; ++i) legs[i] = hobby_plate().leg(i);
+  CHECK(make_three_servos(plate, Assumed::exact).equal);
+  legs[1].angle += 2e-12;
+  const ThreeServos equal = make_three_servos(hobby_plate(), Assumed::ratio);
+  const ThreeServos general = make_three_servos(plate, Assumed::ratio);
+  REQUIRE_FALSE(general.equal);
+  const double servo[3] = {0.3, -0.2, 0.1}, rate[3] = {1, 2, -1}, acceleration[3] = {-3, 4, 5};
+  Axis<double> a[2], b[2];
+  equal.planes(servo, rate, acceleration, a);
+  general.planes(servo, rate, acceleration, b);
+  double angle[2][2], angle_rate[2][2];
+  equal.believed(servo, rate, angle[0], angle_rate[0]);
+  general.believed(servo, rate, angle[1], angle_rate[1]);
+  for (int i = 0; i < 2; ++i) {
+    CHECK(a[i].sin == Approx(b[i].sin).margin(1e-11));
+    CHECK(a[i].rate == Approx(b[i].rate).margin(1e-10));
+    CHECK(a[i].acceleration == Approx(b[i].acceleration).margin(1e-9));
+    CHECK(angle[0][i] == Approx(angle[1][i]).margin(1e-11));
+    CHECK(angle_rate[0][i] == Approx(angle_rate[1][i]).margin(1e-10));
+  }
+  CHECK(greatest_tilt(equal) == Approx(greatest_tilt(general)).epsilon(1e-9));
+  CHECK(greatest_twist(general, 0.1) < 1e-12);
+}
+
+TEST_CASE("firmware that takes its legs for others has a table that is not level") {
+  Scenario scene;
+  scene.gimbal.three_servos = hobby_plate();
+  auto& legs = scene.gimbal.three_servos->legs.emplace();
+  for (std::size_t i = 0; i < 3; ++i) legs[i] = hobby_plate().leg(i);
+  legs[0].rod += 0.003;
+  scene.controller.emplace().assumes = Assumes::exact;
+  scene.controller->assumed_legs = hobby_plate();
+  const Between between = between_of(scene);
+  const std::array<double, 3> servo = between.told({0, 0});
+  // The horns point where level would be with the legs that it takes them for.
+  const ThreeServos taken = make_three_servos(hobby_plate(), Assumed::exact);
+  for (std::size_t i = 0; i < 3; ++i) {
+    CHECK(between.three->leg[i].home + servo[i] == Approx(taken.leg[i].home).epsilon(1e-14));
+  }
+  const Pair tilt = between.tilt(servo);
+  CHECK(std::abs(tilt[0]) > 0.01);  // a longer rod lifts its side
+  CHECK(std::abs(tilt[1]) < 1e-12);
+  // And it takes the plate for level.
+  const double resting[3] = {0, 0, 0};
+  double into[4];
+  between.believed(servo.data(), resting, into);
+  CHECK(std::abs(into[0]) < 1e-14);
+  CHECK(std::abs(into[1]) < 1e-14);
+  scene.controller->assumed_legs.reset();
+  CHECK(std::abs(between_of(scene).tilt(between_of(scene).told({0, 0}))[0]) < 1e-14);
 }
 
 TEST_CASE("three servos: the edge of the workspace is where a leg is stretched or folded") {

@@ -120,6 +120,67 @@ TEST_CASE("clocks, frames and sensors are read in SI units") {
   CHECK(std::get<double>(pushed.ball.push->x[0]) == 0.01);
 }
 
+TEST_CASE("legs take what they lack from all legs") {
+  const Scenario scene = parse(
+      base, {"gimbal.three_servos={radius_base: \"6 cm\", radius_plate: 0.09, horn: 0.04, rod: 0.1, "
+             "height: 0.11, legs: [{offset: \"2 deg\", direction: -1}, {angle: \"100 deg\", radius: "
+             "0.07, servo: {angle_limit: \"40 deg\"}}, {rod: 0.102, joint_height: 0.004}]}"});
+  const auto& legs = *scene.gimbal.three_servos->legs;
+  CHECK(legs[0].angle == 0);
+  CHECK(legs[0].offset == Approx(0.03490658503988659).epsilon(1e-15));
+  CHECK(legs[0].direction == -1);
+  CHECK(legs[0].radius_base == 0.06);
+  CHECK(legs[1].angle == Approx(1.7453292519943295).epsilon(1e-15));
+  CHECK(legs[1].radius_base == 0.07);
+  CHECK(legs[1].radius_plate == 0.07);
+  CHECK(legs[1].rod == 0.1);
+  CHECK(legs[1].servo->angle_limit == Approx(0.6981317007977318));
+  CHECK(legs[1].servo->natural_frequency == scene.gimbal.servo->natural_frequency);
+  CHECK(!legs[0].servo);
+  CHECK(legs[2].angle == Approx(4.1887902047863905).epsilon(1e-15));
+  CHECK(legs[2].rod == 0.102);
+  CHECK(legs[2].joint_height == 0.004);
+}
+
+TEST_CASE("a ball in a groove is a smaller one with more inertia, along one axis") {
+  const std::string beam =
+      "ball: {radius: 0.02, mass: 0.05, rolling_radius: \"1.2 cm\", position: [0.1, 0]}\n"
+      "gimbal: {servo: {natural_frequency: \"5 Hz\", damping: 0.8}}\n"
+      "controller:\n"
+      "  pd: {kv: 1, kp: 1}\n"
+      "  drives: angle\n"
+      "  reference: {point: [0.05, 0]}\n"
+      "  sampling: {period: 0.02}\n"
+      "  sensor: {noise: 0.001, rotation: 0.1}\n"
+      "time: {end: 1, step: 0.1}\n";
+  const Scenario scene = parse(beam, {});
+  CHECK(scene.ball.radius == 0.012);
+  CHECK(scene.ball.inertia_factor == Approx(0.4 / 0.36).epsilon(1e-15));
+  CHECK(scene.ball.groove->ball_radius == 0.02);
+  CHECK(scene.ball.groove->axis == 0);
+  CHECK(scene.controller->sensor->only == 0);
+  const Scenario along_y =
+      parse(beam, {"ball.position=[0, 0.1]", "controller.reference.point=[0, 0.05]"});
+  CHECK(along_y.ball.groove->axis == 1);
+  CHECK_THAT(errors(beam, {"ball.rolling_radius=0.021"}),
+             Contains("ball.rolling_radius: found 0.021; allowed: a length of at most "
+                      "ball.radius, 0.02 m"));
+  CHECK_THAT(errors(beam, {"ball.rolling_radius=0"}), Contains("ball.rolling_radius: found 0"));
+  CHECK_THAT(errors(beam, {"ball.velocity=[0, 0.1]"}),
+             Contains("ball.rolling_radius: found, but the scene moves along two axes: not along x "
+                      "alone, as ball.velocity is not 0 across it; not along y alone, as "
+                      "ball.position is not 0 across it"));
+  CHECK_THAT(errors(beam, {"controller.reference.point=[0.1, 0.1]"}),
+             Contains("controller.reference is not 0 across it"));
+  CHECK_THAT(errors(beam, {"gimbal.three_servos=" + three}),
+             Contains("three servos tilt the plate in all directions"));
+  CHECK_THAT(errors(beam, {"events.slip={friction: 0.3}"}),
+             Contains("events.slip: found beside ball.rolling_radius"));
+  CHECK_THAT(errors(beam, {"controller.sampling=null", "controller.sensor=null",
+                           "controller.pd.kp=[[1, 0], [0.1, 1]]"}),
+             Contains("the law's gains move both axes"));
+}
+
 TEST_CASE("what makes no sense of these keys is refused, with why") {
   struct Case {
     std::vector<std::string> overrides;
@@ -142,6 +203,22 @@ TEST_CASE("what makes no sense of these keys is refused, with why") {
        "gimbal.start: found beside gimbal.three_servos"},
       {{"gimbal.three_servos=" + three, "gimbal.servo.theta={damping: 1}"},
        "gimbal.servo: found keys for phi and theta beside gimbal.three_servos"},
+      {{"gimbal.three_servos={radius_base: 0.06, radius_plate: 0.09, horn: 0.04, rod: 0.1}"},
+       "gimbal.three_servos.height: missing"},
+      {{"gimbal.three_servos={radius_base: 0.06, horn: 0.04, rod: 0.1, height: 0.11, legs: "
+        "[{radius_plate: 0.09}, {radius_plate: 0.09}, {}]}"},
+       "gimbal.three_servos.radius_plate: missing"},
+      {{"gimbal.three_servos={radius_base: 0.06, legs: [{}, {}]}"},
+       "gimbal.three_servos.legs: found a list; allowed: a list of three mappings"},
+      {{"gimbal.three_servos=" + three, "gimbal.three_servos.legs=[{radius: 0.1, radius_base: 0.1}, "
+        "{direction: 2}, {heigth: 1}]"},
+       "gimbal.three_servos.legs.2.heigth: unknown key"},
+      {{"controller.drives=legs"}, "controller.drives: found legs, but there are no three servos"},
+      {{"gimbal.three_servos=" + three, "controller.drives=legs"},
+       "controller.drives: found legs beside a law that gives two angles"},
+      {{"gimbal.three_servos=" + three, "controller.assumes=" + three},
+       "controller.assumes: found legs; allowed: only with gimbal.three_servos and "
+       "controller.sampling"},
       {{with_rods, "gimbal.servo.time_constant=0.1"}, "gimbal.servo.natural_frequency: given"},
       {{"controller.sampling={period: 0.02}", "controller.sensor={phase: 0.01}"},
        "controller.sensor.phase: found without sensor.period"},

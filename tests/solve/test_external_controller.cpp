@@ -56,12 +56,15 @@ class BuiltIn : public model::ExternalController {
     controller_ = model::SampledController(loop_);
     ++runs;
   }
-  Pair command(const model::ControllerSample& sample, double* own) override {
+  model::Commands command(const model::ControllerSample& sample, double* own) override {
     if (sample.number == stops_at) stop = true;
     if (sample.number == fails_at) throw model::ControllerFault("it fails", interrupts);
     times.push_back(sample.t);
     if (own != nullptr && numbers) *own = double(sample.number);
-    return controller_.command(sample.seen, sample.servo, sample.reference);
+    const double servo[4] = {sample.servo[0], sample.servo[1], sample.servo_rate[0],
+                             sample.servo_rate[1]};
+    const Pair two = controller_.command(sample.seen, servo, sample.reference);
+    return {two[0], two[1], 0};
   }
   [[nodiscard]] bool can_save() const override { return true; }
   [[nodiscard]] std::string save() override {

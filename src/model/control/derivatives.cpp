@@ -81,6 +81,11 @@ Loop placed(Loop loop, const Model& model, const LinearPoint& at) {
       gimbal.link.cos_offset[i] = 1;
       gimbal.link.sin_offset[i] = gimbal.link.offset[i] = 0;
     }
+    for (ThreeServos::Leg& leg : gimbal.link.leg) {
+      if (!at.home || std::atan2(leg.sin_zero, leg.cos_zero) == leg.home) continue;
+      leg.cos_zero = std::cos(leg.home);
+      leg.sin_zero = std::sin(leg.home);
+    }
   }
   return loop;
 }

@@ -8,6 +8,7 @@
 #include <array>
 #include <cstddef>
 #include <optional>
+#include <span>
 #include <stdexcept>
 #include <string>
 
@@ -16,12 +17,16 @@
 
 namespace bbsim::model {
 
+// The commands for phi and theta; or those of three servos, where the controller drives legs.
+using Commands = std::array<double, 3>;
+
 // What it is told at a sample, SI.
 struct ControllerSample {
   std::size_t number;                           // from 0
   double t;                                     // s
   const std::optional<Pair>& seen;              // of the ball, m; nothing if the sensor missed it
-  const double (&servo)[4];                     // angles and rates of phi and theta
+  // Of what it commands, phi and theta or three servos: angles (rad) and rates (rad/s).
+  std::span<const double> servo, servo_rate;
   const std::array<Jet<double>, 2>& reference;  // m, m/s, m/s^2
 };
 
@@ -44,9 +49,9 @@ class ExternalController {
   // A run begins: what it remembers of another is to be forgotten. Throws ControllerFault.
   virtual void begin() = 0;
 
-  // The commands for phi and theta, rad or rad/s^2, both finite; and into `own` the numbers that
-  // SampledLoop::own_columns names. Throws ControllerFault.
-  virtual Pair command(const ControllerSample& sample, double* own) = 0;
+  // As many commands as there are servos in the sample, all finite; and into `own` the numbers
+  // that SampledLoop::own_columns names. Throws ControllerFault.
+  virtual Commands command(const ControllerSample& sample, double* own) = 0;
 
   // Whether it can tell what it remembers, and go on from there.
   [[nodiscard]] virtual bool can_save() const = 0;

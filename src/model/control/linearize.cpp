@@ -94,9 +94,15 @@ LinearSystem system_of(std::vector<LinearSignal> states, std::vector<LinearSigna
           {}};
 }
 
-// At home three servos are two ideal ones, unless losses or a push are to be seen beside them.
+// At home three servos are two ideal ones, unless losses or a push are to be seen beside them, or
+// the servos differ.
 Heave heave_of(const Scenario& scene, const LinearPoint& at) {
-  return at.home && !scenario::is_coupled(scene) ? Heave::left_out : Heave::kept;
+  const auto& three = scene.gimbal.three_servos;
+  const bool differ = three && three->legs &&
+                      std::ranges::any_of(*three->legs, [](const ServoLeg& leg) {
+                        return leg.servo.has_value();
+                      });
+  return at.home && !differ && !scenario::is_coupled(scene) ? Heave::left_out : Heave::kept;
 }
 
 Linearization plant_about(const Scenario& scene, const Model& model, const LinearPoint& at) {

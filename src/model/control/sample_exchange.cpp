@@ -17,6 +17,7 @@ SampleExchange::SampleExchange(const SampledLoop& loop)
       sample_{0},
       apply_{loop.sampling.delay},
       frames_(loop.sensor.period),
+      legs_(loop.legs),
       sensor_(loop.sensor),
       times_(loop.sampling, loop.sensor.seed) {
   // The last frame that has come at t = 0, or the one before.
@@ -55,6 +56,7 @@ bool SampleExchange::is_sound(double first_exposure) const {
   // What is on its way.
   const bool frame_sound = !frame_ || is_finite(*frame_);
   return frame_sound && static_cast<double>(commands_.size()) == sample_.number - apply_.number &&
+         (!legs_ || thirds_.size() == commands_.size()) &&
          (frames_ || static_cast<double>(seen_.size()) == expose_.number - sample_.number);
 }
 

@@ -54,12 +54,16 @@ class SampleExchange {
     if (!even_) forget_times();
     return commands_.pop();
   }
+  // Of three servos, a third command goes with each of these.
+  void push_third(double command) { thirds_.push() = command; }
+  [[nodiscard]] double take_third() { return thirds_.pop(); }
 
   // What changes over a run (base/archive.hpp).
   template <class Archive>
   void archive(Archive& archive) {
     const double first_exposure = Archive::reads ? expose_.number : 0;
     archive(sensor_, times_, seen_, frame_, commands_);
+    if (legs_) archive(thirds_);
     archive(expose_.number, sample_.number, apply_.number);
     if constexpr (Archive::reads) {
       archive.require(is_sound(first_exposure));
@@ -118,6 +122,8 @@ class SampleExchange {
   Queue<Seen> seen_;              // exposed, not yet sampled
   std::optional<Pair> frame_;     // the last one that has come
   Queue<Pair> commands_;          // computed, not yet applied
+  bool legs_;                     // whether there are thirds
+  Queue<double> thirds_;
   BallSensor sensor_;
   SampleTimes times_;
 };

@@ -30,6 +30,7 @@ bool BallSensor::read(double x, double y, Pair& seen) {
     missed = missed || std::abs(x) > (*sensor_.area)[0] / 2 || std::abs(y) > (*sensor_.area)[1] / 2;
   }
   for (std::size_t i = 0; i < 2; ++i) seen[i] = in_steps(says[i], sensor_.resolution);
+  if (sensor_.only) seen[*sensor_.only == 0 ? 1 : 0] = 0;
   return !missed;
 }
 
@@ -48,7 +49,7 @@ SampledController::SampledController(const SampledLoop& loop)
   law_.integrates = loop.law.integrates();
   law_.filter = loop.sampling.derivative_filter;
   // What is between the servos and the plane makes steps of its own.
-  const double step = loop.between.none() ? loop.sampling.resolution : 0;
+  const double step = loop.between.none() || loop.legs ? loop.sampling.resolution : 0;
   law_.resolution = step;
   for (std::size_t i = 0; i < 2; ++i) {
     const CommandRange& limit = loop.limit[i];

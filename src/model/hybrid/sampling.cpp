@@ -3,7 +3,9 @@
 
 #include "model/hybrid/sampling.hpp"
 
+#include <algorithm>
 #include <limits>
+#include <span>
 #include <stdexcept>
 
 namespace bbsim::model {
@@ -32,25 +34,47 @@ const std::array<Jet<double>, 2>& Sampling::reference_at(double t) {
 void Sampling::take(double t, double end, const double* z) {
   const double number = exchange_.sample_number();
   const std::optional<Pair> seen = begin(end);
-  const auto& reference = reference_at(t);
+  if (model_.rig().sampled->external) return ask_external(t, number, seen, z);
   const double* const angle = z + SwitchedModel::angle;
   const double* const rate = z + model_.rate();
   double servo[4] = {angle[0], angle[1], rate[0], rate[1]};
+  if (!is_direct_) model_.rig().between.believed(angle, rate, servo);
+  const Pair command = controller_.command(seen, servo, reference_at(t));
+  this->end(command, controller_.last_seen());
+}
+
+void Sampling::ask_external(double t, double number, const std::optional<Pair>& seen,
+                            const double* z) {
   const Rig& rig = model_.rig();
-  if (ExternalController* const external = rig.sampled->external.get()) {
-    if (number == 0) external->begin();
-    const ControllerSample sample{static_cast<std::size_t>(number), t, seen, servo, reference};
-    const Pair asked = external->command(sample, own_.data());
-    this->end(controller_.within_limits(asked), seen.value_or(measured_));
+  ExternalController& external = *rig.sampled->external;
+  if (number == 0) external.begin();
+  const double* const angle = z + SwitchedModel::angle;
+  const double* const rate = z + model_.rate();
+  const auto ask = [&](std::span<const double> angles, std::span<const double> rates) {
+    return external.command(
+        {static_cast<std::size_t>(number), t, seen, angles, rates, reference_at(t)}, own_.data());
+  };
+  const Pair measured = seen.value_or(measured_);
+  if (rig.sampled->legs) {
+    const Commands asked = ask({angle, 3}, {rate, 3});
+    end(controller_.within_limits({asked[0], asked[1]}), measured);
+    exchange_.push_third(controller_.within_limits({asked[2], 0})[0]);
     return;
   }
-  if (!is_direct_) rig.between.believed(angle, rate, servo);
-  const Pair command = controller_.command(seen, servo, reference);
-  this->end(command, controller_.last_seen());
+  double servo[4] = {angle[0], angle[1], rate[0], rate[1]};
+  if (rig.between.three) rig.between.believed(angle, rate, servo);
+  const Commands asked = ask({servo, 2}, {servo + 2, 2});
+  end(controller_.within_limits({asked[0], asked[1]}), measured);
 }
 
 std::array<double, most_servos> Sampling::take_command(RigMode& mode) {
   const Pair command = exchange_.take_command();
+  if (model_.rig().sampled->legs) {
+    const std::array<double, most_servos> legs{command[0], command[1], exchange_.take_third()};
+    const Pair tilt = model_.rig().between.tilt(legs);
+    std::copy(tilt.begin(), tilt.end(), mode.wanted);
+    return legs;
+  }
   for (std::size_t i = 0; i < 2; ++i) mode.wanted[i] = command[i];
   return is_direct_ ? std::array<double, most_servos>{command[0], command[1], 0}
                     : controller_.told(command);

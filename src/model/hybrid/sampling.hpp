@@ -80,6 +80,8 @@ class Sampling : public Part {
   }
 
  private:
+  void ask_external(double t, double number, const std::optional<Pair>& seen, const double* z);
+
   const SwitchedModel& model_;
   bool is_direct_;  // servos follow commands without a linkage
   Pair measured_{0, 0};

@@ -346,16 +346,27 @@ std::array<double, 3> Between::told(Pair wanted) const {
   if (three) {
     const double of[2] = {wanted[0], wanted[1]};
     double servo[3];
-    three->told(of, servo);
-    return {servo[0], servo[1], servo[2]};
+    mind().told(of, servo);
+    if (!assumed) return {servo[0], servo[1], servo[2]};
+    return {servo[0] + zero[0], servo[1] + zero[1], servo[2] + zero[2]};
   }
   if (linkages.empty()) return {wanted[0], wanted[1], 0};
   return {linkages[0].told(wanted[0]), linkages[1].told(wanted[1]), 0};
 }
 
+Pair Between::tilt(const std::array<double, 3>& servo) const {
+  const double at[3] = {servo[0], servo[1], servo[2]};
+  double plane[2];
+  three->angles(at, plane);
+  return {plane[0] - three->offset[0], plane[1] - three->offset[1]};
+}
+
 void Between::believed(const double* servo, const double* rate, double (&into)[4]) const {
   double angle[2] = {servo[0], servo[1]}, angle_rate[2] = {rate[0], rate[1]};
-  if (three) three->believed(servo, rate, angle, angle_rate);
+  if (three) {
+    const double at[3] = {servo[0] - zero[0], servo[1] - zero[1], servo[2] - zero[2]};
+    mind().believed(at, rate, angle, angle_rate);
+  }
   for (std::size_t i = 0; i < linkages.size(); ++i) {
     LinkCurve curve = linkages[i].curve;
     if (linkages[i].table) {
@@ -372,7 +383,7 @@ void Between::believed(const double* servo, const double* rate, double (&into)[4
 CommandRange Between::reach(int axis) const {
   if (three && three->assumed == Assumed::exact) {
     // With both angles at this value, the tilt is the greatest tilt.
-    return CommandRange::within(std::acos(std::sqrt(std::cos(greatest_tilt(*three)))));
+    return CommandRange::within(std::acos(std::sqrt(std::cos(greatest_tilt(mind())))));
   }
   if (linkages.empty()) return {};
   const Linkage& of = linkages[static_cast<std::size_t>(axis)];
@@ -395,7 +406,10 @@ Between between_of(const Scenario& scene) {
   Between between;
   if (!scenario::is_linked(scene) || !scene.controller) return between;
   const Controller& controller = *scene.controller;
-  const Assumed assumed = controller.own                        ? Assumed::none
+  // Your own code commands linked servos itself; three of them only as it drives legs.
+  const bool itself =
+      controller.own && (!scene.gimbal.three_servos || controller.drives == Drives::legs);
+  const Assumed assumed = itself                                ? Assumed::none
                           : assumes_of(scene) == Assumes::exact ? Assumed::exact
                                                                 : Assumed::ratio;
   const Mounting& mounting = scene.gimbal.mounting;
@@ -408,6 +422,15 @@ Between between_of(const Scenario& scene) {
       three.sin_offset[i] = std::sin(offset[i]);
     }
     between.three = three;
+    if (controller.assumed_legs) {
+      between.assumed =
+          make_three_servos(*controller.assumed_legs, assumed, "controller.assumes");
+      // Both mean the same elevation of a horn, and count from their own homes.
+      for (std::size_t i = 0; i < 3; ++i) {
+        const ThreeServos::Leg& leg = between.assumed->leg[i];
+        between.zero[i] = leg.turns * (leg.home - three.leg[i].home);
+      }
+    }
     return between;
   }
   for (std::size_t i = 0; i < 2; ++i) {
@@ -420,62 +443,162 @@ Between between_of(const Scenario& scene) {
   return between;
 }
 
-ThreeServos make_three_servos(const ThreeServoPlate& of, Assumed assumed) {
-  ThreeServos three;
-  three.base = of.radius_base;
-  three.plate = of.radius_plate;
-  three.horn = of.horn;
-  three.rod = of.rod;
-  three.height = of.height;
+namespace {
+
+bool are_equal(const ThreeServoPlate& plate) {
+  if (!plate.legs) return true;
+  const ServoLeg first = plate.leg(0);
+  for (std::size_t i = 0; i < 3; ++i) {
+    const ServoLeg leg = plate.leg(i);
+    const double azimuth = 2 * std::numbers::pi / 3 * static_cast<double>(i);
+    if (leg.radius_base != first.radius_base || leg.radius_plate != first.radius_plate ||
+        leg.horn != first.horn || leg.rod != first.rod || leg.height != first.height ||
+        leg.joint_height != 0 || std::abs(leg.angle - azimuth) > 1e-12) {
+      return false;
+    }
+  }
+  return true;
+}
+
+ThreeServos::Leg make_leg(const ServoLeg& of, const std::string& key, const std::string& which) {
+  ThreeServos::Leg leg;
+  leg.base = of.radius_base;
+  leg.plate = of.radius_plate;
+  leg.horn = of.horn;
+  leg.rod = of.rod;
+  leg.height = of.height;
+  leg.turns = of.direction;
+  leg.ex = std::cos(of.angle);
+  leg.ey = std::sin(of.angle);
+  leg.joint = of.joint_height;
   const double x = of.radius_plate - of.radius_base, to_joint = std::hypot(x, of.height);
   const double least = std::abs(of.horn - of.rod), most = of.horn + of.rod;
   if (!(to_joint > least && to_joint < most)) {
-    throw KeyError("gimbal.three_servos",
-                   "found legs that do not close at home: from a servo's axis to its joint under "
-                   "the plate it is " +
-                       metres(to_joint) + "; allowed: more than " + metres(least) +
-                       " and less than " + metres(most) + ", horn and rod folded and stretched");
+    throw KeyError(key, "found " + which +
+                            " at home: from a servo's axis to its joint under the plate it is " +
+                            metres(to_joint) + "; allowed: more than " + metres(least) +
+                            " and less than " + metres(most) +
+                            ", horn and rod folded and stretched");
   }
   // Of the two positions of the knee, the outer one.
-  three.side = of.height > 0 ? -1 : 1;
+  leg.side = of.height > 0 ? -1 : 1;
   const double k = (to_joint * to_joint + of.horn * of.horn - of.rod * of.rod) / (2 * of.horn);
-  const double root = three.side * std::sqrt(to_joint * to_joint - k * k);
-  three.sin_home = (k * of.height + root * x) / (to_joint * to_joint);
-  three.cos_home = (k * x - root * of.height) / (to_joint * to_joint);
-  three.assumed = assumed;
-  const ThreeServos::Pose<double> home{0, 0, of.height};
-  ThreeServos::Slopes<double> m[3];
+  const double root = leg.side * std::sqrt(to_joint * to_joint - k * k);
+  leg.sin_zero = (k * of.height + root * x) / (to_joint * to_joint);
+  leg.cos_zero = (k * x - root * of.height) / (to_joint * to_joint);
+  return leg;
+}
+
+// What twist and shift of the plate the planes of unequal legs require.
+void set_planes(ThreeServos::Leg (&leg)[3], const std::string& key) {
+  // The planes' normals are (-ey, ex).
+  double xx = 0, xy = 0, yy = 0, free = 0, size = 0;
   for (int i = 0; i < 3; ++i) {
-    m[i] = three.slopes(i, home, three.sin_home, three.cos_home);
-    // p corresponds to phi, and q to -theta.
-    three.slope[i][0] = -m[i].of[0] / m[i].of_horn;
-    three.slope[i][1] = m[i].of[1] / m[i].of_horn;
+    const ThreeServos::Leg &next = leg[(i + 1) % 3], &last = leg[(i + 2) % 3];
+    leg[i].twist = next.ex * last.ey - next.ey * last.ex;
+    free += leg[i].twist * leg[i].plate;
+    size += std::abs(leg[i].twist) * leg[i].plate;
+    xx += leg[i].ey * leg[i].ey;
+    xy -= leg[i].ey * leg[i].ex;
+    yy += leg[i].ex * leg[i].ex;
   }
+  const double determinant = xx * yy - xy * xy;
+  if (!(determinant > 1e-6) || !(std::abs(free) > 1e-6 * size)) {
+    throw KeyError(key, "found legs whose planes let the plate slide or twist; allowed: other "
+                        "angles, such as 0, 120 and 240 deg");
+  }
+  for (ThreeServos::Leg& one : leg) {
+    for (int j = 0; j < 3; ++j) {
+      const double nx = -leg[j].ey, ny = leg[j].ex;
+      one.shift[j] = (one.ex * (yy * nx - xy * ny) + one.ey * (xx * ny - xy * nx)) / determinant;
+    }
+  }
+}
+
+}  // namespace
+
+ThreeServos make_three_servos(const ThreeServoPlate& of, Assumed assumed, const std::string& key) {
+  ThreeServos three;
+  three.equal = are_equal(of);
+  double sine[3], cosine[3];
+  for (int i = 0; i < 3; ++i) {
+    const std::string which =
+        of.legs ? "leg " + std::to_string(i + 1) + " that does not close"
+                : "legs that do not close";
+    three.leg[i] = make_leg(of.leg(static_cast<std::size_t>(i)), key, which);
+    sine[i] = three.leg[i].sin_zero;
+    cosine[i] = three.leg[i].cos_zero;
+    three.leg[i].home = std::atan2(sine[i], cosine[i]);
+  }
+  set_planes(three.leg, key);
+  three.assumed = assumed;
+  const ThreeServos::Pose<double> home{0, 0, of.leg(0).height};
+  ThreeServos::Slopes<double> m[3];
+  three.slopes(home, sine, cosine, m);
+  double scale = 1;
+  for (int i = 0; i < 3; ++i) {
+    ThreeServos::Leg& leg = three.leg[i];
+    // p corresponds to phi, and q to -theta.
+    leg.slope[0] = leg.turns * (-m[i].of[0] / m[i].of_horn);
+    leg.slope[1] = leg.turns * (m[i].of[1] / m[i].of_horn);
+    if (const double offset = of.leg(static_cast<std::size_t>(i)).offset; offset != 0) {
+      leg.sin_zero = std::sin(leg.home + offset);
+      leg.cos_zero = std::cos(leg.home + offset);
+    }
+    scale *= leg.rod;
+  }
+  scale *= three.leg[0].plate * three.leg[0].plate;
   const double none[3] = {0, 0, 0};
   double unused[3];
   three.determinant = ThreeServos::solve(m, none, unused);
-  const double scale = of.radius_plate * of.radius_plate * of.rod * of.rod * of.rod;
   if (!(std::abs(three.determinant) > 1e-9 * scale)) {
-    throw KeyError("gimbal.three_servos",
-                   "found rods that are level at home, and do not hold the plate up; allowed: "
-                   "another height");
+    throw KeyError(key, "found rods that are level at home, and do not hold the plate up; allowed: "
+                        "another height");
+  }
+  const double length = three.leg[0].slope[0] * three.leg[0].slope[0] +
+                        three.leg[1].slope[0] * three.leg[1].slope[0] +
+                        three.leg[2].slope[0] * three.leg[2].slope[0];
+  for (int i = 0; i < 3; ++i) {
+    // Of equal legs, the two columns of slopes are orthogonal and of equal length.
+    for (int j = 0; j < 2; ++j) three.inferred[j][i] = three.leg[i].slope[j] / length;
+    if (three.equal) continue;
+    double right[3] = {0, 0, 0}, pose[3];
+    right[i] = -(m[i].of_horn * three.leg[i].turns);
+    ThreeServos::solve(m, right, pose);
+    three.inferred[0][i] = pose[0];
+    three.inferred[1][i] = -pose[1];
   }
   return three;
 }
 
+double greatest_twist(const ThreeServos& three, double tilt) {
+  double most = 0;
+  for (int degree = 0; degree < 360 && !three.equal; ++degree) {
+    const double azimuth = std::numbers::pi / 180 * degree;
+    const ThreeServos::Pose<double> at{std::sin(tilt) * std::cos(azimuth),
+                                       std::sin(tilt) * std::sin(azimuth), three.leg[0].height};
+    const auto twist = three.twist(at, [](double value) { return value; });
+    most = std::max(most, std::abs(std::atan2(twist.sine, twist.cosine)));
+  }
+  return most;
+}
+
 double greatest_tilt(const ThreeServos& three) {
-  // Whether all legs reach this tilt in every direction; by symmetry, a third of a turn suffices.
+  // Whether all legs reach this tilt in every direction; by the symmetry of equal legs, a third of
+  // a turn suffices.
   const auto reached = [&](double tilt) {
-    constexpr int directions = 60;
+    const int directions = 60 * (three.equal ? 1 : 3);
     for (int j = 0; j <= directions; ++j) {
-      const double azimuth = 2 * std::numbers::pi / 3 * j / directions;
+      const double azimuth = 2 * std::numbers::pi / 3 * j / 60;
       const ThreeServos::Pose<double> at{std::sin(tilt) * std::cos(azimuth),
-                                         std::sin(tilt) * std::sin(azimuth), three.height};
+                                         std::sin(tilt) * std::sin(azimuth), three.leg[0].height};
+      ThreeServos::Joint<double> joint[3];
+      three.joints(at, [](double value) { return value; }, joint);
       for (int i = 0; i < 3; ++i) {
-        const auto to = three.joint(i, at, [](double value) { return value; });
-        const double length = std::hypot(to.x, to.z);
-        if (!(length > std::abs(three.horn - three.rod) * (1 + 1e-9) &&
-              length < (three.horn + three.rod) * (1 - 1e-9))) {
+        const ThreeServos::Leg& leg = three.leg[i];
+        const double length = std::hypot(joint[i].x, joint[i].z);
+        if (!(length > std::abs(leg.horn - leg.rod) * (1 + 1e-9) &&
+              length < (leg.horn + leg.rod) * (1 - 1e-9))) {
           return false;
         }
       }

@@ -54,11 +54,19 @@ struct Linkage {
 struct Between {
   std::vector<Linkage> linkages{};  // empty, or two
   std::optional<ThreeServos> three{};
+  // What the controller takes them for, and the angles of the servos where it takes them to be at
+  // zero, rad.
+  std::optional<ThreeServos> assumed{};
+  std::array<double, 3> zero{};
 
+  [[nodiscard]] const ThreeServos& mind() const { return assumed ? *assumed : *three; }
   [[nodiscard]] bool none() const { return linkages.empty() && !three; }
   [[nodiscard]] bool has_pieces() const;
   // The commands to two or three servos for the angles that a law wants.
   [[nodiscard]] std::array<double, 3> told(Pair wanted) const;
+  // The tilt that three servos at these angles give the plate, without its offsets; NaN where no
+  // tilt does.
+  [[nodiscard]] Pair tilt(const std::array<double, 3>& servo) const;
   // What the controller infers from the servos' angles and rates: phi, theta, and their rates.
   void believed(const double* servo, const double* rate, double (&into)[4]) const;
   // The range of commands of the law that the mechanism can reach.
@@ -71,13 +79,19 @@ struct Between {
 // measured curve that is not monotonic.
 [[nodiscard]] Linkage make_linkage(const RodLinkage& of, Assumed assumed);
 [[nodiscard]] Linkage make_linkage(const CurveLinkage& of, Assumed assumed);
-[[nodiscard]] ThreeServos make_three_servos(const ThreeServoPlate& of, Assumed assumed);
+// `key`: of the plate, in messages.
+[[nodiscard]] ThreeServos make_three_servos(const ThreeServoPlate& of, Assumed assumed,
+                                            const std::string& key = "gimbal.three_servos");
 
 // The controller's model of the mechanism. Default: ratio, as in most firmware; exact for three
 // servos, which need inverse kinematics.
 [[nodiscard]] Assumes assumes_of(const Scenario& scene);
 
 [[nodiscard]] Between between_of(const Scenario& scene);
+
+// The greatest twist about the normal that this tilt gives, in any direction, rad; equal legs have
+// none.
+[[nodiscard]] double greatest_twist(const ThreeServos& three, double tilt);
 
 // The greatest tilt that all three legs reach in every direction at the height of home, rad.
 [[nodiscard]] double greatest_tilt(const ThreeServos& three);

@@ -2,12 +2,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 // A plate on three legs, 3-RRS (docs/explanation/rig-model.md, "Three servos"). Each of three
-// servos on a circle has a horn that turns in the vertical plane through the circle's center and
-// the leg's joint, a rod, and a ball joint under the plate. The servos' angles determine two tilts
-// and a height.
+// servos has a horn that turns in the vertical plane through the plate's center and the leg's
+// joint, a rod, and a ball joint under the plate. The servos' angles determine two tilts and a
+// height.
 //
-// Each joint stays in its plane. The plate's center therefore shifts, and the plate does not twist.
-// The leg equations include both effects; the ball's motion ignores them.
+// Each joint stays in its plane. The plate's center therefore shifts, and legs that are not alike
+// twist the plate. The leg equations include both effects; the ball's motion ignores them.
 #pragma once
 
 #include <cmath>
@@ -43,17 +43,55 @@ struct Motion2 {
   }
 };
 
+// A number with its derivatives by p and by q.
+template <class Real>
+struct Slope2 {
+  Real v, p, q;
+
+  friend Slope2 operator+(const Slope2& a, const Slope2& b) {
+    return {a.v + b.v, a.p + b.p, a.q + b.q};
+  }
+  friend Slope2 operator-(const Slope2& a, const Slope2& b) {
+    return {a.v - b.v, a.p - b.p, a.q - b.q};
+  }
+  friend Slope2 operator*(const Slope2& a, const Slope2& b) {
+    return {a.v * b.v, a.p * b.v + a.v * b.p, a.q * b.v + a.v * b.q};
+  }
+  friend Slope2 operator*(double a, const Slope2& b) { return {a * b.v, a * b.p, a * b.q}; }
+  friend Slope2 operator/(const Slope2& a, const Slope2& b) {
+    const Real value = a.v / b.v;
+    return {value, (a.p - value * b.p) / b.v, (a.q - value * b.q) / b.v};
+  }
+  friend Slope2 root_along(const Slope2& square, const Slope2& along) {
+    const Real value = root_along(square.v, along.v);
+    return {value, square.p / (2.0 * value), square.q / (2.0 * value)};
+  }
+};
+
 struct ThreeServos {
   static constexpr bool direct = false;
   static constexpr int servos = 3;
 
-  double base = 0, plate = 0;         // radii of the servo axes and of the joints, m
-  double horn = 0, rod = 0;           // m
-  double height = 0;                  // of the joints above the servo axes, at home, m
-  double cos_home = 1, sin_home = 0;  // of the horns' elevation at home
-  double side = 1;                    // of the leg on which the knee is
+  struct Leg {
+    double base = 0, plate = 0;         // radii of the servo's axis and of the joint, m
+    double horn = 0, rod = 0;           // m
+    double height = 0;                  // of the joint above the servo's axis, at home, m
+    double cos_zero = 1, sin_zero = 0;  // of the horn's elevation where the servo is at zero
+    double home = 0;                    // the horn's elevation at home, rad
+    double turns = 1;                   // -1: the horn falls as the servo's angle grows
+    double side = 1;                    // of the leg on which the knee is
+    // Of unequal legs: the azimuth's cosine and sine, and the joint's height in the plate, m.
+    double ex = 1, ey = 0, joint = 0;
+    // Sums with the joints' distances from their planes as they would be without shift and twist:
+    // the shift along the leg is the one with these factors, and the twist makes the sum with the
+    // second one vanish.
+    double shift[3] = {}, twist = 0;
+    double slope[2] = {};  // derivatives of the servo's angle by phi and theta, at home
+  };
+  Leg leg[3];
+  bool equal = true;  // three alike at 0, 120 and 240 degrees
   Assumed assumed = Assumed::none;
-  double slope[3][2] = {};  // derivatives of the servo angles by phi and theta, at home
+  double inferred[2][3] = {};  // phi and theta from servo angles by the slopes at home
   double cos_offset[2] = {1, 1}, sin_offset[2] = {0, 0}, offset[2] = {0, 0};  // of the plane, rad
   double determinant = 1;                                                     // at home
 
@@ -64,30 +102,85 @@ struct ThreeServos {
     T p, q, z;
   };
 
-  // The position of leg i's joint in the leg's plane, from the servo's axis: (M58), (M59).
+  // The position of a leg's joint in the leg's plane, from the servo's axis: (M58), (M59).
   template <class T>
   struct Joint {
     T x, z;
   };
 
-  // The cosines and sines of the legs' azimuths, 0, 120 and 240 degrees, are constants in the code,
-  // because kernels share no data.
+  // The cosines and sines of equal legs' azimuths are constants in the code, because kernels share
+  // no data.
 
   template <class T, class Number>
-  [[nodiscard]] Joint<T> joint(int i, const Pose<T>& at, const Number& number) const {
-    const double across = 0.8660254037844386;
-    const double ex = i == 0 ? 1.0 : -0.5, ey = i == 0 ? 0.0 : i == 1 ? across : -across;
-    const T pp = at.p * at.p, qq = at.q * at.q;
+  void joints(const Pose<T>& at, const Number& number, Joint<T> (&joint)[3]) const {
+    if (!equal) return unequal_joints(at, number, joint);
+    const double plate = leg[0].plate;
+    for (int i = 0; i < 3; ++i) {
+      const double across = 0.8660254037844386;
+      const double ex = i == 0 ? 1.0 : -0.5, ey = i == 0 ? 0.0 : i == 1 ? across : -across;
+      const T pp = at.p * at.p, qq = at.q * at.q;
+      const T one = number(1.0);
+      const T w = one / (one + root_along(one - pp - qq, one));
+      const T e = ex * at.p + ey * at.q;
+      const T wander = w * ((0.5 * ex) * (qq - pp) + ey * (at.p * at.q));
+      joint[i] = {plate * (wander - w * (e * e)) + number(plate - leg[0].base), at.z - plate * e};
+    }
+  }
+
+  // How unequal legs twist the plate about its normal, and what that takes.
+  template <class T>
+  struct Twist {
+    T n, w;        // the normal's third component, and 1/(1 + n)
+    T e[3], f[3];  // its components along and across the legs' planes
+    T cosine, sine;
+  };
+  template <class T, class Number>
+  [[nodiscard]] Twist<T> twist(const Pose<T>& at, const Number& number) const {
     const T one = number(1.0);
-    const T w = one / (one + root_along(one - pp - qq, one));
-    const T e = ex * at.p + ey * at.q;
-    const T wander = w * ((0.5 * ex) * (qq - pp) + ey * (at.p * at.q));
-    return {plate * (wander - w * (e * e)) + number(plate - base), at.z - plate * e};
+    const T n = root_along(one - at.p * at.p - at.q * at.q, one), w = one / (one + n);
+    T e[3], f[3], a = number(0.0), b = number(0.0), c = number(0.0);
+    for (int i = 0; i < 3; ++i) {
+      const Leg& of = leg[i];
+      e[i] = of.ex * at.p + of.ey * at.q;
+      f[i] = of.ex * at.q - of.ey * at.p;
+      a = a - (of.twist * of.plate) * (w * (e[i] * f[i]));
+      b = b + (of.twist * of.plate) * (one - w * (f[i] * f[i]));
+      c = c + (of.twist * of.joint) * f[i];
+    }
+    const T square = a * a + b * b, root = root_along(square - c * c, b);
+    return {n,
+            w,
+            {e[0], e[1], e[2]},
+            {f[0], f[1], f[2]},
+            (b * root - a * c) / square,
+            number(0.0) - (b * c + a * root) / square};
+  }
+
+  // (M66) to (M69).
+  template <class T, class Number>
+  void unequal_joints(const Pose<T>& at, const Number& number, Joint<T> (&joint)[3]) const {
+    const T one = number(1.0);
+    const auto [n, w, e, f, cosine, sine] = twist(at, number);
+    T along[3], beside[3];  // the joint from the plate's center
+    for (int i = 0; i < 3; ++i) {
+      const Leg& of = leg[i];
+      const T falls = of.plate * (cosine * e[i] + sine * f[i]);
+      along[i] = of.plate * cosine - w * (e[i] * falls) + of.joint * e[i];
+      beside[i] = of.plate * sine - w * (f[i] * falls) + of.joint * f[i];
+      joint[i].z = at.z - falls + of.joint * (n - one) + number(of.height - leg[0].height);
+    }
+    for (int i = 0; i < 3; ++i) {
+      const double* const shift = leg[i].shift;
+      joint[i].x = along[i] - shift[0] * beside[0] - shift[1] * beside[1] - shift[2] * beside[2] -
+                   number(leg[i].base);
+    }
   }
 
   // The rod's vector from the horn's end to the joint.
   template <class T>
-  [[nodiscard]] Joint<T> rod_of(const Joint<T>& joint, const T& sine, const T& cosine) const {
+  [[nodiscard]] Joint<T> rod_of(int i, const Joint<T>& joint, const T& sine,
+                                const T& cosine) const {
+    const double horn = leg[i].horn;
     return {joint.x - horn * cosine, joint.z - horn * sine};
   }
 
@@ -97,23 +190,44 @@ struct ThreeServos {
     Real of[3], of_horn;
   };
   template <class Real>
-  [[nodiscard]] Slopes<Real> slopes(int i, const Pose<Real>& at, const Real& sine,
-                                    const Real& cosine) const {
-    const double across = 0.8660254037844386;
-    const double ex = i == 0 ? 1.0 : -0.5, ey = i == 0 ? 0.0 : i == 1 ? across : -across;
-    const Real& p = at.p;
-    const Real& q = at.q;
-    const Real one = Real(1.0);
-    const Real n = root_along(one - p * p - q * q, one), w = one / (one + n);
-    const Real wn = w * w / n, wp = wn * p, wq = wn * q;
-    const Real e = ex * p + ey * q;
-    const Real form = (0.5 * ex) * (q * q - p * p) + ey * (p * q) - e * e;
-    const Real form_p = ey * q - ex * p - (2 * ex) * e, form_q = ex * q + ey * p - (2 * ey) * e;
-    const Joint<Real> leg =
-        rod_of(joint(i, at, [](double value) { return Real(value); }), sine, cosine);
-    return {{plate * (leg.x * (wp * form + w * form_p)) - (plate * ex) * leg.z,
-             plate * (leg.x * (wq * form + w * form_q)) - (plate * ey) * leg.z, leg.z},
-            horn * (leg.x * sine - leg.z * cosine)};
+  void slopes(const Pose<Real>& at, const Real (&sine)[3], const Real (&cosine)[3],
+              Slopes<Real> (&m)[3]) const {
+    if (!equal) return unequal_slopes(at, sine, cosine, m);
+    Joint<Real> joint[3];
+    joints(at, [](double value) { return Real(value); }, joint);
+    const double plate = leg[0].plate;
+    for (int i = 0; i < 3; ++i) {
+      const double across = 0.8660254037844386;
+      const double ex = i == 0 ? 1.0 : -0.5, ey = i == 0 ? 0.0 : i == 1 ? across : -across;
+      const Real& p = at.p;
+      const Real& q = at.q;
+      const Real one = Real(1.0);
+      const Real n = root_along(one - p * p - q * q, one), w = one / (one + n);
+      const Real wn = w * w / n, wp = wn * p, wq = wn * q;
+      const Real e = ex * p + ey * q;
+      const Real form = (0.5 * ex) * (q * q - p * p) + ey * (p * q) - e * e;
+      const Real form_p = ey * q - ex * p - (2 * ex) * e, form_q = ex * q + ey * p - (2 * ey) * e;
+      const Joint<Real> rod = rod_of(i, joint[i], sine[i], cosine[i]);
+      m[i] = {{plate * (rod.x * (wp * form + w * form_p)) - (plate * ex) * rod.z,
+               plate * (rod.x * (wq * form + w * form_q)) - (plate * ey) * rod.z, rod.z},
+              leg[0].horn * (rod.x * sine[i] - rod.z * cosine[i])};
+    }
+  }
+
+  template <class Real>
+  void unequal_slopes(const Pose<Real>& at, const Real (&sine)[3], const Real (&cosine)[3],
+                      Slopes<Real> (&m)[3]) const {
+    const Real none = Real(0.0), one = Real(1.0);
+    const auto constant = [&](double value) { return Slope2<Real>{Real(value), none, none}; };
+    Joint<Slope2<Real>> joint[3];
+    unequal_joints(Pose<Slope2<Real>>{{at.p, one, none}, {at.q, none, one}, {at.z, none, none}},
+                   constant, joint);
+    for (int i = 0; i < 3; ++i) {
+      const Joint<Real> rod = rod_of(i, {joint[i].x.v, joint[i].z.v}, sine[i], cosine[i]);
+      m[i] = {{rod.x * joint[i].x.p + rod.z * joint[i].z.p,
+               rod.x * joint[i].x.q + rod.z * joint[i].z.q, rod.z},
+              leg[i].horn * (rod.x * sine[i] - rod.z * cosine[i])};
+    }
   }
 
   // Solves m x = right and returns m's determinant, by Cramer's rule.
@@ -140,8 +254,9 @@ struct ThreeServos {
   void directions(const Real (&servo)[3], Real (&sine)[3], Real (&cosine)[3]) const {
     for (int i = 0; i < 3; ++i) {
       const SinCos<Real> at = sin_cos(servo[i]);
-      sine[i] = cos_home * at.sin + sin_home * at.cos;
-      cosine[i] = cos_home * at.cos - sin_home * at.sin;
+      const Leg& of = leg[i];
+      sine[i] = of.cos_zero * (of.turns * at.sin) + of.sin_zero * at.cos;
+      cosine[i] = of.cos_zero * at.cos - of.sin_zero * (of.turns * at.sin);
     }
   }
 
@@ -149,15 +264,16 @@ struct ThreeServos {
   // change nothing except near the edge of the workspace.
   template <class Real>
   [[nodiscard]] Pose<Real> pose(const Real (&sine)[3], const Real (&cosine)[3]) const {
-    Pose<Real> at{Real(0.0), Real(0.0), Real(height)};
+    Pose<Real> at{Real(0.0), Real(0.0), Real(leg[0].height)};
     for (int k = 0; k < 9; ++k) {
       Slopes<Real> m[3];
+      Joint<Real> joint[3];
       Real right[3], step[3];
+      slopes(at, sine, cosine, m);
+      joints(at, [](double value) { return Real(value); }, joint);
       for (int i = 0; i < 3; ++i) {
-        m[i] = slopes(i, at, sine[i], cosine[i]);
-        const Joint<Real> leg =
-            rod_of(joint(i, at, [](double value) { return Real(value); }), sine[i], cosine[i]);
-        right[i] = 0.5 * (leg.x * leg.x + leg.z * leg.z - Real(rod * rod));
+        const Joint<Real> rod = rod_of(i, joint[i], sine[i], cosine[i]);
+        right[i] = 0.5 * (rod.x * rod.x + rod.z * rod.z - Real(leg[i].rod * leg[i].rod));
       }
       solve(m, right, step);
       at.p = at.p - step[0];
@@ -176,10 +292,8 @@ struct ThreeServos {
     const Pose<Real> at = pose(sine, cosine);
     Slopes<Real> m[3];
     Real right[3], first[3], second[3];
-    for (int i = 0; i < 3; ++i) {
-      m[i] = slopes(i, at, sine[i], cosine[i]);
-      right[i] = -(m[i].of_horn * rate[i]);
-    }
+    slopes(at, sine, cosine, m);
+    for (int i = 0; i < 3; ++i) right[i] = -(m[i].of_horn * (leg[i].turns * rate[i]));
     solve(m, right, first);
     // The second derivative of the leg equations without the accelerations of p, q and z.
     const Real none = Real(0.0);
@@ -188,14 +302,17 @@ struct ThreeServos {
     const auto constant = [](double value) {
       return Motion2<Real>{Real(value), Real(0.0), Real(0.0)};
     };
+    Joint<Motion2<Real>> joint[3];
+    joints(moving, constant, joint);
     for (int i = 0; i < 3; ++i) {
       const Real square = rate[i] * rate[i];
-      const Motion2<Real> s{sine[i], cosine[i] * rate[i],
-                            cosine[i] * acceleration[i] - sine[i] * square};
-      const Motion2<Real> c{cosine[i], -(sine[i] * rate[i]),
-                            -(sine[i] * acceleration[i]) - cosine[i] * square};
-      const Joint<Motion2<Real>> leg = rod_of(joint(i, moving, constant), s, c);
-      right[i] = -(0.5 * (leg.x * leg.x + leg.z * leg.z).dd);
+      const Real turning = leg[i].turns * rate[i], pushing = leg[i].turns * acceleration[i];
+      const Motion2<Real> s{sine[i], cosine[i] * turning,
+                            cosine[i] * pushing - sine[i] * square};
+      const Motion2<Real> c{cosine[i], -(sine[i] * turning),
+                            -(sine[i] * pushing) - cosine[i] * square};
+      const Joint<Motion2<Real>> rod = rod_of(i, joint[i], s, c);
+      right[i] = -(0.5 * (rod.x * rod.x + rod.z * rod.z).dd);
     }
     solve(m, right, second);
 
@@ -221,20 +338,25 @@ struct ThreeServos {
   template <class Real>
   void told(const Real (&wanted)[2], Real (&servo)[3]) const {
     if (assumed == Assumed::ratio) {
-      for (int i = 0; i < 3; ++i) servo[i] = slope[i][0] * wanted[0] + slope[i][1] * wanted[1];
+      for (int i = 0; i < 3; ++i) {
+        servo[i] = leg[i].slope[0] * wanted[0] + leg[i].slope[1] * wanted[1];
+      }
       return;
     }
     const SinCos<Real> phi = sin_cos(wanted[0]), theta = sin_cos(wanted[1]);
-    const Pose<Real> at{phi.sin * theta.cos, -theta.sin, Real(height)};
+    const Pose<Real> at{phi.sin * theta.cos, -theta.sin, Real(leg[0].height)};
+    Joint<Real> joint[3];
+    joints(at, [](double value) { return Real(value); }, joint);
     for (int i = 0; i < 3; ++i) {
-      const Joint<Real> to = joint(i, at, [](double value) { return Real(value); });
+      const Leg& of = leg[i];
+      const Joint<Real>& to = joint[i];
       const Real square = to.x * to.x + to.z * to.z;
-      const Real k = (0.5 / horn) * (square + Real(horn * horn - rod * rod));
-      const Real root = root_along(square - k * k, Real(side));
+      const Real k = (0.5 / of.horn) * (square + Real(of.horn * of.horn - of.rod * of.rod));
+      const Real root = root_along(square - k * k, Real(of.side));
       const Real sine = (k * to.z + root * to.x) / square;
       const Real cosine = (k * to.x - root * to.z) / square;
-      servo[i] = angle_of(Real(cos_home * sine - sin_home * cosine),
-                          Real(cos_home * cosine + sin_home * sine));
+      servo[i] = of.turns * angle_of(Real(of.cos_zero * sine - of.sin_zero * cosine),
+                                     Real(of.cos_zero * cosine + of.sin_zero * sine));
     }
   }
 
@@ -242,14 +364,11 @@ struct ThreeServos {
   void believed(const Real* servo, const Real* rate, Real (&angle)[2],
                 Real (&angle_rate)[2]) const {
     if (assumed == Assumed::ratio) {
-      // The least-squares tilts. The two columns of slopes are orthogonal and of equal length.
-      const double length =
-          slope[0][0] * slope[0][0] + slope[1][0] * slope[1][0] + slope[2][0] * slope[2][0];
       for (int j = 0; j < 2; ++j) {
         angle[j] = angle_rate[j] = Real(0.0);
         for (int i = 0; i < 3; ++i) {
-          angle[j] = angle[j] + (slope[i][j] / length) * servo[i];
-          angle_rate[j] = angle_rate[j] + (slope[i][j] / length) * rate[i];
+          angle[j] = angle[j] + inferred[j][i] * servo[i];
+          angle_rate[j] = angle_rate[j] + inferred[j][i] * rate[i];
         }
       }
       return;
@@ -275,9 +394,10 @@ struct ThreeServos {
     const Pose<double> at = pose(sine, cosine);
     Slopes<double> m[3];
     double none[3] = {0, 0, 0}, unused[3], least = HUGE_VAL;
+    slopes(at, sine, cosine, m);
     for (int i = 0; i < 3; ++i) {
-      m[i] = slopes(i, at, sine[i], cosine[i]);
-      least = std::fmin(least, side * m[i].of_horn / (horn * rod));
+      const Leg& of = leg[i];
+      least = std::fmin(least, of.side * m[i].of_horn / (of.horn * of.rod));
     }
     return std::fmin(least, solve(m, none, unused) / determinant);
   }

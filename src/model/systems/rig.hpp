@@ -25,6 +25,7 @@ struct SampledLoop {
   ControlLaw law;         // computed at each sample; `held` for an external controller
   CommandRange limit[2];  // phi, theta: limits of the law's commands
   Between between;        // converts commands for the servos
+  bool legs = false;      // commands are angles of three servos: nothing converts them
   // With a held law: the external controller (control/external_controller.hpp), which the caller
   // must attach before a run; and the names of the columns that it returns.
   std::shared_ptr<ExternalController> external{};

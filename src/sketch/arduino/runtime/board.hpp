@@ -34,7 +34,7 @@ struct Board {
   Nanoseconds horizon;  // the time of the next sample
   bool running;         // whether the coroutine is running
   char said[400];       // the first error, or empty
-  double command[2];    // rad
+  double command[3];    // rad
 };
 extern Board board;
 

@@ -26,11 +26,22 @@ const Any* keep(std::vector<Any>& in, const Any* from, size_t count) {
   return in.data();
 }
 
+bool is_wired(const bbsim_wired_servo& servo) {
+  return servo.pin >= 0 || servo.channel >= 0;
+}
+
 // Returns null, or the reason why it refuses the setup.
 const char* create(const bbsim_setup* setup, const bbsim_wiring* wiring) {
   if (board.said[0] != '\0') return board.said;  // by a global variable's constructor
   static char why[200];
-  if (setup->drives_acceleration != 0) return "a sketch moves servos; allowed: drives: angle";
+  constexpr uint32_t angle = 0, legs = 4;
+  if (setup->drives_acceleration != angle && setup->drives_acceleration != legs) {
+    return "a sketch moves servos; allowed: drives: angle";
+  }
+  if ((setup->drives_acceleration == legs) != is_wired(wiring->servos[2])) {
+    return "the wiring's servos and the scene's differ; allowed: servos.legs with drives: legs, "
+           "servos.phi and .theta with drives: angle";
+  }
   if (setup->parameter_count > 0) {
     snprintf(why, sizeof why,
              "a sketch takes no parameters, found %.60s; set the numbers in the sketch",
@@ -81,8 +92,10 @@ int step(const bbsim_sample* sample, double* command, double* columns) {
     if (board.now < board.horizon) run_sketch();
   }
   if (board.said[0] != '\0') return 1;
-  command[0] = board.command[0];
-  command[1] = board.command[1];
+  // A third one only where there is room for it.
+  for (int i = 0; i < (is_wired(board.wiring.servos[2]) ? 3 : 2); ++i) {
+    command[i] = board.command[i];
+  }
   for (size_t i = 0; i < column_count; ++i) columns[i] = column(i);
   return 0;
 }

@@ -15,7 +15,7 @@ void pulse(int axis, double seconds) {
 }
 
 int axis_at_pin(int pin) {
-  for (int axis = 0; axis < 2; ++axis) {
+  for (int axis = 0; axis < 3; ++axis) {
     if (board.wiring.servos[axis].pin == pin) return axis;
   }
   for (size_t i = 0; i < board.wiring.ignored_count; ++i) {
@@ -23,7 +23,7 @@ int axis_at_pin(int pin) {
   }
   fail(
       "Servo.attach(%s): no servo is wired to pin %s; the wiring's servos name the pins of phi and "
-      "theta, and in `ignored` those of others",
+      "theta or of legs, and in `ignored` those of others",
       pin_name(pin), pin_name(pin));
   return -1;
 }
@@ -115,7 +115,7 @@ uint8_t Adafruit_PWMServoDriver::setPWM(uint8_t channel, uint16_t on, uint16_t o
   const int steps = (off - on) & 4095;
   if (((on | off) & 4096) != 0 || steps == 0) return 0;
   bool wired = channel < 16 && (board.wiring.ignored_channels >> channel & 1U) != 0;
-  for (int axis = 0; axis < 2; ++axis) {
+  for (int axis = 0; axis < 3; ++axis) {
     if (board.wiring.servos[axis].channel != channel) continue;
     pulse(axis, steps * (prescale_ + 1) / board.wiring.oscillator);
     wired = true;
@@ -123,7 +123,8 @@ uint8_t Adafruit_PWMServoDriver::setPWM(uint8_t channel, uint16_t on, uint16_t o
   if (!wired) {
     fail(
         "Adafruit_PWMServoDriver.setPWM(%d, ...): no servo is wired to channel %d; the wiring's "
-        "servos name the channels of phi and theta, and in `ignored_channels` those of others",
+        "servos name the channels of phi and theta or of legs, and in `ignored_channels` those of "
+        "others",
         channel, channel);
   }
   return 0;
