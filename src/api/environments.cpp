@@ -91,7 +91,8 @@ void Environments::observe(std::size_t which) {
   if (now.ball) std::ranges::copy(*now.ball, into);
   into[2] = now.ball ? 1 : 0;
   double* next = into + 3;
-  for (const Pair& pair : {now.reference, now.reference_rate, now.servo, now.servo_rate}) {
+  for (const Pair& pair : {now.reference, now.reference_rate, Pair{now.servo[0], now.servo[1]},
+                           Pair{now.servo_rate[0], now.servo_rate[1]}}) {
     next = std::ranges::copy(pair, next).out;
   }
 }

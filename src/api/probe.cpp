@@ -11,6 +11,7 @@
 #include <functional>
 #include <limits>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -45,7 +46,8 @@ class Bench {
   // The answers to a ball that is away(sample) from the reference, m.
   Commands commands(const std::function<Pair(double)>& away) {
     const model::SampledLoop& loop = *model_.rig().sampled;
-    const double servo[4] = {};
+    const std::array<double, 3> still{};
+    const std::span<const double> servo(still.data(), loop.legs ? 3 : 2);
     Commands commands;
     loop.external->begin();
     for (std::size_t i = 0; i < samples; ++i) {
@@ -57,7 +59,9 @@ class Bench {
       if (!sensor_.read(reference[0].value + from[0], reference[1].value + from[1], *seen)) {
         seen.reset();
       }
-      commands.push_back(loop.external->command({i, t, seen, servo, reference}, own_.data()));
+      const model::Commands asked =
+          loop.external->command({i, t, seen, servo, servo, reference}, own_.data());
+      commands.push_back(loop.legs ? model_.rig().between.tilt(asked) : Pair{asked[0], asked[1]});
     }
     return commands;
   }

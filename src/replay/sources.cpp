@@ -89,10 +89,10 @@ void turn_to_the_end(Run& run) {
   if (!run.has_end_row || !run.rolls || !run.ball_radius || run.orientation.size() < 2) return;
   const std::vector<double> x = coordinate(run, "x"), y = coordinate(run, "y");
   const std::size_t end = x.size() - 1;
-  run.orientation[end] =
-      product(rolled({x[end - 1], x[end]}, {y[end - 1], y[end]}, nullptr,
-                     run.rolling_radius.value_or(*run.ball_radius)).back(),
-              run.orientation[end - 1]);
+  run.orientation[end] = product(rolled({x[end - 1], x[end]}, {y[end - 1], y[end]}, nullptr,
+                                        run.rolling_radius.value_or(*run.ball_radius))
+                                     .back(),
+                                 run.orientation[end - 1]);
 }
 
 // If all four parts of the ball's orientation are recorded, makes them the run's orientation and

@@ -142,9 +142,10 @@ class Checks {
              "given");
     }
     if (controller.law != Law::own) {
-      refuse({"controller", "drives"},
-             "found legs beside a law that gives two angles; allowed: angle, or your own program or "
-             "library, which gives an angle for each servo");
+      refuse(
+          {"controller", "drives"},
+          "found legs beside a law that gives two angles; allowed: angle, or your own program or "
+          "library, which gives an angle for each servo");
     }
     if (controller.axis_limits) {
       refuse({"controller", "limit"},
@@ -260,8 +261,7 @@ class Checks {
   }
 
   void servo(std::size_t axis) {
-    const Servo& servo =
-        axis == 0 ? *scene_.gimbal.servo : scene_.gimbal.servo_of(axis);
+    const Servo& servo = axis == 0 ? *scene_.gimbal.servo : scene_.gimbal.servo_of(axis);
     if (servo.time_constant) {
       if (!scene_.controller->sampling) {
         refuse_of_servo(axis, "time_constant",

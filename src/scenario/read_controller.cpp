@@ -260,8 +260,7 @@ struct AssumesRule {
     return names().allowed() + ", or three legs as in gimbal.three_servos";
   }
   [[nodiscard]] static yaml::Declared declared() {
-    return yaml::Declared::any(
-        {names().declared(), yaml::MappingOf(read_three_servos).declared()});
+    return yaml::Declared::any({names().declared(), yaml::MappingOf(read_three_servos).declared()});
   }
   static bool read(const yaml::Value& value, Controller& into) {
     if (value.node->kind != yaml::Node::Kind::mapping) {

@@ -75,7 +75,8 @@ constexpr KeyRelation table[] = {
     {"gimbal.three_servos", needs, "controller.drives=angle|legs"},
     {"gimbal.three_servos", needs,
      "gimbal.three_servos.legs or gimbal.three_servos.radius_base and "
-     "gimbal.three_servos.radius_plate and gimbal.three_servos.horn and gimbal.three_servos.rod and "
+     "gimbal.three_servos.radius_plate and gimbal.three_servos.horn and gimbal.three_servos.rod "
+     "and "
      "gimbal.three_servos.height"},
     {"gimbal.three_servos", excludes, "gimbal.motor or gimbal.servo.phi or gimbal.servo.theta"},
     {"controller.drives=legs", needs,
