@@ -29,12 +29,8 @@ struct SteppedRun::State {
 
 Sample copy_of(const model::ControllerSample& sample) {
   const auto& [x, y] = sample.reference;
-  Sample copy{sample.number,
-              sample.t,
-              sample.seen,
-              {x.value, y.value},
-              {x.rate, y.rate},
-              {x.acceleration, y.acceleration},
+  Sample copy{sample.number,      sample.t,         sample.seen,
+              {x.value, y.value}, {x.rate, y.rate}, {x.acceleration, y.acceleration},
               sample.servo.size()};
   std::ranges::copy(sample.servo, copy.servo.begin());
   std::ranges::copy(sample.servo_rate, copy.servo_rate.begin());

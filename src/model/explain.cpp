@@ -150,8 +150,7 @@ std::string believed_level(const Scenario& scene) {
 }
 
 std::string assumes_note(const Scenario& scene) {
-  const bool two_of_three =
-      scene.gimbal.three_servos && scene.controller->drives == Drives::angle;
+  const bool two_of_three = scene.gimbal.three_servos && scene.controller->drives == Drives::angle;
   if (scene.controller->own && !two_of_three) {
     return "; your controller commands the servos itself";
   }

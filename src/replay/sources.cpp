@@ -89,10 +89,10 @@ void turn_to_the_end(Run& run) {
   if (!run.has_end_row || !run.rolls || !run.ball_radius || run.orientation.size() < 2) return;
   const std::vector<double> x = coordinate(run, "x"), y = coordinate(run, "y");
   const std::size_t end = x.size() - 1;
-  run.orientation[end] =
-      product(rolled({x[end - 1], x[end]}, {y[end - 1], y[end]}, nullptr,
-                     run.rolling_radius.value_or(*run.ball_radius)).back(),
-              run.orientation[end - 1]);
+  run.orientation[end] = product(rolled({x[end - 1], x[end]}, {y[end - 1], y[end]}, nullptr,
+                                        run.rolling_radius.value_or(*run.ball_radius))
+                                     .back(),
+                                 run.orientation[end - 1]);
 }
 
 // If all four parts of the ball's orientation are recorded, makes them the run's orientation and
@@ -160,6 +160,14 @@ void describe_sight(Run& run, const Scenario& scenario) {
   }
   const bbsim::Mounting& mounting = scenario.gimbal.mounting;
   run.mounting = {mounting.height, mounting.skew, mounting.yaw, mounting.base_tilt};
+  if (const auto& three = scenario.gimbal.three_servos) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      const ServoLeg leg = three->leg(i);
+      run.legs.push_back({leg.angle, leg.radius_base, leg.radius_plate, leg.horn, leg.rod,
+                          leg.height, leg.joint_height, leg.offset, leg.direction});
+    }
+    run.plate_offset = {mounting.phi_offset, mounting.theta_offset};
+  }
   if (scenario.events.slip) run.friction = scenario.events.slip->friction;
   if (scenario.events.slip && scenario.events.slip->sliding) run.rolls = false;
   if (scenario.controller) set_unit_of_commands(run, scenario.controller->drives);

@@ -142,9 +142,10 @@ class Checks {
              "given");
     }
     if (controller.law != Law::own) {
-      refuse({"controller", "drives"},
-             "found legs beside a law that gives two angles; allowed: angle, or your own program or "
-             "library, which gives an angle for each servo");
+      refuse(
+          {"controller", "drives"},
+          "found legs beside a law that gives two angles; allowed: angle, or your own program or "
+          "library, which gives an angle for each servo");
     }
     if (controller.axis_limits) {
       refuse({"controller", "limit"},
@@ -260,8 +261,7 @@ class Checks {
   }
 
   void servo(std::size_t axis) {
-    const Servo& servo =
-        axis == 0 ? *scene_.gimbal.servo : scene_.gimbal.servo_of(axis);
+    const Servo& servo = axis == 0 ? *scene_.gimbal.servo : scene_.gimbal.servo_of(axis);
     if (servo.time_constant) {
       if (!scene_.controller->sampling) {
         refuse_of_servo(axis, "time_constant",
@@ -286,10 +286,11 @@ class Checks {
     if (servo.dead_band > 0 && !scene_.controller->sampling) {
       const bool of_model = !find_at(keys_, {"gimbal", "servo", "dead_band"}) &&
                             find_at(keys_, {"gimbal", "servo", "model"});
-      refuse_of_servo(axis, of_model ? "model" : "dead_band",
-                      std::string(of_model ? "has a dead band, " : "") +
-                          "found without controller.sampling; allowed: only with it, since a dead band "
-                      "compares each command with the one before");
+      refuse_of_servo(
+          axis, of_model ? "model" : "dead_band",
+          std::string(of_model ? "has a dead band, " : "") +
+              "found without controller.sampling; allowed: only with it, since a dead band "
+              "compares each command with the one before");
     }
   }
 

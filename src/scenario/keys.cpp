@@ -73,7 +73,8 @@ constexpr KeyText gimbal[] = {
      "angles at t = 0 under a controller or torques, without the mounting's offsets"},
     {"gimbal.start.phi_rate .theta_rate", "rates at t = 0"},
     {.keys = "gimbal.servo",
-     .meaning = "[servos](#servos): required under `drives: legs`, and under `drives: angle` without `gimbal.motor`, "
+     .meaning = "[servos](#servos): required under `drives: legs`, and under `drives: angle` "
+                "without `gimbal.motor`, "
                 "otherwise refused",
      .standard = "-"},
     {"gimbal.motor", "[torques and motors](#torques-and-motors)"},
@@ -213,9 +214,7 @@ constexpr KeyText controller[] = {
     {.keys = "controller.limit.phi .theta",
      .meaning = "the same for one axis",
      .unit = "of the command"},
-    {.keys = "controller.assumes",
-     .meaning = "[linkages](#linkages)",
-     .standard = "-"},
+    {.keys = "controller.assumes", .meaning = "[linkages](#linkages)", .standard = "-"},
     {"controller.sampling",
      "a discrete-time controller: [sampling](#sampling); without it the law is continuous"},
     {"controller.sensor",

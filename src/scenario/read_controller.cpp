@@ -213,8 +213,7 @@ struct Period {
     const bool kilo = text.ends_with('k');
     if (kilo) text.remove_suffix(1);
     while (text.ends_with(' ')) text.remove_suffix(1);
-    const double rate =
-        yaml::read_quantity(text, false, yaml::Dimension::number).value.value_or(0);
+    const double rate = yaml::read_quantity(text, false, yaml::Dimension::number).value.value_or(0);
     if (!(rate > 0 && rate < std::numeric_limits<double>::infinity())) {
       return value.refuse("", allowed());
     }
@@ -291,8 +290,7 @@ struct AssumesRule {
     return names().allowed() + ", or three legs as in gimbal.three_servos";
   }
   [[nodiscard]] static yaml::Declared declared() {
-    return yaml::Declared::any(
-        {names().declared(), yaml::MappingOf(read_three_servos).declared()});
+    return yaml::Declared::any({names().declared(), yaml::MappingOf(read_three_servos).declared()});
   }
   static bool read(const yaml::Value& value, Controller& into) {
     if (value.node->kind != yaml::Node::Kind::mapping) {

@@ -339,8 +339,9 @@ void read_leg(yaml::Keys& keys, ServoLeg& leg) {
   for (const char* other : {"radius_base", "radius_plate"}) {
     const auto given = keys.find("radius") ? keys.find(other) : std::nullopt;
     if (given) {
-      given->report("found beside radius, which is both radii; allowed: radius, or radius_base and "
-                    "radius_plate");
+      given->report(
+          "found beside radius, which is both radii; allowed: radius, or radius_base and "
+          "radius_plate");
     }
   }
   read_leg_lengths(keys, leg);
@@ -390,7 +391,8 @@ void read_three_servos(yaml::Keys& keys, ThreeServos& of) {
   if (given && Legs::read(*given, legs)) plate.legs = legs;
   const auto require = [&](const char* key, double ServoLeg::*length) {
     const auto lacks = [&](const ServoLeg& leg) { return !(leg.*length > 0); };
-    if (!keys.find(key) && std::ranges::any_of(legs, lacks)) keys.missing(key, leg_length.allowed());
+    if (!keys.find(key) && std::ranges::any_of(legs, lacks))
+      keys.missing(key, leg_length.allowed());
   };
   require("radius_base", &ServoLeg::radius_base);
   require("radius_plate", &ServoLeg::radius_plate);

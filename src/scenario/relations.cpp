@@ -56,7 +56,8 @@ constexpr KeyRelation table[] = {
 
     // Servos and linkages.
     {"gimbal.servo", needs,
-     "gimbal.servo.model or gimbal.servo.time_constant or gimbal.servo.natural_frequency and gimbal.servo.damping or "
+     "gimbal.servo.model or gimbal.servo.time_constant or gimbal.servo.natural_frequency and "
+     "gimbal.servo.damping or "
      "gimbal.servo.phi and gimbal.servo.theta"},
     {"gimbal.servo.time_constant", needs, "controller.sampling"},
     {"gimbal.servo.time_constant", excludes, "gimbal.servo.acceleration_limit"},
@@ -75,7 +76,8 @@ constexpr KeyRelation table[] = {
     {"gimbal.three_servos", needs, "controller.drives=angle|legs"},
     {"gimbal.three_servos", needs,
      "gimbal.three_servos.legs or gimbal.three_servos.radius_base and "
-     "gimbal.three_servos.radius_plate and gimbal.three_servos.horn and gimbal.three_servos.rod and "
+     "gimbal.three_servos.radius_plate and gimbal.three_servos.horn and gimbal.three_servos.rod "
+     "and "
      "gimbal.three_servos.height"},
     {"gimbal.three_servos", excludes, "gimbal.motor or gimbal.servo.phi or gimbal.servo.theta"},
     {"controller.drives=legs", needs,

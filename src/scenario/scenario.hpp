@@ -75,8 +75,9 @@ struct Groove {
 };
 
 struct Ball {
-  double radius = 0;    // m, > 0, required; in a groove, the distance from center to the contacts' axis
-  double mass = 1;      // kg, > 0; needed only for forces, or where the mass affects the motion
+  double radius =
+      0;            // m, > 0, required; in a groove, the distance from center to the contacts' axis
+  double mass = 1;  // kg, > 0; needed only for forces, or where the mass affects the motion
   Pair position{0, 0};  // contact point in the plane frame, m
   Pair velocity{0, 0};  // of the contact point in the plane frame, m/s
   double spin = 0;      // about the plane's normal, relative to the plane, rad/s
@@ -149,11 +150,11 @@ using AxisLinkage = std::variant<RodLinkage, CurveLinkage>;
 struct ServoLeg {
   double radius_base = 0, radius_plate = 0;  // of the servo's axis and of the joint, m, > 0
   double horn = 0, rod = 0;                  // m, > 0
-  double height = 0;           // of the joint above the servo's axis with the plate level, m, > 0
-  double angle = 0;            // azimuth, from the plate's x axis, rad
-  double joint_height = 0;     // of the joint in the plate, from any level that all legs share, m
-  double offset = 0;           // of the horn from home where the servo is at zero, rad
-  int direction = 1;           // -1: the horn falls as the servo's angle grows
+  double height = 0;             // of the joint above the servo's axis with the plate level, m, > 0
+  double angle = 0;              // azimuth, from the plate's x axis, rad
+  double joint_height = 0;       // of the joint in the plate, from any level that all legs share, m
+  double offset = 0;             // of the horn from home where the servo is at zero, rad
+  int direction = 1;             // -1: the horn falls as the servo's angle grows
   std::optional<Servo> servo{};  // if it differs from gimbal.servo
 };
 
@@ -385,7 +386,7 @@ struct Controller {
   std::optional<double> limit{};  // of the command, rad, rad/s^2, N m or V
   // Separate limits for phi and theta, which replace `limit`.
   std::optional<std::array<std::optional<double>, 2>> axis_limits{};
-  std::optional<Assumes> assumes{};  // only with a linkage or three servos
+  std::optional<Assumes> assumes{};               // only with a linkage or three servos
   std::optional<ThreeServoPlate> assumed_legs{};  // exact, but for legs that may not be those
   std::optional<Sampling> sampling{};
   std::optional<Sensor> sensor{};  // only with sampling

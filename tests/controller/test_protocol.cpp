@@ -253,8 +253,9 @@ TEST_CASE("three legs: a sample has three servos, and an answer three commands")
   const Read answer = read("{\"command\": [0.1, -0.2, 0.3]}", {}, 3);
   CHECK(answer.fault.empty());
   CHECK(answer.command == std::vector{0.1, -0.2, 0.3});
-  CHECK(read("{\"command\": [0.1, 0.2]}", {}, 3)
-            .fault.ends_with("found a command that is not three numbers; allowed: {\"command\": [S1, "
-                             "S2, S3]}, optionally with \"NAME\": NUMBER"));
+  CHECK(
+      read("{\"command\": [0.1, 0.2]}", {}, 3)
+          .fault.ends_with("found a command that is not three numbers; allowed: {\"command\": [S1, "
+                           "S2, S3]}, optionally with \"NAME\": NUMBER"));
   CHECK(!read("{\"command\": [0.1, 0.2, 1e999]}", {}, 3).fault.empty());
 }

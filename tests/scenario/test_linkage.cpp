@@ -149,9 +149,10 @@ TEST_CASE("servo numbers are read as they are sold") {
 
 TEST_CASE("legs take what they lack from all legs") {
   const Scenario scene = parse(
-      base, {"gimbal.three_servos={radius_base: \"6 cm\", radius_plate: 0.09, horn: 0.04, rod: 0.1, "
-             "height: 0.11, legs: [{offset: \"2 deg\", direction: -1}, {angle: \"100 deg\", radius: "
-             "0.07, servo: {angle_limit: \"40 deg\"}}, {rod: 0.102, joint_height: 0.004}]}"});
+      base,
+      {"gimbal.three_servos={radius_base: \"6 cm\", radius_plate: 0.09, horn: 0.04, rod: 0.1, "
+       "height: 0.11, legs: [{offset: \"2 deg\", direction: -1}, {angle: \"100 deg\", radius: "
+       "0.07, servo: {angle_limit: \"40 deg\"}}, {rod: 0.102, joint_height: 0.004}]}"});
   const auto& legs = *scene.gimbal.three_servos->legs;
   CHECK(legs[0].angle == 0);
   CHECK(legs[0].offset == Approx(0.03490658503988659).epsilon(1e-15));
@@ -237,7 +238,8 @@ TEST_CASE("what makes no sense of these keys is refused, with why") {
        "gimbal.three_servos.radius_plate: missing"},
       {{"gimbal.three_servos={radius_base: 0.06, legs: [{}, {}]}"},
        "gimbal.three_servos.legs: found a list; allowed: a list of three mappings"},
-      {{"gimbal.three_servos=" + three, "gimbal.three_servos.legs=[{radius: 0.1, radius_base: 0.1}, "
+      {{"gimbal.three_servos=" + three,
+        "gimbal.three_servos.legs=[{radius: 0.1, radius_base: 0.1}, "
         "{direction: 2}, {heigth: 1}]"},
        "gimbal.three_servos.legs.2.heigth: unknown key"},
       {{"controller.drives=legs"}, "controller.drives: found legs, but there are no three servos"},

@@ -22,9 +22,9 @@ using Commands = std::array<double, 3>;
 
 // What it is told at a sample, SI.
 struct ControllerSample {
-  std::size_t number;                           // from 0
-  double t;                                     // s
-  const std::optional<Pair>& seen;              // of the ball, m; nothing if the sensor missed it
+  std::size_t number;               // from 0
+  double t;                         // s
+  const std::optional<Pair>& seen;  // of the ball, m; nothing if the sensor missed it
   // Of what it commands, phi and theta or three servos: angles (rad) and rates (rad/s).
   std::span<const double> servo, servo_rate;
   const std::array<Jet<double>, 2>& reference;  // m, m/s, m/s^2

@@ -98,10 +98,9 @@ LinearSystem system_of(std::vector<LinearSignal> states, std::vector<LinearSigna
 // the servos differ.
 Heave heave_of(const Scenario& scene, const LinearPoint& at) {
   const auto& three = scene.gimbal.three_servos;
-  const bool differ = three && three->legs &&
-                      std::ranges::any_of(*three->legs, [](const ServoLeg& leg) {
-                        return leg.servo.has_value();
-                      });
+  const bool differ =
+      three && three->legs &&
+      std::ranges::any_of(*three->legs, [](const ServoLeg& leg) { return leg.servo.has_value(); });
   return at.home && !differ && !scenario::is_coupled(scene) ? Heave::left_out : Heave::kept;
 }
 

@@ -55,7 +55,8 @@ class SampledController {
   [[nodiscard]] Pair command(const std::optional<Pair>& seen, const double (&servo)[4],
                              const std::array<Jet<double>, 2>& reference);
 
-  // What is left of a command of phi and theta, or of servos: the nearest multiple of its resolution, within its limit.
+  // What is left of a command of phi and theta, or of servos: the nearest multiple of its
+  // resolution, within its limit.
   [[nodiscard]] Pair within_limits(Pair command) const;
 
   // What the servos are told for such a command: itself, or what the linkage makes of it, in steps

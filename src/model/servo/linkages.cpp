@@ -423,8 +423,7 @@ Between between_of(const Scenario& scene) {
     }
     between.three = three;
     if (controller.assumed_legs) {
-      between.assumed =
-          make_three_servos(*controller.assumed_legs, assumed, "controller.assumes");
+      between.assumed = make_three_servos(*controller.assumed_legs, assumed, "controller.assumes");
       // Both mean the same elevation of a horn, and count from their own homes.
       for (std::size_t i = 0; i < 3; ++i) {
         const ThreeServos::Leg& leg = between.assumed->leg[i];
@@ -504,8 +503,9 @@ void set_planes(ThreeServos::Leg (&leg)[3], const std::string& key) {
   }
   const double determinant = xx * yy - xy * xy;
   if (!(determinant > 1e-6) || !(std::abs(free) > 1e-6 * size)) {
-    throw KeyError(key, "found legs whose planes let the plate slide or twist; allowed: other "
-                        "angles, such as 0, 120 and 240 deg");
+    throw KeyError(key,
+                   "found legs whose planes let the plate slide or twist; allowed: other "
+                   "angles, such as 0, 120 and 240 deg");
   }
   for (ThreeServos::Leg& one : leg) {
     for (int j = 0; j < 3; ++j) {
@@ -522,9 +522,8 @@ ThreeServos make_three_servos(const ThreeServoPlate& of, Assumed assumed, const 
   three.equal = are_equal(of);
   double sine[3], cosine[3];
   for (int i = 0; i < 3; ++i) {
-    const std::string which =
-        of.legs ? "leg " + std::to_string(i + 1) + " that does not close"
-                : "legs that do not close";
+    const std::string which = of.legs ? "leg " + std::to_string(i + 1) + " that does not close"
+                                      : "legs that do not close";
     three.leg[i] = make_leg(of.leg(static_cast<std::size_t>(i)), key, which);
     sine[i] = three.leg[i].sin_zero;
     cosine[i] = three.leg[i].cos_zero;
@@ -552,8 +551,9 @@ ThreeServos make_three_servos(const ThreeServoPlate& of, Assumed assumed, const 
   double unused[3];
   three.determinant = ThreeServos::solve(m, none, unused);
   if (!(std::abs(three.determinant) > 1e-9 * scale)) {
-    throw KeyError(key, "found rods that are level at home, and do not hold the plate up; allowed: "
-                        "another height");
+    throw KeyError(key,
+                   "found rods that are level at home, and do not hold the plate up; allowed: "
+                   "another height");
   }
   const double length = three.leg[0].slope[0] * three.leg[0].slope[0] +
                         three.leg[1].slope[0] * three.leg[1].slope[0] +
@@ -593,7 +593,8 @@ double greatest_tilt(const ThreeServos& three) {
       const ThreeServos::Pose<double> at{std::sin(tilt) * std::cos(azimuth),
                                          std::sin(tilt) * std::sin(azimuth), three.leg[0].height};
       ThreeServos::Joint<double> joint[3];
-      three.joints(at, [](double value) { return value; }, joint);
+      three.joints(
+          at, [](double value) { return value; }, joint);
       for (int i = 0; i < 3; ++i) {
         const ThreeServos::Leg& leg = three.leg[i];
         const double length = std::hypot(joint[i].x, joint[i].z);

@@ -194,7 +194,8 @@ struct ThreeServos {
               Slopes<Real> (&m)[3]) const {
     if (!equal) return unequal_slopes(at, sine, cosine, m);
     Joint<Real> joint[3];
-    joints(at, [](double value) { return Real(value); }, joint);
+    joints(
+        at, [](double value) { return Real(value); }, joint);
     const double plate = leg[0].plate;
     for (int i = 0; i < 3; ++i) {
       const double across = 0.8660254037844386;
@@ -270,7 +271,8 @@ struct ThreeServos {
       Joint<Real> joint[3];
       Real right[3], step[3];
       slopes(at, sine, cosine, m);
-      joints(at, [](double value) { return Real(value); }, joint);
+      joints(
+          at, [](double value) { return Real(value); }, joint);
       for (int i = 0; i < 3; ++i) {
         const Joint<Real> rod = rod_of(i, joint[i], sine[i], cosine[i]);
         right[i] = 0.5 * (rod.x * rod.x + rod.z * rod.z - Real(leg[i].rod * leg[i].rod));
@@ -307,8 +309,7 @@ struct ThreeServos {
     for (int i = 0; i < 3; ++i) {
       const Real square = rate[i] * rate[i];
       const Real turning = leg[i].turns * rate[i], pushing = leg[i].turns * acceleration[i];
-      const Motion2<Real> s{sine[i], cosine[i] * turning,
-                            cosine[i] * pushing - sine[i] * square};
+      const Motion2<Real> s{sine[i], cosine[i] * turning, cosine[i] * pushing - sine[i] * square};
       const Motion2<Real> c{cosine[i], -(sine[i] * turning),
                             -(sine[i] * pushing) - cosine[i] * square};
       const Joint<Motion2<Real>> rod = rod_of(i, joint[i], s, c);
@@ -346,7 +347,8 @@ struct ThreeServos {
     const SinCos<Real> phi = sin_cos(wanted[0]), theta = sin_cos(wanted[1]);
     const Pose<Real> at{phi.sin * theta.cos, -theta.sin, Real(leg[0].height)};
     Joint<Real> joint[3];
-    joints(at, [](double value) { return Real(value); }, joint);
+    joints(
+        at, [](double value) { return Real(value); }, joint);
     for (int i = 0; i < 3; ++i) {
       const Leg& of = leg[i];
       const Joint<Real>& to = joint[i];
