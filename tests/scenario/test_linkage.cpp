@@ -237,7 +237,7 @@ TEST_CASE("what makes no sense of these keys is refused, with why") {
         "[{radius_plate: 0.09}, {radius_plate: 0.09}, {}]}"},
        "gimbal.three_servos.radius_plate: missing"},
       {{"gimbal.three_servos={radius_base: 0.06, legs: [{}, {}]}"},
-       "gimbal.three_servos.legs: found a list; allowed: a list of three mappings"},
+       "gimbal.three_servos.legs: found a list of 2; allowed: a list of three mappings"},
       {{"gimbal.three_servos=" + three,
         "gimbal.three_servos.legs=[{radius: 0.1, radius_base: 0.1}, "
         "{direction: 2}, {heigth: 1}]"},
