@@ -168,6 +168,22 @@ Json poles_json(const Poles& poles) {
   return {{"period", poles.period ? Json(*poles.period) : Json()}, {"values", values}};
 }
 
+Json legs_json(const Run& run) {
+  Json legs = Json::array();
+  for (const Leg& leg : run.legs) {
+    legs.push_back({{"angle", leg.angle},
+                    {"base", leg.base},
+                    {"plate", leg.plate},
+                    {"horn", leg.horn},
+                    {"rod", leg.rod},
+                    {"height", leg.height},
+                    {"joint", leg.joint},
+                    {"offset", leg.offset},
+                    {"direction", leg.direction}});
+  }
+  return {{"legs", legs}, {"phiOffset", run.plate_offset[0]}, {"thetaOffset", run.plate_offset[1]}};
+}
+
 Json run_json(const Run& run, const Stage& stage, std::size_t most) {
   const double radius = run.ball_radius.value_or(stage.ball_radius);
   const std::vector<Quaternion> orientation = orientation_of(run, radius);
@@ -181,6 +197,7 @@ Json run_json(const Run& run, const Stage& stage, std::size_t most) {
                       {"skew", run.mounting.skew},
                       {"yaw", run.mounting.yaw},
                       {"baseTilt", run.mounting.base_tilt}};
+  if (!run.legs.empty()) json["legs"] = legs_json(run);
   json["time"] = times_json(picked(find_series(run, "t")->values, kept.rows));
   json["columns"] = columns_json(run, kept.rows);
   json["orientation"] = orientation_text(orientation, kept.rows);

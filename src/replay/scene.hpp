@@ -43,6 +43,17 @@ struct Mounting {
   double skew = 0, yaw = 0, base_tilt = 0;
 };
 
+// A leg under the plate, as in gimbal.three_servos.
+struct Leg {
+  double angle = 0;            // azimuth
+  double base = 0, plate = 0;  // radii of the servo's axis and of the joint
+  double horn = 0, rod = 0;
+  double height = 0;  // of the joint above the servo's axis, at home
+  double joint = 0;   // height of the joint in the plate
+  double offset = 0;  // of the horn from home where the servo is at zero
+  int direction = 1;
+};
+
 // Poles of the loop about home: in 1/s for a continuous loop, in the z plane for a sampled one.
 // `period` is that of the sampled loop, s.
 struct Poles {
@@ -73,6 +84,8 @@ struct Run {
   std::optional<double> ball_radius{};
   std::optional<double> rolling_radius{};  // if it is another
   Mounting mounting;
+  std::vector<Leg> legs;                 // three, or none
+  std::array<double, 2> plate_offset{};  // phi and theta of the plate where the legs are at home
   std::vector<std::array<double, 2>> reference;  // points of the whole path, plane frame
   std::optional<double> friction{};              // coefficient to compare friction_demand with
   std::string scenario_file, scenario_text;

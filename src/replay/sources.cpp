@@ -160,6 +160,14 @@ void describe_sight(Run& run, const Scenario& scenario) {
   }
   const bbsim::Mounting& mounting = scenario.gimbal.mounting;
   run.mounting = {mounting.height, mounting.skew, mounting.yaw, mounting.base_tilt};
+  if (const auto& three = scenario.gimbal.three_servos) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      const ServoLeg leg = three->leg(i);
+      run.legs.push_back({leg.angle, leg.radius_base, leg.radius_plate, leg.horn, leg.rod,
+                          leg.height, leg.joint_height, leg.offset, leg.direction});
+    }
+    run.plate_offset = {mounting.phi_offset, mounting.theta_offset};
+  }
   if (scenario.events.slip) run.friction = scenario.events.slip->friction;
   if (scenario.events.slip && scenario.events.slip->sliding) run.rolls = false;
   if (scenario.controller) set_unit_of_commands(run, scenario.controller->drives);

@@ -284,9 +284,13 @@ class Checks {
       }
     }
     if (servo.dead_band > 0 && !scene_.controller->sampling) {
-      refuse_of_servo(axis, "dead_band",
-                      "found without controller.sampling; allowed: only with it, since a dead band "
-                      "compares each command with the one before");
+      const bool of_model = !find_at(keys_, {"gimbal", "servo", "dead_band"}) &&
+                            find_at(keys_, {"gimbal", "servo", "model"});
+      refuse_of_servo(
+          axis, of_model ? "model" : "dead_band",
+          std::string(of_model ? "has a dead band, " : "") +
+              "found without controller.sampling; allowed: only with it, since a dead band "
+              "compares each command with the one before");
     }
   }
 

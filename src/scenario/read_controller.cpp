@@ -3,12 +3,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 #include <utility>
 
 #include "scenario/columns.hpp"
 #include "scenario/sections.hpp"
 #include "scenario/table_rows.hpp"
+#include "yaml/quantity.hpp"
 #include "yaml/rules.hpp"
 
 namespace bbsim::scenario {
@@ -194,10 +196,36 @@ struct Jitter {
   }
 };
 
+// The time from one to the next, or how many there are in a second: "30 Hz".
+struct Period {
+  yaml::Usual time;
+
+  [[nodiscard]] std::string allowed() const { return time.allowed() + ", or \"30 Hz\""; }
+  [[nodiscard]] yaml::Declared declared() const {
+    return yaml::Declared::any(
+        {time.declared(), yaml::Declared::number(yaml::Dimension::angular_rate, {.above = 0})});
+  }
+  bool read(const yaml::Value& value, double& into) const {
+    if (value.node->kind != yaml::Node::Kind::scalar) return time.read(value, into);
+    std::string_view text = value.node->text;
+    if (!text.ends_with("Hz")) return time.read(value, into);
+    text.remove_suffix(2);
+    const bool kilo = text.ends_with('k');
+    if (kilo) text.remove_suffix(1);
+    while (text.ends_with(' ')) text.remove_suffix(1);
+    const double rate = yaml::read_quantity(text, false, yaml::Dimension::number).value.value_or(0);
+    if (!(rate > 0 && rate < std::numeric_limits<double>::infinity())) {
+      return value.refuse("", allowed());
+    }
+    into = 1 / (kilo ? 1e3 * rate : rate);
+    return true;
+  }
+};
+
 void read_sampling(yaml::Keys& keys, Sampling& sampling) {
   const yaml::Number time{yaml::Dimension::time, {.at_least = 0}};
   const yaml::Number period{yaml::Dimension::time, {.above = 0}};
-  keys.required("period", yaml::Usual{period, "ms", 1}, sampling.period);
+  keys.required("period", Period{{period, "ms", 1}}, sampling.period);
   keys.optional("delay", time, sampling.delay);
   keys.optional("resolution", yaml::angle_limit({.at_least = 0}, 0.15), sampling.resolution);
   keys.optional("derivative_filter", time, sampling.derivative_filter);
@@ -247,7 +275,9 @@ void read_sensor(yaml::Keys& keys, Sensor& sensor) {
   keys.optional("rotation", yaml::Number{yaml::Dimension::angle}, sensor.rotation);
   keys.optional("offset", yaml::PairOf{yaml::Dimension::length}, sensor.offset);
   keys.optional("scale", Scale{}, sensor.scale);
-  keys.optional("period", yaml::Number{yaml::Dimension::time, {.above = 0}}, sensor.period);
+  const yaml::Number period{yaml::Dimension::time, {.above = 0}};
+  keys.optional("period", Period{{period, "ms", std::numeric_limits<double>::max()}},
+                sensor.period);
   keys.optional("phase", yaml::Number{yaml::Dimension::time, {.at_least = 0}}, sensor.phase);
 }
 

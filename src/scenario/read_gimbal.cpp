@@ -12,6 +12,7 @@
 #include "scenario/profile.hpp"
 #include "scenario/sections.hpp"
 #include "scenario/table_rows.hpp"
+#include "yaml/quantity.hpp"
 #include "yaml/rules.hpp"
 
 namespace bbsim::scenario {
@@ -79,8 +80,81 @@ struct Backlash {
   }
 };
 
+enum class ServoModel { hobby_standard, hobby_micro, smart_serial };
+
+// Plain keys of servos as they are sold (docs/reference/scenario.md, "Servos").
+Servo servo_of_model(ServoModel model) {
+  constexpr double degree = std::numbers::pi / 180, hertz = 2 * std::numbers::pi;
+  switch (model) {
+    case ServoModel::hobby_standard:
+      return {6 * hertz, 0.9, {}, 60 * degree, 350 * degree, {}, 0.4 * degree, 0.3 * degree};
+    case ServoModel::hobby_micro:
+      return {5 * hertz, 0.8, {}, 60 * degree, 500 * degree, {}, 1 * degree, 0.6 * degree};
+    case ServoModel::smart_serial:
+      break;
+  }
+  return {10 * hertz, 1, {}, 150 * degree, 360 * degree, {}, 0.1 * degree, 0.25 * degree};
+}
+
+// A rate as shops give it: the time for an angle.
+struct Speed {
+  [[nodiscard]] static std::string allowed() {
+    return "a time for an angle, such as \"0.17 s/60deg\"";
+  }
+  [[nodiscard]] static yaml::Declared declared() { return yaml::Declared::Kind::text; }
+  static bool read(const yaml::Value& value, double& rate) {
+    if (value.node->kind != yaml::Node::Kind::scalar) return value.refuse("", allowed());
+    const std::string_view text = value.node->text;
+    const std::size_t slash = text.find('/');
+    if (slash == std::string_view::npos) return value.refuse("", allowed());
+    const auto part = [](std::string_view of, yaml::Dimension dimension) {
+      while (of.ends_with(' ')) of.remove_suffix(1);
+      while (of.starts_with(' ')) of.remove_prefix(1);
+      // As if quoted: with a unit.
+      return yaml::read_quantity(of, true, dimension).value.value_or(0);
+    };
+    const double time = part(text.substr(0, slash), yaml::Dimension::time);
+    const double angle = part(text.substr(slash + 1), yaml::Dimension::angle);
+    if (!(time > 0 && angle > 0)) return value.refuse("", allowed());
+    rate = angle / time;
+    return true;
+  }
+};
+
+// An angle, or a time: a width of the pulse that turns the servo by `scale` (rad) a microsecond.
+struct DeadBand {
+  double scale;
+
+  [[nodiscard]] static yaml::Usual angle() { return yaml::angle_limit({.at_least = 0}, 0.15); }
+  [[nodiscard]] static std::string allowed() {
+    return angle().allowed() + ", or a pulse's width such as \"4 us\"";
+  }
+  [[nodiscard]] static yaml::Declared declared() {
+    return yaml::Declared::any(
+        {angle().declared(), yaml::Declared::number(yaml::Dimension::time, {.at_least = 0})});
+  }
+  [[nodiscard]] static std::string text_of(double value) { return number_text(value); }
+  bool read(const yaml::Value& value, double& into) const {
+    if (value.node->kind == yaml::Node::Kind::scalar) {
+      const auto width = yaml::read_quantity(value.node->text, true, yaml::Dimension::time).value;
+      if (width && *width >= 0) {
+        into = *width * 1e6 * scale;
+        return true;
+      }
+    }
+    return angle().read(value, into);
+  }
+};
+
 // Reads the keys into `servo`, over its existing values. Does not report missing keys.
 void read_servo_keys(yaml::Keys& keys, Servo& servo) {
+  const yaml::NameOf<ServoModel> models{{{ServoModel::hobby_standard, "hobby-standard"},
+                                         {ServoModel::hobby_micro, "hobby-micro"},
+                                         {ServoModel::smart_serial, "smart-serial"}}};
+  if (const auto given = keys.find("model", models)) {
+    ServoModel model = ServoModel::hobby_standard;
+    if (models.read(*given, model)) servo = servo_of_model(model);
+  }
   const yaml::Number time{yaml::Dimension::time, {.above = 0}};
   const yaml::Number frequency{yaml::Dimension::angular_rate, {.above = 0}};
   const yaml::Number damping{yaml::Dimension::number, {.at_least = 0}};
@@ -108,7 +182,16 @@ void read_servo_keys(yaml::Keys& keys, Servo& servo) {
   keys.optional("rate_limit", yaml::Usual{rate, "deg/s", 60}, servo.rate_limit);
   keys.optional("acceleration_limit", yaml::Number{yaml::Dimension::number, {.above = 0}, "200"},
                 servo.acceleration_limit);
-  keys.optional("dead_band", yaml::angle_limit({.at_least = 0}, 0.15), servo.dead_band);
+  keys.exclusive({{"speed"}, {"rate_limit"}});
+  keys.optional("speed", Speed{}, servo.rate_limit);
+  if (keys.find("speed") && keys.find("rate_limit")) {
+    keys.find("speed")->report("given together with rate_limit; allowed: one of the two");
+  }
+  // As of Servo.h: 180 degrees from 544 to 2400 us.
+  double scale = std::numbers::pi / 1856;
+  const yaml::Number angle{yaml::Dimension::angle, {.above = 0}, "\"0.1 deg\""};
+  if (const auto given = keys.find("scale", angle)) angle.read(*given, scale);
+  keys.optional("dead_band", DeadBand{scale}, servo.dead_band);
   keys.optional("backlash", Backlash{}, servo.backlash);
 }
 
@@ -123,7 +206,7 @@ void read_servo(yaml::Keys& keys, BothServos& both) {
     const auto allowed = key == "natural_frequency"
                              ? yaml::Number{yaml::Dimension::angular_rate, {.above = 0}}.allowed()
                              : yaml::Number{yaml::Dimension::number, {.at_least = 0}}.allowed();
-    if (!at.find("time_constant") && !given(key)) at.missing(key, allowed);
+    if (!at.find("time_constant") && !at.find("model") && !given(key)) at.missing(key, allowed);
   };
   Servo common;
   read_servo_keys(keys, common);
@@ -146,7 +229,9 @@ void read_servo(yaml::Keys& keys, BothServos& both) {
     const bool first_order = servo.time_constant.has_value();
     for (const char* key : {"natural_frequency", "damping"}) {
       if (!first_order) {
-        require(own, key, [&](std::string_view of) { return own.find(of) || in_common(of); });
+        require(own, key, [&](std::string_view of) {
+          return own.find(of) || in_common(of) || in_common("model");
+        });
       }
     }
     own.finish();

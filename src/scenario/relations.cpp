@@ -56,7 +56,8 @@ constexpr KeyRelation table[] = {
 
     // Servos and linkages.
     {"gimbal.servo", needs,
-     "gimbal.servo.time_constant or gimbal.servo.natural_frequency and gimbal.servo.damping or "
+     "gimbal.servo.model or gimbal.servo.time_constant or gimbal.servo.natural_frequency and "
+     "gimbal.servo.damping or "
      "gimbal.servo.phi and gimbal.servo.theta"},
     {"gimbal.servo.time_constant", needs, "controller.sampling"},
     {"gimbal.servo.time_constant", excludes, "gimbal.servo.acceleration_limit"},

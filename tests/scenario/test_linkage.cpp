@@ -120,6 +120,33 @@ TEST_CASE("clocks, frames and sensors are read in SI units") {
   CHECK(std::get<double>(pushed.ball.push->x[0]) == 0.01);
 }
 
+TEST_CASE("servo numbers are read as they are sold") {
+  const Scenario sold = parse(
+      base, {"gimbal.servo={model: hobby-standard, speed: \"0.17 s/60deg\", dead_band: \"4 us\", "
+             "scale: \"0.1 deg\"}",
+             "controller.sampling={period: \"50 Hz\"}", "controller.sensor={period: \"30 Hz\"}"});
+  const Servo& servo = *sold.gimbal.servo;
+  CHECK(servo.natural_frequency == Approx(37.69911184307752));
+  CHECK(servo.damping == 0.9);
+  CHECK(*servo.rate_limit == Approx(6.159985595274104));
+  CHECK(*servo.angle_limit == Approx(1.0471975511965976));
+  CHECK(servo.dead_band == Approx(0.006981317007977318));
+  CHECK(servo.backlash == Approx(0.005235987755982988));
+  CHECK(sold.controller->sampling->period == 0.02);
+  CHECK(*sold.controller->sensor->period == 1.0 / 30);
+  const std::string sampled = "controller.sampling={period: 0.02}";
+  CHECK_THAT(errors(base, {"gimbal.servo={model: hobby-large}", sampled}),
+             Contains("gimbal.servo.model: found hobby-large"));
+  CHECK_THAT(errors(base, {"gimbal.servo.speed=\"60 deg/s\""}),
+             Contains("gimbal.servo.speed: found \"60 deg/s\"; allowed: a time for an angle"));
+  CHECK_THAT(errors(base, {"gimbal.servo.speed=\"0.1 s/60 deg\"", "gimbal.servo.rate_limit=5"}),
+             Contains("gimbal.servo.speed: given together with rate_limit"));
+  CHECK_THAT(errors(base, {"gimbal.servo={model: smart-serial}"}),
+             Contains("gimbal.servo.model: has a dead band, found without controller.sampling"));
+  CHECK_THAT(errors(base, {"controller.sampling={period: \"0 Hz\"}"}),
+             Contains("controller.sampling.period: found \"0 Hz\""));
+}
+
 TEST_CASE("legs take what they lack from all legs") {
   const Scenario scene = parse(
       base,
@@ -210,7 +237,7 @@ TEST_CASE("what makes no sense of these keys is refused, with why") {
         "[{radius_plate: 0.09}, {radius_plate: 0.09}, {}]}"},
        "gimbal.three_servos.radius_plate: missing"},
       {{"gimbal.three_servos={radius_base: 0.06, legs: [{}, {}]}"},
-       "gimbal.three_servos.legs: found a list; allowed: a list of three mappings"},
+       "gimbal.three_servos.legs: found a list of 2; allowed: a list of three mappings"},
       {{"gimbal.three_servos=" + three,
         "gimbal.three_servos.legs=[{radius: 0.1, radius_base: 0.1}, "
         "{direction: 2}, {heigth: 1}]"},

@@ -93,6 +93,12 @@ bbsim.data = (() => {
       return this.columns.has(name) ? this.at(t, name) : this.absent.has(name === 'phi' ? 'x' : 'y') ? 0 : NaN;
     }
 
+    // The angles of three servos; null if they are not all known.
+    servosAt(t) {
+      const angles = ['servo_phi', 'servo_theta', 'servo_third'].map((name) => this.at(t, name));
+      return angles.every(Number.isFinite) ? angles : null;
+    }
+
     // The ball's place [x, y], or why there is none: 'missing' from the rows, or 'beyond' the range
     // that can be drawn.
     placeAt(t) {

@@ -3,7 +3,7 @@
 
 'use strict';
 // The rig at its true size: the base, the ring that turns by phi, and the plate that turns by theta
-// in it. Frames as in docs/explanation/model.md: R = R_x(base tilt) R_y(phi) R_z(skew) R_x(theta)
+// in it; or three legs under the plate in place of base and ring. Frames as in docs/explanation/model.md: R = R_x(base tilt) R_y(phi) R_z(skew) R_x(theta)
 // R_z(yaw - skew).
 bbsim.gimbal = (() => {
   const {runs, scene: {stage}} = bbsim.data;
@@ -90,28 +90,30 @@ bbsim.gimbal = (() => {
     const bar = 0.03 * size, gap = 0.025 * size, thickness = 0.014 * size;
     const halfX = stage.width / 2 + gap, halfY = stage.depth / 2 + gap;
     const {height, skew, yaw, baseTilt} = run.mounting;
-    const postY = halfY + bar + 0.7 * gap, foot = Math.min(0.46 * size, 0.16 * size + 0.6 * Math.min(stage.width, stage.depth));
+    const legs = run.legs ? bbsim.legs.build(run, height - 2 * thickness, size, materials) : null;
+    const postY = halfY + bar + 0.7 * gap, foot = legs ? legs.depth : Math.min(0.46 * size, 0.16 * size + 0.6 * Math.min(stage.width, stage.depth));
 
     const base = new THREE.Group();
     base.rotation.x = baseTilt;
-    for (const side of [-1, 1]) {
+    if (legs) base.add(legs.group);
+    for (const side of legs ? [] : [-1, 1]) {
       const y = side * (postY + bar / 2);
       const post = box([1.5 * bar, bar, foot], [0, y, -foot / 2], materials.metal);
       const bearing = rod('y', -bar / 2, bar / 2, 0.95 * bar, materials.metal);
       bearing.position.set(0, y, 0);
       base.add(post, bearing, box([5 * bar, 1.6 * bar, 0.35 * bar], [0, y, -foot], materials.metal));
     }
-    base.add(box([1.5 * bar, 2 * postY, 0.35 * bar], [0, 0, -foot], materials.metal));
+    if (!legs) base.add(box([1.5 * bar, 2 * postY, 0.35 * bar], [0, 0, -foot], materials.metal));
 
     const ring = new THREE.Group();
-    ring.add(new THREE.Mesh(frameGeometry(halfX, halfY, bar, stage.round), materials.frame));
-    for (const side of [-1, 1]) {
+    if (!legs) ring.add(new THREE.Mesh(frameGeometry(halfX, halfY, bar, stage.round), materials.frame));
+    for (const side of legs ? [] : [-1, 1]) {
       ring.add(rod('y', side * (halfY + bar * 0.6), side * (postY + 1.25 * bar), 0.32 * bar, materials.axle));
     }
     const cross = new THREE.Group();
     cross.rotation.z = skew;
     const hinge = new THREE.Group();
-    for (const side of [-1, 1]) {
+    for (const side of legs ? [] : [-1, 1]) {
       hinge.add(rod('x', side * (stage.width / 2 - gap), side * (halfX + bar * 0.5), 0.28 * bar, materials.axle));
     }
     const plane = new THREE.Group();
@@ -125,7 +127,7 @@ bbsim.gimbal = (() => {
                                             : new THREE.PlaneBufferGeometry(stage.width, stage.depth), materials.face);
     face.position.z = height;
     plane.add(slab, face);
-    if (Math.abs(height) > thickness) {
+    if (Math.abs(height) > thickness && !legs) {
       plane.add(box([2 * bar, 2 * bar, Math.abs(height)], [0, 0, height / 2 - thickness / 2], materials.axle));
     }
 
@@ -148,14 +150,15 @@ bbsim.gimbal = (() => {
       const add = (matrix, x, y, z) => points.push(new THREE.Vector3(x, y, z).applyMatrix4(matrix));
       const corners = stage.round ? Array.from({length: 12}, (_, i) => [Math.cos(i * Math.PI / 6), Math.sin(i * Math.PI / 6)])
                                   : [[-1, -1], [-1, 1], [1, -1], [1, 1]];
-      for (const y of [-1, 1]) {
+      for (const [x, y] of legs ? corners : []) add(turned, x * legs.reach, y * legs.reach, -foot);
+      for (const y of legs ? [] : [-1, 1]) {
         for (const x of [-1, 1]) add(turned, x * 2.5 * bar, y * (postY + bar), -foot);
         add(turned, 0, y * (postY + 1.4 * bar), bar);
       }
       const thetas = angles('theta');
       for (const phi of angles('phi')) {
         const outer = turned.clone().multiply(new THREE.Matrix4().makeRotationY(phi));
-        for (const [x, y] of corners) {
+        for (const [x, y] of legs ? [] : corners) {
           for (const z of [-1.5 * bar, 1.5 * bar]) add(outer, x * (halfX + bar), y * (halfY + bar), z);
         }
         for (const theta of thetas) {
@@ -168,14 +171,15 @@ bbsim.gimbal = (() => {
     }
     let outline = outlineAt(1);
     return {
-      base, ring, hinge, plane, size, foot,
+      base, ring, hinge, plane, size, foot, legs,
       ballRadius: run.ball.radius, ball: new THREE.Vector3(),
       long: stage.depth > 2 * stage.width ? 'y' : 'x',
       outline: () => outline,
       reach(factor) { outline = outlineAt(factor); },
-      set(phi, theta) {
+      set(phi, theta, servos) {
         ring.rotation.y = phi;
         hinge.rotation.x = theta;
+        if (legs) legs.set(phi, theta, servos);
       },
     };
   }

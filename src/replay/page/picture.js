@@ -251,7 +251,10 @@ bbsim.makePicture = (canvas, left) => {
   // Moves everything to its place at time t. Returns all numbers that the picture depends on.
   function pose(t) {
     const state = [factor * angle(lead, t, 'phi'), factor * angle(lead, t, 'theta')];
-    rig.set(...state);
+    // Where tilts are drawn larger, the servos' angles are not theirs.
+    const servos = factor === 1 && lead.legs ? lead.servosAt(t) : null;
+    rig.set(...state, servos);
+    if (servos) state.push(...servos);
     for (const actor of actors) {
       const {run} = actor;
       if (actor.links && !actor.leads) {

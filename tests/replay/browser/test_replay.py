@@ -1144,6 +1144,40 @@ class LongRuns(InBrowser):
             self.near(seen[1], y, 0.5)
 
 
+class Legs(InBrowser):
+    def test_end_where_the_joints_are(self):
+        """Rods and horns have their lengths, horns the servos' angles, and joints their place in the plate."""
+        files.run("three-servos", "three-servos")
+        rows = rows_of(files("three-servos.csv"))
+        self.open(files.replay("three-servos"))
+        base, plate, horn, rod, height = 0.06, 0.09, 0.04, 0.1, 0.11
+        far = math.hypot(plate - base, height)
+        home = math.atan2(height, plate - base) - math.acos((far ** 2 + horn ** 2 - rod ** 2) / (2 * horn * far))
+        for row in rows[100::200]:
+            self.js(f"window.bbsim.seek({row['t']})")
+            legs = self.js("bbsim.picture.rig.legs.points().map((leg) => [leg.axis, leg.knee, leg.joint])")
+            self.assertEqual(len(legs), 3)
+            names = ["servo_phi", "servo_theta", "servo_third"]
+            for i, (axis, knee, joint) in enumerate(legs):
+                self.near(math.dist(axis, knee), horn, 1e-7)
+                self.near(math.dist(knee, joint), rod, 1e-7)
+                out = math.hypot(knee[0], knee[1]) - base
+                self.near(math.atan2(knee[2] - axis[2], out), home + row[names[i]], 1e-4)
+                self.near(math.dist(joint, legs[(i + 1) % 3][2]), math.sqrt(3) * plate, 1e-7)
+            # The plane of the joints has the plate's normal.
+            a, b, c = (leg[2] for leg in legs)
+            u, v = [b[k] - a[k] for k in range(3)], [c[k] - a[k] for k in range(3)]
+            normal = [u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]]
+            size = math.hypot(*normal)
+            self.near(normal[0] / size, math.sin(row["phi"]) * math.cos(row["theta"]), 1e-5)
+            self.near(normal[1] / size, -math.sin(row["theta"]), 1e-5)
+            # What is drawn is there: the ends of the meshes.
+            ends = self.js("bbsim.picture.rig.legs.group.children.filter((mesh) => mesh.geometry.type.startsWith('Sphere'))"
+                           ".map((mesh) => mesh.position.toArray())")
+            for end, (_, _, joint) in zip(ends, legs):
+                self.near(math.dist(end, joint), 0, 1e-9)
+
+
 class FirstPicture(InBrowser):
     def test_is_there_within_a_second(self):
         """Of a run of 40 s with 2001 rows; the best of a few, since the machine may have other things to do."""
