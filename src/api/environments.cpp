@@ -91,7 +91,8 @@ void Environments::observe(std::size_t which) {
   if (now.ball) std::ranges::copy(*now.ball, into);
   into[2] = now.ball ? 1 : 0;
   double* next = into + 3;
-  for (const Pair& pair : {now.reference, now.reference_rate, now.servo, now.servo_rate}) {
+  const Pair servo{now.servo[0], now.servo[1]}, servo_rate{now.servo_rate[0], now.servo_rate[1]};
+  for (const Pair& pair : {now.reference, now.reference_rate, servo, servo_rate}) {
     next = std::ranges::copy(pair, next).out;
   }
 }
