@@ -10,6 +10,7 @@
  *
  * A PD law gives a tilt, and inverse kinematics turn it into an angle of each servo: 0 where the
  * plate is level, and growing as the horn rises. */
+#define BBSIM_CONTROLLER_COMMANDS 3
 #include <bbsim/controller.h>
 #include <math.h>
 #include <stdlib.h>
@@ -86,7 +87,7 @@ void *bbsim_controller_create(const bbsim_setup *setup) {
   return legs;
 }
 
-int bbsim_controller_step(void *controller, const bbsim_sample *sample, double *command,
+int bbsim_controller_step(void *controller, const bbsim_sample *sample, double command[3],
                           double *columns) {
   struct legs *legs = controller;
   (void)columns;

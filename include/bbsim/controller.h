@@ -41,6 +41,12 @@ extern "C" {
  * header would no longer work; bbsim refuses a library of another version. */
 #define BBSIM_CONTROLLER_ABI 1u
 
+/* How many commands there are. A library for three legs, under drives: legs, defines it as 3 before
+ * it includes this file. */
+#ifndef BBSIM_CONTROLLER_COMMANDS
+#define BBSIM_CONTROLLER_COMMANDS 2
+#endif
+
 /* Before a function that bbsim has to find, for compilers that hide what is not marked. */
 #if defined(__GNUC__) || defined(__clang__)
 #define BBSIM_CONTROLLER_EXPORT __attribute__((visibility("default")))
@@ -97,11 +103,12 @@ BBSIM_CONTROLLER_EXPORT uint32_t bbsim_controller_abi(void);
 BBSIM_CONTROLLER_EXPORT void *bbsim_controller_create(const bbsim_setup *setup);
 
 /* A sample. Writes the commands for phi and theta, which have to be finite, and, of each of
- * setup->columns, a number into `columns`, in their order. Where drives_acceleration is 4, `command`
- * has room for three: one for each servo. Returns 0; any other number ends the run
- * with exit code 1, and bbsim says what bbsim_controller_last_error() returns. */
+ * setup->columns, a number into `columns`, in their order. Where drives_acceleration is 4, there are
+ * three commands: one for each servo. Returns 0; any other number ends the run with exit code 1, and
+ * bbsim says what bbsim_controller_last_error() returns. */
 BBSIM_CONTROLLER_EXPORT int bbsim_controller_step(void *controller, const bbsim_sample *sample,
-                                                  double *command, double *columns);
+                                                  double command[BBSIM_CONTROLLER_COMMANDS],
+                                                  double *columns);
 
 /* Another run begins, perhaps with another setup: the controller is to be as if it had just been
  * created. Returns 0 if it is; otherwise bbsim destroys it and creates another. This function may

@@ -175,7 +175,7 @@ void* bbsim_controller_create_wired(const bbsim_setup* setup, const bbsim_wiring
   return copy;
 }
 
-int bbsim_controller_step(void* controller, const bbsim_sample* sample, double* command,
+int bbsim_controller_step(void* controller, const bbsim_sample* sample, double command[2],
                           double* columns) {
   Thread& thread = this_thread();
   thread.running = static_cast<Copy*>(controller)->functions;
