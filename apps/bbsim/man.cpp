@@ -76,10 +76,23 @@ std::string entries(const char* heading, const std::vector<OptionText>& options,
   return text.empty() ? text : std::string(".SH ") + heading + '\n' + text;
 }
 
+constexpr std::string_view codes = "Exit codes: ";
+
+std::string exit_status(std::string_view line) {
+  return ".SH EXIT STATUS\n" + escaped(line.substr(codes.size())) + '\n';
+}
+
+// What the program's footer says of exit codes.
+std::string exit_status(const ProgramText& texts) {
+  const std::string& footer = texts.program.footer;
+  const std::size_t start = footer.find(codes);
+  if (start == std::string::npos) return "";
+  return exit_status(std::string_view(footer).substr(start, footer.find('\n', start) - start));
+}
+
 // The footer of help: a paragraph a line; lines that begin with blanks stand as they are. Examples
 // and exit codes have headings of their own.
 std::string paragraphs(std::string_view footer) {
-  constexpr std::string_view codes = "Exit codes: ";
   std::string text;
   bool as_it_is = false;
   while (!footer.empty()) {
@@ -95,7 +108,7 @@ std::string paragraphs(std::string_view footer) {
     } else if (line == "Examples:") {
       text += ".SH EXAMPLES\n";
     } else if (line.starts_with(codes)) {
-      text += ".SH EXIT STATUS\n" + escaped(line.substr(codes.size())) + '\n';
+      text += exit_status(line);
     } else {
       text += ".PP\n" + escaped(line) + '\n';
     }
@@ -142,8 +155,9 @@ std::string man_page(const ProgramText& texts) {
                      italic("OPTIONS") + "]\n.SH DESCRIPTION\n" + escaped(what) +
                      "\n.SH COMMANDS\n";
   for (const CommandText& command : texts.commands) {
-    text += ".TP\n" + bold(page_of(command)) + "(1)\n" + escaped(command.what) + '\n';
-    if (!command.alias.empty()) text += "; alias: " + escaped(command.alias) + '\n';
+    text += ".TP\n" + bold(page_of(command)) + "(1)\n" + escaped(command.what);
+    if (!command.alias.empty()) text += "; alias: " + escaped(command.alias);
+    text += '\n';
   }
   return text + entries("OPTIONS", texts.program.options, false) +
          paragraphs(texts.program.footer) + ".SH SEE ALSO\nman pages of the commands, as " +
@@ -158,10 +172,12 @@ std::string man_page(const CommandText& command, const ProgramText& texts) {
   std::string text = head(page_of(command), command.what) + synopsis(command) +
                      ".SH DESCRIPTION\n" + escaped(command.what) + ".\n" +
                      entries("ARGUMENTS", options, true) + entries("OPTIONS", options, false);
-  if (!command.footer.empty()) {
+  // A command without a footer has the program's.
+  if (!command.footer.empty() && command.footer != texts.program.footer) {
     const bool examples_alone = command.footer.starts_with("Examples:");
     text += (examples_alone ? "" : ".SH NOTES\n") + paragraphs(command.footer);
   }
+  text += exit_status(texts);
   return text + ".SH SEE ALSO\n" + bold("bbsim") + "(1)\n";
 }
 

@@ -34,7 +34,7 @@ CASES = [
     ("bbsim run -o old", ["old.h5"], ["old.html"]),
     ("bbsim run --replay old", ["old.html"], ["old.h5"]),
     ("bbsim help line", ["linearize"], []),
-    ("bbsim summarise --qu", ["--qu"], ["unknown"]),
+    ("bbsim summarise --qu", ["--quantiles", "--quiet"], []),
     ("bbsim completion f", ["fish"], []),
 ]
 FILES = ["input.yaml", "input.csv", "old.h5", "old.html"]
