@@ -26,15 +26,14 @@ set(CPACK_DEBIAN_PACKAGE_CONTROL_STRICT_PERMISSION ON)
 set(CPACK_INSTALL_DEFAULT_DIRECTORY_PERMISSIONS
     OWNER_READ OWNER_WRITE OWNER_EXECUTE GROUP_READ GROUP_EXECUTE WORLD_READ WORLD_EXECUTE)
 
-set(CPACK_COMPONENT_PROGRAM_DESCRIPTION "simulator of a ball rolling on a tilting plate
-bbsim simulates a ball that rolls on a plate which tilts about two axes, the
+set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "simulator of a ball rolling on a tilting plate")
+set(CPACK_COMPONENT_PROGRAM_DESCRIPTION "bbsim simulates a ball that rolls on a plate which tilts about two axes, the
 ball-and-plate rig of control courses, with the effects of real rigs: sampling,
 delay, noise, limits of servos, backlash and friction. It runs single scenarios
 and large sweeps, and takes controllers in any language.")
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_NAME bbsim)
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_SUGGESTS "gnuplot-nox | gnuplot, g++, python3, octave, bbsim-doc")
-set(CPACK_COMPONENT_DOCS_DESCRIPTION "simulator of a ball rolling on a tilting plate - documentation
-The tutorials, how-to guides, references and explanations of bbsim, a simulator
+set(CPACK_COMPONENT_DOCS_DESCRIPTION "The tutorials, how-to guides, references and explanations of bbsim, a simulator
 of the ball-and-plate rig of control courses, as Markdown.")
 set(CPACK_DEBIAN_DOCS_PACKAGE_NAME bbsim-doc)
 set(CPACK_DEBIAN_DOCS_PACKAGE_ARCHITECTURE all)
