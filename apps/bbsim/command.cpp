@@ -7,6 +7,7 @@
 #include <CLI/Validators.hpp>
 #include <charconv>
 #include <cmath>
+#include <string_view>
 #include <system_error>
 #include <utility>
 
@@ -24,7 +25,23 @@ CLI::Option* refusing_nothing(CLI::Option* option) {
   return option->check(CLI::Validator(fault, ""));
 }
 
+// In the validator's name, which nothing shows.
+constexpr std::string_view one_of = "one of ";
+
 }  // namespace
+
+std::vector<std::string> words_of(CLI::Option& option) {
+  for (int i = 0;; ++i) {
+    const CLI::Validator* validator = nullptr;
+    try {
+      validator = option.get_validator(i);
+    } catch (const CLI::OptionNotFound&) {
+      return {};
+    }
+    const std::string& name = validator->get_name();
+    if (name.starts_with(one_of)) return CLI::detail::split(name.substr(one_of.size()), ' ');
+  }
+}
 
 Option& Option::takes(const std::string& type) {
   option_->type_name(type);
@@ -66,7 +83,8 @@ Option& Option::takes_whole(double least, double most) {
 }
 
 Option& Option::takes_one_of(const std::vector<std::string>& words) {
-  option_->check(CLI::IsMember(words).description(""));
+  option_->check(CLI::IsMember(words).description("").name(std::string(one_of) +
+                                                           CLI::detail::join(words, " ")));
   return *this;
 }
 

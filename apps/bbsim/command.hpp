@@ -50,6 +50,9 @@ class Option {
   CLI::Option* option_;
 };
 
+// The words that takes_one_of() named; none for other options.
+[[nodiscard]] std::vector<std::string> words_of(CLI::Option& option);
+
 class Command {
  public:
   // When the command line names the command, `chosen` is set to what it does. Both outlive it.

@@ -10,8 +10,11 @@
 #include <string_view>
 #include <vector>
 
+#include "command_texts.hpp"
+#include "completion.hpp"
 #include "help.hpp"
 #include "licenses.hpp"
+#include "man.hpp"
 #include "scenario/json_schema.hpp"
 #include "terminal.hpp"
 #include "version.hpp"
@@ -136,6 +139,24 @@ void add_texts(CLI::App& app) {
       "print the licenses of bbsim and of the libraries in it, and exit");
 }
 
+void name_program(CLI::App& app, Options& options) {
+  app.formatter(std::make_shared<HelpFormatter>());
+  app.set_help_flag("-h,--help", "print this help and exit");
+  app.set_version_flag("--version", version,
+                       "print the versions of bbsim and its libraries and exit");
+  app.require_subcommand(1);
+  app.footer(
+      "Exit codes: 0 done; 1 the run ended early or files differ; 2 the command line or the "
+      "scenario is at fault; 3 the output could not be written; 130 interrupted.\n"
+      "\n"
+      "Run `bbsim COMMAND --help` for the options of a command.");
+  add_quiet(app, options);
+}
+
+constexpr const char* purpose =
+    "bbsim simulates a ball rolling on a plate that tilts about two axes (the ball-and-plate rig "
+    "of control courses).";
+
 void add_help(CLI::App& app, Chosen& chosen) {
   CLI::App* command = app.add_subcommand("help", "Print help on bbsim or on one command");
   const auto name = std::make_shared<std::string>();
@@ -154,6 +175,37 @@ void add_help(CLI::App& app, Chosen& chosen) {
       refuse_command(app, *name);
     };
   });
+}
+
+void add_about_commands(CLI::App& app, std::span<const NamedCommand> commands, Chosen& chosen);
+
+// The texts of all commands and options. To make them all takes time, so only commands that ask do.
+ProgramText all_texts(std::span<const NamedCommand> commands) {
+  CLI::App app(purpose, "bbsim");
+  Options options;
+  Chosen chosen;
+  name_program(app, options);
+  add_texts(app);
+  for (const NamedCommand& command : commands) {
+    CLI::App* const added = app.add_subcommand(command.name, command.description);
+    if (!command.alias.empty()) added->alias(std::string(command.alias));
+    Command its(*added, chosen);
+    command.add_options(its, options);
+  }
+  add_about_commands(app, commands, chosen);
+  return texts_of(app);
+}
+
+// The commands about commands: help, and what is made of all texts.
+void add_about_commands(CLI::App& app, std::span<const NamedCommand> commands, Chosen& chosen) {
+  const auto texts = [commands] { return all_texts(commands); };
+  Command completion(*app.add_subcommand("completion", "Print the completion script of a shell"),
+                     chosen);
+  add_completion(completion, texts);
+  Command man(*app.add_subcommand("man", "Write the man pages of all commands into a folder"),
+              chosen);
+  add_man(man, texts);
+  add_help(app, chosen);
 }
 
 // Adds the commands, --schema and --licenses. All of them and their options take longer to make
@@ -183,7 +235,9 @@ void add_commands(CLI::App& app, std::span<char* const> words,
     Command its(*added, chosen);
     command.add_options(its, options);
   }
-  if (!names_one || std::ranges::find(words, std::string_view("help")) != words.end()) {
+  if (!names_one) {
+    add_about_commands(app, commands, chosen);
+  } else if (std::ranges::find(words, std::string_view("help")) != words.end()) {
     add_help(app, chosen);
   }
 }
@@ -191,22 +245,9 @@ void add_commands(CLI::App& app, std::span<char* const> words,
 }  // namespace
 
 ExitCode obey(int argc, char** argv, std::span<const NamedCommand> commands) {
-  CLI::App app(
-      "bbsim simulates a ball rolling on a plate that tilts about two axes (the ball-and-plate rig "
-      "of control courses).",
-      "bbsim");
-  app.formatter(std::make_shared<HelpFormatter>());
-  app.set_help_flag("-h,--help", "print this help and exit");
-  app.set_version_flag("--version", version,
-                       "print the versions of bbsim and its libraries and exit");
-  app.require_subcommand(1);
-  app.footer(
-      "Exit codes: 0 done; 1 the run ended early or files differ; 2 the command line or the "
-      "scenario is at fault; 3 the output could not be written; 130 interrupted.\n"
-      "\n"
-      "Run `bbsim COMMAND --help` for the options of a command.");
+  CLI::App app(purpose, "bbsim");
   Options options;
-  add_quiet(app, options);
+  name_program(app, options);
   Chosen chosen;
   const std::span<char* const> words(argv, static_cast<std::size_t>(argc));
   add_commands(app, words.subspan(std::min<std::size_t>(words.size(), 1)), commands, options,

@@ -253,28 +253,38 @@ std::vector<std::string> split_measures(const std::vector<std::string>& lists) {
   return names;
 }
 
-std::string measure_hint(std::string_view name, std::span<const std::string_view> columns) {
-  name = trimmed(name);
-  std::vector<std::string> measures{"x_end", "y_end"};
+std::vector<std::string> measures_of(std::span<const std::string_view> columns) {
+  std::vector<std::string> measures;
   for (const std::string_view column : columns) {
     const std::string its(column);
-    if (name == column) return " (did you mean end_" + its + "?)";
     for (const Prefix& prefix : prefixes) measures.push_back(std::string(prefix.text) + its);
-    for (const Metric& metric : metrics) {
-      measures.push_back(its + "." + std::string(metric.name));
-    }
+    for (const Metric& metric : metrics) measures.push_back(its + "." + std::string(metric.name));
   }
+  return measures;
+}
+
+std::vector<std::string_view> measured_columns() {
+  std::vector<std::string_view> usable;
+  for (const Column& column : catalogue) {
+    if (is_usable(&column)) usable.push_back(column.name);
+  }
+  return usable;
+}
+
+std::string measure_hint(std::string_view name, std::span<const std::string_view> columns) {
+  name = trimmed(name);
+  if (std::ranges::find(columns, name) != columns.end()) {
+    return " (did you mean end_" + std::string(name) + "?)";
+  }
+  std::vector<std::string> measures = measures_of(columns);
+  measures.insert(measures.begin(), {"x_end", "y_end"});
   const std::vector<std::string_view> known(measures.begin(), measures.end());
   const std::string_view nearest = yaml::nearest_name(name, known);
   return nearest.empty() ? "" : " (did you mean " + std::string(nearest) + "?)";
 }
 
 std::string measure_hint(std::string_view name) {
-  std::vector<std::string_view> usable;
-  for (const Column& column : catalogue) {
-    if (is_usable(&column)) usable.push_back(column.name);
-  }
-  return measure_hint(name, usable);
+  return measure_hint(name, measured_columns());
 }
 
 std::string allowed_measures() {

@@ -91,6 +91,10 @@ using FindColumn = std::function<const Column*(std::string_view name)>;
 // Splits lists at their commas.
 [[nodiscard]] std::vector<std::string> split_measures(const std::vector<std::string>& lists);
 
+// The extremes and step metrics of columns, and the columns of a scenario that have them.
+[[nodiscard]] std::vector<std::string> measures_of(std::span<const std::string_view> columns);
+[[nodiscard]] std::vector<std::string_view> measured_columns();
+
 // For messages about an unknown name: " (did you mean x.RiseTime?)" by the existing columns, or
 // nothing; and the text of the allowed names.
 [[nodiscard]] std::string measure_hint(std::string_view name,

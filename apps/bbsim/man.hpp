@@ -1,0 +1,21 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// Man pages, made of the texts of the commands: bbsim.1, and one for each command.
+#pragma once
+
+#include <functional>
+#include <string>
+
+#include "command.hpp"
+#include "command_texts.hpp"
+
+namespace bbsim::app {
+
+// bbsim.1, or the page of a command, bbsim-run.1.
+[[nodiscard]] std::string man_page(const ProgramText& texts);
+[[nodiscard]] std::string man_page(const CommandText& command, const ProgramText& texts);
+
+void add_man(Command& command, const std::function<ProgramText()>& texts);
+
+}  // namespace bbsim::app
