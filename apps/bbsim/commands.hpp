@@ -92,6 +92,7 @@ void add_columns(Command& command, const Options& options);
 void add_accuracy(Command& command, const Options& options);
 void add_sweep(Command& command, const Options& options);
 void add_merge(Command& command, const Options& options);
+void add_fit(Command& command, const Options& options);
 void add_sketch(Command& command, const Options& options);
 void add_plot(Command& command, const Options& options);
 void add_replay(Command& command, const Options& options);

@@ -82,6 +82,7 @@ constexpr bbsim::app::NamedCommand commands[] = {
     {"merge", "Join the parts of a sweep that `bbsim sweep --shard` wrote", bbsim::app::add_merge},
     {"summarize", "Print statistics of a sweep's measures: count, mean, deviation, quantiles",
      bbsim::app::add_summarize, "summarise"},
+    {"fit", "Fit keys of a scenario to logs of a rig", bbsim::app::add_fit},
     {"sketch", "Compile an Arduino sketch into a controller", bbsim::app::add_sketch},
     {"plot", "Draw runs and sweeps", bbsim::app::add_plot},
     {"replay", "Write one HTML file that replays runs or sweeps", bbsim::app::add_replay},

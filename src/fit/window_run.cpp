@@ -5,7 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
+#include <optional>
 
 #include "base/error.hpp"
 #include "model/model.hpp"
@@ -79,13 +79,14 @@ std::vector<double> run_window(const Scenario& scene, const Start& start, const 
   begun.ball.position = {start[0], start[1]};
   begun.ball.velocity = {start[2], start[3]};
   begun.gimbal.start = {start[4], start[5], start[6], start[7]};
-  model::Model model;
+  std::optional<model::Model> assembled;
   try {
-    model = model::assemble(begun, scenario::need_gamma(columns));
+    assembled = model::assemble(begun, scenario::need_gamma(columns));
   } catch (const InputError& error) {
     why = error.what();
     return {};
   }
+  const model::Model& model = *assembled;
   RowsAtTimes sink(window.times, model.row_size());
   // The last row is within the run, whatever its end is rounded to.
   const double end = window.times.back() * (1 + 1e-9) + 1e-9;
