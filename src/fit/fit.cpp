@@ -358,9 +358,13 @@ class Fit {
 
 // Tables of the scenario end where their splines would run away.
 void require_tables(const Task& task, const std::vector<Window>& windows) {
+  std::vector<Span> spans;
+  for (const Log& log : task.logs) {
+    spans.push_back(span_of_tables(task.family.read(log.settings)));
+  }
   for (const Window& window : windows) {
     const Log& log = task.logs[window.log];
-    const Span span = span_of_tables(task.family.read(log.settings));
+    const Span& span = spans[window.log];
     const double end = window.begin + window.times.back();
     const double slack = 1e-6 * std::max(1.0, std::abs(end));
     if (window.begin >= span.from - slack && end <= span.to + slack) continue;

@@ -3,7 +3,6 @@
 
 #include "fit/free_key.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <optional>
@@ -64,7 +63,11 @@ void read_bounds(std::string_view text, FreeKey& key) {
 
 double FreeKey::value(double u) const {
   const double raw = logarithmic ? start * std::exp(u) : start + scale * u;
-  return std::clamp(raw, lower, upper);
+  // number() of a bound leads to it within rounding.
+  constexpr double rounding = 1e-12;
+  if (raw >= upper - rounding * std::abs(upper)) return upper;
+  if (raw <= lower + rounding * std::abs(lower)) return lower;
+  return raw;
 }
 
 double FreeKey::number(double value) const {

@@ -80,7 +80,7 @@ void WindowsFit::guess_starts() {
 
 void WindowsFit::set_noise(std::vector<double> noise) {
   noise_ = std::move(noise);
-  for (State& state : base_) state.has_slopes = false;
+  for (State& state : base_) state.fresh_rounds = std::max(state.fresh_rounds, 1);
   trial_u_.resize(0);
 }
 
@@ -177,7 +177,7 @@ bool WindowsFit::slopes(std::size_t w, const Scenario& scene, const Start& start
 // start almost linearly.
 bool WindowsFit::settle(std::size_t w, const Scenario& scene, State& state, std::string& why) const {
   if (!residual_of(w, scene, state.start, state.residual, why)) return false;
-  const int fresh = state.has_slopes ? 0 : 3;  // rounds with slopes of their own
+  const int fresh = std::exchange(state.fresh_rounds, 0);
   constexpr int most_rounds = 12;
   for (int round = 0; round < most_rounds; ++round) {
     if (round < fresh) {
@@ -185,7 +185,6 @@ bool WindowsFit::settle(std::size_t w, const Scenario& scene, State& state, std:
       if (!slopes(w, scene, state.start, by_start)) break;
       state.by_start.setThreshold(1e-9);
       state.by_start.compute(by_start);
-      state.has_slopes = true;
     }
     const VectorXd step = state.by_start.solve(state.residual);
     Start moved = state.start;
@@ -267,7 +266,7 @@ WindowsFit::Derivatives WindowsFit::derivatives(const VectorXd& u) {
     if (!slopes(w, scene_of(w, middle), state.start, by_start)) return;
     state.by_start.setThreshold(1e-9);
     state.by_start.compute(by_start);
-    state.has_slopes = true;
+    state.fresh_rounds = 0;
     VectorXd above, below;
     for (Index k = 0; k < keys; ++k) {
       const auto i = static_cast<std::size_t>(k);

@@ -52,7 +52,7 @@ class WindowsFit {
     Start start{};
     Eigen::VectorXd residual;
     Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> by_start;
-    bool has_slopes = false;
+    int fresh_rounds = 3;  // for which slopes are still to be computed; the first start is a guess
   };
 
   [[nodiscard]] Variant variant(const Eigen::VectorXd& u, std::string* why) const;

@@ -47,7 +47,7 @@ TEST_CASE("the unit, range and default of a number") {
   const auto factor = number_key("ball.inertia_factor");
   REQUIRE(factor);
   CHECK(factor->standard == 0.4);
-  CHECK(factor->range.above == 0.0);
+  CHECK(factor->range.at_least == 0.0);
   const auto offset = number_key("gimbal.motion.phi.table.offset");
   REQUIRE(offset);
   CHECK(offset->dimension == yaml::Dimension::angle);
