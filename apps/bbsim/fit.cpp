@@ -33,7 +33,8 @@ void note_other_folder(const ScenarioFamily& family, const std::string& output) 
   };
   if (output == "-" || family.inputs().empty()) return;
   if (folder_of(output) == folder_of(family.source().file)) return;
-  say("note: " + output + " is in another folder than the scenario, which names tables from its "
+  say("note: " + output +
+      " is in another folder than the scenario, which names tables from its "
       "own; move it there to run it");
 }
 

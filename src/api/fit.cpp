@@ -48,8 +48,7 @@ std::vector<std::string> mapped_names(const plot::LogChoice& choice) {
 }
 
 std::vector<const Column*> columns_of(const FitRequest& request, const Scenario& scenario,
-                                      const plot::Result& log,
-                                      std::vector<std::string>& warnings) {
+                                      const plot::Result& log, std::vector<std::string>& warnings) {
   std::vector<std::string> names = mapped_names(request.choice);
   if (names.empty()) {
     names.assign(ball_columns.begin(), ball_columns.end());
@@ -96,7 +95,8 @@ fit::Log log_of(const plot::Result& read, const std::string& file,
       return *column;
     }
     std::string names;
-    for (const plot::Column& one : read.columns) names += (names.empty() ? "" : ", ") + shown(one.name);
+    for (const plot::Column& one : read.columns)
+      names += (names.empty() ? "" : ", ") + shown(one.name);
     throw InputError(file + ": has no column " + std::string(name) + "; it has " + names + hint);
   };
   fit::Log log;
@@ -122,8 +122,7 @@ fit::Log log_of(const plot::Result& read, const std::string& file,
 
 // The keys of the tables that read `file`.
 std::vector<std::string> tables_of(const Scenario& scenario, const std::string& file) {
-  const std::filesystem::path folder =
-      std::filesystem::path(scenario.source.file).parent_path();
+  const std::filesystem::path folder = std::filesystem::path(scenario.source.file).parent_path();
   const auto is_it = [&](const std::string& name) {
     std::error_code none;
     return std::filesystem::equivalent(folder / name, file, none);

@@ -85,8 +85,7 @@ std::string report_of(const FitRequest& request, const fit::Fitted& fitted) {
     if (one.at_bound) text += "note: " + one.key + " is at a bound of its range\n";
   }
   if (!fitted.white) {
-    text +=
-        "note: neighboring residuals are alike (";
+    text += "note: neighboring residuals are alike (";
     bool first = true;
     for (const fit::ColumnResidual& column : fitted.columns) {
       text += (first ? "" : ", ") + column.column + ": " + rounded(column.correlation, 2);

@@ -37,8 +37,8 @@ struct Window {
 [[nodiscard]] std::vector<Window> cut(const std::vector<Log>& logs, double length, double share,
                                       std::size_t fewest);
 
-// Whether the numbers of a column are positions, velocities and so on of the ball along axis 0 or 1;
-// the coordinates of a window's start that they tell.
+// Whether the numbers of a column are positions, velocities and so on of the ball along axis 0 or
+// 1; the coordinates of a window's start that they tell.
 [[nodiscard]] std::vector<std::size_t> start_coordinates(
     const std::vector<const scenario::Column*>& columns, bool with_gimbal);
 

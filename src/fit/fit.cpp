@@ -176,7 +176,10 @@ class Fit {
     const Squares squares = squares_of(windows_, residuals_);
     for (std::size_t c = 0; c < task_.columns.size(); ++c) {
       made_.columns.push_back({std::string(task_.columns[c]->name),
-                               std::string(task_.columns[c]->unit), before_[c], rms[c], {},
+                               std::string(task_.columns[c]->unit),
+                               before_[c],
+                               rms[c],
+                               {},
                                correlations[c]});
       // The starts take correlation away, so that white residuals rarely come to this.
       made_.white = made_.white && (rms[c] <= 1e-6 * spreads_[c] ||
@@ -340,10 +343,9 @@ class Fit {
       const double by = change[k] * unit;
       names += (names.empty() ? "" : k == members.back() ? " and " : ", ") + key.name;
       const std::string sign = by < 0 ? "-" : "+";
-      const std::string size =
-          key.logarithmic
-              ? rounded(100 * std::abs(by), 3) + " %"
-              : rounded(std::abs(by) * key.scale, 3) + (key.unit.empty() ? "" : " " + key.unit);
+      const std::string size = key.logarithmic ? rounded(100 * std::abs(by), 3) + " %"
+                                               : rounded(std::abs(by) * key.scale, 3) +
+                                                     (key.unit.empty() ? "" : " " + key.unit);
       changes += (changes.empty() ? "" : ", ") + key.name + " " + sign + size;
     }
     return names + " are not told apart by the log: it stays the same with " + changes;
@@ -390,8 +392,8 @@ Fitted fit(const Task& task) {
   for (const Log& log : task.logs) {
     if (!log.times.empty()) longest = std::max(longest, log.times.back() - log.times.front());
   }
-  for (Window& window : cut(task.logs, std::min(made.window, 2 * longest + 1), task.hold_out,
-                            coordinates)) {
+  for (Window& window :
+       cut(task.logs, std::min(made.window, 2 * longest + 1), task.hold_out, coordinates)) {
     (window.held ? held : windows).push_back(std::move(window));
   }
   made.windows = windows.size();

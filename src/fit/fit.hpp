@@ -3,8 +3,8 @@
 
 // Finds the values of keys at which runs of a scenario are closest to logs of a rig.
 //
-// Least squares over windows of the logs. Each window has a start of its own, which a linear problem
-// inside eliminates (variable projection); Levenberg and Marquardt's method finds the keys.
+// Least squares over windows of the logs. Each window has a start of its own, which a linear
+// problem inside eliminates (variable projection); Levenberg and Marquardt's method finds the keys.
 #pragma once
 
 #include <atomic>

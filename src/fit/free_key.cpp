@@ -89,7 +89,8 @@ FreeKey read_free_key(std::string_view text, const ScenarioFamily& family) {
   const std::string name = shown(key.name);
   for (const std::string_view of_start : {"ball.position", "ball.velocity"}) {
     if (!key.name.starts_with(of_start)) continue;
-    refuse(name + ": each window's start is fitted anyway; allowed: any other key that is a number");
+    refuse(name +
+           ": each window's start is fitted anyway; allowed: any other key that is a number");
   }
   const auto known = scenario::number_key(key.name);
   if (!known) {
@@ -118,8 +119,8 @@ FreeKey read_free_key(std::string_view text, const ScenarioFamily& family) {
   key.start = *start;
   key.logarithmic = key.start > 0 && (range.above >= 0.0 || key.lower > 0);
   const bool given = equals != std::string_view::npos && bounded;
-  key.scale = given ? (key.upper - key.lower) / 10
-                    : std::max(std::abs(key.start), usual(known->dimension));
+  key.scale =
+      given ? (key.upper - key.lower) / 10 : std::max(std::abs(key.start), usual(known->dimension));
   // Whether the scene takes the key at all.
   static_cast<void>(family.read({key.setting(key.start)}));
   return key;

@@ -91,8 +91,8 @@ std::vector<double> run_window(const Scenario& scene, const Start& start, const 
   // The last row is within the run, whatever its end is rounded to.
   const double end = window.times.back() * (1 + 1e-9) + 1e-9;
   const solve::OutputGrid grid({end, end});
-  const solve::Outcome outcome =
-      solve::integrate(model, begun.solver.method, {begun.solver.rtol, begun.solver.atol}, grid, sink);
+  const solve::Outcome outcome = solve::integrate(
+      model, begun.solver.method, {begun.solver.rtol, begun.solver.atol}, grid, sink);
   if (outcome.ending != solve::Ending::done || !sink.all()) {
     why = outcome.reason.empty() ? "the run does not come to the window's end" : outcome.reason;
     return {};

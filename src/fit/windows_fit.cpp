@@ -175,7 +175,8 @@ bool WindowsFit::slopes(std::size_t w, const Scenario& scene, const Start& start
 
 // Newton's method for the best start, with the slopes that are there: the motion depends on its
 // start almost linearly.
-bool WindowsFit::settle(std::size_t w, const Scenario& scene, State& state, std::string& why) const {
+bool WindowsFit::settle(std::size_t w, const Scenario& scene, State& state,
+                        std::string& why) const {
   if (!residual_of(w, scene, state.start, state.residual, why)) return false;
   const int fresh = std::exchange(state.fresh_rounds, 0);
   constexpr int most_rounds = 12;
@@ -219,9 +220,11 @@ VectorXd WindowsFit::residuals(const VectorXd& u, bool first) {
     if (runs[w] != 0) {
       all.segment(at(first_rows_[w]), trial_[w].residual.size()) = trial_[w].residual;
     } else if (first) {
-      throw InputError(task_.logs[windows_[w].log].name + ": from t = " +
-                       short_number(windows_[w].begin) + " s on, the scenario does not run to the "
-                       "window's end: " + faults[w]);
+      throw InputError(task_.logs[windows_[w].log].name +
+                       ": from t = " + short_number(windows_[w].begin) +
+                       " s on, the scenario does not run to the "
+                       "window's end: " +
+                       faults[w]);
     }
   }
   trial_u_ = u;

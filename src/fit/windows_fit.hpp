@@ -60,7 +60,8 @@ class WindowsFit {
   bool residual_of(std::size_t w, const Scenario& scene, const Start& start, Eigen::VectorXd& into,
                    std::string& why) const;
   // The derivatives by the start; false if a run fails.
-  bool slopes(std::size_t w, const Scenario& scene, const Start& start, Eigen::MatrixXd& into) const;
+  bool slopes(std::size_t w, const Scenario& scene, const Start& start,
+              Eigen::MatrixXd& into) const;
   bool settle(std::size_t w, const Scenario& scene, State& state, std::string& why) const;
   [[nodiscard]] Scenario scene_of(std::size_t w, const Variant& variant) const;
   void for_each_window(const std::function<void(std::size_t)>& work) const;

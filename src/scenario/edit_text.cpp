@@ -102,7 +102,8 @@ class Editor {
     if (mapping.entries.empty()) refuse();
     const std::string added = nested(path, setting_.value);
     const std::size_t first = offset_of(text_, mapping.entries.front().position);
-    const std::size_t before = first == 0 ? std::string::npos : text_.find_last_not_of(" \n", first - 1);
+    const std::size_t before =
+        first == 0 ? std::string::npos : text_.find_last_not_of(" \n", first - 1);
     const bool flow = before != std::string::npos && (text_[before] == '{' || text_[before] == ',');
     if (flow) {
       text_.insert(first, added + ", ");

@@ -33,8 +33,8 @@ std::optional<NumberKey> find(const Declared& declared, std::string_view path,
     const auto key = std::ranges::find(declared.keys, name, &yaml::DeclaredKey::name);
     return key == declared.keys.end() ? std::nullopt : find(key->value, rest, key->standard);
   }
-  const bool holds_any = declared.kind == Declared::Kind::list ||
-                         declared.kind == Declared::Kind::names;
+  const bool holds_any =
+      declared.kind == Declared::Kind::list || declared.kind == Declared::Kind::names;
   if (!holds_any || declared.parts.empty()) return {};
   return find(declared.parts.front(), rest, "");
 }

@@ -256,8 +256,7 @@ struct TimeOffsetRule {
 };
 
 // All but the offset, which waits for the table's unit.
-bool read_changes(yaml::Keys& keys, std::size_t columns, yaml::Dimension dimension,
-                  Changes& into) {
+bool read_changes(yaml::Keys& keys, std::size_t columns, yaml::Dimension dimension, Changes& into) {
   into.scales.assign(columns, 1);
   into.offsets.assign(columns, 0);
   bool fine = keys.optional("scale", ForEach{yaml::Number{}, columns}, into.scales);
@@ -424,7 +423,8 @@ void read_table_rows(yaml::Keys& keys, const std::vector<std::string_view>& valu
   }
   if (!times || values.size() < names.size()) return;
   if (const auto given = keys.find("offset");
-      given && !ForEach{OffsetOf{dimension, own_unit}, names.size()}.read(*given, changes.offsets)) {
+      given &&
+      !ForEach{OffsetOf{dimension, own_unit}, names.size()}.read(*given, changes.offsets)) {
     return;
   }
   into.times = *times->numbers;

@@ -1,12 +1,11 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "api/fit.hpp"
-
 #include <cmath>
 #include <string>
 #include <vector>
 
+#include "api/fit.hpp"
 #include "base/error.hpp"
 #include "catch.hpp"
 #include "fit/student.hpp"
@@ -160,14 +159,14 @@ TEST_CASE("a delay of the table is found") {
 
 TEST_CASE("keys that trade off exactly are not given small bars") {
   const Case rig(log_text(5e-4, 1, 0.01));
-  const api::FitResult made =
-      rig.fit({"gimbal.motion.phi.table.offset", "gimbal.mounting.phi_offset",
-               "ball.inertia_factor"});
+  const api::FitResult made = rig.fit(
+      {"gimbal.motion.phi.table.offset", "gimbal.mounting.phi_offset", "ball.inertia_factor"});
   CAPTURE(made.text, made.json);
   CHECK(made.code == ExitCode::done);
   REQUIRE(made.fitted.untold.size() == 1);
-  CHECK(contains(made.fitted.untold.front(), "gimbal.motion.phi.table.offset and "
-                                             "gimbal.mounting.phi_offset are not told apart"));
+  CHECK(contains(made.fitted.untold.front(),
+                 "gimbal.motion.phi.table.offset and "
+                 "gimbal.mounting.phi_offset are not told apart"));
   CHECK_FALSE(made.fitted.parameters[0].told);
   CHECK_FALSE(made.fitted.parameters[1].told);
   CHECK(made.fitted.parameters[2].told);

@@ -75,10 +75,11 @@ TEST_CASE("a scene from a later time is the rest of the scene") {
                   "gimbal: {motion: {phi: {table: {file: configs/recorded-angles.csv, time: t, "
                   "value: phi}}, theta: {ramp: {start: 0.01, rate: 0.002}}}}\n"
                   "time: {end: 4, step: 10 ms}\n"),
-      std::string("ball: {radius: 1 cm, push: {x: {pulse: {start: 2.2, duration: 0.3, value: "
-                  "10 mN}}}, mass: 0.01}\n"
-                  "gimbal: {motion: {phi: 0.01, theta: {sinusoid: {amplitude: 0.02, frequency: 3}}}}\n"
-                  "time: {end: 4, step: 10 ms}\n"));
+      std::string(
+          "ball: {radius: 1 cm, push: {x: {pulse: {start: 2.2, duration: 0.3, value: "
+          "10 mN}}}, mass: 0.01}\n"
+          "gimbal: {motion: {phi: 0.01, theta: {sinusoid: {amplitude: 0.02, frequency: 3}}}}\n"
+          "time: {end: 4, step: 10 ms}\n"));
   const ScenarioFamily family(Source{std::string(BBSIM_SOURCE_DIR) + "/scene.yaml", scene, {}});
   Scenario scenario = family.read({});
   const std::vector<double> times = {2, 2.3, 2.9, 3.7};

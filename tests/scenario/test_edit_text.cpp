@@ -1,12 +1,11 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "scenario/edit_text.hpp"
-
 #include <string>
 
 #include "base/error.hpp"
 #include "catch.hpp"
+#include "scenario/edit_text.hpp"
 #include "scenario/key_value.hpp"
 
 using namespace bbsim;
@@ -28,7 +27,8 @@ TEST_CASE("numbers change in a scenario's text, and nothing else does") {
   CHECK(with("ball.radius", "0.02 m") == changed("1 cm", "0.02 m"));
   CHECK(with("ball.position.0", "0.03") == changed("\"2 cm\"", "0.03"));
   CHECK(with("gimbal.motion.phi.1", "0.7") == changed("0.5", "0.7"));
-  CHECK(with("gimbal.motion.phi.0.sinusoid.frequency", "3") == changed("frequency: 2", "frequency: 3"));
+  CHECK(with("gimbal.motion.phi.0.sinusoid.frequency", "3") ==
+        changed("frequency: 2", "frequency: 3"));
   // A new key joins its neighbors.
   CHECK(with("ball.mass", "2 g") == changed("# a marble\n", "# a marble\n  mass: 2 g\n"));
   CHECK(with("gimbal.motion.phi.0.sinusoid.phase", "1") ==
