@@ -19,14 +19,16 @@ using Numbers = std::vector<double>;
 constexpr std::ptrdiff_t margin = 40;
 
 void shift_rows(Numbers& times, std::initializer_list<Numbers*> values, double begin, double end) {
+  // A table that holds its end values has a row more at either end, which stays.
+  const std::ptrdiff_t outside = std::isinf(times.front()) ? 1 : 0;
   const auto first = std::ranges::lower_bound(times, begin) - times.begin();
   const auto last = std::ranges::upper_bound(times, end) - times.begin();
-  const auto size = static_cast<std::ptrdiff_t>(times.size());
-  const auto from = std::max<std::ptrdiff_t>(first - margin, 0);
-  const auto to = std::min(last + margin, size);
-  const auto keep = [from, to](Numbers& numbers) {
-    numbers.erase(numbers.begin() + to, numbers.end());
-    numbers.erase(numbers.begin(), numbers.begin() + from);
+  const auto size = static_cast<std::ptrdiff_t>(times.size()) - outside;
+  const auto from = std::clamp(first - margin, outside, size);
+  const auto to = std::clamp(last + margin, from, size);
+  const auto keep = [outside, from, to, size](Numbers& numbers) {
+    numbers.erase(numbers.begin() + to, numbers.begin() + size);
+    numbers.erase(numbers.begin() + outside, numbers.begin() + from);
   };
   keep(times);
   for (Numbers* const one : values) keep(*one);

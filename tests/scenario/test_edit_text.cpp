@@ -51,6 +51,9 @@ TEST_CASE("the unit, range and default of a number") {
   const auto offset = number_key("gimbal.motion.phi.table.offset");
   REQUIRE(offset);
   CHECK(offset->dimension == yaml::Dimension::angle);
+  CHECK(offset->standard == 0.0);
+  CHECK(number_key("gimbal.motion.phi.table.scale")->standard == 1.0);
+  CHECK(number_key("gimbal.motion.theta.0.table.delay")->standard == 0.0);
   CHECK(number_key("gimbal.motion.phi.0.table.delay")->dimension == yaml::Dimension::time);
   CHECK(number_key("controller.pd.kp.0.1"));
   CHECK_FALSE(number_key("ball.raduis"));
