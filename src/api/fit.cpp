@@ -180,6 +180,11 @@ FitResult fit(const FitRequest& request, bool with_scenario, Watch& watch) {
       throw InputError("--free: " + shown(task.keys.back().name) + " is there twice");
     }
   }
+  if (with_scenario) {  // what cannot be written is said before the work
+    std::vector<ScenarioFamily::Setting> settings;
+    for (const fit::FreeKey& key : task.keys) settings.push_back(key.setting(key.start));
+    static_cast<void>(text_with(request.family.source(), settings));
+  }
   // A table of the scenario that is one of the logs is, for each log, that log.
   std::vector<std::string> of_log;
   for (const std::string& file : request.logs) {

@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <cstdio>
+#include <iterator>
 #include <nlohmann/json.hpp>
 
 #include "base/fnv1a.hpp"
@@ -116,6 +117,17 @@ std::string json_of(const fit::Fitted& fitted) {
   return json.dump(2) + "\n";
 }
 
+std::string text_with(const Source& source, std::vector<ScenarioFamily::Setting> settings) {
+  std::vector<ScenarioFamily::Setting> all;
+  for (const std::string& assignment : source.overrides) {
+    const std::size_t equals = assignment.find('=');
+    all.push_back({assignment.substr(0, equals), assignment.substr(equals + 1)});
+  }
+  all.insert(all.end(), std::make_move_iterator(settings.begin()),
+             std::make_move_iterator(settings.end()));
+  return edited_text(source.text, all);
+}
+
 std::string fitted_scenario(const FitRequest& request, const fit::Fitted& fitted) {
   const Source& source = request.family.source();
   std::string text = "# Fitted by bbsim " BBSIM_VERSION " to\n";
@@ -131,15 +143,11 @@ std::string fitted_scenario(const FitRequest& request, const fit::Fitted& fitted
                      : ", which the logs do not tell\n";
   }
   std::vector<ScenarioFamily::Setting> settings;
-  for (const std::string& assignment : source.overrides) {
-    const std::size_t equals = assignment.find('=');
-    settings.push_back({assignment.substr(0, equals), assignment.substr(equals + 1)});
-  }
   for (const fit::Parameter& one : fitted.parameters) {
     const std::string unit = one.unit.empty() ? "" : " " + one.unit;
     settings.push_back({one.key, number_text(one.estimate) + unit});
   }
-  text += edited_text(source.text, settings);
+  text += text_with(source, settings);
   // It is what it says.
   const ScenarioFamily made(Source{source.file, text, {}});
   static_cast<void>(made.read({}));

@@ -183,7 +183,10 @@ bool WindowsFit::settle(std::size_t w, const Scenario& scene, State& state,
   for (int round = 0; round < most_rounds; ++round) {
     if (round < fresh) {
       MatrixXd by_start;
-      if (!slopes(w, scene, state.start, by_start)) break;
+      if (!slopes(w, scene, state.start, by_start)) {
+        why = "it does not run from starts nearby";
+        return false;
+      }
       state.by_start.setThreshold(1e-9);
       state.by_start.compute(by_start);
     }
