@@ -14,13 +14,18 @@
 #include "scenario/family.hpp"
 #include "support/folder.hpp"
 
-// The true rig: two servos that follow sines, not of one period.
+// The true rig: two servos that follow sines, not of one period. They begin at their greatest
+// angles, so that the ball does not drift.
 inline const std::string true_rig = R"(
 ball: {radius: 1 cm, position: [2 cm, -1 cm], inertia_factor: 0.43}
 gimbal:
   motion:
-    phi: [{sinusoid: {amplitude: 3 deg, frequency: 5.3 rad/s}}, {sinusoid: {amplitude: 2 deg, frequency: 2.9 rad/s, phase: 1 rad}}]
-    theta: [{sinusoid: {amplitude: 3 deg, frequency: 4.1 rad/s}}, {sinusoid: {amplitude: 2 deg, frequency: 7.7 rad/s, phase: 2 rad}}]
+    phi:
+      - {sinusoid: {amplitude: 3 deg, frequency: 5.3 rad/s, phase: 1.5708 rad}}
+      - {sinusoid: {amplitude: 2 deg, frequency: 2.9 rad/s, phase: 1.5708 rad}}
+    theta:
+      - {sinusoid: {amplitude: 3 deg, frequency: 4.1 rad/s, phase: 1.5708 rad}}
+      - {sinusoid: {amplitude: 2 deg, frequency: 7.7 rad/s, phase: 1.5708 rad}}
 time: {end: 20, step: 50 ms}
 output: {columns: [t, x, y, phi, theta]}
 )";

@@ -123,8 +123,8 @@ TEST_CASE("a delay of the table is found") {
     REQUIRE(at != std::string::npos);
     late.replace(at, from.size(), to);
   };
-  shift("frequency: 5.3 rad/s}", "frequency: 5.3 rad/s, phase: -0.318 rad}");
-  shift("frequency: 2.9 rad/s, phase: 1 rad}", "frequency: 2.9 rad/s, phase: 0.826 rad}");
+  shift("5.3 rad/s, phase: 1.5708 rad", "5.3 rad/s, phase: 1.2528 rad");
+  shift("2.9 rad/s, phase: 1.5708 rad", "2.9 rad/s, phase: 1.3968 rad");
   const std::string delayed = log_text(3e-4, 1, 0, 3, late);
   // The log has the command: phi of the rig without the delay.
   const std::string command = log_text(0);
