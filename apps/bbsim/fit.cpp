@@ -90,9 +90,7 @@ void add_fit(Command& command, const Options& options) {
       "      --free \"gimbal.motion.phi.table.delay=0:200 ms\" --hold-out 0.3 -o fitted.yaml");
   const auto arguments = std::make_shared<FitArguments>();
   add_scenario(command, arguments->scenario);
-  command.option("LOG", arguments->logs, "logs of the rig: CSV with a header")
-      .takes("LOG ...")
-      .required();
+  command.option("LOG", arguments->logs, "logs of the rig: CSV with a header").required();
   command
       .option("--free", arguments->free,
               "a key that the fit chooses, and its bounds; it begins at the scenario's value; "

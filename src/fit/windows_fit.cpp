@@ -238,7 +238,6 @@ WindowsFit::Derivatives WindowsFit::derivatives(const VectorXd& u) {
   if (trial_u_.size() != u.size() || trial_u_ != u) static_cast<void>(residuals(u));
   base_ = trial_;
   const Index keys = u.size();
-  const std::string none;
   std::string why;
   const Variant middle = variant(u, &why);
   std::vector<Variant> up, down;
