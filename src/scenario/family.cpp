@@ -79,9 +79,14 @@ Scenario ScenarioFamily::read(const std::vector<Setting>& settings) const {
 }
 
 std::optional<double> ScenarioFamily::read_number(const std::vector<Setting>& settings) const {
+  return number_at(settings.back().key, settings);
+}
+
+std::optional<double> ScenarioFamily::number_at(const std::string& key,
+                                                const std::vector<Setting>& settings) const {
   std::map<std::string, NotedNumber> numbers;
   [[maybe_unused]] const Scenario scenario = state_->read(settings, &numbers);
-  const auto found = numbers.find(american(settings.back().key));
+  const auto found = numbers.find(american(key));
   if (found == numbers.end()) return {};
   return found->second.value;
 }

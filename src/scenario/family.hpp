@@ -52,6 +52,11 @@ class ScenarioFamily {
   [[nodiscard]] std::string_view unit_of(const std::string& key,
                                          const std::vector<Setting>& settings) const;
 
+  // The number in SI units at the key, with these settings. Empty if the text has no single number
+  // there.
+  [[nodiscard]] std::optional<double> number_at(const std::string& key,
+                                                const std::vector<Setting>& settings) const;
+
   // The file's `sweep` section. Throws InputError if it is invalid.
   [[nodiscard]] Sweep read_sweep() const;
 

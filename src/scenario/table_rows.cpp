@@ -220,6 +220,9 @@ struct ForEach {
     return yaml::Declared::any(
         {rule.declared(), yaml::Declared::list(columns, columns, rule.declared())});
   }
+  [[nodiscard]] static std::string text_of(const std::vector<double>& values) {
+    return number_text(values.front());
+  }
   bool read(const yaml::Value& value, std::vector<double>& into) const {
     if (value.node->kind == yaml::Node::Kind::sequence && columns > 1) {
       return yaml::ListOf<Rule, double>{rule, columns, columns, "numbers, one for each column"}
@@ -262,7 +265,7 @@ bool read_changes(yaml::Keys& keys, std::size_t columns, yaml::Dimension dimensi
   into.scales.assign(columns, 1);
   into.offsets.assign(columns, 0);
   bool fine = keys.optional("scale", ForEach{yaml::Number{}, columns}, into.scales);
-  static_cast<void>(keys.find("offset", ForEach{yaml::Number{dimension}, columns}));
+  static_cast<void>(keys.find("offset", ForEach{yaml::Number{dimension}, columns}, "0"));
   fine = keys.optional("delay", yaml::Number{yaml::Dimension::time}, into.delay) && fine;
   return keys.optional("time_offset", TimeOffsetRule{}, into) && fine;
 }

@@ -99,10 +99,11 @@ class Keys {
   // The key's value, if present. Makes the key known.
   std::optional<Value> find(std::string_view key);
 
-  // The same, of a key that `rule` reads later.
+  // The same, of a key that `rule` reads later; `standard` is its default, if it has a text.
   template <class Rule>
-  std::optional<Value> find(std::string_view key, const Rule& rule) {
-    if (declared_ != nullptr) declare({std::string(key), rule.declared(), false, {}});
+  std::optional<Value> find(std::string_view key, const Rule& rule,
+                            const std::string& standard = {}) {
+    if (declared_ != nullptr) declare({std::string(key), rule.declared(), false, standard});
     return find(key);
   }
 

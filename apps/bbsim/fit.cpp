@@ -1,0 +1,127 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "api/fit.hpp"
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "commands.hpp"
+#include "file/atomic_file.hpp"
+#include "progress.hpp"
+#include "terminal.hpp"
+
+namespace bbsim::app {
+namespace {
+
+struct FitArguments {
+  ScenarioArguments scenario;
+  std::vector<std::string> logs, free;
+  plot::LogChoice choice;
+  std::string window, output, json;
+  std::optional<double> hold_out;
+  std::size_t threads = 0;
+};
+
+// Tables are named from the scenario's folder.
+void note_other_folder(const ScenarioFamily& family, const std::string& output) {
+  const auto folder_of = [](const std::string& file) {
+    return std::filesystem::absolute(file).lexically_normal().parent_path();
+  };
+  if (output == "-" || family.inputs().empty()) return;
+  if (folder_of(output) == folder_of(family.source().file)) return;
+  say("note: " + output +
+      " is in another folder than the scenario, which names tables from its "
+      "own; move it there to run it");
+}
+
+ExitCode fit(const FitArguments& arguments, const Options& options) {
+  const auto& [file, overrides] = arguments.scenario;
+  say_if_waiting(file, "a scenario", options.quiet);
+  const ScenarioFamily family(file, overrides);
+  file::Outputs outputs;
+  outputs.reads(file, "the scenario");
+  for (const std::string& log : arguments.logs) outputs.reads(log, "the log");
+  if (!arguments.output.empty()) outputs.writes(arguments.output, "-o");
+  if (!arguments.json.empty()) outputs.writes(arguments.json, "--json");
+  const bool reports = arguments.output != "-" && arguments.json != "-";
+  if (reports) prints(outputs);
+
+  api::FitRequest request{family, arguments.logs, arguments.choice, arguments.free,
+                          arguments.window};
+  request.hold_out = arguments.hold_out.value_or(0);
+  request.threads = arguments.threads;
+  Progress progress(family.source().file, options.quiet);
+  const api::FitResult made = api::fit(request, !arguments.output.empty(), progress);
+  if (!options.quiet) {
+    for (const std::string& warning : made.warnings) say(warning);
+  }
+  if (made.code != ExitCode::done) {
+    say("fit: interrupted after " + std::to_string(made.fitted.iterations) +
+        " iterations; nothing is written");
+    return made.code;
+  }
+  if (!arguments.output.empty()) {
+    file::write_file(arguments.output, made.scenario);
+    if (!options.quiet) note_other_folder(family, arguments.output);
+  }
+  if (!arguments.json.empty()) file::write_file(arguments.json, made.json);
+  if (reports) print(made.text);
+  return ExitCode::done;
+}
+
+}  // namespace
+
+void add_fit(Command& command, const Options& options) {
+  command.footer(
+      "bbsim cuts each log into windows, fits the ball's position and velocity at the start of "
+      "each, and finds the values of the free keys at which the runs are closest to the logs. It "
+      "prints estimates, standard deviations, 95 % intervals and residuals. A key that the logs do "
+      "not tell is named; the exit code is then 0, too.\n"
+      "Where a table of the scenario is one of several logs, each log has itself for that table.\n"
+      "\n"
+      "Examples:\n"
+      "  bbsim fit rig.yaml log.csv --free ball.inertia_factor \\\n"
+      "      --free gimbal.motion.phi.table.scale --free gimbal.motion.phi.table.offset\n"
+      "  bbsim fit rig.yaml log.csv --map t=millis:ms,x=Ballx:mm,y=Bally:mm \\\n"
+      "      --free \"gimbal.motion.phi.table.delay=0:200 ms\" --hold-out 0.3 -o fitted.yaml");
+  const auto arguments = std::make_shared<FitArguments>();
+  add_scenario(command, arguments->scenario);
+  command.option("LOG", arguments->logs, "logs of the rig: CSV with a header").required();
+  command
+      .option("--free", arguments->free,
+              "a key that the fit chooses, and its bounds; it begins at the scenario's value; "
+              "repeatable")
+      .takes("KEY[=FROM:TO]")
+      .may_be_repeated()
+      .required();
+  add_log_options(command, arguments->choice);
+  command
+      .option("--window", arguments->window,
+              "length of a window; default: 2 s, and with a controller and without --hold-out the "
+              "whole log")
+      .takes("TIME");
+  command
+      .option("--hold-out", arguments->hold_out,
+              "keep this share of the windows out of the fit, and print their residuals")
+      .takes("F");
+  command
+      .option("-o,--output", arguments->output,
+              "write the scenario with the estimates in it to FILE.yaml, or - for standard output")
+      .takes("FILE");
+  command
+      .option("--json", arguments->json,
+              "write the results to FILE.json, or - for standard output, in place of the report")
+      .takes("FILE");
+  command
+      .option("-j,--threads", arguments->threads,
+              "number of threads; default: number of processors; the result is the same")
+      .takes("N")
+      .takes_whole(1, 1024);
+  command.does([arguments, &options] { return fit(*arguments, options); });
+}
+
+}  // namespace bbsim::app

@@ -1,0 +1,157 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "api/fit_text.hpp"
+
+#include <cmath>
+#include <cstdio>
+#include <iterator>
+#include <nlohmann/json.hpp>
+
+#include "base/fnv1a.hpp"
+#include "base/number_text.hpp"
+#include "base/short_number.hpp"
+#include "base/shown.hpp"
+#include "file/whole_file.hpp"
+#include "record/aligned.hpp"
+#include "scenario/edit_text.hpp"
+
+namespace bbsim::api {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+// To as many digits as the interval tells.
+std::string with_digits_of(double value, double sd) {
+  if (!std::isfinite(sd) || sd <= 0 || value == 0) return short_number(value);
+  const double digits = std::ceil(std::log10(std::abs(value) / sd)) + 2;
+  return rounded(value, static_cast<int>(std::min(std::max(digits, 2.0), 12.0)));
+}
+
+std::string unit_or_one(const std::string& unit) {
+  return unit.empty() ? "1" : unit;
+}
+
+std::string parameters_text(const fit::Fitted& fitted) {
+  std::vector<std::vector<std::string>> lines{
+      {"key", "before", "estimate", "sd", "95 % from", "to", "unit"}};
+  for (const fit::Parameter& one : fitted.parameters) {
+    const auto number = [&](double value) {
+      return one.told ? with_digits_of(value, one.sd) : std::string("-");
+    };
+    lines.push_back({one.key, short_number(one.start), with_digits_of(one.estimate, one.sd),
+                     one.told ? record::rounded(one.sd) : "-", number(one.low), number(one.high),
+                     unit_or_one(one.unit)});
+  }
+  return record::aligned(lines);
+}
+
+std::string residuals_text(const fit::Fitted& fitted) {
+  std::vector<std::vector<std::string>> lines{{"rms residual", "before", "fitted"}};
+  if (fitted.held > 0) lines[0].push_back("held out");
+  lines[0].push_back("unit");
+  for (const fit::ColumnResidual& column : fitted.columns) {
+    std::vector<std::string> line{column.column, record::rounded(column.before),
+                                  record::rounded(column.rms)};
+    if (fitted.held > 0) line.push_back(column.held ? record::rounded(*column.held) : "-");
+    line.push_back(unit_or_one(column.unit));
+    lines.push_back(std::move(line));
+  }
+  return record::aligned(lines);
+}
+
+std::string hash_of(const std::string& file) {
+  char text[24];
+  std::snprintf(text, sizeof text, "%016llx",
+                static_cast<unsigned long long>(fnv1a(file::read_whole(file))));
+  return text;
+}
+
+Json number_or_null(double value) {
+  return std::isfinite(value) ? Json(value) : Json(nullptr);
+}
+
+}  // namespace
+
+std::string report_of(const FitRequest& request, const fit::Fitted& fitted) {
+  std::string text = parameters_text(fitted) + "\n" + residuals_text(fitted) + "\n";
+  text += std::to_string(fitted.numbers) + " numbers in " + std::to_string(fitted.windows) +
+          (fitted.windows == 1 ? " window" : " windows");
+  if (std::isfinite(fitted.window)) text += " of " + short_number(fitted.window) + " s";
+  if (fitted.held > 0) text += ", " + std::to_string(fitted.held) + " more held out";
+  text += "; " + std::to_string(request.logs.size()) +
+          (request.logs.size() == 1 ? " log\n" : " logs\n");
+  for (const std::string& words : fitted.untold) text += "not identifiable: " + words + "\n";
+  for (const fit::Parameter& one : fitted.parameters) {
+    if (one.at_bound) text += "note: " + one.key + " is at a bound of its range\n";
+  }
+  if (!fitted.white) {
+    text += "note: neighboring residuals are alike (";
+    bool first = true;
+    for (const fit::ColumnResidual& column : fitted.columns) {
+      text += (first ? "" : ", ") + column.column + ": " + rounded(column.correlation, 2);
+      first = false;
+    }
+    text += "); the scene lacks something, and the intervals are too short\n";
+  }
+  return text;
+}
+
+std::string json_of(const fit::Fitted& fitted) {
+  Json json;
+  json["parameters"] = Json::array();
+  for (const fit::Parameter& one : fitted.parameters) {
+    json["parameters"].push_back(
+        {{"key", one.key},
+         {"estimate", one.estimate},
+         {"sd", number_or_null(one.sd)},
+         {"interval", {number_or_null(one.low), number_or_null(one.high)}}});
+  }
+  json["residual_rms"] = Json::object();
+  json["hold_out_rms"] = Json::object();
+  for (const fit::ColumnResidual& column : fitted.columns) {
+    json["residual_rms"][column.column] = column.rms;
+    if (column.held) json["hold_out_rms"][column.column] = *column.held;
+  }
+  json["identifiable"] = fitted.untold.empty();
+  return json.dump(2) + "\n";
+}
+
+std::string text_with(const Source& source, std::vector<ScenarioFamily::Setting> settings) {
+  std::vector<ScenarioFamily::Setting> all;
+  for (const std::string& assignment : source.overrides) {
+    const std::size_t equals = assignment.find('=');
+    all.push_back({assignment.substr(0, equals), assignment.substr(equals + 1)});
+  }
+  all.insert(all.end(), std::make_move_iterator(settings.begin()),
+             std::make_move_iterator(settings.end()));
+  return edited_text(source.text, all);
+}
+
+std::string fitted_scenario(const FitRequest& request, const fit::Fitted& fitted) {
+  const Source& source = request.family.source();
+  std::string text = "# Fitted by bbsim " BBSIM_VERSION " to\n";
+  for (const std::string& log : request.logs) {
+    text += "#   " + shown(log) + " (FNV-1a " + hash_of(log) + ")\n";
+  }
+  for (const fit::Parameter& one : fitted.parameters) {
+    const std::string unit = one.unit.empty() ? "" : " " + one.unit;
+    text += "# " + one.key + ": " + with_digits_of(one.estimate, one.sd) + unit;
+    text += one.told ? ", 95 % from " + with_digits_of(one.low, one.sd) + " to " +
+                           with_digits_of(one.high, one.sd) + unit + "; was " +
+                           short_number(one.start) + unit + "\n"
+                     : ", which the logs do not tell\n";
+  }
+  std::vector<ScenarioFamily::Setting> settings;
+  for (const fit::Parameter& one : fitted.parameters) {
+    const std::string unit = one.unit.empty() ? "" : " " + one.unit;
+    settings.push_back({one.key, number_text(one.estimate) + unit});
+  }
+  text += text_with(source, settings);
+  // It is what it says.
+  const ScenarioFamily made(Source{source.file, text, {}});
+  static_cast<void>(made.read({}));
+  return text;
+}
+
+}  // namespace bbsim::api

@@ -1,0 +1,129 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "fit/free_key.hpp"
+
+#include <cmath>
+#include <limits>
+#include <optional>
+
+#include "base/error.hpp"
+#include "base/number_text.hpp"
+#include "base/shown.hpp"
+#include "base/text.hpp"
+#include "scenario/key_value.hpp"
+#include "scenario/value_in.hpp"
+
+namespace bbsim::fit {
+namespace {
+
+constexpr double unlimited = std::numeric_limits<double>::infinity();
+
+// A usual size of what has this dimension, where nothing else tells one.
+double usual(yaml::Dimension dimension) {
+  switch (dimension) {
+    case yaml::Dimension::length:
+    case yaml::Dimension::time:
+    case yaml::Dimension::angle:
+    case yaml::Dimension::velocity:
+    case yaml::Dimension::force:
+      return 0.01;
+    default:
+      return 0.1;
+  }
+}
+
+[[noreturn]] void refuse(const std::string& what) {
+  throw InputError("--free: " + what);
+}
+
+// The bounds of FROM:TO.
+void read_bounds(std::string_view text, FreeKey& key) {
+  const std::string name = shown(key.name);
+  const std::size_t colon = text.find(':');
+  std::optional<double> from, to;
+  if (colon != std::string_view::npos) {
+    from = scenario::value_in(text.substr(0, colon), key.unit);
+    to = scenario::value_in(text.substr(colon + 1), key.unit);
+  }
+  if (!from || !to || !(*from < *to)) {
+    refuse(name + ": found " + quoted(text) +
+           "; allowed: FROM:TO with FROM below TO, numbers in SI units or with a unit" +
+           (key.unit.empty() ? "" : " of " + key.unit));
+  }
+  if (*from < key.lower || *to > key.upper) {
+    refuse(name + ": found " + quoted(text) + "; allowed: values from " + number_text(key.lower) +
+           " to " + number_text(key.upper));
+  }
+  key.lower = *from;
+  key.upper = *to;
+}
+
+}  // namespace
+
+double FreeKey::value(double u) const {
+  const double raw = logarithmic ? start * std::exp(u) : start + scale * u;
+  // number() of a bound leads to it within rounding.
+  constexpr double rounding = 1e-12;
+  if (raw >= upper - rounding * std::abs(upper)) return upper;
+  if (raw <= lower + rounding * std::abs(lower)) return lower;
+  return raw;
+}
+
+double FreeKey::number(double value) const {
+  return logarithmic ? std::log(value / start) : (value - start) / scale;
+}
+
+double FreeKey::slope(double u) const {
+  return logarithmic ? value(u) : scale;
+}
+
+ScenarioFamily::Setting FreeKey::setting(double value) const {
+  return {name, number_text(value) + (unit.empty() ? "" : " " + unit)};
+}
+
+FreeKey read_free_key(std::string_view text, const ScenarioFamily& family) {
+  const std::size_t equals = text.find('=');
+  FreeKey key;
+  key.name = trimmed(text.substr(0, equals));
+  const std::string name = shown(key.name);
+  for (const std::string_view of_start : {"ball.position", "ball.velocity"}) {
+    if (!key.name.starts_with(of_start)) continue;
+    refuse(name +
+           ": each window's start is fitted anyway; allowed: any other key that is a number");
+  }
+  const auto known = scenario::number_key(key.name);
+  if (!known) {
+    // The scenario's own reader says what is wrong with the name.
+    static_cast<void>(family.read({{key.name, "1"}}));
+    refuse(name + ": takes no single number; allowed: a key that is a number, such as ball.radius");
+  }
+  key.unit = yaml::si_unit(known->dimension);
+  const yaml::Range& range = known->range;
+  key.lower = range.above.value_or(range.at_least.value_or(-unlimited));
+  key.upper = range.at_most.value_or(unlimited);
+  if (equals != std::string_view::npos) read_bounds(trimmed(text.substr(equals + 1)), key);
+  const bool bounded = std::isfinite(key.lower) && std::isfinite(key.upper);
+
+  std::optional<double> start = family.number_at(key.name, {});
+  if (!start) start = known->standard;
+  if (equals != std::string_view::npos && (!start || *start < key.lower || *start > key.upper)) {
+    start = key.lower > 0 ? std::sqrt(key.lower * key.upper) : (key.lower + key.upper) / 2;
+  }
+  if (!start) {
+    // A key that another law has, or a misspelt one: its reader tells.
+    static_cast<void>(family.read({key.setting(1)}));
+    refuse(name + ": the scenario gives no value to begin with; allowed: " + name +
+           "=FROM:TO, or a value in the scenario");
+  }
+  key.start = *start;
+  key.logarithmic = key.start > 0 && (range.above >= 0.0 || key.lower > 0);
+  const bool given = equals != std::string_view::npos && bounded;
+  key.scale =
+      given ? (key.upper - key.lower) / 10 : std::max(std::abs(key.start), usual(known->dimension));
+  // Whether the scene takes the key at all.
+  static_cast<void>(family.read({key.setting(key.start)}));
+  return key;
+}
+
+}  // namespace bbsim::fit

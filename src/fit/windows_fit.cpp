@@ -1,0 +1,291 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "fit/windows_fit.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <exception>
+#include <mutex>
+#include <thread>
+#include <utility>
+
+#include "base/error.hpp"
+#include "base/short_number.hpp"
+#include "fit/clock_shift.hpp"
+
+namespace bbsim::fit {
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+// Of u and of a start (m, m/s, rad, rad/s), for central differences: the error of the run over it,
+// and its square, are small.
+constexpr double key_step = 1e-3, start_step = 1e-3;
+
+// In standard deviations: where a run fails, far from any log.
+constexpr double far = 1e6;
+
+Index at(std::size_t i) {
+  return static_cast<Index>(i);
+}
+
+double& coordinate(Start& start, std::size_t i) {
+  return start[i];
+}
+
+}  // namespace
+
+WindowsFit::WindowsFit(const Task& task, std::vector<Window> windows)
+    : task_(task), windows_(std::move(windows)) {
+  bool from_within = false;
+  for (const Window& window : windows_) from_within = from_within || !window.first;
+  const std::vector<Scenario> scenes = variant(VectorXd::Zero(at(task.keys.size())), nullptr);
+  coordinates_ = start_coordinates(task.columns, from_within && !scenes.front().gimbal.motion);
+  for (const Window& window : windows_) {
+    first_rows_.push_back(size_);
+    for (std::size_t c = 0; c < window.values.size(); ++c) {
+      for (const double value : window.values[c]) {
+        if (!std::isfinite(value)) continue;
+        columns_.push_back(c);
+        ++size_;
+      }
+    }
+  }
+  first_rows_.push_back(size_);
+  base_.resize(windows_.size());
+  for (State& state : base_) state.start = start_of(scenes.front());
+  guess_starts();
+}
+
+// A window's start is its first measurement, at rest.
+void WindowsFit::guess_starts() {
+  for (std::size_t w = 0; w < windows_.size(); ++w) {
+    constexpr std::string_view names[] = {"x", "y", "", "", "phi", "theta", "", ""};
+    for (std::size_t i = 0; i < base_[w].start.size(); ++i) {
+      if (std::ranges::find(coordinates_, i) == coordinates_.end()) continue;
+      if (i == 2 || i == 3) coordinate(base_[w].start, i) = 0;
+      for (std::size_t c = 0; c < task_.columns.size(); ++c) {
+        if (task_.columns[c]->name != names[i]) continue;
+        const auto& values = windows_[w].values[c];
+        const auto first =
+            std::ranges::find_if(values, [](double value) { return std::isfinite(value); });
+        if (first != values.end()) coordinate(base_[w].start, i) = *first;
+      }
+    }
+  }
+}
+
+void WindowsFit::set_noise(std::vector<double> noise) {
+  noise_ = std::move(noise);
+  for (State& state : base_) state.fresh_rounds = std::max(state.fresh_rounds, 1);
+  trial_u_.resize(0);
+}
+
+Variant WindowsFit::variant(const VectorXd& u, std::string* why) const {
+  Variant made;
+  try {
+    for (const Log& log : task_.logs) {
+      // Logs without settings of their own share the scenario.
+      if (!made.empty() && log.settings.empty()) {
+        made.push_back(made.front());
+        continue;
+      }
+      std::vector<ScenarioFamily::Setting> settings = log.settings;
+      for (std::size_t k = 0; k < task_.keys.size(); ++k) {
+        const FreeKey& key = task_.keys[k];
+        settings.push_back(key.setting(key.value(u[at(k)])));
+      }
+      made.push_back(prepared(task_.family.read(settings)));
+    }
+  } catch (const InputError& error) {
+    if (why == nullptr) throw;
+    *why = error.what();
+    made.clear();
+  }
+  return made;
+}
+
+Scenario WindowsFit::scene_of(std::size_t w, const Variant& variant) const {
+  const Window& window = windows_[w];
+  return from_time(variant[window.log], window.begin, window.begin + window.times.back());
+}
+
+void WindowsFit::for_each_window(const std::function<void(std::size_t)>& work) const {
+  std::size_t threads = task_.threads;
+  if (threads == 0) threads = std::max(1U, std::thread::hardware_concurrency());
+  threads = std::min(threads, windows_.size());
+  std::atomic<std::size_t> next = 0;
+  std::exception_ptr thrown;
+  std::mutex mutex;
+  const auto some = [&] {
+    try {
+      for (std::size_t w = next++; w < windows_.size(); w = next++) {
+        if (task_.stop != nullptr && task_.stop->load(std::memory_order_relaxed)) return;
+        work(w);
+      }
+    } catch (...) {
+      const std::lock_guard lock(mutex);
+      thrown = std::current_exception();
+      next = windows_.size();
+    }
+  };
+  {
+    std::vector<std::jthread> others;
+    for (std::size_t i = 1; i < threads; ++i) others.emplace_back(some);
+    some();
+  }
+  if (thrown) std::rethrow_exception(thrown);
+}
+
+bool WindowsFit::residual_of(std::size_t w, const Scenario& scene, const Start& start,
+                             VectorXd& into, std::string& why) const {
+  const Window& window = windows_[w];
+  const std::vector<double> values = run_window(scene, start, window, task_.columns, why);
+  into.resize(at(first_rows_[w + 1] - first_rows_[w]));
+  if (values.empty()) return false;
+  Index row = 0;
+  const std::size_t rows = window.times.size();
+  for (std::size_t c = 0; c < window.values.size(); ++c) {
+    for (std::size_t i = 0; i < rows; ++i) {
+      const double measured = window.values[c][i];
+      if (std::isfinite(measured)) into[row++] = (values[c * rows + i] - measured) / noise_[c];
+    }
+  }
+  return true;
+}
+
+bool WindowsFit::slopes(std::size_t w, const Scenario& scene, const Start& start,
+                        MatrixXd& into) const {
+  std::string why;
+  into.resize(at(first_rows_[w + 1] - first_rows_[w]), at(coordinates_.size()));
+  VectorXd up, down;
+  for (std::size_t k = 0; k < coordinates_.size(); ++k) {
+    Start moved = start;
+    coordinate(moved, coordinates_[k]) += start_step;
+    if (!residual_of(w, scene, moved, up, why)) return false;
+    coordinate(moved, coordinates_[k]) -= 2 * start_step;
+    if (!residual_of(w, scene, moved, down, why)) return false;
+    into.col(at(k)) = (up - down) / (2 * start_step);
+  }
+  return true;
+}
+
+// Newton's method for the best start, with the slopes that are there: the motion depends on its
+// start almost linearly.
+bool WindowsFit::settle(std::size_t w, const Scenario& scene, State& state,
+                        std::string& why) const {
+  if (!residual_of(w, scene, state.start, state.residual, why)) return false;
+  const int fresh = std::exchange(state.fresh_rounds, 0);
+  constexpr int most_rounds = 12;
+  for (int round = 0; round < most_rounds; ++round) {
+    if (round < fresh) {
+      MatrixXd by_start;
+      if (!slopes(w, scene, state.start, by_start)) {
+        why = "it does not run from starts nearby";
+        return false;
+      }
+      state.by_start.setThreshold(1e-9);
+      state.by_start.compute(by_start);
+    }
+    const VectorXd step = state.by_start.solve(state.residual);
+    Start moved = state.start;
+    for (std::size_t k = 0; k < coordinates_.size(); ++k) {
+      coordinate(moved, coordinates_[k]) -= step[at(k)];
+    }
+    VectorXd residual;
+    std::string unheard;
+    if (!residual_of(w, scene, moved, residual, unheard)) break;
+    const double before = state.residual.squaredNorm(), after = residual.squaredNorm();
+    if (!(after <= before * (1 + 1e-12))) break;
+    state.start = moved;
+    state.residual = residual;
+    if (before - after <= 1e-12 * before && round + 1 >= fresh) break;
+  }
+  return true;
+}
+
+VectorXd WindowsFit::residuals(const VectorXd& u, bool first) {
+  VectorXd all = VectorXd::Constant(at(size_), far);
+  std::string why;
+  const Variant scenes = variant(u, first ? nullptr : &why);
+  if (scenes.empty()) return all;
+  trial_ = base_;
+  std::vector<std::string> faults(windows_.size());
+  std::vector<char> runs(windows_.size(), 0);
+  for_each_window([&](std::size_t w) {
+    runs[w] = settle(w, scene_of(w, scenes), trial_[w], faults[w]) ? 1 : 0;
+  });
+  if (task_.stop != nullptr && task_.stop->load()) return all;
+  for (std::size_t w = 0; w < windows_.size(); ++w) {
+    if (runs[w] != 0) {
+      all.segment(at(first_rows_[w]), trial_[w].residual.size()) = trial_[w].residual;
+    } else if (first) {
+      throw InputError(task_.logs[windows_[w].log].name +
+                       ": from t = " + short_number(windows_[w].begin) +
+                       " s on, the scenario does not run to the "
+                       "window's end: " +
+                       faults[w]);
+    }
+  }
+  trial_u_ = u;
+  return all;
+}
+
+WindowsFit::Derivatives WindowsFit::derivatives(const VectorXd& u) {
+  if (trial_u_.size() != u.size() || trial_u_ != u) static_cast<void>(residuals(u));
+  base_ = trial_;
+  const Index keys = u.size();
+  std::string why;
+  const Variant middle = variant(u, &why);
+  std::vector<Variant> up, down;
+  std::vector<double> width;
+  for (Index k = 0; k < keys; ++k) {
+    const FreeKey& key = task_.keys[static_cast<std::size_t>(k)];
+    const auto moved = [&](double step) {
+      VectorXd to = u;
+      to[k] += step;
+      return to;
+    };
+    up.push_back(variant(moved(key_step), &why));
+    down.push_back(variant(moved(-key_step), &why));
+    double from = -key_step, to = key_step;
+    // A value at its bound has a neighbor on one side only.
+    if (up.back().empty() || key.value(u[k] + key_step) == key.value(u[k])) {
+      up.back() = middle;
+      to = 0;
+    } else if (down.back().empty() || key.value(u[k] - key_step) == key.value(u[k])) {
+      down.back() = middle;
+      from = 0;
+    }
+    width.push_back(down.back().empty() ? 0 : to - from);
+  }
+  Derivatives made{MatrixXd::Zero(at(size_), keys), VectorXd::Zero(keys)};
+  MatrixXd whole = MatrixXd::Zero(at(size_), keys);
+  for_each_window([&](std::size_t w) {
+    State& state = base_[w];
+    std::string unheard;
+    MatrixXd by_start, by_key = MatrixXd::Zero(at(first_rows_[w + 1] - first_rows_[w]), keys);
+    if (!slopes(w, scene_of(w, middle), state.start, by_start)) return;
+    state.by_start.setThreshold(1e-9);
+    state.by_start.compute(by_start);
+    state.fresh_rounds = 0;
+    VectorXd above, below;
+    for (Index k = 0; k < keys; ++k) {
+      const auto i = static_cast<std::size_t>(k);
+      if (width[i] == 0) continue;
+      if (!residual_of(w, scene_of(w, up[i]), state.start, above, unheard)) continue;
+      if (!residual_of(w, scene_of(w, down[i]), state.start, below, unheard)) continue;
+      by_key.col(k) = (above - below) / width[i];
+    }
+    whole.middleRows(at(first_rows_[w]), by_key.rows()) = by_key;
+    made.projected.middleRows(at(first_rows_[w]), by_key.rows()) =
+        by_key - by_start * state.by_start.solve(by_key);
+  });
+  made.free_norms = whole.colwise().norm();
+  return made;
+}
+
+}  // namespace bbsim::fit

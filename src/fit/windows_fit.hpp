@@ -1,0 +1,79 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// The windows of a fit at some values of its keys: residuals and derivatives, with the best start
+// of each window.
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/QR>
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "fit/fit.hpp"
+#include "fit/window_run.hpp"
+
+namespace bbsim::fit {
+
+// Scenarios at one set of values, one for each log; none if the values are refused.
+using Variant = std::vector<Scenario>;
+
+class WindowsFit {
+ public:
+  WindowsFit(const Task& task, std::vector<Window> windows);
+
+  [[nodiscard]] const std::vector<Window>& windows() const { return windows_; }
+  // The numbers that are compared, and those of the starts.
+  [[nodiscard]] std::size_t size() const { return size_; }
+  [[nodiscard]] std::size_t starts() const { return windows_.size() * coordinates_.size(); }
+  // The rows of a window, of the numbers of all windows.
+  [[nodiscard]] std::size_t first_row(std::size_t window) const { return first_rows_[window]; }
+  [[nodiscard]] const std::vector<std::size_t>& columns_of_rows() const { return columns_; }
+
+  // The standard deviation of each column's noise, which its residuals are divided by.
+  void set_noise(std::vector<double> noise);
+  [[nodiscard]] const std::vector<double>& noise() const { return noise_; }
+
+  // The residuals over the noise, at the best starts. What does not run is far away; with `first`,
+  // it is an InputError.
+  [[nodiscard]] Eigen::VectorXd residuals(const Eigen::VectorXd& u, bool first = false);
+
+  // The derivatives of the residuals by u, at u; residuals() may be asked before or not. `free`:
+  // with the starts as they are, without letting them follow.
+  struct Derivatives {
+    Eigen::MatrixXd projected;
+    Eigen::VectorXd free_norms;
+  };
+  [[nodiscard]] Derivatives derivatives(const Eigen::VectorXd& u);
+
+ private:
+  struct State {
+    Start start{};
+    Eigen::VectorXd residual;
+    Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> by_start;
+    int fresh_rounds = 3;  // for which slopes are still to be computed; the first start is a guess
+  };
+
+  [[nodiscard]] Variant variant(const Eigen::VectorXd& u, std::string* why) const;
+  void guess_starts();
+  bool residual_of(std::size_t w, const Scenario& scene, const Start& start, Eigen::VectorXd& into,
+                   std::string& why) const;
+  // The derivatives by the start; false if a run fails.
+  bool slopes(std::size_t w, const Scenario& scene, const Start& start,
+              Eigen::MatrixXd& into) const;
+  bool settle(std::size_t w, const Scenario& scene, State& state, std::string& why) const;
+  [[nodiscard]] Scenario scene_of(std::size_t w, const Variant& variant) const;
+  void for_each_window(const std::function<void(std::size_t)>& work) const;
+
+  const Task& task_;
+  std::vector<Window> windows_;
+  std::vector<std::size_t> coordinates_;
+  std::vector<std::size_t> first_rows_, columns_;
+  std::size_t size_ = 0;
+  std::vector<double> noise_;
+  std::vector<State> base_, trial_;
+  Eigen::VectorXd base_u_, trial_u_;
+};
+
+}  // namespace bbsim::fit

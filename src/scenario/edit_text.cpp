@@ -1,0 +1,146 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "scenario/edit_text.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <cstddef>
+#include <optional>
+#include <string_view>
+
+#include "base/error.hpp"
+#include "yaml/check_text.hpp"
+#include "yaml/document.hpp"
+#include "yaml/spelling.hpp"
+
+namespace bbsim {
+namespace {
+
+using yaml::Entry;
+using yaml::Node;
+using yaml::Position;
+
+std::size_t offset_of(std::string_view text, const Position& position) {
+  std::size_t line_start = 0;
+  for (int line = 1; line < position.line; ++line) {
+    const std::size_t newline = text.find('\n', line_start);
+    if (newline == std::string_view::npos) return text.size();
+    line_start = newline + 1;
+  }
+  return std::min(text.size(), line_start + static_cast<std::size_t>(position.column - 1));
+}
+
+// The length of a scalar as it is written on one line; nothing for any other.
+std::optional<std::size_t> written_length(std::string_view text, const Node& scalar) {
+  if (text.starts_with(scalar.text) && !scalar.quoted) return scalar.text.size();
+  if (!text.starts_with('"') && !text.starts_with('\'')) return {};
+  const std::size_t end = text.find(text.front(), 1);
+  if (end == std::string_view::npos || text.substr(1, end - 1) != scalar.text) return {};
+  return end + 1;
+}
+
+const Entry* find(const Node& mapping, std::string_view name) {
+  for (const Entry& entry : mapping.entries) {
+    if (entry.key == name || yaml::other_spelling(name) == entry.key) return &entry;
+  }
+  return nullptr;
+}
+
+// "a.b.c" and a value as "a: {b: {c: value}}".
+std::string nested(std::string_view path, const std::string& value) {
+  const std::size_t dot = path.find('.');
+  const std::string name(path.substr(0, dot));
+  if (dot == std::string_view::npos) return name + ": " + value;
+  return name + ": {" + nested(path.substr(dot + 1), value) + "}";
+}
+
+class Editor {
+ public:
+  Editor(std::string& text, const ScenarioFamily::Setting& setting)
+      : text_(text), setting_(setting) {}
+
+  void set(const Node& root) {
+    const Node* node = &root;
+    std::string_view path = setting_.key;
+    while (!path.empty()) {
+      const std::size_t dot = path.find('.');
+      const std::string_view name = path.substr(0, dot);
+      const Node* next = nullptr;
+      if (node->kind == Node::Kind::mapping) {
+        const Entry* const entry = find(*node, name);
+        if (entry == nullptr) return insert(*node, path);
+        next = entry->value;
+      } else if (node->kind == Node::Kind::sequence) {
+        std::size_t index = 0;
+        const auto read = std::from_chars(name.data(), name.data() + name.size(), index);
+        if (read.ec == std::errc() && index < node->items.size()) next = node->items[index];
+      }
+      if (next == nullptr) refuse();
+      node = next;
+      path.remove_prefix(dot == std::string_view::npos ? path.size() : dot + 1);
+    }
+    replace(*node);
+  }
+
+ private:
+  [[noreturn]] void refuse() const {
+    throw InputError("-o: " + setting_.key +
+                     ": has no place of its own in the scenario's text; allowed: a key that stands "
+                     "there, or whose section does");
+  }
+
+  void replace(const Node& scalar) {
+    if (scalar.kind != Node::Kind::scalar) refuse();
+    const std::size_t at = offset_of(text_, scalar.position);
+    const auto length = written_length(std::string_view(text_).substr(at), scalar);
+    if (!length) refuse();
+    text_.replace(at, *length, setting_.value);
+  }
+
+  void insert(const Node& mapping, std::string_view path) {
+    if (mapping.entries.empty()) refuse();
+    const std::string added = nested(path, setting_.value);
+    const std::size_t first = offset_of(text_, mapping.entries.front().position);
+    const std::size_t before =
+        first == 0 ? std::string::npos : text_.find_last_not_of(" \n", first - 1);
+    const bool flow = before != std::string::npos && (text_[before] == '{' || text_[before] == ',');
+    if (flow) {
+      text_.insert(first, added + ", ");
+      return;
+    }
+    // After a neighbor that ends with its line, so that comments above keys stay with them.
+    const std::string indent(static_cast<std::size_t>(mapping.entries.front().position.column - 1),
+                             ' ');
+    for (auto entry = mapping.entries.rbegin(); entry != mapping.entries.rend(); ++entry) {
+      const Node* const value = entry->value;
+      if (value == nullptr || value->kind != Node::Kind::scalar) continue;
+      if (value->position.line != entry->position.line) continue;
+      const std::size_t at = offset_of(text_, value->position);
+      if (!written_length(std::string_view(text_).substr(at), *value)) continue;
+      const std::size_t end = std::min(text_.find('\n', at), text_.size());
+      text_.insert(end, "\n" + indent + added);
+      return;
+    }
+    text_.insert(first, added + "\n" + indent);
+  }
+
+  std::string& text_;
+  const ScenarioFamily::Setting& setting_;
+};
+
+}  // namespace
+
+std::string edited_text(const std::string& text,
+                        const std::vector<ScenarioFamily::Setting>& settings) {
+  std::string edited(yaml::without_byte_order_mark(text));
+  for (const ScenarioFamily::Setting& setting : settings) {
+    yaml::Nodes nodes;
+    const Node* const root = yaml::parse_yaml(edited, 0, nodes);
+    if (root == nullptr) throw InputError("-o: the scenario's text is empty");
+    Editor(edited, setting).set(*root);
+  }
+  return edited;
+}
+
+}  // namespace bbsim

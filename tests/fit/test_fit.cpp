@@ -1,0 +1,235 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "api/fit.hpp"
+#include "base/error.hpp"
+#include "catch.hpp"
+#include "fit/student.hpp"
+#include "rig.hpp"
+
+using namespace bbsim;
+
+namespace {
+
+// A fit in a folder with a scenario and its logs.
+class Case {
+ public:
+  explicit Case(const std::string& log, const std::string& scenario = assumed_rig) {
+    folder_.put("log.csv", log);
+    folder_.put("rig.yaml", scenario);
+  }
+
+  api::FitResult fit(const std::vector<std::string>& free, const std::string& window = "",
+                     double hold_out = 0) const {
+    const ScenarioFamily family(folder_ / "rig.yaml", {});
+    api::FitRequest request{family, {folder_ / "log.csv"}, {}, free, window};
+    request.hold_out = hold_out;
+    request.threads = threads;
+    api::Watch watch;
+    return api::fit(request, true, watch);
+  }
+
+  [[nodiscard]] const Folder& folder() const { return folder_; }
+  std::size_t threads = 2;
+
+ private:
+  Folder folder_;
+};
+
+// As 99.99 % of all logs are; those of a test are always the same.
+bool is_near(const fit::Parameter& one, double value) {
+  return std::abs(one.estimate - value) < 3.9 * one.sd;
+}
+
+bool contains(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
+
+}  // namespace
+
+TEST_CASE("Student's t at 95 %") {
+  CHECK(fit::student_95(1) == Approx(12.7062047).epsilon(1e-7));
+  CHECK(fit::student_95(5) == Approx(2.57058184).epsilon(1e-8));
+  CHECK(fit::student_95(30) == Approx(2.04227246).epsilon(1e-8));
+  CHECK(fit::student_95(500) == Approx(1.96471983).epsilon(1e-8));
+  CHECK(fit::student_95(501) == Approx(1.96471025).epsilon(1e-7));
+  CHECK(fit::student_95(1e6) == Approx(1.95996636).epsilon(1e-7));
+}
+
+TEST_CASE("keys of a rig are found from its log, within their intervals") {
+  const Case rig(log_text(5e-4, 1.1, 0.01));
+  const std::vector<std::string> free = {"ball.inertia_factor", "gimbal.motion.phi.table.scale",
+                                         "gimbal.motion.phi.table.offset=-5 deg:5 deg"};
+  const api::FitResult made = rig.fit(free);
+  CAPTURE(made.text);
+  REQUIRE(made.fitted.parameters.size() == 3);
+  const double truth[] = {0.43, 1.1, 0.01};
+  for (std::size_t k = 0; k < 3; ++k) {
+    const fit::Parameter& one = made.fitted.parameters[k];
+    CAPTURE(one.key, one.estimate, one.sd);
+    CHECK(is_near(one, truth[k]));
+    CHECK(one.sd < 0.05 * truth[k]);
+    CHECK(one.low < one.estimate);
+    CHECK(one.estimate < one.high);
+  }
+  CHECK(made.fitted.untold.empty());
+  CHECK(made.fitted.windows == 10);
+  REQUIRE(made.fitted.columns.size() == 2);
+  // Two starts of four numbers in 41 rows of each window take a share of the noise.
+  for (const fit::ColumnResidual& column : made.fitted.columns) {
+    CHECK(column.rms == Approx(5e-4).epsilon(0.12));
+  }
+  CHECK(made.fitted.columns[0].before > 2 * made.fitted.columns[0].rms);
+  CHECK(made.fitted.columns[1].before > made.fitted.columns[1].rms);
+  CHECK(made.fitted.white);
+  CHECK(contains(made.json, R"("identifiable": true)"));
+
+  SECTION("the same for any number of threads") {
+    Case alone(log_text(5e-4, 1.1, 0.01));
+    alone.threads = 1;
+    CHECK(alone.fit(free).json == made.json);
+  }
+  SECTION("the fitted scenario is the user's, with the estimates in it") {
+    CHECK(contains(made.scenario, "# A rig, as bought.\n"));
+    CHECK(contains(made.scenario, "  # solid\n"));
+    const ScenarioFamily fitted(Source{rig.folder() / "fitted.yaml", made.scenario, {}});
+    const Scenario scenario = fitted.read({});
+    CHECK(scenario.ball.inertia_factor == made.fitted.parameters[0].estimate);
+    CHECK(fitted.number_at("gimbal.motion.phi.table.scale", {}) ==
+          made.fitted.parameters[1].estimate);
+    CHECK(fitted.number_at("gimbal.motion.phi.table.offset", {}) ==
+          made.fitted.parameters[2].estimate);
+  }
+}
+
+TEST_CASE("without noise, the fit is exact") {
+  const Case rig(log_text(0, 0.9));
+  const api::FitResult made = rig.fit({"ball.inertia_factor", "gimbal.motion.phi.table.scale"});
+  CAPTURE(made.text);
+  // The spline through rows 50 ms apart is 1e-6 rad from the sines.
+  CHECK(made.fitted.parameters[0].estimate == Approx(0.43).epsilon(2e-3));
+  CHECK(made.fitted.parameters[1].estimate == Approx(0.9).epsilon(2e-3));
+}
+
+TEST_CASE("a delay of the table is found") {
+  // The gimbal moves 60 ms after its command.
+  std::string late = true_rig;
+  const auto shift = [&](const std::string& from, const std::string& to) {
+    const auto at = late.find(from);
+    REQUIRE(at != std::string::npos);
+    late.replace(at, from.size(), to);
+  };
+  shift("5.3 rad/s, phase: 1.5708 rad", "5.3 rad/s, phase: 1.2528 rad");
+  shift("2.9 rad/s, phase: 1.5708 rad", "2.9 rad/s, phase: 1.3968 rad");
+  const std::string delayed = log_text(3e-4, 1, 0, 3, late);
+  // The log has the command: phi of the rig without the delay.
+  const std::string command = log_text(0);
+  std::string log;
+  const auto line = [](const std::string& text, std::size_t& at) {
+    const std::size_t end = text.find('\n', at);
+    std::string one = text.substr(at, end - at);
+    at = end + 1;
+    return one;
+  };
+  for (std::size_t a = 0, b = 0; a < delayed.size() && b < command.size();) {
+    std::vector<std::string> ball, given;
+    for (auto* const into : {&ball, &given}) {
+      std::string one = into == &ball ? line(delayed, a) : line(command, b);
+      for (std::size_t comma; (comma = one.find(',')) != std::string::npos;) {
+        into->push_back(one.substr(0, comma));
+        one.erase(0, comma + 1);
+      }
+      into->push_back(one);
+    }
+    log += ball[0] + ',' + ball[1] + ',' + ball[2] + ',' + given[3] + ',' + ball[4] + '\n';
+  }
+  const Case rig(log);
+  const api::FitResult made =
+      rig.fit({"gimbal.motion.phi.table.delay=0:200 ms", "ball.inertia_factor"});
+  CAPTURE(made.text);
+  const fit::Parameter& delay = made.fitted.parameters[0];
+  // The first rows, before the delayed table begins, are not the sines.
+  CHECK(delay.estimate == Approx(0.06).margin(0.004));
+  CHECK(delay.unit == "s");
+}
+
+TEST_CASE("keys that trade off exactly are not given small bars") {
+  const Case rig(log_text(5e-4, 1, 0.01));
+  const api::FitResult made = rig.fit(
+      {"gimbal.motion.phi.table.offset", "gimbal.mounting.phi_offset", "ball.inertia_factor"});
+  CAPTURE(made.text, made.json);
+  CHECK(made.code == ExitCode::done);
+  REQUIRE(made.fitted.untold.size() == 1);
+  CHECK(contains(made.fitted.untold.front(),
+                 "gimbal.motion.phi.table.offset and "
+                 "gimbal.mounting.phi_offset are not told apart"));
+  CHECK_FALSE(made.fitted.parameters[0].told);
+  CHECK_FALSE(made.fitted.parameters[1].told);
+  CHECK(made.fitted.parameters[2].told);
+  CHECK(is_near(made.fitted.parameters[2], 0.43));
+  CHECK(contains(made.json, R"("identifiable": false)"));
+  CHECK(contains(made.json, R"("sd": null)"));
+}
+
+TEST_CASE("windows are held out") {
+  const Case rig(log_text(5e-4));
+  const api::FitResult made = rig.fit({"ball.inertia_factor"}, "2 s", 0.3);
+  CAPTURE(made.text, made.json);
+  // floor(0.3 (i + 1)) > floor(0.3 i) for i = 3, 6, 9
+  CHECK(made.fitted.windows == 7);
+  CHECK(made.fitted.held == 3);
+  for (const fit::ColumnResidual& column : made.fitted.columns) {
+    REQUIRE(column.held);
+    CHECK(*column.held == Approx(5e-4).epsilon(0.25));
+  }
+  CHECK(contains(made.json, R"("hold_out_rms": {
+    "x": )"));
+}
+
+TEST_CASE("several logs, each with its own table") {
+  const Case rig(log_text(5e-4, 1.1, 0, 1));
+  std::string other = true_rig;
+  other.replace(other.find("frequency: 5.3"), 14, "frequency: 6.1");
+  rig.folder().put("second.csv", log_text(5e-4, 1.1, 0, 2, other));
+  const ScenarioFamily family(rig.folder() / "rig.yaml", {});
+  const api::FitRequest request{family,
+                                {rig.folder() / "log.csv", rig.folder() / "second.csv"},
+                                {},
+                                {"gimbal.motion.phi.table.scale", "ball.inertia_factor"}};
+  api::Watch watch;
+  const api::FitResult made = api::fit(request, false, watch);
+  CAPTURE(made.text);
+  CHECK(is_near(made.fitted.parameters[0], 1.1));
+  CHECK(made.fitted.columns[0].rms == Approx(5e-4).epsilon(0.1));
+}
+
+TEST_CASE("a key at its bound stays there") {
+  const Case rig(log_text(5e-4));
+  const api::FitResult made = rig.fit({"ball.inertia_factor=0.3:0.41"});
+  CHECK(made.fitted.parameters[0].estimate == 0.41);
+  CHECK(made.fitted.parameters[0].at_bound);
+}
+
+TEST_CASE("what a fit cannot use is refused") {
+  const Case rig(log_text(5e-4));
+  const auto refused = [&](const std::vector<std::string>& free, const std::string& window = "",
+                           double hold_out = 0) {
+    return message_of<InputError>([&] { static_cast<void>(rig.fit(free, window, hold_out)); });
+  };
+  CHECK(contains(refused({"ball.inertia_facter"}), "did you mean ball.inertia_factor?"));
+  CHECK(contains(refused({"ball.position.0"}), "each window's start is fitted anyway"));
+  CHECK(contains(refused({"ball.mass"}), "ball.mass: has no effect on x, y"));
+  CHECK(contains(refused({"ball.inertia_factor=2"}), "found \"2\"; allowed: FROM:TO"));
+  CHECK(contains(refused({"ball.inertia_factor=0.5:0.3"}), "allowed: FROM:TO with FROM below TO"));
+  CHECK(contains(refused({"ball.radius", "ball.radius"}), "ball.radius is there twice"));
+  CHECK(contains(refused({"ball.radius"}, "-1"), "--window: found \"-1\""));
+  CHECK(contains(refused({"ball.radius"}, "", 1), "--hold-out: found 1"));
+  CHECK(contains(refused({"ball.radius"}, "60 ms"), "have 0 numbers in 0 windows"));
+
+  rig.folder().put("log.csv", "t,phi,theta\n0,0,0\n1,0,0\n2,0,0\n3,0,0\n10,0,0\n");
+  CHECK(contains(refused({"ball.radius"}), "has no column to compare"));
+}

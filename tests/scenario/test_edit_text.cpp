@@ -1,0 +1,61 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include <string>
+
+#include "base/error.hpp"
+#include "catch.hpp"
+#include "scenario/edit_text.hpp"
+#include "scenario/key_value.hpp"
+
+using namespace bbsim;
+
+TEST_CASE("numbers change in a scenario's text, and nothing else does") {
+  const std::string text =
+      "# mine\n"
+      "ball:\n"
+      "  radius: 1 cm  # a marble\n"
+      "  position: [\"2 cm\", 0]\n"
+      "gimbal: {motion: {phi: [{sinusoid: {amplitude: 1, frequency: 2}}, 0.5]}}\n";
+  const auto with = [&](const std::string& key, const std::string& value) {
+    return edited_text(text, {{key, value}});
+  };
+  const auto changed = [&](const std::string& from, const std::string& to) {
+    std::string made = text;
+    return made.replace(made.find(from), from.size(), to);
+  };
+  CHECK(with("ball.radius", "0.02 m") == changed("1 cm", "0.02 m"));
+  CHECK(with("ball.position.0", "0.03") == changed("\"2 cm\"", "0.03"));
+  CHECK(with("gimbal.motion.phi.1", "0.7") == changed("0.5", "0.7"));
+  CHECK(with("gimbal.motion.phi.0.sinusoid.frequency", "3") ==
+        changed("frequency: 2", "frequency: 3"));
+  // A new key joins its neighbors.
+  CHECK(with("ball.mass", "2 g") == changed("# a marble\n", "# a marble\n  mass: 2 g\n"));
+  CHECK(with("gimbal.motion.phi.0.sinusoid.phase", "1") ==
+        changed("{amplitude", "{phase: 1, amplitude"));
+  CHECK(with("ball.losses.viscous", "1e-6") ==
+        changed("# a marble\n", "# a marble\n  losses: {viscous: 1e-6}\n"));
+  CHECK(with("gravity", "9.8") == changed("ball:", "gravity: 9.8\nball:"));
+  CHECK(edited_text(text, {{"ball.mass", "1"}, {"ball.mass", "2"}}) ==
+        changed("# a marble\n", "# a marble\n  mass: 2\n"));
+  CHECK_THROWS_AS(with("gimbal.motion.phi.2", "1"), InputError);
+  CHECK_THROWS_AS(with("ball.radius.0", "1"), InputError);
+}
+
+TEST_CASE("the unit, range and default of a number") {
+  using scenario::number_key;
+  const auto factor = number_key("ball.inertia_factor");
+  REQUIRE(factor);
+  CHECK(factor->standard == 0.4);
+  CHECK(factor->range.at_least == 0.0);
+  const auto offset = number_key("gimbal.motion.phi.table.offset");
+  REQUIRE(offset);
+  CHECK(offset->dimension == yaml::Dimension::angle);
+  CHECK(offset->standard == 0.0);
+  CHECK(number_key("gimbal.motion.phi.table.scale")->standard == 1.0);
+  CHECK(number_key("gimbal.motion.theta.0.table.delay")->standard == 0.0);
+  CHECK(number_key("gimbal.motion.phi.0.table.delay")->dimension == yaml::Dimension::time);
+  CHECK(number_key("controller.pd.kp.0.1"));
+  CHECK_FALSE(number_key("ball.raduis"));
+  CHECK_FALSE(number_key("title"));
+}
