@@ -121,8 +121,8 @@ fit::Log log_of(const plot::Result& read, const std::string& file,
 }
 
 // The keys of the tables that read `file`.
-std::vector<std::string> tables_of(const Scenario& scenario, const std::string& file) {
-  const std::filesystem::path folder = std::filesystem::path(scenario.source.file).parent_path();
+std::vector<std::string> tables_of(const Scenario& scenario, const std::filesystem::path& folder,
+                                   const std::string& file) {
   const auto is_it = [&](const std::string& name) {
     std::error_code none;
     return std::filesystem::equivalent(folder / name, file, none);
@@ -187,8 +187,9 @@ FitResult fit(const FitRequest& request, bool with_scenario, Watch& watch) {
   }
   // A table of the scenario that is one of the logs is, for each log, that log.
   std::vector<std::string> of_log;
+  const auto folder = std::filesystem::path(request.family.source().file).parent_path();
   for (const std::string& file : request.logs) {
-    if (of_log.empty()) of_log = tables_of(scenario, file);
+    if (of_log.empty()) of_log = tables_of(scenario, folder, file);
   }
   for (const std::string& file : request.logs) {
     const plot::Result read = plot::read_log(file, request.choice, made.warnings);

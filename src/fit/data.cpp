@@ -44,7 +44,7 @@ std::vector<Window> cut(const std::vector<Log>& logs, double length, double shar
     const double count = std::max(1.0, std::round(span / length));
     std::size_t from = 0;
     for (double w = 1; w <= count && from < times.size(); ++w) {
-      const double end = times.front() + w * length * (1 + 1e-9);
+      const double end = times.front() + w * length * (1 - 1e-9);
       std::size_t to = times.size();
       if (w < count) {
         to = static_cast<std::size_t>(std::ranges::lower_bound(times, end) - times.begin());

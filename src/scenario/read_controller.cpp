@@ -200,7 +200,7 @@ struct Jitter {
 struct Period {
   yaml::Usual time;
 
-  [[nodiscard]] std::string allowed() const { return time.allowed() + ", or \"30 Hz\""; }
+  [[nodiscard]] std::string allowed() const { return time.allowed(); }
   [[nodiscard]] yaml::Declared declared() const {
     return yaml::Declared::any(
         {time.declared(), yaml::Declared::number(yaml::Dimension::angular_rate, {.above = 0})});

@@ -82,7 +82,8 @@ void read_servos(Keys& keys, Read& read) {
   keys.optional("phi", MappingOf(read_servo), read.c.servos[0]);
   keys.optional("theta", MappingOf(read_servo), read.c.servos[1]);
   std::vector<bbsim_wired_servo> legs;
-  if (keys.optional("legs", yaml::ListOf<LegServo, bbsim_wired_servo>{{}, 3, 3, "servos"}, legs)) {
+  if (keys.optional("legs", yaml::ListOf<LegServo, bbsim_wired_servo>{{}, 3, 3, "servos"}, legs) &&
+      !legs.empty()) {
     std::ranges::copy(legs, read.c.servos);
     for (const char* axis : {"phi", "theta"}) {
       if (const auto given = keys.find(axis)) {

@@ -70,7 +70,7 @@ TEST_CASE("a log is cut into windows, and a share of them is held out") {
 
 TEST_CASE("a scene from a later time is the rest of the scene") {
   const std::string scene = GENERATE(
-      true_rig,
+      as<std::string>{}, true_rig,
       std::string("ball: {radius: 1 cm, position: [2 cm, 1 cm]}\n"
                   "gimbal: {motion: {phi: {table: {file: configs/recorded-angles.csv, time: t, "
                   "value: phi}}, theta: {ramp: {start: 0.01, rate: 0.002}}}}\n"

@@ -45,7 +45,7 @@ TEST_CASE("an unknown key like no other lists the known ones") {
                "time: {end: 1, step: 1}\n"
                "gimbal: {motion: {}}\n") ==
         "scenario.yaml:1:22: ball.colour: unknown key; known keys here: radius, mass, position, "
-        "velocity, spin, inertia_factor, losses, rotation, push");
+        "velocity, spin, inertia_factor, rolling_radius, losses, rotation, push");
 }
 
 TEST_CASE("a missing key is reported at the mapping that lacks it") {
@@ -81,7 +81,7 @@ TEST_CASE("a repeated key names the line of the first") {
 TEST_CASE("a wrong type") {
   CHECK(errors("ball: 3\ntime: {end: 1, step: 1}\ngimbal: {motion: {}}\n") ==
         "scenario.yaml:1:7: ball: found 3; allowed: a mapping with radius, mass, position, "
-        "velocity, spin, inertia_factor, losses, rotation, push");
+        "velocity, spin, inertia_factor, rolling_radius, losses, rotation, push");
   CHECK(errors("ball: {radius: [1, 2, 3], position: [1], velocity: {}, mass: , spin: fast}\n"
                "time: {end: 1, step: 1}\ngimbal: {motion: {}}\n") ==
         "scenario.yaml:1:16: ball.radius: found a list of 3; allowed: a length greater than 0, "
@@ -119,12 +119,12 @@ TEST_CASE("a value that was not found breaks no rule with others") {
       "gimbal: {servo: {natural_frequency: 5, damping: 0.8}}\n"
       "controller:\n  gravity_compensation: {kp: 10, kv: 8}\n  drives: angle\n"
       "  reference: {point: [0, 0]}\n  sensor: {delay: 0.01}\n";
-  CHECK(errors(loop + "  sampling: {period: 50 Hz, delay: 0.01}\n") ==
-        "scenario.yaml:9:22: controller.sampling.period: found 50 Hz, an angular rate; allowed: a "
-        "time greater than 0, such as 0.02 or \"20 ms\"");
+  CHECK(errors(loop + "  sampling: {period: 50 mm, delay: 0.01}\n") ==
+        "scenario.yaml:9:22: controller.sampling.period: found 50 mm, a length; allowed: a "
+        "time greater than 0, such as 0.02, \"20 ms\" or \"30 Hz\"");
   CHECK(errors(loop + "  sampling: {delay: 0.01}\n") ==
         "scenario.yaml:9:3: controller.sampling.period: missing; allowed: a time greater than 0, "
-        "such as 0.02 or \"20 ms\"");
+        "such as 0.02, \"20 ms\" or \"30 Hz\"");
 }
 
 TEST_CASE("an override is named in its errors") {

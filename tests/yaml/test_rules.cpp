@@ -124,10 +124,10 @@ TEST_CASE("what the controller drives") {
         Drives::acceleration);
   check_refused(closed_loop, "controller.drives=angel",
                 "controller.drives: found angel (did you mean angle?); allowed: one of "
-                "acceleration, angle, torque, voltage");
+                "acceleration, angle, torque, voltage, legs");
   check_refused(closed_loop, "controller.drives=",
                 "controller.drives: found nothing; allowed: one of acceleration, angle, torque, "
-                "voltage");
+                "voltage, legs");
 }
 
 TEST_CASE("gains are a number or a matrix") {
