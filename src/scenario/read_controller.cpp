@@ -196,6 +196,8 @@ struct Jitter {
   }
 };
 
+constexpr std::string_view period_example = "0.02, \"20 ms\" or \"30 Hz\"";
+
 // The time from one to the next, or how many there are in a second: "30 Hz".
 struct Period {
   yaml::Usual time;
@@ -224,7 +226,7 @@ struct Period {
 
 void read_sampling(yaml::Keys& keys, Sampling& sampling) {
   const yaml::Number time{yaml::Dimension::time, {.at_least = 0}};
-  const yaml::Number period{yaml::Dimension::time, {.above = 0}};
+  const yaml::Number period{yaml::Dimension::time, {.above = 0}, period_example};
   keys.required("period", Period{{period, "ms", 1}}, sampling.period);
   keys.optional("delay", time, sampling.delay);
   keys.optional("resolution", yaml::angle_limit({.at_least = 0}, 0.15), sampling.resolution);
@@ -275,7 +277,7 @@ void read_sensor(yaml::Keys& keys, Sensor& sensor) {
   keys.optional("rotation", yaml::Number{yaml::Dimension::angle}, sensor.rotation);
   keys.optional("offset", yaml::PairOf{yaml::Dimension::length}, sensor.offset);
   keys.optional("scale", Scale{}, sensor.scale);
-  const yaml::Number period{yaml::Dimension::time, {.above = 0}};
+  const yaml::Number period{yaml::Dimension::time, {.above = 0}, period_example};
   keys.optional("period", Period{{period, "ms", std::numeric_limits<double>::max()}},
                 sensor.period);
   keys.optional("phase", yaml::Number{yaml::Dimension::time, {.at_least = 0}}, sensor.phase);
