@@ -74,8 +74,8 @@ std::vector<Row> sorted_rows(const CurveLinkage& curve, std::size_t& repeated) {
 
 Level merged(const Level& a, const Level& b) {
   const double weight = a.weight + b.weight, part = b.weight / weight;
-  return {a.first, b.last, a.servo + part * (b.servo - a.servo), a.plate + part * (b.plate - a.plate),
-          weight};
+  return {a.first, b.last, a.servo + part * (b.servo - a.servo),
+          a.plate + part * (b.plate - a.plate), weight};
 }
 
 void measure_moves(const std::vector<Row>& rows, Level& level) {

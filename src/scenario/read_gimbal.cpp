@@ -255,10 +255,10 @@ void read_curve(yaml::Keys& keys, CurveLinkage& curve) {
   const Calibration made = calibrate(curve);
   constexpr std::size_t fewest = 4;  // a C2 interpolant needs four without extra end conditions
   if (curve.servo.size() < fewest) {
-    const std::string left = curve.servo.size() < given
-                                 ? ", of which " + std::to_string(curve.servo.size()) +
-                                       " are left (" + made.done + ")"
-                                 : "";
+    const std::string left =
+        curve.servo.size() < given
+            ? ", of which " + std::to_string(curve.servo.size()) + " are left (" + made.done + ")"
+            : "";
     keys.mapping().report(yaml::shown(curve.file) + ": found " + std::to_string(given) + " rows" +
                           left + "; allowed: at least 4");
     curve = {};

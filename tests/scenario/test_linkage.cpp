@@ -3,12 +3,12 @@
 
 // Keys of linkages, three servos, servos by axis, clocks, frames and pushes: what they read as, and
 // what is refused.
+#include <utility>
+#include <vector>
+
 #include "catch.hpp"
 #include "scenario/calibration.hpp"
 #include "support/reading.hpp"
-
-#include <utility>
-#include <vector>
 
 using namespace bbsim;
 using namespace bbsim::test;
@@ -92,16 +92,16 @@ TEST_CASE("a calibration is taken as it was measured") {
     CHECK(curve.plate == std::vector<double>{0.75, 0.5, 0, -0.5, -0.75});
   }
   SECTION("a flat end with noise of its own") {
-    const auto [curve, made] = calibrated({-2, -1, 0, 1, 2, 3, 4, 5},
-                                          {-2, -1, 0, 1, 2.01, 2.03, 1.99, 2.02});
+    const auto [curve, made] =
+        calibrated({-2, -1, 0, 1, 2, 3, 4, 5}, {-2, -1, 0, 1, 2.01, 2.03, 1.99, 2.02});
     CHECK_THAT(made.done, Contains("flat from 114.592 deg: a stop"));
     CHECK(curve.servo == five);
     CHECK(curve.plate.back() == Approx(2.0125));
     CHECK_FALSE(curve.smoothed);
   }
   SECTION("noise") {
-    const auto [curve, made] = calibrated({-3, -2, -1, 0, 0.25, 1, 2, 3},
-                                          {-3, -2, -1, 0.25, 0.125, 1, 2, 3});
+    const auto [curve, made] =
+        calibrated({-3, -2, -1, 0, 0.25, 1, 2, 3}, {-3, -2, -1, 0.25, 0.125, 1, 2, 3});
     CHECK(made.done == "2 rows of noise smoothed by at most 3.58099 deg");
     CHECK(made.changes);
     CHECK(curve.smoothed);
@@ -118,8 +118,8 @@ TEST_CASE("a calibration is taken as it was measured") {
     TemporaryFolder folder;
     const std::string table = folder.write(
         "curve.csv", "servo_deg,plate [deg]\n40,10\n30,10\n20,8\n0,0\n0,0.5\n-20,-8\n-30,-10\n");
-    const Scenario scene = parse(base, {"gimbal.linkage.table={file: " + table +
-                                        ", servo: servo, plate: plate}"});
+    const Scenario scene =
+        parse(base, {"gimbal.linkage.table={file: " + table + ", servo: servo, plate: plate}"});
     const CurveLinkage& curve = std::get<CurveLinkage>(*scene.gimbal.linkage[0]);
     CHECK(curve.servo.size() == 5);
     CHECK(curve.servo.back() == Approx(0.5235987755982988));

@@ -225,7 +225,8 @@ struct TurnsBack {
   std::size_t piece;
   double servo;  // rad
 };
-std::optional<TurnsBack> first_turn(const CurveLinkage& of, const SplineView& view, double slope_home) {
+std::optional<TurnsBack> first_turn(const CurveLinkage& of, const SplineView& view,
+                                    double slope_home) {
   for (std::size_t i = 0; i < view.count; ++i) {
     const SplineView::Piece& p = view.pieces[i];
     const double length = of.servo[i + 1] - of.servo[i];

@@ -76,8 +76,8 @@ struct Between {
 };
 
 // Throws InputError for a linkage that does not close at home or has a dead point there, and for a
-// measured curve that is not monotonic. Of a smoothed curve, rows between which an interpolant turns
-// back are merged.
+// measured curve that is not monotonic. Of a smoothed curve, rows between which an interpolant
+// turns back are merged.
 [[nodiscard]] Linkage make_linkage(const RodLinkage& of, Assumed assumed);
 [[nodiscard]] Linkage make_linkage(const CurveLinkage& given, Assumed assumed);
 // `key`: of the plate, in messages.
