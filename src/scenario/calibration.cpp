@@ -112,7 +112,7 @@ bool is_flat(const std::vector<Row>& rows, const std::vector<Level>& levels, std
   const double span = rows.back().servo - rows.front().servo;
   const double expected = range / span * (rows[last].servo - rows[first].servo);
   return noise <= most_noise * range && expected >= 4 * noise &&
-         std::abs(levels[to].plate - levels[from].plate) <= 2 * noise;
+         std::abs(levels[to].plate - levels[from].plate) <= noise;
 }
 
 // A level in place of those that are flat at an end, at the row next to the rest.

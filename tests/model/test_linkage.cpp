@@ -323,7 +323,7 @@ TEST_CASE("a calibration with noise, flat ends and repetitions nears the curve t
   const Linkage exact = make_linkage(desk(), Assumed::exact);
   CurveLinkage curve;
   unsigned state = 1;
-  const double noise = 2e-3;
+  const double noise = 5e-3;
   // Downwards, each angle twice; above 0.5 and below -0.8 the plate rests on its stops.
   for (int i = 140; i >= 0; --i) {
     const double servo = -0.9 + 1.5 * (i / 2) / 70;
@@ -336,8 +336,8 @@ TEST_CASE("a calibration with noise, flat ends and repetitions nears the curve t
   CHECK_THAT(made.done, Contains("rows sorted") && Contains("averaged") && Contains("smoothed") &&
                             Contains("flat up to") && Contains("flat from"));
   const Linkage found = make_linkage(curve, Assumed::exact);
-  CHECK(std::abs(found.curve.low + 0.8) < 0.03);
-  CHECK(std::abs(found.curve.high - 0.5) < 0.03);
+  CHECK(std::abs(found.curve.low + 0.8) < 0.04);
+  CHECK(std::abs(found.curve.high - 0.5) < 0.04);
   for (double servo = -0.75; servo < 0.46; servo += 0.0371) {
     CHECK(std::abs(found.angle(servo) - exact.angle(servo)) < 2 * noise);
     CHECK(std::abs(found.servo_for(found.angle(servo)) - servo) < 1e-12);
