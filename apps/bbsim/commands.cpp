@@ -78,6 +78,11 @@ void prints(file::Outputs& outputs) {
   outputs.writes("-", "what is printed");
 }
 
+bool is_scenario(const std::string& file) {
+  const std::string ending = file::lower_ending(file);
+  return ending == ".yaml" || ending == ".yml";
+}
+
 void tell(const api::RunResult& made, bool quiet) {
   if (!made.summary.reason.empty()) say(made.summary.reason);
   for (const std::string& one : made.unmet) say(one);

@@ -37,11 +37,6 @@ struct ReplayArguments {
   plot::Beside beside;
 };
 
-bool is_scenario(const std::string& file) {
-  const std::string ending = file::lower_ending(file);
-  return ending == ".yaml" || ending == ".yml";
-}
-
 // One of the files, read; a scenario is yet to be run.
 struct Replayed {
   std::string name;
