@@ -7,6 +7,7 @@
 
 #include "api/inputs.hpp"
 #include "api/run.hpp"
+#include "file/format.hpp"
 #include "scenario/reader.hpp"
 #include "terminal.hpp"
 

@@ -16,7 +16,6 @@
 #include "api/run.hpp"
 #include "commands.hpp"
 #include "file/default_name.hpp"
-#include "file/format.hpp"
 #include "plot/read_result.hpp"
 #include "progress.hpp"
 #include "replay/log.hpp"

@@ -87,8 +87,8 @@ void warn_of_looks(const file::TableData& log, const std::string& name,
   }
 }
 
-// Rows of the scenario's run: what the log has too, and the rates between rows, at the output times
-// and at as many between them as leave nothing to interpolate.
+// Rows of the scenario's run: what the log has too, and the rates that interpolation uses, at the
+// output times and between them.
 file::TableData run_for(const Scenario& scenario, const file::TableData& log, Watch& watch,
                         Compared& made) {
   constexpr double near = 2e-3;  // s, between rows
