@@ -7,6 +7,7 @@
 
 #include "api/inputs.hpp"
 #include "api/run.hpp"
+#include "file/format.hpp"
 #include "scenario/reader.hpp"
 #include "terminal.hpp"
 
@@ -76,6 +77,11 @@ Scenario read(const ScenarioArguments& arguments, const Options& options, file::
 
 void prints(file::Outputs& outputs) {
   outputs.writes("-", "what is printed");
+}
+
+bool is_scenario(const std::string& file) {
+  const std::string ending = file::lower_ending(file);
+  return ending == ".yaml" || ending == ".yml";
 }
 
 void tell(const api::RunResult& made, bool quiet) {

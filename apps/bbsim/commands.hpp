@@ -74,6 +74,9 @@ Option add_measures(Command& command, std::vector<std::string>& lists, const std
                             file::Outputs& outputs,
                             std::vector<file::InputTable>* inputs = nullptr);
 
+// Whether a file among results is a scenario, by its ending.
+[[nodiscard]] bool is_scenario(const std::string& file);
+
 // Says that it prints: nothing it reads may be what its standard output goes to.
 void prints(file::Outputs& outputs);
 

@@ -3,26 +3,44 @@
 
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "api/measure.hpp"
 #include "commands.hpp"
+#include "progress.hpp"
 #include "terminal.hpp"
 
 namespace bbsim::app {
 namespace {
 
-ExitCode compare(const api::CompareRequest& request, const Options& all) {
+struct CompareArguments {
+  api::CompareRequest request;
+  std::vector<std::string> overrides;
+};
+
+ExitCode compare(const CompareArguments& arguments, const Options& all) {
+  api::CompareRequest request = arguments.request;
   file::Outputs outputs;
   outputs.reads(request.a, "A");
-  outputs.reads(request.b, "B");
+  say_if_waiting(request.a, "a CSV", all.quiet);
+  if (is_scenario(request.b)) {
+    request.run = read({request.b, arguments.overrides}, all, outputs);
+  } else if (!arguments.overrides.empty()) {
+    throw InputError("--set: allowed with a scenario as B, in which it sets a key");
+  } else {
+    outputs.reads(request.b, "B");
+    say_if_waiting(request.b, "a CSV", all.quiet);
+  }
   prints(outputs);
-  for (const std::string& file : {request.a, request.b}) say_if_waiting(file, "a CSV", all.quiet);
-  const api::Compared made = api::compare(request);
+  Progress progress(request.b, all.quiet || !request.run);
+  const api::Compared made = api::compare(request, progress);
+  if (!made.reason.empty()) say(made.reason);
+  if (made.code == ExitCode::interrupted) return made.code;
   print(made.text);
   if (!all.quiet) {
     for (const std::string& warning : made.warnings) say(warning);
   }
-  return made.alike ? ExitCode::done : ExitCode::ended_early;
+  return made.alike ? made.code : ExitCode::ended_early;
 }
 
 }  // namespace
@@ -33,7 +51,9 @@ void add_compare(Command& command, const Options& all) {
       "atol + rtol max(|a|, |b|). NaN is like NaN, and an infinity like the same infinity. Texts, "
       "such as a sweep's status, must be equal. Without --rtol and --atol, the tolerances follow "
       "from the solver settings that HDF5 files carry; for other files they are 1e-9 and 1e-12.\n"
-      "With one of --map, --header, --period and --time-offset, A is the log of a rig and B a run. "
+      "With one of --map, --header, --period and --time-offset, or a scenario as B, A is the log "
+      "of "
+      "a rig and B a run. "
       "bbsim then prints, for each column in common, the distance of the log's rows from the run "
       "at "
       "their times; --rtol and --atol say what is alike.\n"
@@ -42,11 +62,14 @@ void add_compare(Command& command, const Options& all) {
       "\n"
       "Examples:\n"
       "  bbsim compare old.h5 new.h5\n"
-      "  bbsim compare log.csv rig.csv --map t=millis:ms,x=Ballx:mm --time-offset auto");
-  const auto request = std::make_shared<api::CompareRequest>();
+      "  bbsim compare log.csv rig.csv --map t=millis:ms,x=Ballx:mm --time-offset auto\n"
+      "  bbsim compare log.csv rig.yaml --set ball.radius=0.02");
+  const auto arguments = std::make_shared<CompareArguments>();
+  api::CompareRequest* const request = &arguments->request;
   command.option("A", request->a, "CSV, HDF5 (.h5, .hdf5), or - for CSV on standard input")
       .required();
-  command.option("B", request->b, "the file to compare it with").required();
+  command.option("B", request->b, "the file to compare it with, or a scenario (.yaml) to run")
+      .required();
   command
       .option("--rtol", request->rtol, "tolerance relative to the larger value; default: see below")
       .takes("R");
@@ -61,7 +84,8 @@ void add_compare(Command& command, const Options& all) {
       .takes("NAME,...")
       .parted_by_commas();  // a file may follow
   add_log_options(command, request->log);
-  command.does([request, &all] { return compare(*request, all); });
+  add_overrides(command, arguments->overrides);
+  command.does([arguments, &all] { return compare(*arguments, all); });
 }
 
 }  // namespace bbsim::app

@@ -16,7 +16,6 @@
 #include "api/run.hpp"
 #include "commands.hpp"
 #include "file/default_name.hpp"
-#include "file/format.hpp"
 #include "plot/read_result.hpp"
 #include "progress.hpp"
 #include "replay/log.hpp"
@@ -36,11 +35,6 @@ struct ReplayArguments {
   plot::LogChoice log;
   plot::Beside beside;
 };
-
-bool is_scenario(const std::string& file) {
-  const std::string ending = file::lower_ending(file);
-  return ending == ".yaml" || ending == ".yml";
-}
 
 // One of the files, read; a scenario is yet to be run.
 struct Replayed {

@@ -4,11 +4,14 @@
 #include "record/compare.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
+#include <string_view>
 #include <utility>
 
 #include "api/measure.hpp"
+#include "api/run.hpp"
 #include "base/error.hpp"
 #include "base/number_text.hpp"
 #include "base/shown.hpp"
@@ -17,6 +20,7 @@
 #include "record/log_distance.hpp"
 #include "record/solver_allowance.hpp"
 #include "record/summarise.hpp"
+#include "scenario/columns.hpp"
 #include "scenario/measures.hpp"
 #include "scenario/unit_doubts.hpp"
 
@@ -83,12 +87,49 @@ void warn_of_looks(const file::TableData& log, const std::string& name,
   }
 }
 
-Compared compare_log(const CompareRequest& request) {
+// Rows of the scenario's run: what the log has too, and the rates that interpolation uses, at the
+// output times and between them.
+file::TableData run_for(const Scenario& scenario, const file::TableData& log, Watch& watch,
+                        Compared& made) {
+  constexpr double near = 2e-3;  // s, between rows
+  constexpr double most_rows = 2e5;
+  RunRequest request;
+  request.scenario = scenario;
+  request.keeps_rows = true;
+  OutputTimes& time = request.scenario.time;
+  const double rows = time.end / time.step;
+  time.step /= std::max(1.0, std::floor(std::min(std::ceil(time.step / near), most_rows / rows)));
+  std::vector<std::string>& columns = request.scenario.output.columns;
+  const auto has = [](const std::vector<std::string>& names, std::string_view name) {
+    return std::ranges::find(names, name) != names.end();
+  };
+  for (const scenario::Column& column : scenario::catalogue) {
+    constexpr std::array<std::string_view, 5> always{"t", "vx", "vy", "phi_rate", "theta_rate"};
+    const bool wanted =
+        has(log.names, column.name) || std::ranges::find(always, column.name) != always.end();
+    if (!wanted || has(columns, column.name) || missing(column, scenario)) continue;
+    columns.emplace_back(column.name);
+  }
+  RunResult result = run(request, watch);
+  made.code = result.code;
+  made.reason = result.summary.reason;
+  made.warnings.insert(made.warnings.end(), result.summary.warnings.begin(),
+                       result.summary.warnings.end());
+  return std::move(result.rows);
+}
+
+file::TableData rows_of_result(const std::string& file) {
+  plot::Result result = plot::read_result(file, {});
+  if (result.is_sweep()) throw InputError(file + ": is a sweep; allowed: the result of a run");
+  return numbers_of(std::move(result));
+}
+
+Compared compare_log(const CompareRequest& request, Watch& watch) {
   Compared made;
   file::TableData log = numbers_of(plot::read_log(request.a, request.log, made.warnings));
-  const plot::Result result = plot::read_result(request.b, {});
-  if (result.is_sweep()) throw InputError(request.b + ": is a sweep; allowed: the result of a run");
-  const file::TableData run = numbers_of(result);
+  const file::TableData run =
+      request.run ? run_for(*request.run, log, watch, made) : rows_of_result(request.b);
+  if (made.code == ExitCode::interrupted) return made;
   if (request.log.aligns()) {
     const double offset = record::time_offset(log, request.a, run, request.b, request.columns);
     const auto t = std::ranges::find(log.names, "t") - log.names.begin();
@@ -121,13 +162,15 @@ std::string moved_text(const std::string& log, double offset) {
          " s (--time-offset auto)";
 }
 
-Compared compare(const CompareRequest& request) {
-  if (request.log.given()) return compare_log(request);
+Compared compare(const CompareRequest& request, Watch& watch) {
+  if (request.log.given() || request.run) return compare_log(request, watch);
   const file::CellTable a = file::read_cells(request.a, {request.columns, {}});
   const file::CellTable b = file::read_cells(request.b, {request.columns, {}});
   const record::Allowances allowances = allowances_of(request, a, b);
   const record::Comparison comparison = record::compare(a, b, allowances, request.columns);
-  Compared made{comparison.alike(), to_text(comparison, request.a, request.b, allowances), {}};
+  Compared made;
+  made.alike = comparison.alike();
+  made.text = to_text(comparison, request.a, request.b, allowances);
   for (const file::CellTable* table : {&a, &b}) {
     made.warnings.insert(made.warnings.end(), table->notes.begin(), table->notes.end());
   }

@@ -9,8 +9,11 @@
 #include <utility>
 #include <vector>
 
+#include "api/watch.hpp"
+#include "base/error.hpp"
 #include "plot/log.hpp"
 #include "plot/result.hpp"
+#include "scenario/scenario.hpp"
 
 namespace bbsim::api {
 
@@ -30,17 +33,21 @@ struct CompareRequest {
   std::optional<double> rtol{}, atol{};  // without either, by the settings of the files' solvers
   std::vector<std::string> columns{};    // none: all
   plot::LogChoice log{};                 // if given, `a` is the log of a rig, and `b` a run
+  std::optional<Scenario> run{};         // of `b`, if that is not a result; `a` is then a log
 };
 
 struct Compared {
   bool alike = false;
+  ExitCode code = ExitCode::done;     // of a scenario's run
+  std::string reason;                 // why that ended early; empty if it did not
   std::string text;                   // a table of the columns, then the verdict
   std::vector<std::string> warnings;  // of columns that look like other units, and of the log
 };
 
 // Compares two results row by row; or, of a log, its rows with the run at their times. A log is
-// alike unless `rtol` or `atol` is exceeded. Throws InputError.
-[[nodiscard]] Compared compare(const CompareRequest& request);
+// alike unless `rtol` or `atol` is exceeded. Of an interrupted run there is no text. Throws
+// InputError, and ControllerFault of a run.
+[[nodiscard]] Compared compare(const CompareRequest& request, Watch& watch);
 
 // What to say of a log that was aligned with a run.
 [[nodiscard]] std::string moved_text(const std::string& log, double offset);

@@ -15,9 +15,14 @@
 #include <string>
 #include <vector>
 
+#include "api/linearize.hpp"
+#include "api/loop_text.hpp"
+#include "base/error.hpp"
 #include "base/short_number.hpp"
 #include "model/control/derivatives.hpp"
 #include "model/control/external_controller.hpp"
+#include "model/control/identified_law.hpp"
+#include "model/control/linearize.hpp"
 #include "model/control/sampled_controller.hpp"
 #include "model/dense.hpp"
 #include "model/hybrid/switched_model.hpp"
@@ -45,28 +50,44 @@ class Bench {
 
   // The answers to a ball that is away(sample) from the reference, m.
   Commands commands(const std::function<Pair(double)>& away) {
+    return answers(samples, 0, [&](std::size_t i, const Pair& reference) {
+      const Pair from = away(static_cast<double>(i));
+      std::optional<Pair> seen = Pair{};
+      if (!sensor_.read(reference[0] + from[0], reference[1] + from[1], *seen)) seen.reset();
+      return seen;
+    });
+  }
+
+  // The answers to a ball at the reference that is seen elsewhere by `pulse` at one sample, m; all
+  // servos are at that angle, rad.
+  Commands answers_to_pulse(std::size_t count, std::size_t at, const Pair& pulse, double servo) {
+    return answers(count, servo, [&](std::size_t i, const Pair& reference) {
+      Pair seen = reference;
+      for (std::size_t k = 0; k < 2; ++k) seen[k] += i == at ? pulse[k] : 0;
+      return std::optional(seen);
+    });
+  }
+
+ private:
+  Commands answers(std::size_t count, double angle,
+                   const std::function<std::optional<Pair>(std::size_t, const Pair&)>& see) {
     const model::SampledLoop& loop = *model_.rig().sampled;
-    const std::array<double, 3> still{};
-    const std::span<const double> servo(still.data(), loop.legs ? 3 : 2);
+    const std::array<double, 3> still{}, at{angle, angle, angle};
+    const std::size_t servos = loop.legs ? 3 : 2;
     Commands commands;
     loop.external->begin();
-    for (std::size_t i = 0; i < samples; ++i) {
-      const auto number = static_cast<double>(i);
-      const double t = number * loop.sampling.period;
+    for (std::size_t i = 0; i < count; ++i) {
+      const double t = static_cast<double>(i) * loop.sampling.period;
       const auto reference = reference_at(t);
-      const Pair from = away(number);
-      std::optional<Pair> seen = Pair{};
-      if (!sensor_.read(reference[0].value + from[0], reference[1].value + from[1], *seen)) {
-        seen.reset();
-      }
-      const model::Commands asked =
-          loop.external->command({i, t, seen, servo, servo, reference}, own_.data());
+      const std::optional<Pair> seen = see(i, {reference[0].value, reference[1].value});
+      const model::Commands asked = loop.external->command(
+          {i, t, seen, std::span(at).first(servos), std::span(still).first(servos), reference},
+          own_.data());
       commands.push_back(loop.legs ? model_.rig().between.tilt(asked) : Pair{asked[0], asked[1]});
     }
     return commands;
   }
 
- private:
   static Sensor without_chance(Sensor sensor) {
     sensor.noise = sensor.dropout = 0;
     return sensor;
@@ -201,6 +222,80 @@ Line line_of(const Answers& answers, std::size_t sample, std::size_t command,
                        "; " + gains};
 }
 
+// What it answers to pulses of `size` (m) in each coordinate, at a sample.
+model::PulseResponse response_to(Bench& bench, std::size_t at, double size) {
+  model::PulseResponse response(model::pulse_samples, Eigen::MatrixXd(2, 2));
+  const std::size_t count = at + response.size();
+  const Commands rest = bench.answers_to_pulse(count, at, {0, 0}, 0);
+  for (std::size_t axis = 0; axis < 2; ++axis) {
+    Pair pulse{0, 0};
+    pulse[axis] = size;
+    const Commands moved = bench.answers_to_pulse(count, at, pulse, 0);
+    for (std::size_t i = 0; i < response.size(); ++i) {
+      for (std::size_t k = 0; k < 2; ++k) {
+        response[i](static_cast<Eigen::Index>(k), static_cast<Eigen::Index>(axis)) =
+            (moved[at + i][k] - rest[at + i][k]) / size;
+      }
+    }
+  }
+  return response;
+}
+
+struct Estimate {
+  std::optional<model::LinearSystem> law;
+  std::string why;  // there is none
+};
+
+// The law about the reference, if it is linear there and the same at every sample: two pulses of
+// different size, at different samples, have the same answer. `start`: by then it answers.
+Estimate law_about_reference(Bench& bench, std::size_t start, double size) {
+  constexpr std::size_t settling = 10;
+  constexpr double servo = 0.01;  // rad
+  const std::size_t at = start + settling;
+  if (bench.answers_to_pulse(at, at, {0, 0}, 0) != bench.answers_to_pulse(at, at, {0, 0}, servo)) {
+    return {{}, "the controller feeds back the servos' angles"};
+  }
+  const model::PulseResponse one = response_to(bench, at, size),
+                             other = response_to(bench, at + 1, -size / 2);
+  double largest = 0, apart = 0;
+  for (std::size_t i = 0; i < one.size(); ++i) {
+    largest = std::max(largest, one[i].cwiseAbs().maxCoeff());
+    apart = std::max(apart, (one[i] - other[i]).cwiseAbs().maxCoeff());
+  }
+  const char* const not_linear = "the controller is not linear about the reference";
+  if (!(largest > 0 && apart <= 0.02 * largest)) return {{}, not_linear};
+  return {model::law_of(one, apart), not_linear};
+}
+
+// Margins of the loop of the plant and that law.
+Report estimated_margins(const Scenario& scenario, const model::Model& model, Bench& bench,
+                         const std::vector<int>& axes, const Answers& answers, std::size_t start) {
+  const std::string none = "margins: no estimate: ";
+  double size = std::numeric_limits<double>::infinity();
+  for (const auto& near : answers.near) size = std::min(size, near ? near->distance / 10 : size);
+  try {
+    const model::Linearization plant =
+        model::linearize(scenario, model, model::LinearKind::sampled, model::home_point());
+    const Estimate estimate = law_about_reference(bench, start, size);
+    if (!estimate.law) return {{"", none + estimate.why}};
+    const model::Linearization loop = model::loop_with(plant, *estimate.law, axes);
+    Report report{
+        {"margins", std::string("estimated from its answers to small pulses; of each command's "
+                                "loop, the other one closed") +
+                        (loop.stable ? ""
+                                     : "; the loop is not stable: these are where poles cross the "
+                                       "stability limit")}};
+    const Report lines = margin_lines(loop);
+    report.insert(report.end(), lines.begin(), lines.end());
+    if (const std::string note = without_frames(scenario, true); !note.empty()) {
+      report.push_back({"", note});
+    }
+    return report;
+  } catch (const InputError& error) {  // the plant has no linear system
+    return {{"", none + error.what()}};
+  }
+}
+
 }  // namespace
 
 Report probe(const Scenario& scenario, const model::Model& model) {
@@ -232,6 +327,8 @@ Report probe(const Scenario& scenario, const model::Model& model) {
     const auto command = static_cast<std::size_t>(one);
     report.push_back(line_of(answers, sample, command, effect.col(one), unit));
   }
+  const Report margins = estimated_margins(scenario, model, bench, axes, answers, sample);
+  report.insert(report.end(), margins.begin(), margins.end());
   return report;
 }
 

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "base/number_text.hpp"
+#include "scenario/calibration.hpp"
 #include "scenario/profile.hpp"
 #include "scenario/sections.hpp"
 #include "scenario/table_rows.hpp"
@@ -250,22 +251,22 @@ void read_curve(yaml::Keys& keys, CurveLinkage& curve) {
     warn_of_unit(keys.mapping(), curve.file, "an angle is " + number_text(largest),
                  yaml::Dimension::angle, *doubt, "unit");
   }
+  const std::size_t given = curve.servo.size();
+  const Calibration made = calibrate(curve);
   constexpr std::size_t fewest = 4;  // a C2 interpolant needs four without extra end conditions
   if (curve.servo.size() < fewest) {
-    keys.mapping().report(yaml::shown(curve.file) + ": found " +
-                          std::to_string(curve.servo.size()) + " rows; allowed: at least 4");
+    const std::string left =
+        curve.servo.size() < given
+            ? ", of which " + std::to_string(curve.servo.size()) + " are left (" + made.done + ")"
+            : "";
+    keys.mapping().report(yaml::shown(curve.file) + ": found " + std::to_string(given) + " rows" +
+                          left + "; allowed: at least 4");
     curve = {};
     return;
   }
-  for (std::size_t i = 1; i < curve.servo.size(); ++i) {
-    if (curve.servo[i] > curve.servo[i - 1]) continue;
-    keys.mapping().report(yaml::shown(curve.file) + ": found the servo's angle " +
-                          number_text(curve.servo[i]) + " in row " + std::to_string(i + 1) +
-                          " below the header, after " + number_text(curve.servo[i - 1]) +
-                          "; allowed: strictly increasing angles");
-    curve = {};
-    return;
-  }
+  if (made.done.empty()) return;
+  const std::string text = yaml::shown(curve.file) + ": " + made.done;
+  made.changes ? keys.mapping().warn(text) : keys.mapping().mention(text);
 }
 
 void read_rods(yaml::Keys& keys, RodLinkage& rods) {

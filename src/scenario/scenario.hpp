@@ -142,6 +142,8 @@ struct CurveLinkage {
   std::string file;
   std::vector<double> servo;  // rad, strictly increasing, at least four
   std::vector<double> plate;  // rad
+  // Rows of noise have been replaced by their mean, and may be where the curve would turn back.
+  bool smoothed = false;
 };
 
 using AxisLinkage = std::variant<RodLinkage, CurveLinkage>;

@@ -176,3 +176,23 @@ TEST_CASE("the log of a rig is compared with a run at its own times") {
   CHECK(found.exit_code == 0);
   CHECK(contains(found.err, "log.csv: moved by "));
 }
+
+TEST_CASE("a log is compared with the run of a scenario at the log's times") {
+  const Folder folder;
+  const std::vector<std::string> fine{"run", config("fig2a.yaml"), "--set", "time.step=0.013",
+                                      "-q"};
+  REQUIRE(bbsim(with(fine, {"-o", "log.csv"}), folder.path()).exit_code == 0);
+  // Rows between those that the scenario asks for, of columns that it does not ask for.
+  const Result made = bbsim({"compare", "log.csv", config("fig2a.yaml"), "--set", "time.step=0.5",
+                             "--columns", "x,y", "--atol", "1e-7", "-q"},
+                            folder.path());
+  CAPTURE(made.out, made.err);
+  CHECK(made.exit_code == 0);
+  CHECK(contains(made.out, "log.csv from "));
+  const Result other = bbsim({"compare", "log.csv", config("fig2a.yaml"), "--set",
+                              "ball.position.0=0.01", "--atol", "1e-7", "-q"},
+                             folder.path());
+  CHECK(other.exit_code == 1);
+  CHECK(bbsim({"compare", "log.csv", "log.csv", "--set", "ball.radius=0.02"}, folder.path())
+            .exit_code == 2);
+}

@@ -3,6 +3,8 @@
 
 // The controllers of examples/controllers against the built-in law; and those that are libraries.
 #include <algorithm>
+#include <cmath>
+#include <cstddef>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -36,6 +38,32 @@ std::string csv_of(std::vector<std::string> words) {
 }
 
 const std::string library = std::string("controller.library.file=") + BBSIM_EXAMPLE_LIBRARY;
+
+// The numbers of the margins that `words` prints, each command's in their order.
+std::vector<double> margins_of(const std::vector<std::string>& words) {
+  const Result result = bbsim(words);
+  CAPTURE(result.out, result.err);
+  REQUIRE(result.exit_code == 0);
+  std::vector<double> numbers;
+  for (const char* angle : {"\n  phi        gain by ", "\n  theta      gain by "}) {
+    const std::size_t line = result.out.find(angle);
+    REQUIRE(line != std::string::npos);
+    for (const char* before : {"gain by ", "down by ", "phase ", "delay "}) {
+      const std::size_t at = result.out.find(before, line);
+      REQUIRE(at < result.out.find('\n', line + 1));
+      numbers.push_back(std::stod(result.out.substr(at + std::string(before).size())));
+    }
+  }
+  return numbers;
+}
+
+void check_margins(const std::vector<std::string>& own, const std::vector<std::string>& built_in) {
+  const std::vector<double> estimated = margins_of(own), exact = margins_of(built_in);
+  for (std::size_t i = 0; i < exact.size(); ++i) {
+    CAPTURE(i, estimated[i], exact[i]);
+    CHECK(std::abs(estimated[i] - exact[i]) < 0.02 * exact[i]);
+  }
+}
 
 std::vector<std::string> with_misdeeds(const std::string& mode, const std::string& file = "") {
   return {"run",   example("library.yaml"),
@@ -98,6 +126,21 @@ TEST_CASE("parameters of a program are keys: they are set, and vary over a sweep
   CHECK(end_x(sweep.out, 1) != end_x(sweep.out, 2));
 }
 #endif
+
+TEST_CASE("check estimates the margins that the built-in PID has") {
+  const std::vector<std::string> built_in{"linearize", config("step.yaml")};
+  check_margins({"check", example("library.yaml"), "--set", library}, built_in);
+#ifdef BBSIM_PYTHON
+  check_margins({"check", example("python.yaml")}, built_in);
+#endif
+  // Commands in steps are not linear.
+  const Folder folder;
+  REQUIRE(bbsim({"sketch", example("arduino/pid.ino"), "-o", folder / "pid.so"}).exit_code == 0);
+  CHECK(contains(bbsim({"check", example("arduino.yaml"), "--set",
+                        "controller.library.file=" + (folder / "pid.so")})
+                     .out,
+                 "margins: no estimate: the controller is not linear about the reference"));
+}
 
 TEST_CASE("a library with inverse kinematics balances on three legs, as the built-in law does") {
   const Folder folder;

@@ -15,6 +15,7 @@
 #include "base/quad.hpp"
 #include "catch.hpp"
 #include "model/servo/linkages.hpp"
+#include "scenario/calibration.hpp"
 #include "simd/gradient.hpp"
 
 using namespace bbsim;
@@ -316,6 +317,31 @@ TEST_CASE("a measured curve that turns back, or has no home, is refused") {
   CHECK_THROWS_WITH(
       make_linkage(CurveLinkage{"", {0.1, 0.2, 0.3, 0.4}, {0, 0.1, 0.2, 0.3}}, Assumed::exact),
       Contains("home, 0, between its ends"));
+}
+
+TEST_CASE("a calibration with noise, flat ends and repetitions nears the curve that was measured") {
+  const Linkage exact = make_linkage(desk(), Assumed::exact);
+  CurveLinkage curve;
+  unsigned state = 1;
+  const double noise = 5e-3;
+  // Downwards, each angle twice; above 0.5 and below -0.8 the plate rests on its stops.
+  for (int i = 140; i >= 0; --i) {
+    const double servo = -0.9 + 1.5 * (i / 2) / 70;
+    state = state * 1664525U + 1013904223U;
+    const double one = noise * (2 * (state / 4294967296.0) - 1);
+    curve.servo.push_back(servo);
+    curve.plate.push_back(exact.angle(std::clamp(servo, -0.8, 0.5)) + one);
+  }
+  const scenario::Calibration made = scenario::calibrate(curve);
+  CHECK_THAT(made.done, Contains("rows sorted") && Contains("averaged") && Contains("smoothed") &&
+                            Contains("flat up to") && Contains("flat from"));
+  const Linkage found = make_linkage(curve, Assumed::exact);
+  CHECK(std::abs(found.curve.low + 0.8) < 0.04);
+  CHECK(std::abs(found.curve.high - 0.5) < 0.04);
+  for (double servo = -0.75; servo < 0.46; servo += 0.0371) {
+    CHECK(std::abs(found.angle(servo) - exact.angle(servo)) < 2 * noise);
+    CHECK(std::abs(found.servo_for(found.angle(servo)) - servo) < 1e-12);
+  }
 }
 
 TEST_CASE("a knot belongs to the piece that the servo goes to") {

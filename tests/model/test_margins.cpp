@@ -9,6 +9,7 @@
 #include <string>
 
 #include "catch.hpp"
+#include "model/control/identified_law.hpp"
 #include "model/control/linearize.hpp"
 #include "model/control/sampled_cycle.hpp"
 #include "model/control/transmission_zeros.hpp"
@@ -356,4 +357,82 @@ TEST_CASE("a plant under a held command keeps what is slow beside what is 1e13 t
   CHECK(later.a(0, 2) == Approx(later.a(1, 2)).epsilon(1e-11));
   CHECK(later.b(2, 0) == Approx(0.02).epsilon(1e-14));
   CHECK(later.a(2, 2) == 1);
+}
+
+namespace {
+
+// A PID as people write it, of one axis.
+struct OwnPid {
+  double kp, ki, kd, filter, period;
+  double last = 0, velocity = 0, sum = 0;
+
+  double command(double position) {
+    const double keep = filter / (filter + period);
+    velocity = keep * velocity + (1 - keep) * (position - last) / period;
+    last = position;
+    sum += position * period;
+    return -(kp * position + ki * sum + kd * velocity);
+  }
+};
+
+model::PulseResponse answers(const std::array<OwnPid, 2>& controllers, double pulse) {
+  model::PulseResponse response(model::pulse_samples, MatrixXd::Zero(2, 2));
+  for (std::size_t axis = 0; axis < 2; ++axis) {
+    OwnPid one = controllers[axis];
+    const auto at = static_cast<Eigen::Index>(axis);
+    for (std::size_t i = 0; i < response.size(); ++i) {
+      response[i](at, at) = one.command(i == 0 ? pulse : 0) / pulse;
+    }
+  }
+  return response;
+}
+
+}  // namespace
+
+TEST_CASE("margins of an own controller, from its pulses, are those of the built-in law") {
+  for (const double ki : {0.0, 0.05}) {
+    for (const double filter : {0.0, 0.03}) {
+      Scenario scene = fig2b();
+      scene.gimbal.servo = Servo{30, 0.8};
+      Controller& controller = *scene.controller;
+      controller.reference = PointReference{};
+      controller.drives = Drives::angle;
+      controller.law = ki > 0 ? Law::pid : Law::pd;
+      controller.kp = {{{0.7, 0}, {0, -0.7}}};
+      controller.kv = {{{0.6, 0}, {0, -0.6}}};
+      controller.ki = {{{ki, 0}, {0, -ki}}};
+      controller.sampling = Sampling{0.02};
+      controller.sampling->delay = 0.005;
+      controller.sampling->derivative_filter = filter;
+      const Linearization exact = loop_of(scene);
+      const Linearization plant = model::linearize(scene, model::assemble(scene, false),
+                                                   LinearKind::sampled, model::home_point());
+      const OwnPid phi{0.7, ki, 0.6, filter, 0.02}, theta{-0.7, -ki, -0.6, filter, 0.02};
+      const auto law = model::law_of(answers({phi, theta}, 1e-3), 0);
+      REQUIRE(law);
+      CAPTURE(ki, filter, law->a.rows());
+      const Linearization own = model::loop_with(plant, *law, {0, 1});
+      CHECK(own.stable == exact.stable);
+      REQUIRE(own.margins.size() == 2);
+      for (std::size_t i = 0; i < 2; ++i) {
+        const Margins &of = own.margins[i].margins, &is = exact.margins[i].margins;
+        CHECK(own.margins[i].command == exact.margins[i].command);
+        CHECK(of.gain == Approx(is.gain).epsilon(1e-3));
+        CHECK(of.reduction == Approx(is.reduction).epsilon(1e-3).margin(1e-6));
+        CHECK(of.phase == Approx(is.phase).epsilon(1e-3));
+        CHECK(of.delay == Approx(is.delay).epsilon(1e-3));
+      }
+      // With the noise of single precision.
+      model::PulseResponse noisy = answers({phi, theta}, 1e-3);
+      for (MatrixXd& one : noisy) {
+        one =
+            one.unaryExpr([](double value) { return value * (1 + 1e-7 * std::sin(1e3 * value)); });
+      }
+      const auto near = model::law_of(noisy, 1e-5);
+      REQUIRE(near);
+      const Margins of = model::loop_with(plant, *near, {0, 1}).margins[0].margins;
+      CHECK(of.phase == Approx(exact.margins[0].margins.phase).epsilon(0.02));
+      CHECK(of.gain == Approx(exact.margins[0].margins.gain).epsilon(0.02));
+    }
+  }
 }

@@ -3,7 +3,11 @@
 
 // Keys of linkages, three servos, servos by axis, clocks, frames and pushes: what they read as, and
 // what is refused.
+#include <utility>
+#include <vector>
+
 #include "catch.hpp"
+#include "scenario/calibration.hpp"
 #include "support/reading.hpp"
 
 using namespace bbsim;
@@ -54,6 +58,77 @@ TEST_CASE("a linkage is read for both axes, or for each") {
 
   const Scenario of_three = parse(base, {"gimbal.three_servos=" + three});
   CHECK(of_three.gimbal.three_servos->radius_plate == 0.09);
+}
+
+TEST_CASE("a calibration is taken as it was measured") {
+  const auto calibrated = [](std::vector<double> servo, std::vector<double> plate) {
+    CurveLinkage curve{"", std::move(servo), std::move(plate)};
+    const scenario::Calibration made = scenario::calibrate(curve);
+    return std::pair{curve, made};
+  };
+  const std::vector<double> five{-2, -1, 0, 1, 2};
+  SECTION("strictly monotone: as it is") {
+    for (const double sign : {1.0, -1.0}) {
+      std::vector<double> plate{-0.9, -0.5, 0, 0.4, 0.7};
+      for (double& one : plate) one *= sign;
+      const auto [curve, made] = calibrated(five, plate);
+      CHECK(made.done.empty());
+      CHECK(curve.servo == five);
+      CHECK(curve.plate == plate);
+    }
+  }
+  SECTION("falling and repeated angles") {
+    const auto [curve, made] = calibrated({2, 1, 0, 0, -1, -2}, {0.7, 0.4, 0.1, -0.1, -0.5, -0.9});
+    CHECK(made.done == "rows sorted by the servo's angle, 1 repeated angle averaged");
+    CHECK_FALSE(made.changes);
+    CHECK(curve.servo == five);
+    CHECK(curve.plate == std::vector<double>{-0.9, -0.5, 0, 0.4, 0.7});
+  }
+  SECTION("flat ends") {
+    const auto [curve, made] =
+        calibrated({-3, -2, -1, 0, 1, 2, 3}, {0.75, 0.75, 0.5, 0, -0.5, -0.75, -0.75});
+    CHECK(made.done == "flat up to -114.592 deg: a stop, flat from 114.592 deg: a stop");
+    CHECK(curve.servo == five);
+    CHECK(curve.plate == std::vector<double>{0.75, 0.5, 0, -0.5, -0.75});
+  }
+  SECTION("a flat end with noise of its own") {
+    const auto [curve, made] =
+        calibrated({-2, -1, 0, 1, 2, 3, 4, 5}, {-2, -1, 0, 1, 2.01, 2.03, 1.99, 2.02});
+    CHECK_THAT(made.done, Contains("flat from 114.592 deg: a stop"));
+    CHECK(curve.servo == five);
+    CHECK(curve.plate.back() == Approx(2.0125));
+    CHECK_FALSE(curve.smoothed);
+  }
+  SECTION("noise") {
+    const auto [curve, made] =
+        calibrated({-3, -2, -1, 0, 0.25, 1, 2, 3}, {-3, -2, -1, 0.25, 0.125, 1, 2, 3});
+    CHECK(made.done == "2 rows of noise smoothed by at most 3.58099 deg");
+    CHECK(made.changes);
+    CHECK(curve.smoothed);
+    CHECK(curve.servo == std::vector<double>{-3, -2, -1, 0.125, 1, 2, 3});
+    CHECK(curve.plate == std::vector<double>{-3, -2, -1, 0.1875, 1, 2, 3});
+  }
+  SECTION("what turns back is left for the model to refuse") {
+    const std::vector<double> plate{-1, 0, 1, 0.5, 0};
+    const auto [curve, made] = calibrated(five, plate);
+    CHECK(made.done.empty());
+    CHECK(curve.plate == plate);
+  }
+  SECTION("by a scenario, in degrees by a column's name") {
+    TemporaryFolder folder;
+    const std::string table = folder.write(
+        "curve.csv", "servo_deg,plate [deg]\n40,10\n30,10\n20,8\n0,0\n0,0.5\n-20,-8\n-30,-10\n");
+    const Scenario scene =
+        parse(base, {"gimbal.linkage.table={file: " + table + ", servo: servo, plate: plate}"});
+    const CurveLinkage& curve = std::get<CurveLinkage>(*scene.gimbal.linkage[0]);
+    CHECK(curve.servo.size() == 5);
+    CHECK(curve.servo.back() == Approx(0.5235987755982988));
+    CHECK_THAT(errors(base, {"gimbal.linkage.table={file: " +
+                             folder.write("few.csv", "a,b\n1,1\n1,1\n0,0\n-1,-1\n") +
+                             ", servo: a, plate: b}"}),
+               Contains("found 4 rows, of which 3 are left (rows sorted by the servo's angle, 1 "
+                        "repeated angle averaged); allowed: at least 4"));
+  }
 }
 
 TEST_CASE("what a servo has in common, an axis may have of its own") {

@@ -14,6 +14,7 @@
 #include "model/control/common_cycle.hpp"
 #include "model/control/sampled_cycle.hpp"
 #include "model/control/transmission_zeros.hpp"
+#include "model/dense.hpp"
 #include "model/eigenvalues.hpp"
 #include "scenario/coupled.hpp"
 
@@ -346,6 +347,40 @@ Linearization sampled_plant_about(const Scenario& scene, const Model& model,
 }
 
 }  // namespace
+
+Linearization loop_with(const Linearization& plant, const LinearSystem& law,
+                        const std::vector<int>& axes) {
+  const LinearSystem& of = plant.system;
+  const Eigen::Index n = of.a.rows(), m = law.a.rows();
+  // Commands of what is seen, and of the law's memory.
+  MatrixXd commands(2, n + m);
+  commands << product(law.d, of.c), law.c;
+  // With the loops closed whose commands are given.
+  const auto round = [&](const MatrixXd& given) {
+    MatrixXd a(n + m, n + m);
+    a << of.a, MatrixXd::Zero(n, m), product(law.b, of.c), law.a;
+    a.topRows(n) += product(of.b, given);
+    return a;
+  };
+  Linearization made;
+  LinearSystem& system = made.system;
+  system.states = of.states;
+  for (Eigen::Index i = 0; i < m; ++i) {
+    system.states.push_back({"law_" + std::to_string(i + 1), "1"});
+  }
+  system.a = round(commands);
+  system.period = of.period;
+  made.poles = poles_of_period(system.a);
+  const PlainLoop plain = plain_loop(made, 0);
+  for (const int axis : axes) {
+    MatrixXd others = commands;
+    others.row(axis).setZero();
+    VectorXd b = VectorXd::Zero(n + m);
+    b.head(n) = of.b.col(axis);
+    add_margins(made, plain, axis, round(others), b, commands.row(axis));
+  }
+  return made;
+}
 
 LinearKind usual_kind(const Scenario& scene) {
   if (!scene.controller) return LinearKind::plant;

@@ -50,6 +50,12 @@ struct Linearization {
 [[nodiscard]] Linearization linearize(const Scenario& scene, const Model& model, LinearKind kind,
                                       const LinearPoint& at);
 
+// The loop of a sampled plant (LinearKind::sampled) and a law that is known by its equations from
+// sample to sample, from the positions that it sees to both commands: poles, stability, and the
+// margins of these axes' commands.
+[[nodiscard]] Linearization loop_with(const Linearization& plant, const LinearSystem& law,
+                                      const std::vector<int>& axes);
+
 // What `bbsim linearize` shows of a scene unless it is told.
 [[nodiscard]] LinearKind usual_kind(const Scenario& scene);
 

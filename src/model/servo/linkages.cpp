@@ -218,25 +218,15 @@ Linkage make_linkage(const RodLinkage& of, Assumed assumed) {
   return linkage;
 }
 
-Linkage make_linkage(const CurveLinkage& of, Assumed assumed) {
-  Linkage linkage;
-  linkage.table.emplace(of.servo, of.plate);
-  const SplineView view = linkage.table->view();
-  LinkCurve& curve = linkage.curve;
-  curve.kind = LinkCurve::Kind::table;
-  curve.assumed = assumed;
-  curve.low = of.servo.front();
-  curve.high = of.servo.back();
-  linkage.low_end = linkage.high_end = "the measured curve ends";
-  if (!(curve.low < 0 && curve.high > 0)) {
-    refuse("found a measured curve from " + number_text(curve.low) + " to " +
-           number_text(curve.high) +
-           " rad of the servo; allowed: one that has home, 0, between its ends");
-  }
-  const std::size_t home = linkage.piece_at(0, 0, 1);
-  curve.piece = curve.command_piece = view.pieces[home];
-  double value = 0;
-  curve.slope = LinkCurve::along(curve.piece, 0.0, &value).slope;
+namespace {
+
+// Where an interpolant of the curve turns back or stands still.
+struct TurnsBack {
+  std::size_t piece;
+  double servo;  // rad
+};
+std::optional<TurnsBack> first_turn(const CurveLinkage& of, const SplineView& view,
+                                    double slope_home) {
   for (std::size_t i = 0; i < view.count; ++i) {
     const SplineView::Piece& p = view.pieces[i];
     const double length = of.servo[i + 1] - of.servo[i];
@@ -244,12 +234,59 @@ Linkage make_linkage(const CurveLinkage& of, Assumed assumed) {
     const double turn = p.c3 != 0 ? std::clamp(-p.c2 / (3 * p.c3), 0.0, length) : 0.0;
     for (const double s : {0.0, turn, length}) {
       const double slope = p.c1 + s * (2 * p.c2 + s * 3 * p.c3);
-      if (slope * curve.slope > 0) continue;
-      refuse("found a measured curve that turns back, or stands still, at a servo's angle of " +
-             number_text(p.start + s) +
-             " rad; allowed: one that rises throughout, or falls throughout");
+      if (!(slope * slope_home > 0)) return TurnsBack{i, p.start + s};
     }
   }
+  return {};
+}
+
+// One row in place of the two next to a piece, or of an end's neighbor.
+void merge_rows(CurveLinkage& of, std::size_t piece) {
+  const auto at = static_cast<std::ptrdiff_t>(piece);
+  const bool first = piece == 0, last = piece + 2 == of.servo.size();
+  for (std::vector<double>* column : {&of.servo, &of.plate}) {
+    double& low = (*column)[piece];
+    double& high = (*column)[piece + 1];
+    low = first ? low : last ? high : low + (high - low) / 2;
+    column->erase(column->begin() + at + 1);
+  }
+}
+
+}  // namespace
+
+Linkage make_linkage(const CurveLinkage& given, Assumed assumed) {
+  CurveLinkage of = given;
+  if (!(of.servo.front() < 0 && of.servo.back() > 0)) {
+    refuse("found a measured curve from " + number_text(of.servo.front()) + " to " +
+           number_text(of.servo.back()) +
+           " rad of the servo; allowed: one that has home, 0, between its ends");
+  }
+  Linkage linkage;
+  LinkCurve& curve = linkage.curve;
+  curve.kind = LinkCurve::Kind::table;
+  curve.assumed = assumed;
+  for (;;) {
+    linkage.table.emplace(of.servo, of.plate);
+    const SplineView view = linkage.table->view();
+    const std::size_t home = linkage.piece_at(0, 0, 1);
+    curve.piece = curve.command_piece = view.pieces[home];
+    double value = 0;
+    curve.slope = LinkCurve::along(curve.piece, 0.0, &value).slope;
+    // What is left of noise in rows that rise is what an interpolant overshoots by.
+    const double rise = of.plate.back() - of.plate.front();
+    const std::optional<TurnsBack> turn = first_turn(of, view, of.smoothed ? rise : curve.slope);
+    if (!turn) break;
+    constexpr std::size_t fewest = 4;
+    if (!of.smoothed || of.servo.size() <= fewest) {
+      refuse("found a measured curve that turns back, or stands still, at a servo's angle of " +
+             number_text(turn->servo) +
+             " rad; allowed: one that rises throughout, or falls throughout");
+    }
+    merge_rows(of, turn->piece);
+  }
+  curve.low = of.servo.front();
+  curve.high = of.servo.back();
+  linkage.low_end = linkage.high_end = "the measured curve ends";
   linkage.reach = {std::min(of.plate.front(), of.plate.back()),
                    std::max(of.plate.front(), of.plate.back())};
   return linkage;

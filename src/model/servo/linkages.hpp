@@ -76,9 +76,10 @@ struct Between {
 };
 
 // Throws InputError for a linkage that does not close at home or has a dead point there, and for a
-// measured curve that is not monotonic.
+// measured curve that is not monotonic. Of a smoothed curve, rows between which an interpolant
+// turns back are merged.
 [[nodiscard]] Linkage make_linkage(const RodLinkage& of, Assumed assumed);
-[[nodiscard]] Linkage make_linkage(const CurveLinkage& of, Assumed assumed);
+[[nodiscard]] Linkage make_linkage(const CurveLinkage& given, Assumed assumed);
 // `key`: of the plate, in messages.
 [[nodiscard]] ThreeServos make_three_servos(const ThreeServoPlate& of, Assumed assumed,
                                             const std::string& key = "gimbal.three_servos");
