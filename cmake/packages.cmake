@@ -44,7 +44,10 @@ set(CPACK_DEBIAN_DOCS_PACKAGE_SECTION doc)
 set(_library libbbsim${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR})
 set(_same "(= ${PROJECT_VERSION}-${CPACK_DEBIAN_PACKAGE_RELEASE})")
 set(CPACK_COMPONENT_LIBRARY_DESCRIPTION "The C++ library of bbsim, a simulator of the ball-and-plate rig of control
-courses. It reads HDF5 files, and writes them, if the package bbsim is installed.")
+courses. It reads HDF5 files, and writes them, if the package bbsim is
+installed.")
+file(WRITE ${PROJECT_BINARY_DIR}/triggers "activate-noawait ldconfig\n")
+set(CPACK_DEBIAN_LIBRARY_PACKAGE_CONTROL_EXTRA ${PROJECT_BINARY_DIR}/triggers)
 set(CPACK_DEBIAN_LIBRARY_PACKAGE_NAME ${_library})
 set(CPACK_DEBIAN_LIBRARY_PACKAGE_SECTION libs)
 set(CPACK_DEBIAN_LIBRARY_PACKAGE_RECOMMENDS "bbsim ${_same}")
