@@ -19,16 +19,23 @@ ROOT = pathlib.Path(__file__).resolve().parent
 TARGETS = ("bbsim_python", "bbsim_hdf5", "bbsim_hdf5_reader")
 
 
+def pybind11_folder():
+    """For CMake: that of pip's own environment, if there is one; it finds the system's itself."""
+    try:
+        import pybind11
+    except ImportError:
+        return []
+    return [f"-Dpybind11_DIR={pybind11.get_cmake_dir()}"]
+
+
 class Build(build_ext):
     def run(self):
         build = os.environ.get("BBSIM_BUILD")
         if not build:
             build = ROOT / "build" / "wheel"
-            import pybind11  # of pip's own environment, with the right Python
-
             subprocess.run(["cmake", "-S", ROOT, "-B", build, "-G", "Ninja", "-DBBSIM_TESTS=OFF",
                             "-DBBSIM_PYTHON_PACKAGE=ON", f"-DPYTHON_EXECUTABLE={sys.executable}",
-                            f"-Dpybind11_DIR={pybind11.get_cmake_dir()}"], check=True)
+                            *pybind11_folder()], check=True)
             subprocess.run(["cmake", "--build", build, "--target", *TARGETS], check=True)
         build = pathlib.Path(build).resolve()
         into = pathlib.Path(self.build_lib, "bbsim").resolve()
