@@ -69,6 +69,11 @@ It reads HDF5 files, and writes them, if the package bbsim is installed.")
                   OUTPUT_VARIABLE _python_version COMMAND_ERROR_IS_FATAL ANY)
   set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS "${_python_version}, python3-numpy")
   set(CPACK_DEBIAN_PYTHON_PACKAGE_RECOMMENDS "bbsim ${_same}")
+  # What Python compiles belongs to the package.
+  set(_scripts ${PROJECT_BINARY_DIR}/python/scripts)
+  file(WRITE ${_scripts}/postinst "#!/bin/sh\nset -e\nif [ \"$1\" = configure ]; then py3compile -p python3-bbsim; fi\n")
+  file(WRITE ${_scripts}/prerm "#!/bin/sh\nset -e\npy3clean -p python3-bbsim\n")
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_CONTROL_EXTRA ${_scripts}/postinst ${_scripts}/prerm)
   list(APPEND CPACK_COMPONENTS_ALL python)
 endif()
 
