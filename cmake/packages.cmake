@@ -22,6 +22,7 @@ set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PACKAGE_RELEASE 1)
 set(CPACK_DEBIAN_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
+set(CPACK_DEBIAN_PACKAGE_GENERATE_SHLIBS ON)
 set(CPACK_DEBIAN_PACKAGE_CONTROL_STRICT_PERMISSION ON)
 set(CPACK_INSTALL_DEFAULT_DIRECTORY_PERMISSIONS
     OWNER_READ OWNER_WRITE OWNER_EXECUTE GROUP_READ GROUP_EXECUTE WORLD_READ WORLD_EXECUTE)
@@ -38,7 +39,43 @@ of the ball-and-plate rig of control courses, as Markdown.")
 set(CPACK_DEBIAN_DOCS_PACKAGE_NAME bbsim-doc)
 set(CPACK_DEBIAN_DOCS_PACKAGE_ARCHITECTURE all)
 set(CPACK_DEBIAN_DOCS_PACKAGE_SECTION doc)
-set(CPACK_COMPONENTS_ALL program docs)
+
+# The C++ library, and what one compiles against it; its version is in its name, as that of any Debian library.
+set(_library libbbsim${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR})
+set(_same "(= ${PROJECT_VERSION}-${CPACK_DEBIAN_PACKAGE_RELEASE})")
+set(CPACK_COMPONENT_LIBRARY_DESCRIPTION "The C++ library of bbsim, a simulator of the ball-and-plate rig of control
+courses. It reads HDF5 files, and writes them, if the package bbsim is
+installed.")
+file(WRITE ${PROJECT_BINARY_DIR}/triggers "activate-noawait ldconfig\n")
+set(CPACK_DEBIAN_LIBRARY_PACKAGE_CONTROL_EXTRA ${PROJECT_BINARY_DIR}/triggers)
+set(CPACK_DEBIAN_LIBRARY_PACKAGE_NAME ${_library})
+set(CPACK_DEBIAN_LIBRARY_PACKAGE_SECTION libs)
+set(CPACK_DEBIAN_LIBRARY_PACKAGE_RECOMMENDS "bbsim ${_same}")
+set(CPACK_COMPONENT_DEVELOPMENT_DESCRIPTION "What programs are compiled with that use the C++ library of bbsim, a simulator
+of the ball-and-plate rig of control courses: the header, and files for CMake
+and pkg-config.")
+set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME libbbsim-dev)
+set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
+set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS "${_library} ${_same}")
+set(CPACK_COMPONENTS_ALL program docs library development)
+if(TARGET bbsim_python)
+  set(CPACK_COMPONENT_PYTHON_DESCRIPTION "The Python package of bbsim, a simulator of the ball-and-plate rig of control
+courses: runs, sweeps and linear models in the process, with numpy arrays, and
+environments for learning.
+It reads HDF5 files, and writes them, if the package bbsim is installed.")
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_NAME python3-bbsim)
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_SECTION python)
+  execute_process(COMMAND ${PYTHON_EXECUTABLE} -c "import sys; v = sys.version_info; print(f'python3 (>= {v[0]}.{v[1]}~), python3 (<< {v[0]}.{v[1] + 1})', end='')"
+                  OUTPUT_VARIABLE _python_version COMMAND_ERROR_IS_FATAL ANY)
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS "${_python_version}, python3-numpy")
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_RECOMMENDS "bbsim ${_same}")
+  # What Python compiles belongs to the package.
+  set(_scripts ${PROJECT_BINARY_DIR}/python/scripts)
+  file(WRITE ${_scripts}/postinst "#!/bin/sh\nset -e\nif [ \"$1\" = configure ]; then py3compile -p python3-bbsim; fi\n")
+  file(WRITE ${_scripts}/prerm "#!/bin/sh\nset -e\npy3clean -p python3-bbsim\n")
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_CONTROL_EXTRA ${_scripts}/postinst ${_scripts}/prerm)
+  list(APPEND CPACK_COMPONENTS_ALL python)
+endif()
 
 # What Debian's policy wants beside what any installation has.
 set(CPACK_PRE_BUILD_SCRIPTS ${PROJECT_SOURCE_DIR}/cmake/debian.cmake)

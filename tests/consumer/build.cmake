@@ -20,6 +20,7 @@ endfunction()
 
 file(REMOVE_RECURSE ${INTO})
 do(${CMAKE_COMMAND} --install ${BUILD} --prefix ${INTO}/prefix --component library)
+do(${CMAKE_COMMAND} --install ${BUILD} --prefix ${INTO}/prefix --component development)
 do(${CMAKE_COMMAND} -S ${SOURCE}/tests/consumer -B ${INTO}/build -DCMAKE_PREFIX_PATH=${INTO}/prefix
    -DCMAKE_CXX_COMPILER=${CXX} -DCMAKE_FIND_PACKAGE_NO_PACKAGE_REGISTRY=ON)
 do(${CMAKE_COMMAND} --build ${INTO}/build)

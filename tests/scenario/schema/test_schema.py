@@ -1,9 +1,10 @@
 # SPDX-FileCopyrightText: 2026 the bbsim authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""bbsim and its JSON Schema agree: test_schema.py BBSIM CONFIGS REFUSED
+"""bbsim and its JSON Schema agree: test_schema.py BBSIM CONFIGS REFUSED [CASES]
 
 Both accept every scenario of the folder CONFIGS, and both refuse every scenario of the file REFUSED;
-those under `program_alone` are the exceptions, which the schema accepts.
+those under `program_alone` are the exceptions, which the schema accepts. The file CASES gets all of
+them as JSON, for other readers of the schema (ajv.mjs).
 """
 import copy
 import json
@@ -49,11 +50,12 @@ def with_changes(scenario, changes):
     return scenario
 
 
-def main(program, configs, refused):
+def main(program, configs, refused, cases_file=None):
     schema = json.loads(subprocess.run([program, "--schema"], capture_output=True, check=True).stdout)
     jsonschema.Draft7Validator.check_schema(schema)
     validator = jsonschema.Draft7Validator(schema)
     wrong = []
+    cases = []
     with tempfile.TemporaryDirectory() as name:
         folder = pathlib.Path(name)
         for table in pathlib.Path(configs).glob("*.csv"):
@@ -71,16 +73,20 @@ def main(program, configs, refused):
         for path in sorted(pathlib.Path(configs).rglob("*.yaml")):
             scenario = yaml.load(path.read_text(), Core)
             shipped[path.stem] = scenario
+            cases.append({"name": str(path), "kind": "shipped", "scenario": scenario})
             for error in validator.iter_errors(scenario):
                 wrong.append(f"the schema refuses {path}: {error.json_path}: {error.message[:300]}")
         lists = yaml.load(pathlib.Path(refused).read_text(), Core)
         for kind, schema_too in (("both", True), ("program_alone", False)):
             for base, changes, *_ in lists[kind]:
                 scenario = with_changes(shipped[base], changes)
+                cases.append({"name": f"{base} with {changes}", "kind": kind, "scenario": scenario})
                 if not program_refuses(scenario):
                     wrong.append(f"bbsim accepts {base} with {changes}")
                 if validator.is_valid(scenario) == schema_too:
                     wrong.append(f"the schema {'accepts' if schema_too else 'refuses'} {base} with {changes}")
+    if cases_file:
+        pathlib.Path(cases_file).write_text(json.dumps(cases))
     print("\n".join(wrong))
     counts = f"{len(shipped)} accepted, {len(lists['both'])} refused by both, "
     print(counts + f"{len(lists['program_alone'])} by the program alone")
