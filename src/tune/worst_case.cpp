@@ -19,7 +19,8 @@ namespace {
 constexpr std::size_t group = 8;
 // With few cases, all of them are always looked at.
 constexpr std::size_t first_cases = 2 * group;
-// Rounds with further cases, and what a search is given in each, in multiples of the numbers plus 1.
+// Rounds with further cases, and what a search is given in each, in multiples of the numbers
+// plus 1.
 constexpr std::size_t most_rounds = 8;
 constexpr std::size_t scanned = 8, first_search = 16, later_search = 8;
 constexpr double first_step = 0.15, later_step = 0.04;
@@ -105,7 +106,8 @@ class Search {
   // By more than rounding, which depends on what is run beside a case.
   static bool is_worse(const Merit& in_all, const Merit& expected) {
     constexpr double rounding = 1e-6;
-    if (expected.unsettled > 0 || in_all.unsettled > 0) return in_all.unsettled > expected.unsettled;
+    if (expected.unsettled > 0 || in_all.unsettled > 0)
+      return in_all.unsettled > expected.unsettled;
     return in_all.excess > expected.excess + rounding ||
            in_all.objective > expected.objective + rounding * std::abs(expected.objective);
   }
@@ -275,7 +277,8 @@ Merit merit_of(const std::vector<CaseScore>& scores, double share) {
   }
   if (settled) return merit;
   for (const CaseScore& score : scores) {
-    if (!score.settled()) merit.unsettled += (1 + score.missed) / static_cast<double>(scores.size());
+    if (!score.settled())
+      merit.unsettled += (1 + score.missed) / static_cast<double>(scores.size());
   }
   // Infinite numbers are not compared.
   merit.excess = 0;
