@@ -9,7 +9,9 @@
 #include <algorithm>
 #include <exception>
 #include <memory>
+#include <new>
 #include <string>
+#include <type_traits>
 
 #include "base/error.hpp"
 
@@ -20,8 +22,8 @@ namespace {
 struct Library {
   decltype(&nlopt_create) create;
   decltype(&nlopt_destroy) destroy;
-  decltype(&nlopt_set_lower_bounds1) set_lower_bounds;
-  decltype(&nlopt_set_upper_bounds1) set_upper_bounds;
+  decltype(&nlopt_set_lower_bounds) set_lower_bounds;
+  decltype(&nlopt_set_upper_bounds) set_upper_bounds;
   decltype(&nlopt_set_min_objective) set_objective;
   decltype(&nlopt_add_inequality_mconstraint) add_constraints;
   decltype(&nlopt_set_initial_step1) set_step;
@@ -47,8 +49,8 @@ Library load() {
   };
   get(found.create, "nlopt_create");
   get(found.destroy, "nlopt_destroy");
-  get(found.set_lower_bounds, "nlopt_set_lower_bounds1");
-  get(found.set_upper_bounds, "nlopt_set_upper_bounds1");
+  get(found.set_lower_bounds, "nlopt_set_lower_bounds");
+  get(found.set_upper_bounds, "nlopt_set_upper_bounds");
   get(found.set_objective, "nlopt_set_min_objective");
   get(found.add_constraints, "nlopt_add_inequality_mconstraint");
   get(found.set_step, "nlopt_set_initial_step1");
@@ -110,8 +112,8 @@ void minimize(const Cobyla& search, std::vector<double> x) {
   const nlopt_opt of = owned.get();
   if (of == nullptr) throw std::bad_alloc();
   Calls calls{search, of};
-  nlopt.set_lower_bounds(of, 0);
-  nlopt.set_upper_bounds(of, 1);
+  nlopt.set_lower_bounds(of, search.lower.data());
+  nlopt.set_upper_bounds(of, search.upper.data());
   nlopt.set_objective(of, value_of, &calls);
   if (search.constraints > 0) {
     nlopt.add_constraints(of, static_cast<unsigned>(search.constraints), constraints_of, &calls,

@@ -12,12 +12,13 @@
 namespace bbsim::tune {
 
 struct Cobyla {
+  std::vector<double> lower, upper;  // bounds of the numbers of x; may be infinite
   std::size_t constraints = 0;
   double step = 0.1;        // of the first models
   double tolerance = 1e-4;  // of each number of x
   std::size_t most = 100;   // calls of the function
-  // Gives the value at x, whose numbers are from 0 to 1, and the constraints, which should become 0
-  // or less. All are finite. False ends the search.
+  // Gives the value at x and the constraints, which should become 0 or less. All are finite. False
+  // ends the search.
   std::function<bool(const std::vector<double>& x, double& value, double* constraints)> function;
 };
 

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <numeric>
 #include <optional>
 #include <utility>
@@ -199,35 +200,62 @@ class Search {
     return true;
   }
 
-  // Goes down from a point, looking at the chosen cases only.
+  // Goes down from a point, looking at the chosen cases only. The greatest of many values has
+  // kinks, which linear models do not follow. So the search has one number more, a bound, which it
+  // makes small, and in each case the value shall be below it: these values are smooth.
   bool go_down(const Point& from, double step, std::size_t most, std::optional<Candidate>& best) {
-    bool interrupted = false;
-    std::optional<double> scale;
+    if (!evaluate({from}, cases_)) return false;
+    Point at = from;
+    Merit merit = merit_of(scores_, problem_.share);
+    const bool settled = merit.unsettled == 0;
+    const double scale = settled && merit.objective != 0 ? std::abs(merit.objective) : 1;
+    const double first = settled ? merit.objective / scale : 1;
+    // What is infinite is as bad as the worst there was.
     double greatest = 1;
+    const auto bounded = [&](double value) {
+      return std::isfinite(value) ? std::min(value / scale, 10 * greatest) : greatest;
+    };
+    const auto excess = [](double value) { return std::clamp(value + margin, -1.0, 2.0); };
+    const auto remember = [&] {
+      if (merit.unsettled == 0) greatest = std::max(greatest, merit.objective / scale);
+      if (!best || merit.better_than(best->merit)) best = Candidate{at, merit};
+    };
+    remember();
+
+    bool interrupted = false;
+    const std::size_t pieces = problem_.share < 1 ? 1 : cases_.size();
     Cobyla search;
-    search.constraints = problem_.requirements + 1;
+    search.lower.assign(from.size(), 0);
+    search.upper.assign(from.size(), 1);
+    search.lower.push_back(-std::numeric_limits<double>::infinity());
+    search.upper.push_back(std::numeric_limits<double>::infinity());
+    search.constraints = pieces * (1 + problem_.requirements) + 1;
     search.step = step;
     search.most = most;
     search.function = [&](const Point& x, double& value, double* constraints) {
-      interrupted = !evaluate({x}, cases_);
-      if (interrupted) return false;
-      const Merit merit = merit_of(scores_, problem_.share);
-      if (!best || merit.better_than(best->merit)) best = Candidate{x, merit};
-      // What is infinite is as bad as the worst there was.
-      if (merit.unsettled == 0) {
-        if (!scale) scale = merit.objective != 0 ? std::abs(merit.objective) : 1;
-        greatest = std::max(greatest, merit.objective / *scale);
-        value = merit.objective / *scale;
+      if (!std::equal(at.begin(), at.end(), x.begin())) {  // not only another bound
+        at.assign(x.begin(), x.end() - 1);
+        interrupted = !evaluate({at}, cases_);
+        if (interrupted) return false;
+        merit = merit_of(scores_, problem_.share);
+        remember();
+      }
+      value = x.back();
+      if (problem_.share < 1) {  // the cases that count depend on x
+        *constraints++ = bounded(merit.objective) - value;
+        for (const double one : merit.excesses) *constraints++ = excess(one);
       } else {
-        value = greatest;
+        for (const CaseScore& score : scores_) {
+          *constraints++ = bounded(score.objective) - value;
+          for (const double one : score.excess) *constraints++ = excess(one);
+        }
       }
-      for (std::size_t r = 0; r < problem_.requirements; ++r) {
-        constraints[r] = std::clamp(merit.excesses[r] + margin, -1.0, 2.0);
-      }
-      constraints[problem_.requirements] = merit.unsettled > 0 ? merit.unsettled : -0.1;
+      *constraints = merit.unsettled > 0 ? merit.unsettled : -0.1;
       return true;
     };
-    minimize(search, from);
+    Point start = from;
+    start.push_back(first);
+    minimize(search, std::move(start));
     return !interrupted;
   }
 

@@ -157,8 +157,8 @@ TEST_CASE("an end that is asked for keeps what was best") {
 
 TEST_CASE("what is wrong with the input of tuning is said before it runs") {
   const auto free = [](const std::string& text) { return fault(request_of({text})); };
-  CHECK(free(kp) == "--free: " + kp +
-                        ": found no range; allowed: KEY=FROM:TO, such as controller.pid.kp=1:20");
+  CHECK(free(kp) ==
+        "--free: " + kp + ": found no range; allowed: KEY=FROM:TO, such as controller.pid.kp=1:20");
   CHECK(contains(free(kp + "=3"), "FROM:TO with FROM below TO"));
   CHECK(contains(free(kp + "=9:3"), "FROM:TO with FROM below TO"));
   CHECK(contains(free("ball.raduis=1:2"), "did you mean ball.radius?"));

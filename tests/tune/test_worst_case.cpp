@@ -47,6 +47,8 @@ TEST_CASE("the least value under a constraint is found by COBYLA") {
   double best = unlimited;
   Point at;
   Cobyla search;
+  search.lower = {0, 0};
+  search.upper = {1, 1};
   search.constraints = 1;
   search.tolerance = 1e-6;
   search.most = 500;
@@ -64,6 +66,8 @@ TEST_CASE("the least value under a constraint is found by COBYLA") {
 
 TEST_CASE("what the function throws comes through the library") {
   Cobyla search;
+  search.lower = {0};
+  search.upper = {1};
   search.function = [](const Point&, double&, double*) -> bool { throw std::length_error("here"); };
   CHECK_THROWS_AS(minimize(search, {0.5}), std::length_error);
 }
