@@ -382,7 +382,7 @@ TuneResult tune(const TuneRequest& request, bool with_scenario, Watch& watch) {
     std::iota(cases.begin(), cases.end(), std::size_t{0});
     std::vector<CaseScore> scores;
     found.interrupted = !rigs.run(&*others, {found.best}, cases, scores,
-                                  [&](double part) { watch.update(part, "rigs not used"); });
+                                  [&](double part) { watch.update(part, "rigs held out"); });
     if (!found.interrupted) {
       made.tuned->held_out = cases.size();
       made.tuned->share_that_holds = static_cast<double>(std::ranges::count_if(scores, all_holds)) /

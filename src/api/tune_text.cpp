@@ -39,7 +39,7 @@ std::string rigs_text(const TuneRequest& request, const Tuned& tuned) {
 
 std::string share_text(const Tuned& tuned) {
   return rounded(100 * tuned.share_that_holds, 4) + " % of " + std::to_string(tuned.held_out) +
-         " rigs not used";
+         " rigs held out";
 }
 
 }  // namespace
