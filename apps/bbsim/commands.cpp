@@ -92,4 +92,15 @@ void tell(const api::RunResult& made, bool quiet) {
   if (!made.noted.empty()) say(made.noted);
 }
 
+void note_other_folder(const ScenarioFamily& family, const std::string& output) {
+  const auto folder_of = [](const std::string& file) {
+    return std::filesystem::absolute(file).lexically_normal().parent_path();
+  };
+  if (output == "-" || family.inputs().empty()) return;
+  if (folder_of(output) == folder_of(family.source().file)) return;
+  say("note: " + output +
+      " is in another folder than the scenario, which names tables from its "
+      "own; move it there to run it");
+}
+
 }  // namespace bbsim::app

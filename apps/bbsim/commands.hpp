@@ -11,6 +11,7 @@
 #include "command.hpp"
 #include "file/outputs.hpp"
 #include "file/table_writer.hpp"
+#include "scenario/family.hpp"
 #include "scenario/scenario.hpp"
 
 namespace bbsim::api {
@@ -77,6 +78,10 @@ Option add_measures(Command& command, std::vector<std::string>& lists, const std
 // Whether a file among results is a scenario, by its ending.
 [[nodiscard]] bool is_scenario(const std::string& file);
 
+// Says so if a scenario was written to another folder than the one it is made of: its tables are
+// named from there.
+void note_other_folder(const ScenarioFamily& family, const std::string& output);
+
 // Says that it prints: nothing it reads may be what its standard output goes to.
 void prints(file::Outputs& outputs);
 
@@ -98,6 +103,7 @@ void add_merge(Command& command, const Options& options);
 void add_new(Command& command, const Options& options);
 void add_examples(Command& command, const Options& options);
 void add_fit(Command& command, const Options& options);
+void add_tune(Command& command, const Options& options);
 void add_sketch(Command& command, const Options& options);
 void add_plot(Command& command, const Options& options);
 void add_replay(Command& command, const Options& options);

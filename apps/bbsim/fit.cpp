@@ -3,7 +3,6 @@
 
 #include "api/fit.hpp"
 
-#include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
@@ -25,18 +24,6 @@ struct FitArguments {
   std::optional<double> hold_out;
   std::size_t threads = 0;
 };
-
-// Tables are named from the scenario's folder.
-void note_other_folder(const ScenarioFamily& family, const std::string& output) {
-  const auto folder_of = [](const std::string& file) {
-    return std::filesystem::absolute(file).lexically_normal().parent_path();
-  };
-  if (output == "-" || family.inputs().empty()) return;
-  if (folder_of(output) == folder_of(family.source().file)) return;
-  say("note: " + output +
-      " is in another folder than the scenario, which names tables from its "
-      "own; move it there to run it");
-}
 
 ExitCode fit(const FitArguments& arguments, const Options& options) {
   const auto& [file, overrides] = arguments.scenario;

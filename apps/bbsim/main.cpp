@@ -86,6 +86,8 @@ constexpr bbsim::app::NamedCommand commands[] = {
      bbsim::app::add_new},
     {"examples", "List example scenarios, or write one", bbsim::app::add_examples},
     {"fit", "Fit keys of a scenario to logs of a rig", bbsim::app::add_fit},
+    {"tune", "Tune keys of a scenario, such as gains, on the worst of many rigs",
+     bbsim::app::add_tune},
     {"sketch", "Compile an Arduino sketch into a controller", bbsim::app::add_sketch},
     {"plot", "Draw runs and sweeps", bbsim::app::add_plot},
     {"replay", "Write one HTML file that replays runs or sweeps", bbsim::app::add_replay},

@@ -128,6 +128,14 @@ std::string text_with(const Source& source, std::vector<ScenarioFamily::Setting>
   return edited_text(source.text, all);
 }
 
+std::string scenario_with(const Source& source, const std::string& comments,
+                          std::vector<ScenarioFamily::Setting> settings) {
+  const std::string text = comments + text_with(source, std::move(settings));
+  const ScenarioFamily made(Source{source.file, text, {}});
+  static_cast<void>(made.read({}));
+  return text;
+}
+
 std::string fitted_scenario(const FitRequest& request, const fit::Fitted& fitted) {
   const Source& source = request.family.source();
   std::string text = "# Fitted by bbsim " BBSIM_VERSION " to\n";
@@ -147,11 +155,7 @@ std::string fitted_scenario(const FitRequest& request, const fit::Fitted& fitted
     const std::string unit = one.unit.empty() ? "" : " " + one.unit;
     settings.push_back({one.key, number_text(one.estimate) + unit});
   }
-  text += text_with(source, settings);
-  // It is what it says.
-  const ScenarioFamily made(Source{source.file, text, {}});
-  static_cast<void>(made.read({}));
-  return text;
+  return scenario_with(source, text, std::move(settings));
 }
 
 }  // namespace bbsim::api

@@ -19,6 +19,10 @@ namespace bbsim::api {
 [[nodiscard]] std::string text_with(const Source& source,
                                     std::vector<ScenarioFamily::Setting> settings);
 
+// Such a text below comments; that it can be read is made sure.
+[[nodiscard]] std::string scenario_with(const Source& source, const std::string& comments,
+                                        std::vector<ScenarioFamily::Setting> settings);
+
 // Throws as text_with() does.
 [[nodiscard]] std::string fitted_scenario(const FitRequest& request, const fit::Fitted& fitted);
 

@@ -87,11 +87,6 @@ FreeKey read_free_key(std::string_view text, const ScenarioFamily& family) {
   FreeKey key;
   key.name = trimmed(text.substr(0, equals));
   const std::string name = shown(key.name);
-  for (const std::string_view of_start : {"ball.position", "ball.velocity"}) {
-    if (!key.name.starts_with(of_start)) continue;
-    refuse(name +
-           ": each window's start is fitted anyway; allowed: any other key that is a number");
-  }
   const auto known = scenario::number_key(key.name);
   if (!known) {
     // The scenario's own reader says what is wrong with the name.

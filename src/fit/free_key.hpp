@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// A key that a fit is free to choose, as a number without bounds or unit.
+// A key that a fit or an optimizer is free to choose; to a fit, a number without bounds or unit.
 #pragma once
 
 #include <string>

@@ -331,6 +331,42 @@ SweepPlan::SweepPlan(const ScenarioFamily& family, const Sweep& sweep)
   samples_ = static_cast<std::size_t>(sweep.samples.value_or(1));
   cases_ = static_cast<std::size_t>(cases);
 
+  relate(family);
+}
+
+SweepPlan::SweepPlan(const ScenarioFamily& family, const SweepPlan* of,
+                     const std::vector<std::string>& keys, const std::vector<Listed>& cases)
+    : combine_(Combine::zip), cases_(cases.size()), seed_(0) {
+  if (of != nullptr) {
+    axes_ = of->axes_;
+    std::vector<double> values(axes_.size());
+    for (Axis& axis : axes_) axis.kind = Way::list, axis.numbers.clear(), axis.texts.clear();
+    for (const Listed& one : cases) {
+      of->values(one.of, values.data());
+      for (std::size_t a = 0; a < axes_.size(); ++a) {
+        const Axis& known = of->axes_[a];
+        if (known.numeric) {
+          axes_[a].numbers.push_back(values[a]);
+        } else {
+          axes_[a].texts.push_back(value_text(known, values[a]));
+        }
+      }
+    }
+  }
+  for (std::size_t k = 0; k < keys.size(); ++k) {
+    Axis& axis = axes_.emplace_back();
+    axis.key = keys[k];
+    for (const Listed& one : cases) axis.numbers.push_back(one.numbers[k]);
+  }
+  for (std::size_t a = 0; a < axes_.size(); ++a) {
+    axes_[a].lead = a;
+    axes_[a].factor = 1;
+    axes_[a].count = cases_;
+  }
+  relate(family);
+}
+
+void SweepPlan::relate(const ScenarioFamily& family) {
   Scenario first = family.read(settings(0));
   // Holds for all axes or for none: a key of another kind may change the meaning of the others.
   const bool independent = std::all_of(axes_.begin(), axes_.end(), [&](const Axis& axis) {

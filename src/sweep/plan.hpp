@@ -46,6 +46,16 @@ class SweepPlan {
   // which a value is refused, as check() does.
   SweepPlan(const ScenarioFamily& family, const Sweep& sweep);
 
+  // A case of another plan, and numbers (SI) of further keys.
+  struct Listed {
+    std::size_t of = 0;
+    std::vector<double> numbers;
+  };
+  // Lists cases of `of`; of the scenario itself if it is null. Reads only the first one: another
+  // that is refused says so when it is run. Throws InputError.
+  SweepPlan(const ScenarioFamily& family, const SweepPlan* of, const std::vector<std::string>& keys,
+            const std::vector<Listed>& cases);
+
   [[nodiscard]] std::size_t cases() const { return cases_; }
   [[nodiscard]] const std::vector<Axis>& axes() const { return axes_; }
 
@@ -74,6 +84,8 @@ class SweepPlan {
  private:
   struct Variations;
 
+  // Finds out whether the keys are independent.
+  void relate(const ScenarioFamily& family);
   void add_axes(const ScenarioFamily& family, const Sweep& sweep, const Variations& variations,
                 std::size_t which);
   [[nodiscard]] std::vector<ScenarioFamily::Setting> settings_of(
