@@ -348,9 +348,10 @@ void Sensitivity::take_rows(double from, double to, const Eigen::MatrixXd& value
   }
 }
 
-// What it has of rows, of a run that may have ended early.
+// Of a run that may have ended early.
 std::size_t Sensitivity::rows() const {
-  return states_.size() / static_cast<std::size_t>(size_);
+  const auto size = static_cast<std::size_t>(size_);
+  return std::min(states_.size() / size, gradients_.size() / (size * keys_.size()));
 }
 
 // Changes that move no state by more than a thousandth of its range: differences of order 4 are

@@ -49,6 +49,8 @@ class Sensitivity : public solve::StateSink, public solve::PieceSink {
   Sensitivity(const Sensitivity&) = delete;  // fan_ refers to this
   Sensitivity& operator=(const Sensitivity&) = delete;
 
+  [[nodiscard]] std::size_t keys() const { return keys_.size(); }
+
   // The run's rows and pieces go on to `next`. `with_measures`: measure_gradients() will be called.
   void begin(solve::StateSink& next, bool with_measures);
 
