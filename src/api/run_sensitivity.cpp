@@ -61,19 +61,29 @@ study::VariedKey read_key(const std::string& key,
     refuse(name + ": the scenario gives it no single number; allowed: a key with a number, such "
                   "as ball.radius");
   }
-  // Wide enough for little rounding, and within the key's range.
-  study::VariedKey varied{key, *value, 0x1p-6, {}};
-  if (*value != 0) varied.step *= std::exp2(std::floor(std::log2(std::abs(*value))));
+  // Wide enough for little rounding, and within what the scene takes.
+  study::VariedKey varied{key, *value, 0x1p-9, [family, setting](double at) {
+                            return family->read({setting(at)});
+                          }};
+  if (*value != 0) varied.step = std::exp2(std::floor(std::log2(std::abs(*value))) - 6);
+  static_cast<void>(varied.scenario(*value));
   const auto fits = [&] {
-    return known->range.holds(*value - 4 * varied.step) &&
-           known->range.holds(*value + 4 * varied.step);
+    try {
+      static_cast<void>(varied.scenario(*value - 4 * varied.step));
+      static_cast<void>(varied.scenario(*value + 4 * varied.step));
+      return true;
+    } catch (const InputError&) {
+      return false;
+    }
   };
-  for (int halvings = 0; halvings < 20 && !fits(); ++halvings) varied.step /= 2;
-  if (!fits()) {
-    refuse(name + ": found " + number_text(*value) +
-           ", the end of its range; allowed: a value within the range");
+  for (int halvings = 0; !fits(); ++halvings) {
+    constexpr int most_halvings = 20;
+    if (halvings == most_halvings) {
+      refuse(name + ": found " + number_text(*value) +
+             ", where the scene takes no values on both sides; allowed: a value within its range");
+    }
+    varied.step /= 2;
   }
-  varied.scenario = [family, setting](double at) { return family->read({setting(at)}); };
   return varied;
 }
 

@@ -137,6 +137,7 @@ class ArcPiece : public solve::Piece {
 }  // namespace
 
 model::Symmetry symmetry_for(const Scenario& scenario, const std::vector<VariedKey>& keys) {
+  if (keys.empty()) return model::Symmetry::used;
   const std::size_t kind = model::assemble(scenario, false).system.index();
   const bool same = std::ranges::all_of(keys, [&](const VariedKey& key) {
     return model::assemble(key.scenario(key.value + key.step), false).system.index() == kind;
