@@ -21,12 +21,10 @@ auto with_places(const Scenario& scenario, const Make& make) {
 
 }  // namespace
 
-model::Model assemble(const Scenario& scenario,
-                      const std::vector<const scenario::Column*>& columns,
+model::Model assemble(const Scenario& scenario, const std::vector<const scenario::Column*>& columns,
                       model::Symmetry symmetry) {
-  return with_places(scenario, [&] {
-    return model::assemble(scenario, scenario::need_gamma(columns), symmetry);
-  });
+  return with_places(
+      scenario, [&] { return model::assemble(scenario, scenario::need_gamma(columns), symmetry); });
 }
 
 model::Model assemble(const Scenario& scenario, const std::vector<const scenario::Column*>& columns,

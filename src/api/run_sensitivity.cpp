@@ -22,10 +22,9 @@ namespace bbsim::api {
 namespace {
 
 // What moves, in the names of output columns.
-constexpr std::array state_columns = {"x",           "y",         "vx",          "vy",
-                                      "spin",        "gamma",     "phi",         "theta",
-                                      "phi_rate",    "theta_rate", "servo_phi",  "servo_theta",
-                                      "servo_third"};
+constexpr std::array state_columns = {
+    "x",     "y",        "vx",         "vy",        "spin",        "gamma",      "phi",
+    "theta", "phi_rate", "theta_rate", "servo_phi", "servo_theta", "servo_third"};
 
 [[noreturn]] void refuse(const std::string& what) {
   throw InputError("--sensitivity: " + what);
@@ -41,8 +40,9 @@ study::VariedKey read_key(const std::string& key,
   const std::string name = shown(key);
   for (const std::string_view section : {"time.", "solver.", "output.", "sweep."}) {
     if (!key.starts_with(section)) continue;
-    refuse(name + ": found a key of the computation; allowed: keys of what moves, such as "
-                  "ball.radius");
+    refuse(name +
+           ": found a key of the computation; allowed: keys of what moves, such as "
+           "ball.radius");
   }
   const auto known = scenario::number_key(key);
   if (!known) {
@@ -58,13 +58,13 @@ study::VariedKey read_key(const std::string& key,
   };
   if (!value) {
     static_cast<void>(family->read({setting(1)}));
-    refuse(name + ": the scenario gives it no single number; allowed: a key with a number, such "
-                  "as ball.radius");
+    refuse(name +
+           ": the scenario gives it no single number; allowed: a key with a number, such "
+           "as ball.radius");
   }
   // Wide enough for little rounding, and within what the scene takes.
-  study::VariedKey varied{key, *value, 0x1p-9, [family, setting](double at) {
-                            return family->read({setting(at)});
-                          }};
+  study::VariedKey varied{key, *value, 0x1p-9,
+                          [family, setting](double at) { return family->read({setting(at)}); }};
   if (*value != 0) varied.step = std::exp2(std::floor(std::log2(std::abs(*value))) - 6);
   static_cast<void>(varied.scenario(*value));
   const auto fits = [&] {
@@ -153,8 +153,8 @@ std::vector<std::vector<double>> GradientColumns::values(
 void add_gradients(const Simulation& made, const std::vector<scenario::Measure>& measures,
                    const std::vector<study::VariedKey>& keys, record::RunSummary& summary) {
   for (std::size_t m = 0; m < measures.size(); ++m) {
-    auto& [name, by_key] = summary.gradients.emplace_back(measures[m].name,
-                                                          record::RunSummary::Numbers{});
+    auto& [name, by_key] =
+        summary.gradients.emplace_back(measures[m].name, record::RunSummary::Numbers{});
     for (std::size_t k = 0; k < keys.size(); ++k) {
       const double gradient = made.gradients[k][m];
       by_key.emplace_back(keys[k].name, gradient);

@@ -175,8 +175,7 @@ Simulation simulate(const Scenario& scenario, const model::Model& model,
     std::vector<scenario::Measure> measures = wanted.measures;
     measures.resize(wanted.measures_with_gradients);
     for (std::size_t key = 0; key < sensitivity->keys(); ++key) {
-      simulation.gradients.push_back(
-          sensitivity->measure_gradients(measures, key, made.outcome));
+      simulation.gradients.push_back(sensitivity->measure_gradients(measures, key, made.outcome));
     }
   }
 

@@ -194,9 +194,9 @@ void Sensitivity::require_alike(const model::Model& other, const std::string& ke
            ": the scene has other equations at values beside the present one; allowed: a key "
            "whose values all give the same equations");
   }
-  const bool same_stops = std::ranges::equal(
-      other.stops, model_.stops,
-      [&](double a, double b) { return std::abs(a - b) <= 1e-12 * grid_.end(); });
+  const bool same_stops = std::ranges::equal(other.stops, model_.stops, [&](double a, double b) {
+    return std::abs(a - b) <= 1e-12 * grid_.end();
+  });
   if (!same_stops) {
     refuse(name +
            ": it moves times at which the input jumps; allowed: keys that leave these times");
@@ -443,8 +443,7 @@ std::vector<double> Sensitivity::measure_gradients(const std::vector<scenario::M
       for (const Arc& arc : arcs_) {
         const auto of_key =
             arc.values.middleRows((1 + static_cast<Eigen::Index>(key)) * size_, size_);
-        pieces->accept(
-            ArcPiece(arc.from, arc.to, arc.values.topRows(size_) + change * of_key));
+        pieces->accept(ArcPiece(arc.from, arc.to, arc.values.topRows(size_) + change * of_key));
       }
     }
     recorder.accept(0, rows(), changed_rows(key, change).data());

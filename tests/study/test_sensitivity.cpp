@@ -28,9 +28,8 @@ namespace {
 using Overrides = std::vector<std::string>;
 
 std::string file_of(const std::string& name) {
-  return name.find('/') == std::string::npos
-             ? bbsim_test::data_file("scenarios/" + name + ".yaml")
-             : BBSIM_SOURCE_DIR "/" + name + ".yaml";
+  return name.find('/') == std::string::npos ? bbsim_test::data_file("scenarios/" + name + ".yaml")
+                                             : BBSIM_SOURCE_DIR "/" + name + ".yaml";
 }
 
 api::RunResult run(const std::string& name, const Overrides& overrides, const Overrides& keys,
@@ -113,9 +112,10 @@ const std::string tight_rtol = "solver.rtol=1e-13", tight_atol = "solver.atol=1e
 TEST_CASE("derivatives on an incline are those of the closed form", "[sensitivity]") {
   // x = (5/14) g sin(phi) t^2
   const std::string time = "find x at 1.25";
-  const auto made = run("configs/incline", {"output.columns=[t, x, y, vx, phi, spin]"},
-                        {"gravity, ball.position.1", "ball.radius"},
-                        {"end_x", "rms_x", "max_vx", "when x=0.1", time});
+  const auto made =
+      run("configs/incline", {"ball.position=[0, 0]", "output.columns=[t, x, y, vx, phi, spin]"},
+          {"gravity, ball.position.1", "ball.radius"},
+          {"end_x", "rms_x", "max_vx", "when x=0.1", time});
   REQUIRE(made.code == ExitCode::done);
   const double g = 9.80665, slope = 5.0 / 14 * std::sin(5 * std::numbers::pi / 180);
   const std::vector<double>& t = column(made, "t");
@@ -176,8 +176,7 @@ TEST_CASE("derivatives are those of quad-precision solutions", "[sensitivity]") 
     REQUIRE(made.code == ExitCode::done);
     const double size = one.value == 0 ? 1 : std::abs(one.value);
     const double change = std::exp2(std::floor(std::log2(size)) - 12);
-    const Difference exact =
-        quad_difference(one.scene, overrides, one.key, one.value, change);
+    const Difference exact = quad_difference(one.scene, overrides, one.key, one.value, change);
     double largest = 0;
     for (std::size_t i = 0; i < exact.states.size(); ++i) {
       const std::string name = gradient_name(exact.states[i], one.key);
@@ -199,13 +198,14 @@ TEST_CASE("derivatives are those of quad-precision solutions", "[sensitivity]") 
 }
 
 TEST_CASE("gradients of measures are those of runs beside", "[sensitivity]") {
-  const Overrides measures = {"max_tilt", "rms_x", "max_tracking_error", "x.Peak",
-                              "find y at 1.5", "rms_tracking_error from 1", "min_x"};
+  const Overrides measures = {"max_tilt", "rms_x",         "max_tracking_error",
+                              "x.Peak",   "find y at 1.5", "rms_tracking_error from 1",
+                              "min_x"};
   const Overrides base = {tight_rtol, tight_atol, "time.end=3"};
   const std::vector<std::pair<std::string, double>> keys = {
       {"controller.pd.kv.0.0", 1}, {"ball.radius", 0.01}, {"gimbal.servo.damping", 1}};
-  const auto made = run("fig2b", base, {"controller.pd.kv.0.0,ball.radius,gimbal.servo.damping"},
-                        measures);
+  const auto made =
+      run("fig2b", base, {"controller.pd.kv.0.0,ball.radius,gimbal.servo.damping"}, measures);
   for (const auto& [key, value] : keys) {
     const double change = value * 0x1p-11;
     std::vector<record::RunSummary::Numbers> beside;
@@ -248,8 +248,8 @@ TEST_CASE("keys and scenes without derivatives are refused", "[sensitivity]") {
     }
     return std::string("taken");
   };
-  const auto refuses = [&](const std::string& name, const std::string& key,
-                           const std::string& part, const Overrides& overrides = {}) {
+  const auto refuses = [&](const std::string& name, const std::string& key, const std::string& part,
+                           const Overrides& overrides = {}) {
     const std::string said = message(name, overrides, key);
     CAPTURE(key, said);
     CHECK(said.find(part) != std::string::npos);
