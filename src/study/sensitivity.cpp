@@ -32,6 +32,7 @@ constexpr int deepest = 6;
 // What is below this share of the key's largest effect may be rounding.
 constexpr double least_share = 1e-5;
 constexpr double epsilon = std::numeric_limits<double>::epsilon();
+constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
 
 // The rule's tables in double.
 struct Tables {
@@ -111,26 +112,27 @@ double power_of_two_below(double value) {
 
 const char* what_switches(const model::Model& model) {
   if (model.rig && model.rig->sampled) return "samples of the controller";
-  if (model.events) return "events";
   if (model.dry) return "dry friction, sliding or limits of torques";
-  return "limits or switches of the servos";
+  if (model.rig && model.rig->switches()) return "limits or switches of the servos";
+  return "events beside servos, losses or torques";
 }
 
-// The polynomial of an arc, as a piece.
+// The polynomial of an arc of length `length`, as a piece that may end elsewhere.
 class ArcPiece : public solve::Piece {
  public:
-  ArcPiece(double from, double to, Eigen::MatrixXd values)
-      : Piece(from, to, stages), values_(std::move(values)) {}
+  ArcPiece(double from, double length, double to, Eigen::MatrixXd values)
+      : Piece(from, to, stages), length_(length), values_(std::move(values)) {}
 
   void evaluate(const double* times, std::size_t count, double* rows) const override {
     for (std::size_t i = 0; i < count; ++i) {
-      const double fraction = (times[i] - from()) / (to() - from());
+      const double fraction = (times[i] - from()) / length_;
       Eigen::Map<Eigen::VectorXd>(rows + i * static_cast<std::size_t>(values_.rows()),
                                   values_.rows()) = values_ * tables().shares(fraction);
     }
   }
 
  private:
+  double length_;
   Eigen::MatrixXd values_;
 };
 
@@ -152,9 +154,10 @@ Sensitivity::Sensitivity(const model::Model& model, model::Symmetry symmetry,
       grid_(grid),
       size_(static_cast<Eigen::Index>(model.size() + (model.gamma ? 1 : 0))),
       spin_(spin_state(model)) {
-  if (model.hybrid()) {
+  // Events alone only observe the motion, or end it.
+  if (model.extras() > 0) {
     refuse(std::string("found with ") + what_switches(model) +
-           "; allowed: scenes without samples, switches and events");
+           "; allowed: smooth scenes, and events in scenes with a given motion or an ideal servo");
   }
   initial_ = Eigen::MatrixXd::Zero(size_, static_cast<Eigen::Index>(keys.size()));
   for (VariedKey& key : keys) {
@@ -262,6 +265,7 @@ Eigen::VectorXd Sensitivity::forcing(const Neighbors& neighbors, double t, const
 }
 
 void Sensitivity::cross(const solve::Piece& piece, double from, double to, int depth) {
+  if (!(to > from)) return;
   const Tables& rule = tables();
   const auto n = static_cast<Eigen::Index>(model_.size());
   const auto keys = static_cast<Eigen::Index>(keys_.size());
@@ -427,6 +431,68 @@ std::vector<double> Sensitivity::column_gradient(const scenario::Column& column,
   return {found.data(), found.data() + found.size()};
 }
 
+// The arc that has the motion at a time; past its end for a moment, as a moved motion may be.
+const Sensitivity::Arc* Sensitivity::arc_at(double t) const {
+  constexpr double past = 0.05;  // of the arc's length
+  const auto later = std::ranges::find_if(arcs_.rbegin(), arcs_.rend(),
+                                          [&](const Arc& arc) { return arc.from < t; });
+  const auto found = std::find_if(later, arcs_.rend(), [&](const Arc& arc) {
+    return t - arc.to <= past * (arc.to - arc.from);
+  });
+  return found == arcs_.rend() ? nullptr : &*found;
+}
+
+// The outcome of the motion moved by a change of a key, which stops where the run's event occurs to
+// it: a zero of the event's margin, by the secant method. Nothing if that is nowhere near.
+std::optional<solve::Outcome> Sensitivity::moved(const solve::Outcome& outcome, std::size_t key,
+                                                 double change, const model::Model& changed) const {
+  solve::Outcome moved = outcome;
+  if (outcome.ending != solve::Ending::stopped) return moved;
+  model::Occurrence& stop = moved.occurrences.back();
+  const std::vector<model::Monitor>& monitors = changed.events->monitors;
+  const auto monitor = std::ranges::find_if(
+      monitors, [&](const model::Monitor& one) { return stop.name == one.name(); });
+  if (monitor == monitors.end()) return {};
+  std::vector<double> margins(monitors.size());
+  Eigen::VectorXd row;
+  const auto look = [&](double t) {
+    const Arc* const arc = arc_at(t);
+    if (arc == nullptr) return false;
+    row =
+        moved_values(*arc, key, change) * tables().shares((t - arc->from) / (arc->to - arc->from));
+    return true;
+  };
+  const auto margin = [&](double t) {
+    if (!look(t)) return nothing;
+    changed.events->margins(changed.sample(t, row.data(), model::Detail::motion), margins.data());
+    return margins[static_cast<std::size_t>(monitor - monitors.begin())];
+  };
+  const Arc* const last = arc_at(stop.t);
+  if (last == nullptr) return {};
+  double before = stop.t - 1e-3 * (stop.t - last->from), t = stop.t;
+  double margin_before = margin(before);
+  constexpr int most = 50;
+  for (int i = 0;; ++i) {
+    const double now = margin(t);
+    if (i == most || !std::isfinite(now)) return {};
+    const double step = now == margin_before ? 0 : -now * (t - before) / (now - margin_before);
+    before = std::exchange(t, t + step);
+    margin_before = now;
+    // The error shrinks with the power 1.6 of the step's.
+    if (std::abs(step) <= 1e-10 * t) break;
+  }
+  if (!look(t)) return {};
+  stop.t = t;
+  stop.sample = changed.sample(t, row.data(), model::Detail::all);
+  return moved;
+}
+
+// The row at each node of an arc, moved along S.
+Eigen::MatrixXd Sensitivity::moved_values(const Arc& arc, std::size_t key, double change) const {
+  return arc.values.topRows(size_) +
+         change * arc.values.middleRows((1 + static_cast<Eigen::Index>(key)) * size_, size_);
+}
+
 std::vector<double> Sensitivity::measure_gradients(const std::vector<scenario::Measure>& measures,
                                                    std::size_t key,
                                                    const solve::Outcome& outcome) const {
@@ -434,21 +500,26 @@ std::vector<double> Sensitivity::measure_gradients(const std::vector<scenario::M
   constexpr std::array offsets = {-2, -1, 1, 2};
   const Changed at = changed(key);
   std::vector<Eigen::VectorXd> found;
-  for (std::size_t i = 0; i < 4; ++i) {
+  for (std::size_t i = 0; i < offsets.size(); ++i) {
     const double change = offsets[i] * at.change;
+    const auto its_outcome = moved(outcome, key, change, at.models[i]);
+    if (!its_outcome) return std::vector<double>(measures.size(), nothing);
+    const bool stops = outcome.ending == solve::Ending::stopped;
+    const double end = stops ? its_outcome->occurrences.back().t : grid_.end();
+    const Arc* const last = stops ? arc_at(end) : nullptr;
     record::Recorder recorder({{}, measures, false});
     recorder.begin(at.models[i], at.constants[i], grid_);
     if (solve::PieceSink* const pieces = recorder.pieces()) {
       pieces->begin_run();
       for (const Arc& arc : arcs_) {
-        const auto of_key =
-            arc.values.middleRows((1 + static_cast<Eigen::Index>(key)) * size_, size_);
-        pieces->accept(ArcPiece(arc.from, arc.to, arc.values.topRows(size_) + change * of_key));
+        pieces->accept(ArcPiece(arc.from, arc.to - arc.from, &arc == last ? end : arc.to,
+                                moved_values(arc, key, change)));
+        if (&arc == last) break;
       }
     }
     recorder.accept(0, rows(), changed_rows(key, change).data());
     Eigen::VectorXd results(static_cast<Eigen::Index>(measures.size()));
-    recorder.finish(outcome, results.data());
+    recorder.finish(*its_outcome, results.data());
     found.push_back(std::move(results));
   }
   const auto value = [&](std::size_t i) -> const Eigen::VectorXd& { return found[i]; };
@@ -460,9 +531,7 @@ std::vector<double> Sensitivity::measure_gradients(const std::vector<scenario::M
     // At a kink, such as one maximum overtaking another, differences do not agree.
     const double allowed = 1e-2 * std::max(std::abs(gradient[i]), std::abs(coarse[i])) +
                            1e-10 * std::abs(found[1][i]) / at.change;
-    gradients[m] = std::abs(gradient[i] - coarse[i]) <= allowed
-                       ? gradient[i]
-                       : std::numeric_limits<double>::quiet_NaN();
+    gradients[m] = std::abs(gradient[i] - coarse[i]) <= allowed ? gradient[i] : nothing;
   }
   return gradients;
 }

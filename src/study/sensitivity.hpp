@@ -7,6 +7,7 @@
 #include <Eigen/Core>
 #include <cstddef>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -43,7 +44,8 @@ struct VariedKey {
 class Sensitivity : public solve::StateSink, public solve::PieceSink {
  public:
   // `model` is assembled with `symmetry`. All references must outlive this. Throws InputError if
-  // the model switches, or if a key changes more than numbers of it.
+  // the model switches, or if a key changes more than numbers of it. Events may observe the motion
+  // and end it; then the ends of measures move, too.
   Sensitivity(const model::Model& model, model::Symmetry symmetry, const solve::OutputGrid& grid,
               std::vector<VariedKey> keys);
   Sensitivity(const Sensitivity&) = delete;  // fan_ refers to this
@@ -95,6 +97,11 @@ class Sensitivity : public solve::StateSink, public solve::PieceSink {
                                         const double* z) const;
   [[nodiscard]] Changed changed(std::size_t key) const;
   [[nodiscard]] std::vector<double> changed_rows(std::size_t key, double change) const;
+  [[nodiscard]] const Arc* arc_at(double t) const;
+  [[nodiscard]] std::optional<solve::Outcome> moved(const solve::Outcome& outcome, std::size_t key,
+                                                    double change,
+                                                    const model::Model& changed) const;
+  [[nodiscard]] Eigen::MatrixXd moved_values(const Arc& arc, std::size_t key, double change) const;
   [[nodiscard]] std::size_t rows() const;
 
   const model::Model& model_;

@@ -227,6 +227,25 @@ TEST_CASE("gradients of measures are those of runs beside", "[sensitivity]") {
   }
 }
 
+TEST_CASE("where an event stops the run, the measures' end moves with the key", "[sensitivity]") {
+  // The ball leaves the plate at x = size / 2 with vx = sqrt(a size), a = (5/7) g sin(phi).
+  const auto made = run("configs/incline",
+                        {"plate.size=[0.4, 0.4]", "events.edge=stop", "output.columns=[t, x]",
+                         tight_rtol, tight_atol},
+                        {"gravity,plate.size.0"}, {"end_vx", "max_x", "max_vx"});
+  REQUIRE(made.summary.status == "stopped");
+  const double a = 5.0 / 7 * 9.80665 * std::sin(5 * std::numbers::pi / 180);
+  const double end = std::sqrt(a * 0.4);
+  CHECK(made.summary.measures[0].second == Approx(end));
+  CHECK(gradient(made, "end_vx", "gravity") == Approx(end / (2 * 9.80665)).epsilon(1e-9));
+  CHECK(gradient(made, "max_vx", "gravity") == Approx(end / (2 * 9.80665)).epsilon(1e-9));
+  CHECK(gradient(made, "end_vx", "plate.size.0") == Approx(end / 0.8).epsilon(1e-9));
+  CHECK(gradient(made, "max_x", "plate.size.0") == Approx(0.5).epsilon(1e-9));
+  CHECK(std::abs(gradient(made, "max_x", "gravity")) < 1e-10);
+  // In the rows the plate's edge makes no difference.
+  for (const double one : column(made, gradient_name("x", "plate.size.0"))) CHECK(one == 0);
+}
+
 TEST_CASE("rows with derivatives are those without", "[sensitivity]") {
   const auto with = run("fig2b", {}, {"ball.radius"}, {"max_tilt"});
   const auto without = run("fig2b", {}, {}, {"max_tilt"});
