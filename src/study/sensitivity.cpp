@@ -402,7 +402,8 @@ std::vector<double> Sensitivity::column_gradient(const scenario::Column& column,
                                                  std::size_t key) const {
   const std::size_t count = rows();
   const auto size = static_cast<std::size_t>(size_);
-  std::vector<double> gradient(count);
+  std::vector<double> gradient(states_.size() / size, nothing);
+  if (count == 0) return gradient;
   const std::vector<std::string> names = model_.state_names();
   const auto state = std::ranges::find(names, column.name);
   if (state != names.end()) {
@@ -428,7 +429,8 @@ std::vector<double> Sensitivity::column_gradient(const scenario::Column& column,
   const Eigen::VectorXd found =
       difference(fourth_order, 2, at.change,
                  [&](std::size_t i) -> const Eigen::VectorXd& { return values[i]; });
-  return {found.data(), found.data() + found.size()};
+  std::copy(found.begin(), found.end(), gradient.begin());
+  return gradient;
 }
 
 // The arc that has the motion at a time; past its end for a moment, as a moved motion may be.
@@ -496,7 +498,7 @@ Eigen::MatrixXd Sensitivity::moved_values(const Arc& arc, std::size_t key, doubl
 std::vector<double> Sensitivity::measure_gradients(const std::vector<scenario::Measure>& measures,
                                                    std::size_t key,
                                                    const solve::Outcome& outcome) const {
-  if (measures.empty()) return {};
+  if (measures.empty() || rows() == 0) return std::vector<double>(measures.size(), nothing);
   constexpr std::array offsets = {-2, -1, 1, 2};
   const Changed at = changed(key);
   std::vector<Eigen::VectorXd> found;
