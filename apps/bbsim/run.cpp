@@ -111,6 +111,7 @@ void add_run(Command& command, const Options& options) {
       "  bbsim run configs/step.yaml --measure x.RiseTime,x.Overshoot,max_tilt\n"
       "  bbsim run configs/rig.yaml --expect \"rms_tracking_error from 5 s < 0.5 mm\" -q\n"
       "  bbsim run configs/fig2a.yaml\n"
+      "  bbsim run configs/fig2b.yaml --sensitivity ball.radius,gravity -o by-key.csv\n"
       "  bbsim run configs/fig2a.yaml --set ball.radius=\"2 cm\" -o big.h5\n"
       "  bbsim run configs/fig2b.yaml --error \"1 um\" --summary run.json\n"
       "  bbsim run configs/rig.yaml -o - -q | head -3\n"
@@ -134,6 +135,12 @@ void add_run(Command& command, const Options& options) {
               "exit with code 1 if this does not hold, such as \"max_tilt < 5 deg\"; any measure, "
               "with <, <=, > or >=; repeatable")
       .takes("\"MEASURE < VALUE\"")
+      .may_be_repeated();
+  command
+      .option("--sensitivity", arguments->request.sensitivity,
+              "add columns d(x)/d(KEY), the derivatives of the states in output.columns by these "
+              "keys, and gradients of measures to the summary; in smooth scenes; repeatable")
+      .takes("KEY[,KEY]")
       .may_be_repeated();
   command
       .option("--summary", arguments->request.summary,

@@ -6,12 +6,14 @@
 #include <algorithm>
 #include <cmath>
 #include <deque>
+#include <iterator>
 #include <memory>
 #include <utility>
 
 #include "api/assemble.hpp"
 #include "api/picture.hpp"
 #include "api/run_part.hpp"
+#include "api/run_sensitivity.hpp"
 #include "api/simulation.hpp"
 #include "base/archive.hpp"
 #include "base/number_text.hpp"
@@ -78,6 +80,15 @@ std::vector<file::ColumnHeader> headers_of(const Columns& columns) {
   return headers;
 }
 
+// Writes the first `count` columns of the table, and behind them the others.
+void append(const file::TableData& table, std::size_t count,
+            const std::vector<std::vector<double>>& others, file::TableWriter& writer) {
+  std::vector<const double*> columns;
+  for (std::size_t c = 0; c < count; ++c) columns.push_back(table.columns[c].data());
+  for (const std::vector<double>& other : others) columns.push_back(other.data());
+  writer.append(columns, table.columns.front().size());
+}
+
 // Hands rows to a function, and to another table if there is one.
 class RowsTo : public file::TableWriter {
  public:
@@ -109,20 +120,26 @@ RunResult run(const RunRequest& request, Watch& watch) {
     expectations.push_back(scenario::read_expectation("--expect", text, scenario));
   }
   const auto measures = with_expected(printed, expectations);
+  const std::vector<study::VariedKey> keys = sensitivity_keys(request);
+  const GradientColumns gradients(asked, keys);
   std::optional<RunPart> part;
   if (request.part.any()) part.emplace(request.part, scenario, request.inputs);
 
   // Before a controller is started, and long before the file is opened.
   std::vector<file::ColumnHeader> headers = headers_of(asked);
+  gradients.add_headers(headers);
   if (!request.output.empty()) file::require_table_name(request.output);
   if (request.replaces_its_like_only) {
     file::require_like(request.output, file::table_with(file::csv_header(headers)));
   }
   controller::Host host = make_host(watch);
+  const model::Symmetry symmetry = study::symmetry_for(scenario, keys);
   const model::Model model =
-      assemble(part ? part->whole() : scenario, needed_for(columns, measures), host);
+      assemble(part ? part->whole() : scenario, needed_for(columns, measures), host, symmetry);
   const solve::OutputGrid grid = part ? part->grid() : solve::OutputGrid(scenario.time);
   if (part) part->check(model, columns);
+  std::optional<study::Sensitivity> sensitivity;
+  if (!keys.empty()) sensitivity.emplace(model, symmetry, grid, keys);
   std::deque<std::string> units;  // as the scene's own controller names them
   for (std::size_t c = 0; c < asked.size(); ++c) {
     if (asked[c]->needs != scenario::Needs::own) continue;
@@ -138,16 +155,19 @@ RunResult run(const RunRequest& request, Watch& watch) {
     summary_file = std::make_unique<file::AtomicFile>(request.summary);
   }
   if (writer) writer->keep(request.inputs);
+  // Derivatives become known after the last row.
+  file::TableWriter* const beside = sensitivity ? nullptr : writer.get();
   std::optional<file::MemoryTable> kept;
-  if (request.pictured || request.keeps_rows || (!writer && !request.rows_to)) {
-    kept.emplace(scenario::names_of(columns), writer.get(), asked.size());
+  if (request.pictured || request.keeps_rows || sensitivity || (!writer && !request.rows_to)) {
+    kept.emplace(scenario::names_of(columns), beside, asked.size());
   }
-  RowsTo rows(request, asked.size(), kept ? &*kept : writer.get());
+  RowsTo rows(request, asked.size(), kept ? &*kept : beside);
 
   Simulation made;
   try {
-    made = simulate(scenario, model, grid, {columns, asked.size(), measures}, rows, watch,
-                    part ? &part->part() : nullptr);
+    made = simulate(scenario, model, grid,
+                    {columns, asked.size(), measures, sensitivity ? printed.size() : 0}, rows,
+                    watch, part ? &part->part() : nullptr, sensitivity ? &*sensitivity : nullptr);
   } catch (const StateFault& fault) {
     throw InputError(request.part.from + ": " + fault.what());
   }
@@ -156,6 +176,14 @@ RunResult run(const RunRequest& request, Watch& watch) {
   summary.output = request.output;
   for (std::size_t m = 0; m < printed.size(); ++m) {
     summary.measures.emplace_back(printed[m].name, made.measures[m]);
+  }
+  file::TableData table;
+  if (kept) table = kept->take();
+  std::vector<std::vector<double>> derivatives;
+  if (sensitivity) {
+    add_gradients(made, printed, keys, summary);
+    derivatives = gradients.values(*sensitivity);
+    if (writer) append(table, asked.size(), derivatives, *writer);
   }
   for (const file::ColumnHeader& header : headers) {
     result.columns.emplace_back(header.name);
@@ -177,9 +205,11 @@ RunResult run(const RunRequest& request, Watch& watch) {
   host.finish();
   if (part) result.saved = part->finish(model);
   if (request.pictured) {
-    result.pictured = run_of(scenario, kept->take(), summary, made.end_row);
+    result.pictured = run_of(scenario, std::move(table), summary, made.end_row);
   } else if (kept) {
-    result.rows = kept->take();
+    result.rows = std::move(table);
+    std::ranges::copy(gradients.names, std::back_inserter(result.rows.names));
+    std::ranges::move(derivatives, std::back_inserter(result.rows.columns));
   }
   return result;
 }

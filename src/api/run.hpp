@@ -42,6 +42,9 @@ struct RunRequest {
   std::string summary{};                // a JSON file; empty: none
   std::vector<std::string> measures{};  // lists of names, as scenario::split_measures() takes them
   std::vector<std::string> expect{};    // "max_tilt < 5 deg"
+  // Lists of keys, as split_measures() takes them. Rows have the derivatives of the states by them,
+  // the summary those of `measures`.
+  std::vector<std::string> sensitivity{};
   PartRequest part{};
   bool pictured = false;  // the result has what a page shows of the run
   // Called once all that was asked for has been found in order, before files are opened.

@@ -147,7 +147,8 @@ solve::Watch looking_in(Watch& watch, double end) {
 
 Simulation simulate(const Scenario& scenario, const model::Model& model,
                     const solve::OutputGrid& grid, const RowsAndMeasures& wanted,
-                    file::TableWriter& writer, Watch& watch, solve::Part* part) {
+                    file::TableWriter& writer, Watch& watch, solve::Part* part,
+                    study::Sensitivity* sensitivity) {
   const model::BallConstants constants = model::constants_of(scenario);
   record::Recorder recorder({wanted.columns, wanted.measures, true});
   // A sweep takes them in this manner too: its numbers are these.
@@ -156,7 +157,9 @@ Simulation simulate(const Scenario& scenario, const model::Model& model,
   recorder.begin(model, constants, grid, &writer, {quick});
   std::optional<record::EdgeNote> edge;
   if (record::EdgeNote::wanted(scenario)) edge.emplace(model, scenario.plate, grid, recorder);
-  solve::StateSink& sink = edge ? static_cast<solve::StateSink&>(*edge) : recorder;
+  solve::StateSink& rows = edge ? static_cast<solve::StateSink&>(*edge) : recorder;
+  if (sensitivity != nullptr) sensitivity->begin(rows, wanted.measures_with_gradients > 0);
+  solve::StateSink& sink = sensitivity != nullptr ? *sensitivity : rows;
 
   watch.start(0);
   Integration made = integrate(scenario, model, grid, sink, looking_in(watch, grid.end()), part);
@@ -168,6 +171,13 @@ Simulation simulate(const Scenario& scenario, const model::Model& model,
   simulation.end_row = recorder.end_row(made.outcome);
   simulation.whys = recorder.whys();
   simulation.row_estimates = std::move(made.row_estimates);
+  if (sensitivity != nullptr) {
+    std::vector<scenario::Measure> measures = wanted.measures;
+    measures.resize(wanted.measures_with_gradients);
+    for (std::size_t key = 0; key < sensitivity->keys(); ++key) {
+      simulation.gradients.push_back(sensitivity->measure_gradients(measures, key, made.outcome));
+    }
+  }
 
   RunResult& result = simulation.result;
   record::RunSummary& summary = result.summary = summary_of(scenario, model, made);

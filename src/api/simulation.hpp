@@ -19,6 +19,7 @@
 #include "solve/outcome.hpp"
 #include "solve/output_grid.hpp"
 #include "solve/part.hpp"
+#include "study/sensitivity.hpp"
 
 namespace bbsim::api {
 
@@ -26,6 +27,7 @@ struct RowsAndMeasures {
   std::vector<const scenario::Column*> columns;
   std::size_t finite_columns;  // the first ones, which have to be; the others are for a picture
   std::vector<scenario::Measure> measures;
+  std::size_t measures_with_gradients = 0;  // the first ones
 };
 
 struct Simulation {
@@ -34,13 +36,17 @@ struct Simulation {
   std::vector<double> measures;
   scenario::Whys whys;          // of those that are no number
   std::vector<double> end_row;  // Recorder::end_row()
+  // Of each key of the sensitivity, the derivatives of the first measures.
+  std::vector<std::vector<double>> gradients{};
 };
 
 // Integrates the model, which what is wanted needs, and hands the rows to `writer`, which is left
-// to be finished. A part of a run, if it is one, has what came of it.
+// to be finished. A part of a run, if it is one, has what came of it; `sensitivity`, if not null,
+// the derivatives of the rows.
 [[nodiscard]] Simulation simulate(const Scenario& scenario, const model::Model& model,
                                   const solve::OutputGrid& grid, const RowsAndMeasures& wanted,
-                                  file::TableWriter& writer, Watch& watch, solve::Part* part);
+                                  file::TableWriter& writer, Watch& watch, solve::Part* part,
+                                  study::Sensitivity* sensitivity);
 
 // Why a run failed: when, what the integrator said, what grew, and what to do.
 [[nodiscard]] std::string failure_text(const Scenario& scenario, const model::Model& model,

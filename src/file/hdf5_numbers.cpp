@@ -2,6 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 // HDF5 tables of numbers, as runs write them.
+#include <algorithm>
+#include <utility>
+
 #include "base/shown.hpp"
 #include "file/formats.hpp"
 #include "file/hdf5_input.hpp"
@@ -10,8 +13,11 @@
 namespace bbsim::file {
 namespace {
 
+// A slash in a name would make groups: d(x)/d(ball.radius) becomes d(x)_d(ball.radius).
 Hdf5Column column_of(const ColumnHeader& header) {
-  return {std::string(header.name), std::string(header.unit), std::string(header.meaning)};
+  std::string name(header.name);
+  std::ranges::replace(name, '/', '_');
+  return {std::move(name), std::string(header.unit), std::string(header.meaning)};
 }
 
 // A table of numbers alone.

@@ -118,6 +118,12 @@ std::string to_json(const RunSummary& summary) {
     nlohmann::ordered_json& measures = json["measures"] = nlohmann::ordered_json::object();
     for (const auto& [name, value] : summary.measures) measures[name] = value;
   }
+  if (!summary.gradients.empty()) {
+    nlohmann::ordered_json& gradients = json["gradients"] = nlohmann::ordered_json::object();
+    for (const auto& [measure, by_key] : summary.gradients) {
+      for (const auto& [key, value] : by_key) gradients[measure][key] = value;
+    }
+  }
   if (!summary.expectations.empty()) {
     nlohmann::ordered_json& all = json["expectations"] = nlohmann::ordered_json::array();
     for (const ExpectationRecord& one : summary.expectations) {
@@ -154,6 +160,11 @@ file::Attributes to_attributes(const RunSummary& summary, const std::string& sce
   for_each_statistic(summary, add);
   if (summary.peaks) for_each_member(*summary.peaks, add);
   for (const auto& [name, value] : summary.measures) add("measure " + name, value);
+  for (const auto& [measure, by_key] : summary.gradients) {
+    for (const auto& [key, value] : by_key) {
+      add("gradient d(" + measure + ")/d(" + key + ")", value);
+    }
+  }
   if (!summary.expectations.empty()) {
     std::vector<std::string> expectations;
     for (const ExpectationRecord& one : summary.expectations) {

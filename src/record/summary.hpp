@@ -61,7 +61,10 @@ struct RunSummary {
   double rtol = 0, atol = 0;
   std::vector<EventRecord> events;
   // The results of --measure, by name.
-  std::vector<std::pair<std::string, double>> measures;
+  using Numbers = std::vector<std::pair<std::string, double>>;
+  Numbers measures;
+  // With --sensitivity: of each of these measures, its derivatives by keys.
+  std::vector<std::pair<std::string, Numbers>> gradients;
   std::vector<ExpectationRecord> expectations;
   std::optional<MotorPeaks> peaks;  // if a column needs forces, or with plate.inertia
   // With solver.error only: the requested bound and the estimate reached, m.

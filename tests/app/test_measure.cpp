@@ -3,6 +3,7 @@
 
 // Measures on the command line: of a run, of a stored one, of a sweep, and by group.
 #include <cmath>
+#include <filesystem>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <sstream>
@@ -359,4 +360,34 @@ TEST_CASE("a log is measured by its own names, units and clock") {
   auto aligned = words;
   aligned.insert(aligned.end(), {"min_x", "--time-offset", "auto"});
   CHECK(bbsim(aligned, folder.path()).exit_code == 2);
+}
+
+TEST_CASE("run writes derivatives by keys beside its columns, and gradients of measures") {
+  const Folder folder;
+  const auto run_to = [&](const std::string& file, const std::string& scene) {
+    return bbsim(
+        {"run", config(scene), "-q", "-o", file, "--set", "output.columns=[t, x, vx]",
+         "--sensitivity", "gravity,ball.radius", "--measure", "end_x", "--summary", "s.json"},
+        folder.path());
+  };
+  const Result run = run_to("by-key.csv", "incline.yaml");
+  CAPTURE(run.err);
+  REQUIRE(run.exit_code == 0);
+  const std::string text = folder.read("by-key.csv");
+  CHECK(text.substr(0, text.find('\n')) ==
+        "t,x,vx,d(x)/d(gravity),d(x)/d(ball.radius),d(vx)/d(gravity),d(vx)/d(ball.radius)");
+  const auto summary = nlohmann::json::parse(folder.read("s.json"));
+  // x is proportional to gravity.
+  CHECK(summary["gradients"]["end_x"]["gravity"].get<double>() ==
+        Approx(values_of(run.out).at("end_x") / 9.80665));
+  CHECK(std::abs(summary["gradients"]["end_x"]["ball.radius"].get<double>()) < 1e-9);
+
+  CHECK(run_to("by-key.h5", "incline.yaml").exit_code == 0);
+  CHECK(bbsim({"compare", "by-key.h5", "by-key.h5"}, folder.path()).exit_code == 0);
+
+  const Result refused = run_to("none.csv", "rig.yaml");
+  CHECK(refused.exit_code == 2);
+  CHECK(refused.err.find("--sensitivity: found with samples of the controller") !=
+        std::string::npos);
+  CHECK_FALSE(std::filesystem::exists(folder.path() / "none.csv"));
 }

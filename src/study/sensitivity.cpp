@@ -1,0 +1,541 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "study/sensitivity.hpp"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <type_traits>
+#include <utility>
+#include <variant>
+
+#include "base/error.hpp"
+#include "base/shown.hpp"
+#include "model/systems/any_jacobian.hpp"
+#include "record/recorder.hpp"
+#include "record/rows.hpp"
+#include "study/radau_rule.hpp"
+
+namespace bbsim::study {
+namespace {
+
+constexpr int stages = 12;
+// Of the polynomial of S, relative to S. At the end of an arc S is far better: Radau IIA has order
+// 23 there.
+constexpr double precision = 1e-11;
+// A piece is halved up to this many times.
+constexpr int deepest = 6;
+// What is below this share of the key's largest effect may be rounding.
+constexpr double least_share = 1e-5;
+constexpr double epsilon = std::numeric_limits<double>::epsilon();
+constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
+
+// The rule's tables in double.
+struct Tables {
+  Eigen::VectorXd nodes{stages + 1};        // 0, c_1, ..., c_s = 1
+  Eigen::VectorXd barycentric{stages + 1};  // weights of interpolation at them
+  Eigen::MatrixXd matrix;
+  Eigen::VectorXd last{stages}, previous{stages};  // give Legendre coefficients
+
+  Tables() {
+    const RadauRule rule(stages);
+    matrix = rule.matrix_in_double;
+    nodes[0] = 0;
+    for (int i = 0; i < stages; ++i) {
+      const auto at = static_cast<std::size_t>(i);
+      nodes[i + 1] = plain(rule.nodes[at]);
+      last[i] = plain(rule.last_coefficient[at]);
+      previous[i] = plain(rule.previous_coefficient[at]);
+    }
+    for (int i = 0; i <= stages; ++i) {
+      barycentric[i] = plain(rule.barycentric[static_cast<std::size_t>(i)]);
+    }
+  }
+
+  // The shares of the values at the nodes in the polynomial's value at a fraction.
+  [[nodiscard]] Eigen::VectorXd shares(double fraction) const {
+    Eigen::VectorXd shares(stages + 1);
+    for (int i = 0; i <= stages; ++i) {
+      const double distance = fraction - nodes[i];
+      if (distance == 0) return Eigen::VectorXd::Unit(stages + 1, i);
+      shares[i] = barycentric[i] / distance;
+    }
+    return shares / shares.sum();
+  }
+};
+
+const Tables& tables() {
+  static const Tables made;
+  return made;
+}
+
+// Central differences: the weight of (f(p + i h) - f(p - i h)) / h, i from 1.
+constexpr std::array eighth_order = {4.0 / 5, -1.0 / 5, 4.0 / 105, -1.0 / 280};
+constexpr std::array sixth_order = {3.0 / 4, -3.0 / 20, 1.0 / 60};
+constexpr std::array fourth_order = {2.0 / 3, -1.0 / 12};
+constexpr std::array second_order = {1.0 / 2};
+
+// `value(i)` is f(p + offset h) for the i-th of 2 `neighbors` offsets without 0, in their order.
+template <std::size_t n, class Value>
+auto difference(const std::array<double, n>& weights, std::size_t neighbors, double step,
+                const Value& value) {
+  auto sum = (weights[0] * (value(neighbors) - value(neighbors - 1))).eval();
+  for (std::size_t i = 1; i < n; ++i) {
+    sum += weights[i] * (value(neighbors + i) - value(neighbors - 1 - i));
+  }
+  return (sum / step).eval();
+}
+
+Eigen::VectorXd rates(const model::Model& model, double t, const double* z) {
+  Eigen::VectorXd rates(static_cast<Eigen::Index>(model.size()));
+  std::visit([&](const auto& system) { system.derivative(t, z, rates.data()); }, model.system);
+  return rates;
+}
+
+int spin_state(const model::Model& model) {
+  return std::visit(
+      [](const auto& system) { return model::spin_index<std::decay_t<decltype(system)>>; },
+      model.system);
+}
+
+double power_of_two_below(double value) {
+  return std::exp2(std::floor(std::log2(value)));
+}
+
+[[noreturn]] void refuse(const std::string& what) {
+  throw InputError("--sensitivity: " + what);
+}
+
+const char* what_switches(const model::Model& model) {
+  if (model.rig && model.rig->sampled) return "samples of the controller";
+  if (model.dry) return "dry friction, sliding or limits of torques";
+  if (model.rig && model.rig->switches()) return "limits or switches of the servos";
+  return "events beside servos, losses or torques";
+}
+
+// The polynomial of an arc of length `length`, as a piece that may end elsewhere.
+class ArcPiece : public solve::Piece {
+ public:
+  ArcPiece(double from, double length, double to, Eigen::MatrixXd values)
+      : Piece(from, to, stages), length_(length), values_(std::move(values)) {}
+
+  void evaluate(const double* times, std::size_t count, double* rows) const override {
+    for (std::size_t i = 0; i < count; ++i) {
+      const double fraction = (times[i] - from()) / length_;
+      Eigen::Map<Eigen::VectorXd>(rows + i * static_cast<std::size_t>(values_.rows()),
+                                  values_.rows()) = values_ * tables().shares(fraction);
+    }
+  }
+
+ private:
+  double length_;
+  Eigen::MatrixXd values_;
+};
+
+}  // namespace
+
+model::Symmetry symmetry_for(const Scenario& scenario, const std::vector<VariedKey>& keys) {
+  if (keys.empty()) return model::Symmetry::used;
+  const std::size_t kind = model::assemble(scenario, false).system.index();
+  const bool same = std::ranges::all_of(keys, [&](const VariedKey& key) {
+    return model::assemble(key.scenario(key.value + key.step), false).system.index() == kind;
+  });
+  return same ? model::Symmetry::used : model::Symmetry::ignored;
+}
+
+Sensitivity::Sensitivity(const model::Model& model, model::Symmetry symmetry,
+                         const solve::OutputGrid& grid, std::vector<VariedKey> keys)
+    : model_(model),
+      symmetry_(symmetry),
+      grid_(grid),
+      size_(static_cast<Eigen::Index>(model.size() + (model.gamma ? 1 : 0))),
+      spin_(spin_state(model)) {
+  // Events alone only observe the motion, or end it.
+  if (model.extras() > 0) {
+    refuse(std::string("found with ") + what_switches(model) +
+           "; allowed: smooth scenes, and events in scenes with a given motion or an ideal servo");
+  }
+  initial_ = Eigen::MatrixXd::Zero(size_, static_cast<Eigen::Index>(keys.size()));
+  for (VariedKey& key : keys) {
+    Neighbors& neighbors = keys_.emplace_back(Neighbors{std::move(key), {}});
+    // The widest step that is smooth has the least rounding. With time, the phase of a wave changes
+    // much with its frequency.
+    constexpr int most_halvings = 20;
+    fill(neighbors);
+    for (int i = 0; i < most_halvings && !is_smooth(neighbors); ++i) {
+      neighbors.key.step /= 2;
+      fill(neighbors);
+    }
+    initial_.col(static_cast<Eigen::Index>(keys_.size()) - 1).head(size_ - (model.gamma ? 1 : 0)) =
+        difference(eighth_order, 4, neighbors.key.step, [&](std::size_t i) {
+          const std::vector<double>& initial = neighbors.models[i].initial;
+          return Eigen::Map<const Eigen::VectorXd>(initial.data(),
+                                                   static_cast<Eigen::Index>(initial.size()));
+        });
+  }
+}
+
+void Sensitivity::fill(Neighbors& neighbors) const {
+  neighbors.models.clear();
+  const VariedKey& key = neighbors.key;
+  for (const int offset : {-4, -3, -2, -1, 1, 2, 3, 4}) {
+    neighbors.models.push_back(
+        model::assemble(key.scenario(key.value + offset * key.step), model_.gamma, symmetry_));
+    require_alike(neighbors.models.back(), key.name);
+  }
+}
+
+void Sensitivity::require_alike(const model::Model& other, const std::string& key) const {
+  const std::string name = shown(key);
+  if (other.system.index() != model_.system.index() || other.size() != model_.size() ||
+      other.hybrid() != model_.hybrid()) {
+    refuse(name +
+           ": the scene has other equations at values beside the present one; allowed: a key "
+           "whose values all give the same equations");
+  }
+  const bool same_stops = std::ranges::equal(other.stops, model_.stops, [&](double a, double b) {
+    return std::abs(a - b) <= 1e-12 * grid_.end();
+  });
+  if (!same_stops) {
+    refuse(name +
+           ": it moves times at which the input jumps; allowed: keys that leave these times");
+  }
+}
+
+// Whether a difference of order 6 is good enough at instants all over the run. The one of order 8
+// is then far better.
+bool Sensitivity::is_smooth(const Neighbors& neighbors) const {
+  constexpr int instants = 32;
+  constexpr double good = 1e-10;
+  Eigen::ArrayXd apart = Eigen::ArrayXd::Zero(static_cast<Eigen::Index>(model_.size()));
+  Eigen::ArrayXd most = apart, size = apart;
+  for (int k = 0; k <= instants; ++k) {
+    const double t = grid_.end() * k / instants;
+    std::vector<Eigen::VectorXd> at;
+    for (const model::Model& model : neighbors.models) {
+      at.push_back(rates(model, t, model_.initial.data()));
+      size = size.max(at.back().array().abs());
+    }
+    const auto value = [&](std::size_t i) -> const Eigen::VectorXd& { return at[i]; };
+    const double step = neighbors.key.step;
+    const Eigen::VectorXd good_one = difference(eighth_order, 4, step, value);
+    apart = apart.max((good_one - difference(sixth_order, 4, step, value)).array().abs());
+    most = most.max(good_one.array().abs());
+  }
+  return (apart <= good * most + 8 * epsilon / neighbors.key.step * size).all();
+}
+
+void Sensitivity::begin(solve::StateSink& next, bool with_measures) {
+  next_ = &next;
+  keeps_arcs_ = with_measures;
+  fan_.clear();
+  fan_.add(*this);
+  if (solve::PieceSink* const pieces = next.pieces()) fan_.add(*pieces);
+}
+
+void Sensitivity::accept(std::size_t first, std::size_t count, const double* values) {
+  states_.insert(states_.end(), values, values + count * static_cast<std::size_t>(size_));
+  next_->accept(first, count, values);
+}
+
+void Sensitivity::begin_run() {
+  slopes_ = initial_;
+  largest_ = slopes_.cwiseAbs();
+  states_.clear();
+  arcs_.clear();
+  gradients_.assign(slopes_.data(), slopes_.data() + slopes_.size());  // of the first row
+  next_row_ = 1;
+}
+
+void Sensitivity::accept(const solve::Piece& piece) {
+  cross(piece, piece.from(), piece.to(), 0);
+}
+
+// df/dp, with 0 for the integral of u.
+Eigen::VectorXd Sensitivity::forcing(const Neighbors& neighbors, double t, const double* z) const {
+  Eigen::VectorXd slope = Eigen::VectorXd::Zero(size_);
+  slope.head(static_cast<Eigen::Index>(model_.size())) =
+      difference(eighth_order, 4, neighbors.key.step,
+                 [&](std::size_t i) { return rates(neighbors.models[i], t, z); });
+  return slope;
+}
+
+void Sensitivity::cross(const solve::Piece& piece, double from, double to, int depth) {
+  if (!(to > from)) return;
+  const Tables& rule = tables();
+  const auto n = static_cast<Eigen::Index>(model_.size());
+  const auto keys = static_cast<Eigen::Index>(keys_.size());
+  const double h = to - from;
+  std::array<double, stages + 1> times;
+  for (int i = 0; i <= stages; ++i) times[static_cast<std::size_t>(i)] = from + rule.nodes[i] * h;
+  times.back() = to;
+  Eigen::MatrixXd z(size_, stages + 1);
+  piece.evaluate(times.data(), times.size(), z.data());
+
+  // (I - h A (x) J) S = S_from + h A (x) df/dp
+  Eigen::MatrixXd matrix(size_ * stages, size_ * stages);
+  Eigen::MatrixXd right(size_ * stages, keys);
+  Eigen::VectorXd noise = Eigen::VectorXd::Zero(keys);  // rounding of df/dp
+  Eigen::MatrixXd part(n, n), jacobian = Eigen::MatrixXd::Zero(size_, size_);
+  if (model_.gamma) jacobian(n, spin_) = 1;
+  Eigen::MatrixXd forced(size_, stages);
+  for (Eigen::Index j = 0; j < stages; ++j) {
+    const double t = times[static_cast<std::size_t>(j) + 1];
+    model::jacobian(model_.system, t, z.col(j + 1).data(), part.data());
+    jacobian.topLeftCorner(n, n) = part;
+    for (Eigen::Index i = 0; i < stages; ++i) {
+      matrix.block(i * size_, j * size_, size_, size_) = -h * rule.matrix(i, j) * jacobian;
+    }
+  }
+  matrix.diagonal().array() += 1;
+  for (Eigen::Index k = 0; k < keys; ++k) {
+    const Neighbors& neighbors = keys_[static_cast<std::size_t>(k)];
+    for (Eigen::Index j = 0; j < stages; ++j) {
+      const double t = times[static_cast<std::size_t>(j) + 1];
+      forced.col(j) = forcing(neighbors, t, z.col(j + 1).data());
+    }
+    const double size = rates(model_, to, z.col(stages).data()).cwiseAbs().maxCoeff();
+    noise[k] = epsilon * h * size / neighbors.key.step;
+    Eigen::Map<Eigen::MatrixXd>(right.col(k).data(), size_, stages) =
+        (h * forced * rule.matrix.transpose()).colwise() + slopes_.col(k);
+  }
+  const Eigen::MatrixXd solved = matrix.partialPivLu().solve(right);
+
+  // The last Legendre coefficients bound the error of the polynomial. Where symmetry makes the last
+  // one vanish, a tenth of the one before stands for it.
+  Eigen::MatrixXd largest = largest_;
+  for (Eigen::Index j = 0; j < stages; ++j) {
+    largest = largest.cwiseMax(solved.middleRows(j * size_, size_).cwiseAbs());
+  }
+  bool fine = true;
+  for (Eigen::Index k = 0; k < keys && fine; ++k) {
+    const Eigen::Map<const Eigen::MatrixXd> stage(solved.col(k).data(), size_, stages);
+    const Eigen::MatrixXd grown = stage.colwise() - slopes_.col(k);
+    const Eigen::ArrayXd tail =
+        (grown * rule.last).array().abs().max(0.1 * (grown * rule.previous).array().abs());
+    const Eigen::ArrayXd scale =
+        largest.col(k).array().max(least_share * largest.col(k).maxCoeff());
+    fine = (tail <= precision * scale + noise[k]).all();
+  }
+  if (!fine && depth < deepest) {
+    const double middle = from + h / 2;
+    cross(piece, from, middle, depth + 1);
+    cross(piece, middle, to, depth + 1);
+    return;
+  }
+
+  Eigen::MatrixXd values(size_ * (1 + keys), stages + 1);
+  values.topRows(size_) = z;
+  for (Eigen::Index k = 0; k < keys; ++k) {
+    auto of_key = values.middleRows((1 + k) * size_, size_);
+    of_key.col(0) = slopes_.col(k);
+    of_key.rightCols(stages) =
+        Eigen::Map<const Eigen::MatrixXd>(solved.col(k).data(), size_, stages);
+  }
+  slopes_ = solved.bottomRows(size_);
+  largest_ = largest;
+  take_rows(from, to, values);
+  if (keeps_arcs_) arcs_.push_back({from, to, std::move(values)});
+}
+
+void Sensitivity::take_rows(double from, double to, const Eigen::MatrixXd& values) {
+  // A piece before a stop ends a rounding before it.
+  const double until = to + 2 * epsilon * to;
+  for (; next_row_ < grid_.size() && grid_[next_row_] <= until; ++next_row_) {
+    const double fraction = std::min((grid_[next_row_] - from) / (to - from), 1.0);
+    const Eigen::VectorXd row =
+        values.bottomRows(values.rows() - size_) * tables().shares(fraction);
+    gradients_.insert(gradients_.end(), row.data(), row.data() + row.size());
+  }
+}
+
+// Of a run that may have ended early.
+std::size_t Sensitivity::rows() const {
+  const auto size = static_cast<std::size_t>(size_);
+  return std::min(states_.size() / size, gradients_.size() / (size * keys_.size()));
+}
+
+// Changes that move no state by more than a thousandth of its range: differences of order 4 are
+// then good to rounding.
+Sensitivity::Changed Sensitivity::changed(std::size_t key) const {
+  constexpr double share = 1e-3, least_range = 1e-4;
+  const VariedKey& varied = keys_[key].key;
+  const auto count = static_cast<Eigen::Index>(rows());
+  const Eigen::Map<const Eigen::MatrixXd> z(states_.data(), size_, count);
+  const Eigen::VectorXd range = z.cwiseAbs().rowwise().maxCoeff();
+  Eigen::VectorXd effect = Eigen::VectorXd::Zero(size_);
+  for (Eigen::Index row = 0; row < count; ++row) {
+    const Eigen::Map<const Eigen::MatrixXd> slopes(
+        gradients_.data() + row * size_ * static_cast<Eigen::Index>(keys_.size()), size_,
+        static_cast<Eigen::Index>(keys_.size()));
+    effect = effect.cwiseMax(slopes.col(static_cast<Eigen::Index>(key)).cwiseAbs());
+  }
+  double most = varied.step;
+  const double floor = least_range * range.maxCoeff();
+  for (Eigen::Index i = 0; i < size_ && floor > 0; ++i) {
+    if (effect[i] > 0) most = std::min(most, share * std::max(range[i], floor) / effect[i]);
+  }
+  Changed changed{std::max(power_of_two_below(most), varied.step * 0x1p-20), {}, {}};
+  for (const int offset : {-2, -1, 1, 2}) {
+    const Scenario scenario = varied.scenario(varied.value + offset * changed.change);
+    changed.models.push_back(model::assemble(scenario, model_.gamma, symmetry_));
+    changed.constants.push_back(model::constants_of(scenario));
+  }
+  return changed;
+}
+
+std::vector<double> Sensitivity::changed_rows(std::size_t key, double change) const {
+  std::vector<double> moved = states_;
+  const auto size = static_cast<std::size_t>(size_);
+  for (std::size_t row = 0; row < rows(); ++row) {
+    const double* const slopes = gradients_.data() + (row * keys_.size() + key) * size;
+    for (std::size_t i = 0; i < size; ++i) moved[row * size + i] += change * slopes[i];
+  }
+  return moved;
+}
+
+std::vector<double> Sensitivity::column_gradient(const scenario::Column& column,
+                                                 std::size_t key) const {
+  const std::size_t count = rows();
+  const auto size = static_cast<std::size_t>(size_);
+  std::vector<double> gradient(states_.size() / size, nothing);
+  if (count == 0) return gradient;
+  const std::vector<std::string> names = model_.state_names();
+  const auto state = std::ranges::find(names, column.name);
+  if (state != names.end()) {
+    const auto at = static_cast<std::size_t>(state - names.begin());
+    for (std::size_t row = 0; row < count; ++row) {
+      gradient[row] = gradients_[(row * keys_.size() + key) * size + at];
+    }
+    return gradient;
+  }
+  // A column that is a function of the states, and of the key.
+  const Changed at = changed(key);
+  std::vector<double> times;
+  for (std::size_t row = 0; row < count; ++row) times.push_back(grid_[row]);
+  std::vector<Eigen::VectorXd> values;
+  for (std::size_t i = 0; i < 4; ++i) {
+    constexpr std::array offsets = {-2, -1, 1, 2};
+    record::Rows one({&column});
+    one.begin(at.models[i], at.constants[i]);
+    one.evaluate(times.data(), changed_rows(key, offsets[i] * at.change).data(), count);
+    values.emplace_back(
+        Eigen::Map<const Eigen::VectorXd>(one[0], static_cast<Eigen::Index>(count)));
+  }
+  const Eigen::VectorXd found =
+      difference(fourth_order, 2, at.change,
+                 [&](std::size_t i) -> const Eigen::VectorXd& { return values[i]; });
+  std::copy(found.begin(), found.end(), gradient.begin());
+  return gradient;
+}
+
+// The arc that has the motion at a time; past its end for a moment, as a moved motion may be.
+const Sensitivity::Arc* Sensitivity::arc_at(double t) const {
+  constexpr double past = 0.05;  // of the arc's length
+  const auto later = std::ranges::find_if(arcs_.rbegin(), arcs_.rend(),
+                                          [&](const Arc& arc) { return arc.from < t; });
+  const auto found = std::find_if(later, arcs_.rend(), [&](const Arc& arc) {
+    return t - arc.to <= past * (arc.to - arc.from);
+  });
+  return found == arcs_.rend() ? nullptr : &*found;
+}
+
+// The outcome of the motion moved by a change of a key, which stops where the run's event occurs to
+// it: a zero of the event's margin, by the secant method. Nothing if that is nowhere near.
+std::optional<solve::Outcome> Sensitivity::moved(const solve::Outcome& outcome, std::size_t key,
+                                                 double change, const model::Model& changed) const {
+  solve::Outcome moved = outcome;
+  if (outcome.ending != solve::Ending::stopped) return moved;
+  model::Occurrence& stop = moved.occurrences.back();
+  const std::vector<model::Monitor>& monitors = changed.events->monitors;
+  const auto monitor = std::ranges::find_if(
+      monitors, [&](const model::Monitor& one) { return stop.name == one.name(); });
+  if (monitor == monitors.end()) return {};
+  std::vector<double> margins(monitors.size());
+  Eigen::VectorXd row;
+  const auto look = [&](double t) {
+    const Arc* const arc = arc_at(t);
+    if (arc == nullptr) return false;
+    row =
+        moved_values(*arc, key, change) * tables().shares((t - arc->from) / (arc->to - arc->from));
+    return true;
+  };
+  const auto margin = [&](double t) {
+    if (!look(t)) return nothing;
+    changed.events->margins(changed.sample(t, row.data(), model::Detail::motion), margins.data());
+    return margins[static_cast<std::size_t>(monitor - monitors.begin())];
+  };
+  const Arc* const last = arc_at(stop.t);
+  if (last == nullptr) return {};
+  double before = stop.t - 1e-3 * (stop.t - last->from), t = stop.t;
+  double margin_before = margin(before);
+  constexpr int most = 50;
+  for (int i = 0;; ++i) {
+    const double now = margin(t);
+    if (i == most || !std::isfinite(now)) return {};
+    const double step = now == margin_before ? 0 : -now * (t - before) / (now - margin_before);
+    before = std::exchange(t, t + step);
+    margin_before = now;
+    // The error shrinks with the power 1.6 of the step's.
+    if (std::abs(step) <= 1e-10 * t) break;
+  }
+  if (!look(t)) return {};
+  stop.t = t;
+  stop.sample = changed.sample(t, row.data(), model::Detail::all);
+  return moved;
+}
+
+// The row at each node of an arc, moved along S.
+Eigen::MatrixXd Sensitivity::moved_values(const Arc& arc, std::size_t key, double change) const {
+  return arc.values.topRows(size_) +
+         change * arc.values.middleRows((1 + static_cast<Eigen::Index>(key)) * size_, size_);
+}
+
+std::vector<double> Sensitivity::measure_gradients(const std::vector<scenario::Measure>& measures,
+                                                   std::size_t key,
+                                                   const solve::Outcome& outcome) const {
+  if (measures.empty() || rows() == 0) return std::vector<double>(measures.size(), nothing);
+  constexpr std::array offsets = {-2, -1, 1, 2};
+  const Changed at = changed(key);
+  std::vector<Eigen::VectorXd> found;
+  for (std::size_t i = 0; i < offsets.size(); ++i) {
+    const double change = offsets[i] * at.change;
+    const auto its_outcome = moved(outcome, key, change, at.models[i]);
+    if (!its_outcome) return std::vector<double>(measures.size(), nothing);
+    const bool stops = outcome.ending == solve::Ending::stopped;
+    const double end = stops ? its_outcome->occurrences.back().t : grid_.end();
+    const Arc* const last = stops ? arc_at(end) : nullptr;
+    record::Recorder recorder({{}, measures, false});
+    recorder.begin(at.models[i], at.constants[i], grid_);
+    if (solve::PieceSink* const pieces = recorder.pieces()) {
+      pieces->begin_run();
+      for (const Arc& arc : arcs_) {
+        pieces->accept(ArcPiece(arc.from, arc.to - arc.from, &arc == last ? end : arc.to,
+                                moved_values(arc, key, change)));
+        if (&arc == last) break;
+      }
+    }
+    recorder.accept(0, rows(), changed_rows(key, change).data());
+    Eigen::VectorXd results(static_cast<Eigen::Index>(measures.size()));
+    recorder.finish(*its_outcome, results.data());
+    found.push_back(std::move(results));
+  }
+  const auto value = [&](std::size_t i) -> const Eigen::VectorXd& { return found[i]; };
+  const Eigen::VectorXd gradient = difference(fourth_order, 2, at.change, value);
+  const Eigen::VectorXd coarse = difference(second_order, 2, at.change, value);
+  std::vector<double> gradients(measures.size());
+  for (std::size_t m = 0; m < measures.size(); ++m) {
+    const auto i = static_cast<Eigen::Index>(m);
+    // At a kink, such as one maximum overtaking another, differences do not agree.
+    const double allowed = 1e-2 * std::max(std::abs(gradient[i]), std::abs(coarse[i])) +
+                           1e-10 * std::abs(found[1][i]) / at.change;
+    gradients[m] = std::abs(gradient[i] - coarse[i]) <= allowed ? gradient[i] : nothing;
+  }
+  return gradients;
+}
+
+}  // namespace bbsim::study

@@ -1,0 +1,126 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// The derivatives of a run by keys of its scenario (docs/explanation/sensitivity.md).
+#pragma once
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "model/ball/dynamics.hpp"
+#include "model/model.hpp"
+#include "record/piece_fan.hpp"
+#include "scenario/columns.hpp"
+#include "scenario/measures.hpp"
+#include "scenario/scenario.hpp"
+#include "solve/outcome.hpp"
+#include "solve/output_grid.hpp"
+#include "solve/piece.hpp"
+
+namespace bbsim::study {
+
+// A key p of a scenario, with all numbers in SI.
+struct VariedKey {
+  std::string name;
+  double value = 0;
+  // A power of two. The scenario may be read at value + 4 step and value - 4 step.
+  double step = 0;
+  std::function<Scenario(double value)> scenario{};
+};
+
+// Symmetry::used if a reduced system has room for the effects of all keys.
+[[nodiscard]] model::Symmetry symmetry_for(const Scenario& scenario,
+                                           const std::vector<VariedKey>& keys);
+
+// Integrates S = dz/dp beside a run. Along each piece of the run,
+//     S' = J S + df/dp
+// is linear in S. Radau IIA collocation solves it with one factored matrix for all keys. J is
+// exact. df/dp is a difference of order 8 between models at eight values of the key, with the state
+// held: f is smooth in p, so a wide difference is good to rounding.
+class Sensitivity : public solve::StateSink, public solve::PieceSink {
+ public:
+  // `model` is assembled with `symmetry`. All references must outlive this. Throws InputError if
+  // the model switches, or if a key changes more than numbers of it. Events may observe the motion
+  // and end it; then the ends of measures move, too.
+  Sensitivity(const model::Model& model, model::Symmetry symmetry, const solve::OutputGrid& grid,
+              std::vector<VariedKey> keys);
+  Sensitivity(const Sensitivity&) = delete;  // fan_ refers to this
+  Sensitivity& operator=(const Sensitivity&) = delete;
+
+  [[nodiscard]] std::size_t keys() const { return keys_.size(); }
+
+  // The run's rows and pieces go on to `next`. `with_measures`: measure_gradients() will be called.
+  void begin(solve::StateSink& next, bool with_measures);
+
+  void accept(std::size_t first, std::size_t count, const double* values) override;
+  [[nodiscard]] solve::PieceSink* pieces() override { return fan_.sink(); }
+  void begin_run() override;
+  void accept(const solve::Piece& piece) override;
+
+  // After the run: the derivatives of a column in each row.
+  [[nodiscard]] std::vector<double> column_gradient(const scenario::Column& column,
+                                                    std::size_t key) const;
+  // After the run: the derivatives of measures; NaN where there is none.
+  [[nodiscard]] std::vector<double> measure_gradients(
+      const std::vector<scenario::Measure>& measures, std::size_t key,
+      const solve::Outcome& outcome) const;
+
+ private:
+  // The motion over a part of a piece. Column i of `values` has the row at node i, and behind it
+  // the row's derivatives by each key.
+  struct Arc {
+    double from, to;
+    Eigen::MatrixXd values;
+  };
+  // Models at value + offset step, for the offsets -4, ..., -1, 1, ..., 4.
+  struct Neighbors {
+    VariedKey key;
+    std::vector<model::Model> models;
+  };
+  // The scene at value + offset `change` for the offsets -2, -1, 1, 2.
+  struct Changed {
+    double change;
+    std::vector<model::Model> models;
+    std::vector<model::BallConstants> constants;
+  };
+
+  void fill(Neighbors& neighbors) const;
+  [[nodiscard]] bool is_smooth(const Neighbors& neighbors) const;
+  void require_alike(const model::Model& other, const std::string& key) const;
+  void cross(const solve::Piece& piece, double from, double to, int depth);
+  void take_rows(double from, double to, const Eigen::MatrixXd& values);
+  [[nodiscard]] Eigen::VectorXd forcing(const Neighbors& neighbors, double t,
+                                        const double* z) const;
+  [[nodiscard]] Changed changed(std::size_t key) const;
+  [[nodiscard]] std::vector<double> changed_rows(std::size_t key, double change) const;
+  [[nodiscard]] const Arc* arc_at(double t) const;
+  [[nodiscard]] std::optional<solve::Outcome> moved(const solve::Outcome& outcome, std::size_t key,
+                                                    double change,
+                                                    const model::Model& changed) const;
+  [[nodiscard]] Eigen::MatrixXd moved_values(const Arc& arc, std::size_t key, double change) const;
+  [[nodiscard]] std::size_t rows() const;
+
+  const model::Model& model_;
+  model::Symmetry symmetry_;
+  const solve::OutputGrid& grid_;
+  Eigen::Index size_;  // of a row: the states, and r gamma if it is integrated
+  int spin_;           // the state u = r gamma', or -1
+  std::vector<Neighbors> keys_;
+  Eigen::MatrixXd initial_;  // S at t = 0, a column for each key
+
+  solve::StateSink* next_ = nullptr;
+  record::PieceFan fan_;
+  bool keeps_arcs_ = false;
+  Eigen::MatrixXd slopes_;   // S at the time reached
+  Eigen::MatrixXd largest_;  // the greatest absolute value of each number of S so far
+  std::size_t next_row_ = 0;
+  std::vector<double> states_;     // row after row
+  std::vector<double> gradients_;  // of each row, key after key
+  std::vector<Arc> arcs_;
+};
+
+}  // namespace bbsim::study

@@ -1,0 +1,283 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// Derivatives of runs by keys: closed forms, differences of quad-precision solutions, and
+// differences of runs.
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <numbers>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "api/run.hpp"
+#include "base/error.hpp"
+#include "base/number_text.hpp"
+#include "base/quad.hpp"
+#include "catch.hpp"
+#include "model/model.hpp"
+#include "scenario/reader.hpp"
+#include "study/reference.hpp"
+#include "support/run_in_memory.hpp"
+
+using namespace bbsim;
+
+namespace {
+
+using Overrides = std::vector<std::string>;
+
+std::string file_of(const std::string& name) {
+  return name.find('/') == std::string::npos ? bbsim_test::data_file("scenarios/" + name + ".yaml")
+                                             : BBSIM_SOURCE_DIR "/" + name + ".yaml";
+}
+
+api::RunResult run(const std::string& name, const Overrides& overrides, const Overrides& keys,
+                   const Overrides& measures = {}) {
+  api::RunRequest request{read_scenario(file_of(name), overrides)};
+  request.sensitivity = keys;
+  request.measures = measures;
+  api::Watch watch;
+  return api::run(request, watch);
+}
+
+const std::vector<double>& column(const api::RunResult& made, const std::string& name) {
+  INFO(name);
+  const auto at = std::ranges::find(made.rows.names, name);
+  REQUIRE(at != made.rows.names.end());
+  return made.rows.columns[static_cast<std::size_t>(at - made.rows.names.begin())];
+}
+
+std::string gradient_name(const std::string& of, const std::string& key) {
+  return "d(" + of + ")/d(" + key + ")";
+}
+
+double gradient(const api::RunResult& made, const std::string& measure, const std::string& key) {
+  for (const auto& [name, by_key] : made.summary.gradients) {
+    if (name != measure) continue;
+    for (const auto& [one, value] : by_key) {
+      if (one == key) return value;
+    }
+  }
+  FAIL("no gradient of " << measure << " by " << key);
+  return 0;
+}
+
+// By central differences of order 4 of the quad-precision solution. `change` is a power of two, so
+// that the key's values are exact doubles.
+struct Difference {
+  std::vector<std::string> states;
+  std::vector<std::vector<double>> of;  // for each state, a number for each row
+};
+
+Difference quad_difference(const std::string& name, const Overrides& overrides,
+                           const std::string& key, double value, double change) {
+  Difference difference;
+  const std::vector<std::pair<int, double>> weights = {
+      {-2, 1.0 / 12}, {-1, -2.0 / 3}, {1, 2.0 / 3}, {2, -1.0 / 12}};
+  std::vector<std::vector<Quad>> sums;
+  for (const auto& [offset, weight] : weights) {
+    Overrides with = overrides;
+    with.push_back(key + "=" + number_text(value + offset * change));
+    const Scenario scenario = read_scenario(file_of(name), with);
+    const model::Model model = model::assemble(scenario, false, model::Symmetry::ignored);
+    const solve::OutputGrid grid(scenario.time);
+    const study::ReferenceSolution solution = study::solve_reference(model, grid);
+    REQUIRE(solution.complete);
+    difference.states = model.state_names();
+    sums.resize(solution.row_size, std::vector<Quad>(solution.rows(), Quad(0.0)));
+    for (std::size_t row = 0; row < solution.rows(); ++row) {
+      for (std::size_t i = 0; i < solution.row_size; ++i) {
+        sums[i][row] = sums[i][row] + Quad(weight / change) * solution.row(row)[i];
+      }
+    }
+  }
+  for (const std::vector<Quad>& sum : sums) {
+    std::vector<double>& plain_sum = difference.of.emplace_back();
+    for (const Quad& one : sum) plain_sum.push_back(plain(one));
+  }
+  return difference;
+}
+
+double largest_size(const std::vector<double>& values) {
+  double largest = 0;
+  for (const double value : values) largest = std::max(largest, std::abs(value));
+  return largest;
+}
+
+const std::string tight_rtol = "solver.rtol=1e-13", tight_atol = "solver.atol=1e-15";
+
+}  // namespace
+
+TEST_CASE("derivatives on an incline are those of the closed form", "[sensitivity]") {
+  // x = (5/14) g sin(phi) t^2
+  const std::string time = "find x at 1.25";
+  const auto made =
+      run("configs/incline", {"ball.position=[0, 0]", "output.columns=[t, x, y, vx, phi, spin]"},
+          {"gravity, ball.position.1", "ball.radius"},
+          {"end_x", "rms_x", "max_vx", "when x=0.1", time});
+  REQUIRE(made.code == ExitCode::done);
+  const double g = 9.80665, slope = 5.0 / 14 * std::sin(5 * std::numbers::pi / 180);
+  const std::vector<double>& t = column(made, "t");
+  const auto by = [&](const char* of, const char* key) -> const std::vector<double>& {
+    return column(made, gradient_name(of, key));
+  };
+  for (std::size_t i = 0; i < t.size(); ++i) {
+    const double end = slope * 4;  // the size at the end of 2 s
+    CHECK(by("x", "gravity")[i] == Approx(slope * t[i] * t[i]).margin(1e-12 * end));
+    CHECK(by("vx", "gravity")[i] == Approx(2 * slope * t[i]).margin(1e-12 * end));
+    CHECK(std::abs(by("phi", "gravity")[i]) < 1e-12);
+    CHECK(std::abs(by("x", "ball.radius")[i]) < 1e-12);
+    // The reduced system has no y: the run takes the full one.
+    CHECK(by("y", "ball.position.1")[i] == Approx(1));
+    CHECK(std::abs(by("x", "ball.position.1")[i]) < 1e-12);
+  }
+  CHECK(gradient(made, "end_x", "gravity") == Approx(slope * 4).epsilon(1e-9));
+  CHECK(gradient(made, "max_vx", "gravity") == Approx(slope * 4).epsilon(1e-9));
+  CHECK(gradient(made, time, "gravity") == Approx(slope * 1.25 * 1.25).epsilon(1e-9));
+  CHECK(gradient(made, "rms_x", "gravity") ==
+        Approx(std::find_if(made.summary.measures.begin(), made.summary.measures.end(),
+                            [](const auto& one) { return one.first == "rms_x"; })
+                   ->second /
+               g)
+            .epsilon(1e-9));
+  // t = sqrt(x / (slope g)). Crossings are found to about 1e-12 s.
+  const std::string when = made.summary.measures[3].first;
+  CHECK(gradient(made, when, "gravity") ==
+        Approx(-std::sqrt(0.1 / (slope * g)) / (2 * g)).epsilon(1e-7));
+}
+
+TEST_CASE("derivatives are those of quad-precision solutions", "[sensitivity]") {
+  struct Case {
+    std::string scene;
+    Overrides overrides;
+    std::string key;
+    double value;
+  };
+  const std::vector<Case> cases = {
+      {"fig2a", {"time.end=4"}, "ball.radius", 0.01},
+      {"fig2a", {}, "gimbal.motion.phi.sinusoid.frequency", 1},
+      {"fig2a", {"time.end=4"}, "ball.position.0", 0},
+      {"spin", {"time.end=4"}, "ball.spin", 50},
+      {"spin", {"time.end=4"}, "gimbal.motion.phi.sinusoid.phase", std::numbers::pi / 2},
+      {"fig2b", {"time.end=4"}, "gravity", 9.81},
+      {"fig2b", {"time.end=4"}, "controller.pd.kv.0.1", 0},
+      {"fig2b", {"time.end=4"}, "controller.reference.circle.rate", -0.3},
+      {"stiff-servo", {"time.end=2"}, "gimbal.servo.natural_frequency", 2000},
+      {"torque-open", {}, "gimbal.motor.viscous", 0.02},
+  };
+  for (const Case& one : cases) {
+    CAPTURE(one.scene, one.key);
+    Overrides overrides = one.overrides;
+    overrides.insert(overrides.end(),
+                     {tight_rtol, tight_atol,
+                      "output.columns=[t, x, y, vx, vy, phi, theta, phi_rate, theta_rate]"});
+    const auto made = run(one.scene, overrides, {one.key});
+    REQUIRE(made.code == ExitCode::done);
+    const double size = one.value == 0 ? 1 : std::abs(one.value);
+    const double change = std::exp2(std::floor(std::log2(size)) - 12);
+    const Difference exact = quad_difference(one.scene, overrides, one.key, one.value, change);
+    double largest = 0;
+    for (std::size_t i = 0; i < exact.states.size(); ++i) {
+      const std::string name = gradient_name(exact.states[i], one.key);
+      if (std::ranges::find(made.rows.names, name) == made.rows.names.end()) continue;  // r*spin
+      const std::vector<double>& found = column(made, name);
+      REQUIRE(found.size() == exact.of[i].size());
+      const double scale = largest_size(exact.of[i]);
+      largest = std::max(largest, scale);
+      double apart = 0;
+      for (std::size_t row = 0; row < found.size(); ++row) {
+        apart = std::max(apart, std::abs(found[row] - exact.of[i][row]));
+      }
+      CAPTURE(name, scale, apart);
+      // Beside the bound, what symmetry keeps at zero may have rounding.
+      CHECK(apart <= 1e-9 * scale + 1e-13);
+    }
+    CHECK(largest > 0);
+  }
+}
+
+TEST_CASE("gradients of measures are those of runs beside", "[sensitivity]") {
+  const Overrides measures = {"max_tilt", "rms_x",         "max_tracking_error",
+                              "x.Peak",   "find y at 1.5", "rms_tracking_error from 1",
+                              "min_x"};
+  const Overrides base = {tight_rtol, tight_atol, "time.end=3"};
+  const std::vector<std::pair<std::string, double>> keys = {
+      {"controller.pd.kv.0.0", 1}, {"ball.radius", 0.01}, {"gimbal.servo.damping", 1}};
+  const auto made =
+      run("fig2b", base, {"controller.pd.kv.0.0,ball.radius,gimbal.servo.damping"}, measures);
+  for (const auto& [key, value] : keys) {
+    const double change = value * 0x1p-11;
+    std::vector<record::RunSummary::Numbers> beside;
+    for (const int offset : {-2, -1, 1, 2}) {
+      Overrides with = base;
+      with.push_back(key + "=" + number_text(value + offset * change));
+      beside.push_back(run("fig2b", with, {}, measures).summary.measures);
+    }
+    for (std::size_t m = 0; m < made.summary.measures.size(); ++m) {
+      const auto& [name, at] = made.summary.measures[m];
+      CAPTURE(key, name);
+      const double expected = (8 * (beside[2][m].second - beside[1][m].second) -
+                               (beside[3][m].second - beside[0][m].second)) /
+                              (12 * change);
+      // Extremes are good to 1e-12 of their size or so.
+      CHECK(gradient(made, name, key) ==
+            Approx(expected).epsilon(1e-6).margin(1e-11 * std::abs(at) / change));
+    }
+  }
+}
+
+TEST_CASE("where an event stops the run, the measures' end moves with the key", "[sensitivity]") {
+  // The ball leaves the plate at x = size / 2 with vx = sqrt(a size), a = (5/7) g sin(phi).
+  const auto made = run("configs/incline",
+                        {"plate.size=[0.4, 0.4]", "events.edge=stop", "output.columns=[t, x]",
+                         tight_rtol, tight_atol},
+                        {"gravity,plate.size.0"}, {"end_vx", "max_x", "max_vx"});
+  REQUIRE(made.summary.status == "stopped");
+  const double a = 5.0 / 7 * 9.80665 * std::sin(5 * std::numbers::pi / 180);
+  const double end = std::sqrt(a * 0.4);
+  CHECK(made.summary.measures[0].second == Approx(end));
+  CHECK(gradient(made, "end_vx", "gravity") == Approx(end / (2 * 9.80665)).epsilon(1e-9));
+  CHECK(gradient(made, "max_vx", "gravity") == Approx(end / (2 * 9.80665)).epsilon(1e-9));
+  CHECK(gradient(made, "end_vx", "plate.size.0") == Approx(end / 0.8).epsilon(1e-9));
+  CHECK(gradient(made, "max_x", "plate.size.0") == Approx(0.5).epsilon(1e-9));
+  CHECK(std::abs(gradient(made, "max_x", "gravity")) < 1e-10);
+  // In the rows the plate's edge makes no difference.
+  for (const double one : column(made, gradient_name("x", "plate.size.0"))) CHECK(one == 0);
+}
+
+TEST_CASE("rows with derivatives are those without", "[sensitivity]") {
+  const auto with = run("fig2b", {}, {"ball.radius"}, {"max_tilt"});
+  const auto without = run("fig2b", {}, {}, {"max_tilt"});
+  CHECK(with.summary.measures == without.summary.measures);
+  CHECK(without.summary.gradients.empty());
+  for (const char* name : {"t", "x", "y"}) {
+    if (std::ranges::find(without.rows.names, name) == without.rows.names.end()) continue;
+    CHECK(column(with, name) == column(without, name));
+  }
+}
+
+TEST_CASE("keys and scenes without derivatives are refused", "[sensitivity]") {
+  const auto message = [](const std::string& name, const Overrides& overrides,
+                          const std::string& keys) {
+    try {
+      static_cast<void>(run(name, overrides, {keys}));
+    } catch (const InputError& error) {
+      return std::string(error.what());
+    }
+    return std::string("taken");
+  };
+  const auto refuses = [&](const std::string& name, const std::string& key, const std::string& part,
+                           const Overrides& overrides = {}) {
+    const std::string said = message(name, overrides, key);
+    CAPTURE(key, said);
+    CHECK(said.find(part) != std::string::npos);
+  };
+  refuses("configs/rig", "ball.radius", "samples of the controller");
+  refuses("losses", "ball.radius", "dry friction");
+  refuses("fig2a", "time.end", "a key of the computation");
+  refuses("fig2a", "ball.radius,ball.radius", "is there twice");
+  refuses("fig2a", "ball.raduis", "did you mean");
+  refuses("fig2a", "gravity", "no values on both sides", {"gravity=0"});
+  refuses("fig2a", "ball.radius", "repeats the run", {"solver.error=1e-6"});
+}
