@@ -710,12 +710,6 @@ TEST_CASE("a rig that does not fit among the others of its group is run by itsel
     CHECK(lanes.status[3].reason == "edge");
     CHECK(lanes.status[7].reason == "edge");
   }
-  SECTION("whose instants are others") {
-    check_rig_lanes(Setup(
-        "configs/rig.yaml",
-        {{"controller.sampling.delay", "list:10 ms,10 ms,10 ms,5 ms,10 ms,10 ms,5 ms,10 ms,10 ms"}},
-        {"time.end=3"}, loop_measures));
-  }
   SECTION("whose servos are of another kind") {
     const Setup setup("configs/rig.yaml",
                       {{"gimbal.servo",
@@ -726,6 +720,16 @@ TEST_CASE("a rig that does not fit among the others of its group is run by itsel
                       {"time.end=3"}, loop_measures);
     check_rig_lanes(setup);
   }
+}
+
+TEST_CASE("rigs in lanes may sample and act at other times") {
+  const auto [key, values] = GENERATE(table<std::string, std::string>(
+      {{"controller.sampling.delay", "list:10 ms,10 ms,5 ms,0,30 ms,7 ms,41 ms,20 ms,10 ms"},
+       {"controller.sampling.period", "linear:5 ms:40 ms:9"},
+       {"controller.sensor.delay", "linear:0:50 ms:9"},
+       {"controller.sensor.period", "list:20 ms,33 ms,10 ms,21 ms,30 ms,25 ms,40 ms,20 ms,15 ms"}}));
+  CAPTURE(key);
+  check_rig_lanes(Setup("configs/rig.yaml", {{key, values}}, {"time.end=3"}, loop_measures));
 }
 
 TEST_CASE("rigs in lanes have no number for what their scene does not know") {

@@ -24,10 +24,6 @@ const model::RigLoop<false>& loop_of(const model::Model& model) {
   return std::get<model::RigLoop<false>>(model.system);
 }
 
-bool same_instants(const Sampling& a, const Sampling& b) {
-  return a.period == b.period && a.delay == b.delay;
-}
-
 // Marks all motions as resolved by the nodes.
 void lose_nothing(LaneAxis& axis) {
   axis.lost = false;
@@ -47,9 +43,7 @@ bool carries(const model::Model& model) {
 
 bool go_together(const model::Model& one, const model::Model& other) {
   const model::SampledLoop &a = *one.rig->sampled, &b = *other.rig->sampled;
-  return a.law.kind == b.law.kind && same_instants(a.sampling, b.sampling) &&
-         a.sensor.delay == b.sensor.delay && a.sensor.period == b.sensor.period &&
-         a.sensor.phase == b.sensor.phase && one.stops == other.stops;
+  return a.law.kind == b.law.kind && one.stops == other.stops;
 }
 
 Range LaneStep::bounds(Size size, std::size_t lane) const {

@@ -27,8 +27,8 @@ namespace bbsim::solve::sampled {
 // servos and controller, and its law is built in.
 [[nodiscard]] bool carries(const model::Model& model);
 
-// Whether two such rigs can share a group: same instants and same kind of law. Their references
-// must be the same too; this is not checked.
+// Whether two such rigs can share a group: the same kind of law and the same stops. Their periods
+// and delays may differ. Their references must be the same, which is not checked.
 [[nodiscard]] bool go_together(const model::Model& one, const model::Model& other);
 
 // A piece of each lane. Valid only until the next pieces.
