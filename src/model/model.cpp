@@ -40,10 +40,13 @@ const std::vector<std::string>& Model::own_columns() const {
   return rig && rig->sampled ? rig->sampled->own_columns : none;
 }
 
+int Model::spin_state() const {
+  return std::visit([](const auto& any) { return spin_index<std::decay_t<decltype(any)>>; },
+                    system);
+}
+
 double Model::gamma_not_integrated() const {
-  const bool turns = std::visit(
-      [](const auto& any) { return spin_index<std::decay_t<decltype(any)>> >= 0; }, system);
-  return turns ? std::numeric_limits<double>::quiet_NaN() : 0;
+  return spin_state() >= 0 ? std::numeric_limits<double>::quiet_NaN() : 0;
 }
 
 std::vector<std::string> Model::state_names() const {

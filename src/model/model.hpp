@@ -57,6 +57,8 @@ struct Model {
   [[nodiscard]] std::size_t extras() const;
   // The length of a row: the states, r gamma if integrated, and the extras.
   [[nodiscard]] std::size_t row_size() const { return size() + (gamma ? 1 : 0) + extras(); }
+  // The place of the ball's spin among the states; -1 if it has none.
+  [[nodiscard]] int spin_state() const;
   // Sample::gamma if it is not integrated: 0 if symmetry keeps it zero, otherwise NaN.
   [[nodiscard]] double gamma_not_integrated() const;
   // Converts a row to the paper's symbols.

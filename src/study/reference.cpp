@@ -51,12 +51,6 @@ std::unique_ptr<Equation> make_equation(const model::Model& model) {
       model.system);
 }
 
-int spin_state(const model::Model& model) {
-  return std::visit(
-      [](const auto& system) { return model::spin_index<std::decay_t<decltype(system)>>; },
-      model.system);
-}
-
 // The first step to try: a few times the period of the fastest mode at the start.
 double first_step(const model::Model& model, double end) {
   double fastest = 0;
@@ -132,7 +126,7 @@ class Run {
 
   void accept(Quad length, Quad time_after) {
     std::optional<CollocationStep::Integral> spin;
-    if (model_.gamma) spin.emplace(step_, spin_state(model_));
+    if (model_.gamma) spin.emplace(step_, model_.spin_state());
     auto& values = solution_.values;
     for (std::size_t row = solution_.rows(); row < grid_.size() && Quad(grid_[row]) <= time_after;
          row = solution_.rows()) {
@@ -191,7 +185,7 @@ double difference(const ReferenceSolution& a, const ReferenceSolution& b, int co
 }  // namespace
 
 int coordinates(const model::Model& model) {
-  return spin_state(model) < 0 ? 1 : 2;
+  return model.spin_state() < 0 ? 1 : 2;
 }
 
 ReferenceSolution solve_reference(const model::Model& model, const solve::OutputGrid& grid,

@@ -96,12 +96,6 @@ Eigen::VectorXd rates(const model::Model& model, double t, const double* z) {
   return rates;
 }
 
-int spin_state(const model::Model& model) {
-  return std::visit(
-      [](const auto& system) { return model::spin_index<std::decay_t<decltype(system)>>; },
-      model.system);
-}
-
 double power_of_two_below(double value) {
   return std::exp2(std::floor(std::log2(value)));
 }
@@ -153,7 +147,7 @@ Sensitivity::Sensitivity(const model::Model& model, model::Symmetry symmetry,
       symmetry_(symmetry),
       grid_(grid),
       size_(static_cast<Eigen::Index>(model.size() + (model.gamma ? 1 : 0))),
-      spin_(spin_state(model)) {
+      spin_(model.spin_state()) {
   // Events alone only observe the motion, or end it.
   if (model.extras() > 0) {
     refuse(std::string("found with ") + what_switches(model) +

@@ -727,7 +727,8 @@ TEST_CASE("rigs in lanes may sample and act at other times") {
       {{"controller.sampling.delay", "list:10 ms,10 ms,5 ms,0,30 ms,7 ms,41 ms,20 ms,10 ms"},
        {"controller.sampling.period", "linear:5 ms:40 ms:9"},
        {"controller.sensor.delay", "linear:0:50 ms:9"},
-       {"controller.sensor.period", "list:20 ms,33 ms,10 ms,21 ms,30 ms,25 ms,40 ms,20 ms,15 ms"}}));
+       {"controller.sensor.period",
+        "list:20 ms,33 ms,10 ms,21 ms,30 ms,25 ms,40 ms,20 ms,15 ms"}}));
   CAPTURE(key);
   check_rig_lanes(Setup("configs/rig.yaml", {{key, values}}, {"time.end=3"}, loop_measures));
 }
