@@ -10,6 +10,7 @@
 #include <cstddef>
 #include <functional>
 #include <limits>
+#include <numbers>
 #include <optional>
 #include <span>
 #include <string>
@@ -154,6 +155,15 @@ struct Answers {
     }
     return false;
   }
+
+  // By how much a command rises with a coordinate about the reference, in its unit per m.
+  [[nodiscard]] double gain(std::size_t sample, std::size_t command, std::size_t axis) const {
+    const auto slope = [&](const std::optional<Sides>& sides) {
+      return sides ? sides->slope(sample, command) : 0;
+    };
+    const double close = slope(near[axis]);
+    return close != 0 ? close : slope(far[axis]);
+  }
 };
 
 Answers ask(Bench& bench, const Scenario& scenario, const std::vector<int>& axes) {
@@ -180,31 +190,27 @@ std::string centimeters(double meters) {
   return short_number(100 * meters) + " cm";
 }
 
-// What there is to say of phi's command, or theta's. `effect` is effect_of() it: on x and y.
+// What there is to say of phi's command, or theta's. `effect` is effect_of() it: on x and y. With
+// legs, both together have a cure (turn_of), and neither has one of its own.
 Line line_of(const Answers& answers, std::size_t sample, std::size_t command,
-             const Eigen::Vector2d& effect, const std::string& unit) {
+             const Eigen::Vector2d& effect, const std::string& unit, bool legs) {
   constexpr const char* warning = "WARNING";
   const std::string name = std::string(angles[command]) + ": ";
   const std::size_t axis = std::abs(effect[0]) >= std::abs(effect[1]) ? 0 : 1, other = 1 - axis;
-  const auto slope = [&](const std::array<std::optional<Sides>, 2>& sides, std::size_t along) {
-    return sides[along] ? sides[along]->slope(sample, command) : 0;
-  };
-  const auto gain_of = [&](std::size_t along) {
-    const double near = slope(answers.near, along);
-    return near != 0 ? near : slope(answers.far, along);
-  };
-  const double gain = gain_of(axis), cross = gain_of(other);
-  if (gain == 0) {
-    return {warning, name + (cross == 0 ? "does not depend on where the ball is"
-                                        : std::string("depends on ") + coordinates[other] +
-                                              ", but moves the ball along " + coordinates[axis] +
-                                              "; exchange the commands, or the coordinates")};
+  const double gain = answers.gain(sample, command, axis);
+  const double cross = answers.gain(sample, command, other);
+  if (gain == 0 && cross == 0) return {warning, name + "does not depend on where the ball is"};
+  // What is left of its own axis may be rounding, or a sensor that is turned a little.
+  if (std::abs(gain) < 0.1 * std::abs(cross)) {
+    return {warning, name + "depends on " + coordinates[other] + ", but moves the ball along " +
+                         coordinates[axis] +
+                         (legs ? "" : "; exchange the commands, or the coordinates")};
   }
   std::string gains = "gain " + short_number(gain) + ' ' + unit + " per m of " + coordinates[axis];
   if (std::abs(cross) > 1e-3 * std::abs(gain)) {
     gains += ", " + short_number(cross) + " per m of " + coordinates[other];
   }
-  const double far = slope(answers.far, axis);
+  const double far = answers.far[axis] ? answers.far[axis]->slope(sample, command) : 0;
   const auto words = [&](double one) {
     return one * effect[static_cast<Eigen::Index>(axis)] < 0 ? "towards the reference"
                                                              : "away from the reference";
@@ -217,9 +223,37 @@ Line line_of(const Answers& answers, std::size_t sample, std::size_t command,
   const std::string does = name + "pushes the ball " + words(gain);
   const double push = effect[static_cast<Eigen::Index>(axis)];
   if (gain * push < 0) return {"", does + "; " + gains};
+  if (legs) return {warning, does + "; " + gains};
   return {warning, does + "; change the sign: positive " + angles[command] +
                        " drives the ball towards " + (push > 0 ? "+" : "-") + coordinates[axis] +
                        "; " + gains};
+}
+
+// What is wrong with the commands of three legs together: they shall push a ball back along the
+// line to the reference, and push it along one that is turned, or mirrored.
+std::optional<Line> turn_of(const Answers& answers, std::size_t sample,
+                            const Eigen::Matrix2d& effect) {
+  Eigen::Matrix2d gains;
+  for (const std::size_t command : {0U, 1U}) {
+    for (const std::size_t axis : {0U, 1U}) {
+      gains(static_cast<Eigen::Index>(command), static_cast<Eigen::Index>(axis)) =
+          answers.gain(sample, command, axis);
+    }
+  }
+  const Eigen::Matrix2d push = effect * gains;
+  const double along = -(push(0, 0) + push(1, 1)), across = push(0, 1) - push(1, 0);
+  const double mirrored = std::hypot(push(0, 0) - push(1, 1), push(0, 1) + push(1, 0));
+  if (mirrored > std::hypot(along, across)) {
+    return Line{"WARNING",
+                "its commands are mirrored; are two legs exchanged, or does one turn the other "
+                "way (direction: -1)?"};
+  }
+  constexpr double much = 20;
+  const double turn = std::atan2(across, along) * 180 / std::numbers::pi;
+  if (std::abs(turn) < much) return {};
+  return Line{"WARNING",
+              "its commands are turned by " + rounded(turn, 2) +
+                  " deg; are the legs numbered and placed (legs.angle) as in your code?"};
 }
 
 // What it answers to pulses of `size` (m) in each coordinate, at a sample.
@@ -279,12 +313,14 @@ Report estimated_margins(const Scenario& scenario, const model::Model& model, Be
     const Estimate estimate = law_about_reference(bench, start, size);
     if (!estimate.law) return {{"", none + estimate.why}};
     const model::Linearization loop = model::loop_with(plant, *estimate.law, axes);
-    Report report{
+    Report report;
+    if (!loop.stable) report.push_back({"WARNING", "the loop is not stable, by its estimate"});
+    report.push_back(
         {"margins", std::string("estimated from its answers to small pulses; of each command's "
                                 "loop, the other one closed") +
                         (loop.stable ? ""
                                      : "; the loop is not stable: these are where poles cross the "
-                                       "stability limit")}};
+                                       "stability limit")});
     const Report lines = margin_lines(loop);
     report.insert(report.end(), lines.begin(), lines.end());
     if (const std::string note = without_frames(scenario, true); !note.empty()) {
@@ -323,9 +359,13 @@ Report probe(const Scenario& scenario, const model::Model& model) {
   }
   const Eigen::MatrixXd effect = effect_of(model);
   const std::string unit = command_unit(scenario.controller->drives);
+  const bool legs = model.rig->sampled->legs;
   for (const int one : axes) {
     const auto command = static_cast<std::size_t>(one);
-    report.push_back(line_of(answers, sample, command, effect.col(one), unit));
+    report.push_back(line_of(answers, sample, command, effect.col(one), unit, legs));
+  }
+  if (legs && axes.size() == 2) {
+    if (const auto line = turn_of(answers, sample, effect)) report.push_back(*line);
   }
   const Report margins = estimated_margins(scenario, model, bench, axes, answers, sample);
   report.insert(report.end(), margins.begin(), margins.end());

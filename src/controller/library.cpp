@@ -300,7 +300,13 @@ model::Commands Library::command(const model::ControllerSample& sample, double* 
   if (!std::ranges::all_of(given_back, [](double one) { return std::isfinite(one); })) {
     std::string all;
     for (const double one : given_back) all += (all.empty() ? "" : ", ") + number_text(one);
-    throw fail("its command is [" + all + "]; allowed: finite numbers");
+    // bbsim sets all to NaN before it asks.
+    const bool lacks_third =
+        given_back.size() == 3 && std::isnan(given_back[2]) && std::isfinite(given_back[1]);
+    throw fail("its command is [" + all + "]; allowed: finite numbers" +
+               (lacks_third ? ", and three of them: define BBSIM_CONTROLLER_COMMANDS 3 and write "
+                              "command[2]"
+                            : ""));
   }
   return command;
 }

@@ -317,8 +317,9 @@ class Checks {
     }
     if (scene_.controller->own && (!three || scene_.controller->drives == Drives::legs)) {
       refuse({"controller", "assumes"},
-             "found with your own controller, which commands the servos itself; allowed: only with "
-             "a built-in law");
+             std::string("found with your own controller, which commands the servos itself; "
+                         "allowed: only with a built-in law") +
+                 (three ? ", or under drives: angle" : ""));
     }
     if (scene_.controller->assumed_legs && (!three || !scene_.controller->sampling)) {
       refuse({"controller", "assumes"},

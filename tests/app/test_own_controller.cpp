@@ -164,6 +164,26 @@ TEST_CASE("a library with inverse kinematics balances on three legs, as the buil
   CHECK(contains(refused.err, "it commands the servos of three legs"));
 }
 
+TEST_CASE("check says whether three legs are turned or mirrored") {
+  const std::string legs = std::string("controller.library.file=") + BBSIM_EXAMPLE_LEGS;
+  const auto check = [&](const std::string& assignment) {
+    const Result result =
+        bbsim({"check", example("three-legs.yaml"), "--set", legs, "--set", assignment});
+    CAPTURE(result.err);
+    REQUIRE(result.exit_code == 0);
+    return result.out;
+  };
+  CHECK_FALSE(contains(check("title=as it is"), "WARNING"));
+  CHECK(contains(check("gimbal.three_servos.legs=[{angle: 60 deg}, {angle: 180 deg}, {angle: 300 "
+                       "deg}]"),
+                 "WARNING      its commands are turned by 60 deg; are the legs"));
+  CHECK(contains(check("gimbal.three_servos.legs=[{angle: 0}, {angle: 240 deg}, {angle: 120 deg}]"),
+                 "WARNING      its commands are mirrored; are two legs exchanged"));
+  const std::string turned = check("controller.sensor.rotation=90 deg");
+  CHECK(contains(turned, "WARNING      phi: depends on y, but moves the ball along x\n"));
+  CHECK(contains(turned, "WARNING      its commands are turned by 90 deg"));
+}
+
 TEST_CASE("your own program may give tilts to three legs, and bbsim inverts them") {
   const Folder folder;
   const std::string own = folder / "own.csv", built_in = folder / "built-in.csv";
