@@ -28,7 +28,8 @@ using scenario::value_in;
 
 constexpr double mm = 1e-3;
 
-InputError refused(const std::string& option, const std::string& found, const std::string& allowed) {
+InputError refused(const std::string& option, const std::string& found,
+                   const std::string& allowed) {
   return InputError(option + ": found " + found + "; allowed: " + allowed);
 }
 
@@ -44,9 +45,9 @@ struct Plate {
 Plate read_plate(const std::string& text) {
   const auto side = [&](std::string_view part) {
     const auto value = value_in(part, "m");
-    if (value && *value >= 100 * mm && *value <= 2) return *value;
+    if (value && *value >= 150 * mm && *value <= 600 * mm) return *value;
     throw refused("--plate", text,
-                  "two sides, or the diameter of a disc, from 100 mm to 2 m, such as \"300 mm x "
+                  "two sides, or the diameter of a disc, from 150 mm to 600 mm, such as \"300 mm x "
                   "200 mm\" or \"250 mm\"");
   };
   const std::size_t by = text.find('x');
@@ -64,10 +65,9 @@ struct NamedBall {
   std::string_view name;
   Ball ball;
 };
-constexpr std::array balls = {NamedBall{"ping-pong", {40e-3, 2.7e-3, true}},
-                              NamedBall{"steel", {20e-3, 32.7e-3, false}},
-                              NamedBall{"rubber", {40e-3, 33e-3, false}},
-                              NamedBall{"golf", {42.7e-3, 45.9e-3, false}}};
+constexpr std::array balls = {
+    NamedBall{"ping-pong", {40e-3, 2.7e-3, true}}, NamedBall{"steel", {20e-3, 32.7e-3, false}},
+    NamedBall{"rubber", {40e-3, 33e-3, false}}, NamedBall{"golf", {42.7e-3, 45.9e-3, false}}};
 
 // Balls of wood and rubber are denser, thin shells are not, kg/m^3.
 constexpr double density_of_hollow_ones = 400;
@@ -116,8 +116,8 @@ double read_rate(const std::string& option, const std::string& text) {
   const double turns = rate.value_or(0) / (2 * std::numbers::pi);
   const double digits = 1e9;  // as they were given
   const double kept = std::round(turns * digits) / digits;
-  if (kept >= 5 && kept <= 1000) return kept;
-  throw refused(option, text, "a rate from 5 Hz to 1000 Hz, such as \"30 Hz\"");
+  if (kept >= 15 && kept <= 200) return kept;
+  throw refused(option, text, "a rate from 15 Hz to 200 Hz, such as \"30 Hz\"");
 }
 
 struct Rig {
@@ -155,10 +155,12 @@ Loop loop_of(const Rig& rig) {
   const double period = 1 / rig.rate;
   Loop loop;
   loop.sensor = rig.touch ? 0.005 : period;
-  loop.filter = std::max(0.03, period);
+  loop.filter = std::max(0.04, period);
   // Half a period is the delay of the hold. The delay then takes 30 degrees off the phase margin.
   const double delay = servo + code + loop.sensor + loop.filter + period / 2;
-  loop.bandwidth = std::stod(rounded(0.3 / delay, 2));
+  // With more, noise shakes a ball off the plate, far from its middle.
+  constexpr double most = 2.5;
+  loop.bandwidth = std::min(most, std::stod(rounded(0.3 / delay, 2)));
   const double acceleration = 9.81 / (rig.ball.hollow ? 1 + 2.0 / 3 : 1.4);  // for 1 rad of tilt
   constexpr double damping = 0.9, integral = 0.15;
   loop.kp = loop.bandwidth * loop.bandwidth / acceleration;
@@ -193,7 +195,7 @@ Values values_of(const Rig& rig, const std::string& file) {
       {"inertia", rig.ball.hollow ? "0.667" : "0.4"},
       {"x side", in_mm(plate.x)},
       {"y side", in_mm(plate.y)},
-      {"step", whole_mm(plate.x / 6)},
+      {"step", whole_mm(std::min(plate.x / 6, 50 * mm))},
       {"circle", whole_mm(size / 6)},
       {"servo", rig.servo},
       {"stop", rig.three_legs ? "50 deg" : "60 deg"},
@@ -302,13 +304,12 @@ constexpr std::array questions = {
 }  // namespace
 
 std::string RigWords::first_given() const {
-  const std::array<std::pair<const char*, const std::string*>, 6> options = {
-      {{"--plate", &plate},
-       {"--ball", &ball},
-       {"--servo", &servo},
-       {"--camera", &camera},
-       {"--touch", &touch},
-       {"--legs", &legs}}};
+  const std::array<std::pair<const char*, const std::string*>, 6> options = {{{"--plate", &plate},
+                                                                              {"--ball", &ball},
+                                                                              {"--servo", &servo},
+                                                                              {"--camera", &camera},
+                                                                              {"--touch", &touch},
+                                                                              {"--legs", &legs}}};
   for (const auto& [name, text] : options) {
     if (!text->empty()) return name;
   }
