@@ -130,7 +130,7 @@ void add_new(Command& command, const Options& options) {
               "\"40 mm 2.7 g\"; hollow or solid may follow")
       .takes("BALL");
   command.option("--servo", rig.servo, "of a rig; default: hobby-standard")
-      .takes_one_of({"hobby-standard", "hobby-micro", "smart-serial"});
+      .takes_one_of(servo_classes());
   const Option camera =
       command.option("--camera", rig.camera, "of a rig: frames a second; default: \"30 Hz\"")
           .takes("RATE");

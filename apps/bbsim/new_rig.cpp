@@ -277,18 +277,18 @@ constexpr std::array questions = {
              }},
     Question{"Servos: hobby-standard, hobby-micro or smart-serial [hobby-standard]",
              [](RigWords& words, const std::string& answer) {
-               for (const char* known : {"hobby-standard", "hobby-micro", "smart-serial"}) {
-                 if (answer == known) words.servo = answer;
-               }
-               if (words.servo.empty()) {
+               const std::vector<std::string> known = servo_classes();
+               if (std::ranges::find(known, answer) == known.end()) {
                  throw refused("--servo", answer, "hobby-standard, hobby-micro, smart-serial");
                }
+               words.servo = answer;
              }},
     Question{"Sensor, such as camera 30 Hz or touch 50 Hz [camera 30 Hz]",
              [](RigWords& words, const std::string& answer) {
                const std::size_t blank = std::min(answer.find(' '), answer.size());
-               const std::string kind = answer.substr(0, blank), rate = answer.substr(blank);
-               if (kind != "camera" && kind != "touch") {
+               const std::string kind = answer.substr(0, blank);
+               const std::string rate(trimmed(answer.substr(blank)));
+               if (rate.empty() || (kind != "camera" && kind != "touch")) {
                  throw refused("sensor", answer, "camera or touch, and a rate");
                }
                (void)read_rate("--" + kind, rate);
@@ -302,6 +302,10 @@ constexpr std::array questions = {
 };
 
 }  // namespace
+
+std::vector<std::string> servo_classes() {
+  return {"hobby-standard", "hobby-micro", "smart-serial"};
+}
 
 std::string RigWords::first_given() const {
   const std::array<std::pair<const char*, const std::string*>, 6> options = {{{"--plate", &plate},

@@ -6,8 +6,12 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 namespace bbsim::app {
+
+// Those of servo.model.
+[[nodiscard]] std::vector<std::string> servo_classes();
 
 // In the words of the options. What is empty was not said.
 struct RigWords {
