@@ -10,6 +10,7 @@
 #include "commands.hpp"
 #include "embedded.hpp"
 #include "file/share_folders.hpp"
+#include "new_rig.hpp"
 #include "terminal.hpp"
 
 namespace bbsim::app {
@@ -19,6 +20,7 @@ namespace fs = std::filesystem;
 
 struct NewArguments {
   std::string what, language, output;
+  RigWords rig{};
   bool force = false;
 };
 
@@ -51,7 +53,7 @@ std::string how_to_run(const std::string& language, const std::string& file,
          '"';
 }
 
-ExitCode make(const NewArguments& arguments, const Options& options) {
+ExitCode make_controller(const NewArguments& arguments, const Options& options) {
   const std::string& language = arguments.language;
   const std::string name = language == "python" ? "controller.py"
                            : language == "c"    ? "controller.c"
@@ -72,24 +74,82 @@ ExitCode make(const NewArguments& arguments, const Options& options) {
   return ExitCode::done;
 }
 
+ExitCode make_rig(const NewArguments& arguments, const Options& options) {
+  const bool named = !arguments.output.empty();
+  const std::string output = named ? arguments.output : "my-rig.yaml";
+  RigWords words = arguments.rig;
+  if (words.first_given().empty() && !options.quiet && can_ask()) ask(words);
+  const std::string file = output == "-" ? "my-rig.yaml" : output;
+  const std::string scenario = rig_scenario(words, file);
+  write_copies({{output, scenario}}, named, arguments.force);
+  if (options.quiet || output == "-") return ExitCode::done;
+  say(output + ": a scenario of a rig. Its comments say how to find your rig's numbers. Next:\n" +
+      "  bbsim check " + file + "\n  bbsim run " + file + "\n  bbsim replay " + file);
+  return ExitCode::done;
+}
+
+ExitCode make(const NewArguments& arguments, const Options& options) {
+  const bool rig = arguments.what == "rig";
+  const std::string help = "\nRun bbsim new --help for more information.";
+  if (rig && !arguments.language.empty()) {
+    throw InputError("found " + arguments.language + ", which bbsim new rig does not take." + help);
+  }
+  if (rig) return make_rig(arguments, options);
+  if (const std::string option = arguments.rig.first_given(); !option.empty()) {
+    throw InputError(option + ": an option of bbsim new rig" + help);
+  }
+  if (arguments.language.empty()) throw InputError("LANGUAGE is required" + help);
+  return make_controller(arguments, options);
+}
+
 }  // namespace
 
 void add_new(Command& command, const Options& options) {
   const auto arguments = std::make_shared<NewArguments>();
-  command.option("WHAT", arguments->what, "controller").required().takes_one_of({"controller"});
-  command.option("LANGUAGE", arguments->language, "python, c or arduino")
+  command.option("WHAT", arguments->what, "controller or rig")
       .required()
+      .takes_one_of({"controller", "rig"});
+  command.option("LANGUAGE", arguments->language, "of a controller: python, c or arduino")
       .takes_one_of({"python", "c", "arduino"});
   command
       .option("-o,--output", arguments->output,
-              "write it to FILE; default: controller.py, controller.c or controller.ino, in the "
-              "current folder; - is standard output")
+              "write it to FILE; default: controller.py, controller.c, controller.ino or "
+              "my-rig.yaml, in the current folder; - is standard output")
       .takes("FILE");
   command.flag("--force", arguments->force,
                "replace files that -o does not name, whatever they hold");
+  RigWords& rig = arguments->rig;
+  command
+      .option("--plate", rig.plate,
+              "of a rig: sides along x and y, or the diameter of a disc; default: \"300 mm x 200 "
+              "mm\"")
+      .takes("SIZE");
+  command
+      .option("--ball", rig.ball,
+              "of a rig: ping-pong (default), steel, rubber, golf, or diameter and mass, such as "
+              "\"40 mm 2.7 g\"; hollow or solid may follow")
+      .takes("BALL");
+  command.option("--servo", rig.servo, "of a rig; default: hobby-standard")
+      .takes_one_of(servo_classes());
+  const Option camera =
+      command.option("--camera", rig.camera, "of a rig: frames a second; default: \"30 Hz\"")
+          .takes("RATE");
+  command.option("--touch", rig.touch, "of a rig: a touch screen instead, its readings a second")
+      .takes("RATE")
+      .excludes(camera);
+  command
+      .option("--legs", rig.legs,
+              "of a rig: 2 servos with push rods on a gimbal (default), or 3 under the plate")
+      .takes_one_of({"2", "3"});
   command.footer(
       "The controller balances the ball of the scenario that `bbsim examples step` writes. That of "
-      "an Arduino comes with a wiring, FILE-wiring.yaml.");
+      "an Arduino comes with a wiring, FILE-wiring.yaml.\n"
+      "The rig is a scenario whose comments say how to find the numbers of yours; its gains suit "
+      "its delays. On a terminal, and without options of a rig, bbsim asks for each.\n"
+      "\nExamples:\n"
+      "  bbsim new controller python\n"
+      "  bbsim new rig\n"
+      "  bbsim new rig --plate \"250 mm\" --ball steel --touch \"50 Hz\" -o disc.yaml");
   command.does([arguments, &options] { return make(*arguments, options); });
 }
 

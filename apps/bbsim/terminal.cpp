@@ -30,6 +30,10 @@ bool draws_on_terminal() {
   return isatty(STDERR_FILENO) == 1 && (kind == nullptr || std::strcmp(kind, "dumb") != 0);
 }
 
+bool can_ask() {
+  return isatty(STDIN_FILENO) == 1 && isatty(STDERR_FILENO) == 1;
+}
+
 void say_if_waiting(const std::string& file, const std::string& what, bool quiet) {
   if (quiet || file != "-" || isatty(STDIN_FILENO) != 1) return;
   say("reading " + what + " from the terminal; Ctrl-D ends it, Ctrl-C ends bbsim");

@@ -23,6 +23,9 @@ void print(const std::string& report);
 // What empties the terminal's present line, if it does.
 inline constexpr const char* to_clear_line = "\r\033[K";
 
+// Whether someone can be asked: standard input and standard error are terminals.
+[[nodiscard]] bool can_ask();
+
 // If that file is standard input, and that a terminal, says that the program waits for `what`
 // there.
 void say_if_waiting(const std::string& file, const std::string& what, bool quiet);

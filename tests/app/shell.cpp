@@ -48,7 +48,8 @@ Result shell(const std::string& line, const std::filesystem::path& folder) {
 
 std::string on_terminal(const std::vector<std::string>& arguments, unsigned short columns,
                         const std::filesystem::path& folder, double seconds,
-                        const std::string& awaited, const std::string& kind) {
+                        const std::string& awaited, const std::string& kind,
+                        const std::string& typed) {
   const winsize size{24, columns, 0, 0};
   int terminal = -1;
   const pid_t child = forkpty(&terminal, nullptr, nullptr, &size);
@@ -59,6 +60,9 @@ std::string on_terminal(const std::vector<std::string>& arguments, unsigned shor
     std::vector<std::string> words{BBSIM_PROGRAM};
     words.insert(words.end(), arguments.begin(), arguments.end());
     execute(words);
+  }
+  if (write(terminal, typed.data(), typed.size()) != static_cast<ssize_t>(typed.size())) {
+    throw std::runtime_error("cannot type");
   }
   using Clock = std::chrono::steady_clock;
   const Clock::time_point start = Clock::now();

@@ -18,9 +18,10 @@ Result shell(const std::string& line, const std::filesystem::path& folder);
 
 // What the program sends to a terminal of that many columns until it ends, or until it is
 // interrupted: after so many seconds, or when it has sent `awaited`, where that is something.
-// `kind` is the terminal's, TERM.
+// `kind` is the terminal's, TERM; `typed` what a person types, from the start.
 std::string on_terminal(const std::vector<std::string>& arguments, unsigned short columns,
                         const std::filesystem::path& folder, double seconds,
-                        const std::string& awaited = "", const std::string& kind = "xterm");
+                        const std::string& awaited = "", const std::string& kind = "xterm",
+                        const std::string& typed = "");
 
 }  // namespace bbsim_test

@@ -110,12 +110,13 @@ TEST_CASE("an example that is not there is refused with the nearest") {
 TEST_CASE("without -o, examples and templates replace no file that is there") {
   const Folder folder;
   using Words = std::vector<std::string>;
-  const auto [words, file] = GENERATE(table<Words, std::string>(
-      {{Words{"examples", "step"}, "step.yaml"},
-       {Words{"new", "controller", "python"}, "controller.py"},
-       {Words{"new", "controller", "c"}, "controller.c"},
-       {Words{"new", "controller", "arduino"}, "controller.ino"},
-       {Words{"new", "controller", "arduino"}, "controller-wiring.yaml"}}));
+  const auto [words, file] = GENERATE(
+      table<Words, std::string>({{Words{"examples", "step"}, "step.yaml"},
+                                 {Words{"new", "controller", "python"}, "controller.py"},
+                                 {Words{"new", "controller", "c"}, "controller.c"},
+                                 {Words{"new", "controller", "arduino"}, "controller.ino"},
+                                 {Words{"new", "controller", "arduino"}, "controller-wiring.yaml"},
+                                 {Words{"new", "rig"}, "my-rig.yaml"}}));
   folder.write(file, "mine\n");
   const Result kept = bbsim(words, folder.path());
   CAPTURE(file);
