@@ -1154,7 +1154,8 @@ class Legs(InBrowser):
         far = math.hypot(plate - base, height)
         home = math.atan2(height, plate - base) - math.acos((far ** 2 + horn ** 2 - rod ** 2) / (2 * horn * far))
         for row in rows[100::200]:
-            self.js(f"window.bbsim.seek({row['t']})")
+            self.js("bbsim.seek(arguments[0])", row["t"])
+            self.js("bbsim.picture.draw()")
             legs = self.js("bbsim.picture.rig.legs.points().map((leg) => [leg.axis, leg.knee, leg.joint])")
             self.assertEqual(len(legs), 3)
             names = ["servo_phi", "servo_theta", "servo_third"]
