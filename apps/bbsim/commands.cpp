@@ -7,6 +7,7 @@
 
 #include "api/inputs.hpp"
 #include "api/run.hpp"
+#include "file/atomic_file.hpp"
 #include "file/format.hpp"
 #include "scenario/reader.hpp"
 #include "terminal.hpp"
@@ -92,15 +93,48 @@ void tell(const api::RunResult& made, bool quiet) {
   if (!made.noted.empty()) say(made.noted);
 }
 
-void note_other_folder(const ScenarioFamily& family, const std::string& output) {
-  const auto folder_of = [](const std::string& file) {
-    return std::filesystem::absolute(file).lexically_normal().parent_path();
-  };
-  if (output == "-" || family.inputs().empty()) return;
-  if (folder_of(output) == folder_of(family.source().file)) return;
-  say("note: " + output +
-      " is in another folder than the scenario, which names tables from its "
-      "own; move it there to run it");
+void add_threads(Command& command, std::size_t& threads) {
+  command
+      .option("-j,--threads", threads,
+              "number of threads; default: number of processors; the result is the same")
+      .takes("N")
+      .takes_whole(1, 1024);
+}
+
+void add_found_files(Command& command, FoundFiles& files, const std::string& values) {
+  command
+      .option("-o,--output", files.scenario,
+              "write the scenario with " + values + " in it to FILE.yaml, or - for standard output")
+      .takes("FILE");
+  command
+      .option("--json", files.json,
+              "write the results to FILE.json, or - for standard output, in place of the report")
+      .takes("FILE");
+}
+
+void FoundFiles::declare(file::Outputs& outputs) const {
+  if (!scenario.empty()) outputs.writes(scenario, "-o");
+  if (!json.empty()) outputs.writes(json, "--json");
+  if (reports()) prints(outputs);
+}
+
+void FoundFiles::write(const ScenarioFamily& family, const std::string& scenario_text,
+                       const std::string& json_text, const std::string& report, bool quiet) const {
+  if (!scenario.empty()) {
+    file::write_file(scenario, scenario_text);
+    const auto folder_of = [](const std::string& file) {
+      return std::filesystem::absolute(file).lexically_normal().parent_path();
+    };
+    const bool moved = scenario != "-" && !family.inputs().empty() &&
+                       folder_of(scenario) != folder_of(family.source().file);
+    if (moved && !quiet) {
+      say("note: " + scenario +
+          " is in another folder than the scenario, which names tables from its own; move it there "
+          "to run it");
+    }
+  }
+  if (!json.empty()) file::write_file(json, json_text);
+  if (reports()) print(report);
 }
 
 }  // namespace bbsim::app

@@ -4,6 +4,7 @@
 // The subcommands. Each add_ function gives one its options, and says what it does.
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <utility>
 #include <vector>
@@ -78,9 +79,22 @@ Option add_measures(Command& command, std::vector<std::string>& lists, const std
 // Whether a file among results is a scenario, by its ending.
 [[nodiscard]] bool is_scenario(const std::string& file);
 
-// Says so if a scenario was written to another folder than the one it is made of: its tables are
-// named from there.
-void note_other_folder(const ScenarioFamily& family, const std::string& output);
+void add_threads(Command& command, std::size_t& threads);
+
+// What a command writes that finds values of keys: the scenario with the values in it, and JSON.
+struct FoundFiles {
+  std::string scenario, json;  // - is standard output; empty: not written
+
+  // A report goes to standard output where neither file does.
+  [[nodiscard]] bool reports() const { return scenario != "-" && json != "-"; }
+  void declare(file::Outputs& outputs) const;
+  // Says so if the scenario goes to another folder than the one it is made of: its tables are named
+  // from there.
+  void write(const ScenarioFamily& family, const std::string& scenario_text,
+             const std::string& json_text, const std::string& report, bool quiet) const;
+};
+// Options -o and --json. `values`: what the scenario has in it, as in "the estimates".
+void add_found_files(Command& command, FoundFiles& files, const std::string& values);
 
 // Says that it prints: nothing it reads may be what its standard output goes to.
 void prints(file::Outputs& outputs);

@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "commands.hpp"
-#include "file/atomic_file.hpp"
 #include "progress.hpp"
 #include "terminal.hpp"
 
@@ -20,7 +19,8 @@ struct FitArguments {
   ScenarioArguments scenario;
   std::vector<std::string> logs, free;
   plot::LogChoice choice;
-  std::string window, output, json;
+  std::string window;
+  FoundFiles files;
   std::optional<double> hold_out;
   std::size_t threads = 0;
 };
@@ -32,17 +32,14 @@ ExitCode fit(const FitArguments& arguments, const Options& options) {
   file::Outputs outputs;
   outputs.reads(file, "the scenario");
   for (const std::string& log : arguments.logs) outputs.reads(log, "the log");
-  if (!arguments.output.empty()) outputs.writes(arguments.output, "-o");
-  if (!arguments.json.empty()) outputs.writes(arguments.json, "--json");
-  const bool reports = arguments.output != "-" && arguments.json != "-";
-  if (reports) prints(outputs);
+  arguments.files.declare(outputs);
 
   api::FitRequest request{family, arguments.logs, arguments.choice, arguments.free,
                           arguments.window};
   request.hold_out = arguments.hold_out.value_or(0);
   request.threads = arguments.threads;
   Progress progress(family.source().file, options.quiet);
-  const api::FitResult made = api::fit(request, !arguments.output.empty(), progress);
+  const api::FitResult made = api::fit(request, !arguments.files.scenario.empty(), progress);
   if (!options.quiet) {
     for (const std::string& warning : made.warnings) say(warning);
   }
@@ -51,12 +48,7 @@ ExitCode fit(const FitArguments& arguments, const Options& options) {
         " iterations; nothing is written");
     return made.code;
   }
-  if (!arguments.output.empty()) {
-    file::write_file(arguments.output, made.scenario);
-    if (!options.quiet) note_other_folder(family, arguments.output);
-  }
-  if (!arguments.json.empty()) file::write_file(arguments.json, made.json);
-  if (reports) print(made.text);
+  arguments.files.write(family, made.scenario, made.json, made.text, options.quiet);
   return ExitCode::done;
 }
 
@@ -95,19 +87,8 @@ void add_fit(Command& command, const Options& options) {
       .option("--hold-out", arguments->hold_out,
               "keep this share of the windows out of the fit, and print their residuals")
       .takes("F");
-  command
-      .option("-o,--output", arguments->output,
-              "write the scenario with the estimates in it to FILE.yaml, or - for standard output")
-      .takes("FILE");
-  command
-      .option("--json", arguments->json,
-              "write the results to FILE.json, or - for standard output, in place of the report")
-      .takes("FILE");
-  command
-      .option("-j,--threads", arguments->threads,
-              "number of threads; default: number of processors; the result is the same")
-      .takes("N")
-      .takes_whole(1, 1024);
+  add_found_files(command, arguments->files, "the estimates");
+  add_threads(command, arguments->threads);
   command.does([arguments, &options] { return fit(*arguments, options); });
 }
 

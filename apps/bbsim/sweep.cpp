@@ -163,11 +163,7 @@ void add_sweep(Command& command, const Options& options) {
               "write a summary of the sweep to FILE.json, or - for standard output: its settings, "
               "how cases ended, the engine")
       .takes("FILE");
-  command
-      .option("-j,--threads", arguments->threads,
-              "number of threads; default: number of processors")
-      .takes("N")
-      .takes_whole(1, 1024);
+  add_threads(command, arguments->threads);
   command
       .option("--shard", arguments->shard,
               "run only part K of N, K from 1; `bbsim merge` joins the parts")

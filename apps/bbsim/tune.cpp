@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "commands.hpp"
-#include "file/atomic_file.hpp"
 #include "progress.hpp"
 #include "terminal.hpp"
 
@@ -19,7 +18,8 @@ namespace {
 struct TuneArguments {
   ScenarioArguments scenario;
   std::vector<std::string> free, require, vary;
-  std::string minimize, output, json;
+  std::string minimize;
+  FoundFiles files;
   std::optional<double> samples, hold_out, quantile;
   std::size_t threads = 0;
 };
@@ -30,10 +30,7 @@ ExitCode tune(const TuneArguments& arguments, const Options& options) {
   const ScenarioFamily family(file, overrides);
   file::Outputs outputs;
   outputs.reads(file, "the scenario");
-  if (!arguments.output.empty()) outputs.writes(arguments.output, "-o");
-  if (!arguments.json.empty()) outputs.writes(arguments.json, "--json");
-  const bool reports = arguments.output != "-" && arguments.json != "-";
-  if (reports) prints(outputs);
+  arguments.files.declare(outputs);
 
   api::TuneRequest request{family, arguments.free, arguments.minimize, arguments.require,
                            arguments.vary};
@@ -42,14 +39,9 @@ ExitCode tune(const TuneArguments& arguments, const Options& options) {
   request.quantile = arguments.quantile.value_or(1);
   request.threads = arguments.threads;
   Progress progress(family.source().file, options.quiet, true);
-  const api::TuneResult made = api::tune(request, !arguments.output.empty(), progress);
+  const api::TuneResult made = api::tune(request, !arguments.files.scenario.empty(), progress);
   if (made.tuned) {
-    if (!arguments.output.empty()) {
-      file::write_file(arguments.output, made.scenario);
-      if (!options.quiet) note_other_folder(family, arguments.output);
-    }
-    if (!arguments.json.empty()) file::write_file(arguments.json, made.json);
-    if (reports) print(made.text);
+    arguments.files.write(family, made.scenario, made.json, made.text, options.quiet);
   }
   if (!made.reason.empty()) say(made.reason);
   return made.code;
@@ -108,19 +100,8 @@ void add_tune(Command& command, const Options& options) {
       .option("--quantile", arguments->quantile,
               "the share of rigs that counts, in place of all; default: 1")
       .takes("Q");
-  command
-      .option("-o,--output", arguments->output,
-              "write the scenario with the values in it to FILE.yaml, or - for standard output")
-      .takes("FILE");
-  command
-      .option("--json", arguments->json,
-              "write the results to FILE.json, or - for standard output, in place of the report")
-      .takes("FILE");
-  command
-      .option("-j,--threads", arguments->threads,
-              "number of threads; default: number of processors; the result is the same")
-      .takes("N")
-      .takes_whole(1, 1024);
+  add_found_files(command, arguments->files, "the values");
+  add_threads(command, arguments->threads);
   command.does([arguments, &options] { return tune(*arguments, options); });
 }
 

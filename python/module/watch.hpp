@@ -51,7 +51,7 @@ class Watch : public api::Watch {
     return work();
   }
 
-  // Does the work on a thread of its own, for work that calls update() seldom or from anywhere.
+  // Does the work on another thread, for work that calls update() rarely or from several threads.
   template <class Work>
   auto beside(const Work& work) {
     in_caller_ = false;

@@ -158,7 +158,7 @@ void tell_sweep(Report& report, const Scenario& scenario) {
   report.push_back({"sweep", std::to_string(plan.cases()) + " cases of bbsim sweep, over " + keys});
 }
 
-// Tells what comes of starting the controller and asking it, if the scene has one of its own.
+// Starts the user's controller, if there is one, and reports what it says and how it answers.
 void tell_controller(Report& report, const Scenario& scenario, Watch& watch) {
   if (!scenario.controller || !scenario.controller->own) return;
   // What it says at each of its starts is of interest once. Nothing is lost where a signal ends it
@@ -173,7 +173,7 @@ void tell_controller(Report& report, const Scenario& scenario, Watch& watch) {
   for (const std::string& line : host.describe()) {
     report.push_back({std::exchange(label, ""), line});
   }
-  // A function of a program that calls bbsim has no other life than this one.
+  // A function of the calling program is not probed: it may remember what it was asked.
   if (std::holds_alternative<ControllerFactory>(scenario.controller->own->by)) return;
   const Report found = probe(scenario, model);
   report.insert(report.end(), found.begin(), found.end());

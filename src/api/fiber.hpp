@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// A function that waits in its middle for its caller: it has a stack of its own.
+// A function that can pause and give control back to its caller: it runs on its own stack.
 #pragma once
 
 #include <ucontext.h>

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// What a controller of one's own does about a ball that is not at its reference.
+// How the user's controller answers to a ball that is not at its reference.
 #pragma once
 
 #include "api/check.hpp"

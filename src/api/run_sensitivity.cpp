@@ -44,27 +44,18 @@ study::VariedKey read_key(const std::string& key,
            ": found a key of the computation; allowed: keys of what moves, such as "
            "ball.radius");
   }
-  const auto known = scenario::number_key(key);
-  if (!known) {
-    // The scenario's own reader says what is wrong with the name.
-    static_cast<void>(family->read({{key, "1"}}));
-    refuse(name + ": takes no single number; allowed: a key that is a number, such as ball.radius");
-  }
-  std::optional<double> value = family->number_at(key, {});
-  if (!value) value = known->standard;
-  const std::string unit = unit_of(key);
-  const auto setting = [key, unit](double at) {
-    return ScenarioFamily::Setting{key, number_text(at) + (unit.empty() ? "" : " " + unit)};
-  };
+  const scenario::NamedNumber number = scenario::number_named("--sensitivity", key, *family);
+  const std::optional<double>& value = number.value;
   if (!value) {
-    static_cast<void>(family->read({setting(1)}));
+    static_cast<void>(family->read({number.setting(1)}));
     refuse(name +
            ": the scenario gives it no single number; allowed: a key with a number, such "
            "as ball.radius");
   }
   // Wide enough for little rounding, and within what the scene takes.
-  study::VariedKey varied{key, *value, 0x1p-9,
-                          [family, setting](double at) { return family->read({setting(at)}); }};
+  study::VariedKey varied{key, *value, 0x1p-9, [family, number](double at) {
+                            return family->read({number.setting(at)});
+                          }};
   if (*value != 0) varied.step = std::exp2(std::floor(std::log2(std::abs(*value))) - 6);
   static_cast<void>(varied.scenario(*value));
   const auto fits = [&] {

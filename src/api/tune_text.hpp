@@ -13,7 +13,7 @@ namespace bbsim::api {
 [[nodiscard]] std::string report_of(const TuneRequest& request, const Tuned& tuned);
 [[nodiscard]] std::string json_of(const Tuned& tuned);
 
-// Throws InputError if a key has no place of its own in the text.
+// Throws InputError if edited_text() cannot set a key in the text.
 [[nodiscard]] std::string tuned_scenario(const TuneRequest& request, const Tuned& tuned);
 
 }  // namespace bbsim::api

@@ -40,7 +40,7 @@ std::vector<Window> cut(const std::vector<Log>& logs, double length, double shar
     const std::vector<double>& times = logs[k].times;
     if (times.empty()) continue;
     const double span = times.back() - times.front();
-    // The last row of a log is no window of its own.
+    // The last row of a log belongs to the last window.
     const double count = std::max(1.0, std::round(span / length));
     std::size_t from = 0;
     for (double w = 1; w <= count && from < times.size(); ++w) {

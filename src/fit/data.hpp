@@ -21,7 +21,7 @@ struct Log {
   std::vector<ScenarioFamily::Setting> settings{};  // that make the scenario this log's
 };
 
-// A part of a log that starts at a state of its own.
+// A part of a log, whose start is fitted.
 struct Window {
   std::size_t log = 0;
   double begin = 0;           // s

@@ -79,7 +79,7 @@ double FreeKey::slope(double u) const {
 }
 
 ScenarioFamily::Setting FreeKey::setting(double value) const {
-  return {name, number_text(value) + (unit.empty() ? "" : " " + unit)};
+  return scenario::NamedNumber{name, {}, unit}.setting(value);
 }
 
 FreeKey read_free_key(std::string_view text, const ScenarioFamily& family) {
@@ -87,21 +87,15 @@ FreeKey read_free_key(std::string_view text, const ScenarioFamily& family) {
   FreeKey key;
   key.name = trimmed(text.substr(0, equals));
   const std::string name = shown(key.name);
-  const auto known = scenario::number_key(key.name);
-  if (!known) {
-    // The scenario's own reader says what is wrong with the name.
-    static_cast<void>(family.read({{key.name, "1"}}));
-    refuse(name + ": takes no single number; allowed: a key that is a number, such as ball.radius");
-  }
-  key.unit = yaml::si_unit(known->dimension);
-  const yaml::Range& range = known->range;
+  const scenario::NamedNumber number = scenario::number_named("--free", key.name, family);
+  key.unit = number.unit;
+  const yaml::Range& range = number.key.range;
   key.lower = range.above.value_or(range.at_least.value_or(-unlimited));
   key.upper = range.at_most.value_or(unlimited);
   if (equals != std::string_view::npos) read_bounds(trimmed(text.substr(equals + 1)), key);
   const bool bounded = std::isfinite(key.lower) && std::isfinite(key.upper);
 
-  std::optional<double> start = family.number_at(key.name, {});
-  if (!start) start = known->standard;
+  std::optional<double> start = number.value;
   if (equals != std::string_view::npos && (!start || *start < key.lower || *start > key.upper)) {
     start = key.lower > 0 ? std::sqrt(key.lower * key.upper) : (key.lower + key.upper) / 2;
   }
@@ -114,8 +108,8 @@ FreeKey read_free_key(std::string_view text, const ScenarioFamily& family) {
   key.start = *start;
   key.logarithmic = key.start > 0 && (range.above >= 0.0 || key.lower > 0);
   const bool given = equals != std::string_view::npos && bounded;
-  key.scale =
-      given ? (key.upper - key.lower) / 10 : std::max(std::abs(key.start), usual(known->dimension));
+  key.scale = given ? (key.upper - key.lower) / 10
+                    : std::max(std::abs(key.start), usual(number.key.dimension));
   // Whether the scene takes the key at all.
   static_cast<void>(family.read({key.setting(key.start)}));
   return key;

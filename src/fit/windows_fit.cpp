@@ -32,10 +32,6 @@ Index at(std::size_t i) {
   return static_cast<Index>(i);
 }
 
-double& coordinate(Start& start, std::size_t i) {
-  return start[i];
-}
-
 }  // namespace
 
 WindowsFit::WindowsFit(const Task& task, std::vector<Window> windows)
@@ -66,13 +62,13 @@ void WindowsFit::guess_starts() {
     constexpr std::string_view names[] = {"x", "y", "", "", "phi", "theta", "", ""};
     for (std::size_t i = 0; i < base_[w].start.size(); ++i) {
       if (std::ranges::find(coordinates_, i) == coordinates_.end()) continue;
-      if (i == 2 || i == 3) coordinate(base_[w].start, i) = 0;
+      if (i == 2 || i == 3) base_[w].start[i] = 0;
       for (std::size_t c = 0; c < task_.columns.size(); ++c) {
         if (task_.columns[c]->name != names[i]) continue;
         const auto& values = windows_[w].values[c];
         const auto first =
             std::ranges::find_if(values, [](double value) { return std::isfinite(value); });
-        if (first != values.end()) coordinate(base_[w].start, i) = *first;
+        if (first != values.end()) base_[w].start[i] = *first;
       }
     }
   }
@@ -164,9 +160,9 @@ bool WindowsFit::slopes(std::size_t w, const Scenario& scene, const Start& start
   VectorXd up, down;
   for (std::size_t k = 0; k < coordinates_.size(); ++k) {
     Start moved = start;
-    coordinate(moved, coordinates_[k]) += start_step;
+    moved[coordinates_[k]] += start_step;
     if (!residual_of(w, scene, moved, up, why)) return false;
-    coordinate(moved, coordinates_[k]) -= 2 * start_step;
+    moved[coordinates_[k]] -= 2 * start_step;
     if (!residual_of(w, scene, moved, down, why)) return false;
     into.col(at(k)) = (up - down) / (2 * start_step);
   }
@@ -193,7 +189,7 @@ bool WindowsFit::settle(std::size_t w, const Scenario& scene, State& state,
     const VectorXd step = state.by_start.solve(state.residual);
     Start moved = state.start;
     for (std::size_t k = 0; k < coordinates_.size(); ++k) {
-      coordinate(moved, coordinates_[k]) -= step[at(k)];
+      moved[coordinates_[k]] -= step[at(k)];
     }
     VectorXd residual;
     std::string unheard;

@@ -73,7 +73,7 @@ class WindowsFit {
   std::size_t size_ = 0;
   std::vector<double> noise_;
   std::vector<State> base_, trial_;
-  Eigen::VectorXd base_u_, trial_u_;
+  Eigen::VectorXd trial_u_;  // of trial_
 };
 
 }  // namespace bbsim::fit

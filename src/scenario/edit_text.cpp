@@ -86,7 +86,7 @@ class Editor {
  private:
   [[noreturn]] void refuse() const {
     throw InputError("-o: " + setting_.key +
-                     ": has no place of its own in the scenario's text; allowed: a key that stands "
+                     ": cannot be set alone in the scenario's text; allowed: a key that stands "
                      "there, or whose section does");
   }
 

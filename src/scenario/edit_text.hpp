@@ -12,7 +12,7 @@
 namespace bbsim {
 
 // The text with these settings in it. A key that is not there joins its neighbors. Throws
-// InputError for a key that has no place of its own in the text: one within an alias, or in a list.
+// InputError for a key that cannot be set there alone: one within an alias, or in a list.
 [[nodiscard]] std::string edited_text(const std::string& text,
                                       const std::vector<ScenarioFamily::Setting>& settings);
 

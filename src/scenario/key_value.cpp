@@ -4,8 +4,13 @@
 #include "scenario/key_value.hpp"
 
 #include <algorithm>
+#include <utility>
 
+#include "base/error.hpp"
+#include "base/number_text.hpp"
+#include "base/shown.hpp"
 #include "scenario/keys.hpp"
+#include "yaml/quantity.hpp"
 #include "yaml/spelling.hpp"
 
 namespace bbsim::scenario {
@@ -43,6 +48,26 @@ std::optional<NumberKey> find(const Declared& declared, std::string_view path,
 
 std::optional<NumberKey> number_key(std::string_view path) {
   return find(declared_keys(), yaml::american(path), "");
+}
+
+ScenarioFamily::Setting NamedNumber::setting(double to) const {
+  return {name, number_text(to) + (unit.empty() ? "" : " " + unit)};
+}
+
+NamedNumber number_named(const std::string& option, std::string name,
+                         const ScenarioFamily& family) {
+  const auto known = number_key(name);
+  if (!known) {
+    // The scenario's own reader says what is wrong with the name.
+    static_cast<void>(family.read({{name, "1"}}));
+    throw InputError(option + ": " + shown(name) +
+                     ": takes no single number; allowed: a key that is a number, such as "
+                     "ball.radius");
+  }
+  NamedNumber found{std::move(name), *known, std::string(yaml::si_unit(known->dimension))};
+  found.value = family.number_at(found.name, {});
+  if (!found.value) found.value = known->standard;
+  return found;
 }
 
 }  // namespace bbsim::scenario

@@ -353,8 +353,8 @@ std::size_t Sensitivity::rows() const {
   return std::min(states_.size() / size, gradients_.size() / (size * keys_.size()));
 }
 
-// Changes that move no state by more than a thousandth of its range: differences of order 4 are
-// then good to rounding.
+// Changes of no more than a thousandth of the key, and of no state by more than a thousandth of its
+// range: differences of order 4 are then good to rounding.
 Sensitivity::Changed Sensitivity::changed(std::size_t key) const {
   constexpr double share = 1e-3, least_range = 1e-4;
   const VariedKey& varied = keys_[key].key;
@@ -369,6 +369,7 @@ Sensitivity::Changed Sensitivity::changed(std::size_t key) const {
     effect = effect.cwiseMax(slopes.col(static_cast<Eigen::Index>(key)).cwiseAbs());
   }
   double most = varied.step;
+  if (varied.value != 0) most = std::min(most, share * std::abs(varied.value));
   const double floor = least_range * range.maxCoeff();
   for (Eigen::Index i = 0; i < size_ && floor > 0; ++i) {
     if (effect[i] > 0) most = std::min(most, share * std::max(range[i], floor) / effect[i]);
