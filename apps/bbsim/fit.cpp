@@ -23,6 +23,8 @@ struct FitArguments {
   FoundFiles files;
   std::optional<double> hold_out;
   std::size_t threads = 0;
+  std::size_t starts = 1;
+  std::string loss = "squares";
 };
 
 ExitCode fit(const FitArguments& arguments, const Options& options) {
@@ -38,18 +40,19 @@ ExitCode fit(const FitArguments& arguments, const Options& options) {
                           arguments.window};
   request.hold_out = arguments.hold_out.value_or(0);
   request.threads = arguments.threads;
+  request.starts = arguments.starts;
+  request.loss = arguments.loss;
   Progress progress(family.source().file, options.quiet);
   const api::FitResult made = api::fit(request, !arguments.files.scenario.empty(), progress);
   if (!options.quiet) {
     for (const std::string& warning : made.warnings) say(warning);
   }
-  if (made.code != ExitCode::done) {
-    say("fit: interrupted after " + std::to_string(made.fitted.iterations) +
-        " iterations; nothing is written");
+  if (made.text.empty()) {
+    say("fit: interrupted before the first iteration; nothing is written");
     return made.code;
   }
   arguments.files.write(family, made.scenario, made.json, made.text, options.quiet);
-  return ExitCode::done;
+  return made.code;
 }
 
 }  // namespace
@@ -59,7 +62,11 @@ void add_fit(Command& command, const Options& options) {
       "bbsim cuts each log into windows, fits the ball's position and velocity at the start of "
       "each, and finds the values of the free keys at which the runs are closest to the logs. It "
       "prints estimates, standard deviations, 95 % intervals and residuals. A key that the logs do "
-      "not tell is named; the exit code is then 0, too.\n"
+      "not tell is named; the exit code is then 0, too. Ctrl+C ends a fit with the best values so "
+      "far.\n"
+      "A sensor's scale, offset and delay are free keys, too: log.x.scale, log.x.offset, "
+      "log.delay. "
+      "The log then shows offset + scale x(t - delay).\n"
       "Where a table of the scenario is one of several logs, each log has itself for that table.\n"
       "\n"
       "Examples:\n"
@@ -87,6 +94,16 @@ void add_fit(Command& command, const Options& options) {
       .option("--hold-out", arguments->hold_out,
               "keep this share of the windows out of the fit, and print their residuals")
       .takes("F");
+  command
+      .option("--loss", arguments->loss,
+              "squares, or huber: numbers that are far off have less weight; default: squares")
+      .takes("LOSS");
+  command
+      .option(
+          "--starts", arguments->starts,
+          "begin with N sets of values, drawn within the bounds, or else near the scenario's, and "
+          "go on from the best; default: 1")
+      .takes("N");
   add_found_files(command, arguments->files, "the estimates");
   add_threads(command, arguments->threads);
   command.does([arguments, &options] { return fit(*arguments, options); });

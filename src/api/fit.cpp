@@ -161,6 +161,15 @@ void refuse_starts(const std::string& free) {
   }
 }
 
+void refuse_twice(const std::vector<fit::FreeKey>& keys) {
+  for (const fit::FreeKey& one : keys) {
+    const auto same = [&](const fit::FreeKey& other) { return other.name == one.name; };
+    if (std::ranges::count_if(keys, same) > 1) {
+      throw InputError("--free: " + shown(one.name) + " is there twice");
+    }
+  }
+}
+
 double window_of(const std::string& text) {
   const auto value = scenario::value_in(text, "s");
   if (value && *value > 0) return *value;
@@ -175,6 +184,11 @@ FitResult fit(const FitRequest& request, bool with_scenario, Watch& watch) {
     throw InputError("--hold-out: found " + number_text(request.hold_out) +
                      "; allowed: a share from 0 to below 1, such as 0.3");
   }
+  if (request.loss != "squares" && request.loss != "huber") {
+    throw InputError("--loss: found " + bbsim::quoted(request.loss) +
+                     "; allowed: squares or huber");
+  }
+  if (request.starts < 1) throw InputError("--starts: found 0; allowed: 1 or more");
   plot::refuse_auto(request.choice);
   const Scenario scenario = request.family.read({});
   if (scenario.controller && scenario.controller->own) {
@@ -185,12 +199,9 @@ FitResult fit(const FitRequest& request, bool with_scenario, Watch& watch) {
   FitResult made;
   fit::Task task{request.family, {}, {}, {}};
   for (const std::string& text : request.free) {
+    if (fit::is_of_log(text)) continue;
     refuse_starts(text);
     task.keys.push_back(fit::read_free_key(text, request.family));
-    const auto same = [&](const fit::FreeKey& key) { return key.name == task.keys.back().name; };
-    if (std::ranges::count_if(task.keys, same) > 1) {
-      throw InputError("--free: " + shown(task.keys.back().name) + " is there twice");
-    }
   }
   if (with_scenario) {  // what cannot be written is said before the work
     std::vector<ScenarioFamily::Setting> settings;
@@ -213,9 +224,15 @@ FitResult fit(const FitRequest& request, bool with_scenario, Watch& watch) {
           {key, "'" + std::filesystem::absolute(file).string() + "'"});
     }
   }
+  for (const std::string& text : request.free) {
+    if (fit::is_of_log(text)) task.keys.push_back(fit::read_log_key(text, task.columns));
+  }
+  refuse_twice(task.keys);
   if (!request.window.empty()) task.window = window_of(request.window);
   task.hold_out = request.hold_out;
   task.threads = request.threads;
+  task.starts = request.starts;
+  task.robust = request.loss == "huber";
   task.stop = watch.stop();
   task.progress = [&watch](double fraction, const std::string& detail) {
     watch.update(fraction, detail);
@@ -223,10 +240,8 @@ FitResult fit(const FitRequest& request, bool with_scenario, Watch& watch) {
   watch.start(0);
   made.fitted = fit::fit(task);
   watch.end();
-  if (made.fitted.interrupted) {
-    made.code = ExitCode::interrupted;
-    return made;
-  }
+  if (made.fitted.interrupted) made.code = ExitCode::interrupted;
+  if (made.fitted.parameters.empty()) return made;
   made.text = report_of(request, made.fitted);
   made.json = json_of(made.fitted);
   if (with_scenario) made.scenario = fitted_scenario(request, made.fitted);

@@ -25,10 +25,12 @@ struct FitRequest {
   std::string window{};           // a time; empty: what suits the scene
   double hold_out = 0;            // a share of the windows, from 0 to below 1
   std::size_t threads = 0;        // 0: as many as there are processors
+  std::size_t starts = 1;         // sets of values to begin with, from 1 on
+  std::string loss = "squares";   // or huber
 };
 
 struct FitResult {
-  ExitCode code = ExitCode::done;  // or interrupted
+  ExitCode code = ExitCode::done;  // or interrupted, with the best so far, if there is any
   fit::Fitted fitted;
   std::vector<std::string> warnings;  // of the logs
   std::string text;                   // a report

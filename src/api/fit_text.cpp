@@ -13,6 +13,7 @@
 #include "base/short_number.hpp"
 #include "base/shown.hpp"
 #include "file/whole_file.hpp"
+#include "fit/free_key.hpp"
 #include "record/aligned.hpp"
 #include "scenario/edit_text.hpp"
 
@@ -48,12 +49,15 @@ std::string parameters_text(const fit::Fitted& fitted) {
 
 std::string residuals_text(const fit::Fitted& fitted) {
   std::vector<std::vector<std::string>> lines{{"rms residual", "before", "fitted"}};
-  if (fitted.held > 0) lines[0].push_back("held out");
+  if (fitted.held > 0) lines[0].insert(lines[0].end(), {"held out: before", "fitted"});
   lines[0].push_back("unit");
   for (const fit::ColumnResidual& column : fitted.columns) {
     std::vector<std::string> line{column.column, record::rounded(column.before),
                                   record::rounded(column.rms)};
-    if (fitted.held > 0) line.push_back(column.held ? record::rounded(*column.held) : "-");
+    if (fitted.held > 0) {
+      line.push_back(record::rounded(column.held_before.value_or(0)));
+      line.push_back(record::rounded(column.held.value_or(0)));
+    }
     line.push_back(unit_or_one(column.unit));
     lines.push_back(std::move(line));
   }
@@ -85,6 +89,28 @@ std::string report_of(const FitRequest& request, const fit::Fitted& fitted) {
   for (const fit::Parameter& one : fitted.parameters) {
     if (one.at_bound) text += "note: " + one.key + " is at a bound of its range\n";
   }
+  for (std::size_t i = 0; i < fitted.parameters.size(); ++i) {
+    for (std::size_t k = 0; k < i; ++k) {
+      const double correlation = fitted.correlations[i][k];
+      if (!(std::abs(correlation) > 0.95)) continue;
+      text += "note: " + fitted.parameters[k].key + " and " + fitted.parameters[i].key +
+              " have correlation " + rounded(correlation, 3) +
+              "; the log tells a combination of them better than each\n";
+    }
+  }
+  for (const fit::ColumnResidual& column : fitted.columns) {
+    if (column.outliers == 0) continue;
+    text += "note: " + std::to_string(column.outliers) +
+            (column.outliers == 1 ? " number of " : " numbers of ") + column.column +
+            (column.outliers == 1 ? " is" : " are") +
+            " beyond 5 standard deviations, the first at t = " + short_number(column.outlier_time) +
+            " s of " + shown(column.outlier_log) +
+            (request.loss == "huber" ? "\n" : "; --loss huber gives such numbers less weight\n");
+  }
+  if (fitted.interrupted) {
+    text += "note: interrupted after " + std::to_string(fitted.iterations) +
+            " iterations: these are the best values so far\n";
+  }
   if (!fitted.white) {
     text += "note: neighboring residuals are alike (";
     bool first = true;
@@ -114,6 +140,18 @@ std::string json_of(const fit::Fitted& fitted) {
     if (column.held) json["hold_out_rms"][column.column] = *column.held;
   }
   json["identifiable"] = fitted.untold.empty();
+  json["correlations"] = Json::array();
+  for (const std::vector<double>& row : fitted.correlations) {
+    Json line = Json::array();
+    for (const double one : row) line.push_back(number_or_null(one));
+    json["correlations"].push_back(std::move(line));
+  }
+  json["white"] = fitted.white;
+  json["outliers"] = Json::object();
+  for (const fit::ColumnResidual& column : fitted.columns) {
+    json["outliers"][column.column] = column.outliers;
+  }
+  if (fitted.interrupted) json["interrupted"] = true;
   return json.dump(2) + "\n";
 }
 
@@ -152,6 +190,7 @@ std::string fitted_scenario(const FitRequest& request, const fit::Fitted& fitted
   }
   std::vector<ScenarioFamily::Setting> settings;
   for (const fit::Parameter& one : fitted.parameters) {
+    if (fit::is_of_log(one.key)) continue;  // no scenario has it
     const std::string unit = one.unit.empty() ? "" : " " + one.unit;
     settings.push_back({one.key, number_text(one.estimate) + unit});
   }

@@ -7,12 +7,15 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <unsupported/Eigen/LevenbergMarquardt>
+#include <random>
 #include <utility>
 
 #include "base/error.hpp"
 #include "base/short_number.hpp"
 #include "fit/clock_shift.hpp"
+#include "fit/minimize.hpp"
+#include "fit/profile.hpp"
+#include "fit/residuals.hpp"
 #include "fit/student.hpp"
 #include "fit/windows_fit.hpp"
 
@@ -30,95 +33,15 @@ Index at(std::size_t i) {
   return static_cast<Index>(i);
 }
 
-// The problem as Eigen's minimizer sees it, in the keys that may move.
-class Functor : public Eigen::DenseFunctor<double> {
- public:
-  Functor(const Task& task, WindowsFit& windows, VectorXd& u, std::vector<Index> moving,
-          std::size_t& iterations)
-      : DenseFunctor(static_cast<int>(moving.size()), static_cast<int>(windows.size())),
-        task_(task),
-        windows_(windows),
-        u_(u),
-        moving_(std::move(moving)),
-        iterations_(iterations) {}
-
-  int operator()(const VectorXd& v, VectorXd& residuals) {
-    residuals = windows_.residuals(whole(v));
-    return is_stopped() ? -1 : 0;
-  }
-
-  int df(const VectorXd& v, MatrixXd& jacobian) {
-    const MatrixXd projected = windows_.derivatives(whole(v)).projected;
-    jacobian.resize(projected.rows(), at(moving_.size()));
-    for (std::size_t i = 0; i < moving_.size(); ++i) {
-      jacobian.col(at(i)) = projected.col(moving_[i]);
-    }
-    ++iterations_;
-    if (task_.progress) {
-      const auto done = static_cast<double>(iterations_);
-      task_.progress(done / (done + 5), "iteration " + std::to_string(iterations_));
-    }
-    return is_stopped() ? -1 : 0;
-  }
-
-  [[nodiscard]] VectorXd whole(const VectorXd& v) const {
-    VectorXd u = u_;
-    for (std::size_t i = 0; i < moving_.size(); ++i) u[moving_[i]] = v[at(i)];
-    return u;
-  }
-
- private:
-  [[nodiscard]] bool is_stopped() const {
-    return task_.stop != nullptr && task_.stop->load(std::memory_order_relaxed);
-  }
-
-  const Task& task_;
-  WindowsFit& windows_;
-  const VectorXd& u_;
-  std::vector<Index> moving_;
-  std::size_t& iterations_;
-};
-
-// The sum of squares of each column's residuals, in SI, and how many there are.
-struct Squares {
-  std::vector<double> sum, count;
-};
-Squares squares_of(const WindowsFit& windows, const VectorXd& residuals) {
-  const std::size_t columns = windows.noise().size();
-  Squares made{std::vector<double>(columns, 0), std::vector<double>(columns, 0)};
-  for (std::size_t i = 0; i < windows.size(); ++i) {
-    const std::size_t c = windows.columns_of_rows()[i];
-    const double residual = residuals[at(i)] * windows.noise()[c];
-    made.sum[c] += residual * residual;
-    made.count[c] += 1;
-  }
-  return made;
-}
-
 std::vector<double> rms_of(const WindowsFit& windows, const VectorXd& residuals) {
-  const Squares squares = squares_of(windows, residuals);
   std::vector<double> rms;
-  for (std::size_t c = 0; c < squares.sum.size(); ++c) {
-    rms.push_back(squares.count[c] > 0 ? std::sqrt(squares.sum[c] / squares.count[c]) : 0);
-  }
+  for (const ColumnSize& size : sizes_of(windows, residuals)) rms.push_back(size.rms);
   return rms;
 }
 
-// The correlation of neighboring residuals of each column within windows.
-std::vector<double> correlations_of(const WindowsFit& windows, const VectorXd& residuals) {
-  const std::size_t columns = windows.noise().size();
-  std::vector<double> products(columns, 0), squares(columns, 0);
-  for (std::size_t w = 0; w < windows.windows().size(); ++w) {
-    for (std::size_t i = windows.first_row(w); i < windows.first_row(w + 1); ++i) {
-      const std::size_t c = windows.columns_of_rows()[i];
-      squares[c] += residuals[at(i)] * residuals[at(i)];
-      const bool has_next =
-          i + 1 < windows.first_row(w + 1) && windows.columns_of_rows()[i + 1] == c;
-      if (has_next) products[c] += residuals[at(i)] * residuals[at(i + 1)];
-    }
-  }
-  for (std::size_t c = 0; c < columns; ++c) products[c] /= std::max(squares[c], 1e-300);
-  return products;
+// A number from 0 to 1 that is the same with every library.
+double uniform(std::mt19937_64& random) {
+  return std::ldexp(static_cast<double>(random() >> 11), -53);
 }
 
 // How much the numbers of a column vary: below 1e-9 of it, differences are rounding.
@@ -150,40 +73,51 @@ class Fit {
         spreads_(spreads_of(task)),
         u_(VectorXd::Zero(at(task.keys.size()))) {}
 
-  // False if it is interrupted.
+  // False if it is interrupted; what it has come to is then the best so far.
   bool run() {
     windows_.set_noise(spreads_);
-    VectorXd residuals = windows_.residuals(u_, true);
-    if (is_stopped()) return false;
-    before_ = rms_of(windows_, residuals);
+    residuals_ = windows_.residuals(u_, true);
+    if (is_stopped(task_)) return false;
+    before_ = rms_of(windows_, residuals_);
     refuse_idle_keys();
-    set_noise(residuals);
-    constexpr int most_rounds = 12;
+    if (!choose_start()) return false;
+    residuals_ = windows_.residuals(u_);
+    set_noise();
+    const int most_rounds = task_.robust ? 40 : 12;
     for (int round = 0; round < most_rounds; ++round) {
-      if (!minimize()) return false;
-      residuals = windows_.residuals(u_);
-      const double change = set_noise(residuals);
-      if (change < 1e-5) break;
+      if (!minimize(task_, windows_, all_keys(), u_, made_.iterations)) return false;
+      residuals_ = windows_.residuals(u_);
+      const double reweighted = task_.robust ? set_weights() : 0;
+      if (std::max(set_noise(), reweighted) < (task_.robust ? 1e-4 : 1e-5)) break;
     }
     residuals_ = windows_.residuals(u_);
-    return !is_stopped();
+    return !is_stopped(task_);
   }
+
+  // Whether a run that was interrupted has come to anything.
+  [[nodiscard]] bool has_begun() const { return !before_.empty(); }
 
   // What the run has found.
   void tell() {
-    const std::vector<double> rms = rms_of(windows_, residuals_);
+    windows_.finish();
+    residuals_ = windows_.residuals(u_);
+    const std::vector<ColumnSize> sizes = sizes_of(windows_, residuals_);
     const std::vector<double> correlations = correlations_of(windows_, residuals_);
-    const Squares squares = squares_of(windows_, residuals_);
+    const std::vector<Outliers> outliers = outliers_of(windows_, residuals_, sizes);
     for (std::size_t c = 0; c < task_.columns.size(); ++c) {
-      made_.columns.push_back({std::string(task_.columns[c]->name),
-                               std::string(task_.columns[c]->unit),
-                               before_[c],
-                               rms[c],
-                               {},
-                               correlations[c]});
+      ColumnResidual one{std::string(task_.columns[c]->name), std::string(task_.columns[c]->unit)};
+      one.before = before_[c];
+      one.rms = sizes[c].rms;
+      one.correlation = correlations[c];
+      const bool is_exact = one.rms <= 1e-6 * spreads_[c];
+      if (!is_exact && outliers[c].count > 0) {
+        one.outliers = outliers[c].count;
+        one.outlier_log = task_.logs[outliers[c].log].name;
+        one.outlier_time = outliers[c].time;
+      }
+      made_.columns.push_back(one);
       // The starts take correlation away, so that white residuals rarely come to this.
-      made_.white = made_.white && (rms[c] <= 1e-6 * spreads_[c] ||
-                                    correlations[c] < 3 / std::sqrt(squares.count[c]));
+      made_.white = made_.white && (is_exact || correlations[c] < 3 / std::sqrt(sizes[c].count));
     }
     tell_parameters();
   }
@@ -192,16 +126,51 @@ class Fit {
   void tell_held(std::vector<Window> held) {
     if (held.empty()) return;
     WindowsFit others(task_, std::move(held));
+    others.finish();
     others.set_noise(windows_.noise());
-    const std::vector<double> rms = rms_of(others, others.residuals(u_, false));
-    for (std::size_t c = 0; c < rms.size(); ++c) made_.columns[c].held = rms[c];
+    const std::vector<double> before = rms_of(others, others.residuals(VectorXd::Zero(u_.size())));
+    const std::vector<double> rms = rms_of(others, others.residuals(u_));
+    for (std::size_t c = 0; c < rms.size(); ++c) {
+      made_.columns[c].held_before = before[c];
+      made_.columns[c].held = rms[c];
+    }
   }
 
   [[nodiscard]] std::size_t size() const { return windows_.size(); }
 
  private:
-  [[nodiscard]] bool is_stopped() const {
-    return task_.stop != nullptr && task_.stop->load(std::memory_order_relaxed);
+  [[nodiscard]] std::vector<Index> all_keys() const {
+    std::vector<Index> keys;
+    for (Index k = 0; k < u_.size(); ++k) keys.push_back(k);
+    return keys;
+  }
+
+  // Goes on from the best of some starts; the first is the scenario's. False if it is interrupted.
+  bool choose_start() {
+    std::mt19937_64 random(1);
+    VectorXd best = u_;
+    double least = unlimited;
+    for (std::size_t start = 0; start < task_.starts && task_.starts > 1; ++start) {
+      VectorXd u = VectorXd::Zero(u_.size());
+      for (Index k = 0; start > 0 && k < u.size(); ++k) {
+        const FreeKey& key = task_.keys[static_cast<std::size_t>(k)];
+        const bool bounded = std::isfinite(key.lower) && std::isfinite(key.upper) &&
+                             !(key.logarithmic && key.lower == 0);
+        // Without bounds: by a factor of two, or by the key's scale.
+        const double reach = key.logarithmic ? std::log(2.0) : 1;
+        const double from = bounded ? key.number(key.lower) : -reach;
+        const double to = bounded ? key.number(key.upper) : reach;
+        u[k] = from + (to - from) * uniform(random);
+      }
+      windows_.restart();
+      if (!minimize(task_, windows_, all_keys(), u, made_.iterations)) return false;
+      const double cost = windows_.residuals(u).squaredNorm();
+      if (!(cost < least)) continue;
+      least = cost;
+      best = u_ = u;
+    }
+    if (task_.starts > 1) windows_.restart();
+    return !is_stopped(task_);
   }
 
   void refuse_idle_keys() {
@@ -227,55 +196,39 @@ class Fit {
 
   // Estimates each column's noise from its residuals. Returns how much the columns' weights change
   // against each other.
-  double set_noise(const VectorXd& residuals) {
-    const Squares squares = squares_of(windows_, residuals);
+  double set_noise() {
     const double share = degrees_of_freedom() / static_cast<double>(windows_.size());
     std::vector<double> noise;
     double least = unlimited, most = 0;
-    for (std::size_t c = 0; c < spreads_.size(); ++c) {
-      const double variance =
-          squares.count[c] > 0 ? squares.sum[c] / (squares.count[c] * share) : 0;
-      noise.push_back(std::max(std::sqrt(variance), 1e-9 * spreads_[c]));
+    const std::vector<ColumnSize> sizes = sizes_of(windows_, residuals_);
+    for (std::size_t c = 0; c < sizes.size(); ++c) {
+      const double size = task_.robust ? sizes[c].usual : sizes[c].rms;
+      noise.push_back(std::max(size / std::sqrt(share), 1e-9 * spreads_[c]));
       const double change = noise[c] / windows_.noise()[c];
       least = std::min(least, change);
       most = std::max(most, change);
     }
+    // Their weights are of the noise that they were found with.
     windows_.set_noise(std::move(noise));
     return most / least - 1;
   }
 
-  // Keys that come to a bound stay there, and the others go on.
-  bool minimize() {
-    std::vector<Index> moving;
-    for (Index k = 0; k < u_.size(); ++k) moving.push_back(k);
-    while (!moving.empty()) {
-      Functor functor(task_, windows_, u_, moving, made_.iterations);
-      Eigen::LevenbergMarquardt<Functor> method(functor);
-      method.setFtol(1e-12);
-      method.setXtol(1e-9);
-      method.setFactor(1000);
-      method.setMaxfev(200);
-      VectorXd v(at(moving.size()));
-      for (std::size_t i = 0; i < moving.size(); ++i) v[at(i)] = u_[moving[i]];
-      method.minimize(v);
-      if (is_stopped()) return false;
-      u_ = functor.whole(v);
-      std::vector<Index> rest;
-      for (const Index k : moving) {
-        const FreeKey& key = task_.keys[static_cast<std::size_t>(k)];
-        const double value = key.value(u_[k]);
-        const bool positive = key.logarithmic && key.lower == 0;
-        const bool at_bound = (value == key.lower && !positive) || value == key.upper;
-        if (at_bound) {
-          u_[k] = key.number(value);
-        } else {
-          rest.push_back(k);
-        }
-      }
-      if (rest.size() == moving.size()) return true;
-      moving = std::move(rest);
-    }
-    return true;
+  // Returns how much a weight changes.
+  double set_weights() {
+    const VectorXd weights = huber_weights(residuals_.cwiseQuotient(windows_.weights()));
+    const double change = (weights - windows_.weights()).cwiseAbs().maxCoeff();
+    windows_.set_weights(weights);
+    return change;
+  }
+
+  // The variance of a residual, in the units of the fit. With Huber's loss, that of its influence
+  // (Huber, Robust Statistics, 1981, section 7.6).
+  [[nodiscard]] double scatter() const {
+    if (!task_.robust) return residuals_.squaredNorm() / degrees_of_freedom();
+    const VectorXd influence = residuals_.cwiseProduct(windows_.weights());
+    const auto within = static_cast<double>((windows_.weights().array() >= 1).count());
+    return influence.squaredNorm() / degrees_of_freedom() /
+           std::max(within / static_cast<double>(windows_.size()), 0.1);
   }
 
   void tell_parameters() {
@@ -287,12 +240,12 @@ class Fit {
     const VectorXd values = svd.singularValues();
     const double least = 1e-8 * std::max(values[0], 1e-300);
     const Index keys = u_.size();
-    VectorXd variances = VectorXd::Zero(keys);
+    MatrixXd covariance = MatrixXd::Zero(keys, keys);
     std::vector<char> told(static_cast<std::size_t>(keys), 1);
     for (Index j = 0; j < keys; ++j) {
       const VectorXd direction = svd.matrixV().col(j);
       if (values[j] > least) {
-        variances += direction.cwiseAbs2() / values[j];
+        covariance += direction * direction.transpose() / values[j];
         continue;
       }
       for (Index k = 0; k < keys; ++k) {
@@ -300,8 +253,15 @@ class Fit {
       }
       made_.untold.push_back(words_for(direction.cwiseQuotient(sizes), direction));
     }
-    const double scatter = residuals_.squaredNorm() / degrees_of_freedom();
+    covariance = sizes.cwiseInverse().asDiagonal() * covariance * sizes.cwiseInverse().asDiagonal();
+    const double variance = scatter();
     const double t = student_95(degrees_of_freedom());
+    std::vector<Index> moving;
+    for (Index k = 0; k < keys; ++k) {
+      const FreeKey& key = task_.keys[static_cast<std::size_t>(k)];
+      const double value = key.value(u_[k]);
+      if (value != key.lower && value != key.upper) moving.push_back(k);
+    }
     for (Index k = 0; k < keys; ++k) {
       const auto i = static_cast<std::size_t>(k);
       const FreeKey& key = task_.keys[i];
@@ -313,15 +273,23 @@ class Fit {
       one.told = told[i] != 0;
       one.at_bound = one.estimate == key.lower || one.estimate == key.upper;
       if (one.told) {
-        const double sd = std::sqrt(variances[k] * scatter) / sizes[k];
-        one.sd = sd * std::abs(key.slope(u_[k]));
-        one.low = key.value(u_[k] - t * sd);
-        one.high = key.value(u_[k] + t * sd);
+        one.sd = std::sqrt(covariance(k, k) * variance) * std::abs(key.slope(u_[k]));
+        const Ends ends = profile(task_, windows_, u_, covariance, k, t * t * variance, moving);
+        one.low = key.value(ends.low);
+        one.high = key.value(ends.high);
       } else {
         one.sd = one.high = unlimited;
         one.low = -unlimited;
       }
       made_.parameters.push_back(one);
+      std::vector<double> correlations;
+      for (Index other = 0; other < keys; ++other) {
+        const bool both = one.told && told[static_cast<std::size_t>(other)] != 0;
+        correlations.push_back(both ? covariance(k, other) /
+                                          std::sqrt(covariance(k, k) * covariance(other, other))
+                                    : std::numeric_limits<double>::quiet_NaN());
+      }
+      made_.correlations.push_back(std::move(correlations));
     }
   }
 
@@ -358,6 +326,13 @@ class Fit {
   VectorXd u_, residuals_;
 };
 
+// What a delayed sensor shows of the time before the window, no run of the window has.
+void drop_rows_before(double time, Window& window) {
+  const auto kept = std::ranges::lower_bound(window.times, time) - window.times.begin();
+  window.times.erase(window.times.begin(), window.times.begin() + kept);
+  for (auto& column : window.values) column.erase(column.begin(), column.begin() + kept);
+}
+
 // Tables of the scenario end where their splines would run away.
 void require_tables(const Task& task, const std::vector<Window>& windows) {
   std::vector<Span> spans;
@@ -387,6 +362,10 @@ Fitted fit(const Task& task) {
   made.window = whole_logs ? unlimited : task.window.value_or(usual_window);
   const std::size_t coordinates =
       start_coordinates(task.columns, !scenario.gimbal.motion && !whole_logs).size();
+  double most_delay = 0;
+  for (const FreeKey& key : task.keys) {
+    if (key.of == FreeKey::Of::delay) most_delay = key.upper;
+  }
   std::vector<Window> windows, held;
   double longest = 0;
   for (const Log& log : task.logs) {
@@ -394,7 +373,8 @@ Fitted fit(const Task& task) {
   }
   for (Window& window :
        cut(task.logs, std::min(made.window, 2 * longest + 1), task.hold_out, coordinates)) {
-    (window.held ? held : windows).push_back(std::move(window));
+    drop_rows_before(most_delay, window);
+    if (window.times.size() > 1) (window.held ? held : windows).push_back(std::move(window));
   }
   made.windows = windows.size();
   made.held = held.size();
@@ -416,10 +396,8 @@ Fitted fit(const Task& task) {
   require_tables(task, windows);
   require_tables(task, held);
   Fit fit(task, std::move(windows), made);
-  if (!fit.run()) {
-    made.interrupted = true;
-    return made;
-  }
+  made.interrupted = !fit.run();
+  if (!fit.has_begun()) return made;
   fit.tell();
   fit.tell_held(std::move(held));
   return made;

@@ -27,6 +27,8 @@ struct Task {
   std::optional<double> window{};  // s; without one, what suits the scene
   double hold_out = 0;             // the share of windows that are out of the fit
   std::size_t threads = 0;         // 0: as many as there are processors
+  std::size_t starts = 1;          // sets of values to begin with; the best goes on
+  bool robust = false;             // Huber's loss in place of least squares
   std::function<void(double fraction, const std::string& detail)> progress{};
   const std::atomic<bool>* stop = nullptr;
 };
@@ -35,19 +37,25 @@ struct Parameter {
   std::string key, unit;
   double start = 0, estimate = 0;
   // Of a key that the logs do not tell: infinite.
-  double sd = 0, low = 0, high = 0;
+  double sd = 0;
+  double low = 0, high = 0;  // the 95 % interval, by profile likelihood
   bool told = true;
   bool at_bound = false;
 };
 
 struct ColumnResidual {
   std::string column, unit;
-  double before = 0, rms = 0;    // of the windows of the fit, with the scenario's values and after
-  std::optional<double> held{};  // of the windows that were held out
-  double correlation = 0;        // of neighboring residuals
+  double before = 0, rms = 0;  // of the windows of the fit, with the scenario's values and after
+  std::optional<double> held_before{}, held{};  // of the windows that were held out, likewise
+  double correlation = 0;                       // of neighboring residuals
+  // Numbers that are beyond five standard deviations, and where the first one is.
+  std::size_t outliers = 0;
+  std::string outlier_log{};
+  double outlier_time = 0;  // s
 };
 
 struct Fitted {
+  // Stopped on the way: what follows is the best so far, if there are parameters.
   bool interrupted = false;
   std::vector<Parameter> parameters;
   std::vector<ColumnResidual> columns;
@@ -57,6 +65,8 @@ struct Fitted {
   double window = 0;  // s
   bool white = true;  // neighboring residuals are independent
   std::size_t iterations = 0;
+  // Of each pair of parameters; NaN for those that the logs do not tell.
+  std::vector<std::vector<double>> correlations;
 };
 
 // Throws InputError: for logs with too little in them, for keys that change nothing, and where the

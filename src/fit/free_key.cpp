@@ -18,6 +18,7 @@ namespace bbsim::fit {
 namespace {
 
 constexpr double unlimited = std::numeric_limits<double>::infinity();
+constexpr double usual_delay = 0.2;  // s; a camera's is at most that
 
 // A usual size of what has this dimension, where nothing else tells one.
 double usual(yaml::Dimension dimension) {
@@ -112,6 +113,60 @@ FreeKey read_free_key(std::string_view text, const ScenarioFamily& family) {
                     : std::max(std::abs(key.start), usual(number.key.dimension));
   // Whether the scene takes the key at all.
   static_cast<void>(family.read({key.setting(key.start)}));
+  return key;
+}
+
+bool is_of_log(std::string_view text) {
+  return trimmed(text.substr(0, text.find('='))).starts_with("log.");
+}
+
+FreeKey read_log_key(std::string_view text, const std::vector<const scenario::Column*>& columns) {
+  const std::size_t equals = text.find('=');
+  FreeKey key;
+  key.name = trimmed(text.substr(0, equals));
+  key.lower = -unlimited;
+  key.upper = unlimited;
+  const auto is = [&](std::string_view column, std::string_view property) {
+    return key.name == "log." + std::string(column) + "." + std::string(property);
+  };
+  if (key.name == "log.delay") {
+    key.of = FreeKey::Of::delay;
+    key.unit = "s";
+    key.lower = 0;
+    key.upper = usual_delay;
+  }
+  std::string names;
+  for (std::size_t c = 0; c < columns.size(); ++c) {
+    const std::string_view column = columns[c]->name;
+    names += ", log." + std::string(column) + ".scale, log." + std::string(column) + ".offset";
+    if (is(column, "scale")) {
+      key.of = FreeKey::Of::scale;
+      key.lower = 0;
+    } else if (is(column, "offset")) {
+      key.of = FreeKey::Of::offset;
+      key.unit = columns[c]->unit;
+    } else {
+      continue;
+    }
+    key.column = c;
+  }
+  const std::string name = shown(key.name);
+  if (key.of == FreeKey::Of::scenario) refuse(name + ": allowed of a log: log.delay" + names);
+  if (equals != std::string_view::npos) {
+    if (key.of == FreeKey::Of::delay) key.upper = unlimited;
+    read_bounds(trimmed(text.substr(equals + 1)), key);
+  }
+  const bool bounded = std::isfinite(key.lower) && std::isfinite(key.upper);
+  key.logarithmic = key.of == FreeKey::Of::scale;
+  if (key.of == FreeKey::Of::delay) {
+    key.start = (key.lower + key.upper) / 2;
+  } else {
+    key.start = key.logarithmic ? 1 : 0;
+    if (key.start < key.lower || key.start > key.upper) {
+      key.start = (key.lower + key.upper) / 2;
+    }
+  }
+  key.scale = bounded ? (key.upper - key.lower) / 10 : usual(yaml::Dimension::length);
   return key;
 }
 

@@ -72,7 +72,8 @@ Start start_of(const Scenario& scenario) {
           gimbal.phi,       gimbal.theta,     gimbal.phi_rate,  gimbal.theta_rate};
 }
 
-std::vector<double> run_window(const Scenario& scene, const Start& start, const Window& window,
+std::vector<double> run_window(const Scenario& scene, const Start& start,
+                               const std::vector<double>& times,
                                const std::vector<const scenario::Column*>& columns,
                                std::string& why) {
   Scenario begun = scene;
@@ -87,9 +88,9 @@ std::vector<double> run_window(const Scenario& scene, const Start& start, const 
     return {};
   }
   const model::Model& model = *assembled;
-  RowsAtTimes sink(window.times, model.row_size());
+  RowsAtTimes sink(times, model.row_size());
   // The last row is within the run, whatever its end is rounded to.
-  const double end = window.times.back() * (1 + 1e-9) + 1e-9;
+  const double end = times.back() * (1 + 1e-9) + 1e-9;
   const solve::OutputGrid grid({end, end});
   const solve::Outcome outcome = solve::integrate(
       model, begun.solver.method, {begun.solver.rtol, begun.solver.atol}, grid, sink);
@@ -100,11 +101,11 @@ std::vector<double> run_window(const Scenario& scene, const Start& start, const 
   const model::BallConstants constants = model::constants_of(begun);
   record::Rows rows(columns);
   rows.begin(model, constants);
-  rows.evaluate(window.times.data(), sink.rows(), window.times.size());
+  rows.evaluate(times.data(), sink.rows(), times.size());
   std::vector<double> values;
-  values.reserve(columns.size() * window.times.size());
+  values.reserve(columns.size() * times.size());
   for (std::size_t c = 0; c < columns.size(); ++c) {
-    values.insert(values.end(), rows[c], rows[c] + window.times.size());
+    values.insert(values.end(), rows[c], rows[c] + times.size());
   }
   if (!std::ranges::all_of(values, [](double value) { return std::isfinite(value); })) {
     why = "the motion is beyond the range of doubles";

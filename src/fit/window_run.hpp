@@ -20,10 +20,11 @@ using Start = std::array<double, 8>;
 // The scenario without what ends a run early or only watches it, at tolerances for differences.
 [[nodiscard]] Scenario prepared(Scenario scenario);
 
-// The columns at the window's times, one column after the other. `scene` is from_time() of a
-// prepared scenario. Empty, with the reason in `why`, if the run does not come to the window's end.
+// The columns at `times` (s, increasing, from 0 on), one column after the other. `scene` is
+// from_time() of a prepared scenario. Empty, with the reason in `why`, if the run does not come to
+// the last of them.
 [[nodiscard]] std::vector<double> run_window(const Scenario& scene, const Start& start,
-                                             const Window& window,
+                                             const std::vector<double>& times,
                                              const std::vector<const scenario::Column*>& columns,
                                              std::string& why);
 

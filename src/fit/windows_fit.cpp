@@ -38,7 +38,8 @@ WindowsFit::WindowsFit(const Task& task, std::vector<Window> windows)
     : task_(task), windows_(std::move(windows)) {
   bool from_within = false;
   for (const Window& window : windows_) from_within = from_within || !window.first;
-  const std::vector<Scenario> scenes = variant(VectorXd::Zero(at(task.keys.size())), nullptr);
+  const std::vector<Scenario> scenes =
+      variant(VectorXd::Zero(at(task.keys.size())), nullptr).scenes;
   coordinates_ = start_coordinates(task.columns, from_within && !scenes.front().gimbal.motion);
   for (const Window& window : windows_) {
     first_rows_.push_back(size_);
@@ -51,6 +52,7 @@ WindowsFit::WindowsFit(const Task& task, std::vector<Window> windows)
     }
   }
   first_rows_.push_back(size_);
+  weights_ = VectorXd::Ones(at(size_));
   base_.resize(windows_.size());
   for (State& state : base_) state.start = start_of(scenes.front());
   guess_starts();
@@ -80,33 +82,63 @@ void WindowsFit::set_noise(std::vector<double> noise) {
   trial_u_.resize(0);
 }
 
+void WindowsFit::set_weights(VectorXd weights) {
+  weights_ = std::move(weights);
+  for (State& state : base_) state.fresh_rounds = std::max(state.fresh_rounds, 1);
+  trial_u_.resize(0);
+}
+
+void WindowsFit::restart() {
+  guess_starts();
+  for (State& state : base_) state.fresh_rounds = State{}.fresh_rounds;
+  trial_u_.resize(0);
+}
+
+bool WindowsFit::is_stopped() const {
+  return heeds_stop_ && task_.stop != nullptr && task_.stop->load(std::memory_order_relaxed);
+}
+
 Variant WindowsFit::variant(const VectorXd& u, std::string* why) const {
   Variant made;
+  std::vector<Scenario>& scenes = made.scenes;
+  Sensors& sensors = made.sensors;
+  sensors.scales.assign(task_.columns.size(), 1);
+  sensors.offsets.assign(task_.columns.size(), 0);
+  for (std::size_t k = 0; k < task_.keys.size(); ++k) {
+    const FreeKey& key = task_.keys[k];
+    const double value = key.value(u[at(k)]);
+    if (key.of == FreeKey::Of::scale) sensors.scales[key.column] = value;
+    if (key.of == FreeKey::Of::offset) sensors.offsets[key.column] = value;
+    if (key.of == FreeKey::Of::delay) sensors.delay = value;
+  }
   try {
     for (const Log& log : task_.logs) {
       // Logs without settings of their own share the scenario.
-      if (!made.empty() && log.settings.empty()) {
-        made.push_back(made.front());
+      if (!scenes.empty() && log.settings.empty()) {
+        scenes.push_back(scenes.front());
         continue;
       }
       std::vector<ScenarioFamily::Setting> settings = log.settings;
       for (std::size_t k = 0; k < task_.keys.size(); ++k) {
         const FreeKey& key = task_.keys[k];
-        settings.push_back(key.setting(key.value(u[at(k)])));
+        if (key.of == FreeKey::Of::scenario) {
+          settings.push_back(key.setting(key.value(u[at(k)])));
+        }
       }
-      made.push_back(prepared(task_.family.read(settings)));
+      scenes.push_back(prepared(task_.family.read(settings)));
     }
   } catch (const InputError& error) {
     if (why == nullptr) throw;
     *why = error.what();
-    made.clear();
+    scenes.clear();
   }
   return made;
 }
 
-Scenario WindowsFit::scene_of(std::size_t w, const Variant& variant) const {
+WindowsFit::Scene WindowsFit::scene_of(std::size_t w, const Variant& variant) const {
   const Window& window = windows_[w];
-  return from_time(variant[window.log], window.begin, window.begin + window.times.back());
+  return {from_time(variant.scenes[window.log], window.begin, window.begin + window.times.back()),
+          variant.sensors};
 }
 
 void WindowsFit::for_each_window(const std::function<void(std::size_t)>& work) const {
@@ -119,7 +151,7 @@ void WindowsFit::for_each_window(const std::function<void(std::size_t)>& work) c
   const auto some = [&] {
     try {
       for (std::size_t w = next++; w < windows_.size(); w = next++) {
-        if (task_.stop != nullptr && task_.stop->load(std::memory_order_relaxed)) return;
+        if (is_stopped()) return;
         work(w);
       }
     } catch (...) {
@@ -136,10 +168,13 @@ void WindowsFit::for_each_window(const std::function<void(std::size_t)>& work) c
   if (thrown) std::rethrow_exception(thrown);
 }
 
-bool WindowsFit::residual_of(std::size_t w, const Scenario& scene, const Start& start,
-                             VectorXd& into, std::string& why) const {
+bool WindowsFit::residual_of(std::size_t w, const Scene& scene, const Start& start, VectorXd& into,
+                             std::string& why) const {
   const Window& window = windows_[w];
-  const std::vector<double> values = run_window(scene, start, window, task_.columns, why);
+  const Sensors& sensors = scene.sensors;
+  std::vector<double> shown = window.times;  // the times that the sensors show
+  for (double& time : shown) time = std::max(time - sensors.delay, 0.0);
+  const std::vector<double> values = run_window(scene.scenario, start, shown, task_.columns, why);
   into.resize(at(first_rows_[w + 1] - first_rows_[w]));
   if (values.empty()) return false;
   Index row = 0;
@@ -147,13 +182,16 @@ bool WindowsFit::residual_of(std::size_t w, const Scenario& scene, const Start& 
   for (std::size_t c = 0; c < window.values.size(); ++c) {
     for (std::size_t i = 0; i < rows; ++i) {
       const double measured = window.values[c][i];
-      if (std::isfinite(measured)) into[row++] = (values[c * rows + i] - measured) / noise_[c];
+      if (!std::isfinite(measured)) continue;
+      const double expected = sensors.offsets[c] + sensors.scales[c] * values[c * rows + i];
+      into[row++] = (expected - measured) / noise_[c];
     }
   }
+  into.array() *= weights_.segment(at(first_rows_[w]), into.size()).array();
   return true;
 }
 
-bool WindowsFit::slopes(std::size_t w, const Scenario& scene, const Start& start,
+bool WindowsFit::slopes(std::size_t w, const Scene& scene, const Start& start,
                         MatrixXd& into) const {
   std::string why;
   into.resize(at(first_rows_[w + 1] - first_rows_[w]), at(coordinates_.size()));
@@ -171,8 +209,7 @@ bool WindowsFit::slopes(std::size_t w, const Scenario& scene, const Start& start
 
 // Newton's method for the best start, with the slopes that are there: the motion depends on its
 // start almost linearly.
-bool WindowsFit::settle(std::size_t w, const Scenario& scene, State& state,
-                        std::string& why) const {
+bool WindowsFit::settle(std::size_t w, const Scene& scene, State& state, std::string& why) const {
   if (!residual_of(w, scene, state.start, state.residual, why)) return false;
   const int fresh = std::exchange(state.fresh_rounds, 0);
   constexpr int most_rounds = 12;
@@ -207,14 +244,15 @@ VectorXd WindowsFit::residuals(const VectorXd& u, bool first) {
   VectorXd all = VectorXd::Constant(at(size_), far);
   std::string why;
   const Variant scenes = variant(u, first ? nullptr : &why);
-  if (scenes.empty()) return all;
+  if (scenes.scenes.empty()) return all;
   trial_ = base_;
+  trial_u_.resize(0);
   std::vector<std::string> faults(windows_.size());
   std::vector<char> runs(windows_.size(), 0);
   for_each_window([&](std::size_t w) {
     runs[w] = settle(w, scene_of(w, scenes), trial_[w], faults[w]) ? 1 : 0;
   });
-  if (task_.stop != nullptr && task_.stop->load()) return all;
+  if (is_stopped()) return all;
   for (std::size_t w = 0; w < windows_.size(); ++w) {
     if (runs[w] != 0) {
       all.segment(at(first_rows_[w]), trial_[w].residual.size()) = trial_[w].residual;
@@ -249,14 +287,14 @@ WindowsFit::Derivatives WindowsFit::derivatives(const VectorXd& u) {
     down.push_back(variant(moved(-key_step), &why));
     double from = -key_step, to = key_step;
     // A value at its bound has a neighbor on one side only.
-    if (up.back().empty() || key.value(u[k] + key_step) == key.value(u[k])) {
+    if (up.back().scenes.empty() || key.value(u[k] + key_step) == key.value(u[k])) {
       up.back() = middle;
       to = 0;
-    } else if (down.back().empty() || key.value(u[k] - key_step) == key.value(u[k])) {
+    } else if (down.back().scenes.empty() || key.value(u[k] - key_step) == key.value(u[k])) {
       down.back() = middle;
       from = 0;
     }
-    width.push_back(down.back().empty() ? 0 : to - from);
+    width.push_back(down.back().scenes.empty() ? 0 : to - from);
   }
   Derivatives made{MatrixXd::Zero(at(size_), keys), VectorXd::Zero(keys)};
   MatrixXd whole = MatrixXd::Zero(at(size_), keys);

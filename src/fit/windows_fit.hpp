@@ -16,8 +16,17 @@
 
 namespace bbsim::fit {
 
+// What the logs show of each compared column: offset + scale column(t - delay).
+struct Sensors {
+  std::vector<double> scales, offsets;
+  double delay = 0;  // s
+};
+
 // Scenarios at one set of values, one for each log; none if the values are refused.
-using Variant = std::vector<Scenario>;
+struct Variant {
+  std::vector<Scenario> scenes;
+  Sensors sensors;
+};
 
 class WindowsFit {
  public:
@@ -34,9 +43,12 @@ class WindowsFit {
   // The standard deviation of each column's noise, which its residuals are divided by.
   void set_noise(std::vector<double> noise);
   [[nodiscard]] const std::vector<double>& noise() const { return noise_; }
+  // Factors of each residual, 1 at first.
+  void set_weights(Eigen::VectorXd weights);
+  [[nodiscard]] const Eigen::VectorXd& weights() const { return weights_; }
 
-  // The residuals over the noise, at the best starts. What does not run is far away; with `first`,
-  // it is an InputError.
+  // The residuals over the noise, times their weights, at the best starts. What does not run is far
+  // away; with `first`, it is an InputError.
   [[nodiscard]] Eigen::VectorXd residuals(const Eigen::VectorXd& u, bool first = false);
 
   // The derivatives of the residuals by u, at u; residuals() may be asked before or not. `free`:
@@ -46,6 +58,11 @@ class WindowsFit {
     Eigen::VectorXd free_norms;
   };
   [[nodiscard]] Derivatives derivatives(const Eigen::VectorXd& u);
+
+  // Begins again with guesses of the windows' starts.
+  void restart();
+  // From now on, a task that is stopped is computed nevertheless.
+  void finish() { heeds_stop_ = false; }
 
  private:
   struct State {
@@ -57,13 +74,18 @@ class WindowsFit {
 
   [[nodiscard]] Variant variant(const Eigen::VectorXd& u, std::string* why) const;
   void guess_starts();
-  bool residual_of(std::size_t w, const Scenario& scene, const Start& start, Eigen::VectorXd& into,
+  // One window at one set of values.
+  struct Scene {
+    Scenario scenario;
+    const Sensors& sensors;
+  };
+  bool residual_of(std::size_t w, const Scene& scene, const Start& start, Eigen::VectorXd& into,
                    std::string& why) const;
   // The derivatives by the start; false if a run fails.
-  bool slopes(std::size_t w, const Scenario& scene, const Start& start,
-              Eigen::MatrixXd& into) const;
-  bool settle(std::size_t w, const Scenario& scene, State& state, std::string& why) const;
-  [[nodiscard]] Scenario scene_of(std::size_t w, const Variant& variant) const;
+  bool slopes(std::size_t w, const Scene& scene, const Start& start, Eigen::MatrixXd& into) const;
+  bool settle(std::size_t w, const Scene& scene, State& state, std::string& why) const;
+  [[nodiscard]] Scene scene_of(std::size_t w, const Variant& variant) const;
+  [[nodiscard]] bool is_stopped() const;
   void for_each_window(const std::function<void(std::size_t)>& work) const;
 
   const Task& task_;
@@ -72,6 +94,8 @@ class WindowsFit {
   std::vector<std::size_t> first_rows_, columns_;
   std::size_t size_ = 0;
   std::vector<double> noise_;
+  Eigen::VectorXd weights_;
+  bool heeds_stop_ = true;
   std::vector<State> base_, trial_;
   Eigen::VectorXd trial_u_;  // of trial_
 };

@@ -1,7 +1,11 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
+#include <array>
+#include <atomic>
 #include <cmath>
+#include <cstdio>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -29,12 +33,16 @@ class Case {
     api::FitRequest request{family, {folder_ / "log.csv"}, {}, free, window};
     request.hold_out = hold_out;
     request.threads = threads;
-    api::Watch watch;
-    return api::fit(request, true, watch);
+    request.loss = loss;
+    request.starts = starts;
+    api::Watch nobody;
+    return api::fit(request, true, watch != nullptr ? *watch : nobody);
   }
 
   [[nodiscard]] const Folder& folder() const { return folder_; }
-  std::size_t threads = 2;
+  std::size_t threads = 2, starts = 1;
+  std::string loss = "squares";
+  api::Watch* watch = nullptr;
 
  private:
   Folder folder_;
@@ -207,6 +215,151 @@ TEST_CASE("several logs, each with its own table") {
   CHECK(made.fitted.columns[0].rms == Approx(5e-4).epsilon(0.1));
 }
 
+TEST_CASE("a log's own scale and offset are found, where the table is right") {
+  // Gravity and the angles are known, so that the path is, too; the screen's counts are not.
+  std::string text = "t,x,y,phi,theta\n";
+  {
+    std::istringstream lines(log_text(2e-4));
+    std::string line;
+    std::getline(lines, line);
+    while (std::getline(lines, line)) {
+      double t = 0, x = 0, y = 0, phi = 0, theta = 0;
+      REQUIRE(std::sscanf(line.c_str(), "%lf,%lf,%lf,%lf,%lf", &t, &x, &y, &phi, &theta) == 5);
+      for (const double value : {t, 0.8 * x + 0.03, y, phi}) text += number_text(value) + ",";
+      text += number_text(theta) + "\n";
+    }
+  }
+  const Case rig(text);
+  const api::FitResult made = rig.fit({"log.x.scale", "ball.inertia_factor", "log.x.offset"});
+  CAPTURE(made.text, made.json);
+  // An offset is undone by the starts, as long as the plate's curvature does not tell.
+  REQUIRE(made.fitted.parameters.size() == 3);
+  const fit::Parameter& scale = made.fitted.parameters[1];
+  CHECK(scale.key == "log.x.scale");
+  CHECK(is_near(scale, 0.8));
+  CHECK(scale.sd < 0.02);
+  CHECK(is_near(made.fitted.parameters[0], 0.43));
+  CHECK_FALSE(contains(made.scenario, "log.x.scale:  "));
+  CHECK(contains(made.scenario, "# log.x.scale: 0."));
+}
+
+TEST_CASE("a sensor's delay is found") {
+  std::istringstream lines(log_text(2e-4, 1, 0, 5));
+  std::string line, text = "t,x,y,phi,theta\n";
+  std::getline(lines, line);
+  std::vector<std::array<double, 5>> rows;
+  while (std::getline(lines, line)) {
+    auto& row = rows.emplace_back();
+    REQUIRE(std::sscanf(line.c_str(), "%lf,%lf,%lf,%lf,%lf", row.data(), &row[1], &row[2], &row[3],
+                        &row[4]) == 5);
+  }
+  // Two rows of 50 ms late.
+  for (std::size_t i = 2; i < rows.size(); ++i) {
+    for (const double value : {rows[i][0], rows[i - 2][1], rows[i - 2][2], rows[i][3]}) {
+      text += number_text(value) + ",";
+    }
+    text += number_text(rows[i][4]) + "\n";
+  }
+  const Case rig(text);
+  const api::FitResult made = rig.fit({"log.delay", "ball.inertia_factor"});
+  CAPTURE(made.text);
+  CHECK(made.fitted.parameters[1].key == "log.delay");
+  CHECK(made.fitted.parameters[1].unit == "s");
+  CHECK(is_near(made.fitted.parameters[1], 0.1));
+  CHECK(made.fitted.parameters[1].sd < 0.002);
+}
+
+TEST_CASE("outliers are told, and Huber's loss gives them less weight") {
+  // Five rows of x are 0.3 m off: the screen was not touched.
+  std::istringstream lines(log_text(5e-4));
+  std::string line, text;
+  for (int row = 0; std::getline(lines, line); ++row) {
+    if (row % 80 == 7) {
+      const std::size_t comma = line.find(',');
+      line.replace(comma + 1, line.find(',', comma + 1) - comma - 1, "0.3");
+    }
+    text += line + "\n";
+  }
+  Case rig(text);
+  const std::vector<std::string> free = {"ball.inertia_factor", "gimbal.motion.phi.table.scale"};
+  const api::FitResult squares = rig.fit(free);
+  CAPTURE(squares.text);
+  CHECK(squares.fitted.columns[0].outliers >= 5);
+  CHECK(squares.fitted.columns[0].outlier_time == Approx(0.3));
+  CHECK(contains(squares.text, "; --loss huber gives such numbers less weight"));
+  rig.loss = "huber";
+  const api::FitResult huber = rig.fit(free);
+  CAPTURE(huber.text);
+  CHECK(huber.fitted.columns[0].outliers == 5);
+  CHECK(huber.fitted.columns[1].outliers == 0);
+  for (std::size_t k = 0; k < 2; ++k) {
+    CHECK(huber.fitted.parameters[k].sd < squares.fitted.parameters[k].sd);
+  }
+  CHECK(is_near(huber.fitted.parameters[0], 0.43));
+  CHECK(is_near(huber.fitted.parameters[1], 1));
+  // Without outliers it loses 5 % of the efficiency.
+  const Case clean(log_text(5e-4));
+  const api::FitResult best = clean.fit(free);
+  CHECK(huber.fitted.parameters[0].sd < 1.3 * best.fitted.parameters[0].sd);
+}
+
+TEST_CASE("a stop request keeps the best so far") {
+  class Impatient : public api::Watch {
+   public:
+    void update(double, const std::string& detail) override {
+      heard = detail;
+      stop_ = true;
+    }
+    const std::atomic<bool>* stop() override { return &stop_; }
+    std::string heard;
+
+   private:
+    std::atomic<bool> stop_ = false;
+  } impatient;
+  Case rig(log_text(5e-4, 1.1));
+  rig.watch = &impatient;
+  const api::FitResult made = rig.fit({"ball.inertia_factor", "gimbal.motion.phi.table.scale"});
+  CAPTURE(made.text);
+  CHECK(made.code == ExitCode::interrupted);
+  CHECK(contains(impatient.heard, "iteration 1, rms residual "));
+  CHECK(made.fitted.parameters.size() == 2);
+  CHECK(contains(made.text, "note: interrupted after 1 iterations"));
+  CHECK(contains(made.scenario, "Fitted by bbsim"));
+}
+
+TEST_CASE("an interval is that of the profile") {
+  // Where the problem is almost linear, the ends are those of the standard deviation.
+  const Case rig(log_text(5e-4, 1.1));
+  const api::FitResult made = rig.fit({"gimbal.motion.phi.table.scale"});
+  const fit::Parameter& scale = made.fitted.parameters[0];
+  const double t = 1.96;
+  CHECK(scale.high - scale.estimate == Approx(t * scale.sd).epsilon(0.03));
+  CHECK(scale.estimate - scale.low == Approx(t * scale.sd).epsilon(0.03));
+  // Of a bounded key, it ends at the bound.
+  const api::FitResult bounded = rig.fit({"gimbal.motion.phi.table.scale=0.5:1.1001"});
+  CHECK(bounded.fitted.parameters[0].high <= 1.1001);
+}
+
+TEST_CASE("several starts find what one does not") {
+  // The nearest minimum to a delay of 0.9 s is another period of the motion.
+  const std::string late = R"(
+ball: {radius: 1 cm, inertia_factor: 0.43}
+gimbal:
+  motion:
+    phi: {table: {file: log.csv, time: t, value: phi}}
+    theta: {table: {file: log.csv, time: t, value: theta, delay: 0.9}}
+time: {end: 10, step: 50 ms}
+)";
+  const Case one(log_text(5e-4), late);
+  Case several(log_text(5e-4), late);
+  several.starts = 12;
+  const std::vector<std::string> free = {"gimbal.motion.theta.table.delay=-1:1"};
+  const api::FitResult alone = one.fit(free), made = several.fit(free);
+  CAPTURE(alone.text, made.text);
+  CHECK(std::abs(alone.fitted.parameters[0].estimate) > 0.1);
+  CHECK(made.fitted.parameters[0].estimate == Approx(0).margin(2e-3));
+}
+
 TEST_CASE("a key at its bound stays there") {
   const Case rig(log_text(5e-4));
   const api::FitResult made = rig.fit({"ball.inertia_factor=0.3:0.41"});
@@ -228,6 +381,14 @@ TEST_CASE("what a fit cannot use is refused") {
   CHECK(contains(refused({"ball.radius", "ball.radius"}), "ball.radius is there twice"));
   CHECK(contains(refused({"ball.radius"}, "-1"), "--window: found \"-1\""));
   CHECK(contains(refused({"ball.radius"}, "", 1), "--hold-out: found 1"));
+  CHECK(contains(
+      refused({"log.phi.scale"}),
+      "log.phi.scale: allowed of a log: log.delay, log.x.scale, log.x.offset, log.y.scale"));
+  CHECK(contains(refused({"log.delay=-1:1"}), "allowed: values from 0"));
+  Case other(log_text(5e-4));
+  other.loss = "cauchy";
+  CHECK(contains(message_of<InputError>([&] { static_cast<void>(other.fit({"ball.radius"})); }),
+                 "--loss: found \"cauchy\"; allowed: squares or huber"));
   CHECK(contains(refused({"ball.radius"}, "60 ms"), "have 0 numbers in 0 windows"));
 
   rig.folder().put("log.csv", "t,phi,theta\n0,0,0\n1,0,0\n2,0,0\n3,0,0\n10,0,0\n");

@@ -1,0 +1,107 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "fit/minimize.hpp"
+
+#include <cmath>
+#include <string>
+#include <unsupported/Eigen/LevenbergMarquardt>
+#include <utility>
+
+#include "base/short_number.hpp"
+
+namespace bbsim::fit {
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+// The problem as Eigen's minimizer sees it, in the keys that may move.
+class Functor : public Eigen::DenseFunctor<double> {
+ public:
+  Functor(const Task& task, WindowsFit& windows, const VectorXd& u, std::vector<Index> moving,
+          std::size_t& iterations)
+      : DenseFunctor(static_cast<int>(moving.size()), static_cast<int>(windows.size())),
+        task_(task),
+        windows_(windows),
+        u_(u),
+        moving_(std::move(moving)),
+        iterations_(iterations) {}
+
+  int operator()(const VectorXd& v, VectorXd& residuals) {
+    residuals = windows_.residuals(whole(v));
+    cost_ = residuals.squaredNorm();
+    return is_stopped(task_) ? -1 : 0;
+  }
+
+  int df(const VectorXd& v, MatrixXd& jacobian) {
+    const MatrixXd projected = windows_.derivatives(whole(v)).projected;
+    jacobian.resize(projected.rows(), static_cast<Index>(moving_.size()));
+    for (std::size_t i = 0; i < moving_.size(); ++i) {
+      jacobian.col(static_cast<Index>(i)) = projected.col(moving_[i]);
+    }
+    ++iterations_;
+    if (task_.progress) {
+      const auto done = static_cast<double>(iterations_);
+      const double rms = std::sqrt(cost_ / static_cast<double>(windows_.size()));
+      task_.progress(done / (done + 5), "iteration " + std::to_string(iterations_) +
+                                            ", rms residual " + rounded(rms, 4) + " noise");
+    }
+    return is_stopped(task_) ? -1 : 0;
+  }
+
+  [[nodiscard]] VectorXd whole(const VectorXd& v) const {
+    VectorXd u = u_;
+    for (std::size_t i = 0; i < moving_.size(); ++i) u[moving_[i]] = v[static_cast<Index>(i)];
+    return u;
+  }
+
+ private:
+  const Task& task_;
+  WindowsFit& windows_;
+  const VectorXd& u_;
+  std::vector<Index> moving_;
+  std::size_t& iterations_;
+  double cost_ = 0;
+};
+
+}  // namespace
+
+bool is_stopped(const Task& task) {
+  return task.stop != nullptr && task.stop->load(std::memory_order_relaxed);
+}
+
+bool minimize(const Task& task, WindowsFit& windows, std::vector<Index> moving, VectorXd& u,
+              std::size_t& iterations) {
+  while (!moving.empty()) {
+    Functor functor(task, windows, u, moving, iterations);
+    Eigen::LevenbergMarquardt<Functor> method(functor);
+    method.setFtol(1e-12);
+    method.setXtol(1e-9);
+    method.setFactor(1000);
+    method.setMaxfev(200);
+    VectorXd v(static_cast<Index>(moving.size()));
+    for (std::size_t i = 0; i < moving.size(); ++i) v[static_cast<Index>(i)] = u[moving[i]];
+    method.minimize(v);
+    u = functor.whole(v);
+    if (is_stopped(task)) return false;
+    std::vector<Index> rest;
+    for (const Index k : moving) {
+      const FreeKey& key = task.keys[static_cast<std::size_t>(k)];
+      const double value = key.value(u[k]);
+      const bool positive = key.logarithmic && key.lower == 0;
+      const bool at_bound = (value == key.lower && !positive) || value == key.upper;
+      if (at_bound) {
+        u[k] = key.number(value);
+      } else {
+        rest.push_back(k);
+      }
+    }
+    if (rest.size() == moving.size()) return true;
+    moving = std::move(rest);
+  }
+  return true;
+}
+
+}  // namespace bbsim::fit
