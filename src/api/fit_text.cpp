@@ -64,6 +64,28 @@ std::string residuals_text(const fit::Fitted& fitted) {
   return record::aligned(lines);
 }
 
+// The keys that go with another one, in one line.
+std::string correlations_text(const fit::Fitted& fitted) {
+  std::vector<std::string> names;
+  double largest = 0;
+  for (std::size_t i = 0; i < fitted.parameters.size(); ++i) {
+    double most = 0;
+    for (std::size_t k = 0; k < fitted.parameters.size(); ++k) {
+      if (k != i) most = std::fmax(most, std::abs(fitted.correlations[i][k]));
+    }
+    if (most <= 0.95) continue;
+    names.push_back(fitted.parameters[i].key);
+    largest = std::fmax(largest, most);
+  }
+  if (names.empty()) return "";
+  std::string text = "note: ";
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    text += (i == 0 ? "" : i + 1 == names.size() ? " and " : ", ") + names[i];
+  }
+  return text + " go together, with correlations up to " + rounded(largest, 4) +
+         ": the logs tell a combination of them better than each\n";
+}
+
 std::string hash_of(const std::string& file) {
   char text[24];
   std::snprintf(text, sizeof text, "%016llx",
@@ -89,15 +111,7 @@ std::string report_of(const FitRequest& request, const fit::Fitted& fitted) {
   for (const fit::Parameter& one : fitted.parameters) {
     if (one.at_bound) text += "note: " + one.key + " is at a bound of its range\n";
   }
-  for (std::size_t i = 0; i < fitted.parameters.size(); ++i) {
-    for (std::size_t k = 0; k < i; ++k) {
-      const double correlation = fitted.correlations[i][k];
-      if (!(std::abs(correlation) > 0.95)) continue;
-      text += "note: " + fitted.parameters[k].key + " and " + fitted.parameters[i].key +
-              " have correlation " + rounded(correlation, 3) +
-              "; the log tells a combination of them better than each\n";
-    }
-  }
+  text += correlations_text(fitted);
   for (const fit::ColumnResidual& column : fitted.columns) {
     if (column.outliers == 0) continue;
     text += "note: " + std::to_string(column.outliers) +

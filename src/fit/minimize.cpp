@@ -73,14 +73,14 @@ bool is_stopped(const Task& task) {
 }
 
 bool minimize(const Task& task, WindowsFit& windows, std::vector<Index> moving, VectorXd& u,
-              std::size_t& iterations) {
+              std::size_t& iterations, const Precision& precision) {
   while (!moving.empty()) {
     Functor functor(task, windows, u, moving, iterations);
     Eigen::LevenbergMarquardt<Functor> method(functor);
-    method.setFtol(1e-12);
-    method.setXtol(1e-9);
+    method.setFtol(precision.cost);
+    method.setXtol(precision.numbers);
     method.setFactor(1000);
-    method.setMaxfev(200);
+    method.setMaxfev(precision.evaluations);
     VectorXd v(static_cast<Index>(moving.size()));
     for (std::size_t i = 0; i < moving.size(); ++i) v[static_cast<Index>(i)] = u[moving[i]];
     method.minimize(v);

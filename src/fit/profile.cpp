@@ -34,39 +34,56 @@ class Profile {
 
   // The distance of the end on the side of `sign`.
   double distance(double sign) {
-    const FreeKey& key = task_.keys[static_cast<std::size_t>(k_)];
-    double step = linear_;
-    constexpr int most_tries = 8;
-    for (int i = 0; i < most_tries; ++i) {
-      if (is_stopped(task_)) return linear_;
-      VectorXd v = u_ + sign * step * direction_;
-      // An end beyond a bound is the bound, unless the logs refute it.
-      const double value = key.value(v[k_]);
-      const bool at_bound = value == key.lower || value == key.upper;
-      const double ratio = std::sqrt(growth_at(v, i) / growth_);
-      if (!std::isfinite(ratio)) {
-        step /= 2;
-        continue;
-      }
+    const VectorXd linear = u_ + sign * linear_ * direction_;
+    // Mostly the other keys are best where the linearized problem has them.
+    const double first = ratio_at(linear);
+    if (std::abs(first - 1) < 0.1) return linear_ / first;
+    if (is_at_bound(linear) && first <= 1) return linear_;
+    // Otherwise step by step: the way from the optimum through the step before leads to the next.
+    VectorXd towards = sign * direction_;
+    double step = linear_ / 2;
+    double inside = 0, outside = std::numeric_limits<double>::infinity();
+    constexpr int most_steps = 10;
+    for (int i = 0; i < most_steps && !is_stopped(task_); ++i) {
+      VectorXd v = u_ + step * towards;
+      const bool at_bound = is_at_bound(v);
+      // To 1 % of the growth.
+      const Precision enough{0.01 * growth_ / (least_ + growth_), 1e-4, 15};
+      std::size_t unheard = 0;
+      static_cast<void>(minimize(task_, windows_, others_, v, unheard, enough));
+      const double ratio = ratio_at(v);
+      if (std::abs(ratio - 1) < 0.03) return step / ratio;
+      // An end beyond a bound is the bound.
       if (at_bound && ratio <= 1) return step;
-      // To second order, the way to the end is in proportion to the root of the growth.
-      if (std::abs(ratio - 1) < 0.1 && (i == 0 || std::abs(ratio - 1) < 0.02)) return step / ratio;
-      step *= std::clamp(1 / ratio, 0.2, 4.0);
       if (step > 30 * linear_) return std::numeric_limits<double>::infinity();
+      if (ratio < 1) {
+        inside = step;
+        towards = (v - u_) / step;
+      } else {
+        outside = step;
+      }
+      if (outside - inside < 0.02 * linear_) break;
+      step *= std::clamp(1 / ratio, 0.4, 2.0);
+      // Where another key comes to a bound, the growth has a corner: no step leaves the bracket.
+      const double margin = 0.1 * (outside - inside);
+      if (std::isfinite(outside) && (step < inside + margin || step > outside - margin)) {
+        step = (inside + outside) / 2;
+      }
     }
     return step;
   }
 
  private:
-  // With the other keys where the linearized problem has them, and if that is not enough, where
-  // they are best.
-  double growth_at(VectorXd& v, int round) {
+  [[nodiscard]] bool is_at_bound(const VectorXd& v) const {
+    const FreeKey& key = task_.keys[static_cast<std::size_t>(k_)];
+    const double value = key.value(v[k_]);
+    return value == key.lower || value == key.upper;
+  }
+
+  // How far `v` is on the way to the end: to second order, the root of the growth.
+  [[nodiscard]] double ratio_at(const VectorXd& v) {
     const double above = windows_.residuals(v).squaredNorm() - least_;
-    const double most = 1.21 * growth_;  // a ratio of 1.1
-    if (round == 0 && above <= most && above >= 0.81 * growth_) return above;
-    std::size_t unheard = 0;
-    if (!minimize(task_, windows_, others_, v, unheard)) return above;
-    return std::max(windows_.residuals(v).squaredNorm() - least_, 1e-3 * growth_);
+    return std::sqrt(std::max(above, 1e-6 * growth_) / growth_);
   }
 
   const Task& task_;

@@ -39,7 +39,7 @@ std::vector<double> run_from(const Scenario& scenario, double begin, double end,
       scenario::find_column("vy"), scenario::find_column("spin")};
   std::string why;
   const std::vector<double> values = fit::run_window(
-      fit::from_time(fit::prepared(scenario), begin, end), start, window, columns, why);
+      fit::from_time(fit::prepared(scenario), begin, end), start, window.times, columns, why);
   INFO(why);
   REQUIRE(values.size() == 5 * times.size());
   return values;
