@@ -32,34 +32,6 @@ std::string unit_or_one(const std::string& unit) {
   return unit.empty() ? "1" : unit;
 }
 
-std::string parameters_text(const fit::Fitted& fitted) {
-  std::vector<std::vector<std::string>> lines{
-      {"key", "before", "estimate", "sd", "95 % from", "to", "unit"}};
-  for (const fit::Parameter& one : fitted.parameters) {
-    const auto number = [&](double value) {
-      return one.told ? with_digits_of(value, one.sd) : std::string("-");
-    };
-    lines.push_back({one.key, short_number(one.start), with_digits_of(one.estimate, one.sd),
-                     one.told ? record::rounded(one.sd) : "-", number(one.low), number(one.high),
-                     unit_or_one(one.unit)});
-  }
-  return record::aligned(lines);
-}
-
-std::string residuals_text(const fit::Fitted& fitted) {
-  std::vector<std::vector<std::string>> lines{{"rms residual", "before", "fitted"}};
-  if (fitted.held > 0) lines[0].push_back("held out");
-  lines[0].push_back("unit");
-  for (const fit::ColumnResidual& column : fitted.columns) {
-    std::vector<std::string> line{column.column, record::rounded(column.before),
-                                  record::rounded(column.rms)};
-    if (fitted.held > 0) line.push_back(column.held ? record::rounded(*column.held) : "-");
-    line.push_back(unit_or_one(column.unit));
-    lines.push_back(std::move(line));
-  }
-  return record::aligned(lines);
-}
-
 std::string hash_of(const std::string& file) {
   char text[24];
   std::snprintf(text, sizeof text, "%016llx",
@@ -73,10 +45,43 @@ Json number_or_null(double value) {
 
 }  // namespace
 
+std::vector<std::vector<std::string>> parameter_table(const fit::Fitted& fitted) {
+  std::vector<std::vector<std::string>> lines{
+      {"key", "before", "estimate", "sd", "95 % from", "to", "unit"}};
+  for (const fit::Parameter& one : fitted.parameters) {
+    const auto number = [&](double value) {
+      return one.told ? with_digits_of(value, one.sd) : std::string("-");
+    };
+    lines.push_back({one.key, short_number(one.start), with_digits_of(one.estimate, one.sd),
+                     one.told ? record::rounded(one.sd) : "-", number(one.low), number(one.high),
+                     unit_or_one(one.unit)});
+  }
+  return lines;
+}
+
+std::vector<std::vector<std::string>> residual_table(const fit::Fitted& fitted) {
+  std::vector<std::vector<std::string>> lines{{"rms residual", "before", "fitted"}};
+  if (fitted.held > 0) lines[0].push_back("held out");
+  lines[0].push_back("unit");
+  for (const fit::ColumnResidual& column : fitted.columns) {
+    std::vector<std::string> line{column.column, record::rounded(column.before),
+                                  record::rounded(column.rms)};
+    if (fitted.held > 0) line.push_back(column.held ? record::rounded(*column.held) : "-");
+    line.push_back(unit_or_one(column.unit));
+    lines.push_back(std::move(line));
+  }
+  return lines;
+}
+
 std::string report_of(const FitRequest& request, const fit::Fitted& fitted) {
-  std::string text = parameters_text(fitted) + "\n" + residuals_text(fitted) + "\n";
-  text += std::to_string(fitted.numbers) + " numbers in " + std::to_string(fitted.windows) +
-          (fitted.windows == 1 ? " window" : " windows");
+  return record::aligned(parameter_table(fitted)) + "\n" + record::aligned(residual_table(fitted)) +
+         "\n" + remarks_of(request, fitted);
+}
+
+std::string remarks_of(const FitRequest& request, const fit::Fitted& fitted) {
+  std::string text = std::to_string(fitted.numbers) + " numbers in " +
+                     std::to_string(fitted.windows) +
+                     (fitted.windows == 1 ? " window" : " windows");
   if (std::isfinite(fitted.window)) text += " of " + short_number(fitted.window) + " s";
   if (fitted.held > 0) text += ", " + std::to_string(fitted.held) + " more held out";
   text += "; " + std::to_string(request.logs.size()) +

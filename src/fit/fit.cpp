@@ -197,6 +197,14 @@ class Fit {
     for (std::size_t c = 0; c < rms.size(); ++c) made_.columns[c].held = rms[c];
   }
 
+  void tell_series(const std::vector<Window>& held) {
+    made_.series = windows_.series(u_);
+    if (held.empty()) return;
+    WindowsFit others(task_, held);
+    others.set_noise(windows_.noise());
+    for (WindowSeries& one : others.series(u_)) made_.series.push_back(std::move(one));
+  }
+
   [[nodiscard]] std::size_t size() const { return windows_.size(); }
 
  private:
@@ -421,6 +429,7 @@ Fitted fit(const Task& task) {
     return made;
   }
   fit.tell();
+  if (task.with_series) fit.tell_series(held);
   fit.tell_held(std::move(held));
   return made;
 }

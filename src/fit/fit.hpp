@@ -29,6 +29,7 @@ struct Task {
   std::size_t threads = 0;         // 0: as many as there are processors
   std::function<void(double fraction, const std::string& detail)> progress{};
   const std::atomic<bool>* stop = nullptr;
+  bool with_series = false;  // Fitted has them
 };
 
 struct Parameter {
@@ -47,6 +48,17 @@ struct ColumnResidual {
   double correlation = 0;        // of neighboring residuals
 };
 
+// A window at the values that were found, with its fitted start.
+struct WindowSeries {
+  std::size_t log = 0;
+  double begin = 0;  // s
+  bool held = false;
+  std::vector<double> times;  // s, by the scenario's clock
+  // Of each compared column: the log's numbers, NaN where a row lacks one, and the model's, NaN if
+  // the scene does not run to the window's end.
+  std::vector<std::vector<double>> measured, modelled;
+};
+
 struct Fitted {
   bool interrupted = false;
   std::vector<Parameter> parameters;
@@ -54,8 +66,9 @@ struct Fitted {
   // Keys that the logs tell only together: "a of +1 % is undone by b of -1 %".
   std::vector<std::string> untold;
   std::size_t windows = 0, held = 0, numbers = 0;
-  double window = 0;  // s
-  bool white = true;  // neighboring residuals are independent
+  std::vector<WindowSeries> series;  // those that were held out last; only if they are asked for
+  double window = 0;                 // s
+  bool white = true;                 // neighboring residuals are independent
   std::size_t iterations = 0;
 };
 

@@ -47,6 +47,9 @@ class WindowsFit {
   };
   [[nodiscard]] Derivatives derivatives(const Eigen::VectorXd& u);
 
+  // What log and model show at u in each window.
+  [[nodiscard]] std::vector<WindowSeries> series(const Eigen::VectorXd& u);
+
  private:
   struct State {
     Start start{};
