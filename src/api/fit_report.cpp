@@ -35,7 +35,7 @@ WindowList windows_of(const fit::Fitted& fitted, std::size_t log) {
 }
 
 // Of each column three: the log's numbers, the model's, and their difference.
-struct Rows {
+struct PageRows {
   std::vector<double> times;
   std::vector<std::array<std::vector<double>, 3>> columns;
 
@@ -57,7 +57,7 @@ struct Rows {
 
 PageJson log_json(const std::string& name, const fit::Fitted& fitted, const WindowList& windows,
                   std::size_t step) {
-  Rows rows;
+  PageRows rows;
   rows.columns.resize(fitted.columns.size());
   PageJson parts = PageJson::array();
   std::size_t all = 0;
