@@ -51,8 +51,8 @@
     };
     return scene.columns.flatMap(({name, symbol, unit}) => [
       {title: symbol, unit, curves: [
-        curve(name, 'log', {colour: () => palette.now().sensor, dots: 'circle', every: true, layer: 1}),
-        curve(`${name}_modelled`, 'model', {colour: () => palette.run(0), layer: 2}),
+        curve(name, 'log', {colour: () => palette.now().x, dots: 'circle', every: true, layer: 1}),
+        curve(`${name}_modelled`, 'model', {colour: () => palette.run(0), width: 1.4, layer: 2}),
       ]},
       {title: `${symbol}: model minus log`, unit, isResidual: true, curves: [
         curve(`${name}_residual`, 'residual', {colour: ink, width: 1.1, layer: 1}),
@@ -69,7 +69,7 @@
       ink.rect(area.x, area.y, area.w, area.h);
       ink.clip();
       const x = (row) => graph.toDomXCoord(run.t[row]);
-      ink.fillStyle = palette.isDark() ? 'rgba(90, 180, 240, .18)' : 'rgba(0, 104, 168, .11)';
+      ink.fillStyle = palette.isDark() ? 'rgba(200, 210, 220, .15)' : 'rgba(60, 75, 90, .13)';
       for (const {first, last, held} of run.windows) {
         if (held) ink.fillRect(x(first), area.y, x(last) - x(first), area.h);
       }
@@ -105,7 +105,7 @@
     const words = `${transport.timeText(t)} s`;
     scrub.setAttribute('aria-valuetext', words);
     if (get('time').textContent !== words) get('time').textContent = words;
-    if (plan) plan.show(t);
+    if (plan) plan.show(t, transport.timeText(t));
   }
   function showState() {
     const {playing} = bbsim.clock;

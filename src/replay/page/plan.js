@@ -31,7 +31,7 @@ bbsim.makePlan = (container, run, [xName, yName], radius) => {
   const root = svg('svg', {viewBox: `0 0 ${wide} ${high}`, class: 'place', role: 'img', 'aria-label': 'The ball of the log and of the model, from above'});
   const shown = text.shownIn('m', Math.max(...sides.flat().map(Math.abs)));
   const step = (() => {
-    const rough = (sides[0][1] - sides[0][0]) * shown.factor / 6, power = 10 ** Math.floor(Math.log10(rough));
+    const rough = (sides[0][1] - sides[0][0]) * shown.factor / 9, power = 10 ** Math.floor(Math.log10(rough));
     return [1, 2, 5, 10].find((one) => one * power >= rough) * power / shown.factor;
   })();
   const lines = ([from, to]) => Array.from({length: Math.floor(to / step) - Math.ceil(from / step) + 1}, (_, i) => (Math.ceil(from / step) + i) * step);
@@ -74,18 +74,19 @@ bbsim.makePlan = (container, run, [xName, yName], radius) => {
     return words;
   }
 
-  let drawn = null;
+  let drawn = null, ofWindow = '';
   return {
     // At the row nearest to t.
-    show(t) {
+    show(t, timeText) {
       const row = run.nearest(t), window = run.windowAt(row);
       if (drawn !== window) {
         drawn = window;
         ways.measured.setAttribute('d', wayOf(measured, window, true));
         ways.model.setAttribute('d', wayOf(model, window, false));
-        where.textContent = `window ${run.windows.indexOf(window) + 1} of ${run.windows.length}, ` +
+        ofWindow = `window ${run.windows.indexOf(window) + 1} of ${run.windows.length}, ` +
             `${text.number(run.t[window.first], 5)} to ${text.number(run.t[window.last], 5)} s${window.held ? ', held out of the fit' : ''}`;
       }
+      where.textContent = `t = ${timeText} s, ${ofWindow}`;
       const both = [put('measured', measured, row), put('model', model, row)].every(Boolean);
       const far = Math.hypot(measured[0][row] - model[0][row], measured[1][row] - model[1][row]);
       const {factor, unit} = text.shownIn('m', shown.factor === 1 ? 1 : 0.1);
