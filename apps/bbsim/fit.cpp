@@ -122,7 +122,8 @@ void add_fit(Command& command, const Options& options) {
   add_found_files(command, arguments->files, "the estimates");
   command
       .option("--report", arguments->files.page,
-              "also write FILE.html: the tables, and plots of log and model; it opens offline")
+              "also write FILE.html, a page with the tables and plots of log and model, or - for "
+              "standard output")
       .takes("FILE");
   add_threads(command, arguments->threads);
   command.does([arguments, &options] { return fit(*arguments, options); });

@@ -99,7 +99,7 @@ TEST_CASE("the page of a fit has its tables and the numbers of each log") {
   const std::string page = api::fit_page(request, made, bbsim_test::small_template);
   const nlohmann::json json = bbsim_test::data_of(page);
   CHECK(json["place"] == nlohmann::json::array({"x", "y"}));
-  CHECK(json["radius"] == 0.01);
+  CHECK(json["radius"].get<double>() == Approx(0.01));
   CHECK(json["parameters"]["head"][2] == "estimate");
   CHECK(json["parameters"]["rows"][0][0] == "ball.inertia_factor");
   const std::string estimate = json["parameters"]["rows"][0][2];
