@@ -32,17 +32,6 @@ std::string unit_or_one(const std::string& unit) {
   return unit.empty() ? "1" : unit;
 }
 
-std::string hash_of(const std::string& file) {
-  char text[24];
-  std::snprintf(text, sizeof text, "%016llx",
-                static_cast<unsigned long long>(fnv1a(file::read_whole(file))));
-  return text;
-}
-
-Json number_or_null(double value) {
-  return std::isfinite(value) ? Json(value) : Json(nullptr);
-}
-
 }  // namespace
 
 std::vector<std::vector<std::string>> parameter_table(const fit::Fitted& fitted) {
@@ -72,6 +61,21 @@ std::vector<std::vector<std::string>> residual_table(const fit::Fitted& fitted) 
   }
   return lines;
 }
+
+namespace {
+
+std::string hash_of(const std::string& file) {
+  char text[24];
+  std::snprintf(text, sizeof text, "%016llx",
+                static_cast<unsigned long long>(fnv1a(file::read_whole(file))));
+  return text;
+}
+
+Json number_or_null(double value) {
+  return std::isfinite(value) ? Json(value) : Json(nullptr);
+}
+
+}  // namespace
 
 std::string report_of(const FitRequest& request, const fit::Fitted& fitted) {
   return record::aligned(parameter_table(fitted)) + "\n" + record::aligned(residual_table(fitted)) +

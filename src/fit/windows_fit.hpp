@@ -39,6 +39,9 @@ class WindowsFit {
   // it is an InputError.
   [[nodiscard]] Eigen::VectorXd residuals(const Eigen::VectorXd& u, bool first = false);
 
+  // What log and model show at u in each window.
+  [[nodiscard]] std::vector<WindowSeries> series(const Eigen::VectorXd& u);
+
   // The derivatives of the residuals by u, at u; residuals() may be asked before or not. `free`:
   // with the starts as they are, without letting them follow.
   struct Derivatives {
@@ -46,9 +49,6 @@ class WindowsFit {
     Eigen::VectorXd free_norms;
   };
   [[nodiscard]] Derivatives derivatives(const Eigen::VectorXd& u);
-
-  // What log and model show at u in each window.
-  [[nodiscard]] std::vector<WindowSeries> series(const Eigen::VectorXd& u);
 
  private:
   struct State {
