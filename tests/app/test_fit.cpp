@@ -48,10 +48,12 @@ TEST_CASE("fit --report writes a page that holds all that it shows") {
   CHECK_THAT(made.out, Contains("ball.inertia_factor"));
   const std::string page = fit.folder.read("fit.html");
   CHECK_THAT(page, Contains("<title>Fit of A recorded motion, with a drift added</title>"));
-  for (const char* const request : {"src=\"", "href=\"http", "@import", "url(http"}) {
+  for (const char* const request :
+       {"<script src", "stylesheet", "src=\"http", "href=\"http", "@import", "url(http"}) {
     CAPTURE(request);
     CHECK(page.find(request) == std::string::npos);
   }
+  CHECK_THAT(page, Contains("content=\"default-src 'none'; script-src 'unsafe-inline'"));
   const std::string begin = "<script type=\"application/json\" id=\"bbsim-data\">";
   const std::size_t from = page.find(begin) + begin.size();
   const auto data = nlohmann::json::parse(page.substr(from, page.find("</script>", from) - from));
