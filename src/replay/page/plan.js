@@ -22,9 +22,9 @@ bbsim.makePlan = (container, run, [xName, yName], radius) => {
     side[0] -= more;
     side[1] += more;
   });
-  const left = 44, bottom = 32, wide = 460;
+  const left = 44, bottom = 32, top = 22, wide = 460;
   const scale = (wide - left - 8) / (sides[0][1] - sides[0][0]);
-  const high = Math.round(scale * (sides[1][1] - sides[1][0])) + bottom + 8;
+  const high = Math.round(scale * (sides[1][1] - sides[1][0])) + bottom + top;
   const px = (x) => left + scale * (x - sides[0][0]), py = (y) => high - bottom - scale * (y - sides[1][0]);
   const at = (value) => value.toFixed(1);
 
@@ -36,7 +36,7 @@ bbsim.makePlan = (container, run, [xName, yName], radius) => {
   })();
   const lines = ([from, to]) => Array.from({length: Math.floor(to / step) - Math.ceil(from / step) + 1}, (_, i) => (Math.ceil(from / step) + i) * step);
   for (const x of lines(sides[0])) {
-    root.append(svg('path', {class: 'line', d: `M${at(px(x))} 8V${high - bottom}`}),
+    root.append(svg('path', {class: 'line', d: `M${at(px(x))} ${top}V${high - bottom}`}),
                 svg('text', {x: at(px(x)), y: high - bottom + 14, 'text-anchor': 'middle'}, text.number(x * shown.factor)));
   }
   for (const y of lines(sides[1])) {
@@ -44,7 +44,7 @@ bbsim.makePlan = (container, run, [xName, yName], radius) => {
                 svg('text', {x: left - 5, y: at(py(y) + 4), 'text-anchor': 'end'}, text.number(y * shown.factor)));
   }
   root.append(svg('text', {x: wide - 8, y: high - 3, 'text-anchor': 'end'}, `x (${shown.unit})`),
-              svg('text', {x: 2, y: 12}, `y (${shown.unit})`));
+              svg('text', {x: 2, y: 11}, `y (${shown.unit})`));
 
   const ways = {measured: svg('path', {class: 'way measured'}), model: svg('path', {class: 'way model'})};
   const size = Math.max(5, scale * radius);
