@@ -115,6 +115,7 @@ void add_found_files(Command& command, FoundFiles& files, const std::string& val
 void FoundFiles::declare(file::Outputs& outputs) const {
   if (!scenario.empty()) outputs.writes(scenario, "-o");
   if (!json.empty()) outputs.writes(json, "--json");
+  if (!page.empty()) outputs.writes(page, "--report");
   if (reports()) prints(outputs);
 }
 

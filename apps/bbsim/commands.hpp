@@ -83,10 +83,10 @@ void add_threads(Command& command, std::size_t& threads);
 
 // What a command writes that finds values of keys: the scenario with the values in it, and JSON.
 struct FoundFiles {
-  std::string scenario, json;  // - is standard output; empty: not written
+  std::string scenario, json, page{};  // - is standard output; empty: not written
 
-  // A report goes to standard output where neither file does.
-  [[nodiscard]] bool reports() const { return scenario != "-" && json != "-"; }
+  // A report goes to standard output where no file does.
+  [[nodiscard]] bool reports() const { return scenario != "-" && json != "-" && page != "-"; }
   void declare(file::Outputs& outputs) const;
   // Says so if the scenario goes to another folder than the one it is made of: its tables are named
   // from there.

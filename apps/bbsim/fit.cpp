@@ -8,12 +8,38 @@
 #include <string>
 #include <vector>
 
+#include "api/fit_report.hpp"
 #include "commands.hpp"
+#include "file/atomic_file.hpp"
 #include "progress.hpp"
+#include "replay/template.hpp"
 #include "terminal.hpp"
 
 namespace bbsim::app {
 namespace {
+
+// Opened before the fit: what is missing for it is said at once.
+class FitPage {
+ public:
+  explicit FitPage(const std::string& target) {
+    if (target.empty()) return;
+    template_ = replay::read_template(api::fit_template);
+    file_.emplace(target);
+  }
+
+  [[nodiscard]] bool is_asked_for() const { return file_.has_value(); }
+
+  // Whole or not at all. Throws OutputError.
+  void write(const api::FitRequest& request, const fit::Fitted& fitted) {
+    if (!file_) return;
+    file_->write(api::fit_page(request, fitted, template_));
+    file_->commit();
+  }
+
+ private:
+  std::string template_;
+  std::optional<file::AtomicFile> file_;
+};
 
 struct FitArguments {
   ScenarioArguments scenario;
@@ -34,10 +60,15 @@ ExitCode fit(const FitArguments& arguments, const Options& options) {
   file::Outputs outputs;
   outputs.reads(file, "the scenario");
   for (const std::string& log : arguments.logs) outputs.reads(log, "the log");
+  if (!arguments.files.page.empty()) {
+    outputs.reads(replay::file_of_template(api::fit_template), "the template of pages");
+  }
   arguments.files.declare(outputs);
+  FitPage page(arguments.files.page);
 
   api::FitRequest request{family, arguments.logs, arguments.choice, arguments.free,
                           arguments.window};
+  request.with_series = page.is_asked_for();
   request.hold_out = arguments.hold_out.value_or(0);
   request.threads = arguments.threads;
   request.starts = arguments.starts;
@@ -51,6 +82,7 @@ ExitCode fit(const FitArguments& arguments, const Options& options) {
     say("fit: interrupted before the first iteration; nothing is written");
     return made.code;
   }
+  page.write(request, made.fitted);
   arguments.files.write(family, made.scenario, made.json, made.text, options.quiet);
   return made.code;
 }
@@ -105,6 +137,11 @@ void add_fit(Command& command, const Options& options) {
           "go on from the best; default: 1")
       .takes("N");
   add_found_files(command, arguments->files, "the estimates");
+  command
+      .option("--report", arguments->files.page,
+              "also write FILE.html, a page with the tables and plots of log and model, or - for "
+              "standard output")
+      .takes("FILE");
   add_threads(command, arguments->threads);
   command.does([arguments, &options] { return fit(*arguments, options); });
 }

@@ -229,6 +229,7 @@ FitResult fit(const FitRequest& request, bool with_scenario, Watch& watch) {
   }
   refuse_twice(task.keys);
   if (!request.window.empty()) task.window = window_of(request.window);
+  task.with_series = request.with_series;
   task.hold_out = request.hold_out;
   task.threads = request.threads;
   task.starts = request.starts;

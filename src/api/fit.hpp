@@ -24,6 +24,7 @@ struct FitRequest {
   std::vector<std::string> free;  // KEY or KEY=FROM:TO
   std::string window{};           // a time; empty: what suits the scene
   double hold_out = 0;            // a share of the windows, from 0 to below 1
+  bool with_series = false;       // for fit_page()
   std::size_t threads = 0;        // 0: as many as there are processors
   std::size_t starts = 1;         // sets of values to begin with, from 1 on
   std::string loss = "squares";   // or huber

@@ -29,11 +29,9 @@ std::string with_digits_of(double value, double sd) {
   return rounded(value, static_cast<int>(std::min(std::max(digits, 2.0), 12.0)));
 }
 
-std::string unit_or_one(const std::string& unit) {
-  return unit.empty() ? "1" : unit;
-}
+}  // namespace
 
-std::string parameters_text(const fit::Fitted& fitted) {
+std::vector<std::vector<std::string>> parameter_table(const fit::Fitted& fitted) {
   std::vector<std::vector<std::string>> lines{
       {"key", "before", "estimate", "sd", "95 % from", "to", "unit"}};
   for (const fit::Parameter& one : fitted.parameters) {
@@ -42,12 +40,12 @@ std::string parameters_text(const fit::Fitted& fitted) {
     };
     lines.push_back({one.key, short_number(one.start), with_digits_of(one.estimate, one.sd),
                      one.told ? record::rounded(one.sd) : "-", number(one.low), number(one.high),
-                     unit_or_one(one.unit)});
+                     record::unit_or_one(one.unit)});
   }
-  return record::aligned(lines);
+  return lines;
 }
 
-std::string residuals_text(const fit::Fitted& fitted) {
+std::vector<std::vector<std::string>> residual_table(const fit::Fitted& fitted) {
   std::vector<std::vector<std::string>> lines{{"rms residual", "before", "fitted"}};
   if (fitted.held > 0) lines[0].insert(lines[0].end(), {"held out: before", "fitted"});
   lines[0].push_back("unit");
@@ -58,11 +56,13 @@ std::string residuals_text(const fit::Fitted& fitted) {
       line.push_back(record::rounded(column.held_before.value_or(0)));
       line.push_back(record::rounded(column.held.value_or(0)));
     }
-    line.push_back(unit_or_one(column.unit));
+    line.push_back(record::unit_or_one(column.unit));
     lines.push_back(std::move(line));
   }
-  return record::aligned(lines);
+  return lines;
 }
+
+namespace {
 
 // The keys that go with another one, in one line.
 std::string correlations_text(const fit::Fitted& fitted) {
@@ -100,9 +100,14 @@ Json number_or_null(double value) {
 }  // namespace
 
 std::string report_of(const FitRequest& request, const fit::Fitted& fitted) {
-  std::string text = parameters_text(fitted) + "\n" + residuals_text(fitted) + "\n";
-  text += std::to_string(fitted.numbers) + " numbers in " + std::to_string(fitted.windows) +
-          (fitted.windows == 1 ? " window" : " windows");
+  return record::aligned(parameter_table(fitted)) + "\n" + record::aligned(residual_table(fitted)) +
+         "\n" + remarks_of(request, fitted);
+}
+
+std::string remarks_of(const FitRequest& request, const fit::Fitted& fitted) {
+  std::string text = std::to_string(fitted.numbers) + " numbers in " +
+                     std::to_string(fitted.windows) +
+                     (fitted.windows == 1 ? " window" : " windows");
   if (std::isfinite(fitted.window)) text += " of " + short_number(fitted.window) + " s";
   if (fitted.held > 0) text += ", " + std::to_string(fitted.held) + " more held out";
   text += "; " + std::to_string(request.logs.size()) +

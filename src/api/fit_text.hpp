@@ -12,6 +12,13 @@
 namespace bbsim::api {
 
 [[nodiscard]] std::string report_of(const FitRequest& request, const fit::Fitted& fitted);
+
+// Its parts: tables whose first line has the columns' names, and lines about what was compared and
+// what is to be known of the result.
+[[nodiscard]] std::vector<std::vector<std::string>> parameter_table(const fit::Fitted& fitted);
+[[nodiscard]] std::vector<std::vector<std::string>> residual_table(const fit::Fitted& fitted);
+[[nodiscard]] std::string remarks_of(const FitRequest& request, const fit::Fitted& fitted);
+
 [[nodiscard]] std::string json_of(const fit::Fitted& fitted);
 
 // A scenario's text with its overrides, then these settings. Throws InputError if a key has no

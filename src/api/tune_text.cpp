@@ -17,10 +17,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-std::string unit_or_one(const std::string& unit) {
-  return unit.empty() ? "1" : unit;
-}
-
 std::string with_window(const scenario::Measure& measure) {
   return measure.window_text.empty() ? measure.name : measure.name + ' ' + measure.window_text;
 }
@@ -48,15 +44,16 @@ std::string report_of(const TuneRequest& request, const Tuned& tuned) {
   std::vector<std::vector<std::string>> keys{{"key", "before", "tuned", "from", "to", "unit"}};
   for (const Tuned::Parameter& one : tuned.parameters) {
     keys.push_back({one.key, short_number(one.before), short_number(one.value),
-                    short_number(one.from), short_number(one.to), unit_or_one(one.unit)});
+                    short_number(one.from), short_number(one.to), record::unit_or_one(one.unit)});
   }
   std::vector<std::vector<std::string>> measures{{"measure", "before", "tuned", "unit", "holds"}};
   measures.push_back({with_window(tuned.minimized), record::rounded(tuned.before),
-                      record::rounded(tuned.objective), unit_or_one(tuned.minimized.unit()), "-"});
+                      record::rounded(tuned.objective), record::unit_or_one(tuned.minimized.unit()),
+                      "-"});
   for (const Tuned::Requirement& one : tuned.requirements) {
-    measures.push_back({one.expectation.text, record::rounded(one.before),
-                        record::rounded(one.value), unit_or_one(one.expectation.measure.unit()),
-                        one.holds ? "yes" : "no"});
+    measures.push_back(
+        {one.expectation.text, record::rounded(one.before), record::rounded(one.value),
+         record::unit_or_one(one.expectation.measure.unit()), one.holds ? "yes" : "no"});
   }
   std::string text = record::aligned(keys) + "\n" + record::aligned(measures) + "\n";
   text += "on " + rigs_text(request, tuned) + "; " + std::to_string(tuned.tried) + " tries\n";

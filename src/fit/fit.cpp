@@ -136,6 +136,15 @@ class Fit {
     }
   }
 
+  void tell_series(const std::vector<Window>& held) {
+    made_.series = windows_.series(u_);
+    if (held.empty()) return;
+    WindowsFit others(task_, held);
+    others.finish();
+    others.set_noise(windows_.noise());
+    for (WindowSeries& one : others.series(u_)) made_.series.push_back(std::move(one));
+  }
+
   [[nodiscard]] std::size_t size() const { return windows_.size(); }
 
  private:
@@ -399,6 +408,7 @@ Fitted fit(const Task& task) {
   made.interrupted = !fit.run();
   if (!fit.has_begun()) return made;
   fit.tell();
+  if (task.with_series) fit.tell_series(held);
   fit.tell_held(std::move(held));
   return made;
 }

@@ -31,6 +31,7 @@ struct Task {
   bool robust = false;             // Huber's loss in place of least squares
   std::function<void(double fraction, const std::string& detail)> progress{};
   const std::atomic<bool>* stop = nullptr;
+  bool with_series = false;  // Fitted has them
 };
 
 struct Parameter {
@@ -54,6 +55,17 @@ struct ColumnResidual {
   double outlier_time = 0;  // s
 };
 
+// A window at the values that were found, with its fitted start.
+struct WindowSeries {
+  std::size_t log = 0;
+  double begin = 0;  // s
+  bool held = false;
+  std::vector<double> times;  // s, by the scenario's clock
+  // Of each compared column: the log's numbers, NaN where a row lacks one, and the model's, NaN if
+  // the scene does not run to the window's end.
+  std::vector<std::vector<double>> measured, modelled;
+};
+
 struct Fitted {
   // Stopped on the way: what follows is the best so far, if there are parameters.
   bool interrupted = false;
@@ -62,8 +74,9 @@ struct Fitted {
   // Keys that the logs tell only together: "a of +1 % is undone by b of -1 %".
   std::vector<std::string> untold;
   std::size_t windows = 0, held = 0, numbers = 0;
-  double window = 0;  // s
-  bool white = true;  // neighboring residuals are independent
+  std::vector<WindowSeries> series;  // those that were held out last; only if they are asked for
+  double window = 0;                 // s
+  bool white = true;                 // neighboring residuals are independent
   std::size_t iterations = 0;
   // Of each pair of parameters; NaN for those that the logs do not tell.
   std::vector<std::vector<double>> correlations;

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <exception>
+#include <limits>
 #include <mutex>
 #include <thread>
 #include <utility>
@@ -319,6 +320,36 @@ WindowsFit::Derivatives WindowsFit::derivatives(const VectorXd& u) {
         by_key - by_start * state.by_start.solve(by_key);
   });
   made.free_norms = whole.colwise().norm();
+  return made;
+}
+
+std::vector<WindowSeries> WindowsFit::series(const VectorXd& u) {
+  if (trial_u_.size() != u.size() || trial_u_ != u) static_cast<void>(residuals(u));
+  // The residuals of logs of zeros are what the model says, also where a log lacks a number.
+  std::vector<Window> zeros = windows_;
+  for (Window& window : zeros) {
+    for (std::vector<double>& column : window.values) std::ranges::fill(column, 0.0);
+  }
+  WindowsFit model(task_, std::move(zeros));
+  model.set_noise(std::vector<double>(task_.columns.size(), 1.0));
+  const Variant scenes = variant(u, nullptr);
+  std::vector<WindowSeries> made;
+  for (std::size_t w = 0; w < windows_.size(); ++w) {
+    const Window& window = windows_[w];
+    const std::size_t rows = window.times.size();
+    WindowSeries one{window.log, window.begin, window.held, window.times, window.values, {}};
+    for (double& time : one.times) time += window.begin;
+    VectorXd values;
+    std::string unheard;
+    if (!model.residual_of(w, scene_of(w, scenes), trial_[w].start, values, unheard)) {
+      values.setConstant(std::numeric_limits<double>::quiet_NaN());
+    }
+    for (std::size_t c = 0; c < window.values.size(); ++c) {
+      const double* const first = values.data() + c * rows;
+      one.modelled.emplace_back(first, first + rows);
+    }
+    made.push_back(std::move(one));
+  }
   return made;
 }
 

@@ -51,6 +51,9 @@ class WindowsFit {
   // away; with `first`, it is an InputError.
   [[nodiscard]] Eigen::VectorXd residuals(const Eigen::VectorXd& u, bool first = false);
 
+  // What log and model show at u in each window.
+  [[nodiscard]] std::vector<WindowSeries> series(const Eigen::VectorXd& u);
+
   // The derivatives of the residuals by u, at u; residuals() may be asked before or not. `free`:
   // with the starts as they are, without letting them follow.
   struct Derivatives {

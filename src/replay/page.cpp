@@ -5,20 +5,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
-#include <filesystem>
-#include <system_error>
 
-#include "base/error.hpp"
 #include "base/json.hpp"
 #include "file/atomic_file.hpp"
-#include "file/share_folders.hpp"
-#include "file/whole_file.hpp"
 #include "replay/base64.hpp"
 #include "replay/kept_rows.hpp"
 #include "replay/rotation.hpp"
 #include "replay/stage.hpp"
 #include "replay/sweep_cases.hpp"
+#include "replay/template.hpp"
 #include "scenario/columns.hpp"
 
 namespace bbsim::replay {
@@ -26,8 +21,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr std::string_view title_mark = "@BBSIM_TITLE@";
-constexpr std::string_view data_mark = "@BBSIM_DATA@";
 constexpr const char* template_name = "replay.html";
 constexpr std::size_t most_rows = 20000;
 constexpr std::size_t most_bytes = 2'400'000;
@@ -282,64 +275,6 @@ Json scene_json(const Scene& scene) {
   return json;
 }
 
-// JSON for a <script> element. These characters occur only in strings, where the escapes mean the
-// same. Without them, nothing ends the script or one of its lines.
-std::string script_text(const Json& json) {
-  const std::string text = json.dump(-1, ' ', false, Json::error_handler_t::replace);
-  std::string result;
-  result.reserve(text.size());
-  for (std::size_t i = 0; i < text.size(); ++i) {
-    switch (text[i]) {
-      case '<':
-        result += "\\u003c";
-        break;
-      case '>':
-        result += "\\u003e";
-        break;
-      case '&':
-        result += "\\u0026";
-        break;
-      case '\xE2':  // U+2028 and U+2029
-        if (text.compare(i, 3, "\xE2\x80\xA8") == 0 || text.compare(i, 3, "\xE2\x80\xA9") == 0) {
-          result += text[i + 2] == '\xA8' ? "\\u2028" : "\\u2029";
-          i += 2;
-          break;
-        }
-        [[fallthrough]];
-      default:
-        result += text[i];
-    }
-  }
-  return result;
-}
-
-// Text for HTML. Replaces bytes that are not UTF-8 as the JSON does.
-std::string html_text(const std::string& raw) {
-  const std::string text =
-      Json::parse(Json(raw).dump(-1, ' ', false, Json::error_handler_t::replace))
-          .get<std::string>();
-  std::string result;
-  for (const char c : text) {
-    switch (c) {
-      case '<':
-        result += "&lt;";
-        break;
-      case '>':
-        result += "&gt;";
-        break;
-      case '&':
-        result += "&amp;";
-        break;
-      case '"':
-        result += "&quot;";
-        break;
-      default:
-        if (static_cast<unsigned char>(c) >= 0x20) result += c;
-    }
-  }
-  return result;
-}
-
 // Removes the parts of the template between <!--NAME--> and <!--/NAME-->. A sweep, for example,
 // needs no three.js.
 std::string without(const std::string& name, std::string_view page_template) {
@@ -355,15 +290,6 @@ std::string without(const std::string& name, std::string_view page_template) {
   }
   result += page_template.substr(place);
   return result;
-}
-
-std::size_t place_of(std::string_view mark, std::string_view text) {
-  const std::size_t place = text.find(mark);
-  if (place == std::string_view::npos || text.find(mark, place + 1) != std::string_view::npos) {
-    throw InputError("the page's template is damaged: it has to have " + std::string(mark) +
-                     " once; install bbsim whole");
-  }
-  return place;
 }
 
 }  // namespace
@@ -383,48 +309,20 @@ std::string page(const Scene& scene, std::string_view whole_template) {
   std::string needed{whole_template};
   if (scene.runs.empty()) needed = without("runs", needed);
   if (scene.sweeps.empty()) needed = without("sweeps", needed);
-  const std::string_view page_template = needed;
-  const std::size_t title = place_of(title_mark, page_template);
-  const std::size_t data = place_of(data_mark, page_template);
-  if (data < title) {
-    throw InputError("the page's template is damaged: its data are before its title");
-  }
-  const std::size_t after_title = title + title_mark.size();
-  std::string result{page_template.substr(0, title)};
-  result += html_text(scene.title);
-  result += page_template.substr(after_title, data - after_title);
-  result += script_text(scene_json(scene));
-  result += page_template.substr(data + data_mark.size());
-  return result;
+  const Json json = scene_json(scene);
+  return filled(needed, scene.title, json.dump(-1, ' ', false, Json::error_handler_t::replace));
 }
 
 std::string page_template(const std::vector<std::string>& folders) {
-  std::string looked_in;
-  for (const std::string& folder : folders) {
-    try {
-      return file::read_whole(std::filesystem::path(folder) / template_name);
-    } catch (const InputError&) {  // try the next folder
-    }
-    looked_in.append(looked_in.empty() ? "" : " and ").append(folder);
-  }
-  throw OutputError(std::string("cannot make a page: its template ") + template_name +
-                    " is not in " + looked_in +
-                    "; it is made where bbsim is built with three.js and dygraphs (Debian: "
-                    "libjs-three, libjs-dygraphs; scripts/setup installs them): build bbsim again, "
-                    "or set BBSIM_SHARE_PATH to the template's folder");
+  return read_template(template_name, folders);
 }
 
 std::string page_template() {
-  return page_template(file::share_folders());
+  return read_template(template_name);
 }
 
 std::string template_file() {
-  for (const std::string& folder : file::share_folders()) {
-    const std::filesystem::path file = std::filesystem::path(folder) / template_name;
-    std::error_code error;
-    if (std::filesystem::exists(file, error)) return file.string();
-  }
-  return "";
+  return file_of_template(template_name);
 }
 
 void write_page(const std::string& file, const Scene& scene) {

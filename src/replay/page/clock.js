@@ -3,8 +3,7 @@
 
 'use strict';
 // The time that picture, plots and scrubber show, and its progress.
-bbsim.clock = (() => {
-  const {start, end} = bbsim.data;
+bbsim.makeClock = ({start, end, runs}) => {
   const listeners = [], stateListeners = [], relaxed = [];
   let span = 0, due = 0;  // ms between calls of the relaxed listeners while time runs
   let now = start, playing = false, speed = 1, loop = false, last = null;
@@ -78,7 +77,7 @@ bbsim.clock = (() => {
     },
     // Goes to a row of the leading run, forward or back from the current time.
     step(rows) {
-      const run = bbsim.data.runs[0];
+      const [run] = runs;
       clock.pause();
       const row = run.row(now), onRow = Math.abs(run.t[row] - now) < 1e-12 * Math.max(1, Math.abs(now));
       const next = rows > 0 ? row + rows : row + rows + (onRow ? 0 : 1);
@@ -91,4 +90,5 @@ bbsim.clock = (() => {
     onState: (listener) => stateListeners.push(listener),
   };
   return clock;
-})();
+};
+bbsim.clock = bbsim.makeClock(bbsim.data);

@@ -4,7 +4,8 @@
 'use strict';
 // Plots over time beside the picture, with one cursor in all of them, at the clock's time or at the
 // pointer.
-bbsim.makePlots = (container) => {
+// A page may paint below the curves by itself, and be told at what time the pointer is.
+bbsim.makePlots = (container, {behind = null, pointed = null} = {}) => {
   const {clock, palette, text, data} = bbsim;
   const {element} = text;
   const plots = [];
@@ -29,12 +30,14 @@ bbsim.makePlots = (container) => {
     return line;
   }
 
-  // Draws points as dots or crosses, so far apart that each one and the curve below are visible.
-  function drawPoint(cross) {
-    let last = -Infinity;
+  // Draws points as dots or crosses, so far apart that each one and the curve below are visible, or
+  // every one that is not on the one before.
+  function drawPoint(cross, every) {
+    let last = -Infinity, lastY = -Infinity;
+    const hides = every ? (x, y) => Math.abs(x - last) < 1 && Math.abs(y - lastY) < 1 : (x) => x >= last && x < last + 7;
     return (graph, name, ink, x, y, colour, size) => {
-      if (x >= last && x < last + 7) return;
-      last = x;
+      if (hides(x, y)) return;
+      [last, lastY] = [x, y];
       ink.beginPath();
       if (cross) {
         ink.strokeStyle = colour;
@@ -87,7 +90,9 @@ bbsim.makePlots = (container) => {
   }
 
   class Plot {
-    constructor({title, unit, curves}) {
+    constructor(group) {
+      const {title, unit, curves} = group;
+      this.group = group;
       // Later curves cover earlier ones: references, then points and commands, then the motion.
       this.order = [...curves].sort((a, b) => a.layer - b.layer);
       this.curves = curves;
@@ -115,7 +120,7 @@ bbsim.makePlots = (container) => {
       const series = {};
       this.order.forEach((curve, i) => {
         const cross = curve.dots === 'cross';
-        const points = {strokeWidth: 0, drawPoints: true, pointSize: cross ? 2.6 : 1.6, highlightCircleSize: 3, drawPointCallback: drawPoint(cross)};
+        const points = {strokeWidth: 0, drawPoints: true, pointSize: cross ? 2.6 : 1.6, highlightCircleSize: 3, drawPointCallback: drawPoint(cross, curve.every)};
         series[`c${i}`] = curve.dots ? points : {strokePattern: curve.pattern, strokeWidth: curve.width || 1.8};
       });
       const mixed = new Set(this.curves.map((curve) => curve.run)).size > 1;
@@ -139,7 +144,7 @@ bbsim.makePlots = (container) => {
           if (!initial) this.placeCursor();
           if (!initial && !zooming && !printing) share(graph);
         },
-        underlayCallback: (ink, area, graph) => this.paintEvents(ink, area, graph),
+        underlayCallback: (ink, area, graph) => (behind ? behind(ink, area, graph, this.group) : this.paintEvents(ink, area, graph)),
       });
       this.placeCursor();
     }
@@ -225,6 +230,7 @@ bbsim.makePlots = (container) => {
     hover = t;
     const steps = bbsim.transport.timeText;
     readAt.textContent = t === null ? '' : `at ${steps(t)} s`;
+    if (pointed) pointed(t);
     for (const plot of plots) {
       plot.placeCursor();
       if (!plot.graph) continue;
@@ -274,6 +280,14 @@ bbsim.makePlots = (container) => {
     plots, point,
     get range() { return range; },
     zoom: (to) => setRange(to),
+    // Takes them away.
+    end() {
+      near.disconnect();
+      for (const plot of plots.splice(0)) {
+        if (plot.graph) plot.graph.destroy();
+      }
+      container.replaceChildren();
+    },
     // Prints all plots whole at this size; null restores them.
     print(size) {
       printing = true;

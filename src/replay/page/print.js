@@ -6,23 +6,13 @@
 // sheets.
 bbsim.preparePrint = () => {
   const {clock, palette} = bbsim;
-  const {element} = bbsim.text;
   const root = document.documentElement;
   // The smaller width and height of A4 and Letter without their margins, CSS pixels (96 an inch).
   const width = 716, sheet = 970, sheets = 2;
   let copies = [];
 
-  // A canvas that is redrawn during printing may be printed empty, and so may a 3D canvas. Copies
-  // of their pixels are printed instead.
   function copied(from) {
-    const made = element('canvas', {class: 'printed'});
-    [made.width, made.height] = [from.width, from.height];
-    let ink = from.getContext('2d');
-    if (!ink) {
-      ink = Object.assign(document.createElement('canvas'), {width: from.width, height: from.height}).getContext('2d', {willReadFrequently: true});
-      ink.drawImage(from, 0, 0);
-    }
-    made.getContext('2d').putImageData(ink.getImageData(0, 0, from.width, from.height), 0, 0);
+    const made = bbsim.copyForPaper(from);
     copies.push(made);
     return made;
   }

@@ -1179,6 +1179,146 @@ class Legs(InBrowser):
                 self.near(math.dist(end, joint), 0, 1e-9)
 
 
+def fit_page():
+    """Of two logs, of a rig whose ball is hollow, in windows of which a third are held out."""
+    page = files("fit.html")
+    if not os.path.exists(page):
+        for number in [1, 2]:
+            made, log = files(f"fit-run-{number}.csv"), files(f"fit-log-{number}.csv")
+            subprocess.run([BBSIM, "run", "configs/recorded.yaml", "--set", "ball.inertia_factor=0.6", "--set",
+                            f"ball.position=[{number} cm, 0]", "--set", "output.columns=[t,x,y]", "-o", made, "-q"],
+                           cwd=SOURCE, check=True)
+            with open(log, "w") as stream:
+                stream.write("t,x,y\n")
+                # An error like a sensor's, and rows that lack x.
+                for i, row in enumerate(rows_of(made)):
+                    x = "" if i % 50 == 7 else row["x"] + 5e-4 * math.sin(7.3 * i * i)
+                    stream.write(f"{row['t']},{x},{row['y'] + 5e-4 * math.cos(5.9 * i * i)}\n")
+        subprocess.run([BBSIM, "fit", "configs/recorded.yaml", files("fit-log-1.csv"), files("fit-log-2.csv"), "--free",
+                        "ball.inertia_factor", "--free", "gimbal.motion.phi.table.offset", "--window", "1 s",
+                        "--hold-out", "0.34", "--report", page, "--json", files("fit.json"), "-q"], cwd=SOURCE,
+                       check=True, stdout=subprocess.DEVNULL)
+    return "file://" + page
+
+
+class AFit(InBrowser):
+    def test_has_the_numbers_of_the_fit_in_its_tables(self):
+        self.open(fit_page())
+        with open(files("fit.json")) as stream:
+            parameters = json.load(stream)["parameters"]
+        rows = self.js("""[...document.querySelectorAll('#parameters tbody tr')].map((row) =>
+            [...row.children].map((cell) => cell.textContent))""")
+        self.assertEqual([row[0] for row in rows], [one["key"] for one in parameters])
+        for row, one in zip(rows, parameters):
+            self.near(float(row[2].replace("−", "-")), one["estimate"], 0.1 * one["sd"])
+        self.assertIn("held out", self.browser.text("#residuals"))
+        self.assertIn("2 logs", self.browser.text("#compared"))
+
+    def test_draws_log_and_model(self):
+        self.open(fit_page())
+        self.js("bbsim.plots.plots.forEach((plot) => plot.build())")
+        self.assertEqual(self.js("bbsim.plots.plots.map((plot) => plot.group.title)"),
+                         ["x", "x: model minus log", "y", "y: model minus log"])
+        row = rows_of_log(files("fit-log-1.csv"))[123]
+        self.js("bbsim.seek(arguments[0])", row["t"])
+        read = self.js("bbsim.plots.plots.map((plot) => plot.readings.map((one) => one.textContent))")
+        numbers = [[float(words.replace("−", "-")) for words in plot] for plot in read]
+        # In mm, with four digits of the largest one.
+        self.near(numbers[0][0], 1e3 * row["x"], 0.06)
+        self.near(numbers[2][0], 1e3 * row["y"], 0.06)
+        modelled = self.js("bbsim.data.runs[0].values('x_modelled')[bbsim.data.runs[0].nearest(arguments[0])]", row["t"])
+        self.near(numbers[0][1], 1e3 * modelled, 0.06)
+        self.near(numbers[1][0], 1e3 * (modelled - row["x"]), 0.006)
+        # The curves' colours are in every plot's canvas.
+        for index, colours in enumerate([["x", "run"], ["reference"], ["x", "run"], ["reference"]]):
+            for colour in colours:
+                painted = self.js("""(() => {
+                    const hex = arguments[1] === 'run' ? bbsim.palette.run(0) : bbsim.palette.now()[arguments[1]];
+                    const wanted = [1, 3, 5].map((i) => parseInt(hex.slice(i, i + 2), 16));
+                    let count = 0;
+                    for (const canvas of bbsim.plots.plots[arguments[0]].canvas.querySelectorAll('canvas')) {
+                      const {data} = canvas.getContext('2d').getImageData(0, 0, canvas.width, canvas.height);
+                      for (let i = 0; i < data.length; i += 4) {
+                        if (data[i + 3] > 60 && wanted.every((part, k) => Math.abs(data[i + k] - part) < 40)) ++count;
+                      }
+                    }
+                    return count; })()""", index, colour)
+                self.assertGreater(painted, 100, (index, colour))
+
+    def test_zoom_is_shared(self):
+        self.open(fit_page())
+        self.js("bbsim.plots.plots.forEach((plot) => plot.build())")
+        box = self.js("bbsim.plots.plots[0].canvas.getBoundingClientRect().toJSON()")
+        x = lambda t: box["left"] + self.js(f"bbsim.plots.plots[0].graph.toDomXCoord({t})")
+        y = box["top"] + box["height"] / 2
+        self.browser.drag((x(1), y), (x(1.5), y), (x(2), y))
+        for low, high in self.js("bbsim.plots.plots.map((plot) => plot.graph.xAxisRange())"):
+            self.near(low, 1, 0.05)
+            self.near(high, 2, 0.05)
+
+    def test_moves_the_two_balls(self):
+        self.open(fit_page())
+        places = lambda: self.js("""['measured', 'model'].map((name) => {
+            const ball = document.querySelector(`[data-ball=${name}]`);
+            return [ball.getAttribute('transform'), ball.getAttribute('visibility')]; })""")
+        begin = places()
+        self.assertEqual([is_shown for _, is_shown in begin], ["visible", "visible"])
+        self.js("document.getElementById('scrub').focus()")
+        self.browser.keys(*["\ue014"] * 40)
+        rows = rows_of_log(files("fit-log-1.csv"))
+        self.near(self.js("bbsim.clock.now"), rows[40]["t"], 1e-12)
+        for before, after in zip(begin, places()):
+            self.assertNotEqual(before, after)
+        # How far they are apart is how far the numbers are.
+        far = self.js("""(() => { const [run] = bbsim.data.runs, row = run.nearest(bbsim.clock.now);
+            return Math.hypot(run.values('x_residual')[row], run.values('y_residual')[row]); })()""")
+        self.assertIn(f"{1e3 * far:.2f} mm apart", self.browser.text("#plan"))
+        # In a row without x, there is no ball of the log.
+        self.js("bbsim.seek(arguments[0])", rows[57]["t"])
+        self.assertEqual([is_shown for _, is_shown in places()], ["hidden", "visible"])
+
+    def test_the_pointer_in_a_plot_moves_them_too(self):
+        self.open(fit_page())
+        box = self.js("bbsim.plots.plots[0].canvas.getBoundingClientRect().toJSON()")
+        x = box["left"] + self.js("bbsim.plots.plots[0].graph.toDomXCoord(3.2)")
+        self.browser.hover(x, box["top"] + box["height"] / 2)
+        self.browser.frame()
+        self.assertIn("t = 3.2", self.browser.text("#plan"))
+        self.assertEqual(self.js("bbsim.clock.now"), 0)
+
+    def test_shows_the_log_that_is_chosen(self):
+        self.open(fit_page())
+        self.assertFalse(self.js("document.getElementById('choice').hidden"))
+        self.js("""(() => { const log = document.getElementById('log');
+            log.value = '1'; log.dispatchEvent(new Event('change')); })()""")
+        self.browser.frame()
+        self.assertEqual(self.js("document.querySelectorAll('.plot').length"), 4)
+        first = rows_of_log(files("fit-log-2.csv"))[0]
+        self.near(self.js("bbsim.data.runs[0].values('x')[0]"), first["x"], 1e-8)
+        self.js("bbsim.seek(1)")
+        self.assertIn("1.00", self.browser.text("#time"))
+        self.assertEqual(self.browser.console(), [])
+
+    def test_everything_has_a_name(self):
+        self.open(fit_page())
+        nameless = self.js("""[...document.querySelectorAll('button, input, select, [role=img]')].filter((e) =>
+            !(e.getAttribute('aria-label') || e.textContent.trim() || (e.labels && e.labels.length) || e.closest('.plot'))).map((e) => e.outerHTML)""")
+        self.assertEqual(nameless, [])
+
+    def test_on_paper_are_all_plots(self):
+        self.open(fit_page())
+        self.js("bbsim.print.begin()")
+        self.assertEqual(self.js("document.querySelectorAll('.plot canvas.printed').length"), 4)
+        self.assertLessEqual(self.js("document.documentElement.scrollHeight"), 2 * 970)
+        self.js("bbsim.print.end()")
+        self.assertEqual(self.js("document.querySelectorAll('canvas.printed').length"), 0)
+
+
+def rows_of_log(file):
+    with open(file, newline="") as stream:
+        return [{name: float(value or "nan") for name, value in row.items()} for row in csv.DictReader(stream)]
+
+
 class FirstPicture(InBrowser):
     def test_is_drawn(self):
         """A figure to read, in milliseconds since the page was requested; no bound, which would depend on the machine."""
@@ -1193,7 +1333,7 @@ class Phone(InBrowser):
     options = {"width": 400, "height": 800, "phone": True}
 
     def test_fits(self):
-        for page in [files.replay("fig2a"), files.replay("rig"), self_sweep()]:
+        for page in [files.replay("fig2a"), files.replay("rig"), self_sweep(), fit_page()]:
             self.open(page)
             self.assertLessEqual(self.js("document.documentElement.scrollWidth"), 400)
 
