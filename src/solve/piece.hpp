@@ -37,9 +37,6 @@ class Piece {
   [[nodiscard]] std::size_t parts() const { return parts_; }
   // Evaluates rows, as a StateSink receives them, at times within the piece, ends included.
   virtual void evaluate(const double* times, std::size_t count, double* rows) const = 0;
-  // The run that the piece is of, in the mode of the piece; null if its model is not hybrid(), and
-  // in a part of another piece. It lives until the run ends.
-  [[nodiscard]] virtual const model::HybridSystem* run() const { return nullptr; }
   // Quick bounds of a load over the piece. They may be wider than its true range; `closely` narrows
   // them and takes a little longer. Empty if only rows can show the range.
   [[nodiscard]] virtual std::optional<Bounds> bounds(Load /*load*/,
@@ -47,6 +44,9 @@ class Piece {
                                                      bool /*closely*/) const {
     return {};
   }
+  // The run that the piece is of, in the mode of the piece; null if its model is not hybrid(), and
+  // in a part of another piece. It lives until the run ends.
+  [[nodiscard]] virtual const model::HybridSystem* run() const { return nullptr; }
 
  private:
   double from_, to_;
