@@ -137,9 +137,11 @@ void add_run(Command& command, const Options& options) {
       .takes("\"MEASURE < VALUE\"")
       .may_be_repeated();
   command
-      .option("--sensitivity", arguments->request.sensitivity,
-              "add columns d(x)/d(KEY), the derivatives of the states in output.columns by these "
-              "keys, and gradients of measures to the summary; in smooth scenes; repeatable")
+      .option(
+          "--sensitivity", arguments->request.sensitivity,
+          "add columns d(x)/d(KEY), the derivatives of the states in output.columns by these "
+          "keys, and gradients of measures to the summary; in smooth scenes and with sampled laws; "
+          "repeatable")
       .takes("KEY[,KEY]")
       .may_be_repeated();
   command

@@ -7,6 +7,8 @@
 #include <Eigen/Core>
 #include <cmath>
 
+#include "base/real.hpp"
+
 namespace bbsim::simd {
 
 // A function's value and its partial derivatives with respect to n variables.
@@ -61,6 +63,16 @@ struct WithGradient {
   friend WithGradient operator/(const WithGradient& a, const WithGradient& b) {
     const double quotient = a.value / b.value;
     return {quotient, (a.gradient - quotient * b.gradient) / b.value};
+  }
+
+  // Comparisons are of the values: a choice has the derivatives of what it chose.
+  friend bool exceeds(const WithGradient& a, const WithGradient& b) { return a.value > b.value; }
+  friend WithGradient choose(bool which, const WithGradient& yes, const WithGradient& no) {
+    return which ? yes : no;
+  }
+  // The derivatives are those without rounding, which has none of use.
+  friend WithGradient nearest_integer(const WithGradient& a) {
+    return {bbsim::nearest_integer(a.value), a.gradient};
   }
 
   friend WithGradient sin(const WithGradient& a) {

@@ -9,6 +9,10 @@
 
 #include "model/ball/dynamics.hpp"
 
+namespace bbsim::model {
+class HybridSystem;
+}
+
 namespace bbsim::solve {
 
 // Loads of the motors, named like their output columns.
@@ -40,6 +44,9 @@ class Piece {
                                                      bool /*closely*/) const {
     return {};
   }
+  // The run that the piece is of, in the mode of the piece; null if its model is not hybrid(), and
+  // in a part of another piece. It lives until the run ends.
+  [[nodiscard]] virtual const model::HybridSystem* run() const { return nullptr; }
 
  private:
   double from_, to_;

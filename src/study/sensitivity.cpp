@@ -13,7 +13,6 @@
 #include <utility>
 #include <variant>
 
-#include "base/error.hpp"
 #include "base/shown.hpp"
 #include "model/systems/any_jacobian.hpp"
 #include "record/recorder.hpp"
@@ -73,60 +72,41 @@ const Tables& tables() {
   return made;
 }
 
-// Central differences: the weight of (f(p + i h) - f(p - i h)) / h, i from 1.
-constexpr std::array eighth_order = {4.0 / 5, -1.0 / 5, 4.0 / 105, -1.0 / 280};
-constexpr std::array sixth_order = {3.0 / 4, -3.0 / 20, 1.0 / 60};
-constexpr std::array fourth_order = {2.0 / 3, -1.0 / 12};
-constexpr std::array second_order = {1.0 / 2};
-
-// `value(i)` is f(p + offset h) for the i-th of 2 `neighbors` offsets without 0, in their order.
-template <std::size_t n, class Value>
-auto difference(const std::array<double, n>& weights, std::size_t neighbors, double step,
-                const Value& value) {
-  auto sum = (weights[0] * (value(neighbors) - value(neighbors - 1))).eval();
-  for (std::size_t i = 1; i < n; ++i) {
-    sum += weights[i] * (value(neighbors + i) - value(neighbors - 1 - i));
-  }
-  return (sum / step).eval();
-}
-
-Eigen::VectorXd rates(const model::Model& model, double t, const double* z) {
-  Eigen::VectorXd rates(static_cast<Eigen::Index>(model.size()));
-  std::visit([&](const auto& system) { system.derivative(t, z, rates.data()); }, model.system);
+Eigen::VectorXd rates(const model::System& of, std::size_t size, double t, const double* z) {
+  Eigen::VectorXd rates(static_cast<Eigen::Index>(size));
+  std::visit([&](const auto& system) { system.derivative(t, z, rates.data()); }, of);
   return rates;
+}
+Eigen::VectorXd rates(const model::Model& model, double t, const double* z) {
+  return rates(model.system, model.size(), t, z);
 }
 
 double power_of_two_below(double value) {
   return std::exp2(std::floor(std::log2(value)));
 }
 
-[[noreturn]] void refuse(const std::string& what) {
-  throw InputError("--sensitivity: " + what);
-}
-
 const char* what_switches(const model::Model& model) {
-  if (model.rig && model.rig->sampled) return "samples of the controller";
   if (model.dry) return "dry friction, sliding or limits of torques";
   if (model.rig && model.rig->switches()) return "limits or switches of the servos";
   return "events beside servos, losses or torques";
 }
 
-// The polynomial of an arc of length `length`, as a piece that may end elsewhere.
+// The polynomial of an arc from `start` on of length `length`, as a piece that may have other ends.
 class ArcPiece : public solve::Piece {
  public:
-  ArcPiece(double from, double length, double to, Eigen::MatrixXd values)
-      : Piece(from, to, stages), length_(length), values_(std::move(values)) {}
+  ArcPiece(double start, double length, double from, double to, Eigen::MatrixXd values)
+      : Piece(from, to, stages), start_(start), length_(length), values_(std::move(values)) {}
 
   void evaluate(const double* times, std::size_t count, double* rows) const override {
     for (std::size_t i = 0; i < count; ++i) {
-      const double fraction = (times[i] - from()) / length_;
+      const double fraction = (times[i] - start_) / length_;
       Eigen::Map<Eigen::VectorXd>(rows + i * static_cast<std::size_t>(values_.rows()),
                                   values_.rows()) = values_ * tables().shares(fraction);
     }
   }
 
  private:
-  double length_;
+  double start_, length_;
   Eigen::MatrixXd values_;
 };
 
@@ -147,11 +127,16 @@ Sensitivity::Sensitivity(const model::Model& model, model::Symmetry symmetry,
       symmetry_(symmetry),
       grid_(grid),
       size_(static_cast<Eigen::Index>(model.size() + (model.gamma ? 1 : 0))),
+      row_(static_cast<Eigen::Index>(model.row_size())),
       spin_(model.spin_state()) {
   // Events alone only observe the motion, or end it.
-  if (model.extras() > 0) {
-    refuse(std::string("found with ") + what_switches(model) +
-           "; allowed: smooth scenes, and events in scenes with a given motion or an ideal servo");
+  if (model.rig && model.rig->sampled) {
+    RigSensitivity::require_smooth_parts(model);
+  } else if (model.extras() > 0) {
+    no_sensitivity(
+        std::string("found with ") + what_switches(model) +
+        "; allowed: smooth scenes, sampled controllers, and events in scenes with a given motion "
+        "or an ideal servo");
   }
   initial_ = Eigen::MatrixXd::Zero(size_, static_cast<Eigen::Index>(keys.size()));
   for (VariedKey& key : keys) {
@@ -165,18 +150,19 @@ Sensitivity::Sensitivity(const model::Model& model, model::Symmetry symmetry,
       fill(neighbors);
     }
     initial_.col(static_cast<Eigen::Index>(keys_.size()) - 1).head(size_ - (model.gamma ? 1 : 0)) =
-        difference(eighth_order, 4, neighbors.key.step, [&](std::size_t i) {
+        neighbors.slope([&](std::size_t i) -> Eigen::VectorXd {
           const std::vector<double>& initial = neighbors.models[i].initial;
           return Eigen::Map<const Eigen::VectorXd>(initial.data(),
                                                    static_cast<Eigen::Index>(initial.size()));
         });
   }
+  if (model.rig && model.rig->sampled) rig_.emplace(model, keys_);
 }
 
 void Sensitivity::fill(Neighbors& neighbors) const {
   neighbors.models.clear();
   const VariedKey& key = neighbors.key;
-  for (const int offset : {-4, -3, -2, -1, 1, 2, 3, 4}) {
+  for (const int offset : Neighbors::offsets) {
     neighbors.models.push_back(
         model::assemble(key.scenario(key.value + offset * key.step), model_.gamma, symmetry_));
     require_alike(neighbors.models.back(), key.name);
@@ -187,16 +173,17 @@ void Sensitivity::require_alike(const model::Model& other, const std::string& ke
   const std::string name = shown(key);
   if (other.system.index() != model_.system.index() || other.size() != model_.size() ||
       other.hybrid() != model_.hybrid()) {
-    refuse(name +
-           ": the scene has other equations at values beside the present one; allowed: a key "
-           "whose values all give the same equations");
+    no_sensitivity(
+        name +
+        ": the scene has other equations at values beside the present one; allowed: a key "
+        "whose values all give the same equations");
   }
   const bool same_stops = std::ranges::equal(other.stops, model_.stops, [&](double a, double b) {
     return std::abs(a - b) <= 1e-12 * grid_.end();
   });
   if (!same_stops) {
-    refuse(name +
-           ": it moves times at which the input jumps; allowed: keys that leave these times");
+    no_sensitivity(
+        name + ": it moves times at which the input jumps; allowed: keys that leave these times");
   }
 }
 
@@ -205,13 +192,16 @@ void Sensitivity::require_alike(const model::Model& other, const std::string& ke
 bool Sensitivity::is_smooth(const Neighbors& neighbors) const {
   constexpr int instants = 32;
   constexpr double good = 1e-10;
-  Eigen::ArrayXd apart = Eigen::ArrayXd::Zero(static_cast<Eigen::Index>(model_.size()));
+  const auto states = static_cast<Eigen::Index>(model_.size());
+  const Eigen::Index references = RigSensitivity::reference(model_, 0).size();
+  Eigen::ArrayXd apart = Eigen::ArrayXd::Zero(states + references);
   Eigen::ArrayXd most = apart, size = apart;
   for (int k = 0; k <= instants; ++k) {
     const double t = grid_.end() * k / instants;
     std::vector<Eigen::VectorXd> at;
     for (const model::Model& model : neighbors.models) {
-      at.push_back(rates(model, t, model_.initial.data()));
+      Eigen::VectorXd& all = at.emplace_back(states + references);
+      all << rates(model, t, model_.initial.data()), RigSensitivity::reference(model, t);
       size = size.max(at.back().array().abs());
     }
     const auto value = [&](std::size_t i) -> const Eigen::VectorXd& { return at[i]; };
@@ -232,7 +222,12 @@ void Sensitivity::begin(solve::StateSink& next, bool with_measures) {
 }
 
 void Sensitivity::accept(std::size_t first, std::size_t count, const double* values) {
-  states_.insert(states_.end(), values, values + count * static_cast<std::size_t>(size_));
+  const double* const end = values + count * static_cast<std::size_t>(row_);
+  states_.insert(states_.end(), values, end);
+  // No piece follows the last row, which has what is due at its time in it.
+  if (rig_ && run_ != nullptr && first + count == grid_.size()) {
+    pass(grid_.end(), Eigen::Map<const Eigen::VectorXd>(end - row_, row_));
+  }
   next_->accept(first, count, values);
 }
 
@@ -241,20 +236,69 @@ void Sensitivity::begin_run() {
   largest_ = slopes_.cwiseAbs();
   states_.clear();
   arcs_.clear();
-  gradients_.assign(slopes_.data(), slopes_.data() + slopes_.size());  // of the first row
+  Eigen::MatrixXd first = Eigen::MatrixXd::Zero(row_, slopes_.cols());
+  first.topRows(size_) = slopes_;
+  gradients_.assign(first.data(), first.data() + first.size());
   next_row_ = 1;
+  if (!rig_) return;
+  rig_->begin_run();
+  run_ = nullptr;
+  reached_ = Eigen::VectorXd::Zero(size_);
+  std::ranges::copy(model_.initial, reached_.begin());
+  rates_ = Eigen::VectorXd::Zero(size_);  // nothing moves before the start
 }
 
 void Sensitivity::accept(const solve::Piece& piece) {
+  if (rig_) {
+    run_ = piece.run();
+    Eigen::VectorXd start(row_);
+    const double from = piece.from();
+    piece.evaluate(&from, 1, start.data());
+    pass(from, start);
+  }
   cross(piece, piece.from(), piece.to(), 0);
+  if (rig_) rates_ = state_rates(piece.to(), reached_);
+}
+
+// The system in the mode of the present piece.
+const model::System& Sensitivity::system() const {
+  return rig_ ? run_->model().system : model_.system;
+}
+
+// The rates of a row's states, and of r gamma.
+Eigen::VectorXd Sensitivity::state_rates(double t, const Eigen::VectorXd& row) const {
+  Eigen::VectorXd all(size_);
+  all.head(static_cast<Eigen::Index>(model_.size())) =
+      rates(system(), model_.size(), t, row.data());
+  if (model_.gamma) all[size_ - 1] = row[spin_];
+  return all;
+}
+
+// Takes S across an instant at which a sampled rig may switch; `after` is the row after it. Rows at
+// the instant then have the derivatives from after it, as they have the commands.
+void Sensitivity::pass(double t, const Eigen::VectorXd& after) {
+  const Eigen::VectorXd rates_after = state_rates(t, after);
+  moves_ = rig_->pass({*run_, t, reached_, rates_, after, rates_after}, slopes_);
+  if (!arcs_.empty()) arcs_.back().to_moves = moves_;
+  largest_ = largest_.cwiseMax(slopes_.cwiseAbs());
+  const double rounding = run_->rounding(t);
+  while (next_row_ > 0 && grid_[next_row_ - 1] >= t - rounding) --next_row_;
+  gradients_.resize(next_row_ * static_cast<std::size_t>(row_ * slopes_.cols()));
+  for (; next_row_ < grid_.size() && grid_[next_row_] <= t + rounding; ++next_row_) {
+    for (std::size_t k = 0; k < keys_.size(); ++k) {
+      const Eigen::VectorXd slope = slopes_.col(static_cast<Eigen::Index>(k));
+      const Eigen::VectorXd extras = rig_->extras(k, t, after.head(size_), slope);
+      gradients_.insert(gradients_.end(), slope.begin(), slope.end());
+      gradients_.insert(gradients_.end(), extras.begin(), extras.end());
+    }
+  }
 }
 
 // df/dp, with 0 for the integral of u.
 Eigen::VectorXd Sensitivity::forcing(const Neighbors& neighbors, double t, const double* z) const {
   Eigen::VectorXd slope = Eigen::VectorXd::Zero(size_);
   slope.head(static_cast<Eigen::Index>(model_.size())) =
-      difference(eighth_order, 4, neighbors.key.step,
-                 [&](std::size_t i) { return rates(neighbors.models[i], t, z); });
+      neighbors.slope([&](std::size_t i) { return rates(neighbors.models[i], t, z); });
   return slope;
 }
 
@@ -267,7 +311,7 @@ void Sensitivity::cross(const solve::Piece& piece, double from, double to, int d
   std::array<double, stages + 1> times;
   for (int i = 0; i <= stages; ++i) times[static_cast<std::size_t>(i)] = from + rule.nodes[i] * h;
   times.back() = to;
-  Eigen::MatrixXd z(size_, stages + 1);
+  Eigen::MatrixXd z(row_, stages + 1);
   piece.evaluate(times.data(), times.size(), z.data());
 
   // (I - h A (x) J) S = S_from + h A (x) df/dp
@@ -279,7 +323,7 @@ void Sensitivity::cross(const solve::Piece& piece, double from, double to, int d
   Eigen::MatrixXd forced(size_, stages);
   for (Eigen::Index j = 0; j < stages; ++j) {
     const double t = times[static_cast<std::size_t>(j) + 1];
-    model::jacobian(model_.system, t, z.col(j + 1).data(), part.data());
+    model::jacobian(system(), t, z.col(j + 1).data(), part.data());
     jacobian.topLeftCorner(n, n) = part;
     for (Eigen::Index i = 0; i < stages; ++i) {
       matrix.block(i * size_, j * size_, size_, size_) = -h * rule.matrix(i, j) * jacobian;
@@ -292,7 +336,8 @@ void Sensitivity::cross(const solve::Piece& piece, double from, double to, int d
       const double t = times[static_cast<std::size_t>(j) + 1];
       forced.col(j) = forcing(neighbors, t, z.col(j + 1).data());
     }
-    const double size = rates(model_, to, z.col(stages).data()).cwiseAbs().maxCoeff();
+    const double size =
+        rates(system(), model_.size(), to, z.col(stages).data()).cwiseAbs().maxCoeff();
     noise[k] = epsilon * h * size / neighbors.key.step;
     Eigen::Map<Eigen::MatrixXd>(right.col(k).data(), size_, stages) =
         (h * forced * rule.matrix.transpose()).colwise() + slopes_.col(k);
@@ -322,18 +367,24 @@ void Sensitivity::cross(const solve::Piece& piece, double from, double to, int d
     return;
   }
 
-  Eigen::MatrixXd values(size_ * (1 + keys), stages + 1);
-  values.topRows(size_) = z;
+  Eigen::MatrixXd values(row_ * (1 + keys), stages + 1);
+  values.topRows(row_) = z;
   for (Eigen::Index k = 0; k < keys; ++k) {
-    auto of_key = values.middleRows((1 + k) * size_, size_);
+    auto of_key = values.middleRows((1 + k) * row_, size_);
     of_key.col(0) = slopes_.col(k);
     of_key.rightCols(stages) =
         Eigen::Map<const Eigen::MatrixXd>(solved.col(k).data(), size_, stages);
+    for (Eigen::Index j = 0; rig_ && j <= stages; ++j) {
+      values.col(j).segment((1 + k) * row_ + size_, row_ - size_) =
+          rig_->extras(static_cast<std::size_t>(k), times[static_cast<std::size_t>(j)],
+                       z.col(j).head(size_), of_key.col(j));
+    }
   }
   slopes_ = solved.bottomRows(size_);
   largest_ = largest;
+  if (rig_) reached_ = z.col(stages).head(size_);
   take_rows(from, to, values);
-  if (keeps_arcs_) arcs_.push_back({from, to, std::move(values)});
+  if (keeps_arcs_) arcs_.push_back({from, to, std::move(values), std::exchange(moves_, {})});
 }
 
 void Sensitivity::take_rows(double from, double to, const Eigen::MatrixXd& values) {
@@ -341,15 +392,14 @@ void Sensitivity::take_rows(double from, double to, const Eigen::MatrixXd& value
   const double until = to + 2 * epsilon * to;
   for (; next_row_ < grid_.size() && grid_[next_row_] <= until; ++next_row_) {
     const double fraction = std::min((grid_[next_row_] - from) / (to - from), 1.0);
-    const Eigen::VectorXd row =
-        values.bottomRows(values.rows() - size_) * tables().shares(fraction);
+    const Eigen::VectorXd row = values.bottomRows(values.rows() - row_) * tables().shares(fraction);
     gradients_.insert(gradients_.end(), row.data(), row.data() + row.size());
   }
 }
 
 // Of a run that may have ended early.
 std::size_t Sensitivity::rows() const {
-  const auto size = static_cast<std::size_t>(size_);
+  const auto size = static_cast<std::size_t>(row_);
   return std::min(states_.size() / size, gradients_.size() / (size * keys_.size()));
 }
 
@@ -359,20 +409,26 @@ Sensitivity::Changed Sensitivity::changed(std::size_t key) const {
   constexpr double share = 1e-3, least_range = 1e-4;
   const VariedKey& varied = keys_[key].key;
   const auto count = static_cast<Eigen::Index>(rows());
-  const Eigen::Map<const Eigen::MatrixXd> z(states_.data(), size_, count);
+  const Eigen::Map<const Eigen::MatrixXd> z(states_.data(), row_, count);
   const Eigen::VectorXd range = z.cwiseAbs().rowwise().maxCoeff();
-  Eigen::VectorXd effect = Eigen::VectorXd::Zero(size_);
+  Eigen::VectorXd effect = Eigen::VectorXd::Zero(row_);
   for (Eigen::Index row = 0; row < count; ++row) {
     const Eigen::Map<const Eigen::MatrixXd> slopes(
-        gradients_.data() + row * size_ * static_cast<Eigen::Index>(keys_.size()), size_,
+        gradients_.data() + row * row_ * static_cast<Eigen::Index>(keys_.size()), row_,
         static_cast<Eigen::Index>(keys_.size()));
     effect = effect.cwiseMax(slopes.col(static_cast<Eigen::Index>(key)).cwiseAbs());
   }
   double most = varied.step;
   if (varied.value != 0) most = std::min(most, share * std::abs(varied.value));
   const double floor = least_range * range.maxCoeff();
-  for (Eigen::Index i = 0; i < size_ && floor > 0; ++i) {
+  for (Eigen::Index i = 0; i < row_ && floor > 0; ++i) {
     if (effect[i] > 0) most = std::min(most, share * std::max(range[i], floor) / effect[i]);
+  }
+  // Nor the time of a switch by more than a thousandth of a sample's period.
+  for (const Arc& arc : arcs_) {
+    if (arc.to_moves.size() == 0) continue;
+    const double moves = std::abs(arc.to_moves[static_cast<Eigen::Index>(key)]);
+    if (moves > 0) most = std::min(most, share * model_.rig->sampled->sampling.period / moves);
   }
   Changed changed{std::max(power_of_two_below(most), varied.step * 0x1p-20), {}, {}};
   for (const int offset : {-2, -1, 1, 2}) {
@@ -385,7 +441,7 @@ Sensitivity::Changed Sensitivity::changed(std::size_t key) const {
 
 std::vector<double> Sensitivity::changed_rows(std::size_t key, double change) const {
   std::vector<double> moved = states_;
-  const auto size = static_cast<std::size_t>(size_);
+  const auto size = static_cast<std::size_t>(row_);
   for (std::size_t row = 0; row < rows(); ++row) {
     const double* const slopes = gradients_.data() + (row * keys_.size() + key) * size;
     for (std::size_t i = 0; i < size; ++i) moved[row * size + i] += change * slopes[i];
@@ -396,12 +452,14 @@ std::vector<double> Sensitivity::changed_rows(std::size_t key, double change) co
 std::vector<double> Sensitivity::column_gradient(const scenario::Column& column,
                                                  std::size_t key) const {
   const std::size_t count = rows();
-  const auto size = static_cast<std::size_t>(size_);
+  const auto size = static_cast<std::size_t>(row_);
   std::vector<double> gradient(states_.size() / size, nothing);
   if (count == 0) return gradient;
   const std::vector<std::string> names = model_.state_names();
   const auto state = std::ranges::find(names, column.name);
-  if (state != names.end()) {
+  // Mounted with an offset, the plane's angles are not the servos'.
+  const bool of_plane = model_.rig && (column.name == "phi" || column.name == "theta");
+  if (state != names.end() && !of_plane) {
     const auto at = static_cast<std::size_t>(state - names.begin());
     for (std::size_t row = 0; row < count; ++row) {
       gradient[row] = gradients_[(row * keys_.size() + key) * size + at];
@@ -486,8 +544,8 @@ std::optional<solve::Outcome> Sensitivity::moved(const solve::Outcome& outcome, 
 
 // The row at each node of an arc, moved along S.
 Eigen::MatrixXd Sensitivity::moved_values(const Arc& arc, std::size_t key, double change) const {
-  return arc.values.topRows(size_) +
-         change * arc.values.middleRows((1 + static_cast<Eigen::Index>(key)) * size_, size_);
+  return arc.values.topRows(row_) +
+         change * arc.values.middleRows((1 + static_cast<Eigen::Index>(key)) * row_, row_);
 }
 
 std::vector<double> Sensitivity::measure_gradients(const std::vector<scenario::Measure>& measures,
@@ -509,8 +567,12 @@ std::vector<double> Sensitivity::measure_gradients(const std::vector<scenario::M
     if (solve::PieceSink* const pieces = recorder.pieces()) {
       pieces->begin_run();
       for (const Arc& arc : arcs_) {
-        pieces->accept(ArcPiece(arc.from, arc.to - arc.from, &arc == last ? end : arc.to,
-                                moved_values(arc, key, change)));
+        const double from = Arc::moved(arc.from, arc.from_moves, key, change);
+        const double to = &arc == last ? end : Arc::moved(arc.to, arc.to_moves, key, change);
+        if (to > from) {
+          pieces->accept(
+              ArcPiece(arc.from, arc.to - arc.from, from, to, moved_values(arc, key, change)));
+        }
         if (&arc == last) break;
       }
     }

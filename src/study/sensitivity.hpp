@@ -6,7 +6,6 @@
 
 #include <Eigen/Core>
 #include <cstddef>
-#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -20,17 +19,10 @@
 #include "solve/outcome.hpp"
 #include "solve/output_grid.hpp"
 #include "solve/piece.hpp"
+#include "study/neighbors.hpp"
+#include "study/rig_sensitivity.hpp"
 
 namespace bbsim::study {
-
-// A key p of a scenario, with all numbers in SI.
-struct VariedKey {
-  std::string name;
-  double value = 0;
-  // A power of two. The scenario may be read at value + 4 step and value - 4 step.
-  double step = 0;
-  std::function<Scenario(double value)> scenario{};
-};
 
 // Symmetry::used if a reduced system has room for the effects of all keys.
 [[nodiscard]] model::Symmetry symmetry_for(const Scenario& scenario,
@@ -40,12 +32,13 @@ struct VariedKey {
 //     S' = J S + df/dp
 // is linear in S. Radau IIA collocation solves it with one factored matrix for all keys. J is
 // exact. df/dp is a difference of order 8 between models at eight values of the key, with the state
-// held: f is smooth in p, so a wide difference is good to rounding.
+// held: f is smooth in p, so a wide difference is good to rounding. What a sampled controller adds
+// is in rig_sensitivity.hpp.
 class Sensitivity : public solve::StateSink, public solve::PieceSink {
  public:
   // `model` is assembled with `symmetry`. All references must outlive this. Throws InputError if
-  // the model switches, or if a key changes more than numbers of it. Events may observe the motion
-  // and end it; then the ends of measures move, too.
+  // the model switches without samples, or if a key changes more than numbers of it. Events may
+  // observe the motion and end it; then the ends of measures move, too.
   Sensitivity(const model::Model& model, model::Symmetry symmetry, const solve::OutputGrid& grid,
               std::vector<VariedKey> keys);
   Sensitivity(const Sensitivity&) = delete;  // fan_ refers to this
@@ -75,11 +68,14 @@ class Sensitivity : public solve::StateSink, public solve::PieceSink {
   struct Arc {
     double from, to;
     Eigen::MatrixXd values;
-  };
-  // Models at value + offset step, for the offsets -4, ..., -1, 1, ..., 4.
-  struct Neighbors {
-    VariedKey key;
-    std::vector<model::Model> models;
+    // How far each key moves these ends; empty if none does.
+    Eigen::VectorXd from_moves{}, to_moves{};
+
+    // An end of the arc after a change of a key.
+    [[nodiscard]] static double moved(double end, const Eigen::VectorXd& moves, std::size_t key,
+                                      double change) {
+      return moves.size() == 0 ? end : end + change * moves[static_cast<Eigen::Index>(key)];
+    }
   };
   // The scene at value + offset `change` for the offsets -2, -1, 1, 2.
   struct Changed {
@@ -93,6 +89,9 @@ class Sensitivity : public solve::StateSink, public solve::PieceSink {
   void require_alike(const model::Model& other, const std::string& key) const;
   void cross(const solve::Piece& piece, double from, double to, int depth);
   void take_rows(double from, double to, const Eigen::MatrixXd& values);
+  void pass(double t, const Eigen::VectorXd& after);
+  [[nodiscard]] const model::System& system() const;
+  [[nodiscard]] Eigen::VectorXd state_rates(double t, const Eigen::VectorXd& row) const;
   [[nodiscard]] Eigen::VectorXd forcing(const Neighbors& neighbors, double t,
                                         const double* z) const;
   [[nodiscard]] Changed changed(std::size_t key) const;
@@ -107,16 +106,22 @@ class Sensitivity : public solve::StateSink, public solve::PieceSink {
   const model::Model& model_;
   model::Symmetry symmetry_;
   const solve::OutputGrid& grid_;
-  Eigen::Index size_;  // of a row: the states, and r gamma if it is integrated
-  int spin_;           // the state u = r gamma', or -1
+  // Of S: the states, and r gamma if it is integrated; and of a row, which may have extras.
+  Eigen::Index size_, row_;
+  int spin_;  // the state u = r gamma', or -1
   std::vector<Neighbors> keys_;
-  Eigen::MatrixXd initial_;  // S at t = 0, a column for each key
+  std::optional<RigSensitivity> rig_;  // of a sampled rig
+  Eigen::MatrixXd initial_;            // S at t = 0, a column for each key
 
   solve::StateSink* next_ = nullptr;
   record::PieceFan fan_;
   bool keeps_arcs_ = false;
   Eigen::MatrixXd slopes_;   // S at the time reached
   Eigen::MatrixXd largest_;  // the greatest absolute value of each number of S so far
+  // Of a sampled rig: the run, the states and their rates at the time reached, and how the keys
+  // move that time.
+  const model::HybridSystem* run_ = nullptr;
+  Eigen::VectorXd reached_, rates_, moves_;
   std::size_t next_row_ = 0;
   std::vector<double> states_;     // row after row
   std::vector<double> gradients_;  // of each row, key after key

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 // Derivatives of runs by keys: closed forms, differences of quad-precision solutions, and
-// differences of runs.
+// differences of runs, with sampled controllers too.
 #include <algorithm>
 #include <cmath>
 #include <iterator>
@@ -197,6 +197,157 @@ TEST_CASE("derivatives are those of quad-precision solutions", "[sensitivity]") 
   }
 }
 
+namespace {
+
+// A key of a scene, its value, and a change that is small beside what is smooth in it.
+struct Beside {
+  std::string scene;
+  Overrides overrides;
+  std::string key;
+  double value, change;
+};
+
+// The runs at value - 2 change, ..., value + 2 change.
+std::vector<api::RunResult> runs_beside(const Beside& one, const Overrides& overrides,
+                                        const Overrides& measures = {}) {
+  std::vector<api::RunResult> beside;
+  for (const int offset : {-2, -1, 1, 2}) {
+    Overrides with = overrides;
+    with.push_back(one.key + "=" + number_text(one.value + offset * one.change));
+    beside.push_back(run(one.scene, with, {}, measures));
+  }
+  return beside;
+}
+
+double fourth_order_difference(double a, double b, double c, double d, double change) {
+  return (8 * (c - b) - (d - a)) / (12 * change);
+}
+
+// Rounding has no derivative. Rows, samples, exposures and commands are at instants apart: at an
+// instant that moves, differences are of both sides.
+const Overrides plain_rig = {"controller.sensor.resolution=0", "controller.sampling.resolution=0",
+                             "gimbal.servo.dead_band=0",       "controller.sampling.delay=6.9 ms",
+                             "controller.sensor.delay=8.3 ms", "time.end=3"};
+
+Overrides operator+(Overrides a, const Overrides& b) {
+  a.insert(a.end(), b.begin(), b.end());
+  return a;
+}
+
+}  // namespace
+
+TEST_CASE("derivatives through a sampled controller are those of runs beside", "[sensitivity]") {
+  const Overrides frames = {"controller.sensor.period=27 ms", "controller.sensor.phase=0.0031"};
+  const Overrides turned = {"controller.sensor.rotation=0.05", "controller.sensor.scale=[1.02, 1]",
+                            "controller.sensor.dropout=0.1"};
+  const Overrides jitter = {"controller.sampling.jitter=0.001", "time.step=19.77 ms"};
+  const Overrides first_order = {"gimbal.servo={time_constant: 0.04}"};
+  const Overrides slow = {"gimbal.servo.rate_limit=0.1"};
+  const Overrides pid = {"controller.sensor.resolution=0", "controller.limit=0.03", "time.end=3"};
+  const Overrides lqr = {"controller.sensor.resolution=0", "gimbal.servo.acceleration_limit=40",
+                         "gimbal.servo.rate_limit=1", "time.end=2"};
+  const std::string rig = "configs/rig", law = "controller.gravity_compensation.";
+  const std::vector<Beside> cases = {
+      {rig, plain_rig, "ball.radius", 0.02, 0x1p-14},
+      {rig, plain_rig, "ball.inertia_factor", 0.4, 0x1p-9},
+      {rig, plain_rig, "ball.position.0", 0.05, 0x1p-13},
+      {rig, plain_rig, "gravity", 9.81, 0x1p-6},
+      {rig, plain_rig, law + "kp", 10, 0x1p-5},
+      {rig, plain_rig, law + "kv", 8, 0x1p-5},
+      {rig, plain_rig, "gimbal.servo.natural_frequency", 30, 0x1p-4},
+      {rig, plain_rig, "controller.reference.circle.radius", 0.05, 0x1p-13},
+      {rig, plain_rig, "controller.reference.circle.rate", -0.3, 0x1p-10},
+      {rig, plain_rig, "controller.sampling.derivative_filter", 0.03, 0x1p-12},
+      {rig, plain_rig, "controller.sampling.delay", 0.0069, 0x1p-15},
+      {rig, plain_rig, "controller.sampling.period", 0.02, 0x1p-20},
+      {rig, plain_rig, "controller.sensor.delay", 0.0083, 0x1p-15},
+      {rig, plain_rig + frames, "controller.sensor.phase", 0.0031, 0x1p-20},
+      {rig, plain_rig + frames, "controller.sensor.period", 0.027, 0x1p-22},
+      {rig, plain_rig + turned, "controller.sensor.rotation", 0.05, 0x1p-13},
+      {rig, plain_rig + turned, "controller.sensor.scale.0", 1.02, 0x1p-13},
+      {rig, plain_rig + jitter, "controller.sampling.jitter", 0.001, 0x1p-20},
+      {rig, plain_rig + slow, "gimbal.servo.rate_limit", 0.1, 0x1p-16},
+      {rig, plain_rig + slow, "controller.sampling.delay", 0.0069, 0x1p-18},
+      {rig, plain_rig + first_order, "gimbal.servo.time_constant", 0.04, 0x1p-12},
+      {rig, plain_rig + first_order, "controller.sampling.delay", 0.0069, 0x1p-15},
+      {rig, plain_rig + Overrides{"gimbal.servo.dead_band=0.1 deg"}, "gravity", 9.81, 0x1p-18},
+      {"configs/step", pid, "controller.pid.ki.0.0", 0.35, 0x1p-10},
+      {"configs/step", pid, "controller.limit", 0.03, 0x1p-17},
+      {"configs/step", pid, "gimbal.mounting.phi_offset", 0.0122, 0x1p-14},
+      {"configs/catch", lqr, "controller.lqr.position", 60, 0x1p-3},
+      {"configs/catch", lqr, "gimbal.servo.acceleration_limit", 40, 0x1p-4},
+      {"configs/catch", lqr, "gimbal.servo.rate_limit", 1, 0x1p-10},
+  };
+  const Overrides states = {"x", "y", "vx", "vy", "spin", "phi", "theta", "phi_rate", "theta_rate"};
+  for (const Beside& one : cases) {
+    CAPTURE(one.scene, one.key, one.overrides);
+    const Overrides overrides =
+        Overrides{tight_rtol, tight_atol,
+                  "output.columns=[t, x, y, vx, vy, spin, phi, theta, phi_rate, theta_rate]"} +
+        one.overrides + Overrides{one.key + "=" + number_text(one.value)};
+    const auto made = run(one.scene, overrides, {one.key});
+    REQUIRE(made.code == ExitCode::done);
+    const auto beside = runs_beside(one, overrides);
+    double largest = 0;
+    for (const std::string& state : states) {
+      const std::vector<double>& found = column(made, gradient_name(state, one.key));
+      double scale = 0, apart = 0;
+      for (std::size_t row = 0; row < found.size(); ++row) {
+        const auto at = [&](std::size_t i) { return column(beside[i], state)[row]; };
+        const double expected = fourth_order_difference(at(0), at(1), at(2), at(3), one.change);
+        scale = std::max(scale, std::abs(expected));
+        apart = std::max(apart, std::abs(found[row] - expected));
+      }
+      largest = std::max(largest, scale);
+      CAPTURE(state, scale, apart);
+      // Runs are good to some 1e-13 of the state, which the difference divides by the change.
+      CHECK(apart <= 1e-6 * scale + 1e-13 * largest_size(column(made, state)) / one.change);
+    }
+    CHECK(largest > 0);
+  }
+}
+
+TEST_CASE("gradients of measures of a sampled rig are those of runs beside", "[sensitivity]") {
+  const Overrides measures = {"max_tilt", "rms_x",  "rms_phi_command",          "end_theta_command",
+                              "x.Peak",   "end_vy", "rms_tracking_error from 1"};
+  // Whatever moves the instants of commands, also where the servos' rates jump with them.
+  for (const Overrides& servo : {Overrides{}, Overrides{"gimbal.servo={time_constant: 0.04}"}}) {
+    for (const Beside& one :
+         {Beside{"configs/rig", plain_rig + servo, "ball.radius", 0.02, 0x1p-16},
+          Beside{"configs/rig", plain_rig + servo, "controller.sampling.delay", 0.0069, 0x1p-17},
+          Beside{"configs/rig", plain_rig + servo, "controller.sampling.period", 0.02, 0x1p-23}}) {
+      const Overrides overrides =
+          one.overrides + Overrides{tight_rtol, tight_atol, "time.end=3.01"};
+      const auto made = run(one.scene, overrides, {one.key}, measures);
+      const auto beside = runs_beside(one, overrides, measures);
+      for (std::size_t m = 0; m < measures.size(); ++m) {
+        const auto& [name, value] = made.summary.measures[m];
+        CAPTURE(one.key, name, servo);
+        const auto at = [&](std::size_t i) { return beside[i].summary.measures[m].second; };
+        CHECK(gradient(made, name, one.key) ==
+              Approx(fourth_order_difference(at(0), at(1), at(2), at(3), one.change))
+                  .epsilon(1e-6)
+                  .margin(1e-11 * std::abs(value) / one.change));
+      }
+    }
+  }
+}
+
+TEST_CASE("derivatives pass through rounding", "[sensitivity]") {
+  const Overrides fine = {"controller.sensor.resolution=1e-9",
+                          "controller.sampling.resolution=1e-9"};
+  const auto rounded = run("configs/rig", plain_rig + fine, {"gravity"});
+  const auto plain = run("configs/rig", plain_rig, {"gravity"});
+  const std::string name = gradient_name("y", "gravity");
+  const std::vector<double>&one = column(rounded, name), &other = column(plain, name);
+  const double scale = largest_size(other);
+  for (std::size_t row = 0; row < other.size(); ++row) {
+    CHECK(one[row] == Approx(other[row]).margin(1e-5 * scale));
+  }
+  // As it is, too: with its steps, noise and dead band.
+  CHECK(run("configs/rig", {"time.end=5"}, {"gravity"}).code == ExitCode::done);
+}
+
 TEST_CASE("gradients of measures are those of runs beside", "[sensitivity]") {
   const Overrides measures = {"max_tilt", "rms_x",         "max_tracking_error",
                               "x.Peak",   "find y at 1.5", "rms_tracking_error from 1",
@@ -273,7 +424,12 @@ TEST_CASE("keys and scenes without derivatives are refused", "[sensitivity]") {
     CAPTURE(key, said);
     CHECK(said.find(part) != std::string::npos);
   };
-  refuses("configs/rig", "ball.radius", "samples of the controller");
+  refuses("configs/pushrod", "ball.radius", "beside linkages");
+  refuses("configs/rig", "ball.radius", "backlash", {"gimbal.servo.backlash=0.5 deg"});
+  refuses("configs/rig", "controller.sensor.noise", "rounding, noise");
+  refuses("configs/rig", "gimbal.servo.dead_band", "a dead band");
+  refuses("configs/rig", "ball.radius", "a servo reaches its stop",
+          {"gimbal.servo.angle_limit=0.5 deg"});
   refuses("losses", "ball.radius", "dry friction");
   refuses("fig2a", "time.end", "a key of the computation");
   refuses("fig2a", "ball.radius,ball.radius", "is there twice");

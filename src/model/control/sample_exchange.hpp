@@ -39,6 +39,11 @@ class SampleExchange {
   void expose(double x, double y);  // of a ball there, m
   [[nodiscard]] bool samples_by(double now) const { return sample_.next <= now; }
   [[nodiscard]] double sample_number() const { return sample_.number; }
+  // Of the next exposure, sample and command.
+  struct Numbers {
+    double exposure, sample, command;
+  };
+  [[nodiscard]] Numbers numbers() const { return {expose_.number, sample_.number, apply_.number}; }
   // What the sensor has to say at the sample: of the exposure for it, or the last frame that has
   // come by `now`; nothing if it missed the ball.
   [[nodiscard]] std::optional<Pair> begin_sample(double now) {

@@ -6,6 +6,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 
 #include "base/real.hpp"
 #include "model/control/law.hpp"
@@ -27,6 +28,25 @@ struct SampledLaw {
   Range reached[2];         // by multiples of the resolution, within the limit
   Scalar filter;            // time constant of the velocity's, s
 };
+
+// Calls `use` with each number of a law but those that round.
+template <class Law, class Use>
+void for_each_number(Law& of, const Use& use) {
+  for (std::size_t i = 0; i < 2; ++i) {
+    for (auto& gain : of.law.gain[i]) use(gain);
+    for (std::size_t j = 0; j < 2; ++j) {
+      use(of.law.integral[i][j]);
+      use(of.law.kv[i][j]);
+      use(of.law.kp[i][j]);
+    }
+    for (auto* const range : {&of.limit[i], &of.sine[i]}) {
+      use(range->low);
+      use(range->high);
+    }
+  }
+  use(of.law.scale);
+  use(of.filter);
+}
 
 // What it remembers from sample to sample: the ball's position as it saw it (m), its velocity, and
 // the integral parts of the commands.

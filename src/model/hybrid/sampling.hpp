@@ -71,6 +71,7 @@ class Sampling : public Part {
   [[nodiscard]] const Pair& measured() const { return measured_; }
   [[nodiscard]] const std::vector<double>& own() const { return own_; }
   [[nodiscard]] const SampledController& controller() const { return controller_; }
+  [[nodiscard]] const SampleExchange& exchange() const { return exchange_; }
 
   template <class Archive>
   void archive(Archive& archive) {

@@ -243,9 +243,11 @@ class RigLoop {
   }
 
   // The jump of (x', y', u) when the rates of phi and theta jump by (phi, theta), rad/s: (M26).
-  [[nodiscard]] std::array<double, 3> impulse(const double* z, double phi, double theta) const {
-    const Inertial<double> inertial = coefficients(z);
-    std::array<double, 3> jump{};
+  template <class Real>
+  [[nodiscard]] std::array<Real, 3> impulse(const Real* z, const std::type_identity_t<Real>& phi,
+                                            const std::type_identity_t<Real>& theta) const {
+    const Inertial<Real> inertial = coefficients(z);
+    std::array<Real, 3> jump{};
     for (std::size_t i = 0; i < 3; ++i) {
       jump[i] = inertial.of[i][0] * phi + inertial.of[i][1] * theta;
     }

@@ -1,0 +1,66 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// A scene at values of a key beside the present one, and differences between such values.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <functional>
+#include <string>
+#include <type_traits>
+#include <vector>
+
+#include "base/error.hpp"
+#include "model/model.hpp"
+#include "scenario/scenario.hpp"
+
+namespace bbsim::study {
+
+// A key p of a scenario, with all numbers in SI.
+struct VariedKey {
+  std::string name;
+  double value = 0;
+  // A power of two. The scenario may be read at value + 4 step and value - 4 step.
+  double step = 0;
+  std::function<Scenario(double value)> scenario{};
+};
+
+// Central differences: the weight of (f(p + i h) - f(p - i h)) / h, i from 1.
+inline constexpr std::array eighth_order = {4.0 / 5, -1.0 / 5, 4.0 / 105, -1.0 / 280};
+inline constexpr std::array sixth_order = {3.0 / 4, -3.0 / 20, 1.0 / 60};
+inline constexpr std::array fourth_order = {2.0 / 3, -1.0 / 12};
+inline constexpr std::array second_order = {1.0 / 2};
+
+// `value(i)` is f(p + offset h) for the i-th of 2 `neighbors` offsets without 0, in their order.
+template <std::size_t n, class Value>
+auto difference(const std::array<double, n>& weights, std::size_t neighbors, double step,
+                const Value& value) {
+  using Of = std::decay_t<decltype(value(neighbors))>;
+  Of sum = weights[0] * (value(neighbors) - value(neighbors - 1));
+  for (std::size_t i = 1; i < n; ++i) {
+    sum += weights[i] * (value(neighbors + i) - value(neighbors - 1 - i));
+  }
+  sum /= step;
+  return sum;
+}
+
+// The models of a scene at value + offset step of a key.
+struct Neighbors {
+  static constexpr std::array offsets = {-4, -3, -2, -1, 1, 2, 3, 4};
+
+  VariedKey key;
+  std::vector<model::Model> models{};
+
+  // The derivative by the key of what `value(i)` is at the i-th model.
+  template <class Value>
+  [[nodiscard]] auto slope(const Value& value) const {
+    return difference(eighth_order, offsets.size() / 2, key.step, value);
+  }
+};
+
+[[noreturn]] inline void no_sensitivity(const std::string& what) {
+  throw InputError("--sensitivity: " + what);
+}
+
+}  // namespace bbsim::study

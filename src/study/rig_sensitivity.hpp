@@ -1,0 +1,97 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// What a sampled rig adds to the derivatives of a run by keys (docs/explanation/sensitivity.md):
+// those of the measurements, of the controller's memory and of the commands on their way, and the
+// jumps of S where the motion switches.
+#pragma once
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <deque>
+#include <vector>
+
+#include "model/hybrid/hybrid_system.hpp"
+#include "simd/gradient.hpp"
+#include "study/neighbors.hpp"
+
+namespace bbsim::study {
+
+class RigSensitivity {
+ public:
+  // Throws InputError if a part of the rig has no derivatives.
+  static void require_smooth_parts(const model::Model& model);
+  // Reference values at t, as far as the right-hand side does not have them; empty for rigs that
+  // are not sampled.
+  [[nodiscard]] static Eigen::VectorXd reference(const model::Model& model, double t);
+
+  // `model` and `keys` must outlive this, which puts the run's present mode into the models of
+  // `keys`. Throws InputError for a key that acts on rounding, noise or decisions only.
+  RigSensitivity(const model::Model& model, std::vector<Neighbors>& keys);
+
+  void begin_run();
+
+  // An instant at which something is due or switches: the run after it, and the states (m, rad, s)
+  // with their rates before and after it.
+  struct Instant {
+    const model::HybridSystem& run;
+    double t;
+    const Eigen::VectorXd &before, &rates_before, &after, &rates_after;
+  };
+  // Takes S, a column for each key, across the instant. Returns how far each key moves the time of
+  // its switch. Throws InputError if a servo meets its stop, or one of first order its rate limit.
+  [[nodiscard]] Eigen::VectorXd pass(const Instant& now, Eigen::MatrixXd& slopes);
+
+  // The derivatives of a row's extras by key k. `slope` are those of the states z.
+  [[nodiscard]] Eigen::VectorXd extras(std::size_t k, double t, const Eigen::VectorXd& z,
+                                       const Eigen::VectorXd& slope) const;
+
+ private:
+  // A number and its derivative by one key.
+  using Moving = simd::WithGradient<1>;
+  enum class Clock { exposure, sample, command };
+
+  struct Key {
+    model::SampledLaw<Moving> law;
+    double period = 0;                      // of the nominal period
+    std::vector<model::SampleTimes> times;  // of each model beside
+  };
+  // A measurement; the columns are those of the keys.
+  struct Seen {
+    double at = 0;  // s
+    Eigen::MatrixXd slopes;
+  };
+
+  [[nodiscard]] static double time_of(const model::SampledLoop& loop, model::SampleTimes& times,
+                                      Clock clock, double number);
+  [[nodiscard]] double move(std::size_t k, Clock clock, double number);
+  void expose(const Instant& now, const Eigen::MatrixXd& slopes);
+  void sample(const Instant& now, const Eigen::MatrixXd& slopes);
+  void compute(std::size_t k, const Instant& now, const Eigen::MatrixXd& slopes);
+  void take_command(const model::RigMode& mode);
+  void require_away_from_stops(const Instant& now, const model::RigMode& mode) const;
+  [[nodiscard]] Eigen::VectorXd moves_at_rate_limit(const Instant& now, const model::RigMode& mode,
+                                                    const Eigen::MatrixXd& slopes) const;
+  void turn_first_order(std::size_t k, const Instant& now, const model::RigMode& mode,
+                        Eigen::Ref<Eigen::VectorXd> slope) const;
+  void put(const model::RigMode& mode);
+
+  const model::Model& model_;
+  const model::SampledLoop& loop_;
+  std::vector<Neighbors>& keys_;
+  std::vector<Key> by_key_;
+  // As of the last instant.
+  model::RigMode mode_;
+  model::SampleExchange::Numbers numbers_{};
+  model::SampleTimes times_;
+  model::SinceSeen since_;
+  model::SampledMemory<double> memory_{};
+  // Derivatives, a column for each key: of the memory, of the last command, and of those that the
+  // servos follow.
+  Eigen::MatrixXd memory_slopes_, command_slopes_, followed_slopes_;
+  Seen last_seen_;
+  std::deque<Seen> seen_;                 // exposed, not yet sampled
+  std::deque<Eigen::MatrixXd> commands_;  // computed, not yet applied
+};
+
+}  // namespace bbsim::study
