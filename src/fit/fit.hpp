@@ -19,6 +19,9 @@
 
 namespace bbsim::fit {
 
+// The length of windows if nothing else is said, s: a plate makes the ball a double integrator.
+inline constexpr double usual_window = 2;
+
 struct Task {
   const ScenarioFamily& family;
   std::vector<FreeKey> keys;
@@ -29,6 +32,7 @@ struct Task {
   std::size_t threads = 0;         // 0: as many as there are processors
   std::function<void(double fraction, const std::string& detail)> progress{};
   const std::atomic<bool>* stop = nullptr;
+  std::function<void(Scenario&)> adapt{};  // changes each scenario that is read
 };
 
 struct Parameter {

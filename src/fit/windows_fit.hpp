@@ -46,6 +46,8 @@ class WindowsFit {
     Eigen::VectorXd free_norms;
   };
   [[nodiscard]] Derivatives derivatives(const Eigen::VectorXd& u);
+  // The same where the windows' starts are known.
+  [[nodiscard]] Derivatives derivatives(const Eigen::VectorXd& u, const std::vector<Start>& starts);
 
  private:
   struct State {
@@ -55,6 +57,7 @@ class WindowsFit {
     int fresh_rounds = 3;  // for which slopes are still to be computed; the first start is a guess
   };
 
+  [[nodiscard]] Derivatives differences(const Eigen::VectorXd& u);
   [[nodiscard]] Variant variant(const Eigen::VectorXd& u, std::string* why) const;
   void guess_starts();
   bool residual_of(std::size_t w, const Scenario& scene, const Start& start, Eigen::VectorXd& into,
