@@ -151,16 +151,6 @@ std::vector<std::string> tables_of(const Scenario& scenario, const std::filesyst
   return keys;
 }
 
-void refuse_starts(const std::string& free) {
-  const std::string_view key = trimmed(std::string_view(free).substr(0, free.find('=')));
-  for (const std::string_view of_start : {"ball.position", "ball.velocity"}) {
-    if (!key.starts_with(of_start)) continue;
-    throw InputError("--free: " + shown(key) +
-                     ": each window's start is fitted anyway; allowed: any other key that is a "
-                     "number");
-  }
-}
-
 double window_of(const std::string& text) {
   const auto value = scenario::value_in(text, "s");
   if (value && *value > 0) return *value;
@@ -184,14 +174,7 @@ FitResult fit(const FitRequest& request, bool with_scenario, Watch& watch) {
   }
   FitResult made;
   fit::Task task{request.family, {}, {}, {}};
-  for (const std::string& text : request.free) {
-    refuse_starts(text);
-    task.keys.push_back(fit::read_free_key(text, request.family));
-    const auto same = [&](const fit::FreeKey& key) { return key.name == task.keys.back().name; };
-    if (std::ranges::count_if(task.keys, same) > 1) {
-      throw InputError("--free: " + shown(task.keys.back().name) + " is there twice");
-    }
-  }
+  task.keys = fit::read_free_keys(request.free, request.family);
   if (with_scenario) {  // what cannot be written is said before the work
     std::vector<ScenarioFamily::Setting> settings;
     for (const fit::FreeKey& key : task.keys) settings.push_back(key.setting(key.start));

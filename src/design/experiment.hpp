@@ -26,12 +26,12 @@ struct Task {
   const ScenarioFamily& family;  // whose motion or reference is a placeholder
   Plays plays = Plays::tilts;
   std::array<bool, 2> axes{true, true};  // that may move: in a groove only one
-  std::vector<fit::FreeKey> keys;
-  std::vector<const scenario::Column*> columns;  // of the log
-  std::vector<double> noise;                     // standard deviation of each, SI
-  std::optional<double> window{};                // s; without one, what a fit takes
-  double length = 0, rate = 0;                   // of the log, s and Hz
-  Limits limits;
+  std::vector<fit::FreeKey> keys{};
+  std::vector<const scenario::Column*> columns{};  // of the log
+  std::vector<double> noise{};                     // standard deviation of each, SI
+  std::optional<double> window{};                  // s; without one, what a fit takes
+  double length = 0, rate = 0;                     // of the log, s and Hz
+  Limits limits{};
   std::size_t threads = 0;  // 0: as many as there are processors
   std::function<void(double fraction, const std::string& detail)> progress{};
   const std::atomic<bool>* stop = nullptr;

@@ -6,6 +6,7 @@
 
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "scenario/family.hpp"
 
@@ -30,5 +31,9 @@ struct FreeKey {
 
 // Reads KEY or KEY=FROM:TO of --free. Throws InputError.
 [[nodiscard]] FreeKey read_free_key(std::string_view text, const ScenarioFamily& family);
+
+// Those of a fit, each once, and none that is of a window's start. Throws InputError.
+[[nodiscard]] std::vector<FreeKey> read_free_keys(const std::vector<std::string>& texts,
+                                                  const ScenarioFamily& family);
 
 }  // namespace bbsim::fit
