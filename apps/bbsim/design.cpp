@@ -32,7 +32,7 @@ struct DesignArguments {
 };
 
 // Beside the scenario that plays it, if the user gives no name.
-std::string table_of(const DesignArguments& arguments) {
+std::string table_file_of(const DesignArguments& arguments) {
   const std::string& scenario = arguments.files.scenario;
   std::string table = arguments.table;
   if (!table.empty() && table != "-" && file::lower_ending(table) != ".csv") {
@@ -59,7 +59,7 @@ ExitCode design(const DesignArguments& arguments, const Options& options) {
   const auto& [file, overrides] = arguments.scenario;
   say_if_waiting(file, "a scenario", options.quiet);
   const ScenarioFamily family(file, overrides);
-  const std::string table = table_of(arguments);
+  const std::string table = table_file_of(arguments);
   file::Outputs outputs;
   outputs.reads(file, "the scenario");
   arguments.files.declare(outputs);

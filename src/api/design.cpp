@@ -134,16 +134,23 @@ std::string table_text(const ScenarioFamily& family, const std::string& axis,
   return text + "}}";
 }
 
+// What is played, and how it is logged.
+struct Plan {
+  Plays plays;
+  std::array<bool, 2> axes;
+  double length, rate;
+  bool is_launched;  // the ball of the scenario moves at the start
+};
+
 // What makes the scenario play the table.
-Settings settings_of(const DesignRequest& request, Plays plays, std::array<bool, 2> axes,
-                     double length, double rate) {
+Settings settings_of(const DesignRequest& request, const Plan& plan, const Pair& start) {
   std::string file = "'";
   for (const char c : request.table) file += c == '\'' ? "''" : std::string(1, c);
   file += "'";
   Settings settings;
-  if (plays == Plays::tilts) {
+  if (plan.plays == Plays::tilts) {
     const auto axis = [&](std::size_t i, const char* name) {
-      return axes[i] ? table_text(request.family, name, file) : std::string("0");
+      return plan.axes[i] ? table_text(request.family, name, file) : std::string("0");
     };
     settings.push_back(
         {"gimbal.motion", "{phi: " + axis(0, "phi") + ", theta: " + axis(1, "theta") + "}"});
@@ -151,10 +158,11 @@ Settings settings_of(const DesignRequest& request, Plays plays, std::array<bool,
     settings.push_back(
         {"controller.reference", "{table: {file: " + file + ", time: t, x: x, y: y, unit: m}}"});
   }
-  settings.push_back({"ball.position", "[0, 0]"});
-  settings.push_back({"ball.velocity", "[0, 0]"});
-  settings.push_back({"time.end", number_text(length)});
-  settings.push_back({"time.step", number_text(1 / rate)});
+  settings.push_back(
+      {"ball.position", "[" + number_text(start[0]) + ", " + number_text(start[1]) + "]"});
+  if (plan.is_launched) settings.push_back({"ball.velocity", "[0, 0]"});
+  settings.push_back({"time.end", number_text(plan.length)});
+  settings.push_back({"time.step", number_text(1 / plan.rate)});
   return settings;
 }
 
@@ -228,8 +236,9 @@ DesignResult design(const DesignRequest& request, DesignParts parts, Watch& watc
     axes = {scenario.ball.groove->axis == 0, scenario.ball.groove->axis == 1};
   const double rate = rate_of(request, scenario);
   const double length = length_of(request, scenario, rate);
-  const Settings settings = settings_of(request, plays, axes, length, rate);
-  ScenarioFamily family = family_with(request.family.source(), settings);
+  const Plan plan{plays, axes, length, rate, scenario.ball.velocity != Pair{0, 0}};
+  const auto settings = [&](const Pair& start) { return settings_of(request, plan, start); };
+  ScenarioFamily family = family_with(request.family.source(), settings({0, 0}));
   family.give_table(request.table, placeholder_table(plays, length));
 
   design::Task task{family};
@@ -249,9 +258,10 @@ DesignResult design(const DesignRequest& request, DesignParts parts, Watch& watc
   choice.margin =
       size_if_given("--margin", request.margin, "m", "a length greater than 0, such as \"3 cm\"");
   task.limits = design::limits_of(scenario, choice);
-  // What cannot be written is said before the work.
-  const std::string played =
-      parts.scenario ? text_with(request.family.source(), settings) : std::string();
+  const auto played = [&](const Pair& start) {
+    return text_with(request.family.source(), settings(start));
+  };
+  if (parts.scenario) static_cast<void>(played({0, 0}));  // what cannot be written is said now
   task.threads = request.threads;
   task.stop = watch.stop();
   task.progress = [&watch](double fraction, const std::string& detail) {
@@ -262,9 +272,10 @@ DesignResult design(const DesignRequest& request, DesignParts parts, Watch& watc
   file::TableData table;
   const auto written = [&](const design::Designed& designed) {
     table = rows_of(task, designed);
-    ScenarioFamily plays_it = parts.scenario
-                                  ? ScenarioFamily(Source{request.family.source().file, played, {}})
-                                  : family_with(request.family.source(), settings);
+    const Pair& start = designed.motion.position;
+    ScenarioFamily plays_it =
+        parts.scenario ? ScenarioFamily(Source{request.family.source().file, played(start), {}})
+                       : family_with(request.family.source(), settings(start));
     plays_it.give_table(request.table, table);
     return plays_it;
   };
@@ -278,9 +289,12 @@ DesignResult design(const DesignRequest& request, DesignParts parts, Watch& watc
   made.text = report_of(task, made.designed);
   made.json = json_of(task, made.designed);
   made.table = csv_of(table);
-  if (parts.scenario) made.scenario = comments_of(request, task, made.designed) + played;
+  if (parts.scenario)
+    made.scenario =
+        comments_of(request, task, made.designed) + played(made.designed.motion.position);
   if (parts.sketch) {
-    made.sketch = design::player_sketch({rate, table.columns[1], table.columns[2]});
+    made.sketch = design::player_sketch(
+        {rate, table.columns[1], table.columns[2], made.designed.motion.position});
   }
   return made;
 }

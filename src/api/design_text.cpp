@@ -44,6 +44,12 @@ std::string percent(double share) {
   return rounded(100 * share, 3) + " %";
 }
 
+std::string start_text(const Designed& designed) {
+  const Pair& at = designed.motion.position;
+  return "begin with the ball at rest at x = " + short_number(100 * at[0]) +
+         " cm, y = " + short_number(100 * at[1]) + " cm";
+}
+
 std::string limits_text(const Task& task, const Designed& designed) {
   const design::Limits& limits = task.limits;
   std::vector<std::vector<std::string>> lines{{"limit", "of", "used", "from"}};
@@ -52,17 +58,14 @@ std::string limits_text(const Task& task, const Designed& designed) {
                    limits.rectangle ? length((*limits.rectangle)[0]) + " and " +
                                           length((*limits.rectangle)[1]) + " cm"
                                     : length(*limits.disc) + " cm",
-                   percent(designed.use.edge), "plate and margin"});
-  const bool only_total = !std::isfinite(limits.tilt[0]) && !std::isfinite(limits.tilt[1]);
-  std::string tilt;
-  if (!only_total) tilt = in_degrees(limits.tilt, "deg");
+                   percent(designed.use.greatest_edge()), "plate and margin"});
+  std::string tilt = in_degrees(limits.tilt, "deg");
   if (limits.total_tilt) {
-    tilt += (tilt.empty() ? "" : ", ") + rounded(*limits.total_tilt * degrees_per_radian, 3) +
-            " deg in all";
+    tilt += ", in all " + rounded(*limits.total_tilt * degrees_per_radian, 3) + " deg";
   }
-  lines.push_back({"tilt", tilt, percent(designed.use.tilt), limits.tilt_from});
+  lines.push_back({"tilt", tilt, percent(designed.use.greatest_tilt()), limits.tilt_from});
   lines.push_back({"tilt rate", in_degrees(limits.tilt_rate, "deg/s"),
-                   percent(designed.use.tilt_rate), limits.tilt_rate_from});
+                   percent(designed.use.greatest_tilt_rate()), limits.tilt_rate_from});
   if (limits.friction) {
     lines.push_back({"friction that rolling needs", short_number(*limits.friction),
                      percent(designed.use.friction), "events.slip"});
@@ -95,7 +98,7 @@ std::string report_of(const Task& task, const Designed& designed) {
     constexpr double turn = 6.283185307179586;
     text += "; the best circle has " + record::rounded(*designed.circle_frequency / turn) + " Hz";
   }
-  text += "\n";
+  text += "\n" + start_text(designed) + "\n";
   for (const design::Expected& one : designed.parameters) {
     if (is_told(one)) continue;
     text += "not identifiable: " + one.key +
@@ -120,10 +123,11 @@ std::string json_of(const Task& task, const Designed& designed) {
   for (std::size_t c = 0; c < task.columns.size(); ++c) {
     json["noise"][std::string(task.columns[c]->name)] = task.noise[c];
   }
-  json["used"] = {{"edge", designed.use.edge},
-                  {"tilt", designed.use.tilt},
-                  {"tilt_rate", designed.use.tilt_rate}};
+  json["used"] = {{"edge", designed.use.greatest_edge()},
+                  {"tilt", designed.use.greatest_tilt()},
+                  {"tilt_rate", designed.use.greatest_tilt_rate()}};
   if (task.limits.friction) json["used"]["friction"] = designed.use.friction;
+  json["position"] = designed.motion.position;
   json["sines"] = Json::object();
   const char* const names[2][2] = {{"phi", "theta"}, {"x", "y"}};
   for (std::size_t axis = 0; axis < 2; ++axis) {
@@ -140,9 +144,8 @@ std::string json_of(const Task& task, const Designed& designed) {
 
 std::string comments_of(const DesignRequest& request, const Task& task, const Designed& designed) {
   std::string text = "# Designed by bbsim " BBSIM_VERSION ": plays " + shown(request.table) + ", " +
-                     short_number(task.length) +
-                     " s.\n# Begin with the ball at rest at the plate's "
-                     "center. Standard deviations to expect of a fit:\n";
+                     short_number(task.length) + " s; " + start_text(designed) +
+                     "\n# Standard deviations to expect of a fit:\n";
   for (const design::Expected& one : designed.parameters) {
     text += "#   " + one.key + ": " + deviation_text(one.sd) +
             (one.unit.empty() || !is_told(one) ? "" : " " + one.unit) + "\n";

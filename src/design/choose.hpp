@@ -17,8 +17,9 @@ struct Chosen {
   std::size_t tried = 0;
 };
 
-// Draws sums of sines, and improves the best ones. The same task gives the same result. Nothing if
-// no motion keeps the limits, or if it is interrupted.
-[[nodiscard]] std::optional<Chosen> choose(const Task& task, const Experiment& experiment);
+// Draws sums of sines of frequencies about this one (rad/s), and improves the best ones. The same
+// task gives the same result. Nothing if no motion keeps the limits, or if it is interrupted.
+[[nodiscard]] std::optional<Chosen> choose(const Task& task, const Experiment& experiment,
+                                           double frequency);
 
 }  // namespace bbsim::design

@@ -51,12 +51,16 @@ std::vector<double> deviations(const Task& task, const Eigen::MatrixXd& informat
 
 Designed design(const Task& task, const std::function<ScenarioFamily(const Designed&)>& written) {
   const Experiment experiment(task);
-  const auto chosen = choose(task, experiment);
+  const auto circle = best_circle(task, experiment);
+  // A circle shows where the frequencies are that tell something.
+  constexpr double usual_frequency = 3;  // rad/s
+  const auto chosen = choose(task, experiment, circle ? circle->frequency : usual_frequency);
   Designed made;
   made.interrupted = task.is_stopped();
   if (made.interrupted) return made;
   if (!chosen) refuse_limits(task, experiment);
   made.motion = chosen->motion;
+  for (double& at : made.motion.position) at = std::round(at * 1e3) / 1e3 + 0.0;  // by hand
   made.nominal = experiment.nominal();
   made.tried = chosen->tried;
 
@@ -71,7 +75,7 @@ Designed design(const Task& task, const std::function<ScenarioFamily(const Desig
     const fit::FreeKey& key = task.keys[k];
     made.parameters.push_back({key.name, key.unit, key.value(0), own[k]});
   }
-  if (const auto circle = best_circle(task, experiment)) {
+  if (circle) {
     made.circle_frequency = circle->frequency;
     const auto others = deviations(task, experiment.information(circle->motion).matrix);
     for (std::size_t k = 0; k < others.size(); ++k) made.parameters[k].circle = others[k];

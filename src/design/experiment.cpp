@@ -110,7 +110,7 @@ std::optional<Use> Experiment::use(const ScenarioFamily& family) const {
   return use(family, as_it_is());
 }
 
-std::optional<Motion> Experiment::within_limits(Motion shape) const {
+std::optional<Experiment::Scaled> Experiment::within_limits(Motion shape) const {
   // Any scale to begin with: a hundredth, of radians or of meters.
   double size = 0;
   for (std::size_t axis = 0; axis < 2; ++axis) {
@@ -121,21 +121,24 @@ std::optional<Motion> Experiment::within_limits(Motion shape) const {
   if (!(size > 0)) return {};
   constexpr double aim = 0.99, close = 0.97;
   constexpr int most_rounds = 10;
-  double scale = 0.01 / size, best = 0;
+  std::optional<Scaled> best;
+  double scale = 0.01 / size;
   for (int round = 0; round < most_rounds; ++round) {
-    const auto used = use(shape.scaled(scale));
+    const Motion motion = shape.scaled(scale);
+    const auto used = use(motion);
     const double greatest = used ? used->greatest() : INFINITY;
-    if (greatest <= 1) {
-      best = std::max(best, scale);
-      if (greatest >= close) break;
+    if (greatest <= 1 && (!best || scale > best->scale)) best = Scaled{motion, scale};
+    if (greatest <= 1 && greatest >= close) break;
+    // In the middle of the plate, the path has the most room.
+    if (used && shape.centered) {
+      for (std::size_t i = 0; i < 2; ++i) shape.position[i] -= used->middle[i] / scale;
     }
     // The motion is almost in proportion to it, but for what is not the motion's, such as an
     // offset.
     const double factor = std::isfinite(greatest) ? aim / std::max(greatest, 1e-6) : 0.2;
     scale *= std::clamp(factor, 0.1, 100.0);
   }
-  if (best == 0) return {};
-  return shape.scaled(best);
+  return best;
 }
 
 Experiment::Information Experiment::information(const ScenarioFamily& family,

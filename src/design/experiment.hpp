@@ -48,7 +48,11 @@ class Experiment {
   // What of the limits it uses; nothing if it does not run to its end.
   [[nodiscard]] std::optional<Use> use(const Motion& motion) const;
   // The motion at the largest scale that keeps the limits; nothing if none does.
-  [[nodiscard]] std::optional<Motion> within_limits(Motion shape) const;
+  struct Scaled {
+    Motion motion;
+    double scale;
+  };
+  [[nodiscard]] std::optional<Scaled> within_limits(Motion shape) const;
   // Fisher's information about the keys' numbers u: the inverse of their least covariance. With
   // the start of each window unknown.
   struct Information {

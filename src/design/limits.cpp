@@ -49,9 +49,10 @@ void limit_tilt(const Scenario& scenario, const LimitChoice& choice, Limits& lim
     limits.total_tilt = scenario.events.tilt->limit;
     if (limits.tilt_from.empty()) limits.tilt_from = "events.tilt";
   }
-  if (!limits.tilt_from.empty()) return;
-  limits.tilt = {usual_tilt, usual_tilt};
-  limits.tilt_from = "usual; --max-tilt sets it";
+  if (limits.tilt_from.empty()) limits.tilt_from = "usual; --max-tilt sets it";
+  for (double& tilt : limits.tilt) {
+    if (std::isinf(tilt)) tilt = limits.total_tilt.value_or(usual_tilt);
+  }
 }
 
 void limit_rate(const Scenario& scenario, const LimitChoice& choice, Limits& limits) {
@@ -100,8 +101,25 @@ Limits limits_of(const Scenario& scenario, const LimitChoice& choice) {
   return limits;
 }
 
+std::array<double, 10> Use::all() const {
+  return {edge[0], edge[1],      edge[2],      edge[3],    tilt[0],
+          tilt[1], tilt_rate[0], tilt_rate[1], total_tilt, friction};
+}
+
 double Use::greatest() const {
-  return std::max({edge, tilt, tilt_rate, friction});
+  return std::ranges::max(all());
+}
+
+double Use::greatest_edge() const {
+  return std::ranges::max(edge);
+}
+
+double Use::greatest_tilt() const {
+  return std::max({tilt[0], tilt[1], total_tilt});
+}
+
+double Use::greatest_tilt_rate() const {
+  return std::max(tilt_rate[0], tilt_rate[1]);
 }
 
 std::vector<std::string> columns_of_use(const Limits& limits) {
@@ -112,23 +130,32 @@ std::vector<std::string> columns_of_use(const Limits& limits) {
 
 Use use_of(const Limits& limits, const std::vector<double>& values) {
   const std::size_t rows = values.size() / columns_of_use(limits).size();
-  const auto size = [&](std::size_t column, std::size_t row) {
-    return std::abs(values[column * rows + row]);
-  };
+  const auto at = [&](std::size_t column, std::size_t row) { return values[column * rows + row]; };
   Use use;
+  for (const std::size_t axis : {0U, 1U}) {
+    const auto* const first = values.data() + axis * rows;
+    const auto [least, most] = std::minmax_element(first, first + rows);
+    use.middle[axis] = (*least + *most) / 2;
+  }
   for (std::size_t i = 0; i < rows; ++i) {
-    const double x = size(0, i), y = size(1, i), phi = size(2, i), theta = size(3, i);
-    const double edge = limits.rectangle
-                            ? std::max(x / (*limits.rectangle)[0], y / (*limits.rectangle)[1])
-                            : std::hypot(x, y) / *limits.disc;
-    use.edge = std::max(use.edge, edge);
-    use.tilt = std::max({use.tilt, phi / limits.tilt[0], theta / limits.tilt[1]});
+    const Pair ball{at(0, i), at(1, i)}, tilt{std::abs(at(2, i)), std::abs(at(3, i))};
+    if (limits.disc)
+      use.edge[0] = std::max(use.edge[0], std::hypot(ball[0], ball[1]) / *limits.disc);
+    for (const std::size_t axis : {0U, 1U}) {
+      if (limits.rectangle) {
+        const double share = ball[axis] / (*limits.rectangle)[axis];
+        use.edge[2 * axis] = std::max(use.edge[2 * axis], share);
+        use.edge[2 * axis + 1] = std::max(use.edge[2 * axis + 1], -share);
+      }
+      use.tilt[axis] = std::max(use.tilt[axis], tilt[axis] / limits.tilt[axis]);
+      use.tilt_rate[axis] =
+          std::max(use.tilt_rate[axis], std::abs(at(4 + axis, i)) / limits.tilt_rate[axis]);
+    }
     // The angle between normal and vertical is less than the root of the squares.
-    if (limits.total_tilt)
-      use.tilt = std::max(use.tilt, std::hypot(phi, theta) / *limits.total_tilt);
-    use.tilt_rate = std::max(
-        {use.tilt_rate, size(4, i) / limits.tilt_rate[0], size(5, i) / limits.tilt_rate[1]});
-    if (limits.friction) use.friction = std::max(use.friction, size(6, i) / *limits.friction);
+    if (limits.total_tilt) {
+      use.total_tilt = std::max(use.total_tilt, std::hypot(tilt[0], tilt[1]) / *limits.total_tilt);
+    }
+    if (limits.friction) use.friction = std::max(use.friction, at(6, i) / *limits.friction);
   }
   return use;
 }

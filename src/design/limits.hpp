@@ -34,9 +34,16 @@ struct LimitChoice {
 
 // What of each limit a motion uses: 1 is all of it.
 struct Use {
-  double edge = 0, tilt = 0, tilt_rate = 0, friction = 0;
+  std::array<double, 4> edge{};  // toward x, -x, y and -y
+  Pair tilt{0, 0}, tilt_rate{0, 0};
+  double total_tilt = 0, friction = 0;
+  Pair middle{0, 0};  // of the ball's path, m
 
+  [[nodiscard]] std::array<double, 10> all() const;
   [[nodiscard]] double greatest() const;
+  [[nodiscard]] double greatest_edge() const;
+  [[nodiscard]] double greatest_tilt() const;
+  [[nodiscard]] double greatest_tilt_rate() const;
 };
 
 // The columns that use_of() needs, and the use of their values, column after column.

@@ -20,6 +20,7 @@ struct Motion {
   Pair step{0, 0};  // beside them: from 0 to this at `step_start`
   double step_start = 0;
   Pair position{0, 0}, velocity{0, 0};  // of the ball at the start, m and m/s
+  bool centered = false;  // the ball may start where the path is about the plate's center
 
   [[nodiscard]] double value(std::size_t axis, double t) const;
   // With the ball's start.

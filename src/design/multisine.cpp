@@ -13,17 +13,17 @@ namespace {
 using Eigen::Index;
 using Eigen::MatrixXd;
 
-constexpr std::size_t components = 5;  // of an axis
+constexpr std::size_t components = 4;  // of an axis
 constexpr double turn = 6.283185307179586;
 
-// Different multiples, as many low ones as high ones on a logarithmic scale.
-std::vector<std::size_t> draw_multiples(std::size_t highest, Noise& noise) {
+// Different multiples, by a normal distribution of their logarithms.
+std::vector<std::size_t> draw_multiples(const Multisine::Band& band, Noise& noise) {
+  constexpr double spread = 0.8;
   std::vector<std::size_t> multiples;
-  const double top = static_cast<double>(highest) + 0.5;
   while (multiples.size() < components) {
-    const double drawn = 0.5 * std::pow(top / 0.5, noise.uniform());
-    const auto multiple =
-        std::clamp(static_cast<std::size_t>(std::lround(drawn)), std::size_t{1}, highest);
+    const double drawn = std::round(band.middle * std::exp(spread * noise.normal()));
+    if (!(drawn >= 1) || !(drawn <= static_cast<double>(band.highest))) continue;
+    const auto multiple = static_cast<std::size_t>(drawn);
     if (std::ranges::find(multiples, multiple) == multiples.end()) multiples.push_back(multiple);
   }
   std::ranges::sort(multiples);
@@ -46,11 +46,11 @@ MatrixXd conditions(const std::vector<double>& frequencies, Plays plays) {
 
 }  // namespace
 
-Multisine::Multisine(const Band& band, Noise& noise) {
+Multisine::Multisine(const Band& band, Noise& noise) : plays_(band.plays) {
   for (std::size_t i = 0; i < 2; ++i) {
     if (!band.axes[i]) continue;
     Axis& axis = axes_[i];
-    for (const std::size_t multiple : draw_multiples(band.highest, noise)) {
+    for (const std::size_t multiple : draw_multiples(band, noise)) {
       axis.frequencies.push_back(turn * static_cast<double>(multiple) / band.length);
     }
     // A plate that is tilted by w^2 moves the ball alike at all frequencies.
@@ -74,6 +74,7 @@ std::size_t Multisine::size() const {
 
 Motion Multisine::motion(const std::vector<double>& numbers) const {
   Motion made;
+  made.centered = plays_ == Plays::tilts;
   Index used = 0;
   for (std::size_t i = 0; i < 2; ++i) {
     const Axis& axis = axes_[i];

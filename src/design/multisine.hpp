@@ -23,6 +23,7 @@ class Multisine {
     Plays plays;
     double length;        // s
     std::size_t highest;  // the largest multiple
+    double middle;        // about which multiples are drawn
     std::array<bool, 2> axes;
   };
   // Draws the multiples, and how amplitudes depend on the frequency.
@@ -38,6 +39,7 @@ class Multisine {
     // From free numbers to the amplitudes of cosines, then of sines.
     Eigen::MatrixXd amplitudes;
   };
+  Plays plays_;
   std::array<Axis, 2> axes_;
 };
 

@@ -8,6 +8,7 @@
 #include <cstddef>
 
 #include "base/error.hpp"
+#include "base/short_number.hpp"
 
 namespace bbsim::design {
 namespace {
@@ -96,7 +97,10 @@ std::string player_sketch(const Player& player) {
   const auto in_units = [&](double angle) {
     return std::to_string(std::lround(angle / degree / per_unit));
   };
-  std::string text = above_table;
+  std::string text = heading;
+  text += "// x = " + short_number(100 * player.ball[0]) +
+          " cm, y = " + short_number(100 * player.ball[1]) + " cm.\n";
+  text += above_table;
   text += "const unsigned long PERIOD = " + std::to_string(std::lround(1e6 / player.rate)) +
           ";  // us\n";
   text += "const unsigned int ROWS = " + std::to_string(rows) + ";\n";

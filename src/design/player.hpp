@@ -7,11 +7,14 @@
 #include <string>
 #include <vector>
 
+#include "base/pair.hpp"
+
 namespace bbsim::design {
 
 struct Player {
   double rate = 0;                 // rows in a second, Hz
   std::vector<double> phi, theta;  // rad
+  Pair ball{0, 0};                 // where it begins, m
 };
 
 // The table is in flash, as whole numbers of 16 bits. Throws InputError for one that is too long.

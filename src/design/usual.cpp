@@ -43,9 +43,9 @@ std::optional<Circle> best_circle(const Task& task, const Experiment& experiment
     const double frequency = turn * multiple / task.length;
     const auto motion = experiment.within_limits(circle(task, frequency));
     if (!motion) continue;
-    const double merit = merit_of(experiment.information(*motion).matrix);
+    const double merit = merit_of(experiment.information(motion->motion).matrix);
     if (best && merit <= most) continue;
-    best = Circle{*motion, frequency};
+    best = Circle{motion->motion, frequency};
     most = merit;
   }
   return best;
@@ -55,7 +55,9 @@ std::optional<Motion> largest_step(const Task& task, const Experiment& experimen
   Motion motion;
   motion.step = {task.axes[0] ? 1.0 : 0.0, task.axes[1] ? 1.0 : 0.0};
   motion.step_start = task.length / 10;
-  return experiment.within_limits(motion);
+  const auto scaled = experiment.within_limits(motion);
+  if (!scaled) return {};
+  return scaled->motion;
 }
 
 }  // namespace bbsim::design
