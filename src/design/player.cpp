@@ -17,10 +17,12 @@ constexpr double degree = 0.017453292519943295;
 // avr-gcc refuses an array of more bytes than 32767.
 constexpr std::size_t most_rows = 32767 / 4;
 
-constexpr const char* above_table =
+constexpr const char* heading =
     R"(// Plays a motion of the plate that `bbsim design` has chosen, and prints a log of it for
-// `bbsim fit`. Put the ball at the center of the plate; the motion begins after WAIT.
-//
+// `bbsim fit`. The motion begins after WAIT, with the ball at rest at
+)";
+
+constexpr const char* above_table = R"(//
 // Set the constants to your rig: pins, pulses, and what a count of the touch screen is.
 #include <Servo.h>
 #include <avr/pgmspace.h>
