@@ -42,7 +42,8 @@ std::string table_file_of(const DesignArguments& arguments) {
     throw InputError("--table: found no file for the scenario of -o to name; allowed: FILE.csv");
   }
   if (table.empty() && !scenario.empty()) {
-    table = std::filesystem::path(scenario).replace_extension(".csv").string();
+    // FILE.csv is what a run of FILE.yaml writes.
+    table = std::filesystem::path(scenario).replace_extension().string() + "-motion.csv";
   }
   return table;
 }
@@ -62,9 +63,11 @@ ExitCode design(const DesignArguments& arguments, const Options& options) {
   const std::string table = table_file_of(arguments);
   file::Outputs outputs;
   outputs.reads(file, "the scenario");
-  arguments.files.declare(outputs);
+  if (!arguments.files.scenario.empty()) outputs.writes(arguments.files.scenario, "-o");
+  if (!arguments.files.json.empty()) outputs.writes(arguments.files.json, "--json");
   if (!table.empty()) outputs.writes(table, arguments.table.empty() ? "the table" : "--table");
   if (!arguments.sketch.empty()) outputs.writes(arguments.sketch, "--sketch");
+  if (arguments.reports()) prints(outputs);
 
   api::DesignRequest request{family, arguments.free};
   request.length = arguments.length;
@@ -149,7 +152,7 @@ void add_design(Command& command, const Options& options) {
   command
       .option("--table", arguments->table,
               "write the motion to FILE.csv: t, and phi and theta or x and y; default with -o: its "
-              "name with .csv")
+              "name with -motion.csv")
       .takes("FILE");
   command
       .option("--json", arguments->files.json,

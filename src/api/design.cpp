@@ -78,8 +78,8 @@ double length_of(const DesignRequest& request, const Scenario& scenario, double 
   constexpr double fewest = 16;
   if (rows >= fewest && rows <= most_rows_of_log) return rows / rate;
   throw InputError("--length: found " + number_text(asked) + " s at " + number_text(rate) +
-                   " Hz; allowed: a log of " + number_text(fewest) + " to " +
-                   number_text(most_rows_of_log) + " rows");
+                   " Hz; allowed: a log of " + std::to_string(std::lround(fewest)) + " to " +
+                   std::to_string(std::lround(most_rows_of_log)) + " rows");
 }
 
 void read_noise(const DesignRequest& request, const Scenario& scenario, design::Task& task) {
