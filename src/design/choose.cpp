@@ -58,7 +58,6 @@ class Choice {
 
   std::vector<Draw> draw() {
     Noise noise(1);
-    constexpr double turn = 6.283185307179586;
     const Multisine::Band band{task_.plays, task_.length,
                                highest_multiple(task_.length, task_.rate),
                                frequency_ * task_.length / turn, task_.axes};

@@ -14,7 +14,6 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 
 constexpr std::size_t components = 4;  // of an axis
-constexpr double turn = 6.283185307179586;
 
 // Different multiples, by a normal distribution of their logarithms.
 std::vector<std::size_t> draw_multiples(const Multisine::Band& band, Noise& noise) {

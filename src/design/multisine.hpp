@@ -14,6 +14,8 @@
 
 namespace bbsim::design {
 
+inline constexpr double turn = 6.283185307179586;  // rad
+
 // A choice of multiples of 1/length for each axis, and what amplitudes and phases they may have:
 // those of a motion that starts from zero at rest, and, of tilts, that leaves a ball at rest that
 // was so before.

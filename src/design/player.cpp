@@ -13,7 +13,7 @@
 namespace bbsim::design {
 namespace {
 
-constexpr double degree = 0.017453292519943295;
+constexpr double radians_per_degree = 0.017453292519943295;
 // avr-gcc refuses an array of more bytes than 32767.
 constexpr std::size_t most_rows = 32767 / 4;
 
@@ -92,12 +92,13 @@ std::string player_sketch(const Player& player) {
   }
   double largest = 0;
   for (const auto* const angles : {&player.phi, &player.theta}) {
-    for (const double angle : *angles) largest = std::max(largest, std::abs(angle) / degree);
+    for (const double angle : *angles)
+      largest = std::max(largest, std::abs(angle) / radians_per_degree);
   }
   const bool fine = largest < 32;
   const double per_unit = fine ? 0.001 : 0.01;
   const auto in_units = [&](double angle) {
-    return std::to_string(std::lround(angle / degree / per_unit));
+    return std::to_string(std::lround(angle / radians_per_degree / per_unit));
   };
   std::string text = heading;
   text += "// x = " + short_number(100 * player.ball[0]) +

@@ -12,10 +12,10 @@
 namespace bbsim::design {
 namespace {
 
-constexpr double quarter = 1.5707963267948966, turn = 4 * quarter;
+constexpr double quarter = turn / 4;
 
 // A ball that goes round counterclockwise from (1, 0), times any scale.
-Motion circle(const Task& task, double frequency) {
+Motion circle_of(const Task& task, double frequency) {
   Motion motion;
   const bool tilts = task.plays == Plays::tilts;
   // phi accelerates the ball along x, theta against y, and the ball is opposite to its
@@ -41,7 +41,7 @@ std::optional<Circle> best_circle(const Task& task, const Experiment& experiment
   for (double multiple = 1; multiple <= highest && !task.is_stopped();
        multiple = std::max(multiple + 1, std::floor(multiple * 1.33))) {
     const double frequency = turn * multiple / task.length;
-    const auto motion = experiment.within_limits(circle(task, frequency));
+    const auto motion = experiment.within_limits(circle_of(task, frequency));
     if (!motion) continue;
     const double merit = merit_of(experiment.information(motion->motion).matrix);
     if (best && merit <= most) continue;

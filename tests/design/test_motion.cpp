@@ -97,16 +97,16 @@ TEST_CASE("a step rises smoothly to its value") {
 }
 
 TEST_CASE("a motion is played through what the scenario does to its tables") {
-  const auto [times, values] = design::placeholder(length);
+  const design::Placeholder rows = design::placeholder(length);
   const double scale = 1.2, offset = 0.02, delay = 0.1;
   const auto changed = [&](double by_scale, double by_offset, double by_delay) {
     Scenario scenario;
     scenario.gimbal.motion.emplace();
     for (Profile* const profile : {&scenario.gimbal.motion->phi, &scenario.gimbal.motion->theta}) {
       Table table;
-      for (std::size_t i = 0; i < times.size(); ++i) {
-        table.times.push_back(times[i] + by_delay);
-        table.values.push_back(by_offset + by_scale * values[i]);
+      for (std::size_t i = 0; i < rows.times.size(); ++i) {
+        table.times.push_back(rows.times[i] + by_delay);
+        table.values.push_back(by_offset + by_scale * rows.values[i]);
       }
       profile->emplace_back(table);
     }
