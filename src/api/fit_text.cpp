@@ -128,7 +128,8 @@ std::string remarks_of(const FitRequest& request, const fit::Fitted& fitted) {
   }
   if (fitted.interrupted) {
     text += "note: interrupted after " + std::to_string(fitted.iterations) +
-            " iterations: these are the best values so far\n";
+            (fitted.iterations == 1 ? " iteration" : " iterations") +
+            ": these are the best values so far\n";
   }
   if (!fitted.white) {
     text += "note: neighboring residuals are alike (";

@@ -271,6 +271,7 @@ class Fit {
       const double value = key.value(u_[k]);
       if (value != key.lower && value != key.upper) moving.push_back(k);
     }
+    std::size_t iterations = made_.iterations;  // for the progress alone
     for (Index k = 0; k < keys; ++k) {
       const auto i = static_cast<std::size_t>(k);
       const FreeKey& key = task_.keys[i];
@@ -283,7 +284,8 @@ class Fit {
       one.at_bound = one.estimate == key.lower || one.estimate == key.upper;
       if (one.told) {
         one.sd = std::sqrt(covariance(k, k) * variance) * std::abs(key.slope(u_[k]));
-        const Ends ends = profile(task_, windows_, u_, covariance, k, t * t * variance, moving);
+        const Ends ends =
+            profile(task_, windows_, u_, covariance, k, t * t * variance, moving, iterations);
         one.low = key.value(ends.low);
         one.high = key.value(ends.high);
       } else {

@@ -20,7 +20,7 @@ class Profile {
  public:
   Profile(const Task& task, WindowsFit& windows, const VectorXd& u,
           const Eigen::MatrixXd& covariance, Index k, double growth,
-          const std::vector<Index>& moving)
+          const std::vector<Index>& moving, std::size_t& iterations)
       : task_(task),
         windows_(windows),
         u_(u),
@@ -28,7 +28,8 @@ class Profile {
         k_(k),
         growth_(growth),
         linear_(std::sqrt(covariance(k, k) * growth)),
-        least_(windows.residuals(u).squaredNorm()) {
+        least_(windows.residuals(u).squaredNorm()),
+        iterations_(iterations) {
     std::ranges::copy_if(moving, std::back_inserter(others_), [k](Index one) { return one != k; });
   }
 
@@ -44,13 +45,13 @@ class Profile {
     double step = linear_ / 2;
     double inside = 0, outside = std::numeric_limits<double>::infinity();
     constexpr int most_steps = 10;
-    for (int i = 0; i < most_steps && !is_stopped(task_); ++i) {
+    for (int i = 0; i < most_steps; ++i) {
+      if (is_stopped(task_)) return linear_;
       VectorXd v = u_ + step * towards;
       const bool at_bound = is_at_bound(v);
       // To 1 % of the growth.
       const Precision enough{0.01 * growth_ / (least_ + growth_), 1e-4, 15};
-      std::size_t unheard = 0;
-      static_cast<void>(minimize(task_, windows_, others_, v, unheard, enough));
+      static_cast<void>(minimize(task_, windows_, others_, v, iterations_, enough));
       const double ratio = ratio_at(v);
       if (std::abs(ratio - 1) < 0.03) return step / ratio;
       // An end beyond a bound is the bound.
@@ -92,6 +93,7 @@ class Profile {
   VectorXd direction_;
   Index k_;
   double growth_, linear_, least_;
+  std::size_t& iterations_;
   std::vector<Index> others_;
 };
 
@@ -99,8 +101,8 @@ class Profile {
 
 Ends profile(const Task& task, WindowsFit& windows, const VectorXd& u,
              const Eigen::MatrixXd& covariance, Index k, double growth,
-             const std::vector<Index>& moving) {
-  Profile one(task, windows, u, covariance, k, growth, moving);
+             const std::vector<Index>& moving, std::size_t& iterations) {
+  Profile one(task, windows, u, covariance, k, growth, moving, iterations);
   return {u[k] - one.distance(-1), u[k] + one.distance(1)};
 }
 

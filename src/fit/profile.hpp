@@ -22,6 +22,6 @@ struct Ends {
 // bound.
 [[nodiscard]] Ends profile(const Task& task, WindowsFit& windows, const Eigen::VectorXd& u,
                            const Eigen::MatrixXd& covariance, Eigen::Index k, double growth,
-                           const std::vector<Eigen::Index>& moving);
+                           const std::vector<Eigen::Index>& moving, std::size_t& iterations);
 
 }  // namespace bbsim::fit

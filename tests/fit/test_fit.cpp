@@ -323,7 +323,7 @@ TEST_CASE("a stop request keeps the best so far") {
   CHECK(made.code == ExitCode::interrupted);
   CHECK(contains(impatient.heard, "iteration 1, rms residual "));
   CHECK(made.fitted.parameters.size() == 2);
-  CHECK(contains(made.text, "note: interrupted after 1 iterations"));
+  CHECK(contains(made.text, "note: interrupted after 1 iteration:"));
   CHECK(contains(made.scenario, "Fitted by bbsim"));
 }
 
