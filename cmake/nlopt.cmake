@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: 2026 the bbsim authors
 # SPDX-License-Identifier: BSD-3-Clause
 
-# NLopt's header, and the name under which its library is loaded by bbsim tune (docs/decisions/tuning.md).
+# NLopt's header, and the name under which its library is loaded by bbsim tune and design (docs/decisions/tuning.md).
 find_path(NLOPT_INCLUDE_DIR nlopt.h REQUIRED)
 find_library(NLOPT_LIBRARY nlopt REQUIRED)
 mark_as_advanced(NLOPT_INCLUDE_DIR NLOPT_LIBRARY)

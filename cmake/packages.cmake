@@ -33,7 +33,7 @@ ball-and-plate rig of control courses, with the effects of real rigs: sampling,
 delay, noise, limits of servos, backlash and friction. It runs single scenarios
 and large sweeps, and takes controllers in any language.")
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_NAME bbsim)
-set(CPACK_DEBIAN_PROGRAM_PACKAGE_RECOMMENDS libnlopt0) # loaded by bbsim tune
+set(CPACK_DEBIAN_PROGRAM_PACKAGE_RECOMMENDS libnlopt0) # loaded by bbsim tune and design
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_SUGGESTS "gnuplot-nox | gnuplot, g++, python3, octave, bbsim-doc")
 set(CPACK_COMPONENT_DOCS_DESCRIPTION "The tutorials, how-to guides, references and explanations of bbsim, a simulator
 of the ball-and-plate rig of control courses, as Markdown.")

@@ -117,6 +117,7 @@ void add_merge(Command& command, const Options& options);
 void add_new(Command& command, const Options& options);
 void add_examples(Command& command, const Options& options);
 void add_fit(Command& command, const Options& options);
+void add_design(Command& command, const Options& options);
 void add_tune(Command& command, const Options& options);
 void add_sketch(Command& command, const Options& options);
 void add_plot(Command& command, const Options& options);

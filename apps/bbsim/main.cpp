@@ -85,6 +85,7 @@ constexpr bbsim::app::NamedCommand commands[] = {
     {"new", "Write a controller or the scenario of a rig to begin with", bbsim::app::add_new},
     {"examples", "List example scenarios, or write one", bbsim::app::add_examples},
     {"fit", "Fit keys of a scenario to logs of a rig", bbsim::app::add_fit},
+    {"design", "Choose the motion whose log tells keys of a scenario best", bbsim::app::add_design},
     {"tune", "Tune keys of a scenario, such as gains, on the worst of many rigs",
      bbsim::app::add_tune},
     {"sketch", "Compile an Arduino sketch into a controller", bbsim::app::add_sketch},

@@ -151,25 +151,6 @@ std::vector<std::string> tables_of(const Scenario& scenario, const std::filesyst
   return keys;
 }
 
-void refuse_starts(const std::string& free) {
-  const std::string_view key = trimmed(std::string_view(free).substr(0, free.find('=')));
-  for (const std::string_view of_start : {"ball.position", "ball.velocity"}) {
-    if (!key.starts_with(of_start)) continue;
-    throw InputError("--free: " + shown(key) +
-                     ": each window's start is fitted anyway; allowed: any other key that is a "
-                     "number");
-  }
-}
-
-void refuse_twice(const std::vector<fit::FreeKey>& keys) {
-  for (const fit::FreeKey& one : keys) {
-    const auto same = [&](const fit::FreeKey& other) { return other.name == one.name; };
-    if (std::ranges::count_if(keys, same) > 1) {
-      throw InputError("--free: " + shown(one.name) + " is there twice");
-    }
-  }
-}
-
 double window_of(const std::string& text) {
   const auto value = scenario::value_in(text, "s");
   if (value && *value > 0) return *value;
@@ -198,11 +179,7 @@ FitResult fit(const FitRequest& request, bool with_scenario, Watch& watch) {
   }
   FitResult made;
   fit::Task task{request.family, {}, {}, {}};
-  for (const std::string& text : request.free) {
-    if (fit::is_of_log(text)) continue;
-    refuse_starts(text);
-    task.keys.push_back(fit::read_free_key(text, request.family));
-  }
+  task.keys = fit::read_free_keys(request.free, request.family);
   if (with_scenario) {  // what cannot be written is said before the work
     std::vector<ScenarioFamily::Setting> settings;
     for (const fit::FreeKey& key : task.keys) settings.push_back(key.setting(key.start));
@@ -225,9 +202,8 @@ FitResult fit(const FitRequest& request, bool with_scenario, Watch& watch) {
     }
   }
   for (const std::string& text : request.free) {
-    if (fit::is_of_log(text)) task.keys.push_back(fit::read_log_key(text, task.columns));
+    if (fit::is_of_log(text)) fit::add_free_key(task.keys, fit::read_log_key(text, task.columns));
   }
-  refuse_twice(task.keys);
   if (!request.window.empty()) task.window = window_of(request.window);
   task.with_series = request.with_series;
   task.hold_out = request.hold_out;

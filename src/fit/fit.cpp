@@ -26,7 +26,6 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double usual_window = 2;  // s
 constexpr double unlimited = std::numeric_limits<double>::infinity();
 
 Index at(std::size_t i) {

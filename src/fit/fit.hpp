@@ -19,6 +19,9 @@
 
 namespace bbsim::fit {
 
+// The length of windows if nothing else is said, s: a plate makes the ball a double integrator.
+inline constexpr double usual_window = 2;
+
 struct Task {
   const ScenarioFamily& family;
   std::vector<FreeKey> keys;
@@ -31,7 +34,8 @@ struct Task {
   bool robust = false;             // Huber's loss in place of least squares
   std::function<void(double fraction, const std::string& detail)> progress{};
   const std::atomic<bool>* stop = nullptr;
-  bool with_series = false;  // Fitted has them
+  bool with_series = false;                // Fitted has them
+  std::function<void(Scenario&)> adapt{};  // changes each scenario that is read
 };
 
 struct Parameter {

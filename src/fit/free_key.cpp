@@ -3,9 +3,11 @@
 
 #include "fit/free_key.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <utility>
 
 #include "base/error.hpp"
 #include "base/number_text.hpp"
@@ -58,6 +60,15 @@ void read_bounds(std::string_view text, FreeKey& key) {
   }
   key.lower = *from;
   key.upper = *to;
+}
+
+void refuse_starts(std::string_view text) {
+  const std::string_view key = trimmed(text.substr(0, text.find('=')));
+  for (const std::string_view of_start : {"ball.position", "ball.velocity"}) {
+    if (!key.starts_with(of_start)) continue;
+    refuse(shown(key) +
+           ": each window's start is fitted anyway; allowed: any other key that is a number");
+  }
 }
 
 }  // namespace
@@ -168,6 +179,24 @@ FreeKey read_log_key(std::string_view text, const std::vector<const scenario::Co
   }
   key.scale = bounded ? (key.upper - key.lower) / 10 : usual(yaml::Dimension::length);
   return key;
+}
+
+void add_free_key(std::vector<FreeKey>& keys, FreeKey key) {
+  if (std::ranges::find(keys, key.name, &FreeKey::name) != keys.end()) {
+    refuse(shown(key.name) + " is there twice");
+  }
+  keys.push_back(std::move(key));
+}
+
+std::vector<FreeKey> read_free_keys(const std::vector<std::string>& texts,
+                                    const ScenarioFamily& family) {
+  std::vector<FreeKey> keys;
+  for (const std::string& text : texts) {
+    if (is_of_log(text)) continue;
+    refuse_starts(text);
+    add_free_key(keys, read_free_key(text, family));
+  }
+  return keys;
 }
 
 }  // namespace bbsim::fit

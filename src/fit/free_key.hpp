@@ -45,5 +45,11 @@ struct FreeKey {
 // Reads it, for a fit that compares `columns`. Throws InputError.
 [[nodiscard]] FreeKey read_log_key(std::string_view text,
                                    const std::vector<const scenario::Column*>& columns);
+// Throws InputError where `keys` has one of that name.
+void add_free_key(std::vector<FreeKey>& keys, FreeKey key);
+// The keys of a scenario among `texts`, without those of a log. Throws InputError for a key that is
+// there twice, or that is of a window's start.
+[[nodiscard]] std::vector<FreeKey> read_free_keys(const std::vector<std::string>& texts,
+                                                  const ScenarioFamily& family);
 
 }  // namespace bbsim::fit

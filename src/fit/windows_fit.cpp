@@ -126,7 +126,9 @@ Variant WindowsFit::variant(const VectorXd& u, std::string* why) const {
           settings.push_back(key.setting(key.value(u[at(k)])));
         }
       }
-      scenes.push_back(prepared(task_.family.read(settings)));
+      Scenario scenario = task_.family.read(settings);
+      if (task_.adapt) task_.adapt(scenario);
+      scenes.push_back(prepared(std::move(scenario)));
     }
   } catch (const InputError& error) {
     if (why == nullptr) throw;
@@ -272,6 +274,17 @@ VectorXd WindowsFit::residuals(const VectorXd& u, bool first) {
 WindowsFit::Derivatives WindowsFit::derivatives(const VectorXd& u) {
   if (trial_u_.size() != u.size() || trial_u_ != u) static_cast<void>(residuals(u));
   base_ = trial_;
+  return differences(u);
+}
+
+WindowsFit::Derivatives WindowsFit::derivatives(const VectorXd& u,
+                                                const std::vector<Start>& starts) {
+  for (std::size_t w = 0; w < base_.size(); ++w) base_[w].start = starts[w];
+  return differences(u);
+}
+
+// At the starts of `base_`.
+WindowsFit::Derivatives WindowsFit::differences(const VectorXd& u) {
   const Index keys = u.size();
   std::string why;
   const Variant middle = variant(u, &why);

@@ -61,6 +61,8 @@ class WindowsFit {
     Eigen::VectorXd free_norms;
   };
   [[nodiscard]] Derivatives derivatives(const Eigen::VectorXd& u);
+  // The same where the windows' starts are known.
+  [[nodiscard]] Derivatives derivatives(const Eigen::VectorXd& u, const std::vector<Start>& starts);
 
   // Begins again with guesses of the windows' starts.
   void restart();
@@ -75,6 +77,7 @@ class WindowsFit {
     int fresh_rounds = 3;  // for which slopes are still to be computed; the first start is a guess
   };
 
+  [[nodiscard]] Derivatives differences(const Eigen::VectorXd& u);
   [[nodiscard]] Variant variant(const Eigen::VectorXd& u, std::string* why) const;
   void guess_starts();
   // One window at one set of values.

@@ -10,6 +10,7 @@
 #include <string_view>
 
 #include "base/error.hpp"
+#include "scenario/section_extent.hpp"
 #include "yaml/check_text.hpp"
 #include "yaml/document.hpp"
 #include "yaml/spelling.hpp"
@@ -62,6 +63,7 @@ class Editor {
 
   void set(const Node& root) {
     const Node* node = &root;
+    const Entry* key = nullptr;  // whose value the node is
     std::string_view path = setting_.key;
     while (!path.empty()) {
       const std::size_t dot = path.find('.');
@@ -71,16 +73,20 @@ class Editor {
         const Entry* const entry = find(*node, name);
         if (entry == nullptr) return insert(*node, path);
         next = entry->value;
+        key = entry;
       } else if (node->kind == Node::Kind::sequence) {
         std::size_t index = 0;
         const auto read = std::from_chars(name.data(), name.data() + name.size(), index);
         if (read.ec == std::errc() && index < node->items.size()) next = node->items[index];
+        key = nullptr;
       }
       if (next == nullptr) refuse();
       node = next;
       path.remove_prefix(dot == std::string_view::npos ? path.size() : dot + 1);
     }
-    replace(*node);
+    if (node->kind == Node::Kind::scalar) return replace(*node);
+    if (key == nullptr || setting_.value == "null") refuse();
+    replace_section(*node, *key);
   }
 
  private:
@@ -91,11 +97,31 @@ class Editor {
   }
 
   void replace(const Node& scalar) {
-    if (scalar.kind != Node::Kind::scalar) refuse();
     const std::size_t at = offset_of(text_, scalar.position);
     const auto length = written_length(std::string_view(text_).substr(at), scalar);
     if (!length) refuse();
     text_.replace(at, *length, setting_.value);
+  }
+
+  // A mapping or a list; what is empty in the text has no place.
+  void replace_section(const Node& section, const Entry& key) {
+    if (section.kind == Node::Kind::null) refuse();
+    const std::size_t name = offset_of(text_, key.position);
+    const std::size_t at = offset_of(text_, section.position);
+    // An alias stands elsewhere.
+    if (at < name || key.position.source != section.position.source) refuse();
+    const std::string_view between = std::string_view(text_).substr(name, at - name);
+    if (between.find_first_of("&*") != std::string_view::npos) refuse();
+    if (text_[at] == '{' || text_[at] == '[') {
+      const auto extent = scenario::flow_extent(text_, at);
+      if (!extent) refuse();
+      text_.replace(at, extent->to - at, setting_.value);
+      return;
+    }
+    const auto extent = scenario::block_extent(text_, name);
+    if (!extent) refuse();
+    text_.erase(extent->from, extent->to - extent->from);
+    text_.insert(text_.find(':', name) + 1, ' ' + setting_.value);
   }
 
   void insert(const Node& mapping, std::string_view path) {

@@ -34,6 +34,10 @@ class ScenarioFamily {
   // that their text names. Not while another thread reads.
   void give_controller(ControllerFactory factory);
 
+  // Scenarios that are read from now on find this table in place of a file, under the name that
+  // they give for it. Not while another thread reads.
+  void give_table(const std::string& file, file::TableData table);
+
   // A value for the key at a path, in YAML as after --set.
   struct Setting {
     std::string key, value;

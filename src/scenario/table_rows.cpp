@@ -204,6 +204,7 @@ struct OffsetOf {
             : yaml::Quantity{};
     if (!bare.value || !unit) return yaml::Number{dimension}.read(value, into);
     into = unit->in_si(*bare.value);
+    value.note(into, dimension);
     return true;
   }
 };

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 #include <string>
+#include <variant>
 
 #include "base/error.hpp"
 #include "catch.hpp"
@@ -40,6 +41,80 @@ TEST_CASE("numbers change in a scenario's text, and nothing else does") {
         changed("# a marble\n", "# a marble\n  mass: 2\n"));
   CHECK_THROWS_AS(with("gimbal.motion.phi.2", "1"), InputError);
   CHECK_THROWS_AS(with("ball.radius.0", "1"), InputError);
+}
+
+TEST_CASE("a section of a scenario's text is replaced as a whole") {
+  const std::string text =
+      "ball: {radius: 1 cm, position: [\"2 cm\", 0]}  # a marble\n"
+      "gimbal:\n"
+      "  # tilts\n"
+      "  motion:  # of a log\n"
+      "    # phi is measured\n"
+      "    phi:\n"
+      "      - {sinusoid: {amplitude: 1, frequency: 2}}\n"
+      "\n"
+      "      - 0.5\n"
+      "    theta: {table: {file: \"a}.csv\", time: t,  # }\n"
+      "      value: 'it''s'}}\n"
+      "  # the rest\n"
+      "  mounting: {height: 1 cm}\n"
+      "time: {end: 1, step: 1}\n";
+  const auto with = [&](const std::string& key, const std::string& value) {
+    return edited_text(text, {{key, value}});
+  };
+  CHECK(with("gimbal.motion", "{phi: 0, theta: 0}") ==
+        "ball: {radius: 1 cm, position: [\"2 cm\", 0]}  # a marble\n"
+        "gimbal:\n"
+        "  # tilts\n"
+        "  motion: {phi: 0, theta: 0}  # of a log\n"
+        "  # the rest\n"
+        "  mounting: {height: 1 cm}\n"
+        "time: {end: 1, step: 1}\n");
+  const auto changed = [&](const std::string& from, const std::string& to) {
+    std::string made = text;
+    return made.replace(made.find(from), from.size(), to);
+  };
+  CHECK(with("ball.position", "[0, 0]") == changed("[\"2 cm\", 0]", "[0, 0]"));
+  CHECK(with("gimbal.motion.theta", "0") ==
+        changed("{table: {file: \"a}.csv\", time: t,  # }\n      value: 'it''s'}}", "0"));
+  CHECK(with("gimbal.motion.phi", "0") ==
+        changed("phi:\n      - {sinusoid: {amplitude: 1, frequency: 2}}\n\n      - 0.5", "phi: 0"));
+  CHECK(edited_text("list:\n- 1\n- 2\nnext: 3", {{"list", "[4]"}}) == "list: [4]\nnext: 3");
+  // --set KEY=null removes a section; a text keeps it.
+  CHECK_THROWS_AS(with("gimbal.motion", "null"), InputError);
+  // Another key has the same section.
+  CHECK_THROWS_AS(edited_text("a: &it {b: 1}\nc: *it\n", {{"c", "{b: 2}"}}), InputError);
+  CHECK_THROWS_AS(edited_text("a: &it {b: 1}\nc: *it\n", {{"a", "{b: 2}"}}), InputError);
+  CHECK_THROWS_AS(edited_text("a:\n", {{"a", "{b: 2}"}}), InputError);
+}
+
+TEST_CASE("an offset in the unit of its table is a number of the scenario") {
+  const ScenarioFamily family(
+      Source{std::string(BBSIM_SOURCE_DIR) + "/configs/scene.yaml",
+             "ball: {radius: 1 cm}\n"
+             "gimbal: {motion: {theta: 0, phi: {table: {file: recorded-angles.csv, time: t, value: "
+             "phi, unit: deg, offset: 2}}}}\n"
+             "time: {end: 1, step: 0.1}\n",
+             {}});
+  const auto offset = family.number_at("gimbal.motion.phi.table.offset", {});
+  REQUIRE(offset);
+  CHECK(*offset == Approx(0.034906585));
+}
+
+TEST_CASE("a family finds a table that it was given") {
+  ScenarioFamily family(Source{"nowhere/scene.yaml",
+                               "ball: {radius: 1 cm}\n"
+                               "gimbal: {motion: {theta: 0, phi: {table: {file: it.csv, time: t, "
+                               "value: v}}}}\n"
+                               "time: {end: 3, step: 1}\n",
+                               {}});
+  CHECK_THROWS_AS(family.read({}), InputError);
+  for (const double last : {4.0, 5.0}) {
+    family.give_table("it.csv", {{"t", "v"}, {{0, 1, 2, 3}, {1, 2, 3, last}}});
+    const Scenario scenario = family.read({});
+    CHECK(std::get<Table>(scenario.gimbal.motion->phi.front()).values.back() == last);
+  }
+  CHECK(family.inputs().size() == 1);
 }
 
 TEST_CASE("the unit, range and default of a number") {

@@ -1,0 +1,53 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// What a motion may do to a rig.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "scenario/scenario.hpp"
+
+namespace bbsim::design {
+
+struct Limits {
+  // Of the ball from the plate's center: along x and y, or in any direction, m.
+  std::optional<Pair> rectangle{};
+  std::optional<double> disc{};
+  Pair tilt{0, 0};                        // of phi and theta, rad
+  std::optional<double> total_tilt{};     // of the plate's normal from the vertical, rad
+  Pair tilt_rate{0, 0};                   // rad/s
+  std::optional<double> friction{};       // that rolling may need
+  std::string tilt_from, tilt_rate_from;  // where they come from, in words
+};
+
+// What the caller asks for in place of what the scenario says.
+struct LimitChoice {
+  std::optional<double> tilt{}, tilt_rate{}, margin{};
+};
+
+// Throws InputError for a plate without a size, or that the margin leaves nothing of.
+[[nodiscard]] Limits limits_of(const Scenario& scenario, const LimitChoice& choice);
+
+// What of each limit a motion uses: 1 is all of it.
+struct Use {
+  std::array<double, 4> edge{};  // toward x, -x, y and -y
+  Pair tilt{0, 0}, tilt_rate{0, 0};
+  double total_tilt = 0, friction = 0;
+  Pair middle{0, 0};  // of the ball's path, m
+
+  [[nodiscard]] std::array<double, 10> all() const;
+  [[nodiscard]] double greatest() const;
+  [[nodiscard]] double greatest_edge() const;
+  [[nodiscard]] double greatest_tilt() const;
+  [[nodiscard]] double greatest_tilt_rate() const;
+};
+
+// The columns that use_of() needs, and the use of their values, column after column.
+[[nodiscard]] std::vector<std::string> columns_of_use(const Limits& limits);
+[[nodiscard]] Use use_of(const Limits& limits, const std::vector<double>& values);
+
+}  // namespace bbsim::design
