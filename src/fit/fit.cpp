@@ -68,9 +68,9 @@ class Fit {
   Fit(const Task& task, std::vector<Window> windows, Fitted& made)
       : task_(task),
         made_(made),
-        windows_(task, std::move(windows)),
-        spreads_(spreads_of(task)),
-        u_(VectorXd::Zero(at(task.keys.size()))) {}
+        windows_(task_, std::move(windows)),
+        spreads_(spreads_of(task_)),
+        u_(VectorXd::Zero(at(task_.keys.size()))) {}
 
   // False if it is interrupted; what it has come to is then the best so far.
   bool run() {
@@ -78,7 +78,7 @@ class Fit {
     residuals_ = windows_.residuals(u_, true);
     if (is_stopped(task_)) return false;
     before_ = rms_of(windows_, residuals_);
-    refuse_idle_keys();
+    scale_keys();
     if (!choose_start()) return false;
     residuals_ = windows_.residuals(u_);
     set_noise();
@@ -181,20 +181,34 @@ class Fit {
     return !is_stopped(task_);
   }
 
-  void refuse_idle_keys() {
-    const VectorXd norms = windows_.derivatives(u_).free_norms;
-    // With the noise at the columns' spreads, this is a change of the logs of one part in 1e7.
-    const double least = 1e-7 * std::sqrt(static_cast<double>(windows_.size()));
-    for (Index k = 0; k < norms.size(); ++k) {
-      if (norms[k] > least) continue;
-      std::string columns;
-      for (const scenario::Column* const column : task_.columns) {
-        columns += (columns.empty() ? "" : ", ") + std::string(column->name);
+  // Refuses keys without an effect. A scale by which a key changes the logs by much more than they
+  // vary is a bad guess: its differences would be those of another rig.
+  void scale_keys() {
+    constexpr int most_rounds = 8;
+    constexpr double much = 10;
+    bool is_scaled = false;
+    for (int round = 0; round < most_rounds && !is_scaled; ++round) {
+      // With the noise at the columns' spreads, the change of the logs by each key's scale.
+      const VectorXd changes =
+          windows_.derivatives(u_).free_norms / std::sqrt(static_cast<double>(windows_.size()));
+      is_scaled = true;
+      for (Index k = 0; k < changes.size(); ++k) {
+        FreeKey& key = task_.keys[static_cast<std::size_t>(k)];
+        if (!(changes[k] > 1e-7)) refuse_idle(key);
+        if (key.logarithmic || !(changes[k] > much)) continue;
+        key.scale /= changes[k];
+        is_scaled = false;
       }
-      throw InputError("--free: " + task_.keys[static_cast<std::size_t>(k)].name +
-                       ": has no effect on " + columns +
-                       "; allowed: keys that the compared columns depend on");
     }
+  }
+
+  [[noreturn]] void refuse_idle(const FreeKey& key) const {
+    std::string columns;
+    for (const scenario::Column* const column : task_.columns) {
+      columns += (columns.empty() ? "" : ", ") + std::string(column->name);
+    }
+    throw InputError("--free: " + key.name + ": has no effect on " + columns +
+                     "; allowed: keys that the compared columns depend on");
   }
 
   [[nodiscard]] double degrees_of_freedom() const {
@@ -329,7 +343,7 @@ class Fit {
     return names + " are not told apart by the log: it stays the same with " + changes;
   }
 
-  const Task& task_;
+  Task task_;
   Fitted& made_;
   WindowsFit windows_;
   std::vector<double> spreads_, before_;

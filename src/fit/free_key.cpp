@@ -22,8 +22,9 @@ namespace {
 constexpr double unlimited = std::numeric_limits<double>::infinity();
 constexpr double usual_delay = 0.2;  // s; a camera's is at most that
 
-// A usual size of what has this dimension, where nothing else tells one.
-double usual(yaml::Dimension dimension) {
+// A usual size of what has this dimension, where nothing else tells one; none where sizes differ by
+// orders of magnitude, such as those of a friction torque.
+std::optional<double> usual(yaml::Dimension dimension) {
   switch (dimension) {
     case yaml::Dimension::length:
     case yaml::Dimension::time:
@@ -32,8 +33,16 @@ double usual(yaml::Dimension dimension) {
     case yaml::Dimension::force:
       return 0.01;
     default:
-      return 0.1;
+      return {};
   }
+}
+
+// A change of a key that is likely to show.
+double scale_from(double start, yaml::Dimension dimension) {
+  constexpr double unknown = 0.1;
+  const std::optional<double> size = usual(dimension);
+  if (size) return std::max(std::abs(start), *size);
+  return start == 0 ? unknown : std::abs(start);
 }
 
 [[noreturn]] void refuse(const std::string& what) {
@@ -120,8 +129,7 @@ FreeKey read_free_key(std::string_view text, const ScenarioFamily& family) {
   key.start = *start;
   key.logarithmic = key.start > 0 && (range.above >= 0.0 || key.lower > 0);
   const bool given = equals != std::string_view::npos && bounded;
-  key.scale = given ? (key.upper - key.lower) / 10
-                    : std::max(std::abs(key.start), usual(number.key.dimension));
+  key.scale = given ? (key.upper - key.lower) / 10 : scale_from(key.start, number.key.dimension);
   // Whether the scene takes the key at all.
   static_cast<void>(family.read({key.setting(key.start)}));
   return key;
@@ -177,7 +185,7 @@ FreeKey read_log_key(std::string_view text, const std::vector<const scenario::Co
       key.start = (key.lower + key.upper) / 2;
     }
   }
-  key.scale = bounded ? (key.upper - key.lower) / 10 : usual(yaml::Dimension::length);
+  key.scale = bounded ? (key.upper - key.lower) / 10 : scale_from(0, yaml::Dimension::length);
   return key;
 }
 

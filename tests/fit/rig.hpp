@@ -4,6 +4,7 @@
 // A rig whose numbers are known, and its logs.
 #pragma once
 
+#include <cmath>
 #include <cstddef>
 #include <random>
 #include <string>
@@ -40,10 +41,10 @@ gimbal:
 time: {end: 10, step: 50 ms}
 )";
 
-// Rows of the true rig, with noise of `sd` (m) on the ball; phi as a gauge gives it that reads
-// (phi - offset) / scale.
+// Rows of the true rig, with noise of `sd` (m) on the ball, rounded to `step` (m); phi as a gauge
+// gives it that reads (phi - offset) / scale.
 inline std::string log_text(double sd, double scale = 1, double offset = 0, unsigned seed = 1,
-                            const std::string& scenario = true_rig) {
+                            const std::string& scenario = true_rig, double step = 0) {
   const bbsim::ScenarioFamily family(bbsim::Source{"true.yaml", scenario, {}});
   bbsim::api::RunRequest request{family.read({})};
   request.keeps_rows = true;
@@ -54,8 +55,12 @@ inline std::string log_text(double sd, double scale = 1, double offset = 0, unsi
   std::string text = "t,x,y,phi,theta\n";
   const auto& columns = made.rows.columns;
   for (std::size_t row = 0; row < columns.front().size(); ++row) {
-    const double values[] = {columns[0][row], columns[1][row] + sd * noise(random),
-                             columns[2][row] + sd * noise(random),
+    const double x = columns[1][row] + sd * noise(random);
+    const double y = columns[2][row] + sd * noise(random);
+    const auto shown = [&](double value) {
+      return step > 0 ? step * std::round(value / step) : value;
+    };
+    const double values[] = {columns[0][row], shown(x), shown(y),
                              (columns[3][row] - offset) / scale, columns[4][row]};
     for (std::size_t c = 0; c < 5; ++c) {
       text += bbsim::number_text(values[c]) + (c < 4 ? "," : "\n");

@@ -114,6 +114,33 @@ TEST_CASE("keys of a rig are found from its log, within their intervals") {
   }
 }
 
+TEST_CASE("eight keys of a rig are found at once, from a log with noise and rounding") {
+  std::string slowed = true_rig;
+  slowed.replace(slowed.find("inertia_factor: 0.43"), 20,
+                 "inertia_factor: 0.43, mass: 3 g, losses: {viscous: 2e-7}");
+  std::string believed = assumed_rig;
+  believed.replace(believed.find("radius: 1 cm"), 12,
+                   "radius: 1 cm, mass: 3 g, losses: {viscous: 0}");
+  const Case rig(log_text(5e-4, 1.1, 0.01, 3, slowed, 3.2e-4), believed);
+  const api::FitResult made =
+      rig.fit({"ball.inertia_factor", "ball.losses.viscous", "gimbal.motion.phi.table.scale",
+               "gimbal.motion.phi.table.offset", "gimbal.motion.theta.table.scale",
+               "gimbal.motion.theta.table.offset", "gimbal.motion.phi.table.delay=-100:100 ms",
+               "gimbal.motion.theta.table.delay=-100:100 ms"});
+  CAPTURE(made.text);
+  const double truth[] = {0.43, 2e-7, 1.1, 0.01, 1, 0, 0, 0};
+  REQUIRE(made.fitted.parameters.size() == 8);
+  for (std::size_t k = 0; k < 8; ++k) {
+    const fit::Parameter& one = made.fitted.parameters[k];
+    CAPTURE(one.key, one.estimate, one.sd);
+    CHECK(one.told);
+    CHECK(is_near(one, truth[k]));
+    // Of a friction torque, whose scale nothing tells before: to a tenth.
+    if (k == 1) CHECK(one.sd < 0.1 * truth[1]);
+  }
+  CHECK(made.fitted.white);
+}
+
 TEST_CASE("without noise, the fit is exact") {
   const Case rig(log_text(0, 0.9));
   const api::FitResult made = rig.fit({"ball.inertia_factor", "gimbal.motion.phi.table.scale"});
