@@ -4,9 +4,11 @@
 #include "fit/free_key.hpp"
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <system_error>
 #include <utility>
 
 #include "base/error.hpp"
@@ -49,14 +51,27 @@ double scale_from(double start, yaml::Dimension dimension) {
   throw InputError("--free: " + what);
 }
 
-// The bounds of FROM:TO.
+// What follows the number that `text` begins with; nothing if it begins with none.
+std::optional<std::string_view> after_number(std::string_view text) {
+  text = trimmed(text);
+  double number = 0;
+  const auto [rest, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+  if (error != std::errc()) return {};
+  return trimmed(text.substr(static_cast<std::size_t>(rest - text.data())));
+}
+
+// The bounds of FROM:TO. A unit of TO alone is also that of FROM.
 void read_bounds(std::string_view text, FreeKey& key) {
   const std::string name = shown(key.name);
   const std::size_t colon = text.find(':');
   std::optional<double> from, to;
   if (colon != std::string_view::npos) {
-    from = scenario::value_in(text.substr(0, colon), key.unit);
-    to = scenario::value_in(text.substr(colon + 1), key.unit);
+    const std::string_view last = text.substr(colon + 1);
+    std::string first(text.substr(0, colon));
+    const auto unit = after_number(last);
+    if (unit && after_number(first) == "") first += " " + std::string(*unit);
+    from = scenario::value_in(first, key.unit);
+    to = scenario::value_in(last, key.unit);
   }
   if (!from || !to || !(*from < *to)) {
     refuse(name + ": found " + quoted(text) +

@@ -387,6 +387,19 @@ time: {end: 10, step: 50 ms}
   CHECK(made.fitted.parameters[0].estimate == Approx(0).margin(2e-3));
 }
 
+TEST_CASE("a unit of the upper bound alone is that of both") {
+  const Case rig(log_text(0));
+  const ScenarioFamily family(rig.folder() / "rig.yaml", {});
+  const auto bounds = [&](const std::string& range) {
+    const fit::FreeKey key = fit::read_free_key("gimbal.motion.phi.table.delay=" + range, family);
+    return std::array{key.lower, key.upper};
+  };
+  CHECK(bounds("-100:100 ms") == std::array{-0.1, 0.1});
+  CHECK(bounds("5ms:0.06 s") == std::array{0.005, 0.06});
+  CHECK(bounds("0.005:0.06") == std::array{0.005, 0.06});
+  CHECK(bounds("5 ms:0.06") == std::array{0.005, 0.06});
+}
+
 TEST_CASE("a key at its bound stays there") {
   const Case rig(log_text(5e-4));
   const api::FitResult made = rig.fit({"ball.inertia_factor=0.3:0.41"});
