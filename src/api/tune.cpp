@@ -169,12 +169,43 @@ double excess_of(const Expectation& requirement, double measured) {
   return std::max(over, std::numeric_limits<double>::min());
 }
 
+// Slips that are only noted change no measure, but take a rig out of the lanes of a sweep: they are
+// left out, unless a key or a measure is of them.
+std::vector<ScenarioFamily::Setting> without_notes(const TuneRequest& request,
+                                                   const std::vector<FreeNumber>& free,
+                                                   const Goals& goals) {
+  const Scenario scenario = request.family.read({});
+  const std::string section = "events.slip";
+  const auto& slip = scenario.events.slip;
+  if (!slip || slip->action != OnEvent::note || slip->sliding) return {};
+  for (const std::string& varied : request.vary) {
+    if (varied.starts_with(section)) return {};
+  }
+  for (const FreeNumber& number : free) {
+    for (const FreeNumber::Key& key : number.keys) {
+      if (key.name.starts_with(section)) return {};
+    }
+  }
+  std::vector<ScenarioFamily::Setting> settings = {{section, "null"}};
+  const Scenario without = request.family.read(settings);
+  const auto is_missing = [&](const scenario::Measure& measure) {
+    return bool(scenario::missing(measure, without));
+  };
+  if (std::ranges::any_of(goals.measures, is_missing)) return {};
+  return settings;
+}
+
 // Runs rigs at points of the search.
 class Rigs {
  public:
   Rigs(const TuneRequest& request, const std::vector<FreeNumber>& free, const Goals& goals,
        double end, Watch& watch)
-      : request_(request), free_(free), goals_(goals), end_(end), watch_(watch) {
+      : request_(request),
+        free_(free),
+        goals_(goals),
+        end_(end),
+        watch_(watch),
+        always_(without_notes(request, free, goals)) {
     for (const FreeNumber& number : free_) {
       for (const FreeNumber::Key& key : number.keys) keys_.push_back(key.name);
     }
@@ -191,7 +222,7 @@ class Rigs {
     }
     scores.clear();
     try {
-      const sweep::SweepPlan plan(request_.family, rigs, keys_, listed);
+      const sweep::SweepPlan plan(request_.family, rigs, keys_, listed, always_);
       sweep::SweepTask task{request_.family, plan, goals_.measures};
       task.tell = [this](std::string_view line) { watch_.controller_says(line); };
       const std::size_t processors = std::max(1U, std::thread::hardware_concurrency());
@@ -259,6 +290,7 @@ class Rigs {
   const Goals& goals_;
   const double end_;
   Watch& watch_;
+  std::vector<ScenarioFamily::Setting> always_;
   std::vector<std::string> keys_;
   std::string reason_;
 };

@@ -335,8 +335,9 @@ SweepPlan::SweepPlan(const ScenarioFamily& family, const Sweep& sweep)
 }
 
 SweepPlan::SweepPlan(const ScenarioFamily& family, const SweepPlan* of,
-                     const std::vector<std::string>& keys, const std::vector<Listed>& cases)
-    : combine_(Combine::zip), cases_(cases.size()), seed_(0) {
+                     const std::vector<std::string>& keys, const std::vector<Listed>& cases,
+                     std::vector<Setting> always)
+    : always_(std::move(always)), combine_(Combine::zip), cases_(cases.size()), seed_(0) {
   if (of != nullptr) {
     axes_ = of->axes_;
     std::vector<double> values(axes_.size());
@@ -419,8 +420,8 @@ std::vector<Setting> SweepPlan::settings(std::size_t number) const {
 }
 
 std::vector<Setting> SweepPlan::settings_of(const std::vector<double>& values) const {
-  std::vector<Setting> settings;
-  settings.reserve(axes_.size());
+  std::vector<Setting> settings = always_;
+  settings.reserve(always_.size() + axes_.size());
   for (std::size_t a = 0; a < axes_.size(); ++a) {
     settings.push_back({axes_[a].key, value_text(axes_[a], values[a])});
   }

@@ -51,10 +51,10 @@ class SweepPlan {
     std::size_t of = 0;
     std::vector<double> numbers;
   };
-  // Lists cases of `of`; of the scenario itself if it is null. Reads only the first one: another
-  // that is refused says so when it is run. Throws InputError.
+  // Lists cases of `of`; of the scenario itself if it is null. Each has the settings `always`, too.
+  // Reads only the first one: another that is refused says so when it is run. Throws InputError.
   SweepPlan(const ScenarioFamily& family, const SweepPlan* of, const std::vector<std::string>& keys,
-            const std::vector<Listed>& cases);
+            const std::vector<Listed>& cases, std::vector<ScenarioFamily::Setting> always = {});
 
   [[nodiscard]] std::size_t cases() const { return cases_; }
   [[nodiscard]] const std::vector<Axis>& axes() const { return axes_; }
@@ -94,6 +94,7 @@ class SweepPlan {
   [[nodiscard]] static double drawn(const Axis& axis, std::size_t number);
 
   std::vector<Axis> axes_;
+  std::vector<ScenarioFamily::Setting> always_;
   Combine combine_;
   std::size_t samples_ = 1, cases_ = 1;
   std::uint64_t seed_;

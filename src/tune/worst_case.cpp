@@ -19,10 +19,10 @@ namespace {
 // Cases are run in groups of this size.
 constexpr std::size_t group = 8;
 // With few cases, all of them are always looked at.
-constexpr std::size_t first_cases = 2 * group;
+constexpr std::size_t first_cases = 2 * group, most_cases = 4 * group;
 // Rounds with further cases, and what a search is given in each, in multiples of the numbers
 // plus 1.
-constexpr std::size_t most_rounds = 8;
+constexpr std::size_t most_rounds = 8, most_stalled = 2;
 constexpr std::size_t scanned = 8, first_search = 16, later_search = 8;
 constexpr double first_step = 0.15, later_step = 0.04;
 // Requirements are aimed at with this margin: a search ends on either side of them.
@@ -83,11 +83,13 @@ class Search {
     for (const Candidate& start : starts) {
       if (!go_down(start.point, first_step, first_search * size_, best)) return false;
     }
-    for (std::size_t round = 0;; ++round) {
-      const Merit expected = best->merit;
+    for (std::size_t round = 0, stalled = 0;; ++round) {
+      const Merit expected = best->merit, before = found_.merit;
       if (!try_in_all(best->point)) return false;
       const bool others_are_worse = is_worse(last_, expected);
-      if (round == most_rounds || (!others_are_worse && has_come_down(expected))) return true;
+      stalled = has_come_down(before, found_.merit) ? stalled + 1 : 0;
+      const bool settled = !others_are_worse && expected_ && has_come_down(*expected_, expected);
+      if (round == most_rounds || settled || stalled == most_stalled) return true;
       if (others_are_worse) add_cases();
       expected_ = others_are_worse ? std::nullopt : std::optional(expected);
       best.reset();
@@ -95,13 +97,12 @@ class Search {
     }
   }
 
-  // Whether a round with the same cases has gained next to nothing.
-  [[nodiscard]] bool has_come_down(const Merit& now) const {
-    if (!expected_) return false;
+  // Whether a round has gained next to nothing.
+  static bool has_come_down(const Merit& before, const Merit& now) {
     constexpr double little = 1e-3;
-    return now.unsettled >= (1 - little) * expected_->unsettled &&
-           now.excess >= (1 - little) * expected_->excess &&
-           expected_->objective - now.objective <= little * std::abs(now.objective);
+    return now.unsettled >= (1 - little) * before.unsettled &&
+           now.excess >= (1 - little) * before.excess &&
+           before.objective - now.objective <= little * std::abs(now.objective);
   }
 
   // By more than rounding, which depends on what is run beside a case.
@@ -140,7 +141,7 @@ class Search {
     cases_ = all_;
     if (all_.size() <= first_cases || problem_.share < 1) return;
     cases_.clear();
-    add_worst(found_.scores, group);
+    add_worst(found_.scores, all_, group);
     for (std::size_t i = 0; cases_.size() < first_cases; ++i) {
       add(i * all_.size() / first_cases);
       if (i >= first_cases) add(i - first_cases);
@@ -148,8 +149,12 @@ class Search {
     std::ranges::sort(cases_);
   }
 
+  // The worst of all cases join, and the least of those looked at so far make room.
   void add_cases() {
-    add_worst(last_scores_, group);
+    const std::vector<std::size_t> before = std::exchange(cases_, {});
+    add_worst(last_scores_, all_, group);
+    add_worst(last_scores_, before, std::min(before.size() + group, most_cases) - cases_.size());
+    add_worst(last_scores_, all_, std::min(before.size() + group, most_cases) - cases_.size());
     std::ranges::sort(cases_);
   }
 
@@ -157,11 +162,12 @@ class Search {
     if (one < all_.size() && std::ranges::find(cases_, one) == cases_.end()) cases_.push_back(one);
   }
 
-  // Adds the worst cases of the objective and of each requirement in turn.
-  void add_worst(const std::vector<CaseScore>& scores, std::size_t count) {
+  // Adds up to `count` of `cases`: the worst of the objective and of each requirement in turn.
+  void add_worst(const std::vector<CaseScore>& scores, const std::vector<std::size_t>& cases,
+                 std::size_t count) {
     std::vector<std::vector<std::size_t>> orders;
     const auto add_order = [&](const auto& value) {
-      std::vector<std::size_t> order = all_;
+      std::vector<std::size_t> order = cases;
       std::ranges::stable_sort(order, [&](std::size_t a, std::size_t b) {
         return std::pair(value(scores[a]), scores[a].missed) >
                std::pair(value(scores[b]), scores[b].missed);
@@ -173,7 +179,7 @@ class Search {
       add_order([r](const CaseScore& score) { return score.excess[r]; });
     }
     const std::size_t wanted = std::min(all_.size(), cases_.size() + count);
-    for (std::size_t i = 0; i < all_.size(); ++i) {
+    for (std::size_t i = 0; i < cases.size(); ++i) {
       for (const auto& order : orders) {
         if (cases_.size() < wanted) add(order[i]);
       }
