@@ -22,14 +22,14 @@ auto with_places(const Scenario& scenario, const Make& make) {
 }  // namespace
 
 model::Model assemble(const Scenario& scenario, const std::vector<const scenario::Column*>& columns,
-                      model::Symmetry symmetry) {
+                      model::Form form) {
   return with_places(
-      scenario, [&] { return model::assemble(scenario, scenario::need_gamma(columns), symmetry); });
+      scenario, [&] { return model::assemble(scenario, scenario::need_gamma(columns), form); });
 }
 
 model::Model assemble(const Scenario& scenario, const std::vector<const scenario::Column*>& columns,
-                      controller::Host& host, model::Symmetry symmetry) {
-  model::Model model = assemble(scenario, columns, symmetry);
+                      controller::Host& host, model::Form form) {
+  model::Model model = assemble(scenario, columns, form);
   with_places(scenario, [&] { host.attach(scenario, model); });
   return model;
 }

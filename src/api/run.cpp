@@ -133,13 +133,13 @@ RunResult run(const RunRequest& request, Watch& watch) {
     file::require_like(request.output, file::table_with(file::csv_header(headers)));
   }
   controller::Host host = make_host(watch);
-  const model::Symmetry symmetry = study::symmetry_for(scenario, keys);
+  const model::Form form = study::form_for(scenario, keys);
   const model::Model model =
-      assemble(part ? part->whole() : scenario, needed_for(columns, measures), host, symmetry);
+      assemble(part ? part->whole() : scenario, needed_for(columns, measures), host, form);
   const solve::OutputGrid grid = part ? part->grid() : solve::OutputGrid(scenario.time);
   if (part) part->check(model, columns);
   std::optional<study::Sensitivity> sensitivity;
-  if (!keys.empty()) sensitivity.emplace(model, symmetry, grid, keys);
+  if (!keys.empty()) sensitivity.emplace(model, form, grid, keys);
   std::deque<std::string> units;  // as the scene's own controller names them
   for (std::size_t c = 0; c < asked.size(); ++c) {
     if (asked[c]->needs != scenario::Needs::own) continue;

@@ -132,7 +132,7 @@ std::vector<double> stops_at(const std::vector<double>& knots, double end) {
 
 }  // namespace
 
-Model assemble(const Scenario& scenario, bool gamma, Symmetry symmetry) {
+Model assemble(const Scenario& scenario, bool gamma, Form form) {
   // The gimbal's angles or torques if prescribed; otherwise the controller's reference.
   SignalPair input;
   if (scenario.controller) {
@@ -150,7 +150,7 @@ Model assemble(const Scenario& scenario, bool gamma, Symmetry symmetry) {
     std::ranges::sort(knots);
   }
   std::vector<double> stops = stops_at(knots, scenario.time.end);
-  const Shape shape = symmetry == Symmetry::used ? choose_shape(scenario, input) : Shape::full;
+  const Shape shape = form == Form::reduced ? choose_shape(scenario, input) : Shape::full;
 
   std::optional<Rig> rig;
   std::optional<DryParts> dry;
@@ -162,7 +162,7 @@ Model assemble(const Scenario& scenario, bool gamma, Symmetry symmetry) {
       dry = coupled.dry;
       return std::move(coupled.system);
     }
-    if (needs_rig(scenario)) {
+    if (needs_rig(scenario) || (form == Form::general && scenario.controller)) {
       const auto keep = [&rig](auto built) -> System {
         rig = built.rig;
         return std::move(built.loop);
@@ -171,7 +171,7 @@ Model assemble(const Scenario& scenario, bool gamma, Symmetry symmetry) {
                                         : keep(assemble_rig<false>(scenario, std::move(input)));
     }
     if (!scenario.controller) {
-      if (!is_the_papers(scenario)) {
+      if (form == Form::general || !is_the_papers(scenario)) {
         return OpenLoop<Shape::full, SignalPair, GeneralRolling>(r, g, std::move(input),
                                                                  general_rolling(scenario));
       }

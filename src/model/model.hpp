@@ -74,13 +74,14 @@ struct Model {
   [[nodiscard]] bool closed_loop() const;
 };
 
-// Whether a ball that symmetry keeps on an axis gets the reduced system for that axis. The answer
-// is the same; `ignored` gives many scenes the same system.
-enum class Symmetry { used, ignored };
+// `reduced`: the least system that the scene needs, for one axis if symmetry keeps the ball on it.
+// `full`: without these reductions. `general`: also with the equations for any mounting and
+// inertia of the ball. Motions agree to the tolerance; the later ones are one system for more
+// scenes.
+enum class Form { reduced, full, general };
 
 // Builds the system that the scene needs. `gamma`: whether an output column needs that angle.
-[[nodiscard]] Model assemble(const Scenario& scenario, bool gamma,
-                             Symmetry symmetry = Symmetry::used);
+[[nodiscard]] Model assemble(const Scenario& scenario, bool gamma, Form form = Form::reduced);
 
 // Index of u = r gamma' among the states, or -1 if symmetry keeps it zero.
 template <class AnySystem>

@@ -112,19 +112,24 @@ class ArcPiece : public solve::Piece {
 
 }  // namespace
 
-model::Symmetry symmetry_for(const Scenario& scenario, const std::vector<VariedKey>& keys) {
-  if (keys.empty()) return model::Symmetry::used;
-  const std::size_t kind = model::assemble(scenario, false).system.index();
-  const bool same = std::ranges::all_of(keys, [&](const VariedKey& key) {
-    return model::assemble(key.scenario(key.value + key.step), false).system.index() == kind;
-  });
-  return same ? model::Symmetry::used : model::Symmetry::ignored;
+model::Form form_for(const Scenario& scenario, const std::vector<VariedKey>& keys) {
+  const auto kind = [](const Scenario& scene, model::Form form) {
+    return model::assemble(scene, false, form).system.index();
+  };
+  const auto suits = [&](model::Form form) {
+    const std::size_t own = kind(scenario, form);
+    return std::ranges::all_of(keys, [&](const VariedKey& key) {
+      return kind(key.scenario(key.value + key.step), form) == own;
+    });
+  };
+  if (keys.empty() || suits(model::Form::reduced)) return model::Form::reduced;
+  return suits(model::Form::full) ? model::Form::full : model::Form::general;
 }
 
-Sensitivity::Sensitivity(const model::Model& model, model::Symmetry symmetry,
-                         const solve::OutputGrid& grid, std::vector<VariedKey> keys)
+Sensitivity::Sensitivity(const model::Model& model, model::Form form, const solve::OutputGrid& grid,
+                         std::vector<VariedKey> keys)
     : model_(model),
-      symmetry_(symmetry),
+      form_(form),
       grid_(grid),
       size_(static_cast<Eigen::Index>(model.size() + (model.gamma ? 1 : 0))),
       row_(static_cast<Eigen::Index>(model.row_size())),
@@ -164,7 +169,7 @@ void Sensitivity::fill(Neighbors& neighbors) const {
   const VariedKey& key = neighbors.key;
   for (const int offset : Neighbors::offsets) {
     neighbors.models.push_back(
-        model::assemble(key.scenario(key.value + offset * key.step), model_.gamma, symmetry_));
+        model::assemble(key.scenario(key.value + offset * key.step), model_.gamma, form_));
     require_alike(neighbors.models.back(), key.name);
   }
 }
@@ -433,7 +438,7 @@ Sensitivity::Changed Sensitivity::changed(std::size_t key) const {
   Changed changed{std::max(power_of_two_below(most), varied.step * 0x1p-20), {}, {}};
   for (const int offset : {-2, -1, 1, 2}) {
     const Scenario scenario = varied.scenario(varied.value + offset * changed.change);
-    changed.models.push_back(model::assemble(scenario, model_.gamma, symmetry_));
+    changed.models.push_back(model::assemble(scenario, model_.gamma, form_));
     changed.constants.push_back(model::constants_of(scenario));
   }
   return changed;

@@ -24,9 +24,8 @@
 
 namespace bbsim::study {
 
-// Symmetry::used if a reduced system has room for the effects of all keys.
-[[nodiscard]] model::Symmetry symmetry_for(const Scenario& scenario,
-                                           const std::vector<VariedKey>& keys);
+// The least form of the model that has room for the effects of all keys.
+[[nodiscard]] model::Form form_for(const Scenario& scenario, const std::vector<VariedKey>& keys);
 
 // Integrates S = dz/dp beside a run. Along each piece of the run,
 //     S' = J S + df/dp
@@ -36,10 +35,10 @@ namespace bbsim::study {
 // is in rig_sensitivity.hpp.
 class Sensitivity : public solve::StateSink, public solve::PieceSink {
  public:
-  // `model` is assembled with `symmetry`. All references must outlive this. Throws InputError if
+  // `model` has the form `form`. All references must outlive this. Throws InputError if
   // the model switches without samples, or if a key changes more than numbers of it. Events may
   // observe the motion and end it; then the ends of measures move, too.
-  Sensitivity(const model::Model& model, model::Symmetry symmetry, const solve::OutputGrid& grid,
+  Sensitivity(const model::Model& model, model::Form form, const solve::OutputGrid& grid,
               std::vector<VariedKey> keys);
   Sensitivity(const Sensitivity&) = delete;  // fan_ refers to this
   Sensitivity& operator=(const Sensitivity&) = delete;
@@ -104,7 +103,7 @@ class Sensitivity : public solve::StateSink, public solve::PieceSink {
   [[nodiscard]] std::size_t rows() const;
 
   const model::Model& model_;
-  model::Symmetry symmetry_;
+  model::Form form_;
   const solve::OutputGrid& grid_;
   // Of S: the states, and r gamma if it is integrated; and of a row, which may have extras.
   Eigen::Index size_, row_;

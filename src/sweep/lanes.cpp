@@ -90,7 +90,7 @@ class LoopCarrier : public GroupCarrier, private solve::loop::LoopStudy {
     if (begun_ == cases_.size()) return {};
     const GroupCase& one = cases_[begun_];
     const Scenario& scenario = scenario_.at(one.number, one.values);
-    model::Model model = model::assemble(scenario, false, model::Symmetry::ignored);
+    model::Model model = model::assemble(scenario, false, model::Form::full);
     loop = loop_case(scenario, model, record::signals_of(model).view());
     loops_[begun_].emplace(Loop{std::move(model), model::constants_of(scenario)});
     return begun_++;

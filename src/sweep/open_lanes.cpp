@@ -31,7 +31,7 @@ constexpr std::size_t worth_it = 32;
 constexpr double longest = 3000;  // rad
 
 model::Model model_of(const Scenario& scenario) {
-  return model::assemble(scenario, false, model::Symmetry::ignored);
+  return model::assemble(scenario, false, model::Form::full);
 }
 
 // Converts the case to the numbers of a lane. Tables do not vary; `tables` has them for all cases.

@@ -53,7 +53,7 @@ TEST_CASE("gamma is no number where it was not integrated, and 0 where symmetry 
 }
 
 TEST_CASE("a planar scene may be carried as any other") {
-  const Model model = assemble(tilt_about_y(), false, Symmetry::ignored);
+  const Model model = assemble(tilt_about_y(), false, Form::full);
   CHECK(model.state_names() == Names{"x", "y", "vx", "vy", "r*spin"});
   CHECK(model.initial[0] == tilt_about_y().ball.position[0]);
 }
