@@ -12,6 +12,7 @@
 #include <utility>
 #include <variant>
 
+#include "api/fit_candidates.hpp"
 #include "api/fit_text.hpp"
 #include "base/number_text.hpp"
 #include "base/shown.hpp"
@@ -204,6 +205,7 @@ FitResult fit(const FitRequest& request, bool with_scenario, Watch& watch) {
   for (const std::string& text : request.free) {
     if (fit::is_of_log(text)) fit::add_free_key(task.keys, fit::read_log_key(text, task.columns));
   }
+  task.candidates = fit_candidates(task);
   if (!request.window.empty()) task.window = window_of(request.window);
   task.with_series = request.with_series;
   task.hold_out = request.hold_out;

@@ -139,6 +139,10 @@ std::string remarks_of(const FitRequest& request, const fit::Fitted& fitted) {
       first = false;
     }
     text += "); the scene lacks something, and the intervals are too short\n";
+    if (const auto& one = fitted.suggestion) {
+      text += "note: --free " + one->key + " could make the residuals about " +
+              rounded(100 * one->share, 2) + " % smaller\n";
+    }
   }
   return text;
 }
@@ -167,6 +171,9 @@ std::string json_of(const fit::Fitted& fitted) {
     json["correlations"].push_back(std::move(line));
   }
   json["white"] = fitted.white;
+  if (const auto& one = fitted.suggestion) {
+    json["suggestion"] = {{"key", one->key}, {"residuals_smaller_by", one->share}};
+  }
   json["outliers"] = Json::object();
   for (const fit::ColumnResidual& column : fitted.columns) {
     json["outliers"][column.column] = column.outliers;

@@ -16,7 +16,9 @@
 #include "fit/minimize.hpp"
 #include "fit/profile.hpp"
 #include "fit/residuals.hpp"
+#include "fit/scale_keys.hpp"
 #include "fit/student.hpp"
+#include "fit/suggestion.hpp"
 #include "fit/windows_fit.hpp"
 
 namespace bbsim::fit {
@@ -78,7 +80,8 @@ class Fit {
     residuals_ = windows_.residuals(u_, true);
     if (is_stopped(task_)) return false;
     before_ = rms_of(windows_, residuals_);
-    scale_keys();
+    refuse_idle_keys();
+    mirror_axes();
     if (!choose_start()) return false;
     residuals_ = windows_.residuals(u_);
     set_noise();
@@ -119,6 +122,7 @@ class Fit {
       made_.white = made_.white && (is_exact || correlations[c] < 3 / std::sqrt(sizes[c].count));
     }
     tell_parameters();
+    if (!made_.white) made_.suggestion = suggestion(task_, windows_, u_);
   }
 
   // Of windows that are out of the fit, at its values.
@@ -156,18 +160,19 @@ class Fit {
   // Goes on from the best of some starts; the first is the scenario's. False if it is interrupted.
   bool choose_start() {
     std::mt19937_64 random(1);
+    const VectorXd first = u_;
     VectorXd best = u_;
     double least = unlimited;
     for (std::size_t start = 0; start < task_.starts && task_.starts > 1; ++start) {
-      VectorXd u = VectorXd::Zero(u_.size());
+      VectorXd u = first;
       for (Index k = 0; start > 0 && k < u.size(); ++k) {
         const FreeKey& key = task_.keys[static_cast<std::size_t>(k)];
         const bool bounded = std::isfinite(key.lower) && std::isfinite(key.upper) &&
                              !(key.logarithmic && key.lower == 0);
         // Without bounds: by a factor of two, or by the key's scale.
         const double reach = key.logarithmic ? std::log(2.0) : 1;
-        const double from = bounded ? key.number(key.lower) : -reach;
-        const double to = bounded ? key.number(key.upper) : reach;
+        const double from = bounded ? key.number(key.lower) : first[k] - reach;
+        const double to = bounded ? key.number(key.upper) : first[k] + reach;
         u[k] = from + (to - from) * uniform(random);
       }
       windows_.restart();
@@ -181,25 +186,32 @@ class Fit {
     return !is_stopped(task_);
   }
 
-  // Refuses keys without an effect. A scale by which a key changes the logs by much more than they
-  // vary is a bad guess: its differences would be those of another rig.
-  void scale_keys() {
-    constexpr int most_rounds = 8;
-    constexpr double much = 10;
-    bool is_scaled = false;
-    for (int round = 0; round < most_rounds && !is_scaled; ++round) {
-      // With the noise at the columns' spreads, the change of the logs by each key's scale.
-      const VectorXd changes =
-          windows_.derivatives(u_).free_norms / std::sqrt(static_cast<double>(windows_.size()));
-      is_scaled = true;
-      for (Index k = 0; k < changes.size(); ++k) {
-        FreeKey& key = task_.keys[static_cast<std::size_t>(k)];
-        if (!(changes[k] > 1e-7)) refuse_idle(key);
-        if (key.logarithmic || !(changes[k] > much)) continue;
-        key.scale /= changes[k];
-        is_scaled = false;
-      }
+  void refuse_idle_keys() {
+    // With the noise at the columns' spreads.
+    const VectorXd changes = scale_keys(task_, windows_, u_);
+    for (Index k = 0; k < changes.size(); ++k) {
+      if (!(changes[k] > 1e-7)) refuse_idle(task_.keys[static_cast<std::size_t>(k)]);
     }
+  }
+
+  // A log whose axis is mirrored is better begun with there: on the way from 1 to -1 the column's
+  // scale passes 0, where the log tells nothing of the other keys.
+  void mirror_axes() {
+    double cost = residuals_.squaredNorm();
+    bool tried = false;
+    for (Index k = 0; k < u_.size(); ++k) {
+      const FreeKey& key = task_.keys[static_cast<std::size_t>(k)];
+      if (key.of != FreeKey::Of::scale || key.logarithmic || -key.start < key.lower) continue;
+      VectorXd mirrored = u_;
+      mirrored[k] = key.number(-key.start);
+      windows_.restart();  // the slopes by the starts are mirrored, too
+      tried = true;
+      const double its = windows_.residuals(mirrored).squaredNorm();
+      if (!(its < cost)) continue;
+      cost = its;
+      u_ = mirrored;
+    }
+    if (tried) windows_.restart();
   }
 
   [[noreturn]] void refuse_idle(const FreeKey& key) const {

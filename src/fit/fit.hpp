@@ -35,6 +35,7 @@ struct Task {
   std::function<void(double fraction, const std::string& detail)> progress{};
   const std::atomic<bool>* stop = nullptr;
   bool with_series = false;                // Fitted has them
+  std::vector<FreeKey> candidates{};       // that may be lacking if residuals are not white
   std::function<void(Scenario&)> adapt{};  // changes each scenario that is read
 };
 
@@ -70,6 +71,12 @@ struct WindowSeries {
   std::vector<std::vector<double>> measured, modelled;
 };
 
+// A key that is not free, and the share of the residuals' root mean square that it could take away.
+struct Suggestion {
+  std::string key;
+  double share = 0;
+};
+
 struct Fitted {
   // Stopped on the way: what follows is the best so far, if there are parameters.
   bool interrupted = false;
@@ -81,6 +88,7 @@ struct Fitted {
   std::vector<WindowSeries> series;  // those that were held out last; only if they are asked for
   double window = 0;                 // s
   bool white = true;                 // neighboring residuals are independent
+  std::optional<Suggestion> suggestion{};  // only if they are not
   std::size_t iterations = 0;
   // Of each pair of parameters; NaN for those that the logs do not tell.
   std::vector<std::vector<double>> correlations;

@@ -174,8 +174,7 @@ FreeKey read_log_key(std::string_view text, const std::vector<const scenario::Co
     const std::string_view column = columns[c]->name;
     names += ", log." + std::string(column) + ".scale, log." + std::string(column) + ".offset";
     if (is(column, "scale")) {
-      key.of = FreeKey::Of::scale;
-      key.lower = 0;
+      key.of = FreeKey::Of::scale;  // below 0: a mirrored axis
     } else if (is(column, "offset")) {
       key.of = FreeKey::Of::offset;
       key.unit = columns[c]->unit;
@@ -191,16 +190,15 @@ FreeKey read_log_key(std::string_view text, const std::vector<const scenario::Co
     read_bounds(trimmed(text.substr(equals + 1)), key);
   }
   const bool bounded = std::isfinite(key.lower) && std::isfinite(key.upper);
-  key.logarithmic = key.of == FreeKey::Of::scale;
-  if (key.of == FreeKey::Of::delay) {
+  const bool is_scale = key.of == FreeKey::Of::scale;
+  key.logarithmic = is_scale && key.lower > 0;
+  key.start = is_scale ? 1 : 0;
+  if (key.of == FreeKey::Of::delay || key.start < key.lower || key.start > key.upper) {
     key.start = (key.lower + key.upper) / 2;
-  } else {
-    key.start = key.logarithmic ? 1 : 0;
-    if (key.start < key.lower || key.start > key.upper) {
-      key.start = (key.lower + key.upper) / 2;
-    }
   }
-  key.scale = bounded ? (key.upper - key.lower) / 10 : scale_from(0, yaml::Dimension::length);
+  key.scale =
+      bounded ? (key.upper - key.lower) / 10
+              : scale_from(key.start, is_scale ? yaml::Dimension::number : yaml::Dimension::length);
   return key;
 }
 

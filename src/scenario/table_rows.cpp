@@ -151,7 +151,9 @@ std::string cover_fault(const TableRows& table, double end) {
   if (first <= 0 && last >= end) return "";
   return "found times from " + number_text(first) + " to " + number_text(last) +
          " s; allowed: a table that covers the run, 0 to " + number_text(end) + " s" +
-         (first > end ? "; time_offset: start makes its first row t = 0" : "");
+         (first > end || (first > 0 && last - first >= end)
+              ? "; time_offset: start makes its first row t = 0"
+              : "");
 }
 
 // The dimension's noun without its article: "angle".

@@ -270,6 +270,35 @@ TEST_CASE("a log's own scale and offset are found, where the table is right") {
   CHECK(contains(made.scenario, "# log.x.scale: 0."));
 }
 
+TEST_CASE("a mirrored axis has a scale below 0") {
+  const std::string log = log_text(3e-4);
+  std::string mirrored;
+  std::istringstream lines(log);
+  for (std::string line; std::getline(lines, line);) {
+    const std::size_t x = line.find(',') + 1;
+    if (line[0] != 't') line = line[x] == '-' ? line.erase(x, 1) : line.insert(x, "-");
+    mirrored += line + '\n';
+  }
+  const Case rig(mirrored);
+  const api::FitResult made = rig.fit({"log.x.scale", "ball.inertia_factor"});
+  CAPTURE(made.text);
+  CHECK(is_near(made.fitted.parameters[0], 0.43));
+  CHECK(is_near(made.fitted.parameters[1], -1));
+}
+
+TEST_CASE("the key that a fit lacks most is suggested") {
+  const Case rig(log_text(5e-4, 1, 0.01));
+  const api::FitResult made = rig.fit({"ball.inertia_factor"});
+  CAPTURE(made.text);
+  REQUIRE(made.fitted.suggestion);
+  CHECK(made.fitted.suggestion->key == "gimbal.motion.phi.table.offset");
+  CHECK(made.fitted.suggestion->share > 0.25);
+  CHECK(
+      contains(made.text, "note: --free gimbal.motion.phi.table.offset could make the residuals"));
+  const api::FitResult right = rig.fit({"ball.inertia_factor", "gimbal.motion.phi.table.offset"});
+  CHECK_FALSE(right.fitted.suggestion);
+}
+
 TEST_CASE("a sensor's delay is found") {
   std::istringstream lines(log_text(2e-4, 1, 0, 5));
   std::string line, text = "t,x,y,phi,theta\n";

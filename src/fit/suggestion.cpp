@@ -1,0 +1,56 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "fit/suggestion.hpp"
+
+#include <Eigen/QR>
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+
+#include "fit/scale_keys.hpp"
+
+namespace bbsim::fit {
+
+using Eigen::Index;
+using Eigen::VectorXd;
+
+std::optional<Suggestion> suggestion(const Task& task, const WindowsFit& at, const VectorXd& u) {
+  if (task.candidates.empty()) return {};
+  Task wider = task;
+  wider.keys.insert(wider.keys.end(), task.candidates.begin(), task.candidates.end());
+  WindowsFit windows(wider, at.windows());
+  windows.finish();
+  windows.set_noise(at.noise());
+  windows.set_weights(at.weights());
+  VectorXd all = VectorXd::Zero(static_cast<Index>(wider.keys.size()));
+  all.head(u.size()) = u;
+  scale_keys(wider, windows, all);
+  const VectorXd residuals = windows.residuals(all);
+  const auto [projected, norms] = windows.derivatives(all);
+
+  // What the keys themselves could still do is none of a candidate's merit.
+  const Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> keys(projected.leftCols(u.size()));
+  const auto without_keys = [&](const VectorXd& column) -> VectorXd {
+    return column - projected.leftCols(u.size()) * keys.solve(column);
+  };
+  const VectorXd left = without_keys(residuals);
+  std::optional<Suggestion> best;
+  for (Index k = u.size(); k < all.size(); ++k) {
+    constexpr double least_part = 1e-3;
+    const VectorXd column = without_keys(projected.col(k));
+    if (!(column.norm() > least_part * norms[k])) continue;  // keys or starts do the same
+    const double step = -column.dot(left) / column.squaredNorm();
+    const FreeKey& key = wider.keys[static_cast<std::size_t>(k)];
+    const double bound = step > 0 ? key.upper : key.lower;
+    if (key.value(0) == bound) continue;
+    const double less = step * step * column.squaredNorm() / left.squaredNorm();
+    const double share = 1 - std::sqrt(std::max(1 - less, 0.0));
+    if (!best || share > best->share) best = Suggestion{key.name, share};
+  }
+  constexpr double least_share = 0.05;
+  if (best && best->share < least_share) best.reset();
+  return best;
+}
+
+}  // namespace bbsim::fit
