@@ -210,11 +210,12 @@ class Finder:
         contrast = squares.max()
         row, column = np.unravel_index(squares.argmax(), squares.shape)
         center = np.array([u[0, column] + (size - 1) / 2, v[row, 0] + (size - 1) / 2])
-        weight = np.clip(like / contrast, 0, 1)
+        radius = self.radius * scale[row + size // 2, column + size // 2]
+        window = tuple(slice(max(0, int(at + size / 2 - 3 * radius)), int(at + size / 2 + 3 * radius) + 1)
+                       for at in (row, column))
+        u, v, weight = u[window], v[window], np.clip(like[window] / contrast, 0, 1)
         weight[weight < 0.2] = 0  # the ground's noise
         for _ in range(20):
-            place = tuple(np.clip((np.round(center) - low).astype(int), 0, np.array(like.shape[::-1]) - 1)[::-1])
-            radius = self.radius * scale[place]
             near = weight * ((u - center[0])**2 + (v - center[1])**2 < (1.5 * radius)**2)
             area = near.sum()
             if area == 0:

@@ -5,7 +5,7 @@
 
     record.py serial /dev/ttyACM0 -o log.csv
     record.py camera 0 --serial /dev/ttyACM0 --plate 300x300 --radius 20 \\
-        --corners 102,415 548,409 541,58 110,63 --camera-at 0,0,700 -o log.csv
+        --corners 102,415 548,409 541,58 110,63 --camera-at=0,0,700 -o log.csv
 
 `serial` takes the ball from the sketch, which reads a touch screen. `camera` finds the ball in
 pictures, and puts them on the sketch's clock; it needs OpenCV. docs/how-to/design.md has more.
@@ -47,7 +47,7 @@ def verdict(end, log, device):
     if end == "unplugged":
         return 1, f"{device} was unplugged"
     if not log.ends_level():
-        return 1, f"the sketch fell silent {log.rows[-1].t:.2f} s into its motion, with the plate not level"
+        return 1, f"the sketch fell silent {log.rows[-1].t:.2f} s into its motion, before the plate was level again"
     return 0, "the sketch is done"
 
 
@@ -180,7 +180,7 @@ def parser():
                        help="ArUco markers whose centers are such corners; they show the tilt, too")
     view.add_argument("--dictionary", default="4X4_50", help="of the markers (default: %(default)s)")
     view.add_argument("--camera-at", type=numbers(3), metavar="X,Y,Z",
-                      help="from the center of the level plate's surface, along its axes and up; without it, the "
+                      help="from the center of the level plate's surface, along its axes and up, after a = sign; without it, the "
                            "ball's height and the tilt are not accounted for")
     view.add_argument("--height", type=float, default=0, metavar="MM",
                       help="of the plate's surface above the gimbal's center (default: 0)")

@@ -171,8 +171,9 @@ class Log:
         return [float(row.fields[self.names.index(name)]) for name in ANGLES]
 
     def ends_level(self):
-        """A designed motion ends with the plate level."""
-        return bool(self.rows) and self.angles(self.rows[-1]) == [0, 0]
+        """A designed motion begins and ends with the plate level; a tenth of a degree is for a lost first row."""
+        return bool(self.rows) and all(abs(first - last) < 0.1 for first, last in
+                                       zip(self.angles(self.rows[0]), self.angles(self.rows[-1])))
 
 
 def check_output(path, force):

@@ -16,9 +16,13 @@ import json
 import math
 import os
 import pathlib
+import pty
 import subprocess
 import sys
 import tempfile
+import threading
+import time
+import tty
 import types
 import unittest
 
@@ -271,6 +275,63 @@ class Recording(unittest.TestCase):
         for column, rms in fit["residual_rms"].items():
             self.assertLess(rms, 1e-3 * millimeters, column)
 
+    def test_both_run_at_once(self):
+        """From words to a file: a line and pictures of a ball at rest, by this computer's clock."""
+        rows = [f"{20 * i:.1f},0.000,0.000" for i in range(40)]
+        board, line = pty.openpty()
+        tty.setraw(line)
+
+        def play():
+            os.write(board, (",".join(NAMES) + "\r\n").encode())
+            for i, row in enumerate(rows):
+                time.sleep(max(0, began + 0.02 * i - time.monotonic()))
+                os.write(board, (row + "\r\n").encode())
+
+        def watch():
+            for i in range(10000):
+                time.sleep(0.025)
+                yield time.monotonic(), picture
+
+        place = (30.0, -40.0)
+        picture = rendered.picture(self.eye, (0, 0), place, PLATE, RADIUS, HEIGHT)
+        log = self.folder / "both.csv"
+        words = ["camera", "0", "--serial", os.ttyname(line), "--silence", "0.4", "--plate", "300x300", "--radius", "20",
+                 "--height", "30", "--camera-at", "40,-60,700", "-o", str(log),
+                 "--corners", *(f"{u:.2f},{v:.2f}" for u, v in level_corners(self.eye))]
+        said = io.StringIO()
+        began = time.monotonic() + 0.1
+        player = threading.Thread(target=play)
+        player.start()
+        with contextlib.redirect_stderr(said):
+            code = record.main(words, watch())
+        player.join()
+        os.close(board)
+        os.close(line)
+        self.assertEqual(code, 0, said.getvalue())
+        self.assertRegex(said.getvalue(), r"the sketch is done; .*both.csv: 40 rows, 0.00 to 0.78 s; the ball in (\d+) of \1 pictures")
+        with open(log) as file:
+            written = list(csv.reader(file))
+        self.assertEqual(written[0], ["t_ms", "phi_deg", "theta_deg", "x_mm", "y_mm"])
+        self.assertEqual([",".join(row[:3]) for row in written[1:] if row[1]], rows)
+        seen = positions(written[1:])
+        self.assertGreater(len(seen), 3)  # of 30 on a computer with nothing else to do
+        for where in seen.values():
+            self.assertLess(math.dist(where, place), EXACT)
+
+    def test_what_the_camera_needs_is_told(self):
+        said = io.StringIO()
+        with contextlib.redirect_stderr(said), self.assertRaises(SystemExit) as end:
+            record.main(["camera", "0", "--radius", "20"])
+        self.assertEqual(end.exception.code, 2)
+        self.assertIn("camera needs --plate, --corners or --markers, --serial or --log", said.getvalue())
+
+    @unittest.skipIf(cv2, "OpenCV is there")
+    def test_without_opencv_the_recorder_says_how_to_install_it(self):
+        said = io.StringIO()
+        with contextlib.redirect_stderr(said):
+            self.assertEqual(record.main(["camera", "0", "--picture", "x.png"]), 2)
+        self.assertIn("apt install python3-opencv", said.getvalue())
+
     @unittest.skipUnless(cv2, "no OpenCV")
     def test_a_video_and_a_log_of_its_time(self):
         folder = self.folder
@@ -314,9 +375,10 @@ class Recording(unittest.TestCase):
         found, rows = watcher.merge(a_log([(0.02 * i, 0, 0) for i in range(101)]), watcher.times)
         self.assertEqual(found, 2)
         for t, _, place in frames[1:]:
-            # A marker's center to 0.25 pixels, whose corners are found to half of one: 0.17 mm of the place, and a
-            # tilt to 0.25 / 1.5 / 120 x 700 / 120 rad, which moves a ball's center of 20 mm by 0.16 mm.
-            self.assertLess(math.dist(positions(rows)[t], place), 0.5)
+            # A marker's center to 0.2 pixels, whose corners are found to 0.4: 0.13 mm of the place. A tilt moves the
+            # center's picture by 120 mm / 700 mm of how much it raises it: 0.13 mm tell it to 6.5 mrad, which
+            # moves the center of a ball by 20 mm times that, 0.13 mm.
+            self.assertLess(math.dist(positions(rows)[t], place), 0.26 + EXACT)
 
 
 if __name__ == "__main__":
