@@ -101,17 +101,22 @@ void tell_sampled_loop(Report& report, const Scenario& scenario, const model::Mo
   }
 }
 
-// Of a loop whose law is not for bbsim to know.
-void tell_plant(Report& report, const model::Model& model) {
+// Of a loop whose law is not for bbsim to know, or that is open.
+void tell_plant(Report& report, const model::Model& model, const std::string& why) {
   const model::Eigenvalues poles = model::plant_poles(model);
   report.push_back(
       {"plant", std::to_string(poles.size()) +
                     " poles about home under a held command (1/s): " + poles_line(poles)});
-  report.push_back({"closed loop", "no poles: only the controller knows its law"});
+  report.push_back({"closed loop", "no poles: " + why});
 }
 
 void tell_closed_loop(Report& report, const Scenario& scenario, const model::Model& model) {
-  if (scenario.controller->own) return tell_plant(report, model);
+  if (scenario.controller->own) {
+    return tell_plant(report, model, "only the controller knows its law");
+  }
+  if (scenario.controller->law == Law::commands) {
+    return tell_plant(report, model, "commands do not depend on the ball");
+  }
   if (model.rig && model.rig->sampled) return tell_sampled_loop(report, scenario, model);
   const model::Eigenvalues poles = model::closed_loop_poles(model);
   if (poles.empty()) {

@@ -145,7 +145,10 @@ std::vector<std::string> tables_of(const Scenario& scenario, const std::filesyst
     add_profile("gimbal.torque.phi", scenario.gimbal.torque->phi);
     add_profile("gimbal.torque.theta", scenario.gimbal.torque->theta);
   }
-  if (scenario.controller) {
+  if (const auto* const commands = commands_of(scenario)) {
+    add_profile("controller.commands.phi", commands->phi);
+    add_profile("controller.commands.theta", commands->theta);
+  } else if (scenario.controller) {
     const auto* const table = std::get_if<TableReference>(&scenario.controller->reference);
     if (table != nullptr && is_it(table->file)) keys.push_back("controller.reference.table.file");
   }

@@ -30,6 +30,10 @@ std::vector<fit::FreeKey> fit_candidates(const fit::Task& task) {
     add_tables("gimbal.motion.phi", scenario.gimbal.motion->phi, names);
     add_tables("gimbal.motion.theta", scenario.gimbal.motion->theta, names);
   }
+  if (const CommandProfiles* const commands = commands_of(scenario)) {
+    add_tables("controller.commands.phi", commands->phi, names);
+    add_tables("controller.commands.theta", commands->theta, names);
+  }
   for (const char* const one :
        {"ball.inertia_factor", "ball.losses.rolling", "ball.losses.viscous",
         "gimbal.mounting.phi_offset", "gimbal.mounting.theta_offset", "gimbal.mounting.yaw",

@@ -56,6 +56,10 @@ struct Shift {
     shift_rows(table.times, {&table.x, &table.y}, begin, end);
   }
 
+  void operator()(CommandProfiles& commands) const {
+    (*this)(commands.phi);
+    (*this)(commands.theta);
+  }
   void operator()(Profile& profile) const {
     for (ProfileTerm& term : profile) std::visit(*this, term);
   }
@@ -96,10 +100,17 @@ Span span_of_tables(const Scenario& scenario) {
       span.to = std::min(span.to, table.times.back());
     }
   };
-  for_each_profile(scenario, [&](const Profile& profile) {
+  const auto cover_profile = [&](const Profile& profile) {
     for (const ProfileTerm& term : profile) std::visit(cover, term);
-  });
-  if (scenario.controller) std::visit(cover, scenario.controller->reference);
+  };
+  for_each_profile(scenario, cover_profile);
+  const auto* const commands = commands_of(scenario);
+  if (commands != nullptr) {
+    cover_profile(commands->phi);
+    cover_profile(commands->theta);
+  } else if (scenario.controller) {
+    std::visit(cover, scenario.controller->reference);
+  }
   return span;
 }
 

@@ -394,10 +394,11 @@ Fitted fit(const Task& task) {
   const Scenario scenario = task.family.read(task.logs.front().settings);
   Fitted made;
   // A loop keeps errors small, and states that no log tells go on in it.
-  const bool whole_logs = scenario.controller && !task.window && task.hold_out == 0;
+  const bool whole_logs =
+      scenario.controller && commands_of(scenario) == nullptr && !task.window && task.hold_out == 0;
   made.window = whole_logs ? unlimited : task.window.value_or(usual_window);
   const std::size_t coordinates =
-      start_coordinates(task.columns, !scenario.gimbal.motion && !whole_logs).size();
+      start_coordinates(task.columns, begins_anywhere(scenario) && !whole_logs).size();
   double most_delay = 0;
   for (const FreeKey& key : task.keys) {
     if (key.of == FreeKey::Of::delay) most_delay = key.upper;

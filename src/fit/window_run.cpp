@@ -65,6 +65,10 @@ Scenario prepared(Scenario scenario) {
   return scenario;
 }
 
+bool begins_anywhere(const Scenario& scenario) {
+  return !scenario.gimbal.motion && commands_of(scenario) == nullptr;
+}
+
 Start start_of(const Scenario& scenario) {
   const Ball& ball = scenario.ball;
   const GimbalStart& gimbal = scenario.gimbal.start;
@@ -79,7 +83,7 @@ std::vector<double> run_window(const Scenario& scene, const Start& start,
   Scenario begun = scene;
   begun.ball.position = {start[0], start[1]};
   begun.ball.velocity = {start[2], start[3]};
-  begun.gimbal.start = {start[4], start[5], start[6], start[7]};
+  if (begins_anywhere(scene)) begun.gimbal.start = {start[4], start[5], start[6], start[7]};
   std::optional<model::Model> assembled;
   try {
     assembled = model::assemble(begun, scenario::need_gamma(columns));

@@ -30,4 +30,7 @@ using Start = std::array<double, 8>;
 
 [[nodiscard]] Start start_of(const Scenario& scenario);
 
+// Whether nothing but the loop says where the gimbal is when a window begins.
+[[nodiscard]] bool begins_anywhere(const Scenario& scenario);
+
 }  // namespace bbsim::fit

@@ -13,7 +13,7 @@
 
 #include "base/error.hpp"
 #include "base/short_number.hpp"
-#include "fit/clock_shift.hpp"
+#include "fit/played_servos.hpp"
 
 namespace bbsim::fit {
 namespace {
@@ -41,7 +41,7 @@ WindowsFit::WindowsFit(const Task& task, std::vector<Window> windows)
   for (const Window& window : windows_) from_within = from_within || !window.first;
   const std::vector<Scenario> scenes =
       variant(VectorXd::Zero(at(task.keys.size())), nullptr).scenes;
-  coordinates_ = start_coordinates(task.columns, from_within && !scenes.front().gimbal.motion);
+  coordinates_ = start_coordinates(task.columns, from_within && begins_anywhere(scenes.front()));
   for (const Window& window : windows_) {
     first_rows_.push_back(size_);
     for (std::size_t c = 0; c < window.values.size(); ++c) {
@@ -140,7 +140,7 @@ Variant WindowsFit::variant(const VectorXd& u, std::string* why) const {
 
 WindowsFit::Scene WindowsFit::scene_of(std::size_t w, const Variant& variant) const {
   const Window& window = windows_[w];
-  return {from_time(variant.scenes[window.log], window.begin, window.begin + window.times.back()),
+  return {window_of(variant.scenes[window.log], window.begin, window.begin + window.times.back()),
           variant.sensors};
 }
 

@@ -66,6 +66,9 @@ ControlLaw control_law(const Scenario& scene, const ServoResponses& servo,
     case Law::feedback_linearisation:
       law.kind = LawKind::feedback_linearisation;
       break;
+    case Law::commands:
+      law.kind = LawKind::played;
+      break;
     case Law::own:
       law.kind = LawKind::held;
       break;

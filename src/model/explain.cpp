@@ -288,6 +288,9 @@ std::string law_note(const Controller& controller) {
           "feedback linearization of (27): the ball follows, the tilt is an unstable internal "
           "state (docs/how-to/real-effects.md)";
       break;
+    case Law::commands:
+      text = "commands that are known beforehand, whatever the ball does";
+      break;
     case Law::own:
       text = own_law(*controller.own);
       break;

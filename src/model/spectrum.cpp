@@ -124,9 +124,9 @@ namespace {
 template <class System>
 bool has_loop(const System& system) {
   if constexpr (is_coupled_loop<System>) {
-    return system.law().kind != LawKind::held || system.by == GimbalBy::given_torques;
+    return feeds_back(system.law().kind) || system.by == GimbalBy::given_torques;
   } else if constexpr (is_rig<System>) {
-    return system.law().kind != LawKind::held;
+    return feeds_back(system.law().kind);
   } else {
     return !System::open_loop && !is_coupled<System>;
   }
@@ -149,7 +149,7 @@ Eigenvalues plant_poles(const Model& model) {
 }
 
 Eigenvalues sampled_poles(const Model& model) {
-  if (!model.rig || !model.rig->sampled || model.rig->sampled->law.kind == LawKind::held) return {};
+  if (!model.rig || !model.rig->sampled || !feeds_back(model.rig->sampled->law.kind)) return {};
   const LinearPoint home = home_point();
   const PlantDerivatives plant = plant_derivatives(model, home, Heave::left_out);
   std::vector<int> states;

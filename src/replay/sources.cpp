@@ -32,6 +32,7 @@ double duration_of(const Reference& reference, double end) {
 }
 
 std::vector<std::array<double, 2>> path_of(const Reference& reference, double end) {
+  if (std::holds_alternative<CommandProfiles>(reference)) return {};
   const model::SignalPair signals = model::reference_path(reference);
   const auto point = [&](double t) {
     const auto jets = signals.at(t);
@@ -46,7 +47,7 @@ std::vector<std::array<double, 2>> path_of(const Reference& reference, double en
 
 std::optional<Poles> poles_of(const model::Model& model) {
   if (!model.closed_loop()) return {};
-  if (model.rig && model.rig->sampled && model.rig->sampled->law.kind == model::LawKind::held) {
+  if (model.rig && model.rig->sampled && !model::feeds_back(model.rig->sampled->law.kind)) {
     return {};  // only the controller could know them
   }
   if (model.rig && model.rig->sampled) {

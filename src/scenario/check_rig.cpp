@@ -525,7 +525,7 @@ class Checks {
       // Without motion and controller, check_loop() reported a problem before.
       const bool of_controller =
           column->needs == Needs::controller || column->needs == Needs::commands;
-      if (of_controller && !scene_.gimbal.motion) continue;
+      if (of_controller && !scene_.gimbal.motion && commands_of(scene_) == nullptr) continue;
       if (const Missing lacks = missing(*column, scene_)) {
         item.refuse(std::string(", but ") + lacks.why, lacks.instead);
       }

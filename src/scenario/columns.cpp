@@ -127,6 +127,10 @@ Panel panel_of(const Column& column, std::string_view unit) {
 Missing missing(const Column& column, const Scenario& scenario) {
   switch (column.needs) {
     case Needs::controller:
+      if (scenario.controller && scenario.controller->law == Law::commands) {
+        return {"commands follow no path", "other columns, such as phi_command"};
+      }
+      [[fallthrough]];
     case Needs::commands:
       if (scenario.controller) return {};
       return {"there is no controller", "columns of an open loop, such as x"};

@@ -9,6 +9,13 @@
 namespace bbsim::scenario {
 namespace {
 
+bool is_zero(const Profile& profile) {
+  return std::ranges::all_of(profile, [](const ProfileTerm& term) {
+    const auto* constant = std::get_if<double>(&term);
+    return constant != nullptr && *constant == 0;
+  });
+}
+
 // Whether a reference stays at 0 along a coordinate.
 struct StaysAtZero {
   std::size_t i;
@@ -21,17 +28,11 @@ struct StaysAtZero {
   bool operator()(const WaypointReference& of) const {
     return std::ranges::all_of(of.points, [this](const Pair& point) { return point[i] == 0; });
   }
+  bool operator()(const CommandProfiles& of) const { return is_zero(i == 0 ? of.phi : of.theta); }
   bool operator()(const TableReference& of) const {
     return std::ranges::all_of(i == 0 ? of.x : of.y, [](double value) { return value == 0; });
   }
 };
-
-bool is_zero(const Profile& profile) {
-  return std::ranges::all_of(profile, [](const ProfileTerm& term) {
-    const auto* constant = std::get_if<double>(&term);
-    return constant != nullptr && *constant == 0;
-  });
-}
 
 // Whether a continuous law moves the other axis, too.
 bool couples(const Controller& controller, std::size_t own) {

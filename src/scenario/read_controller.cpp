@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "scenario/columns.hpp"
+#include "scenario/profile.hpp"
 #include "scenario/sections.hpp"
 #include "scenario/table_rows.hpp"
 #include "yaml/quantity.hpp"
@@ -106,6 +107,15 @@ void read_library(yaml::Keys& keys, Controller& controller) {
   keys.context().own_controller = true;
 }
 
+void read_commands(yaml::Keys& keys, Controller& controller) {
+  CommandProfiles commands;
+  const bool phi = keys.find("phi").has_value(), theta = keys.find("theta").has_value();
+  keys.optional("phi", ProfileRule{}, commands.phi);
+  keys.optional("theta", ProfileRule{}, commands.theta);
+  if (!phi && !theta) keys.missing("phi", "profiles of phi and theta, or of one of them");
+  controller.reference = std::move(commands);
+}
+
 struct NamedLaw {
   std::string_view key;
   Law law;
@@ -118,6 +128,7 @@ constexpr NamedLaw laws[] = {
     {"lqr", Law::lqr, read_lqr},
     {"gravity_compensation", Law::gravity_compensation, read_pd},
     {"feedback_linearization", Law::feedback_linearisation, read_pd},
+    {"commands", Law::commands, read_commands},
     {"program", Law::own, read_program},
     {"library", Law::own, read_library},
 };
@@ -359,7 +370,12 @@ void read_controller(yaml::Keys& keys, Controller& controller) {
                                       {Drives::voltage, name_of(Drives::voltage)},
                                       {Drives::legs, name_of(Drives::legs)}}},
                 controller.drives);
-  keys.section("reference", read_reference, controller.reference);
+  const yaml::MappingOf path(read_reference);
+  if (const auto given = keys.find("reference", path); controller.law != Law::commands) {
+    keys.section("reference", read_reference, controller.reference);
+  } else if (given) {
+    given->report("found beside commands, which follow no path; allowed: without it");
+  }
   keys.optional("limit", CommandLimit{drives_servos(controller.drives)}, controller);
   keys.optional("assumes", AssumesRule{}, controller);
   keys.optional("sampling", yaml::MappingOf(read_sampling), controller.sampling);

@@ -89,20 +89,23 @@ Scenario parse_scenario(const std::string& text, const std::string& name,
 std::vector<std::string> table_files(const Scenario& scenario) {
   const auto folder = std::filesystem::path(scenario.source.file).parent_path();
   std::vector<std::string> files;
+  const auto add = [&](const Profile& profile) {
+    for (const ProfileTerm& term : profile) {
+      if (const Table* table = std::get_if<Table>(&term)) files.push_back(folder / table->file);
+    }
+  };
   for (const auto& given : {&scenario.gimbal.motion, &scenario.gimbal.torque}) {
     if (!*given) continue;
-    for (const Profile* profile : {&(*given)->phi, &(*given)->theta}) {
-      for (const ProfileTerm& term : *profile) {
-        if (const Table* table = std::get_if<Table>(&term)) files.push_back(folder / table->file);
-      }
-    }
+    add((*given)->phi);
+    add((*given)->theta);
   }
   if (const auto& push = scenario.ball.push) {
-    for (const Profile* profile : {&push->x, &push->y}) {
-      for (const ProfileTerm& term : *profile) {
-        if (const Table* table = std::get_if<Table>(&term)) files.push_back(folder / table->file);
-      }
-    }
+    add(push->x);
+    add(push->y);
+  }
+  if (const auto* const commands = commands_of(scenario)) {
+    add(commands->phi);
+    add(commands->theta);
   }
   for (const auto& linkage : scenario.gimbal.linkage) {
     const auto* curve = linkage ? std::get_if<CurveLinkage>(&*linkage) : nullptr;

@@ -105,6 +105,13 @@ constexpr KeyRelation table[] = {
      "gimbal.torque or gimbal.motor or controller.drives=torque|voltage"},
 
     // The controller.
+    {"controller", needs, "controller.reference or controller.commands"},
+    {"controller.reference", excludes, "controller.commands"},
+    {"controller.commands", needs, "controller.drives=angle",
+     "found, but controller.drives is not angle; allowed: only with drives: angle, since commands "
+     "are angles"},
+    {"controller.sensor", excludes, "controller.commands",
+     "found beside commands, which nothing that is measured changes; allowed: without it"},
     {"controller.program", needs, "controller.sampling"},
     {"controller.library", needs, "controller.sampling"},
     {"controller.feedback_linearization", excludes, "controller.sampling"},

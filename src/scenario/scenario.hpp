@@ -268,8 +268,13 @@ struct TableReference {
   std::vector<double> x, y;   // m
 };
 
+// What a rig is told, whatever its ball does: the commands of Law::commands in place of a path.
+struct CommandProfiles {
+  Profile phi, theta;  // rad
+};
+
 using Reference = std::variant<PointReference, CircleReference, LissajousReference,
-                               WaypointReference, TableReference>;
+                               WaypointReference, TableReference, CommandProfiles>;
 
 enum class Drives { acceleration, angle, torque, voltage, legs };  // legs: three servos' angles
 
@@ -293,6 +298,7 @@ enum class Law {
   lqr,                     // state feedback with the gain that minimizes a quadratic cost
   gravity_compensation,    // angles at which gravity accelerates the ball by x_d'' + kv e' + kp e
   feedback_linearisation,  // gimbal accelerations that accelerate the ball alike
+  commands,                // none: profiles of the commands
   own,                     // an external program or library (docs/reference/controllers.md)
 };
 
@@ -497,5 +503,11 @@ struct Scenario {
   // Notes and warnings on valid values that may be mistakes: one line each, with its place.
   std::vector<std::string> remarks{};
 };
+
+// The commands that are known beforehand; null for any other law, and without a controller.
+[[nodiscard]] inline const CommandProfiles* commands_of(const Scenario& scenario) {
+  if (!scenario.controller) return nullptr;
+  return std::get_if<CommandProfiles>(&scenario.controller->reference);
+}
 
 }  // namespace bbsim

@@ -389,7 +389,8 @@ double SweepPlan::drawn(const Axis& axis, std::size_t number) {
 bool SweepPlan::shares_signals() const {
   return std::all_of(axes_.begin(), axes_.end(), [](const Axis& axis) {
     return axis.independent && !axis.key.starts_with("gimbal.motion") &&
-           !axis.key.starts_with("controller.reference");
+           !axis.key.starts_with("controller.reference") &&
+           !axis.key.starts_with("controller.commands");
   });
 }
 

@@ -33,7 +33,8 @@ const model::SignalPair& reference_of(const model::Model& model) {
 
 bool share_reference(const SweepPlan& plan) {
   return std::none_of(plan.axes().begin(), plan.axes().end(), [](const Axis& axis) {
-    return axis.key == "controller" || axis.key.starts_with("controller.reference");
+    return axis.key == "controller" || axis.key.starts_with("controller.reference") ||
+           axis.key.starts_with("controller.commands");
   });
 }
 

@@ -26,6 +26,7 @@ function law(name, size, n, i, rows) {
     rows = rows "], [0, -" between(0, size) ", 0, -" between(0, size) (n == 8 ? ", 0, 1, 0, 0.1" : "") "]]"
     return "{gain: " rows "}"
   }
+  if (name == "commands") return "{phi: " profile(0.1, 0) (chance(0.8) ? ", theta: " profile(0.1, 0) : "") "}"
   if (name == "program") {
     return "{command: [python3, pid.py], parameters: {kp: " between(0, size) ", kv: " between(0, size) ", ki: " \
       between(0, size / 4) "}}"
@@ -100,7 +101,7 @@ function sampling(drives, period) {
     line("    jitter: " (chance(0.5) ? seconds(sprintf("%.6g", period * between(0, 0.5))) \
                                      : "{file: periods.csv, period: period}"))
   }
-  if (!chance(0.6)) return
+  if (played || !chance(0.6)) return
   line("  sensor:")
   line("    resolution: " metres(by_factors(1e-5, 0.005)))
   noise = chance(0.5)
@@ -121,7 +122,7 @@ function sampling(drives, period) {
 
 # Whether the scene can fill a column.
 function has(name) {
-  if (name ~ /reference|tracking/) return closed
+  if (name ~ /reference|tracking/) return closed && !played
   if (name ~ /_command/) return closed
   if (name ~ /measured/) return sampled
   if (name ~ /^motor_(torque|power)/) return inertia
@@ -142,15 +143,16 @@ function draw(  name, drives, plate, end, i, columns, gravity, start, mounting, 
   closed = by !~ /^(motion|torque)$/
   torques = by ~ /^(torque|motors)$/
   sampled = closed && chance(0.5)
-  name = pick("pd|pid|state_feedback|lqr|gravity_compensation|feedback_linearisation")
+  name = pick("pd|pid|state_feedback|lqr|gravity_compensation|feedback_linearisation|commands")
   if (sampled && own != "" && chance(0.12)) name = pick(own)
   drives = by == "motors" ? pick("angle|torque|voltage") : by
-  if (closed && name == "gravity_compensation") drives = "angle"
+  if (closed && name ~ /gravity_compensation|commands/) drives = "angle"
   if (by == "acceleration" && drives == "angle") by = "angle"
   if (closed && name == "feedback_linearisation") {
     by = drives = "acceleration"
     sampled = torques = 0
   }
+  played = closed && name == "commands"
   inverts = closed && name == "feedback_linearisation"
   gravity = !closed && chance(0.1) ? 0 : chance(0.5) ? by_factors(0.5, 25) : ""
   factor = chance(0.3) ? between(0, 0.67) : chance(0.05) ? 0 : ""
@@ -226,7 +228,7 @@ function draw(  name, drives, plate, end, i, columns, gravity, start, mounting, 
     line("controller:")
     line("  " name ": " law(name, drives == "torque" ? 0.5 : drives == "voltage" ? 20 : 2))
     line("  drives: " drives)
-    line("  reference: " path(0.1))
+    if (name != "commands") line("  reference: " path(0.1))
     limit = drives == "voltage" ? by_factors(0.5, 24) : drives == "torque" ? by_factors(0.005, 0.5) : by_factors(0.05, 1.2)
     if (chance(0.4)) {
       line("  limit: " (chance(0.7) ? limit : "{" pick("phi|theta") ": " limit "}"))

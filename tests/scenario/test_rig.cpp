@@ -26,6 +26,37 @@ const std::string prescribed =
 
 }  // namespace
 
+TEST_CASE("commands that are known beforehand take no path and no sensor") {
+  const std::string played =
+      "ball: {radius: 0.02}\n"
+      "gimbal: {servo: {natural_frequency: \"5 Hz\", damping: 0.8}}\n"
+      "controller:\n"
+      "  commands: {phi: 0.01}\n"
+      "  drives: angle\n"
+      "time: {end: 1, step: 0.1}\n";
+  const Scenario scene = parse(played);
+  REQUIRE(commands_of(scene) != nullptr);
+  CHECK(std::get<double>(commands_of(scene)->phi.front()) == 0.01);
+  CHECK(commands_of(parse(base)) == nullptr);
+  struct Case {
+    std::vector<std::string> overrides;
+    std::string says;
+  };
+  for (const Case& refused :
+       {Case{{"controller.reference={point: [0, 0]}"},
+             "controller.reference: found beside commands, which follow no path; allowed: without"},
+        Case{{"controller.sampling.period=\"20 ms\"", "controller.sensor.noise=\"1 mm\""},
+             "controller.sensor: found beside commands, which nothing that is measured changes"},
+        Case{{"controller.drives=null", "gimbal.servo=null"},
+             "controller.commands: found, but controller.drives is not angle"},
+        Case{{"controller.commands={}"}, "profiles of phi and theta, or of one of them"},
+        Case{{"output.columns=[t, x_reference]"},
+             "but commands follow no path; allowed: other columns, such as phi_command"}}) {
+    CAPTURE(refused.overrides.front());
+    CHECK_THAT(errors(played, refused.overrides), Catch::Contains(refused.says));
+  }
+}
+
 TEST_CASE("the parts of a rig are read in SI units") {
   const Scenario scene =
       parse(base, {"gimbal.servo.rate_limit=\"300 deg/s\"", "gimbal.servo.angle_limit=\"25 deg\"",

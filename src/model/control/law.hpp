@@ -30,10 +30,16 @@ template <class Real, class Scalar, class Ball, class Time>
          law.kp[row][1] * (reference[1].value - ball.y);
 }
 
-enum class LawKind { held, linear, gravity_compensation, feedback_linearisation };
+enum class LawKind { held, played, linear, gravity_compensation, feedback_linearisation };
+
+// Whether commands depend on the state.
+[[nodiscard]] constexpr bool feeds_back(LawKind kind) {
+  return kind != LawKind::held && kind != LawKind::played;
+}
 
 // How a command u follows from the error e = reference - (x, y), rows phi, theta.
 //   held                    is none: the command is what it was
+//   played                  is none: the command is the reference, a known function of time
 //   linear                  u = gain (e, e', -q, -q') + i, i' = integral e; q: the servos' angles
 //   gravity_compensation    angles on which gravity gives the ball x_d'' + kv e' + kp e
 //   feedback_linearisation  accelerations of the gimbal that give the ball the same
@@ -123,6 +129,13 @@ template <class Scalar, class Real, class Integral, class Time, class Limited>
                                     const std::array<Jet<Time>, 2>& reference,
                                     const Limited& limited) {
   Command<Real> u;
+  if (law.kind == LawKind::played) {
+    for (std::size_t i = 0; i < 2; ++i) {
+      u.raw[i] = Real(reference[i].value);
+      u.value[i] = limited(static_cast<int>(i), u.raw[i]);
+    }
+    return u;
+  }
   if (law.kind == LawKind::gravity_compensation) {
     // The static part of (27): (1 + k) x'' = g sin phi, (1 + k) y'' = -g cos phi sin theta.
     u.raw[0] = law.scale * wanted_acceleration(law, 0, state, reference);

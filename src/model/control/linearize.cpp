@@ -384,6 +384,9 @@ Linearization loop_with(const Linearization& plant, const LinearSystem& law,
 
 LinearKind usual_kind(const Scenario& scene) {
   if (!scene.controller) return LinearKind::plant;
+  if (commands_of(scene) != nullptr) {
+    return scene.controller->sampling ? LinearKind::sampled : LinearKind::plant;
+  }
   return scene.controller->own ? LinearKind::sampled : LinearKind::loop;
 }
 
@@ -400,6 +403,11 @@ Linearization linearize_as(const Scenario& scene, const Model& model, LinearKind
       if (!scene.controller) {
         throw InputError(
             "linearize: found --loop, but the scene has no controller; allowed: --plant");
+      }
+      if (commands_of(scene) != nullptr) {
+        throw InputError(
+            "linearize: found --loop with controller.commands, which close no loop; allowed: "
+            "--plant, --sampled");
       }
       if (scene.controller->own) {
         throw InputError(

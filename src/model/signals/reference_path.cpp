@@ -48,6 +48,13 @@ struct Path {
     return path;
   }
 
+  SignalPair operator()(const CommandProfiles& commands) const {
+    SignalPair angles;
+    angles.add(0, commands.phi);
+    angles.add(1, commands.theta);
+    return angles;
+  }
+
   static SignalPair constant(const Pair& position) {
     SignalPair path;
     for (std::size_t i = 0; i < 2; ++i) path.add_constant(i, position[i]);
