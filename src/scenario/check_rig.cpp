@@ -110,6 +110,11 @@ class Checks {
                "natural_frequency and damping, whose state the regulator feeds back");
       }
     }
+    if (controller.law == Law::commands && controller.drives != Drives::angle) {
+      refuse({"controller", "commands"},
+             "found, but controller.drives is not angle; allowed: only with drives: angle, since "
+             "commands are angles");
+    }
     if (controller.law == Law::gravity_compensation) {
       if (controller.drives != Drives::angle) {
         refuse({"controller", "gravity_compensation"},

@@ -107,9 +107,7 @@ constexpr KeyRelation table[] = {
     // The controller.
     {"controller", needs, "controller.reference or controller.commands"},
     {"controller.reference", excludes, "controller.commands"},
-    {"controller.commands", needs, "controller.drives=angle",
-     "found, but controller.drives is not angle; allowed: only with drives: angle, since commands "
-     "are angles"},
+    {"controller.commands", needs, "controller.drives=angle"},
     {"controller.sensor", excludes, "controller.commands",
      "found beside commands, which nothing that is measured changes; allowed: without it"},
     {"controller.program", needs, "controller.sampling"},

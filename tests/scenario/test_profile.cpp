@@ -132,7 +132,9 @@ TEST_CASE("a table must be usable") {
   CHECK(refused("t,a\n0,1\n1,1\n2,1\n9,1\n", good) ==
         key + "found times from 0 to 9 s; allowed: a table that covers the run, 0 to 10 s");
   CHECK(refused("t,a\n1,1\n2,1\n3,1\n11,1\n", good) ==
-        key + "found times from 1 to 11 s; allowed: a table that covers the run, 0 to 10 s");
+        key +
+            "found times from 1 to 11 s; allowed: a table that covers the run, 0 to 10 s; "
+            "time_offset: start makes its first row t = 0");
   CHECK(refused(five_rows("5,3,4"), "{file: motion.csv, time: time, value: a}") ==
         "gimbal.motion.phi.table.time: found time; allowed: one of t, a, b");
   CHECK_THAT(refused(five_rows("5,3,4"), "{file: absent.csv, time: t, value: a}"),
