@@ -38,7 +38,7 @@ std::optional<double> size_if_given(const std::string& option, const std::string
 }
 
 Plays what_is_played(const Scenario& scenario) {
-  if (scenario.gimbal.motion) return Plays::tilts;
+  if (scenario.gimbal.motion || commands_of(scenario) != nullptr) return Plays::tilts;
   if (!scenario.controller) {
     throw InputError(
         "gimbal.torque: found, which a design cannot choose; allowed: gimbal.motion, or a "
@@ -47,7 +47,7 @@ Plays what_is_played(const Scenario& scenario) {
   if (scenario.controller->own) {
     throw InputError(
         "controller: found a program or library of your own; allowed in a design: a law of bbsim, "
-        "or gimbal.motion");
+        "controller.commands, or gimbal.motion");
   }
   return Plays::reference;
 }
@@ -122,13 +122,12 @@ void read_noise(const DesignRequest& request, const Scenario& scenario, design::
   }
 }
 
-// A table for one axis, with the changes that the scenario makes to its own.
-std::string table_text(const ScenarioFamily& family, const std::string& axis,
-                       const std::string& file) {
+// A table for one axis of `section`, with the changes that the scenario makes to its own.
+std::string table_text(const ScenarioFamily& family, const std::string& section,
+                       const std::string& axis, const std::string& file) {
   std::string text = "{table: {file: " + file + ", time: t, value: " + axis + ", unit: rad";
   for (const char* const name : {"scale", "offset", "delay"}) {
-    const auto value =
-        family.number_at("gimbal.motion." + axis + ".table." + std::string(name), {});
+    const auto value = family.number_at(section + "." + axis + ".table." + std::string(name), {});
     if (value) text += ", " + std::string(name) + ": " + number_text(*value);
   }
   return text + "}}";
@@ -137,6 +136,7 @@ std::string table_text(const ScenarioFamily& family, const std::string& axis,
 // What is played, and how it is logged.
 struct Plan {
   Plays plays;
+  std::string section;  // that has the tables of tilts
   std::array<bool, 2> axes;
   double length, rate;
   bool is_launched;  // the ball of the scenario moves at the start
@@ -150,10 +150,10 @@ Settings settings_of(const DesignRequest& request, const Plan& plan, const Pair&
   Settings settings;
   if (plan.plays == Plays::tilts) {
     const auto axis = [&](std::size_t i, const char* name) {
-      return plan.axes[i] ? table_text(request.family, name, file) : std::string("0");
+      return plan.axes[i] ? table_text(request.family, plan.section, name, file) : std::string("0");
     };
     settings.push_back(
-        {"gimbal.motion", "{phi: " + axis(0, "phi") + ", theta: " + axis(1, "theta") + "}"});
+        {plan.section, "{phi: " + axis(0, "phi") + ", theta: " + axis(1, "theta") + "}"});
   } else {
     settings.push_back(
         {"controller.reference", "{table: {file: " + file + ", time: t, x: x, y: y, unit: m}}"});
@@ -227,16 +227,18 @@ DesignResult design(const DesignRequest& request, DesignParts parts, Watch& watc
   const Plays plays = what_is_played(scenario);
   if (parts.sketch && plays == Plays::reference) {
     throw InputError(
-        "--sketch: the scenario has a controller; allowed: with gimbal.motion, whose tilts a "
-        "sketch "
-        "can play; --table writes the reference for your own firmware");
+        "--sketch: the scenario has a controller with a reference; allowed: with gimbal.motion or "
+        "controller.commands, whose tilts a sketch can play; --table writes the reference for your "
+        "own firmware");
   }
   std::array<bool, 2> axes{true, true};
   if (scenario.ball.groove)
     axes = {scenario.ball.groove->axis == 0, scenario.ball.groove->axis == 1};
   const double rate = rate_of(request, scenario);
   const double length = length_of(request, scenario, rate);
-  const Plan plan{plays, axes, length, rate, scenario.ball.velocity != Pair{0, 0}};
+  const char* const section =
+      commands_of(scenario) != nullptr ? "controller.commands" : "gimbal.motion";
+  const Plan plan{plays, section, axes, length, rate, scenario.ball.velocity != Pair{0, 0}};
   const auto settings = [&](const Pair& start) { return settings_of(request, plan, start); };
   ScenarioFamily family = family_with(request.family.source(), settings({0, 0}));
   family.give_table(request.table, placeholder_table(plays, length));

@@ -100,6 +100,9 @@ Placeholder placeholder(double length) {
 }
 
 std::array<TableChange, 2> changes_of(const Scenario& scenario) {
+  if (const auto* const commands = commands_of(scenario)) {
+    return {change_of(commands->phi), change_of(commands->theta)};
+  }
   if (!scenario.gimbal.motion) return {};
   return {change_of(scenario.gimbal.motion->phi), change_of(scenario.gimbal.motion->theta)};
 }
@@ -109,8 +112,11 @@ void play(const Motion& motion, Plays plays, const std::array<TableChange, 2>& n
   scenario.ball.position = motion.position;
   scenario.ball.velocity = motion.velocity;
   if (plays == Plays::tilts) {
-    play_profile(motion, 0, nominal[0], length, scenario.gimbal.motion->phi);
-    play_profile(motion, 1, nominal[1], length, scenario.gimbal.motion->theta);
+    auto* const commands = commands_of(scenario);
+    Profile& phi = commands != nullptr ? commands->phi : scenario.gimbal.motion->phi;
+    Profile& theta = commands != nullptr ? commands->theta : scenario.gimbal.motion->theta;
+    play_profile(motion, 0, nominal[0], length, phi);
+    play_profile(motion, 1, nominal[1], length, theta);
     return;
   }
   TableReference table;

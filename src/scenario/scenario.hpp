@@ -505,9 +505,11 @@ struct Scenario {
 };
 
 // The commands that are known beforehand; null for any other law, and without a controller.
-[[nodiscard]] inline const CommandProfiles* commands_of(const Scenario& scenario) {
-  if (!scenario.controller) return nullptr;
-  return std::get_if<CommandProfiles>(&scenario.controller->reference);
+template <class AnyScenario>
+[[nodiscard]] auto* commands_of(AnyScenario& scenario) {
+  using Commands = decltype(std::get_if<CommandProfiles>(&scenario.controller->reference));
+  return scenario.controller ? std::get_if<CommandProfiles>(&scenario.controller->reference)
+                             : Commands{nullptr};
 }
 
 }  // namespace bbsim

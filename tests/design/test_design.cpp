@@ -140,6 +140,30 @@ TEST_CASE("a designed log leaves at most half the deviations of the best circle:
   }
 }
 
+TEST_CASE("a designed log leaves at most half the deviations of the best circle: commands") {
+  const Folder folder;
+  folder.put("gone.csv", "t,phi,theta\n0,0,0\n1,0,0\n3,0,0\n4,0,0\n");
+  folder.put("rig.yaml", R"(
+ball: {radius: 2 cm}
+plate: {size: [30 cm, 24 cm]}
+gimbal: {servo: {natural_frequency: 5 Hz, damping: 0.8}}
+controller:
+  commands:
+    phi: {table: {file: gone.csv, time: t, value: phi}}
+    theta: {table: {file: gone.csv, time: t, value: theta}}
+  drives: angle
+time: {end: 4, step: 20 ms}
+)");
+  const ScenarioFamily family(folder / "rig.yaml", {});
+  const api::DesignResult made = made_of(request_of(
+      family, {"gimbal.servo.natural_frequency", "gimbal.servo.damping", "ball.inertia_factor"}));
+  INFO(made.text);
+  for (const design::Expected& one : made.designed.parameters) {
+    REQUIRE(one.circle);
+    CHECK(one.sd <= 0.5 * *one.circle);
+  }
+}
+
 TEST_CASE("a design keeps the limits, is written, and a fit of its log is as it says") {
   const Folder folder;
   folder.put("rig.yaml", open_rig);
