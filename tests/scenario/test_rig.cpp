@@ -37,7 +37,8 @@ TEST_CASE("commands that are known beforehand take no path and no sensor") {
   const Scenario scene = parse(played);
   REQUIRE(commands_of(scene) != nullptr);
   CHECK(std::get<double>(commands_of(scene)->phi.front()) == 0.01);
-  CHECK(commands_of(parse(base)) == nullptr);
+  const Scenario pursued = parse(base);
+  CHECK(commands_of(pursued) == nullptr);
   struct Case {
     std::vector<std::string> overrides;
     std::string says;
