@@ -104,7 +104,9 @@ class VectorEnv(_VectorBase):
         if int(n) < 1:
             raise InputError([("", f"n: found {n}; allowed: a whole number from 1 up")])
         if gymnasium is not None:
-            self.metadata = {**self.metadata, "autoreset_mode": gymnasium.vector.AutoresetMode.NEXT_STEP}
+            modes = getattr(gymnasium.vector, "AutoresetMode", None)  # from Gymnasium 1.1 on
+            if modes is not None:
+                self.metadata = {**self.metadata, "autoreset_mode": modes.NEXT_STEP}
         self.num_envs = int(n)
         self._randomize = dict(randomize or {})
         self._reward = reward
@@ -112,6 +114,7 @@ class VectorEnv(_VectorBase):
         self._random = np.random.default_rng(seed)
         self._options: Dict[str, Any] = {}
         self._over = np.zeros(self.num_envs, dtype=bool)
+        self._begun = np.zeros(self.num_envs, dtype=bool)
         width = len(self.observation_columns)
         limit = np.array([np.inf if one is None else one for one in self._runs.limits])
         self.single_observation_space = Box(-np.inf, np.inf, (width,), np.float64)
@@ -138,6 +141,7 @@ class VectorEnv(_VectorBase):
             seeds.append(int(self._random.integers(_MOST_SEED)))
         self._runs.begin([int(one) for one in which], values, seeds)
         self._over[which] = False
+        self._begun[which] = True
 
     def reset(
         self, *, seed: Optional[int] = None, options: Optional[Mapping[str, Any]] = None
@@ -160,6 +164,8 @@ class VectorEnv(_VectorBase):
 
     def step(self, actions: Any) -> Tuple[Array, Array, Array, Array, Dict[str, Any]]:
         """Gives each run its commands, and goes to its next sample."""
+        if not self._begun.all():
+            raise RuntimeError("step: found a run that has not begun; allowed: reset() first")
         commands = np.ascontiguousarray(actions, dtype=np.float64)
         begins = self._over.copy()
         self._runs.step(commands, ~begins)
@@ -185,7 +191,7 @@ class VectorEnv(_VectorBase):
 
 
 class Env(_EnvBase):  # type: ignore[misc]
-    """A single run with Gymnasium's API: ``gymnasium.make("bbsim/BallOnPlate-v0", scenario=...)``."""
+    """A single run with Gymnasium's API: ``gymnasium.make("bbsim/Plate-v0", scenario=...)``."""
 
     metadata: Dict[str, Any] = {"render_modes": []}
     render_mode = None
@@ -227,5 +233,10 @@ class Env(_EnvBase):  # type: ignore[misc]
         self._all.close()
 
 
+def _vector(scenario: Scenario, num_envs: int = 1, **rest: Any) -> VectorEnv:
+    """For ``gymnasium.make_vec("bbsim/Plate-v0", num_envs=n, scenario=...)``."""
+    return VectorEnv(scenario, num_envs, **rest)
+
+
 if gymnasium is not None:
-    gymnasium.register(id="bbsim/BallOnPlate-v0", entry_point=Env)
+    gymnasium.register(id="bbsim/Plate-v0", entry_point=Env, vector_entry_point=_vector)

@@ -13,6 +13,7 @@
 #include <cstddef>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -312,7 +313,9 @@ void begin(Environments& its, const std::vector<std::size_t>& which,
     throw py::value_error("found lists of different lengths");
   }
   const py::gil_scoped_release unlocked;
-  for (std::size_t i = 0; i < which.size(); ++i) its.begin(which[i], values[i], seeds[i]);
+  std::vector<Environments::Beginning> how(which.size());
+  for (std::size_t i = 0; i < which.size(); ++i) how[i] = {values[i], seeds[i]};
+  its.begin(which, how);
 }
 
 // Steps the runs that are flagged.
@@ -323,12 +326,10 @@ void step(Environments& its, const Commands& commands, const Flags& which) {
     throw py::value_error("actions: found another shape; allowed: (" + std::to_string(count) +
                           ", 2)");
   }
-  const double* const of = commands.data();
-  const bool* const steps = which.data();
+  const std::span of(commands.data(), 2 * its.count());
+  const std::span steps(which.data(), its.count());
   const py::gil_scoped_release unlocked;
-  for (std::size_t i = 0; i < its.count(); ++i) {
-    if (steps[i]) its.step(i, {of[2 * i], of[2 * i + 1]});
-  }
+  its.step(of, steps);
 }
 
 void define_environments(py::module_& module) {
@@ -373,12 +374,12 @@ void define_environments(py::module_& module) {
       .def_property_readonly("truncated", flags(&Environments::truncated))
       .def(
           "result",
-          [](const Environments& its, std::size_t which) -> std::shared_ptr<api::RunResult> {
-            const api::SteppedRun* const run = which < its.count() ? its.run(which) : nullptr;
-            if (run == nullptr || !run->is_over()) return nullptr;
-            return std::make_shared<api::RunResult>(run->result());
+          [](Environments& its, std::size_t which) -> std::shared_ptr<api::RunResult> {
+            const api::RunResult* const made = which < its.count() ? its.result(which) : nullptr;
+            return made == nullptr ? nullptr : std::make_shared<api::RunResult>(*made);
           },
-          py::arg("which"));
+          py::arg("which"))
+      .def_property_readonly("in_lanes", &Environments::in_lanes);
 }
 
 void raise(const char* type, const py::object& argument) {

@@ -5,9 +5,13 @@
 
 #include <algorithm>
 #include <array>
+#include <optional>
 #include <utility>
 
 #include "base/error.hpp"
+#include "model/control/external_controller.hpp"
+#include "model/model.hpp"
+#include "solve/choose.hpp"
 
 namespace bbsim::api {
 namespace {
@@ -33,6 +37,26 @@ bool draws(const Scenario& scenario) {
          (controller.sampling && controller.sampling->jitter > 0);
 }
 
+// In a lane nobody asks it, but the model has to have one.
+class Unasked : public model::ExternalController {
+ public:
+  void begin() override {}
+  model::Commands command(const model::ControllerSample& /*sample*/, double* /*own*/) override {
+    return {};
+  }
+  [[nodiscard]] bool can_save() const override { return false; }
+  [[nodiscard]] std::string save() override { return ""; }
+  void restore(const std::string& /*memory*/) override {}
+};
+
+// Runs with more samples are left to single runs, which need not remember their commands.
+constexpr double most_samples = 1e5;
+
+bool suits_lanes(const Scenario& scenario) {
+  return !scenario.solver.error && solve::choose_method(scenario.solver.method) == Method::radau &&
+         scenario.time.end <= most_samples * scenario.controller->sampling->period;
+}
+
 }  // namespace
 
 Environments::Environments(ScenarioFamily family, std::size_t count, std::vector<std::string> keys,
@@ -46,54 +70,179 @@ Environments::Environments(ScenarioFamily family, std::size_t count, std::vector
   if (!scenario_.controller) {
     throw InputError("controller: found none; allowed: a controller with sampling and drives");
   }
+  scenario_.source = family_.source();
+  // Fewer would leave lanes empty, and single runs give the bits of `bbsim run`.
+  if (keeps_rows_ || count < group || !scenario_.controller->sampling) return;
+  for (std::size_t first = 0; first < count; first += group) {
+    lanes_.push_back(
+        std::make_unique<Lanes>(solve::Tolerances{scenario_.solver.rtol, scenario_.solver.atol}));
+  }
 }
 
 std::span<const ObservationColumn> Environments::columns() {
   return its_columns;
 }
 
-void Environments::begin(std::size_t which, std::span<const std::string> values, std::size_t seed) {
-  std::vector<ScenarioFamily::Setting> settings;
-  for (std::size_t k = 0; k < keys_.size(); ++k) settings.push_back({keys_[k], values[k]});
-  Scenario scenario = family_.read(settings);
-  scenario.source = family_.source();
+Scenario Environments::scenario_of(const Beginning& beginning) const {
+  Scenario scenario = scenario_;
+  if (!keys_.empty()) {
+    std::vector<ScenarioFamily::Setting> settings;
+    for (std::size_t k = 0; k < keys_.size(); ++k) {
+      settings.push_back({keys_[k], beginning.values[k]});
+    }
+    scenario = family_.read(settings);
+    scenario.source = family_.source();
+  }
   if (draws(scenario)) {
     // Its place in the text is of no matter: the sensor is made anew with each run.
     auto& sensor = scenario.controller->sensor;
     if (!sensor) sensor.emplace();
-    sensor->seed = seed;
+    sensor->seed = beginning.seed;
   }
   if (!keeps_rows_) scenario.output.columns = {"t"};
-  runs_[which].reset();
-  runs_[which] = std::make_unique<SteppedRun>(scenario, RunRequest{});
-  std::fill_n(observations_.begin() + static_cast<std::ptrdiff_t>(which * its_columns.size()),
-              its_columns.size(), 0.0);
-  observe(which);
+  return scenario;
 }
 
-void Environments::step(std::size_t which, Pair command) {
-  if (!runs_[which] || runs_[which]->is_over()) return;
-  runs_[which]->step(command);
-  observe(which);
+void Environments::begin(std::span<const std::size_t> which, std::span<const Beginning> how) {
+  for (const std::size_t one : which) {
+    runs_[one] = {};
+    if (!lanes_.empty()) lanes_[one / group]->drop(one % group);
+  }
+  for (std::size_t i = 0; i < which.size(); ++i) {
+    const std::size_t one = which[i];
+    Run& run = runs_[one];
+    run.beginning = how[i];
+    const Scenario scenario = scenario_of(run.beginning);
+    if (!put_into_lane(one, scenario)) {
+      run.alone = std::make_unique<SteppedRun>(scenario, RunRequest{});
+    }
+    std::fill_n(observations_.begin() + static_cast<std::ptrdiff_t>(one * its_columns.size()),
+                its_columns.size(), 0.0);
+    observe(one);
+  }
+}
+
+bool Environments::put_into_lane(std::size_t which, const Scenario& scenario) {
+  if (lanes_.empty()) return false;
+  const Scenario commanded = with_outside_commands(scenario);
+  if (!suits_lanes(commanded) || commanded.solver.rtol != scenario_.solver.rtol ||
+      commanded.solver.atol != scenario_.solver.atol) {
+    return false;
+  }
+  try {
+    model::Model model = model::assemble(commanded, false);
+    if (!solve::sampled::moves(model)) return false;
+    model.rig->sampled->external = std::make_shared<Unasked>();
+    lanes_[which / group]->begin(which % group, model, commanded.time.end);
+    return true;
+  } catch (const InputError&) {  // the single run reports it
+    return false;
+  }
+}
+
+std::unique_ptr<SteppedRun> Environments::repeat(const Run& run) const {
+  auto made = std::make_unique<SteppedRun>(scenario_of(run.beginning), RunRequest{});
+  for (const Pair& command : run.commands) {
+    if (made->is_over()) break;
+    made->step(command);
+  }
+  return made;
+}
+
+void Environments::step(std::span<const double> commands, std::span<const bool> which) {
+  const auto moves = [&](std::size_t i) { return which[i] && !is_over(i); };
+  for (std::size_t i = 0; i < count(); ++i) {
+    if (moves(i)) require_finite({commands[2 * i], commands[2 * i + 1]});
+  }
+  for (std::size_t g = 0; g < lanes_.size(); ++g) step_lanes(g, commands, which);
+  for (std::size_t i = 0; i < count(); ++i) {
+    if (!runs_[i].alone || !moves(i)) continue;
+    runs_[i].alone->step({commands[2 * i], commands[2 * i + 1]});
+    observe(i);
+  }
+}
+
+void Environments::step_lanes(std::size_t of_group, std::span<const double> commands,
+                              std::span<const bool> which) {
+  Lanes& lanes = *lanes_[of_group];
+  const std::size_t first = of_group * group, some = std::min(group, count() - first);
+  std::array<bool, group> moves{};
+  for (std::size_t l = 0; l < some; ++l) {
+    const std::size_t i = first + l;
+    moves[l] = which[i] && lanes.state(l) == Lanes::State::waits;
+    if (!moves[l]) continue;
+    const Pair command{commands[2 * i], commands[2 * i + 1]};
+    runs_[i].commands.push_back(command);
+    lanes.answer(l, command);
+  }
+  lanes.advance();
+  for (std::size_t l = 0; l < some; ++l) {
+    if (!moves[l]) continue;
+    if (lanes.state(l) == Lanes::State::given_up) {
+      Run& run = runs_[first + l];
+      run.alone = repeat(run);
+      lanes.drop(l);
+    }
+    observe(first + l);
+  }
+}
+
+Environments::Lanes::State Environments::lane_state(std::size_t which) const {
+  return lanes_.empty() ? Lanes::State::empty : lanes_[which / group]->state(which % group);
+}
+
+bool Environments::is_over(std::size_t which) const {
+  const Run& run = runs_[which];
+  return run.alone ? run.alone->is_over() : lane_state(which) != Lanes::State::waits;
 }
 
 bool Environments::terminated(std::size_t which) const {
-  return runs_[which] && runs_[which]->is_over() && runs_[which]->result().code != ExitCode::done;
+  const Run& run = runs_[which];
+  if (!run.alone) return lane_state(which) == Lanes::State::stopped;
+  return run.alone->is_over() && run.alone->result().code != ExitCode::done;
 }
 
 bool Environments::truncated(std::size_t which) const {
-  return runs_[which] && runs_[which]->is_over() && runs_[which]->result().code == ExitCode::done;
+  const Run& run = runs_[which];
+  if (!run.alone) return lane_state(which) == Lanes::State::done;
+  return run.alone->is_over() && run.alone->result().code == ExitCode::done;
+}
+
+const RunResult* Environments::result(std::size_t which) {
+  if (!terminated(which) && !truncated(which)) return nullptr;
+  Run& run = runs_[which];
+  if (run.alone) return &run.alone->result();
+  if (!run.repeated) run.repeated = repeat(run);
+  return run.repeated->is_over() ? &run.repeated->result() : nullptr;
+}
+
+std::size_t Environments::in_lanes() const {
+  std::size_t found = 0;
+  for (std::size_t i = 0; i < count(); ++i) {
+    if (lane_state(i) != Lanes::State::empty) ++found;
+  }
+  return found;
 }
 
 void Environments::observe(std::size_t which) {
-  const Sample& now = runs_[which]->sample();
   double* const into = &observations_[which * its_columns.size()];
-  if (now.ball) std::ranges::copy(*now.ball, into);
-  into[2] = now.ball ? 1 : 0;
-  double* next = into + 3;
-  for (const Pair& pair : {now.reference, now.reference_rate, Pair{now.servo[0], now.servo[1]},
-                           Pair{now.servo_rate[0], now.servo_rate[1]}}) {
-    next = std::ranges::copy(pair, next).out;
+  const auto put = [into](const std::optional<Pair>& ball, const Pair& reference,
+                          const Pair& reference_rate, const Pair& servo, const Pair& servo_rate) {
+    if (ball) std::ranges::copy(*ball, into);
+    into[2] = ball ? 1 : 0;
+    double* next = into + 3;
+    for (const Pair* const pair : {&reference, &reference_rate, &servo, &servo_rate}) {
+      next = std::ranges::copy(*pair, next).out;
+    }
+  };
+  if (const Run& run = runs_[which]; run.alone) {
+    const Sample& now = run.alone->sample();
+    put(now.ball, now.reference, now.reference_rate, {now.servo[0], now.servo[1]},
+        {now.servo_rate[0], now.servo_rate[1]});
+  } else {
+    const auto& now = lanes_[which / group]->sample(which % group);
+    const auto& [x, y] = now.reference;
+    put(now.seen, {x.value, y.value}, {x.rate, y.rate}, now.servo, now.servo_rate);
   }
 }
 

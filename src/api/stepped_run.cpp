@@ -62,8 +62,13 @@ class Waiting : public model::ExternalController {
 
 }  // namespace
 
-SteppedRun::SteppedRun(const Scenario& scenario, RunRequest request) {
-  request.scenario = scenario;
+void require_finite(const Pair& command) {
+  if (std::isfinite(command[0]) && std::isfinite(command[1])) return;
+  throw InputError("commands: found [" + number_text(command[0]) + ", " + number_text(command[1]) +
+                   "]; allowed: finite numbers");
+}
+
+Scenario with_outside_commands(Scenario scenario) {
   if (!scenario.controller || !scenario.controller->sampling) {
     throw InputError(
         "controller.sampling: found none; allowed: {period: \"20 ms\"}, as commands from outside "
@@ -74,10 +79,15 @@ SteppedRun::SteppedRun(const Scenario& scenario, RunRequest request) {
         "controller.drives: found legs; allowed: angle, as commands from outside are for phi and "
         "theta");
   }
+  scenario.controller->law = Law::own;
+  scenario.controller->own.emplace();
+  return scenario;
+}
+
+SteppedRun::SteppedRun(const Scenario& scenario, RunRequest request) {
+  request.scenario = with_outside_commands(scenario);
   state_ = std::make_unique<State>(std::move(request));
-  Controller& controller = *state_->request.scenario.controller;
-  controller.law = Law::own;
-  controller.own.emplace().by = ControllerFactory{
+  state_->request.scenario.controller->own->by = ControllerFactory{
       "commands from outside",
       [state = state_.get()](const Scenario&) { return std::make_shared<Waiting<State>>(*state); }};
   state_->fiber.resume();
@@ -101,10 +111,7 @@ const Sample& SteppedRun::sample() const {
 }
 
 void SteppedRun::step(Pair command) {
-  if (!std::isfinite(command[0]) || !std::isfinite(command[1])) {
-    throw InputError("commands: found [" + number_text(command[0]) + ", " +
-                     number_text(command[1]) + "]; allowed: finite numbers");
-  }
+  require_finite(command);
   state_->command = command;
   state_->fiber.resume();
 }

@@ -29,6 +29,13 @@ struct Sample {
 
 [[nodiscard]] Sample copy_of(const model::ControllerSample& sample);
 
+// The scenario with commands from outside in place of its law. Throws InputError if its controller
+// takes no samples, or drives legs.
+[[nodiscard]] Scenario with_outside_commands(Scenario scenario);
+
+// Throws InputError for a command that is not finite.
+void require_finite(const Pair& command);
+
 class SteppedRun {
  public:
   // Whatever law the scenario has, commands from outside take its place. Begins the run, and goes

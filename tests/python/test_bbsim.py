@@ -4,6 +4,7 @@
 
 import contextlib
 import csv
+import importlib.util
 import io
 import json
 import math
@@ -90,6 +91,29 @@ class SampledPd:
 def with_callable(function, **more):
     controller = {key: value for key, value in LOOP["controller"].items() if key != "pd"}
     return {**LOOP, "controller": {"callable": function, **controller}, **more}
+
+
+# As much of Gymnasium as an environment touches, where it is not installed.
+GYMNASIUM = {
+    "__init__.py": """
+from . import spaces, vector
+registered = {}
+class Env:
+    def reset(self, *, seed=None, options=None): pass
+def register(id, entry_point=None, vector_entry_point=None): registered[id] = entry_point, vector_entry_point
+def make(id, **rest): return registered[id][0](**rest)
+def make_vec(id, num_envs=1, **rest): return registered[id][1](num_envs=num_envs, **rest)
+""",
+    "spaces.py": """
+class Box:
+    def __init__(self, low, high, shape=None, dtype=None): self.low, self.high = low, high
+""",
+    "vector.py": """
+import enum
+class VectorEnv: pass
+class AutoresetMode(enum.Enum): NEXT_STEP = "NextStep"
+""",
+}
 
 
 class Runs(unittest.TestCase):
@@ -410,17 +434,62 @@ class Environments(unittest.TestCase):
         with self.assertRaises(bbsim.InputError):
             bbsim.VectorEnv(self.SCENE, 0)
 
-    def test_single(self):
-        env = bbsim.Env(self.SCENE, seed=2)
-        observation, info = env.reset(seed=2)
-        self.assertEqual((observation.shape, info), ((11,), {}))
-        over = False
-        while not over:
-            observation, reward, terminated, truncated, _ = env.step(env.action_space.sample() * 0)
-            self.assertIsInstance(reward, float)
-            over = terminated or truncated
+    def keeps_the_rules(self, env):
+        """Those of Gymnasium's documentation, as its own checker has them."""
         with self.assertRaises(RuntimeError):
             env.step([0, 0])
+        first, info = env.reset(seed=2)
+        self.assertEqual(info, {})
+        self.assertEqual((first.shape, first.dtype), (env.observation_space.shape, env.observation_space.dtype))
+        self.assertTrue(env.observation_space.contains(first))
+        np.testing.assert_array_equal(env.reset(seed=2)[0], first)
+        self.assertFalse(np.array_equal(env.reset(seed=3)[0], first))
+        for _ in range(2):
+            before, kept = first, first.copy()
+            over = False
+            while not over:
+                action = 0.1 * env.action_space.sample()
+                self.assertTrue(env.action_space.contains(action))
+                observation, reward, terminated, truncated, info = env.step(action)
+                self.assertTrue(env.observation_space.contains(observation))
+                self.assertEqual([type(one) for one in (reward, terminated, truncated, info)], [float, bool, bool, dict])
+                np.testing.assert_array_equal(before, kept)  # nobody writes into what was given
+                before, kept = observation, observation.copy()
+                over = terminated or truncated
+            with self.assertRaises(RuntimeError):
+                env.step([0, 0])
+            first, _ = env.reset()
+        env.close()
+
+    def test_single(self):
+        self.keeps_the_rules(bbsim.Env(self.SCENE, {"ball.position.1": (-0.01, 0.01)}))
+
+    def test_before_reset(self):
+        with self.assertRaises(RuntimeError):
+            bbsim.VectorEnv(self.SCENE, 2).step(np.zeros((2, 2)))
+
+    def test_registered(self):
+        files = {}
+        if importlib.util.find_spec("gymnasium") is None:
+            files = GYMNASIUM
+        script = (
+            "import gymnasium, bbsim, numpy as np\n"
+            f"scene = {self.SCENE!r}\n"
+            "env = gymnasium.make('bbsim/Plate-v0', scenario=scene, randomize={'ball.position.1': (-0.01, 0.01)})\n"
+            "assert isinstance(env, gymnasium.Env) and env.reset(seed=1)[0].shape == (11,)\n"
+            "assert len(env.step(np.zeros(2))) == 5\n"
+            "envs = gymnasium.make_vec('bbsim/Plate-v0', num_envs=3, scenario=scene)\n"
+            "assert isinstance(envs, gymnasium.vector.VectorEnv) and envs.reset(seed=1)[0].shape == (3, 11)\n"
+            "assert envs.metadata['autoreset_mode'] == gymnasium.vector.AutoresetMode.NEXT_STEP\n"
+            "assert isinstance(envs.single_action_space, gymnasium.spaces.Box)\n"
+        )
+        with tempfile.TemporaryDirectory() as folder:
+            for name, text in files.items():
+                file = Path(folder) / "gymnasium" / name
+                file.parent.mkdir(exist_ok=True)
+                file.write_text(text)
+            path = os.pathsep.join([folder, os.environ.get("PYTHONPATH", "")])
+            subprocess.run([sys.executable, "-c", script], check=True, env={**os.environ, "PYTHONPATH": path})
 
 
 class Faults(unittest.TestCase):
@@ -487,6 +556,22 @@ class Interruptions(unittest.TestCase):
             f"s = dict(controller=dict(callable=lambda sample: (0, 0), drives='angle', sampling=dict(period='20 ms'), "
             f"reference=dict(point=[0, 0])), ball=dict(radius=0.01), time=dict(end=1e6, step=1), "
             f"gimbal=dict(servo=dict(natural_frequency=10, damping=1))); bbsim.run(s)")
+
+
+class Examples(unittest.TestCase):
+    def test_cross_entropy(self):
+        sys.path.insert(0, str(CONFIGS.parent / "examples/learning"))
+        try:
+            import cross_entropy
+        finally:
+            sys.path.pop(0)
+        said = []
+        rig = CONFIGS / "rig.yaml"
+        weights = cross_entropy.learn(rig, policies=32, rigs=4, best=6, generations=12, said=said.append)
+        self.assertEqual(len(said), 2)
+        learned, built_in = cross_entropy.compared(rig, weights, rigs=64)
+        self.assertLess(learned, 0.95 * built_in)
+        self.assertLess(built_in, 60)  # mm^2: the law does not drop the ball
 
 
 class Documents(unittest.TestCase):

@@ -22,9 +22,11 @@ class SampleExchange {
  public:
   explicit SampleExchange(const SampledLoop& loop);
 
-  // The first instant that is left, and the first one at which a command arrives, s.
+  // The first instant that is left, the first one at which a command arrives, and the next sample,
+  // s.
   [[nodiscard]] double next() const { return std::min({expose_.next, sample_.next, apply_.next}); }
   [[nodiscard]] double next_command() const { return apply_.next; }
+  [[nodiscard]] double next_sample() const { return sample_.next; }
 
   // Times nearer to t than this (s) are one with it but for their rounding: what the sensor sees at
   // t is of the sample at t + delay.

@@ -43,6 +43,7 @@ class Sampling : public Part {
 
   [[nodiscard]] double next_time() const { return exchange_.next(); }
   [[nodiscard]] double next_change() const { return exchange_.next_command(); }
+  [[nodiscard]] double next_sample() const { return exchange_.next_sample(); }
   // Exposes what is due by t.
   void observe(double t, const double* z) {
     while (exchange_.exposes_by(t)) exchange_.expose(z[0], z[1]);

@@ -17,10 +17,11 @@ double between(double time, double period) {
 
 }  // namespace
 
-Instants::Instants(const model::SampledLoop& loop) {
+Instants::Instants(const model::SampledLoop& loop, bool cut) {
   const Sampling& sampling = loop.sampling;
   // A command is held for one period. The first piece lasts until the first command.
-  lengths_ = {sampling.period, between(sampling.delay, sampling.period)};
+  lengths_ = {sampling.period, between(sampling.delay, sampling.period), 0};
+  if (cut) lengths_[2] = lengths_[0] - lengths_[1];
   samples_[0].after = lengths_[0] - lengths_[1];  // a sample, after a command
   samples_[1].after = between(-loop.sensor.delay - lengths_[1], lengths_[0]);
 }

@@ -15,7 +15,8 @@ namespace bbsim::solve::sampled {
 // For a loop whose periods are all alike.
 class Instants {
  public:
-  explicit Instants(const model::SampledLoop& loop);
+  // `cut`: pieces end at samples, too.
+  explicit Instants(const model::SampledLoop& loop, bool cut = false);
 
   // The nominal length (s) of a piece that starts at `time`. Instants n * period differ by
   // roundings of the time. With nominal lengths one table serves all pieces, and the lengths add up
@@ -39,7 +40,8 @@ class Instants {
     model::HeldLaw law{};
     model::ImpulseAnswer answer{};
   };
-  std::array<double, 2> lengths_;  // of pieces from command to command, s
+  // Of pieces from command to command; and of those from a sample to a command and back, s.
+  std::array<double, 3> lengths_;
   std::array<Kept, 2> samples_;
   Kept other_;
 };

@@ -1,0 +1,138 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// Moves many sampled rigs from instant to instant, with one rig in each SIMD lane: what RigLanes
+// and SteppedLanes share.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <limits>
+#include <memory>
+#include <optional>
+
+#include "model/hybrid/hybrid_system.hpp"
+#include "solve/outcome.hpp"
+#include "solve/sampled/instants.hpp"
+#include "solve/sampled/lane_kernel.hpp"
+#include "solve/sampled/lane_step.hpp"
+#include "solve/sampled/sampled.hpp"
+#include "solve/standstill.hpp"
+
+namespace bbsim::solve::sampled {
+
+// Whether lanes can move the model: it passes knows(), and is the paper's rig but for its servos
+// and controller.
+[[nodiscard]] bool moves(const model::Model& model);
+
+// Each rig keeps its HybridSystem with its own sensor, servos and limits. The balls are computed
+// together between switches, each as in HeldStepper. A switch in one lane cuts only that lane's
+// piece. The lane is then behind the others, and lanes do not wait for each other.
+//
+// Within the tolerance, a rig's motion depends on its companions, and on nothing else.
+class LaneEngine {
+ protected:
+  explicit LaneEngine(Tolerances tolerances);
+  ~LaneEngine() = default;
+
+  using Loop = model::RigLoop<false>;
+  static constexpr std::size_t size = Loop::size;
+
+  struct Lane {
+    std::optional<model::HybridSystem> run;
+    std::optional<Instants> instants;
+    MotionTables tables{choose_kernels()};
+    std::array<double, size> z{};  // at `time`
+    double time = 0;               // s
+    double end = 0;                // of the run, s
+    double limit = 0;              // that the present piece reaches at most, s
+    double until = 0;              // end of the present piece, s
+    double step = 0;               // its length before rounding to the nominal one, s
+    double next_step = std::numeric_limits<double>::infinity();
+    model::Crossing crossing;
+    double predicted_to = 0;  // crossings are predicted up to here, s
+    int rejections = 0;
+    Standstill standstill;
+    bool alive = false;
+    bool waits = false;                   // does not move for now
+    bool moved = false, settled = false;  // by the last attempt
+    // A command restarts the servos, or something else switched.
+    bool restarts = false, switched = false;
+    bool unpredicted = false;
+  };
+
+  // Begins a run up to `end` s in a lane, with nothing done at t = 0. The caller handles what is
+  // due then, and start() follows. `cut`: pieces end at samples, too.
+  void open(std::size_t lane, const model::Model& model, double end, bool cut);
+  void start(std::size_t lane);
+  void clear(std::size_t lane);
+
+  // A round: plan(), the kernels' attempt, judge(), what the caller does with the pieces, go_on()
+  // for each lane that moved. plan() asks for the limit of each piece, and returns false if no lane
+  // moves.
+  template <class Limit>
+  bool plan(const Limit& limit_of);
+  void judge();
+  void go_on(std::size_t lane);
+
+  void take_commands(std::size_t lane);
+  void take_mode(std::size_t lane);
+  void put_start(std::size_t lane);
+  // Sets the state at t within a lane's piece, or at its end. `ball` must hold the balls at t. Sets
+  // the servos' states if `servos`, and always at the end.
+  void state_at(std::size_t lane, double t, const double (*ball)[group], bool servos);
+  // The motions of servos that were computed for other rigs are to be computed anew.
+  void forget_tables();
+
+  [[nodiscard]] static const Loop& loop_of(const model::Model& model) {
+    return std::get<Loop>(model.system);
+  }
+
+  Tolerances tolerances_;
+  const LaneKernels& kernels_;
+  std::unique_ptr<LanePieces> pieces_;  // aligned
+  std::unique_ptr<LaneServos> servos_;
+  LaneScene scene_{};
+  LaneStep step_;
+  std::array<Lane, group> lanes_;
+
+ private:
+  // The law and length of the table that an axis of pieces_ has in a lane, or in all.
+  struct Loaded {
+    model::HeldLaw law{};
+    double length = -1;
+
+    bool operator==(const Loaded&) const = default;
+  };
+
+  void take_monitors(std::size_t lane, const model::Model& model);
+  void predict_crossing(std::size_t lane);
+  void plan_lane(std::size_t lane, double limit);
+  void load_tables(std::size_t axis);
+
+  std::array<std::array<Loaded, group>, 2> loaded_{};
+  std::array<Loaded, 2> shared_{};
+  std::array<MotionTable, 2> shared_tables_{};
+};
+
+template <class Limit>
+bool LaneEngine::plan(const Limit& limit_of) {
+  bool any = false;
+  kernels_.start(*pieces_, *servos_);
+  for (std::size_t l = 0; l < group; ++l) {
+    Lane& lane = lanes_[l];
+    lane.moved = lane.alive && !lane.waits;
+    any = any || lane.moved;
+    lane.restarts = lane.switched = lane.settled = false;
+    pieces_->length[l] = 0;
+    if (!lane.alive) clear(l);
+    if (!lane.moved) continue;
+    if (lane.unpredicted) predict_crossing(l);
+    plan_lane(l, std::min(limit_of(lane), lane.crossing.time));
+  }
+  for (std::size_t i = 0; i < 2; ++i) load_tables(i);
+  return any;
+}
+
+}  // namespace bbsim::solve::sampled

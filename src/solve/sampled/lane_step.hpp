@@ -1,0 +1,60 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// A piece of the motion of many rigs, with one rig in each SIMD lane.
+#pragma once
+
+#include <array>
+#include <cstddef>
+
+#include "model/servo/held_motion.hpp"
+#include "model/systems/rig_loop.hpp"
+#include "solve/sampled/lane_kernel.hpp"
+
+namespace bbsim::solve::sampled {
+
+// A piece of each lane. Valid only until the next pieces.
+class LaneStep {
+ public:
+  // The position of the ball and the angles and rates of the plate.
+  struct Track {
+    double x, y, phi, theta, phi_rate, theta_rate;
+  };
+
+  // Whether the lane has a piece, and its times, s. to() is at most the end of the run; if the
+  // piece goes on beyond, is_whole() is false and at_nodes() includes that part.
+  [[nodiscard]] bool has(std::size_t lane) const { return has_[lane]; }
+  [[nodiscard]] double from(std::size_t lane) const { return from_[lane]; }
+  [[nodiscard]] double to(std::size_t lane) const { return to_[lane]; }
+  [[nodiscard]] bool is_whole(std::size_t lane) const { return whole_[lane]; }
+
+  // The range of a size at the lane's start and nodes, and bounds over the whole piece.
+  [[nodiscard]] Range at_nodes(Size size, std::size_t lane) const {
+    const auto i = static_cast<std::size_t>(size);
+    return {looks_.least_size[i][lane], looks_.most_size[i][lane]};
+  }
+  [[nodiscard]] Range bounds(Size size, std::size_t lane) const;
+
+  // Evaluates `count` times (s) within a lane's piece.
+  void evaluate(std::size_t lane, const double* times, std::size_t count, Track* track) const;
+  // The same as states, packed as in the system: rows of `states` numbers.
+  static constexpr std::size_t states = model::RigLoop<false>::size;
+  void evaluate(std::size_t lane, const double* times, std::size_t count, double* rows) const;
+  // The motion of an axis's servo from the start of the lane's piece.
+  [[nodiscard]] model::HeldMotion servo(std::size_t lane, std::size_t axis) const;
+
+ private:
+  friend class LaneEngine;
+  friend class RigLanes;
+  friend class SteppedLanes;
+
+  const LanePieces* pieces_ = nullptr;
+  const LaneServos* servos_ = nullptr;
+  const Kernels* kernels_ = nullptr;
+  const LaneKernels* lane_kernels_ = nullptr;
+  LaneLooks looks_{};
+  std::array<bool, group> has_{}, whole_{};
+  std::array<double, group> from_{}, to_{};
+};
+
+}  // namespace bbsim::solve::sampled

@@ -1,0 +1,228 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "solve/sampled/stepped_lanes.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "model/model.hpp"
+
+namespace bbsim::solve::sampled {
+
+// The last piece of a lane, as the search for events knows steps.
+class SteppedLanes::Motion : public Stepper {
+ public:
+  Motion(const LaneStep& step, std::size_t lane) : step_(step), lane_(lane) {}
+
+  void evaluate(const double* times, std::size_t count, double* rows) override {
+    step_.evaluate(lane_, times, count, rows);
+  }
+  [[nodiscard]] double time() const override { return step_.to(lane_); }
+  [[nodiscard]] std::size_t detail() const override { return nodes; }
+  // For a motion that 8 nodes just resolve.
+  [[nodiscard]] std::size_t parts() const override { return 2 * nodes; }
+  // It has some: only that counts here.
+  [[nodiscard]] const std::array<model::HeldMotion, 2>* servos() const override { return &servos_; }
+
+  // Nobody else steps it.
+  void start(double, const double*) override {}
+  [[nodiscard]] std::optional<Failure> step(double) override { return step_is_lost; }
+  void jump() override {}
+  [[nodiscard]] std::vector<double> state() const override { return {}; }
+  [[nodiscard]] std::size_t worst_state() const override { return 0; }
+  [[nodiscard]] Statistics statistics() const override { return {}; }
+
+ private:
+  const LaneStep& step_;
+  std::size_t lane_;
+  std::array<model::HeldMotion, 2> servos_{};
+};
+
+SteppedLanes::SteppedLanes(Tolerances tolerances) : LaneEngine(tolerances) {
+  for (std::size_t l = 0; l < group; ++l) clear(l);
+}
+
+SteppedLanes::~SteppedLanes() = default;
+
+void SteppedLanes::begin(std::size_t l, const model::Model& model, double end) {
+  drop(l);
+  // What rigs do that begin together does not depend on those before them.
+  if (std::ranges::none_of(lanes_, &Lane::alive)) forget_tables();
+  open(l, model, end, true);
+  lanes_[l].alive = true;
+  ask(l);
+}
+
+void SteppedLanes::drop(std::size_t l) {
+  end(l, State::empty);
+}
+
+void SteppedLanes::end(std::size_t l, State how) {
+  states_[l] = how;
+  lanes_[l].alive = lanes_[l].moved = lanes_[l].waits = asks_[l] = false;
+  searches_[l].reset();
+}
+
+// Takes the sample that is due, and waits for its command.
+void SteppedLanes::ask(std::size_t l) {
+  Lane& lane = lanes_[l];
+  LaneSample& now = samples_[l];
+  asks_[l] = false;
+  lane.run->observe(lane.time, lane.z.data());
+  model::Sampling& sampling = *lane.run->sampling();
+  now.seen = sampling.begin(lane.run->instant_end(lane.time));
+  now.reference = sampling.reference_at(lane.time);
+  constexpr std::size_t angle = model::RigLayout::angle, rate = model::RigLayout::rate;
+  for (std::size_t i = 0; i < 2; ++i) {
+    now.servo[i] = lane.z[angle + i];
+    now.servo_rate[i] = lane.z[rate + i];
+  }
+  lane.waits = true;
+  kept_[l] = pieces_->contraction[l];
+  states_[l] = State::waits;
+}
+
+void SteppedLanes::answer(std::size_t l, const Pair& command) {
+  Lane& lane = lanes_[l];
+  const double t = lane.time;
+  model::Sampling& sampling = *lane.run->sampling();
+  sampling.end(sampling.controller().within_limits(command),
+               samples_[l].seen.value_or(sampling.measured()));
+  lane.run->act(t, lane.z.data());
+  const bool begins = t == 0, touched = lane.run->touched();
+  const bool over = lane.end - t <= lane.run->rounding(t);
+  if (lane.run->unsettled()) return end(l, State::given_up);
+  if ((begins || over) && lane.run->check_events(t, lane.z.data()) == model::Effect::stop) {
+    return end(l, State::stopped);
+  }
+  if (over) return end(l, State::done);
+  lane.waits = false;
+  pieces_->contraction[l] = kept_[l];
+  if (!touched) return;
+  if (searches_[l]) searches_[l]->after_switch();
+  if (!lane.run->only_commanded() && lane.standstill.after(t)) return end(l, State::given_up);
+  if (begins || !lane.run->only_commanded()) {
+    start(l);
+  } else {
+    put_start(l);
+    take_commands(l);
+    lane.unpredicted = true;
+  }
+}
+
+void SteppedLanes::advance() {
+  const auto limit_of = [](const Lane& lane) {
+    const double change = lane.run->next_change(), sample = lane.run->sampling()->next_sample();
+    // Both may be one instant. The command's time then counts.
+    return sample < change && !lane.run->changes_at(sample) ? sample : change;
+  };
+  while (plan(limit_of)) {
+    kernels_.attempt(*pieces_, scene_);
+    judge();
+    look();
+    pass_instants();
+    for (std::size_t l = 0; l < group; ++l) {
+      if (lanes_[l].moved) {
+        if (searches_[l]) {
+          lanes_[l].restarts ? searches_[l]->after_switch() : searches_[l]->forget();
+        }
+        go_on(l);
+        if (lanes_[l].switched && searches_[l]) searches_[l]->after_switch();
+      }
+      if (lanes_[l].alive && asks_[l]) ask(l);
+    }
+  }
+  for (std::size_t l = 0; l < group; ++l) {
+    if (states_[l] == State::waits && !lanes_[l].alive) end(l, State::given_up);
+  }
+}
+
+void SteppedLanes::look() {
+  static const LaneReference none{};  // nobody asks for distances from it
+  kernels_.look(*pieces_, scene_, none, step_.looks_);
+  for (std::size_t l = 0; l < group; ++l) {
+    if (!step_.has_[l]) continue;
+    const std::vector<char>& occurring = lanes_[l].run->occurring();
+    if (step_.looks_.quiet[l] != 0 &&
+        std::find(occurring.begin(), occurring.end(), 1) == occurring.end()) {
+      searches_[l].reset();
+    } else {
+      search(l);
+    }
+  }
+}
+
+// Finds the events within a lane's piece.
+void SteppedLanes::search(std::size_t l) {
+  Lane& lane = lanes_[l];
+  if (!motions_[l]) motions_[l] = std::make_unique<Motion>(step_, l);
+  if (!searches_[l]) {
+    searches_[l].emplace(*lane.run, *motions_[l]);
+    searches_[l]->after_switch();  // no monitor was checked since the last switch
+  }
+  GuardSearch& search = *searches_[l];
+  search.begin_step();
+  if (search.begin(lane.time, step_.to(l)) == model::Effect::stop) return end(l, State::stopped);
+  while (const auto crossing = search.next()) {
+    search.state_at(crossing->time, found_);
+    if (lane.run->handle_state_event(crossing->guard, crossing->time, found_.data()) ==
+        model::Effect::stop) {
+      return end(l, State::stopped);
+    }
+    search.resume(crossing->time, found_.data());
+  }
+}
+
+// Exposes, and applies commands, each at its time, up to samples or the ends of the pieces.
+void SteppedLanes::pass_instants() {
+  alignas(64) double after[group], ball[5][group];
+  double when[group];
+  bool is_event[group];
+  for (;;) {
+    bool any = false, within = false;
+    for (std::size_t l = 0; l < group; ++l) {
+      Lane& lane = lanes_[l];
+      after[l] = 0;
+      if (!lane.moved || lane.settled) continue;
+      const double due = lane.run->next_time_event();
+      is_event[l] = !(lane.end < due - lane.run->rounding(due));
+      when[l] = is_event[l] ? due : lane.end;
+      if (is_event[l] && lane.run->changes_at(due)) when[l] = lane.run->next_change();
+      const double last = lane.until + (is_event[l] ? 0 : lane.run->rounding(lane.until));
+      if (when[l] > last) {
+        lane.settled = true;
+        continue;
+      }
+      any = true;
+      if (when[l] >= lane.until) continue;
+      after[l] = when[l] - lane.time;
+      within = true;
+    }
+    if (!any) return;
+    if (within) kernels_.evaluate(*pieces_, after, ball);
+    for (std::size_t l = 0; l < group; ++l) {
+      Lane& lane = lanes_[l];
+      if (!lane.moved || lane.settled) continue;
+      const double t = when[l];
+      if (is_event[l] && lane.run->samples_at(t)) {
+        asks_[l] = lane.settled = true;
+        continue;
+      }
+      const bool over = lane.end - t <= lane.run->rounding(t);
+      state_at(l, t, ball, over);
+      if (is_event[l]) {
+        lane.run->observe(t, lane.z.data());
+        lane.run->act(t, lane.z.data());
+        lane.restarts = lane.settled = lane.run->touched();
+        lane.switched = lane.switched || !lane.run->only_commanded();
+        if (lane.restarts) lane.until = t;
+      }
+      if (!over) continue;
+      const bool stops = lane.run->check_events(t, lane.z.data()) == model::Effect::stop;
+      end(l, stops ? State::stopped : State::done);
+    }
+  }
+}
+
+}  // namespace bbsim::solve::sampled

@@ -1,0 +1,68 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// Sampled rigs whose commands come from outside, sample by sample, with one rig in each SIMD lane.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "solve/hybrid/guard_search.hpp"
+#include "solve/sampled/lane_engine.hpp"
+
+namespace bbsim::solve::sampled {
+
+// What a controller is told at a sample; SI.
+struct LaneSample {
+  std::optional<Pair> seen;
+  std::array<model::Jet<double>, 2> reference{};
+  Pair servo{}, servo_rate{};
+};
+
+// A group of rigs that begin, wait and end each at its own time. A piece ends at a sample, too, so
+// that a lane can wait there while others move. Events are found in the lanes.
+class SteppedLanes : private LaneEngine {
+ public:
+  // `waits`: at a sample, for its command. `given_up`: the lane cannot go on; the rig must be run
+  // alone, from its beginning.
+  enum class State { empty, waits, done, stopped, given_up };
+
+  explicit SteppedLanes(Tolerances tolerances);
+  ~SteppedLanes();
+
+  // Begins a rig in a lane, up to `end` s. It then waits at t = 0. moves() must hold, and the
+  // controller must be external; it is not asked.
+  void begin(std::size_t lane, const model::Model& model, double end);
+  void drop(std::size_t lane);
+
+  [[nodiscard]] State state(std::size_t lane) const { return states_[lane]; }
+  // The sample that the lane waits at; of a lane that does not, its last one.
+  [[nodiscard]] const LaneSample& sample(std::size_t lane) const { return samples_[lane]; }
+
+  // Gives the command to a lane that waits: finite numbers. It waits until advance().
+  void answer(std::size_t lane, const Pair& command);
+  // Moves the lanes that were answered, each to its next sample or to its end.
+  void advance();
+
+ private:
+  class Motion;
+
+  void ask(std::size_t lane);
+  void end(std::size_t lane, State how);
+  void look();
+  void search(std::size_t lane);
+  void pass_instants();
+
+  std::array<State, group> states_{};
+  std::array<LaneSample, group> samples_{};
+  std::array<bool, group> asks_{};    // the lane has come to a sample
+  std::array<double, group> kept_{};  // of a lane that waits: its contraction
+  std::array<std::unique_ptr<Motion>, group> motions_;
+  std::array<std::optional<GuardSearch>, group> searches_;  // of a lane near an event
+  std::vector<double> found_;                               // the states at an event
+};
+
+}  // namespace bbsim::solve::sampled
