@@ -26,7 +26,7 @@ function(bbsim_add_kernels target room)
   # convention (-Wpsabi) does not matter. Sanitizers are off, because the unrolled loops would take compilers many
   # minutes; all memory is in fixed arrays.
   set(options -ffp-contract=fast -Wno-psabi)
-  if(BBSIM_SANITIZE)
+  if(BBSIM_INSTRUMENTED)
     list(APPEND options -fno-sanitize=all)
   endif()
   set_source_files_properties(kernels_baseline.cpp PROPERTIES COMPILE_OPTIONS "${options}")

@@ -30,6 +30,9 @@ if(BBSIM_SANITIZE)
   target_compile_options(bbsim_options INTERFACE -fsanitize=${_sanitizers}
                                                  -fno-sanitize-recover=all -fno-omit-frame-pointer)
   target_link_options(bbsim_options INTERFACE -fsanitize=address,undefined)
+elseif(BBSIM_TSAN)
+  target_compile_options(bbsim_options INTERFACE -fsanitize=thread -fno-omit-frame-pointer)
+  target_link_options(bbsim_options INTERFACE -fsanitize=thread)
 elseif(BBSIM_STATIC_RUNTIME)
   # A library shares the runtime of the program that loads it: its exceptions cross.
   set(_own $<NOT:$<BOOL:$<TARGET_PROPERTY:BBSIM_SHARED_RUNTIME>>>)
@@ -40,7 +43,7 @@ endif()
 # mostly dense Eigen algebra, which would take compilers minutes and a gigabyte each. Eigen's own assertions, which are
 # on in these builds, check the bounds.
 function(bbsim_spare_from_sanitizers)
-  if(BBSIM_SANITIZE)
+  if(BBSIM_INSTRUMENTED)
     set_property(SOURCE ${ARGN} APPEND PROPERTY COMPILE_OPTIONS -fno-sanitize=all)
     set_property(SOURCE ${ARGN} PROPERTY SKIP_PRECOMPILE_HEADERS ON) # which are instrumented
   endif()

@@ -53,8 +53,8 @@ set(CPACK_DEBIAN_LIBRARY_PACKAGE_NAME ${_library})
 set(CPACK_DEBIAN_LIBRARY_PACKAGE_SECTION libs)
 set(CPACK_DEBIAN_LIBRARY_PACKAGE_RECOMMENDS "bbsim ${_same}")
 set(CPACK_COMPONENT_DEVELOPMENT_DESCRIPTION "What programs are compiled with that use the C++ library of bbsim, a simulator
-of the ball-and-plate rig of control courses: the header, and files for CMake
-and pkg-config.")
+of the ball-and-plate rig of control courses: the header, the static library,
+and files for CMake and pkg-config.")
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME libbbsim-dev)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS "${_library} ${_same}")

@@ -47,19 +47,31 @@ class _Word(str):
     """A word that stands without quotation marks."""
 
 
+def _quoted(text: str) -> str:
+    return json.dumps(_whole(text), ensure_ascii=False)
+
+
+def _whole(text: str) -> str:
+    try:
+        text.encode()
+    except UnicodeEncodeError:
+        raise InputError([("", f"found {text!r}, a part of a character; allowed: Unicode text")]) from None
+    return text
+
+
 def _text(plain: Any) -> str:
     if isinstance(plain, _Word):
         return str(plain)
     if isinstance(plain, dict):
-        return "{" + ", ".join(f"{json.dumps(key)}: {_text(one)}" for key, one in plain.items()) + "}"
+        return "{" + ", ".join(f"{_quoted(key)}: {_text(one)}" for key, one in plain.items()) + "}"
     if isinstance(plain, list):
         return "[" + ", ".join(map(_text, plain)) + "]"
-    return json.dumps(plain, ensure_ascii=False)
+    return _quoted(plain) if isinstance(plain, str) else json.dumps(plain)
 
 
 def as_yaml(value: Any) -> str:
     """The value as it stands behind ``KEY=``: texts as they are, all else in YAML's flow style."""
-    return value if isinstance(value, str) else _text(_plain(value))
+    return _whole(value) if isinstance(value, str) else _text(_plain(value))
 
 
 def _without_callable(scenario: Mapping[str, Any]) -> Tuple[Mapping[str, Any], Optional[Callable[..., Any]]]:
@@ -89,7 +101,7 @@ def given(scenario: Scenario, settings: Settings = None, error: Any = None) -> _
     if not isinstance(name, str):
         raise TypeError(f"found a scenario of type {type(scenario).__name__}; allowed: a path, YAML text or a dict")
     if isinstance(scenario, str) and ("\n" in name or name.lstrip().startswith("{")):
-        return _bbsim.Given("<text>", name, overrides, None)
+        return _bbsim.Given("<text>", _whole(name), overrides, None)
     return _bbsim.Given(name, None, overrides, None)
 
 

@@ -10,15 +10,22 @@
 #include <new>
 #include <utility>
 
-#ifdef __SANITIZE_ADDRESS__
+#if defined(__SANITIZE_ADDRESS__)
 #define BBSIM_FIBERS_SANITIZED
+#elif defined(__SANITIZE_THREAD__)
+#define BBSIM_FIBERS_WATCHED
 #elif defined(__has_feature)
 #if __has_feature(address_sanitizer)
 #define BBSIM_FIBERS_SANITIZED
+#elif __has_feature(thread_sanitizer)
+#define BBSIM_FIBERS_WATCHED
 #endif
 #endif
 #ifdef BBSIM_FIBERS_SANITIZED
 #include <sanitizer/common_interface_defs.h>
+#endif
+#ifdef BBSIM_FIBERS_WATCHED
+#include <sanitizer/tsan_interface.h>
 #endif
 
 namespace bbsim::api {
@@ -40,6 +47,35 @@ void finish_switch([[maybe_unused]] void* fake, [[maybe_unused]] const void** bo
 #endif
 }
 
+// The thread sanitizer has a clock for each fiber, which is told of immediately before a switch.
+void* new_clock() {
+#ifdef BBSIM_FIBERS_WATCHED
+  return __tsan_create_fiber(0);
+#else
+  return nullptr;
+#endif
+}
+
+void end_clock([[maybe_unused]] void* clock) {
+#ifdef BBSIM_FIBERS_WATCHED
+  __tsan_destroy_fiber(clock);
+#endif
+}
+
+void* present_clock() {
+#ifdef BBSIM_FIBERS_WATCHED
+  return __tsan_get_current_fiber();
+#else
+  return nullptr;
+#endif
+}
+
+void switch_clock([[maybe_unused]] void* clock) {
+#ifdef BBSIM_FIBERS_WATCHED
+  __tsan_switch_to_fiber(clock, 0);
+#endif
+}
+
 }  // namespace
 
 Fiber::Fiber(std::function<void()> body) : body_(std::move(body)) {
@@ -49,6 +85,7 @@ Fiber::Fiber(std::function<void()> body) : body_(std::move(body)) {
                  MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE | MAP_STACK, -1, 0);
   if (memory_ == MAP_FAILED) throw std::bad_alloc();
   mprotect(memory_, page, PROT_NONE);
+  own_clock_ = new_clock();
   getcontext(&own_);
   own_.uc_stack.ss_sp = static_cast<char*>(memory_) + page;
   own_.uc_stack.ss_size = stack_bytes;
@@ -61,6 +98,7 @@ Fiber::Fiber(std::function<void()> body) : body_(std::move(body)) {
 }
 
 Fiber::~Fiber() {
+  end_clock(own_clock_);
   munmap(memory_, size_);
 }
 
@@ -78,11 +116,14 @@ void Fiber::run() {
   }
   ended_ = true;
   start_switch(nullptr, caller_bottom_, caller_size_);
+  switch_clock(caller_clock_);
   setcontext(&caller_);
 }
 
 void Fiber::resume() {
   start_switch(&fake_caller_, own_.uc_stack.ss_sp, own_.uc_stack.ss_size);
+  caller_clock_ = present_clock();
+  switch_clock(own_clock_);
   swapcontext(&caller_, &own_);
   finish_switch(fake_caller_, nullptr, nullptr);
   if (thrown_) std::rethrow_exception(std::exchange(thrown_, nullptr));
@@ -90,6 +131,7 @@ void Fiber::resume() {
 
 void Fiber::wait() {
   start_switch(&fake_own_, caller_bottom_, caller_size_);
+  switch_clock(caller_clock_);
   swapcontext(&own_, &caller_);
   finish_switch(fake_own_, &caller_bottom_, &caller_size_);
 }

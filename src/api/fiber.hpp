@@ -45,6 +45,9 @@ class Fiber {
   void* fake_own_ = nullptr;
   const void* caller_bottom_ = nullptr;
   std::size_t caller_size_ = 0;
+  // What the thread sanitizer knows them by.
+  void* caller_clock_ = nullptr;
+  void* own_clock_ = nullptr;
 };
 
 }  // namespace bbsim::api

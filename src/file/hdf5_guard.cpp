@@ -10,6 +10,7 @@
 #include <cstddef>
 #include <cstdlib>
 #include <cstring>
+#include <mutex>
 
 #include "base/end_process.hpp"
 #include "base/error.hpp"
@@ -19,6 +20,7 @@ namespace bbsim::file {
 namespace {
 
 constexpr std::array<int, 4> crashes{SIGSEGV, SIGBUS, SIGFPE, SIGABRT};
+std::mutex one_thread;  // within HDF5: the signals' actions are the process's, as HDF5 may be
 std::array<struct sigaction, crashes.size()> actions_before;
 
 // What to say of a crash of this thread; none outside HDF5.
@@ -70,7 +72,10 @@ void watch_for_crashes() {
 }  // namespace
 
 WithinHdf5::WithinHdf5(const char* message) : before_(message_of_crash) {
-  if (before_ == nullptr) watch_for_crashes();
+  if (before_ == nullptr) {
+    one_thread.lock();
+    watch_for_crashes();
+  }
   message_of_crash = message;
 }
 
@@ -80,6 +85,7 @@ WithinHdf5::~WithinHdf5() {
   for (std::size_t i = 0; i < crashes.size(); ++i) {
     sigaction(crashes[i], &actions_before[i], nullptr);
   }
+  one_thread.unlock();
 }
 
 }  // namespace bbsim::file

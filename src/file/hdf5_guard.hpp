@@ -11,7 +11,7 @@
 namespace bbsim::file {
 
 // While there is one, a crash of this thread is one of the HDF5 library, and ends the program with
-// `message`, a line, which must stay as long. For one thread at a time, as HDF5 itself.
+// `message`, a line, which must stay as long. Another thread waits until it is gone.
 class WithinHdf5 {
  public:
   explicit WithinHdf5(const char* message);

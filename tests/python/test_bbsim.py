@@ -504,6 +504,19 @@ class Faults(unittest.TestCase):
         self.assertIn("allowed", hints["ball.radius"])
         self.assertNotIn("<dict>", str(error))
 
+    def test_texts_of_any_script(self):
+        for key in ("größe", "\U0001f642"):
+            with self.assertRaises(bbsim.InputError) as caught:
+                bbsim.check({"ball": {"radius": "1 cm", key: 1}, "time": {"end": 1}})
+            self.assertIn("unknown key", str(caught.exception))
+        half = "\ud83d"  # of a character
+        for given in ({"title": half}, {half: 1}, f"title: {half}\n"):
+            with self.assertRaises(bbsim.InputError) as caught:
+                bbsim.check(given)
+            self.assertIn("a part of a character", str(caught.exception))
+        with self.assertRaises(bbsim.InputError):
+            bbsim.check(CONFIGS / "fig2b.yaml", {"title": half})
+
     def test_file_and_settings(self):
         with self.assertRaises(bbsim.InputError):
             bbsim.run("no-such-file.yaml")

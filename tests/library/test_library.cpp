@@ -1,0 +1,160 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// The C++ library as its header promises it, through the shared library.
+#include <algorithm>
+#include <bbsim/bbsim.hpp>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "catch.hpp"
+
+namespace {
+
+const std::string configs = BBSIM_SOURCE_DIR "/configs/";
+
+bbsim::Scenario circle() {
+  return bbsim::Scenario::from_file(configs + "fig2b.yaml").set("time.end", 1);
+}
+
+// The faults that the call is refused with.
+template <class Call>
+std::vector<bbsim::Fault> faults_of(const Call& call) {
+  try {
+    call();
+  } catch (const bbsim::ScenarioError& error) {
+    CHECK(std::string(error.what()).size() > 0);
+    return error.faults();
+  }
+  FAIL("nothing was refused");
+  return {};
+}
+
+}  // namespace
+
+TEST_CASE("a scenario is a value, and its copies have settings of their own") {
+  const bbsim::Scenario small = circle();
+  bbsim::Scenario large = small;
+  large.set("ball.radius", "3 cm");
+  CHECK(small.check() != large.check());
+  bbsim::Scenario again = large;
+  CHECK(again.check() == large.check());
+  again.set("ball.radius", "1 cm");
+  CHECK(again.check() == small.check());
+  const bbsim::Scenario moved = std::move(again);
+  CHECK(moved.check() == small.check());
+}
+
+TEST_CASE("text and file are the same scenario; null removes a key") {
+  const bbsim::Scenario text = bbsim::Scenario::from_text(
+      "ball: {radius: \"2 cm\", spin: 3}\ngimbal: {motion: {phi: \"1 deg\"}}\n"
+      "time: {end: 1, step: 0.1}\n");
+  bbsim::Scenario without = text;
+  without.set("ball.spin", "null");
+  CHECK(bbsim::run(text).column("x").size() == 11);
+  CHECK(text.check() != without.check());
+}
+
+TEST_CASE("a refusal has every fault, with place, key and hint") {
+  const auto faults = faults_of([] {
+    (void)bbsim::run(
+        bbsim::Scenario::from_text("ball: {radius: -1}\ntime: {ende: 1}\n", "mine.yaml"));
+  });
+  CHECK(faults.size() > 1);
+  const auto radius = std::ranges::find(faults, "ball.radius", &bbsim::Fault::key);
+  REQUIRE(radius != faults.end());
+  CHECK(radius->place.starts_with("mine.yaml:1:"));
+  CHECK(radius->hint.starts_with("allowed: "));
+}
+
+TEST_CASE("what cannot be done is refused as a scenario is") {
+  CHECK_FALSE(faults_of([] { (void)bbsim::run(circle(), {.measures = {"max_tild"}}); }).empty());
+  CHECK_FALSE(faults_of([] { (void)bbsim::linearize(circle(), "plan"); }).empty());
+  CHECK_FALSE(faults_of([] { (void)bbsim::Scenario::from_file(configs + "none.yaml"); }).empty());
+  CHECK_FALSE(faults_of([] { (void)bbsim::Scenario::from_text("a: [1").check(); }).empty());
+  CHECK_FALSE(faults_of([] { (void)bbsim::run(circle()).column("z"); }).empty());
+  // It has no samples.
+  CHECK_FALSE(faults_of([] { const bbsim::Stepper stepper(circle()); }).empty());
+}
+
+TEST_CASE("rows go to the result, to a function, or nowhere, and are the same") {
+  const bbsim::Result whole = bbsim::run(circle(), {.measures = {"max_tilt"}});
+  CHECK(whole.status == bbsim::Status::done);
+  REQUIRE(whole.values.size() == whole.columns.size());
+  std::vector<std::vector<double>> rows;
+  bbsim::RunOptions options;
+  options.measures = {"max_tilt"};
+  options.keep_rows = false;
+  options.sink = [&rows](std::span<const double> row) {
+    rows.emplace_back(row.begin(), row.end());
+  };
+  const bbsim::Result streamed = bbsim::run(circle(), options);
+  CHECK(streamed.measures == whole.measures);
+  CHECK_FALSE(faults_of([&] { (void)streamed.column("x"); }).empty());
+  REQUIRE(rows.size() == whole.values[0].size());
+  for (std::size_t r = 0; r < rows.size(); ++r) {
+    for (std::size_t c = 0; c < whole.columns.size(); ++c) CHECK(rows[r][c] == whole.values[c][r]);
+  }
+}
+
+TEST_CASE("a file that cannot be written is an error of its own") {
+  CHECK_THROWS_AS(bbsim::run(circle(), {.file = "/dev/null/x.csv"}), bbsim::FileError);
+}
+
+TEST_CASE("work ends where its caller says so, and what the caller throws comes through") {
+  bbsim::RunOptions options;
+  options.goes_on = [](double) { return false; };
+  CHECK(bbsim::run(circle().set("time.end", 1e7), options).status == bbsim::Status::interrupted);
+  options.goes_on = nullptr;
+  options.sink = [](std::span<const double>) { throw std::string("enough"); };
+  CHECK_THROWS_AS(bbsim::run(circle(), options), std::string);
+}
+
+TEST_CASE("a stepper given the commands of a run repeats it") {
+  const bbsim::Scenario rig = bbsim::Scenario::from_file(configs + "rig.yaml").set("time.end", 1);
+  bbsim::Stepper stepper(rig);
+  CHECK_FALSE(faults_of([&] { (void)stepper.result(); }).empty());
+  std::size_t samples = 0;
+  for (; !stepper.is_over(); ++samples) {
+    CHECK(stepper.sample().number == samples);
+    stepper.step({0.01, -0.01});
+  }
+  CHECK(samples == 51);  // each 20 ms, with the first and the last
+  bbsim::Stepper again(rig);
+  while (!again.is_over()) again.step({0.01, -0.01});
+  CHECK(again.result().values == stepper.result().values);
+  CHECK_FALSE(faults_of([&] { stepper.step({0, 0}); }).empty());
+}
+
+TEST_CASE("a sweep has a row for each case: a grid, or values together") {
+  bbsim::SweepOptions options;
+  options.vary = {{"ball.radius", "list:0.01,0.02"}, {"gravity", "list:9,10"}};
+  options.measures = {"max_tilt"};
+  CHECK(bbsim::sweep(circle(), options).column("case").numbers.size() == 4);
+  options.zip = true;
+  const bbsim::Table table = bbsim::sweep(circle(), options);
+  CHECK(table.complete);
+  REQUIRE(table.column("max_tilt").numbers.size() == 2);
+  const bbsim::Result one =
+      bbsim::run(circle().set("ball.radius", 0.02).set("gravity", 10), {.measures = {"max_tilt"}});
+  CHECK(table.column("max_tilt").numbers[1] == Approx(one.measures[0].second).epsilon(1e-6));
+  options.goes_on = [](double) { return false; };
+  options.vary = {{"ball.radius", "linear:0.01:0.02:4000"}};
+  CHECK_FALSE(bbsim::sweep(circle(), options).complete);
+}
+
+TEST_CASE("a linear system has its names and sizes") {
+  const bbsim::LinearSystem plant = bbsim::linearize(circle(), "plant");
+  const std::size_t n = plant.states.size();
+  CHECK(n == 8);  // position, rate and two of each servo
+  REQUIRE(plant.a.size() == n);
+  CHECK(plant.a[0].size() == n);
+  REQUIRE(plant.b.size() == n);
+  CHECK(plant.b[0].size() == plant.inputs.size());
+  CHECK(plant.c.size() == plant.outputs.size());
+  CHECK_FALSE(plant.period);
+  CHECK(bbsim::linearize(bbsim::Scenario::from_file(configs + "rig.yaml"), "sampled").period ==
+        0.02);
+}
