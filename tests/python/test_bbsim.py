@@ -381,15 +381,134 @@ class Environments(unittest.TestCase):
                 np.testing.assert_array_equal(envs.result(i)[column], made[column])
             np.testing.assert_array_equal([s.ball for s in heard], [o[i, :2] for o in seen[: len(heard)]])
 
-    def test_seeds(self):
-        def episode(seed):
-            envs = bbsim.VectorEnv(self.SCENE, 2, {"ball.position.1": (-0.01, 0.01)})
-            observations, _ = envs.reset(seed=seed)
-            return np.stack([observations] + [envs.step(np.zeros((2, 2)))[0] for _ in range(60)])
+    def test_lanes_equal_runs_with_the_same_actions(self):
+        n = 11
+        envs = bbsim.VectorEnv(self.SCENE, n, {"ball.position.0": (0.03, 0.05)}, seed=5, set={"controller.sensor": None})
+        seen = [envs.reset()[0]]
+        self.assertEqual(envs._runs.in_lanes, n)
+        actions = np.random.default_rng(1).uniform(-0.05, 0.05, (26, n, 2))
+        for action in actions:
+            observations, _, _, truncated, _ = envs.step(action)
+            seen.append(observations)
+        self.assertTrue(truncated.all())
+        for i in range(n):
+            given, heard = iter(actions[:, i]), []
 
-        np.testing.assert_array_equal(episode(3), episode(3))
-        self.assertFalse(np.array_equal(episode(3), episode(4)))
-        self.assertTrue(np.isfinite(episode(3)).all())
+            def law(sample):
+                heard.append(sample)
+                return next(given)
+
+            controller = {"callable": law, **{k: v for k, v in LOOP["controller"].items() if k not in ("pd", "sensor")}}
+            made = bbsim.run({**self.SCENE, "controller": controller}, {"ball.position.0": float(seen[0][i, 0])})
+            self.assertEqual(len(heard), 26)
+            for sample, observation in zip(heard, seen):
+                np.testing.assert_allclose(observation[i, :2], sample.ball, rtol=0, atol=1e-9)
+                np.testing.assert_allclose(observation[i, 7:9], sample.servo, rtol=0, atol=1e-12)
+                self.assertEqual(observation[i, 3:5].tolist(), list(sample.reference))
+            result = envs.result(i)
+            self.assertEqual((result.status, result.summary["end_time"]), (made.status, made.summary["end_time"]))
+        envs.step(actions[0])
+        self.assertIsNone(envs.result(0))
+
+    def test_lanes_equal_single_runs(self):
+        rig = {"controller.sensor.noise": 0, "controller.sensor.resolution": 0, "time.end": 1}
+        rigs = {
+            "ball.position.0": (0.03, 0.07), "ball.radius": (0.015, 0.025),
+            "gimbal.servo.natural_frequency": (25, 38), "controller.sampling.delay": (0, 0.015),
+        }  # fmt: skip
+        alone = {key: range_ for key, range_ in rigs.items() if key != "controller.sampling.delay"}
+        servo = {"natural_frequency": "5 Hz", "damping": 0.8}
+        accelerations = {
+            "controller.gravity_compensation": None, "gimbal.servo": None, "controller.drives": "acceleration",
+            "controller.sampling.resolution": None,
+            "controller.pd": {"kv": [[0.5, 0], [0, -0.5]], "kp": [[0.7, 0], [0, -0.7]]}, "controller.limit": 3,
+        }  # fmt: skip
+        small = {"plate.size": ["14 cm", "14 cm"]}
+        for name, drawn, settings, ends in (
+            ("as it is", rigs, {}, "both"),
+            ("each ends at its own time", {**rigs, "time.end": (0.3, 1)}, {}, "both"),
+            ("between samples", rigs, {"time.end": 0.503}, "truncated"),
+            ("events that are noted", rigs, {"events.slip": {"friction": 0.1, "action": "note"}}, "both"),
+            ("an event that stops", rigs, {"events.tilt": {"limit": "8 deg", "action": "stop"}}, "both"),
+            ("no delay", alone, {"controller.sampling.delay": 0}, "both"),
+            ("a delay of some periods", alone, {"controller.sampling.delay": "50 ms"}, "both"),
+            ("exposures between", rigs, {"controller.sensor.delay": "3 ms"}, "both"),
+            ("a camera", rigs, {"controller.sensor.period": "33 ms"}, "both"),
+            ("servos of first order", {}, {"gimbal.servo": {"time_constant": "50 ms", "rate_limit": "100 deg/s"}}, "both"),
+            ("limits", {}, {"gimbal.servo": {**servo, "rate_limit": "20 deg/s", "angle_limit": "4 deg"}}, "both"),
+            ("a limit of the acceleration", {}, {"gimbal.servo": {**servo, "acceleration_limit": 20}}, "both"),
+            ("backlash", rigs, {"gimbal.servo.backlash": "0.5 deg"}, "both"),
+            ("accelerations", {"ball.position.0": (0.03, 0.07)}, accelerations, "truncated"),
+            ("a small plate", rigs, {**small, "time.end": 5}, "terminated"),
+        ):
+            with self.subTest(name):
+                envs, single = (
+                    bbsim.VectorEnv(CONFIGS / "rig.yaml", 19, drawn, set={**rig, **settings}, record=record)
+                    for record in (False, True)
+                )
+                np.testing.assert_allclose(envs.reset(seed=7)[0], single.reset(seed=7)[0], rtol=0, atol=1e-12)
+                self.assertEqual([envs._runs.in_lanes, single._runs.in_lanes], [19, 0])
+                random = np.random.default_rng(1)
+                tilts = random.uniform(-0.1, 0.1, (19, 2))
+                ended = np.zeros(2, int)
+                for _ in range(120):
+                    actions = tilts + random.uniform(-0.1, 0.1, (19, 2))
+                    one, other = envs.step(actions), single.step(actions)
+                    np.testing.assert_array_equal(one[2], other[2])
+                    np.testing.assert_array_equal(one[3], other[3])
+                    np.testing.assert_allclose(one[0], other[0], rtol=0, atol=1e-9)
+                    np.testing.assert_allclose(one[1], other[1], rtol=0, atol=1e-9)
+                    ended += one[2].sum(), one[3].sum()
+                self.assertEqual(envs._runs.in_lanes, 19)
+                self.assertTrue(ended[0] > 0 or ends == "truncated")
+                self.assertTrue(ended[1] > 0 or ends == "terminated")
+
+    def test_noise_in_lanes_is_that_of_single_runs(self):
+        envs, single = (bbsim.VectorEnv(CONFIGS / "rig.yaml", 8, record=record) for record in (False, True))
+        envs.reset(seed=3), single.reset(seed=3)
+        for _ in range(50):
+            one, other = (each.step(np.zeros((8, 2)))[0] for each in (envs, single))
+            # A difference of rounding may cross a step of the sensor; it does not here.
+            np.testing.assert_array_equal(one[:, :3], other[:, :3])
+
+    def test_what_lanes_cannot_carry(self):
+        for settings in ({"time.end": 1e5}, {"solver.method": "bdf"}, {"controller.sampling.jitter": "1 ms"}):
+            with self.subTest(settings):
+                envs = bbsim.VectorEnv(CONFIGS / "rig.yaml", 9, set=settings)
+                envs.reset(seed=1)
+                self.assertEqual(envs._runs.in_lanes, 0)
+                observations = envs.step(np.zeros((9, 2)))[0]
+                self.assertTrue(np.isfinite(observations).all() and observations[:, 0].all())
+        some = bbsim.VectorEnv(CONFIGS / "rig.yaml", 16, {"time.end": lambda random: random.choice([1.0, 1e5])})
+        some.reset(seed=1)
+        self.assertIn(some._runs.in_lanes, range(1, 16))
+        for _ in range(60):
+            _, _, terminated, truncated, _ = some.step(np.zeros((16, 2)))
+        self.assertIn(some._runs.in_lanes, range(1, 16))
+
+    def test_some_lanes_begin_anew(self):
+        envs = bbsim.VectorEnv(self.SCENE, 9, set={"controller.sensor": None})
+        observations, _ = envs.reset(seed=1)
+        first = observations.copy()
+        for _ in range(5):
+            envs.step(np.full((9, 2), 0.1))
+        mask = np.arange(9) % 2 == 0
+        again, _ = envs.reset(options={"reset_mask": mask})
+        np.testing.assert_array_equal(again[mask], first[mask])
+        self.assertTrue((again[~mask, 0] != first[~mask, 0]).all())
+
+    def test_seeds(self):
+        def episode(n, seed, envs=None):
+            envs = envs or bbsim.VectorEnv(self.SCENE, n, {"ball.position.1": (-0.01, 0.01)})
+            observations, _ = envs.reset(seed=seed)
+            return np.stack([observations] + [envs.step(np.zeros((n, 2)))[0] for _ in range(60)])
+
+        for n in (2, 20):
+            np.testing.assert_array_equal(episode(n, 3), episode(n, 3))
+            self.assertFalse(np.array_equal(episode(n, 3), episode(n, 4)))
+            self.assertTrue(np.isfinite(episode(n, 3)).all())
+        envs = bbsim.VectorEnv(self.SCENE, 20, {"ball.position.1": (-0.01, 0.01)})
+        np.testing.assert_array_equal(episode(20, 3, envs), episode(20, 3, envs))
 
     def test_episodes_begin_by_themselves(self):
         envs = bbsim.VectorEnv(self.SCENE, 2, seed=1)
@@ -426,9 +545,11 @@ class Environments(unittest.TestCase):
             envs.reset(options={"gravity": 3})
         with self.assertRaises(ValueError):
             envs.step(np.zeros((3, 2)))
-        envs.reset()
-        with self.assertRaises(bbsim.InputError):
-            envs.step(np.full((2, 2), np.nan))
+        for many in (envs, bbsim.VectorEnv(self.SCENE, 8)):
+            many.reset()
+            with self.assertRaises(bbsim.InputError):
+                many.step(np.full((many.num_envs, 2), np.nan))
+            many.step(np.zeros((many.num_envs, 2)))
         with self.assertRaises(bbsim.InputError):
             bbsim.VectorEnv(CONFIGS / "fig2b.yaml", 1).reset()
         with self.assertRaises(bbsim.InputError):
