@@ -47,7 +47,7 @@ TEST_CASE("a scenario is a value, and its copies have settings of their own") {
   CHECK(moved.check() == small.check());
 }
 
-TEST_CASE("text and file are the same scenario; null removes a key") {
+TEST_CASE("text with a key removed by null is the scenario without it") {
   const bbsim::Scenario text = bbsim::Scenario::from_text(
       "ball: {radius: \"2 cm\", spin: 3}\ngimbal: {motion: {phi: \"1 deg\"}}\n"
       "time: {end: 1, step: 0.1}\n");
