@@ -32,7 +32,7 @@ double duration_of(const Reference& reference, double end) {
 }
 
 std::vector<std::array<double, 2>> path_of(const Reference& reference, double end) {
-  const model::SignalPair signals = model::reference_path(reference);
+  const model::SignalPair signals = model::reference_path(reference, end);
   const auto point = [&](double t) {
     const auto jets = signals.at(t);
     return std::array<double, 2>{jets[0].value, jets[1].value};

@@ -60,7 +60,7 @@ void check_hold(const SignalPair& path) {
 
 TEST_CASE("a circle turns about its centre") {
   const double R = 0.05, w = -0.3, p = 0.7;
-  const SignalPair path = reference_path(CircleReference{R, w, p, {0.02, -0.01}});
+  const SignalPair path = reference_path(CircleReference{R, w, p, {0.02, -0.01}}, 20);
   for (const double t : {0.0, 1.3, 17.0}) {
     const auto [x, y] = path.at(t);
     // The argument carries the rounding of w t and of the quarter turn.
@@ -75,7 +75,7 @@ TEST_CASE("a circle turns about its centre") {
 
 TEST_CASE("a Lissajous figure is a cosine and a sine of their own") {
   const LissajousReference figure{{0.06, 0.04}, {3, 2}, {0.3, -0.5}, {0.01, 0.02}};
-  const SignalPair path = reference_path(figure);
+  const SignalPair path = reference_path(figure, 20);
   for (const double t : {0.0, 0.9, 12.0}) {
     const auto [x, y] = path.at(t);
     const double a = 3 * t + 0.3, b = 2 * t - 0.5;
@@ -93,9 +93,9 @@ TEST_CASE("a Lissajous figure is a cosine and a sine of their own") {
 }
 
 TEST_CASE("a Lissajous figure of one rate and radius is the circle, to the bit") {
-  const SignalPair circle = reference_path(CircleReference{0.05, -0.3, 0.7, {0.02, 0}});
+  const SignalPair circle = reference_path(CircleReference{0.05, -0.3, 0.7, {0.02, 0}}, 20);
   const SignalPair figure =
-      reference_path(LissajousReference{{0.05, 0.05}, {-0.3, -0.3}, {0.7, 0.7}, {0.02, 0}});
+      reference_path(LissajousReference{{0.05, 0.05}, {-0.3, -0.3}, {0.7, 0.7}, {0.02, 0}}, 20);
   for (const double t : {0.0, 3.7, 20.0}) {
     for (std::size_t i = 0; i < 2; ++i) {
       CHECK(circle.at(t)[i].value == figure.at(t)[i].value);
@@ -105,17 +105,18 @@ TEST_CASE("a Lissajous figure of one rate and radius is the circle, to the bit")
 }
 
 TEST_CASE("what does not move costs no sine") {
-  CHECK(reference_path(CircleReference{0, 5, 0, {0.1, 0}}).highest_frequency() == 0);
-  CHECK(reference_path(LissajousReference{{0.1, 0}, {2, 5}, {}, {}}).highest_frequency() == 2);
+  CHECK(reference_path(CircleReference{0, 5, 0, {0.1, 0}}, 20).highest_frequency() == 0);
+  CHECK(reference_path(LissajousReference{{0.1, 0}, {2, 5}, {}, {}}, 20).highest_frequency() == 2);
   // A rate of zero leaves a cos(phase).
-  const auto [x, y] = reference_path(LissajousReference{{0.1, 0.1}, {0, 0}, {1, 1}, {}}).at(3.0);
+  const auto [x, y] =
+      reference_path(LissajousReference{{0.1, 0.1}, {0, 0}, {1, 1}, {}}, 20).at(3.0);
   CHECK(std::abs(x.value - 0.1 * std::cos(1)) < 4 * epsilon);
   CHECK(std::abs(y.value - 0.1 * std::sin(1)) < 4 * epsilon);
   CHECK(x.rate == 0);
 }
 
 TEST_CASE("waypoints: C2 between, at rest at both ends, held outside") {
-  const SignalPair path = reference_path(WaypointReference{corners, hours, false});
+  const SignalPair path = reference_path(WaypointReference{corners, hours, false}, 20);
   CHECK(path.knots() == hours);
   check_hold(path);
   for (std::size_t k = 0; k < hours.size(); ++k) {
@@ -143,7 +144,7 @@ TEST_CASE("waypoints: C2 between, at rest at both ends, held outside") {
 }
 
 TEST_CASE("waypoints between two points: the cubic at rest at both ends") {
-  const SignalPair path = reference_path(WaypointReference{{{0, 1}, {2, -1}}, {0, 4}, false});
+  const SignalPair path = reference_path(WaypointReference{{{0, 1}, {2, -1}}, {0, 4}, false}, 20);
   for (const double t : {0.0, 0.5, 2.0, 3.9}) {
     const double tau = t / 4, shape = tau * tau * (3 - 2 * tau);
     CHECK(std::abs(path.at(t)[0].value - 2 * shape) < 20 * epsilon);
@@ -159,7 +160,7 @@ TEST_CASE("the clamped spline converges with the fourth power of the step") {
       way.times.push_back(std::numbers::pi * i / n);
       way.points.push_back({-std::cos(way.times.back()), 0});
     }
-    const SignalPair path = reference_path(way);
+    const SignalPair path = reference_path(way, 20);
     double worst = 0;
     for (int i = 0; i < 500; ++i) {
       const double t = std::numbers::pi * i / 500;
@@ -171,7 +172,7 @@ TEST_CASE("the clamped spline converges with the fourth power of the step") {
 }
 
 TEST_CASE("waypoints with rest: minimum-jerk quintics") {
-  const SignalPair path = reference_path(WaypointReference{corners, hours, true});
+  const SignalPair path = reference_path(WaypointReference{corners, hours, true}, 20);
   CHECK(path.knots() == hours);
   check_hold(path);
   for (std::size_t k = 0; k + 1 < hours.size(); ++k) {
@@ -211,7 +212,7 @@ TEST_CASE("a table of a path reproduces cubics") {
     table.x.push_back(x(t));
     table.y.push_back(y(t));
   }
-  const SignalPair path = reference_path(table);
+  const SignalPair path = reference_path(table, 20);
   CHECK(path.knots() == table.times);
   for (const double t : {0.0, 0.3, 1.9, 3.99}) {
     // Divided differences over the shortest interval, 0.5 s, on values up to 1.
