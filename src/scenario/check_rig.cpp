@@ -392,6 +392,11 @@ class Checks {
     if (!scene_.controller) return;
     const auto* const point = std::get_if<PointReference>(&scene_.controller->reference);
     if (point != nullptr) warn_beside({"controller", "reference", "point"}, point->position);
+    const auto* const stairs = std::get_if<StaircaseReference>(&scene_.controller->reference);
+    if (stairs != nullptr && stairs->points.size() == 2) {
+      warn_beside({"controller", "reference", "step", "from"}, stairs->points[0]);
+      warn_beside({"controller", "reference", "step", "to"}, stairs->points[1]);
+    }
   }
 
   [[nodiscard]] bool inverts() const {

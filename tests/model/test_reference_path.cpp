@@ -4,6 +4,7 @@
 // Reference paths: against formulas, finite differences, and what they promise at their knots.
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <vector>
 
@@ -235,4 +236,78 @@ TEST_CASE("the knots of a reference path inside the scene are stops") {
   CHECK(notes.back().reason == "3 knots of the reference path, none stepped over");
   scene.controller->reference = TableReference{"p.csv", {0, 1, 3, 5}, {0, 1, 0, 1}, {0, 0, 0, 0}};
   CHECK(assemble(scene, false).stops == std::vector<double>{1, 3});
+}
+
+TEST_CASE("a staircase holds each point, and has jumped at an instant that rounding moves") {
+  const SignalPair path =
+      reference_path(StaircaseReference{{{0.01, 0}, {0.02, 0}, {0.02, 0.03}}, {0.9, 2}}, 5);
+  const auto is_at = [&](double t, double x, double y) {
+    CAPTURE(t);
+    CHECK(path.at(t)[0].value == x);
+    CHECK(path.at(t)[1].value == y);
+    for (std::size_t i = 0; i < 2; ++i) {
+      CHECK(path.at(t)[i].rate == 0);
+      CHECK(path.at(t)[i].acceleration == 0);
+    }
+  };
+  is_at(-3, 0.01, 0);
+  is_at(0, 0.01, 0);
+  is_at(0.9 * (1 - 1e-14), 0.01, 0);
+  const double ninth = 30 * 0.03;  // of a sampler with a period of 30 ms
+  CHECK(ninth < 0.9);
+  is_at(ninth, 0.02, 0);
+  is_at(0.9, 0.02, 0);
+  is_at(2, 0.02, 0.03);
+  is_at(100, 0.02, 0.03);
+  CHECK(path.knots() == std::vector<double>{0.9, 2});
+  CHECK(path.jumps() == path.knots());
+}
+
+TEST_CASE("a jump to the same value is none") {
+  const SignalPair path =
+      reference_path(StaircaseReference{{{1, 0}, {1, 0}, {2, 0}, {2, 0}}, {1, 2, 3}}, 5);
+  CHECK(path.jumps() == std::vector<double>{2});
+}
+
+TEST_CASE("a square wave is the sign of a sine, with phases and a duty") {
+  const double T = 0.8;
+  const SquareReference square{{0.05, 0.02}, T, {0.3, -2}, {0.01, -0.01}, 0.5};
+  const SignalPair path = reference_path(square, 6);
+  Random random(5);
+  for (int n = 0; n < 200; ++n) {
+    const double t = random.uniform(0, 6);
+    for (std::size_t i = 0; i < 2; ++i) {
+      const double wave = std::sin(2 * std::numbers::pi * t / T + square.phase[i]);
+      if (std::abs(wave) < 1e-9) continue;  // within rounding of a jump
+      CAPTURE(t, i);
+      CHECK(path.at(t)[i].value ==
+            square.centre[i] + (wave > 0 ? square.amplitude[i] : -square.amplitude[i]));
+    }
+  }
+  CHECK(path.jumps() == path.knots());
+
+  const SignalPair quarter = reference_path(SquareReference{{1, 0}, 4, {0, 0}, {0, 5}, 0.25}, 10);
+  for (const double t : {0.0, 0.99, 4.0, 4.5, 8.0}) CHECK(quarter.at(t)[0].value == 1);
+  for (const double t : {1.0, 2.0, 3.99, 5.0, 7.9}) CHECK(quarter.at(t)[0].value == -1);
+  CHECK(quarter.at(3.0)[1].value == 5);
+}
+
+TEST_CASE("the jumps of a reference inside the scene are stops, with their moments before") {
+  Scenario scene = fig2b();
+  scene.time.end = 4;
+  scene.controller->reference = SquareReference{{0.05, 0.05}, 2, {0, 0}, {0, 0}, 0.5};
+  const Model model = assemble(scene, false);
+  CHECK(model.stops == std::vector<double>{1, 2, 3});
+  CHECK(model.jumps == model.stops);
+  CHECK(explain(scene, model).back().reason == "3 jumps of the reference path, none stepped over");
+  CHECK(model.jumps_at(2));
+  CHECK(model.jumps_at(2 * (1 - epsilon)));
+  CHECK_FALSE(model.jumps_at(2 * (1 - 1e-13)));
+  CHECK_FALSE(model.jumps_at(std::numeric_limits<double>::infinity()));
+  const auto path = reference_path(scene.controller->reference, 4);
+  CHECK(path.at(2.0)[0].value == 0.05);
+  // Also where a sum of times that should end there is rounded.
+  CHECK(path.at(model.just_before(2) * (1 + epsilon))[0].value == -0.05);
+  CHECK(2 - model.just_before(2) < 1e-14);
+  CHECK(model.just_before(1.5) == std::nextafter(1.5, 0.0));
 }
