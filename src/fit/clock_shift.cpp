@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <initializer_list>
 #include <limits>
+#include <numbers>
 #include <type_traits>
 
 namespace bbsim::fit {
@@ -51,6 +52,12 @@ struct Shift {
   }
   void operator()(WaypointReference& way) const {
     for (double& time : way.times) time -= begin;
+  }
+  void operator()(StaircaseReference& stairs) const {
+    for (double& jump : stairs.jumps) jump -= begin;
+  }
+  void operator()(SquareReference& square) const {
+    for (double& phase : square.phase) phase += 2 * std::numbers::pi / square.period * begin;
   }
   void operator()(TableReference& table) const {
     shift_rows(table.times, {&table.x, &table.y}, begin, end);

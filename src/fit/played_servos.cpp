@@ -25,7 +25,7 @@ Scenario window_of(const Scenario& whole, double begin, double end) {
   const bool is_given =
       start.phi != 0 || start.theta != 0 || start.phi_rate != 0 || start.theta_rate != 0;
   if (begin > before || !is_given) {
-    const auto commands = model::reference_path(run_up.controller->reference).at(0.0);
+    const auto commands = model::reference_path(run_up.controller->reference, 0).at(0.0);
     start = {commands[0].value, commands[1].value, 0, 0};
   }
   window.gimbal.start = start;

@@ -136,7 +136,7 @@ Model assemble(const Scenario& scenario, bool gamma, Form form) {
   // The gimbal's angles or torques if prescribed; otherwise the controller's reference.
   SignalPair input;
   if (scenario.controller) {
-    input = reference_path(scenario.controller->reference);
+    input = reference_path(scenario.controller->reference, scenario.time.end);
   } else if (scenario.gimbal.motion) {
     input = given_motion(scenario);
   } else if (scenario.gimbal.torque) {
@@ -150,6 +150,7 @@ Model assemble(const Scenario& scenario, bool gamma, Form form) {
     std::ranges::sort(knots);
   }
   std::vector<double> stops = stops_at(knots, scenario.time.end);
+  std::vector<double> jumps = stops_at(input.jumps(), scenario.time.end);
   const Shape shape = form == Form::reduced ? choose_shape(scenario, input) : Shape::full;
 
   std::optional<Rig> rig;
@@ -189,7 +190,8 @@ Model assemble(const Scenario& scenario, bool gamma, Form form) {
               std::move(stops),
               rig,
               {},
-              dry};
+              dry,
+              std::move(jumps)};
   EventMonitors events = event_monitors(scenario);
   if (!events.monitors.empty()) model.events = std::move(events);
   return model;

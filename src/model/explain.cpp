@@ -452,7 +452,10 @@ std::vector<Note> explain(const Scenario& scene, const Model& model) {
   note("without", without(scene));
   if (stops > 0) {
     const std::string of = scene.controller && !scene.ball.push ? "the reference path" : "tables";
-    note("stops", std::to_string(stops) + " knots of " + of + ", none stepped over");
+    const char* const what = model.jumps.size() != stops ? " knots of "
+                             : stops == 1                ? " jump of "
+                                                         : " jumps of ";
+    note("stops", std::to_string(stops) + what + of + ", none stepped over");
   }
   return notes;
 }

@@ -3,9 +3,27 @@
 
 #include "model/model.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <limits>
 
+#include "base/instant.hpp"
+
 namespace bbsim::model {
+
+bool Model::jumps_at(double t) const {
+  if (jumps.empty() || !std::isfinite(t)) return false;
+  const double rounding = rounding_of(t);
+  const auto jump = std::lower_bound(jumps.begin(), jumps.end(), t - rounding);
+  return jump != jumps.end() && *jump <= t + rounding;
+}
+
+double Model::just_before(double t) const {
+  if (!jumps_at(t)) return std::nextafter(t, -std::numeric_limits<double>::infinity());
+  // A jump begins a rounding before its time, and its time may be a rounding before t. The third
+  // is for sums of times.
+  return t - 3 * rounding_of(t);
+}
 
 std::size_t Model::extras() const {
   if (!hybrid()) return 0;

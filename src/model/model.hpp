@@ -47,10 +47,17 @@ struct Model {
   std::vector<double> initial;  // states at t = 0, in the system's layout
   bool gamma = false;           // integrate gamma' along with the states
   double radius = 0;            // m
-  std::vector<double> stops;    // times in (0, end) at which a derivative of the input jumps, s
+  std::vector<double> stops;    // times in (0, end) at which the input or a derivative jumps, s
   std::optional<Rig> rig{};     // for a RigLoop or CoupledLoop
   std::optional<EventMonitors> events{};  // set if there are events
   std::optional<DryParts> dry{};          // set if something dry switches
+  std::vector<double> jumps{};            // the stops at which the reference itself jumps, s
+
+  // Whether the reference jumps at the instant t, s.
+  [[nodiscard]] bool jumps_at(double t) const;
+  // The last time before t (s); where the reference jumps, the last that is clearly before the
+  // jump. A sum of times that ends there may be rounded.
+  [[nodiscard]] double just_before(double t) const;
 
   [[nodiscard]] std::size_t size() const { return initial.size(); }
   // The numbers in a row of output besides the states and gamma.

@@ -24,8 +24,11 @@ namespace {
 constexpr std::array<std::string_view, 4> orientation_columns = {"ball_qw", "ball_qx", "ball_qy",
                                                                  "ball_qz"};
 
-// One lap of a circle, otherwise the whole scene.
+// One lap of a circle, one period of a square wave, otherwise the whole scene.
 double duration_of(const Reference& reference, double end) {
+  if (const auto* square = std::get_if<SquareReference>(&reference)) {
+    return std::min(end, square->period);
+  }
   const auto* circle = std::get_if<CircleReference>(&reference);
   if (circle == nullptr || circle->rate == 0) return end;
   return std::min(end, 2 * std::numbers::pi / std::abs(circle->rate));
@@ -33,7 +36,7 @@ double duration_of(const Reference& reference, double end) {
 
 std::vector<std::array<double, 2>> path_of(const Reference& reference, double end) {
   if (std::holds_alternative<CommandProfiles>(reference)) return {};
-  const model::SignalPair signals = model::reference_path(reference);
+  const model::SignalPair signals = model::reference_path(reference, end);
   const auto point = [&](double t) {
     const auto jets = signals.at(t);
     return std::array<double, 2>{jets[0].value, jets[1].value};

@@ -138,6 +138,12 @@ class Checks {
              "found, but controller.drives is not angle; allowed: only with drives: angle");
     }
     if (controller.sampling && controller.sampling->period > 0) check_times(controller);
+    if (const auto* square = std::get_if<SquareReference>(&controller.reference)) {
+      if (2 * scene_.time.end > static_cast<double>(most_jumps) * square->period) {
+        refuse({"controller", "reference", "square", "period"},
+               "found more than 100,000 jumps until time.end; allowed: a longer period");
+      }
+    }
   }
 
   void legs(const Controller& controller) {
@@ -391,6 +397,11 @@ class Checks {
     if (!scene_.controller) return;
     const auto* const point = std::get_if<PointReference>(&scene_.controller->reference);
     if (point != nullptr) warn_beside({"controller", "reference", "point"}, point->position);
+    const auto* const stairs = std::get_if<StaircaseReference>(&scene_.controller->reference);
+    if (stairs != nullptr && stairs->points.size() == 2) {
+      warn_beside({"controller", "reference", "step", "from"}, stairs->points[0]);
+      warn_beside({"controller", "reference", "step", "to"}, stairs->points[1]);
+    }
   }
 
   [[nodiscard]] bool inverts() const {

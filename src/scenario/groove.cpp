@@ -32,6 +32,12 @@ struct StaysAtZero {
   bool operator()(const TableReference& of) const {
     return std::ranges::all_of(i == 0 ? of.x : of.y, [](double value) { return value == 0; });
   }
+  bool operator()(const StaircaseReference& of) const {
+    return std::ranges::all_of(of.points, [this](const Pair& point) { return point[i] == 0; });
+  }
+  bool operator()(const SquareReference& of) const {
+    return of.amplitude[i] == 0 && of.centre[i] == 0;
+  }
 };
 
 // Whether a continuous law moves the other axis, too.

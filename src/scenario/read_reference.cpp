@@ -27,28 +27,55 @@ void read_lissajous(yaml::Keys& keys, LissajousReference& figure) {
   keys.optional("center", yaml::PairOf{yaml::Dimension::length}, figure.centre);
 }
 
-void check_times(const yaml::Value& times, const WaypointReference& way) {
-  if (way.times.size() != way.points.size()) {
-    times.report("found " + std::to_string(way.times.size()) + " times for " +
-                 std::to_string(way.points.size()) + " points; allowed: one time for each point");
+void check_times(const yaml::Value& value, const std::vector<double>& times, std::size_t points) {
+  if (times.size() != points) {
+    value.report("found " + std::to_string(times.size()) + " times for " + std::to_string(points) +
+                 " points; allowed: one time for each point");
     return;
   }
-  for (std::size_t i = 1; i < way.times.size(); ++i) {
-    if (way.times[i] > way.times[i - 1]) continue;
-    times.item(i).refuse(", after " + yaml::shown(*times.item(i - 1).node),
+  for (std::size_t i = 1; i < times.size(); ++i) {
+    if (times[i] > times[i - 1]) continue;
+    value.item(i).refuse(", after " + yaml::shown(*value.item(i - 1).node),
                          "strictly increasing times");
   }
 }
 
-void read_waypoints(yaml::Keys& keys, WaypointReference& way) {
-  const yaml::ListOf<yaml::PairOf, Pair> points{
+void read_timed_points(yaml::Keys& keys, std::vector<Pair>& points, std::vector<double>& times) {
+  const yaml::ListOf<yaml::PairOf, Pair> some_points{
       {yaml::Dimension::length}, fewest_waypoints, most_waypoints, "points [x, y]"};
-  const yaml::ListOf<yaml::Number, double> times{
+  const yaml::ListOf<yaml::Number, double> some_times{
       {yaml::Dimension::time}, fewest_waypoints, most_waypoints, "times, one for each point"};
-  bool fine = keys.required("points", points, way.points);
-  fine = keys.required("times", times, way.times) && fine;
+  bool fine = keys.required("points", some_points, points);
+  fine = keys.required("times", some_times, times) && fine;
+  if (fine) check_times(*keys.find("times"), times, points.size());
+}
+
+void read_waypoints(yaml::Keys& keys, WaypointReference& way) {
+  read_timed_points(keys, way.points, way.times);
   keys.optional("rest", yaml::NameOf<bool>{{{true, "true"}, {false, "false"}}}, way.rest);
-  if (fine) check_times(*keys.find("times"), way);
+}
+
+void read_staircase(yaml::Keys& keys, StaircaseReference& stairs) {
+  read_timed_points(keys, stairs.points, stairs.jumps);
+  // The first point holds before its time, too.
+  if (!stairs.jumps.empty()) stairs.jumps.erase(stairs.jumps.begin());
+}
+
+void read_step(yaml::Keys& keys, StaircaseReference& step) {
+  step.points.resize(2);
+  step.jumps.resize(1);
+  keys.optional("from", yaml::PairOf{yaml::Dimension::length}, step.points[0]);
+  keys.required("to", yaml::PairOf{yaml::Dimension::length}, step.points[1]);
+  keys.optional("at", yaml::Number{yaml::Dimension::time, {.at_least = 0}}, step.jumps[0]);
+}
+
+void read_square(yaml::Keys& keys, SquareReference& square) {
+  keys.required("amplitude", yaml::PairOf{yaml::Dimension::length}, square.amplitude);
+  keys.required("period", yaml::Number{yaml::Dimension::time, {.above = 0}}, square.period);
+  keys.optional("phase", yaml::PairOf{yaml::Dimension::angle}, square.phase);
+  keys.optional("center", yaml::PairOf{yaml::Dimension::length}, square.centre);
+  keys.optional("duty", yaml::Number{yaml::Dimension::number, {.at_least = 0.01, .at_most = 0.99}},
+                square.duty);
 }
 
 void read_table_reference(yaml::Keys& keys, TableReference& table) {
@@ -81,12 +108,16 @@ struct PointRule : yaml::PairOf {
 }  // namespace
 
 void read_reference(yaml::Keys& keys, Reference& reference) {
-  keys.exactly_one({"circle", "point", "lissajous", "waypoints", "table"});
+  keys.exactly_one(
+      {"circle", "point", "lissajous", "waypoints", "table", "step", "square", "staircase"});
   read_kind(keys, "circle", yaml::MappingOf(read_circle), CircleReference{}, reference);
   read_kind(keys, "point", PointRule{}, PointReference{}, reference);
   read_kind(keys, "lissajous", yaml::MappingOf(read_lissajous), LissajousReference{}, reference);
   read_kind(keys, "waypoints", yaml::MappingOf(read_waypoints), WaypointReference{}, reference);
   read_kind(keys, "table", yaml::MappingOf(read_table_reference), TableReference{}, reference);
+  read_kind(keys, "step", yaml::MappingOf(read_step), StaircaseReference{}, reference);
+  read_kind(keys, "square", yaml::MappingOf(read_square), SquareReference{}, reference);
+  read_kind(keys, "staircase", yaml::MappingOf(read_staircase), StaircaseReference{}, reference);
 }
 
 }  // namespace bbsim::scenario

@@ -268,13 +268,31 @@ struct TableReference {
   std::vector<double> x, y;   // m
 };
 
+// Holds each point until the next jump, and the first point before the first jump.
+struct StaircaseReference {
+  std::vector<Pair> points;   // m, at least two
+  std::vector<double> jumps;  // s, strictly increasing: to points[i + 1] at jumps[i]
+};
+
+// Along each axis, center + amplitude for the fraction `duty` of each period, then center -
+// amplitude. A period begins where 2 pi t / period + phase is a multiple of 2 pi.
+inline constexpr std::size_t most_jumps = 100000;  // of an axis, within a run
+struct SquareReference {
+  Pair amplitude{0, 0};  // m
+  double period = 0;     // s, > 0
+  Pair phase{0, 0};      // rad
+  Pair centre{0, 0};     // m
+  double duty = 0.5;     // > 0, < 1
+};
+
 // What a rig is told, whatever its ball does: the commands of Law::commands in place of a path.
 struct CommandProfiles {
   Profile phi, theta;  // rad
 };
 
-using Reference = std::variant<PointReference, CircleReference, LissajousReference,
-                               WaypointReference, TableReference, CommandProfiles>;
+using Reference =
+    std::variant<PointReference, CircleReference, LissajousReference, WaypointReference,
+                 TableReference, StaircaseReference, SquareReference, CommandProfiles>;
 
 enum class Drives { acceleration, angle, torque, voltage, legs };  // legs: three servos' angles
 

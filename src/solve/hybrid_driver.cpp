@@ -157,7 +157,10 @@ class HybridIntegration {
 
   // Handles the guards that cross up to `to`, until one changes the motion. Sets at_ to its time.
   Effect search_guards(double to) {
-    if (guards_.begin(from_, to) == Effect::stop) {
+    // Guards may depend on the reference, which must not jump within the search.
+    const model::Model& model = run_.model();
+    const double until = model.jumps_at(to) ? std::max(from_, model.just_before(to)) : to;
+    if (guards_.begin(from_, until) == Effect::stop) {
       at_ = from_;
       return Effect::stop;
     }

@@ -107,7 +107,7 @@ Outcome run_through(Stepper& stepper, const model::Model& model, const OutputGri
     if (pieces != nullptr) {
       const bool at_stop = reached >= limit && reached < grid.end();
       const double from = std::max(before, begun);
-      const double to = std::min(at_stop ? std::nextafter(reached, before) : reached, cut);
+      const double to = std::min(at_stop ? model.just_before(reached) : reached, cut);
       if (to > from) pieces->accept(Step(stepper, from, to));
     }
     const std::size_t rows_until = std::min(grid.rows_until(reached), end_row);

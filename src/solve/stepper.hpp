@@ -37,7 +37,8 @@ class Stepper {
   // polynomial. Writes `count` rows without gaps. Call it before the next step.
   virtual void evaluate(const double* times, std::size_t count, double* rows) = 0;
 
-  // An input derivative jumps at the end of the last step.
+  // The input or a derivative of it jumps at the end of the last step, whose states are those just
+  // before.
   virtual void jump() = 0;
 
   // The end of the last step, s.

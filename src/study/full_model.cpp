@@ -86,8 +86,8 @@ FullModelStudy compare_simpler(const Scenario& scenario, const solve::Watch& wat
   FullModelStudy study;
   study.reached = outcome.reached;
   const auto add = [&](std::string name, std::string equation, solve::Derivative derivative) {
-    const Trajectory rows = solve::integrate_by_bdf(std::move(derivative), model.initial,
-                                                    model.stops, tolerances, grid, watch);
+    const Trajectory rows =
+        solve::integrate_by_bdf(std::move(derivative), model, tolerances, grid, watch);
     study.simpler.push_back(compare(std::move(name), std::move(equation), full, rows, model, grid));
   };
   add("slope only", "x'' = (5/7) g sin phi, y'' = -(5/7) g cos phi sin theta",

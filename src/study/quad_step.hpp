@@ -7,6 +7,7 @@
 #include <Eigen/Core>
 #include <Eigen/LU>
 #include <cstddef>
+#include <limits>
 #include <vector>
 
 #include "base/quad.hpp"
@@ -22,6 +23,9 @@ class Equation {
   virtual void derivative(double t, const double* z, double* dz) const = 0;
   virtual void derivative(Quad t, const Quad* z, Quad* dz) const = 0;
   [[nodiscard]] virtual Eigen::MatrixXd jacobian(double t, const double* z) const = 0;
+
+  // f at later times is taken as at this one (s): a step that ends where f jumps does not see it.
+  double latest = std::numeric_limits<double>::infinity();
 };
 
 // Solves W_i = h sum_j a_ij f(t + c_j h, z + W_j) for the stages W_i. Newton's iteration with the

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <complex>
 #include <cstdio>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <type_traits>
@@ -28,12 +29,14 @@ class SystemEquation : public Equation {
 
   [[nodiscard]] int size() const override { return System::size; }
   void derivative(double t, const double* z, double* dz) const override {
-    system_.derivative(t, z, dz);
+    system_.derivative(std::min(t, latest), z, dz);
   }
-  void derivative(Quad t, const Quad* z, Quad* dz) const override { system_.derivative(t, z, dz); }
+  void derivative(Quad t, const Quad* z, Quad* dz) const override {
+    system_.derivative(plain(t) > latest ? Quad(latest) : t, z, dz);
+  }
   [[nodiscard]] Eigen::MatrixXd jacobian(double t, const double* z) const override {
     Eigen::MatrixXd matrix(System::size, System::size);
-    model::jacobian(any_, t, z, matrix.data());
+    model::jacobian(any_, std::min(t, latest), z, matrix.data());
     return matrix;
   }
 
@@ -63,9 +66,10 @@ double first_step(const model::Model& model, double end) {
 // One solution with its own steps.
 class Run {
  public:
-  Run(const Equation& equation, const RadauRule& rule, double tolerance, const model::Model& model,
+  Run(Equation& equation, const RadauRule& rule, double tolerance, const model::Model& model,
       const solve::OutputGrid& grid)
-      : model_(model),
+      : equation_(equation),
+        model_(model),
         grid_(grid),
         tolerance_(tolerance),
         step_(equation, rule, tolerance),
@@ -87,6 +91,10 @@ class Run {
       const Quad left = target - time_;
       const bool to_target = left <= Quad(next_length);
       const Quad length = to_target ? left : Quad(next_length);
+      // Until it jumps, the reference is constant.
+      const bool to_jump = to_target && model_.jumps_at(plain(target));
+      equation_.latest =
+          to_jump ? model_.just_before(plain(target)) : std::numeric_limits<double>::infinity();
       const double error = step_.solve(time_, length, state_);
       double proposal = plain(length) * change_of_step(error);
       if (!(error <= tolerance_)) {
@@ -161,6 +169,7 @@ class Run {
     return std::move(solution_);
   }
 
+  Equation& equation_;
   const model::Model& model_;
   const solve::OutputGrid& grid_;
   double tolerance_;
@@ -191,7 +200,7 @@ int coordinates(const model::Model& model) {
 ReferenceSolution solve_reference(const model::Model& model, const solve::OutputGrid& grid,
                                   double tolerance, const solve::Watch& watch) {
   static const RadauRule rule(24), other_rule(20);
-  const std::unique_ptr<Equation> equation = make_equation(model);
+  std::unique_ptr<Equation> equation = make_equation(model);
   const double finest = std::max(tolerance, 5e3 * Quad::epsilon());
   double done = 0;  // by both runs together
   const auto progress = [&](double time) {

@@ -223,6 +223,12 @@ void RigSensitivity::compute(std::size_t k, const Instant& now, const Eigen::Mat
   const auto column = static_cast<Eigen::Index>(k);
   const Key& key = by_key_[k];
   const double later = move(k, Clock::sample, numbers_.sample);
+  if (later != 0 && model_.jumps_at(now.t)) {
+    no_sensitivity(shown(keys_[k].key.name) +
+                   ": it moves the sample at t = " + short_number(now.t) +
+                   " s, at which the reference jumps; allowed: jumps between samples, or keys that "
+                   "leave the samples' times");
+  }
   const auto moving = [](double value, double slope) {
     return Moving(value, Moving::Gradient(slope));
   };

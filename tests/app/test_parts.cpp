@@ -35,6 +35,8 @@ constexpr bool has_python = true;
 constexpr bool has_python = false;
 #endif
 
+const std::string square = "controller.reference={square: {amplitude: [3 cm, 2 cm], period: 2.3}}";
+
 // The rows without their header.
 std::string rows_of(const std::string& csv) {
   return csv.substr(csv.find('\n') + 1);
@@ -48,13 +50,15 @@ TEST_CASE("the rows of two parts are those of one run, to the bit") {
     const char* until;
     std::vector<std::string> more{};
   };
-  // Smooth ones, of few steps and of many; stops of a table; a rig with noise and delays, between
-  // two samples and at one; limits that switch; events that are noted.
-  const Scene scene =
-      GENERATE(Scene{"fig2a", "5"}, Scene{"fig2b", "7.05"}, Scene{"recorded", "2"},
-               Scene{"rig", "10.01", {"--set", "time.step=\"10 ms\""}}, Scene{"rig", "20 s"},
-               Scene{"step", "600 ms"}, Scene{"catch", "1"},
-               Scene{"fig2a", "9.99", {"--set", "output.columns=[t, gamma, spin, torque_phi]"}});
+  // Smooth ones, of few steps and of many; stops of a table and jumps of a reference; a rig with
+  // noise and delays, between two samples and at one; limits that switch; events that are noted.
+  const Scene scene = GENERATE(
+      Scene{"fig2a", "5"}, Scene{"fig2b", "7.05"}, Scene{"recorded", "2"},
+      Scene{"rig", "10.01", {"--set", "time.step=\"10 ms\""}}, Scene{"rig", "20 s"},
+      Scene{"step", "600 ms"}, Scene{"catch", "1"},
+      Scene{"fig2b", "7.1", {"--set", "controller.reference={step: {to: [5 cm, 0], at: 7.1}}"}},
+      Scene{"fig2b", "7", {"--set", square}}, Scene{"rig", "7", {"--set", square}},
+      Scene{"fig2a", "9.99", {"--set", "output.columns=[t, gamma, spin, torque_phi]"}});
   CAPTURE(scene.name, scene.until);
   const Folder folder;
   const auto with = [&](std::vector<std::string> arguments) {

@@ -42,7 +42,7 @@ function profile(size, is_angle, depth, kind) {
 
 # Within `size` of the origin, m.
 function path(size, kind, n, i, t, points, times) {
-  kind = pick("point|circle|lissajous|waypoints|table")
+  kind = pick("point|circle|lissajous|waypoints|table|step|square|staircase")
   if (kind == "point") return "{point: " point(size) "}"
   if (kind == "circle") {
     return "{circle: {radius: " metres(between(0, size)) ", rate: " between(-3, 3) \
@@ -53,14 +53,20 @@ function path(size, kind, n, i, t, points, times) {
       (chance(0.3) ? ", phase: [" between(-4, 4) ", 1]" : "") "}}"
   }
   if (kind == "table") return "{table: {file: table.csv, time: t, x: x, y: y}}"
+  if (kind == "step") return "{step: {from: " point(size) ", to: " point(size) ", at: " by_factors(0.05, 3) "}}"
+  if (kind == "square") {
+    return "{square: {amplitude: " point(size / 2) ", period: " by_factors(0.1, 5) \
+      (chance(0.5) ? ", phase: [" between(-4, 4) ", 1]" : "") \
+      (chance(0.3) ? ", duty: " between(0.1, 0.9) : "") "}}"
+  }
   n = 2 + int(rand() * 5)
   for (i = 0; i < n; ++i) {
     t += by_factors(0.05, 1)
     points = points (i ? ", " : "") point(size)
     times = times (i ? ", " : "") t
   }
-  return "{waypoints: {points: [" points "], times: [" times "]" \
-    (chance(0.4) ? ", rest: " pick("true|false") : "") "}}"
+  return "{" kind ": {points: [" points "], times: [" times "]" \
+    (kind == "waypoints" && chance(0.4) ? ", rest: " pick("true|false") : "") "}}"
 }
 
 function put(number, file) {

@@ -4,6 +4,7 @@
 // Reference paths: against formulas, finite differences, and what they promise at their knots.
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <vector>
 
@@ -60,7 +61,7 @@ void check_hold(const SignalPair& path) {
 
 TEST_CASE("a circle turns about its centre") {
   const double R = 0.05, w = -0.3, p = 0.7;
-  const SignalPair path = reference_path(CircleReference{R, w, p, {0.02, -0.01}});
+  const SignalPair path = reference_path(CircleReference{R, w, p, {0.02, -0.01}}, 20);
   for (const double t : {0.0, 1.3, 17.0}) {
     const auto [x, y] = path.at(t);
     // The argument carries the rounding of w t and of the quarter turn.
@@ -75,7 +76,7 @@ TEST_CASE("a circle turns about its centre") {
 
 TEST_CASE("a Lissajous figure is a cosine and a sine of their own") {
   const LissajousReference figure{{0.06, 0.04}, {3, 2}, {0.3, -0.5}, {0.01, 0.02}};
-  const SignalPair path = reference_path(figure);
+  const SignalPair path = reference_path(figure, 20);
   for (const double t : {0.0, 0.9, 12.0}) {
     const auto [x, y] = path.at(t);
     const double a = 3 * t + 0.3, b = 2 * t - 0.5;
@@ -93,9 +94,9 @@ TEST_CASE("a Lissajous figure is a cosine and a sine of their own") {
 }
 
 TEST_CASE("a Lissajous figure of one rate and radius is the circle, to the bit") {
-  const SignalPair circle = reference_path(CircleReference{0.05, -0.3, 0.7, {0.02, 0}});
+  const SignalPair circle = reference_path(CircleReference{0.05, -0.3, 0.7, {0.02, 0}}, 20);
   const SignalPair figure =
-      reference_path(LissajousReference{{0.05, 0.05}, {-0.3, -0.3}, {0.7, 0.7}, {0.02, 0}});
+      reference_path(LissajousReference{{0.05, 0.05}, {-0.3, -0.3}, {0.7, 0.7}, {0.02, 0}}, 20);
   for (const double t : {0.0, 3.7, 20.0}) {
     for (std::size_t i = 0; i < 2; ++i) {
       CHECK(circle.at(t)[i].value == figure.at(t)[i].value);
@@ -105,17 +106,18 @@ TEST_CASE("a Lissajous figure of one rate and radius is the circle, to the bit")
 }
 
 TEST_CASE("what does not move costs no sine") {
-  CHECK(reference_path(CircleReference{0, 5, 0, {0.1, 0}}).highest_frequency() == 0);
-  CHECK(reference_path(LissajousReference{{0.1, 0}, {2, 5}, {}, {}}).highest_frequency() == 2);
+  CHECK(reference_path(CircleReference{0, 5, 0, {0.1, 0}}, 20).highest_frequency() == 0);
+  CHECK(reference_path(LissajousReference{{0.1, 0}, {2, 5}, {}, {}}, 20).highest_frequency() == 2);
   // A rate of zero leaves a cos(phase).
-  const auto [x, y] = reference_path(LissajousReference{{0.1, 0.1}, {0, 0}, {1, 1}, {}}).at(3.0);
+  const auto [x, y] =
+      reference_path(LissajousReference{{0.1, 0.1}, {0, 0}, {1, 1}, {}}, 20).at(3.0);
   CHECK(std::abs(x.value - 0.1 * std::cos(1)) < 4 * epsilon);
   CHECK(std::abs(y.value - 0.1 * std::sin(1)) < 4 * epsilon);
   CHECK(x.rate == 0);
 }
 
 TEST_CASE("waypoints: C2 between, at rest at both ends, held outside") {
-  const SignalPair path = reference_path(WaypointReference{corners, hours, false});
+  const SignalPair path = reference_path(WaypointReference{corners, hours, false}, 20);
   CHECK(path.knots() == hours);
   check_hold(path);
   for (std::size_t k = 0; k < hours.size(); ++k) {
@@ -143,7 +145,7 @@ TEST_CASE("waypoints: C2 between, at rest at both ends, held outside") {
 }
 
 TEST_CASE("waypoints between two points: the cubic at rest at both ends") {
-  const SignalPair path = reference_path(WaypointReference{{{0, 1}, {2, -1}}, {0, 4}, false});
+  const SignalPair path = reference_path(WaypointReference{{{0, 1}, {2, -1}}, {0, 4}, false}, 20);
   for (const double t : {0.0, 0.5, 2.0, 3.9}) {
     const double tau = t / 4, shape = tau * tau * (3 - 2 * tau);
     CHECK(std::abs(path.at(t)[0].value - 2 * shape) < 20 * epsilon);
@@ -159,7 +161,7 @@ TEST_CASE("the clamped spline converges with the fourth power of the step") {
       way.times.push_back(std::numbers::pi * i / n);
       way.points.push_back({-std::cos(way.times.back()), 0});
     }
-    const SignalPair path = reference_path(way);
+    const SignalPair path = reference_path(way, 20);
     double worst = 0;
     for (int i = 0; i < 500; ++i) {
       const double t = std::numbers::pi * i / 500;
@@ -171,7 +173,7 @@ TEST_CASE("the clamped spline converges with the fourth power of the step") {
 }
 
 TEST_CASE("waypoints with rest: minimum-jerk quintics") {
-  const SignalPair path = reference_path(WaypointReference{corners, hours, true});
+  const SignalPair path = reference_path(WaypointReference{corners, hours, true}, 20);
   CHECK(path.knots() == hours);
   check_hold(path);
   for (std::size_t k = 0; k + 1 < hours.size(); ++k) {
@@ -211,7 +213,7 @@ TEST_CASE("a table of a path reproduces cubics") {
     table.x.push_back(x(t));
     table.y.push_back(y(t));
   }
-  const SignalPair path = reference_path(table);
+  const SignalPair path = reference_path(table, 20);
   CHECK(path.knots() == table.times);
   for (const double t : {0.0, 0.3, 1.9, 3.99}) {
     // Divided differences over the shortest interval, 0.5 s, on values up to 1.
@@ -234,4 +236,78 @@ TEST_CASE("the knots of a reference path inside the scene are stops") {
   CHECK(notes.back().reason == "3 knots of the reference path, none stepped over");
   scene.controller->reference = TableReference{"p.csv", {0, 1, 3, 5}, {0, 1, 0, 1}, {0, 0, 0, 0}};
   CHECK(assemble(scene, false).stops == std::vector<double>{1, 3});
+}
+
+TEST_CASE("a staircase holds each point, and has jumped at an instant that rounding moves") {
+  const SignalPair path =
+      reference_path(StaircaseReference{{{0.01, 0}, {0.02, 0}, {0.02, 0.03}}, {0.9, 2}}, 5);
+  const auto is_at = [&](double t, double x, double y) {
+    CAPTURE(t);
+    CHECK(path.at(t)[0].value == x);
+    CHECK(path.at(t)[1].value == y);
+    for (std::size_t i = 0; i < 2; ++i) {
+      CHECK(path.at(t)[i].rate == 0);
+      CHECK(path.at(t)[i].acceleration == 0);
+    }
+  };
+  is_at(-3, 0.01, 0);
+  is_at(0, 0.01, 0);
+  is_at(0.9 * (1 - 1e-14), 0.01, 0);
+  const double ninth = 30 * 0.03;  // of a sampler with a period of 30 ms
+  CHECK(ninth < 0.9);
+  is_at(ninth, 0.02, 0);
+  is_at(0.9, 0.02, 0);
+  is_at(2, 0.02, 0.03);
+  is_at(100, 0.02, 0.03);
+  CHECK(path.knots() == std::vector<double>{0.9, 2});
+  CHECK(path.jumps() == path.knots());
+}
+
+TEST_CASE("a jump to the same value is none") {
+  const SignalPair path =
+      reference_path(StaircaseReference{{{1, 0}, {1, 0}, {2, 0}, {2, 0}}, {1, 2, 3}}, 5);
+  CHECK(path.jumps() == std::vector<double>{2});
+}
+
+TEST_CASE("a square wave is the sign of a sine, with phases and a duty") {
+  const double T = 0.8;
+  const SquareReference square{{0.05, 0.02}, T, {0.3, -2}, {0.01, -0.01}, 0.5};
+  const SignalPair path = reference_path(square, 6);
+  Random random(5);
+  for (int n = 0; n < 200; ++n) {
+    const double t = random.uniform(0, 6);
+    for (std::size_t i = 0; i < 2; ++i) {
+      const double wave = std::sin(2 * std::numbers::pi * t / T + square.phase[i]);
+      if (std::abs(wave) < 1e-9) continue;  // within rounding of a jump
+      CAPTURE(t, i);
+      CHECK(path.at(t)[i].value ==
+            square.centre[i] + (wave > 0 ? square.amplitude[i] : -square.amplitude[i]));
+    }
+  }
+  CHECK(path.jumps() == path.knots());
+
+  const SignalPair quarter = reference_path(SquareReference{{1, 0}, 4, {0, 0}, {0, 5}, 0.25}, 10);
+  for (const double t : {0.0, 0.99, 4.0, 4.5, 8.0}) CHECK(quarter.at(t)[0].value == 1);
+  for (const double t : {1.0, 2.0, 3.99, 5.0, 7.9}) CHECK(quarter.at(t)[0].value == -1);
+  CHECK(quarter.at(3.0)[1].value == 5);
+}
+
+TEST_CASE("the jumps of a reference inside the scene are stops, with their moments before") {
+  Scenario scene = fig2b();
+  scene.time.end = 4;
+  scene.controller->reference = SquareReference{{0.05, 0.05}, 2, {0, 0}, {0, 0}, 0.5};
+  const Model model = assemble(scene, false);
+  CHECK(model.stops == std::vector<double>{1, 2, 3});
+  CHECK(model.jumps == model.stops);
+  CHECK(explain(scene, model).back().reason == "3 jumps of the reference path, none stepped over");
+  CHECK(model.jumps_at(2));
+  CHECK(model.jumps_at(2 * (1 - epsilon)));
+  CHECK_FALSE(model.jumps_at(2 * (1 - 1e-13)));
+  CHECK_FALSE(model.jumps_at(std::numeric_limits<double>::infinity()));
+  const auto path = reference_path(scene.controller->reference, 4);
+  CHECK(path.at(2.0)[0].value == 0.05);
+  // Also where a sum of times that should end there is rounded.
+  CHECK(path.at(model.just_before(2) * (1 + epsilon))[0].value == -0.05);
+  CHECK(2 - model.just_before(2) < 1e-14);
+  CHECK(model.just_before(1.5) == std::nextafter(1.5, 0.0));
 }

@@ -3,6 +3,8 @@
 
 // Reference paths of a controller.
 #include <numbers>
+#include <string>
+#include <vector>
 
 #include "catch.hpp"
 #include "support/reading.hpp"
@@ -39,7 +41,8 @@ std::string way(const std::string& points, const std::string& times) {
 
 TEST_CASE("a reference is exactly one of the known paths") {
   const std::string allowed =
-      "; allowed: exactly one of circle, point, lissajous, waypoints, table";
+      "; allowed: exactly one of circle, point, lissajous, waypoints, table, step, square, "
+      "staircase";
   CHECK(problem("{}") == key + ": found none" + allowed);
   CHECK(problem("{circle: {radius: 1, rate: 1}, point: [0, 0]}") ==
         key + ": found circle, point" + allowed);
@@ -179,4 +182,61 @@ TEST_CASE("a reference table is read from beside the scenario") {
         key +
             ".table.value: unknown key; known keys here: file, time, x, y, unit, "
             "time_unit, scale, offset, delay, time_offset");
+}
+
+TEST_CASE("a step is from the origin at the start, unless it says otherwise") {
+  const auto all = read_as<StaircaseReference>("{step: {from: [1 cm, 0], to: [0, 2 cm], at: 3 s}}");
+  CHECK(all.points == std::vector<Pair>{{0.01, 0}, {0, 0.02}});
+  CHECK(all.jumps == std::vector<double>{3});
+  const auto least = read_as<StaircaseReference>("{step: {to: [1, 2]}}");
+  CHECK(least.points == std::vector<Pair>{{0, 0}, {1, 2}});
+  CHECK(least.jumps == std::vector<double>{0});
+
+  const std::string step = key + ".step.";
+  CHECK(problem("{step: {at: 1}}") ==
+        step + "to: missing; allowed: two lengths [x, y], such as [0.1, 0]");
+  CHECK_THAT(problem("{step: {to: [1, 2], at: -1}}"), Contains(step + "at: found -1; allowed: "));
+  CHECK_THAT(problem("{step: {to: 1}}"), Contains(step + "to: found 1; allowed: two lengths"));
+  CHECK(problem("{step: {to: [1, 1], time: 2}}") ==
+        step + "time: unknown key; known keys here: from, to, at");
+}
+
+TEST_CASE("a square wave has a period, and its axes have amplitudes and phases of their own") {
+  const auto all = read_as<SquareReference>(
+      "{square: {amplitude: [5 cm, -0.03], period: 500 ms, phase: [0, 90 deg], center: [0, 1 cm], "
+      "duty: 0.25}}");
+  CHECK(all.amplitude == Pair{0.05, -0.03});
+  CHECK(all.period == 0.5);
+  CHECK(all.phase == Pair{0, std::numbers::pi / 2});
+  CHECK(all.centre == Pair{0, 0.01});
+  CHECK(all.duty == 0.25);
+  const auto least = read_as<SquareReference>("{square: {amplitude: [1, 0], period: 1}}");
+  CHECK(least.phase == Pair{0, 0});
+  CHECK(least.centre == Pair{0, 0});
+  CHECK(least.duty == 0.5);
+
+  const std::string square = key + ".square.";
+  CHECK_THAT(problem("{square: {amplitude: [1, 1]}}"), Contains(square + "period: missing"));
+  CHECK_THAT(problem("{square: {amplitude: [1, 1], period: 0}}"),
+             Contains(square + "period: found 0; allowed: "));
+  CHECK_THAT(problem("{square: {amplitude: [1, 1], period: 1, duty: 1}}"),
+             Contains(square + "duty: found 1; allowed: "));
+  CHECK_THAT(problem("{square: {amplitude: [1, 1], period: 1 us}}"),
+             Contains(square + "period: found more than 100,000 jumps until time.end; allowed: a "
+                               "longer period"));
+}
+
+TEST_CASE("a staircase has a time for each point, from which it holds") {
+  const auto stairs = read_as<StaircaseReference>(
+      "{staircase: {points: [[0, 0], [1 cm, 0], [0, 2 cm]], times: [0, 1, 2500 ms]}}");
+  CHECK(stairs.points == std::vector<Pair>{{0, 0}, {0.01, 0}, {0, 0.02}});
+  CHECK(stairs.jumps == std::vector<double>{1, 2.5});
+
+  const std::string staircase = key + ".staircase.";
+  CHECK(problem("{staircase: {points: [[0, 0], [1, 0]], times: [0]}}") ==
+        staircase + "times: found [0]; allowed: a list of 2 to 10000 times, one for each point");
+  CHECK(problem("{staircase: {points: [[0, 0], [1, 0]], times: [0, 1, 2]}}") ==
+        staircase + "times: found 3 times for 2 points; allowed: one time for each point");
+  CHECK(problem("{staircase: {points: [[0, 0], [1, 0]], times: [1, 1]}}") ==
+        staircase + "times.1: found 1, after 1; allowed: strictly increasing times");
 }

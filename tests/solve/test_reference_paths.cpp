@@ -4,6 +4,7 @@
 // Closed loops along each kind of reference path: two integrators agree, and the ball follows.
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <string>
 #include <vector>
 
@@ -31,11 +32,16 @@ std::vector<Path> paths() {
     table.x.push_back(0.05 * std::sin(0.8 * t));
     table.y.push_back(0.004 * t);
   }
-  return {{"circle", CircleReference{0.03, 0.8, 0, {0.02, -0.01}}, 0},
-          {"lissajous", LissajousReference{{0.05, 0.03}, {0.5, 1}, {1.2, 0}, {0.01, 0}}, 0},
-          {"waypoints", WaypointReference{points, times, false}, 4},
-          {"waypoints at rest", WaypointReference{points, times, true}, 4},
-          {"table", table, 15}};
+  return {
+      {"circle", CircleReference{0.03, 0.8, 0, {0.02, -0.01}}, 0},
+      {"lissajous", LissajousReference{{0.05, 0.03}, {0.5, 1}, {1.2, 0}, {0.01, 0}}, 0},
+      {"waypoints", WaypointReference{points, times, false}, 4},
+      {"waypoints at rest", WaypointReference{points, times, true}, 4},
+      {"table", table, 15},
+      {"step", StaircaseReference{{{0, 0}, {0.05, -0.02}}, {2.125}}, 1},
+      {"staircase", StaircaseReference{points, {2, 3.5, 6}}, 3},
+      // Up at 1.5 k s; down a quarter later, y half a period earlier.
+      {"square", SquareReference{{0.02, 0.01}, 1.5, {0, std::numbers::pi}, {0.01, 0}, 0.25}, 20}};
 }
 
 // Poles about home by (M13), 1/s: -22.4 +- 14.6i of the servo, -3.84 and -1.48.
@@ -57,7 +63,7 @@ Scenario follows(const Reference& reference) {
 }  // namespace
 
 TEST_CASE("radau and BDF agree along every reference path") {
-  const auto index = GENERATE(range(0, 5));
+  const auto index = GENERATE(range(0, 8));
   const Path path = paths()[static_cast<std::size_t>(index)];
   CAPTURE(path.name);
   const Scenario scene = follows(path.reference);
@@ -115,4 +121,90 @@ TEST_CASE("the ball comes to rest where the waypoints end") {
   // local error, rtol of 0.2 m, is what the integration itself may leave, ten times over.
   CHECK(std::abs(last.ball.x + 0.04) < 0.2 * (std::exp(-23.0) + 1e-7));
   CHECK(std::abs(last.ball.y - 0.01) < 0.2 * (std::exp(-23.0) + 1e-7));
+}
+
+TEST_CASE("a run over a jump of the reference is two runs, one from the other's end") {
+  const auto method = GENERATE(Method::radau, Method::bdf);
+  const double at = 2.125;
+  const Pair before{0.01, 0.02}, after{-0.04, 0.01};
+  const double rtol = 1e-10, atol = 1e-12;
+  const Run whole = run_in_memory(follows(StaircaseReference{{before, after}, {at}}), method,
+                                  {rtol, atol}, false);
+  Scenario first = follows(PointReference{before});
+  first.time = {at, at};
+  const Run head = run_in_memory(first, method, {rtol, atol}, false);
+  const model::Sample& end = head.samples.back();
+  Scenario second = follows(PointReference{after});
+  second.ball.position = {end.ball.x, end.ball.y};
+  second.ball.velocity = {end.ball.x_dot, end.ball.y_dot};
+  second.ball.spin = end.ball.gamma_dot;
+  second.gimbal.start = {end.gimbal.phi, end.gimbal.theta, end.gimbal.phi_dot,
+                         end.gimbal.theta_dot};
+  second.time = {8 - at, 0.125};
+  const Run tail = run_in_memory(second, method, {rtol, atol}, false);
+  const double bound = 5 * 2 * static_cast<double>(whole.outcome.statistics.steps) *
+                       (rtol * 0.5 + atol);  // as above
+  CHECK(bound < 1e-5);
+  Scenario rows = follows(StaircaseReference{{before, after}, {at}});
+  rows.time = {8, 0.125};
+  const Run stepped = run_in_memory(rows, method, {rtol, atol}, false);
+  const std::size_t jump = 17;  // the row at 2.125 s
+  for (std::size_t i = 0; i < tail.samples.size(); ++i) {
+    const model::Sample &a = stepped.samples[jump + i], &b = tail.samples[i];
+    CAPTURE(a.t, b.t);
+    CHECK(std::abs(a.ball.x - b.ball.x) < bound);
+    CHECK(std::abs(a.ball.y - b.ball.y) < bound);
+    CHECK(std::abs(a.gimbal.phi - b.gimbal.phi) < bound);
+    CHECK(a.reference == after);
+  }
+  CHECK(stepped.samples[jump - 1].reference == before);
+  // At rest on its reference, the ball does not know of the jump to come. The tolerance leaves 5
+  // steps of the loop, as above.
+  CHECK(std::abs(stepped.samples[jump].ball.x - before[0]) < bound);
+  // The command jumps with the reference: the row at the jump is from after it.
+  CHECK(std::abs(stepped.samples[jump].command[0] - 0.6 * (after[0] - before[0])) < bound);
+  CHECK(std::abs(stepped.samples[jump - 1].command[0]) < bound);
+}
+
+TEST_CASE("commands beyond a limit by a jump of the reference") {
+  Scenario scene = follows(SquareReference{{0.04, 0.03}, 4, {0, 1}, {0, 0}, 0.5});
+  scene.controller->law = Law::pid;
+  scene.controller->ki = {{{0.2, 0}, {0, -0.2}}};
+  scene.controller->limit = 0.02;  // rad; kp asks for 0.6 rad/m of jumps of 8 cm
+  const Run ours = run_in_memory(scene, Method::radau, {1e-9, 1e-11});
+  const Run theirs = run_in_memory(scene, Method::bdf, {1e-9, 1e-11});
+  REQUIRE(ours.outcome.ending == solve::Ending::done);
+  REQUIRE(theirs.outcome.ending == solve::Ending::done);
+  bool limited = false;
+  for (std::size_t i = 0; i < ours.samples.size(); ++i) {
+    const model::Sample &a = ours.samples[i], &b = theirs.samples[i];
+    CAPTURE(a.t);
+    // BDF's thousands of steps leave a local error each, of 1e-10 at most.
+    CHECK(std::abs(a.ball.x - b.ball.x) < 1e-6);
+    CHECK(std::abs(a.ball.y - b.ball.y) < 1e-6);
+    limited = limited || std::abs(a.command[0]) == 0.02;
+  }
+  CHECK(limited);
+  // A jump needs few steps, since none crosses it.
+  CHECK(ours.outcome.statistics.steps < 600);
+}
+
+TEST_CASE("a sampled law sees a jump of the reference at the next sample") {
+  Scenario scene = follows(StaircaseReference{{{0.01, 0.02}, {0.03, 0.02}}, {0.9}});
+  scene.controller->sampling = Sampling{0.03, 0};
+  scene.time = {1.5, 0.01};
+  const double asked = 0.6 * 0.02;  // kp; a difference of positions is zero at rest
+  const auto command_at = [&](double at, double t) {
+    std::get<StaircaseReference>(scene.controller->reference).jumps = {at};
+    const Run run = run_in_memory(scene, Method::radau, {1e-9, 1e-11});
+    return run.samples[static_cast<std::size_t>(std::lround(t / 0.01))].command[0];
+  };
+  // Of 30 samples of 30 ms, a rounding before 0.9 s: this one sees the jump, and none before it.
+  CHECK(30 * 0.03 < 0.9);
+  CHECK(command_at(0.9, 0.89) == 0);
+  CHECK(std::abs(command_at(0.9, 0.9) - asked) < 1e-15);
+  CHECK(std::abs(command_at(0.88, 0.9) - asked) < 1e-15);
+  CHECK(command_at(0.88, 0.89) == 0);
+  CHECK(command_at(0.901, 0.92) == 0);
+  CHECK(std::abs(command_at(0.901, 0.93) - asked) < 1e-15);
 }

@@ -244,6 +244,24 @@ TEST_CASE("the reference stops at every knot of a table") {
   CHECK(solution.error_estimate < 1e-20);
 }
 
+TEST_CASE("the reference does not step over a jump of the controller's reference") {
+  Scenario scenario = scene("fig2b");
+  scenario.controller->reference = bbsim::StaircaseReference{{{0.05, 0}, {0.04, 0.01}}, {0.75}};
+  scenario.time = {1.5, 0.125};
+  const ReferenceSolution solution = solve(scenario);
+  REQUIRE(solution.complete);
+  // Two rules with other nodes agree only if neither has a node beyond the jump.
+  CHECK(solution.error_estimate < 1e-20);
+  const auto rows = solve_in_double(scenario);
+  for (std::size_t i = 0; i < rows.rows(); ++i) {
+    for (int c = 0; c < 2; ++c) {
+      CAPTURE(i, c);
+      // Some tens of steps, each with an error of 1e-12 of states below 1.
+      CHECK(std::abs(rows.row(i)[c] - plain(solution.row(i)[c])) < 1e-10);
+    }
+  }
+}
+
 TEST_CASE("a reference may be interrupted, and says how far it is") {
   const Scenario scenario = scene("fast");
   const bbsim::solve::OutputGrid grid(scenario.time);

@@ -695,6 +695,16 @@ TEST_CASE("rigs in lanes are those of single runs") {
                           {{"controller.gravity_compensation.kp", "uniform:6:14"}},
                           {"time.end=5", "controller.sensor=" + sensor}, loop_measures, 14));
   }
+  SECTION("whose reference jumps, at samples and between them") {
+    const std::string reference =
+        GENERATE("{step: {from: [-3 cm, 0], to: [3 cm, 1 cm], at: 0.9}}",
+                 "{square: {amplitude: [3 cm, 2 cm], period: 1.7, phase: [0, 90 deg]}}",
+                 "{staircase: {points: [[0, 0], [3 cm, 0], [3 cm, 2 cm]], times: [0, 1.003, 2]}}");
+    CAPTURE(reference);
+    check_rig_lanes(Setup("configs/rig.yaml",
+                          {{"controller.gravity_compensation.kp", "uniform:6:14"}},
+                          {"time.end=4", "controller.reference=" + reference}, loop_measures, 14));
+  }
   SECTION("with what a controller commands at the end") {
     check_rig_lanes(Setup("configs/rig.yaml", gains_and_seeds, {"time.end=2.005"},
                           {"end_phi_command", "end_x_measured", "end_vx", "end_phi", "x_end"}, 5));

@@ -598,7 +598,7 @@ class EquilibriumSearch {
   EquilibriumSearch(const Scenario& scene, const Model& model) : model_(model) {
     Pair position = scene.ball.position;
     if (scene.controller && commands_of(scene) == nullptr) {
-      const auto path = reference_path(scene.controller->reference).at(0.0);
+      const auto path = reference_path(scene.controller->reference, 0).at(0.0);
       for (std::size_t i = 0; i < 2; ++i) position[i] = point_.reference[i].value = path[i].value;
     }
     with_loop([&](const auto& loop) {

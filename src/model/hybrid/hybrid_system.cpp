@@ -48,7 +48,7 @@ void HybridSystem::observe(double t, const double* z) {
 
 void HybridSystem::act(double t, double* z) {
   touched_ = !only_commands_change_ || t == 0;
-  const double before = std::nextafter(t, -unlimited);  // the input may jump at t
+  const double before = model().just_before(t);
   for_each(parts_, [&](auto& part) { part.leave_mode(before, z); });
   const double end = instant_end(t);
   while (sampling() != nullptr && sampling()->commands_by(end)) {

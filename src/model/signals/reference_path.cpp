@@ -3,16 +3,38 @@
 
 #include "model/signals/reference_path.hpp"
 
+#include <cmath>
 #include <numbers>
+#include <utility>
 #include <variant>
 #include <vector>
+
+#include "base/instant.hpp"
 
 namespace bbsim::model {
 namespace {
 
 constexpr double quarter_turn = std::numbers::pi / 2;  // a cosine is a sine with this phase
 
+// Holds values[i + 1] from jumps[i] on. A jump to the same value is none.
+void add_steps(SignalPair& path, std::size_t component, const std::vector<double>& values,
+               const std::vector<double>& jumps) {
+  std::vector<double> held{values.front()}, times;
+  for (std::size_t i = 0; i < jumps.size(); ++i) {
+    if (values[i + 1] == held.back()) continue;
+    held.push_back(values[i + 1]);
+    times.push_back(jumps[i]);
+  }
+  if (times.empty()) {
+    path.add_constant(component, held.front());
+  } else {
+    path.add_table(component, Spline::held_between_knots(std::move(times), held));
+  }
+}
+
 struct Path {
+  double end;  // of the run, s
+
   SignalPair operator()(const PointReference& point) const { return constant(point.position); }
 
   SignalPair operator()(const CircleReference& circle) const {
@@ -55,6 +77,38 @@ struct Path {
     return angles;
   }
 
+  SignalPair operator()(const StaircaseReference& stairs) const {
+    SignalPair path;
+    for (std::size_t i = 0; i < 2; ++i) {
+      std::vector<double> values;
+      for (const Pair& point : stairs.points) values.push_back(point[i]);
+      add_steps(path, i, values, stairs.jumps);
+    }
+    return path;
+  }
+
+  SignalPair operator()(const SquareReference& square) const {
+    SignalPair path;
+    for (std::size_t i = 0; i < 2; ++i) {
+      const double high = square.centre[i] + square.amplitude[i];
+      const double low = square.centre[i] - square.amplitude[i];
+      const double shift = square.phase[i] / (2 * std::numbers::pi);  // in periods
+      // Jumps up at (k - shift) periods, and down after `duty` of the period.
+      const double first = std::floor(shift) - 1;
+      std::vector<double> values{low}, jumps;
+      for (std::size_t n = 0; jumps.size() < most_jumps + 4; ++n) {
+        const double at = first + std::floor(static_cast<double>(n) / 2) - shift;
+        double t = (n % 2 == 0 ? at : at + square.duty) * square.period;
+        if (std::abs(t) <= rounding_of(square.period)) t = 0;
+        if (t > end) break;
+        values.push_back(n % 2 == 0 ? high : low);
+        jumps.push_back(t);
+      }
+      add_steps(path, i, values, jumps);
+    }
+    return path;
+  }
+
   static SignalPair constant(const Pair& position) {
     SignalPair path;
     for (std::size_t i = 0; i < 2; ++i) path.add_constant(i, position[i]);
@@ -64,8 +118,8 @@ struct Path {
 
 }  // namespace
 
-SignalPair reference_path(const Reference& reference) {
-  return std::visit(Path{}, reference);
+SignalPair reference_path(const Reference& reference, double end) {
+  return std::visit(Path{end}, reference);
 }
 
 }  // namespace bbsim::model

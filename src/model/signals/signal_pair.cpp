@@ -52,6 +52,18 @@ void SignalPair::add(std::size_t component, const Profile& profile) {
   });
 }
 
+template <class Counts>
+std::vector<double> SignalPair::knots_of(Counts counts) const {
+  std::vector<double> times;
+  for (const Spline& spline : splines_) {
+    if (!counts(spline)) continue;
+    times.insert(times.end(), spline.knots().begin(), spline.knots().end());
+  }
+  std::sort(times.begin(), times.end());
+  times.erase(std::unique(times.begin(), times.end()), times.end());
+  return times;
+}
+
 bool SignalPair::is_zero(std::size_t component) const {
   const auto silent = [component](const Harmonic& h) {
     return h.sine[component] == 0 && h.cosine[component] == 0;
@@ -63,13 +75,11 @@ bool SignalPair::is_zero(std::size_t component) const {
 }
 
 std::vector<double> SignalPair::knots() const {
-  std::vector<double> times;
-  for (const Spline& spline : splines_) {
-    times.insert(times.end(), spline.knots().begin(), spline.knots().end());
-  }
-  std::sort(times.begin(), times.end());
-  times.erase(std::unique(times.begin(), times.end()), times.end());
-  return times;
+  return knots_of([](const Spline&) { return true; });
+}
+
+std::vector<double> SignalPair::jumps() const {
+  return knots_of([](const Spline& spline) { return spline.jumps(); });
 }
 
 double SignalPair::highest_frequency() const {

@@ -88,8 +88,10 @@ class SignalPair {
   // Whether the component is zero at all times.
   [[nodiscard]] bool is_zero(std::size_t component) const;
 
-  // Times at which a derivative jumps: the knots of the splines, sorted.
+  // Times at which a derivative or a value jumps: the knots of the splines, sorted.
   [[nodiscard]] std::vector<double> knots() const;
+  // Those of them at which a value jumps.
+  [[nodiscard]] std::vector<double> jumps() const;
 
   // The highest frequency of a sinusoid, rad/s; 0 without sinusoids.
   [[nodiscard]] double highest_frequency() const;
@@ -112,6 +114,9 @@ class SignalPair {
   }
 
  private:
+  template <class Counts>
+  [[nodiscard]] std::vector<double> knots_of(Counts counts) const;
+
   double start_[2] = {0, 0}, rate_[2] = {0, 0};
   std::vector<Harmonic> harmonics_;
   std::vector<Spline> splines_;

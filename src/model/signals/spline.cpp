@@ -6,6 +6,8 @@
 #include <cmath>
 #include <utility>
 
+#include "base/instant.hpp"
+
 namespace bbsim::model {
 namespace {
 
@@ -138,6 +140,16 @@ Spline Spline::at_rest_at_knots(std::vector<double> times, const std::vector<dou
   }
   pieces = held(std::move(pieces), times, values);
   return {std::move(times), std::move(pieces)};
+}
+
+Spline Spline::held_between_knots(std::vector<double> times, const std::vector<double>& values) {
+  std::vector<Piece> pieces{Piece{times.front(), values.front()}};
+  for (std::size_t i = 0; i < times.size(); ++i) {
+    pieces.push_back({times[i] - rounding_of(times[i]), values[i + 1]});
+  }
+  Spline spline(std::move(times), std::move(pieces));
+  spline.jumps_ = true;
+  return spline;
 }
 
 }  // namespace bbsim::model

@@ -51,7 +51,8 @@ struct SplineView {
   }
 };
 
-// Pieces of degree 3 or 5 between knots. The highest derivative jumps at the knots.
+// Pieces of degree 0, 3 or 5 between knots. The highest derivative jumps at the knots; of degree 0,
+// the value.
 class Spline {
  public:
   // Cubic spline with not-a-knot ends (de Boor, A Practical Guide to Splines, IV). It reproduces
@@ -72,6 +73,12 @@ class Spline {
   [[nodiscard]] static Spline at_rest_at_knots(std::vector<double> times,
                                                const std::vector<double>& values);
 
+  // Holds values[i + 1] from times[i] on, and the first value before. At an instant that differs
+  // from a time by rounding only, it has jumped. Needs at least one time, strictly increasing
+  // `times`, and one more of `values`.
+  [[nodiscard]] static Spline held_between_knots(std::vector<double> times,
+                                                 const std::vector<double>& values);
+
   template <class Time>
   [[nodiscard]] Jet<Time> at(const Time& t) const {
     return view().at(t);
@@ -82,6 +89,8 @@ class Spline {
 
   // The times at which the highest derivative jumps.
   [[nodiscard]] const std::vector<double>& knots() const { return times_; }
+  // Whether the value jumps at the knots.
+  [[nodiscard]] bool jumps() const { return jumps_; }
 
  private:
   using Piece = SplineView::Piece;
@@ -93,6 +102,7 @@ class Spline {
         pieces_(std::make_shared<const std::vector<Piece>>(std::move(pieces))) {}
 
   std::vector<double> times_;
+  bool jumps_ = false;
   std::shared_ptr<const std::vector<Piece>> pieces_;  // copies share them, so views stay valid
 };
 

@@ -134,11 +134,15 @@ class CvodeStepper : public Stepper {
   void jump() override { restart(time_); }
 
   [[nodiscard]] std::optional<Failure> step(double limit) override {
-    check(CVodeSetStopTime(memory(), limit), "CVodeSetStopTime");
     const double before = time_;
-    const int flag = CVode(memory(), limit, state_.get(), &time_, CV_ONE_STEP);
+    // The last step before a jump of the input must not see it.
+    double to = model_.jumps_at(limit) ? model_.just_before(limit) : limit;
+    if (to <= before) to = limit;
+    check(CVodeSetStopTime(memory(), to), "CVodeSetStopTime");
+    const int flag = CVode(memory(), to, state_.get(), &time_, CV_ONE_STEP);
     stepped_ = true;
     if (flag < 0) return explain(flag);
+    if (time_ >= to) time_ = limit;
     if (step_is_rounding(time_ - before)) return step_is_lost;
     return {};
   }

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "solve/cvode/sundials.hpp"
 
@@ -28,9 +29,10 @@ int call(sunrealtype t, N_Vector z, N_Vector dz, void* user_data) {
 
 }  // namespace
 
-Trajectory integrate_by_bdf(Derivative derivative, const std::vector<double>& initial,
-                            const std::vector<double>& stops, Tolerances tolerances,
+Trajectory integrate_by_bdf(Derivative derivative, const model::Model& model, Tolerances tolerances,
                             const OutputGrid& grid, const Watch& watch) {
+  const std::vector<double>& initial = model.initial;
+  const std::vector<double>& stops = model.stops;
   const std::size_t n = initial.size();
   Trajectory rows(n);
   const auto context = sundials::make_context();
@@ -50,19 +52,21 @@ Trajectory integrate_by_bdf(Derivative derivative, const std::vector<double>& in
 
   rows.accept(0, 1, sundials::data(state));
   std::size_t stop = 0;
+  double before = 0;           // the stop, or just before it if the input jumps there
   const auto set_stop = [&] {  // CVODE never steps over it
     const double time = stop < stops.size() ? stops[stop] : grid.end();
-    check(CVodeSetStopTime(cvode.get(), time), "CVodeSetStopTime");
+    before = model.jumps_at(time) ? model.just_before(time) : time;
+    check(CVodeSetStopTime(cvode.get(), before), "CVodeSetStopTime");
   };
   set_stop();
   for (std::size_t i = 1; i < grid.size(); ++i) {
     for (double t = 0; t < grid[i];) {
-      const bool jumps = stop < stops.size() && stops[stop] <= grid[i];
-      const double target = jumps ? stops[stop] : grid[i];
-      const int flag = CVode(cvode.get(), target, state.get(), &t, CV_NORMAL);
+      const bool jumps = stop < stops.size() && before <= grid[i];
+      const int flag = CVode(cvode.get(), jumps ? before : grid[i], state.get(), &t, CV_NORMAL);
       if (flag < 0) return rows;
       if (watch.stop != nullptr && watch.stop->load(std::memory_order_relaxed)) return rows;
-      if (jumps) {  // restart the method, because a derivative jumps
+      if (jumps) {  // restart the method, because the input or a derivative jumps
+        t = stops[stop];
         check(CVodeReInit(cvode.get(), t, state.get()), "CVodeReInit");
         ++stop;
         set_stop();

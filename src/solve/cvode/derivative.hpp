@@ -5,8 +5,8 @@
 #pragma once
 
 #include <functional>
-#include <vector>
 
+#include "model/model.hpp"
 #include "solve/outcome.hpp"
 #include "solve/output_grid.hpp"
 
@@ -16,10 +16,10 @@ namespace bbsim::solve {
 using Derivative = std::function<void(double t, const double* z, double* dz)>;
 
 // Returns rows at the output times, as many as the solution reaches. Uses BDF with CVODE's
-// difference quotients as the Jacobian. Restarts at each of the `stops` (s), where derivatives
-// jump. Throws std::runtime_error if CVODE refuses its setup.
-[[nodiscard]] Trajectory integrate_by_bdf(Derivative derivative, const std::vector<double>& initial,
-                                          const std::vector<double>& stops, Tolerances tolerances,
-                                          const OutputGrid& grid, const Watch& watch);
+// difference quotients as the Jacobian. Starts from the initial states of the model, and restarts
+// at each of its stops. Throws std::runtime_error if CVODE refuses its setup.
+[[nodiscard]] Trajectory integrate_by_bdf(Derivative derivative, const model::Model& model,
+                                          Tolerances tolerances, const OutputGrid& grid,
+                                          const Watch& watch);
 
 }  // namespace bbsim::solve

@@ -63,7 +63,7 @@ class HybridRows {
   void publish(double from, double to, bool switches) {
     if (pieces_ == nullptr) return;
     const double first = std::max(from, begin_);
-    const double last = std::min(switches ? std::nextafter(to, from) : to, end_);
+    const double last = std::min(switches ? run_.model().just_before(to) : to, end_);
     if (last > first) pieces_->accept(PartOfStep(*this, first, last));
   }
 

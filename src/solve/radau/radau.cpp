@@ -192,7 +192,10 @@ bool RadauStepper::diverges(double step, double t) {
 std::optional<Failure> RadauStepper::step(double limit) {
   settle();
   const int stages = kernel_->stages;
-  const double t = time_, left = limit - t;
+  const double t = time_;
+  // A step has a stage at its end, and sees the input there.
+  const double to = model_->jumps_at(limit) ? model_->just_before(limit) : limit;
+  const double left = (to > t ? to : limit) - t;
   bool rejected = false;
   for (;;) {
     double h = std::min(next_step_, widest_);

@@ -274,7 +274,9 @@ void LaneEngine::judge() {
     lane.rejections = 0;
     step_.from_[l] = lane.time;
     step_.whole_[l] = lane.until <= lane.end;
-    step_.to_[l] = std::min(lane.until, lane.end);
+    const model::Model& model = lane.run->model();
+    const double to = model.jumps_at(lane.until) ? model.just_before(lane.until) : lane.until;
+    step_.to_[l] = std::min(to, lane.end);
   }
 }
 

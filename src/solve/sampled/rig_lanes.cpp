@@ -71,8 +71,12 @@ void RigLanes::fill_reference() {
 }
 
 void RigLanes::take_reference(std::size_t l) {
-  const auto view = loop_of(lanes_[l].run->model()).reference().view();
-  kernels_.reference(view, step_.from_[l], pieces_->length[l], reference_->one);
+  const model::Model& model = lanes_[l].run->model();
+  const auto view = loop_of(model).reference().view();
+  // Until it jumps, the reference is constant.
+  const bool jumps = model.jumps_at(lanes_[l].until);
+  const double length = jumps ? step_.to_[l] - step_.from_[l] : pieces_->length[l];
+  kernels_.reference(view, step_.from_[l], length, reference_->one);
 }
 
 void RigLanes::look() {
