@@ -269,6 +269,13 @@ TEST_CASE("a jump to the same value is none") {
   CHECK(path.jumps() == std::vector<double>{2});
 }
 
+TEST_CASE("a jump at the end of the run does not happen, and one at its start has happened") {
+  const StaircaseReference stairs{{{1, 0}, {2, 0}, {3, 0}}, {0, 2}};
+  CHECK(reference_path(stairs, 2).at(2.0)[0].value == 2);
+  CHECK(reference_path(stairs, 2.5).at(2.0)[0].value == 3);
+  CHECK(reference_path(stairs, 0).at(0.0)[0].value == 2);
+}
+
 TEST_CASE("a square wave is the sign of a sine, with phases and a duty") {
   const double T = 0.8;
   const SquareReference square{{0.05, 0.02}, T, {0.3, -2}, {0.01, -0.01}, 0.5};

@@ -16,11 +16,13 @@ namespace {
 
 constexpr double quarter_turn = std::numbers::pi / 2;  // a cosine is a sine with this phase
 
-// Holds values[i + 1] from jumps[i] on. A jump to the same value is none.
+// Holds values[i + 1] from jumps[i] on. A jump to the same value is none, and a jump at the end of
+// the run has no time to act.
 void add_steps(SignalPair& path, std::size_t component, const std::vector<double>& values,
-               const std::vector<double>& jumps) {
+               const std::vector<double>& jumps, double end) {
   std::vector<double> held{values.front()}, times;
   for (std::size_t i = 0; i < jumps.size(); ++i) {
+    if (jumps[i] > 0 && jumps[i] >= end - rounding_of(end)) break;
     if (values[i + 1] == held.back()) continue;
     held.push_back(values[i + 1]);
     times.push_back(jumps[i]);
@@ -82,7 +84,7 @@ struct Path {
     for (std::size_t i = 0; i < 2; ++i) {
       std::vector<double> values;
       for (const Pair& point : stairs.points) values.push_back(point[i]);
-      add_steps(path, i, values, stairs.jumps);
+      add_steps(path, i, values, stairs.jumps, end);
     }
     return path;
   }
@@ -104,7 +106,7 @@ struct Path {
         values.push_back(n % 2 == 0 ? high : low);
         jumps.push_back(t);
       }
-      add_steps(path, i, values, jumps);
+      add_steps(path, i, values, jumps, end);
     }
     return path;
   }

@@ -9,8 +9,8 @@
 
 namespace bbsim::model {
 
-// x and y (m) of the reference at time t (s), with their derivatives, for a run to t = `end`. A
-// square wave has no more than most_jumps jumps.
+// x and y (m) of the reference at time t (s), with their derivatives, for a run to t = `end`,
+// with the jumps before the end; of a square wave no more than most_jumps.
 [[nodiscard]] SignalPair reference_path(const Reference& reference, double end);
 
 }  // namespace bbsim::model
