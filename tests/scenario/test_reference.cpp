@@ -234,7 +234,8 @@ TEST_CASE("a staircase has a time for each point, from which it holds") {
 
   const std::string staircase = key + ".staircase.";
   CHECK(problem("{staircase: {points: [[0, 0], [1, 0]], times: [0]}}") ==
-        staircase + "times: found [0]; allowed: a list of 2 to 10000 times, one for each point");
+        staircase +
+            "times: found a list of 1; allowed: a list of 2 to 10000 times, one for each point");
   CHECK(problem("{staircase: {points: [[0, 0], [1, 0]], times: [0, 1, 2]}}") ==
         staircase + "times: found 3 times for 2 points; allowed: one time for each point");
   CHECK(problem("{staircase: {points: [[0, 0], [1, 0]], times: [1, 1]}}") ==
