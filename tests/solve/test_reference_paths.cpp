@@ -41,7 +41,7 @@ std::vector<Path> paths() {
       {"step", StaircaseReference{{{0, 0}, {0.05, -0.02}}, {2.125}}, 1},
       {"staircase", StaircaseReference{points, {2, 3.5, 6}}, 3},
       // Up at 1.5 k s; down a quarter later, y half a period earlier.
-      {"square", SquareReference{{0.02, 0.01}, 1.5, {0, std::numbers::pi}, {0.01, 0}, 0.25}, 20}};
+      {"square", SquareReference{{0.02, 0.01}, 1.5, {0, std::numbers::pi}, {0.01, 0}, 0.25}, 21}};
 }
 
 // Poles about home by (M13), 1/s: -22.4 +- 14.6i of the servo, -3.84 and -1.48.
