@@ -40,7 +40,8 @@ std::optional<Suggestion> suggestion(const Task& task, const WindowsFit& at, con
   for (Index k = u.size(); k < all.size(); ++k) {
     constexpr double least_part = 1e-3;
     const VectorXd column = without_keys(projected.col(k));
-    if (!(column.norm() > least_part * derivatives.free_norms[k])) continue;  // keys or starts do the same
+    if (!(column.norm() > least_part * derivatives.free_norms[k]))
+      continue;  // keys or starts do the same
     const double step = -column.dot(left) / column.squaredNorm();
     const FreeKey& key = wider.keys[static_cast<std::size_t>(k)];
     const double bound = step > 0 ? key.upper : key.lower;
