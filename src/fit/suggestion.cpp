@@ -48,7 +48,9 @@ std::optional<Suggestion> suggestion(const Task& task, const WindowsFit& at, con
     if (key.value(0) == bound) continue;
     const double less = step * step * column.squaredNorm() / left.squaredNorm();
     const double share = 1 - std::sqrt(std::max(1 - less, 0.0));
-    if (!best || share > best->share) best = Suggestion{key.name, share};
+    // Of two that do the same, the first.
+    constexpr double more = 0.01;
+    if (!best || share > best->share + more) best = Suggestion{key.name, share};
   }
   constexpr double least_share = 0.05;
   if (best && best->share < least_share) best.reset();
