@@ -120,7 +120,7 @@ std::size_t place_of_column(const api::RunResult& made, const std::string& name)
 std::vector<std::string> measures_of(const std::optional<std::vector<std::string>>& asked,
                                      const Scenario& scenario) {
   if (asked) return *asked;
-  return scenario::default_measures(scenario.controller.has_value());
+  return scenario::default_measures(scenario.controller && commands_of(scenario) == nullptr);
 }
 
 api::RunResult run(const Given& given, const std::optional<std::vector<std::string>>& measures,

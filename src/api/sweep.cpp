@@ -33,7 +33,7 @@ const std::atomic<bool>& stop_of(Watch& watch) {
 
 std::vector<scenario::Measure> measures_of(const Sweep& sweep, const ScenarioFamily& family,
                                            const sweep::SweepPlan& plan, const Scenario& first) {
-  const bool loop = first.controller.has_value();
+  const bool loop = first.controller && commands_of(first) == nullptr;
   return sweep::sweep_measures(
       sweep.measure.empty() ? scenario::default_measures(loop) : sweep.measure, family, plan);
 }
