@@ -92,6 +92,10 @@ Scenario from_time(const Scenario& scenario, double begin, double end) {
   const Shift shift{begin, end};
   for_each_profile(moved, shift);
   if (moved.controller) std::visit(shift, moved.controller->reference);
+  // Known commands need no measurement, so samples go on from before.
+  if (commands_of(moved) != nullptr && moved.controller->sampling) {
+    moved.controller->sampling->since += begin;
+  }
   moved.time.end = end - begin;
   moved.time.step = moved.time.end;
   return moved;

@@ -335,6 +335,8 @@ struct Sampling {
   double jitter = 0;              // standard deviation of the period, s
   std::string periods_file{};     // measured periods, which replace `jitter`
   std::vector<double> periods{};  // s; repeated from the first after the last
+  // How long before t = 0 the first sample was, s: in a run of a part of known commands.
+  double since = 0;
 
   [[nodiscard]] bool is_even() const { return jitter == 0 && periods.empty(); }
 };

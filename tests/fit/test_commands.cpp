@@ -3,6 +3,7 @@
 
 // Recorded commands, played through a rig's servos and fitted.
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <random>
@@ -14,6 +15,9 @@
 #include "base/error.hpp"
 #include "base/number_text.hpp"
 #include "catch.hpp"
+#include "fit/played_servos.hpp"
+#include "fit/window_run.hpp"
+#include "scenario/columns.hpp"
 #include "scenario/family.hpp"
 #include "support/folder.hpp"
 
@@ -86,6 +90,60 @@ controller:
     }
     for (const std::size_t ball : {1U, 2U}) {
       CHECK(played[ball][row] == Approx(run[ball][row]).margin(1e-10));
+    }
+  }
+}
+
+TEST_CASE(
+    "a window of known commands goes on with the samples' clock and the commands on their way") {
+  const std::string clock = GENERATE("", ", jitter: 2 ms");
+  const std::string delay = GENERATE("0 ms", "7 ms", "65 ms");
+  CAPTURE(clock, delay);
+  const ScenarioFamily family(Source{"rig.yaml",
+                                     R"(
+ball: {radius: 2 cm, position: [5 cm, 0]}
+gimbal:
+  servo: {natural_frequency: 5 Hz, damping: 0.8}
+  start: {phi: 2 deg}
+controller:
+  commands:
+    phi: {sinusoid: {amplitude: 3 deg, frequency: 9 rad/s}}
+    theta: {sinusoid: {amplitude: 4 deg, frequency: 7 rad/s, phase: 1 rad}}
+  drives: angle
+  sampling: {period: 20 ms, resolution: 0.1 deg, delay: )" +
+                                         delay + clock + R"(}
+time: {end: 4, step: 1 ms}
+solver: {rtol: 1e-11, atol: 1e-13}
+output: {columns: [phi, theta, phi_rate, theta_rate]}
+)",
+                                     {}});
+  const Columns whole = rows_of(family);
+  const Scenario scene = fit::prepared(family.read({}));
+  std::vector<const scenario::Column*> columns;
+  for (const std::string name : {"phi", "theta", "phi_rate", "theta_rate"}) {
+    columns.push_back(scenario::find_column(name));
+  }
+  // Windows that begin between samples, at one, and before the first command comes.
+  for (const int first : {2013, 2020, 2507, 33}) {
+    CAPTURE(first);
+    std::vector<double> times;
+    for (int i = 0; i <= 400; ++i) times.push_back(i * 1e-3);
+    const double begin = first * 1e-3;
+    std::string why;
+    const std::vector<double> part = fit::run_window(
+        fit::window_of(scene, begin, begin + times.back()), {}, times, columns, why);
+    REQUIRE(part.size() == 4 * times.size());
+    // The servos have forgotten what was before the second that leads to the window: exp(-25) of 4
+    // degrees and 2 rad/s.
+    const double tolerances[] = {1e-10, 1e-10, 1e-9, 1e-9};
+    for (std::size_t c = 0; c < columns.size(); ++c) {
+      double most = 0;
+      for (std::size_t i = 0; i < times.size(); ++i) {
+        most = std::max(most, std::abs(part[c * times.size() + i] -
+                                       whole[c][static_cast<std::size_t>(first) + i]));
+      }
+      CAPTURE(c);
+      CHECK(most < tolerances[c]);
     }
   }
 }

@@ -11,6 +11,7 @@ namespace bbsim::model {
 SampleExchange::SampleExchange(const SampledLoop& loop)
     : even_(loop.sampling.is_even()),
       period_(loop.sampling.period),
+      since_(loop.sampling.since),
       sensor_delay_(loop.sensor.delay),
       one_instant_(one_instant * period_),
       expose_{loop.sensor.period ? loop.sensor.phase : -sensor_delay_},
@@ -22,9 +23,17 @@ SampleExchange::SampleExchange(const SampledLoop& loop)
       times_(loop.sampling, loop.sensor.seed) {
   // The last frame that has come at t = 0, or the one before.
   if (frames_) expose_.number = std::floor((-sensor_delay_ - expose_.shift) / *frames_) - 2;
+  if (since_ > 0) skip_past();
   go_on_exposing();
   go_on(sample_);
   go_on(apply_);
+}
+
+// Leaves out samples before t = 0, and their commands, up to the one in effect at t = 0.
+void SampleExchange::skip_past() {
+  while (time_of(apply_.number + 2) + apply_.shift <= one_instant_) ++apply_.number;
+  while (time_of(sample_.number + 1) < -one_instant_) ++sample_.number;
+  if (!frames_) expose_.number = sample_.number;
 }
 
 void SampleExchange::go_on_exposing() {

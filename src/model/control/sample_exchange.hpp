@@ -46,6 +46,10 @@ class SampleExchange {
     double exposure, sample, command;
   };
   [[nodiscard]] Numbers numbers() const { return {expose_.number, sample_.number, apply_.number}; }
+  // The time of a sample, s. Of a clock that jitters, none before the last one that is forgotten.
+  [[nodiscard]] double time_of(double sample) {
+    return (even_ ? sample * period_ : times_.at(sample)) - since_;
+  }
   // What the sensor has to say at the sample: of the exposure for it, or the last frame that has
   // come by `now`; nothing if it missed the ball.
   [[nodiscard]] std::optional<Pair> begin_sample(double now) {
@@ -111,19 +115,17 @@ class SampleExchange {
     put(clock);
   }
   // At the instant of its number.
-  void put(Clock& clock) {
-    const double time = even_ ? clock.number * period_ : times_.at(clock.number);
-    clock.next = time + clock.shift;
-  }
+  void put(Clock& clock) { clock.next = time_of(clock.number) + clock.shift; }
   [[nodiscard]] double frame_time() const { return expose_.number * *frames_ + expose_.shift; }
   // Whether numbers and queues, just read, are such as a run leaves.
   [[nodiscard]] bool is_sound(double first_exposure) const;
   void go_on_exposing();
+  void skip_past();
   void forget_times();
 
   // What every instant looks at is together.
   bool even_;
-  double period_, sensor_delay_, one_instant_;
+  double period_, since_, sensor_delay_, one_instant_;
   Clock expose_, sample_, apply_;
   std::optional<double> frames_;  // the period of a camera's, s
   Queue<Seen> seen_;              // exposed, not yet sampled

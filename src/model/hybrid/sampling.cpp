@@ -20,6 +20,13 @@ Sampling::Sampling(const SwitchedModel& model)
   if (loop.law.kind == LawKind::held && !loop.external) {
     throw std::logic_error("a run of a scene whose controller nobody has attached");
   }
+  // Known commands of samples before t = 0, which are on their way.
+  const SampleExchange::Numbers next = exchange_.numbers();
+  for (double sample = next.command; sample < next.sample; ++sample) {
+    const double t = exchange_.time_of(sample);
+    const auto reference = model_.with_loop([t](const auto& one) { return one.reference().at(t); });
+    end(controller_.command(Pair{0, 0}, {0, 0, 0, 0}, reference), measured_);
+  }
 }
 
 const std::array<Jet<double>, 2>& Sampling::reference_at(double t) {
