@@ -7,6 +7,7 @@
 #include <array>
 #include <cstddef>
 #include <functional>
+#include <span>
 #include <string>
 #include <type_traits>
 #include <vector>
@@ -32,6 +33,12 @@ inline constexpr std::array sixth_order = {3.0 / 4, -3.0 / 20, 1.0 / 60};
 inline constexpr std::array fourth_order = {2.0 / 3, -1.0 / 12};
 inline constexpr std::array second_order = {1.0 / 2};
 
+// The weights of a difference between `pairs` pairs of values, 1 to 4.
+[[nodiscard]] inline std::span<const double> central_weights(std::size_t pairs) {
+  const std::span<const double> all[] = {second_order, fourth_order, sixth_order, eighth_order};
+  return all[pairs - 1];
+}
+
 // `value(i)` is f(p + offset h) for the i-th of 2 `neighbors` offsets without 0, in their order.
 template <std::size_t n, class Value>
 auto difference(const std::array<double, n>& weights, std::size_t neighbors, double step,
@@ -51,6 +58,8 @@ struct Neighbors {
 
   VariedKey key;
   std::vector<model::Model> models{};
+  // The pairs of neighbors that differences of the right-hand side need; 0 if it has no such key.
+  std::size_t pairs = offsets.size() / 2;
 
   // The derivative by the key of what `value(i)` is at the i-th model.
   template <class Value>

@@ -365,9 +365,11 @@ void RigSensitivity::put(const model::RigMode& mode) {
 Eigen::VectorXd RigSensitivity::extras(std::size_t k, double t, const Eigen::VectorXd& z,
                                        const Eigen::VectorXd& slope) const {
   const Neighbors& neighbors = keys_[k];
-  Eigen::VectorXd found = neighbors.slope([&](std::size_t i) {
-    const Eigen::VectorXd moved = z + Neighbors::offsets[i] * neighbors.key.step * slope;
-    Eigen::VectorXd its(model::RigExtras::size);
+  using Numbers = Eigen::Matrix<double, model::RigExtras::size, 1>;
+  Eigen::VectorXd moved;
+  Numbers found = neighbors.slope([&](std::size_t i) {
+    moved = z + Neighbors::offsets[i] * neighbors.key.step * slope;
+    Numbers its;
     rig_of(neighbors.models[i]).extras(t, moved.data()).pack(its.data());
     return its;
   });

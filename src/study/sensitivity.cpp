@@ -3,12 +3,12 @@
 
 #include "study/sensitivity.hpp"
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <span>
 #include <type_traits>
 #include <utility>
 #include <variant>
@@ -18,11 +18,11 @@
 #include "record/recorder.hpp"
 #include "record/rows.hpp"
 #include "study/radau_rule.hpp"
+#include "study/stage_equations.hpp"
 
 namespace bbsim::study {
 namespace {
 
-constexpr int stages = 12;
 // Of the polynomial of S, relative to S. At the end of an arc S is far better: Radau IIA has order
 // 23 there.
 constexpr double precision = 1e-11;
@@ -35,12 +35,13 @@ constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
 
 // The rule's tables in double.
 struct Tables {
+  int stages;
   Eigen::VectorXd nodes{stages + 1};        // 0, c_1, ..., c_s = 1
   Eigen::VectorXd barycentric{stages + 1};  // weights of interpolation at them
   Eigen::MatrixXd matrix;
   Eigen::VectorXd last{stages}, previous{stages};  // give Legendre coefficients
 
-  Tables() {
+  explicit Tables(int s) : stages(s) {
     const RadauRule rule(stages);
     matrix = rule.matrix_in_double;
     nodes[0] = 0;
@@ -67,9 +68,14 @@ struct Tables {
   }
 };
 
-const Tables& tables() {
-  static const Tables made;
-  return made;
+const Tables& tables(std::size_t choice) {
+  static const std::vector<Tables> made(StageChoice::counts.begin(), StageChoice::counts.end());
+  return made[choice];
+}
+// Of an arc with a column for each node.
+const Tables& tables_of(const Eigen::MatrixXd& values) {
+  const auto at = std::ranges::find(StageChoice::counts, values.cols() - 1);
+  return tables(static_cast<std::size_t>(at - StageChoice::counts.begin()));
 }
 
 Eigen::VectorXd rates(const model::System& of, std::size_t size, double t, const double* z) {
@@ -95,13 +101,16 @@ const char* what_switches(const model::Model& model) {
 class ArcPiece : public solve::Piece {
  public:
   ArcPiece(double start, double length, double from, double to, Eigen::MatrixXd values)
-      : Piece(from, to, stages), start_(start), length_(length), values_(std::move(values)) {}
+      : Piece(from, to, static_cast<int>(values.cols()) - 1),
+        start_(start),
+        length_(length),
+        values_(std::move(values)) {}
 
   void evaluate(const double* times, std::size_t count, double* rows) const override {
     for (std::size_t i = 0; i < count; ++i) {
       const double fraction = (times[i] - start_) / length_;
       Eigen::Map<Eigen::VectorXd>(rows + i * static_cast<std::size_t>(values_.rows()),
-                                  values_.rows()) = values_ * tables().shares(fraction);
+                                  values_.rows()) = values_ * tables_of(values_).shares(fraction);
     }
   }
 
@@ -154,6 +163,7 @@ Sensitivity::Sensitivity(const model::Model& model, model::Form form, const solv
       neighbors.key.step /= 2;
       fill(neighbors);
     }
+    neighbors.pairs = least_pairs(neighbors);
     initial_.col(static_cast<Eigen::Index>(keys_.size()) - 1).head(size_ - (model.gamma ? 1 : 0)) =
         neighbors.slope([&](std::size_t i) -> Eigen::VectorXd {
           const std::vector<double>& initial = neighbors.models[i].initial;
@@ -216,6 +226,43 @@ bool Sensitivity::is_smooth(const Neighbors& neighbors) const {
     most = most.max(good_one.array().abs());
   }
   return (apart <= good * most + 8 * epsilon / neighbors.key.step * size).all();
+}
+
+// The pairs of neighbors of which a difference of f is as good as one of order 8, at states all
+// over; 0 if f does not depend on the key.
+std::size_t Sensitivity::least_pairs(const Neighbors& neighbors) const {
+  constexpr std::size_t most = Neighbors::offsets.size() / 2;
+  constexpr int states = 8;
+  constexpr double good = 1e-13, golden = 0.6180339887498949, size_of_states = 0.3;
+  const auto n = static_cast<Eigen::Index>(model_.size());
+  std::size_t pairs = 0;
+  for (int k = 0; k < states; ++k) {
+    const double t = grid_.end() * k / states;
+    // Spread evenly, and no two numbers alike.
+    Eigen::VectorXd z(n);
+    for (Eigen::Index i = 0; i < n; ++i) {
+      const double turns = golden * static_cast<double>(k * n + i + 1);
+      z[i] = model_.initial[static_cast<std::size_t>(i)] +
+             size_of_states * (turns - std::floor(turns) - 0.5);
+    }
+    std::vector<Eigen::VectorXd> at;
+    double size = 0;
+    for (const model::Model& model : neighbors.models) {
+      size = std::max(size, at.emplace_back(rates(model, t, z.data())).cwiseAbs().maxCoeff());
+    }
+    const auto order = [&](std::size_t of) {
+      Eigen::VectorXd sum = Eigen::VectorXd::Zero(n);
+      for (std::size_t i = 0; i < of; ++i) {
+        sum += central_weights(of)[i] * (at[most + i] - at[most - 1 - i]);
+      }
+      return sum;
+    };
+    const Eigen::VectorXd best = order(most);
+    const double allowed = good * best.cwiseAbs().maxCoeff() + epsilon * size;
+    while (pairs < most && !((order(pairs) - best).cwiseAbs().maxCoeff() <= allowed)) ++pairs;
+  }
+  // A command that moves with the key makes f, which is linear in it, of one degree more.
+  return (model_.rig && model_.rig->sampled) ? std::min(pairs + 1, most) : pairs;
 }
 
 void Sensitivity::begin(solve::StateSink& next, bool with_measures) {
@@ -299,55 +346,75 @@ void Sensitivity::pass(double t, const Eigen::VectorXd& after) {
   }
 }
 
-// df/dp, with 0 for the integral of u.
-Eigen::VectorXd Sensitivity::forcing(const Neighbors& neighbors, double t, const double* z) const {
-  Eigen::VectorXd slope = Eigen::VectorXd::Zero(size_);
-  slope.head(static_cast<Eigen::Index>(model_.size())) =
-      neighbors.slope([&](std::size_t i) { return rates(neighbors.models[i], t, z); });
-  return slope;
+// Adds df/dp, which has nothing for the integral of u.
+void Sensitivity::add_forcing(const Neighbors& neighbors, double t, const double* z,
+                              double* into) const {
+  if (neighbors.pairs == 0) return;
+  const std::span<const double> weights = central_weights(neighbors.pairs);
+  constexpr std::size_t middle = Neighbors::offsets.size() / 2;
+  const std::size_t n = model_.size();
+  std::vector<double> above(n), below(n);
+  for (std::size_t i = 0; i < neighbors.pairs; ++i) {
+    const auto find = [&](const model::Model& model, std::vector<double>& rates) {
+      std::visit([&](const auto& system) { system.derivative(t, z, rates.data()); }, model.system);
+    };
+    find(neighbors.models[middle + i], above);
+    find(neighbors.models[middle - 1 - i], below);
+    const double weight = weights[i] / neighbors.key.step;
+    for (std::size_t j = 0; j < n; ++j) into[j] += weight * (above[j] - below[j]);
+  }
 }
 
 void Sensitivity::cross(const solve::Piece& piece, double from, double to, int depth) {
   if (!(to > from)) return;
-  const Tables& rule = tables();
+  const double h = to - from;
+  for (std::size_t choice = stages_.of(h);; ++choice) {
+    const bool is_last = choice == StageChoice::last;
+    if (step(piece, from, to, choice, is_last && depth == deepest)) return stages_.pass(choice);
+    if (is_last) break;
+    stages_.fail(choice, h);
+  }
+  const double middle = from + h / 2;
+  cross(piece, from, middle, depth + 1);
+  cross(piece, middle, to, depth + 1);
+}
+
+// Whether that many stages are precise enough, or it is the last try.
+bool Sensitivity::step(const solve::Piece& piece, double from, double to, std::size_t choice,
+                       bool last_try) {
+  const Tables& rule = tables(choice);
+  const int stages = rule.stages;
   const auto n = static_cast<Eigen::Index>(model_.size());
   const auto keys = static_cast<Eigen::Index>(keys_.size());
   const double h = to - from;
-  std::array<double, stages + 1> times;
-  for (int i = 0; i <= stages; ++i) times[static_cast<std::size_t>(i)] = from + rule.nodes[i] * h;
+  std::vector<double> times;
+  for (int i = 0; i <= stages; ++i) times.push_back(from + rule.nodes[i] * h);
   times.back() = to;
   Eigen::MatrixXd z(row_, stages + 1);
   piece.evaluate(times.data(), times.size(), z.data());
 
-  // (I - h A (x) J) S = S_from + h A (x) df/dp
-  Eigen::MatrixXd matrix(size_ * stages, size_ * stages);
-  Eigen::MatrixXd right(size_ * stages, keys);
-  Eigen::VectorXd noise = Eigen::VectorXd::Zero(keys);  // rounding of df/dp
-  Eigen::MatrixXd part(n, n), jacobian = Eigen::MatrixXd::Zero(size_, size_);
-  if (model_.gamma) jacobian(n, spin_) = 1;
-  Eigen::MatrixXd forced(size_, stages);
+  std::vector<Eigen::MatrixXd> jacobians(static_cast<std::size_t>(stages),
+                                         Eigen::MatrixXd::Zero(size_, size_));
+  Eigen::MatrixXd part(n, n);
+  Eigen::MatrixXd solved = Eigen::MatrixXd::Zero(size_ * stages, keys);  // df/dp, then S
   for (Eigen::Index j = 0; j < stages; ++j) {
     const double t = times[static_cast<std::size_t>(j) + 1];
     model::jacobian(system(), t, z.col(j + 1).data(), part.data());
+    Eigen::MatrixXd& jacobian = jacobians[static_cast<std::size_t>(j)];
     jacobian.topLeftCorner(n, n) = part;
-    for (Eigen::Index i = 0; i < stages; ++i) {
-      matrix.block(i * size_, j * size_, size_, size_) = -h * rule.matrix(i, j) * jacobian;
+    if (model_.gamma) jacobian(n, spin_) = 1;
+    for (Eigen::Index k = 0; k < keys; ++k) {
+      add_forcing(keys_[static_cast<std::size_t>(k)], t, z.col(j + 1).data(),
+                  solved.col(k).data() + j * size_);
     }
   }
-  matrix.diagonal().array() += 1;
+  Eigen::VectorXd noise(keys);  // rounding of df/dp
+  const double size =
+      rates(system(), model_.size(), to, z.col(stages).data()).cwiseAbs().maxCoeff();
   for (Eigen::Index k = 0; k < keys; ++k) {
-    const Neighbors& neighbors = keys_[static_cast<std::size_t>(k)];
-    for (Eigen::Index j = 0; j < stages; ++j) {
-      const double t = times[static_cast<std::size_t>(j) + 1];
-      forced.col(j) = forcing(neighbors, t, z.col(j + 1).data());
-    }
-    const double size =
-        rates(system(), model_.size(), to, z.col(stages).data()).cwiseAbs().maxCoeff();
-    noise[k] = epsilon * h * size / neighbors.key.step;
-    Eigen::Map<Eigen::MatrixXd>(right.col(k).data(), size_, stages) =
-        (h * forced * rule.matrix.transpose()).colwise() + slopes_.col(k);
+    noise[k] = epsilon * h * size / keys_[static_cast<std::size_t>(k)].key.step;
   }
-  const Eigen::MatrixXd solved = matrix.partialPivLu().solve(right);
+  solve_stages(jacobians, rule.matrix, h, slopes_, solved);
 
   // The last Legendre coefficients bound the error of the polynomial. Where symmetry makes the last
   // one vanish, a tenth of the one before stands for it.
@@ -365,21 +432,17 @@ void Sensitivity::cross(const solve::Piece& piece, double from, double to, int d
         largest.col(k).array().max(least_share * largest.col(k).maxCoeff());
     fine = (tail <= precision * scale + noise[k]).all();
   }
-  if (!fine && depth < deepest) {
-    const double middle = from + h / 2;
-    cross(piece, from, middle, depth + 1);
-    cross(piece, middle, to, depth + 1);
-    return;
-  }
+  if (!fine && !last_try) return false;
 
-  Eigen::MatrixXd values(row_ * (1 + keys), stages + 1);
+  // Between rows, only measures need the extras' derivatives.
+  Eigen::MatrixXd values = Eigen::MatrixXd::Zero(row_ * (1 + keys), stages + 1);
   values.topRows(row_) = z;
   for (Eigen::Index k = 0; k < keys; ++k) {
     auto of_key = values.middleRows((1 + k) * row_, size_);
     of_key.col(0) = slopes_.col(k);
     of_key.rightCols(stages) =
         Eigen::Map<const Eigen::MatrixXd>(solved.col(k).data(), size_, stages);
-    for (Eigen::Index j = 0; rig_ && j <= stages; ++j) {
+    for (Eigen::Index j = 0; rig_ && keeps_arcs_ && j <= stages; ++j) {
       values.col(j).segment((1 + k) * row_ + size_, row_ - size_) =
           rig_->extras(static_cast<std::size_t>(k), times[static_cast<std::size_t>(j)],
                        z.col(j).head(size_), of_key.col(j));
@@ -390,6 +453,7 @@ void Sensitivity::cross(const solve::Piece& piece, double from, double to, int d
   if (rig_) reached_ = z.col(stages).head(size_);
   take_rows(from, to, values);
   if (keeps_arcs_) arcs_.push_back({from, to, std::move(values), std::exchange(moves_, {})});
+  return true;
 }
 
 void Sensitivity::take_rows(double from, double to, const Eigen::MatrixXd& values) {
@@ -397,7 +461,16 @@ void Sensitivity::take_rows(double from, double to, const Eigen::MatrixXd& value
   const double until = to + 2 * epsilon * to;
   for (; next_row_ < grid_.size() && grid_[next_row_] <= until; ++next_row_) {
     const double fraction = std::min((grid_[next_row_] - from) / (to - from), 1.0);
-    const Eigen::VectorXd row = values.bottomRows(values.rows() - row_) * tables().shares(fraction);
+    const Eigen::VectorXd shares = tables_of(values).shares(fraction);
+    Eigen::VectorXd row = values.bottomRows(values.rows() - row_) * shares;
+    if (rig_) {
+      const Eigen::VectorXd z = values.topRows(size_) * shares;
+      for (std::size_t k = 0; k < keys_.size(); ++k) {
+        const Eigen::Index first = static_cast<Eigen::Index>(k) * row_;
+        row.segment(first + size_, row_ - size_) =
+            rig_->extras(k, grid_[next_row_], z, row.segment(first, size_));
+      }
+    }
     gradients_.insert(gradients_.end(), row.data(), row.data() + row.size());
   }
 }
@@ -518,8 +591,8 @@ std::optional<solve::Outcome> Sensitivity::moved(const solve::Outcome& outcome, 
   const auto look = [&](double t) {
     const Arc* const arc = arc_at(t);
     if (arc == nullptr) return false;
-    row =
-        moved_values(*arc, key, change) * tables().shares((t - arc->from) / (arc->to - arc->from));
+    row = moved_values(*arc, key, change) *
+          tables_of(arc->values).shares((t - arc->from) / (arc->to - arc->from));
     return true;
   };
   const auto margin = [&](double t) {

@@ -21,6 +21,7 @@
 #include "solve/piece.hpp"
 #include "study/neighbors.hpp"
 #include "study/rig_sensitivity.hpp"
+#include "study/stage_choice.hpp"
 
 namespace bbsim::study {
 
@@ -30,8 +31,9 @@ namespace bbsim::study {
 // Integrates S = dz/dp beside a run. Along each piece of the run,
 //     S' = J S + df/dp
 // is linear in S. Radau IIA collocation solves it with one factored matrix for all keys. J is
-// exact. df/dp is a difference of order 8 between models at eight values of the key, with the state
-// held: f is smooth in p, so a wide difference is good to rounding. What a sampled controller adds
+// exact. df/dp is a difference of order 8 between models at eight values of the key, or of a lower
+// order where that is as good, with the state held: f is smooth in p, so a wide difference is good
+// to rounding. What a sampled controller adds
 // is in rig_sensitivity.hpp.
 class Sensitivity : public solve::StateSink, public solve::PieceSink {
  public:
@@ -85,14 +87,16 @@ class Sensitivity : public solve::StateSink, public solve::PieceSink {
 
   void fill(Neighbors& neighbors) const;
   [[nodiscard]] bool is_smooth(const Neighbors& neighbors) const;
+  [[nodiscard]] std::size_t least_pairs(const Neighbors& neighbors) const;
   void require_alike(const model::Model& other, const std::string& key) const;
   void cross(const solve::Piece& piece, double from, double to, int depth);
+  [[nodiscard]] bool step(const solve::Piece& piece, double from, double to, std::size_t choice,
+                          bool last_try);
   void take_rows(double from, double to, const Eigen::MatrixXd& values);
   void pass(double t, const Eigen::VectorXd& after);
   [[nodiscard]] const model::System& system() const;
   [[nodiscard]] Eigen::VectorXd state_rates(double t, const Eigen::VectorXd& row) const;
-  [[nodiscard]] Eigen::VectorXd forcing(const Neighbors& neighbors, double t,
-                                        const double* z) const;
+  void add_forcing(const Neighbors& neighbors, double t, const double* z, double* into) const;
   [[nodiscard]] Changed changed(std::size_t key) const;
   [[nodiscard]] std::vector<double> changed_rows(std::size_t key, double change) const;
   [[nodiscard]] const Arc* arc_at(double t) const;
@@ -115,6 +119,7 @@ class Sensitivity : public solve::StateSink, public solve::PieceSink {
   solve::StateSink* next_ = nullptr;
   record::PieceFan fan_;
   bool keeps_arcs_ = false;
+  StageChoice stages_;
   Eigen::MatrixXd slopes_;   // S at the time reached
   Eigen::MatrixXd largest_;  // the greatest absolute value of each number of S so far
   // Of a sampled rig: the run, the states and their rates at the time reached, and how the keys
