@@ -97,6 +97,7 @@ Names columns() {
 Names measures() {
   Names names = scenario::measures_of(scenario::measured_columns());
   names.insert(names.end(), {"x_end", "y_end"});
+  for (const scenario::LoopMeasure& loop : scenario::loop_measures) names.emplace_back(loop.name);
   return sorted(names);
 }
 

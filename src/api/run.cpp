@@ -63,7 +63,7 @@ void judge(const std::vector<scenario::Expectation>& expectations,
 // The columns of the rows, and those that measures look at.
 Columns needed_for(Columns columns, const std::vector<scenario::Measure>& measures) {
   for (const scenario::Measure& measure : measures) {
-    columns.push_back(measure.column);
+    if (measure.column != nullptr) columns.push_back(measure.column);
     if (measure.instant.column != nullptr) columns.push_back(measure.instant.column);
   }
   return columns;
@@ -121,6 +121,11 @@ RunResult run(const RunRequest& request, Watch& watch) {
   }
   const auto measures = with_expected(printed, expectations);
   const std::vector<study::VariedKey> keys = sensitivity_keys(request);
+  for (const scenario::Measure& measure : printed) {
+    if (keys.empty() || measure.kind != scenario::Measure::Kind::loop) continue;
+    throw InputError("--sensitivity: found " + measure.name +
+                     " in --measure, which is of the loop; allowed: measures of the motion");
+  }
   const GradientColumns gradients(asked, keys);
   std::optional<RunPart> part;
   if (request.part.any()) part.emplace(request.part, scenario, request.inputs);

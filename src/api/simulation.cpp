@@ -9,6 +9,7 @@
 
 #include "base/cpu_clock.hpp"
 #include "base/short_number.hpp"
+#include "model/control/loop_analysis.hpp"
 #include "model/explain.hpp"
 #include "record/recorder.hpp"
 #include "simd/instruction_set.hpp"
@@ -143,6 +144,27 @@ solve::Watch looking_in(Watch& watch, double end) {
           }};
 }
 
+// What is asked of the motion and of the loop near home, as one list.
+void take_measures(const Scenario& scenario, const model::Model& model,
+                   const std::vector<scenario::Measure>& measures,
+                   const scenario::SplitMeasures& split, record::Recorder& recorder,
+                   const solve::Outcome& outcome, Simulation& into) {
+  std::vector<double> of_motion(split.of_motion.size());
+  recorder.finish(outcome, of_motion.data());
+  into.measures.resize(measures.size());
+  into.whys.resize(measures.size());
+  for (std::size_t m = 0; m < of_motion.size(); ++m) {
+    into.measures[split.motion_places[m]] = of_motion[m];
+    into.whys[split.motion_places[m]] = recorder.whys()[m];
+  }
+  model::LoopAnalysis analysis(scenario, model);
+  for (const std::size_t m : split.loop_places) {
+    const model::LoopAnalysis::Value found = analysis.value_of(*measures[m].loop);
+    into.measures[m] = found.value;
+    into.whys[m] = found.why;
+  }
+}
+
 }  // namespace
 
 Simulation simulate(const Scenario& scenario, const model::Model& model,
@@ -150,7 +172,8 @@ Simulation simulate(const Scenario& scenario, const model::Model& model,
                     file::TableWriter& writer, Watch& watch, solve::Part* part,
                     study::Sensitivity* sensitivity) {
   const model::BallConstants constants = model::constants_of(scenario);
-  record::Recorder recorder({wanted.columns, wanted.measures, true});
+  const scenario::SplitMeasures split = scenario::split_loop_measures(wanted.measures);
+  record::Recorder recorder({wanted.columns, split.of_motion, true});
   // A sweep takes them in this manner too: its numbers are these.
   const bool quick = part == nullptr && !scenario.solver.error &&
                      solve::choose_method(scenario.solver.method) == Method::radau;
@@ -166,10 +189,8 @@ Simulation simulate(const Scenario& scenario, const model::Model& model,
   watch.end();
 
   Simulation simulation;
-  simulation.measures.resize(wanted.measures.size());
-  recorder.finish(made.outcome, simulation.measures.data());
+  take_measures(scenario, model, wanted.measures, split, recorder, made.outcome, simulation);
   simulation.end_row = recorder.end_row(made.outcome);
-  simulation.whys = recorder.whys();
   simulation.row_estimates = std::move(made.row_estimates);
   if (sensitivity != nullptr) {
     std::vector<scenario::Measure> measures = wanted.measures;

@@ -158,8 +158,15 @@ bool is_upper_bound(const Expectation& requirement) {
          requirement.relation == Expectation::Relation::at_most;
 }
 
+// A margin that any change leaves is infinite, and more than any bound.
+bool is_endless_margin(const Expectation& requirement, double measured) {
+  return requirement.measure.kind == scenario::Measure::Kind::loop && measured == unlimited &&
+         !is_upper_bound(requirement);
+}
+
 // By how much a measured value misses a requirement, relative to its bound; 0 or less if it holds.
 double excess_of(const Expectation& requirement, double measured) {
+  if (is_endless_margin(requirement, measured)) return -1;
   if (!std::isfinite(measured)) return unlimited;
   const double scale = requirement.value != 0 ? std::abs(requirement.value) : 1;
   const double over =
@@ -302,7 +309,8 @@ double worst_of(const Expectation& requirement, std::size_t measure,
   std::vector<double> values;
   for (const CaseScore& score : scores) {
     const double value = score.numbers[measure];
-    values.push_back(std::isfinite(value) ? sign * value : unlimited);
+    const bool counts = std::isfinite(value) || is_endless_margin(requirement, value);
+    values.push_back(counts ? sign * value : unlimited);
   }
   return sign * tune::quantile_of(std::move(values), share);
 }
@@ -327,7 +335,9 @@ Tuned summed_up(const TuneRequest& request, const std::vector<FreeNumber>& free,
     const double value = worst_of(wanted, goals.of[r], found.scores, request.quantile);
     tuned.requirements.push_back({wanted,
                                   worst_of(wanted, goals.of[r], found.at_start, request.quantile),
-                                  value, std::isfinite(value) && wanted.holds(value)});
+                                  value,
+                                  (std::isfinite(value) || is_endless_margin(wanted, value)) &&
+                                      wanted.holds(value)});
   }
   tuned.rigs = found.scores.size();
   tuned.tried = found.tried;

@@ -28,6 +28,10 @@ Unit unit_of_measure(const std::string& name) {
   if (name == "end_time") return {"s"};
   const std::optional<scenario::Measure> measure = scenario::find_measure(name);
   if (!measure) return {};
+  if (measure->kind == scenario::Measure::Kind::loop) {
+    // Angles and their rates are shown in degrees; frequencies stay rad/s.
+    return measure->unit() == "rad" ? unit_of("phi") : Unit{measure->unit()};
+  }
   // What is measured in the column's own unit is shown as the column is.
   if (measure->unit() == measure->column->unit) return unit_of(measure->column->name);
   return {measure->unit()};

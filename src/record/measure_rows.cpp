@@ -66,6 +66,10 @@ std::vector<Measure> StoredRun::measures_named(const std::vector<std::string>& n
                        name_ + " has the columns" + columns +
                        "; allowed: " + scenario::allowed_measures());
     }
+    if (measure->kind == Kind::loop) {
+      throw InputError("measure: found " + name + ", which is of the loop and not of a motion; " +
+                       "allowed: measures of the motion; bbsim run SCENARIO --measure " + name);
+    }
     const std::string outside =
         scenario::window_fault(measure->window, times_->front(), times_->back());
     if (!outside.empty()) throw InputError("measure: found " + name + ", but " + outside);

@@ -16,6 +16,7 @@
 #include "model/spectrum.hpp"
 #include "plot/sweep_table.hpp"
 #include "replay/rotation.hpp"
+#include "scenario/loop_measures.hpp"
 #include "scenario/columns.hpp"
 
 namespace bbsim::replay {
@@ -65,6 +66,7 @@ std::optional<Poles> poles_of(const model::Model& model) {
 // "_end".
 std::string unit_of_measure(const std::string& name) {
   if (name == "end_time") return "s";
+  if (const auto* const loop = scenario::find_loop_measure(name)) return std::string(loop->unit);
   const std::size_t prefix = name.find('_');
   const scenario::Column* column = nullptr;
   if (prefix != std::string::npos) column = scenario::find_column(name.substr(prefix + 1));

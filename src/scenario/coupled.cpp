@@ -17,6 +17,16 @@ bool has_dry_losses(const Scenario& scene) {
   return scene.ball.losses.rolling > 0 || scene.ball.losses.pivoting > 0;
 }
 
+const char* dry_part(const Scenario& scene) {
+  if (scene.ball.losses.rolling > 0) return "ball.losses.rolling";
+  if (scene.ball.losses.pivoting > 0) return "ball.losses.pivoting";
+  if (scene.events.slip && scene.events.slip->sliding) return "events.slip with action: slide";
+  if (moved_by_torques(scene) && scene.gimbal.motor && scene.gimbal.motor->friction > 0) {
+    return "gimbal.motor.friction";
+  }
+  return nullptr;
+}
+
 bool is_coupled(const Scenario& scene) {
   return scene.ball.push || has_dry_losses(scene) || scene.ball.losses.viscous > 0 ||
          (scene.events.slip && scene.events.slip->sliding) || moved_by_torques(scene);

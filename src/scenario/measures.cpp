@@ -171,6 +171,11 @@ const Column* reference_of(const Column& column, const FindColumn& find) {
 
 // Reads a measure without a window.
 std::optional<Measure> find_whole(std::string_view name, const FindColumn& find) {
+  if (const LoopMeasure* const loop = find_loop_measure(name)) {
+    Measure measure{Kind::loop, nullptr, std::string(name)};
+    measure.loop = loop;
+    return measure;
+  }
   const std::size_t dot = name.rfind('.');
   if (dot != std::string_view::npos) {
     for (const Metric& metric : metrics) {
@@ -201,6 +206,7 @@ std::optional<Measure> find_whole(std::string_view name, const FindColumn& find)
 }  // namespace
 
 std::string Measure::meaning() const {
+  if (kind == Kind::loop) return std::string(loop->meaning);
   const std::string of =
       std::string(column->meaning) + (window_text.empty() ? "" : ", " + window_text);
   switch (kind) {
@@ -220,6 +226,7 @@ std::string Measure::meaning() const {
 }
 
 std::string Measure::unit() const {
+  if (kind == Kind::loop) return std::string(loop->unit);
   if (kind == Kind::when) return "s";
   if (kind == Kind::step && !metric_of(metric).unit.empty()) {
     return std::string(metric_of(metric).unit);
@@ -235,6 +242,7 @@ std::optional<Measure> find_measure(std::string_view name, const FindColumn& fin
   const WindowedName windowed = split_window(name);
   std::optional<Measure> measure = find_whole(windowed.base, find);
   if (!measure || windowed.window.is_whole()) return measure;
+  if (measure->kind == Kind::loop) return {};
   measure->window = windowed.window;
   measure->window_text = windowed.text;
   measure->name += " " + measure->window_text;
@@ -273,11 +281,14 @@ std::vector<std::string_view> measured_columns() {
 
 std::string measure_hint(std::string_view name, std::span<const std::string_view> columns) {
   name = trimmed(name);
+  // Of a name that is known, the window is at fault.
+  if (find_loop_measure(name) != nullptr) return ", which is of no time";
   if (std::ranges::find(columns, name) != columns.end()) {
     return " (did you mean end_" + std::string(name) + "?)";
   }
   std::vector<std::string> measures = measures_of(columns);
   measures.insert(measures.begin(), {"x_end", "y_end"});
+  for (const LoopMeasure& loop : loop_measures) measures.emplace_back(loop.name);
   const std::vector<std::string_view> known(measures.begin(), measures.end());
   const std::string_view nearest = yaml::nearest_name(name, known);
   return nearest.empty() ? "" : " (did you mean " + std::string(nearest) + "?)";
@@ -293,7 +304,9 @@ std::string allowed_measures() {
          "Overshoot, Undershoot, Peak, PeakTime or SteadyStateValue; \"when COLUMN=VALUE rise=N\" "
          "(or fall=, cross=; N or last), \"when COLUMN stays below VALUE\" (or above); \"find "
          "COLUMN when ...\", \"find COLUMN at TIME\"; any of these \"from TIME\", \"to TIME\" or "
-         "\"from TIME to TIME\"";
+         "\"from TIME to TIME\"; and, without these, measures of the loop: stable, "
+         "spectral_radius, spectral_abscissa, phi_ or theta_ before gain_margin, gain_reduction, "
+         "phase_margin or delay_margin, x_ or y_ before bandwidth or feedback_bandwidth";
 }
 
 Measure measure_named(std::string_view where, const std::string& name, const Scenario& scenario) {
@@ -309,6 +322,19 @@ Measure measure_named(std::string_view where, const std::string& name, const Sce
     throw InputError(found + ", but " + lacks.why);
   }
   return *measure;
+}
+
+SplitMeasures split_loop_measures(const std::vector<Measure>& measures) {
+  SplitMeasures split;
+  for (std::size_t m = 0; m < measures.size(); ++m) {
+    if (measures[m].kind == Kind::loop) {
+      split.loop_places.push_back(m);
+    } else {
+      split.motion_places.push_back(m);
+      split.of_motion.push_back(measures[m]);
+    }
+  }
+  return split;
 }
 
 void require_once(const std::vector<Measure>& measures) {
@@ -346,12 +372,14 @@ std::vector<const Column*> end_columns(const std::vector<Measure>& measures) {
 
 bool any_needs(const std::vector<Measure>& measures, Needs what) {
   return std::any_of(measures.begin(), measures.end(), [what](const Measure& measure) {
+    if (measure.kind == Kind::loop) return false;
     const Column* const watched = measure.instant.column;
     return measure.column->needs == what || (watched != nullptr && watched->needs == what);
   });
 }
 
 Missing missing(const Measure& measure, const Scenario& scenario) {
+  if (measure.kind == Kind::loop) return missing(*measure.loop, scenario);
   if (!measure.window.is_whole() && !window_fault(measure.window, 0, scenario.time.end).empty()) {
     return {"its window is not within the run", "a window that is"};
   }
@@ -365,6 +393,7 @@ std::string why_not_finite(const std::vector<Measure>& measures, const double* r
   std::string text;
   for (std::size_t m = 0; m < measures.size(); ++m) {
     if (std::isfinite(results[m])) continue;
+    if (measures[m].kind == Kind::loop && !std::isnan(results[m])) continue;
     text += (text.empty() ? "" : "; ") + measures[m].name +
             (std::isnan(results[m]) ? " is no number" : " is infinite");
     if (m < whys.size() && whys[m] != nullptr) text += std::string(": ") + whys[m];

@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The measures of a run. A measure reduces a column over the run to one number.
+// The measures of a run. A measure reduces a column over the run to one number, or is of the loop
+// near home.
 #pragma once
 
 #include <cstddef>
@@ -13,6 +14,7 @@
 #include <vector>
 
 #include "scenario/columns.hpp"
+#include "scenario/loop_measures.hpp"
 #include "scenario/window.hpp"
 
 namespace bbsim::scenario {
@@ -58,14 +60,16 @@ struct Measure {
   // least, greatest: over the continuous motion, with both sides of every discontinuity. rms: the
   // root mean square over the rows. end: the value at the last instant, at time.end or where the
   // scene stopped. step: see StepMetric. when: the time of an instant. find: the column's value at
-  // an instant. All kinds except rms and end use the continuous motion.
-  enum class Kind { least, greatest, rms, end, step, when, find } kind = Kind::end;
-  const Column* column = nullptr;  // for `when`: the column of the condition
+  // an instant. All kinds except rms and end use the continuous motion. loop: of the loop near
+  // home, without any motion.
+  enum class Kind { least, greatest, rms, end, step, when, find, loop } kind = Kind::end;
+  const Column* column = nullptr;  // for `when`: the column of the condition; null for `loop`
   std::string name;                // max_tilt, end_phi, x_end, x.RiseTime, when x=0.05 rise=1
   StepMetric metric = StepMetric::rise_time;
   Instant instant{};
   // For step: the column of the reference, or null. A scene or a file may lack values for it.
   const Column* reference = nullptr;
+  const LoopMeasure* loop = nullptr;  // for `loop`
   Window window{};            // restricts the measure to this part of the run
   std::string window_text{};  // as given: "from 5 s"
 
@@ -79,6 +83,7 @@ struct Measure {
 //   when COLUMN=VALUE [rise=N|fall=N|cross=N]: N is from 1, or `last`; default: the first crossing
 //   when COLUMN stays below VALUE, when COLUMN stays above VALUE
 //   find COLUMN when ..., find COLUMN at TIME
+//   a measure of the loop, such as phi_delay_margin (loop_measures.hpp); it has no window
 //   any of these with "from TIME", "to TIME" or both: for that part of the run
 // A VALUE may have a unit of the column's dimension: "5 cm". The measure's own name has numbers in
 // SI instead, except those of the window.
@@ -87,6 +92,13 @@ struct Measure {
 // The same for the columns that `find` knows, such as those of a stored file.
 using FindColumn = std::function<const Column*(std::string_view name)>;
 [[nodiscard]] std::optional<Measure> find_measure(std::string_view name, const FindColumn& find);
+
+// Measures of the motion, and their places and those of measures of the loop in the list of all.
+struct SplitMeasures {
+  std::vector<Measure> of_motion;
+  std::vector<std::size_t> motion_places, loop_places;
+};
+[[nodiscard]] SplitMeasures split_loop_measures(const std::vector<Measure>& measures);
 
 // Splits lists at their commas.
 [[nodiscard]] std::vector<std::string> split_measures(const std::vector<std::string>& lists);
@@ -131,7 +143,7 @@ void require_once(const std::vector<Measure>& measures);
 // Why each measure has no number, if known; otherwise null.
 using Whys = std::vector<const char*>;
 
-// Describes all measures without a finite number, with the reasons in `whys`, which may be empty.
+// Describes all measures without a finite number (an infinite margin is one that any change leaves), with the reasons in `whys`, which may be empty.
 // Empty if all are finite.
 [[nodiscard]] std::string why_not_finite(const std::vector<Measure>& measures,
                                          const double* results, const Whys& whys);

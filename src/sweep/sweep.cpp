@@ -15,6 +15,7 @@
 #include <utility>
 
 #include "sweep/lanes.hpp"
+#include "sweep/loop_measures.hpp"
 #include "sweep/open_lanes.hpp"
 #include "sweep/rig_lanes.hpp"
 #include "sweep/single.hpp"
@@ -154,7 +155,26 @@ void work(const Engine& engine, Queue& queue, const std::atomic<bool>& stop,
 
 }  // namespace
 
+namespace {
+
+// The engine of what is asked of the motion, with measures of the loop taken beside it.
+Engine engine_with_loop(const SweepTask& task) {
+  if (is_of_loop_only(task)) {
+    return {"linear analysis", task, 1, [&task] { return loop_runner(task, nullptr); }};
+  }
+  const auto motion = std::make_shared<const SweepTask>(task_of_motion(task));
+  const auto inner = std::make_shared<const Engine>(choose_engine(*motion));
+  return {inner->name, task, inner->group,
+          [&task, motion, inner] { return loop_runner(task, inner->runner()); }};
+}
+
+}  // namespace
+
 Engine choose_engine(const SweepTask& task) {
+  const auto is_loop = [](const scenario::Measure& measure) {
+    return measure.kind == scenario::Measure::Kind::loop;
+  };
+  if (std::ranges::any_of(task.measures, is_loop)) return engine_with_loop(task);
   if (can_superpose(task)) {
     if (auto solutions = solve_superposed(task)) {
       return {"superposition", task, 1, [&task, solutions = std::move(solutions)] {

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string_view>
 #include <type_traits>
 #include <utility>
 
@@ -553,22 +554,16 @@ std::pair<Pair, Pair> commands_at(const Loop& loop, const Sensor* sensor, const 
 }  // namespace
 
 std::string why_not_linear(const Scenario& scene) {
-  const auto dry = [](const std::string& what) {
-    return "found " + what +
-           ", which is dry: it depends on the direction of motion and holds at rest, so no linear "
-           "equations approximate it; allowed: ";
-  };
-  const Losses& losses = scene.ball.losses;
-  const char* const viscous = "ball.losses.viscous alone";
-  if (losses.rolling > 0) return dry("ball.losses.rolling") + viscous;
-  if (losses.pivoting > 0) return dry("ball.losses.pivoting") + viscous;
-  if (scene.events.slip && scene.events.slip->sliding) {
-    return dry("events.slip with action: slide") + "stop or note, with which the ball rolls";
-  }
-  if (scenario::moved_by_torques(scene) && scene.gimbal.motor && scene.gimbal.motor->friction > 0) {
-    return dry("gimbal.motor.friction") + "gimbal.motor.viscous alone";
-  }
-  return "";
+  const char* const dry = scenario::dry_part(scene);
+  if (dry == nullptr) return "";
+  const std::string_view part = dry;
+  const char* const instead = part.starts_with("events") ? "stop or note, with which the ball rolls"
+                              : part.starts_with("gimbal") ? "gimbal.motor.viscous alone"
+                                                           : "ball.losses.viscous alone";
+  return "found " + std::string(part) +
+         ", which is dry: it depends on the direction of motion and holds at rest, so no linear "
+         "equations approximate it; allowed: " +
+         instead;
 }
 
 void require_linear(const Scenario& scene) {

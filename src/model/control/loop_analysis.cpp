@@ -1,0 +1,84 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "model/control/loop_analysis.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <limits>
+#include <string_view>
+
+#include "model/control/common_cycle.hpp"
+
+namespace bbsim::model {
+
+using Kind = scenario::LoopMeasure::Kind;
+
+namespace {
+
+constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
+constexpr const char* one_axis = "the ball moves along the other axis only";
+
+}  // namespace
+
+const Eigenvalues& LoopAnalysis::poles() {
+  if (!poles_) poles_ = sampled() ? sampled_poles(model_) : closed_loop_poles(model_);
+  return *poles_;
+}
+
+bool LoopAnalysis::is_stable() {
+  return sampled() ? stable_by_period(poles()) : stable(poles());
+}
+
+LoopAnalysis::Value LoopAnalysis::pole_value(Kind kind) {
+  if (kind == Kind::stable) return {is_stable() ? 1.0 : 0.0};
+  if (!sampled()) return {poles().front().real()};
+  const SampledLoop& loop = *model_.rig->sampled;
+  const double size = std::abs(poles().front());
+  const double samples = common_cycle(loop.sampling, loop.sensor).samples;
+  if (kind == Kind::spectral_radius) return {samples > 1 ? std::pow(size, 1 / samples) : size};
+  return {std::log(size) / (samples * loop.sampling.period)};
+}
+
+LoopAnalysis::Value LoopAnalysis::margin(const scenario::LoopMeasure& measure) {
+  const std::string_view command = measure.axis == 0 ? "phi_command" : "theta_command";
+  const auto found = std::ranges::find(loop_->margins, command, &LoopMargins::command);
+  if (found == loop_->margins.end()) return {nothing, one_axis};
+  const Margins& margins = found->margins;
+  switch (measure.kind) {
+    case Kind::gain_margin:
+      return {margins.gain};
+    case Kind::gain_reduction:
+      return {margins.reduction};
+    case Kind::phase_margin:
+      return {std::abs(margins.phase)};
+    default:
+      return {margins.delay};
+  }
+}
+
+LoopAnalysis::Value LoopAnalysis::bandwidth(const scenario::LoopMeasure& measure) {
+  const std::string_view output = measure.axis == 0 ? "x" : "y";
+  const auto found = std::ranges::find(loop_->bandwidths, output, &Bandwidth::output);
+  if (found == loop_->bandwidths.end()) return {nothing, one_axis};
+  return {measure.kind == Kind::bandwidth ? found->value : found->of_feedback};
+}
+
+LoopAnalysis::Value LoopAnalysis::value_of(const scenario::LoopMeasure& measure) {
+  if (poles().empty()) return {nothing, "the loop has no linear equations about home"};
+  if (!measure.of_response()) return pole_value(measure.kind);
+  if (!is_stable()) return {nothing, "the loop is not stable"};
+  if (sampled()) {
+    const SampledLoop& loop = *model_.rig->sampled;
+    if (common_cycle(loop.sampling, loop.sensor).samples > 1) {
+      return {nothing, "the loop differs from sample to sample, by the sensor's frames"};
+    }
+  }
+  if (!loop_) loop_ = linearize(scene_, model_, LinearKind::loop, home_point());
+  if (!loop_->stable) return {nothing, "the loop is not stable"};
+  const bool is_width = measure.kind == Kind::bandwidth || measure.kind == Kind::feedback_bandwidth;
+  return is_width ? bandwidth(measure) : margin(measure);
+}
+
+}  // namespace bbsim::model

@@ -1,0 +1,46 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// The measures of the loop (scenario/loop_measures.hpp): the numbers of `bbsim check` and `bbsim
+// linearize`, about home.
+#pragma once
+
+#include <optional>
+
+#include "model/control/linearize.hpp"
+#include "model/model.hpp"
+#include "model/spectrum.hpp"
+#include "scenario/loop_measures.hpp"
+
+namespace bbsim::model {
+
+// Computes what is asked for, when it is asked for: poles are much cheaper than margins.
+class LoopAnalysis {
+ public:
+  // `model` is the one of `scene`. Both must outlive this.
+  LoopAnalysis(const Scenario& scene, const Model& model) : scene_(scene), model_(model) {}
+
+  // In the measure's unit. An infinite margin is one that any change leaves; a bandwidth is
+  // infinite where the response does not fall. NaN, and why, where there is none.
+  struct Value {
+    double value;
+    const char* why = nullptr;
+  };
+  // Requires that the scene does not lack the measure (scenario::missing).
+  [[nodiscard]] Value value_of(const scenario::LoopMeasure& measure);
+
+ private:
+  [[nodiscard]] bool sampled() const { return model_.rig && model_.rig->sampled; }
+  [[nodiscard]] const Eigenvalues& poles();
+  [[nodiscard]] bool is_stable();
+  [[nodiscard]] Value pole_value(scenario::LoopMeasure::Kind kind);
+  [[nodiscard]] Value margin(const scenario::LoopMeasure& measure);
+  [[nodiscard]] Value bandwidth(const scenario::LoopMeasure& measure);
+
+  const Scenario& scene_;
+  const Model& model_;
+  std::optional<Eigenvalues> poles_;
+  std::optional<Linearization> loop_;
+};
+
+}  // namespace bbsim::model
