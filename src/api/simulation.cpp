@@ -157,7 +157,7 @@ void take_measures(const Scenario& scenario, const model::Model& model,
     into.measures[split.motion_places[m]] = of_motion[m];
     into.whys[split.motion_places[m]] = recorder.whys()[m];
   }
-  model::LoopAnalysis analysis(scenario, model);
+  model::LoopAnalysis analysis(scenario, model, model::parts_of(measures));
   for (const std::size_t m : split.loop_places) {
     const model::LoopAnalysis::Value found = analysis.value_of(*measures[m].loop);
     into.measures[m] = found.value;

@@ -25,6 +25,7 @@ class LoopRunner : public CaseRunner {
         scenario_(task),
         motion_(std::move(motion)) {
     for (const std::size_t place : split_.loop_places) loops_.push_back(task.measures[place]);
+    parts_ = model::parts_of(loops_);
   }
 
   std::size_t run(std::size_t first, std::size_t count, CaseResults& into,
@@ -66,7 +67,7 @@ class LoopRunner : public CaseRunner {
       try {
         const Scenario& scenario = scenario_.at(number, values);
         const model::Model model = model::assemble(scenario, false);
-        model::LoopAnalysis analysis(scenario, model);
+        model::LoopAnalysis analysis(scenario, model, parts_);
         for (std::size_t m = 0; m < loops_.size(); ++m) {
           if (const scenario::Missing lacks = scenario::missing(loops_[m], scenario)) {
             whys_[m] = lacks.why;
@@ -90,6 +91,7 @@ class LoopRunner : public CaseRunner {
   const SweepTask& task_;
   const scenario::SplitMeasures split_;
   std::vector<scenario::Measure> loops_;
+  model::LoopParts parts_;
   CaseScenario scenario_;
   std::unique_ptr<CaseRunner> motion_;
   CaseResults moved_;

@@ -64,11 +64,17 @@ struct Margins {
   double delay = none, delay_at = none;  // the shortest, s
 };
 
+// What is looked for; what is not stays at its default.
+struct MarginParts {
+  bool gains = true, phases = true;  // phases: and delays
+};
+
 // Of a response with one input and one output, L, between frequencies of frequencies_to_look_at();
 // at least one. What rounding of the entries would make or unmake is none. Factors of frequencies
 // below `slowest` (rad/s) do not count. Of an unstable loop they say where poles cross the border.
 [[nodiscard]] Margins margins_of(const FrequencyResponse& open_loop,
-                                 const std::vector<double>& frequencies, double slowest = 0);
+                                 const std::vector<double>& frequencies, double slowest = 0,
+                                 MarginParts parts = {});
 
 // Where the size of a response first falls below 1 / sqrt(2) of that at 0 (by 3.01 dB), rad/s;
 // infinite if it does not.

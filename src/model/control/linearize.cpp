@@ -181,7 +181,8 @@ PlainLoop plain_loop(Linearization& made, double slowest) {
 }
 
 void add_bandwidths(Linearization& made, const PlainLoop& plain, const std::vector<int>& columns,
-                    const std::vector<int>& axes) {
+                    const std::vector<int>& axes, const LoopParts& parts) {
+  if (!parts.bandwidths[0] && !parts.bandwidths[1]) return;
   const LinearSystem& system = made.system;
   const double period = system.period.value_or(0);
   const FrequencyResponse response(plain.a, system.b(plain.states, Eigen::all),
@@ -192,6 +193,7 @@ void add_bandwidths(Linearization& made, const PlainLoop& plain, const std::vect
   std::vector<int> fed_back;
   std::ranges::copy_if(columns, std::back_inserter(fed_back), [](int j) { return j / 2 < 2; });
   for (const int axis : axes) {
+    if (!parts.bandwidths[static_cast<std::size_t>(axis)]) continue;
     const auto width = [&](const std::vector<int>& of) {
       return bandwidth_of(tracking(response, of, axes, axis), frequencies);
     };
@@ -203,7 +205,7 @@ void add_bandwidths(Linearization& made, const PlainLoop& plain, const std::vect
 
 // The loop of one command: with what A, B and C it goes once round, open there.
 void add_margins(Linearization& made, const PlainLoop& plain, int axis, const MatrixXd& a,
-                 const VectorXd& b, const Eigen::RowVectorXd& c) {
+                 const VectorXd& b, const Eigen::RowVectorXd& c, MarginParts parts = {}) {
   const double period = made.system.period.value_or(0);
   const std::vector<int>& of = plain.states;
   const MatrixXd open = a(of, of);
@@ -212,7 +214,13 @@ void add_margins(Linearization& made, const PlainLoop& plain, int axis, const Ma
   made.margins.push_back(
       {std::string(angle_name(axis)) + "_command",
        margins_of(response, frequencies_to_look_at(eigenvalues_of(open), plain.poles, period),
-                  plain.slowest)});
+                  plain.slowest, parts)});
+}
+
+// Whether anything is looked for of an axis' command.
+bool looks_for(const LoopParts& parts, int axis) {
+  const MarginParts& margins = parts.margins[static_cast<std::size_t>(axis)];
+  return margins.gains || margins.phases;
 }
 
 // What is left of a where b is taken from it, without what only rounding leaves.
@@ -247,7 +255,7 @@ Eigenvalues tracking_zeros(const MatrixXd& a, const MatrixXd& of_reference, cons
 }
 
 Linearization continuous_loop_about(const Scenario& scene, const Model& model,
-                                    const LinearPoint& at) {
+                                    const LinearPoint& at, const LoopParts& parts) {
   const std::vector<int> axes = moving_axes(model);
   const Heave heave = heave_of(scene, at);
   const LoopDerivatives loop = loop_derivatives(model, at, heave);
@@ -261,15 +269,19 @@ Linearization continuous_loop_about(const Scenario& scene, const Model& model,
                      std::move(inputs), axes, loop.of_state(states, states),
                      loop.of_reference(states, columns));
   made.poles = sorted_eigenvalues(system.a);
-  made.zeros = tracking_zeros(system.a, loop.of_reference(states, Eigen::all), system.c, axes);
+  if (parts.zeros) {
+    made.zeros = tracking_zeros(system.a, loop.of_reference(states, Eigen::all), system.c, axes);
+  }
 
   const PlainLoop plain = plain_loop(made, slowest_at(plant));
   for (const int axis : axes) {
+    if (!looks_for(parts, axis)) continue;
     const VectorXd b = plant.of_command(states, axis);
     const Eigen::RowVectorXd c = loop.command_of_state(axis, states);
-    add_margins(made, plain, axis, without(system.a, b * c), b, c);
+    add_margins(made, plain, axis, without(system.a, b * c), b, c,
+                parts.margins[static_cast<std::size_t>(axis)]);
   }
-  add_bandwidths(made, plain, columns, axes);
+  add_bandwidths(made, plain, columns, axes, parts);
   return made;
 }
 
@@ -293,7 +305,8 @@ SampledModel sampled_about(const Scenario& scene, const Model& model, const Line
   return {std::move(plant), std::move(cycle), std::move(signals)};
 }
 
-Linearization sampled_loop_about(const Scenario& scene, const Model& model, const LinearPoint& at) {
+Linearization sampled_loop_about(const Scenario& scene, const Model& model, const LinearPoint& at,
+                                 const LoopParts& parts) {
   const std::vector<int> axes{0, 1};
   const auto [plant, cycle, signals] = sampled_about(scene, model, at);
   const SampledMap closed = cycle.map();
@@ -305,14 +318,18 @@ Linearization sampled_loop_about(const Scenario& scene, const Model& model, cons
                      closed.of_reference(Eigen::all, columns));
   system.period = scene.controller->sampling->period;
   made.poles = poles_of_period(system.a);
-  made.zeros =
-      transmission_zeros(system.a, closed.of_reference.leftCols(2), system.c, MatrixXd::Zero(2, 2));
+  if (parts.zeros) {
+    made.zeros = transmission_zeros(system.a, closed.of_reference.leftCols(2), system.c,
+                                    MatrixXd::Zero(2, 2));
+  }
   const PlainLoop plain = plain_loop(made, slowest_at(plant));
   for (const int axis : axes) {
+    if (!looks_for(parts, axis)) continue;
     const SampledMap open = cycle.map(axis == 0, axis == 1);
-    add_margins(made, plain, axis, open.a, open.of_command.col(axis), open.law.row(axis));
+    add_margins(made, plain, axis, open.a, open.of_command.col(axis), open.law.row(axis),
+                parts.margins[static_cast<std::size_t>(axis)]);
   }
-  add_bandwidths(made, plain, columns, axes);
+  add_bandwidths(made, plain, columns, axes, parts);
   return made;
 }
 
@@ -393,7 +410,7 @@ LinearKind usual_kind(const Scenario& scene) {
 namespace {
 
 Linearization linearize_as(const Scenario& scene, const Model& model, LinearKind kind,
-                           const LinearPoint& at) {
+                           const LinearPoint& at, const LoopParts& parts) {
   switch (kind) {
     case LinearKind::plant:
       break;
@@ -414,8 +431,8 @@ Linearization linearize_as(const Scenario& scene, const Model& model, LinearKind
             "linearize: found --loop with your own controller, whose law bbsim does not know; "
             "allowed: --plant, --sampled");
       }
-      return scene.controller->sampling ? sampled_loop_about(scene, model, at)
-                                        : continuous_loop_about(scene, model, at);
+      return scene.controller->sampling ? sampled_loop_about(scene, model, at, parts)
+                                        : continuous_loop_about(scene, model, at, parts);
   }
   return plant_about(scene, model, at);
 }
@@ -435,9 +452,9 @@ void make_zeros_plain(Eigenvalues& values) {
 }  // namespace
 
 Linearization linearize(const Scenario& scene, const Model& model, LinearKind kind,
-                        const LinearPoint& at) {
+                        const LinearPoint& at, const LoopParts& parts) {
   require_linear(scene);
-  Linearization made = linearize_as(scene, model, kind, at);
+  Linearization made = linearize_as(scene, model, kind, at, parts);
   LinearSystem& system = made.system;
   for (MatrixXd* matrix : {&system.a, &system.b, &system.c, &system.d}) {
     *matrix = with_plain_zeros(*matrix);

@@ -5,6 +5,7 @@
 // sampled controller sees it. Exact: by differentiating the right-hand side and the law.
 #pragma once
 
+#include <array>
 #include <string>
 #include <vector>
 
@@ -43,12 +44,20 @@ struct Linearization {
   std::vector<Bandwidth> bandwidths;  // of a loop
 };
 
+// What of a closed loop is worked out beside its matrices and poles: each part takes longer than
+// these do. What is left out is not in the result.
+struct LoopParts {
+  bool zeros = true;
+  std::array<MarginParts, 2> margins{};      // of phi's and theta's command
+  std::array<bool, 2> bandwidths{true, true};  // of x and y
+};
+
 // Without limits, dead band, backlash, rounding and noise; without the frames of a sensor of which
 // each sample sees one of another age (common_cycle.hpp), as if it looked for each. The spin is a
 // state where it acts on others, and an integral where the law has it. The scene is one of `model`,
 // which says what symmetry leaves out. Throws InputError where the scene has nothing of that kind.
 [[nodiscard]] Linearization linearize(const Scenario& scene, const Model& model, LinearKind kind,
-                                      const LinearPoint& at);
+                                      const LinearPoint& at, const LoopParts& parts = {});
 
 // The loop of a sampled plant (LinearKind::sampled) and a law that is known by its equations from
 // sample to sample, from the positions that it sees to both commands: poles, stability, and the

@@ -22,6 +22,31 @@ constexpr const char* one_axis = "the ball moves along the other axis only";
 
 }  // namespace
 
+LoopParts parts_of(const std::vector<scenario::Measure>& measures) {
+  LoopParts parts{false, {MarginParts{false, false}, MarginParts{false, false}}, {false, false}};
+  for (const scenario::Measure& measure : measures) {
+    if (measure.kind != scenario::Measure::Kind::loop) continue;
+    const std::size_t axis = measure.loop->axis;
+    switch (measure.loop->kind) {
+      case Kind::gain_margin:
+      case Kind::gain_reduction:
+        parts.margins[axis].gains = true;
+        break;
+      case Kind::phase_margin:
+      case Kind::delay_margin:
+        parts.margins[axis].phases = true;
+        break;
+      case Kind::bandwidth:
+      case Kind::feedback_bandwidth:
+        parts.bandwidths[axis] = true;
+        break;
+      default:
+        break;
+    }
+  }
+  return parts;
+}
+
 const Eigenvalues& LoopAnalysis::poles() {
   if (!poles_) poles_ = sampled() ? sampled_poles(model_) : closed_loop_poles(model_);
   return *poles_;
@@ -75,7 +100,7 @@ LoopAnalysis::Value LoopAnalysis::value_of(const scenario::LoopMeasure& measure)
       return {nothing, "the loop differs from sample to sample, by the sensor's frames"};
     }
   }
-  if (!loop_) loop_ = linearize(scene_, model_, LinearKind::loop, home_point());
+  if (!loop_) loop_ = linearize(scene_, model_, LinearKind::loop, home_point(), parts_);
   if (!loop_->stable) return {nothing, "the loop is not stable"};
   const bool is_width = measure.kind == Kind::bandwidth || measure.kind == Kind::feedback_bandwidth;
   return is_width ? bandwidth(measure) : margin(measure);

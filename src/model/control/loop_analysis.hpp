@@ -6,19 +6,25 @@
 #pragma once
 
 #include <optional>
+#include <vector>
 
 #include "model/control/linearize.hpp"
 #include "model/model.hpp"
 #include "model/spectrum.hpp"
-#include "scenario/loop_measures.hpp"
+#include "scenario/measures.hpp"
 
 namespace bbsim::model {
 
-// Computes what is asked for, when it is asked for: poles are much cheaper than margins.
+// What measures of the loop need; others in the list do not matter.
+[[nodiscard]] LoopParts parts_of(const std::vector<scenario::Measure>& measures);
+
+// Computes margins when one is first asked for: poles are much cheaper.
 class LoopAnalysis {
  public:
-  // `model` is the one of `scene`. Both must outlive this.
-  LoopAnalysis(const Scenario& scene, const Model& model) : scene_(scene), model_(model) {}
+  // `model` is the one of `scene`; `parts` are the parts_of() what will be asked. The first two must
+  // outlive this.
+  LoopAnalysis(const Scenario& scene, const Model& model, const LoopParts& parts)
+      : scene_(scene), model_(model), parts_(parts) {}
 
   // In the measure's unit. An infinite margin is one that any change leaves; a bandwidth is
   // infinite where the response does not fall. NaN, and why, where there is none.
@@ -39,6 +45,7 @@ class LoopAnalysis {
 
   const Scenario& scene_;
   const Model& model_;
+  const LoopParts parts_;
   std::optional<Eigenvalues> poles_;
   std::optional<Linearization> loop_;
 };
