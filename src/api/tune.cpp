@@ -333,11 +333,9 @@ Tuned summed_up(const TuneRequest& request, const std::vector<FreeNumber>& free,
   for (std::size_t r = 0; r < goals.requirements.size(); ++r) {
     const Expectation& wanted = goals.requirements[r];
     const double value = worst_of(wanted, goals.of[r], found.scores, request.quantile);
-    tuned.requirements.push_back({wanted,
-                                  worst_of(wanted, goals.of[r], found.at_start, request.quantile),
-                                  value,
-                                  (std::isfinite(value) || is_endless_margin(wanted, value)) &&
-                                      wanted.holds(value)});
+    tuned.requirements.push_back(
+        {wanted, worst_of(wanted, goals.of[r], found.at_start, request.quantile), value,
+         (std::isfinite(value) || is_endless_margin(wanted, value)) && wanted.holds(value)});
   }
   tuned.rigs = found.scores.size();
   tuned.tried = found.tried;

@@ -16,8 +16,8 @@
 #include "model/spectrum.hpp"
 #include "plot/sweep_table.hpp"
 #include "replay/rotation.hpp"
-#include "scenario/loop_measures.hpp"
 #include "scenario/columns.hpp"
+#include "scenario/loop_measures.hpp"
 
 namespace bbsim::replay {
 namespace {

@@ -70,8 +70,8 @@ struct Measure {
   // For step: the column of the reference, or null. A scene or a file may lack values for it.
   const Column* reference = nullptr;
   const LoopMeasure* loop = nullptr;  // for `loop`
-  Window window{};            // restricts the measure to this part of the run
-  std::string window_text{};  // as given: "from 5 s"
+  Window window{};                    // restricts the measure to this part of the run
+  std::string window_text{};          // as given: "from 5 s"
 
   [[nodiscard]] std::string meaning() const;
   [[nodiscard]] std::string unit() const;
@@ -143,8 +143,8 @@ void require_once(const std::vector<Measure>& measures);
 // Why each measure has no number, if known; otherwise null.
 using Whys = std::vector<const char*>;
 
-// Describes all measures without a finite number (an infinite margin is one that any change leaves), with the reasons in `whys`, which may be empty.
-// Empty if all are finite.
+// Describes all measures without a finite number (an infinite margin is one that any change
+// leaves), with the reasons in `whys`, which may be empty. Empty if all are finite.
 [[nodiscard]] std::string why_not_finite(const std::vector<Measure>& measures,
                                          const double* results, const Whys& whys);
 

@@ -25,8 +25,8 @@ struct Engine {
 };
 
 // Chooses the first engine that fits (docs/explanation/sweep-engines.md): linear analysis where
-// only measures of the loop are asked for; superposition, open lanes, lanes, rig lanes, single runs.
-// The task must outlive the engine.
+// only measures of the loop are asked for; superposition, open lanes, lanes, rig lanes, single
+// runs. The task must outlive the engine.
 [[nodiscard]] Engine choose_engine(const SweepTask& task);
 
 // Cases first ... last - 1.

@@ -102,6 +102,53 @@ TEST_CASE("gains are tuned on drawn rigs, and tried on others") {
   }
 }
 
+TEST_CASE("a margin is required beside what is measured, on drawn rigs") {
+  api::TuneRequest request = small();
+  request.require = {"max_tilt < 1.5 deg", "phi_delay_margin > 40 ms"};
+  const api::TuneResult made = tune(request);
+  REQUIRE(made.tuned);
+  CHECK(made.code == ExitCode::done);
+  const auto& requirements = made.tuned->requirements;
+  REQUIRE(requirements.size() == 2);
+  CHECK(requirements[0].holds);
+  CHECK(requirements[1].holds);
+  CHECK(requirements[1].before < 0.04);  // the rig of the example bears 29 ms
+  CHECK(requirements[1].value > 0.04);
+  // Without it the gains are higher, and the margin is less.
+  request.require.pop_back();
+  const api::TuneResult bold = tune(request);
+  REQUIRE(bold.tuned);
+  CHECK(bold.tuned->objective < made.tuned->objective);
+}
+
+TEST_CASE("the slowest mode is made fast without a run; a margin that any change leaves holds") {
+  api::TuneRequest request = request_of({kp + "=4:30", kv + "=3:20"});
+  request.minimize = "spectral_abscissa";
+  // The response has no end up to half the rate of the samples: it is infinite.
+  request.require = {"phi_phase_margin > 40 deg", "x_bandwidth > 1"};
+  const api::TuneResult made = tune(request);
+  REQUIRE(made.tuned);
+  CHECK(made.code == ExitCode::done);
+  CHECK(made.tuned->objective < made.tuned->before);
+  CHECK(made.tuned->requirements[0].value > 0.698);
+  CHECK(made.tuned->requirements[1].holds);
+  CHECK(nlohmann::json::parse(made.json)["requirements"][1]["value"].is_null());
+
+  request.require = {"x_bandwidth < 1"};
+  CHECK(tune(request).code == ExitCode::ended_early);
+}
+
+TEST_CASE("gains under which no rig is stable do not meet a margin") {
+  api::TuneRequest request = request_of({kp + "=60:80"});
+  const ScenarioFamily stiff(BBSIM_SOURCE_DIR "/configs/rig.yaml",
+                             {"time.end=2", kp + "=70", kv + "=1"});
+  api::TuneRequest other{stiff, request.free, "spectral_radius", {"phi_delay_margin > 1 ms"}};
+  const api::TuneResult made = tune(other);
+  CHECK(made.code == ExitCode::ended_early);
+  CHECK(contains(made.reason, "found nothing with phi_delay_margin > 1 ms"));
+  CHECK(contains(made.reason, "the loop is not stable"));
+}
+
 TEST_CASE("without --vary there is one rig, and tied keys share a number") {
   api::TuneRequest request = request_of({kp + "=4:30", kv + ".0.0," + kv + ".1.1=3:20"});
   const ScenarioFamily two(BBSIM_SOURCE_DIR "/configs/rig.yaml",

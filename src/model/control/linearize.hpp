@@ -48,7 +48,7 @@ struct Linearization {
 // these do. What is left out is not in the result.
 struct LoopParts {
   bool zeros = true;
-  std::array<MarginParts, 2> margins{};      // of phi's and theta's command
+  std::array<MarginParts, 2> margins{};        // of phi's and theta's command
   std::array<bool, 2> bandwidths{true, true};  // of x and y
 };
 

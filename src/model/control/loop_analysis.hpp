@@ -21,8 +21,8 @@ namespace bbsim::model {
 // Computes margins when one is first asked for: poles are much cheaper.
 class LoopAnalysis {
  public:
-  // `model` is the one of `scene`; `parts` are the parts_of() what will be asked. The first two must
-  // outlive this.
+  // `model` is the one of `scene`; `parts` are the parts_of() what will be asked. The first two
+  // must outlive this.
   LoopAnalysis(const Scenario& scene, const Model& model, const LoopParts& parts)
       : scene_(scene), model_(model), parts_(parts) {}
 

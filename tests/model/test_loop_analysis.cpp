@@ -1,0 +1,125 @@
+// SPDX-FileCopyrightText: 2026 the bbsim authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// The measures of the loop are the numbers of `bbsim linearize` and `bbsim check`.
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "catch.hpp"
+#include "model/control/loop_analysis.hpp"
+#include "scenario/reader.hpp"
+#include "support/scenes.hpp"
+
+using namespace bbsim;
+using namespace bbsim_test;
+using model::LoopAnalysis;
+
+namespace {
+
+scenario::Measure named(const std::string& name) {
+  const auto measure = scenario::find_measure(name);
+  CAPTURE(name);
+  REQUIRE(measure);
+  REQUIRE(measure->kind == scenario::Measure::Kind::loop);
+  return *measure;
+}
+
+// Asked for alone, so that nothing else is worked out.
+LoopAnalysis::Value value_of(const std::string& name, const Scenario& scene) {
+  const scenario::Measure measure = named(name);
+  REQUIRE_FALSE(scenario::missing(measure, scene));
+  const model::Model model = model::assemble(scene, false);
+  LoopAnalysis analysis(scene, model, model::parts_of({measure}));
+  return analysis.value_of(*measure.loop);
+}
+
+Scenario config(const std::string& name, const std::vector<std::string>& set = {}) {
+  return read_scenario(BBSIM_SOURCE_DIR "/configs/" + name + ".yaml", set);
+}
+
+}  // namespace
+
+TEST_CASE("margins and bandwidths are those of the linear loop, to the bit") {
+  const std::string name = GENERATE("rig", "fig2b", "step", "hold", "pushrod", "three-servos",
+                                    "torque-lqr", "catch", "falls");
+  CAPTURE(name);
+  const Scenario scene = config(name);
+  const model::Model model = model::assemble(scene, false);
+  const model::Linearization loop =
+      model::linearize(scene, model, model::LinearKind::loop, model::home_point());
+  REQUIRE(loop.margins.size() == 2);
+  for (const std::size_t axis : {0U, 1U}) {
+    const std::string angle = axis == 0 ? "phi" : "theta", place = axis == 0 ? "x" : "y";
+    const model::Margins& margins = loop.margins[axis].margins;
+    CHECK(value_of(angle + "_gain_margin", scene).value == margins.gain);
+    CHECK(value_of(angle + "_gain_reduction", scene).value == margins.reduction);
+    CHECK(value_of(angle + "_phase_margin", scene).value == std::abs(margins.phase));
+    CHECK(value_of(angle + "_delay_margin", scene).value == margins.delay);
+    CHECK(value_of(place + "_bandwidth", scene).value == loop.bandwidths[axis].value);
+    CHECK(value_of(place + "_feedback_bandwidth", scene).value ==
+          loop.bandwidths[axis].of_feedback);
+  }
+  CHECK(value_of("stable", scene).value == 1);
+}
+
+TEST_CASE("spectra are of the poles that check tells") {
+  SECTION("in continuous time") {
+    const Scenario scene = config("fig2b");
+    const model::Eigenvalues poles = model::closed_loop_poles(model::assemble(scene, false));
+    CHECK(value_of("spectral_abscissa", scene).value == poles.front().real());
+  }
+  SECTION("from sample to sample") {
+    const Scenario scene = config("rig");
+    const model::Eigenvalues poles = model::sampled_poles(model::assemble(scene, false));
+    CHECK(value_of("spectral_radius", scene).value == std::abs(poles.front()));
+    CHECK(value_of("spectral_abscissa", scene).value == std::log(std::abs(poles.front())) / 0.02);
+  }
+  SECTION("per sample where the sensor's frames make a cycle of several") {
+    const Scenario scene = config("rig", {"controller.sensor.period=30 ms"});
+    const model::Eigenvalues poles = model::sampled_poles(model::assemble(scene, false));
+    // 20 and 30 ms meet again after three samples.
+    CHECK(value_of("spectral_radius", scene).value == std::pow(std::abs(poles.front()), 1 / 3.0));
+    const LoopAnalysis::Value margin = value_of("phi_delay_margin", scene);
+    CHECK(std::isnan(margin.value));
+    CHECK(std::string(margin.why) ==
+          "the loop differs from sample to sample, by the sensor's frames");
+  }
+}
+
+TEST_CASE("phi's gain times its gain margin is the border of stability") {
+  const std::string name = GENERATE("step", "hold");
+  CAPTURE(name);
+  const double margin = value_of("phi_gain_margin", config(name)).value;
+  const auto scaled = [&](double factor) {
+    Scenario scene = config(name);
+    Controller& controller = *scene.controller;
+    for (Matrix2* const gain : {&controller.kp, &controller.kv, &controller.ki}) {
+      for (double& one : (*gain)[0]) one *= factor;
+    }
+    return value_of("stable", scene).value;
+  };
+  // The poles move by some 1e-10 there, and are known to rounding.
+  CHECK(scaled(margin * (1 - 1e-9)) == 1);
+  CHECK(scaled(margin * (1 + 1e-9)) == 0);
+}
+
+TEST_CASE("an unstable loop has spectra, but no margins") {
+  Scenario scene = fig2b();
+  scene.controller->kv = {{{-1, 0}, {0, 1}}};
+  CHECK(value_of("stable", scene).value == 0);
+  CHECK(value_of("spectral_abscissa", scene).value > 0);
+  for (const char* const name : {"phi_gain_margin", "theta_delay_margin", "x_bandwidth"}) {
+    const LoopAnalysis::Value found = value_of(name, scene);
+    CHECK(std::isnan(found.value));
+    CHECK(std::string(found.why) == "the loop is not stable");
+  }
+}
+
+TEST_CASE("along one axis the other one has no margin") {
+  const Scenario scene = config("beam");
+  CHECK(std::isfinite(value_of("phi_gain_margin", scene).value));
+  const LoopAnalysis::Value other = value_of("theta_gain_margin", scene);
+  CHECK(std::isnan(other.value));
+  CHECK(std::string(other.why) == "the ball moves along the other axis only");
+}
