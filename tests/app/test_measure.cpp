@@ -391,3 +391,50 @@ TEST_CASE("run writes derivatives by keys beside its columns, and gradients of m
         std::string::npos);
   CHECK_FALSE(std::filesystem::exists(folder.path() / "none.csv"));
 }
+
+TEST_CASE("measures of the loop are what linearize writes, to the last digit") {
+  const Folder folder;
+  REQUIRE(bbsim({"linearize", config("step.yaml"), "-q", "-o", "loop.json"}, folder.path())
+              .exit_code == 0);
+  const auto loop = nlohmann::json::parse(folder.read("loop.json"));
+  const Result run = bbsim({"run", config("step.yaml"), "-q", "-o", "step.h5", "--summary", "s.json",
+                            "--measure",
+                            "max_tilt,phi_gain_margin,theta_phase_margin,phi_delay_margin,"
+                            "y_feedback_bandwidth,stable,phi_gain_reduction",
+                            "--expect", "phi_delay_margin > 100 ms", "--expect",
+                            "phi_phase_margin < 10 deg"},
+                           folder.path());
+  CAPTURE(run.err);
+  CHECK(run.exit_code == 1);
+  CHECK(run.err.find("not as expected: phi_phase_margin < 10 deg: phi_phase_margin is ") !=
+        std::string::npos);
+  const auto values = values_of(run.out);
+  CHECK(values.at("phi_gain_margin") == loop["margins"]["phi_command"]["gain"]);
+  CHECK(values.at("theta_phase_margin") == loop["margins"]["theta_command"]["phase"]);
+  CHECK(values.at("phi_delay_margin") == loop["margins"]["phi_command"]["delay"]);
+  CHECK(values.at("y_feedback_bandwidth") == loop["feedback_bandwidth"]["y"]);
+  CHECK(values.at("stable") == 1);
+  CHECK(values.at("max_tilt") > 0);
+  const auto summary = nlohmann::json::parse(folder.read("s.json"));
+  CHECK(summary["measures"]["phi_delay_margin"] == loop["margins"]["phi_command"]["delay"]);
+  CHECK(summary["expectations"][0]["holds"] == true);
+
+  const Result stored =
+      bbsim({"measure", "step.h5", "--measure", "phi_delay_margin"}, folder.path());
+  CHECK(stored.exit_code == 2);
+  CHECK(stored.err.find("which is of the loop and not of a motion") != std::string::npos);
+  const auto fault = [&](std::vector<std::string> more) {
+    more.insert(more.begin(), {"run", config("fig2b.yaml")});
+    const Result refused = bbsim(std::move(more), folder.path());
+    CHECK(refused.exit_code == 2);
+    return refused.err;
+  };
+  CHECK(fault({"--measure", "stable from 2 s"})
+            .starts_with("measure: found stable from 2 s, which is of no time; allowed: "));
+  CHECK(fault({"--measure", "phi_delay_margn"}).find("did you mean phi_delay_margin?") !=
+        std::string::npos);
+  CHECK(fault({"--measure", "spectral_radius"}).find("the controller takes no samples") !=
+        std::string::npos);
+  CHECK(fault({"--measure", "stable", "--sensitivity", "gravity"})
+            .find("allowed: measures of the motion") != std::string::npos);
+}

@@ -420,3 +420,48 @@ TEST_CASE(
   CHECK_FALSE(contains(result.err, "ended early"));
   CHECK(rows(folder.read("a.csv"))[2][3] == "max_normal_force is infinite");
 }
+
+TEST_CASE("measures of the loop come in any parts to the same bytes, alone and beside others") {
+  const Folder folder;
+  const std::string names =
+      GENERATE("stable,spectral_radius,phi_delay_margin", "max_tilt,phi_delay_margin,stable");
+  CAPTURE(names);
+  const std::vector<std::string> maps{"--vary",    "controller.gravity_compensation.kp=linear:1:40:13",
+                                      "--vary",    "controller.gravity_compensation.kv=linear:1:14:13",
+                                      "--set",     "time.end=2",
+                                      "--measure", names};
+  const auto make = [&](std::vector<std::string> more) {
+    const Result made = bbsim(sweep(config("rig.yaml"), with(maps, std::move(more))), folder.path());
+    CAPTURE(made.err);
+    CHECK(made.exit_code == 0);
+  };
+  make({"-o", "whole.csv"});
+  const std::string whole = folder.read("whole.csv");
+  CHECK(contains(whole, "the loop is not stable"));
+  make({"-o", "one.csv", "-j", "1"});
+  CHECK(folder.read("one.csv") == whole);
+  for (const std::string ending : {".csv", ".h5"}) {
+    make({"-o", "a" + ending, "--shard", "1/2"});
+    make({"-o", "b" + ending, "--shard", "2/2"});
+    CHECK(bbsim({"merge", "-q", "a" + ending, "b" + ending, "-o", "all" + ending}, folder.path())
+              .exit_code == 0);
+    CHECK(bbsim({"compare", "all" + ending, "whole.csv", "--rtol", "0", "--atol", "0"},
+                folder.path())
+              .exit_code == 0);
+  }
+  CHECK(folder.read("all.csv") == whole);
+  CHECK(bbsim({"summarize", "whole.csv", "--measure", "stable"}, folder.path()).exit_code == 0);
+}
+
+TEST_CASE("an interrupted stability map goes on to the same bytes") {
+  const Folder folder;
+  const std::vector<std::string> map{"--vary", "controller.gravity_compensation.kp=linear:1:40:40",
+                                     "--vary", "controller.gravity_compensation.kv=linear:1:9:40",
+                                     "--measure", "phi_delay_margin,stable"};
+  const auto arguments = with({"sweep", config("rig.yaml")}, with(map, {"-j", "1", "-o", "s.csv"}));
+  const Result cut = cut_off(arguments, folder, 9);
+  REQUIRE(cut.exit_code != 0);
+  CHECK(bbsim(with(arguments, {"--resume"}), folder.path()).exit_code == 0);
+  REQUIRE(bbsim(sweep(config("rig.yaml"), with(map, {"-o", "t.csv"})), folder.path()).exit_code == 0);
+  CHECK(folder.read("s.csv") == folder.read("t.csv"));
+}
