@@ -27,6 +27,7 @@ CASES = [
     ("bbsim sweep a.yaml --vary controller.pid.kp.0", ["controller.pid.kp.0."], []),
     ("bbsim run --measure rms_x,max_til", ["rms_x,max_tilt"], []),
     ("bbsim run --measure x.Ov", ["x.Overshoot"], []),
+    ("bbsim run --measure phi_del", ["phi_delay_margin"], []),
     ("bbsim compare --columns t,phi_comm", ["t,phi_command"], []),
     ("bbsim sweep --combine z", ["--combine zip"], []),
     ("bbsim run in", ["input.yaml"], ["input.csv"]),

@@ -394,16 +394,16 @@ TEST_CASE("run writes derivatives by keys beside its columns, and gradients of m
 
 TEST_CASE("measures of the loop are what linearize writes, to the last digit") {
   const Folder folder;
-  REQUIRE(bbsim({"linearize", config("step.yaml"), "-q", "-o", "loop.json"}, folder.path())
-              .exit_code == 0);
+  REQUIRE(
+      bbsim({"linearize", config("step.yaml"), "-q", "-o", "loop.json"}, folder.path()).exit_code ==
+      0);
   const auto loop = nlohmann::json::parse(folder.read("loop.json"));
-  const Result run = bbsim({"run", config("step.yaml"), "-q", "-o", "step.h5", "--summary", "s.json",
-                            "--measure",
-                            "max_tilt,phi_gain_margin,theta_phase_margin,phi_delay_margin,"
-                            "y_feedback_bandwidth,stable,phi_gain_reduction",
-                            "--expect", "phi_delay_margin > 100 ms", "--expect",
-                            "phi_phase_margin < 10 deg"},
-                           folder.path());
+  const Result run =
+      bbsim({"run", config("step.yaml"), "-q", "-o", "step.h5", "--summary", "s.json", "--measure",
+             "max_tilt,phi_gain_margin,theta_phase_margin,phi_delay_margin,"
+             "y_feedback_bandwidth,stable,phi_gain_reduction",
+             "--expect", "phi_delay_margin > 100 ms", "--expect", "phi_phase_margin < 10 deg"},
+            folder.path());
   CAPTURE(run.err);
   CHECK(run.exit_code == 1);
   CHECK(run.err.find("not as expected: phi_phase_margin < 10 deg: phi_phase_margin is ") !=

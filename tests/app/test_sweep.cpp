@@ -426,12 +426,14 @@ TEST_CASE("measures of the loop come in any parts to the same bytes, alone and b
   const std::string names =
       GENERATE("stable,spectral_radius,phi_delay_margin", "max_tilt,phi_delay_margin,stable");
   CAPTURE(names);
-  const std::vector<std::string> maps{"--vary",    "controller.gravity_compensation.kp=linear:1:40:13",
-                                      "--vary",    "controller.gravity_compensation.kv=linear:1:14:13",
-                                      "--set",     "time.end=2",
-                                      "--measure", names};
+  const std::vector<std::string> maps{
+      "--vary",    "controller.gravity_compensation.kp=linear:1:40:13",
+      "--vary",    "controller.gravity_compensation.kv=linear:1:14:13",
+      "--set",     "time.end=2",
+      "--measure", names};
   const auto make = [&](std::vector<std::string> more) {
-    const Result made = bbsim(sweep(config("rig.yaml"), with(maps, std::move(more))), folder.path());
+    const Result made =
+        bbsim(sweep(config("rig.yaml"), with(maps, std::move(more))), folder.path());
     CAPTURE(made.err);
     CHECK(made.exit_code == 0);
   };
@@ -445,9 +447,9 @@ TEST_CASE("measures of the loop come in any parts to the same bytes, alone and b
     make({"-o", "b" + ending, "--shard", "2/2"});
     CHECK(bbsim({"merge", "-q", "a" + ending, "b" + ending, "-o", "all" + ending}, folder.path())
               .exit_code == 0);
-    CHECK(bbsim({"compare", "all" + ending, "whole.csv", "--rtol", "0", "--atol", "0"},
-                folder.path())
-              .exit_code == 0);
+    CHECK(
+        bbsim({"compare", "all" + ending, "whole.csv", "--rtol", "0", "--atol", "0"}, folder.path())
+            .exit_code == 0);
   }
   CHECK(folder.read("all.csv") == whole);
   CHECK(bbsim({"summarize", "whole.csv", "--measure", "stable"}, folder.path()).exit_code == 0);
@@ -455,13 +457,15 @@ TEST_CASE("measures of the loop come in any parts to the same bytes, alone and b
 
 TEST_CASE("an interrupted stability map goes on to the same bytes") {
   const Folder folder;
-  const std::vector<std::string> map{"--vary", "controller.gravity_compensation.kp=linear:1:40:40",
-                                     "--vary", "controller.gravity_compensation.kv=linear:1:9:40",
-                                     "--measure", "phi_delay_margin,stable"};
+  const std::vector<std::string> map{
+      "--vary",    "controller.gravity_compensation.kp=linear:1:40:40",
+      "--vary",    "controller.gravity_compensation.kv=linear:1:9:40",
+      "--measure", "phi_delay_margin,stable"};
   const auto arguments = with({"sweep", config("rig.yaml")}, with(map, {"-j", "1", "-o", "s.csv"}));
   const Result cut = cut_off(arguments, folder, 9);
   REQUIRE(cut.exit_code != 0);
   CHECK(bbsim(with(arguments, {"--resume"}), folder.path()).exit_code == 0);
-  REQUIRE(bbsim(sweep(config("rig.yaml"), with(map, {"-o", "t.csv"})), folder.path()).exit_code == 0);
+  REQUIRE(bbsim(sweep(config("rig.yaml"), with(map, {"-o", "t.csv"})), folder.path()).exit_code ==
+          0);
   CHECK(folder.read("s.csv") == folder.read("t.csv"));
 }

@@ -1,8 +1,13 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The names of measures.
+// The names of measures. The table of docs/reference/measures.md is that of the code: with
+// BBSIM_WRITE_DOCS in the environment, the page is written.
 #include <cmath>
+#include <cstdlib>
+#include <fstream>
+#include <sstream>
+#include <string>
 
 #include "base/error.hpp"
 #include "catch.hpp"
@@ -141,4 +146,46 @@ TEST_CASE("expectations are read, with units, and are judged") {
     CAPTURE(wrong);
     CHECK_THROWS_AS(read(wrong), bbsim::InputError);
   }
+}
+
+TEST_CASE("the page of measures has the names, units and meanings of those of the loop") {
+  const std::string file = std::string(BBSIM_SOURCE_DIR) + "/docs/reference/measures.md";
+  std::stringstream read;
+  read << std::ifstream(file).rdbuf();
+  const std::string page = read.str(), head = "\n| measure | unit | is |\n|---|---|---|\n";
+  const std::size_t section = page.find("\n## Measures of the loop\n");
+  REQUIRE(section != std::string::npos);
+  const std::size_t begin = page.find(head, section) + head.size();
+  const std::size_t end = page.find("\n\n", begin - 1) + 1;
+  std::string table;
+  for (const LoopMeasure& measure : loop_measures) {
+    table += "| `" + std::string(measure.name) + "` | " + std::string(measure.unit) + " | " +
+             std::string(measure.meaning) + " |\n";
+  }
+  const std::string wanted = page.substr(0, begin) + table + page.substr(end);
+  if (std::getenv("BBSIM_WRITE_DOCS") != nullptr) std::ofstream(file) << wanted;
+  CHECK(page == wanted);
+}
+
+TEST_CASE("measures of the loop are of a scene with a law, and of no window") {
+  const auto measure = find_measure(" phi_delay_margin ");
+  CHECK_FALSE(find_measure("phi_delay_margin from 1 s"));
+  CHECK_FALSE(find_measure("max_phi_delay_margin"));
+  REQUIRE(find_measure("phi_delay_margin"));
+  CHECK(find_measure("phi_delay_margin")->unit() == "s");
+  CHECK(find_measure("theta_phase_margin")->unit() == "rad");
+  CHECK(measure.has_value() == find_measure(" max_tilt ").has_value());
+  CHECK(measure_hint("phi_bandwidth") == " (did you mean x_bandwidth?)");
+  const std::vector<Measure> mixed{*find_measure("stable"), *find_measure("max_tilt"),
+                                   *find_measure("x_bandwidth")};
+  const SplitMeasures split = split_loop_measures(mixed);
+  CHECK(split.loop_places == std::vector<std::size_t>{0, 2});
+  CHECK(split.motion_places == std::vector<std::size_t>{1});
+  CHECK(split.of_motion.at(0).name == "max_tilt");
+  // A margin that any change leaves needs no excuse; one that is not there does.
+  const double infinite = std::numeric_limits<double>::infinity();
+  const double numbers[] = {1, 0.1, infinite};
+  CHECK(why_not_finite(mixed, numbers, {}).empty());
+  const double none[] = {1, infinite, std::nan("")};
+  CHECK(why_not_finite(mixed, none, {}) == "max_tilt is infinite; x_bandwidth is no number");
 }
