@@ -3,10 +3,12 @@
 
 #include "api/fit_text.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <iterator>
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "base/fnv1a.hpp"
 #include "base/number_text.hpp"
@@ -46,13 +48,26 @@ std::vector<std::vector<std::string>> parameter_table(const fit::Fitted& fitted)
 }
 
 std::vector<std::vector<std::string>> residual_table(const fit::Fitted& fitted) {
-  std::vector<std::vector<std::string>> lines{{"rms residual", "before", "fitted"}};
-  if (fitted.held > 0) lines[0].insert(lines[0].end(), {"held out: before", "fitted"});
-  lines[0].push_back("unit");
+  const bool has_ideal = std::ranges::any_of(
+      fitted.columns, [](const auto& column) { return column.ideal || column.held_ideal; });
+  const auto number = [](const std::optional<double>& rms) {
+    return rms ? record::rounded(*rms) : std::string("-");
+  };
+  std::vector<std::vector<std::string>> lines{{"rms residual"}};
+  std::vector<std::string>& head = lines.front();
+  if (has_ideal) head.emplace_back("ideal rig");
+  head.insert(head.end(), {"before", "fitted"});
+  if (fitted.held > 0) {
+    if (has_ideal) head.emplace_back("held out: ideal rig");
+    head.insert(head.end(), {has_ideal ? "before" : "held out: before", "fitted"});
+  }
+  head.emplace_back("unit");
   for (const fit::ColumnResidual& column : fitted.columns) {
-    std::vector<std::string> line{column.column, record::rounded(column.before),
-                                  record::rounded(column.rms)};
+    std::vector<std::string> line{column.column};
+    if (has_ideal) line.push_back(number(column.ideal));
+    line.insert(line.end(), {record::rounded(column.before), record::rounded(column.rms)});
     if (fitted.held > 0) {
+      if (has_ideal) line.push_back(number(column.held_ideal));
       line.push_back(record::rounded(column.held_before.value_or(0)));
       line.push_back(record::rounded(column.held.value_or(0)));
     }
@@ -162,6 +177,10 @@ std::string json_of(const fit::Fitted& fitted) {
   for (const fit::ColumnResidual& column : fitted.columns) {
     json["residual_rms"][column.column] = column.rms;
     if (column.held) json["hold_out_rms"][column.column] = *column.held;
+  }
+  for (const fit::ColumnResidual& column : fitted.columns) {
+    if (column.ideal) json["ideal_rms"][column.column] = *column.ideal;
+    if (column.held_ideal) json["hold_out_ideal_rms"][column.column] = *column.held_ideal;
   }
   json["identifiable"] = fitted.untold.empty();
   json["correlations"] = Json::array();

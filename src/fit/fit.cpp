@@ -13,6 +13,7 @@
 #include "base/error.hpp"
 #include "base/short_number.hpp"
 #include "fit/clock_shift.hpp"
+#include "fit/ideal_rig.hpp"
 #include "fit/minimize.hpp"
 #include "fit/profile.hpp"
 #include "fit/residuals.hpp"
@@ -121,6 +122,8 @@ class Fit {
       // The starts take correlation away, so that white residuals rarely come to this.
       made_.white = made_.white && (is_exact || correlations[c] < 3 / std::sqrt(sizes[c].count));
     }
+    const std::vector<double> ideal = ideal_rms(windows_.windows());
+    for (std::size_t c = 0; c < ideal.size(); ++c) made_.columns[c].ideal = ideal[c];
     tell_parameters();
     if (!made_.white) made_.suggestion = suggestion(task_, windows_, u_);
   }
@@ -128,6 +131,8 @@ class Fit {
   // Of windows that are out of the fit, at its values.
   void tell_held(std::vector<Window> held) {
     if (held.empty()) return;
+    const std::vector<double> ideal = ideal_rms(held);
+    for (std::size_t c = 0; c < ideal.size(); ++c) made_.columns[c].held_ideal = ideal[c];
     WindowsFit others(task_, std::move(held));
     others.finish();
     others.set_noise(windows_.noise());
@@ -151,6 +156,29 @@ class Fit {
   [[nodiscard]] std::size_t size() const { return windows_.size(); }
 
  private:
+  // The residuals of an ideal rig; none if there is no such rig, or if it does not run.
+  [[nodiscard]] std::vector<double> ideal_rms(const std::vector<Window>& windows) const {
+    const auto ideal = ideal_rig(task_.family.read(task_.logs.front().settings));
+    const auto lacks = [&](const scenario::Column* column) {
+      return static_cast<bool>(scenario::missing(*column, *ideal));
+    };
+    if (!ideal || std::ranges::any_of(task_.columns, lacks)) return {};
+    Task task = task_;
+    task.keys.clear();
+    task.adapt = [this](Scenario& scenario) {
+      if (task_.adapt) task_.adapt(scenario);
+      scenario = *ideal_rig(scenario);
+    };
+    WindowsFit its(task, windows);
+    its.finish();
+    its.set_noise(windows_.noise());
+    try {
+      return rms_of(its, its.residuals(VectorXd{}, true));
+    } catch (const InputError&) {
+      return {};
+    }
+  }
+
   [[nodiscard]] std::vector<Index> all_keys() const {
     std::vector<Index> keys;
     for (Index k = 0; k < u_.size(); ++k) keys.push_back(k);

@@ -53,7 +53,9 @@ struct ColumnResidual {
   std::string column, unit;
   double before = 0, rms = 0;  // of the windows of the fit, with the scenario's values and after
   std::optional<double> held_before{}, held{};  // of the windows that were held out, likewise
-  double correlation = 0;                       // of neighboring residuals
+  std::optional<double> ideal{},
+      held_ideal{};        // of an ideal rig (ideal_rig.hpp), where there is one
+  double correlation = 0;  // of neighboring residuals
   // Numbers that are beyond five standard deviations, and where the first one is.
   std::size_t outliers = 0;
   std::string outlier_log{};

@@ -196,6 +196,11 @@ controller:
   const double truth[] = {8 * std::acos(-1.0), 0.7, 1.1, 0.005};
   REQUIRE(made.fitted.parameters.size() == 4);
   CHECK(made.fitted.windows == 10);
+  // An ideal rig has no servos: what they do to the ball is more than the noise.
+  for (const fit::ColumnResidual& column : made.fitted.columns) {
+    REQUIRE(column.ideal);
+    CHECK(*column.ideal > 1.2 * column.rms);
+  }
   for (std::size_t k = 0; k < 4; ++k) {
     const fit::Parameter& one = made.fitted.parameters[k];
     CAPTURE(one.key, one.estimate, one.sd);

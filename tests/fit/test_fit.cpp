@@ -91,6 +91,13 @@ TEST_CASE("keys of a rig are found from its log, within their intervals") {
   for (const fit::ColumnResidual& column : made.fitted.columns) {
     CHECK(column.rms == Approx(5e-4).epsilon(0.12));
   }
+  // The assumed rig is an ideal one. Its starts are fitted with other weights of the columns.
+  for (const fit::ColumnResidual& column : made.fitted.columns) {
+    REQUIRE(column.ideal);
+    CHECK(*column.ideal == Approx(column.before).epsilon(1e-3));
+  }
+  CHECK(contains(made.json, R"("ideal_rms")"));
+  CHECK(contains(made.text, "ideal rig"));
   CHECK(made.fitted.columns[0].before > 2 * made.fitted.columns[0].rms);
   CHECK(made.fitted.columns[1].before > made.fitted.columns[1].rms);
   CHECK(made.fitted.white);
