@@ -60,9 +60,9 @@ std::string measures_footer() {
          "  instants      \"when x=0.05\", with rise=N, fall=N or cross=N (N may be last);\n"
          "                \"when x stays below 0.05\", or above\n"
          "  values        \"find y when x=0.05\", \"find y at 2\"\n"
-         "  of the loop   stable, spectral_radius, spectral_abscissa; phi_ or theta_ before\n"
-         "                gain_margin, gain_reduction, phase_margin, delay_margin; x_ or y_\n"
-         "                before bandwidth, feedback_bandwidth. Not of a stored run\n"
+         "  of the loop   stable, spectral_radius, spectral_abscissa; phi_ or theta_ and\n"
+         "                gain_margin, gain_reduction, phase_margin or delay_margin; x_\n"
+         "                or y_ and bandwidth or feedback_bandwidth; none of a stored run\n"
          "A step goes from x at the start to x_reference at the end, or to x at the end if x has "
          "no reference. Append \"from 5 s\", \"to 20 s\" or both to measure a part of the run.";
 }

@@ -319,6 +319,19 @@ class Sweeps(unittest.TestCase):
 
 
 class Linear(unittest.TestCase):
+    def test_margins_are_measures(self):
+        made = bbsim.run(CONFIGS / "rig.yaml", {"time.end": 1}, measures=["phi_delay_margin", "x_bandwidth", "max_tilt"])
+        margin = made.measures["phi_delay_margin"]
+        self.assertGreater(margin, 0)
+        self.assertEqual(made.measures["x_bandwidth"], float("inf"))  # feedforward ends at no frequency
+        # No case is run for these.
+        gains = bbsim.sweep(CONFIGS / "rig.yaml", {"controller.gravity_compensation.kp": [10.0, 90.0]},
+                            ["phi_delay_margin", "stable"])  # fmt: skip
+        self.assertEqual(gains["phi_delay_margin"][0], margin)
+        self.assertTrue(np.isnan(gains["phi_delay_margin"][1]))
+        self.assertEqual(gains["stable"].tolist(), [1, 0])
+        self.assertTrue(np.isnan(gains["end_time"]).all())
+
     def test_equals_the_program(self):
         for name in ("fig2b", "rig"):
             with tempfile.TemporaryDirectory() as folder:
