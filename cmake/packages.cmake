@@ -40,13 +40,15 @@ ball-and-plate rig of control courses, with the effects of real rigs: sampling,
 delay, noise, limits of servos, backlash and friction. It runs single scenarios
 and large sweeps, and takes controllers in any language.")
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_NAME bbsim)
-set(CPACK_DEBIAN_PROGRAM_PACKAGE_RECOMMENDS libnlopt0) # loaded by bbsim tune and design
-set(CPACK_DEBIAN_PROGRAM_PACKAGE_SUGGESTS "gnuplot-nox | gnuplot, g++, python3, octave, bbsim-doc")
+# Found when they are used: by bbsim tune and design, and by bbsim plot.
+set(CPACK_DEBIAN_PROGRAM_PACKAGE_RECOMMENDS "libnlopt0, gnuplot-nox | gnuplot")
+set(CPACK_DEBIAN_PROGRAM_PACKAGE_SUGGESTS "g++, python3, octave, bbsim-doc")
 set(CPACK_COMPONENT_DOCS_DESCRIPTION "The tutorials, how-to guides, references and explanations of bbsim, a simulator
 of the ball-and-plate rig of control courses, as Markdown.")
 set(CPACK_DEBIAN_DOCS_PACKAGE_NAME bbsim-doc)
 set(CPACK_DEBIAN_DOCS_PACKAGE_ARCHITECTURE all)
 set(CPACK_DEBIAN_DOCS_PACKAGE_SECTION doc)
+set(CPACK_DEBIAN_DOCS_PACKAGE_RECOMMENDS bbsim) # the pages lead to its examples
 
 # The C++ library, and what one compiles against it; its version is in its name, as that of any Debian library.
 set(_library libbbsim${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR})
