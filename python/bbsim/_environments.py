@@ -68,6 +68,14 @@ def minus_squared_distance(observations: Array, actions: Array, terminated: Arra
     return -((observations[:, 0] - observations[:, 3]) ** 2 + (observations[:, 1] - observations[:, 4]) ** 2)
 
 
+def _require_range(key: str, found: Any) -> None:
+    try:
+        low, high = (float(bound) for bound in found)
+    except (TypeError, ValueError):
+        allowed = "allowed: (low, high), two numbers in SI units, or a function of a numpy Generator"
+        raise InputError([(key, f"randomize: {key}: found {found!r}; {allowed}")]) from None
+
+
 class VectorEnv(_VectorBase):
     """``n`` runs of a scenario with Gymnasium's API of vector environments.
 
@@ -103,6 +111,9 @@ class VectorEnv(_VectorBase):
     ) -> None:
         if int(n) < 1:
             raise InputError([("", f"n: found {n}; allowed: a whole number from 1 up")])
+        for key, distribution in (randomize or {}).items():
+            if not callable(distribution):
+                _require_range(key, distribution)
         if gymnasium is not None:
             modes = getattr(gymnasium.vector, "AutoresetMode", None)  # from Gymnasium 1.1 on
             if modes is not None:

@@ -200,8 +200,8 @@ class Linearization:
 
     @property
     def margins(self) -> Dict[str, Any]:
-        """The margins of each command's loop, as ``bbsim linearize`` writes them."""
-        return self._json["margins"] or {}
+        """The margins of each command's loop, as ``bbsim linearize`` writes them; {} of a plant."""
+        return self._json.get("margins") or {}
 
     def to_scipy(self) -> Any:
         """A ``scipy.signal.StateSpace``."""
