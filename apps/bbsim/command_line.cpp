@@ -149,7 +149,13 @@ void name_program(CLI::App& app, Options& options) {
       "Exit codes: 0 done; 1 the run ended early or files differ; 2 the command line or the "
       "scenario is at fault; 3 the output could not be written; 130 interrupted.\n"
       "\n"
-      "Run `bbsim COMMAND --help` for the options of a command.");
+      "Run `bbsim COMMAND --help` for the options of a command.\n"
+      "\n"
+      "Examples:\n"
+      "  bbsim new rig --plate \"300 mm x 300 mm\" --ball ping-pong --camera \"30 Hz\"\n"
+      "  bbsim check my-rig.yaml\n"
+      "  bbsim run my-rig.yaml\n"
+      "  bbsim replay my-rig.yaml");
   add_quiet(app, options);
 }
 

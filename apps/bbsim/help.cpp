@@ -72,7 +72,11 @@ std::string HelpFormatter::make_footer(const CLI::App* command) const {
     const CLI::Option* const quiet = all->get_option_no_throw("--quiet");
     if (quiet != nullptr) text = "Options of all commands:\n" + make_option(quiet, false) + '\n';
   }
-  const std::string footer = command->get_footer();
+  std::string footer = command->get_footer();
+  // A command without a footer has the program's, whose examples are not its own.
+  if (const CLI::App* all = command->get_parent(); all != nullptr && footer == all->get_footer()) {
+    footer = footer.substr(0, footer.find("\n\nExamples:"));
+  }
   for (std::string_view rest = footer; !rest.empty();) {
     const std::size_t end = rest.find('\n');
     const std::string_view line = rest.substr(0, end);

@@ -161,7 +161,11 @@ std::string man_page(const ProgramText& texts) {
   }
   return text + entries("OPTIONS", texts.program.options, false) +
          paragraphs(texts.program.footer) + ".SH SEE ALSO\nman pages of the commands, as " +
-         bold("bbsim-run") + "(1)\n";
+         bold("bbsim-run") +
+         "(1)\n.PP\n"
+         "Tutorials, guides and references: share/doc/bbsim/pages/index.md of the prefix (Debian: "
+         "the "
+         "package bbsim\\-doc).\n";
 }
 
 std::string man_page(const CommandText& command, const ProgramText& texts) {

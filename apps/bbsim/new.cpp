@@ -129,7 +129,9 @@ void add_new(Command& command, const Options& options) {
               "of a rig: ping-pong (default), steel, rubber, golf, or diameter and mass, such as "
               "\"40 mm 2.7 g\"; hollow or solid may follow")
       .takes("BALL");
-  command.option("--servo", rig.servo, "of a rig; default: hobby-standard")
+  command
+      .option("--servo", rig.servo,
+              "of a rig: hobby-standard (default), hobby-micro or smart-serial")
       .takes_one_of(servo_classes());
   const Option camera =
       command.option("--camera", rig.camera, "of a rig: frames a second; default: \"30 Hz\"")

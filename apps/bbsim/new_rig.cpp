@@ -92,8 +92,18 @@ std::optional<Ball> read_diameter_and_mass(std::string_view text) {
   return {};
 }
 
+// The name as it stands in `balls`: "Table tennis" and "ping pong" are ping-pong.
+std::string name_of_ball(std::string_view text) {
+  std::string name;
+  for (const char letter : text) {
+    const bool is_upper = letter >= 'A' && letter <= 'Z';
+    name += letter == ' ' ? '-' : static_cast<char>(is_upper ? letter - 'A' + 'a' : letter);
+  }
+  return name == "table-tennis" ? "ping-pong" : name;
+}
+
 Ball read_ball(const std::string& text, const Plate& plate) {
-  const auto* const named = std::ranges::find(balls, trimmed(text), &NamedBall::name);
+  const auto* const named = std::ranges::find(balls, name_of_ball(trimmed(text)), &NamedBall::name);
   const std::optional<Ball> ball =
       named != balls.end() ? named->ball : read_diameter_and_mass(trimmed(text));
   if (!ball) {

@@ -106,6 +106,15 @@ TEST_CASE("a light ball is taken as hollow, unless its option says what it is") 
              Contains("radius: \"20 mm\" ") && Contains("inertia_factor: " + factor + ' '));
 }
 
+TEST_CASE("a ball of table tennis goes by several names") {
+  const Folder folder;
+  const std::string name = GENERATE("table tennis", "Table-Tennis", "ping pong", "ping-pong");
+  const Result made = new_rig(folder, {"--ball", name, "-o", "-"});
+  CAPTURE(name, made.err);
+  CHECK(made.exit_code == 0);
+  CHECK_THAT(made.out, Contains("radius: \"20 mm\" "));
+}
+
 TEST_CASE("options of a rig that make no sense are refused, and nothing is written") {
   const Folder folder;
   const std::string plate =
