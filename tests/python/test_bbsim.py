@@ -354,6 +354,7 @@ class Linear(unittest.TestCase):
         except ImportError:
             self.skipTest("there is no SciPy")
         plant = bbsim.linearize(CONFIGS / "fig2b.yaml", kind="plant")
+        self.assertEqual(plant.margins, {})
         self.assertEqual(plant.to_scipy().A.shape, plant.A.shape)
         self.assertEqual(plant.B.shape, (len(plant.states), 2))
         spin_free = [i for i, name in enumerate(plant.states) if name != "spin"]
@@ -365,6 +366,12 @@ class Linear(unittest.TestCase):
 class Environments(unittest.TestCase):
     SCENE = {**LOOP, "time": {"end": 0.5, "step": 0.02}, "plate": {"size": ["20 cm", "20 cm"]},
              "events": {"edge": "stop"}}  # fmt: skip
+
+    def test_a_range_that_is_none_is_refused_at_once(self):
+        for wrong in ("1 cm", ("1 cm", "2 cm"), 0.01, (0.01, 0.02, 0.03)):
+            with self.assertRaises(bbsim.InputError) as raised:
+                bbsim.VectorEnv(self.SCENE, 2, {"ball.position.0": wrong})
+            self.assertEqual(raised.exception.key, "ball.position.0")
 
     def test_equals_a_run_with_the_same_actions(self):
         envs = bbsim.VectorEnv(self.SCENE, 3, {"ball.position.0": (0.03, 0.05)}, seed=5, record=True,
