@@ -73,7 +73,7 @@ def _require_range(key: str, found: Any) -> None:
         low, high = (float(bound) for bound in found)
     except (TypeError, ValueError):
         allowed = "allowed: (low, high), two numbers in SI units, or a function of a numpy Generator"
-        raise InputError([(key, f"randomize: {key}: found {found!r}; {allowed}")]) from None
+        raise InputError([("", f"{key}: found {found!r} in randomize; {allowed}")]) from None
 
 
 class VectorEnv(_VectorBase):
