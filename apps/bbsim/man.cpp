@@ -164,8 +164,7 @@ std::string man_page(const ProgramText& texts) {
          bold("bbsim-run") +
          "(1)\n.PP\n"
          "Tutorials, guides and references: share/doc/bbsim/pages/index.md of the prefix (Debian: "
-         "the "
-         "package bbsim\\-doc).\n";
+         "the package bbsim\\-doc).\n";
 }
 
 std::string man_page(const CommandText& command, const ProgramText& texts) {

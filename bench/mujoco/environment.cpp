@@ -6,7 +6,7 @@
 //
 // A plate on two hinges with position servos of second order, a solid ball on it, and a law that
 // leads the ball to the center, once every 20 ms. The law sees the true position and velocity, so
-// no time goes into sensors. One rig after the other, as MuJoCo has no vectorised steps on
+// no time goes into sensors. One rig after the other, as MuJoCo has no vectorized steps on
 // processors.
 //
 //     mujoco_environment
@@ -15,15 +15,15 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <cstdlib>
-#include <cstring>
 #include <ctime>
 #include <memory>
 #include <string>
 
+#include "compiled.hpp"
+
 namespace {
 
-constexpr double radius = 0.02, period = 0.02, frequency = 31.4, damping = 0.8, inertia = 4e-3;
+constexpr double period = 0.02, frequency = 31.4, damping = 0.8, inertia = 4e-3;
 constexpr double limit = 0.2;  // of a command, rad
 constexpr int rigs = 1024, periods = 100;
 
@@ -44,20 +44,6 @@ std::string scene(double step) {
          "<body pos='0.05 0 0.02'><freejoint/><geom type='sphere' size='0.02' mass='0.033'/></body>"
          "</worldbody><actuator>" +
          servos + "</actuator></mujoco>";
-}
-
-std::unique_ptr<mjModel, decltype(&mj_deleteModel)> compiled(const std::string& xml) {
-  const auto files = std::make_unique<mjVFS>();  // in memory
-  mj_defaultVFS(files.get());
-  mj_makeEmptyFileVFS(files.get(), "scene.xml", static_cast<int>(xml.size()));
-  std::memcpy(files->filedata[0], xml.data(), xml.size());
-  char error[500] = "";
-  std::unique_ptr<mjModel, decltype(&mj_deleteModel)> model(
-      mj_loadXML("scene.xml", files.get(), error, sizeof error), mj_deleteModel);
-  mj_deleteVFS(files.get());
-  if (model) return model;
-  std::fprintf(stderr, "mujoco_environment: %s\n", error);
-  std::exit(1);
 }
 
 // The mean distance of the balls from the center at the end, m.

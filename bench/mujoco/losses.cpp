@@ -15,12 +15,11 @@
 
 #include <cmath>
 #include <cstdio>
-#include <cstdlib>
-#include <cstring>
 #include <memory>
 #include <sstream>
 #include <string>
 
+#include "compiled.hpp"
 #include "model/model.hpp"
 #include "scenario/reader.hpp"
 #include "solve/integrate.hpp"
@@ -64,19 +63,7 @@ double by_mujoco(double tilt, double velocity, double end, double step) {
       << "'/></default><worldbody><geom type='plane' size='100 100 1'/>"
       << "<body pos='0 0 " << text(radius) << "'><freejoint/><geom type='sphere' size='"
       << text(radius) << "' mass='" << text(mass) << "'/></body></worldbody></mujoco>";
-  const std::string scene = xml.str();
-  const auto files = std::make_unique<mjVFS>();  // in memory
-  mj_defaultVFS(files.get());
-  mj_makeEmptyFileVFS(files.get(), "scene.xml", static_cast<int>(scene.size()));
-  std::memcpy(files->filedata[0], scene.data(), scene.size());
-  char error[500] = "";
-  const std::unique_ptr<mjModel, decltype(&mj_deleteModel)> model(
-      mj_loadXML("scene.xml", files.get(), error, sizeof error), mj_deleteModel);
-  mj_deleteVFS(files.get());
-  if (!model) {
-    std::fprintf(stderr, "crosscheck_losses: %s\n", error);
-    std::exit(1);
-  }
+  const auto model = compiled(xml.str());
   const std::unique_ptr<mjData, decltype(&mj_deleteData)> data(mj_makeData(model.get()),
                                                                mj_deleteData);
   data->qvel[0] = velocity;

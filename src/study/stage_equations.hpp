@@ -10,11 +10,10 @@
 namespace bbsim::study {
 
 // Solves S_i = start + h sum_j a_ij (J_j S_j + F_j), i = 1, ..., s. `jacobians` has J_1, ..., J_s,
-// n x n. `stages` holds F on entry and S on return: row j n + i has the i-th number at node j, and
-// each column is a right-hand side of its own. `matrix` has a_ij, `start` is n x columns.
+// n x n. `stages` holds F on entry and S on return: row j n + i is the i-th state at node j, and
+// each column is one right-hand side. `matrix` has a_ij, `start` is n x columns.
 //
-// Numbers that do not depend on each other in both directions are solved for in turns: the gimbal
-// before the ball that it moves.
+// States that drive others without feedback are solved first: the gimbal before the ball.
 void solve_stages(const std::vector<Eigen::MatrixXd>& jacobians, const Eigen::MatrixXd& matrix,
                   double h, const Eigen::MatrixXd& start, Eigen::MatrixXd& stages);
 

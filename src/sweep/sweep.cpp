@@ -153,10 +153,6 @@ void work(const Engine& engine, Queue& queue, const std::atomic<bool>& stop,
   }
 }
 
-}  // namespace
-
-namespace {
-
 // The engine of what is asked of the motion, with measures of the loop taken beside it.
 Engine engine_with_loop(const SweepTask& task) {
   if (is_of_loop_only(task)) {
