@@ -14,10 +14,11 @@
 #include "model/hybrid/hybrid_system.hpp"
 #include "simd/gradient.hpp"
 #include "study/neighbors.hpp"
+#include "study/switches.hpp"
 
 namespace bbsim::study {
 
-class RigSensitivity {
+class RigSensitivity : public Switches {
  public:
   // Throws InputError if a part of the rig has no derivatives.
   static void require_smooth_parts(const model::Model& model);
@@ -29,22 +30,11 @@ class RigSensitivity {
   // `keys`. Throws InputError for a key that acts on rounding, noise or decisions only.
   RigSensitivity(const model::Model& model, std::vector<Neighbors>& keys);
 
-  void begin_run();
-
-  // An instant at which something is due or switches: the run after it, and the states (m, rad, s)
-  // with their rates before and after it.
-  struct Instant {
-    const model::HybridSystem& run;
-    double t;
-    const Eigen::VectorXd &before, &rates_before, &after, &rates_after;
-  };
-  // Takes S, a column for each key, across the instant. Returns how far each key moves the time of
-  // its switch. Throws InputError if a servo meets its stop, or one of first order its rate limit.
-  [[nodiscard]] Eigen::VectorXd pass(const Instant& now, Eigen::MatrixXd& slopes);
-
-  // The derivatives of a row's extras by key k. `slope` are those of the states z.
+  void begin_run() override;
+  // Refuses runs in which a servo meets its stop, or one of first order its rate limit.
+  [[nodiscard]] Eigen::VectorXd pass(const Instant& now, Eigen::MatrixXd& slopes) override;
   [[nodiscard]] Eigen::VectorXd extras(std::size_t k, double t, const Eigen::VectorXd& z,
-                                       const Eigen::VectorXd& slope) const;
+                                       const Eigen::VectorXd& slope) const override;
 
  private:
   // A number and its derivative by one key.

@@ -17,7 +17,9 @@
 #include "model/systems/any_jacobian.hpp"
 #include "record/recorder.hpp"
 #include "record/rows.hpp"
+#include "study/event_sensitivity.hpp"
 #include "study/radau_rule.hpp"
+#include "study/rig_sensitivity.hpp"
 #include "study/stage_equations.hpp"
 
 namespace bbsim::study {
@@ -91,10 +93,10 @@ double power_of_two_below(double value) {
   return std::exp2(std::floor(std::log2(value)));
 }
 
-const char* what_switches(const model::Model& model) {
-  if (model.dry) return "dry friction, sliding or limits of torques";
-  if (model.rig && model.rig->switches()) return "limits or switches of the servos";
-  return "events beside servos, losses or torques";
+// Whether it switches by its state, or at the stops of an input beside servos or forces. Events
+// alone only observe the motion, or end it.
+bool switches_without_samples(const model::Model& model) {
+  return model.extras() > 0 && !(model.rig && model.rig->sampled);
 }
 
 // The polynomial of an arc from `start` on of length `length`, as a piece that may have other ends.
@@ -143,18 +145,12 @@ Sensitivity::Sensitivity(const model::Model& model, model::Form form, const solv
       size_(static_cast<Eigen::Index>(model.size() + (model.gamma ? 1 : 0))),
       row_(static_cast<Eigen::Index>(model.row_size())),
       spin_(model.spin_state()) {
-  // Events alone only observe the motion, or end it.
-  if (model.rig && model.rig->sampled) {
-    RigSensitivity::require_smooth_parts(model);
-  } else if (model.extras() > 0) {
-    no_sensitivity(
-        std::string("found with ") + what_switches(model) +
-        "; allowed: smooth scenes, sampled controllers, and events in scenes with a given motion "
-        "or an ideal servo");
-  }
+  const bool sampled = model.rig && model.rig->sampled;
+  if (sampled) RigSensitivity::require_smooth_parts(model);
   initial_ = Eigen::MatrixXd::Zero(size_, static_cast<Eigen::Index>(keys.size()));
   for (VariedKey& key : keys) {
     Neighbors& neighbors = keys_.emplace_back(Neighbors{std::move(key), {}});
+    if (switches_without_samples(model)) neighbors.key.step *= EventSensitivity::step_share;
     // The widest step that is smooth has the least rounding. With time, the phase of a wave changes
     // much with its frequency.
     constexpr int most_halvings = 20;
@@ -163,7 +159,8 @@ Sensitivity::Sensitivity(const model::Model& model, model::Form form, const solv
       neighbors.key.step /= 2;
       fill(neighbors);
     }
-    neighbors.pairs = least_pairs(neighbors);
+    // In another mode, other keys matter. The neighbors of a scene that switches are close.
+    neighbors.pairs = switches_without_samples(model) ? 2 : least_pairs(neighbors);
     initial_.col(static_cast<Eigen::Index>(keys_.size()) - 1).head(size_ - (model.gamma ? 1 : 0)) =
         neighbors.slope([&](std::size_t i) -> Eigen::VectorXd {
           const std::vector<double>& initial = neighbors.models[i].initial;
@@ -171,7 +168,8 @@ Sensitivity::Sensitivity(const model::Model& model, model::Form form, const solv
                                                    static_cast<Eigen::Index>(initial.size()));
         });
   }
-  if (model.rig && model.rig->sampled) rig_.emplace(model, keys_);
+  if (sampled) switches_ = std::make_unique<RigSensitivity>(model, keys_);
+  if (switches_without_samples(model)) switches_ = std::make_unique<EventSensitivity>(model, keys_);
 }
 
 void Sensitivity::fill(Neighbors& neighbors) const {
@@ -277,7 +275,7 @@ void Sensitivity::accept(std::size_t first, std::size_t count, const double* val
   const double* const end = values + count * static_cast<std::size_t>(row_);
   states_.insert(states_.end(), values, end);
   // No piece follows the last row, which has what is due at its time in it.
-  if (rig_ && run_ != nullptr && first + count == grid_.size()) {
+  if (switches_ && run_ != nullptr && first + count == grid_.size()) {
     pass(grid_.end(), Eigen::Map<const Eigen::VectorXd>(end - row_, row_));
   }
   next_->accept(first, count, values);
@@ -292,8 +290,8 @@ void Sensitivity::begin_run() {
   first.topRows(size_) = slopes_;
   gradients_.assign(first.data(), first.data() + first.size());
   next_row_ = 1;
-  if (!rig_) return;
-  rig_->begin_run();
+  if (!switches_) return;
+  switches_->begin_run();
   run_ = nullptr;
   reached_ = Eigen::VectorXd::Zero(size_);
   std::ranges::copy(model_.initial, reached_.begin());
@@ -301,7 +299,7 @@ void Sensitivity::begin_run() {
 }
 
 void Sensitivity::accept(const solve::Piece& piece) {
-  if (rig_) {
+  if (switches_) {
     run_ = piece.run();
     Eigen::VectorXd start(row_);
     const double from = piece.from();
@@ -309,12 +307,12 @@ void Sensitivity::accept(const solve::Piece& piece) {
     pass(from, start);
   }
   cross(piece, piece.from(), piece.to(), 0);
-  if (rig_) rates_ = state_rates(piece.to(), reached_);
+  if (switches_) rates_ = state_rates(piece.to(), reached_);
 }
 
 // The system in the mode of the present piece.
 const model::System& Sensitivity::system() const {
-  return rig_ ? run_->model().system : model_.system;
+  return switches_ ? run_->model().system : model_.system;
 }
 
 // The rates of a row's states, and of r gamma.
@@ -326,12 +324,13 @@ Eigen::VectorXd Sensitivity::state_rates(double t, const Eigen::VectorXd& row) c
   return all;
 }
 
-// Takes S across an instant at which a sampled rig may switch; `after` is the row after it. Rows at
+// Takes S across an instant at which the scene may switch; `after` is the row after it. Rows at
 // the instant then have the derivatives from after it, as they have the commands.
 void Sensitivity::pass(double t, const Eigen::VectorXd& after) {
   const Eigen::VectorXd rates_after = state_rates(t, after);
-  moves_ = rig_->pass({*run_, t, reached_, rates_, after, rates_after}, slopes_);
-  if (!arcs_.empty()) arcs_.back().to_moves = moves_;
+  const Eigen::VectorXd moves =
+      switches_->pass({*run_, t, reached_, rates_, after, rates_after}, slopes_);
+  if (!arcs_.empty()) arcs_.back().to_moves = moves;
   largest_ = largest_.cwiseMax(slopes_.cwiseAbs());
   const double rounding = run_->rounding(t);
   while (next_row_ > 0 && grid_[next_row_ - 1] >= t - rounding) --next_row_;
@@ -339,7 +338,7 @@ void Sensitivity::pass(double t, const Eigen::VectorXd& after) {
   for (; next_row_ < grid_.size() && grid_[next_row_] <= t + rounding; ++next_row_) {
     for (std::size_t k = 0; k < keys_.size(); ++k) {
       const Eigen::VectorXd slope = slopes_.col(static_cast<Eigen::Index>(k));
-      const Eigen::VectorXd extras = rig_->extras(k, t, after.head(size_), slope);
+      const Eigen::VectorXd extras = switches_->extras(k, t, after.head(size_), slope);
       gradients_.insert(gradients_.end(), slope.begin(), slope.end());
       gradients_.insert(gradients_.end(), extras.begin(), extras.end());
     }
@@ -442,17 +441,17 @@ bool Sensitivity::step(const solve::Piece& piece, double from, double to, std::s
     of_key.col(0) = slopes_.col(k);
     of_key.rightCols(stages) =
         Eigen::Map<const Eigen::MatrixXd>(solved.col(k).data(), size_, stages);
-    for (Eigen::Index j = 0; rig_ && keeps_arcs_ && j <= stages; ++j) {
+    for (Eigen::Index j = 0; switches_ && keeps_arcs_ && j <= stages; ++j) {
       values.col(j).segment((1 + k) * row_ + size_, row_ - size_) =
-          rig_->extras(static_cast<std::size_t>(k), times[static_cast<std::size_t>(j)],
-                       z.col(j).head(size_), of_key.col(j));
+          switches_->extras(static_cast<std::size_t>(k), times[static_cast<std::size_t>(j)],
+                            z.col(j).head(size_), of_key.col(j));
     }
   }
   slopes_ = solved.bottomRows(size_);
   largest_ = largest;
-  if (rig_) reached_ = z.col(stages).head(size_);
+  if (switches_) reached_ = z.col(stages).head(size_);
   take_rows(from, to, values);
-  if (keeps_arcs_) arcs_.push_back({from, to, std::move(values), std::exchange(moves_, {})});
+  if (keeps_arcs_) arcs_.push_back({from, to, std::move(values)});
   return true;
 }
 
@@ -463,12 +462,12 @@ void Sensitivity::take_rows(double from, double to, const Eigen::MatrixXd& value
     const double fraction = std::min((grid_[next_row_] - from) / (to - from), 1.0);
     const Eigen::VectorXd shares = tables_of(values).shares(fraction);
     Eigen::VectorXd row = values.bottomRows(values.rows() - row_) * shares;
-    if (rig_) {
+    if (switches_) {
       const Eigen::VectorXd z = values.topRows(size_) * shares;
       for (std::size_t k = 0; k < keys_.size(); ++k) {
         const Eigen::Index first = static_cast<Eigen::Index>(k) * row_;
         row.segment(first + size_, row_ - size_) =
-            rig_->extras(k, grid_[next_row_], z, row.segment(first, size_));
+            switches_->extras(k, grid_[next_row_], z, row.segment(first, size_));
       }
     }
     gradients_.insert(gradients_.end(), row.data(), row.data() + row.size());
@@ -502,11 +501,10 @@ Sensitivity::Changed Sensitivity::changed(std::size_t key) const {
   for (Eigen::Index i = 0; i < row_ && floor > 0; ++i) {
     if (effect[i] > 0) most = std::min(most, share * std::max(range[i], floor) / effect[i]);
   }
-  // Nor the time of a switch by more than a thousandth of a sample's period.
-  for (const Arc& arc : arcs_) {
-    if (arc.to_moves.size() == 0) continue;
-    const double moves = std::abs(arc.to_moves[static_cast<Eigen::Index>(key)]);
-    if (moves > 0) most = std::min(most, share * model_.rig->sampled->sampling.period / moves);
+  // Nor the time of a switch by more than a thousandth of the way to the next one.
+  for (std::size_t i = 0; i < arcs_.size(); ++i) {
+    const double moves = std::abs(switch_moves(i, key));
+    if (moves > 0) most = std::min(most, share * room_at_end(i) / moves);
   }
   Changed changed{std::max(power_of_two_below(most), varied.step * 0x1p-20), {}, {}};
   for (const int offset : {-2, -1, 1, 2}) {
@@ -535,8 +533,9 @@ std::vector<double> Sensitivity::column_gradient(const scenario::Column& column,
   if (count == 0) return gradient;
   const std::vector<std::string> names = model_.state_names();
   const auto state = std::ranges::find(names, column.name);
-  // Mounted with an offset, the plane's angles are not the servos'.
-  const bool of_plane = model_.rig && (column.name == "phi" || column.name == "theta");
+  // With offsets or backlash, the plane does not move as the servos do.
+  const bool of_plane =
+      model_.rig && (column.name.starts_with("phi") || column.name.starts_with("theta"));
   if (state != names.end() && !of_plane) {
     const auto at = static_cast<std::size_t>(state - names.begin());
     for (std::size_t row = 0; row < count; ++row) {
@@ -562,6 +561,21 @@ std::vector<double> Sensitivity::column_gradient(const scenario::Column& column,
                  [&](std::size_t i) -> const Eigen::VectorXd& { return values[i]; });
   std::copy(found.begin(), found.end(), gradient.begin());
   return gradient;
+}
+
+// The length of the shorter arc beside the end of an arc, s.
+double Sensitivity::room_at_end(std::size_t arc) const {
+  const auto length = [this](std::size_t i) { return arcs_[i].to - arcs_[i].from; };
+  return arc + 1 < arcs_.size() ? std::min(length(arc), length(arc + 1)) : 0;
+}
+
+// How far a key moves the switch at the end of an arc. Moving it matters to measures only where a
+// rate jumps; within the moment of a stick, it would carry the motion far beyond its arc.
+double Sensitivity::switch_moves(std::size_t arc, std::size_t key) const {
+  constexpr double least_room = 1e-6;  // of the run
+  const Eigen::VectorXd& moves = arcs_[arc].to_moves;
+  if (moves.size() == 0 || room_at_end(arc) < least_room * grid_.end()) return 0;
+  return moves[static_cast<Eigen::Index>(key)];
 }
 
 // The arc that has the motion at a time; past its end for a moment, as a moved motion may be.
@@ -644,9 +658,12 @@ std::vector<double> Sensitivity::measure_gradients(const std::vector<scenario::M
     recorder.begin(at.models[i], at.constants[i], grid_);
     if (solve::PieceSink* const pieces = recorder.pieces()) {
       pieces->begin_run();
-      for (const Arc& arc : arcs_) {
-        const double from = Arc::moved(arc.from, arc.from_moves, key, change);
-        const double to = &arc == last ? end : Arc::moved(arc.to, arc.to_moves, key, change);
+      double moves = 0;  // of the arc's start
+      for (std::size_t a = 0; a < arcs_.size(); ++a) {
+        const Arc& arc = arcs_[a];
+        const double from = arc.from + change * moves;
+        moves = switch_moves(a, key);
+        const double to = &arc == last ? end : arc.to + change * moves;
         if (to > from) {
           pieces->accept(
               ArcPiece(arc.from, arc.to - arc.from, from, to, moved_values(arc, key, change)));

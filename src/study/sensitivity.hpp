@@ -6,6 +6,7 @@
 
 #include <Eigen/Core>
 #include <cstddef>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -20,8 +21,8 @@
 #include "solve/output_grid.hpp"
 #include "solve/piece.hpp"
 #include "study/neighbors.hpp"
-#include "study/rig_sensitivity.hpp"
 #include "study/stage_choice.hpp"
+#include "study/switches.hpp"
 
 namespace bbsim::study {
 
@@ -33,13 +34,12 @@ namespace bbsim::study {
 // is linear in S. Radau IIA collocation solves it with one factored matrix for all keys. J is
 // exact. df/dp is a difference of order 8 between models at eight values of the key, or of a lower
 // order where that is as good, with the state held: f is smooth in p, so a wide difference is good
-// to rounding. What a sampled controller adds
-// is in rig_sensitivity.hpp.
+// to rounding. Where the scene switches, S jumps (switches.hpp).
 class Sensitivity : public solve::StateSink, public solve::PieceSink {
  public:
   // `model` has the form `form`. All references must outlive this. Throws InputError if
-  // the model switches without samples, or if a key changes more than numbers of it. Events may
-  // observe the motion and end it; then the ends of measures move, too.
+  // the model has parts without derivatives, or if a key changes more than numbers of it. Events
+  // may observe the motion and end it; then the ends of measures move, too.
   Sensitivity(const model::Model& model, model::Form form, const solve::OutputGrid& grid,
               std::vector<VariedKey> keys);
   Sensitivity(const Sensitivity&) = delete;  // fan_ refers to this
@@ -69,14 +69,8 @@ class Sensitivity : public solve::StateSink, public solve::PieceSink {
   struct Arc {
     double from, to;
     Eigen::MatrixXd values;
-    // How far each key moves these ends; empty if none does.
-    Eigen::VectorXd from_moves{}, to_moves{};
-
-    // An end of the arc after a change of a key.
-    [[nodiscard]] static double moved(double end, const Eigen::VectorXd& moves, std::size_t key,
-                                      double change) {
-      return moves.size() == 0 ? end : end + change * moves[static_cast<Eigen::Index>(key)];
-    }
+    // How far each key moves the switch at `to`; empty if there is none.
+    Eigen::VectorXd to_moves{};
   };
   // The scene at value + offset `change` for the offsets -2, -1, 1, 2.
   struct Changed {
@@ -100,6 +94,8 @@ class Sensitivity : public solve::StateSink, public solve::PieceSink {
   [[nodiscard]] Changed changed(std::size_t key) const;
   [[nodiscard]] std::vector<double> changed_rows(std::size_t key, double change) const;
   [[nodiscard]] const Arc* arc_at(double t) const;
+  [[nodiscard]] double room_at_end(std::size_t arc) const;
+  [[nodiscard]] double switch_moves(std::size_t arc, std::size_t key) const;
   [[nodiscard]] std::optional<solve::Outcome> moved(const solve::Outcome& outcome, std::size_t key,
                                                     double change,
                                                     const model::Model& changed) const;
@@ -113,8 +109,8 @@ class Sensitivity : public solve::StateSink, public solve::PieceSink {
   Eigen::Index size_, row_;
   int spin_;  // the state u = r gamma', or -1
   std::vector<Neighbors> keys_;
-  std::optional<RigSensitivity> rig_;  // of a sampled rig
-  Eigen::MatrixXd initial_;            // S at t = 0, a column for each key
+  std::unique_ptr<Switches> switches_;  // of a scene that switches
+  Eigen::MatrixXd initial_;             // S at t = 0, a column for each key
 
   solve::StateSink* next_ = nullptr;
   record::PieceFan fan_;
@@ -122,10 +118,9 @@ class Sensitivity : public solve::StateSink, public solve::PieceSink {
   StageChoice stages_;
   Eigen::MatrixXd slopes_;   // S at the time reached
   Eigen::MatrixXd largest_;  // the greatest absolute value of each number of S so far
-  // Of a sampled rig: the run, the states and their rates at the time reached, and how the keys
-  // move that time.
+  // Of a scene that switches: the run, and the states and their rates at the time reached.
   const model::HybridSystem* run_ = nullptr;
-  Eigen::VectorXd reached_, rates_, moves_;
+  Eigen::VectorXd reached_, rates_;
   std::size_t next_row_ = 0;
   std::vector<double> states_;     // row after row
   std::vector<double> gradients_;  // of each row, key after key

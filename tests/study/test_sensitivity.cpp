@@ -258,6 +258,35 @@ Overrides operator+(Overrides a, const Overrides& b) {
   return a;
 }
 
+// Compares the derivatives of all states with differences of runs beside.
+void require_runs_beside(const Beside& one) {
+  CAPTURE(one.scene, one.key, one.overrides);
+  const Overrides states = {"x", "y", "vx", "vy", "spin", "phi", "theta", "phi_rate", "theta_rate"};
+  const Overrides overrides =
+      Overrides{tight_rtol, tight_atol,
+                "output.columns=[t, x, y, vx, vy, spin, phi, theta, phi_rate, theta_rate]"} +
+      one.overrides + Overrides{one.key + "=" + number_text(one.value)};
+  const auto made = run(one.scene, overrides, {one.key});
+  REQUIRE(made.code == ExitCode::done);
+  const auto beside = runs_beside(one, overrides);
+  double largest = 0;
+  for (const std::string& state : states) {
+    const std::vector<double>& found = column(made, gradient_name(state, one.key));
+    double scale = 0, apart = 0;
+    for (std::size_t row = 0; row < found.size(); ++row) {
+      const auto at = [&](std::size_t i) { return column(beside[i], state)[row]; };
+      const double expected = fourth_order_difference(at(0), at(1), at(2), at(3), one.change);
+      scale = std::max(scale, std::abs(expected));
+      apart = std::max(apart, std::abs(found[row] - expected));
+    }
+    largest = std::max(largest, scale);
+    CAPTURE(state, scale, apart);
+    // Runs are good to some 1e-13 of the state, which the difference divides by the change.
+    CHECK(apart <= 1e-6 * scale + 1e-13 * largest_size(column(made, state)) / one.change);
+  }
+  CHECK(largest > 0);
+}
+
 }  // namespace
 
 TEST_CASE("derivatives through a sampled controller are those of runs beside", "[sensitivity]") {
@@ -302,32 +331,70 @@ TEST_CASE("derivatives through a sampled controller are those of runs beside", "
       {"configs/catch", lqr, "gimbal.servo.acceleration_limit", 40, 0x1p-4},
       {"configs/catch", lqr, "gimbal.servo.rate_limit", 1, 0x1p-10},
   };
-  const Overrides states = {"x", "y", "vx", "vy", "spin", "phi", "theta", "phi_rate", "theta_rate"};
-  for (const Beside& one : cases) {
-    CAPTURE(one.scene, one.key, one.overrides);
-    const Overrides overrides =
-        Overrides{tight_rtol, tight_atol,
-                  "output.columns=[t, x, y, vx, vy, spin, phi, theta, phi_rate, theta_rate]"} +
-        one.overrides + Overrides{one.key + "=" + number_text(one.value)};
-    const auto made = run(one.scene, overrides, {one.key});
-    REQUIRE(made.code == ExitCode::done);
-    const auto beside = runs_beside(one, overrides);
-    double largest = 0;
-    for (const std::string& state : states) {
-      const std::vector<double>& found = column(made, gradient_name(state, one.key));
-      double scale = 0, apart = 0;
-      for (std::size_t row = 0; row < found.size(); ++row) {
-        const auto at = [&](std::size_t i) { return column(beside[i], state)[row]; };
-        const double expected = fourth_order_difference(at(0), at(1), at(2), at(3), one.change);
-        scale = std::max(scale, std::abs(expected));
-        apart = std::max(apart, std::abs(found[row] - expected));
-      }
-      largest = std::max(largest, scale);
-      CAPTURE(state, scale, apart);
-      // Runs are good to some 1e-13 of the state, which the difference divides by the change.
-      CHECK(apart <= 1e-6 * scale + 1e-13 * largest_size(column(made, state)) / one.change);
-    }
-    CHECK(largest > 0);
+  for (const Beside& one : cases) require_runs_beside(one);
+}
+
+TEST_CASE("derivatives pass switches as runs beside do", "[sensitivity]") {
+  const Overrides slide = {"events.slip={friction: 0.1, sliding_friction: 0.08, action: slide}",
+                           "time.end=0.5"};
+  const Overrides voltage = {"gimbal.motor.dc.voltage_limit=0.15", "time.end=8"};
+  const Overrides torque = {"gimbal.motor.torque_limit=0.02",
+                            "gimbal.motor.position_loop={kp: 4, kd: 0.12, ki: 2}", "time.end=8"};
+  // On a circle that the plate cannot follow without its limits.
+  const auto circle = [](const std::string& servo, const std::string& rest = {}) {
+    return Overrides{"gimbal={servo: {natural_frequency: 30, damping: 0.8" + servo + "}}",
+                     "controller={gravity_compensation: {kp: 6, kv: 5}, drives: angle, "
+                     "reference: {circle: {radius: 0.05, rate: -2}}" +
+                         rest + "}",
+                     "time.end=4"};
+  };
+  const Overrides stop = circle(", angle_limit: 0.02"), gap = circle(", backlash: 0.01"),
+                  slow = circle(", rate_limit: 0.1, acceleration_limit: 4"),
+                  limit = circle("", ", limit: 0.02");
+  const std::string law = "controller.gravity_compensation.", slip = "events.slip.";
+  const std::vector<Beside> cases = {
+      // Pivoting friction, sliding, rolling, and rest.
+      {"configs/slides", {"events.rest=note", "time.end=5"}, "ball.radius", 0.026, 0x1p-20},
+      {"configs/slides", {"events.rest=note", "time.end=5"}, "gravity", 9.81, 0x1p-11},
+      // Rest, and the start of a motion.
+      {"configs/rolls-to-rest", {}, "ball.radius", 0.02, 0x1p-20},
+      {"configs/rolls-to-rest", {}, "gravity", 9.81, 0x1p-11},
+      // Rolling becomes sliding.
+      {"configs/slips", slide, "gravity", 9.81, 0x1p-11},
+      {"configs/slips", slide, slip + "friction", 0.1, 0x1p-18},
+      {"configs/slips", slide, slip + "sliding_friction", 0.08, 0x1p-18},
+      {"configs/slips", slide, "ball.position.0", 0.03, 0x1p-19},
+      // Motors with dry friction and limits.
+      {"configs/sags", {"time.end=8"}, "gimbal.motor.friction", 0.002, 0x1p-23},
+      {"configs/sags", torque, "gimbal.motor.torque_limit", 0.02, 0x1p-20},
+      {"configs/sags", torque, "ball.mass", 0.1, 0x1p-18},
+      {"configs/sags", voltage, "gimbal.motor.dc.voltage_limit", 0.15, 0x1p-17},
+      // Servos.
+      {"fig2b", stop, "gimbal.servo.angle_limit", 0.02, 0x1p-20},
+      {"fig2b", stop, "ball.radius", 0.01, 0x1p-21},
+      {"fig2b", slow, "gimbal.servo.rate_limit", 0.1, 0x1p-18},
+      {"fig2b", slow, "gimbal.servo.acceleration_limit", 4, 0x1p-12},
+      {"fig2b", gap, "gimbal.servo.backlash", 0.01, 0x1p-21},
+      {"fig2b", gap, law + "kp", 6, 0x1p-12},
+      {"fig2b", limit, "controller.limit", 0.02, 0x1p-20},
+  };
+  for (const Beside& one : cases) require_runs_beside(one);
+}
+
+TEST_CASE("gradients of measures pass switches as runs beside do", "[sensitivity]") {
+  const Overrides measures = {"rms_x", "max_x", "end_y", "max_friction_demand"};
+  const Beside one{"configs/slides", {"events.rest=note", "time.end=5"}, "gravity", 9.81, 0x1p-11};
+  const Overrides overrides = one.overrides + Overrides{tight_rtol, tight_atol};
+  const auto made = run(one.scene, overrides, {one.key}, measures);
+  const auto beside = runs_beside(one, overrides, measures);
+  for (std::size_t m = 0; m < measures.size(); ++m) {
+    const auto& [name, value] = made.summary.measures[m];
+    CAPTURE(name);
+    const auto at = [&](std::size_t i) { return beside[i].summary.measures[m].second; };
+    CHECK(gradient(made, name, one.key) ==
+          Approx(fourth_order_difference(at(0), at(1), at(2), at(3), one.change))
+              .epsilon(1e-6)
+              .margin(1e-11 * std::abs(value) / one.change));
   }
 }
 
@@ -454,7 +521,6 @@ TEST_CASE("keys and scenes without derivatives are refused", "[sensitivity]") {
   refuses("configs/rig", "gimbal.servo.dead_band", "a dead band");
   refuses("configs/rig", "ball.radius", "a servo reaches its stop",
           {"gimbal.servo.angle_limit=0.5 deg"});
-  refuses("losses", "ball.radius", "dry friction");
   refuses("fig2a", "time.end", "a key of the computation");
   refuses("fig2a", "ball.radius,ball.radius", "is there twice");
   refuses("fig2a", "ball.raduis", "did you mean");

@@ -18,6 +18,7 @@
 #include "model/hybrid/command_limits.hpp"
 #include "model/hybrid/curve_pieces.hpp"
 #include "model/hybrid/dry_friction.hpp"
+#include "model/hybrid/modes.hpp"
 #include "model/hybrid/monitors.hpp"
 #include "model/hybrid/motor_limits.hpp"
 #include "model/hybrid/sampling.hpp"
@@ -124,6 +125,21 @@ class HybridSystem {
   // Writes Model::extras() numbers for an output row: its part that depends on the mode.
   void write_extras(double t, const double* z, double* out) const;
 
+  // What the resolution is, m/s.
+  [[nodiscard]] double resolution() const { return resolution_; }
+
+  // A switch of the mode, or of the input: the guard that crossed, or a time event.
+  struct Switch {
+    double t;  // s
+    std::optional<std::size_t> guard;
+  };
+  // How many there were, without those of samples, and those of the latest instant.
+  [[nodiscard]] std::size_t switches() const { return switches_; }
+  [[nodiscard]] const std::vector<Switch>& latest_switches() const { return latest_switches_; }
+
+  // Lets dry friction do what it does in another run of the scene.
+  void follow_friction(const Modes& modes) { model::follow_friction(modes, model_.get().system); }
+
   // The events since the start. note_turned() sets the rotation of the ball in the latest ones.
   [[nodiscard]] EventLog& log() { return log_; }
 
@@ -158,6 +174,7 @@ class HybridSystem {
   template <class Use>
   void with_part_of(std::size_t guard, Use use);
   void reset(double t, double* z);
+  void note_switch(Switch one);
   Effect note_dry(double t, const double* z);
 
   SwitchedModel model_;
@@ -166,6 +183,9 @@ class HybridSystem {
   // An instant changes the motion only through commands.
   bool only_commands_change_ = false;
   bool touched_ = true, unsettled_ = false;
+  double resolution_;
+  std::size_t switches_ = 0;
+  std::vector<Switch> latest_switches_;
   // Of each part, and the number of guards.
   std::array<std::size_t, std::tuple_size_v<Parts> + 1> first_guard_{};
   std::vector<double> guard_scales_;
