@@ -5,7 +5,9 @@
 
 #include <array>
 #include <cmath>
+#include <stdexcept>
 #include <string>
+#include <type_traits>
 #include <utility>
 #include <variant>
 
@@ -15,12 +17,28 @@
 namespace bbsim::study {
 namespace {
 
-using SampledRig = model::RigLoop<false>;
-constexpr auto first_angle = static_cast<Eigen::Index>(SampledRig::Layout::angle);
-constexpr auto first_rate = static_cast<Eigen::Index>(SampledRig::Layout::rate);
+constexpr auto first_angle = static_cast<Eigen::Index>(model::RigLayout::angle);
 
-const SampledRig& rig_of(const model::Model& model) {
-  return std::get<SampledRig>(model.system);
+// Calls `use` with the loop of a system that has one.
+template <class Any, class Use>
+auto with_loop(Any& system, Use use) {
+  return std::visit(
+      [&](auto& any) {
+        using System = std::decay_t<decltype(any)>;
+        if constexpr (model::is_rig<System>) {
+          return use(any);
+        } else if constexpr (model::is_coupled_loop<System>) {
+          return use(any.loop);
+        } else {
+          throw std::logic_error("a sampled rig without a loop");
+          return use(std::get<model::RigLoop<>>(system));
+        }
+      },
+      system);
+}
+
+const model::RigMode& mode_of(const model::Model& model) {
+  return *with_loop(model.system, [](const auto& loop) { return &loop.mode; });
 }
 
 model::SampledLaw<double> law_of(const model::Model& model) {
@@ -45,7 +63,7 @@ void require_same_decisions(const model::Rig& rig, const model::Rig& other,
   bool same = one.noise == two.noise && one.resolution == two.resolution &&
               one.dropout == two.dropout && one.area == two.area &&
               rig.sampled->sampling.resolution == other.sampled->sampling.resolution;
-  for (int i = 0; i < 2; ++i) {
+  for (int i = 0; i < rig.servos; ++i) {
     same = same && rig.servo[i].dead_band == other.servo[i].dead_band;
   }
   if (same) return;
@@ -61,19 +79,20 @@ void RigSensitivity::require_smooth_parts(const model::Model& model) {
   if (rig.sampled->law.kind == model::LawKind::held) {
     no_sensitivity("found with a controller of your own; allowed: bbsim's own laws");
   }
-  if (!std::holds_alternative<SampledRig>(model.system)) {
+  if (model.dry || rig.between.has_pieces()) {
     no_sensitivity(
-        "found with samples of the controller beside linkages, three servos, losses or torques; "
-        "allowed: samples with servos that turn the plate directly");
+        "found with samples of the controller beside dry friction, sliding, limits of torques or a "
+        "linkage given by a curve; allowed: samples without");
   }
-  if (rig.servo[0].backlash > 0 || rig.servo[1].backlash > 0) {
-    no_sensitivity("found with backlash; allowed: servos without");
+  for (const model::RigServo& servo : rig.servo) {
+    if (servo.backlash > 0) no_sensitivity("found with backlash; allowed: servos without");
   }
 }
 
 Eigen::VectorXd RigSensitivity::reference(const model::Model& model, double t) {
   if (!model.rig || !model.rig->sampled) return {};
-  const auto [x, y] = rig_of(model).reference().at(t);
+  const auto [x, y] =
+      with_loop(model.system, [t](const auto& loop) { return loop.reference().at(t); });
   Eigen::VectorXd numbers(6);
   numbers << x.value, x.rate, x.acceleration, y.value, y.rate, y.acceleration;
   return numbers;
@@ -83,6 +102,8 @@ RigSensitivity::RigSensitivity(const model::Model& model, std::vector<Neighbors>
     : model_(model),
       loop_(*model.rig->sampled),
       keys_(keys),
+      servos_(model.rig->servos),
+      first_rate_(first_angle + servos_),
       times_(loop_.sampling, loop_.sensor.seed) {
   const model::SampledLaw<double> law = law_of(model);
   const Eigen::VectorXd numbers = numbers_of(law);
@@ -125,10 +146,11 @@ void RigSensitivity::begin_run() {
   since_ = {};
   memory_ = {};
   memory_slopes_ = Eigen::MatrixXd::Zero(6, keys);
-  command_slopes_ = followed_slopes_ = Eigen::MatrixXd::Zero(2, keys);
+  command_slopes_ = wanted_slopes_ = Eigen::MatrixXd::Zero(2, keys);
+  followed_slopes_ = Eigen::MatrixXd::Zero(servos_, keys);
   seen_.clear();
   commands_.clear();
-  put(rig_of(model_).mode);
+  put(mode_of(model_));
 }
 
 double RigSensitivity::time_of(const model::SampledLoop& loop, model::SampleTimes& times,
@@ -154,7 +176,7 @@ double RigSensitivity::move(std::size_t k, Clock clock, double number) {
 
 Eigen::VectorXd RigSensitivity::pass(const Instant& now, Eigen::MatrixXd& slopes) {
   const model::SampleExchange::Numbers numbers = now.run.sampling()->exchange().numbers();
-  const model::RigMode& mode = rig_of(now.run.model()).mode;
+  const model::RigMode& mode = mode_of(now.run.model());
   for (; numbers_.exposure < numbers.exposure; ++numbers_.exposure) expose(now, slopes);
   for (; numbers_.sample < numbers.sample; ++numbers_.sample) sample(now, slopes);
   const bool commanded = numbers_.command < numbers.command;
@@ -232,21 +254,23 @@ void RigSensitivity::compute(std::size_t k, const Instant& now, const Eigen::Mat
   const auto moving = [](double value, double slope) {
     return Moving(value, Moving::Gradient(slope));
   };
-  const auto state = [&](Eigen::Index i) {
-    return moving(now.before[i], slopes(i, column) + later * now.rates_before[i]);
-  };
+  const auto n = static_cast<Eigen::Index>(model_.size());
+  const Eigen::VectorXd moves = slopes.col(column).head(n) + later * now.rates_before.head(n);
+  Moving servo[4];
+  for (std::size_t i = 0; const auto& [value, slope] : servo_numbers(k, now, moves)) {
+    servo[i++] = moving(value, slope);
+  }
   const Pair seen_at = now.run.sampling()->controller().last_seen();
-  Moving seen[2], servo[4], commanded[2];
+  Moving seen[2], commanded[2];
   model::SampledMemory<Moving> memory;
   for (Eigen::Index i = 0; i < 2; ++i) {
     seen[i] = moving(seen_at[static_cast<std::size_t>(i)], last_seen_.slopes(i, column));
-    servo[i] = state(first_angle + i);
-    servo[2 + i] = state(first_rate + i);
     memory.position[i] = moving(memory_.position[i], memory_slopes_(i, column));
     memory.velocity[i] = moving(memory_.velocity[i], memory_slopes_(2 + i, column));
     memory.integral[i] = moving(memory_.integral[i], memory_slopes_(4 + i, column));
   }
-  std::array<model::Jet<Moving>, 2> path = rig_of(model_).reference().at(moving(now.t, later));
+  std::array<model::Jet<Moving>, 2> path = with_loop(
+      model_.system, [&](const auto& loop) { return loop.reference().at(moving(now.t, later)); });
   const Eigen::VectorXd by_path =
       keys_[k].slope([&](std::size_t i) { return reference(keys_[k].models[i], now.t); });
   for (std::size_t i = 0; i < 2; ++i) {
@@ -266,18 +290,63 @@ void RigSensitivity::compute(std::size_t k, const Instant& now, const Eigen::Mat
   }
 }
 
+// The angles and rates that the law takes for the plane's, with their derivatives, of states that
+// change by `moves`.
+std::array<RigSensitivity::Moved, 4> RigSensitivity::servo_numbers(
+    std::size_t k, const Instant& now, const Eigen::VectorXd& moves) const {
+  const Neighbors& neighbors = keys_[k];
+  const auto believed = [this](const model::Model& model, const Eigen::VectorXd& z) {
+    const double* const angle = z.data() + first_angle;
+    const double* const rate = z.data() + first_rate_;
+    Eigen::Vector4d numbers(angle[0], angle[1], rate[0], rate[1]);
+    double into[4];
+    if (model.rig->between.none()) return numbers;
+    model.rig->between.believed(angle, rate, into);
+    return Eigen::Vector4d(into);
+  };
+  const auto n = moves.size();
+  const Eigen::Vector4d values = believed(model_, now.before.head(n));
+  const Eigen::Vector4d slopes = neighbors.slope([&](std::size_t j) {
+    return believed(neighbors.models[j],
+                    now.before.head(n) + Neighbors::offsets[j] * neighbors.key.step * moves);
+  });
+  std::array<Moved, 4> moved{};
+  for (std::size_t i = 0; i < 4; ++i) {
+    const auto at = static_cast<Eigen::Index>(i);
+    moved[i] = {values[at], slopes[at]};
+  }
+  return moved;
+}
+
 // A dead band may leave a servo with the command that it had.
 void RigSensitivity::take_command(const model::RigMode& mode) {
-  for (int i = 0; i < 2; ++i) {
-    const bool in_band = model_.rig->servo[i].dead_band > 0 && mode.command[i] == mode_.command[i];
-    if (!in_band) followed_slopes_.row(i) = commands_.front().row(i);
-  }
+  wanted_slopes_ = commands_.front();
   commands_.pop_front();
+  for (std::size_t k = 0; k < keys_.size(); ++k) {
+    const auto column = static_cast<Eigen::Index>(k);
+    const Neighbors& neighbors = keys_[k];
+    Eigen::Vector3d told(wanted_slopes_(0, column), wanted_slopes_(1, column), 0);
+    if (!loop_.between.none()) {
+      told = neighbors.slope([&](std::size_t j) {
+        const double change = Neighbors::offsets[j] * neighbors.key.step;
+        return Eigen::Vector3d(neighbors.models[j]
+                                   .rig->sampled->between
+                                   .told({mode.wanted[0] + change * wanted_slopes_(0, column),
+                                          mode.wanted[1] + change * wanted_slopes_(1, column)})
+                                   .data());
+      });
+    }
+    for (int i = 0; i < servos_; ++i) {
+      const bool in_band =
+          model_.rig->servo[i].dead_band > 0 && mode.command[i] == mode_.command[i];
+      if (!in_band) followed_slopes_(i, column) = told[i];
+    }
+  }
 }
 
 void RigSensitivity::require_away_from_stops(const Instant& now, const model::RigMode& mode) const {
   constexpr double at_stop = 1 - 1e-9;
-  for (int i = 0; i < 2; ++i) {
+  for (int i = 0; i < servos_; ++i) {
     const model::RigServo& servo = model_.rig->servo[i];
     const bool stops = std::abs(now.after[first_angle + i]) >= at_stop * servo.angle_limit;
     if (!stops && !(servo.time_constant && keeps_rate(mode.axis[i]))) continue;
@@ -292,51 +361,51 @@ void RigSensitivity::require_away_from_stops(const Instant& now, const model::Ri
 Eigen::VectorXd RigSensitivity::moves_at_rate_limit(const Instant& now, const model::RigMode& mode,
                                                     const Eigen::MatrixXd& slopes) const {
   Eigen::VectorXd moves = Eigen::VectorXd::Zero(slopes.cols());
-  for (int i = 0; i < 2; ++i) {
+  for (int i = 0; i < servos_; ++i) {
     if (!keeps_rate(mode.axis[i]) || keeps_rate(mode_.axis[i])) continue;
-    const double side = std::copysign(1.0, now.after[first_rate + i]);
+    const double side = std::copysign(1.0, now.after[first_rate_ + i]);
     for (std::size_t k = 0; k < keys_.size(); ++k) {
       const double limit = keys_[k].slope(
           [&](std::size_t j) { return side * keys_[k].models[j].rig->servo[i].rate_limit; });
       const auto column = static_cast<Eigen::Index>(k);
-      moves[column] = (limit - slopes(first_rate + i, column)) / now.rates_before[first_rate + i];
+      moves[column] = (limit - slopes(first_rate_ + i, column)) / now.rates_before[first_rate_ + i];
     }
   }
   return moves;
 }
 
 // The rate of a first-order servo follows from its command at once, and the ball's velocity jumps
-// with it.
+// with the plane's rates.
 void RigSensitivity::turn_first_order(std::size_t k, const Instant& now, const model::RigMode& mode,
                                       Eigen::Ref<Eigen::VectorXd> slope) const {
-  if (!model_.rig->servo[0].time_constant && !model_.rig->servo[1].time_constant) return;
-  const auto column = static_cast<Eigen::Index>(k);
+  bool any = false;
+  for (int i = 0; i < servos_; ++i) any = any || model_.rig->servo[i].time_constant;
+  if (!any) return;
   const Neighbors& neighbors = keys_[k];
-  Moving states[SampledRig::size];
-  for (Eigen::Index i = 0; i < SampledRig::size; ++i) {
-    states[i] = Moving(now.before[i], Moving::Gradient(slope[i]));
-  }
-  Moving jump[2];
-  for (int i = 0; i < 2; ++i) {
-    const auto& time_constant = model_.rig->servo[i].time_constant;
-    if (!time_constant) continue;
-    const double by_key = neighbors.slope(
-        [&](std::size_t j) { return *neighbors.models[j].rig->servo[i].time_constant; });
-    const Moving command(mode.command[i], Moving::Gradient(followed_slopes_(i, column)));
-    const Moving rate =
-        (command - states[first_angle + i]) / Moving(*time_constant, Moving::Gradient(by_key));
-    jump[i] = rate - states[first_rate + i];
-    slope[first_rate + i] = rate.gradient[0];
-  }
-  const auto kick = rig_of(model_).impulse(states, jump[0], jump[1]);
-  const Eigen::Vector3d by_key = neighbors.slope([&](std::size_t i) {
-    const auto its =
-        rig_of(neighbors.models[i]).impulse(now.before.data(), jump[0].value, jump[1].value);
-    return Eigen::Vector3d(its[0], its[1], its[2]);
+  const auto n = static_cast<Eigen::Index>(model_.size());
+  const Eigen::VectorXd before = slope.head(n);
+  slope.head(n) = neighbors.slope([&](std::size_t j) {
+    const double change = Neighbors::offsets[j] * neighbors.key.step;
+    const model::Model& beside = neighbors.models[j];
+    Eigen::VectorXd z = now.before.head(n) + change * before;
+    const auto plane_rates = [&] {
+      return with_loop(beside.system, [&](const auto& loop) { return loop.plane_rates(z.data()); });
+    };
+    const std::array<double, 2> rates_before = plane_rates();
+    for (int i = 0; i < servos_; ++i) {
+      const auto& time_constant = beside.rig->servo[i].time_constant;
+      if (!time_constant) continue;
+      const double command =
+          mode.command[i] + change * followed_slopes_(i, static_cast<Eigen::Index>(k));
+      z[first_rate_ + i] = (command - z[first_angle + i]) / *time_constant;
+    }
+    const std::array<double, 2> rates = plane_rates();
+    const auto kick = with_loop(beside.system, [&](const auto& loop) {
+      return loop.impulse(z.data(), rates[0] - rates_before[0], rates[1] - rates_before[1]);
+    });
+    for (Eigen::Index i = 0; i < 3; ++i) z[2 + i] += kick[static_cast<std::size_t>(i)];
+    return z;
   });
-  for (Eigen::Index i = 0; i < 3; ++i) {
-    slope[2 + i] += kick[static_cast<std::size_t>(i)].gradient[0] + by_key[i];
-  }
 }
 
 // The models beside take the mode, with their own commands, limits and offsets in it.
@@ -346,17 +415,19 @@ void RigSensitivity::put(const model::RigMode& mode) {
     Neighbors& neighbors = keys_[k];
     for (std::size_t j = 0; j < neighbors.models.size(); ++j) {
       model::Model& beside = neighbors.models[j];
-      model::RigMode& its = std::get<SampledRig>(beside.system).mode;
+      const double change = Neighbors::offsets[j] * neighbors.key.step;
+      const auto column = static_cast<Eigen::Index>(k);
+      model::RigMode& its = *with_loop(beside.system, [](auto& loop) { return &loop.mode; });
       its = mode;
-      for (int i = 0; i < 2; ++i) {
+      for (int i = 0; i < 2; ++i) its.wanted[i] += change * wanted_slopes_(i, column);
+      for (int i = 0; i < servos_; ++i) {
         model::AxisMode& axis = its.axis[i];
         const model::RigServo& servo = beside.rig->servo[i];
         axis.offset = servo.offset;
         if (axis.set_acceleration != 0) {
           axis.set_acceleration = std::copysign(servo.acceleration_limit, axis.set_acceleration);
         }
-        its.command[i] += Neighbors::offsets[j] * neighbors.key.step *
-                          followed_slopes_(i, static_cast<Eigen::Index>(k));
+        its.command[i] += change * followed_slopes_(i, column);
       }
     }
   }
@@ -365,15 +436,23 @@ void RigSensitivity::put(const model::RigMode& mode) {
 Eigen::VectorXd RigSensitivity::extras(std::size_t k, double t, const Eigen::VectorXd& z,
                                        const Eigen::VectorXd& slope) const {
   const Neighbors& neighbors = keys_[k];
-  using Numbers = Eigen::Matrix<double, model::RigExtras::size, 1>;
-  Eigen::VectorXd moved;
-  Numbers found = neighbors.slope([&](std::size_t i) {
-    moved = z + Neighbors::offsets[i] * neighbors.key.step * slope;
-    Numbers its;
-    rig_of(neighbors.models[i]).extras(t, moved.data()).pack(its.data());
+  const auto count = static_cast<Eigen::Index>(model_.extras());
+  Eigen::VectorXd found = neighbors.slope([&](std::size_t i) -> Eigen::VectorXd {
+    const Eigen::VectorXd moved = z + Neighbors::offsets[i] * neighbors.key.step * slope;
+    Eigen::VectorXd its(count);
+    std::visit(
+        [&](const auto& any) {
+          using Any = std::decay_t<decltype(any)>;
+          if constexpr (model::is_rig<Any> || model::is_coupled<Any>) {
+            any.extras(t, moved.data()).pack(its.data());
+          }
+        },
+        neighbors.models[i].system);
     return its;
   });
-  found.tail(2) = memory_slopes_.col(static_cast<Eigen::Index>(k)).head(2);  // of the measurement
+  // The measurement is the last of a rig's extras, which are the first.
+  constexpr Eigen::Index measured = model::RigExtras::size - 2;
+  found.segment(measured, 2) = memory_slopes_.col(static_cast<Eigen::Index>(k)).head(2);
   return found;
 }
 

@@ -7,6 +7,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <cstddef>
 #include <deque>
 #include <vector>
@@ -52,12 +53,18 @@ class RigSensitivity : public Switches {
     Eigen::MatrixXd slopes;
   };
 
+  struct Moved {
+    double value, slope;
+  };
+
   [[nodiscard]] static double time_of(const model::SampledLoop& loop, model::SampleTimes& times,
                                       Clock clock, double number);
   [[nodiscard]] double move(std::size_t k, Clock clock, double number);
   void expose(const Instant& now, const Eigen::MatrixXd& slopes);
   void sample(const Instant& now, const Eigen::MatrixXd& slopes);
   void compute(std::size_t k, const Instant& now, const Eigen::MatrixXd& slopes);
+  [[nodiscard]] std::array<Moved, 4> servo_numbers(std::size_t k, const Instant& now,
+                                                   const Eigen::VectorXd& moves) const;
   void take_command(const model::RigMode& mode);
   void require_away_from_stops(const Instant& now, const model::RigMode& mode) const;
   [[nodiscard]] Eigen::VectorXd moves_at_rate_limit(const Instant& now, const model::RigMode& mode,
@@ -69,6 +76,8 @@ class RigSensitivity : public Switches {
   const model::Model& model_;
   const model::SampledLoop& loop_;
   std::vector<Neighbors>& keys_;
+  int servos_;
+  Eigen::Index first_rate_;  // of the servos, among the states
   std::vector<Key> by_key_;
   // As of the last instant.
   model::RigMode mode_;
@@ -76,9 +85,9 @@ class RigSensitivity : public Switches {
   model::SampleTimes times_;
   model::SinceSeen since_;
   model::SampledMemory<double> memory_{};
-  // Derivatives, a column for each key: of the memory, of the last command, and of those that the
-  // servos follow.
-  Eigen::MatrixXd memory_slopes_, command_slopes_, followed_slopes_;
+  // Derivatives, a column for each key: of the memory, of the last command, of the command that
+  // acts, and of those that the servos follow.
+  Eigen::MatrixXd memory_slopes_, command_slopes_, wanted_slopes_, followed_slopes_;
   Seen last_seen_;
   std::deque<Seen> seen_;                 // exposed, not yet sampled
   std::deque<Eigen::MatrixXd> commands_;  // computed, not yet applied

@@ -151,14 +151,7 @@ Sensitivity::Sensitivity(const model::Model& model, model::Form form, const solv
   for (VariedKey& key : keys) {
     Neighbors& neighbors = keys_.emplace_back(Neighbors{std::move(key), {}});
     if (switches_without_samples(model)) neighbors.key.step *= EventSensitivity::step_share;
-    // The widest step that is smooth has the least rounding. With time, the phase of a wave changes
-    // much with its frequency.
-    constexpr int most_halvings = 20;
-    fill(neighbors);
-    for (int i = 0; i < most_halvings && !is_smooth(neighbors); ++i) {
-      neighbors.key.step /= 2;
-      fill(neighbors);
-    }
+    choose_step(neighbors);
     // In another mode, other keys matter. The neighbors of a scene that switches are close.
     neighbors.pairs = switches_without_samples(model) ? 2 : least_pairs(neighbors);
     initial_.col(static_cast<Eigen::Index>(keys_.size()) - 1).head(size_ - (model.gamma ? 1 : 0)) =
@@ -170,6 +163,23 @@ Sensitivity::Sensitivity(const model::Model& model, model::Form form, const solv
   }
   if (sampled) switches_ = std::make_unique<RigSensitivity>(model, keys_);
   if (switches_without_samples(model)) switches_ = std::make_unique<EventSensitivity>(model, keys_);
+}
+
+// The widest step that is smooth has the least rounding. With time, the phase of a wave changes
+// much with its frequency. Where a narrower step is no smoother, there is only rounding.
+void Sensitivity::choose_step(Neighbors& neighbors) const {
+  constexpr int most_halvings = 20;
+  fill(neighbors);
+  double rough = roughness(neighbors);
+  for (int i = 0; i < most_halvings && rough > 1; ++i) {
+    Neighbors narrower{neighbors.key, {}};
+    narrower.key.step /= 2;
+    fill(narrower);
+    const double its = roughness(narrower);
+    if (its >= rough) return;
+    rough = its;
+    neighbors = std::move(narrower);
+  }
 }
 
 void Sensitivity::fill(Neighbors& neighbors) const {
@@ -200,9 +210,9 @@ void Sensitivity::require_alike(const model::Model& other, const std::string& ke
   }
 }
 
-// Whether a difference of order 6 is good enough at instants all over the run. The one of order 8
-// is then far better.
-bool Sensitivity::is_smooth(const Neighbors& neighbors) const {
+// How far differences of order 6 are from being good enough, at instants all over the run: at most
+// 1 where they are. The one of order 8 is then far better.
+double Sensitivity::roughness(const Neighbors& neighbors) const {
   constexpr int instants = 32;
   constexpr double good = 1e-10;
   const auto states = static_cast<Eigen::Index>(model_.size());
@@ -223,7 +233,8 @@ bool Sensitivity::is_smooth(const Neighbors& neighbors) const {
     apart = apart.max((good_one - difference(sixth_order, 4, step, value)).array().abs());
     most = most.max(good_one.array().abs());
   }
-  return (apart <= good * most + 8 * epsilon / neighbors.key.step * size).all();
+  const Eigen::ArrayXd allowed = good * most + 8 * epsilon / neighbors.key.step * size;
+  return (apart > 0).select(apart / allowed, 0).maxCoeff();
 }
 
 // The pairs of neighbors of which a difference of f is as good as one of order 8, at states all

@@ -80,7 +80,8 @@ class Sensitivity : public solve::StateSink, public solve::PieceSink {
   };
 
   void fill(Neighbors& neighbors) const;
-  [[nodiscard]] bool is_smooth(const Neighbors& neighbors) const;
+  void choose_step(Neighbors& neighbors) const;
+  [[nodiscard]] double roughness(const Neighbors& neighbors) const;
   [[nodiscard]] std::size_t least_pairs(const Neighbors& neighbors) const;
   void require_alike(const model::Model& other, const std::string& key) const;
   void cross(const solve::Piece& piece, double from, double to, int depth);

@@ -299,6 +299,12 @@ TEST_CASE("derivatives through a sampled controller are those of runs beside", "
   const Overrides pid = {"controller.sensor.resolution=0", "controller.limit=0.03", "time.end=3"};
   const Overrides lqr = {"controller.sensor.resolution=0", "gimbal.servo.acceleration_limit=40",
                          "gimbal.servo.rate_limit=1", "time.end=2"};
+  const Overrides unrounded = {"controller.sensor.resolution=0", "controller.sampling.resolution=0",
+                               "controller.sampling.delay=6.9 ms", "time.end=2"};
+  const Overrides plain_linkage =
+      unrounded + Overrides{"gimbal.servo.backlash=0", "gimbal.servo.dead_band=0",
+                            "controller.sensor.noise=0", "controller.sensor.phase=7.1 ms"};
+  const Overrides plain_legs = unrounded + Overrides{"controller.sensor.delay=8.3 ms"};
   const std::string rig = "configs/rig", law = "controller.gravity_compensation.";
   const std::vector<Beside> cases = {
       {rig, plain_rig, "ball.radius", 0.02, 0x1p-14},
@@ -328,6 +334,16 @@ TEST_CASE("derivatives through a sampled controller are those of runs beside", "
       {"configs/step", pid, "controller.limit", 0.03, 0x1p-17},
       {"configs/step", pid, "gimbal.mounting.phi_offset", 0.0122, 0x1p-14},
       {"configs/catch", lqr, "controller.lqr.position", 60, 0x1p-3},
+      {rig, plain_rig + Overrides{"ball.mass=0.03", "ball.losses.viscous=1e-5"},
+       "ball.losses.viscous", 1e-5, 0x1p-26},
+      {"configs/pushrod", plain_linkage, "ball.radius", 0.02, 0x1p-20},
+      {"configs/pushrod", plain_linkage, "gimbal.linkage.horn", 0.024, 0x1p-20},
+      {"configs/pushrod", plain_linkage, "gimbal.linkage.arm", 0.06, 0x1p-19},
+      {"configs/pushrod", plain_linkage, law + "kp", 5, 0x1p-12},
+      {"configs/pushrod", plain_linkage, "controller.sampling.delay", 0.0069, 0x1p-22},
+      {"configs/three-servos", plain_legs, "gravity", 9.81, 0x1p-11},
+      {"configs/three-servos", plain_legs, "gimbal.three_servos.rod", 0.1, 0x1p-18},
+      {"configs/three-servos", plain_legs, "controller.sampling.delay", 0.0069, 0x1p-22},
       {"configs/catch", lqr, "gimbal.servo.acceleration_limit", 40, 0x1p-4},
       {"configs/catch", lqr, "gimbal.servo.rate_limit", 1, 0x1p-10},
   };
@@ -515,7 +531,9 @@ TEST_CASE("keys and scenes without derivatives are refused", "[sensitivity]") {
     CAPTURE(key, said);
     CHECK(said.find(part) != std::string::npos);
   };
-  refuses("configs/pushrod", "ball.radius", "beside linkages");
+  refuses("configs/pushrod", "ball.radius", "found with backlash");
+  refuses("configs/rig", "ball.radius", "dry friction",
+          {"ball.mass=0.03", "ball.losses.rolling=0.001"});
   refuses("configs/rig", "ball.radius", "backlash", {"gimbal.servo.backlash=0.5 deg"});
   refuses("configs/rig", "controller.sensor.noise", "rounding, noise");
   refuses("configs/rig", "gimbal.servo.dead_band", "a dead band");
